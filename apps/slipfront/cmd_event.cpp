@@ -1,0 +1,200 @@
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <map>
+#include <memory>
+
+#include "batch.hpp"
+#include "commands.hpp"
+#include "event_output.hpp"
+#include "slipfront/event/estimate.hpp"
+#include "slipfront/event/read.hpp"
+#include "slipfront/medium/quantity.hpp"
+#include "slipfront/record/text_file.hpp"
+
+namespace {
+
+using slipfront::InputError;
+using namespace slipfront::event;
+
+struct Arguments {
+  CommonOptions common;
+  std::vector<std::string> files;
+  std::string p_wave_speed, poisson_ratio, shear_modulus;
+};
+
+/// Defaults of the medium as the command line sets them.
+MediumDefaults defaults_of(const Arguments& a) {
+  MediumDefaults d;
+  const auto set = [](const std::string& text, const char* option, slipfront::medium::Dimension dimension,
+                      double& value, bool& stated) {
+    if (text.empty()) return;
+    try {
+      const auto span = slipfront::medium::parse_quantity(text, dimension);
+      if (span.low < span.high)
+        throw InputError({.value = text,
+                          .problem = "a range, where one number is needed",
+                          .allowed = std::string(slipfront::medium::example(dimension))});
+      value = span.low;
+      stated = true;
+    } catch (const InputError& error) {
+      slipfront::Complaint c = error.complaint();
+      c.file = "command line";
+      c.key = option;
+      throw InputError(c);
+    }
+  };
+  using slipfront::medium::Dimension;
+  set(a.p_wave_speed, "--p-wave-speed", Dimension::velocity, d.p_wave_speed, d.stated_speed);
+  set(a.poisson_ratio, "--poisson-ratio", Dimension::ratio, d.poisson_ratio, d.stated_poisson);
+  set(a.shear_modulus, "--shear-modulus", Dimension::pressure, d.shear_modulus, d.stated_modulus);
+  return d;
+}
+
+EventResult evaluate(Entry&& entry, const MediumDefaults& defaults) {
+  EventResult result{std::move(entry.observation), {}, {}};
+  try {
+    if (entry.error) throw InputError(*entry.error);
+    result.estimate = estimate(result.observation, defaults);
+  } catch (const InputError& error) {
+    result.error = error.what();
+  }
+  return result;
+}
+
+/// Takes entries as the readers find them, evaluates them by the batch and prints them in order.
+class Printer {
+ public:
+  Printer(const Arguments& arguments) : options_(arguments.common), defaults_(defaults_of(arguments)) {
+    if (options_.json)
+      put("{\"events\": [");
+    else
+      put(options_.csv ? event_csv_head() : event_table_head());
+  }
+
+  void take(Entry&& entry) {
+    waiting_.push_back(std::move(entry));
+    if (waiting_.size() == 4096) flush();
+  }
+
+  void finish(const std::vector<std::string>& ignored_columns) {
+    flush();
+    if (options_.json) {
+      put("\n]}\n");
+    } else if (!options_.csv && !options_.quiet) {
+      print_notes();
+    }
+    if (!options_.quiet && !ignored_columns.empty() && !options_.json) {
+      std::string line = "note: columns without an observation, ignored:";
+      for (const std::string& title : ignored_columns) line += " " + title;
+      std::fflush(stdout);
+      complain(line);
+    }
+    if (errors_ > most_errors_shown)
+      complain(fmt::format("... and {} more events with errors", errors_ - most_errors_shown));
+  }
+
+  std::size_t errors() const { return errors_; }
+
+ private:
+  static constexpr std::size_t most_errors_shown = 20;
+  struct Printed {
+    std::string row, error;
+    std::vector<std::string> warnings;
+  };
+
+  void flush() {
+    auto printed = in_parallel<Printed>(waiting_.size(), options_.threads, [&](std::size_t i) {
+      const EventResult result = evaluate(std::move(waiting_[i]), defaults_);
+      return Printed{options_.json  ? event_json(result)
+                     : options_.csv ? event_csv_row(result)
+                                    : event_table_row(result),
+                     result.error, result.warnings()};
+    });
+    waiting_.clear();
+    for (Printed& p : printed) {
+      if (options_.json) put(count_ == 0 ? "\n" : ",\n");
+      put(p.row);
+      ++count_;
+      for (const std::string& warning : p.warnings) ++warnings_[warning];
+      if (!p.error.empty() && ++errors_ <= most_errors_shown) complain(p.error);
+    }
+  }
+
+  /// Warnings, most frequent first, each once.
+  void print_notes() const {
+    std::vector<std::pair<std::size_t, std::string>> notes;
+    for (const auto& [text, count] : warnings_) notes.emplace_back(count, text);
+    std::stable_sort(notes.begin(), notes.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    if (notes.empty()) return;
+    put("\nNotes (--json gives those of each event; --quiet none):\n");
+    constexpr std::size_t most = 15;
+    for (std::size_t i = 0; i < std::min(notes.size(), most); ++i)
+      put(fmt::format("  {} ({} event{})\n", notes[i].second, notes[i].first, notes[i].first == 1 ? "" : "s"));
+    if (notes.size() > most) put(fmt::format("  ... and {} more\n", notes.size() - most));
+  }
+
+  CommonOptions options_;
+  MediumDefaults defaults_;
+  std::vector<Entry> waiting_;
+  std::size_t count_ = 0, errors_ = 0;
+  std::map<std::string, std::size_t> warnings_;
+};
+
+int run_event(const Arguments& arguments) {
+  Printer printer(arguments);
+  std::vector<std::string> ignored;
+  bool unreadable = false;
+  const Sink sink = [&](Entry&& entry) { printer.take(std::move(entry)); };
+  const auto read = [&](std::string_view text, const std::string& name) {
+    for (std::string& title : read_events(text, name, sink))
+      if (std::find(ignored.begin(), ignored.end(), title) == ignored.end()) ignored.push_back(std::move(title));
+  };
+  if (arguments.files.empty()) {
+    read(shipped_catalogue, "catalogue.csv");
+    ignored.clear();  // ours, and known to be ignored
+  }
+  for (const std::string& file : arguments.files) {
+    try {
+      const bool standard_input = file == "-";
+      read(standard_input ? slipfront::record::read_standard_input() : slipfront::record::read_text(file),
+           standard_input ? "stdin" : file);
+    } catch (const slipfront::FileError& error) {
+      unreadable = true;
+      Entry entry;
+      entry.observation.name = file;
+      entry.observation.file = file;
+      entry.error = slipfront::Complaint{.problem = error.what()};
+      printer.take(std::move(entry));
+    }
+  }
+  printer.finish(ignored);
+  return unreadable ? exit_file : printer.errors() > 0 ? exit_input : exit_done;
+}
+
+}  // namespace
+
+Runner add_event(CLI::App& app) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command =
+      app.add_subcommand("event", "Stress, contact ratio and frictionless slip velocity of observed events");
+  command->add_option(
+      "FILE", arguments->files,
+      "Events: .toml (one), .csv (a catalogue), SRCMOD or USGS .fsp, - for stdin; none: the shipped catalogue");
+  command
+      ->add_option("--p-wave-speed", arguments->p_wave_speed,
+                   "For events that give no elastic constants (default: 6 km/s)")
+      ->type_name("SPEED");
+  command->add_option("--poisson-ratio", arguments->poisson_ratio, "Likewise (default: 0.3)")->type_name("RATIO");
+  command->add_option("--shear-modulus", arguments->shear_modulus, "Likewise (default: 30 GPa)")->type_name("MODULUS");
+  add_common_options(*command, arguments->common);
+  return [arguments] { return run_event(*arguments); };
+}
+
+int run_default() {
+  Arguments arguments;
+  arguments.common.threads = omp_get_max_threads();
+  return run_event(arguments);
+}

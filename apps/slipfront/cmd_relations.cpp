@@ -1,0 +1,165 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <memory>
+
+#include "batch.hpp"
+#include "commands.hpp"
+#include "slipfront/rupture/relations.hpp"
+#include "state_values.hpp"
+
+namespace {
+
+using slipfront::InputError;
+using slipfront::rupture::Relations;
+
+/// What a state may be given by.
+struct Given {
+  const char* option;
+  Relations (*solve)(double);
+  std::vector<std::string> texts;
+  std::size_t used = 0;
+  CLI::Option* parsed = nullptr;
+};
+
+struct Output {
+  const char* key;
+  double Relations::*value;
+  const char* meaning;
+};
+constexpr std::array<Output, 9> outputs = {{
+    {"stress", &Relations::stress, "Sigma-, in mu A / pi"},
+    {"rupture_velocity", &Relations::rupture_velocity, "|V-| of the fast (trailing) front, in c"},
+    {"leading_velocity", &Relations::leading_velocity, "V+ of the slow (leading) front, in c"},
+    {"velocity_ratio", &Relations::velocity_ratio, "|V- / V+| = K / E"},
+    {"slip_velocity", &Relations::slip_velocity, "W at x = 0, in c A / pi"},
+    {"stress_at_origin", &Relations::stress_at_origin, "Sigma at x = 0, in mu A / pi"},
+    {"dislocation_velocity_at_origin", &Relations::dislocation_velocity_at_origin, "U at x = 0, in c"},
+    {"psi", &Relations::psi, "of the stressed side, sqrt(1 - m) = tanh psi"},
+    {"psi_at_origin", &Relations::psi_at_origin, "at x = 0"},
+}};
+
+struct State {
+  const Given* given;
+  StateValue at;
+};
+
+Relations solve(const State& state) {
+  try {
+    return state.given->solve(state.at.value);
+  } catch (const InputError& error) {
+    slipfront::Complaint complaint = error.complaint();
+    complaint.file = state.at.line > 0 ? "stdin" : "command line";
+    complaint.line = state.at.line;
+    throw InputError(complaint);
+  }
+}
+
+std::string json_row(const Relations& r) {
+  std::string row = "{";
+  for (const Output& o : outputs) row += fmt::format("{}\"{}\": {}", row.size() > 1 ? ", " : "", o.key, r.*o.value);
+  return row + "}";
+}
+
+std::string csv_row(const Relations& r) {
+  std::string row;
+  for (const Output& o : outputs) row += fmt::format("{}{}", row.empty() ? "" : ",", r.*o.value);
+  return row + "\n";
+}
+
+std::string table_row(const Relations& r) {
+  return fmt::format("{:>12.6g} {:>12.6g} {:>12.6g} {:>12.6g} {:>12.6g} {:>12.6g} {:>12.6g} {:>12.6g} {:>12.6g}\n",
+                     r.stress, r.rupture_velocity, r.leading_velocity, r.velocity_ratio, r.slip_velocity,
+                     r.stress_at_origin, r.dislocation_velocity_at_origin, r.psi, r.psi_at_origin);
+}
+
+constexpr const char* table_head =
+    "      stress  rupture vel  leading vel        ratio     slip vel  stress(x=0)       U(x=0)          psi     "
+    "psi(x=0)\n"
+    "   mu A / pi            c            c    |V- / V+|     c A / pi    mu A / pi            c                        "
+    "  \n";
+
+void print_one(const Relations& r) {
+  for (const Output& o : outputs) put(fmt::format("{:<31} {:<24} {}\n", o.key, r.*o.value, o.meaning));
+}
+
+int print(const std::vector<State>& states, const CommonOptions& options) {
+  const auto results =
+      in_parallel<Relations>(states.size(), options.threads, [&](std::size_t i) { return solve(states[i]); });
+  if (options.json) {
+    put("{\"relations\": [");
+    const auto rows =
+        in_parallel<std::string>(results.size(), options.threads, [&](std::size_t i) { return json_row(results[i]); });
+    for (std::size_t i = 0; i < rows.size(); ++i) put((i == 0 ? "\n" : ",\n") + rows[i]);
+    put("\n]}\n");
+    return exit_done;
+  }
+  if (!options.csv && results.size() == 1) {
+    print_one(results.front());
+    return exit_done;
+  }
+  if (options.csv) {
+    std::string head;
+    for (const Output& o : outputs) head += (head.empty() ? "" : ",") + std::string(o.key);
+    put(head + "\n");
+  } else {
+    put(table_head);
+  }
+  const auto rows = in_parallel<std::string>(results.size(), options.threads, [&](std::size_t i) {
+    return options.csv ? csv_row(results[i]) : table_row(results[i]);
+  });
+  for (const std::string& row : rows) put(row);
+  return exit_done;
+}
+
+}  // namespace
+
+Runner add_relations(CLI::App& app) {
+  struct Arguments {
+    CommonOptions common;
+    std::array<Given, 3> given = {{{"--stress", slipfront::rupture::from_stress, {}},
+                                   {"--rupture-velocity", slipfront::rupture::from_rupture_velocity, {}},
+                                   {"--slip-velocity", slipfront::rupture::from_slip_velocity, {}}}};
+  };
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand(
+      "relations",
+      "Stress, rupture velocity and slip velocity of a frictionless slip pulse, each from any other (Eqs. 8-10)");
+  const std::array<const char*, 3> help = {"Stress before the rupture, in mu A / pi",
+                                           "Velocity of the fast front, in c", "Slip velocity at x = 0, in c A / pi"};
+  for (std::size_t i = 0; i < 3; ++i) {
+    Given& given = arguments->given[i];
+    given.parsed = command
+                       ->add_option(given.option, given.texts,
+                                    std::string(help[i]) + "; repeatable; a:b:n or a:b:n:log for a range, - for stdin")
+                       ->allow_extra_args(false)
+                       ->type_name("VALUE");
+  }
+  add_common_options(*command, arguments->common);
+  return [arguments, command] {
+    std::vector<State> states;
+    bool stdin_taken = false;
+    for (CLI::Option* const option : command->parse_order()) {
+      for (Given& given : arguments->given) {
+        if (given.parsed != option) continue;
+        const std::string& text = given.texts.at(given.used++);
+        const bool from_stdin = text == "-";
+        if (from_stdin && stdin_taken)
+          throw InputError({.file = "command line",
+                            .key = given.option,
+                            .value = "-",
+                            .problem = "stdin was already read",
+                            .allowed = "one - in all"});
+        stdin_taken = stdin_taken || from_stdin;
+        for (const StateValue& at : state_values(text, given.option)) states.push_back({&given, at});
+      }
+    }
+    if (states.empty())
+      throw InputError(
+          {.file = "command line",
+           .problem = "relations: nothing was asked for",
+           .allowed = "--stress S, --rupture-velocity V or --slip-velocity W; see slipfront relations --help"});
+    return print(states, arguments->common);
+  };
+}

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace CLI {
+class App;
+}
+
+/// What every subcommand takes.
+struct CommonOptions {
+  bool json = false;
+  bool csv = false;
+  bool quiet = false;
+  int threads = 0;  ///< 0: as many as there are cores
+};
+
+/// Exit codes of the contract.
+enum ExitCode { exit_done = 0, exit_input = 2, exit_file = 3, exit_numerics = 4 };
+
+/// Adds --json, --csv, --quiet and --threads.
+void add_common_options(CLI::App& command, CommonOptions& options);
+
+/// One line on stderr, beginning with the program's name.
+void complain(std::string_view line);
+
+/// Adds a subcommand; what it returns runs it, once the command line has been parsed, and gives the exit code.
+using Runner = std::function<int()>;
+Runner add_relations(CLI::App& app);
+Runner add_event(CLI::App& app);
+
+/// What `slipfront` does when asked for nothing: `event` on the shipped catalogue.
+int run_default();
+
+/// cases/catalogue.csv, embedded.
+extern const std::string_view shipped_catalogue;

@@ -1,0 +1,149 @@
+#include "event_output.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using slipfront::event::Estimate;
+using slipfront::event::Inferred;
+
+template <class T>
+struct Item {
+  const char* key;
+  std::optional<T> Estimate::*member;
+};
+constexpr Item<double> measured[] = {
+    {"rupture_velocity_m_s", &Estimate::observed_rupture_velocity},
+    {"slip_velocity_m_s", &Estimate::observed_slip_velocity_m_s},
+};
+constexpr Item<Inferred> inferred[] = {
+    {"rupture_velocity", &Estimate::rupture_velocity},
+    {"stress", &Estimate::stress},
+    {"frictionless_slip_velocity", &Estimate::frictionless_slip_velocity},
+    {"observed_slip_velocity", &Estimate::observed_slip_velocity},
+    {"slip_velocity_ratio", &Estimate::slip_velocity_ratio},
+    {"contact_ratio", &Estimate::contact_ratio},
+    {"stress_pa", &Estimate::stress_pa},
+};
+
+/// An absent estimate reads like one in which nothing is identifiable.
+const Estimate& estimate_of(const EventResult& result) {
+  static const Estimate nothing;
+  return result.estimate ? *result.estimate : nothing;
+}
+
+constexpr const char* table_layout = "{} {:>12} {:>9} {:>9} {:>12} {:>12} {:>10} {:>9} {:>9}\n";
+constexpr std::size_t name_width = 36;
+
+/// The first `width` characters (code points) of a UTF-8 text, padded.
+std::string clipped(const std::string& text, std::size_t width) {
+  std::string out;
+  std::size_t count = 0;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool starts = (byte & 0xC0u) != 0x80u;
+    if (starts && count == width) break;
+    if (starts) ++count;
+    out += byte < 0x20 ? ' ' : c;
+  }
+  return out + std::string(width - count, ' ');
+}
+
+std::string speed_text(const std::optional<double>& v) {
+  if (!v) return "-";
+  if (*v >= 100) return fmt::format("{:.3g} km/s", *v / 1e3);
+  if (*v >= 1e-3) return fmt::format("{:.3g} m/s", *v);
+  return fmt::format("{:.3g} mm/day", *v * 86400e3);
+}
+
+std::string front_text(const std::optional<double>& v) {
+  return v && *v < 1 ? fmt::format("{:.3g} km/day", *v * 86.4) : speed_text(v);
+}
+
+std::string number_text(const std::optional<Inferred>& x, double unit = 1) {
+  return x ? fmt::format("{:.4g}", x->value / unit) : "-";
+}
+
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c == '\n' || c == '\r' ? ' ' : c);
+  return out + "\"";
+}
+
+std::string joined(const std::vector<std::string>& parts) {
+  std::string out;
+  for (const std::string& part : parts) out += (out.empty() ? "" : "; ") + part;
+  return out;
+}
+
+}  // namespace
+
+std::string event_json(const EventResult& result) {
+  const Estimate& e = estimate_of(result);
+  const auto& o = result.observation;
+  Json j;
+  j["name"] = o.name;
+  j["date"] = o.date;
+  j["kind"] = o.kind;
+  j["citation"] = o.citation;
+  j["note"] = o.note;
+  j["file"] = o.file;
+  j["line"] = o.line;
+  j["c_m_s"] = result.estimate ? Json(e.speed) : Json();
+  for (const auto& item : measured) j[item.key] = e.*item.member ? Json(*(e.*item.member)) : Json();
+  for (const auto& item : inferred) {
+    const auto& x = e.*item.member;
+    j[item.key] = x ? Json(x->value) : Json();
+    j[item.key + std::string("_interval")] = x && x->interval ? Json{x->interval->low, x->interval->high} : Json();
+  }
+  j["damping_number"] = nullptr;  // needs friction: not identifiable from the frictionless relations
+  j["damping_number_interval"] = nullptr;
+  j["warnings"] = result.warnings();
+  j["error"] = result.error.empty() ? Json() : Json(result.error);
+  return j.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string event_csv_head() {
+  std::string head = "name,date,kind,c_m_s";
+  for (const auto& item : measured) head += std::string(",") + item.key;
+  for (const auto& item : inferred) head += fmt::format(",{0},{0}_low,{0}_high", item.key);
+  return head + ",damping_number,warnings,error,citation,note,file,line\n";
+}
+
+std::string event_csv_row(const EventResult& result) {
+  const Estimate& e = estimate_of(result);
+  const auto& o = result.observation;
+  std::string row = quoted(o.name) + "," + quoted(o.date) + "," + quoted(o.kind) + ",";
+  if (result.estimate) row += fmt::format("{}", e.speed);
+  for (const auto& item : measured) row += e.*item.member ? fmt::format(",{}", *(e.*item.member)) : ",";
+  for (const auto& item : inferred) {
+    const auto& x = e.*item.member;
+    row += x ? fmt::format(",{}", x->value) : ",";
+    row += x && x->interval ? fmt::format(",{},{}", x->interval->low, x->interval->high) : ",,";
+  }
+  return row + ",," + quoted(joined(result.warnings())) + "," + quoted(result.error) + "," + quoted(o.citation) + "," +
+         quoted(o.note) + "," + quoted(o.file) + fmt::format(",{}\n", o.line);
+}
+
+std::string event_table_head() {
+  const auto line = [](const std::array<const char*, 9>& cells) {
+    return fmt::format(table_layout, clipped(cells[0], name_width), cells[1], cells[2], cells[3], cells[4], cells[5],
+                       cells[6], cells[7], cells[8]);
+  };
+  return line({"", "rupture", "", "stress", "slip", "frictionless", "observed /", "contact", "stress"}) +
+         line({"event", "velocity", "V / c", "mu A / pi", "velocity", "c A / pi", "frictionl.", "ratio A", "MPa"});
+}
+
+std::string event_table_row(const EventResult& result) {
+  if (!result.estimate) return clipped(result.observation.name, name_width) + " error: " + result.error + "\n";
+  const Estimate& e = *result.estimate;
+  return fmt::format(table_layout, clipped(result.observation.name, name_width),
+                     front_text(e.observed_rupture_velocity), number_text(e.rupture_velocity), number_text(e.stress),
+                     speed_text(e.observed_slip_velocity_m_s), number_text(e.frictionless_slip_velocity),
+                     number_text(e.slip_velocity_ratio), number_text(e.contact_ratio), number_text(e.stress_pa, 1e6));
+}

@@ -1,0 +1,81 @@
+#include <omp.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <new>
+
+#include "batch.hpp"
+#include "commands.hpp"
+#include "slipfront/error.hpp"
+
+void complain(std::string_view line) {
+  std::fprintf(stderr, "slipfront: %.*s\n", static_cast<int>(line.size()), line.data());
+}
+
+void add_common_options(CLI::App& command, CommonOptions& options) {
+  auto* json = command.add_flag("--json", options.json, "One JSON object on stdout, nothing else");
+  command.add_flag("--csv", options.csv, "One CSV row each, full precision")->excludes(json);
+  command.add_flag("--quiet", options.quiet, "No notes, no warnings");
+  command.add_option("--threads", options.threads, "Threads; results do not depend on it (default: all cores)")
+      ->check(CLI::Range(1, 4096))
+      ->type_name("N");
+  command.parse_complete_callback([&options] {
+    if (options.threads == 0) options.threads = omp_get_max_threads();
+  });
+}
+
+namespace {
+
+/// The text of a CLI11 error on one line, and where help is.
+std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
+  std::string text = error.what();
+  for (char& c : text)
+    if (c == '\n') c = ' ';
+  std::string help = "slipfront";
+  for (const CLI::App* command : app.get_subcommands()) help += " " + command->get_name();
+  return text + "; see " + help + " --help";
+}
+
+int run(int argc, char** argv) {
+  CLI::App app{
+      "slipfront: how an interface goes from stuck to sliding. Without a subcommand: `event` on the shipped "
+      "catalogue."};
+  app.set_version_flag("--version", SLIPFRONT_VERSION);
+  app.require_subcommand(0, 1);
+  app.failure_message(CLI::FailureMessage::simple);
+  Runner chosen = run_default;
+  const Runner relations = add_relations(app), event = add_event(app);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    complain(usage_error(app, error));
+    return exit_input;
+  }
+  if (app.got_subcommand("relations")) chosen = relations;
+  if (app.got_subcommand("event")) chosen = event;
+  const int code = chosen();
+  finish_stdout();
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const slipfront::InputError& error) {
+    complain(error.what());
+    return exit_input;
+  } catch (const slipfront::FileError& error) {
+    complain(error.what());
+    return exit_file;
+  } catch (const std::bad_alloc&) {
+    complain("out of memory");
+    return exit_numerics;
+  } catch (const std::exception& error) {
+    complain(error.what());
+    return exit_numerics;
+  }
+}

@@ -1,0 +1,43 @@
+#pragma once
+/// \file
+/// Complete elliptic integrals of the parameter m = 1 - m1, from the complementary side: no information about m1 is
+/// lost.
+
+namespace slipfront::elliptic {
+
+/// K(m) and E(m).
+struct Complete {
+  double K;
+  double E;
+};
+
+/// K and E of the parameter m = 1 - m1, to 4 ulp for 1e-308 <= m1 <= 1. \throws InputError outside (0, 1].
+Complete complete(double m1);
+
+/// K, E and the differences that the modulation theory needs, at sqrt(m1) = tanh(psi). Each field keeps full relative
+/// precision for every psi from the smallest normal double to 1e300; none is formed by cancellation.
+struct AtPsi {
+  double K;
+  double E;
+  double s;         ///< tanh(psi) = sqrt(m1)
+  double ratio;     ///< E/K
+  double excess;    ///< E/K - sqrt(m1); falls as m^2 / 16 in the dense limit
+  double deficit;   ///< 1 - E/K; falls as m / 2
+  double above_m1;  ///< E/K - m1; falls as m / 2
+  double E_rest;    ///< E - 1; falls as m1 ln(1/m1) / 4 in the empty limit
+};
+
+/// The fields of AtPsi for psi > 0. \throws InputError otherwise.
+AtPsi at_psi(double psi);
+
+/// Asymptotic regime psi -> 0, the almost empty interface: K = ln(4/psi), E = 1. Exact to rounding for psi < 1e-9; the
+/// only route where m1 = psi^2 would underflow.
+AtPsi at_psi_empty(double psi);
+inline constexpr double psi_empty_below = 1e-9;
+
+/// Asymptotic regime psi -> infinity, dislocations packed densely: m = 4 exp(-2 psi), K = E = pi/2. Exact to rounding
+/// for psi > 20.
+AtPsi at_psi_dense(double psi);
+inline constexpr double psi_dense_above = 20.0;
+
+}  // namespace slipfront::elliptic

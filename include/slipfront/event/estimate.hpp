@@ -1,0 +1,55 @@
+#pragma once
+/// \file
+/// From what was observed of an event to the state of its fault, by the frictionless relations (Eqs. 8-10).
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "slipfront/event/observation.hpp"
+
+namespace slipfront::event {
+
+/// Elastic constants for events that do not carry their own. The defaults are the paper's; using one of them adds a
+/// warning, unless `stated` says that the user chose them.
+struct MediumDefaults {
+  double p_wave_speed = 6000;   ///< m/s
+  double poisson_ratio = 0.3;   ///< -1 < nu < 0.5
+  double shear_modulus = 30e9;  ///< Pa
+  bool stated_speed = false;    ///< p_wave_speed was chosen by the user
+  bool stated_poisson = false;  ///< poisson_ratio was chosen by the user
+  bool stated_modulus = false;  ///< shear_modulus was chosen by the user
+};
+
+/// [5 %, 95 %] of an inferred quantity.
+struct Interval {
+  double low;
+  double high;
+};
+
+/// An inferred number; `interval` is there when exactly one observed quantity came as a range (read as uniform): every
+/// inferred quantity is monotone in each observed one, so its quantiles are those of the range, exactly.
+struct Inferred {
+  double value;
+  std::optional<Interval> interval;
+};
+
+/// State of the fault. Absent means not identifiable from what was observed; a warning says what is missing.
+struct Estimate {
+  double speed = 0;                                    ///< c, m/s
+  std::optional<double> observed_rupture_velocity;     ///< m/s
+  std::optional<double> observed_slip_velocity_m_s;    ///< m/s
+  std::optional<Inferred> rupture_velocity;            ///< V / c
+  std::optional<Inferred> stress;                      ///< Sigma-, in mu A / pi
+  std::optional<Inferred> frictionless_slip_velocity;  ///< W(0) without friction, in c A / pi
+  std::optional<Inferred> observed_slip_velocity;  ///< in c A / pi; needs a contact ratio that is given, not inferred
+  std::optional<Inferred> slip_velocity_ratio;     ///< observed over frictionless; 1 - ratio is what friction took
+  std::optional<Inferred> contact_ratio;           ///< A: given, or pi w / (c W(0)) as if there were no friction
+  std::optional<Inferred> stress_pa;               ///< mu A Sigma- / pi, Pa
+  std::vector<std::string> warnings;
+};
+
+/// \throws InputError (with the observation's file and line) for constants out of range or V >= c.
+Estimate estimate(const Observation& observation, const MediumDefaults& defaults);
+
+}  // namespace slipfront::event

@@ -1,0 +1,33 @@
+#pragma once
+/// \file
+/// The exact Riemann problem of the modulation equations, by the jump conditions of (k, P): two uniform trains meet at
+/// x = 0. Every scheme is tested against it; the slip pulse of Eqs. 8-10 is its special case with an empty right side.
+
+#include "slipfront/train/state.hpp"
+
+namespace slipfront::rupture {
+
+/// A wave between two states. In a fan the solution depends on x/t between head and tail; a shock has head == tail.
+struct Wave {
+  enum class Kind { none, fan, shock };
+  Kind kind = Kind::none;
+  double outer = 0;  ///< x/t of its edge on the side of the given state
+  double inner = 0;  ///< x/t of its edge on the side of the star state
+};
+
+/// The solution for all x/t.
+struct RiemannSolution {
+  State left, right;
+  State star;  ///< uniform state between the waves; empty when the trains part or either side is empty
+  Wave left_wave, right_wave;
+};
+
+/// Solves for any left and right states, empty ones included (psi = 0: no dislocations; its phi is ignored).
+/// \throws InputError for a psi that is negative or not finite, or a phi that is not finite. \throws NumericsError if
+/// the states are so far apart that no double holds the star state.
+RiemannSolution solve_riemann(const State& left, const State& right);
+
+/// State at x/t.
+State sample(const RiemannSolution& solution, double x_over_t);
+
+}  // namespace slipfront::rupture

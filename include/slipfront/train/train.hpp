@@ -1,0 +1,43 @@
+#pragma once
+/// \file
+/// The uniform train of dislocations: fields and averages over a period (Eqs. 4-5). All quantities dimensionless: x in
+/// b/A, stress in mu A / pi, slip velocity in c A / pi.
+
+#include "slipfront/train/state.hpp"
+
+namespace slipfront::train {
+
+/// Displacement, stress and slip velocity at one point of a train.
+struct Fields {
+  double u;  ///< slip in b / (2 pi); falls by 2 pi at each dislocation as x grows (Eq. 4, with the 2 the print lacks)
+  double sigma;  ///< stress -u_x, in mu A / pi
+  double w;      ///< slip velocity u_t = U sigma, in c A / pi
+};
+
+/// Fields at xi = x - U t, measured from the centre of a dislocation. \throws InputError for an empty state.
+Fields fields(const State& state, double xi);
+
+/// Length of one period, 2 pi / k. \throws InputError for an empty state.
+double spacing(const State& state);
+
+/// Averages over a period; the densities and fluxes of the four conservation laws among them.
+struct Averages {
+  double k;              ///< Sigma = <sigma> = 2 pi N, N dislocations per unit length (Eq. 5)
+  double W;              ///< <w> = U k (Eq. 5; the printed U N / 2 pi is a misprint)
+  double sigma2;         ///< <sigma^2>
+  double sigma3;         ///< <sigma^3>
+  double one_minus_cos;  ///< <1 - cos u>
+  double P;              ///< momentum density U <sigma^2>, also the energy flux
+  double Q;              ///< momentum flux (1 + U^2)/2 <sigma^2> - <1 - cos u>
+  double H;              ///< energy density (1 + U^2)/2 <sigma^2> + <1 - cos u>
+  double I;              ///< wave action density P / k
+  double J;              ///< wave action flux
+};
+
+/// All averages, each to a few ulp. The empty state has none but J, whose limit 4 cosh(phi) / pi does not vanish.
+Averages averages(const State& state);
+
+/// Stress of a train at rest, pi cosh(psi) / K: the initial state of a rupture. \throws InputError unless psi > 0.
+double stress_at_rest(double psi);
+
+}  // namespace slipfront::train

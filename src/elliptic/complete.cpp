@@ -1,0 +1,105 @@
+#include "slipfront/elliptic/complete.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "slipfront/error.hpp"
+
+namespace slipfront::elliptic {
+namespace {
+
+using std::numbers::pi;
+constexpr double ln4 = 1.38629436111989061883;
+
+/// Below this complementary modulus the logarithmic series needs 9 terms; above it the mean needs 5 steps.
+constexpr double series_below = 0.125;
+
+/// DLMF 19.12.1-2, the expansion in m1 about m = 1. Every term is positive, so nothing cancels:
+///   K = sum a_n m1^n (L - d_n)          a_n = ((1/2)_n / n!)^2,  d_n = 2 sum_{j<=n} 1/((2j-1) 2j)
+///   E = 1 + sum b_n m1^(n+1) (L - e_n)  b_n = a_n (2n+1)/(2n+2), e_n = d_n + 1/((2n+1)(2n+2))
+/// with L = ln(4 / sqrt(m1)).
+struct Series {
+  double K;
+  double E_rest;  ///< E - 1
+};
+Series log_series(double m1, double L) {
+  double a = 1.0, d = 0.0, power = 1.0, K = 0.0, E = 0.0;
+  for (int n = 0; n < 9; ++n) {
+    const double odd = 2 * n + 1, even = 2 * n + 2;
+    K += a * power * (L - d);
+    E += a * (odd / even) * power * (L - d - 1 / (odd * even));
+    d += 2 / (odd * even);
+    a *= (odd / even) * (odd / even);
+    power *= m1;
+  }
+  return {K, m1 * E};
+}
+
+/// The arithmetic-geometric mean of 1 and s, with its differences c_n = (a_n - b_n) / 2 (Abramowitz & Stegun 17.6).
+/// c1 = (1 - s) / 2 comes from the caller, who knows it without cancellation.
+struct Mean {
+  double limit;   ///< agm(1, s) = pi / (2 K)
+  double excess;  ///< E/K - s = c1^2 - 2 c2^2 - 4 c3^2 - ...
+};
+Mean mean(double s, double c1) {
+  double a = (1 + s) / 2, b = std::sqrt(s), c = c1, tail = 0, weight = 2;
+  for (int n = 2; n <= 5; ++n) {
+    const double next = (a + b) / 2;
+    c = c * c / (4 * next);  // (a - b) / 2, without the difference
+    tail += weight * c * c;
+    weight *= 2;
+    b = std::sqrt(a * b);
+    a = next;
+  }
+  return {(a + b) / 2, c1 * c1 - tail};
+}
+
+/// The fields of AtPsi from s = sqrt(m1) and c1 = (1 - s)/2.
+AtPsi assemble(double s, double c1) {
+  const double m1 = s * s;
+  if (s < series_below) {
+    const Series c = log_series(m1, ln4 - std::log(s));
+    const double E = 1 + c.E_rest, ratio = E / c.K;
+    return {c.K, E, s, ratio, ratio - s, 1 - ratio, ratio - m1, c.E_rest};
+  }
+  const Mean agm = mean(s, c1);
+  const double ratio = s + agm.excess;
+  const double K = pi / (2 * agm.limit);
+  return {K, K * ratio, s, ratio, agm.excess, 2 * c1 - agm.excess, agm.excess + 2 * s * c1, K * ratio - 1};
+}
+
+}  // namespace
+
+Complete complete(double m1) {
+  if (!(m1 > 0 && m1 <= 1))
+    throw InputError({.key = "m1",
+                      .value = std::to_string(m1),
+                      .problem = "not a complementary parameter",
+                      .allowed = "0 < m1 <= 1"});
+  const double s = std::sqrt(m1);
+  const AtPsi at = assemble(s, (1 - m1) / (2 * (1 + s)));
+  return {at.K, at.E};
+}
+
+AtPsi at_psi_empty(double psi) {
+  const double K = ln4 - std::log(psi), ratio = 1 / K;
+  return {K, 1.0, psi, ratio, ratio - psi, 1 - ratio, ratio, psi * (psi * (K - 0.5) / 2)};
+}
+
+AtPsi at_psi_dense(double psi) {
+  const double c1 = std::exp(-2 * psi);  // m = 4 c1
+  return {pi / 2, pi / 2, 1.0, 1.0, c1 * c1, 2 * c1, 2 * c1, pi / 2 - 1};
+}
+
+AtPsi at_psi(double psi) {
+  if (!(psi > 0))
+    throw InputError(
+        {.key = "psi", .value = std::to_string(psi), .problem = "not a positive number", .allowed = "psi > 0"});
+  if (psi < psi_empty_below) return at_psi_empty(psi);
+  if (psi > psi_dense_above) return at_psi_dense(psi);
+  const double e = std::expm1(2 * psi);
+  return assemble(e / (e + 2), 1 / (e + 2));
+}
+
+}  // namespace slipfront::elliptic

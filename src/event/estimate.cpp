@@ -1,0 +1,176 @@
+#include "slipfront/event/estimate.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "slipfront/medium/medium.hpp"
+#include "slipfront/rupture/relations.hpp"
+
+namespace slipfront::event {
+namespace {
+
+std::string text(double value, const char* unit) {
+  char buffer[64];
+  std::snprintf(buffer, sizeof buffer, "%.6g%s", value, unit);
+  return buffer;
+}
+
+/// Elastic constants of one event, after the defaults have filled the gaps.
+struct Elastic {
+  double speed;
+  double shear_modulus;
+  double poisson_ratio;
+};
+
+Elastic elastic(const Observation& o, const MediumDefaults& d, std::vector<std::string>& warnings) {
+  std::string assumed;
+  const auto assume = [&](double value, const char* key, const char* unit, bool stated) {
+    if (!stated) assumed += (assumed.empty() ? "" : ", ") + (key + (" " + text(value, unit)));
+    return value;
+  };
+  Elastic e{};
+  const bool both_speeds = o.p_wave_speed && o.s_wave_speed;
+  e.poisson_ratio = o.poisson_ratio ? *o.poisson_ratio
+                    : both_speeds   ? medium::poisson_ratio(*o.p_wave_speed, *o.s_wave_speed)
+                                    : assume(d.poisson_ratio, "poisson_ratio", "", d.stated_poisson);
+  const bool by_modulus = o.shear_modulus && o.density;
+  e.speed = o.p_wave_speed   ? medium::speed_from_p_wave(*o.p_wave_speed, e.poisson_ratio)
+            : o.s_wave_speed ? medium::speed_from_s_wave(*o.s_wave_speed, e.poisson_ratio)
+            : by_modulus     ? medium::speed_from_shear_modulus(*o.shear_modulus, *o.density, e.poisson_ratio)
+                             : medium::speed_from_p_wave(assume(d.p_wave_speed, "p_wave_speed", " m/s", d.stated_speed),
+                                                         e.poisson_ratio);
+  e.shear_modulus = o.shear_modulus               ? *o.shear_modulus
+                    : o.s_wave_speed && o.density ? *o.density * *o.s_wave_speed * *o.s_wave_speed
+                                                  : assume(d.shear_modulus, "shear_modulus", " Pa", d.stated_modulus);
+  if (!assumed.empty()) warnings.push_back("assumed: " + assumed);
+  return e;
+}
+
+/// The observed quantities that enter, as single numbers.
+struct Observed {
+  std::optional<double> V, w, slip, time;
+
+  std::optional<double> slip_velocity() const {
+    if (w) return w;
+    if (slip && time) return *slip / *time;
+    return std::nullopt;
+  }
+};
+
+/// The inferred numbers at one choice of the observed ones.
+struct Numbers {
+  std::optional<double> V, stress, frictionless, observed, ratio, A, stress_pa;
+};
+
+Numbers infer(const Observed& observed, const Elastic& e, std::optional<double> given_A) {
+  Numbers n;
+  const std::optional<double> w = observed.slip_velocity();
+  n.A = given_A;
+  if (given_A && w) n.observed = *w / medium::slip_velocity_unit(e.speed, *given_A);
+  if (observed.V) {
+    n.V = *observed.V / e.speed;
+    const rupture::Relations r = rupture::from_rupture_velocity(*n.V);
+    n.stress = r.stress;
+    n.frictionless = r.slip_velocity;
+    if (!given_A && w) n.A = *w / medium::slip_velocity_unit(e.speed, r.slip_velocity);  // pi w / (c W)
+    if (n.observed) n.ratio = *n.observed / r.slip_velocity;
+  } else if (n.observed) {
+    n.stress = rupture::from_slip_velocity(*n.observed).stress;
+  }
+  if (n.stress && n.A) n.stress_pa = medium::stress_unit(e.shear_modulus, *n.A) * *n.stress;
+  return n;
+}
+
+/// The one observed quantity that is a range and matters, as a pointer into Observed; null when there is none or
+/// several.
+struct Ranged {
+  std::optional<double> Observed::*member = nullptr;
+  Measured range;
+  int count = 0;
+};
+
+}  // namespace
+
+Estimate estimate(const Observation& o, const MediumDefaults& defaults) try {
+  Estimate result;
+  result.warnings = o.warnings;
+  const Elastic e = elastic(o, defaults, result.warnings);
+  result.speed = e.speed;
+  const double plastic = medium::plastic_contact_ratio(e.poisson_ratio);
+  if (o.contact_ratio && !(*o.contact_ratio > 0 && *o.contact_ratio <= plastic))
+    throw InputError({.key = "contact_ratio",
+                      .value = text(*o.contact_ratio, ""),
+                      .problem = "out of range",
+                      .allowed = "0 < contact_ratio <= " + text(plastic, " (plastic contact)")});
+  if (o.rupture_velocity && !(o.rupture_velocity->high < e.speed))
+    throw InputError({.key = "rupture_velocity",
+                      .value = text(o.rupture_velocity->high, " m/s"),
+                      .problem = "not below the speed c of the model",
+                      .allowed = "rupture_velocity < c = " + text(e.speed, " m/s")});
+
+  Observed middle;
+  Ranged ranged;
+  const auto take = [&](const std::optional<Measured>& measured, std::optional<double> Observed::*member) {
+    if (!measured) return;
+    middle.*member = measured->middle();
+    if (measured->is_range()) ranged = {member, *measured, ranged.count + 1};
+  };
+  take(o.rupture_velocity, &Observed::V);
+  if (o.slip_velocity) {
+    take(o.slip_velocity, &Observed::w);
+  } else if (o.slip && (o.rise_time || o.duration)) {
+    take(o.slip, &Observed::slip);
+    take(o.rise_time ? o.rise_time : o.duration, &Observed::time);
+    result.warnings.push_back(std::string("slip_velocity is slip / ") + (o.rise_time ? "rise_time" : "duration"));
+  }
+
+  const Numbers n = infer(middle, e, o.contact_ratio);
+  std::optional<Numbers> at_5, at_95;
+  if (ranged.count == 1) {
+    Observed at = middle;
+    at.*ranged.member = ranged.range.low + 0.05 * (ranged.range.high - ranged.range.low);
+    at_5 = infer(at, e, o.contact_ratio);
+    at.*ranged.member = ranged.range.low + 0.95 * (ranged.range.high - ranged.range.low);
+    at_95 = infer(at, e, o.contact_ratio);
+  } else if (ranged.count > 1) {
+    result.warnings.push_back("several observed ranges: middles used, no intervals");
+  }
+  const auto inferred = [&](std::optional<double> Numbers::*member) -> std::optional<Inferred> {
+    if (!(n.*member)) return std::nullopt;
+    if (!at_5) return Inferred{*(n.*member), std::nullopt};
+    const auto [low, high] = std::minmax(*(*at_5.*member), *(*at_95.*member));
+    return Inferred{*(n.*member), low < high ? std::optional(Interval{low, high}) : std::nullopt};
+  };
+  result.observed_rupture_velocity = middle.V;
+  result.observed_slip_velocity_m_s = middle.slip_velocity();
+  result.rupture_velocity = inferred(&Numbers::V);
+  result.stress = inferred(&Numbers::stress);
+  result.frictionless_slip_velocity = inferred(&Numbers::frictionless);
+  result.observed_slip_velocity = inferred(&Numbers::observed);
+  result.slip_velocity_ratio = inferred(&Numbers::ratio);
+  result.contact_ratio = inferred(&Numbers::A);
+  result.stress_pa = inferred(&Numbers::stress_pa);
+
+  if (!n.V) {
+    result.warnings.push_back(n.stress
+                                  ? "no rupture_velocity: stress from the slip velocity, as if there were no friction"
+                                  : "no rupture_velocity: stress is not identifiable");
+  } else if (!n.A) {
+    result.warnings.push_back("no slip velocity and no contact_ratio: stress in Pa is not identifiable");
+  } else if (!o.contact_ratio) {
+    result.warnings.push_back("contact_ratio as if there were no friction: a lower bound");
+  }
+  if (n.A && *n.A > plastic)
+    result.warnings.push_back("contact_ratio " + text(*n.A, "") + " exceeds plastic contact, " + text(plastic, "") +
+                              ": slip velocity too high for this rupture velocity");
+  if (n.ratio && *n.ratio > 1)
+    result.warnings.push_back("slips faster than without friction: contact_ratio or the velocities are off");
+  return result;
+} catch (const InputError& error) {
+  Complaint complaint = error.complaint();
+  complaint.file = o.file;
+  complaint.line = o.line;
+  throw InputError(complaint);
+}
+
+}  // namespace slipfront::event

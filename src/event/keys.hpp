@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "slipfront/event/observation.hpp"
+#include "slipfront/medium/quantity.hpp"
+
+namespace slipfront::event {
+
+/// A quantity that an event may carry: its one name in every format, what it is, and where it goes.
+struct Key {
+  std::string_view name;
+  medium::Dimension dimension;
+  std::optional<Measured> Observation::*measured = nullptr;  ///< observed, may be a range; > 0
+  std::optional<double> Observation::*constant = nullptr;    ///< of the medium, one number
+};
+
+/// All quantities; observed ones first.
+const std::vector<Key>& quantity_keys();
+const Key* find_key(std::string_view name);
+
+/// Parses `text` and stores it. \throws InputError (value, problem, allowed) for bad text, a bad unit, a range where
+/// one number is needed, or an observed quantity that is not positive.
+void store(Observation& observation, const Key& key, std::string_view text, std::string_view default_unit);
+
+}  // namespace slipfront::event

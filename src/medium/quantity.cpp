@@ -1,0 +1,164 @@
+#include "slipfront/medium/quantity.hpp"
+
+#include <udunits2.h>
+
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+
+#include "slipfront/error.hpp"
+
+namespace slipfront::medium {
+namespace {
+
+struct Kind {
+  const char* si;
+  const char* name;
+  const char* example;
+};
+
+const Kind& kind(Dimension dimension) {
+  static constexpr Kind velocity{"m/s", "a velocity", "a velocity, such as 3.0 km/s or 10 km/day"};
+  static constexpr Kind length{"m", "a length", "a length, such as 4 mm or 1.2 m"};
+  static constexpr Kind time{"s", "a time", "a time, such as 0.9 s or 2 weeks"};
+  static constexpr Kind pressure{"Pa", "a stress", "a stress or modulus, such as 30 GPa"};
+  static constexpr Kind density{"kg/m3", "a density", "a density, such as 2700 kg/m3 or 2.7 g/cm3"};
+  static constexpr Kind ratio{"1", "a pure number", "a pure number, such as 0.25"};
+  switch (dimension) {
+    case Dimension::velocity:
+      return velocity;
+    case Dimension::length:
+      return length;
+    case Dimension::time:
+      return time;
+    case Dimension::pressure:
+      return pressure;
+    case Dimension::density:
+      return density;
+    case Dimension::ratio:
+      break;
+  }
+  return ratio;
+}
+
+struct Free {
+  void operator()(ut_unit* unit) const { ut_free(unit); }
+  void operator()(cv_converter* converter) const { cv_free(converter); }
+};
+using Unit = std::unique_ptr<ut_unit, Free>;
+using Converter = std::unique_ptr<cv_converter, Free>;
+
+/// The unit database, read once and kept for the life of the process.
+ut_system* unit_system() {
+  static ut_system* const system = [] {
+    ut_set_error_message_handler(ut_ignore);
+    ut_system* read = ut_read_xml(nullptr);
+    if (!read) throw FileError("the UDUNITS-2 unit database cannot be read (Debian package libudunits2-data)");
+    return read;
+  }();
+  return system;
+}
+
+bool may_be_unit(std::string_view text) {
+  constexpr std::string_view others = "/^*.- ()%0123456789";
+  if (text.empty() || text.size() > 40) return false;
+  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  if (!letter(text.front()) && text.front() != '%') return false;  // "10 km" is a quantity, not a unit
+  for (const char c : text)
+    if (!letter(c) && others.find(c) == std::string_view::npos) return false;
+  return true;
+}
+
+double look_up(const std::string& unit, Dimension dimension) {
+  const Kind& wanted = kind(dimension);
+  ut_system* const system = unit_system();
+  const Unit from{may_be_unit(unit) ? ut_parse(system, unit.c_str(), UT_ASCII) : nullptr};
+  if (!from) throw InputError({.problem = "unknown unit '" + unit + "'", .allowed = wanted.example});
+  const Unit to{ut_parse(system, wanted.si, UT_ASCII)};
+  const Converter converter{ut_are_convertible(from.get(), to.get()) ? ut_get_converter(from.get(), to.get())
+                                                                     : nullptr};
+  const double factor = converter ? cv_convert_double(converter.get(), 1.0) : 0.0;
+  const double offset = converter ? cv_convert_double(converter.get(), 0.0) : 0.0;
+  if (!(factor > 0) || !std::isfinite(factor) || offset != 0)
+    throw InputError({.problem = "the unit '" + unit + "' is not that of " + wanted.name, .allowed = wanted.example});
+  return factor;
+}
+
+std::string_view trimmed(std::string_view text) {
+  const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; };
+  while (!text.empty() && blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+/// The number that `text` begins with; moves `text` past it.
+std::optional<double> take_number(std::string_view& text) {
+  std::string_view rest = text;
+  if (!rest.empty() && rest.front() == '+') rest.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
+  if (error != std::errc{} || !std::isfinite(value)) return std::nullopt;
+  text = rest.substr(static_cast<std::size_t>(end - rest.data()));
+  return value;
+}
+
+}  // namespace
+
+std::string_view example(Dimension dimension) { return kind(dimension).example; }
+
+std::optional<double> number(std::string_view text) {
+  text = trimmed(text);
+  const std::optional<double> value = take_number(text);
+  return text.empty() ? value : std::nullopt;
+}
+
+double unit_factor(std::string_view unit, Dimension dimension) {
+  static std::mutex mutex;  // UDUNITS keeps global state
+  static std::map<std::pair<std::string, Dimension>, double> known;
+  const std::scoped_lock lock(mutex);
+  const std::pair key{std::string(unit), dimension};
+  if (const auto found = known.find(key); found != known.end()) return found->second;
+  const double factor = look_up(key.first, dimension);
+  if (known.size() < 1000) known.emplace(key, factor);
+  return factor;
+}
+
+Span parse_quantity(std::string_view text, Dimension dimension, std::string_view default_unit) {
+  const std::string whole(trimmed(text));
+  const auto refuse = [&](std::string problem, std::string allowed) {
+    return InputError({.value = whole, .problem = std::move(problem), .allowed = std::move(allowed)});
+  };
+  std::string_view rest = whole;
+  const std::optional<double> low = take_number(rest);
+  if (!low) throw refuse("not a finite number", kind(dimension).example);
+  std::optional<double> high = low;
+  rest = trimmed(rest);
+  if (rest.size() > 1 && rest.front() == '-') {  // a range, 2-15 km/day
+    rest.remove_prefix(1);
+    rest = trimmed(rest);
+    high = take_number(rest);
+    if (!high) throw refuse("not a range of two finite numbers", "low-high unit, such as 2-15 km/day");
+    if (*high < *low) throw refuse("the range runs downwards", "low-high unit, such as 2-15 km/day");
+    rest = trimmed(rest);
+  }
+  double factor = 1;
+  const std::string_view unit = rest.empty() ? default_unit : rest;
+  if (unit.empty() && dimension != Dimension::ratio) throw refuse("a number without a unit", kind(dimension).example);
+  if (!unit.empty()) {
+    try {
+      factor = unit_factor(unit, dimension);
+    } catch (const InputError& error) {
+      throw refuse(error.complaint().problem, error.complaint().allowed);
+    }
+  }
+  const Span span{*low * factor, *high * factor};
+  if (!std::isfinite(span.low) || !std::isfinite(span.high))
+    throw refuse("not finite in SI units", kind(dimension).example);
+  return span;
+}
+
+}  // namespace slipfront::medium

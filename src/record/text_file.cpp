@@ -1,0 +1,39 @@
+#include "slipfront/record/text_file.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <system_error>
+
+#include "slipfront/error.hpp"
+
+namespace slipfront::record {
+namespace {
+
+std::string read_all(std::FILE* file, const std::string& name) {
+  std::string text;
+  char buffer[1 << 16];
+  while (const std::size_t size = std::fread(buffer, 1, sizeof buffer, file)) text.append(buffer, size);
+  if (std::ferror(file)) throw FileError(name + ": cannot be read: " + std::strerror(errno));
+  return text;
+}
+
+struct Close {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+
+}  // namespace
+
+std::string read_text(const std::string& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) throw FileError(path + ": is a directory, not a file");
+  const std::unique_ptr<std::FILE, Close> file(std::fopen(path.c_str(), "rb"));
+  if (!file) throw FileError(path + ": cannot be opened: " + std::strerror(errno));
+  return read_all(file.get(), path);
+}
+
+std::string read_standard_input() { return read_all(stdin, "stdin"); }
+
+}  // namespace slipfront::record

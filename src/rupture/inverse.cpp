@@ -1,0 +1,84 @@
+#include "slipfront/rupture/inverse.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "newton.hpp"
+#include "slipfront/elliptic/complete.hpp"
+#include "slipfront/modulation/characteristics.hpp"
+#include "slipfront/train/train.hpp"
+
+namespace slipfront::rupture {
+namespace {
+
+using std::numbers::pi;
+
+/// d(ln K) / d(psi) = -(E/K - m1) / s.
+double log_slope_of_K(const elliptic::AtPsi& at) { return -at.above_m1 / at.s; }
+
+}  // namespace
+
+double psi_of_stress(double stress) {
+  // From a slow state K = ln(4/psi) = pi/Sigma at once; from a dense one K = pi/2 and Sigma = 2 cosh(psi).
+  if (stress > 20) {
+    const auto dense = [stress](double psi) {
+      const elliptic::AtPsi at = elliptic::at_psi(psi);
+      return Residual{std::log(pi * std::cosh(psi) / at.K / stress), psi * (std::tanh(psi) - log_slope_of_K(at))};
+    };
+    const double guess = std::log(stress);
+    if (guess > elliptic::psi_dense_above + 1) return guess;  // Sigma = 2 cosh(psi) = exp(psi), exactly to rounding
+    return newton_in_log(guess, dense, "psi of a stress");
+  }
+  const auto residual = [stress](double psi) {  // K - pi cosh(psi) / Sigma, linear in ln(psi) where psi is small
+    const elliptic::AtPsi at = elliptic::at_psi(psi);
+    return Residual{at.K - pi * std::cosh(psi) / stress,
+                    psi * (log_slope_of_K(at) * at.K - pi * std::sinh(psi) / stress)};
+  };
+  const double bare = 4 * std::exp(-pi / stress);
+  return newton_in_log(stress < 1 ? bare : std::log1p(bare), residual, "psi of a stress");
+}
+
+double psi_of_sound_speed(double V) {
+  if (V > 0.5) {  // 1 - V is exact here, and 1 - c0 = m^2 / 16 carries what c0 has lost
+    const double rest = 1 - V;
+    const auto residual = [rest](double psi) {
+      const modulation::Sound c = modulation::sound(psi);
+      return Residual{std::log(c.one_minus / rest), -psi * c.c0 * c.log_slope / c.one_minus};
+    };
+    const double m = 4 * std::sqrt(rest);
+    return newton_in_log(m < 0.8 ? std::acosh(1 / std::sqrt(m)) : 0.3, residual, "psi of a rupture velocity");
+  }
+  const auto residual = [V](double psi) {
+    const modulation::Sound c = modulation::sound(psi);
+    return Residual{std::log(c.c0 / V), psi * c.log_slope};
+  };
+  const double L = std::log(4 / V);
+  return newton_in_log(V / (L + std::log(L)), residual, "psi of a rupture velocity");
+}
+
+double psi_of_fan(double r) {
+  const auto residual = [r](double psi) {
+    const modulation::Sound c = modulation::sound(psi);
+    const double sum = psi + c.rapidity;
+    return Residual{std::log(sum / r), psi * (1 + c.slope) / sum};
+  };
+  const double L = 1 + std::log1p(4 / r);
+  return newton_in_log(r < 2 ? r / (L + std::log(L)) : (r - 0.34) / 3, residual, "psi in the fan");
+}
+
+double origin_slip_velocity(double psi_at_origin) {
+  const double K = elliptic::at_psi(psi_at_origin).K;
+  return pi * std::sinh(modulation::sound(psi_at_origin).rapidity) * std::cosh(psi_at_origin) / K;
+}
+
+double psi_of_origin_slip_velocity(double W) {
+  const auto residual = [W](double psi) {
+    const elliptic::AtPsi at = elliptic::at_psi(psi);
+    const modulation::Sound c = modulation::sound(psi);
+    const double value = pi * std::sinh(c.rapidity) * std::cosh(psi) / at.K;
+    return Residual{std::log(value / W), psi * (c.slope / std::tanh(c.rapidity) + std::tanh(psi) - log_slope_of_K(at))};
+  };
+  return newton_in_log(W < 1 ? W / pi : std::log(1 + 1.5 * W) / 3, residual, "psi of a slip velocity");
+}
+
+}  // namespace slipfront::rupture

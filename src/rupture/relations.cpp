@@ -1,0 +1,94 @@
+#include "slipfront/rupture/relations.hpp"
+
+#include <cfloat>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "slipfront/elliptic/complete.hpp"
+#include "slipfront/error.hpp"
+#include "slipfront/modulation/characteristics.hpp"
+#include "slipfront/rupture/inverse.hpp"
+#include "slipfront/train/train.hpp"
+
+namespace slipfront::rupture {
+namespace {
+
+using std::numbers::pi;
+
+/// Smallest inputs for which every output is a normal double; psi_at_origin, about V / (ln V)^2, goes first.
+constexpr double least_stress = 0.00447;
+constexpr double least_rupture_velocity = 2e-302;
+constexpr double least_slip_velocity = 7.2e-308;
+/// Largest inputs for which none overflows.
+constexpr double most_stress = 1e308;
+constexpr double most_slip_velocity = 5e307;
+
+struct Range {
+  const char* key;
+  double least, most;
+  const char* allowed;
+};
+
+std::string text(double value) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.17g", value);
+  return buffer;
+}
+
+void check(double value, const Range& range) {
+  if (value >= range.least && value <= range.most) return;  // false for NaN
+  const char* problem = std::isnan(value)     ? "not a number"
+                        : value <= 0          ? "not positive"
+                        : value < range.least ? "too small: some result would be below the smallest double"
+                                              : "too large";
+  throw InputError({.key = range.key, .value = text(value), .problem = problem, .allowed = range.allowed});
+}
+
+/// Eqs. 8-10 from psi on both sides of the fan: phi + psi = psi- throughout it.
+Relations assemble(double psi, double psi_at_origin) {
+  const elliptic::AtPsi left = elliptic::at_psi(psi), origin = elliptic::at_psi(psi_at_origin);
+  const double phi0 = modulation::sound(psi_at_origin).rapidity;  // the ray x = 0: lambda_- = 0
+  const double cosh_psi0 = std::cosh(psi_at_origin);
+  Relations r{};
+  r.stress = pi * std::cosh(psi) / left.K;
+  r.rupture_velocity = left.s / left.ratio;  // |V-| = c0(psi-)
+  r.leading_velocity = left.s;               // V+ = tanh(psi-)
+  r.velocity_ratio = 1 / left.ratio;         // K / E
+  r.stress_at_origin = pi * std::cosh(phi0) * cosh_psi0 / origin.K;
+  r.slip_velocity = pi * std::sinh(phi0) * cosh_psi0 / origin.K;
+  r.dislocation_velocity_at_origin = std::tanh(phi0);
+  r.psi = psi;
+  r.psi_at_origin = psi_at_origin;
+  return r;
+}
+
+}  // namespace
+
+Relations from_stress(double stress) {
+  check(stress, {"stress", least_stress, most_stress, "0.00447 <= stress <= 1e308 (in mu A / pi)"});
+  const double psi = psi_of_stress(stress);
+  Relations r = assemble(psi, psi_of_fan(psi));
+  r.stress = stress;
+  return r;
+}
+
+Relations from_rupture_velocity(double rupture_velocity) {
+  check(rupture_velocity,
+        {"rupture_velocity", least_rupture_velocity, 1 - DBL_EPSILON / 2, "2e-302 <= rupture_velocity < 1 (in c)"});
+  const double psi = psi_of_sound_speed(rupture_velocity);
+  Relations r = assemble(psi, psi_of_fan(psi));
+  r.rupture_velocity = rupture_velocity;
+  return r;
+}
+
+Relations from_slip_velocity(double slip_velocity) {
+  check(slip_velocity,
+        {"slip_velocity", least_slip_velocity, most_slip_velocity, "7.2e-308 <= slip_velocity <= 5e307 (in c A / pi)"});
+  const double psi0 = psi_of_origin_slip_velocity(slip_velocity);
+  Relations r = assemble(psi0 + modulation::sound(psi0).rapidity, psi0);
+  r.slip_velocity = slip_velocity;
+  return r;
+}
+
+}  // namespace slipfront::rupture

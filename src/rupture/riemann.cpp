@@ -1,0 +1,193 @@
+#include "slipfront/rupture/riemann.hpp"
+
+#include <cfloat>
+#include <cmath>
+#include <string>
+
+#include "slipfront/elliptic/complete.hpp"
+#include "slipfront/error.hpp"
+#include "slipfront/modulation/characteristics.hpp"
+#include "slipfront/rupture/inverse.hpp"
+
+// The 2-wave is the 1-wave of the mirrored problem (x -> -x, phi -> -phi), so only the 1-wave is written out.
+
+namespace slipfront::rupture {
+namespace {
+
+State mirrored(const State& s) { return {-s.phi, s.psi}; }
+
+/// Spacing l and momentum M = momentum_unit * sinh(phi) of one dislocation (PHYSICS: the Lagrangian form l_t = U_q,
+/// M_t + p_q = 0, p = 2 sinh^2 psi). Between two trains the jump conditions read [p][l] + [U][M] = 0.
+struct PerDislocation {
+  double spacing_unit;   ///< l cosh(phi) = 2 K / cosh(psi)
+  double momentum_unit;  ///< M / sinh(phi) = 8 cosh(psi) E
+  double
+      momentum_rest;  ///< momentum_unit - 8, which keeps the digits that the mass of a lone dislocation would swallow
+};
+PerDislocation per_dislocation(double psi) {
+  const elliptic::AtPsi at = elliptic::at_psi(psi);
+  const double cosh_psi = std::cosh(psi), half = std::sinh(psi / 2);
+  return {2 * at.K / cosh_psi, 8 * cosh_psi * at.E, 8 * (2 * half * half * at.E + at.E_rest)};
+}
+
+/// Rapidity drop phi_left - phi_star > 0 across a 1-shock from `left` up to psi_star > psi_left. [p][l] + [U][M] is
+/// negative at zero drop and has exactly one zero below (two sign changes as a quartic in exp(phi): Descartes).
+double shock_drop(const State& left, double psi_star) {
+  const PerDislocation a = per_dislocation(left.psi), b = per_dislocation(psi_star);
+  // Both products are of the order of psi_star^2, which may underflow: each factor is taken over psi_star.
+  const double jump_p = 2 * (std::sinh(psi_star + left.psi) / psi_star) * (std::sinh(psi_star - left.psi) / psi_star);
+  const double l_left = a.spacing_unit / std::cosh(left.phi);
+  const double jump_unit = (b.momentum_rest - a.momentum_rest) * std::sinh(left.phi);
+  const auto mismatch = [&](double drop) {
+    const double phi = left.phi - drop;
+    const double jump_U = -std::sinh(drop) / psi_star / (std::cosh(phi) * std::cosh(left.phi));
+    const double jump_sinh = -2 * std::cosh(left.phi - drop / 2) * std::sinh(drop / 2);  // sinh(phi) - sinh(phi_left)
+    const double jump_M = (b.momentum_unit * jump_sinh + jump_unit) / psi_star;
+    return jump_p * (b.spacing_unit / std::cosh(phi) - l_left) + jump_U * jump_M;
+  };
+  // The fan's continuation psi_star - psi_left is the root for weak shocks; widen around it, then bisect in ln(drop).
+  double low = psi_star - left.psi, high = low;
+  while (mismatch(low) > 0 && low > DBL_MIN) low /= 2;
+  while (mismatch(high) < 0) {
+    high *= 2;
+    if (!(high < 1400))
+      throw NumericsError("shock from psi = " + std::to_string(left.psi) + " too strong for a double");
+  }
+  // Secant steps inside a bracket (regula falsi, Illinois variant): robust, and no derivative to keep in step.
+  double f_low = mismatch(low), f_high = mismatch(high);
+  for (int i = 0; i < 200 && high - low > 2e-16 * high; ++i) {
+    double middle = (low * f_high - high * f_low) / (f_high - f_low);
+    if (!(middle > low && middle < high)) middle = low + (high - low) / 2;
+    if (middle <= low || middle >= high) break;
+    const double f = mismatch(middle);
+    if (f == 0) return middle;
+    if (f < 0) {
+      low = middle;
+      f_low = f;
+      f_high /= 2;
+    } else {
+      high = middle;
+      f_high = f;
+      f_low /= 2;
+    }
+  }
+  return low + (high - low) / 2;
+}
+
+/// phi_left - phi_star along the 1-wave curve: fan (phi + psi constant) below psi_left, shock above.
+double drop_along_curve(const State& left, double psi_star) {
+  return psi_star <= left.psi ? psi_star - left.psi : shock_drop(left, psi_star);
+}
+
+/// psi where the two wave curves meet: phi_left - drop_left = phi_right + drop_right, increasing in psi.
+double meeting_psi(const State& left, const State& right) {
+  const State back = mirrored(right);
+  const double closing = left.phi - right.phi;  // > 0: the trains run into each other
+  const auto excess = [&](double psi) { return drop_along_curve(left, psi) + drop_along_curve(back, psi) - closing; };
+  double low = std::fmin(left.psi, right.psi), high = std::fmax(left.psi, right.psi);
+  if (excess(high) == 0) return high;
+  if (excess(low) >= 0) {  // two fans: both curves are straight lines
+    return (left.psi + right.psi + closing) / 2;
+  }
+  while (excess(high) < 0) {
+    low = high;
+    high *= 2;
+    if (!(high < 700)) throw NumericsError("Riemann problem: no double holds the star state");
+  }
+  for (int i = 0; i < 200 && high - low > 2e-16 * high; ++i) {
+    const double middle = high > 4 * low ? std::sqrt(low) * std::sqrt(high) : low + (high - low) / 2;
+    if (middle <= low || middle >= high) break;
+    (excess(middle) < 0 ? low : high) = middle;
+  }
+  return low + (high - low) / 2;
+}
+
+/// Asymptotic regime of weak shocks: the speed is the mean of the characteristic speeds on both sides, up to the square
+/// of the strength; the quotient of jumps would lose eps / strength.
+constexpr double weak_below = 6e-6;
+
+/// The 1-wave between `left` and `star`.
+Wave first_wave(const State& left, const State& star) {
+  if (left.empty()) return {};
+  if (star.empty()) {  // fan down to the edge of the empty region, which moves with the last dislocation
+    return {Wave::Kind::fan, modulation::characteristic_speeds(left).minus, std::tanh(star.phi)};
+  }
+  if (star.psi == left.psi) {
+    const double speed = modulation::characteristic_speeds(left).minus;
+    return {Wave::Kind::none, speed, speed};
+  }
+  if (star.psi < left.psi)
+    return {Wave::Kind::fan, modulation::characteristic_speeds(left).minus,
+            modulation::characteristic_speeds(star).minus};
+  if (star.psi - left.psi < weak_below * left.psi) {
+    const double speed =
+        (modulation::characteristic_speeds(left).minus + modulation::characteristic_speeds(star).minus) / 2;
+    return {Wave::Kind::shock, speed, speed};
+  }
+  // s = U - j / k with the flux j of dislocations through the shock, j [1/k] = -[U].
+  const double l_left = per_dislocation(left.psi).spacing_unit / std::cosh(left.phi);
+  const double l_star = per_dislocation(star.psi).spacing_unit / std::cosh(star.phi);
+  const double slowed = std::sinh(left.phi - star.phi) / (std::cosh(left.phi) * std::cosh(star.phi));
+  const double speed = std::tanh(left.phi) - slowed * l_left / (l_left - l_star);
+  return {Wave::Kind::shock, speed, speed};
+}
+
+Wave mirrored(const Wave& w) { return {w.kind, -w.outer, -w.inner}; }
+
+/// Inside the left fan: phi + psi = r and x/t = tanh(phi - atanh c0), so psi + atanh c0 = r - atanh(x/t).
+State in_left_fan(const State& left, double x_over_t) {
+  const double r = left.phi + left.psi;
+  const double above = r - std::atanh(x_over_t);
+  if (!(above > 0)) return {r, 0};
+  const double psi = psi_of_fan(above);
+  return {r - psi, psi};
+}
+
+void check(const State& state, const char* side) {
+  if (!(state.psi >= 0) || !std::isfinite(state.psi))
+    throw InputError({.key = std::string(side) + " psi",
+                      .value = std::to_string(state.psi),
+                      .problem = "not a density variable",
+                      .allowed = "psi >= 0, finite"});
+  if (!std::isfinite(state.phi))
+    throw InputError({.key = std::string(side) + " phi",
+                      .value = std::to_string(state.phi),
+                      .problem = "not finite",
+                      .allowed = "a finite rapidity"});
+}
+
+}  // namespace
+
+RiemannSolution solve_riemann(const State& left, const State& right) {
+  check(left, "left");
+  check(right, "right");
+  RiemannSolution s{left, right, {}, {}, {}};
+  const bool parted = left.empty() || right.empty() || (left.phi - right.phi) + left.psi + right.psi <= 0;
+  if (parted) {
+    s.left_wave = first_wave(left, {left.phi + left.psi, 0});
+    s.right_wave = mirrored(first_wave(mirrored(right), {-(right.phi - right.psi), 0}));
+    return s;
+  }
+  s.star.psi = left.phi == right.phi && left.psi == right.psi ? left.psi : meeting_psi(left, right);
+  // Both curves give phi_star; the shorter path loses less.
+  const double from_left = drop_along_curve(left, s.star.psi),
+               from_right = drop_along_curve(mirrored(right), s.star.psi);
+  s.star.phi = std::fabs(from_left) <= std::fabs(from_right) ? left.phi - from_left : right.phi + from_right;
+  s.left_wave = first_wave(left, s.star);
+  s.right_wave = mirrored(first_wave(mirrored(right), mirrored(s.star)));
+  return s;
+}
+
+State sample(const RiemannSolution& s, double x_over_t) {
+  if (s.left_wave.kind != Wave::Kind::none || !s.left.empty()) {
+    if (x_over_t <= s.left_wave.outer) return s.left;
+    if (x_over_t < s.left_wave.inner) return in_left_fan(s.left, x_over_t);
+  }
+  if (s.right_wave.kind != Wave::Kind::none || !s.right.empty()) {
+    if (x_over_t >= s.right_wave.outer) return s.right;
+    if (x_over_t > s.right_wave.inner) return mirrored(in_left_fan(mirrored(s.right), -x_over_t));
+  }
+  return s.star;
+}
+
+}  // namespace slipfront::rupture

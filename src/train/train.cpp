@@ -1,0 +1,57 @@
+#include "slipfront/train/train.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "slipfront/elliptic/complete.hpp"
+#include "slipfront/elliptic/jacobi.hpp"
+
+namespace slipfront::train {
+namespace {
+
+using std::numbers::pi;
+
+/// beta = [m (1 - U^2)]^(-1/2), the inverse width of a dislocation.
+double beta_of(const State& state) { return std::cosh(state.phi) * std::cosh(state.psi); }
+
+}  // namespace
+
+Fields fields(const State& state, double xi) {
+  const elliptic::AtPsi at = elliptic::at_psi(state.psi);
+  const double beta = beta_of(state);
+  const elliptic::Jacobi f = elliptic::jacobi(beta * xi, at);
+  const double u = 2 * f.coamplitude;    // Eq. 4: u = pi - 2 am(beta xi)
+  const double sigma = 2 * beta * f.dn;  // -u_x
+  const double w = std::tanh(state.phi) * sigma;
+  return {u, sigma, w};
+}
+
+double spacing(const State& state) { return 2 * elliptic::at_psi(state.psi).K / beta_of(state); }
+
+Averages averages(const State& state) {
+  const double sinh_phi = std::sinh(state.phi), cosh_phi = std::cosh(state.phi);
+  Averages a{};
+  if (state.empty()) {
+    a.J = 4 / pi * cosh_phi;
+    return a;
+  }
+  const elliptic::AtPsi at = elliptic::at_psi(state.psi);
+  const double cosh_psi = std::cosh(state.psi), sinh_psi = std::sinh(state.psi);
+  const double beta = cosh_phi * cosh_psi, U = std::tanh(state.phi);
+
+  a.k = pi * beta / at.K;                                             // Eq. 5
+  a.W = pi * sinh_phi * cosh_psi / at.K;                              // Eq. 5, W = U k
+  a.sigma2 = 4 * beta * beta * at.ratio;                              // 4 beta^2 E / K
+  a.sigma3 = 2 * pi * beta * beta * beta * (1 + at.s * at.s) / at.K;  // (2 beta)^3 pi (2 - m) / (4 K)
+  a.one_minus_cos = 2 * cosh_psi * cosh_psi * at.above_m1;            // (2 / m)(E/K - m1)
+  a.P = U * a.sigma2;
+  a.Q = U * a.P + 2 * sinh_psi * sinh_psi;  // = (1 + U^2)/2 <sigma^2> - <1 - cos u>, without the difference
+  a.H = (1 + U * U) / 2 * a.sigma2 + a.one_minus_cos;
+  a.I = 4 / pi * sinh_phi * cosh_psi * at.E;  // P / k
+  a.J = 4 / pi * beta * at.E;
+  return a;
+}
+
+double stress_at_rest(double psi) { return pi * std::cosh(psi) / elliptic::at_psi(psi).K; }
+
+}  // namespace slipfront::train

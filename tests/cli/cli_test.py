@@ -1,0 +1,186 @@
+"""The command line as a user meets it: exit codes, texts, JSON. Runs the program named by $SLIPFRONT."""
+
+import csv
+import io
+import json
+import math
+import os
+import subprocess
+import tempfile
+import unittest
+
+PROGRAM = os.environ["SLIPFRONT"]
+SOURCE = os.environ["SLIPFRONT_SOURCE"]
+RELATIONS = ["stress", "rupture_velocity", "leading_velocity", "velocity_ratio", "slip_velocity", "stress_at_origin",
+             "dislocation_velocity_at_origin", "psi", "psi_at_origin"]
+EVENT = ["name", "c_m_s", "rupture_velocity", "stress", "frictionless_slip_velocity", "observed_slip_velocity",
+         "contact_ratio", "stress_pa", "damping_number", "warnings"]
+
+
+def run(*arguments, stdin=""):
+    return subprocess.run([PROGRAM, *arguments], input=stdin, capture_output=True, text=True, timeout=120)
+
+
+class CommandLine(unittest.TestCase):
+    def ok(self, *arguments, stdin=""):
+        done = run(*arguments, stdin=stdin)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout
+
+    def refused(self, code, *arguments, stdin="", says=()):
+        done = run(*arguments, stdin=stdin)
+        self.assertEqual(done.returncode, code, (arguments, done.stdout[:300], done.stderr))
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        self.assertTrue(done.stderr.startswith("slipfront: "), done.stderr)
+        for text in says:
+            self.assertIn(text, done.stderr)
+        return done
+
+    def file(self, name, text):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        path = os.path.join(folder.name, name)
+        with open(path, "w", encoding="utf-8") as out:
+            out.write(text)
+        return path
+
+    # relations
+
+    def test_relations_json_has_the_nine_keys_in_input_order(self):
+        out = json.loads(self.ok("relations", "--rupture-velocity", "0.5", "--stress", "1.03", "--rupture-velocity", "1e-300",
+                                 "--slip-velocity", "0.1", "--json"))
+        self.assertEqual(list(out), ["relations"])
+        rows = out["relations"]
+        self.assertEqual(len(rows), 4)
+        for row in rows:
+            self.assertEqual(list(row), RELATIONS)
+            self.assertTrue(all(math.isfinite(x) and x > 0 for x in row.values()))
+        self.assertEqual(rows[0]["rupture_velocity"], 0.5)
+        self.assertEqual(rows[1]["stress"], 1.03)
+        self.assertAlmostEqual(rows[1]["slip_velocity"], 0.1000039, 7)
+        self.assertEqual(rows[2]["rupture_velocity"], 1e-300)
+        self.assertEqual(rows[3]["slip_velocity"], 0.1)
+
+    def test_relations_ranges_and_csv(self):
+        rows = list(csv.DictReader(io.StringIO(self.ok("relations", "--stress", "0.5:1.5:5", "--csv"))))
+        self.assertEqual([float(r["stress"]) for r in rows], [0.5, 0.75, 1.0, 1.25, 1.5])
+        rows = json.loads(self.ok("relations", "--rupture-velocity", "1e-300:1e-1:300:log", "--json"))["relations"]
+        self.assertEqual(len(rows), 300)
+        self.assertEqual((rows[0]["rupture_velocity"], rows[-1]["rupture_velocity"]), (1e-300, 0.1))
+
+    def test_relations_from_stdin(self):
+        out = json.loads(self.ok("relations", "--stress", "-", "--json", stdin="1.03  # Parkfield\n\n 0.213\r\n"))
+        self.assertEqual([r["stress"] for r in out["relations"]], [1.03, 0.213])
+
+    def test_relations_a_million_rows_and_any_number_of_threads(self):
+        stdin = "".join(f"{0.05 + i * 1e-6:.8f}\n" for i in range(1000000))
+        one = self.ok("relations", "--stress", "-", "--csv", "--threads", "1", stdin=stdin)
+        self.assertEqual(one.count("\n"), 1000001)
+        self.assertEqual(one, self.ok("relations", "--stress", "-", "--csv", "--threads", "3", stdin=stdin))
+
+    def test_relations_full_precision_for_one_state(self):
+        self.assertIn("0.5439026079081", self.ok("relations", "--stress", "1.03"))
+
+    def test_relations_refuses(self):
+        for option, value in [("--stress", "0"), ("--stress", "-1"), ("--stress", "nan"), ("--stress", "inf"), ("--stress", "1e400"),
+                              ("--stress", "abc"), ("--stress", ""), ("--rupture-velocity", "1"), ("--rupture-velocity", "1.5"),
+                              ("--slip-velocity", "0"), ("--slip-velocity", "1e308"), ("--stress", "1e-3"), ("--stress", "1:2"),
+                              ("--stress", "1:2:0"), ("--stress", "1:2:1e30"), ("--stress", "0:2:5:log"), ("--stress", "0:1:3")]:
+            with self.subTest(option=option, value=value):
+                self.refused(2, "relations", option, value, says=["allowed: ", "command line: "])
+        self.refused(2, "relations", says=["--stress"])
+        self.refused(2, "relations", "--stress", says=["--help"])
+        self.refused(2, "relations", "--strain", "1", says=["--strain"])
+        self.refused(2, "relations", "--stress", "1", "--json", "--csv")
+        self.refused(2, "relations", "--stress", "1", "--threads", "0")
+        self.refused(2, "nonsense")
+        self.refused(2, "relations", "--stress", "-", stdin="1\n2\nx\n", says=["stdin:3", "'x'"])
+        self.refused(2, "relations", "--stress", "-", stdin="1\n-2\n", says=["stdin:2", "stress = '-2'"])
+        self.refused(2, "relations", "--stress", "-", stdin="", says=["stdin"])
+        self.refused(2, "relations", "--stress", "-", "--stress", "-", stdin="1\n")
+
+    # event
+
+    def test_event_json_has_the_contract_keys(self):
+        out = json.loads(self.ok("event", os.path.join(SOURCE, "cases/ets.toml"), os.path.join(SOURCE, "cases/parkfield-2004.toml"), "--json"))
+        self.assertEqual(list(out), ["events"])
+        ets, parkfield = out["events"]
+        for event in (ets, parkfield):
+            for key in EVENT:
+                self.assertIn(key, event)
+        self.assertAlmostEqual(ets["rupture_velocity"], 2.135e-5, 8)
+        self.assertAlmostEqual(ets["slip_velocity_ratio"], 0.199, 3)
+        self.assertAlmostEqual(parkfield["c_m_s"], 5421.0, 0)
+        self.assertIsNone(parkfield["observed_slip_velocity"])
+        self.assertIsNone(parkfield["damping_number"])
+
+    def test_event_bad_rows_keep_the_good_ones(self):
+        path = self.file("c.csv", "name,rupture_velocity_km_s\ngood,2.8\nfast,9\nword,x\ngood too,3\n")
+        done = run("event", path, "--json")
+        self.assertEqual(done.returncode, 2)
+        events = json.loads(done.stdout)["events"]
+        self.assertEqual([e["error"] is None for e in events], [True, False, False, True])
+        self.assertEqual(done.stderr.count("\n"), 2)
+        self.assertIn("c.csv:3: rupture_velocity = '9000 m/s'", done.stderr)
+        self.assertIn("c.csv:4: rupture_velocity_km_s = 'x'", done.stderr)
+        rows = list(csv.DictReader(io.StringIO(run("event", path, "--csv").stdout)))
+        self.assertEqual(len(rows), 4)
+        self.assertIn("error", run("event", path).stdout)
+
+    def test_event_refuses_files(self):
+        self.refused(3, "event", "/nowhere/x.csv", says=["/nowhere/x.csv", "No such file"])
+        self.refused(3, "event", "/", says=["directory"])
+        self.refused(2, "event", self.file("empty.csv", ""), says=["empty"])
+        self.refused(2, "event", self.file("nu.toml", '[event]\nrupture_velocity = "3 km/s"\n[medium]\npoisson_ratio = 0.5\n'),
+                     says=["poisson_ratio = '0.5", "-1 < poisson_ratio < 0.5"])
+        self.refused(2, "event", self.file("unit.toml", '[event]\nrupture_velocity = "3 km"\n'), says=["unit.toml:2", "'3 km'"])
+        self.refused(2, "event", self.file("cut.fsp", "% FINITE-SOURCE RUPTURE MODEL\n% Event : X 01/01/2000 [Y]\n"), says=["cut.fsp"])
+        self.refused(2, "event", "--poisson-ratio", "0.7", self.file("a.csv", "name,rupture_velocity_km_s\nA,3\n"), says=["0.7"])
+        self.refused(2, "event", "--p-wave-speed", "6", says=["--p-wave-speed", "unit"])
+
+    @unittest.skipIf(os.geteuid() == 0, "root may read everything")
+    def test_event_file_that_may_not_be_read(self):
+        path = self.file("secret.csv", "name,slip_m\nA,1\n")
+        os.chmod(path, 0)
+        self.refused(3, "event", path, says=["Permission denied"])
+
+    def test_event_a_file_that_fails_does_not_lose_the_others(self):
+        done = run("event", "/nowhere.csv", os.path.join(SOURCE, "cases/ets.toml"), "--json")
+        self.assertEqual(done.returncode, 3)
+        self.assertEqual([e["stress"] is None for e in json.loads(done.stdout)["events"]], [True, False])
+
+    def test_event_from_stdin_with_a_million_rows(self):
+        stdin = "name,rupture_velocity_km_s,slip_velocity_m_s\n" + "E,2.8,0.5\n" * 1000000
+        out = self.ok("event", "-", "--csv", "--quiet", stdin=stdin)
+        self.assertEqual(out.count("\n"), 1000001)
+
+    def test_event_reads_the_fsp_dialects(self):
+        for name in ("fsp_srcmod_single.fsp", "fsp_dirty.fsp", "fsp_usgs_single.fsp", "fsp_usgs_segments.fsp"):
+            event, = json.loads(self.ok("event", os.path.join(SOURCE, "tests/data", name), "--json"))["events"]
+            self.assertGreater(event["stress"], 0, name)
+
+    def test_default_is_the_shipped_catalogue(self):
+        table = self.ok()
+        self.assertIn("Parkfield 2004", table)
+        events = json.loads(self.ok("event", "--json"))["events"]
+        self.assertGreaterEqual(len(events), 25)
+        self.assertTrue(all(e["citation"] for e in events))
+        self.assertGreaterEqual(sum(e["stress"] is not None for e in events), 25)
+        velocities = [e["rupture_velocity_m_s"] for e in events if e["rupture_velocity_m_s"]]
+        self.assertGreater(max(velocities) / min(velocities), 1e5)  # from great earthquakes to long-term slow slip
+
+    # common
+
+    def test_help_and_version(self):
+        for arguments in (["--help"], ["relations", "--help"], ["event", "--help"], ["--version"]):
+            self.assertTrue(self.ok(*arguments).strip())
+
+    def test_full_disk_is_an_error(self):
+        with open("/dev/full", "w", encoding="ascii") as full:
+            done = subprocess.run([PROGRAM, "relations", "--stress", "1:2:1000", "--csv"], stdout=full, stderr=subprocess.PIPE, text=True)
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertIn("stdout", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

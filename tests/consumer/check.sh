@@ -1,0 +1,13 @@
+#!/usr/bin/env bash
+# Installs the build tree $1 below $2 and builds and runs the two-file project beside this script against it.
+set -euo pipefail
+build="$1" work="$2" compiler="$3" sanitize="${4:-OFF}"
+here="$(cd "$(dirname "$0")" && pwd)"
+flags=""
+[ "$sanitize" = ON ] && flags="-fsanitize=address,undefined"
+rm -rf "$work"
+cmake --install "$build" --prefix "$work/prefix" >/dev/null
+cmake -S "$here" -B "$work/build" -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_CXX_FLAGS="$flags" >/dev/null
+cmake --build "$work/build" >/dev/null
+"$work/build/consumer"
+"$work/prefix/bin/slipfront" relations --stress 1.03 --csv >/dev/null

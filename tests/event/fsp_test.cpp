@@ -1,0 +1,442 @@
+// Reader of finite-fault models, on invented events: tests/data/fsp_*.fsp and edits of them.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "slipfront/event/read.hpp"
+
+namespace slipfront::event {
+namespace {
+
+constexpr const char* all_files[] = {"fsp_srcmod_single", "fsp_srcmod_segments", "fsp_usgs_single", "fsp_usgs_segments",
+                                     "fsp_dirty"};
+
+std::string text_of(const std::string& name) {
+  std::ifstream file(std::string(SLIPFRONT_TEST_DATA) + "/" + name + ".fsp", std::ios::binary);
+  EXPECT_TRUE(file) << name;
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// The text with the one place where `from` stands replaced; an edit that finds nothing would test nothing.
+std::string edited(std::string text, std::string_view from, std::string_view to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  if (at == std::string::npos) return text;
+  EXPECT_EQ(text.find(from, at + 1), std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+std::string single(std::string_view from, std::string_view to) {
+  return edited(text_of("fsp_srcmod_single"), from, to);
+}
+
+Observation read(const std::string& text) { return read_fsp(text, "m.fsp"); }
+
+/// The complaint about a text that must be refused.
+Complaint refusal(const std::string& text) {
+  try {
+    read(text);
+  } catch (const InputError& error) {
+    const std::string what = error.what();
+    EXPECT_EQ(what.find('\n'), std::string::npos);
+    EXPECT_EQ(error.complaint().file, "m.fsp");
+    return error.complaint();
+  }
+  ADD_FAILURE() << "not refused";
+  return {};
+}
+
+bool is_refused(std::string_view text) {
+  try {
+    read_fsp(text, "m.fsp");
+  } catch (const InputError&) {
+    return true;
+  }
+  return false;
+}
+
+std::size_t warnings_with(const Observation& o, std::string_view text) {
+  return static_cast<std::size_t>(std::count_if(
+      o.warnings.begin(), o.warnings.end(), [&](const std::string& w) { return w.find(text) != std::string::npos; }));
+}
+
+void expect_value(const std::optional<Measured>& measured, double value) {
+  ASSERT_TRUE(measured);
+  EXPECT_DOUBLE_EQ(measured->low, value);
+  EXPECT_EQ(measured->low, measured->high);
+}
+
+void expect_value(const std::optional<double>& found, double value) {
+  ASSERT_TRUE(found);
+  EXPECT_DOUBLE_EQ(*found, value);
+}
+
+void expect_no_elastic_constants(const Observation& o) {
+  EXPECT_FALSE(o.p_wave_speed || o.s_wave_speed || o.density || o.poisson_ratio || o.shear_modulus);
+}
+
+/// Where the last row begins and where its last number ends.
+struct LastRow {
+  std::size_t begin, end;
+};
+
+LastRow last_row(const std::string& text) {
+  LastRow last{0, 0};
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    const std::size_t first = text.find_first_not_of(" \t", at);
+    if (first < end && text[first] != '%') last = {at, text.find_last_not_of(" \t\r\n", end) + 1};
+    at = end + 1;
+  }
+  return last;
+}
+
+TEST(Fsp, SrcmodSingleSegment) {
+  const Observation o = read(text_of("fsp_srcmod_single"));
+  EXPECT_EQ(o.name, "Northern Nowhere (Calif.)");
+  EXPECT_EQ(o.date, "02/30/1901");
+  EXPECT_EQ(o.kind, "earthquake");
+  EXPECT_EQ(o.citation, "Nobody and Noone (1902); EventTAG s1901NOWHERnobo");
+  EXPECT_EQ(o.file, "m.fsp");
+  EXPECT_EQ(o.line, 3U);
+  expect_value(o.rupture_velocity, 2500);
+  expect_value(o.rise_time, 2);
+  expect_value(o.slip, 1);
+  expect_value(o.slip_velocity, 0.5);
+  expect_value(o.p_wave_speed, 6000);
+  expect_value(o.s_wave_speed, 3000);
+  expect_value(o.density, 2500);
+  expect_value(o.shear_modulus, 22.5e9);
+  expect_value(o.poisson_ratio, 1.0 / 3);
+  EXPECT_TRUE(o.warnings.empty());
+}
+
+TEST(Fsp, UsgsSingleSegment) {
+  const Observation o = read(text_of("fsp_usgs_single"));
+  EXPECT_EQ(o.name, "FAR COAST OF UTOPIA");
+  EXPECT_EQ(o.date, "2031-02-29T01:02:03");
+  EXPECT_EQ(o.citation, "EventTAG 2031-02-29T01:02:03");
+  expect_value(o.rupture_velocity, 1500);
+  expect_value(o.rise_time, 4);  // of the header, although there is a column RISE
+  expect_value(o.slip_velocity, 0.625);
+  expect_value(o.shear_modulus, 36.75e9);
+  EXPECT_TRUE(o.warnings.empty());
+}
+
+TEST(Fsp, SegmentsAreWeightedWithTheirOwnArea) {
+  // Subfaults of 2 km x 3 km, although LEN x WID is larger: 24 km^2 of 2.5 m; 60 km^2 of 1 m; 16 km^2 of 2.5 m.
+  const Observation o = read(text_of("fsp_srcmod_segments"));
+  expect_value(o.slip, (24 * 2.5 + 60 * 1 + 16 * 2.5) / 100);
+  const Observation usgs = read(text_of("fsp_usgs_segments"));
+  EXPECT_EQ(usgs.name, "NEAR COAST OF NOWHERE");
+  EXPECT_EQ(usgs.date, "1995/02/30");
+  EXPECT_EQ(usgs.citation, "Nobody (NEIC,1999); EventTAG p000000tNOBODY");
+  expect_value(usgs.slip, (600 * 1.5 + 200 * 0.5) / 800);
+  expect_value(usgs.slip_velocity, 0.25);
+  EXPECT_TRUE(usgs.warnings.empty());
+}
+
+TEST(Fsp, SegmentsWithoutAreaFallBack) {
+  // Header: 15 km x 10 km a subfault, two in either segment.
+  std::string text = edited(text_of("fsp_usgs_segments"), "% LEN = 30 km WID = 20 km\n", "");
+  expect_value(read(text).slip, (300 * 1.5 + 200 * 0.5) / 500);
+  text = edited(text, "% Invs : Dx = 15 km  Dz = 10 km\n", "");
+  const Observation o = read(text);
+  expect_value(o.slip, 1);
+  EXPECT_EQ(warnings_with(o, "count alike"), 1U);
+}
+
+TEST(Fsp, RiseTimeFromItsColumnIfTheHeaderHasNone) {
+  // Rows with no slip or a placeholder for RISE do not count: (1 + 2 + 6 + 8 + 1 + 8) / (10 + 2.5).
+  const Observation o = read(text_of("fsp_srcmod_segments"));
+  EXPECT_FALSE(o.rupture_velocity);
+  expect_value(o.rise_time, 2.08);
+  expect_value(o.slip_velocity, 1.6 / 2.08);
+  EXPECT_EQ(warnings_with(o, "avVr = 'km/s' has no number"), 1U);
+  EXPECT_EQ(warnings_with(o, "avTr = 999"), 1U);
+  EXPECT_EQ(warnings_with(o, "column RISE"), 1U);
+}
+
+TEST(Fsp, PlaceholdersAreNoVelocities) {
+  for (const std::string value : {"0.0", "-99.0", "999.0", "99", "-1", "", "unknown"}) {
+    const Observation o = read(single("avVr = 2.5 km/s", "avVr = " + value + " km/s"));
+    EXPECT_FALSE(o.rupture_velocity) << value;
+    EXPECT_EQ(warnings_with(o, "avVr"), 1U) << value;
+    expect_value(o.slip_velocity, 0.5);
+  }
+  expect_value(read(single("avVr = 2.5 km/s", "avVr = 98.9 km/s")).rupture_velocity, 98900);
+}
+
+TEST(Fsp, PlaceholdersAreNoRiseTimes) {
+  for (const std::string value : {"0.0", "-99.0", "999.0", "900", "", "-"}) {
+    const Observation o = read(single("avTr = 2.0 s", "avTr = " + value + " s"));
+    EXPECT_FALSE(o.rise_time) << value;
+    EXPECT_FALSE(o.slip_velocity) << value;
+    EXPECT_EQ(warnings_with(o, "avTr"), 1U) << value;
+    expect_value(o.rupture_velocity, 2500);
+    expect_value(o.slip, 1);
+  }
+  EXPECT_EQ(warnings_with(read(single("avTr = 2.0 s    ", "")), "no avTr"), 1U);
+}
+
+TEST(Fsp, BlankValueDoesNotTakeTheNextOne) {
+  const Observation o = read(single("avTr = 2.0 s    avVr = 2.5 km/s", "avTr = avVr = 2.5 km/s"));
+  EXPECT_FALSE(o.rise_time);
+  EXPECT_EQ(warnings_with(o, "avTr = ''"), 1U);
+  expect_value(o.rupture_velocity, 2500);
+}
+
+TEST(Fsp, OtherUnitsAreRefused) {
+  const Complaint c = refusal(single("avVr = 2.5 km/s", "avVr = 25 m/s"));
+  EXPECT_EQ(c.line, 9U);
+  EXPECT_EQ(c.key, "avVr");
+  EXPECT_EQ(c.value, "25 m/s");
+  EXPECT_EQ(c.allowed, "km/s");
+}
+
+TEST(Fsp, DirtyFile) {
+  const Observation o = read(text_of("fsp_dirty"));
+  EXPECT_EQ(o.name, "Lost Isle");
+  expect_value(o.rupture_velocity, 3000);
+  expect_value(o.slip, 1);
+  expect_value(o.slip_velocity, 0.5);
+  expect_value(o.shear_modulus, 33e9);
+  EXPECT_FALSE(o.p_wave_speed || o.s_wave_speed || o.density || o.poisson_ratio);
+  EXPECT_EQ(warnings_with(o, "no numbers, left out: 3"), 1U);
+  EXPECT_EQ(warnings_with(o, "backwards, counted as written: 1"), 1U);
+  EXPECT_EQ(warnings_with(o, "before the column names, ignored: 1"), 1U);
+  EXPECT_EQ(o.warnings.size(), 3U);
+}
+
+TEST(Fsp, LineEndsAndMissingLastNewline) {
+  for (const char* name : all_files) {
+    const std::string text = text_of(name);
+    const Observation unix_ends = read(text);
+    std::string dos;
+    for (const char c : text) dos += c == '\n' ? std::string("\r\n") : std::string(1, c);
+    for (const std::string& other : {dos, text.substr(0, last_row(text).end)}) {
+      const Observation o = read(other);
+      EXPECT_EQ(o.name, unix_ends.name);
+      EXPECT_EQ(o.warnings, unix_ends.warnings);
+      expect_value(o.slip, unix_ends.slip->low);
+    }
+  }
+}
+
+TEST(Fsp, ColumnNamesWithoutCommentSign) {
+  const Observation o = read(single("%   LAT       LON ", "    LAT       LON "));
+  expect_value(o.slip_velocity, 0.5);
+  EXPECT_TRUE(o.warnings.empty());
+}
+
+TEST(Fsp, NamesAreValidText) {
+  EXPECT_EQ(read(single("Northern   Nowhere", "S\xf8r\tland")).name, "S\xc3\xb8r land (Calif.)");
+  EXPECT_EQ(read(single("Northern   Nowhere", "S\xc3\xb8rland\x01")).name, "S\xc3\xb8rland (Calif.)");
+  EXPECT_EQ(read(single("Northern   Nowhere (Calif.) ", "")).name, "s1901NOWHERnobo");
+  const Observation tag_only = read(single("% Event :", "% Evnt :"));
+  EXPECT_EQ(tag_only.name, "s1901NOWHERnobo");
+  EXPECT_EQ(tag_only.line, 4U);
+}
+
+TEST(Fsp, VeryLongLines) {
+  const std::string blanks(1 << 20, ' '), equals(1 << 20, '=');
+  expect_value(read(single("Northern   ", "Northern" + blanks)).slip, 1);
+  expect_value(read(single("% SVF  :", "% Invs : " + equals)).slip, 1);
+  expect_value(read(single("% SVF  :", "% Invs : " + blanks + "Nx" + blanks + "=")).slip, 1);
+}
+
+TEST(Fsp, OneCountOfTwoMayBeWrong) {
+  EXPECT_EQ(warnings_with(read(single("Nsbfs =      6", "Nsbfs = 2")), "not Nsbfs = 2"), 1U);
+  EXPECT_EQ(warnings_with(read(single("Nsbfs =      6", "Nsbfs = 60")), "not Nsbfs = 60"), 1U);
+  EXPECT_EQ(warnings_with(read(single("Nx  =    3", "Nx  =   30")), "not Nx*Nz = 60"), 1U);
+  EXPECT_TRUE(read(single("Nsbfs =      6", "Nsbfs = ")).warnings.empty());
+  const std::string neither = edited(single("Nsbfs =      6", "Nsbfs = "), "Nx  =    3", "Nx  =  0");
+  EXPECT_EQ(warnings_with(read(neither), "no Nsbfs"), 1U);
+}
+
+TEST(Fsp, TableBetweenTwoWrongCountsIsCut) {
+  // Six rows, where one count says less and the other more.
+  const Complaint c = refusal(edited(single("Nsbfs =      6", "Nsbfs = 2"), "Nx  =    3", "Nx  = 4"));
+  EXPECT_EQ(c.key, "Nx*Nz");
+  EXPECT_EQ(c.value, "8");
+  EXPECT_EQ(c.line, 48U);
+  const std::string both_less = edited(single("Nsbfs =      6", "Nsbfs = 5"), "Nx  =    3", "Nx  = 1");
+  expect_value(read(both_less).slip, 1);
+}
+
+TEST(Fsp, MeanSlipMustBePositive) {
+  // The six rows sum to -4 m, or to zero.
+  for (const std::string slip : {"-8.000", "-4.000"}) {
+    const Observation o = read(single("2.500     2.000", "2.500    " + slip));
+    EXPECT_FALSE(o.slip || o.slip_velocity) << slip;
+    EXPECT_EQ(warnings_with(o, "not positive"), 1U) << slip;
+    EXPECT_EQ(warnings_with(o, "backwards, counted as written: 1"), 1U) << slip;
+    expect_value(o.rupture_velocity, 2500);
+    expect_value(o.rise_time, 2);
+  }
+}
+
+TEST(Fsp, LayerAtTheHypocentre) {
+  const auto s_speed_at = [](const std::string& depth) {
+    return read(single("DEP = 7.00", "DEP = " + depth)).s_wave_speed.value_or(0);
+  };
+  EXPECT_EQ(s_speed_at("0"), 1500);
+  EXPECT_EQ(s_speed_at("3.99"), 1500);
+  EXPECT_EQ(s_speed_at("4.00"), 3000);
+  EXPECT_EQ(s_speed_at("700"), 4500);
+  EXPECT_EQ(s_speed_at("999"), 3000);  // then HypZ, 5 km
+  const std::string no_depth = edited(single("DEP = 7.00", "DEP = -99.0"), "HypZ =  5.00 km", "HypZ = 999 km");
+  expect_no_elastic_constants(read(no_depth));
+}
+
+TEST(Fsp, DepthsThatBeginBelowTheSurfaceAreBottoms) {
+  const std::string text = single("%     0.00       3.00", "%     1.00       3.00");
+  const Observation o = read(text);
+  expect_value(o.s_wave_speed, 4500);  // 7 km: between the bottoms 4 km and 16 km
+  EXPECT_EQ(warnings_with(o, "bottoms"), 1U);
+  expect_value(read(edited(text, "DEP = 7.00", "DEP = 4.00")).s_wave_speed, 3000);
+}
+
+TEST(Fsp, BelowWaterTheNextSolidLayer) {
+  const Observation o = read(text_of("fsp_srcmod_segments"));
+  expect_value(o.p_wave_speed, 4000);
+  expect_value(o.s_wave_speed, 2000);
+  expect_value(o.shear_modulus, 8e9);
+  EXPECT_EQ(warnings_with(o, "water"), 1U);
+}
+
+TEST(Fsp, UnphysicalLayersAreLeftOut) {
+  const std::string layer = "4.00       6.00       3.00        2.50";
+  for (const std::string bad :
+       {"4.00       2.40       6.16        3.59", "4.00  4.24 3.00 2.50", "4.00  6.00 3.00 0.89",
+        "4.00  6.00 3.00 8.10", "4.00 999 3.00 2.50", "4.00 -6 -3 2.5"}) {
+    const Observation o = read(single(layer, bad));
+    expect_no_elastic_constants(o);
+    EXPECT_EQ(o.warnings.size(), 1U) << bad;
+    expect_value(o.slip_velocity, 0.5);
+  }
+  expect_value(read(single(layer, "4.00  4.27 3.00 2.50")).s_wave_speed, 3000);
+}
+
+TEST(Fsp, DamagedVelocityTableIsLeftOut) {
+  // Published once: the rows lost, only their comment signs and the last layer kept.
+  const Observation lost =
+      read(single("%     0.00       3.00       1.50        2.00       70     35\n%     4.00", "% % 4.00"));
+  expect_no_elastic_constants(lost);
+  EXPECT_EQ(warnings_with(lost, "2 of the 3 layers"), 1U);
+  const Observation disorder = read(single("%    16.00", "%     1.60"));
+  expect_no_elastic_constants(disorder);
+  EXPECT_EQ(warnings_with(disorder, "do not increase"), 1U);
+}
+
+TEST(Fsp, ModulusPlaceholderIsLeftOut) {
+  for (const std::string bad : {"999", "0", "-99", "see the reference"}) {
+    const Observation o = read(edited(text_of("fsp_dirty"), "%  3.30\n", "%  " + bad + "\n"));
+    expect_no_elastic_constants(o);
+    EXPECT_EQ(warnings_with(o, "no usable velocity table"), 1U) << bad;
+  }
+}
+
+TEST(Fsp, NotAModel) {
+  for (const std::string text :
+       {"", "\n", "hello", "name,slip\na,1\n", "% Event : A 01/02/1903 [B]\n", "{}", "\xff\xfe\x00"}) {
+    EXPECT_NE(refusal(text).allowed.find(".fsp"), std::string::npos) << text;
+  }
+  EXPECT_EQ(refusal("").problem, "empty");
+  const std::string nameless = edited(single("Northern   Nowhere (Calif.) ", ""), "s1901NOWHERnobo", "");
+  EXPECT_EQ(refusal(nameless).key, "Event");
+  EXPECT_EQ(refusal(nameless).line, 3U);
+  const std::string text = text_of("fsp_srcmod_single");
+  EXPECT_EQ(refusal(text + text).line, 51U);
+}
+
+TEST(Fsp, CutAtEveryLine) {
+  for (const char* name : all_files) {
+    const std::string text = text_of(name);
+    const LastRow last = last_row(text);
+    for (std::size_t at = 0; at != std::string::npos; at = text.find('\n', at + 1)) {
+      EXPECT_EQ(is_refused(std::string_view(text).substr(0, at)), at < last.end) << name << " cut at byte " << at;
+    }
+  }
+}
+
+TEST(Fsp, CutAtEveryByte) {
+  for (const char* name : all_files) {
+    const std::string text = text_of(name);
+    const LastRow last = last_row(text);
+    const std::size_t last_number = text.find_last_of(" \t", last.end - 1) + 1;
+    for (std::size_t at = 0; at <= last_number; ++at) {
+      EXPECT_TRUE(is_refused(std::string_view(text).substr(0, at))) << name << " cut at byte " << at;
+    }
+    EXPECT_FALSE(is_refused(std::string_view(text).substr(0, last.end))) << name;
+  }
+}
+
+TEST(Fsp, CutFileNamesWhatIsMissing) {
+  std::string text = text_of("fsp_srcmod_segments");
+  text.resize(text.find("% SEGMENT #   3"));
+  const Complaint segments = refusal(text);
+  EXPECT_EQ(segments.key, "Nsg");
+  EXPECT_EQ(segments.value, "3");
+  text = edited(text_of("fsp_srcmod_segments"),
+                "   42.9600    139.0800    -9.5428    23.6686    5.0000    4.000    2.000\n", "");
+  const Complaint rows = refusal(text);
+  EXPECT_EQ(rows.key, "Nsbfs");
+  EXPECT_EQ(rows.value, "4");
+  EXPECT_NE(rows.problem.find("segment 1 has 3"), std::string::npos);
+}
+
+TEST(Fsp, MoreSegmentsThanAnnounced) {
+  const Observation o = read(edited(text_of("fsp_usgs_segments"), "Nsg = 2", "Nsg = 1"));
+  expect_value(o.slip, 1.25);
+  EXPECT_EQ(warnings_with(o, "Nsg = 1"), 1U);
+}
+
+TEST(Fsp, BadRows) {
+  const std::string row = "    34.990  -119.990    -2.000    -2.000     0.500     1.500   180.000";
+  for (const std::string bad : {"1e400", "-1e400", "1e-400", "nan", "inf", "-inf"}) {
+    const Complaint c = refusal(single(row, "    34.990  -119.990    -2.000    -2.000     0.500 " + bad + "  180.000"));
+    EXPECT_EQ(c.line, 45U) << bad;
+    EXPECT_EQ(c.value, bad);
+    EXPECT_EQ(c.allowed, "finite numbers");
+  }
+  for (const std::string bad :
+       {"34.990 -119.990 -2 -2 0.5 1.5", "34.990 -119.990 -2 -2 0.5 1.5 180 7", "34.990 -119.990 -2 -2 0.5 x 180",
+        "34.990-119.990 -2 -2 0.5 1.5 180", "1 2 3 4 5 ++6 7", "1 2 3 4 5 +-6 7"}) {
+    const Complaint c = refusal(single(row, bad));
+    EXPECT_EQ(c.line, 45U) << bad;
+    EXPECT_NE(c.allowed.find("7, one for each name of line 41"), std::string::npos) << c.allowed;
+  }
+}
+
+TEST(Fsp, SumsThatOverflow) {
+  EXPECT_EQ(refusal(edited(single("0.500     1.500", "0.500     1e308"), "0.500     1.000", "0.500     1e308")).key,
+            "SLIP");
+  const Observation o = read(edited(single("0.500     1.500", "0.500     1e300"), "avTr = 2.0", "avTr = 1e-300"));
+  EXPECT_FALSE(o.slip_velocity);
+  EXPECT_EQ(warnings_with(o, "out of range"), 1U);
+}
+
+TEST(Fsp, NumbersOutsideDoubleInTheHeader) {
+  EXPECT_EQ(refusal(single("avVr = 2.5", "avVr = 1e400")).key, "avVr");
+  EXPECT_EQ(refusal(single("DEP = 7.00", "DEP = 1e400")).line, 6U);
+  EXPECT_EQ(refusal(single("4.00       6.00", "4.00       1e400")).line, 27U);
+}
+
+TEST(Fsp, HeadingsThatCannotBeRead) {
+  EXPECT_EQ(refusal(single("SLIP      RAKE\n", "SLIP      SLIP\n")).key, "SLIP");
+  EXPECT_TRUE(is_refused(single("SLIP      RAKE\n", "GLIDE     RAKE\n")));
+  const std::string heading = "%   RISE      SLIP        LAT        LON          X==NS      Y==EW        Z \n";
+  EXPECT_EQ(refusal(edited(text_of("fsp_srcmod_segments"), heading, "")).problem, "rows without column names");
+  EXPECT_EQ(refusal(edited(text_of("fsp_srcmod_segments"), heading, "% SEGMENT # 4\n")).line, 55U);
+}
+
+}  // namespace
+}  // namespace slipfront::event

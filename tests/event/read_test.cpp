@@ -1,0 +1,151 @@
+#include "slipfront/event/read.hpp"
+
+#include <gtest/gtest.h>
+
+#include "slipfront/error.hpp"
+
+namespace {
+
+using namespace slipfront;
+using namespace slipfront::event;
+
+std::vector<Entry> csv(std::string_view text) {
+  std::vector<Entry> entries;
+  read_csv(text, "t.csv", [&](Entry&& e) { entries.push_back(std::move(e)); });
+  return entries;
+}
+
+Complaint refusal(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const InputError& error) {
+    return error.complaint();
+  }
+  ADD_FAILURE() << "not refused";
+  return {};
+}
+
+TEST(Csv, ReadsUnitsFromHeaderAndCell) {
+  const auto rows =
+      csv("name,rupture_velocity_km_s,slip_velocity [cm/day],vs_at_hypocentre_km_s,poisson_ratio,source,mood\n"
+          "\"A, the first\",2.8,10,3.3,0.25,\"X \"\"et\"\" al.\",good\r\n"
+          "B,10 km/day,,,,,\n");
+  ASSERT_EQ(rows.size(), 2u);
+  const Observation& a = rows[0].observation;
+  EXPECT_EQ(a.name, "A, the first");
+  EXPECT_EQ(a.citation, "X \"et\" al.");
+  EXPECT_DOUBLE_EQ(a.rupture_velocity->middle(), 2800);
+  EXPECT_DOUBLE_EQ(a.slip_velocity->middle(), 0.1 / 86400);
+  EXPECT_DOUBLE_EQ(*a.s_wave_speed, 3300);
+  EXPECT_EQ(a.line, 2u);
+  EXPECT_DOUBLE_EQ(rows[1].observation.rupture_velocity->middle(), 1e4 / 86400);
+  EXPECT_FALSE(rows[1].observation.slip_velocity);
+}
+
+TEST(Csv, ReadsPublishedColumnNames) {
+  const auto rows =
+      csv("name,year,duration_days,slip_cm,slip_type,length_km,slip_velocity_cm_day,slip_velocity_how,rupture_velocity_"
+          "km_day,rv_min_km_day,rv_max_km_day,rupture_velocity_how\n"
+          "one,1999,49,3.8,max,300,0.07755,computed slip/duration,6.122,,,computed length/duration (apparent)\n"
+          "range,2008,7-14,,,,,,,2,15,stated\n"
+          "cap,2012,,,,,,,,,2592,stated\n");
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_DOUBLE_EQ(rows[0].observation.duration->middle(), 49 * 86400.0);
+  EXPECT_DOUBLE_EQ(rows[0].observation.slip->middle(), 0.038);
+  EXPECT_EQ(rows[0].observation.warnings.size(), 2u);  // both velocities are computed, not observed
+  EXPECT_DOUBLE_EQ(rows[1].observation.rupture_velocity->low, 2e3 / 86400);
+  EXPECT_DOUBLE_EQ(rows[1].observation.rupture_velocity->high, 15e3 / 86400);
+  EXPECT_TRUE(rows[1].observation.duration->is_range());
+  EXPECT_FALSE(rows[2].observation.rupture_velocity);
+  EXPECT_EQ(rows[2].observation.warnings.size(), 1u);  // an upper bound is not an observation
+}
+
+TEST(Csv, ABadRowDoesNotLoseTheOthers) {
+  const auto rows =
+      csv("name,rupture_velocity_km_s,slip_velocity_m_s\n"
+          "good,2.8,0.5\n"
+          "short,2.8\n"
+          "word,fast,0.5\n"
+          "huge,1e400,0.5\n"
+          "negative,-2.8,0.5\n"
+          "unit,3 km,0.5\n"
+          "good too,2.9,0.4\n");
+  ASSERT_EQ(rows.size(), 7u);
+  for (const std::size_t good : {0u, 6u}) EXPECT_FALSE(rows[good].error);
+  for (std::size_t bad = 1; bad < 6; ++bad) {
+    ASSERT_TRUE(rows[bad].error) << bad;
+    EXPECT_EQ(rows[bad].error->line, bad + 2);
+    EXPECT_EQ(rows[bad].error->file, "t.csv");
+    EXPECT_FALSE(rows[bad].error->allowed.empty());
+    if (bad > 1) {
+      EXPECT_EQ(rows[bad].error->key, "rupture_velocity_km_s");
+    }
+  }
+  EXPECT_EQ(rows[3].error->value, "1e400");
+}
+
+TEST(Csv, RefusesHeadersThatMeanNothing) {
+  EXPECT_EQ(refusal([] { csv("name,rupture_velocty_km_s\nA,1\n"); }).key, "rupture_velocty_km_s");
+  EXPECT_EQ(refusal([] { csv("name,rupture_velocity_km\nA,1\n"); }).key, "rupture_velocity_km");
+  EXPECT_EQ(refusal([] { csv("name,slip_m,slip_m\nA,1,1\n"); }).problem, "column given twice");
+  refusal([] { csv("name,colour\nA,red\n"); });
+  refusal([] { csv("name,slip_m\n"); });
+  refusal([] { csv(""); });
+}
+
+TEST(Csv, CountsLinesThroughQuotedBreaksAndBlankLines) {
+  const auto rows = csv("\xEF\xBB\xBFname,slip_m\n\n\"two\nlines\",1\n\nlast,x\n\"never closed,1\n");
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows[0].observation.line, 3u);
+  EXPECT_EQ(rows[1].error->line, 6u);
+  EXPECT_EQ(rows[2].error->line, 7u);
+  EXPECT_NE(rows[2].error->problem.find("quote"), std::string::npos);
+}
+
+TEST(Toml, ReadsOneEvent) {
+  const Observation o = read_toml(
+      "[event]\nname = \"P\"\ndate = 2004-09-28\nrupture_velocity = \"2.5-3.5 km/s\"\n[medium]\npoisson_ratio = "
+      "0.3\np_wave_speed = \"6 km/s\"\n",
+      "p.toml");
+  EXPECT_EQ(o.name, "P");
+  EXPECT_EQ(o.date, "2004-09-28");
+  EXPECT_DOUBLE_EQ(o.rupture_velocity->high, 3500);
+  EXPECT_EQ(*o.poisson_ratio, 0.3);
+  EXPECT_EQ(o.line, 1u);
+}
+
+TEST(Toml, RefusesWithLineKeyAndNearestName) {
+  const auto refused = [](std::string_view text) { return refusal([&] { read_toml(text, "p.toml"); }); };
+  const Complaint typo = refused("[event]\nrupture_velocty = \"3 km/s\"\n");
+  EXPECT_EQ(typo.line, 2u);
+  EXPECT_EQ(typo.key, "event.rupture_velocty");
+  EXPECT_NE(typo.allowed.find("'rupture_velocity'"), std::string::npos);
+  EXPECT_EQ(refused("[event]\nrupture_velocity = \"3 km\"\n").value, "3 km");
+  EXPECT_EQ(refused("[event]\nrupture_velocity = 3.0\n").problem, "a number without a unit");
+  EXPECT_EQ(refused("[event]\nrupture_velocity = [1, 2]\n").line, 2u);
+  EXPECT_EQ(refused("[event]\nrupture_velocity = \"-1 km/s\"\n").problem, "not positive");
+  EXPECT_EQ(refused("[event]\np_wave_speed = \"6 km/s\"\n").key, "event.p_wave_speed");  // belongs to [medium]
+  EXPECT_EQ(refused("[event]\n[medium]\nshear_modulus = \"20-30 GPa\"\n").key, "medium.shear_modulus");
+  EXPECT_EQ(refused("[evnt]\n").key, "evnt");
+  EXPECT_EQ(refused("event = 3\n").problem, "not a table");
+  EXPECT_EQ(refused("[medium]\n").problem, "there is no [event] table");
+  EXPECT_EQ(refused("[event\n").line, 1u);
+  EXPECT_GT(refused("[\x06").line, 0u);  // once an abort inside the parser
+  EXPECT_EQ(refused("[event]\nrupture_velocity = \"1e400 km/s\"\n").problem, "not a finite number");
+}
+
+TEST(ReadEvents, KnowsTheFormats) {
+  const auto names = [](std::string_view text, const char* file) {
+    std::string all;
+    read_events(text, file, [&](Entry&& e) { all += (e.error ? "!" : "") + e.observation.name + ";"; });
+    return all;
+  };
+  EXPECT_EQ(names("[event]\nname = \"T\"\n", "stdin"), "T;");
+  EXPECT_EQ(names("# c\n[event]\nname = \"T\"\n", "stdin"), "T;");
+  EXPECT_EQ(names("name,slip_m\nC,1\n", "stdin"), "C;");
+  EXPECT_EQ(names("name,slip_m\nC,1\n", "x.toml"), "!x.toml;");
+  EXPECT_EQ(names(" \n", "empty"), "!empty;");
+  EXPECT_EQ(names("% not a model\n", "stdin"), "!stdin;");
+}
+
+}  // namespace
