@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "bracket.hpp"
 #include "slipfront/elliptic/complete.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/modulation/characteristics.hpp"
@@ -45,7 +46,7 @@ double shock_drop(const State& left, double psi_star) {
     const double jump_M = (b.momentum_unit * jump_sinh + jump_unit) / psi_star;
     return jump_p * (b.spacing_unit / std::cosh(phi) - l_left) + jump_U * jump_M;
   };
-  // The fan's continuation psi_star - psi_left is the root for weak shocks; widen around it, then bisect in ln(drop).
+  // The fan's continuation psi_star - psi_left is the root for weak shocks; widen around it.
   double low = psi_star - left.psi, high = low;
   while (mismatch(low) > 0 && low > DBL_MIN) low /= 2;
   while (mismatch(high) < 0) {
@@ -53,25 +54,7 @@ double shock_drop(const State& left, double psi_star) {
     if (!(high < 1400))
       throw NumericsError("shock from psi = " + std::to_string(left.psi) + " too strong for a double");
   }
-  // Secant steps inside a bracket (regula falsi, Illinois variant): robust, and no derivative to keep in step.
-  double f_low = mismatch(low), f_high = mismatch(high);
-  for (int i = 0; i < 200 && high - low > 2e-16 * high; ++i) {
-    double middle = (low * f_high - high * f_low) / (f_high - f_low);
-    if (!(middle > low && middle < high)) middle = low + (high - low) / 2;
-    if (middle <= low || middle >= high) break;
-    const double f = mismatch(middle);
-    if (f == 0) return middle;
-    if (f < 0) {
-      low = middle;
-      f_low = f;
-      f_high /= 2;
-    } else {
-      high = middle;
-      f_high = f;
-      f_low /= 2;
-    }
-  }
-  return low + (high - low) / 2;
+  return root_in_bracket(low, high, mismatch);
 }
 
 /// phi_left - phi_star along the 1-wave curve: fan (phi + psi constant) below psi_left, shock above.
@@ -94,12 +77,7 @@ double meeting_psi(const State& left, const State& right) {
     high *= 2;
     if (!(high < 700)) throw NumericsError("Riemann problem: no double holds the star state");
   }
-  for (int i = 0; i < 200 && high - low > 2e-16 * high; ++i) {
-    const double middle = high > 4 * low ? std::sqrt(low) * std::sqrt(high) : low + (high - low) / 2;
-    if (middle <= low || middle >= high) break;
-    (excess(middle) < 0 ? low : high) = middle;
-  }
-  return low + (high - low) / 2;
+  return root_in_bracket(low, high, excess);
 }
 
 /// Asymptotic regime of weak shocks: the speed is the mean of the characteristic speeds on both sides, up to the square
