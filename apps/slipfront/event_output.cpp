@@ -37,8 +37,8 @@ const Estimate& estimate_of(const EventResult& result) {
   return result.estimate ? *result.estimate : nothing;
 }
 
-constexpr const char* table_layout = "{} {:>12} {:>9} {:>9} {:>12} {:>12} {:>10} {:>9} {:>9}\n";
-constexpr std::size_t name_width = 36;
+constexpr const char* table_layout = "{} {:>12} {:>9} {:>9} {:>12} {:>12} {:>12} {:>9} {:>9}\n";
+constexpr std::size_t name_width = 34;
 
 /// The first `width` characters (code points) of a UTF-8 text, padded.
 std::string clipped(const std::string& text, std::size_t width) {
@@ -136,7 +136,7 @@ std::string event_table_head() {
                        cells[6], cells[7], cells[8]);
   };
   return line({"", "rupture", "", "stress", "slip", "frictionless", "observed /", "contact", "stress"}) +
-         line({"event", "velocity", "V / c", "mu A / pi", "velocity", "c A / pi", "frictionl.", "ratio A", "MPa"});
+         line({"event", "velocity", "V / c", "mu A / pi", "velocity", "c A / pi", "frictionless", "ratio A", "MPa"});
 }
 
 std::string event_table_row(const EventResult& result) {

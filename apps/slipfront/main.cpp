@@ -40,6 +40,7 @@ int run(int argc, char** argv) {
   CLI::App app{
       "slipfront: how an interface goes from stuck to sliding. Without a subcommand: `event` on the shipped "
       "catalogue."};
+  app.name("slipfront");
   app.set_version_flag("--version", SLIPFRONT_VERSION);
   app.require_subcommand(0, 1);
   app.failure_message(CLI::FailureMessage::simple);

@@ -1,7 +1,8 @@
 #include "slipfront/event/estimate.hpp"
 
-#include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "slipfront/medium/medium.hpp"
 #include "slipfront/rupture/relations.hpp"
@@ -81,13 +82,29 @@ Numbers infer(const Observed& observed, const Elastic& e, std::optional<double> 
   return n;
 }
 
-/// The one observed quantity that is a range and matters, as a pointer into Observed; null when there is none or
-/// several.
-struct Ranged {
-  std::optional<double> Observed::*member = nullptr;
-  Measured range;
-  int count = 0;
+/// What follows from the ends of one observed range, at its 5 % and 95 % quantiles, all else at the middle.
+struct Spread {
+  Numbers at_5, at_95;
 };
+
+/// An inferred quantity with its interval, where exactly one observed range moves it; `blurred` where several do.
+std::optional<Inferred> inferred(const Numbers& middle, const std::vector<Spread>& spreads,
+                                 std::optional<double> Numbers::*member, bool& blurred) {
+  if (!(middle.*member)) return std::nullopt;
+  Inferred result{*(middle.*member), std::nullopt};
+  int moved_by = 0;
+  for (const Spread& spread : spreads) {
+    const double a = *(spread.at_5.*member), b = *(spread.at_95.*member);
+    if (a == b) continue;
+    ++moved_by;
+    result.interval = Interval{std::fmin(a, b), std::fmax(a, b)};
+  }
+  if (moved_by > 1) {
+    result.interval.reset();
+    blurred = true;
+  }
+  return result;
+}
 
 }  // namespace
 
@@ -109,11 +126,11 @@ Estimate estimate(const Observation& o, const MediumDefaults& defaults) try {
                       .allowed = "rupture_velocity < c = " + text(e.speed, " m/s")});
 
   Observed middle;
-  Ranged ranged;
+  std::vector<std::pair<std::optional<double> Observed::*, Measured>> ranges;
   const auto take = [&](const std::optional<Measured>& measured, std::optional<double> Observed::*member) {
     if (!measured) return;
     middle.*member = measured->middle();
-    if (measured->is_range()) ranged = {member, *measured, ranged.count + 1};
+    if (measured->is_range()) ranges.emplace_back(member, *measured);
   };
   take(o.rupture_velocity, &Observed::V);
   if (o.slip_velocity) {
@@ -125,32 +142,28 @@ Estimate estimate(const Observation& o, const MediumDefaults& defaults) try {
   }
 
   const Numbers n = infer(middle, e, o.contact_ratio);
-  std::optional<Numbers> at_5, at_95;
-  if (ranged.count == 1) {
-    Observed at = middle;
-    at.*ranged.member = ranged.range.low + 0.05 * (ranged.range.high - ranged.range.low);
-    at_5 = infer(at, e, o.contact_ratio);
-    at.*ranged.member = ranged.range.low + 0.95 * (ranged.range.high - ranged.range.low);
-    at_95 = infer(at, e, o.contact_ratio);
-  } else if (ranged.count > 1) {
-    result.warnings.push_back("several observed ranges: middles used, no intervals");
+  std::vector<Spread> spreads;
+  for (const auto& [member, range] : ranges) {
+    const auto at = [&, member = member, range = range](double quantile) {
+      Observed shifted = middle;
+      shifted.*member = range.low + quantile * (range.high - range.low);
+      return infer(shifted, e, o.contact_ratio);
+    };
+    spreads.push_back({at(0.05), at(0.95)});
   }
-  const auto inferred = [&](std::optional<double> Numbers::*member) -> std::optional<Inferred> {
-    if (!(n.*member)) return std::nullopt;
-    if (!at_5) return Inferred{*(n.*member), std::nullopt};
-    const auto [low, high] = std::minmax(*(*at_5.*member), *(*at_95.*member));
-    return Inferred{*(n.*member), low < high ? std::optional(Interval{low, high}) : std::nullopt};
-  };
+  bool blurred = false;
+  const auto fill = [&](std::optional<double> Numbers::*member) { return inferred(n, spreads, member, blurred); };
   result.observed_rupture_velocity = middle.V;
   result.observed_slip_velocity_m_s = middle.slip_velocity();
-  result.rupture_velocity = inferred(&Numbers::V);
-  result.stress = inferred(&Numbers::stress);
-  result.frictionless_slip_velocity = inferred(&Numbers::frictionless);
-  result.observed_slip_velocity = inferred(&Numbers::observed);
-  result.slip_velocity_ratio = inferred(&Numbers::ratio);
-  result.contact_ratio = inferred(&Numbers::A);
-  result.stress_pa = inferred(&Numbers::stress_pa);
+  result.rupture_velocity = fill(&Numbers::V);
+  result.stress = fill(&Numbers::stress);
+  result.frictionless_slip_velocity = fill(&Numbers::frictionless);
+  result.observed_slip_velocity = fill(&Numbers::observed);
+  result.slip_velocity_ratio = fill(&Numbers::ratio);
+  result.contact_ratio = fill(&Numbers::A);
+  result.stress_pa = fill(&Numbers::stress_pa);
 
+  if (blurred) result.warnings.push_back("moved by several observed ranges: the middle of each, no interval");
   if (!n.V) {
     result.warnings.push_back(n.stress
                                   ? "no rupture_velocity: stress from the slip velocity, as if there were no friction"

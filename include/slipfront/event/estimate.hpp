@@ -27,8 +27,8 @@ struct Interval {
   double high;
 };
 
-/// An inferred number; `interval` is there when exactly one observed quantity came as a range (read as uniform): every
-/// inferred quantity is monotone in each observed one, so its quantiles are those of the range, exactly.
+/// An inferred number; `interval` is there when exactly one observed range moves it (read as uniform): every inferred
+/// quantity is monotone in each observed one, so its quantiles are those of the range, exactly.
 struct Inferred {
   double value;
   std::optional<Interval> interval;
