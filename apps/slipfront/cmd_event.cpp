@@ -68,10 +68,8 @@ EventResult evaluate(Entry&& entry, const MediumDefaults& defaults) {
 class Printer {
  public:
   Printer(const Arguments& arguments) : options_(arguments.common), defaults_(defaults_of(arguments)) {
-    if (options_.json)
-      put("{\"events\": [");
-    else
-      put(options_.csv ? event_csv_head() : event_table_head());
+    if (options_.json) put("{\"events\": [");
+    if (options_.csv) put(event_csv_head());
   }
 
   void take(Entry&& entry) {
@@ -83,8 +81,9 @@ class Printer {
     flush();
     if (options_.json) {
       put("\n]}\n");
-    } else if (!options_.csv && !options_.quiet) {
-      print_notes();
+    } else if (!options_.csv && count_ > errors_) {  // a table of nothing but errors would only repeat stderr
+      put(event_table_head() + table_);
+      if (!options_.quiet) print_notes();
     }
     if (!options_.quiet && !ignored_columns.empty() && !options_.json) {
       std::string line = "note: columns without an observation, ignored:";
@@ -105,6 +104,8 @@ class Printer {
     std::vector<std::string> warnings;
   };
 
+  bool is_table() const { return !options_.json && !options_.csv; }
+
   void flush() {
     auto printed = in_parallel<Printed>(waiting_.size(), options_.threads, [&](std::size_t i) {
       const EventResult result = evaluate(std::move(waiting_[i]), defaults_);
@@ -116,7 +117,10 @@ class Printer {
     waiting_.clear();
     for (Printed& p : printed) {
       if (options_.json) put(count_ == 0 ? "\n" : ",\n");
-      put(p.row);
+      if (is_table())
+        table_ += p.row;
+      else
+        put(p.row);
       ++count_;
       for (const std::string& warning : p.warnings) ++warnings_[warning];
       if (!p.error.empty() && ++errors_ <= most_errors_shown) complain(p.error);
@@ -140,6 +144,7 @@ class Printer {
   MediumDefaults defaults_;
   std::vector<Entry> waiting_;
   std::size_t count_ = 0, errors_ = 0;
+  std::string table_;
   std::map<std::string, std::size_t> warnings_;
 };
 

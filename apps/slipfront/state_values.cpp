@@ -9,7 +9,6 @@
 
 namespace {
 
-using slipfront::Complaint;
 using slipfront::InputError;
 using slipfront::medium::number;
 

@@ -108,6 +108,24 @@ RC_GTEST_PROP(Riemann, HoldsJumpsFansAndSymmetry, ()) {
   RC_ASSERT(s.right_wave.inner <= s.right_wave.outer + 1e-14);
 }
 
+/// Both routes to the speed of a shock, just on either side of the switch between them.
+TEST(Riemann, WeakShockRegimeJoinsTheGeneralOne) {
+  for (const State right : {State{0, 0.1}, State{0.4, 1e-7}, State{-0.5, 1.2}}) {
+    double speeds[2];
+    for (const int side : {0, 1}) {
+      const double strength =
+          6e-6 * (side == 0 ? 0.999 : 1.001) * right.psi;  // of the 2-shock into `right`: psi and phi rise alike
+      const RiemannSolution s = rupture::solve_riemann({right.phi + strength, right.psi + strength}, right);
+      ASSERT_EQ(s.right_wave.kind, Wave::Kind::shock);
+      const double mean =
+          (modulation::characteristic_speeds(s.star).plus + modulation::characteristic_speeds(right).plus) / 2;
+      EXPECT_NEAR(s.right_wave.outer / mean, 1, 1e-9) << right.psi << " " << side;
+      speeds[side] = s.right_wave.outer;
+    }
+    EXPECT_NEAR(speeds[1] / speeds[0], 1, 1e-7) << right.psi;
+  }
+}
+
 TEST(Riemann, FansSolveTheModulationEquations) {
   const struct {
     State left, right;
