@@ -24,6 +24,8 @@ TEST(Quantity, ReadsWhatPeopleWrite) {
   EXPECT_DOUBLE_EQ(one("30 GPa", Dimension::pressure), 30e9);
   EXPECT_DOUBLE_EQ(one("2 weeks", Dimension::time), 1209600);
   EXPECT_DOUBLE_EQ(one("2.7 g/cm^3", Dimension::density), 2700);
+  EXPECT_DOUBLE_EQ(one("3 m s-1", Dimension::velocity), 3);
+  EXPECT_DOUBLE_EQ(one("3 km.s^-1", Dimension::velocity), 3000);
   EXPECT_DOUBLE_EQ(one("1e-3 m", Dimension::length), 1e-3);
   EXPECT_DOUBLE_EQ(one("+0.25", Dimension::ratio), 0.25);
   EXPECT_DOUBLE_EQ(one("1 %", Dimension::ratio), 0.01);
@@ -60,7 +62,12 @@ TEST(Quantity, RefusesWithWhatIsAllowed) {
              {"5 lg(re 1 mW)", Dimension::ratio},
              {"2 10 km/s", Dimension::velocity},
              {"3 (km", Dimension::length},
-             {"0.3 m", Dimension::ratio}};
+             {"0.3 m", Dimension::ratio},
+             {"3 km per s", Dimension::velocity},
+             {"3 km/", Dimension::velocity},
+             {"3 km//s", Dimension::velocity},
+             {"3 m s since", Dimension::length},
+             {"3 km^", Dimension::length}};
   for (const auto& b : bad) {
     try {
       parse_quantity(b.text, b.dimension);
