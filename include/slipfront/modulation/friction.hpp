@@ -1,0 +1,33 @@
+#pragma once
+/// \file
+/// Friction laws and the two ways to average them over a period (PHYSICS 3.3; Eqs. 7).
+
+#include "slipfront/train/state.hpp"
+
+namespace slipfront::modulation {
+
+/// Force f(w) that opposes slip, in mu A / (2 pi).
+enum class FrictionLaw {
+  none,
+  viscous,  ///< f = C w
+  coulomb,  ///< f = C sign(w); sticks at U = 0 while the force on it is smaller
+  power,    ///< f = C |w|^(n-1) w, n > 0
+};
+
+/// How f enters the momentum law P_t + Q_x = F k - loss.
+enum class Closure {
+  consistent,  ///< loss = <f(w) sigma>, the exact average
+  paper,       ///< loss = k <f(w)>, as the paper's Eqs. (7) have it; understates friction
+};
+
+struct Friction {
+  FrictionLaw law = FrictionLaw::none;
+  double coefficient = 0;  ///< C >= 0
+  double exponent = 1;     ///< n of the power law
+  Closure closure = Closure::consistent;
+};
+
+/// Rate of momentum loss per unit length, with the sign of U. Zero for the empty state.
+double momentum_loss(const State& state, const Friction& friction);
+
+}  // namespace slipfront::modulation

@@ -1,0 +1,28 @@
+#pragma once
+/// \file
+/// The same equations carried by the dislocations (PHYSICS 3.4): with q counting them, l_t = U_q and M_t + p_q = 2 pi F
+/// - friction. A relativistic gas of particles of mass 8 that repel with the pressure p = 2 sinh^2 psi.
+
+#include "slipfront/train/state.hpp"
+
+namespace slipfront::modulation {
+
+/// Spacing and momentum of one dislocation.
+struct Carried {
+  double spacing;   ///< l = 2 pi / k = 2 K / (cosh phi cosh psi)
+  double momentum;  ///< M = 2 pi P / k = 8 sinh phi cosh psi E
+};
+
+/// For psi > 0. \throws InputError otherwise.
+Carried carried(const State& state);
+
+/// The state with this spacing (> 0, finite) and momentum (finite): one monotone scalar equation,
+/// l sqrt(cosh^2 psi + (M / 8 E)^2) = 2 K. `psi_guess` > 0 saves iterations when it is near. Spacings beyond what a
+/// double's psi can express (l > 1400) give the empty state at the momentum's velocity. \throws NumericsError outside
+/// psi < 700.
+State state_of(const Carried& carried, double psi_guess);
+
+/// Pressure of a train, 2 sinh^2 psi.
+double pressure(double psi);
+
+}  // namespace slipfront::modulation

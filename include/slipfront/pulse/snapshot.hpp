@@ -1,0 +1,45 @@
+#pragma once
+/// \file
+/// What a pulse run yields at one output time.
+
+#include <vector>
+
+namespace slipfront::pulse {
+
+/// Averaged fields on the scenario's output grid, cell by cell; all dimensionless (docs/NOTATION.md).
+struct Profile {
+  std::vector<double> k;     ///< dislocation density = stress Sigma
+  std::vector<double> U;     ///< velocity of the dislocations, 0 where there are none
+  std::vector<double> W;     ///< slip velocity
+  std::vector<double> slip;  ///< slip since t = 0 (u, in b / 2 pi)
+};
+
+/// Fronts at one time. NaN where there is no such front.
+struct Fronts {
+  double trailing;           ///< fast front, into the stressed side, from its characteristic
+  double leading;            ///< slow front, into the empty or less stressed side
+  double trailing_observed;  ///< where |W| first exceeds the observer's threshold, from the left
+  double leading_observed;   ///< and from the right
+};
+
+/// Energy over the domain per unit width, in units of the scenario (H of PHYSICS 3.2).
+struct Energy {
+  double elastic;     ///< of the state at rest with the same density
+  double kinetic;     ///< H less that
+  double dissipated;  ///< by friction since t = 0
+  double supplied;    ///< by the forcing F since t = 0
+};
+
+struct Snapshot {
+  double time;
+  Profile profile;
+  Fronts fronts;
+  Energy energy;
+  double slip_velocity_at_origin;
+  double stress_at_origin;
+  double slip_at_origin;
+  double peak_slip_velocity;
+  double peak_position;
+};
+
+}  // namespace slipfront::pulse

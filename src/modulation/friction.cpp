@@ -1,0 +1,54 @@
+#include "slipfront/modulation/friction.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "slipfront/elliptic/complete.hpp"
+#include "slipfront/train/train.hpp"
+
+namespace slipfront::modulation {
+namespace {
+
+using std::numbers::pi;
+
+/// <sigma^n> over a period: (2 beta)^n / K times the integral of dn^(n-1) over the amplitude from 0 to pi/2. Periodic
+/// and smooth in it, so the trapezoidal rule would do for dense trains; towards the empty limit dn^(n-1) becomes
+/// cos^(n-1), and the substitution amplitude = gd(y) turns both ends into decaying tails.
+double mean_power(const State& state, double n) {
+  const elliptic::AtPsi at = elliptic::at_psi(state.psi);
+  const double two_beta = 2 * std::cosh(state.phi) * std::cosh(state.psi);
+  // amplitude = gd(y): cos = sech y, d(amplitude) = sech y dy, dn^2 = sech^2 y + m1 tanh^2 y
+  constexpr double end = 40, h = 1.0 / 16;
+  double sum = 0;
+  for (int i = 0; i * h <= end; ++i) {
+    const double y = i * h, sech = 1 / std::cosh(y), tanh = std::tanh(y);
+    const double term = sech * std::pow(sech * sech + at.s * at.s * tanh * tanh, (n - 1) / 2);
+    sum += i == 0 ? term / 2 : term;
+  }
+  return std::pow(two_beta, n) / at.K * sum * h;
+}
+
+}  // namespace
+
+double momentum_loss(const State& state, const Friction& f) {
+  if (f.law == FrictionLaw::none || f.coefficient == 0 || state.empty()) return 0;
+  const double U = std::tanh(state.phi), sign = (U > 0) - (U < 0);
+  switch (f.law) {
+    case FrictionLaw::viscous: {
+      const train::Averages a = train::averages(state);
+      return f.coefficient * (f.closure == Closure::consistent ? a.P : a.k * a.W);  // C <w sigma>, or C k <w>
+    }
+    case FrictionLaw::coulomb:
+      return f.coefficient * sign * train::averages(state).k;  // both closures alike
+    case FrictionLaw::power: {
+      const double speed = sign * std::pow(std::fabs(U), f.exponent);
+      if (f.closure == Closure::consistent) return f.coefficient * speed * mean_power(state, f.exponent + 1);
+      return f.coefficient * speed * train::averages(state).k * mean_power(state, f.exponent);
+    }
+    case FrictionLaw::none:
+      break;
+  }
+  return 0;
+}
+
+}  // namespace slipfront::modulation
