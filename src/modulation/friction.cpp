@@ -51,4 +51,15 @@ double momentum_loss(const State& state, const Friction& f) {
   return 0;
 }
 
+double relaxation_rate(const State& state, const Friction& f) {
+  if (f.coefficient == 0 || state.empty()) return 0;
+  if (f.law == FrictionLaw::viscous) {
+    if (f.closure == Closure::consistent) return f.coefficient;
+    const elliptic::AtPsi at = elliptic::at_psi(state.psi);
+    return f.coefficient * pi * pi / (4 * at.E * at.K);  // W / I
+  }
+  if (f.law != FrictionLaw::power || state.phi == 0) return 0;
+  return momentum_loss(state, f) / train::averages(state).P;
+}
+
 }  // namespace slipfront::modulation

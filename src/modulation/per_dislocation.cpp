@@ -9,8 +9,8 @@
 namespace slipfront::modulation {
 namespace {
 
-/// Beyond this half spacing K = ln(4/psi) leaves the range of psi.
-constexpr double most_half_spacing = 700;
+/// Range of psi that a double and its functions hold.
+constexpr double psi_least = 1e-303, psi_most = 700;
 
 [[noreturn]] void give_up(const Carried& c) {
   throw NumericsError("no state has the spacing " + std::to_string(c.spacing) + " and the momentum " +
@@ -25,32 +25,39 @@ Carried carried(const State& state) {
   return {2 * at.K / (std::cosh(state.phi) * cosh_psi), 8 * std::sinh(state.phi) * cosh_psi * at.E};
 }
 
-State state_of(const Carried& c, double psi_guess) {
+Resolved resolve(const Carried& c, double psi_guess) {
   if (!(c.spacing > 0) || !std::isfinite(c.spacing) || !std::isfinite(c.momentum)) give_up(c);
   const double half = c.spacing / 2;
   double psi = psi_guess > 0 && std::isfinite(psi_guess) ? psi_guess : 1;
   for (int iteration = 0; iteration < 80; ++iteration) {
     const elliptic::AtPsi at = elliptic::at_psi(psi);
-    // cosh^2 = 1 / (1 - s^2), and 1 - s^2 = 2 (deficit - ...) would cancel: cosh itself is as cheap.
     const double cosh_psi = std::cosh(psi), cosh_square = cosh_psi * cosh_psi;
     const double rapid = c.momentum / (8 * at.E), rapid_square = rapid * rapid;
     const double length = half * std::sqrt(cosh_square + rapid_square);
     // K - length, linear in ln psi where psi is small; its derivative by ln psi.
     const double slope_K = -at.above_m1 / at.s * at.K;
     const double slope_length = half * half / length * at.s * (cosh_square - rapid_square * (1 / at.ratio - 1));
-    const double step = -(at.K - length) / (psi * (slope_K - slope_length));
+    const double step = (at.K - length) / (psi * (slope_length - slope_K));
     if (!std::isfinite(step)) give_up(c);
     const double limited = std::fmin(std::fmax(step, -40.0), 2.0);
-    if (std::log(psi) + limited < -most_half_spacing) return {std::asinh(c.momentum / 8), 0};
+    if (limited == -40.0 && psi < psi_least) return {{std::asinh(c.momentum / 8), 0}, 0, 0};
+    const double before = psi;
     psi *= std::fabs(limited) < 0.1 ? 1 + std::expm1(limited) : std::exp(limited);
-    if (psi > most_half_spacing) give_up(c);
+    if (psi < psi_least) return {{std::asinh(c.momentum / 8), 0}, 0, 0};
+    if (psi > psi_most) give_up(c);
     if (std::fabs(step) < 1e-8) {
-      const elliptic::AtPsi last = elliptic::at_psi(psi);
-      return {std::asinh(c.momentum / (8 * std::cosh(psi) * last.E)), psi};
+      // To the last step by derivatives; what is left is of the order of its square.
+      const double last = psi - before, c0 = at.s / at.ratio;
+      const double E = at.E + at.s * (at.K - at.E) * last;
+      const double sound = c0 * (1 + at.deficit * at.above_m1 / (at.s * at.ratio) * last);
+      const double EK = E * (at.K + slope_K * last);
+      return {{std::asinh(c.momentum / (8 * std::cosh(psi) * E)), psi}, sound, EK};
     }
   }
   give_up(c);
 }
+
+State state_of(const Carried& carried, double psi_guess) { return resolve(carried, psi_guess).state; }
 
 double pressure(double psi) {
   const double sinh_psi = std::sinh(psi);

@@ -30,4 +30,8 @@ struct Friction {
 /// Rate of momentum loss per unit length, with the sign of U. Zero for the empty state.
 double momentum_loss(const State& state, const Friction& friction);
 
+/// Rate at which friction relaxes the momentum, momentum_loss / P, with its limit at rest; 0 for Coulomb friction,
+/// which relaxes nothing but stops it. Times that resolve it are explicit, longer ones implicit.
+double relaxation_rate(const State& state, const Friction& friction);
+
 }  // namespace slipfront::modulation

@@ -22,6 +22,14 @@ Carried carried(const State& state);
 /// psi < 700.
 State state_of(const Carried& carried, double psi_guess);
 
+/// The same with what else the solve has found.
+struct Resolved {
+  State state;
+  double sound_speed;  ///< c0, 0 if empty
+  double EK;           ///< E K, which tells the closures of viscous friction apart
+};
+Resolved resolve(const Carried& carried, double psi_guess);
+
 /// Pressure of a train, 2 sinh^2 psi.
 double pressure(double psi);
 

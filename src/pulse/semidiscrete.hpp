@@ -1,0 +1,71 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "slipfront/modulation/friction.hpp"
+#include "slipfront/modulation/per_dislocation.hpp"
+#include "slipfront/train/state.hpp"
+
+namespace slipfront::pulse {
+
+/// The equations in space: time derivatives of the cells' widths X and momenta Y. Knows nothing of time steps.
+///     X_t = [U] over the faces,   Y_t = -[p] + q_s (2 pi F - friction)
+/// Cell averages in the coordinate s (one cell a unit); point values by deconvolution, fourth order; faces by
+/// fifth-order WENO on the Riemann invariants, each from its own side, which is the two-fan solution of the Riemann
+/// problem at the face.
+class Semidiscrete {
+ public:
+  struct Setup {
+    std::vector<double> charge;  ///< dislocations in each cell
+    bool left_free = false, right_free = false;
+    modulation::Friction friction;
+    std::function<double(double, double)> forcing;  ///< null: none
+  };
+  explicit Semidiscrete(Setup setup);
+
+  std::size_t size() const { return setup_.charge.size(); }
+
+  /// y: X and Y of each cell in turn, x of the left edge, energy dissipated, energy supplied; dy alike. \throws
+  /// NumericsError with time and place.
+  void operator()(double t, const double* y, double* dy);
+  static constexpr std::size_t extra = 3;
+  /// Compact form for stiff friction: cell averages as point values, faces that know the friction between two cells
+  /// (Gosse & Toscani 2002). Second order in the diffusion limit, with entries of dy that depend on `compact_reach`
+  /// entries of y to either side.
+  void use_compact(bool compact) { compact_ = compact; }
+  static constexpr std::size_t compact_reach = 3;
+
+  /// Starts the next solves for psi from these values: the bits of a result depend on where its solves start.
+  void start_from(const std::vector<double>& psi);
+
+  /// From the last call: states at the cell centres, rapidities and psi at the faces, friction rates (loss over
+  /// momentum).
+  const std::vector<State>& states() const { return states_; }
+  const std::vector<double>& face_phi() const { return face_phi_; }
+  const std::vector<double>& face_psi() const { return face_psi_; }
+  double largest_friction_rate() const { return largest_rate_; }
+  /// Least time in which a wave crosses a cell.
+  double crossing_time(const double* y) const;
+  /// That of a cell of average width, at the fastest sound speed.
+  double mean_crossing_time(const double* y) const;
+
+ private:
+  void find_states(double t, const double* y);
+  void find_centres(const double* y);
+  void find_faces();
+  void find_compact_faces(const double* y);
+  double rate_of(const modulation::Resolved& at) const;
+  void add_sources(double t, const double* y, double* dy);
+
+  Setup setup_;
+  std::vector<double> charge_point_;  ///< q_s at the centres
+  std::vector<State> states_;
+  std::vector<modulation::Resolved> resolved_;
+  std::vector<double> spacing_, momentum_, invariant_plus_, invariant_minus_, phi_, psi_;
+  std::vector<double> face_phi_, face_psi_, rate_, source_, centres_;
+  double largest_rate_ = 0;
+  bool compact_ = false;
+};
+
+}  // namespace slipfront::pulse

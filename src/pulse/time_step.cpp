@@ -1,0 +1,136 @@
+#include "time_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace slipfront::pulse {
+
+ExplicitStep::ExplicitStep(std::size_t size) {
+  for (auto* array : {&u1_, &u2_, &u3_, &u4_, &rate_, &rate3_}) array->resize(size);
+}
+
+void ExplicitStep::operator()(const Rates& f, double t, double dt, std::vector<double>& y,
+                              const std::vector<double>& k0) {
+  const std::size_t n = y.size();
+  for (std::size_t i = 0; i < n; ++i) u1_[i] = y[i] + 0.391752226571890 * dt * k0[i];
+  f(t + 0.391752226571890 * dt, u1_.data(), rate_.data());
+  for (std::size_t i = 0; i < n; ++i)
+    u2_[i] = 0.444370493651235 * y[i] + 0.555629506348765 * u1_[i] + 0.368410593050371 * dt * rate_[i];
+  f(t + 0.586079689311540 * dt, u2_.data(), rate_.data());
+  for (std::size_t i = 0; i < n; ++i)
+    u3_[i] = 0.620101851488403 * y[i] + 0.379898148511597 * u2_[i] + 0.251891774271694 * dt * rate_[i];
+  f(t + 0.474542363121399 * dt, u3_.data(), rate3_.data());
+  for (std::size_t i = 0; i < n; ++i)
+    u4_[i] = 0.178079954393132 * y[i] + 0.821920045606868 * u3_[i] + 0.544974750228521 * dt * rate3_[i];
+  f(t + 0.935010630967652 * dt, u4_.data(), rate_.data());
+  for (std::size_t i = 0; i < n; ++i)
+    y[i] = 0.517231671970585 * u2_[i] + 0.096059710526147 * u3_[i] + 0.063692468666290 * dt * rate3_[i] +
+           0.386708617503269 * u4_[i] + 0.226007483236906 * dt * rate_[i];
+}
+
+namespace {
+
+// Rodas4 in the form that needs no product with the Jacobian: row i holds a_ij and c_ij.
+constexpr double gamma_diagonal = 0.25;
+constexpr double a[6][5] = {{},
+                            {1.544000000000000},
+                            {0.9466785280815826, 0.2557011698983284},
+                            {3.314825187068521, 2.896124015972201, 0.9986419139977817},
+                            {1.221224509226641, 6.019134481288629, 12.53708332932087, -0.6878860361058950},
+                            {1.221224509226641, 6.019134481288629, 12.53708332932087, -0.6878860361058950, 1}};
+constexpr double c[6][5] = {
+    {},
+    {-5.668800000000000},
+    {-2.430093356833875, -0.2063599157091915},
+    {-0.1073529058151375, -9.594562251023355, -20.47028614809616},
+    {7.496443313967647, -10.24680431464352, -33.99990352819905, 11.70890893206160},
+    {8.083246795921522, -7.981132988064893, -31.52159432874371, 16.31930543123136, -6.058818238834054}};
+constexpr double alpha[6] = {0, 0.386, 0.21, 0.63, 1, 1};
+constexpr double gamma[6] = {0.25, -0.1043, 0.1035, -0.03620000000000023, 0, 0};
+
+}  // namespace
+
+ImplicitStep::ImplicitStep(std::size_t banded, std::size_t extra, std::size_t reach)
+    : banded_(banded), extra_(extra), reach_(std::min(reach, banded - 1)), stride_(2 * reach_ + 1) {
+  jacobian_.resize(banded_ * stride_);
+  lu_.resize(banded_ * stride_);
+  for (auto* array : {&by_time_, &work_, &rate_}) array->resize(banded_ + extra_);
+  for (auto& u : u_) u.resize(banded_ + extra_);
+}
+
+void ImplicitStep::linearise(const Rates& f, double t, const std::vector<double>& y, const std::vector<double>& rate,
+                             const std::vector<double>& scale) {
+  std::fill(jacobian_.begin(), jacobian_.end(), 0.0);
+  const std::size_t period = stride_;  // columns so far apart share no row
+  constexpr double small = 1e-7;
+  for (std::size_t first = 0; first < std::min(period, banded_); ++first) {
+    work_ = y;
+    for (std::size_t j = first; j < banded_; j += period) work_[j] += small * scale[j];
+    f(t, work_.data(), rate_.data());
+    for (std::size_t j = first; j < banded_; j += period) {
+      const double step = work_[j] - y[j];
+      const std::size_t low = j > reach_ ? j - reach_ : 0, high = std::min(banded_, j + reach_ + 1);
+      for (std::size_t i = low; i < high; ++i) entry(jacobian_, i, j) = (rate_[i] - rate[i]) / step;
+    }
+  }
+}
+
+void ImplicitStep::factorise(double diagonal) {  // diagonal dominance comes from 1 / (gamma dt): no pivoting
+  for (std::size_t k = 0; k < jacobian_.size(); ++k) lu_[k] = -jacobian_[k];
+  for (std::size_t i = 0; i < banded_; ++i) entry(lu_, i, i) += diagonal;
+  for (std::size_t k = 0; k < banded_; ++k) {
+    const std::size_t end = std::min(banded_, k + reach_ + 1);
+    const double inverse = 1 / entry(lu_, k, k);
+    for (std::size_t i = k + 1; i < end; ++i) {
+      double& l = entry(lu_, i, k);
+      if (l == 0) continue;
+      l *= inverse;
+      double* row = &entry(lu_, i, k);
+      const double* pivot = &entry(lu_, k, k);
+      for (std::size_t j = 1; j < end - k; ++j) row[j] -= l * pivot[j];
+    }
+  }
+}
+
+void ImplicitStep::solve(std::vector<double>& b) const {
+  const auto at = [this](std::size_t i, std::size_t j) { return lu_[i * stride_ + (j + reach_ - i)]; };
+  for (std::size_t i = 0; i < banded_; ++i)
+    for (std::size_t j = i > reach_ ? i - reach_ : 0; j < i; ++j) b[i] -= at(i, j) * b[j];
+  for (std::size_t i = banded_; i-- > 0;) {
+    for (std::size_t j = i + 1; j < std::min(banded_, i + reach_ + 1); ++j) b[i] -= at(i, j) * b[j];
+    b[i] /= at(i, i);
+  }
+}
+
+double ImplicitStep::operator()(const Rates& f, double t, double dt, const std::vector<double>& y,
+                                const std::vector<double>& rate_at_start, const std::vector<double>& scale,
+                                double tolerance, std::vector<double>& next) {
+  factorise(1 / (gamma_diagonal * dt));
+  // df/dt, for forcing that depends on time.
+  const double nudge = 1e-6 * dt;
+  f(t + nudge, y.data(), by_time_.data());
+  for (std::size_t i = 0; i < banded_; ++i) by_time_[i] = (by_time_[i] - rate_at_start[i]) / nudge;
+  for (std::size_t stage = 0; stage < 6; ++stage) {
+    next = y;
+    for (std::size_t j = 0; j < stage; ++j)
+      for (std::size_t i = 0; i < banded_; ++i) next[i] += a[stage][j] * u_[j][i];
+    f(t + alpha[stage] * dt, next.data(), rate_.data());
+    std::vector<double>& u = u_[stage];
+    for (std::size_t i = 0; i < banded_; ++i) u[i] = rate_[i] + gamma[stage] * dt * by_time_[i];
+    for (std::size_t j = 0; j < stage; ++j)
+      for (std::size_t i = 0; i < banded_; ++i) u[i] += c[stage][j] / dt * u_[j][i];
+    solve(u);
+  }
+  double sum = 0;
+  for (std::size_t i = 0; i < banded_; ++i) {
+    next[i] += u_[5][i];
+    const double error = u_[5][i] / (tolerance * std::fmax(scale[i], std::fabs(next[i])));
+    sum += error * error;
+  }
+  f(t + dt, next.data(), rate_.data());
+  for (std::size_t i = banded_; i < banded_ + extra_; ++i) next[i] = y[i] + dt / 2 * (rate_at_start[i] + rate_[i]);
+  const double error = std::sqrt(sum / static_cast<double>(banded_));
+  return std::isfinite(error) ? error : HUGE_VAL;
+}
+
+}  // namespace slipfront::pulse

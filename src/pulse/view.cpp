@@ -1,0 +1,54 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "slipfront/pulse/solver.hpp"
+#include "slipfront/train/train.hpp"
+
+namespace slipfront::pulse {
+namespace {
+
+/// Index of the interval of a rising sequence that holds x.
+std::size_t interval(const std::vector<double>& rising, double x) {
+  const auto above = std::upper_bound(rising.begin(), rising.end(), x);
+  const std::size_t i = above == rising.begin() ? 0 : static_cast<std::size_t>(above - rising.begin()) - 1;
+  return std::min(i, rising.size() - 2);
+}
+
+}  // namespace
+
+State state_at(const Solver::View& v, double x) {
+  if (x < v.faces.front() || x > v.faces.back()) return {};
+  const std::size_t n = v.centres.size();
+  const std::size_t first = std::clamp<std::size_t>(interval(v.centres, x), 1, n - 3) - 1;
+  double weight[4];
+  for (std::size_t j = 0; j < 4; ++j) {  // Lagrange through four centres
+    weight[j] = 1;
+    for (std::size_t m = 0; m < 4; ++m)
+      if (m != j) weight[j] *= (x - v.centres[first + m]) / (v.centres[first + j] - v.centres[first + m]);
+  }
+  const auto interpolate = [&](double State::*member) {
+    const auto f = [&](std::size_t j) { return v.states[first + j].*member; };
+    const double sum = weight[0] * f(0) + weight[1] * f(1) + weight[2] * f(2) + weight[3] * f(3);
+    const double bend = f(0) - 2 * f(1) + f(2), next_bend = f(1) - 2 * f(2) + f(3);
+    if (std::fabs(next_bend - bend) < 0.5 * (std::fabs(bend) + std::fabs(next_bend))) return sum;
+    // Not smooth on the grid: no value beyond the four.
+    return std::clamp(sum, std::min({f(0), f(1), f(2), f(3)}), std::max({f(0), f(1), f(2), f(3)}));
+  };
+  return {interpolate(&State::phi), std::fmax(interpolate(&State::psi), 0.0)};
+}
+
+double charge_left_of(const Solver::View& v, double x) {
+  if (x <= v.faces.front()) return 0;
+  if (x >= v.faces.back()) return v.charge_faces.back();
+  const std::size_t i = interval(v.faces, x);
+  // Cubic Hermite: the slopes k / 2 pi at the faces are known; limited so that it cannot fall (Fritsch & Carlson).
+  const double h = v.faces[i + 1] - v.faces[i], rise = v.charge_faces[i + 1] - v.charge_faces[i], mean = rise / h;
+  const auto slope = [&](std::size_t f) {
+    return std::fmin(train::averages(v.face_states[f]).k / (2 * std::numbers::pi), 3 * mean);
+  };
+  const double s = (x - v.faces[i]) / h, r = 1 - s;
+  return v.charge_faces[i] + rise * s * s * (3 - 2 * s) + h * s * r * (slope(i) * r - slope(i + 1) * s);
+}
+
+}  // namespace slipfront::pulse
