@@ -5,9 +5,8 @@
 namespace slipfront {
 namespace {
 
-/// Text of an input as it may be shown: one line, no control characters, no more than fits.
-std::string shown(const std::string& text) {
-  constexpr std::size_t most = 80;
+/// Text as it may be shown: one line, no control characters, no more than fits.
+std::string shown(const std::string& text, std::size_t most = 80) {
   std::string out;
   for (const char c : text) {
     if (out.size() == most) return out + "...";
@@ -33,8 +32,8 @@ std::string one_line(const Complaint& c) {
   } else if (!c.value.empty()) {
     text += "'" + shown(c.value) + "': ";
   }
-  text += c.problem;
-  if (!c.allowed.empty()) text += "; allowed: " + c.allowed;
+  text += shown(c.problem, 400);  // a parser may quote the line break that it stumbled over
+  if (!c.allowed.empty()) text += "; allowed: " + shown(c.allowed, 1000);
   return text;
 }
 

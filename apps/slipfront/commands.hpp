@@ -17,10 +17,10 @@ struct CommonOptions {
 };
 
 /// Exit codes of the contract.
-enum ExitCode { exit_done = 0, exit_input = 2, exit_file = 3, exit_numerics = 4 };
+enum ExitCode { exit_done = 0, exit_input = 2, exit_file = 3, exit_numerics = 4, exit_interrupted = 130 };
 
-/// Adds --json, --csv, --quiet and --threads.
-void add_common_options(CLI::App& command, CommonOptions& options);
+/// Adds --json, --csv (where there are rows), --quiet and --threads.
+void add_common_options(CLI::App& command, CommonOptions& options, bool with_csv = true);
 
 /// One line on stderr, beginning with the program's name.
 void complain(std::string_view line);
@@ -29,6 +29,7 @@ void complain(std::string_view line);
 using Runner = std::function<int()>;
 Runner add_relations(CLI::App& app);
 Runner add_event(CLI::App& app);
+Runner add_pulse(CLI::App& app);
 
 /// What `slipfront` does when asked for nothing: `event` on the shipped catalogue.
 int run_default();

@@ -12,9 +12,9 @@ void complain(std::string_view line) {
   std::fprintf(stderr, "slipfront: %.*s\n", static_cast<int>(line.size()), line.data());
 }
 
-void add_common_options(CLI::App& command, CommonOptions& options) {
+void add_common_options(CLI::App& command, CommonOptions& options, bool with_csv) {
   auto* json = command.add_flag("--json", options.json, "One JSON object on stdout, nothing else");
-  command.add_flag("--csv", options.csv, "One CSV row each, full precision")->excludes(json);
+  if (with_csv) command.add_flag("--csv", options.csv, "One CSV row each, full precision")->excludes(json);
   command.add_flag("--quiet", options.quiet, "No notes, no warnings");
   command.add_option("--threads", options.threads, "Threads; results do not depend on it (default: all cores)")
       ->check(CLI::Range(1, 4096))
@@ -45,7 +45,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(0, 1);
   app.failure_message(CLI::FailureMessage::simple);
   Runner chosen = run_default;
-  const Runner relations = add_relations(app), event = add_event(app);
+  const Runner relations = add_relations(app), event = add_event(app), pulse = add_pulse(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {
@@ -56,6 +56,7 @@ int run(int argc, char** argv) {
   }
   if (app.got_subcommand("relations")) chosen = relations;
   if (app.got_subcommand("event")) chosen = event;
+  if (app.got_subcommand("pulse")) chosen = pulse;
   const int code = chosen();
   finish_stdout();
   return code;

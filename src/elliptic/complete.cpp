@@ -92,6 +92,8 @@ AtPsi at_psi_dense(double psi) {
   return {pi / 2, pi / 2, 1.0, 1.0, c1 * c1, 2 * c1, 2 * c1, pi / 2 - 1};
 }
 
+AtPsi at_modulus(double s) { return s < psi_empty_below ? at_psi_empty(s) : assemble(s, (1 - s) / 2); }
+
 AtPsi at_psi(double psi) {
   if (!(psi > 0))
     throw InputError(

@@ -25,23 +25,23 @@ Carried carried(const State& state) {
   return {2 * at.K / (std::cosh(state.phi) * cosh_psi), 8 * std::sinh(state.phi) * cosh_psi * at.E};
 }
 
-Resolved resolve(const Carried& c, double psi_guess) {
-  if (!(c.spacing > 0) || !std::isfinite(c.spacing) || !std::isfinite(c.momentum)) give_up(c);
+namespace {
+
+/// Newton in ln psi, for any density.
+Resolved resolve_in_psi(const Carried& c, double psi) {
   const double half = c.spacing / 2;
-  double psi = psi_guess > 0 && std::isfinite(psi_guess) ? psi_guess : 1;
   for (int iteration = 0; iteration < 80; ++iteration) {
     const elliptic::AtPsi at = elliptic::at_psi(psi);
     const double cosh_psi = std::cosh(psi), cosh_square = cosh_psi * cosh_psi;
     const double rapid = c.momentum / (8 * at.E), rapid_square = rapid * rapid;
     const double length = half * std::sqrt(cosh_square + rapid_square);
-    // K - length, linear in ln psi where psi is small; its derivative by ln psi.
+    // K - length is linear in ln psi where psi is small, ln(K / length) in psi where it is large.
     const double slope_K = -at.above_m1 / at.s * at.K;
     const double slope_length = half * half / length * at.s * (cosh_square - rapid_square * (1 / at.ratio - 1));
-    const double step = (at.K - length) / (psi * (slope_length - slope_K));
+    const double step = psi < 1 ? (at.K - length) / (psi * (slope_length - slope_K))
+                                : std::log(at.K / length) / (psi * (slope_length / length - slope_K / at.K));
     if (!std::isfinite(step)) give_up(c);
-    const double limited = std::fmin(std::fmax(step, -40.0), 2.0);
-    if (limited == -40.0 && psi < psi_least) return {{std::asinh(c.momentum / 8), 0}, 0, 0};
-    const double before = psi;
+    const double limited = std::fmin(std::fmax(step, -40.0), 2.0), before = psi;
     psi *= std::fabs(limited) < 0.1 ? 1 + std::expm1(limited) : std::exp(limited);
     if (psi < psi_least) return {{std::asinh(c.momentum / 8), 0}, 0, 0};
     if (psi > psi_most) give_up(c);
@@ -50,11 +50,38 @@ Resolved resolve(const Carried& c, double psi_guess) {
       const double last = psi - before, c0 = at.s / at.ratio;
       const double E = at.E + at.s * (at.K - at.E) * last;
       const double sound = c0 * (1 + at.deficit * at.above_m1 / (at.s * at.ratio) * last);
-      const double EK = E * (at.K + slope_K * last);
-      return {{std::asinh(c.momentum / (8 * std::cosh(psi) * E)), psi}, sound, EK};
+      return {{std::asinh(c.momentum / (8 * std::cosh(psi) * E)), psi}, sound, E * (at.K + slope_K * last)};
     }
   }
   give_up(c);
+}
+
+}  // namespace
+
+Resolved resolve(const Carried& c, double psi_guess) {
+  if (!(c.spacing > 0) || !std::isfinite(c.spacing) || !std::isfinite(c.momentum)) give_up(c);
+  const double psi = psi_guess > 0 && std::isfinite(psi_guess) ? psi_guess : 1;
+  // The same in ln s, s = tanh psi, where cosh^2 psi = 1 / (1 - s^2) needs no hyperbolic function: half the cost.
+  // Anything out of the ordinary goes the general way.
+  const double half = c.spacing / 2;
+  double s = std::tanh(psi);
+  for (int iteration = 0; iteration < 8 && s < 0.9 && s > 1e-290; ++iteration) {
+    const elliptic::AtPsi at = elliptic::at_modulus(s);
+    const double m = 1 - s * s, rapid = c.momentum / (8 * at.E), rapid_square = rapid * rapid;
+    const double length = half * std::sqrt(1 / m + rapid_square);
+    const double slope_K = -at.above_m1 / m * at.K;
+    const double slope_length = half * half / length * (s * s / m) * (1 / m - rapid_square * (1 / at.ratio - 1));
+    const double step = (at.K - length) / (slope_length - slope_K);
+    if (!(std::fabs(step) < 0.5)) break;
+    s *= 1 + step * (1 + step / 2);
+    if (std::fabs(step) < 1e-8) {
+      const double E = at.E + at.s * at.s * (at.K - at.E) / m * step;
+      const double sound = at.s / at.ratio * (1 + at.deficit * at.above_m1 / (m * at.ratio) * step);
+      return {
+          {std::asinh(c.momentum * std::sqrt(1 - s * s) / (8 * E)), std::atanh(s)}, sound, E * (at.K + slope_K * step)};
+    }
+  }
+  return resolve_in_psi(c, psi);
 }
 
 State state_of(const Carried& carried, double psi_guess) { return resolve(carried, psi_guess).state; }

@@ -56,7 +56,9 @@ Solver::Solver(Problem problem) : problem_(std::move(problem)) {
   first_ = view();
 }
 
-Solver::Solver(Problem problem, Cells cells) : Solver(std::move(problem)) {
+Solver::Solver(Problem problem, Cells cells) : Solver(std::move(problem)) { restore(std::move(cells)); }
+
+void Solver::restore(Cells cells) {
   if (cells.y.size() != cells_.y.size() || cells.psi.size() != cells_.psi.size())
     throw InputError({.key = "resume",
                       .value = std::to_string(cells.psi.size()) + " cells",

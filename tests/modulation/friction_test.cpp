@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "error_metric.hpp"
+#include "slipfront/elliptic/complete.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/modulation/characteristics.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
 #include "slipfront/train/train.hpp"
 
@@ -24,6 +26,20 @@ RC_GTEST_PROP(PerDislocation, RoundTrips, ()) {
   const double condition = (1 + std::fabs(std::log(4 / psi))) * (1 + std::fabs(phi));
   RC_ASSERT(error_in_eps(back.psi, psi) <= 32 * condition);
   RC_ASSERT(std::fabs(back.phi - phi) <= DBL_EPSILON * 32 * (std::fabs(phi) + 1e-300) * (1 + condition * psi * psi));
+}
+
+/// Both routes of the solve, and what else it finds, against the direct functions.
+TEST(PerDislocation, FindsSoundAndClosureToo) {
+  for (const double psi : {1e-295, 1e-20, 1e-3, 0.124, 0.126, 0.5, 1.4, 1.5, 3.0, 30.0})
+    for (const double off : {0.5, 0.99, 1.01, 3.0}) {
+      const State s{0.3, psi};
+      const Resolved r = resolve(carried(s), psi * off);
+      const double condition = 1 + std::fabs(std::log(4 / psi));
+      EXPECT_LE(error_in_eps(r.sound_speed, sound(r.state.psi).c0), 32) << psi;
+      const elliptic::AtPsi at = elliptic::at_psi(r.state.psi);
+      EXPECT_LE(error_in_eps(r.EK, at.E * at.K), 32) << psi;
+      EXPECT_LE(error_in_eps(r.state.psi, psi), 32 * condition) << psi;
+    }
 }
 
 TEST(PerDislocation, GoesToTheEmptyStateAndRefusesNonsense) {

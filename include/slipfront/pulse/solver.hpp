@@ -48,10 +48,14 @@ class Solver {
   /// Continues from saved cells of the same problem. \throws InputError if they do not fit it.
   Solver(Problem problem, Cells cells);
 
+  /// Goes back (or on) to saved cells of the same problem. \throws InputError if they do not fit it.
+  void restore(Cells cells);
+
   /// Advances to `time`. `interrupted` is asked after each step; true stops early. Returns whether `time` was reached.
   /// \throws NumericsError with the time and place where no state exists.
   bool advance_to(double time, const std::function<bool()>& interrupted = {});
 
+  const Problem& problem() const { return problem_; }
   const Cells& cells() const { return cells_; }
   std::size_t size() const { return charge_.size(); }
   /// Dislocations in each cell, constant.

@@ -1,0 +1,88 @@
+#include "pulse_setup.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "slipfront/rupture/inverse.hpp"
+#include "slipfront/rupture/riemann.hpp"
+
+namespace {
+
+using namespace slipfront;
+using scenario::ProfileKind;
+
+/// How far waves from a step reach by the end: the frictionless fronts, or the diffusion length where friction rules.
+struct Reach {
+  double left, right;
+};
+Reach reach_of(const scenario::Scenario& s) {
+  const auto state = [](double stress) { return stress > 0 ? State{0, rupture::psi_of_stress(stress)} : State{}; };
+  const auto waves = rupture::solve_riemann(state(s.initial.stress_left), state(s.initial.stress_right));
+  const auto edge = [](const rupture::Wave& wave) {
+    return wave.kind == rupture::Wave::Kind::none ? 0.0 : std::fabs(wave.outer);
+  };
+  double left = edge(waves.left_wave), right = edge(waves.right_wave);
+  if (s.initial.stress_right == 0) right = std::fabs(waves.left_wave.inner);
+  if (s.initial.stress_left == 0) left = std::fabs(waves.right_wave.inner);
+  double share = 1;
+  if (s.friction.law == modulation::FrictionLaw::viscous)
+    share = std::fmin(1, 8 / std::sqrt(1 + s.friction.coefficient * s.end));
+  const double blur = s.initial.profile == ProfileKind::tanh ? 5 * s.initial.width : 0;
+  return {1.15 * share * left * s.end + blur, 1.15 * share * right * s.end + blur};
+}
+
+}  // namespace
+
+const char* law_name(modulation::FrictionLaw law) {
+  switch (law) {
+    case modulation::FrictionLaw::viscous:
+      return "viscous";
+    case modulation::FrictionLaw::coulomb:
+      return "coulomb";
+    case modulation::FrictionLaw::power:
+      return "power";
+    case modulation::FrictionLaw::none:
+      break;
+  }
+  return "no";
+}
+
+pulse::Problem pulse_problem(const scenario::Scenario& s) {
+  if (s.contact_at)
+    throw InputError({.file = s.file,
+                      .key = "interface.contact",
+                      .value = s.contact,
+                      .problem = "the pulse solver takes no contact profile yet",
+                      .allowed = "no [interface] contact"});
+  pulse::Problem p{.stress = s.stress,
+                   .forcing = s.forcing_at,
+                   .friction = s.friction,
+                   .cells = s.pulse.cells,
+                   .tolerance = s.pulse.tolerance};
+  const bool known = s.initial.profile == ProfileKind::step || s.initial.profile == ProfileKind::tanh;
+  if (!known && !(s.domain.left && s.domain.right))
+    throw InputError({.file = s.file,
+                      .key = "domain",
+                      .problem = "left and right are needed for this profile",
+                      .allowed = "[domain] left = ..., right = ..."});
+  const Reach reach = known ? reach_of(s) : Reach{0, 0};
+  p.left = s.domain.left.value_or(-reach.left);
+  p.right = s.domain.right.value_or(reach.right);
+  p.corner = s.initial.profile == ProfileKind::step ? 0 : HUGE_VAL;
+  return p;
+}
+
+pulse::Schedule pulse_schedule(const scenario::Scenario& s, const pulse::Problem& problem) {
+  pulse::Schedule schedule;
+  schedule.threshold = s.pulse.threshold;
+  schedule.times.push_back(0);
+  for (const double t : s.output.times)
+    if (t > 0 && t < s.end) schedule.times.push_back(t);
+  if (s.output.every)
+    for (double i = 1; i * *s.output.every < s.end * (1 - 1e-12); ++i) schedule.times.push_back(i * *s.output.every);
+  schedule.times.push_back(s.end);
+  for (int i = 0; i <= problem.cells; ++i)
+    schedule.x_edges.push_back(i == problem.cells ? problem.right
+                                                  : problem.left + (problem.right - problem.left) * i / problem.cells);
+  return schedule;
+}

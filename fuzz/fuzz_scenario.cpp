@@ -1,0 +1,55 @@
+// libFuzzer target: no text and no overrides may crash the scenario reader, and what it lets through is a stress. What
+// stands after the first byte 0xFF, which no TOML has, is taken as overrides, one a line.
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+
+#include "slipfront/scenario/scenario.hpp"
+
+namespace {
+
+void require(bool truth) {
+  if (!truth) std::abort();
+}
+
+std::vector<std::pair<double, double>> small_table(const std::string&) {
+  return {{-2, 1}, {0, 0.5}, {0.25, 0}, {3, 0}};
+}
+
+double checked_stress(const slipfront::scenario::Scenario& scenario, double x) {
+  const double stress = scenario.stress(x);
+  require(stress >= 0 && std::isfinite(stress));
+  return stress;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  std::string text(reinterpret_cast<const char*>(data), size);
+  std::vector<std::string> overrides;
+  if (const std::size_t end = text.find('\xFF'); end != std::string::npos) {
+    for (std::size_t at = end + 1; at < text.size();
+         at = text.find('\n', at) == std::string::npos ? text.size() : text.find('\n', at) + 1)
+      overrides.push_back(text.substr(at, text.find('\n', at) - at));
+    text.resize(end);
+  }
+  try {
+    const auto scenario = slipfront::scenario::read_scenario(text, "fuzz.toml", overrides, small_table);
+    std::optional<slipfront::scenario::Scenario> again;
+    try {
+      again = slipfront::scenario::read_scenario(scenario.text, "fuzz.toml", {}, small_table);
+    } catch (const slipfront::InputError&) {
+    }
+    require(again.has_value());  // what a run keeps can be run again, and is the same
+    require(again->end == scenario.end && again->pulse.cells == scenario.pulse.cells &&
+            again->friction.coefficient == scenario.friction.coefficient && again->forcing == scenario.forcing);
+    if (scenario.forcing_at) require(std::isfinite(scenario.forcing_at(0.1, 0.2)));
+    if (scenario.contact_at) require(scenario.contact_at(0.1) > 0);
+    require(checked_stress(scenario, 0.1) == again->stress(0.1));
+  } catch (const slipfront::InputError& error) {
+    require(std::string(error.what()).find('\n') == std::string::npos);
+  }
+  return 0;
+}

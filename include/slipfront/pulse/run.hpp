@@ -1,0 +1,47 @@
+#pragma once
+/// \file
+/// One pulse run: a problem, the times to look at it, and what was seen so far. Can be saved at any step and continued
+/// to the same bits.
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "slipfront/pulse/observe.hpp"
+
+namespace slipfront::pulse {
+
+struct Schedule {
+  std::vector<double> times;    ///< ascending, from 0; a snapshot each
+  std::vector<double> x_edges;  ///< output grid
+  double threshold = 1e-3;      ///< of the observed fronts
+};
+
+class Run {
+ public:
+  Run(Problem problem, Schedule schedule);
+  /// Continues a saved run of the same problem and schedule. \throws InputError if it is of another.
+  Run(Problem problem, Schedule schedule, std::string_view saved, std::vector<Snapshot> snapshots);
+
+  /// Goes on until the end or until `interrupted`, asked after every step, says so. `taken` is called after each
+  /// snapshot. Returns whether the end was reached.
+  bool go(const std::function<bool()>& interrupted, const std::function<void()>& taken);
+
+  const Solver& solver() const { return solver_; }
+  const Schedule& schedule() const { return schedule_; }
+  const std::vector<Snapshot>& snapshots() const { return snapshots_; }
+  bool finished() const { return snapshots_.size() == schedule_.times.size(); }
+  /// The state of the solver as bytes, for a checkpoint on the same kind of machine.
+  std::string saved() const;
+
+ private:
+  void take();
+
+  Schedule schedule_;
+  Solver solver_;
+  LeftFront left_front_;
+  std::vector<Snapshot> snapshots_;
+};
+
+}  // namespace slipfront::pulse

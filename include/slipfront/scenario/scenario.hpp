@@ -1,0 +1,105 @@
+#pragma once
+/// \file
+/// A scenario file, read and checked: what is on the interface at t = 0, what acts on it, where, how long, and what to
+/// write.
+
+#include <functional>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "slipfront/error.hpp"
+#include "slipfront/modulation/friction.hpp"
+
+namespace slipfront::scenario {
+
+/// The least stress above 0 that a state can hold in doubles (its density variable underflows below), and the greatest
+/// accepted.
+inline constexpr double smallest_stress = 0.0045;
+inline constexpr double largest_stress = 1e6;
+
+enum class ProfileKind { step, tanh, formula, table };
+
+/// [initial]: stress along x at t = 0, everything at rest.
+struct Initial {
+  ProfileKind profile = ProfileKind::step;
+  double stress_left = 0;   ///< of step and tanh; >= 0
+  double stress_right = 0;  ///< 0 is the empty interface
+  double width = 1;         ///< of tanh, > 0: right + (left - right)(1 - tanh(x / width))/2
+  std::string formula;      ///< of x
+  std::string file;         ///< CSV or NetCDF with columns / variables x and stress, relative to the scenario file
+};
+
+/// [domain]; either end may be left to the solver.
+struct Domain {
+  std::optional<double> left, right;
+};
+
+/// [pulse]
+struct PulseOptions {
+  int cells = 400;          ///< >= 4
+  double tolerance = 1e-6;  ///< of the adaptive time steps, where the source is stiff
+  double threshold = 1e-3;  ///< of the observer who sees fronts, in units of the peak slip velocity
+};
+
+enum class ChainModel {
+  sine_gordon,  ///< the continuum equation, on a grid
+  lattice,      ///< every site of the Frenkel-Kontorova chain
+};
+
+/// [chain]
+struct ChainOptions {
+  double scale = 1;               ///< > 0: x and t stretched by it, friction divided by it
+  std::optional<double> spacing;  ///< of the grid or lattice, > 0, in the chain's own (stretched) x
+  ChainModel model = ChainModel::sine_gordon;
+};
+
+/// [output]: either a list of times or an interval; the end is always written.
+struct Output {
+  std::vector<double> times;
+  std::optional<double> every;
+  std::vector<std::string> variables;  ///< empty: all
+};
+
+/// [medium], SI units; absent where the scenario does not say.
+struct MediumOptions {
+  std::optional<double> shear_modulus, poisson_ratio, p_wave_speed, s_wave_speed, density, contact_ratio,
+      asperity_spacing;
+};
+
+struct Scenario {
+  std::string title;
+  std::string file;  ///< as named by the user
+  std::string text;  ///< the TOML that was read; with overrides, the TOML they make of it. Reads back as this scenario
+  Initial initial;
+  modulation::Friction friction;
+  std::string forcing;  ///< formula F(x, t); empty: none
+  std::string contact;  ///< formula a(x); empty: 1
+  Domain domain;
+  double end = 2 * std::numbers::pi;
+  PulseOptions pulse;
+  ChainOptions chain;
+  MediumOptions medium;
+  Output output;
+  std::vector<std::string> warnings;  ///< what the user should know before the run, one line each
+
+  // Made from the above, checked, ready to call (not from two threads at once where they are formulas). They were tried
+  // over the domain, but a call may still throw InputError where a formula fails or a table does not reach.
+  std::function<double(double)> stress;                  ///< initial stress at x: 0, or smallest to largest_stress
+  std::function<double(double x, double t)> forcing_at;  ///< finite; null: no forcing
+  std::function<double(double)> contact_at;              ///< finite, > 0; null: 1 everywhere
+};
+
+/// Gives the content of a table file named in a scenario (record/ knows files; this room does not).
+using TableReader = std::function<std::vector<std::pair<double, double>>(const std::string& path)>;
+
+/// Reads a scenario and applies `overrides` ("table.key=value", in order; a value that is no TOML is taken as a text).
+/// Unknown keys, tables and values are errors that name the nearest known one. An [event] table is not looked at.
+/// \throws InputError with file ("--set" for an override), line, key, value and what is allowed; what `tables` throws.
+Scenario read_scenario(std::string_view text, const std::string& file, const std::vector<std::string>& overrides,
+                       const TableReader& tables);
+
+}  // namespace slipfront::scenario

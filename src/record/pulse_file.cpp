@@ -1,0 +1,177 @@
+#include "slipfront/record/pulse_file.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+#include "netcdf.hpp"
+#include "pulse_layout.hpp"
+#include "pulse_variables.hpp"
+#include "seal.hpp"
+#include "utf8.hpp"
+#include "whole_file.hpp"
+
+namespace slipfront::record {
+namespace {
+
+using netcdf::Writer;
+using pulse::Snapshot;
+using Fields = std::vector<const FieldVariable*>;
+
+constexpr std::string_view paper = "Gershenzon, Bambakidis and Skinner (2015)";
+constexpr std::string_view paper_title =
+    "How does dissipation affect the transition from static to dynamic macroscopic friction?";
+constexpr Description time_axis = {"time", "time", "b / (c A)", "Eq. 3"};
+constexpr Description x_axis = {"x", "position along the interface, centre of the cell", "b / A", "Eq. 3"};
+constexpr Description x_ends = {"x_bounds", "ends of the cell", "b / A", "Eq. 3"};
+
+void require(bool truth, const char* what) {
+  if (!truth) throw std::invalid_argument(std::string("write_pulse: ") + what);
+}
+
+void check(const PulseMetadata& metadata, const std::vector<Snapshot>& snapshots, const Fields& fields) {
+  const auto& edges = metadata.x_edges;
+  require(edges.size() >= 2, "x_edges has no cell");
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    require(std::isfinite(edges[i]) && (i == 0 || edges[i - 1] < edges[i]), "x_edges is not ascending");
+  for (std::size_t i = 0; i < snapshots.size(); ++i) {
+    require(std::isfinite(snapshots[i].time) && (i == 0 || snapshots[i - 1].time < snapshots[i].time),
+            "times do not ascend");
+    for (const FieldVariable* field : fields)
+      require((snapshots[i].profile.*field->values).size() + 1 == edges.size(), "a profile has not as many cells as x");
+  }
+}
+
+void describe(Writer& file, int variable, const Description& about) {
+  file.attribute(variable, "long_name", about.long_name);
+  file.attribute(variable, "units", "1");
+  file.attribute(variable, "dimensional_unit", about.dimensional_unit);
+  file.attribute(variable, "references", std::string(paper) + ", " + std::string(about.reference));
+}
+
+int reals(Writer& file, const Description& about, const std::vector<int>& dimensions) {
+  const int variable = file.reals(std::string(about.name), dimensions);
+  describe(file, variable, about);
+  return variable;
+}
+
+/// Bytes that mean nothing to anyone else.
+int opaque(Writer& file, const std::string& name, const std::string& long_name, std::size_t size) {
+  const int variable = file.bytes(name, {file.dimension(name + "_bytes", size)});
+  file.attribute(variable, "long_name", long_name);
+  file.attribute(variable, "units", "1");
+  file.attribute(variable, "references", "slipfront, src/record");
+  return variable;
+}
+
+/// Attributes of the file. Returns whether they hold the scenario exactly.
+bool describe_file(Writer& file, const PulseMetadata& metadata, bool finished) {
+  const auto text = [&](const char* name, std::string_view value) {
+    file.attribute(Writer::global, name, clean_text(value, netcdf::longest_text));
+  };
+  text("Conventions", "CF-1.10");
+  text("title", metadata.title);
+  text("source", "slipfront " + metadata.version);
+  text("history", metadata.command_line);
+  text("references", std::string(paper) + ", " + std::string(paper_title));
+  text("comment",
+       "All values are dimensionless; multiply by dimensional_unit: A contact ratio, b asperity spacing, c speed of "
+       "strain waves, mu shear modulus, nu Poisson ratio.");
+  text("version", metadata.version);
+  text("scenario", metadata.scenario_text);
+  text("slipfront_format", layout::format);
+  file.attribute(Writer::global, "finished", finished ? 1 : 0);
+  return clean_text(metadata.scenario_text, netcdf::longest_text) == metadata.scenario_text;
+}
+
+struct Axes {
+  int time, x, x_bounds;
+};
+
+void write_axes(Writer& file, const Axes& axes, const std::vector<double>& edges,
+                const std::vector<Snapshot>& snapshots) {
+  std::vector<double> times;
+  times.reserve(snapshots.size());
+  for (const Snapshot& snapshot : snapshots) times.push_back(snapshot.time);
+  file.write(axes.time, times);
+  std::vector<double> centres;
+  for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
+    centres.push_back(std::midpoint(edges[i], edges[i + 1]));
+    file.write_row(axes.x_bounds, i, std::span(edges).subspan(i, 2));
+  }
+  file.write(axes.x, centres);
+}
+
+void write_field(Writer& file, int variable, const FieldVariable& field, const std::vector<Snapshot>& snapshots) {
+  std::vector<double> drop;
+  for (std::size_t row = 0; row < snapshots.size(); ++row) {
+    const auto& values = snapshots[row].profile.*field.values;
+    if (!field.drop) {
+      file.write_row(variable, row, values);
+      continue;
+    }
+    const auto& first = snapshots.front().profile.*field.values;
+    drop.resize(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) drop[i] = first[i] - values[i];
+    file.write_row(variable, row, drop);
+  }
+}
+
+void write_scalar(Writer& file, int variable, const ScalarVariable& scalar, const std::vector<Snapshot>& snapshots) {
+  std::vector<double> values;
+  values.reserve(snapshots.size());
+  for (const Snapshot& snapshot : snapshots) values.push_back(scalar.get(snapshot));
+  file.write(variable, values);
+}
+
+}  // namespace
+
+std::vector<std::string> pulse_variables() {
+  std::vector<std::string> names;
+  for (const FieldVariable& field : field_variables()) names.emplace_back(field.about.name);
+  return names;
+}
+
+void write_pulse(const std::string& path, const PulseMetadata& metadata, const std::vector<Snapshot>& snapshots,
+                 const std::string& solver_state, bool finished) {
+  const Fields fields = chosen_fields(metadata.variables);
+  check(metadata, snapshots, fields);
+  const std::size_t cells = metadata.x_edges.size() - 1;
+  const std::size_t values = snapshots.size() * (fields.size() * cells + scalar_variables().size()) + 3 * cells;
+  Writer file(path, values * sizeof(double) + solver_state.size() + (1 << 16));
+
+  const bool scenario_in_attribute = describe_file(file, metadata, finished);
+  file.attribute(Writer::global, "checksum",
+                 layout::checksum(metadata.scenario_text, solver_state, finished, snapshots, fields));
+  const int time = file.dimension("time", snapshots.size());
+  const int x = file.dimension("x", cells);
+  const int ends = file.dimension("ends", 2);
+  const Axes axes{reals(file, time_axis, {time}), reals(file, x_axis, {x}), reals(file, x_ends, {x, ends})};
+  file.attribute(axes.x, "axis", "X");
+  file.attribute(axes.x, "bounds", x_ends.name);
+  std::vector<int> field_ids, scalar_ids;
+  for (const FieldVariable* field : fields) field_ids.push_back(reals(file, field->about, {time, x}));
+  for (const ScalarVariable& scalar : scalar_variables()) {
+    scalar_ids.push_back(reals(file, scalar.about, {time}));
+    if (scalar.may_be_absent) file.fill_value(scalar_ids.back(), std::numeric_limits<double>::quiet_NaN());
+  }
+  const int state = opaque(file, layout::solver_state, "state of the solver, to resume the run", solver_state.size());
+  const int scenario = scenario_in_attribute ? -1
+                                             : opaque(file, layout::scenario_bytes, "the scenario, byte by byte",
+                                                      metadata.scenario_text.size());
+
+  file.end_definitions();
+  write_axes(file, axes, metadata.x_edges, snapshots);
+  for (std::size_t i = 0; i < fields.size(); ++i) write_field(file, field_ids[i], *fields[i], snapshots);
+  for (std::size_t i = 0; i < scalar_ids.size(); ++i)
+    write_scalar(file, scalar_ids[i], scalar_variables()[i], snapshots);
+  file.write(state, solver_state);
+  if (!scenario_in_attribute) file.write(scenario, metadata.scenario_text);
+
+  const netcdf::Image image = file.finish();
+  replace_file(path, {image.bytes(), seal(image.bytes())});
+}
+
+}  // namespace slipfront::record

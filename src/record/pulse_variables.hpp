@@ -1,0 +1,51 @@
+#pragma once
+/// \file
+/// What stands in a pulse file, variable by variable: one line each.
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "slipfront/pulse/snapshot.hpp"
+
+namespace slipfront::record {
+
+/// What CF asks to be said of every variable.
+struct Description {
+  std::string_view name;
+  std::string_view long_name;
+  std::string_view dimensional_unit;  ///< multiply by this for a dimensional value; empty: none
+  std::string_view reference;         ///< where in the paper
+};
+
+/// Over time and x.
+struct FieldVariable {
+  Description about;
+  std::vector<double> pulse::Profile::*values;
+  bool drop = false;  ///< written as the first snapshot less this one
+};
+
+/// Over time.
+struct ScalarVariable {
+  Description about;
+  double (*get)(const pulse::Snapshot&);
+  void (*set)(pulse::Snapshot&, double);
+  bool may_be_absent = false;  ///< NaN where there is none
+};
+
+std::span<const FieldVariable> field_variables();
+std::span<const ScalarVariable> scalar_variables();
+
+/// Those of field_variables() that `names` asks for, all if it names none. The stress drop brings the stress that it is
+/// measured from: without that a run could not be resumed to the same bits. \throws InputError for an unknown name.
+std::vector<const FieldVariable*> chosen_fields(const std::vector<std::string>& names);
+
+/// The variable in `written` to read `values` from, or null.
+const FieldVariable* holder(const std::vector<const FieldVariable*>& written,
+                            std::vector<double> pulse::Profile::*values);
+
+/// Every field of a profile, once.
+std::span<std::vector<double> pulse::Profile::*const> profile_fields();
+
+}  // namespace slipfront::record

@@ -1,0 +1,143 @@
+#include "slipfront/record/table_file.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+#include <system_error>
+
+#include "../event/csv_records.hpp"
+#include "netcdf.hpp"
+#include "slipfront/error.hpp"
+#include "slipfront/medium/quantity.hpp"
+#include "slipfront/record/text_file.hpp"
+
+namespace slipfront::record {
+namespace {
+
+using Table = std::vector<std::pair<double, double>>;
+
+std::string trimmed(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t\r");
+  if (first == std::string::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+/// Where the columns stand in a CSV file.
+struct Columns {
+  std::size_t count, x, stress;
+};
+
+Columns read_header(const std::vector<std::string>& titles, std::size_t line, const std::string& path) {
+  const auto column = [&](const char* name) {
+    std::optional<std::size_t> found;
+    for (std::size_t i = 0; i < titles.size(); ++i) {
+      if (trimmed(titles[i]) != name) continue;
+      if (found)
+        throw InputError({.file = path, .line = line, .key = name, .problem = "column given twice", .allowed = "once"});
+      found = i;
+    }
+    if (!found)
+      throw InputError({.file = path,
+                        .line = line,
+                        .key = name,
+                        .problem = "column is missing",
+                        .allowed = "a header line with the columns x and stress"});
+    return *found;
+  };
+  return {titles.size(), column("x"), column("stress")};
+}
+
+std::pair<double, double> read_row(const Columns& columns, const std::vector<std::string>& cells, std::size_t line,
+                                   const std::string& path) {
+  if (cells.size() != columns.count)
+    throw InputError({.file = path,
+                      .line = line,
+                      .problem = "the row has " + std::to_string(cells.size()) + " cells",
+                      .allowed = std::to_string(columns.count) + " cells, as in the header"});
+  const auto value = [&](const char* name, std::size_t column) {
+    const std::optional<double> parsed = medium::number(trimmed(cells[column]));
+    if (!parsed)
+      throw InputError({.file = path,
+                        .line = line,
+                        .key = name,
+                        .value = cells[column],
+                        .problem = cells[column].empty() ? "no value" : "not a number",
+                        .allowed = "a finite number"});
+    return *parsed;
+  };
+  return {value("x", columns.x), value("stress", columns.stress)};
+}
+
+Table read_csv(std::string_view text, const std::string& path) {
+  if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
+  std::optional<Columns> columns;
+  Table table;
+  const std::size_t open_quote = event::for_each_record(text, [&](std::vector<std::string>&& cells, std::size_t line) {
+    if (columns) {
+      table.push_back(read_row(*columns, cells, line, path));
+    } else {
+      columns = read_header(cells, line, path);
+    }
+  });
+  if (open_quote != 0)
+    throw InputError({.file = path,
+                      .line = open_quote,
+                      .problem = "a quote is opened and never closed",
+                      .allowed = "\"...\" around a cell"});
+  if (table.empty())
+    throw InputError({.file = path,
+                      .problem = columns ? "a header and no rows" : "the file is empty",
+                      .allowed = "a header line with the columns x and stress, and rows of numbers"});
+  return table;
+}
+
+/// A variable as it is meant: unpacked, nothing missing.
+std::vector<double> read_variable(const netcdf::Reader& file, const std::string& name, const std::string& path) {
+  const auto fail = [&](const std::string& value, const std::string& problem, const std::string& allowed) {
+    throw InputError({.file = path, .key = name, .value = value, .problem = problem, .allowed = allowed});
+  };
+  const std::optional<netcdf::Variable> variable = file.find(name);
+  if (!variable) fail("", "variable is missing", "variables x and stress");
+  if (variable->kind == netcdf::Variable::Kind::other) fail("", "holds no numbers", "numbers");
+  if (variable->shape.size() != 1)
+    fail("", "has " + std::to_string(variable->shape.size()) + " dimensions", "one dimension");
+  if (file.number(*variable, "scale_factor") || file.number(*variable, "add_offset"))
+    fail("", "is packed (scale_factor, add_offset)", "plain numbers");
+  const auto fill = file.number(*variable, "_FillValue"), missing = file.number(*variable, "missing_value");
+  std::vector<double> values = file.reals(*variable);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::string index = "value " + std::to_string(i + 1) + " of " + std::to_string(values.size());
+    if (values[i] == fill || values[i] == missing) fail(std::to_string(values[i]), index + " is missing", "no gaps");
+    if (!std::isfinite(values[i])) fail(std::to_string(values[i]), index + " is not finite", "a finite number");
+  }
+  return values;
+}
+
+Table read_netcdf(std::string_view image, const std::string& path) {
+  constexpr std::size_t most_bytes = std::size_t{1} << 28;  // a compressed file may hold more than its own size
+  const netcdf::Reader file(path, image, most_bytes);
+  const std::vector<double> x = read_variable(file, "x", path), stress = read_variable(file, "stress", path);
+  if (x.size() != stress.size())
+    throw InputError({.file = path,
+                      .key = "stress",
+                      .problem = "has " + std::to_string(stress.size()) + " values",
+                      .allowed = std::to_string(x.size()) + " values, as x has"});
+  if (x.empty()) throw InputError({.file = path, .key = "x", .problem = "no values", .allowed = "at least one"});
+  Table table;
+  for (std::size_t i = 0; i < x.size(); ++i) table.emplace_back(x[i], stress[i]);
+  return table;
+}
+
+}  // namespace
+
+std::vector<std::pair<double, double>> read_profile_table(const std::string& path) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  if (ending != ".csv" && ending != ".nc")
+    throw InputError({.file = path, .problem = "unknown ending '" + ending + "'", .allowed = ".csv or .nc"});
+  const std::string content = read_text(path);
+  return ending == ".csv" ? read_csv(content, path) : read_netcdf(content, path);
+}
+
+}  // namespace slipfront::record

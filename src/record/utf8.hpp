@@ -1,0 +1,18 @@
+#pragma once
+/// \file
+/// What may stand in a text attribute: UTF-8 without NUL, not too long. Anything else breaks readers in other
+/// languages.
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace slipfront::record {
+
+/// Length of the UTF-8 character at the front of `text` (RFC 3629), or 0 if there is none.
+std::size_t utf8_length(std::string_view text);
+
+/// `text` with '?' for each byte that is NUL or not UTF-8, cut between characters to at most `most` bytes.
+std::string clean_text(std::string_view text, std::size_t most);
+
+}  // namespace slipfront::record

@@ -1,0 +1,110 @@
+#include "checked.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "formula.hpp"
+
+namespace slipfront::scenario {
+namespace {
+
+constexpr int samples = 2001;
+
+InputError refusal(Complaint where, const std::string& problem, const std::string& allowed) {
+  where.problem = problem;
+  where.allowed = allowed;
+  return InputError(std::move(where));
+}
+
+std::function<double(double)> checked_stress(const RawStress& raw) {
+  return [raw](double x) {
+    const double stress = raw.at(x);
+    if (!(stress >= 0 && stress <= largest_stress))
+      throw refusal(raw.where, "the stress is " + shortest(stress) + " at x = " + shortest(x),
+                    "0 (empty), or " + shortest(smallest_stress) + " to " + shortest(largest_stress));
+    return stress < smallest_stress ? 0.0 : stress;
+  };
+}
+
+/// The formula under "table.formula" or the like, with its place in the file for later complaints.
+std::pair<Formula, Complaint> read_formula(const Section& section, std::string_view key, const std::string& text,
+                                           const std::vector<std::string_view>& variables) {
+  try {
+    return {Formula(text, variables), section.where(key)};
+  } catch (const InputError& error) {
+    throw section.refuse(key, error.complaint().problem, error.complaint().allowed);
+  }
+}
+
+void make_forcing(const Document& document, Scenario& scenario) {
+  const Section section(document, "forcing", {"formula"});
+  const auto text = section.formula("formula");
+  if (!text) return;
+  scenario.forcing = *text;
+  scenario.forcing_at = [read = read_formula(section, "formula", *text, {"x", "t"})](double x, double t) {
+    const double force = read.first(x, t);
+    if (!std::isfinite(force))
+      throw refusal(read.second,
+                    "the forcing is " + shortest(force) + " at x = " + shortest(x) + ", t = " + shortest(t),
+                    "a finite number");
+    return force;
+  };
+}
+
+void make_contact(const Document& document, Scenario& scenario) {
+  const Section section(document, "interface", {"contact"});
+  const auto text = section.formula("contact");
+  if (!text) return;
+  scenario.contact = *text;
+  scenario.contact_at = [read = read_formula(section, "contact", *text, {"x"})](double x) {
+    const double contact = read.first(x);
+    if (!(contact > 0 && std::isfinite(contact)))
+      throw refusal(read.second, "the contact ratio is " + shortest(contact) + " at x = " + shortest(x),
+                    "a finite number > 0");
+    return contact;
+  };
+}
+
+/// Where to try the functions: the domain, or what a solver may be expected to choose for it.
+std::pair<double, double> trial_range(const Scenario& scenario, const RawStress& raw) {
+  const double reach = scenario.initial.profile == ProfileKind::tanh ? 10 * scenario.initial.width : 7;
+  const auto [left, right] = raw.covers.value_or(std::pair(-reach, reach));
+  const Domain& domain = scenario.domain;
+  if (domain.left && domain.right) return {*domain.left, *domain.right};
+  if (domain.left) return {*domain.left, std::max(right, *domain.left + (raw.covers ? 0 : 2 * reach))};
+  if (domain.right) return {std::min(left, *domain.right - (raw.covers ? 0 : 2 * reach)), *domain.right};
+  return {left, right};
+}
+
+void try_out(const RawStress& raw, Scenario& scenario) {
+  const auto [left, right] = trial_range(scenario, raw);
+  std::optional<double> first_small;
+  double last_small = 0;
+  for (int i = 0; i < samples; ++i) {
+    const double x = i == samples - 1 ? right : std::min(right, left + (right - left) * (i / (samples - 1.0)));
+    if (scenario.stress(x) == 0 && raw.at(x) > 0) {
+      first_small = first_small.value_or(x);
+      last_small = x;
+    }
+    if (scenario.contact_at) scenario.contact_at(x);
+    if (scenario.forcing_at) {
+      scenario.forcing_at(x, 0);
+      scenario.forcing_at(x, scenario.end);
+    }
+  }
+  if (first_small)
+    scenario.warnings.push_back("initial stress between 0 and " + shortest(smallest_stress) +
+                                " counts as 0, for no double holds its state: first at x = " + shortest(*first_small) +
+                                ", last at x = " + shortest(last_small));
+}
+
+}  // namespace
+
+void make_functions(const Document& document, const RawStress& raw, Scenario& scenario) {
+  scenario.stress = checked_stress(raw);
+  make_forcing(document, scenario);
+  make_contact(document, scenario);
+  try_out(raw, scenario);
+}
+
+}  // namespace slipfront::scenario

@@ -1,0 +1,128 @@
+#include "initial.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include "formula.hpp"
+#include "monotone.hpp"
+
+namespace slipfront::scenario {
+namespace {
+
+using Profiles = std::vector<std::pair<std::string_view, ProfileKind>>;
+
+const Profiles& profiles() {
+  static const Profiles words = {{"step", ProfileKind::step},
+                                 {"tanh", ProfileKind::tanh},
+                                 {"formula", ProfileKind::formula},
+                                 {"table", ProfileKind::table}};
+  return words;
+}
+
+std::string profile_name(ProfileKind kind) {
+  for (const auto& [name, profile] : profiles())
+    if (profile == kind) return std::string(name);
+  return {};
+}
+
+/// Whether a key of [initial] has a meaning for this profile, and must be there.
+enum class Role { none, optional, required };
+
+Role role(std::string_view key, ProfileKind kind) {
+  if (key == "formula") return kind == ProfileKind::formula ? Role::required : Role::none;
+  if (key == "file") return kind == ProfileKind::table ? Role::required : Role::none;
+  if (key == "width") return kind == ProfileKind::tanh ? Role::optional : Role::none;
+  return kind == ProfileKind::step || kind == ProfileKind::tanh ? Role::required : Role::none;
+}
+
+double read_stress(const Section& section, std::string_view key) {
+  const double stress = *section.number(key, {.least = 0, .most = largest_stress});
+  if (stress > 0 && stress < smallest_stress)
+    throw section.refuse(key, "no double holds the state of so small a stress",
+                         "0 (empty), or " + shortest(smallest_stress) + " to " + shortest(largest_stress));
+  return stress;
+}
+
+RawStress from_table(const Section& section, const TableReader& tables, const std::string& path) {
+  const auto curve = std::make_shared<const MonotoneCurve>(read_rows(section, path, tables));
+  const Complaint where = section.where("file");
+  const auto at = [curve, where](double x) {
+    if (x >= curve->first() && x <= curve->last()) return (*curve)(x);
+    Complaint complaint = where;
+    complaint.problem = "the table does not cover x = " + shortest(x);
+    complaint.allowed = shortest(curve->first()) + " <= x <= " + shortest(curve->last());
+    throw InputError(complaint);
+  };
+  return {.at = at, .where = where, .covers = std::pair(curve->first(), curve->last())};
+}
+
+RawStress from_formula(const Section& section, const Initial& initial) {
+  const Complaint where = section.where("formula");
+  try {
+    return {.at = Formula(initial.formula, {"x"}), .where = where};
+  } catch (const InputError& error) {
+    throw section.refuse("formula", error.complaint().problem, error.complaint().allowed);
+  }
+}
+
+}  // namespace
+
+RawStress read_initial(const Document& document, const TableReader& tables, Initial& initial) {
+  const Section section(document, "initial", {"profile", "stress_left", "stress_right", "width", "file", "formula"});
+  if (document.tables.count("initial") == 0)
+    throw InputError({.file = document.file,
+                      .problem = "there is no [initial] table",
+                      .allowed = "[initial] with profile, stress_left, stress_right, ..."});
+  initial.profile = section.choice("profile", profiles()).value_or(initial.profile);
+  const std::string profile = "profile = \"" + profile_name(initial.profile) + "\"";
+  for (const std::string_view key : {"stress_left", "stress_right", "width", "file", "formula"}) {
+    const Role wanted = role(key, initial.profile);
+    if (section.has(key) && wanted == Role::none)
+      throw section.refuse(key, "does not fit " + profile, "leave it out, or change initial.profile");
+    if (!section.has(key) && wanted == Role::required) throw section.refuse(key, "missing", profile + " needs it");
+  }
+  if (initial.profile == ProfileKind::formula) {
+    initial.formula = *section.formula("formula");
+    return from_formula(section, initial);
+  }
+  if (initial.profile == ProfileKind::table) {
+    initial.file = *section.text("file");
+    // Relative to the scenario, wherever the program was started; an absolute path stays what it is.
+    const auto path = std::filesystem::path(document.file).parent_path() / initial.file;
+    return from_table(section, tables, path.string());
+  }
+  const double left = initial.stress_left = read_stress(section, "stress_left");
+  const double right = initial.stress_right = read_stress(section, "stress_right");
+  const Complaint where = section.where("profile");
+  if (initial.profile == ProfileKind::step)
+    return {.at = [left, right](double x) { return x < 0 ? left : right; }, .where = where};
+  const Limits widths{.least = 0, .most = farthest, .without_least = true};
+  const double width = initial.width = section.number("width", widths).value_or(initial.width);
+  return {.at = [=](double x) { return right + (left - right) * (1 - std::tanh(x / width)) / 2; }, .where = where};
+}
+
+std::vector<std::pair<double, double>> read_rows(const Section& section, const std::string& path,
+                                                 const TableReader& tables) {
+  const auto refuse = [&](const std::string& problem, const char* allowed) {
+    return section.refuse("file", problem, allowed);
+  };
+  if (section.find("file")->text.empty() || path.find('\0') != std::string::npos) throw refuse("not a path", "a file");
+  if (!tables) throw refuse("a table cannot be read here", "another initial.profile");
+  std::vector<std::pair<double, double>> rows = tables(path);
+  if (rows.size() < 2) throw refuse("a table of " + std::to_string(rows.size()) + " rows", "two rows or more");
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto [x, stress] = rows[i];
+    const std::string row = "row " + std::to_string(i + 1) + ": ";
+    if (!position.hold(x)) throw refuse(row + "x = " + shortest(x), "x within -1e9 and 1e9");
+    if (!(stress >= 0 && stress <= largest_stress))
+      throw refuse(row + "stress = " + shortest(stress), "a finite stress >= 0, at most 1e6");
+    if (i > 0 && !(x > rows[i - 1].first))
+      throw refuse(row + "x = " + shortest(x) + " does not increase", "x strictly increasing");
+    if (i > 0 && !(x - rows[i - 1].first > 1e-90))  // the slope between two rows must be a number
+      throw refuse(row + "x = " + shortest(x) + " is too close to the row before", "x strictly increasing");
+  }
+  return rows;
+}
+
+}  // namespace slipfront::scenario

@@ -1,0 +1,55 @@
+#include "checked.hpp"
+#include "document.hpp"
+#include "initial.hpp"
+#include "settings.hpp"
+#include "slipfront/scenario/scenario.hpp"
+
+namespace slipfront::scenario {
+namespace {
+
+std::string read_title(const Document& document) {
+  if (!document.title) return {};
+  const Value& title = *document.title;
+  if (title.kind == Value::Kind::text) return title.text;
+  throw InputError({.file = title.overridden ? "--set" : document.file,
+                    .line = title.line,
+                    .key = "title",
+                    .value = title.text,
+                    .problem = "not a text",
+                    .allowed = "a text in quotes"});
+}
+
+Scenario read(std::string_view text, const std::string& file, const std::vector<std::string>& overrides,
+              const TableReader& tables) {
+  const Document document = read_document(text, file, overrides);
+  Scenario scenario;
+  scenario.title = read_title(document);
+  scenario.file = file;
+  scenario.text = document.text;
+  const RawStress raw = read_initial(document, tables, scenario.initial);
+  read_friction(document, scenario);
+  read_domain(document, scenario.domain);
+  scenario.end = read_end(document, scenario.end);
+  read_pulse(document, scenario.pulse);
+  read_chain(document, scenario.chain);
+  read_medium(document, scenario.medium);
+  scenario.output = read_output(document, scenario.end);
+  make_functions(document, raw, scenario);
+  return scenario;
+}
+
+}  // namespace
+
+Scenario read_scenario(std::string_view text, const std::string& file, const std::vector<std::string>& overrides,
+                       const TableReader& tables) {
+  try {
+    return read(text, file, overrides, tables);
+  } catch (const InputError& error) {  // of the parser or a table: it does not know the file
+    Complaint complaint = error.complaint();
+    if (!complaint.file.empty()) throw;
+    complaint.file = file;
+    throw InputError(complaint);
+  }
+}
+
+}  // namespace slipfront::scenario

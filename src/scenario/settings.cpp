@@ -1,0 +1,87 @@
+#include "settings.hpp"
+
+#include <algorithm>
+
+#include "section.hpp"
+
+namespace slipfront::scenario {
+namespace {
+
+constexpr double most_outputs = 1e6;
+
+std::vector<double> read_times(const Section& section, double end) {
+  std::vector<double> times;
+  const Value* const array = section.array("times", "an array of times, such as [1, 2.5]");
+  if (!array) return times;
+  const Limits limits{.least = 0, .most = end};  // [time] end
+  for (const Value& item : array->items) {
+    section.check("times", item, limits);
+    if (!times.empty() && !(item.number > times.back()))
+      throw section.refuse("times", item, "not after the time before it", "times strictly increasing");
+    times.push_back(item.number);
+  }
+  return times;
+}
+
+std::vector<std::string> read_variables(const Section& section) {
+  static const std::vector<std::string_view> known = {"k", "Sigma", "U", "W", "slip", "stress_drop"};
+  std::vector<std::string> variables;
+  const Value* const array = section.array("variables", "an array of names, such as [\"Sigma\", \"slip\"]");
+  if (!array) return variables;
+  for (const Value& item : array->items) {
+    const auto found = std::find(known.begin(), known.end(), item.text);
+    if (item.kind != Value::Kind::text || found == known.end())
+      throw section.refuse("variables", item, "unknown variable", nearest_or_all(item.text, known));
+    if (std::find(variables.begin(), variables.end(), item.text) != variables.end())
+      throw section.refuse("variables", item, "given twice", "each name once");
+    variables.push_back(item.text);
+  }
+  if (variables.empty()) throw section.refuse("variables", "an empty list", "leave it out to write all");
+  return variables;
+}
+
+}  // namespace
+
+void read_domain(const Document& document, Domain& domain) {
+  const Section section(document, "domain", {"left", "right"});
+  domain.left = section.number("left", position);
+  domain.right = section.number("right", position);
+  if (domain.left && domain.right && !(*domain.left < *domain.right))
+    throw section.refuse("right", "not to the right of domain.left", "> " + shortest(*domain.left));
+}
+
+double read_end(const Document& document, double otherwise) {
+  return Section(document, "time", {"end"}).number("end", positive).value_or(otherwise);
+}
+
+void read_pulse(const Document& document, PulseOptions& pulse) {
+  const Section section(document, "pulse", {"cells", "tolerance", "threshold"});
+  pulse.cells = section.whole_number("cells", 4, 10'000'000).value_or(pulse.cells);
+  pulse.tolerance = section.number("tolerance", {.least = 1e-12, .most = 0.1}).value_or(pulse.tolerance);
+  const Limits fraction{.least = 0, .most = 1, .without_least = true, .without_most = true};
+  pulse.threshold = section.number("threshold", fraction).value_or(pulse.threshold);
+}
+
+void read_chain(const Document& document, ChainOptions& chain) {
+  const Section section(document, "chain", {"scale", "spacing", "model"});
+  chain.scale = section.number("scale", positive).value_or(chain.scale);
+  chain.spacing = section.number("spacing", positive);
+  chain.model =
+      section.choice<ChainModel>("model", {{"sine-gordon", ChainModel::sine_gordon}, {"lattice", ChainModel::lattice}})
+          .value_or(chain.model);
+}
+
+Output read_output(const Document& document, double end) {
+  const Section section(document, "output", {"times", "every", "variables"});
+  Output output;
+  output.times = read_times(section, end);
+  output.every = section.number("every", positive);
+  if (output.every && section.has("times"))
+    throw section.refuse("every", "output.times is given too", "one of the two");
+  if (output.every && end / *output.every > most_outputs)
+    throw section.refuse("every", "more than a million outputs", ">= " + shortest(end / most_outputs));
+  output.variables = read_variables(section);
+  return output;
+}
+
+}  // namespace slipfront::scenario

@@ -1,0 +1,145 @@
+#include "slipfront/record/pulse_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "pulse_sample.hpp"
+#include "slipfront/error.hpp"
+#include "temporary_folder.hpp"
+
+namespace {
+
+using slipfront::FileError;
+using slipfront::InputError;
+using slipfront::pulse::Snapshot;
+using slipfront::record::Checkpoint;
+using slipfront::record::PulseMetadata;
+using slipfront::record::read_checkpoint;
+using slipfront::record::write_pulse;
+
+using Bits = std::vector<std::uint64_t>;
+
+Bits bits(const std::vector<double>& values) {
+  Bits result;
+  for (const double value : values) result.push_back(std::bit_cast<std::uint64_t>(value));
+  return result;
+}
+
+Bits scalar_bits(const Snapshot& s) {
+  return bits({s.time, s.fronts.trailing, s.fronts.leading, s.fronts.trailing_observed, s.fronts.leading_observed,
+               s.energy.elastic, s.energy.kinetic, s.energy.dissipated, s.energy.supplied, s.slip_velocity_at_origin,
+               s.stress_at_origin, s.slip_at_origin, s.peak_slip_velocity, s.peak_position});
+}
+
+void expect_equal(const std::vector<Snapshot>& a, const std::vector<Snapshot>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(scalar_bits(a[i]), scalar_bits(b[i]));
+    EXPECT_EQ(bits(a[i].profile.k), bits(b[i].profile.k));
+    EXPECT_EQ(bits(a[i].profile.U), bits(b[i].profile.U));
+    EXPECT_EQ(bits(a[i].profile.W), bits(b[i].profile.W));
+    EXPECT_EQ(bits(a[i].profile.slip), bits(b[i].profile.slip));
+  }
+}
+
+TEST(PulseFile, ComesBackToTheBit) {
+  const TemporaryFolder folder;
+  const auto snapshots = sample_snapshots(5, 7);
+  write_pulse(folder / "a.nc", sample_metadata(7), snapshots, sample_state(), false);
+  const Checkpoint run = read_checkpoint(folder / "a.nc");
+  EXPECT_EQ(run.scenario_text, sample_metadata(7).scenario_text);
+  EXPECT_EQ(run.version, "1.2.3");
+  EXPECT_EQ(run.solver_state, sample_state());
+  EXPECT_FALSE(run.finished);
+  expect_equal(run.snapshots, snapshots);
+}
+
+TEST(PulseFile, MayHoldNothingYet) {
+  const TemporaryFolder folder;
+  write_pulse(folder / "a.nc", sample_metadata(1), {}, "", true);
+  const Checkpoint run = read_checkpoint(folder / "a.nc");
+  EXPECT_TRUE(run.snapshots.empty());
+  EXPECT_TRUE(run.solver_state.empty());
+  EXPECT_TRUE(run.finished);
+}
+
+TEST(PulseFile, EqualRunsMakeEqualFiles) {
+  const TemporaryFolder folder;
+  write_pulse(folder / "a.nc", sample_metadata(7), sample_snapshots(5, 7), sample_state(), true);
+  write_pulse(folder / "b.nc", sample_metadata(7), sample_snapshots(5, 7), sample_state(), true);
+  EXPECT_EQ(read_bytes(folder / "a.nc"), read_bytes(folder / "b.nc"));
+}
+
+TEST(PulseFile, ResumedRunMakesTheFileOfAnUninterruptedOne) {
+  const TemporaryFolder folder;
+  for (const std::vector<std::string>& variables :
+       {std::vector<std::string>{}, {"stress_drop", "W"}, {"slip"}, {"Sigma", "stress_drop"}, {"k"}}) {
+    PulseMetadata metadata = sample_metadata(7);
+    metadata.variables = variables;
+    const auto all = sample_snapshots(6, 7);
+    write_pulse(folder / "whole.nc", metadata, all, "end", true);
+    write_pulse(folder / "part.nc", metadata, {all.begin(), all.begin() + 3}, "half", false);
+    Checkpoint run = read_checkpoint(folder / "part.nc");
+    run.snapshots.insert(run.snapshots.end(), all.begin() + 3, all.end());
+    write_pulse(folder / "part.nc", metadata, run.snapshots, "end", true);
+    EXPECT_EQ(read_bytes(folder / "whole.nc"), read_bytes(folder / "part.nc"));
+  }
+}
+
+TEST(PulseFile, HoldsOnlyWhatWasAskedFor) {
+  const TemporaryFolder folder;
+  PulseMetadata metadata = sample_metadata(7);
+  metadata.variables = {"W"};
+  const auto snapshots = sample_snapshots(3, 7);
+  write_pulse(folder / "a.nc", metadata, snapshots, "", false);
+  const Checkpoint run = read_checkpoint(folder / "a.nc");
+  EXPECT_EQ(bits(run.snapshots[2].profile.W), bits(snapshots[2].profile.W));
+  EXPECT_TRUE(run.snapshots[2].profile.k.empty());
+  EXPECT_EQ(scalar_bits(run.snapshots[2]), scalar_bits(snapshots[2]));
+}
+
+TEST(PulseFile, UnknownVariableIsAnInputErrorThatListsTheKnown) {
+  const TemporaryFolder folder;
+  PulseMetadata metadata = sample_metadata(7);
+  metadata.variables = {"W", "w"};
+  const std::string message = message_of<InputError>([&] { write_pulse(folder / "a.nc", metadata, {}, "", false); });
+  EXPECT_EQ(message, "output.variables = 'w': unknown variable; allowed: k, Sigma, U, W, slip, stress_drop");
+  EXPECT_EQ(folder.files(), 0u);
+}
+
+TEST(PulseFile, ScenarioOfAnyBytesComesBack) {
+  const TemporaryFolder folder;
+  for (const std::string& scenario :
+       {std::string(), std::string("\0", 1), std::string("a\0b\xff\xfe\n", 6),
+        std::string("# Gr\xc3\xb6\xc3\x9f"
+                    "e\r\n"),
+        std::string("\xed\xa0\x80"), std::string(60000, 'x'), std::string(60001, 'x'), std::string(1000000, '#')}) {
+    PulseMetadata metadata = sample_metadata(3);
+    metadata.scenario_text = scenario;
+    metadata.title = metadata.command_line = scenario;  // must not break the file either
+    write_pulse(folder / "a.nc", metadata, {}, "", false);
+    EXPECT_TRUE(read_checkpoint(folder / "a.nc").scenario_text == scenario) << scenario.size();
+  }
+}
+
+TEST(PulseFile, WrongArgumentsAreRefused) {
+  const TemporaryFolder folder;
+  const auto refused = [&](const PulseMetadata& metadata, const std::vector<Snapshot>& snapshots) {
+    return message_of<std::invalid_argument>([&] { write_pulse(folder / "a.nc", metadata, snapshots, "", false); });
+  };
+  auto snapshots = sample_snapshots(2, 7);
+  EXPECT_NE(refused(sample_metadata(8), snapshots), "");
+  EXPECT_NE(refused(sample_metadata(0), {}), "");
+  snapshots[1].time = snapshots[0].time;
+  EXPECT_NE(refused(sample_metadata(7), snapshots), "");
+  snapshots[1].time = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NE(refused(sample_metadata(7), snapshots), "");
+  EXPECT_EQ(folder.files(), 0u);
+}
+
+}  // namespace

@@ -1,0 +1,110 @@
+#include "slipfront/record/table_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "../../src/record/netcdf.hpp"
+#include "slipfront/error.hpp"
+#include "temporary_folder.hpp"
+
+namespace {
+
+using slipfront::FileError;
+using slipfront::InputError;
+using slipfront::record::read_profile_table;
+using slipfront::record::netcdf::Writer;
+using Table = std::vector<std::pair<double, double>>;
+
+Table read(const std::string& name, const std::string& content) {
+  const TemporaryFolder folder;
+  write_bytes(folder / name, content);
+  return read_profile_table(folder / name);
+}
+
+slipfront::Complaint complaint(const std::string& name, const std::string& content) {
+  try {
+    read(name, content);
+  } catch (const InputError& error) {
+    EXPECT_NE(error.complaint().file, "");
+    EXPECT_NE(error.complaint().allowed, "");
+    return error.complaint();
+  }
+  ADD_FAILURE() << "not refused: " << content;
+  return {};
+}
+
+/// A NetCDF file of two variables; the attribute goes to `stress` if it has a name.
+std::string netcdf(const std::vector<double>& x, const std::vector<double>& stress, const std::string& attribute = {}) {
+  Writer file("table");
+  const int ids[] = {file.reals("x", {file.dimension("x", x.size())}),
+                     file.reals("stress", {file.dimension("y", stress.size())})};
+  if (attribute == "_FillValue") file.fill_value(ids[1], 0.5);
+  if (attribute == "scale_factor") file.attribute(ids[1], attribute, 2);
+  file.end_definitions();
+  file.write(ids[0], x);
+  file.write(ids[1], stress);
+  const auto image = file.finish();
+  return std::string(image.bytes());
+}
+
+const Table expected = {{-1, 0.855}, {0, 0.5}, {0.1, 0}};
+
+TEST(TableFile, CsvIsRead) {
+  EXPECT_EQ(read("a.csv", "x,stress\n-1,0.855\n0,0.5\n1e-1,0\n"), expected);
+  EXPECT_EQ(read("a.csv", "\xEF\xBB\xBF\"stress\" , note, x\r\n0.855,\"a, b\",-1\r\n\r\n 0.5 ,,\"0\"\r\n0,c,0.1"),
+            expected);
+}
+
+TEST(TableFile, BadCsvNamesLineColumnAndValue) {
+  auto c = complaint("a.csv", "x,stress\n0,1\n\n1,1.2.3\n");
+  EXPECT_EQ(c.line, 4u);
+  EXPECT_EQ(c.key, "stress");
+  EXPECT_EQ(c.value, "1.2.3");
+  EXPECT_EQ(complaint("a.csv", "x,stress\nnan,1\n").key, "x");
+  EXPECT_EQ(complaint("a.csv", "x,stress\n0,inf\n").key, "stress");
+  EXPECT_EQ(complaint("a.csv", "x,stress\n0,1e400\n").key, "stress");
+  EXPECT_EQ(complaint("a.csv", "x,stress\n0,\n").problem, "no value");
+  c = complaint("a.csv", "x,sress\n0,1\n");
+  EXPECT_EQ(c.line, 1u);
+  EXPECT_EQ(c.key, "stress");
+  EXPECT_EQ(c.problem, "column is missing");
+  EXPECT_EQ(complaint("a.csv", "x,stress,x\n0,1,2\n").problem, "column given twice");
+  EXPECT_EQ(complaint("a.csv", "x,stress\n0,1\n0\n").line, 3u);
+  EXPECT_EQ(complaint("a.csv", "x,stress\n0,\"1\n").line, 2u);
+  EXPECT_EQ(complaint("a.csv", "x,stress\n").problem, "a header and no rows");
+  EXPECT_EQ(complaint("a.csv", "").problem, "the file is empty");
+}
+
+TEST(TableFile, NetcdfIsRead) { EXPECT_EQ(read("a.nc", netcdf({-1, 0, 0.1}, {0.855, 0.5, 0})), expected); }
+
+TEST(TableFile, BadNetcdfNamesTheVariable) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(complaint("a.nc", netcdf({0, 1}, {0})).key, "stress");
+  EXPECT_EQ(complaint("a.nc", netcdf({}, {})).key, "x");
+  EXPECT_EQ(complaint("a.nc", netcdf({0, 1}, {0, nan})).problem, "value 2 of 2 is not finite");
+  EXPECT_EQ(complaint("a.nc", netcdf({0, 1}, {0, 0.5}, "_FillValue")).problem, "value 2 of 2 is missing");
+  EXPECT_EQ(complaint("a.nc", netcdf({0, 1}, {0, 1}, "scale_factor")).problem, "is packed (scale_factor, add_offset)");
+  Writer file("none");
+  const int x = file.dimension("n", 2);
+  file.reals("x", {x, x});
+  file.end_definitions();
+  const auto image = file.finish();
+  EXPECT_EQ(complaint("a.nc", std::string(image.bytes())).problem, "has 2 dimensions");
+}
+
+TEST(TableFile, WhatCannotBeReadIsAFileError) {
+  const TemporaryFolder folder;
+  EXPECT_THROW(read_profile_table(folder / "none.csv"), FileError);
+  EXPECT_THROW(read_profile_table(folder / "none.nc"), FileError);
+  EXPECT_THROW(read("a.nc", ""), FileError);
+  EXPECT_THROW(read("a.nc", "x,stress\n0,1\n"), FileError);
+  const std::string good = netcdf({0, 1}, {0, 1});
+  EXPECT_THROW(read("a.nc", good.substr(0, 1000)), FileError);
+  EXPECT_EQ(complaint("a.txt", "x,stress\n0,1\n").problem, "unknown ending '.txt'");
+}
+
+}  // namespace

@@ -1,0 +1,103 @@
+// Files are written whole or not at all.
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <string>
+
+#include "pulse_sample.hpp"
+#include "slipfront/error.hpp"
+#include "slipfront/record/pulse_file.hpp"
+#include "temporary_folder.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string failure(const std::string& path, std::size_t cells = 3) {
+  const auto write = [&] {
+    slipfront::record::write_pulse(path, sample_metadata(cells), sample_snapshots(2, cells), "", false);
+  };
+  return message_of<slipfront::FileError>(write);
+}
+
+/// No file may grow beyond `size`: what a full disk does, without one.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t size) : old_handler_(signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &old_);
+    const rlimit limit{size, old_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() {
+    setrlimit(RLIMIT_FSIZE, &old_);
+    signal(SIGXFSZ, old_handler_);
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+ private:
+  rlimit old_{};
+  void (*old_handler_)(int);
+};
+
+TEST(WholeFile, FailedWriteKeepsTheOldFileAndLeavesNothingElse) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "a.nc";
+  ASSERT_EQ(failure(path), "");
+  const std::string old = read_bytes(path);
+  {
+    const FileSizeLimit limit(4096);
+    EXPECT_EQ(failure(path, 100), path + ": cannot be written: File too large");
+  }
+  EXPECT_EQ(read_bytes(path), old);
+  EXPECT_EQ(folder.files(), 1u);
+  EXPECT_EQ(failure(path, 100), "");
+  EXPECT_NE(read_bytes(path), old);
+  EXPECT_EQ(folder.files(), 1u);
+}
+
+TEST(WholeFile, WrongPathsAreNamed) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(failure(folder / "none/a.nc"),
+            (folder / "none/a.nc") + ": cannot be written: folder " + (folder / "none") + " does not exist");
+  EXPECT_EQ(failure(folder.path().string()), folder.path().string() + ": cannot be written: is a directory");
+  EXPECT_NE(failure(folder / std::string(300, 'a')).find("File name too long"), std::string::npos);
+  EXPECT_EQ(failure(""), "cannot write a file without a name");
+  write_bytes(folder / "file", "");
+  EXPECT_NE(failure(folder / "file/a.nc").find("Not a directory"), std::string::npos);
+  EXPECT_EQ(folder.files(), 1u);
+}
+
+TEST(WholeFile, DevicesAreNotReplaced) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  EXPECT_EQ(failure(folder / "pipe"), (folder / "pipe") + ": cannot be written: is not a regular file");
+  EXPECT_TRUE(fs::is_fifo(folder / "pipe"));
+}
+
+TEST(WholeFile, LinksAreFollowedAndModesKept) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "deep");
+  fs::create_symlink("deep/target.nc", folder / "link.nc");
+  ASSERT_EQ(failure(folder / "link.nc"), "");
+  EXPECT_TRUE(fs::is_symlink(folder / "link.nc"));
+  fs::permissions(folder / "deep/target.nc", fs::perms::owner_read | fs::perms::owner_write);
+  ASSERT_EQ(failure(folder / "link.nc"), "");
+  EXPECT_EQ(fs::status(folder / "deep/target.nc").permissions(), fs::perms::owner_read | fs::perms::owner_write);
+}
+
+TEST(WholeFile, NamesThatTheNetcdfLibraryWouldInterpretAreOnlyNames) {
+  const TemporaryFolder folder;
+  for (const char* name : {" a b.nc", "a#mode=zarr", "s3:a.nc", "a\\b.nc", "a%20.nc", "[x=1]a.nc", "\xff.nc"}) {
+    EXPECT_EQ(failure(folder / name), "") << name;
+    EXPECT_EQ(slipfront::record::read_checkpoint(folder / name).snapshots.size(), 2u) << name;
+  }
+  EXPECT_EQ(folder.files(), 7u);
+}
+
+}  // namespace
