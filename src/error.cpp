@@ -19,21 +19,17 @@ std::string shown(const std::string& text, std::size_t most = 80) {
 }  // namespace
 
 std::string one_line(const Complaint& c) {
-  std::string text;
+  std::string text;  // appended piece by piece: g++ 12 warns of the sum of a literal and a string at -O3
   if (!c.file.empty()) {
-    text += c.file;
-    if (c.line > 0) text += ":" + std::to_string(c.line);
-    text += ": ";
+    text.append(c.file);
+    if (c.line > 0) text.append(":").append(std::to_string(c.line));
+    text.append(": ");
   }
-  if (!c.key.empty()) {
-    text += shown(c.key);
-    if (!c.value.empty()) text += " = '" + shown(c.value) + "'";
-    text += ": ";
-  } else if (!c.value.empty()) {
-    text += "'" + shown(c.value) + "': ";
-  }
-  text += shown(c.problem, 400);  // a parser may quote the line break that it stumbled over
-  if (!c.allowed.empty()) text += "; allowed: " + shown(c.allowed, 1000);
+  text.append(shown(c.key));
+  if (!c.value.empty()) text.append(c.key.empty() ? "'" : " = '").append(shown(c.value)).append("'");
+  if (!c.key.empty() || !c.value.empty()) text.append(": ");
+  text.append(shown(c.problem, 400));  // a parser may quote the line break that it stumbled over
+  if (!c.allowed.empty()) text.append("; allowed: ").append(shown(c.allowed, 1000));
   return text;
 }
 

@@ -164,29 +164,30 @@ int run_pulse(const Arguments& a) {
   const record::PulseMetadata metadata{
       s.title, s.text, SLIPFRONT_VERSION, "slipfront pulse " + a.scenario, schedule.x_edges, s.output.variables};
   auto written = Clock::now();
+  double cost = 0;
   const auto write = [&] {
     if (output.empty()) return;
+    const auto begun = Clock::now();
     record::write_pulse(output, metadata, run->snapshots(), run->saved(), run->finished());
+    cost = seconds_since(begun);
     written = Clock::now();
   };
-  if (a.resume.empty()) write();  // a path that cannot be written is known before the work, not after
-
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
+  if (a.resume.empty()) write();  // a path that cannot be written is known before the work, not after
+
   bool reached = false;
   {
     Progress progress(s.end, !a.common.quiet);
     progress.from(run->solver().cells());
     const auto after_step = [&] {
       progress.at(run->solver().cells());
+      // A checkpoint is the whole file: writing it must stay a small part of the work.
+      if (seconds_since(written) > std::fmax(0.05, 20 * cost)) write();
       return interrupt_seen != 0;
     };
-    const auto after_snapshot = [&] {
-      constexpr double between_checkpoints = 5;  // seconds: writing the whole file must stay a small part of the work
-      if (!run->finished() && seconds_since(written) > between_checkpoints) write();
-    };
     try {
-      reached = run->go(after_step, after_snapshot);
+      reached = run->go(after_step);
     } catch (const NumericsError& error) {
       write();
       throw NumericsError(std::string(error.what()) + (output.empty() ? "" : "; what was computed is in " + output));

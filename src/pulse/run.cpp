@@ -103,7 +103,7 @@ void Run::take() {
   snapshots_.push_back(observe(solver_, schedule_.x_edges, left_front_.position(), schedule_.threshold));
 }
 
-bool Run::go(const std::function<bool()>& interrupted, const std::function<void()>& taken) {
+bool Run::go(const std::function<bool()>& interrupted) {
   while (!finished()) {
     const double target = schedule_.times[snapshots_.size()];
     double before = solver_.cells().time;
@@ -114,8 +114,6 @@ bool Run::go(const std::function<bool()>& interrupted, const std::function<void(
     };
     if (!solver_.advance_to(target, after_step)) return false;
     take();
-    if (taken) taken();
-    if (interrupted && interrupted()) return finished();
   }
   return true;
 }

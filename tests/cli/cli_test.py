@@ -16,6 +16,10 @@ RELATIONS = ["stress", "rupture_velocity", "leading_velocity", "velocity_ratio",
 EVENT = ["name", "c_m_s", "rupture_velocity", "stress", "frictionless_slip_velocity", "observed_slip_velocity",
          "contact_ratio", "stress_pa", "damping_number", "warnings"]
 
+PULSE = ["closure", "friction_coefficient", "damping_number", "time", "slip_velocity_at_origin", "stress_at_origin",
+         "slip_at_origin", "peak_slip_velocity", "peak_position", "trailing_front", "leading_front", "conservation_error", "cells",
+         "steps", "wall_seconds"]
+
 
 def run(*arguments, stdin=""):
     return subprocess.run([PROGRAM, *arguments], input=stdin, capture_output=True, text=True, timeout=120)
@@ -168,6 +172,97 @@ class CommandLine(unittest.TestCase):
         self.assertGreaterEqual(sum(e["stress"] is not None for e in events), 25)
         velocities = [e["rupture_velocity_m_s"] for e in events if e["rupture_velocity_m_s"]]
         self.assertGreater(max(velocities) / min(velocities), 1e5)  # from great earthquakes to long-term slow slip
+
+    # pulse
+
+    def pulse(self, *arguments):
+        return json.loads(self.ok("pulse", *arguments, "--json"))
+
+    def test_pulse_json_has_the_contract_keys(self):
+        out = self.pulse(os.path.join(SOURCE, "cases/step.toml"))
+        for key in PULSE:
+            self.assertIn(key, out)
+        self.assertLess(abs(out["slip_velocity_at_origin"] / 0.0482084 - 1), 1e-5)
+        self.assertLess(abs(out["trailing_front"] + 0.36443433 * 2 * math.pi), 1e-6)
+        self.assertLess(out["conservation_error"], 1e-13)
+
+    def test_pulse_every_case_runs(self):
+        folder = os.path.join(SOURCE, "cases")
+        for name in sorted(os.listdir(folder)):
+            if name.endswith(".toml") and name not in ("parkfield-2004.toml", "ets.toml"):
+                with self.subTest(case=name):
+                    self.assertIn("fine", self.ok("pulse", os.path.join(folder, name), "--check"))
+                    self.assertGreater(self.pulse(os.path.join(folder, name), "--set", "pulse.cells=50")["steps"], 0)
+
+    def test_pulse_closures_are_both_there_and_named(self):
+        case = os.path.join(SOURCE, "cases/paper-c0.5.toml")
+        paper = self.pulse(case)
+        right = self.pulse(case, "--set", "friction.closure=consistent")
+        self.assertEqual((paper["closure"], right["closure"]), ("paper", "consistent"))
+        self.assertLess(abs(paper["slip_velocity_at_origin"] - 0.015248), 3e-6)
+        self.assertLess(abs(right["slip_velocity_at_origin"] - 0.009337), 3e-6)
+        self.assertAlmostEqual(right["damping_number"], math.pi)
+
+    def test_pulse_refuses(self):
+        case = os.path.join(SOURCE, "cases/step.toml")
+        self.refused(2, "pulse", says=["SCENARIO"])
+        self.refused(3, "pulse", "/nowhere.toml", says=["No such file"])
+        self.refused(3, "pulse", case, "-o", "/nowhere/o.nc", says=["/nowhere/o.nc"])
+        self.refused(3, "pulse", case, "--resume", "/nowhere.nc", says=["/nowhere.nc"])
+        self.refused(3, "pulse", case, "--resume", case, says=["step.toml"])
+        for change, word in [("pulse.cells=3", "cells"), ("time.end=0", "end"), ("initial.stress_left=-1", "stress_left"),
+                             ("initial.strss_left=1", "stress_left"), ("domain.left=9", "left"), ("friction.law=sticky", "viscous"),
+                             ("nonsense", "--set"), ("initial.profile=formula", "formula")]:
+            with self.subTest(change=change):
+                self.refused(2, "pulse", case, "--set", change, says=[word])
+        self.refused(2, "pulse", self.file("f.toml", "[initial]\nprofile = 'formula'\nformula = 'x'\n[domain]\nleft = -1\nright = 1\n"),
+                     says=["f.toml:3", "x"])
+        self.refused(2, "pulse", self.file("g.toml", "[initial]\nprofile = 'formula'\nformula = 'foo(x)'\n"), says=["g.toml:3", "foo"])
+
+    def slow_case(self):
+        return self.file("slow.toml", "[initial]\nstress_left = 0.855\n[friction]\nlaw = 'viscous'\ncoefficient = 0.5\n"
+                                      "[pulse]\ncells = 400\n[output]\nevery = 0.3\n".replace("stress_left", "stress_right = 0\nstress_left"))
+
+    def test_pulse_killed_and_resumed_is_the_same_file(self):
+        case = self.slow_case()
+        folder = os.path.dirname(case)
+        whole = os.path.join(folder, "whole.nc")
+        self.ok("pulse", case, "-o", whole)
+        with open(whole, "rb") as file:
+            wanted = file.read()
+        random = __import__("random").Random(7)
+        for trial in range(20):
+            cut = os.path.join(folder, "cut.nc")
+            if os.path.exists(cut):
+                os.remove(cut)
+            process = subprocess.Popen([PROGRAM, "pulse", case, "-o", cut, "--set", f"title=trial {trial}"], stdout=subprocess.DEVNULL)
+            try:
+                process.wait(random.uniform(0.02, 0.35))
+            except subprocess.TimeoutExpired:
+                process.kill()
+            process.wait()
+            if not os.path.exists(cut):
+                continue  # killed before the first checkpoint: nothing was written, and nothing half-written either
+            self.ok("pulse", case, "--set", f"title=trial {trial}", "--resume", cut)
+            reference = os.path.join(folder, "reference.nc")
+            self.ok("pulse", case, "--set", f"title=trial {trial}", "-o", reference)
+            with open(cut, "rb") as a, open(reference, "rb") as b:
+                self.assertEqual(a.read(), b.read(), trial)
+            self.assertFalse([name for name in os.listdir(folder) if "part" in name and str(process.pid) not in name])
+        self.assertTrue(wanted)
+
+    def test_pulse_interrupted_leaves_a_checkpoint(self):
+        case = self.slow_case()
+        folder = os.path.dirname(case)
+        cut = os.path.join(folder, "cut.nc")
+        process = subprocess.Popen([PROGRAM, "pulse", case, "-o", cut, "--set", "pulse.cells=2000"], stderr=subprocess.PIPE, text=True)
+        while not os.path.exists(cut):
+            pass
+        process.send_signal(2)
+        _, errors = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130, errors)
+        self.assertIn("--resume", errors)
+        self.refused(2, "pulse", case, "--resume", cut, says=["another scenario"])
 
     # common
 

@@ -24,9 +24,9 @@ class Run {
   /// Continues a saved run of the same problem and schedule. \throws InputError if it is of another.
   Run(Problem problem, Schedule schedule, std::string_view saved, std::vector<Snapshot> snapshots);
 
-  /// Goes on until the end or until `interrupted`, asked after every step, says so. `taken` is called after each
-  /// snapshot. Returns whether the end was reached.
-  bool go(const std::function<bool()>& interrupted, const std::function<void()>& taken);
+  /// Goes on until the end or until `interrupted`, asked after every step, says so; the run may be saved from there.
+  /// Returns whether the end was reached.
+  bool go(const std::function<bool()>& interrupted = {});
 
   const Solver& solver() const { return solver_; }
   const Schedule& schedule() const { return schedule_; }
