@@ -32,16 +32,17 @@ Resolved resolve_in_psi(const Carried& c, double psi) {
   const double half = c.spacing / 2;
   for (int iteration = 0; iteration < 80; ++iteration) {
     const elliptic::AtPsi at = elliptic::at_psi(psi);
-    const double cosh_psi = std::cosh(psi), cosh_square = cosh_psi * cosh_psi;
-    const double rapid = c.momentum / (8 * at.E), rapid_square = rapid * rapid;
-    const double length = half * std::sqrt(cosh_square + rapid_square);
+    const double wide = half * std::cosh(psi);  // cosh itself, not its square, which overflows first
+    const double rapid = c.momentum * half / (8 * at.E * wide), rapid_square = rapid * rapid;
+    const double length = wide * std::sqrt(1 + rapid_square);
     // K - length is linear in ln psi where psi is small, ln(K / length) in psi where it is large.
     const double slope_K = -at.above_m1 / at.s * at.K;
-    const double slope_length = half * half / length * at.s * (cosh_square - rapid_square * (1 / at.ratio - 1));
+    const double slope_length = wide * (wide / length) * at.s * (1 - rapid_square * (1 / at.ratio - 1));
     const double step = psi < 1 ? (at.K - length) / (psi * (slope_length - slope_K))
                                 : std::log(at.K / length) / (psi * (slope_length / length - slope_K / at.K));
     if (!std::isfinite(step)) give_up(c);
-    const double limited = std::fmin(std::fmax(step, -40.0), 2.0), before = psi;
+    const double most = step > 2 ? std::fmax(2, -std::log(psi)) : 2;  // where it is linear, up to psi = 1 at once
+    const double limited = std::fmin(std::fmax(step, -40.0), most), before = psi;
     psi *= std::fabs(limited) < 0.1 ? 1 + std::expm1(limited) : std::exp(limited);
     if (psi < psi_least) return {{std::asinh(c.momentum / 8), 0}, 0, 0};
     if (psi > psi_most) give_up(c);

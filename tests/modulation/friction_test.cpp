@@ -42,6 +42,12 @@ TEST(PerDislocation, FindsSoundAndClosureToo) {
     }
 }
 
+TEST(PerDislocation, ConvergesFromAnyStart) {
+  for (const double psi : {1e-300, 2e-174, 1e-9, 0.3, 5.0, 400.0})
+    for (const double guess : {1e-300, 1e-175, 1e-5, 0.5, 3.0, 50.0, 600.0, 0.0})
+      EXPECT_NEAR(state_of(carried({0.1, psi}), guess).psi / psi, 1, 1e-11) << psi << " from " << guess;
+}
+
 TEST(PerDislocation, GoesToTheEmptyStateAndRefusesNonsense) {
   EXPECT_TRUE(state_of({2000, 0.1}, 1).empty());
   EXPECT_NEAR(state_of({2000, 8 * std::sinh(0.3)}, 1).phi, 0.3, 1e-15);
