@@ -45,7 +45,10 @@ Resolved resolve_in_psi(const Carried& c, double psi) {
     const double limited = std::fmin(std::fmax(step, -40.0), most), before = psi;
     psi *= std::fabs(limited) < 0.1 ? 1 + std::expm1(limited) : std::exp(limited);
     if (psi < psi_least) return {{std::asinh(c.momentum / 8), 0}, 0, 0};
-    if (psi > psi_most) give_up(c);
+    if (psi > psi_most) {
+      if (before == psi_most) give_up(c);
+      psi = psi_most;
+    }
     if (std::fabs(step) < 1e-8) {
       // To the last step by derivatives; what is left is of the order of its square.
       const double last = psi - before, c0 = at.s / at.ratio;

@@ -43,7 +43,7 @@ TEST(PerDislocation, FindsSoundAndClosureToo) {
 }
 
 TEST(PerDislocation, ConvergesFromAnyStart) {
-  for (const double psi : {1e-300, 2e-174, 1e-9, 0.3, 5.0, 400.0})
+  for (const double psi : {1e-300, 2e-174, 1e-9, 0.3, 5.0, 40.0})
     for (const double guess : {1e-300, 1e-175, 1e-5, 0.5, 3.0, 50.0, 600.0, 0.0})
       EXPECT_NEAR(state_of(carried({0.1, psi}), guess).psi / psi, 1, 1e-11) << psi << " from " << guess;
 }
