@@ -146,7 +146,7 @@ void row(const char* name, int cells, bool csv, Scheme&& scheme) {
   const auto begun = std::chrono::steady_clock::now();
   const double slip = scheme(cells);
   const double ms = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count() * 1e3;
-  std::printf(csv ? "%s,%d,%.9f,%.3e,%.3f\n" : "%-28s %6d  %.7f  %9.1e  %9.2f\n", name, cells, slip,
+  std::printf(csv ? "\"%s\",%d,%.9f,%.3e,%.3f\n" : "%-28s %6d  %.7f  %9.1e  %9.2f\n", name, cells, slip,
               std::fabs(slip / exact - 1), ms);
 }
 

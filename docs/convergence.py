@@ -1,0 +1,64 @@
+"""Draws docs/convergence.png: error of the pulse solver against cells, and schemes by error against cost.
+
+Usage: convergence.py PROGRAM SCHEME_COMPARISON   (build/dev/bin/slipfront build/dev/bin/scheme_comparison).   Needs python3-matplotlib.
+"""
+
+import csv
+import io
+import json
+import pathlib
+import subprocess
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+
+PROGRAM, SCHEMES = sys.argv[1], sys.argv[2]
+CASES = pathlib.Path(__file__).parent.parent / "cases"
+CELLS = (25, 50, 100, 200, 400, 800)
+# label, case, overrides, quantity, exact value (closed form, exact Riemann problem, or a run with 3200 cells)
+CURVES = (
+    ("step into empty: slip(0)", "step.toml", (), "slip_at_origin", 0.30290243),
+    ("step into empty: leading edge", "step.toml", (), "leading_front", 0.63000386),
+    ("shock: W(0)", "shock.toml", (), "slip_velocity_at_origin", 0.0458180779),
+    ("tanh, C = 0.5, consistent: W(0)", "paper-c0.5.toml", ("friction.closure=consistent",), "slip_velocity_at_origin", None),
+    ("tanh, C = 0.5, paper: W(0)", "paper-c0.5.toml", (), "slip_velocity_at_origin", None),
+    ("overdamped, Gamma = 1e6: W(0)", "overdamped.toml", (), "slip_velocity_at_origin", None),
+)
+
+
+def pulse(case, overrides, cells):
+    command = [PROGRAM, "pulse", str(CASES / case), "--json", "--set", f"pulse.cells={cells}"]
+    for change in overrides:
+        command += ["--set", change]
+    return json.loads(subprocess.run(command, capture_output=True, check=True, text=True).stdout)
+
+
+def main():
+    figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4.6), layout="constrained")
+    for (label, case, overrides, key, exact), marker in zip(CURVES, "osD^vP"):
+        reference = exact if exact is not None else pulse(case, overrides, 3200)[key]
+        errors = [abs(pulse(case, overrides, n)[key] / reference - 1) for n in CELLS]
+        left.loglog(CELLS, errors, marker=marker, label=label)
+        print(f"{label:<34}" + "".join(f"{e:10.1e}" for e in errors))
+    left.loglog(CELLS, [0.5 * (25 / n) for n in CELLS], "k:", linewidth=1, label="1 / cells")
+    left.loglog(CELLS, [0.05 * (25 / n) ** 4 for n in CELLS], "k--", linewidth=1, label="1 / cells$^4$")
+    left.set(xlabel="cells", ylabel="relative error", title="Convergence of slipfront pulse")
+    left.legend(fontsize=7.5)
+    text = subprocess.run([SCHEMES, "--csv"], capture_output=True, check=True, text=True).stdout
+    rows = list(csv.DictReader(io.StringIO(text)))
+    for name, marker in zip(dict.fromkeys(r["scheme"] for r in rows), "osD^"):
+        mine = [r for r in rows if r["scheme"] == name]
+        right.loglog([float(r["ms"]) for r in mine], [float(r["error"]) for r in mine], marker=marker, label=name)
+    right.set(xlabel="time of one run, ms (one core)", ylabel="relative error of the slip at x = 0",
+              title="Step into empty, C = 0.5: schemes weighed")
+    right.legend(fontsize=8)
+    for axes in (left, right):
+        axes.grid(True, which="major", alpha=0.3)
+    figure.savefig(pathlib.Path(__file__).with_name("convergence.png"), dpi=110)
+
+
+if __name__ == "__main__":
+    main()
