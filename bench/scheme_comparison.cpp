@@ -109,6 +109,7 @@ double lagrangian_godunov(int cells) {
   setup.friction = {modulation::FrictionLaw::viscous, C, 1, modulation::Closure::consistent};
   pulse::Semidiscrete equations(setup);
   equations.use_compact(true);
+  equations.start_from(std::vector<double>(n, 0.1));
   const pulse::Rates f = [&](double t, const double* y, double* dy) { equations(t, y, dy); };
   std::vector<double> y(2 * n + pulse::Semidiscrete::extra, 0.0), rate(y.size());
   for (std::size_t i = 0; i < n; ++i) y[2 * i] = reach() / cells;

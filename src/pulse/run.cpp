@@ -80,7 +80,7 @@ Run::Run(Problem problem, Schedule schedule, std::string_view saved, std::vector
   cells.step = reader.get<double>();
   left_front_.restore(reader.get<double>());
   cells.y = reader.vector();
-  cells.psi = reader.vector();
+  cells.s = reader.vector();
   reader.end();
   solver_.restore(std::move(cells));
   snapshots_ = std::move(snapshots);
@@ -95,7 +95,7 @@ std::string Run::saved() const {
   writer.put(cells.step);
   writer.put(left_front_.position());
   writer.put(cells.y);
-  writer.put(cells.psi);
+  writer.put(cells.s);
   return std::move(writer).text();
 }
 

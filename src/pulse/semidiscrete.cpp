@@ -6,10 +6,9 @@
 #include <string>
 #include <utility>
 
+#include "kernels.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/modulation/characteristics.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
-#include "slipfront/train/train.hpp"
 #include "weno.hpp"
 
 namespace slipfront::pulse {
@@ -18,76 +17,75 @@ namespace {
 using std::numbers::pi;
 constexpr std::size_t ghosts = 3;
 
-/// Second difference of f over 24, the step between a cell's average and its centre value to fourth order; zero where
-/// the fourth difference is no smaller than the second: there f is not smooth on the grid, and average and centre value
-/// are the same to the order that is left.
-template <class At>
-double curvature(std::size_t i, std::size_t n, const At& f) {
-  if (n < 5 || i < 2 || i + 3 > n) return 0;
-  // One-sided towards the ends of the grid: the same stencil, shifted.
-  const std::size_t c = std::clamp<std::size_t>(i, 2, n - 3);
-  const double d0 = f(c - 2) - 2 * f(c - 1) + f(c), d1 = f(c - 1) - 2 * f(c) + f(c + 1),
-               d2 = f(c) - 2 * f(c + 1) + f(c + 2);
-  const double fourth = std::fabs(d0 - 2 * d1 + d2), second = std::fabs(d0) + 2 * std::fabs(d1) + std::fabs(d2);
-  if (!(fourth < 0.5 * second)) return 0;
-  const double shift = static_cast<double>(i) - static_cast<double>(c);  // extrapolate the second difference linearly
-  return (d1 + shift * (d2 - d0) / 2) / 24;
-}
-
 }  // namespace
 
 Semidiscrete::Semidiscrete(Setup setup) : setup_(std::move(setup)) {
   const std::size_t n = size();
-  charge_point_.resize(n);
-  const auto charge = [&](std::size_t i) { return setup_.charge[i]; };
-  for (std::size_t i = 0; i < n; ++i) charge_point_[i] = charge(i) - curvature(i, n, charge);
-  states_.assign(n, State{0, 0});
-  resolved_.assign(n, {});
-  for (auto* array : {&spacing_, &momentum_, &phi_, &psi_, &rate_, &source_, &centres_}) array->assign(n, 0);
+  for (auto* array : {&charge_point_, &width_, &momentum_in_cell_, &spacing_, &momentum_, &s_, &phi_, &psi_, &phi_mean_,
+                      &psi_mean_, &sound_speed_, &EK_, &good_, &rate_, &source_, &source_mean_, &centres_, &velocity_})
+    array->assign(n, 0);
   for (auto* array : {&invariant_plus_, &invariant_minus_}) array->assign(n + 2 * ghosts, 0);
-  face_phi_.assign(n + 1, 0);
-  face_psi_.assign(n + 1, 0);
+  for (auto* array : {&face_phi_, &face_psi_, &face_U_, &face_p_}) array->assign(n + 1, 0);
+  centre_values(n, setup_.charge.data(), charge_point_.data());
 }
 
-void Semidiscrete::start_from(const std::vector<double>& psi) {
-  for (std::size_t i = 0; i < size(); ++i) states_[i].psi = psi[i];
+void Semidiscrete::start_from(const std::vector<double>& s) { s_ = s; }
+
+std::vector<State> Semidiscrete::states() const {
+  std::vector<State> states(size());
+  for (std::size_t i = 0; i < size(); ++i) states[i] = {phi_[i], psi_[i]};
+  return states;
 }
 
 void Semidiscrete::find_states(double t, const double* y) {
   const std::size_t n = size();
   for (std::size_t i = 0; i < n; ++i) {
-    if (compact_) {
-      spacing_[i] = y[2 * i] / setup_.charge[i];
-      momentum_[i] = y[2 * i + 1] / setup_.charge[i];
-    } else {
-      spacing_[i] = (y[2 * i] - curvature(i, n, [y](std::size_t j) { return y[2 * j]; })) / charge_point_[i];
-      momentum_[i] = (y[2 * i + 1] - curvature(i, n, [y](std::size_t j) { return y[2 * j + 1]; })) / charge_point_[i];
-    }
+    width_[i] = y[2 * i];
+    momentum_in_cell_[i] = y[2 * i + 1];
+  }
+  if (compact_) {
+    spacing_ = width_;
+    momentum_ = momentum_in_cell_;
+  } else {
+    centre_values(n, width_.data(), spacing_.data());
+    centre_values(n, momentum_in_cell_.data(), momentum_.data());
+  }
+  const std::vector<double>& charge = compact_ ? setup_.charge : charge_point_;
+  for (std::size_t i = 0; i < n; ++i) {
+    spacing_[i] /= charge[i];
+    momentum_[i] /= charge[i];
+  }
+  resolve_all({n, spacing_.data(), momentum_.data(), s_.data(), phi_.data(), psi_.data(), sound_speed_.data(),
+               EK_.data(), good_.data()});
+  for (std::size_t i = 0; i < n; ++i) {
+    if (good_[i] != 0) continue;
     try {
-      resolved_[i] = modulation::resolve({spacing_[i], momentum_[i]}, states_[i].psi);
-      states_[i] = resolved_[i].state;
+      const double guess = std::atanh(std::fmin(std::fmax(s_[i], 0.0), 1 - 1e-16));
+      const modulation::Resolved at = modulation::resolve({spacing_[i], momentum_[i]}, guess);
+      phi_[i] = at.state.phi;
+      psi_[i] = at.state.psi;
+      s_[i] = std::tanh(at.state.psi);
+      sound_speed_[i] = at.sound_speed;
+      EK_[i] = at.EK;
     } catch (const NumericsError& error) {
       throw NumericsError("t = " + std::to_string(t) + ", cell " + std::to_string(i) + " of " + std::to_string(n) +
                           ": " + error.what());
     }
   }
-  if (compact_) return;
-  for (std::size_t i = 0; i < n; ++i) {
-    phi_[i] = states_[i].phi + curvature(i, n, [&](std::size_t j) { return states_[j].phi; });
-    psi_[i] = states_[i].psi + curvature(i, n, [&](std::size_t j) { return states_[j].psi; });
-  }
 }
 
 void Semidiscrete::find_faces() {
   const std::size_t n = size();
+  cell_means(n, phi_.data(), phi_mean_.data());
+  cell_means(n, psi_.data(), psi_mean_.data());
   double* plus = invariant_plus_.data() + ghosts;
   double* minus = invariant_minus_.data() + ghosts;
   double scale = 0;  // invariants are scaled to 1, so that squares of 1e-300 do not underflow
-  for (std::size_t i = 0; i < n; ++i) scale = std::fmax(scale, std::fabs(phi_[i]) + psi_[i]);
+  for (std::size_t i = 0; i < n; ++i) scale = std::max(scale, std::fabs(phi_mean_[i]) + psi_mean_[i]);
   const double inverse = scale > 0 ? 1 / scale : 1;
   for (std::size_t i = 0; i < n; ++i) {
-    plus[i] = (phi_[i] + psi_[i]) * inverse;
-    minus[i] = (phi_[i] - psi_[i]) * inverse;
+    plus[i] = (phi_mean_[i] + psi_mean_[i]) * inverse;
+    minus[i] = (phi_mean_[i] - psi_mean_[i]) * inverse;
   }
   for (std::size_t g = 1; g <= ghosts; ++g) {
     // Beyond a free edge psi = 0, and the edge moves at the invariant that reaches it.
@@ -96,17 +94,16 @@ void Semidiscrete::find_faces() {
     plus[n - 1 + g] = plus[n - 1];
     minus[n - 1 + g] = setup_.right_free ? plus[n - 1] : minus[n - 1];
   }
-  for (std::size_t f = 0; f <= n; ++f) {
-    const double* p = plus + f;  // p[-1] is the cell left of the face
-    const double* m = minus + f;
-    double from_left = weno5(p[-3], p[-2], p[-1], p[0], p[1]);
-    double from_right = weno5(m[2], m[1], m[0], m[-1], m[-2]);
-    if (f == 0 && setup_.left_free) from_left = from_right;
-    if (f == n && setup_.right_free) from_right = from_left;
-    const double psi = std::fmax((from_left - from_right) / 2, 0.0);
-    const double phi = (from_left + from_right) / 2;
-    face_phi_[f] = phi * scale;
-    face_psi_[f] = psi * scale;
+  weno_faces(n + 1, plus, minus, scale, face_phi_.data(), face_psi_.data());
+  // At a free edge psi = 0; phi + psi (or phi - psi) is the invariant that reaches it.
+  if (setup_.left_free) {
+    face_phi_[0] = weno5(minus[2], minus[1], minus[0], minus[-1], minus[-2]) * scale;
+    face_psi_[0] = 0;
+  }
+  if (setup_.right_free) {
+    const double* p = plus + n;
+    face_phi_[n] = weno5(p[-3], p[-2], p[-1], p[0], p[1]) * scale;
+    face_psi_[n] = 0;
   }
 }
 
@@ -114,8 +111,8 @@ void Semidiscrete::find_compact_faces(const double* y) {
   const std::size_t n = size();
   for (std::size_t f = 0; f <= n; ++f) {
     const bool left_edge = f == 0, right_edge = f == n;
-    const State& l = states_[left_edge ? 0 : f - 1];
-    const State& r = states_[right_edge ? n - 1 : f];
+    const std::size_t i = left_edge ? 0 : f - 1, j = right_edge ? n - 1 : f;
+    const State l{phi_[i], psi_[i]}, r{phi_[j], psi_[j]};
     if (left_edge && setup_.left_free) {
       face_phi_[f] = r.phi - r.psi;
       face_psi_[f] = 0;
@@ -128,9 +125,7 @@ void Semidiscrete::find_compact_faces(const double* y) {
     }
     // Between two centres friction acts for the time that a wave needs from one to the other. With it the face carries
     // Darcy's flux, phi = -p_q / 8 C, where friction rules, and the plain Riemann solution where it does not.
-    const std::size_t i = left_edge ? 0 : f - 1, j = right_edge ? n - 1 : f;
-    const double crossings =
-        (rate_[i] + rate_[j]) * (y[2 * i] + y[2 * j]) / 4 / (resolved_[i].sound_speed + resolved_[j].sound_speed);
+    const double crossings = (rate_[i] + rate_[j]) * (y[2 * i] + y[2 * j]) / 4 / (sound_speed_[i] + sound_speed_[j]);
     face_phi_[f] /= 1 + crossings;
   }
 }
@@ -166,9 +161,19 @@ void Semidiscrete::add_sources(double t, const double* y, double* dy) {
   if (!frictional && !setup_.forcing) return;
   const std::vector<double>& charge = compact_ ? setup_.charge : charge_point_;
   double dissipation = 0, supply = 0;
+  velocities(n, phi_.data(), velocity_.data());
+  if (linear && !setup_.forcing) {  // the plain case, without the detour over point values
+    for (std::size_t i = 0; i < n; ++i) {
+      const double loss = friction.coefficient * y[2 * i + 1];
+      dissipation += velocity_[i] * loss;
+      dy[2 * i + 1] -= loss;
+    }
+    dy[2 * n + 1] = dissipation;
+    return;
+  }
   if (setup_.forcing) find_centres(y);
   for (std::size_t i = 0; i < n; ++i) {
-    const double U = std::tanh(states_[i].phi);
+    const double U = velocity_[i];
     source_[i] = 0;
     if (setup_.forcing) {
       const double push = 2 * pi * setup_.forcing(centres_[i], t) * charge[i];
@@ -185,10 +190,11 @@ void Semidiscrete::add_sources(double t, const double* y, double* dy) {
       if (!linear) source_[i] -= loss;
     }
   }
+  // A cell held at rest by dry friction has no smooth source around it.
+  const bool point_source = compact_ || dry;
+  if (!point_source) cell_means(n, source_.data(), source_mean_.data());
   for (std::size_t i = 0; i < n; ++i) {
-    dy[2 * i + 1] += source_[i];
-    // A cell held at rest by dry friction has no smooth source around it.
-    if (!compact_ && !dry) dy[2 * i + 1] += curvature(i, n, [&](std::size_t j) { return source_[j]; });
+    dy[2 * i + 1] += point_source ? source_[i] : source_mean_[i];
     if (frictional && linear) dy[2 * i + 1] -= friction.coefficient * y[2 * i + 1];
   }
   // M = 2 pi P / k and 2 pi q_s = k x_s: the sums are over P dx = M q_s ds.
@@ -196,35 +202,35 @@ void Semidiscrete::add_sources(double t, const double* y, double* dy) {
   dy[2 * n + 2] = supply;
 }
 
-double Semidiscrete::rate_of(const modulation::Resolved& at) const {
+void Semidiscrete::find_rates() {
   const modulation::Friction& f = setup_.friction;
-  if (f.law != modulation::FrictionLaw::viscous) return modulation::relaxation_rate(at.state, f);
-  // What relaxation_rate does, with the K and E that are known already.
-  return f.closure == modulation::Closure::consistent || at.state.empty() ? f.coefficient
-                                                                          : f.coefficient * pi * pi / (4 * at.EK);
+  largest_rate_ = 0;
+  for (std::size_t i = 0; i < size(); ++i) {
+    // What relaxation_rate does, with the K and E that are known already where they matter.
+    if (f.law != modulation::FrictionLaw::viscous)
+      rate_[i] = modulation::relaxation_rate({phi_[i], psi_[i]}, f);
+    else if (f.closure == modulation::Closure::consistent || psi_[i] == 0)
+      rate_[i] = f.coefficient;
+    else
+      rate_[i] = f.coefficient * pi * pi / (4 * EK_[i]);
+    largest_rate_ = std::max(largest_rate_, rate_[i]);
+  }
 }
 
 void Semidiscrete::operator()(double t, const double* y, double* dy) {
   const std::size_t n = size();
   find_states(t, y);
-  largest_rate_ = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    rate_[i] = rate_of(resolved_[i]);
-    largest_rate_ = std::fmax(largest_rate_, rate_[i]);
-  }
+  find_rates();
   if (compact_)
     find_compact_faces(y);
   else
     find_faces();
-  std::fill(dy + 2 * n, dy + 2 * n + extra, 0.0);
-  double U = std::tanh(face_phi_[0]), p = modulation::pressure(face_psi_[0]);
-  dy[2 * n] = U;
+  face_fluxes(n + 1, face_phi_.data(), face_psi_.data(), face_U_.data(), face_p_.data());
+  dy[2 * n] = face_U_[0];
+  dy[2 * n + 1] = dy[2 * n + 2] = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    const double next_U = std::tanh(face_phi_[i + 1]), next_p = modulation::pressure(face_psi_[i + 1]);
-    dy[2 * i] = next_U - U;
-    dy[2 * i + 1] = p - next_p;
-    U = next_U;
-    p = next_p;
+    dy[2 * i] = face_U_[i + 1] - face_U_[i];
+    dy[2 * i + 1] = face_p_[i] - face_p_[i + 1];
   }
   add_sources(t, y, dy);
 }
@@ -232,10 +238,10 @@ void Semidiscrete::operator()(double t, const double* y, double* dy) {
 double Semidiscrete::crossing_time(const double* y) const {
   double least = HUGE_VAL;
   for (std::size_t i = 0; i < size(); ++i) {
-    if (states_[i].empty()) continue;
-    const double U = std::tanh(states_[i].phi), c0 = resolved_[i].sound_speed;
+    if (psi_[i] == 0) continue;
+    const double U = std::tanh(phi_[i]), c0 = sound_speed_[i];
     const double fastest = c0 * (1 - U * U) / (1 - std::fabs(U) * c0);  // |lambda_pm - U|
-    least = std::fmin(least, y[2 * i] / fastest);
+    least = std::min(least, y[2 * i] / fastest);
   }
   return least;
 }
@@ -244,7 +250,7 @@ double Semidiscrete::mean_crossing_time(const double* y) const {
   double width = 0, fastest = 0;
   for (std::size_t i = 0; i < size(); ++i) {
     width += y[2 * i];
-    fastest = std::fmax(fastest, resolved_[i].sound_speed);
+    fastest = std::max(fastest, sound_speed_[i]);
   }
   return fastest > 0 ? width / static_cast<double>(size()) / fastest : HUGE_VAL;
 }

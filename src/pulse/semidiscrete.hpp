@@ -36,12 +36,13 @@ class Semidiscrete {
   void use_compact(bool compact) { compact_ = compact; }
   static constexpr std::size_t compact_reach = 3;
 
-  /// Starts the next solves for psi from these values: the bits of a result depend on where its solves start.
-  void start_from(const std::vector<double>& psi);
+  /// Starts the next solves for s = tanh(psi) from these values: the bits of a result depend on where its solves start.
+  void start_from(const std::vector<double>& s);
 
   /// From the last call: states at the cell centres, rapidities and psi at the faces, friction rates (loss over
   /// momentum).
-  const std::vector<State>& states() const { return states_; }
+  std::vector<State> states() const;
+  const std::vector<double>& s() const { return s_; }
   const std::vector<double>& face_phi() const { return face_phi_; }
   const std::vector<double>& face_psi() const { return face_psi_; }
   double largest_friction_rate() const { return largest_rate_; }
@@ -55,15 +56,16 @@ class Semidiscrete {
   void find_centres(const double* y);
   void find_faces();
   void find_compact_faces(const double* y);
-  double rate_of(const modulation::Resolved& at) const;
+  void find_rates();
   void add_sources(double t, const double* y, double* dy);
 
   Setup setup_;
   std::vector<double> charge_point_;  ///< q_s at the centres
-  std::vector<State> states_;
-  std::vector<modulation::Resolved> resolved_;
-  std::vector<double> spacing_, momentum_, invariant_plus_, invariant_minus_, phi_, psi_;
-  std::vector<double> face_phi_, face_psi_, rate_, source_, centres_;
+  // At the cell centres.
+  std::vector<double> width_, momentum_in_cell_, spacing_, momentum_, s_, phi_, psi_, phi_mean_, psi_mean_;
+  std::vector<double> sound_speed_, EK_, good_, rate_, source_, source_mean_, centres_, velocity_;
+  std::vector<double> invariant_plus_, invariant_minus_;  ///< cell averages, with ghosts
+  std::vector<double> face_phi_, face_psi_, face_U_, face_p_;
   double largest_rate_ = 0;
   bool compact_ = false;
 };

@@ -45,10 +45,10 @@ Solver::Solver(Problem problem) : problem_(std::move(problem)) {
   charge_ = layout.charge;
   const std::size_t n = size();
   cells_.y.assign(2 * n + Semidiscrete::extra, 0.0);
-  cells_.psi.resize(n);
+  cells_.s.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     cells_.y[2 * i] = layout.faces[i + 1] - layout.faces[i];
-    cells_.psi[i] = rupture::psi_of_stress(2 * pi * charge_[i] / cells_.y[2 * i]);
+    cells_.s[i] = std::tanh(rupture::psi_of_stress(2 * pi * charge_[i] / cells_.y[2 * i]));
   }
   cells_.y[2 * n] = layout.faces.front();
   equations_ = std::make_shared<Semidiscrete>(
@@ -59,17 +59,17 @@ Solver::Solver(Problem problem) : problem_(std::move(problem)) {
 Solver::Solver(Problem problem, Cells cells) : Solver(std::move(problem)) { restore(std::move(cells)); }
 
 void Solver::restore(Cells cells) {
-  if (cells.y.size() != cells_.y.size() || cells.psi.size() != cells_.psi.size())
+  if (cells.y.size() != cells_.y.size() || cells.s.size() != cells_.s.size())
     throw InputError({.key = "resume",
-                      .value = std::to_string(cells.psi.size()) + " cells",
+                      .value = std::to_string(cells.s.size()) + " cells",
                       .problem = "does not fit the scenario",
-                      .allowed = std::to_string(cells_.psi.size()) + " cells"});
+                      .allowed = std::to_string(cells_.s.size()) + " cells"});
   cells_ = std::move(cells);
 }
 
 bool Solver::advance_to(double time, const std::function<bool()>& interrupted) {
   Semidiscrete& equations = *equations_;
-  equations.start_from(cells_.psi);
+  equations.start_from(cells_.s);
   const Rates f = [&equations](double t, const double* y, double* dy) { equations(t, y, dy); };
   const std::size_t n = size();
   ExplicitStep explicit_step(cells_.y.size());
@@ -99,7 +99,7 @@ bool Solver::advance_to(double time, const std::function<bool()>& interrupted) {
       for (std::size_t i = 0; i < n; ++i) fastest = std::fmax(fastest, std::fabs(cells_.y[2 * i + 1] / charge_[i]));
       for (std::size_t i = 0; i < n; ++i) {
         scale[2 * i] = cells_.y[2 * i];
-        scale[2 * i + 1] = charge_[i] * std::fmax(fastest, 8e-3 * equations.states()[i].psi /
+        scale[2 * i + 1] = charge_[i] * std::fmax(fastest, 8e-3 * equations.s()[i] /
                                                                (1 + equations.largest_friction_rate() * crossing));
       }
       implicit_step->linearise(f, cells_.time, cells_.y, rate, scale);
@@ -124,13 +124,13 @@ bool Solver::advance_to(double time, const std::function<bool()>& interrupted) {
         dt *= factor;
         if (!(cells_.time + dt > cells_.time))
           throw NumericsError("t = " + std::to_string(cells_.time) + ": the time step fell below rounding");
-        equations.start_from(cells_.psi);
+        equations.start_from(cells_.s);
       }
     }
     equations.use_compact(false);
     cells_.time = dt == left ? time : cells_.time + dt;
     ++cells_.steps;
-    for (std::size_t i = 0; i < n; ++i) cells_.psi[i] = equations.states()[i].psi;
+    cells_.s = equations.s();
     if (interrupted && interrupted()) return cells_.time >= time;
   }
   return true;
@@ -139,7 +139,7 @@ bool Solver::advance_to(double time, const std::function<bool()>& interrupted) {
 Solver::View Solver::view() const {
   const std::size_t n = size();
   std::vector<double> rate(cells_.y.size());
-  equations_->start_from(cells_.psi);
+  equations_->start_from(cells_.s);
   (*equations_)(cells_.time, cells_.y.data(), rate.data());
   View v;
   v.faces.resize(n + 1);

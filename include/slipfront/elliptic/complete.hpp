@@ -30,7 +30,8 @@ struct AtPsi {
 /// The fields of AtPsi for psi > 0. \throws InputError otherwise.
 AtPsi at_psi(double psi);
 
-/// The same at the complementary modulus s = sqrt(m1) = tanh(psi), for 0 < s <= 0.97, where 1 - s has lost nothing. No checks.
+/// The same at the complementary modulus s = sqrt(m1) = tanh(psi), for 0 < s <= 0.97, where 1 - s has lost nothing. No
+/// checks.
 AtPsi at_modulus(double s);
 
 /// Asymptotic regime psi -> 0, the almost empty interface: K = ln(4/psi), E = 1. Exact to rounding for psi < 1e-9; the

@@ -36,7 +36,7 @@ struct Cells {
   double step = 0;  ///< last step of the implicit integrator, 0 before the first
   std::vector<double>
       y;  ///< width and momentum of each cell in turn, x of the left edge, energy dissipated, energy supplied
-  std::vector<double> psi;  ///< at the cell centres, where the next solve starts
+  std::vector<double> s;  ///< tanh(psi) at the cell centres, where the next solve starts
 };
 
 class Solver {
