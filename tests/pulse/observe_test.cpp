@@ -1,0 +1,102 @@
+#include "slipfront/pulse/observe.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "slipfront/error.hpp"
+#include "slipfront/pulse/run.hpp"
+#include "slipfront/rupture/relations.hpp"
+
+namespace {
+
+using namespace slipfront;
+using namespace slipfront::pulse;
+using std::numbers::pi;
+
+Problem smooth(double C, modulation::Closure closure) {
+  return {.stress = [](double x) { return 0.179 + 0.676 * (1 - std::tanh(x)) / 2; },
+          .forcing = {},
+          .friction = {modulation::FrictionLaw::viscous, C, 1, closure},
+          .left = -8,
+          .right = 6,
+          .corner = HUGE_VAL,
+          .cells = 400};
+}
+
+Schedule schedule(double end) {
+  Schedule s{.times = {0, end}, .x_edges = {}, .threshold = 1e-3};
+  for (int i = 0; i <= 200; ++i) s.x_edges.push_back(-8 + 14 * i / 200.0);
+  return s;
+}
+
+/// Before a shock forms, what friction takes is what H loses; the imbalance is small against what it takes.
+TEST(Observe, EnergyIsAccountedFor) {
+  for (const modulation::Closure closure : {modulation::Closure::consistent, modulation::Closure::paper}) {
+    Problem problem = smooth(0.5, closure);
+    problem.cells = 800;
+    pulse::Run run(problem, schedule(3));
+    run.go();
+    const Energy a = run.snapshots().front().energy, b = run.snapshots().back().energy;
+    EXPECT_NEAR(a.kinetic, 0, 1e-14 * a.elastic);
+    EXPECT_GT(b.dissipated, 1e-4);
+    EXPECT_NEAR(a.elastic, b.elastic + b.kinetic + b.dissipated, 1e-3 * b.dissipated);
+  }
+}
+
+TEST(Observe, CountsDislocations) {
+  pulse::Run run(smooth(0.1, modulation::Closure::consistent), schedule(2 * pi));
+  run.go();
+  EXPECT_LT(conservation_error(run.solver(), run.schedule().x_edges, run.snapshots().back().profile), 1e-13);
+}
+
+/// The trailing edge moves at |V-| for every C; an observer with a threshold sees it fall behind.
+TEST(Observe, TrailingEdgeDoesNotKnowFriction) {
+  for (const double C : {0.0, 0.5, 2.0}) {
+    Problem p{.stress = [](double x) { return x < 0 ? 0.855 : 0.0; },
+              .forcing = {},
+              .friction = {C > 0 ? modulation::FrictionLaw::viscous : modulation::FrictionLaw::none, C, 1, {}},
+              .left = -3,
+              .right = 1,
+              .cells = 200};
+    Schedule when = schedule(2 * pi);
+    when.threshold = 0.1;
+    pulse::Run run(p, when);
+    run.go();
+    const Fronts f = run.snapshots().back().fronts;
+    EXPECT_NEAR(f.trailing, -rupture::from_stress(0.855).rupture_velocity * 2 * pi, 1e-12);
+    EXPECT_GT(f.trailing_observed, f.trailing);
+    const double leading = C == 0 ? 0.63 : C == 0.5 ? 0.286 : 0.15;  // PHYSICS 3.5
+    EXPECT_NEAR(f.leading, leading, 0.005);
+  }
+}
+
+/// Fronts do not depend on how often one looks.
+TEST(Observe, FrontsDoNotDependOnOutputTimes) {
+  Schedule often = schedule(2);
+  for (double t = 1.9; t > 0.05; t -= 0.1) often.times.insert(often.times.begin() + 1, t);
+  pulse::Run rarely(smooth(0.5, modulation::Closure::consistent), schedule(2)),
+      closely(smooth(0.5, modulation::Closure::consistent), often);
+  rarely.go();
+  closely.go();
+  const Fronts a = rarely.snapshots().back().fronts, b = closely.snapshots().back().fronts;
+  EXPECT_NEAR(a.trailing, b.trailing, 1e-3);
+  EXPECT_NEAR(a.leading, b.leading, 1e-6);
+}
+
+TEST(Run, RefusesStateOfAnotherRun) {
+  const Schedule when = schedule(1);
+  pulse::Run run(smooth(0.5, modulation::Closure::consistent), when);
+  run.go();
+  const std::string saved = run.saved();
+  Problem other = smooth(0.5, modulation::Closure::consistent);
+  other.cells = 300;
+  EXPECT_THROW(pulse::Run(other, when, saved, {}), InputError);
+  EXPECT_THROW(pulse::Run(smooth(0.5, {}), when, saved.substr(0, saved.size() / 2), {}), InputError);
+  EXPECT_THROW(pulse::Run(smooth(0.5, {}), when, "", {}), InputError);
+  const pulse::Run again(smooth(0.5, modulation::Closure::consistent), when, saved, run.snapshots());
+  EXPECT_TRUE(again.finished());
+}
+
+}  // namespace
