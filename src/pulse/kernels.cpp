@@ -7,7 +7,16 @@
 #include "branch_free.hpp"
 #include "weno.hpp"
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+// g++ gets a version for each level of x86-64, chosen at run time. clang 14 knows neither that nor these pragmas (its
+// own complain where optimisation is off): its build runs the loops as they come.
+#if defined(__GNUC__) && !defined(__clang__)
+#define SLIPFRONT_INDEPENDENT _Pragma("GCC ivdep")
+#define SLIPFRONT_UNROLL _Pragma("GCC unroll 8")
+#else
+#define SLIPFRONT_INDEPENDENT
+#define SLIPFRONT_UNROLL
+#endif
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
 #define SLIPFRONT_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #else
 #define SLIPFRONT_CLONES
@@ -24,7 +33,7 @@ struct Mean {
   explicit Mean(Real s) {
     const Real c1 = (1 - s) / 2;
     Real mean = (1 + s) / 2, other = std::sqrt(s), c = c1, tail = 0, weight = 2;
-#pragma GCC unroll 8
+    SLIPFRONT_UNROLL
     for (int k = 0; k < steps; ++k) {
       const Real next = (mean + other) / 2;
       c = c * c / (4 * next);
@@ -62,14 +71,14 @@ SLIPFRONT_CLONES void resolve_all(const ResolveArrays& a) {
   constexpr double least = 1e-10, most = 0.9;
   // Two steps in single precision bring the guess to about 1e-6; twice as many lanes, and roots at a quarter of the
   // price.
-#pragma GCC ivdep
+  SLIPFRONT_INDEPENDENT
   for (std::size_t i = 0; i < n; ++i) {
     const auto half = static_cast<float>(spacing[i] / 2), eighth = static_cast<float>(momentum[i] / 8);
     const double guess = s_out[i];
     good[i] = guess > least && guess < most ? 1.0 : 0.0;
     // A lane out of range computes with a harmless s and is thrown away.
     auto s = static_cast<float>(guess < least ? least : guess > most ? most : guess);
-#pragma GCC unroll 2
+    SLIPFRONT_UNROLL
     for (int iteration = 0; iteration < 2; ++iteration) {
       const float step = NewtonStep<float, 6>(s, half, eighth).step;
       s *= 1 + step * (1 + step / 2);
@@ -77,7 +86,7 @@ SLIPFRONT_CLONES void resolve_all(const ResolveArrays& a) {
     // What single precision cannot improve it may spoil: there is nothing to gain if the guess was good.
     s_out[i] = good[i] != 0 ? static_cast<double>(s) : guess;
   }
-#pragma GCC ivdep
+  SLIPFRONT_INDEPENDENT
   for (std::size_t i = 0; i < n; ++i) {
     const double half = spacing[i] / 2, eighth = momentum[i] / 8, from = s_out[i];
     const bool in_range = from > least && from < most;
@@ -108,20 +117,20 @@ inline double curvature(const double* f) {
 }  // namespace
 
 SLIPFRONT_CLONES void centre_values(std::size_t size, const double* averages, double* values) {
-#pragma GCC ivdep
+  SLIPFRONT_INDEPENDENT
   for (std::size_t i = 2; i < size - 2; ++i) values[i] = averages[i] - curvature(averages + i);
   for (const std::size_t i : {std::size_t{0}, std::size_t{1}, size - 2, size - 1}) values[i] = averages[i];
 }
 
 SLIPFRONT_CLONES void cell_means(std::size_t size, const double* values, double* averages) {
-#pragma GCC ivdep
+  SLIPFRONT_INDEPENDENT
   for (std::size_t i = 2; i < size - 2; ++i) averages[i] = values[i] + curvature(values + i);
   for (const std::size_t i : {std::size_t{0}, std::size_t{1}, size - 2, size - 1}) averages[i] = values[i];
 }
 
 SLIPFRONT_CLONES void weno_faces(std::size_t faces, const double* plus, const double* minus, double scale, double* phi,
                                  double* psi) {
-#pragma GCC ivdep
+  SLIPFRONT_INDEPENDENT
   for (std::size_t f = 0; f < faces; ++f) {
     const double* p = plus + f;
     const double* m = minus + f;
@@ -133,12 +142,12 @@ SLIPFRONT_CLONES void weno_faces(std::size_t faces, const double* plus, const do
 }
 
 SLIPFRONT_CLONES void velocities(std::size_t size, const double* phi, double* U) {
-#pragma GCC ivdep
+  SLIPFRONT_INDEPENDENT
   for (std::size_t i = 0; i < size; ++i) U[i] = tanh_branch_free(phi[i]);
 }
 
 SLIPFRONT_CLONES void face_fluxes(std::size_t faces, const double* phi, const double* psi, double* U, double* p) {
-#pragma GCC ivdep
+  SLIPFRONT_INDEPENDENT
   for (std::size_t f = 0; f < faces; ++f) {
     const double sinh_psi = sinh_branch_free(psi[f]);
     U[f] = tanh_branch_free(phi[f]);
