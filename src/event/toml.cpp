@@ -77,6 +77,14 @@ void read_table(Observation& o, const toml::table& table, const std::string& nam
   }
 }
 
+/// Tables of a scenario: one file can be both, an event and what `pulse` makes of it.
+bool belongs_to_scenario(std::string_view table) {
+  for (const std::string_view name :
+       {"initial", "friction", "forcing", "interface", "domain", "time", "pulse", "chain", "output"})
+    if (table == name) return true;
+  return false;
+}
+
 Observation read_document(const toml::table& document) {
   Observation o;
   const toml::table* event = nullptr;
@@ -87,7 +95,7 @@ Observation read_document(const toml::table& document) {
     } else if ((key == "event" || key == "medium") && node.is_table()) {
       if (key == "event") event = node.as_table();
       read_table(o, *node.as_table(), key, key == "event");
-    } else {
+    } else if (!(node.is_table() && belongs_to_scenario(key))) {
       const bool table_wanted = key == "event" || key == "medium";
       throw InputError({.line = line_of(node),
                         .key = key,
