@@ -46,7 +46,7 @@ Table convert_table(const toml::table& from, const std::string& name, const Over
 void convert_document(Document& document, const toml::table& root, const Overridden& overridden) {
   for (const auto& [key_node, node] : root) {
     const std::string key(key_node.str());
-    const auto refuse = [&, &value = node](const char* problem, std::string allowed) {
+    const auto refuse = [&, &value = node](const char* problem, const std::string& allowed) {
       return InputError({.line = value.source().begin.line, .key = key, .problem = problem, .allowed = allowed});
     };
     if (key == "title") {

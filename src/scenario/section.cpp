@@ -17,7 +17,7 @@ std::string Limits::text() const {
   return text;
 }
 
-Section::Section(const Document& document, std::string_view name, std::vector<std::string_view> keys)
+Section::Section(const Document& document, std::string_view name, const std::vector<std::string_view>& keys)
     : document_(document), table_(nullptr), name_(name) {
   const auto found = document.tables.find(name);
   if (found == document.tables.end()) return;

@@ -36,7 +36,7 @@ inline constexpr Limits position{.least = -farthest, .most = farthest};
 class Section {
  public:
   /// \throws InputError for a key that is not known.
-  Section(const Document& document, std::string_view name, std::vector<std::string_view> keys);
+  Section(const Document& document, std::string_view name, const std::vector<std::string_view>& keys);
 
   bool has(std::string_view key) const { return find(key) != nullptr; }
   const Value* find(std::string_view key) const;
