@@ -139,8 +139,8 @@ int run_pulse(const Arguments& a) {
   const pulse::Problem problem = pulse_problem(s);
   const pulse::Schedule schedule = pulse_schedule(s, problem);
   if (a.check) {
-    pulse::Run(problem, schedule);  // lays the cells
-    describe(s, problem, schedule);
+    const pulse::Run laid(problem, schedule);  // what is wrong with the cells is said here
+    describe(s, problem, laid.schedule());
     return exit_done;
   }
 
