@@ -30,7 +30,7 @@ def stress(x):
 
 
 def rates(t, y, dx, central):
-    """phi +- psi travel at lambda_pm (PHYSICS 3.1); friction takes M at the rate C at constant spacing l."""
+    """phi +- psi travel at lambda_pm (docs/theory.md 3.1); friction takes M at the rate C at constant spacing l."""
     n = y.size // 2
     phi, psi = y[:n], np.maximum(y[n:], 1e-12)
     K, E = k_e(psi)

@@ -17,8 +17,8 @@ namespace {
 
 State mirrored(const State& s) { return {-s.phi, s.psi}; }
 
-/// Spacing l and momentum M = momentum_unit * sinh(phi) of one dislocation (PHYSICS: the Lagrangian form l_t = U_q,
-/// M_t + p_q = 0, p = 2 sinh^2 psi). Between two trains the jump conditions read [p][l] + [U][M] = 0.
+/// Spacing l and momentum M = momentum_unit * sinh(phi) of one dislocation (docs/theory.md 3.4: the Lagrangian form l_t
+/// = U_q, M_t + p_q = 0, p = 2 sinh^2 psi). Between two trains the jump conditions read [p][l] + [U][M] = 0.
 struct PerDislocation {
   double spacing_unit;   ///< l cosh(phi) = 2 K / cosh(psi)
   double momentum_unit;  ///< M / sinh(phi) = 8 cosh(psi) E

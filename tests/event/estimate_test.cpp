@@ -30,7 +30,7 @@ bool mentions(const std::vector<std::string>& warnings, const std::string& word)
   return false;
 }
 
-/// PHYSICS section 5, the rows without friction. The paper works with rounded c, V and Sigma-; so does the second half.
+/// docs/theory.md 5, the rows without friction. The paper works with rounded c, V and Sigma-; so does the second half.
 TEST(Estimate, ParkfieldAsInThePaper) {
   const Estimate e = estimate(from_case("parkfield-2004.toml"), {});
   EXPECT_NEAR(e.speed, 5421.0, 0.05);

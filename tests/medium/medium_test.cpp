@@ -15,7 +15,7 @@ using std::numbers::pi;
 const medium::Interface rock{
     .shear_modulus = 30e9, .density = 2700, .poisson_ratio = 0.25, .asperity_spacing = 1e-3, .contact_ratio = 0.01};
 
-TEST(Medium, SpeedOfThePaper) {  // PHYSICS section 5: 6 km/s and 0.3 give 5.4210 km/s
+TEST(Medium, SpeedOfThePaper) {  // docs/theory.md 5: 6 km/s and 0.3 give 5.4210 km/s
   EXPECT_NEAR(medium::speed_from_p_wave(6000, 0.3), 5421.0, 0.05);
 }
 

@@ -99,7 +99,7 @@ TEST(Friction, OpposesAndVanishesAtRest) {
   }
 }
 
-/// PHYSICS 3.3: the ratio of the closures, I / W = 4 E K / pi^2.
+/// docs/theory.md 3.3: the ratio of the closures, I / W = 4 E K / pi^2.
 TEST(Friction, PaperClosureUnderstates) {
   const State s{0.2, 1e-3};
   const train::Averages a = train::averages(s);

@@ -67,7 +67,7 @@ TEST(Observe, TrailingEdgeDoesNotKnowFriction) {
     const Fronts f = run.snapshots().back().fronts;
     EXPECT_NEAR(f.trailing, -rupture::from_stress(0.855).rupture_velocity * 2 * pi, 1e-12);
     EXPECT_GT(f.trailing_observed, f.trailing);
-    const double leading = C == 0 ? 0.63 : C == 0.5 ? 0.286 : 0.15;  // PHYSICS 3.5
+    const double leading = C == 0 ? 0.63 : C == 0.5 ? 0.286 : 0.15;  // docs/theory.md 3.5
     EXPECT_NEAR(f.leading, leading, 0.005);
   }
 }

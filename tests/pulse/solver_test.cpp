@@ -69,9 +69,9 @@ TEST(Pulse, WholeProfileIsTheClosedForm) {
   }
 }
 
-/// PHYSICS 3.3, slip at x = 0 by t = 2 pi; the table's own numbers come from a first-order scheme and differ by up to
-/// 1e-3.
-TEST(Pulse, SlipWithFrictionIsThatOfPhysics33) {
+/// docs/theory.md 3.3, slip at x = 0 by t = 2 pi; the table's own numbers come from a first-order scheme and differ by
+/// up to 1e-3.
+TEST(Pulse, SlipWithFrictionIsThatOfTheFoundingTable) {
   const struct {
     double C, consistent, paper;
   } rows[] = {{0.1, 0.26443, 0.28284}, {0.5, 0.16960, 0.21897}, {2.0, 0.08912, 0.12132}};

@@ -56,10 +56,10 @@ TEST(Riemann, MatchesTheTable) {
   }
 }
 
-/// PHYSICS section 4, all digits shown; its U* of the first row is cut, not rounded, and its fan edge of the second row
-/// is misprinted
+/// The project's founding table of the Riemann problem, to all digits; its U* of the first row was cut, not rounded,
+/// and its fan edge of the second row is misprinted
 /// (-0.2007656747): psi* and U* of that row give -0.2007657047.
-TEST(Riemann, GivesTheNumbersOfPhysicsSection4) {
+TEST(Riemann, GivesTheFoundingTable) {
   const struct {
     double left, right, psi, U, k, W, edge, shock;
   } rows[] = {{0.855, 0.179, 0.0286532627, 0.0718291137, 0.6378761420, 0.0458180779, -0.0701295888, 0.0998484639},

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// From the constants of rock and interface to those of the model (PHYSICS section 1, Eqs. 1-3). SI units throughout.
+/// From the constants of rock and interface to those of the model (docs/theory.md 1, Eqs. 1-3). SI units throughout.
 
 namespace slipfront::medium {
 

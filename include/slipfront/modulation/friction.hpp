@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Friction laws and the two ways to average them over a period (PHYSICS 3.3; Eqs. 7).
+/// Friction laws and the two ways to average them over a period (docs/theory.md 3.3; Eqs. 7).
 
 #include "slipfront/train/state.hpp"
 

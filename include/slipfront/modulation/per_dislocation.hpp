@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// The same equations carried by the dislocations (PHYSICS 3.4): with q counting them, l_t = U_q and M_t + p_q = 2 pi F
+/// The same equations carried by the dislocations (docs/theory.md 3.4): with q counting them, l_t = U_q and M_t + p_q =
+/// 2 pi F
 /// - friction. A relativistic gas of particles of mass 8 that repel with the pressure p = 2 sinh^2 psi.
 
 #include "slipfront/train/state.hpp"

@@ -22,7 +22,7 @@ struct Fronts {
   double leading_observed;   ///< and from the right
 };
 
-/// Energy over the domain per unit width, in units of the scenario (H of PHYSICS 3.2).
+/// Energy over the domain per unit width, in units of the scenario (H of docs/theory.md 3.2).
 struct Energy {
   double elastic;     ///< of the state at rest with the same density
   double kinetic;     ///< H less that

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// The modulation equations with friction, Eqs. (7), solved in the coordinate that counts dislocations (PHYSICS 3.4):
+/// The modulation equations with friction, Eqs. (7), solved in the coordinate that counts dislocations
+/// (docs/theory.md 3.4):
 ///     l_t = U_q,   M_t + p_q = 2 pi F - friction,   p = 2 sinh^2 psi.
 /// Finite volumes in a coordinate s, one cell a unit, with q(s) fixed: the number of dislocations in a cell never
 /// changes, an empty region is a free edge (p = 0) and no cell, and a slow pulse (V ~ 1e-26) is computed like a fast
