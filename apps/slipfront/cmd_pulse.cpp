@@ -47,10 +47,9 @@ class Progress {
   void at(const pulse::Cells& cells) {
     if (!on_ || seconds_since(shown_) < 0.2) return;
     shown_ = Clock::now();
-    if (first_time_ < 0) first_time_ = cells.time;
     const double share = cells.time / end_, elapsed = seconds_since(start_);
     const double gained = (cells.time - first_time_) / end_;
-    const double left = gained > 0 ? elapsed * (1 - share) / gained : NAN;
+    const double left = gained > 0 ? elapsed * (1 - share) / gained : 0;
     std::string bar(30, '.');
     for (std::size_t i = 0; i < static_cast<std::size_t>(share * 30); ++i) bar[i] = '#';
     fmt::print(stderr, "\r[{}] {:5.1f} %  t = {:.4g} of {:.4g}  {:.0f} steps/s  {:.0f} s left\x1b[K", bar, 100 * share,
@@ -58,13 +57,16 @@ class Progress {
     std::fflush(stderr);
     drawn_ = true;
   }
-  void from(const pulse::Cells& cells) { first_steps_ = cells.steps; }
+  void from(const pulse::Cells& cells) {
+    first_steps_ = cells.steps;
+    first_time_ = cells.time;
+  }
 
  private:
   double end_;
   bool on_, drawn_ = false;
   Clock::time_point start_, shown_;
-  double first_time_ = -1;
+  double first_time_ = 0;
   long first_steps_ = 0;
 };
 
