@@ -37,6 +37,10 @@ void stop_reversals(const std::vector<double>& before, std::vector<double>& afte
     if (before[i] * after[i] < 0) after[i] = 0;
 }
 
+/// The step to take where `left` is left and `dt` is wanted: steps end on the target exactly, and the last two share
+/// what is left, so that none is a sliver.
+double share_of(double left, double dt) { return dt >= left ? left : dt > left / 2 ? left / 2 : dt; }
+
 }  // namespace
 
 Solver::Solver(Problem problem) : problem_(std::move(problem)) {
@@ -69,24 +73,20 @@ void Solver::restore(Cells cells) {
 
 bool Solver::advance_to(double time, const std::function<bool()>& interrupted) {
   Semidiscrete& equations = *equations_;
-  equations.start_from(cells_.s);
   const Rates f = [&equations](double t, const double* y, double* dy) { equations(t, y, dy); };
   const std::size_t n = size();
   ExplicitStep explicit_step(cells_.y.size());
   std::unique_ptr<ImplicitStep> implicit_step;
   std::vector<double> rate(cells_.y.size()), next(cells_.y.size()), scale(2 * n);
-  // Steps end on `time` exactly; the last ones share what is left, so that none is a sliver.
   while (cells_.time < time) {
+    equations.start_from(cells_.s);  // as a resumed run does, whoever has looked at the equations since the last step
     f(cells_.time, cells_.y.data(), rate.data());
     const double left = time - cells_.time;
     const double crossing = problem_.cfl * equations.crossing_time(cells_.y.data());
     const bool stiff = equations.largest_friction_rate() * equations.mean_crossing_time(cells_.y.data()) > stiff_above;
     double dt = crossing;
     if (!stiff) {
-      if (dt >= left)
-        dt = left;
-      else if (dt > left / 2)
-        dt = left / 2;
+      dt = share_of(left, dt);
       next = cells_.y;
       explicit_step(f, cells_.time, dt, cells_.y, rate);
       if (problem_.friction.law == modulation::FrictionLaw::coulomb) stop_reversals(next, cells_.y);
@@ -106,10 +106,7 @@ bool Solver::advance_to(double time, const std::function<bool()>& interrupted) {
       dt = cells_.step > 0 ? cells_.step : std::fmin(crossing, 1 / equations.largest_friction_rate());
       while (true) {
         const double wanted = dt;
-        if (dt >= left)
-          dt = left;
-        else if (dt > left / 2)
-          dt = left / 2;
+        dt = share_of(left, dt);
         double error = HUGE_VAL;
         try {
           error = (*implicit_step)(f, cells_.time, dt, cells_.y, rate, scale, problem_.tolerance, next);

@@ -85,6 +85,25 @@ TEST(Observe, FrontsDoNotDependOnOutputTimes) {
   EXPECT_NEAR(a.leading, b.leading, 1e-6);
 }
 
+/// A front that is followed through a state that is not uniform is looked up between steps; that must leave no trace in
+/// the solves.
+TEST(Run, SavedBetweenStepsContinuesToTheSameBits) {
+  for (const double C : {0.3, 1e4}) {
+    Problem problem = smooth(C, modulation::Closure::consistent);
+    problem.cells = 60;
+    pulse::Run whole(problem, schedule(2));
+    whole.go();
+    for (const int steps : {1, 2, 3}) {
+      pulse::Run cut(problem, schedule(2));
+      int left = steps;
+      EXPECT_FALSE(cut.go([&] { return --left == 0; }));
+      pulse::Run resumed(problem, schedule(2), cut.saved(), cut.snapshots());
+      EXPECT_TRUE(resumed.go());
+      EXPECT_EQ(whole.saved(), resumed.saved()) << C << ", " << steps;
+    }
+  }
+}
+
 TEST(Run, RefusesStateOfAnotherRun) {
   const Schedule when = schedule(1);
   pulse::Run run(smooth(0.5, modulation::Closure::consistent), when);
