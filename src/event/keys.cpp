@@ -6,20 +6,18 @@ namespace slipfront::event {
 
 const std::vector<Key>& quantity_keys() {
   using medium::Dimension;
-  static const std::vector<Key> keys = {
-      {"rupture_velocity", Dimension::velocity, &Observation::rupture_velocity},
-      {"slip_velocity", Dimension::velocity, &Observation::slip_velocity},
-      {"slip", Dimension::length, &Observation::slip},
-      {"rise_time", Dimension::time, &Observation::rise_time},
-      {"duration", Dimension::time, &Observation::duration},
-      {"shear_modulus", Dimension::pressure, nullptr, &Observation::shear_modulus},
-      {"poisson_ratio", Dimension::ratio, nullptr, &Observation::poisson_ratio},
-      {"p_wave_speed", Dimension::velocity, nullptr, &Observation::p_wave_speed},
-      {"s_wave_speed", Dimension::velocity, nullptr, &Observation::s_wave_speed},
-      {"density", Dimension::density, nullptr, &Observation::density},
-      {"contact_ratio", Dimension::ratio, nullptr, &Observation::contact_ratio},
-      {"asperity_spacing", Dimension::length, nullptr, &Observation::asperity_spacing},
-  };
+  static const std::vector<Key> keys = [] {
+    std::vector<Key> all = {
+        {"rupture_velocity", Dimension::velocity, &Observation::rupture_velocity},
+        {"slip_velocity", Dimension::velocity, &Observation::slip_velocity},
+        {"slip", Dimension::length, &Observation::slip},
+        {"rise_time", Dimension::time, &Observation::rise_time},
+        {"duration", Dimension::time, &Observation::duration},
+    };
+    for (const medium::Constant& constant : medium::constants())
+      all.push_back({constant.name, constant.dimension, nullptr, constant.member});
+    return all;
+  }();
   return keys;
 }
 

@@ -2,32 +2,15 @@
 
 #include "section.hpp"
 #include "settings.hpp"
-#include "slipfront/medium/quantity.hpp"
+#include "slipfront/medium/constants.hpp"
 
 namespace slipfront::scenario {
 namespace {
 
-using medium::Dimension;
 using modulation::Closure;
 using modulation::FrictionLaw;
 
-struct Constant {
-  std::string_view name;
-  Dimension dimension;
-  std::optional<double> MediumOptions::*member;
-};
-
-constexpr Constant constants[] = {
-    {"shear_modulus", Dimension::pressure, &MediumOptions::shear_modulus},
-    {"poisson_ratio", Dimension::ratio, &MediumOptions::poisson_ratio},
-    {"p_wave_speed", Dimension::velocity, &MediumOptions::p_wave_speed},
-    {"s_wave_speed", Dimension::velocity, &MediumOptions::s_wave_speed},
-    {"density", Dimension::density, &MediumOptions::density},
-    {"contact_ratio", Dimension::ratio, &MediumOptions::contact_ratio},
-    {"asperity_spacing", Dimension::length, &MediumOptions::asperity_spacing},
-};
-
-double read_quantity(const Section& section, const Value& value, const Constant& constant) {
+double read_quantity(const Section& section, const Value& value, const medium::Constant& constant) {
   const std::string example(medium::example(constant.dimension));
   if (value.kind != Value::Kind::text && value.kind != Value::Kind::number)
     throw section.refuse(constant.name, "neither a number nor a text", example);
@@ -43,11 +26,11 @@ double read_quantity(const Section& section, const Value& value, const Constant&
 
 }  // namespace
 
-void read_medium(const Document& document, MediumOptions& options) {
+void read_medium(const Document& document, medium::Constants& options) {
   std::vector<std::string_view> names;
-  for (const Constant& constant : constants) names.push_back(constant.name);
+  for (const medium::Constant& constant : medium::constants()) names.push_back(constant.name);
   const Section section(document, "medium", names);
-  for (const Constant& constant : constants) {
+  for (const medium::Constant& constant : medium::constants()) {
     const Value* const value = section.find(constant.name);
     if (!value) continue;
     const double quantity = read_quantity(section, *value, constant);

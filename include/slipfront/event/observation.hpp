@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "slipfront/error.hpp"
+#include "slipfront/medium/constants.hpp"
 
 namespace slipfront::event {
 
@@ -20,7 +21,7 @@ struct Measured {
 };
 
 /// One event as its file gives it. Everything is optional but the name: absent means not observed.
-struct Observation {
+struct Observation : medium::Constants {
   std::string name;
   std::string date;
   std::string kind;      ///< "earthquake", "slow slip", ... free text
@@ -34,14 +35,6 @@ struct Observation {
   std::optional<Measured> slip;              ///< m
   std::optional<Measured> rise_time;         ///< s, time that one point slips
   std::optional<Measured> duration;          ///< s, of the whole event
-
-  std::optional<double> shear_modulus;     ///< Pa
-  std::optional<double> poisson_ratio;     ///< -1 < nu < 0.5
-  std::optional<double> p_wave_speed;      ///< m/s
-  std::optional<double> s_wave_speed;      ///< m/s
-  std::optional<double> density;           ///< kg/m^3
-  std::optional<double> contact_ratio;     ///< A, real to nominal contact area
-  std::optional<double> asperity_spacing;  ///< b, m
 
   std::vector<std::string> warnings;  ///< what the reader had to assume or leave out
 };

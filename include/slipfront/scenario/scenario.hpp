@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "slipfront/error.hpp"
+#include "slipfront/medium/constants.hpp"
 #include "slipfront/modulation/friction.hpp"
 
 namespace slipfront::scenario {
@@ -64,12 +65,6 @@ struct Output {
   std::vector<std::string> variables;  ///< empty: all
 };
 
-/// [medium], SI units; absent where the scenario does not say.
-struct MediumOptions {
-  std::optional<double> shear_modulus, poisson_ratio, p_wave_speed, s_wave_speed, density, contact_ratio,
-      asperity_spacing;
-};
-
 struct Scenario {
   std::string title;
   std::string file;  ///< as named by the user
@@ -82,7 +77,7 @@ struct Scenario {
   double end = 2 * std::numbers::pi;
   PulseOptions pulse;
   ChainOptions chain;
-  MediumOptions medium;
+  medium::Constants medium;  ///< [medium]
   Output output;
   std::vector<std::string> warnings;  ///< what the user should know before the run, one line each
 
