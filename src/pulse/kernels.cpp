@@ -108,23 +108,36 @@ SLIPFRONT_CLONES void resolve_all(const ResolveArrays& a) {
 
 namespace {
 
-inline double curvature(const double* f) {
-  const double d0 = f[-2] - 2 * f[-1] + f[0], d1 = f[-1] - 2 * f[0] + f[1], d2 = f[0] - 2 * f[1] + f[2];
-  const double fourth = std::fabs(d0 - 2 * d1 + d2), second = std::fabs(d0) + 2 * std::fabs(d1) + std::fabs(d2);
-  return fourth < 0.5 * second ? d1 / 24 : 0.0;
-}
+/// Second and fourth differences; none where the values are not smooth on the grid, the fourth sooner than the second.
+struct Differences {
+  double second, fourth;
+  explicit Differences(const double* f) {
+    const double d0 = f[-2] - 2 * f[-1] + f[0], d1 = f[-1] - 2 * f[0] + f[1], d2 = f[0] - 2 * f[1] + f[2];
+    const double d = d0 - 2 * d1 + d2, size = std::fabs(d0) + 2 * std::fabs(d1) + std::fabs(d2);
+    const bool smooth = std::fabs(d) < 0.5 * size;
+    second = smooth ? d1 : 0.0;
+    fourth = std::fabs(d) < 0.2 * size ? d : 0.0;
+  }
+};
 
 }  // namespace
 
+// mean = value + d2 / 24 - 17 d4 / 5760, value = mean - d2 / 24 + 3 d4 / 640: sixth order.
 SLIPFRONT_CLONES void centre_values(std::size_t size, const double* averages, double* values) {
   SLIPFRONT_INDEPENDENT
-  for (std::size_t i = 2; i < size - 2; ++i) values[i] = averages[i] - curvature(averages + i);
+  for (std::size_t i = 2; i < size - 2; ++i) {
+    const Differences d(averages + i);
+    values[i] = averages[i] - d.second / 24 + d.fourth * (3.0 / 640);
+  }
   for (const std::size_t i : {std::size_t{0}, std::size_t{1}, size - 2, size - 1}) values[i] = averages[i];
 }
 
 SLIPFRONT_CLONES void cell_means(std::size_t size, const double* values, double* averages) {
   SLIPFRONT_INDEPENDENT
-  for (std::size_t i = 2; i < size - 2; ++i) averages[i] = values[i] + curvature(values + i);
+  for (std::size_t i = 2; i < size - 2; ++i) {
+    const Differences d(values + i);
+    averages[i] = values[i] + d.second / 24 - d.fourth * (17.0 / 5760);
+  }
   for (const std::size_t i : {std::size_t{0}, std::size_t{1}, size - 2, size - 1}) averages[i] = values[i];
 }
 

@@ -21,9 +21,9 @@ struct ResolveArrays {
 };
 void resolve_all(const ResolveArrays& a);
 
-/// Values at the cell centres from cell averages, and back: the second difference over 24, fourth order. Left out where
-/// the fourth difference is no smaller than the second (there f is not smooth on the grid, and average and centre value
-/// are the same to the order that is left), and in the two cells at each end.
+/// Values at the cell centres from cell averages, and back, by second and fourth differences: sixth order. Left out
+/// where the fourth difference is not small beside the second (there f is not smooth on the grid, and average and
+/// centre value are the same to the order that is left), and in the two cells at each end.
 void centre_values(std::size_t size, const double* averages, double* values);
 void cell_means(std::size_t size, const double* values, double* averages);
 

@@ -180,22 +180,25 @@ void Semidiscrete::add_sources(double t, const double* y, double* dy) {
       supply += U * push;
       source_[i] += push;
     }
-    if (dry) {
-      const double force = coulomb(y[2 * i + 1], dy[2 * i + 1] + source_[i], 2 * pi * friction.coefficient * charge[i]);
-      dissipation -= U * force;
-      source_[i] += force;
-    } else if (frictional) {
+    if (frictional && !dry) {
       const double loss = rate_[i] * momentum_[i] * charge[i];
       dissipation += U * loss;
       if (!linear) source_[i] -= loss;
     }
   }
-  // A cell held at rest by dry friction has no smooth source around it.
-  const bool point_source = compact_ || dry;
-  if (!point_source) cell_means(n, source_.data(), source_mean_.data());
+  if (compact_)
+    source_mean_ = source_;
+  else
+    cell_means(n, source_.data(), source_mean_.data());
   for (std::size_t i = 0; i < n; ++i) {
-    dy[2 * i + 1] += point_source ? source_[i] : source_mean_[i];
-    if (frictional && linear) dy[2 * i + 1] -= friction.coefficient * y[2 * i + 1];
+    dy[2 * i + 1] += source_mean_[i];
+    if (dry) {  // the same for each dislocation: no detour over point values
+      const double force = coulomb(y[2 * i + 1], dy[2 * i + 1], 2 * pi * friction.coefficient * setup_.charge[i]);
+      dissipation -= velocity_[i] * force;
+      dy[2 * i + 1] += force;
+    } else if (frictional && linear) {
+      dy[2 * i + 1] -= friction.coefficient * y[2 * i + 1];
+    }
   }
   // M = 2 pi P / k and 2 pi q_s = k x_s: the sums are over P dx = M q_s ds.
   dy[2 * n + 1] = dissipation;

@@ -135,44 +135,6 @@ TEST(Pulse, UniformTrainReachesItsTerminalVelocity) {
   }
 }
 
-/// Smooth stress, smooth friction: fourth order or better, against a run with many more cells.
-TEST(Pulse, IsFourthOrderWhereSmooth) {
-  for (const FrictionLaw law : {FrictionLaw::none, FrictionLaw::viscous, FrictionLaw::power})
-    for (const Closure closure : {Closure::consistent, Closure::paper}) {
-      const auto solution = [&](int cells) {
-        Problem p;
-        p.stress = [](double x) { return 0.6 + 0.2 * std::sin(pi * x / 4); };
-        p.friction = {law, law == FrictionLaw::none ? 0 : 0.4, law == FrictionLaw::power ? 2.0 : 1.0, closure};
-        p.forcing = [](double x, double t) { return 0.3 + 0.05 * std::cos(pi * x / 4) * std::cos(t); };
-        p.left = -8;
-        p.right = 8;
-        p.cells = cells;
-        p.corner = HUGE_VAL;
-        Solver s(p);
-        s.advance_to(1);
-        std::vector<double> values;
-        const auto view = s.view();
-        for (double x = -3; x <= 3; x += 0.25) {  // far from the ends, which the waves have not left yet
-          const auto a = train::averages(state_at(view, x));
-          values.push_back(a.k);
-          values.push_back(a.P);
-        }
-        return values;
-      };
-      const auto fine = solution(1280);
-      const auto error = [&](int cells) {
-        const auto coarse = solution(cells);
-        double sum = 0;
-        for (std::size_t i = 0; i < fine.size(); ++i) sum += std::fabs(coarse[i] - fine[i]);
-        return sum;
-      };
-      const double order = std::log2(error(160) / error(320));
-      RecordProperty("order", std::to_string(order));
-      std::printf("order %f\n", order);
-      EXPECT_GT(order, 3.8) << static_cast<int>(law) << " " << static_cast<int>(closure);
-    }
-}
-
 /// Gamma >> 1: what is left is diffusion; W sqrt(Gamma) tends to a limit as 1 / Gamma, and steps grow no faster than ln
 /// Gamma.
 TEST(Pulse, BecomesDiffusion) {

@@ -1,0 +1,117 @@
+// Order of accuracy by a manufactured solution. Any motion of the dislocations that starts at rest is a solution for
+// one forcing: with x(q, t) chosen, l = x_q and U = x_t give M, and F follows from the momentum law.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "slipfront/modulation/friction.hpp"
+#include "slipfront/modulation/per_dislocation.hpp"
+#include "slipfront/pulse/solver.hpp"
+#include "slipfront/rupture/inverse.hpp"
+#include "slipfront/train/train.hpp"
+
+namespace {
+
+using namespace slipfront;
+using namespace slipfront::pulse;
+using modulation::Closure;
+using modulation::Friction;
+using modulation::FrictionLaw;
+using std::numbers::pi;
+
+/// 2 pi N(x, t) = k0 y + lump exp(-y^2) + moved g(t) y exp(-y^2), y = x - pushed g(t), g = 1 - cos(t / 2): a uniform
+/// train that is pushed on from rest, with a lump in it that changes. All dislocations go forward, so that Coulomb
+/// friction is smooth.
+struct Motion {
+  static constexpr double k0 = 0.7, lump = 0.12, moved = 0.1, pushed = 0.3, rate = 0.4;
+  static double y_of(double x, double t) { return x - pushed * (1 - std::cos(rate * t)); }
+  static double density(double x, double t) {  // 2 pi N_x
+    const double y = y_of(x, t);
+    return k0 + std::exp(-y * y) * (-2 * lump * y + moved * (1 - std::cos(rate * t)) * (1 - 2 * y * y));
+  }
+  static double flux(double x, double t) {  // k U = -2 pi N_t
+    const double y = y_of(x, t);
+    return rate * std::sin(rate * t) * (pushed * density(x, t) - moved * y * std::exp(-y * y));
+  }
+  static State state(double x, double t) {
+    const double k = density(x, t), U = flux(x, t) / k;
+    return {std::atanh(U), rupture::psi_of_stress(k * std::sqrt(1 - U * U))};  // k = pi cosh phi cosh psi / K
+  }
+  static double P(double x, double t) { return train::averages(state(x, t)).P; }
+  static double Q(double x, double t) { return train::averages(state(x, t)).Q; }
+
+  /// F = (P_t + Q_x + loss) / k, derivatives by differences of sixth order.
+  static double forcing(double x, double t, const Friction& friction) {
+    constexpr double h = 0.01, weight[3] = {3.0 / 4, -3.0 / 20, 1.0 / 60};
+    double P_t = 0, Q_x = 0;
+    for (int j = 1; j <= 3; ++j) {
+      P_t += weight[j - 1] * (P(x, t + j * h) - P(x, t - j * h)) / h;
+      Q_x += weight[j - 1] * (Q(x + j * h, t) - Q(x - j * h, t)) / h;
+    }
+    // Friction of what is about to go forward, at t = 0 too.
+    const double loss = friction.law == FrictionLaw::coulomb ? friction.coefficient * density(x, t)
+                                                             : modulation::momentum_loss(state(x, t), friction);
+    return (P_t + Q_x + loss) / density(x, t);
+  }
+};
+
+/// Mean error of the cells' k and P at `end`.
+struct Errors {
+  double k, P;
+};
+Errors errors_of(const Friction& friction, int cells, double end) {
+  Problem p;
+  p.stress = [](double x) { return Motion::density(x, 0); };
+  p.forcing = [&](double x, double t) { return Motion::forcing(x, t, friction); };
+  p.friction = friction;
+  p.left = -7;
+  p.right = 7;
+  p.cells = cells;
+  p.corner = HUGE_VAL;
+  Solver s(p);
+  s.advance_to(end);
+  const auto view = s.view();
+  constexpr double node = 0.77459666924148338, weight[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
+  Errors e{0, 0};
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    const double a = view.faces[i], width = view.faces[i + 1] - a;
+    double k = 0, P = 0;
+    for (int j = 0; j < 3; ++j) {
+      const double x = a + width * (1 + (j - 1) * node) / 2;
+      k += weight[j] * Motion::density(x, end);
+      P += weight[j] * Motion::P(x, end);
+    }
+    e.k += std::fabs(2 * pi * s.charge()[i] / width - k) / cells;
+    e.P += std::fabs(s.cells().y[2 * i + 1] / width - P) / cells;
+  }
+  return e;
+}
+
+void expect_fourth_order(const Friction& friction) {
+  Errors last = errors_of(friction, 80, 2);
+  for (const int cells : {160, 320}) {
+    const Errors now = errors_of(friction, cells, 2);
+    const double order_k = std::log2(last.k / now.k), order_P = std::log2(last.P / now.P);
+    std::printf("%d cells: errors %.2g in k, %.2g in P; orders %.2f, %.2f\n", cells, now.k, now.P, order_k, order_P);
+    EXPECT_GE(order_k, 4);
+    EXPECT_GE(order_P, 4);
+    last = now;
+  }
+  EXPECT_LT(last.k, 1e-8);
+  EXPECT_LT(last.P, 1e-8);
+}
+
+TEST(Manufactured, FourthOrderWithoutFriction) { expect_fourth_order({}); }
+
+TEST(Manufactured, FourthOrderWithEveryLawAndClosure) {
+  for (const Closure closure : {Closure::consistent, Closure::paper}) {
+    expect_fourth_order({FrictionLaw::viscous, 0.4, 1, closure});
+    expect_fourth_order({FrictionLaw::coulomb, 0.4, 1, closure});
+    expect_fourth_order({FrictionLaw::power, 0.4, 2, closure});
+  }
+}
+
+}  // namespace
