@@ -48,22 +48,19 @@ const char* law_name(modulation::FrictionLaw law) {
 }
 
 pulse::Problem pulse_problem(const scenario::Scenario& s) {
-  if (s.contact_at)
-    throw InputError({.file = s.file,
-                      .key = "interface.contact",
-                      .value = s.contact,
-                      .problem = "the pulse solver takes no contact profile yet",
-                      .allowed = "no [interface] contact"});
   pulse::Problem p{.stress = s.stress,
                    .forcing = s.forcing_at,
+                   .contact = s.contact_at,
                    .friction = s.friction,
                    .cells = s.pulse.cells,
                    .tolerance = s.pulse.tolerance};
-  const bool known = s.initial.profile == ProfileKind::step || s.initial.profile == ProfileKind::tanh;
+  const bool known =
+      (s.initial.profile == ProfileKind::step || s.initial.profile == ProfileKind::tanh) && !s.contact_at;
   if (!known && !(s.domain.left && s.domain.right))
     throw InputError({.file = s.file,
                       .key = "domain",
-                      .problem = "left and right are needed for this profile",
+                      .problem = s.contact_at ? "left and right are needed with a contact profile"
+                                              : "left and right are needed for this profile",
                       .allowed = "[domain] left = ..., right = ..."});
   const Reach reach = known ? reach_of(s) : Reach{0, 0};
   p.left = s.domain.left.value_or(-reach.left);

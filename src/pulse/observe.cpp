@@ -35,7 +35,7 @@ double right_front(const Solver::View& v) {
 void find_peak_and_observed_fronts(const Solver::View& v, double threshold, Snapshot& s) {
   const std::size_t n = v.states.size();
   std::vector<double> W(n);
-  for (std::size_t i = 0; i < n; ++i) W[i] = train::averages(v.states[i]).W;
+  for (std::size_t i = 0; i < n; ++i) W[i] = averages_of(v, v.states[i], v.centres[i]).W;
   const auto size = [&](std::size_t i) { return std::fabs(W[i]); };
   std::size_t peak = 0;
   for (std::size_t i = 1; i < n; ++i)
@@ -71,8 +71,9 @@ Energy energy_of(const Solver& solver, const Solver::View& v) {
   for (std::size_t i = 0; i < v.states.size(); ++i) {
     if (v.states[i].empty()) continue;
     const double width = v.faces[i + 1] - v.faces[i];
-    const train::Averages a = train::averages(v.states[i]);
-    const double rest = train::averages({0, rupture::psi_of_stress(a.k)}).H;
+    const double x = v.centres[i], contact = v.contact ? v.contact(x) : 1;
+    const train::Averages a = averages_of(v, v.states[i], x);
+    const double rest = averages_of(v, {0, rupture::psi_of_stress(a.k / contact)}, x).H;
     e.elastic += rest * width;
     e.kinetic += (a.H - rest) * width;
   }
@@ -125,11 +126,11 @@ Snapshot observe(const Solver& solver, const std::vector<double>& x_edges, doubl
     const State state = state_at(v, x);
     s.profile.k.push_back(2 * pi * (right - left) / (x_edges[i + 1] - x_edges[i]));
     s.profile.U.push_back(state.empty() ? 0.0 : std::tanh(state.phi));
-    s.profile.W.push_back(train::averages(state).W);
+    s.profile.W.push_back(averages_of(v, state, x).W);
     s.profile.slip.push_back(2 * pi * (solver.initial_charge_left_of(x) - charge_left_of(v, x)));
     left = right;
   }
-  const train::Averages origin = train::averages(state_at(v, 0));
+  const train::Averages origin = averages_of(v, state_at(v, 0), 0);
   s.slip_velocity_at_origin = origin.W;
   s.stress_at_origin = origin.k;
   s.slip_at_origin = 2 * pi * (solver.initial_charge_left_of(0) - charge_left_of(v, 0));

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "kernels.hpp"
+#include "slipfront/elliptic/complete.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
 #include "weno.hpp"
@@ -19,13 +20,31 @@ constexpr std::size_t ghosts = 3;
 
 }  // namespace
 
+void middles(const std::vector<double>& faces, std::vector<double>& centres) {
+  const std::size_t n = centres.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const double* f = faces.data() + i;
+    const double inner = f[0] + f[1];
+    if (i >= 2 && i + 2 < n)
+      centres[i] = (150 * inner - 25 * (f[-1] + f[2]) + 3 * (f[-2] + f[3])) / 256;
+    else if (i == 1 || i + 2 == n)
+      centres[i] = (9 * inner - (f[-1] + f[2])) / 16;
+    else
+      centres[i] = inner / 2;
+  }
+}
+
 Semidiscrete::Semidiscrete(Setup setup) : setup_(std::move(setup)) {
   const std::size_t n = size();
   for (auto* array : {&charge_point_, &width_, &momentum_in_cell_, &spacing_, &momentum_, &s_, &phi_, &psi_, &phi_mean_,
                       &psi_mean_, &sound_speed_, &EK_, &good_, &rate_, &source_, &source_mean_, &centres_, &velocity_})
     array->assign(n, 0);
   for (auto* array : {&invariant_plus_, &invariant_minus_}) array->assign(n + 2 * ghosts, 0);
-  for (auto* array : {&face_phi_, &face_psi_, &face_U_, &face_p_}) array->assign(n + 1, 0);
+  for (auto* array : {&face_phi_, &face_psi_, &face_U_, &face_p_, &faces_}) array->assign(n + 1, 0);
+  if (setup_.contact) {
+    contact_.assign(n, 1);
+    face_contact_.assign(n + 1, 1);
+  }
   centre_values(n, setup_.charge.data(), charge_point_.data());
 }
 
@@ -55,6 +74,12 @@ void Semidiscrete::find_states(double t, const double* y) {
     spacing_[i] /= charge[i];
     momentum_[i] /= charge[i];
   }
+  if (setup_.contact) {
+    for (std::size_t i = 0; i < n; ++i) {
+      spacing_[i] *= contact_[i];
+      momentum_[i] /= contact_[i];
+    }
+  }
   resolve_all({n, spacing_.data(), momentum_.data(), s_.data(), phi_.data(), psi_.data(), sound_speed_.data(),
                EK_.data(), good_.data()});
   for (std::size_t i = 0; i < n; ++i) {
@@ -72,6 +97,8 @@ void Semidiscrete::find_states(double t, const double* y) {
                           ": " + error.what());
     }
   }
+  if (setup_.contact)
+    for (std::size_t i = 0; i < n; ++i) momentum_[i] *= contact_[i];
 }
 
 void Semidiscrete::find_faces() {
@@ -125,20 +152,28 @@ void Semidiscrete::find_compact_faces(const double* y) {
     }
     // Between two centres friction acts for the time that a wave needs from one to the other. With it the face carries
     // Darcy's flux, phi = -p_q / 8 C, where friction rules, and the plain Riemann solution where it does not.
+    if (setup_.contact) {
+      const double rise = left_edge    ? 2 * (contact_[0] - face_contact_[0])
+                          : right_edge ? 2 * (face_contact_[n] - contact_[n - 1])
+                                       : contact_[j] - contact_[i];
+      face_phi_[f] -= rise / (face_contact_[f] * (sound_speed_[i] + sound_speed_[j]));
+    }
     const double crossings = (rate_[i] + rate_[j]) * (y[2 * i] + y[2 * j]) / 4 / (sound_speed_[i] + sound_speed_[j]);
     face_phi_[f] /= 1 + crossings;
   }
 }
 
-void Semidiscrete::find_centres(const double* y) {
+void Semidiscrete::find_places(const double* y) {
   const std::size_t n = size();
-  double left = y[2 * n];
-  for (std::size_t i = 0; i < n; ++i) {
-    // x at the middle of s: the middle of the faces less what the widths' slope adds, (X_i+1 - X_i-1) / 16.
-    const double bend = i > 0 && i + 1 < n && !compact_ ? (y[2 * i + 2] - y[2 * i - 2]) / 16 : 0;
-    centres_[i] = left + y[2 * i] / 2 - bend;
-    left += y[2 * i];
-  }
+  faces_[0] = y[2 * n];
+  for (std::size_t i = 0; i < n; ++i) faces_[i + 1] = faces_[i] + y[2 * i];
+  if (compact_)
+    for (std::size_t i = 0; i < n; ++i) centres_[i] = faces_[i] + y[2 * i] / 2;
+  else
+    middles(faces_, centres_);
+  if (!setup_.contact) return;
+  for (std::size_t i = 0; i < n; ++i) contact_[i] = setup_.contact(centres_[i]);
+  for (std::size_t f = 0; f <= n; ++f) face_contact_[f] = setup_.contact(faces_[f]);
 }
 
 namespace {
@@ -150,6 +185,32 @@ double coulomb(double momentum, double push, double most) {
 }
 
 }  // namespace
+
+namespace {
+
+/// <1 - cos u>, 2 cosh^2 psi (E/K - m1).
+double substrate(double psi) {
+  if (psi == 0) return 0;
+  const double cosh_psi = std::cosh(psi);
+  return 2 * cosh_psi * cosh_psi * elliptic::at_psi(psi).above_m1;
+}
+
+}  // namespace
+
+/// Momentum that the contact gives to a cell, -integral of <1 - cos u> d(a^2), from both faces and the centre: fourth
+/// order, and no derivative of a is needed.
+void Semidiscrete::add_contact_force(double* dy) {
+  const auto square = [](double a) { return a * a; };
+  double left = substrate(face_psi_[0]);
+  for (std::size_t i = 0; i < size(); ++i) {
+    const double right = substrate(face_psi_[i + 1]);
+    const double a = square(face_contact_[i]), b = square(contact_[i]), c = square(face_contact_[i + 1]);
+    if (a != b || b != c)
+      dy[2 * i + 1] -=
+          (left * (4 * b - 3 * a - c) + 4 * substrate(psi_[i]) * (c - a) + right * (a - 4 * b + 3 * c)) / 6;
+    left = right;
+  }
+}
 
 void Semidiscrete::add_sources(double t, const double* y, double* dy) {
   const std::size_t n = size();
@@ -171,7 +232,6 @@ void Semidiscrete::add_sources(double t, const double* y, double* dy) {
     dy[2 * n + 1] = dissipation;
     return;
   }
-  if (setup_.forcing) find_centres(y);
   for (std::size_t i = 0; i < n; ++i) {
     const double U = velocity_[i];
     source_[i] = 0;
@@ -210,18 +270,20 @@ void Semidiscrete::find_rates() {
   largest_rate_ = 0;
   for (std::size_t i = 0; i < size(); ++i) {
     // What relaxation_rate does, with the K and E that are known already where they matter.
-    if (f.law != modulation::FrictionLaw::viscous)
+    if (f.law != modulation::FrictionLaw::viscous) {
       rate_[i] = modulation::relaxation_rate({phi_[i], psi_[i]}, f);
-    else if (f.closure == modulation::Closure::consistent || psi_[i] == 0)
-      rate_[i] = f.coefficient;
-    else
-      rate_[i] = f.coefficient * pi * pi / (4 * EK_[i]);
+      if (setup_.contact) rate_[i] *= std::pow(contact_[i], f.exponent - 1);  // <|w|^n sigma> over P, w in units of a
+    } else {
+      const bool as_momentum = f.closure == modulation::Closure::consistent || psi_[i] == 0;
+      rate_[i] = as_momentum ? f.coefficient : f.coefficient * pi * pi / (4 * EK_[i]);
+    }
     largest_rate_ = std::max(largest_rate_, rate_[i]);
   }
 }
 
 void Semidiscrete::operator()(double t, const double* y, double* dy) {
   const std::size_t n = size();
+  if (setup_.forcing || setup_.contact) find_places(y);
   find_states(t, y);
   find_rates();
   if (compact_)
@@ -229,12 +291,14 @@ void Semidiscrete::operator()(double t, const double* y, double* dy) {
   else
     find_faces();
   face_fluxes(n + 1, face_phi_.data(), face_psi_.data(), face_U_.data(), face_p_.data());
+  for (std::size_t f = 0; f < face_contact_.size(); ++f) face_p_[f] *= face_contact_[f] * face_contact_[f];
   dy[2 * n] = face_U_[0];
   dy[2 * n + 1] = dy[2 * n + 2] = 0;
   for (std::size_t i = 0; i < n; ++i) {
     dy[2 * i] = face_U_[i + 1] - face_U_[i];
     dy[2 * i + 1] = face_p_[i] - face_p_[i + 1];
   }
+  if (setup_.contact) add_contact_force(dy);
   add_sources(t, y, dy);
 }
 

@@ -9,8 +9,12 @@
 
 namespace slipfront::pulse {
 
+/// x at the middle of each cell in s, from the faces: sixth order inside, fourth and second in the last cells.
+void middles(const std::vector<double>& faces, std::vector<double>& centres);
+
 /// The equations in space: time derivatives of the cells' widths X and momenta Y. Knows nothing of time steps.
-///     X_t = [U] over the faces,   Y_t = -[p] + q_s (2 pi F - friction)
+///     X_t = [U] over the faces,   Y_t = -[p] + q_s (2 pi F - friction - l <1 - cos u> d(a^2)/dx)
+/// Where the contact ratio a(x) is not 1, phi and psi are those in the local units a x, a t.
 /// Cell averages in the coordinate s (one cell a unit); point values by deconvolution, fourth order; faces by
 /// fifth-order WENO on the Riemann invariants, each from its own side, which is the two-fan solution of the Riemann
 /// problem at the face.
@@ -21,6 +25,7 @@ class Semidiscrete {
     bool left_free = false, right_free = false;
     modulation::Friction friction;
     std::function<double(double, double)> forcing;  ///< null: none
+    std::function<double(double)> contact;          ///< a(x); null: 1
   };
   explicit Semidiscrete(Setup setup);
 
@@ -53,11 +58,12 @@ class Semidiscrete {
 
  private:
   void find_states(double t, const double* y);
-  void find_centres(const double* y);
+  void find_places(const double* y);
   void find_faces();
   void find_compact_faces(const double* y);
   void find_rates();
   void add_sources(double t, const double* y, double* dy);
+  void add_contact_force(double* dy);
 
   Setup setup_;
   std::vector<double> charge_point_;  ///< q_s at the centres
@@ -66,6 +72,7 @@ class Semidiscrete {
   std::vector<double> sound_speed_, EK_, good_, rate_, source_, source_mean_, centres_, velocity_;
   std::vector<double> invariant_plus_, invariant_minus_;  ///< cell averages, with ghosts
   std::vector<double> face_phi_, face_psi_, face_U_, face_p_;
+  std::vector<double> faces_, contact_, face_contact_;  ///< x of the faces, a(x) at centres and faces
   double largest_rate_ = 0;
   bool compact_ = false;
 };

@@ -52,11 +52,12 @@ Solver::Solver(Problem problem) : problem_(std::move(problem)) {
   cells_.s.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     cells_.y[2 * i] = layout.faces[i + 1] - layout.faces[i];
-    cells_.s[i] = std::tanh(rupture::psi_of_stress(2 * pi * charge_[i] / cells_.y[2 * i]));
+    const double a = problem_.contact ? problem_.contact((layout.faces[i] + layout.faces[i + 1]) / 2) : 1;
+    cells_.s[i] = std::tanh(rupture::psi_of_stress(2 * pi * charge_[i] / (a * cells_.y[2 * i])));
   }
   cells_.y[2 * n] = layout.faces.front();
-  equations_ = std::make_shared<Semidiscrete>(
-      Semidiscrete::Setup{charge_, layout.left_free, layout.right_free, problem_.friction, problem_.forcing});
+  equations_ = std::make_shared<Semidiscrete>(Semidiscrete::Setup{
+      charge_, layout.left_free, layout.right_free, problem_.friction, problem_.forcing, problem_.contact});
   first_ = view();
 }
 
@@ -94,7 +95,8 @@ bool Solver::advance_to(double time, const std::function<bool()>& interrupted) {
       equations.use_compact(true);
       f(cells_.time, cells_.y.data(), rate.data());
       if (!implicit_step)
-        implicit_step = std::make_unique<ImplicitStep>(2 * n, Semidiscrete::extra, Semidiscrete::compact_reach);
+        implicit_step =
+            std::make_unique<ImplicitStep>(n, cells_.y.size(), Semidiscrete::compact_reach, bool(problem_.forcing));
       double fastest = 0;
       for (std::size_t i = 0; i < n; ++i) fastest = std::fmax(fastest, std::fabs(cells_.y[2 * i + 1] / charge_[i]));
       for (std::size_t i = 0; i < n; ++i) {
@@ -147,12 +149,10 @@ Solver::View Solver::view() const {
     v.charge_faces[i + 1] = v.charge_faces[i] + charge_[i];
   }
   v.states = equations_->states();
+  v.contact = problem_.contact;
   for (std::size_t f = 0; f <= n; ++f) v.face_states.push_back({equations_->face_phi()[f], equations_->face_psi()[f]});
-  for (std::size_t i = 0; i < n; ++i) {
-    const double middle = (v.faces[i] + v.faces[i + 1]) / 2;
-    const bool inside = i > 0 && i + 1 < n;  // fourth order in the cells' own coordinate
-    v.centres.push_back(inside ? (9 * (v.faces[i] + v.faces[i + 1]) - v.faces[i - 1] - v.faces[i + 2]) / 16 : middle);
-  }
+  v.centres.resize(n);
+  middles(v.faces, v.centres);
   return v;
 }
 

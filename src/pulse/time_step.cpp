@@ -50,36 +50,75 @@ constexpr double gamma[6] = {0.25, -0.1043, 0.1035, -0.03620000000000023, 0, 0};
 
 }  // namespace
 
-ImplicitStep::ImplicitStep(std::size_t banded, std::size_t extra, std::size_t reach)
-    : banded_(banded), extra_(extra), reach_(std::min(reach, banded - 1)), stride_(2 * reach_ + 1) {
-  jacobian_.resize(banded_ * stride_);
-  lu_.resize(banded_ * stride_);
-  for (auto* array : {&by_time_, &work_, &rate_}) array->resize(banded_ + extra_);
-  for (auto& u : u_) u.resize(banded_ + extra_);
+ImplicitStep::ImplicitStep(std::size_t cells, std::size_t size, std::size_t reach, bool depends_on_time)
+    : cells_(cells),
+      unknowns_(2 * cells + 1),
+      size_(size),
+      reach_(reach),
+      stride_(2 * reach + 1),
+      depends_on_time_(depends_on_time) {
+  jacobian_.resize(unknowns_ * stride_);
+  lu_.resize(unknowns_ * stride_);
+  places_.resize(unknowns_);
+  for (auto* array : {&by_time_, &work_, &rate_}) array->resize(size_);
+  for (auto& u : u_) u.resize(size_);
+}
+
+void ImplicitStep::to_places(const std::vector<double>& y) {
+  places_[0] = y[2 * cells_];
+  for (std::size_t i = 0; i < cells_; ++i) {
+    places_[2 * i + 1] = y[2 * i + 1];
+    places_[2 * i + 2] = places_[2 * i] + y[2 * i];
+  }
+}
+
+void ImplicitStep::to_widths(std::vector<double>& y) const {
+  y[2 * cells_] = places_[0];
+  for (std::size_t i = 0; i < cells_; ++i) {
+    y[2 * i] = places_[2 * i + 2] - places_[2 * i];
+    y[2 * i + 1] = places_[2 * i + 1];
+  }
 }
 
 void ImplicitStep::linearise(const Rates& f, double t, const std::vector<double>& y, const std::vector<double>& rate,
                              const std::vector<double>& scale) {
   std::fill(jacobian_.begin(), jacobian_.end(), 0.0);
-  const std::size_t period = stride_;  // columns so far apart share no row
+  to_places(rate);
+  places_before_ = places_;
   constexpr double small = 1e-7;
-  for (std::size_t first = 0; first < std::min(period, banded_); ++first) {
+  const std::size_t n = cells_;
+  const auto nudge = [&](std::size_t j) {
+    if (j % 2 == 1) return small * scale[j];
+    return small * (j == 0 ? scale[0] : j == 2 * n ? scale[j - 2] : std::fmin(scale[j - 2], scale[j]));
+  };
+  const std::size_t period = stride_;  // columns so far apart share no row
+  for (std::size_t first = 0; first < std::min(period, unknowns_); ++first) {
     work_ = y;
-    for (std::size_t j = first; j < banded_; j += period) work_[j] += small * scale[j];
+    for (std::size_t j = first; j < unknowns_; j += period) {
+      const double step = nudge(j);
+      if (j % 2 == 1) {
+        work_[j] += step;
+        continue;
+      }
+      if (j > 0) work_[j - 2] += step;
+      if (j < 2 * n) work_[j] -= step;
+      if (j == 0) work_[2 * n] += step;
+    }
     f(t, work_.data(), rate_.data());
-    for (std::size_t j = first; j < banded_; j += period) {
-      const double step = work_[j] - y[j];
-      const std::size_t low = j > reach_ ? j - reach_ : 0, high = std::min(banded_, j + reach_ + 1);
-      for (std::size_t i = low; i < high; ++i) entry(jacobian_, i, j) = (rate_[i] - rate[i]) / step;
+    to_places(rate_);
+    for (std::size_t j = first; j < unknowns_; j += period) {
+      const double step = j % 2 == 1 ? work_[j] - y[j] : j > 0 ? work_[j - 2] - y[j - 2] : y[0] - work_[0];
+      const std::size_t low = j > reach_ ? j - reach_ : 0, high = std::min(unknowns_, j + reach_ + 1);
+      for (std::size_t i = low; i < high; ++i) entry(jacobian_, i, j) = (places_[i] - places_before_[i]) / step;
     }
   }
 }
 
 void ImplicitStep::factorise(double diagonal) {  // diagonal dominance comes from 1 / (gamma dt): no pivoting
   for (std::size_t k = 0; k < jacobian_.size(); ++k) lu_[k] = -jacobian_[k];
-  for (std::size_t i = 0; i < banded_; ++i) entry(lu_, i, i) += diagonal;
-  for (std::size_t k = 0; k < banded_; ++k) {
-    const std::size_t end = std::min(banded_, k + reach_ + 1);
+  for (std::size_t i = 0; i < unknowns_; ++i) entry(lu_, i, i) += diagonal;
+  for (std::size_t k = 0; k < unknowns_; ++k) {
+    const std::size_t end = std::min(unknowns_, k + reach_ + 1);
     const double inverse = 1 / entry(lu_, k, k);
     for (std::size_t i = k + 1; i < end; ++i) {
       double& l = entry(lu_, i, k);
@@ -92,44 +131,49 @@ void ImplicitStep::factorise(double diagonal) {  // diagonal dominance comes fro
   }
 }
 
-void ImplicitStep::solve(std::vector<double>& b) const {
+void ImplicitStep::solve(std::vector<double>& b) {
   const auto at = [this](std::size_t i, std::size_t j) { return lu_[i * stride_ + (j + reach_ - i)]; };
-  for (std::size_t i = 0; i < banded_; ++i)
-    for (std::size_t j = i > reach_ ? i - reach_ : 0; j < i; ++j) b[i] -= at(i, j) * b[j];
-  for (std::size_t i = banded_; i-- > 0;) {
-    for (std::size_t j = i + 1; j < std::min(banded_, i + reach_ + 1); ++j) b[i] -= at(i, j) * b[j];
-    b[i] /= at(i, i);
+  to_places(b);
+  for (std::size_t i = 0; i < unknowns_; ++i)
+    for (std::size_t j = i > reach_ ? i - reach_ : 0; j < i; ++j) places_[i] -= at(i, j) * places_[j];
+  for (std::size_t i = unknowns_; i-- > 0;) {
+    for (std::size_t j = i + 1; j < std::min(unknowns_, i + reach_ + 1); ++j) places_[i] -= at(i, j) * places_[j];
+    places_[i] /= at(i, i);
   }
+  to_widths(b);
 }
 
 double ImplicitStep::operator()(const Rates& f, double t, double dt, const std::vector<double>& y,
                                 const std::vector<double>& rate_at_start, const std::vector<double>& scale,
                                 double tolerance, std::vector<double>& next) {
   factorise(1 / (gamma_diagonal * dt));
-  // df/dt, for forcing that depends on time.
-  const double nudge = 1e-6 * dt;
-  f(t + nudge, y.data(), by_time_.data());
-  for (std::size_t i = 0; i < banded_; ++i) by_time_[i] = (by_time_[i] - rate_at_start[i]) / nudge;
+  if (depends_on_time_) {  // df/dt; the nudge is large, as rates at rest are small differences of large forces
+    const double nudge = 1e-3 * dt;
+    f(t + nudge, y.data(), by_time_.data());
+    f(t - nudge, y.data(), rate_.data());
+    for (std::size_t i = 0; i < unknowns_; ++i) by_time_[i] = (by_time_[i] - rate_[i]) / (2 * nudge);
+  }
   for (std::size_t stage = 0; stage < 6; ++stage) {
     next = y;
     for (std::size_t j = 0; j < stage; ++j)
-      for (std::size_t i = 0; i < banded_; ++i) next[i] += a[stage][j] * u_[j][i];
+      for (std::size_t i = 0; i < unknowns_; ++i) next[i] += a[stage][j] * u_[j][i];
     f(t + alpha[stage] * dt, next.data(), rate_.data());
     std::vector<double>& u = u_[stage];
-    for (std::size_t i = 0; i < banded_; ++i) u[i] = rate_[i] + gamma[stage] * dt * by_time_[i];
+    for (std::size_t i = 0; i < unknowns_; ++i) u[i] = rate_[i] + gamma[stage] * dt * by_time_[i];
     for (std::size_t j = 0; j < stage; ++j)
-      for (std::size_t i = 0; i < banded_; ++i) u[i] += c[stage][j] / dt * u_[j][i];
+      for (std::size_t i = 0; i < unknowns_; ++i) u[i] += c[stage][j] / dt * u_[j][i];
     solve(u);
   }
   double sum = 0;
-  for (std::size_t i = 0; i < banded_; ++i) {
+  for (std::size_t i = 0; i < unknowns_; ++i) {
     next[i] += u_[5][i];
+    if (i == 2 * cells_) break;  // the left edge has the errors of what is beside it
     const double error = u_[5][i] / (tolerance * std::fmax(scale[i], std::fabs(next[i])));
     sum += error * error;
   }
   f(t + dt, next.data(), rate_.data());
-  for (std::size_t i = banded_; i < banded_ + extra_; ++i) next[i] = y[i] + dt / 2 * (rate_at_start[i] + rate_[i]);
-  const double error = std::sqrt(sum / static_cast<double>(banded_));
+  for (std::size_t i = unknowns_; i < size_; ++i) next[i] = y[i] + dt / 2 * (rate_at_start[i] + rate_[i]);
+  const double error = std::sqrt(sum / static_cast<double>(2 * cells_));
   return std::isfinite(error) ? error : HUGE_VAL;
 }
 

@@ -23,13 +23,16 @@ class ExplicitStep {
 };
 
 /// One step of Rodas4: linearly implicit, fourth order, L-stable, stiffly accurate (Hairer & Wanner 1996, IV.10), with
-/// banded Jacobian by differences. The first `banded` entries of y are coupled within `reach`; the rest only add up, by
-/// the trapezoidal rule.
+/// banded Jacobian by differences. y is that of Semidiscrete: width and momentum of each cell in turn, x of the left
+/// edge, then entries that only add up, here by the trapezoidal rule. Linear systems are solved for the faces' places
+/// instead of the widths: a force that depends on the place couples a cell with all widths to its left, but only with
+/// the faces beside it.
 class ImplicitStep {
  public:
-  ImplicitStep(std::size_t banded, std::size_t extra, std::size_t reach);
+  /// Rates depend on `reach` entries to either side in the order: face, momentum, face, ... face.
+  ImplicitStep(std::size_t cells, std::size_t size, std::size_t reach, bool depends_on_time);
   /// Tries one step; returns the error in units of the tolerance (accept if <= 1) and leaves y(t + dt) in `next`.
-  /// `scale[i]` is the size that entry i is measured by.
+  /// `scale[i]` is the size that width or momentum i is measured by.
   double operator()(const Rates& f, double t, double dt, const std::vector<double>& y,
                     const std::vector<double>& rate_at_start, const std::vector<double>& scale, double tolerance,
                     std::vector<double>& next);
@@ -39,13 +42,16 @@ class ImplicitStep {
 
  private:
   void factorise(double diagonal);
-  void solve(std::vector<double>& b) const;
+  void solve(std::vector<double>& b);
   double& entry(std::vector<double>& m, std::size_t row, std::size_t column) const {
     return m[row * stride_ + (column + reach_ - row)];
   }
+  void to_places(const std::vector<double>& y);
+  void to_widths(std::vector<double>& y) const;
 
-  std::size_t banded_, extra_, reach_, stride_;
-  std::vector<double> jacobian_, lu_, by_time_, work_, rate_;
+  std::size_t cells_, unknowns_, size_, reach_, stride_;
+  bool depends_on_time_;
+  std::vector<double> jacobian_, lu_, by_time_, work_, rate_, places_, places_before_;
   std::vector<double> u_[6];
 };
 

@@ -38,6 +38,10 @@ State state_at(const Solver::View& v, double x) {
   return {interpolate(&State::phi), std::fmax(interpolate(&State::psi), 0.0)};
 }
 
+train::Averages averages_of(const Solver::View& v, const State& state, double x) {
+  return v.contact ? train::averages(state, v.contact(x)) : train::averages(state);
+}
+
 double charge_left_of(const Solver::View& v, double x) {
   if (x <= v.faces.front()) return 0;
   if (x >= v.faces.back()) return v.charge_faces.back();
@@ -45,7 +49,7 @@ double charge_left_of(const Solver::View& v, double x) {
   // Cubic Hermite: the slopes k / 2 pi at the faces are known; limited so that it cannot fall (Fritsch & Carlson).
   const double h = v.faces[i + 1] - v.faces[i], rise = v.charge_faces[i + 1] - v.charge_faces[i], mean = rise / h;
   const auto slope = [&](std::size_t f) {
-    return std::fmin(train::averages(v.face_states[f]).k / (2 * std::numbers::pi), 3 * mean);
+    return std::fmin(averages_of(v, v.face_states[f], v.faces[f]).k / (2 * std::numbers::pi), 3 * mean);
   };
   const double s = (x - v.faces[i]) / h, r = 1 - s;
   return v.charge_faces[i] + rise * s * s * (3 - 2 * s) + h * s * r * (slope(i) * r - slope(i + 1) * s);

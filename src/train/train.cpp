@@ -1,6 +1,7 @@
 #include "slipfront/train/train.hpp"
 
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 
 #include "slipfront/elliptic/complete.hpp"
@@ -50,6 +51,14 @@ Averages averages(const State& state) {
   a.I = 4 / pi * sinh_phi * cosh_psi * at.E;  // P / k
   a.J = 4 / pi * beta * at.E;
   return a;
+}
+
+Averages averages(const State& state, double a) {
+  Averages v = averages(state);
+  for (double* first : {&v.k, &v.W, &v.I, &v.J}) *first *= a;
+  for (double* second : {&v.sigma2, &v.P, &v.Q, &v.H}) *second *= a * a;
+  v.sigma3 *= a * a * a;
+  return v;  // <1 - cos u> has no unit
 }
 
 double stress_at_rest(double psi) { return pi * std::cosh(psi) / elliptic::at_psi(psi).K; }

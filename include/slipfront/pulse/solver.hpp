@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "slipfront/modulation/friction.hpp"
-#include "slipfront/train/state.hpp"
+#include "slipfront/train/train.hpp"
 
 namespace slipfront::pulse {
 
@@ -22,6 +22,7 @@ class Semidiscrete;
 struct Problem {
   std::function<double(double)> stress;               ///< initial stress at x, >= 0; the interface is at rest
   std::function<double(double x, double t)> forcing;  ///< F; null: none
+  std::function<double(double)> contact = {};         ///< relative contact ratio a(x) > 0; null: 1
   modulation::Friction friction;
   double left = -1, right = 1;  ///< domain at t = 0
   double corner = 0;            ///< x of a step of stress: a face is laid there
@@ -68,7 +69,8 @@ class Solver {
     std::vector<double> charge_faces;  ///< dislocations left of each face
     std::vector<State> face_states;
     std::vector<double> centres;  ///< x
-    std::vector<State> states;    ///< at the centres
+    std::vector<State> states;    ///< at the centres, in local units where there is a contact profile
+    std::function<double(double)> contact;
   };
   View view() const;
   /// Number of dislocations left of x at t = 0.
@@ -87,6 +89,8 @@ class Solver {
 
 /// State at x between the dislocations of a view; empty outside.
 State state_at(const Solver::View& view, double x);
+/// Averages of a state at x, in the units of the interface whatever the contact there.
+train::Averages averages_of(const Solver::View& view, const State& state, double x);
 /// Number of dislocations left of x.
 double charge_left_of(const Solver::View& view, double x);
 

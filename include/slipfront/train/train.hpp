@@ -37,6 +37,10 @@ struct Averages {
 /// All averages, each to a few ulp. The empty state has none but J, whose limit 4 cosh(phi) / pi does not vanish.
 Averages averages(const State& state);
 
+/// The same where the relative contact ratio is `contact` = a (docs/theory.md 6: a^2 sin u in Eq. 3). The averages
+/// above hold in the local units a x and a t; here they are in those of the interface.
+Averages averages(const State& state, double contact);
+
 /// Stress of a train at rest, pi cosh(psi) / K: the initial state of a rupture. \throws InputError unless psi > 0.
 double stress_at_rest(double psi);
 
