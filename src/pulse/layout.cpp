@@ -47,23 +47,23 @@ double graded(double s, bool left_free, bool right_free) {
 class Monitor {
  public:
   Monitor(const std::function<double(double)>& stress, double from, double to, double corner)
-      : from_(from), h_((to - from) / samples) {
-    std::vector<double> value(samples + 1), density(samples + 1, 1.0);
-    for (int i = 0; i <= samples; ++i) value[at(i)] = stress(i == samples ? to : from + i * h_);
+      : from_(from), h_((to - from) / points) {
+    std::vector<double> value(points + 1), density(points + 1, 1.0);
+    for (int i = 0; i <= points; ++i) value[at(i)] = stress(i == points ? to : from + i * h_);
     const auto [low, high] = std::minmax_element(value.begin(), value.end());
     const double range = *high - *low;
     const bool stepped = corner > from && corner < to;
-    for (int i = 1; i < samples && range > 0 && !stepped;
+    for (int i = 1; i < points && range > 0 && !stepped;
          ++i) {  // sqrt(1 + slope^2), levelling off: smooth where the stress is
-      const double slope = samples * (value[at(i + 1)] - value[at(i - 1)]) / (2 * range);
+      const double slope = points * (value[at(i + 1)] - value[at(i - 1)]) / (2 * range);
       density[at(i)] = std::sqrt(1 + slope * slope / (1 + slope * slope / (most * most)));
     }
     for (int pass = 0; pass < 3; ++pass) smooth(density);
     if (stepped)
-      for (int i = 0; i <= samples; ++i)
+      for (int i = 0; i <= points; ++i)
         density[at(i)] += 3 / (1 + std::pow((from + i * h_ - corner) / (0.08 * (to - from)), 2));
-    integral_.assign(samples + 1, 0.0);
-    for (int i = 1; i <= samples; ++i)
+    integral_.assign(points + 1, 0.0);
+    for (int i = 1; i <= points; ++i)
       integral_[at(i)] = integral_[at(i - 1)] + (density[at(i - 1)] + density[at(i)]) / 2;
     density_ = std::move(density);
   }
@@ -79,23 +79,23 @@ class Monitor {
   }
   double share_at(double x) const {
     const double position = (x - from_) / h_;
-    const std::size_t i = std::min<std::size_t>(static_cast<std::size_t>(position), samples - 1);
+    const std::size_t i = std::min<std::size_t>(static_cast<std::size_t>(position), points - 1);
     const double s = position - static_cast<double>(i);
     return (integral_[i] + s * (density_[i] + s * (density_[i + 1] - density_[i]) / 2)) / integral_.back();
   }
 
  private:
-  static constexpr int samples = 4096;
+  static constexpr int points = 4096;
   static constexpr double most = 8;  ///< finest cells, times finer than the coarsest
 
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   /// Mean over 8 % of the stretch: neighbouring cells must differ little for the scheme to keep its order.
   static void smooth(std::vector<double>& f) {
-    constexpr int half = samples / 25;
+    constexpr int half = points / 25;
     std::vector<double> sum(f.size() + 1, 0.0);
     for (std::size_t i = 0; i < f.size(); ++i) sum[i + 1] = sum[i] + f[i];
-    for (int i = 0; i <= samples; ++i) {
-      const int low = std::max(0, i - half), high = std::min(samples, i + half);
+    for (int i = 0; i <= points; ++i) {
+      const int low = std::max(0, i - half), high = std::min(points, i + half);
       f[at(i)] = (sum[at(high) + 1] - sum[at(low)]) / (high - low + 1);
     }
   }
@@ -115,38 +115,61 @@ void fill(std::vector<double>& faces, const Monitor& monitor, double from, doubl
 
 }  // namespace
 
-Layout lay_cells(const std::function<double(double)>& stress, double left, double right, int cells, double corner) {
-  constexpr int samples = 4096;
+namespace {
+
+/// Where there is stress, seen at `samples` places: the ends of each stretch.
+struct Stressed {
+  double from, to;
+};
+constexpr int samples = 4096;
+
+std::vector<Stressed> stressed_stretches(const std::function<double(double)>& stress, double left, double right) {
   const double h = (right - left) / samples;
-  const auto sample = [&](int i) { return i == samples ? right : left + i * h; };
-  int first = -1, last = -1;
+  const auto place = [&](int i) { return i == samples ? right : left + i * h; };
+  std::vector<Stressed> found;
+  bool before = false;
   for (int i = 0; i <= samples; ++i) {
-    if (!(stress(sample(i)) > 0)) continue;
-    if (first < 0) first = i;
-    if (last >= 0 && i > last + 1)
-      throw InputError(
-          {.key = "initial",
-           .problem = "no stress between x = " + std::to_string(sample(last)) + " and x = " + std::to_string(sample(i)),
-           .allowed = "one stressed stretch, with empty interface on its left or right only"});
-    last = i;
+    const bool now = stress(place(i)) > 0;
+    if (now && !before) found.push_back({i == 0 ? left : edge_between(stress, place(i - 1), place(i)), right});
+    if (!now && before) found.back().to = edge_between(stress, place(i), place(i - 1));
+    before = now;
   }
-  if (first < 0)
+  if (found.empty())
     throw InputError(
         {.key = "initial", .problem = "no stress anywhere in the domain", .allowed = "stress > 0 somewhere"});
-  Layout layout{{}, {}, first > 0, last < samples};
-  const double from = layout.left_free ? edge_between(stress, sample(first - 1), sample(first)) : left;
-  const double to = layout.right_free ? edge_between(stress, sample(last + 1), sample(last)) : right;
-  const Monitor monitor(stress, from, to, corner);
-  layout.faces.push_back(from);
-  if (corner > from && corner < to) {
-    const int before = std::clamp(static_cast<int>(std::lround(cells * monitor.share_at(corner))), 1, cells - 1);
-    fill(layout.faces, monitor, from, corner, before, layout.left_free, false);
-    fill(layout.faces, monitor, corner, to, cells - before, false, layout.right_free);
-  } else {
-    fill(layout.faces, monitor, from, to, cells, layout.left_free, layout.right_free);
+  if (found.back().from == right) found.pop_back();  // the last sample alone
+  return found;
+}
+
+}  // namespace
+
+Layout lay_cells(const std::function<double(double)>& stress, double left, double right, int cells, double corner) {
+  const std::vector<Stressed> stretches = stressed_stretches(stress, left, right);
+  double length = 0;
+  for (const Stressed& s : stretches) length += s.to - s.from;
+  Layout layout{{stretches.front().from}, {}, stretches.front().from > left, stretches.back().to < right};
+  for (const Stressed& s : stretches) {
+    const bool left_free = s.from > left, right_free = s.to < right;
+    if (layout.faces.back() < s.from) layout.faces.push_back(s.from);  // a gap is one cell
+    const int share = std::max(4, static_cast<int>(std::lround(cells * (s.to - s.from) / length)));
+    const Monitor monitor(stress, s.from, s.to, corner);
+    if (corner > s.from && corner < s.to) {
+      const int before = std::clamp(static_cast<int>(std::lround(share * monitor.share_at(corner))), 1, share - 1);
+      fill(layout.faces, monitor, s.from, corner, before, left_free, false);
+      fill(layout.faces, monitor, corner, s.to, share - before, false, right_free);
+    } else {
+      fill(layout.faces, monitor, s.from, s.to, share, left_free, right_free);
+    }
   }
-  for (std::size_t i = 0; i + 1 < layout.faces.size(); ++i)
-    layout.charge.push_back(integral(stress, layout.faces[i], layout.faces[i + 1]) / (2 * pi));
+  const auto empty = [&](double x) {  // between two stretches
+    for (const Stressed& s : stretches)
+      if (x > s.from && x < s.to) return false;
+    return true;
+  };
+  for (std::size_t i = 0; i + 1 < layout.faces.size(); ++i) {
+    const double a = layout.faces[i], b = layout.faces[i + 1];
+    layout.charge.push_back(empty(a + (b - a) / 2) ? 0 : integral(stress, a, b) / (2 * pi));
+  }
   return layout;
 }
 

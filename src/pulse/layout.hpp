@@ -5,16 +5,17 @@
 
 namespace slipfront::pulse {
 
-/// Cells at t = 0: faces in x and the dislocations between them.
+/// Cells at t = 0: faces in x and the dislocations between them, none in the cell of a gap.
 struct Layout {
   std::vector<double> faces;   ///< x, cells + 1
   std::vector<double> charge;  ///< dislocations in each cell, the integral of stress / 2 pi
   bool left_free, right_free;  ///< the stress ends inside the domain: a free edge
 };
 
-/// Cells over the stretch of [left, right] that carries stress. Even in x, but quadratically graded towards free edges
-/// (where a fan opens from a point); `corner` inside the stretch becomes a face (a step of stress). \throws InputError
-/// for no stress at all, or for an empty gap between stressed stretches.
+/// Cells over the stretches of [left, right] that carry stress, `cells` of them shared out by length (but 4 at least
+/// each), and one for each gap between two. Finer where the stress changes and quadratically graded towards free edges
+/// (where a fan opens from a point); `corner` inside a stretch becomes a face (a step of stress). \throws InputError
+/// for no stress at all.
 Layout lay_cells(const std::function<double(double)>& stress, double left, double right, int cells, double corner);
 
 }  // namespace slipfront::pulse

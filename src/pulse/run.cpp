@@ -60,7 +60,7 @@ class Reader {
   std::string_view text_;
 };
 
-constexpr std::uint64_t format = 1;
+constexpr std::uint64_t format = 2;
 
 }  // namespace
 
@@ -81,6 +81,7 @@ Run::Run(Problem problem, Schedule schedule, std::string_view saved, std::vector
   left_front_.restore(reader.get<double>());
   cells.y = reader.vector();
   cells.s = reader.vector();
+  cells.charge = reader.vector();
   reader.end();
   solver_.restore(std::move(cells));
   snapshots_ = std::move(snapshots);
@@ -96,6 +97,7 @@ std::string Run::saved() const {
   writer.put(left_front_.position());
   writer.put(cells.y);
   writer.put(cells.s);
+  writer.put(cells.charge);
   return std::move(writer).text();
 }
 

@@ -20,21 +20,31 @@ constexpr std::size_t ghosts = 3;
 
 }  // namespace
 
-void middles(const std::vector<double>& faces, std::vector<double>& centres) {
-  const std::size_t n = centres.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const double* f = faces.data() + i;
-    const double inner = f[0] + f[1];
-    if (i >= 2 && i + 2 < n)
-      centres[i] = (150 * inner - 25 * (f[-1] + f[2]) + 3 * (f[-2] + f[3])) / 256;
-    else if (i == 1 || i + 2 == n)
-      centres[i] = (9 * inner - (f[-1] + f[2])) / 16;
-    else
-      centres[i] = inner / 2;
+std::vector<Stretch> stretches_of(const std::vector<double>& charge, bool left_free, bool right_free) {
+  std::vector<Stretch> stretches;
+  for (std::size_t i = 0; i < charge.size(); ++i) {
+    if (charge[i] == 0) continue;
+    const bool opens = i == 0 || charge[i - 1] == 0;
+    if (opens) stretches.push_back({i, i, i > 0 || left_free, true});
+    stretches.back().end = i + 1;
   }
+  stretches.back().right_free = right_free;
+  return stretches;
 }
 
-Semidiscrete::Semidiscrete(Setup setup) : setup_(std::move(setup)) {
+void middles(const std::vector<Stretch>& stretches, const std::vector<double>& faces, std::vector<double>& centres) {
+  for (std::size_t i = 0; i < centres.size(); ++i) centres[i] = (faces[i] + faces[i + 1]) / 2;
+  for (const Stretch& stretch : stretches)
+    for (std::size_t i = stretch.begin + 1; i + 1 < stretch.end; ++i) {
+      const double* f = faces.data() + i;
+      const bool inside = i >= stretch.begin + 2 && i + 2 < stretch.end;
+      centres[i] = inside ? (150 * (f[0] + f[1]) - 25 * (f[-1] + f[2]) + 3 * (f[-2] + f[3])) / 256
+                          : (9 * (f[0] + f[1]) - (f[-1] + f[2])) / 16;
+    }
+}
+
+Semidiscrete::Semidiscrete(Setup setup)
+    : setup_(std::move(setup)), stretches_(stretches_of(setup_.charge, setup_.left_free, setup_.right_free)) {
   const std::size_t n = size();
   for (auto* array : {&charge_point_, &width_, &momentum_in_cell_, &spacing_, &momentum_, &s_, &phi_, &psi_, &phi_mean_,
                       &psi_mean_, &sound_speed_, &EK_, &good_, &rate_, &source_, &source_mean_, &centres_, &velocity_})
@@ -45,7 +55,8 @@ Semidiscrete::Semidiscrete(Setup setup) : setup_(std::move(setup)) {
     contact_.assign(n, 1);
     face_contact_.assign(n + 1, 1);
   }
-  centre_values(n, setup_.charge.data(), charge_point_.data());
+  for (const Stretch& r : stretches_)
+    centre_values(r.end - r.begin, setup_.charge.data() + r.begin, charge_point_.data() + r.begin);
 }
 
 void Semidiscrete::start_from(const std::vector<double>& s) { s_ = s; }
@@ -66,24 +77,30 @@ void Semidiscrete::find_states(double t, const double* y) {
     spacing_ = width_;
     momentum_ = momentum_in_cell_;
   } else {
-    centre_values(n, width_.data(), spacing_.data());
-    centre_values(n, momentum_in_cell_.data(), momentum_.data());
+    for (const Stretch& r : stretches_) {
+      centre_values(r.end - r.begin, width_.data() + r.begin, spacing_.data() + r.begin);
+      centre_values(r.end - r.begin, momentum_in_cell_.data() + r.begin, momentum_.data() + r.begin);
+    }
   }
   const std::vector<double>& charge = compact_ ? setup_.charge : charge_point_;
-  for (std::size_t i = 0; i < n; ++i) {
-    spacing_[i] /= charge[i];
-    momentum_[i] /= charge[i];
-  }
+  for (const Stretch& r : stretches_)
+    for (std::size_t i = r.begin; i < r.end; ++i) {
+      spacing_[i] /= charge[i];
+      momentum_[i] /= charge[i];
+    }
   if (setup_.contact) {
     for (std::size_t i = 0; i < n; ++i) {
       spacing_[i] *= contact_[i];
       momentum_[i] /= contact_[i];
     }
   }
-  resolve_all({n, spacing_.data(), momentum_.data(), s_.data(), phi_.data(), psi_.data(), sound_speed_.data(),
-               EK_.data(), good_.data()});
+  for (const Stretch& r : stretches_) {
+    const std::size_t i = r.begin;
+    resolve_all(
+        {r.end - i, &spacing_[i], &momentum_[i], &s_[i], &phi_[i], &psi_[i], &sound_speed_[i], &EK_[i], &good_[i]});
+  }
   for (std::size_t i = 0; i < n; ++i) {
-    if (good_[i] != 0) continue;
+    if (good_[i] != 0 || gap(i)) continue;
     try {
       const double guess = std::atanh(std::fmin(std::fmax(s_[i], 0.0), 1 - 1e-16));
       const modulation::Resolved at = modulation::resolve({spacing_[i], momentum_[i]}, guess);
@@ -102,48 +119,58 @@ void Semidiscrete::find_states(double t, const double* y) {
 }
 
 void Semidiscrete::find_faces() {
-  const std::size_t n = size();
-  cell_means(n, phi_.data(), phi_mean_.data());
-  cell_means(n, psi_.data(), psi_mean_.data());
+  for (const Stretch& r : stretches_) {
+    cell_means(r.end - r.begin, phi_.data() + r.begin, phi_mean_.data() + r.begin);
+    cell_means(r.end - r.begin, psi_.data() + r.begin, psi_mean_.data() + r.begin);
+  }
+  double scale = 0;  // invariants are scaled to 1, so that squares of 1e-300 do not underflow
+  for (std::size_t i = 0; i < size(); ++i) scale = std::max(scale, std::fabs(phi_mean_[i]) + psi_mean_[i]);
+  for (const Stretch& r : stretches_) find_faces(r, scale);
+}
+
+void Semidiscrete::find_faces(const Stretch& stretch, double scale) {
+  const std::size_t n = stretch.end - stretch.begin;
   double* plus = invariant_plus_.data() + ghosts;
   double* minus = invariant_minus_.data() + ghosts;
-  double scale = 0;  // invariants are scaled to 1, so that squares of 1e-300 do not underflow
-  for (std::size_t i = 0; i < n; ++i) scale = std::max(scale, std::fabs(phi_mean_[i]) + psi_mean_[i]);
+  const double* phi = phi_mean_.data() + stretch.begin;
+  const double* psi = psi_mean_.data() + stretch.begin;
   const double inverse = scale > 0 ? 1 / scale : 1;
   for (std::size_t i = 0; i < n; ++i) {
-    plus[i] = (phi_mean_[i] + psi_mean_[i]) * inverse;
-    minus[i] = (phi_mean_[i] - psi_mean_[i]) * inverse;
+    plus[i] = (phi[i] + psi[i]) * inverse;
+    minus[i] = (phi[i] - psi[i]) * inverse;
   }
   for (std::size_t g = 1; g <= ghosts; ++g) {
     // Beyond a free edge psi = 0, and the edge moves at the invariant that reaches it.
-    *(plus - g) = setup_.left_free ? minus[0] : plus[0];
+    *(plus - g) = stretch.left_free ? minus[0] : plus[0];
     *(minus - g) = minus[0];
     plus[n - 1 + g] = plus[n - 1];
-    minus[n - 1 + g] = setup_.right_free ? plus[n - 1] : minus[n - 1];
+    minus[n - 1 + g] = stretch.right_free ? plus[n - 1] : minus[n - 1];
   }
-  weno_faces(n + 1, plus, minus, scale, face_phi_.data(), face_psi_.data());
+  double* face_phi = face_phi_.data() + stretch.begin;
+  double* face_psi = face_psi_.data() + stretch.begin;
+  weno_faces(n + 1, plus, minus, scale, face_phi, face_psi);
   // At a free edge psi = 0; phi + psi (or phi - psi) is the invariant that reaches it.
-  if (setup_.left_free) {
-    face_phi_[0] = weno5(minus[2], minus[1], minus[0], minus[-1], minus[-2]) * scale;
-    face_psi_[0] = 0;
+  if (stretch.left_free) {
+    face_phi[0] = weno5(minus[2], minus[1], minus[0], minus[-1], minus[-2]) * scale;
+    face_psi[0] = 0;
   }
-  if (setup_.right_free) {
+  if (stretch.right_free) {
     const double* p = plus + n;
-    face_phi_[n] = weno5(p[-3], p[-2], p[-1], p[0], p[1]) * scale;
-    face_psi_[n] = 0;
+    face_phi[n] = weno5(p[-3], p[-2], p[-1], p[0], p[1]) * scale;
+    face_psi[n] = 0;
   }
 }
 
 void Semidiscrete::find_compact_faces(const double* y) {
   const std::size_t n = size();
   for (std::size_t f = 0; f <= n; ++f) {
-    const bool left_edge = f == 0, right_edge = f == n;
-    const std::size_t i = left_edge ? 0 : f - 1, j = right_edge ? n - 1 : f;
+    const bool left_edge = f == 0 || gap(f - 1), right_edge = f == n || gap(f);
+    const std::size_t i = left_edge ? f : f - 1, j = right_edge ? f - 1 : f;
     const State l{phi_[i], psi_[i]}, r{phi_[j], psi_[j]};
-    if (left_edge && setup_.left_free) {
+    if (left_edge && (f > 0 || setup_.left_free)) {
       face_phi_[f] = r.phi - r.psi;
       face_psi_[f] = 0;
-    } else if (right_edge && setup_.right_free) {
+    } else if (right_edge && (f < n || setup_.right_free)) {
       face_phi_[f] = l.phi + l.psi;
       face_psi_[f] = 0;
     } else {
@@ -153,8 +180,8 @@ void Semidiscrete::find_compact_faces(const double* y) {
     // Between two centres friction acts for the time that a wave needs from one to the other. With it the face carries
     // Darcy's flux, phi = -p_q / 8 C, where friction rules, and the plain Riemann solution where it does not.
     if (setup_.contact) {
-      const double rise = left_edge    ? 2 * (contact_[0] - face_contact_[0])
-                          : right_edge ? 2 * (face_contact_[n] - contact_[n - 1])
+      const double rise = left_edge    ? 2 * (contact_[j] - face_contact_[f])
+                          : right_edge ? 2 * (face_contact_[f] - contact_[i])
                                        : contact_[j] - contact_[i];
       face_phi_[f] -= rise / (face_contact_[f] * (sound_speed_[i] + sound_speed_[j]));
     }
@@ -170,7 +197,7 @@ void Semidiscrete::find_places(const double* y) {
   if (compact_)
     for (std::size_t i = 0; i < n; ++i) centres_[i] = faces_[i] + y[2 * i] / 2;
   else
-    middles(faces_, centres_);
+    middles(stretches_, faces_, centres_);
   if (!setup_.contact) return;
   for (std::size_t i = 0; i < n; ++i) contact_[i] = setup_.contact(centres_[i]);
   for (std::size_t f = 0; f <= n; ++f) face_contact_[f] = setup_.contact(faces_[f]);
@@ -249,7 +276,8 @@ void Semidiscrete::add_sources(double t, const double* y, double* dy) {
   if (compact_)
     source_mean_ = source_;
   else
-    cell_means(n, source_.data(), source_mean_.data());
+    for (const Stretch& r : stretches_)
+      cell_means(r.end - r.begin, source_.data() + r.begin, source_mean_.data() + r.begin);
   for (std::size_t i = 0; i < n; ++i) {
     dy[2 * i + 1] += source_mean_[i];
     if (dry) {  // the same for each dislocation: no detour over point values
@@ -269,6 +297,7 @@ void Semidiscrete::find_rates() {
   const modulation::Friction& f = setup_.friction;
   largest_rate_ = 0;
   for (std::size_t i = 0; i < size(); ++i) {
+    if (gap(i)) continue;
     // What relaxation_rate does, with the K and E that are known already where they matter.
     if (f.law != modulation::FrictionLaw::viscous) {
       rate_[i] = modulation::relaxation_rate({phi_[i], psi_[i]}, f);
@@ -305,6 +334,9 @@ void Semidiscrete::operator()(double t, const double* y, double* dy) {
 double Semidiscrete::crossing_time(const double* y) const {
   double least = HUGE_VAL;
   for (std::size_t i = 0; i < size(); ++i) {
+    if (gap(i)) continue;
+    const double closing = face_U_[i] - face_U_[i + 1];
+    if (closing > 0) least = std::min(least, y[2 * i] / (2 * closing));
     if (psi_[i] == 0) continue;
     const double U = std::tanh(phi_[i]), c0 = sound_speed_[i];
     const double fastest = c0 * (1 - U * U) / (1 - std::fabs(U) * c0);  // |lambda_pm - U|
@@ -316,6 +348,7 @@ double Semidiscrete::crossing_time(const double* y) const {
 double Semidiscrete::mean_crossing_time(const double* y) const {
   double width = 0, fastest = 0;
   for (std::size_t i = 0; i < size(); ++i) {
+    if (gap(i)) continue;
     width += y[2 * i];
     fastest = std::max(fastest, sound_speed_[i]);
   }

@@ -9,8 +9,17 @@
 
 namespace slipfront::pulse {
 
-/// x at the middle of each cell in s, from the faces: sixth order inside, fourth and second in the last cells.
-void middles(const std::vector<double>& faces, std::vector<double>& centres);
+/// Cells in a row with dislocations in them; between two stretches lies a gap, a cell without any, whose faces are free
+/// edges.
+struct Stretch {
+  std::size_t begin, end;  ///< cells
+  bool left_free, right_free;
+};
+std::vector<Stretch> stretches_of(const std::vector<double>& charge, bool left_free, bool right_free);
+
+/// x at the middle of each cell in s, from the faces: sixth order inside a stretch, fourth and second in its last
+/// cells.
+void middles(const std::vector<Stretch>& stretches, const std::vector<double>& faces, std::vector<double>& centres);
 
 /// The equations in space: time derivatives of the cells' widths X and momenta Y. Knows nothing of time steps.
 ///     X_t = [U] over the faces,   Y_t = -[p] + q_s (2 pi F - friction - l <1 - cos u> d(a^2)/dx)
@@ -21,7 +30,7 @@ void middles(const std::vector<double>& faces, std::vector<double>& centres);
 class Semidiscrete {
  public:
   struct Setup {
-    std::vector<double> charge;  ///< dislocations in each cell
+    std::vector<double> charge;  ///< dislocations in each cell, 0 in a gap
     bool left_free = false, right_free = false;
     modulation::Friction friction;
     std::function<double(double, double)> forcing;  ///< null: none
@@ -30,6 +39,7 @@ class Semidiscrete {
   explicit Semidiscrete(Setup setup);
 
   std::size_t size() const { return setup_.charge.size(); }
+  const std::vector<Stretch>& stretches() const { return stretches_; }
 
   /// y: X and Y of each cell in turn, x of the left edge, energy dissipated, energy supplied; dy alike. \throws
   /// NumericsError with time and place.
@@ -51,7 +61,7 @@ class Semidiscrete {
   const std::vector<double>& face_phi() const { return face_phi_; }
   const std::vector<double>& face_psi() const { return face_psi_; }
   double largest_friction_rate() const { return largest_rate_; }
-  /// Least time in which a wave crosses a cell.
+  /// Least time in which a wave crosses a cell, or half of that in which its faces meet.
   double crossing_time(const double* y) const;
   /// That of a cell of average width, at the fastest sound speed.
   double mean_crossing_time(const double* y) const;
@@ -60,17 +70,21 @@ class Semidiscrete {
   void find_states(double t, const double* y);
   void find_places(const double* y);
   void find_faces();
+  void find_faces(const Stretch& stretch, double scale);
   void find_compact_faces(const double* y);
   void find_rates();
   void add_sources(double t, const double* y, double* dy);
   void add_contact_force(double* dy);
 
+  bool gap(std::size_t i) const { return setup_.charge[i] == 0; }
+
   Setup setup_;
+  std::vector<Stretch> stretches_;
   std::vector<double> charge_point_;  ///< q_s at the centres
   // At the cell centres.
   std::vector<double> width_, momentum_in_cell_, spacing_, momentum_, s_, phi_, psi_, phi_mean_, psi_mean_;
   std::vector<double> sound_speed_, EK_, good_, rate_, source_, source_mean_, centres_, velocity_;
-  std::vector<double> invariant_plus_, invariant_minus_;  ///< cell averages, with ghosts
+  std::vector<double> invariant_plus_, invariant_minus_;  ///< cell averages of one stretch, with ghosts
   std::vector<double> face_phi_, face_psi_, face_U_, face_p_;
   std::vector<double> faces_, contact_, face_contact_;  ///< x of the faces, a(x) at centres and faces
   double largest_rate_ = 0;

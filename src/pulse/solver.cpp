@@ -46,33 +46,110 @@ double share_of(double left, double dt) { return dt >= left ? left : dt > left /
 Solver::Solver(Problem problem) : problem_(std::move(problem)) {
   check(problem_);
   const Layout layout = lay_cells(problem_.stress, problem_.left, problem_.right, problem_.cells, problem_.corner);
-  charge_ = layout.charge;
+  cells_.charge = layout.charge;
+  left_free_ = layout.left_free;
+  right_free_ = layout.right_free;
   const std::size_t n = size();
   cells_.y.assign(2 * n + Semidiscrete::extra, 0.0);
-  cells_.s.resize(n);
+  cells_.s.assign(n, 0.0);
   for (std::size_t i = 0; i < n; ++i) {
     cells_.y[2 * i] = layout.faces[i + 1] - layout.faces[i];
+    if (cells_.charge[i] == 0) continue;
     const double a = problem_.contact ? problem_.contact((layout.faces[i] + layout.faces[i + 1]) / 2) : 1;
-    cells_.s[i] = std::tanh(rupture::psi_of_stress(2 * pi * charge_[i] / (a * cells_.y[2 * i])));
+    cells_.s[i] = std::tanh(rupture::psi_of_stress(2 * pi * cells_.charge[i] / (a * cells_.y[2 * i])));
   }
   cells_.y[2 * n] = layout.faces.front();
-  equations_ = std::make_shared<Semidiscrete>(Semidiscrete::Setup{
-      charge_, layout.left_free, layout.right_free, problem_.friction, problem_.forcing, problem_.contact});
+  lay_equations();
   first_ = view();
 }
 
 Solver::Solver(Problem problem, Cells cells) : Solver(std::move(problem)) { restore(std::move(cells)); }
 
+void Solver::lay_equations() {
+  equations_ = std::make_shared<Semidiscrete>(Semidiscrete::Setup{
+      cells_.charge, left_free_, right_free_, problem_.friction, problem_.forcing, problem_.contact});
+}
+
 void Solver::restore(Cells cells) {
-  if (cells.y.size() != cells_.y.size() || cells.s.size() != cells_.s.size())
+  const std::size_t n = cells.charge.size();
+  // Cells may have been joined and gaps may have gone since t = 0; what faces are left have the dislocations left of
+  // them that they had.
+  const std::vector<double>& faces = first_.charge_faces;
+  const double all = faces.back();
+  double left = 0;
+  bool fits = n > 0 && cells.s.size() == n && cells.y.size() == 2 * n + Semidiscrete::extra && cells.charge[0] > 0 &&
+              cells.charge[n - 1] > 0;
+  for (std::size_t i = 0; i < n && fits; ++i) {
+    left += cells.charge[i];
+    const auto near = std::lower_bound(faces.begin(), faces.end(), left - 1e-9 * all);
+    fits = cells.charge[i] >= 0 && near != faces.end() && *near <= left + 1e-9 * all;
+  }
+  fits = fits && std::fabs(left - all) <= 1e-9 * all;
+  if (!fits)
     throw InputError({.key = "resume",
-                      .value = std::to_string(cells.s.size()) + " cells",
+                      .value = std::to_string(n) + " cells",
                       .problem = "does not fit the scenario",
-                      .allowed = std::to_string(cells_.s.size()) + " cells"});
+                      .allowed = "cells as laid for it, " + std::to_string(faces.size() - 1) + " at first"});
   cells_ = std::move(cells);
+  lay_equations();
+}
+
+double Solver::gaps_close_in(const std::vector<double>& rate) const {
+  double least = HUGE_VAL;
+  for (std::size_t i = 0; i < size(); ++i)
+    if (cells_.charge[i] == 0 && rate[2 * i] < 0) least = std::fmin(least, -cells_.y[2 * i] / rate[2 * i]);
+  return least;
+}
+
+/// Where the edges of a gap have met, to a millionth of the cells beside it, these become neighbours. Cells are small
+/// at free edges; in the dense state that grows where two have met they would only shorten the steps, and are joined.
+void Solver::close_gaps() {
+  std::vector<double>& y = cells_.y;
+  bool closed = false;
+  for (std::size_t i = size(); i-- > 0;) {
+    if (cells_.charge[i] != 0 || y[2 * i] > 1e-6 * std::fmin(y[2 * i - 2], y[2 * i + 2])) continue;
+    y[2 * i - 2] += y[2 * i] / 2;
+    y[2 * i + 2] += y[2 * i] / 2;
+    y[2 * i] = 0;
+    drop_cell(i);
+    std::vector<double> sorted = cells_.charge;
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    const double enough = 0.4 * *middle;
+    const auto small = [&](std::size_t j) { return cells_.charge[j] > 0 && cells_.charge[j] < enough; };
+    for (std::size_t j = i; j < size() && small(j); ++j)
+      while (small(j) && j + 1 < size() && cells_.charge[j + 1] > 0) join(j + 1, j);
+    for (std::size_t j = i - 1; small(j) && j > 0; --j)
+      for (; small(j) && j > 0 && cells_.charge[j - 1] > 0; --j) join(j - 1, j);
+    closed = true;
+  }
+  if (closed) lay_equations();
+}
+
+/// Puts what is in a cell into a neighbour of it.
+void Solver::join(std::size_t cell, std::size_t into) {
+  if (cells_.charge[cell] > cells_.charge[into]) cells_.s[into] = cells_.s[cell];
+  cells_.charge[into] += cells_.charge[cell];
+  cells_.y[2 * into] += cells_.y[2 * cell];
+  cells_.y[2 * into + 1] += cells_.y[2 * cell + 1];
+  drop_cell(cell);
+}
+
+void Solver::drop_cell(std::size_t i) {
+  const auto at = static_cast<std::ptrdiff_t>(i);
+  cells_.y.erase(cells_.y.begin() + 2 * at, cells_.y.begin() + 2 * at + 2);
+  cells_.s.erase(cells_.s.begin() + at);
+  cells_.charge.erase(cells_.charge.begin() + at);
 }
 
 bool Solver::advance_to(double time, const std::function<bool()>& interrupted) {
+  while (cells_.time < time)
+    if (!advance_until_gap_closes(time, interrupted)) break;
+  return cells_.time >= time;
+}
+
+/// Returns false if interrupted.
+bool Solver::advance_until_gap_closes(double time, const std::function<bool()>& interrupted) {
   Semidiscrete& equations = *equations_;
   const Rates f = [&equations](double t, const double* y, double* dy) { equations(t, y, dy); };
   const std::size_t n = size();
@@ -82,7 +159,7 @@ bool Solver::advance_to(double time, const std::function<bool()>& interrupted) {
   while (cells_.time < time) {
     equations.start_from(cells_.s);  // as a resumed run does, whoever has looked at the equations since the last step
     f(cells_.time, cells_.y.data(), rate.data());
-    const double left = time - cells_.time;
+    const double left = std::fmin(time - cells_.time, gaps_close_in(rate));
     const double crossing = problem_.cfl * equations.crossing_time(cells_.y.data());
     const bool stiff = equations.largest_friction_rate() * equations.mean_crossing_time(cells_.y.data()) > stiff_above;
     double dt = crossing;
@@ -98,11 +175,15 @@ bool Solver::advance_to(double time, const std::function<bool()>& interrupted) {
         implicit_step =
             std::make_unique<ImplicitStep>(n, cells_.y.size(), Semidiscrete::compact_reach, bool(problem_.forcing));
       double fastest = 0;
-      for (std::size_t i = 0; i < n; ++i) fastest = std::fmax(fastest, std::fabs(cells_.y[2 * i + 1] / charge_[i]));
+      for (std::size_t i = 0; i < n; ++i)
+        if (cells_.charge[i] > 0) fastest = std::fmax(fastest, std::fabs(cells_.y[2 * i + 1] / cells_.charge[i]));
       for (std::size_t i = 0; i < n; ++i) {
         scale[2 * i] = cells_.y[2 * i];
-        scale[2 * i + 1] = charge_[i] * std::fmax(fastest, 8e-3 * equations.s()[i] /
-                                                               (1 + equations.largest_friction_rate() * crossing));
+        scale[2 * i + 1] = 1;
+        if (cells_.charge[i] == 0) continue;
+        scale[2 * i + 1] =
+            cells_.charge[i] *
+            std::fmax(fastest, 8e-3 * equations.s()[i] / (1 + equations.largest_friction_rate() * crossing));
       }
       implicit_step->linearise(f, cells_.time, cells_.y, rate, scale);
       dt = cells_.step > 0 ? cells_.step : std::fmin(crossing, 1 / equations.largest_friction_rate());
@@ -127,10 +208,13 @@ bool Solver::advance_to(double time, const std::function<bool()>& interrupted) {
       }
     }
     equations.use_compact(false);
-    cells_.time = dt == left ? time : cells_.time + dt;
+    cells_.time = dt == time - cells_.time ? time : cells_.time + dt;
     ++cells_.steps;
     cells_.s = equations.s();
-    if (interrupted && interrupted()) return cells_.time >= time;
+    const std::size_t before = size();
+    close_gaps();
+    if (interrupted && interrupted()) return false;
+    if (size() != before) return true;
   }
   return true;
 }
@@ -146,13 +230,13 @@ Solver::View Solver::view() const {
   v.faces[0] = cells_.y[2 * n];
   for (std::size_t i = 0; i < n; ++i) {
     v.faces[i + 1] = v.faces[i] + cells_.y[2 * i];
-    v.charge_faces[i + 1] = v.charge_faces[i] + charge_[i];
+    v.charge_faces[i + 1] = v.charge_faces[i] + cells_.charge[i];
   }
   v.states = equations_->states();
   v.contact = problem_.contact;
   for (std::size_t f = 0; f <= n; ++f) v.face_states.push_back({equations_->face_phi()[f], equations_->face_psi()[f]});
   v.centres.resize(n);
-  middles(v.faces, v.centres);
+  middles(equations_->stretches(), v.faces, v.centres);
   return v;
 }
 

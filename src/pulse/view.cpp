@@ -19,8 +19,14 @@ std::size_t interval(const std::vector<double>& rising, double x) {
 
 State state_at(const Solver::View& v, double x) {
   if (x < v.faces.front() || x > v.faces.back()) return {};
-  const std::size_t n = v.centres.size();
-  const std::size_t first = std::clamp<std::size_t>(interval(v.centres, x), 1, n - 3) - 1;
+  const std::size_t cell = interval(v.faces, x);
+  if (v.states[cell].empty()) return {};
+  std::size_t begin = cell, end = cell + 1;  // four centres of the same stretch
+  while (begin > 0 && cell - begin < 4 && !v.states[begin - 1].empty()) --begin;
+  while (end < v.states.size() && end - cell < 5 && !v.states[end].empty()) ++end;
+  if (end - begin < 4) return v.states[cell];
+  const std::size_t left = v.centres[cell] <= x || cell == 0 ? cell : cell - 1;
+  const std::size_t first = std::clamp<std::size_t>(left, begin + 1, end - 3) - 1;
   double weight[4];
   for (std::size_t j = 0; j < 4; ++j) {  // Lagrange through four centres
     weight[j] = 1;

@@ -26,25 +26,26 @@ struct Problem {
   modulation::Friction friction;
   double left = -1, right = 1;  ///< domain at t = 0
   double corner = 0;            ///< x of a step of stress: a face is laid there
-  int cells = 400;              ///< over the part of the domain that is not empty, >= 4
+  int cells = 400;              ///< over the parts of the domain that are not empty, >= 4
   double tolerance = 1e-6;      ///< relative, of the implicit steps
   double cfl = 1.0;             ///< of the explicit steps
 };
 
-/// The state of a run. Plain numbers: saved and restored, a run continues to the same bits.
+/// The state of a run. Plain numbers: saved and restored, a run continues to the same bits. A gap between two stressed
+/// stretches is a cell without dislocations; when its edges meet, it goes.
 struct Cells {
   double time = 0;
   long steps = 0;
   double step = 0;  ///< last step of the implicit integrator, 0 before the first
   std::vector<double>
       y;  ///< width and momentum of each cell in turn, x of the left edge, energy dissipated, energy supplied
-  std::vector<double> s;  ///< tanh(psi) at the cell centres, where the next solve starts
+  std::vector<double> s;       ///< tanh(psi) at the cell centres, where the next solve starts
+  std::vector<double> charge;  ///< dislocations in each cell, constant; 0 in a gap
 };
 
 class Solver {
  public:
-  /// Lays the cells, evenly in x over the stretch where there is stress. \throws InputError for an empty interface, an
-  /// empty gap between stressed parts, or bad numbers.
+  /// Lays the cells over the stretches where there is stress. \throws InputError for an empty interface or bad numbers.
   explicit Solver(Problem problem);
 
   /// Continues from saved cells of the same problem. \throws InputError if they do not fit it.
@@ -59,9 +60,9 @@ class Solver {
 
   const Problem& problem() const { return problem_; }
   const Cells& cells() const { return cells_; }
-  std::size_t size() const { return charge_.size(); }
-  /// Dislocations in each cell, constant.
-  const std::vector<double>& charge() const { return charge_; }
+  /// Cells, gaps included.
+  std::size_t size() const { return cells_.charge.size(); }
+  const std::vector<double>& charge() const { return cells_.charge; }
 
   /// What the interface looks like now, for interpolation and sums.
   struct View {
@@ -69,7 +70,7 @@ class Solver {
     std::vector<double> charge_faces;  ///< dislocations left of each face
     std::vector<State> face_states;
     std::vector<double> centres;  ///< x
-    std::vector<State> states;    ///< at the centres, in local units where there is a contact profile
+    std::vector<State> states;    ///< at the centres, in local units where there is a contact profile; empty in a gap
     std::function<double(double)> contact;
   };
   View view() const;
@@ -80,9 +81,16 @@ class Solver {
   double supplied() const { return cells_.y[2 * size() + 2]; }
 
  private:
+  void lay_equations();
+  bool advance_until_gap_closes(double time, const std::function<bool()>& interrupted);
+  double gaps_close_in(const std::vector<double>& rate) const;
+  void close_gaps();
+  void join(std::size_t cell, std::size_t into);
+  void drop_cell(std::size_t i);
+
   Problem problem_;
   Cells cells_;
-  std::vector<double> charge_;
+  bool left_free_, right_free_;
   View first_;
   std::shared_ptr<Semidiscrete> equations_;
 };

@@ -1,0 +1,102 @@
+// Empty gaps between stressed stretches: free edges that meet.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "slipfront/pulse/run.hpp"
+#include "slipfront/rupture/relations.hpp"
+#include "slipfront/train/train.hpp"
+
+namespace {
+
+using namespace slipfront;
+using namespace slipfront::pulse;
+using modulation::FrictionLaw;
+using std::numbers::pi;
+
+Problem two_sides(double gap, int cells, double C = 0) {
+  return {.stress = [=](double x) { return std::fabs(x) > gap / 2 ? 0.855 : 0.0; },
+          .forcing = {},
+          .friction = {C > 0 ? FrictionLaw::viscous : FrictionLaw::none, C, 1, {}},
+          .left = -4,
+          .right = 4,
+          .corner = HUGE_VAL,
+          .cells = cells};
+}
+
+/// Until they meet, both sides are as if alone.
+TEST(Gap, SidesAreAloneUntilTheyMeet) {
+  const auto alone = rupture::from_stress(0.855);
+  Solver s(two_sides(1, 200));
+  const double t = 0.45 / alone.leading_velocity;
+  s.advance_to(t);
+  EXPECT_EQ(s.size(), 201);
+  const auto view = s.view();
+  EXPECT_TRUE(state_at(view, 0).empty());
+  for (const double side : {-1.0, 1.0}) {
+    const State at = state_at(view, side * 0.5);
+    EXPECT_NEAR(train::averages(at).W / (-side * alone.slip_velocity), 1, 1e-3);
+  }
+}
+
+TEST(Gap, ClosesAndTheCollisionIsSymmetric) {
+  const auto after = [](int cells) {
+    Solver s(two_sides(0.4, cells));
+    s.advance_to(2 * pi);
+    EXPECT_LE(s.size(), static_cast<std::size_t>(cells));
+    EXPECT_LT(s.cells().steps, cells);  // small cells at the edges do not rule the steps for ever
+    double charge = 0;
+    for (const double q : s.charge()) charge += q;
+    EXPECT_NEAR(charge, 7.6 * 0.855 / (2 * pi), 1e-12);
+    const auto view = s.view();
+    for (const double x : {0.1, 0.3, 1.0, 2.0}) {
+      EXPECT_NEAR(state_at(view, x).psi, state_at(view, -x).psi, 1e-6);
+      EXPECT_NEAR(state_at(view, x).phi, -state_at(view, -x).phi, 1e-6);
+    }
+    return train::averages(state_at(view, 0)).k;
+  };
+  EXPECT_NEAR(after(100), after(400), 1e-3);
+  EXPECT_NEAR(after(200), after(400), 3e-4);
+}
+
+TEST(Gap, ClosesUnderStrongFrictionToo) {
+  const auto after = [](int cells) {
+    Solver s(two_sides(0.4, cells, 1e3));
+    s.advance_to(1e4);
+    EXPECT_LE(s.size(), static_cast<std::size_t>(cells));
+    return train::averages(state_at(s.view(), 0)).k;
+  };
+  EXPECT_NEAR(after(100), after(400), 2e-3);
+}
+
+TEST(Gap, ResumedRunHasTheSameBits) {
+  const Problem p = two_sides(0.4, 60, 0.3);
+  for (const double t : {0.5, 4.0}) {  // before and after the edges have met
+    Solver whole(p);
+    whole.advance_to(t);
+    whole.advance_to(6);
+    Solver cut(p);
+    cut.advance_to(t);
+    Solver resumed(p, cut.cells());
+    resumed.advance_to(6);
+    EXPECT_EQ(whole.cells().y, resumed.cells().y);
+  }
+}
+
+TEST(Gap, ProfileKnowsTheGap) {
+  std::vector<double> edges;
+  for (int i = -40; i <= 40; ++i) edges.push_back(i * 0.1);
+  pulse::Run run(two_sides(1, 100), {.times = {0, 0.5}, .x_edges = edges});
+  run.go();
+  const Profile& profile = run.snapshots().back().profile;
+  EXPECT_EQ(profile.k[40], 0);
+  EXPECT_EQ(profile.W[40], 0);
+  EXPECT_EQ(profile.slip[40], 0);
+  EXPECT_GT(profile.W[34], 0);
+  EXPECT_LT(profile.W[45], 0);
+  EXPECT_LT(conservation_error(run.solver(), edges, profile), 1e-13);
+}
+
+}  // namespace
