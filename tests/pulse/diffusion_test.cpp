@@ -1,0 +1,123 @@
+// Gamma = C t >> 1: what is left of Eqs. (7) is nonlinear diffusion (docs/theory.md 3.5), whose solution from a step
+// into the empty side depends on q / sqrt(t / C) alone. Solved here as an ordinary differential equation, apart from
+// the product's scheme.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "slipfront/elliptic/complete.hpp"
+#include "slipfront/pulse/solver.hpp"
+#include "slipfront/rupture/inverse.hpp"
+#include "slipfront/train/train.hpp"
+
+namespace {
+
+using namespace slipfront;
+using namespace slipfront::pulse;
+using modulation::Closure;
+using modulation::FrictionLaw;
+using std::numbers::pi;
+
+/// With zeta = q sqrt(C / t) and U = g / sqrt(C t), M = 8 U cosh psi E = -p_q / C and l_t = U_q become
+///     d zeta / d psi = -sinh psi / (2 E g)        d g / d psi = -(zeta / 2) dl / d psi
+/// from the edge (psi = 0, zeta = 0, g = g0) to where g = 0 far behind it. x = (2 g + zeta l) sqrt(t / C), as x starts
+/// from l q. With the paper's closure C is C pi^2 / (4 E K).
+struct Diffusion {
+  Closure closure;
+  struct Point {
+    double psi, zeta, g;
+  };
+
+  Point slope(const Point& at) const {
+    const elliptic::AtPsi e = elliptic::at_psi(at.psi);
+    const double K_slope = -e.K * e.above_m1 / e.s;
+    const double l_slope = 2 * (K_slope - e.K * e.s) / std::cosh(at.psi);
+    const double understated = closure == Closure::paper ? 4 * e.E * e.K / (pi * pi) : 1;
+    return {1, -understated * std::sinh(at.psi) / (2 * e.E * at.g), -at.zeta / 2 * l_slope};
+  }
+
+  /// From the edge with speed g0 until psi, or until g = 0.
+  std::vector<Point> from_edge(double g0, double psi) const {
+    constexpr int steps = 4000;
+    const double h = psi / steps;
+    std::vector<Point> path{{1e-9 * psi, 0, g0}};
+    for (int i = 0; i < steps; ++i) {
+      const Point p = path.back();
+      const auto moved = [&](const Point& d, double by) {
+        return Point{p.psi + by, p.zeta + d.zeta * by, p.g + d.g * by};
+      };
+      const double step = i == 0 ? h - p.psi : h;
+      const Point a = slope(p), b = slope(moved(a, step / 2)), c = slope(moved(b, step / 2)), d = slope(moved(c, step));
+      path.push_back({p.psi + step, p.zeta + step * (a.zeta + 2 * b.zeta + 2 * c.zeta + d.zeta) / 6,
+                      p.g + step * (a.g + 2 * b.g + 2 * c.g + d.g) / 6});
+      if (!(path.back().g > 0)) break;
+    }
+    return path;
+  }
+
+  /// W(0) sqrt(C t): k g at x = 0.
+  double slip_velocity(double stress) const {
+    const double psi = rupture::psi_of_stress(stress);
+    double slow = 1e-6, fast = 10;
+    for (int i = 0; i < 100; ++i) {
+      const double middle = std::sqrt(slow * fast);
+      (from_edge(middle, psi).back().g > 0 ? fast : slow) = middle;
+    }
+    const std::vector<Point> path = from_edge(fast, psi);
+    const auto x = [](const Point& p) { return 2 * p.g + p.zeta * 2 * pi / train::stress_at_rest(p.psi); };
+    const auto W = [](const Point& p) { return p.g * train::stress_at_rest(p.psi); };
+    for (std::size_t i = 1; i < path.size(); ++i)
+      if (x(path[i]) <= 0) {
+        const double share = x(path[i - 1]) / (x(path[i - 1]) - x(path[i]));
+        return W(path[i - 1]) + share * (W(path[i]) - W(path[i - 1]));
+      }
+    return NAN;
+  }
+};
+
+struct Computed {
+  double W;  ///< W(0) sqrt(C t)
+  long steps;
+};
+Computed computed(double gamma, Closure closure, int cells) {
+  const double reach = 20 / std::sqrt(gamma);
+  Solver s({.stress = [](double x) { return x < 0 ? 0.855 : 0.0; },
+            .forcing = {},
+            .friction = {FrictionLaw::viscous, gamma / (2 * pi), 1, closure},
+            .left = -reach,
+            .right = reach,
+            .cells = cells});
+  s.advance_to(2 * pi);
+  return {train::averages(state_at(s.view(), 0)).W * std::sqrt(gamma), s.cells().steps};
+}
+
+TEST(Diffusion, IsTheLimitOfStrongFriction) {
+  for (const Closure closure : {Closure::consistent, Closure::paper}) {
+    const double limit = Diffusion{closure}.slip_velocity(0.855);
+    EXPECT_NEAR(computed(1e8, closure, 100).W / limit, 1, 2e-4);
+    EXPECT_NEAR(computed(1e8, closure, 400).W / limit, 1, 5e-6);
+  }
+}
+
+TEST(Diffusion, ErrorFallsAsOneOverGamma) {
+  const double limit = computed(1e8, Closure::consistent, 200).W;  // of the same cells
+  double last = 0;
+  for (const double gamma : {1e2, 1e3, 1e4, 1e5}) {
+    const double error = std::fabs(computed(gamma, Closure::consistent, 200).W / limit - 1);
+    EXPECT_LT(error, 0.6 / gamma);
+    EXPECT_TRUE(last == 0 || error < last / 4) << gamma;
+    last = error;
+  }
+}
+
+TEST(Diffusion, StepsDoNotGrowWithGamma) {
+  const long weak = computed(1e3, Closure::consistent, 100).steps;
+  for (const double gamma : {1e4, 1e6, 1e8})
+    EXPECT_LT(computed(gamma, Closure::consistent, 100).steps,
+              static_cast<double>(weak) * std::log(gamma) / std::log(1e3));
+}
+
+}  // namespace
