@@ -149,6 +149,7 @@ void Semidiscrete::find_faces(const Stretch& stretch, double scale) {
   double* face_phi = face_phi_.data() + stretch.begin;
   double* face_psi = face_psi_.data() + stretch.begin;
   weno_faces(n + 1, plus, minus, scale, face_phi, face_psi);
+  flatten_shocks(stretch, plus, minus, scale);
   // At a free edge psi = 0; phi + psi (or phi - psi) is the invariant that reaches it.
   if (stretch.left_free) {
     face_phi[0] = weno5(minus[2], minus[1], minus[0], minus[-1], minus[-2]) * scale;
@@ -158,6 +159,26 @@ void Semidiscrete::find_faces(const Stretch& stretch, double scale) {
     const double* p = plus + n;
     face_phi[n] = weno5(p[-3], p[-2], p[-1], p[0], p[1]) * scale;
     face_psi[n] = 0;
+  }
+}
+
+/// Where trains collide so hard that a shock stands, high order rings behind it: there faces fall back on the plain
+/// values of the cells, as in the PPM of Colella & Woodward (1984). `plus` and `minus` are the scaled invariants.
+void Semidiscrete::flatten_shocks(const Stretch& stretch, const double* plus, const double* minus, double scale) {
+  constexpr double weak = 0.5, strong = 1;  // fall of phi over two cells, beside the mean of psi
+  constexpr std::ptrdiff_t reach = 5;
+  const auto n = static_cast<std::ptrdiff_t>(stretch.end - stretch.begin);
+  for (std::ptrdiff_t i = 0; i < n; ++i) {
+    const double fall = plus[i - 1] + minus[i - 1] - plus[i + 1] - minus[i + 1];
+    const double density = plus[i - 1] - minus[i - 1] + plus[i + 1] - minus[i + 1];
+    if (!(fall > weak * density)) continue;
+    const double share = std::fmin((fall / density - weak) / (strong - weak), 1.0);
+    for (std::ptrdiff_t f = std::max<std::ptrdiff_t>(i - reach + 1, 1); f <= std::min(i + reach, n - 1); ++f) {
+      const std::size_t face = stretch.begin + static_cast<std::size_t>(f);
+      const double a = plus[f - 1] * scale, b = minus[f] * scale;
+      face_phi_[face] += share * ((a + b) / 2 - face_phi_[face]);
+      face_psi_[face] += share * (std::fmax((a - b) / 2, 0.0) - face_psi_[face]);
+    }
   }
 }
 

@@ -71,6 +71,7 @@ class Semidiscrete {
   void find_places(const double* y);
   void find_faces();
   void find_faces(const Stretch& stretch, double scale);
+  void flatten_shocks(const Stretch& stretch, const double* plus, const double* minus, double scale);
   void find_compact_faces(const double* y);
   void find_rates();
   void add_sources(double t, const double* y, double* dy);
