@@ -23,8 +23,8 @@ CURVES = (
     ("step into empty: slip(0)", "step.toml", (), "slip_at_origin", 0.30290243),
     ("step into empty: leading edge", "step.toml", (), "leading_front", 0.63000386),
     ("shock: W(0)", "shock.toml", (), "slip_velocity_at_origin", 0.0458180779),
-    ("tanh, C = 0.5, consistent: W(0)", "paper-c0.5.toml", ("friction.closure=consistent",), "slip_velocity_at_origin", None),
-    ("tanh, C = 0.5, paper: W(0)", "paper-c0.5.toml", (), "slip_velocity_at_origin", None),
+    ("tanh, C = 0.5, consistent: W(0)", "fig-08.toml", ("friction.closure=consistent",), "slip_velocity_at_origin", None),
+    ("tanh, C = 0.5, paper: W(0)", "fig-08.toml", (), "slip_velocity_at_origin", None),
     ("overdamped, Gamma = 1e6: W(0)", "overdamped.toml", (), "slip_velocity_at_origin", None),
 )
 

@@ -196,7 +196,7 @@ class CommandLine(unittest.TestCase):
                     self.assertGreater(self.pulse(os.path.join(folder, name), "--set", "pulse.cells=50")["steps"], 0)
 
     def test_pulse_closures_are_both_there_and_named(self):
-        case = os.path.join(SOURCE, "cases/paper-c0.5.toml")
+        case = os.path.join(SOURCE, "cases/fig-08.toml")
         paper = self.pulse(case)
         right = self.pulse(case, "--set", "friction.closure=consistent")
         self.assertEqual((paper["closure"], right["closure"]), ("paper", "consistent"))
