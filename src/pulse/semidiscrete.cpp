@@ -53,6 +53,7 @@ Semidiscrete::Semidiscrete(Setup setup)
   for (auto* array : {&face_phi_, &face_psi_, &face_U_, &face_p_, &faces_}) array->assign(n + 1, 0);
   if (setup_.contact) {
     contact_.assign(n, 1);
+    contact_force_.assign(n, 0);
     face_contact_.assign(n + 1, 1);
   }
   for (const Stretch& r : stretches_)
@@ -85,6 +86,7 @@ void Semidiscrete::find_states(double t, const double* y) {
   const std::vector<double>& charge = compact_ ? setup_.charge : charge_point_;
   for (const Stretch& r : stretches_)
     for (std::size_t i = r.begin; i < r.end; ++i) {
+      if (!(spacing_[i] > 0)) spacing_[i] = width_[i];  // a last cell, much narrower than the ones beside it
       spacing_[i] /= charge[i];
       momentum_[i] /= charge[i];
     }
@@ -253,9 +255,11 @@ void Semidiscrete::add_contact_force(double* dy) {
   for (std::size_t i = 0; i < size(); ++i) {
     const double right = substrate(face_psi_[i + 1]);
     const double a = square(face_contact_[i]), b = square(contact_[i]), c = square(face_contact_[i + 1]);
+    contact_force_[i] = 0;
     if (a != b || b != c)
-      dy[2 * i + 1] -=
-          (left * (4 * b - 3 * a - c) + 4 * substrate(psi_[i]) * (c - a) + right * (a - 4 * b + 3 * c)) / 6;
+      contact_force_[i] =
+          -(left * (4 * b - 3 * a - c) + 4 * substrate(psi_[i]) * (c - a) + right * (a - 4 * b + 3 * c)) / 6;
+    dy[2 * i + 1] += contact_force_[i];
     left = right;
   }
 }
@@ -358,6 +362,9 @@ double Semidiscrete::crossing_time(const double* y) const {
     if (gap(i)) continue;
     const double closing = face_U_[i] - face_U_[i + 1];
     if (closing > 0) least = std::min(least, y[2 * i] / (2 * closing));
+    // Nor may the contact throw a cell, of mass 8 a dislocation, farther than a part of its width.
+    if (setup_.contact && contact_force_[i] != 0)
+      least = std::min(least, std::sqrt(4 * setup_.charge[i] * y[2 * i] / std::fabs(contact_force_[i])));
     if (psi_[i] == 0) continue;
     const double U = std::tanh(phi_[i]), c0 = sound_speed_[i];
     const double fastest = c0 * (1 - U * U) / (1 - std::fabs(U) * c0);  // |lambda_pm - U|

@@ -87,7 +87,7 @@ class Semidiscrete {
   std::vector<double> sound_speed_, EK_, good_, rate_, source_, source_mean_, centres_, velocity_;
   std::vector<double> invariant_plus_, invariant_minus_;  ///< cell averages of one stretch, with ghosts
   std::vector<double> face_phi_, face_psi_, face_U_, face_p_;
-  std::vector<double> faces_, contact_, face_contact_;  ///< x of the faces, a(x) at centres and faces
+  std::vector<double> faces_, contact_, face_contact_, contact_force_;  ///< x of the faces; a(x) at centres and faces
   double largest_rate_ = 0;
   bool compact_ = false;
 };

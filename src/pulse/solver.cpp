@@ -10,6 +10,7 @@
 #include "semidiscrete.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/rupture/inverse.hpp"
+#include "slipfront/train/train.hpp"
 #include "time_step.hpp"
 
 namespace slipfront::pulse {
@@ -31,10 +32,41 @@ void check(const Problem& p) {
   if (!(p.friction.coefficient >= 0)) refuse("friction.coefficient", p.friction.coefficient, ">= 0");
 }
 
+/// A contact that jumps would be a wall to some cells and nothing to others: there must be a slope to climb.
+void refuse_jumps(const std::function<double(double)>& contact, double left, double right) {
+  constexpr int samples = 4096;
+  const double h = (right - left) / samples;
+  for (int i = 0; i < samples; ++i) {
+    double a = left + i * h, b = a + h, at_a = contact(a), at_b = contact(b);
+    const double whole = std::fabs(at_b - at_a), from = at_a, to = at_b;
+    if (whole < 1e-3 * at_a) continue;
+    while (b - a > 1e-6 * h) {  // the half that changes more
+      const double middle = (a + b) / 2, at_middle = contact(middle);
+      const bool first = std::fabs(at_middle - at_a) > std::fabs(at_b - at_middle);
+      (first ? b : a) = middle;
+      (first ? at_b : at_a) = at_middle;
+    }
+    if (std::fabs(at_b - at_a) > whole / 2)
+      throw InputError({.key = "interface.contact",
+                        .problem = "jumps from " + std::to_string(from) + " to " + std::to_string(to) +
+                                   " at x = " + std::to_string(a),
+                        .allowed = "a continuous profile, such as tanh of a width of some cells"});
+  }
+}
+
 /// Dry friction cannot reverse a cell: one that would have is at rest, and moves on only if pushed hard enough.
 void stop_reversals(const std::vector<double>& before, std::vector<double>& after) {
   for (std::size_t i = 1; i + Semidiscrete::extra < after.size(); i += 2)
     if (before[i] * after[i] < 0) after[i] = 0;
+}
+
+/// Whether a step has changed the rapidity of some cell by about a half or more: a contact as steep as a wall.
+bool thrown(const std::vector<double>& before, const std::vector<double>& after, const std::vector<double>& charge) {
+  for (std::size_t i = 0; i < charge.size(); ++i) {
+    const double was = before[2 * i + 1], is = after[2 * i + 1];
+    if (std::fabs(is - was) > 4 * charge[i] + std::fabs(was) / 2) return true;
+  }
+  return false;
 }
 
 /// The step to take where `left` is left and `dt` is wanted: steps end on the target exactly, and the last two share
@@ -45,6 +77,7 @@ double share_of(double left, double dt) { return dt >= left ? left : dt > left /
 
 Solver::Solver(Problem problem) : problem_(std::move(problem)) {
   check(problem_);
+  if (problem_.contact) refuse_jumps(problem_.contact, problem_.left, problem_.right);
   const Layout layout = lay_cells(problem_.stress, problem_.left, problem_.right, problem_.cells, problem_.corner);
   cells_.charge = layout.charge;
   left_free_ = layout.left_free;
@@ -56,7 +89,13 @@ Solver::Solver(Problem problem) : problem_(std::move(problem)) {
     cells_.y[2 * i] = layout.faces[i + 1] - layout.faces[i];
     if (cells_.charge[i] == 0) continue;
     const double a = problem_.contact ? problem_.contact((layout.faces[i] + layout.faces[i + 1]) / 2) : 1;
-    cells_.s[i] = std::tanh(rupture::psi_of_stress(2 * pi * cells_.charge[i] / (a * cells_.y[2 * i])));
+    const double local = 2 * pi * cells_.charge[i] / (a * cells_.y[2 * i]);
+    if (!(local >= train::smallest_stress))
+      throw InputError({.key = problem_.contact ? "interface.contact" : "initial",
+                        .problem = "stress over contact ratio is " + std::to_string(local) +
+                                   " at x = " + std::to_string(layout.faces[i]),
+                        .allowed = "at least 0.0045 where there is stress: dislocations farther apart have no psi"});
+    cells_.s[i] = std::tanh(rupture::psi_of_stress(local));
   }
   cells_.y[2 * n] = layout.faces.front();
   lay_equations();
@@ -166,7 +205,20 @@ bool Solver::advance_until_gap_closes(double time, const std::function<bool()>& 
     if (!stiff) {
       dt = share_of(left, dt);
       next = cells_.y;
-      explicit_step(f, cells_.time, dt, cells_.y, rate);
+      // What comes up within a step (the edge meets a jump of the contact, say) may be too hard for it: shorter, then.
+      for (int halvings = 0;; ++halvings) {
+        try {
+          explicit_step(f, cells_.time, dt, cells_.y, rate);
+          if (!problem_.contact || !thrown(next, cells_.y, cells_.charge)) break;
+          if (halvings == 40)
+            throw NumericsError("t = " + std::to_string(cells_.time) + ": the contact is as steep as a wall");
+        } catch (const NumericsError&) {
+          if (halvings == 40) throw;
+        }
+        cells_.y = next;
+        equations.start_from(cells_.s);
+        dt /= 2;
+      }
       if (problem_.friction.law == modulation::FrictionLaw::coulomb) stop_reversals(next, cells_.y);
     } else {
       equations.use_compact(true);

@@ -207,6 +207,10 @@ class CommandLine(unittest.TestCase):
     def test_pulse_refuses(self):
         case = os.path.join(SOURCE, "cases/step.toml")
         self.refused(2, "pulse", says=["SCENARIO"])
+        barrier = os.path.join(SOURCE, "cases/barrier.toml")
+        self.refused(2, "pulse", barrier, "--set", "interface.contact=x>0.3 ? 2 : 1", says=["jumps", "x = 0.3"])
+        self.refused(2, "pulse", barrier, "--set", "interface.contact=1e4", says=["interface.contact", "0.0045"])
+        self.refused(2, "pulse", case, "--set", "interface.contact=1+x^2", says=["domain", "left and right"])
         self.refused(3, "pulse", "/nowhere.toml", says=["No such file"])
         self.refused(3, "pulse", case, "-o", "/nowhere/o.nc", says=["/nowhere/o.nc"])
         self.refused(3, "pulse", case, "--resume", "/nowhere.nc", says=["/nowhere.nc"])

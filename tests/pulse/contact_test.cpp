@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "slipfront/elliptic/complete.hpp"
+#include "slipfront/error.hpp"
 #include "slipfront/pulse/solver.hpp"
 #include "slipfront/rupture/inverse.hpp"
 #include "slipfront/train/train.hpp"
@@ -95,6 +96,16 @@ TEST(Contact, BarrierArrestsThePulse) {
     EXPECT_NEAR(view.faces.back(), 0.3 + 0.05 * std::atanh(2 * (carried - 1) - 1), 2e-4) << C;
     EXPECT_LT(view.faces.back(), 0.2);
   }
+}
+
+TEST(Contact, JumpsAndWhatLeavesNoStateAreRefused) {
+  Problem p = equilibrium(0, 50);
+  p.contact = [](double x) { return x > 0.3 ? 2.0 : 1.0; };
+  EXPECT_THROW(Solver{p}, InputError);
+  p.contact = [](double) { return 1e4; };
+  EXPECT_THROW(Solver{p}, InputError);
+  p.contact = [](double x) { return 1 + std::fabs(x); };  // a corner is none
+  EXPECT_NO_THROW(Solver{p});
 }
 
 }  // namespace

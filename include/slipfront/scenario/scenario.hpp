@@ -14,12 +14,12 @@
 #include "slipfront/error.hpp"
 #include "slipfront/medium/constants.hpp"
 #include "slipfront/modulation/friction.hpp"
+#include "slipfront/train/train.hpp"
 
 namespace slipfront::scenario {
 
-/// The least stress above 0 that a state can hold in doubles (its density variable underflows below), and the greatest
-/// accepted.
-inline constexpr double smallest_stress = 0.0045;
+/// The least stress above 0 and the greatest that are accepted.
+using train::smallest_stress;
 inline constexpr double largest_stress = 1e6;
 
 enum class ProfileKind { step, tanh, formula, table };

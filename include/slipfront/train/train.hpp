@@ -41,6 +41,9 @@ Averages averages(const State& state);
 /// above hold in the local units a x and a t; here they are in those of the interface.
 Averages averages(const State& state, double contact);
 
+/// The least stress above 0 that a state can hold in doubles: psi, 4 exp(-pi / stress) there, underflows below.
+inline constexpr double smallest_stress = 0.0045;
+
 /// Stress of a train at rest, pi cosh(psi) / K: the initial state of a rupture. \throws InputError unless psi > 0.
 double stress_at_rest(double psi);
 
