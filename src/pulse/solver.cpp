@@ -226,16 +226,15 @@ bool Solver::advance_until_gap_closes(double time, const std::function<bool()>& 
       if (!implicit_step)
         implicit_step =
             std::make_unique<ImplicitStep>(n, cells_.y.size(), Semidiscrete::compact_reach, bool(problem_.forcing));
-      double fastest = 0;
+      // Momenta are measured by the largest, or at rest by what the pressure soon makes of the densest cell: a sparse
+      // cell is pushed by its neighbours.
+      double fastest = 8e-3 * *std::max_element(equations.s().begin(), equations.s().end()) /
+                       (1 + equations.largest_friction_rate() * crossing);
       for (std::size_t i = 0; i < n; ++i)
         if (cells_.charge[i] > 0) fastest = std::fmax(fastest, std::fabs(cells_.y[2 * i + 1] / cells_.charge[i]));
       for (std::size_t i = 0; i < n; ++i) {
         scale[2 * i] = cells_.y[2 * i];
-        scale[2 * i + 1] = 1;
-        if (cells_.charge[i] == 0) continue;
-        scale[2 * i + 1] =
-            cells_.charge[i] *
-            std::fmax(fastest, 8e-3 * equations.s()[i] / (1 + equations.largest_friction_rate() * crossing));
+        scale[2 * i + 1] = cells_.charge[i] > 0 ? cells_.charge[i] * fastest : 1;
       }
       implicit_step->linearise(f, cells_.time, cells_.y, rate, scale);
       dt = cells_.step > 0 ? cells_.step : std::fmin(crossing, 1 / equations.largest_friction_rate());

@@ -113,6 +113,26 @@ TEST(Diffusion, ErrorFallsAsOneOverGamma) {
   }
 }
 
+TEST(Diffusion, ASmoothedStepIntoTheEmptySideTendsToTheStep) {
+  const double C = 1e4, reach = 20 / std::sqrt(2 * pi * C);
+  const auto slip = [&](double width) {
+    Solver s({.stress =
+                  [=](double x) {
+                    const double k = 0.855 * (width > 0 ? (1 - std::tanh(x / width)) / 2 : x < 0 ? 1 : 0);
+                    return k < train::smallest_stress ? 0 : k;
+                  },
+              .forcing = {},
+              .friction = {FrictionLaw::viscous, C, 1, {}},
+              .left = -reach,
+              .right = reach,
+              .corner = width > 0 ? HUGE_VAL : 0,
+              .cells = 200});
+    s.advance_to(2 * pi);
+    return charge_left_of(s.view(), 0) - s.initial_charge_left_of(0);
+  };
+  EXPECT_NEAR(slip(reach / 1000) / slip(0), 1, 2e-2);
+}
+
 TEST(Diffusion, StepsDoNotGrowWithGamma) {
   const long weak = computed(1e3, Closure::consistent, 100).steps;
   for (const double gamma : {1e4, 1e6, 1e8})
