@@ -7,7 +7,7 @@
 namespace slipfront::pulse {
 
 /// modulation::resolve for many cells. `s` = tanh(psi) comes in as the guess and goes out as the result. Cells that are
-/// out of the ordinary (s outside 1e-10 ... 0.9, or a guess too far off) are left with good = 0 for the scalar route.
+/// out of the ordinary (s outside 1e-290 ... 0.9, or a guess too far off) are left with good = 0 for the scalar route.
 struct ResolveArrays {
   std::size_t size;
   const double* spacing;
@@ -17,7 +17,8 @@ struct ResolveArrays {
   double* psi;
   double* sound_speed;
   double* EK;
-  double* good;  ///< 1 or 0
+  double* velocity;  ///< tanh(phi)
+  double* good;      ///< 1 or 0
 };
 void resolve_all(const ResolveArrays& a);
 
@@ -30,9 +31,6 @@ void cell_means(std::size_t size, const double* values, double* averages);
 /// Face values of the Riemann invariants by WENO: `plus` from the left, `minus` from the right; p[f - 1] and p[f] are
 /// the cells beside face f, with three ghosts at each end. phi = (plus + minus) / 2, psi = max((plus - minus) / 2, 0).
 void weno_faces(std::size_t faces, const double* plus, const double* minus, double scale, double* phi, double* psi);
-
-/// U = tanh(phi).
-void velocities(std::size_t size, const double* phi, double* U);
 
 /// U = tanh(phi), p = 2 sinh^2 psi. Returns nothing else: |phi| < 350, psi < 350 as everywhere in a run.
 void face_fluxes(std::size_t faces, const double* phi, const double* psi, double* U, double* p);

@@ -56,7 +56,7 @@ void Semidiscrete::find_states(double t, const double* y) {
     momentum_[i] /= charge[i];
   }
   resolve_all({n, spacing_.data(), momentum_.data(), s_.data(), phi_.data(), psi_.data(), sound_speed_.data(),
-               EK_.data(), good_.data()});
+               EK_.data(), velocity_.data(), good_.data()});
   for (std::size_t i = 0; i < n; ++i) {
     if (good_[i] != 0) continue;
     try {
@@ -67,6 +67,7 @@ void Semidiscrete::find_states(double t, const double* y) {
       s_[i] = std::tanh(at.state.psi);
       sound_speed_[i] = at.sound_speed;
       EK_[i] = at.EK;
+      velocity_[i] = std::tanh(at.state.phi);
     } catch (const NumericsError& error) {
       throw NumericsError("t = " + std::to_string(t) + ", cell " + std::to_string(i) + " of " + std::to_string(n) +
                           ": " + error.what());
@@ -161,7 +162,6 @@ void Semidiscrete::add_sources(double t, const double* y, double* dy) {
   if (!frictional && !setup_.forcing) return;
   const std::vector<double>& charge = compact_ ? setup_.charge : charge_point_;
   double dissipation = 0, supply = 0;
-  velocities(n, phi_.data(), velocity_.data());
   if (linear && !setup_.forcing) {  // the plain case, without the detour over point values
     for (std::size_t i = 0; i < n; ++i) {
       const double loss = friction.coefficient * y[2 * i + 1];
@@ -239,7 +239,7 @@ double Semidiscrete::crossing_time(const double* y) const {
   double least = HUGE_VAL;
   for (std::size_t i = 0; i < size(); ++i) {
     if (psi_[i] == 0) continue;
-    const double U = std::tanh(phi_[i]), c0 = sound_speed_[i];
+    const double U = velocity_[i], c0 = sound_speed_[i];
     const double fastest = c0 * (1 - U * U) / (1 - std::fabs(U) * c0);  // |lambda_pm - U|
     least = std::min(least, y[2 * i] / fastest);
   }
