@@ -37,7 +37,9 @@ SLIPFRONT_CLONES void weno_faces(std::size_t faces, const double* plus, const do
   for (std::size_t f = 0; f < faces; ++f) {
     const double* p = plus + f;
     const double* m = minus + f;
-    const double from_left = weno5(p[-3], p[-2], p[-1], p[0], p[1]), from_right = weno5(m[2], m[1], m[0], m[-1], m[-2]);
+    const Weno5 left(p[-3], p[-2], p[-1], p[0], p[1]), right(m[2], m[1], m[0], m[-1], m[-2]);
+    const double inverse = 1 / (left.below * right.below);
+    const double from_left = left.above * right.below * inverse, from_right = right.above * left.below * inverse;
     phi[f] = (from_left + from_right) / 2 * scale;
     const double half = (from_left - from_right) / 2;
     psi[f] = (half > 0 ? half : 0.0) * scale;
@@ -47,10 +49,106 @@ SLIPFRONT_CLONES void weno_faces(std::size_t faces, const double* plus, const do
 SLIPFRONT_CLONES void face_fluxes(std::size_t faces, const double* phi, const double* psi, double* U, double* p) {
   SLIPFRONT_INDEPENDENT
   for (std::size_t f = 0; f < faces; ++f) {
-    const double sinh_psi = sinh_branch_free(psi[f]);
-    U[f] = tanh_branch_free(phi[f]);
-    p[f] = 2 * sinh_psi * sinh_psi;
+    // tanh phi = -down / (2 + down), 2 sinh^2 psi = cosh 2 psi - 1 = up^2 / (2 (1 + up)), by one division.
+    const double down = expm1_branch_free(-2 * std::fabs(phi[f])), up = expm1_branch_free(2 * psi[f]);
+    const double wide = 2 + down, tall = 1 + up, inverse = 1 / (wide * tall);
+    U[f] = std::copysign(down * tall * inverse, phi[f]);
+    p[f] = (up * inverse) * wide * (up / 2);
   }
+}
+
+SLIPFRONT_CLONES void split(std::size_t size, const double* pairs, double* first, double* second) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) {
+    first[i] = pairs[2 * i];
+    second[i] = pairs[2 * i + 1];
+  }
+}
+
+SLIPFRONT_CLONES void multiply(std::size_t size, const double* by, double* a, double* b) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) {
+    a[i] *= by[i];
+    b[i] *= by[i];
+  }
+}
+
+namespace {
+
+// Sums and extrema in eight lanes, in the same order on every machine.
+constexpr std::size_t lanes = 8;
+
+template <class Value, class Join>
+inline double reduce(std::size_t size, double start, Value value, Join join) {
+  double part[lanes];
+  for (double& p : part) p = start;
+  std::size_t i = 0;
+  for (; i + lanes <= size; i += lanes)
+    for (std::size_t j = 0; j < lanes; ++j) part[j] = join(part[j], value(i + j));
+  for (; i < size; ++i) part[0] = join(part[0], value(i));
+  for (std::size_t j = 1; j < lanes; ++j) part[0] = join(part[0], part[j]);
+  return part[0];
+}
+
+inline double larger(double a, double b) { return b > a ? b : a; }
+inline double smaller(double a, double b) { return b < a ? b : a; }
+
+}  // namespace
+
+SLIPFRONT_CLONES double invariants(std::size_t size, const double* phi, const double* psi, double* plus,
+                                   double* minus) {
+  const double scale = reduce(
+      size, 0, [=](std::size_t i) { return std::fabs(phi[i]) + psi[i]; }, larger);
+  const double inverse = scale > 0 ? 1 / scale : 1;
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) {
+    plus[i] = (phi[i] + psi[i]) * inverse;
+    minus[i] = (phi[i] - psi[i]) * inverse;
+  }
+  return scale;
+}
+
+SLIPFRONT_CLONES void differences(std::size_t size, const double* U, const double* p, double* dy) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) {
+    dy[2 * i] = U[i + 1] - U[i];
+    dy[2 * i + 1] = p[i] - p[i + 1];
+  }
+}
+
+SLIPFRONT_CLONES double damp(std::size_t size, double rate, const double* y, const double* U, double* dy) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) dy[2 * i + 1] -= rate * y[2 * i + 1];
+  return rate *
+         reduce(
+             size, 0, [=](std::size_t i) { return U[i] * y[2 * i + 1]; }, [](double a, double b) { return a + b; });
+}
+
+SLIPFRONT_CLONES double paper_rates(std::size_t size, double coefficient, const double* EK, double* rate) {
+  const double most = coefficient * 2.4674011002723397;  // pi^2 / 4
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) rate[i] = EK[i] > 0 ? most / EK[i] : coefficient;
+  return reduce(
+      size, 0, [=](std::size_t i) { return rate[i]; }, larger);
+}
+
+SLIPFRONT_CLONES double least_crossing_time(std::size_t size, const double* y, const double* U, const double* c0) {
+  return reduce(
+      size, HUGE_VAL,
+      [=](std::size_t i) { return y[2 * i] * (1 - std::fabs(U[i]) * c0[i]) / (c0[i] * (1 - U[i] * U[i])); }, smaller);
+}
+
+SLIPFRONT_CLONES void combine3(std::size_t size, std::array<double, 3> c, std::array<const double*, 3> x, double* sum) {
+  const auto [x0, x1, x2] = x;
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) sum[i] = c[0] * x0[i] + c[1] * x1[i] + c[2] * x2[i];
+}
+
+SLIPFRONT_CLONES void combine5(std::size_t size, std::array<double, 5> c, std::array<const double*, 5> x, double* sum) {
+  const auto [x0, x1, x2, x3, x4] = x;
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i)
+    sum[i] = c[0] * x0[i] + c[1] * x1[i] + c[2] * x2[i] + c[3] * x3[i] + c[4] * x4[i];
 }
 
 }  // namespace slipfront::pulse

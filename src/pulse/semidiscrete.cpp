@@ -21,12 +21,34 @@ constexpr std::size_t ghosts = 3;
 
 Semidiscrete::Semidiscrete(Setup setup) : setup_(std::move(setup)) {
   const std::size_t n = size();
-  for (auto* array : {&charge_point_, &width_, &momentum_in_cell_, &spacing_, &momentum_, &s_, &phi_, &psi_, &phi_mean_,
-                      &psi_mean_, &sound_speed_, &EK_, &good_, &rate_, &source_, &source_mean_, &centres_, &velocity_})
+  for (auto* array : {&charge_point_,
+                      &per_charge_,
+                      &per_charge_point_,
+                      &width_,
+                      &momentum_in_cell_,
+                      &spacing_,
+                      &momentum_,
+                      &s_,
+                      &phi_,
+                      &psi_,
+                      &phi_mean_,
+                      &psi_mean_,
+                      &sound_speed_,
+                      &EK_,
+                      &good_,
+                      &rate_,
+                      &source_,
+                      &source_mean_,
+                      &centres_,
+                      &velocity_})
     array->assign(n, 0);
   for (auto* array : {&invariant_plus_, &invariant_minus_}) array->assign(n + 2 * ghosts, 0);
   for (auto* array : {&face_phi_, &face_psi_, &face_U_, &face_p_}) array->assign(n + 1, 0);
   centre_values(n, setup_.charge.data(), charge_point_.data());
+  for (std::size_t i = 0; i < n; ++i) {
+    per_charge_[i] = 1 / setup_.charge[i];
+    per_charge_point_[i] = 1 / charge_point_[i];
+  }
 }
 
 void Semidiscrete::start_from(const std::vector<double>& s) { s_ = s; }
@@ -39,10 +61,7 @@ std::vector<State> Semidiscrete::states() const {
 
 void Semidiscrete::find_states(double t, const double* y) {
   const std::size_t n = size();
-  for (std::size_t i = 0; i < n; ++i) {
-    width_[i] = y[2 * i];
-    momentum_in_cell_[i] = y[2 * i + 1];
-  }
+  split(n, y, width_.data(), momentum_in_cell_.data());
   if (compact_) {
     spacing_ = width_;
     momentum_ = momentum_in_cell_;
@@ -50,11 +69,7 @@ void Semidiscrete::find_states(double t, const double* y) {
     centre_values(n, width_.data(), spacing_.data());
     centre_values(n, momentum_in_cell_.data(), momentum_.data());
   }
-  const std::vector<double>& charge = compact_ ? setup_.charge : charge_point_;
-  for (std::size_t i = 0; i < n; ++i) {
-    spacing_[i] /= charge[i];
-    momentum_[i] /= charge[i];
-  }
+  multiply(n, (compact_ ? per_charge_ : per_charge_point_).data(), spacing_.data(), momentum_.data());
   resolve_all({n, spacing_.data(), momentum_.data(), s_.data(), phi_.data(), psi_.data(), sound_speed_.data(),
                EK_.data(), velocity_.data(), good_.data()});
   for (std::size_t i = 0; i < n; ++i) {
@@ -81,13 +96,7 @@ void Semidiscrete::find_faces() {
   cell_means(n, psi_.data(), psi_mean_.data());
   double* plus = invariant_plus_.data() + ghosts;
   double* minus = invariant_minus_.data() + ghosts;
-  double scale = 0;  // invariants are scaled to 1, so that squares of 1e-300 do not underflow
-  for (std::size_t i = 0; i < n; ++i) scale = std::max(scale, std::fabs(phi_mean_[i]) + psi_mean_[i]);
-  const double inverse = scale > 0 ? 1 / scale : 1;
-  for (std::size_t i = 0; i < n; ++i) {
-    plus[i] = (phi_mean_[i] + psi_mean_[i]) * inverse;
-    minus[i] = (phi_mean_[i] - psi_mean_[i]) * inverse;
-  }
+  const double scale = invariants(n, phi_mean_.data(), psi_mean_.data(), plus, minus);
   for (std::size_t g = 1; g <= ghosts; ++g) {
     // Beyond a free edge psi = 0, and the edge moves at the invariant that reaches it.
     *(plus - g) = setup_.left_free ? minus[0] : plus[0];
@@ -163,12 +172,7 @@ void Semidiscrete::add_sources(double t, const double* y, double* dy) {
   const std::vector<double>& charge = compact_ ? setup_.charge : charge_point_;
   double dissipation = 0, supply = 0;
   if (linear && !setup_.forcing) {  // the plain case, without the detour over point values
-    for (std::size_t i = 0; i < n; ++i) {
-      const double loss = friction.coefficient * y[2 * i + 1];
-      dissipation += velocity_[i] * loss;
-      dy[2 * i + 1] -= loss;
-    }
-    dy[2 * n + 1] = dissipation;
+    dy[2 * n + 1] = damp(n, friction.coefficient, y, velocity_.data(), dy);
     return;
   }
   if (setup_.forcing) find_centres(y);
@@ -204,15 +208,18 @@ void Semidiscrete::add_sources(double t, const double* y, double* dy) {
 
 void Semidiscrete::find_rates() {
   const modulation::Friction& f = setup_.friction;
+  if (f.law == modulation::FrictionLaw::viscous) {  // as relaxation_rate, with the E K that are known already
+    if (f.closure == modulation::Closure::consistent) {
+      std::fill(rate_.begin(), rate_.end(), f.coefficient);
+      largest_rate_ = f.coefficient;
+    } else {
+      largest_rate_ = paper_rates(size(), f.coefficient, EK_.data(), rate_.data());
+    }
+    return;
+  }
   largest_rate_ = 0;
   for (std::size_t i = 0; i < size(); ++i) {
-    // What relaxation_rate does, with the K and E that are known already where they matter.
-    if (f.law != modulation::FrictionLaw::viscous)
-      rate_[i] = modulation::relaxation_rate({phi_[i], psi_[i]}, f);
-    else if (f.closure == modulation::Closure::consistent || psi_[i] == 0)
-      rate_[i] = f.coefficient;
-    else
-      rate_[i] = f.coefficient * pi * pi / (4 * EK_[i]);
+    rate_[i] = modulation::relaxation_rate({phi_[i], psi_[i]}, f);
     largest_rate_ = std::max(largest_rate_, rate_[i]);
   }
 }
@@ -228,22 +235,12 @@ void Semidiscrete::operator()(double t, const double* y, double* dy) {
   face_fluxes(n + 1, face_phi_.data(), face_psi_.data(), face_U_.data(), face_p_.data());
   dy[2 * n] = face_U_[0];
   dy[2 * n + 1] = dy[2 * n + 2] = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    dy[2 * i] = face_U_[i + 1] - face_U_[i];
-    dy[2 * i + 1] = face_p_[i] - face_p_[i + 1];
-  }
+  differences(n, face_U_.data(), face_p_.data(), dy);
   add_sources(t, y, dy);
 }
 
 double Semidiscrete::crossing_time(const double* y) const {
-  double least = HUGE_VAL;
-  for (std::size_t i = 0; i < size(); ++i) {
-    if (psi_[i] == 0) continue;
-    const double U = velocity_[i], c0 = sound_speed_[i];
-    const double fastest = c0 * (1 - U * U) / (1 - std::fabs(U) * c0);  // |lambda_pm - U|
-    least = std::min(least, y[2 * i] / fastest);
-  }
-  return least;
+  return least_crossing_time(size(), y, velocity_.data(), sound_speed_.data());
 }
 
 double Semidiscrete::mean_crossing_time(const double* y) const {

@@ -61,6 +61,7 @@ class Semidiscrete {
 
   Setup setup_;
   std::vector<double> charge_point_;  ///< q_s at the centres
+  std::vector<double> per_charge_, per_charge_point_;
   // At the cell centres.
   std::vector<double> width_, momentum_in_cell_, spacing_, momentum_, s_, phi_, psi_, phi_mean_, psi_mean_;
   std::vector<double> sound_speed_, EK_, good_, rate_, source_, source_mean_, centres_, velocity_;
