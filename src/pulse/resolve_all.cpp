@@ -85,7 +85,7 @@ SLIPFRONT_CLONES void resolve_all(const ResolveArrays& a) {
       const float step = HalleyStep<float>(at.K, at.E, m1, half, eighth).step;
       log_s += step;
       const float twice = 2 * step;
-      m1 *= 1 + twice * (1 + twice / 2 * (1 + twice / 3));
+      m1 *= 1 + twice * (1 + twice * (0.5f + twice * (1.0f / 6)));
     }
     psi[i] = static_cast<double>(log_s);
   }
@@ -99,7 +99,7 @@ SLIPFRONT_CLONES void resolve_all(const ResolveArrays& a) {
     // All to this step by derivatives; what is left is of the order of its third power.
     const double K = at.K + step * (halley.slope_K + step / 2 * halley.curve_K);
     const double E = at.E + step * (halley.slope_E + step / 2 * halley.curve_E);
-    const double s = from + from * (step * (1 + step / 2 * (1 + step / 3)));
+    const double s = from + from * (step * (1 + step * (0.5 + step * (1.0 / 6))));
     const double m = 1 - s * s, push = half * eighth, forth = std::fabs(push), both = E * K;
     // psi = ln((1 + s) / (1 - s)) / 2; tanh phi = push / E K, and so phi = ln(m (EK + forth)^2 / (E half)^2) / 2, as
     // m ((EK)^2 - push^2) = (E half)^2.
