@@ -111,7 +111,8 @@ void print(const Result& r, const CommonOptions& options, const std::string& out
       {"conservation_error", number(conserved), "of the dislocation number, relative"},
       {"cells", fmt::format("{}", r.run.solver().size()), ""},
       {"steps", fmt::format("{}", r.run.solver().cells().steps), ""},
-      {"wall_seconds", number(r.wall), ""},
+      {"solve_seconds", number(r.run.stepping_seconds()), "of the time steps alone"},
+      {"wall_seconds", number(r.wall), "of the whole command"},
   };
   if (options.json) {
     std::string text = "{";

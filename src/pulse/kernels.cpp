@@ -2,109 +2,12 @@
 
 #include <cmath>
 #include <initializer_list>
-#include <numbers>
 
 #include "branch_free.hpp"
+#include "vector_code.hpp"
 #include "weno.hpp"
 
-// g++ gets a version for each level of x86-64, chosen at run time. clang 14 knows neither that nor these pragmas (its
-// own complain where optimisation is off): its build runs the loops as they come.
-#if defined(__GNUC__) && !defined(__clang__)
-#define SLIPFRONT_INDEPENDENT _Pragma("GCC ivdep")
-#define SLIPFRONT_UNROLL _Pragma("GCC unroll 8")
-#else
-#define SLIPFRONT_INDEPENDENT
-#define SLIPFRONT_UNROLL
-#endif
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define SLIPFRONT_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#else
-#define SLIPFRONT_CLONES
-#endif
-
 namespace slipfront::pulse {
-
-namespace {
-
-/// K, E/K and E/K - s^2 at s, by the mean of 1 and s with differences c_n without cancellation.
-template <class Real, int steps>
-struct Mean {
-  Real K, ratio, above;
-  explicit Mean(Real s) {
-    const Real c1 = (1 - s) / 2;
-    Real mean = (1 + s) / 2, other = std::sqrt(s), c = c1, tail = 0, weight = 2;
-    SLIPFRONT_UNROLL
-    for (int k = 0; k < steps; ++k) {
-      const Real next = (mean + other) / 2;
-      c = c * c / (4 * next);
-      tail += weight * c * c;
-      weight *= 2;
-      other = std::sqrt(mean * other);
-      mean = next;
-    }
-    const Real excess = c1 * c1 - tail;
-    K = std::numbers::pi_v<Real> / (mean + other);
-    ratio = s + excess;
-    above = excess + 2 * s * c1;
-  }
-};
-
-/// One Newton step in ln s for K - l sqrt(cosh^2 psi + (M / 8E)^2) / 2 = 0; cosh^2 psi = 1 / (1 - s^2).
-template <class Real, int steps>
-struct NewtonStep {
-  Mean<Real, steps> at;
-  Real E, m, slope_K, step;
-  NewtonStep(Real s, Real half, Real eighth) : at(s), E(at.K * at.ratio), m(1 - s * s), slope_K(-at.above / m * at.K) {
-    const Real rapid = eighth / E, rapid_square = rapid * rapid;
-    const Real length = half * std::sqrt(1 / m + rapid_square);
-    const Real slope_length = half * half / length * (s * s / m) * (1 / m - rapid_square * (1 / at.ratio - 1));
-    step = (at.K - length) / (slope_length - slope_K);
-  }
-};
-
-}  // namespace
-
-SLIPFRONT_CLONES void resolve_all(const ResolveArrays& a) {
-  const std::size_t n = a.size;
-  const double *spacing = a.spacing, *momentum = a.momentum;
-  double *s_out = a.s, *phi = a.phi, *psi = a.psi, *sound = a.sound_speed, *EK = a.EK, *good = a.good;
-  constexpr double least = 1e-10, most = 0.9;
-  // Two steps in single precision bring the guess to about 1e-6; twice as many lanes, and roots at a quarter of the
-  // price.
-  SLIPFRONT_INDEPENDENT
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto half = static_cast<float>(spacing[i] / 2), eighth = static_cast<float>(momentum[i] / 8);
-    const double guess = s_out[i];
-    good[i] = guess > least && guess < most ? 1.0 : 0.0;
-    // A lane out of range computes with a harmless s and is thrown away.
-    auto s = static_cast<float>(guess < least ? least : guess > most ? most : guess);
-    SLIPFRONT_UNROLL
-    for (int iteration = 0; iteration < 2; ++iteration) {
-      const float step = NewtonStep<float, 6>(s, half, eighth).step;
-      s *= 1 + step * (1 + step / 2);
-    }
-    // What single precision cannot improve it may spoil: there is nothing to gain if the guess was good.
-    s_out[i] = good[i] != 0 ? static_cast<double>(s) : guess;
-  }
-  SLIPFRONT_INDEPENDENT
-  for (std::size_t i = 0; i < n; ++i) {
-    const double half = spacing[i] / 2, eighth = momentum[i] / 8, from = s_out[i];
-    const bool in_range = from > least && from < most;
-    double s = in_range ? from : 0.5;
-    const NewtonStep<double, 7> newton(s, half, eighth);
-    const double step = newton.step, m = newton.m, ratio = newton.at.ratio;
-    // All to this step by derivatives; what is left is of the order of its square.
-    const double E = newton.E + s * s * (newton.at.K - newton.E) / m * step;
-    sound[i] = s / ratio * (1 + (1 - ratio) * newton.at.above / (m * ratio) * step);
-    EK[i] = E * (newton.at.K + newton.slope_K * step);
-    s *= 1 + step * (1 + step / 2);
-    const bool fine = good[i] != 0 && in_range && std::fabs(step) < 2e-5;
-    good[i] = fine ? 1.0 : 0.0;
-    s_out[i] = fine ? s : from;
-    phi[i] = asinh_branch_free(eighth * std::sqrt(1 - s * s) / E);
-    psi[i] = atanh_branch_free(s);
-  }
-}
 
 namespace {
 
@@ -147,25 +50,123 @@ SLIPFRONT_CLONES void weno_faces(std::size_t faces, const double* plus, const do
   for (std::size_t f = 0; f < faces; ++f) {
     const double* p = plus + f;
     const double* m = minus + f;
-    const double from_left = weno5(p[-3], p[-2], p[-1], p[0], p[1]), from_right = weno5(m[2], m[1], m[0], m[-1], m[-2]);
+    const Weno5 left(p[-3], p[-2], p[-1], p[0], p[1]), right(m[2], m[1], m[0], m[-1], m[-2]);
+    const double inverse = 1 / (left.below * right.below);
+    const double from_left = left.above * right.below * inverse, from_right = right.above * left.below * inverse;
     phi[f] = (from_left + from_right) / 2 * scale;
     const double half = (from_left - from_right) / 2;
     psi[f] = (half > 0 ? half : 0.0) * scale;
   }
 }
 
-SLIPFRONT_CLONES void velocities(std::size_t size, const double* phi, double* U) {
-  SLIPFRONT_INDEPENDENT
-  for (std::size_t i = 0; i < size; ++i) U[i] = tanh_branch_free(phi[i]);
-}
-
 SLIPFRONT_CLONES void face_fluxes(std::size_t faces, const double* phi, const double* psi, double* U, double* p) {
   SLIPFRONT_INDEPENDENT
   for (std::size_t f = 0; f < faces; ++f) {
-    const double sinh_psi = sinh_branch_free(psi[f]);
-    U[f] = tanh_branch_free(phi[f]);
-    p[f] = 2 * sinh_psi * sinh_psi;
+    // tanh phi = -down / (2 + down), 2 sinh^2 psi = cosh 2 psi - 1 = up^2 / (2 (1 + up)), by one division.
+    const double down = expm1_branch_free(-2 * std::fabs(phi[f])), up = expm1_branch_free(2 * psi[f]);
+    const double wide = 2 + down, tall = 1 + up, inverse = 1 / (wide * tall);
+    U[f] = std::copysign(down * tall * inverse, phi[f]);
+    p[f] = (up * inverse) * wide * (up / 2);
   }
+}
+
+SLIPFRONT_CLONES void split(std::size_t size, const double* pairs, double* first, double* second) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) {
+    first[i] = pairs[2 * i];
+    second[i] = pairs[2 * i + 1];
+  }
+}
+
+SLIPFRONT_CLONES void multiply(std::size_t size, const double* by, double* a, double* b) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) {
+    a[i] *= by[i];
+    b[i] *= by[i];
+  }
+}
+
+namespace {
+
+// Sums and extrema in eight lanes, in the same order on every machine.
+constexpr std::size_t lanes = 8;
+
+template <class Value, class Join>
+inline double reduce(std::size_t size, double start, Value value, Join join) {
+  double part[lanes];
+  for (double& p : part) p = start;
+  std::size_t i = 0;
+  for (; i + lanes <= size; i += lanes)
+    for (std::size_t j = 0; j < lanes; ++j) part[j] = join(part[j], value(i + j));
+  for (; i < size; ++i) part[0] = join(part[0], value(i));
+  for (std::size_t j = 1; j < lanes; ++j) part[0] = join(part[0], part[j]);
+  return part[0];
+}
+
+inline double larger(double a, double b) { return b > a ? b : a; }
+inline double smaller(double a, double b) { return b < a ? b : a; }
+
+}  // namespace
+
+SLIPFRONT_CLONES double invariants(std::size_t size, const double* phi, const double* psi, double* plus,
+                                   double* minus) {
+  const double scale = reduce(
+      size, 0, [=](std::size_t i) { return std::fabs(phi[i]) + psi[i]; }, larger);
+  const double inverse = scale > 0 ? 1 / scale : 1;
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) {
+    plus[i] = (phi[i] + psi[i]) * inverse;
+    minus[i] = (phi[i] - psi[i]) * inverse;
+  }
+  return scale;
+}
+
+SLIPFRONT_CLONES void differences(std::size_t size, const double* U, const double* p, double* dy) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) {
+    dy[2 * i] = U[i + 1] - U[i];
+    dy[2 * i + 1] = p[i] - p[i + 1];
+  }
+}
+
+SLIPFRONT_CLONES double damp(std::size_t size, double rate, const double* y, const double* U, double* dy) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) dy[2 * i + 1] -= rate * y[2 * i + 1];
+  return rate *
+         reduce(
+             size, 0, [=](std::size_t i) { return U[i] * y[2 * i + 1]; }, [](double a, double b) { return a + b; });
+}
+
+SLIPFRONT_CLONES double paper_rates(std::size_t size, double coefficient, const double* EK, double* rate) {
+  const double most = coefficient * 2.4674011002723397;  // pi^2 / 4
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) rate[i] = EK[i] > 0 ? most / EK[i] : coefficient;
+  return reduce(
+      size, 0, [=](std::size_t i) { return rate[i]; }, larger);
+}
+
+SLIPFRONT_CLONES double least_crossing_time(std::size_t size, const double* y, const double* dy, const double* U,
+                                            const double* c0) {
+  return reduce(
+      size, HUGE_VAL,
+      [=](std::size_t i) {
+        const double slowed = 1 - std::fabs(U[i]) * c0[i];
+        return y[2 * i] * slowed / larger(c0[i] * (1 - U[i] * U[i]), -dy[2 * i] * slowed * (1 / 0.3));
+      },
+      smaller);
+}
+
+SLIPFRONT_CLONES void combine3(std::size_t size, std::array<double, 3> c, std::array<const double*, 3> x, double* sum) {
+  const auto [x0, x1, x2] = x;
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) sum[i] = c[0] * x0[i] + c[1] * x1[i] + c[2] * x2[i];
+}
+
+SLIPFRONT_CLONES void combine5(std::size_t size, std::array<double, 5> c, std::array<const double*, 5> x, double* sum) {
+  const auto [x0, x1, x2, x3, x4] = x;
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i)
+    sum[i] = c[0] * x0[i] + c[1] * x1[i] + c[2] * x2[i] + c[3] * x3[i] + c[4] * x4[i];
 }
 
 }  // namespace slipfront::pulse

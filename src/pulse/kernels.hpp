@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 
 /// The loops over cells and faces where a pulse run spends its time, as vector code chosen at run time (AVX-512, AVX2
@@ -7,7 +8,7 @@
 namespace slipfront::pulse {
 
 /// modulation::resolve for many cells. `s` = tanh(psi) comes in as the guess and goes out as the result. Cells that are
-/// out of the ordinary (s outside 1e-10 ... 0.9, or a guess too far off) are left with good = 0 for the scalar route.
+/// out of the ordinary (s outside 1e-290 ... 0.9, or a guess too far off) are left with good = 0 for the scalar route.
 struct ResolveArrays {
   std::size_t size;
   const double* spacing;
@@ -17,7 +18,8 @@ struct ResolveArrays {
   double* psi;
   double* sound_speed;
   double* EK;
-  double* good;  ///< 1 or 0
+  double* velocity;  ///< tanh(phi)
+  double* good;      ///< 1 or 0
 };
 void resolve_all(const ResolveArrays& a);
 
@@ -31,10 +33,33 @@ void cell_means(std::size_t size, const double* values, double* averages);
 /// the cells beside face f, with three ghosts at each end. phi = (plus + minus) / 2, psi = max((plus - minus) / 2, 0).
 void weno_faces(std::size_t faces, const double* plus, const double* minus, double scale, double* phi, double* psi);
 
-/// U = tanh(phi).
-void velocities(std::size_t size, const double* phi, double* U);
-
 /// U = tanh(phi), p = 2 sinh^2 psi. Returns nothing else: |phi| < 350, psi < 350 as everywhere in a run.
 void face_fluxes(std::size_t faces, const double* phi, const double* psi, double* U, double* p);
+
+/// first, second = pairs[2 i], pairs[2 i + 1].
+void split(std::size_t size, const double* pairs, double* first, double* second);
+
+/// a *= by, b *= by.
+void multiply(std::size_t size, const double* by, double* a, double* b);
+
+/// plus, minus = phi +- psi over the largest of them, which is returned: the squares of 1e-300 would underflow.
+double invariants(std::size_t size, const double* phi, const double* psi, double* plus, double* minus);
+
+/// dy of the conservation laws from the fluxes at the faces.
+void differences(std::size_t size, const double* U, const double* p, double* dy);
+
+/// Friction at one rate for all on the momenta y[2 i + 1]; returns the power that it takes.
+double damp(std::size_t size, double rate, const double* y, const double* U, double* dy);
+
+/// Viscous friction rates of closure "paper", C pi^2 / (4 E K), C where EK is given as 0; returns the largest.
+double paper_rates(std::size_t size, double coefficient, const double* EK, double* rate);
+
+/// Least time in which a wave crosses a cell of width y[2 i], |lambda_pm - U| = c0 (1 - U^2) / (1 - |U| c0), or the
+/// cell loses 0.3 of it.
+double least_crossing_time(std::size_t size, const double* y, const double* dy, const double* U, const double* c0);
+
+/// sum = c_0 x_0 + c_1 x_1 + ...
+void combine3(std::size_t size, std::array<double, 3> c, std::array<const double*, 3> x, double* sum);
+void combine5(std::size_t size, std::array<double, 5> c, std::array<const double*, 5> x, double* sum);
 
 }  // namespace slipfront::pulse

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "slipfront/modulation/characteristics.hpp"
-#include "slipfront/rupture/inverse.hpp"
+#include "slipfront/modulation/per_dislocation.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::pulse {
@@ -68,14 +68,26 @@ void find_peak_and_observed_fronts(const Solver::View& v, double threshold, Snap
 
 Energy energy_of(const Solver& solver, const Solver::View& v) {
   Energy e{0, 0, solver.dissipated(), solver.supplied()};
-  for (std::size_t i = 0; i < v.states.size(); ++i) {
+  const std::size_t n = v.states.size();
+  std::vector<double> width(n), rest(n), moving(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    width[i] = v.faces[i + 1] - v.faces[i];
     if (v.states[i].empty()) continue;
-    const double width = v.faces[i + 1] - v.faces[i];
     const double x = v.centres[i], contact = v.contact ? v.contact(x) : 1;
     const train::Averages a = averages_of(v, v.states[i], x);
-    const double rest = averages_of(v, {0, rupture::psi_of_stress(a.k / contact)}, x).H;
-    e.elastic += rest * width;
-    e.kinetic += (a.H - rest) * width;
+    const State at_rest = modulation::state_of({2 * pi * contact / a.k, 0}, v.states[i].psi);
+    rest[i] = averages_of(v, at_rest, x).H;
+    moving[i] = a.H - rest[i];
+  }
+  // A cell's integral from the values at centres, fourth order in the cells' own coordinate.
+  const auto integral = [&](const std::vector<double>& f, std::size_t i) {
+    if (i == 0 || i + 1 == n || v.states[i - 1].empty() || v.states[i + 1].empty()) return f[i] * width[i];
+    return (f[i] + (f[i - 1] - 2 * f[i] + f[i + 1]) / 24) * width[i] +
+           (f[i + 1] - f[i - 1]) * (width[i + 1] - width[i - 1]) / 48;
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    e.elastic += integral(rest, i);
+    e.kinetic += integral(moving, i);
   }
   return e;
 }
@@ -108,11 +120,13 @@ void LeftFront::advance(const Solver& now, double dt) {
     position_ += dt * speed_;
     return;
   }
-  const Solver::View v = now.view();
+  const std::vector<double>& y = now.cells().y;
+  std::size_t cell = 0;
+  for (double right = y[2 * now.size()] + y[0]; cell + 1 < now.size() && right <= position_; right += y[2 * cell])
+    ++cell;
   // Ahead of it by more than a reconstruction reaches, so that the front itself is not seen.
-  const auto cell = std::upper_bound(v.faces.begin(), v.faces.end(), position_) - v.faces.begin() - 1;
-  const std::size_t ahead = static_cast<std::size_t>(std::max<std::ptrdiff_t>(cell - 6, 0));
-  position_ += dt * modulation::characteristic_speeds(v.states[ahead]).minus;
+  const State ahead = now.state_in(cell > 6 ? cell - 6 : 0);
+  position_ += dt * modulation::characteristic_speeds(ahead).minus;
 }
 
 Snapshot observe(const Solver& solver, const std::vector<double>& x_edges, double left_front, double threshold) {

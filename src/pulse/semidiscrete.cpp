@@ -46,8 +46,26 @@ void middles(const std::vector<Stretch>& stretches, const std::vector<double>& f
 Semidiscrete::Semidiscrete(Setup setup)
     : setup_(std::move(setup)), stretches_(stretches_of(setup_.charge, setup_.left_free, setup_.right_free)) {
   const std::size_t n = size();
-  for (auto* array : {&charge_point_, &width_, &momentum_in_cell_, &spacing_, &momentum_, &s_, &phi_, &psi_, &phi_mean_,
-                      &psi_mean_, &sound_speed_, &EK_, &good_, &rate_, &source_, &source_mean_, &centres_, &velocity_})
+  for (auto* array : {&charge_point_,
+                      &per_charge_,
+                      &per_charge_point_,
+                      &width_,
+                      &momentum_in_cell_,
+                      &spacing_,
+                      &momentum_,
+                      &s_,
+                      &phi_,
+                      &psi_,
+                      &phi_mean_,
+                      &psi_mean_,
+                      &sound_speed_,
+                      &EK_,
+                      &good_,
+                      &rate_,
+                      &source_,
+                      &source_mean_,
+                      &centres_,
+                      &velocity_})
     array->assign(n, 0);
   for (auto* array : {&invariant_plus_, &invariant_minus_}) array->assign(n + 2 * ghosts, 0);
   for (auto* array : {&face_phi_, &face_psi_, &face_U_, &face_p_, &faces_}) array->assign(n + 1, 0);
@@ -58,6 +76,14 @@ Semidiscrete::Semidiscrete(Setup setup)
   }
   for (const Stretch& r : stretches_)
     centre_values(r.end - r.begin, setup_.charge.data() + r.begin, charge_point_.data() + r.begin);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (gap(i)) {
+      EK_[i] = HUGE_VAL;  // no friction there
+      continue;
+    }
+    per_charge_[i] = 1 / setup_.charge[i];
+    per_charge_point_[i] = 1 / charge_point_[i];
+  }
 }
 
 void Semidiscrete::start_from(const std::vector<double>& s) { s_ = s; }
@@ -70,10 +96,7 @@ std::vector<State> Semidiscrete::states() const {
 
 void Semidiscrete::find_states(double t, const double* y) {
   const std::size_t n = size();
-  for (std::size_t i = 0; i < n; ++i) {
-    width_[i] = y[2 * i];
-    momentum_in_cell_[i] = y[2 * i + 1];
-  }
+  split(n, y, width_.data(), momentum_in_cell_.data());
   if (compact_) {
     spacing_ = width_;
     momentum_ = momentum_in_cell_;
@@ -83,13 +106,9 @@ void Semidiscrete::find_states(double t, const double* y) {
       centre_values(r.end - r.begin, momentum_in_cell_.data() + r.begin, momentum_.data() + r.begin);
     }
   }
-  const std::vector<double>& charge = compact_ ? setup_.charge : charge_point_;
-  for (const Stretch& r : stretches_)
-    for (std::size_t i = r.begin; i < r.end; ++i) {
-      if (!(spacing_[i] > 0)) spacing_[i] = width_[i];  // a last cell, much narrower than the ones beside it
-      spacing_[i] /= charge[i];
-      momentum_[i] /= charge[i];
-    }
+  for (std::size_t i = 0; i < n; ++i)
+    if (!(spacing_[i] > 0)) spacing_[i] = width_[i];  // a last cell, much narrower than the ones beside it
+  multiply(n, (compact_ ? per_charge_ : per_charge_point_).data(), spacing_.data(), momentum_.data());
   if (setup_.contact) {
     for (std::size_t i = 0; i < n; ++i) {
       spacing_[i] *= contact_[i];
@@ -98,8 +117,8 @@ void Semidiscrete::find_states(double t, const double* y) {
   }
   for (const Stretch& r : stretches_) {
     const std::size_t i = r.begin;
-    resolve_all(
-        {r.end - i, &spacing_[i], &momentum_[i], &s_[i], &phi_[i], &psi_[i], &sound_speed_[i], &EK_[i], &good_[i]});
+    resolve_all({r.end - i, &spacing_[i], &momentum_[i], &s_[i], &phi_[i], &psi_[i], &sound_speed_[i], &EK_[i],
+                 &velocity_[i], &good_[i]});
   }
   for (std::size_t i = 0; i < n; ++i) {
     if (good_[i] != 0 || gap(i)) continue;
@@ -111,6 +130,7 @@ void Semidiscrete::find_states(double t, const double* y) {
       s_[i] = std::tanh(at.state.psi);
       sound_speed_[i] = at.sound_speed;
       EK_[i] = at.EK;
+      velocity_[i] = std::tanh(at.state.phi);
     } catch (const NumericsError& error) {
       throw NumericsError("t = " + std::to_string(t) + ", cell " + std::to_string(i) + " of " + std::to_string(n) +
                           ": " + error.what());
@@ -125,22 +145,14 @@ void Semidiscrete::find_faces() {
     cell_means(r.end - r.begin, phi_.data() + r.begin, phi_mean_.data() + r.begin);
     cell_means(r.end - r.begin, psi_.data() + r.begin, psi_mean_.data() + r.begin);
   }
-  double scale = 0;  // invariants are scaled to 1, so that squares of 1e-300 do not underflow
-  for (std::size_t i = 0; i < size(); ++i) scale = std::max(scale, std::fabs(phi_mean_[i]) + psi_mean_[i]);
-  for (const Stretch& r : stretches_) find_faces(r, scale);
+  for (const Stretch& r : stretches_) find_faces(r);
 }
 
-void Semidiscrete::find_faces(const Stretch& stretch, double scale) {
+void Semidiscrete::find_faces(const Stretch& stretch) {
   const std::size_t n = stretch.end - stretch.begin;
   double* plus = invariant_plus_.data() + ghosts;
   double* minus = invariant_minus_.data() + ghosts;
-  const double* phi = phi_mean_.data() + stretch.begin;
-  const double* psi = psi_mean_.data() + stretch.begin;
-  const double inverse = scale > 0 ? 1 / scale : 1;
-  for (std::size_t i = 0; i < n; ++i) {
-    plus[i] = (phi[i] + psi[i]) * inverse;
-    minus[i] = (phi[i] - psi[i]) * inverse;
-  }
+  const double scale = invariants(n, phi_mean_.data() + stretch.begin, psi_mean_.data() + stretch.begin, plus, minus);
   for (std::size_t g = 1; g <= ghosts; ++g) {
     // Beyond a free edge psi = 0, and the edge moves at the invariant that reaches it.
     *(plus - g) = stretch.left_free ? minus[0] : plus[0];
@@ -274,14 +286,8 @@ void Semidiscrete::add_sources(double t, const double* y, double* dy) {
   if (!frictional && !setup_.forcing) return;
   const std::vector<double>& charge = compact_ ? setup_.charge : charge_point_;
   double dissipation = 0, supply = 0;
-  velocities(n, phi_.data(), velocity_.data());
   if (linear && !setup_.forcing) {  // the plain case, without the detour over point values
-    for (std::size_t i = 0; i < n; ++i) {
-      const double loss = friction.coefficient * y[2 * i + 1];
-      dissipation += velocity_[i] * loss;
-      dy[2 * i + 1] -= loss;
-    }
-    dy[2 * n + 1] = dissipation;
+    dy[2 * n + 1] = damp(n, friction.coefficient, y, velocity_.data(), dy);
     return;
   }
   for (std::size_t i = 0; i < n; ++i) {
@@ -320,17 +326,20 @@ void Semidiscrete::add_sources(double t, const double* y, double* dy) {
 
 void Semidiscrete::find_rates() {
   const modulation::Friction& f = setup_.friction;
+  if (f.law == modulation::FrictionLaw::viscous) {  // as relaxation_rate, with the E K that are known already
+    if (f.closure == modulation::Closure::consistent) {
+      std::fill(rate_.begin(), rate_.end(), f.coefficient);
+      largest_rate_ = f.coefficient;
+    } else {
+      largest_rate_ = paper_rates(size(), f.coefficient, EK_.data(), rate_.data());
+    }
+    return;
+  }
   largest_rate_ = 0;
   for (std::size_t i = 0; i < size(); ++i) {
     if (gap(i)) continue;
-    // What relaxation_rate does, with the K and E that are known already where they matter.
-    if (f.law != modulation::FrictionLaw::viscous) {
-      rate_[i] = modulation::relaxation_rate({phi_[i], psi_[i]}, f);
-      if (setup_.contact) rate_[i] *= std::pow(contact_[i], f.exponent - 1);  // <|w|^n sigma> over P, w in units of a
-    } else {
-      const bool as_momentum = f.closure == modulation::Closure::consistent || psi_[i] == 0;
-      rate_[i] = as_momentum ? f.coefficient : f.coefficient * pi * pi / (4 * EK_[i]);
-    }
+    rate_[i] = modulation::relaxation_rate({phi_[i], psi_[i]}, f);
+    if (setup_.contact) rate_[i] *= std::pow(contact_[i], f.exponent - 1);  // <|w|^n sigma> over P, w in units of a
     largest_rate_ = std::max(largest_rate_, rate_[i]);
   }
 }
@@ -348,28 +357,21 @@ void Semidiscrete::operator()(double t, const double* y, double* dy) {
   for (std::size_t f = 0; f < face_contact_.size(); ++f) face_p_[f] *= face_contact_[f] * face_contact_[f];
   dy[2 * n] = face_U_[0];
   dy[2 * n + 1] = dy[2 * n + 2] = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    dy[2 * i] = face_U_[i + 1] - face_U_[i];
-    dy[2 * i + 1] = face_p_[i] - face_p_[i + 1];
-  }
+  differences(n, face_U_.data(), face_p_.data(), dy);
   if (setup_.contact) add_contact_force(dy);
   add_sources(t, y, dy);
 }
 
-double Semidiscrete::crossing_time(const double* y) const {
+double Semidiscrete::crossing_time(const double* y, const double* dy) const {
   double least = HUGE_VAL;
-  for (std::size_t i = 0; i < size(); ++i) {
-    if (gap(i)) continue;
-    const double closing = face_U_[i] - face_U_[i + 1];
-    if (closing > 0) least = std::min(least, y[2 * i] / (2 * closing));
-    // Nor may the contact throw a cell, of mass 8 a dislocation, farther than a part of its width.
-    if (setup_.contact && contact_force_[i] != 0)
-      least = std::min(least, std::sqrt(4 * setup_.charge[i] * y[2 * i] / std::fabs(contact_force_[i])));
-    if (psi_[i] == 0) continue;
-    const double U = std::tanh(phi_[i]), c0 = sound_speed_[i];
-    const double fastest = c0 * (1 - U * U) / (1 - std::fabs(U) * c0);  // |lambda_pm - U|
-    least = std::min(least, y[2 * i] / fastest);
+  for (const Stretch& r : stretches_) {
+    const std::size_t i = r.begin;
+    least = std::fmin(least, least_crossing_time(r.end - i, y + 2 * i, dy + 2 * i, &velocity_[i], &sound_speed_[i]));
   }
+  if (setup_.contact)  // which may not throw a cell, of mass 8 a dislocation, farther than a part of its width
+    for (std::size_t i = 0; i < size(); ++i)
+      if (contact_force_[i] != 0)
+        least = std::fmin(least, std::sqrt(4 * setup_.charge[i] * y[2 * i] / std::fabs(contact_force_[i])));
   return least;
 }
 

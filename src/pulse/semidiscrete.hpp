@@ -61,8 +61,9 @@ class Semidiscrete {
   const std::vector<double>& face_phi() const { return face_phi_; }
   const std::vector<double>& face_psi() const { return face_psi_; }
   double largest_friction_rate() const { return largest_rate_; }
-  /// Least time in which a wave crosses a cell, or half of that in which its faces meet.
-  double crossing_time(const double* y) const;
+  /// Least time in which a wave crosses a cell, or a cell that is being compressed loses three tenths of its width:
+  /// what runs into a nearly empty stretch compresses cells faster than waves cross them.
+  double crossing_time(const double* y, const double* dy) const;
   /// That of a cell of average width, at the fastest sound speed.
   double mean_crossing_time(const double* y) const;
 
@@ -70,7 +71,7 @@ class Semidiscrete {
   void find_states(double t, const double* y);
   void find_places(const double* y);
   void find_faces();
-  void find_faces(const Stretch& stretch, double scale);
+  void find_faces(const Stretch& stretch);
   void flatten_shocks(const Stretch& stretch, const double* plus, const double* minus, double scale);
   void find_compact_faces(const double* y);
   void find_rates();
@@ -82,6 +83,7 @@ class Semidiscrete {
   Setup setup_;
   std::vector<Stretch> stretches_;
   std::vector<double> charge_point_;  ///< q_s at the centres
+  std::vector<double> per_charge_, per_charge_point_;
   // At the cell centres.
   std::vector<double> width_, momentum_in_cell_, spacing_, momentum_, s_, phi_, psi_, phi_mean_, psi_mean_;
   std::vector<double> sound_speed_, EK_, good_, rate_, source_, source_mean_, centres_, velocity_;

@@ -6,9 +6,11 @@
 #include <string>
 #include <utility>
 
+#include "kernels.hpp"
 #include "layout.hpp"
 #include "semidiscrete.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/modulation/per_dislocation.hpp"
 #include "slipfront/rupture/inverse.hpp"
 #include "slipfront/train/train.hpp"
 #include "time_step.hpp"
@@ -199,7 +201,7 @@ bool Solver::advance_until_gap_closes(double time, const std::function<bool()>& 
     equations.start_from(cells_.s);  // as a resumed run does, whoever has looked at the equations since the last step
     f(cells_.time, cells_.y.data(), rate.data());
     const double left = std::fmin(time - cells_.time, gaps_close_in(rate));
-    const double crossing = problem_.cfl * equations.crossing_time(cells_.y.data());
+    const double crossing = problem_.cfl * equations.crossing_time(cells_.y.data(), rate.data());
     const bool stiff = equations.largest_friction_rate() * equations.mean_crossing_time(cells_.y.data()) > stiff_above;
     double dt = crossing;
     if (!stiff) {
@@ -289,6 +291,24 @@ Solver::View Solver::view() const {
   v.centres.resize(n);
   middles(equations_->stretches(), v.faces, v.centres);
   return v;
+}
+
+State Solver::state_in(std::size_t cell) const {
+  constexpr std::size_t reach = 2, stencil = 2 * reach + 1;
+  const std::vector<double>& charge = cells_.charge;
+  if (problem_.contact) return view().states[cell];
+  if (charge[cell] == 0) return {};
+  const double psi = std::atanh(cells_.s[cell]);
+  const bool inside = cell >= reach && cell + reach < size() &&
+                      std::find(&charge[cell - reach], &charge[cell + reach] + 1, 0.0) == &charge[cell + reach] + 1;
+  if (!inside)
+    return modulation::state_of({cells_.y[2 * cell] / charge[cell], cells_.y[2 * cell + 1] / charge[cell]}, psi);
+  double width[stencil], momentum[stencil], width_at[stencil], momentum_at[stencil], charge_at[stencil];
+  split(stencil, cells_.y.data() + 2 * (cell - reach), width, momentum);
+  centre_values(stencil, width, width_at);
+  centre_values(stencil, momentum, momentum_at);
+  centre_values(stencil, &charge[cell - reach], charge_at);
+  return modulation::state_of({width_at[reach] / charge_at[reach], momentum_at[reach] / charge_at[reach]}, psi);
 }
 
 double Solver::initial_charge_left_of(double x) const { return charge_left_of(first_, x); }

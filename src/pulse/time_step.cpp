@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels.hpp"
+
 namespace slipfront::pulse {
 
 ExplicitStep::ExplicitStep(std::size_t size) {
@@ -12,20 +14,18 @@ ExplicitStep::ExplicitStep(std::size_t size) {
 void ExplicitStep::operator()(const Rates& f, double t, double dt, std::vector<double>& y,
                               const std::vector<double>& k0) {
   const std::size_t n = y.size();
-  for (std::size_t i = 0; i < n; ++i) u1_[i] = y[i] + 0.391752226571890 * dt * k0[i];
-  f(t + 0.391752226571890 * dt, u1_.data(), rate_.data());
-  for (std::size_t i = 0; i < n; ++i)
-    u2_[i] = 0.444370493651235 * y[i] + 0.555629506348765 * u1_[i] + 0.368410593050371 * dt * rate_[i];
-  f(t + 0.586079689311540 * dt, u2_.data(), rate_.data());
-  for (std::size_t i = 0; i < n; ++i)
-    u3_[i] = 0.620101851488403 * y[i] + 0.379898148511597 * u2_[i] + 0.251891774271694 * dt * rate_[i];
-  f(t + 0.474542363121399 * dt, u3_.data(), rate3_.data());
-  for (std::size_t i = 0; i < n; ++i)
-    u4_[i] = 0.178079954393132 * y[i] + 0.821920045606868 * u3_[i] + 0.544974750228521 * dt * rate3_[i];
-  f(t + 0.935010630967652 * dt, u4_.data(), rate_.data());
-  for (std::size_t i = 0; i < n; ++i)
-    y[i] = 0.517231671970585 * u2_[i] + 0.096059710526147 * u3_[i] + 0.063692468666290 * dt * rate3_[i] +
-           0.386708617503269 * u4_[i] + 0.226007483236906 * dt * rate_[i];
+  const double *u1 = u1_.data(), *u2 = u2_.data(), *u3 = u3_.data(), *u4 = u4_.data();
+  const double *y0 = y.data(), *rate = rate_.data(), *rate3 = rate3_.data();
+  combine3(n, {1, 0.391752226571890 * dt, 0}, {y0, k0.data(), y0}, u1_.data());
+  f(t + 0.391752226571890 * dt, u1, rate_.data());
+  combine3(n, {0.444370493651235, 0.555629506348765, 0.368410593050371 * dt}, {y0, u1, rate}, u2_.data());
+  f(t + 0.586079689311540 * dt, u2, rate_.data());
+  combine3(n, {0.620101851488403, 0.379898148511597, 0.251891774271694 * dt}, {y0, u2, rate}, u3_.data());
+  f(t + 0.474542363121399 * dt, u3, rate3_.data());
+  combine3(n, {0.178079954393132, 0.821920045606868, 0.544974750228521 * dt}, {y0, u3, rate3}, u4_.data());
+  f(t + 0.935010630967652 * dt, u4, rate_.data());
+  combine5(n, {0.517231671970585, 0.096059710526147, 0.063692468666290 * dt, 0.386708617503269, 0.226007483236906 * dt},
+           {u2, u3, rate3, u4, rate}, y.data());
 }
 
 namespace {

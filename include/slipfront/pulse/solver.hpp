@@ -28,7 +28,7 @@ struct Problem {
   double corner = 0;            ///< x of a step of stress: a face is laid there
   int cells = 400;              ///< over the parts of the domain that are not empty, >= 4
   double tolerance = 1e-6;      ///< relative, of the implicit steps
-  double cfl = 1.0;             ///< of the explicit steps
+  double cfl = 1.0;             ///< of the explicit steps; smooth problems bear 1.4, steps of stress do not
 };
 
 /// The state of a run. Plain numbers: saved and restored, a run continues to the same bits. A gap between two stressed
@@ -74,6 +74,8 @@ class Solver {
     std::function<double(double)> contact;
   };
   View view() const;
+  /// State at the centre of one cell, as in the view, without making it.
+  State state_in(std::size_t cell) const;
   /// Number of dislocations left of x at t = 0.
   double initial_charge_left_of(double x) const;
 

@@ -1,0 +1,118 @@
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "branch_free.hpp"
+#include "elliptic_fit.hpp"
+#include "kernels.hpp"
+#include "vector_code.hpp"
+
+namespace slipfront::pulse {
+namespace {
+
+/// K and E at m1 = s^2 from `minus_log` = -ln m1.
+struct KandE {
+  double K, E;
+  KandE(double m1, double minus_log)
+      : K(polynomial(fit::K, m1) + minus_log * polynomial(fit::K_log, m1)),
+        E(1 + m1 * (polynomial(fit::E, m1) + minus_log * polynomial(fit::E_log, m1))) {}
+};
+struct KandEFloat {
+  float K, E;
+  KandEFloat(float m1, float minus_log)
+      : K(polynomial(fit::K_float, m1) + minus_log * polynomial(fit::K_float_log, m1)),
+        E(1 + m1 * (polynomial(fit::E_float, m1) + minus_log * polynomial(fit::E_float_log, m1))) {}
+};
+
+/// The step in ln s that solves K = L, L = (l / 2) sqrt(1 / m + (M / 8E)^2), m = 1 - s^2: Halley's, third order. K is
+/// nearly linear in ln s. A root is avoided: K - L = K (1 - sqrt(1 - 2x)), x = (1 - L^2 / K^2) / 2, small near the end.
+template <class Real>
+struct HalleyStep {
+  Real slope_K, slope_E, curve_K, curve_E, slope, curve, step;
+  HalleyStep(Real K, Real E, Real m1, Real half, Real eighth) {
+    const Real m = 1 - m1, inverse = 1 / (K * E * m);  // one division for three
+    const Real per_K = E * m * inverse, per_E = K * m * inverse, per_m = K * E * inverse;
+    // Derivatives by ln s.
+    const Real up = m1 * per_m;
+    slope_K = -(E - m1 * K) * per_m;
+    slope_E = up * (K - E);
+    curve_K = up * per_m * ((1 + m1) * K - 2 * E);
+    curve_E = up * per_m * (2 * (K - E) - E * m);
+    const Real rapid = eighth * per_E, rapid_square = rapid * rapid, half_square = half * half;
+    const Real e = slope_E * per_E;
+    const Real x = (1 - half_square * (per_m + rapid_square) * per_K * per_K) / 2;
+    const Real off = K * x * (1 + x / 2 * (1 + x)), per_L = per_K * (1 + x * (1 + x + x / 2));
+    // L L', and L L'' = (L L')' - L'^2.
+    const Real slope_square = half_square * (up * per_m - rapid_square * e);
+    const Real curve_square =
+        half_square * (2 * (1 + m1) * up * per_m * per_m - rapid_square * (curve_E * per_E - 3 * e * e));
+    const Real slope_L = slope_square * per_L, curve_L = (curve_square - slope_L * slope_L) * per_L;
+    slope = slope_L - slope_K;
+    curve = curve_L - curve_K;
+    step = off * slope / (slope * slope + off * curve / 2);
+  }
+};
+
+/// ln s for s >= 1e-300, to single precision.
+inline float log_float(double s) {
+  const std::uint64_t lifted = std::bit_cast<std::uint64_t>(s) + (0x3ff0000000000000u - 0x3fe6a09e667f3bcdu);
+  const double e = std::bit_cast<double>((lifted >> 52) | 0x4330000000000000u) - (4503599627370496.0 + 1023.0);
+  const double f = std::bit_cast<double>((lifted & 0x000fffffffffffffu) + 0x3fe6a09e667f3bcdu);
+  const auto g = static_cast<float>(f - 1);
+  return static_cast<float>(e) * 0.693147181f + g * polynomial(fit::log_over_g, g);
+}
+
+inline double clamp(double x, double low, double high) { return x > low ? (x < high ? x : high) : low; }
+
+}  // namespace
+
+SLIPFRONT_CLONES void resolve_all(const ResolveArrays& a) {
+  const std::size_t n = a.size;
+  const double *spacing = a.spacing, *momentum = a.momentum;
+  double *s_out = a.s, *phi = a.phi, *psi = a.psi, *sound = a.sound_speed, *EK = a.EK, *U = a.velocity, *good = a.good;
+  constexpr double least = 1e-290, most = fit::largest_s;
+  // The guess is brought near in single precision: twice as many lanes. ln s waits in `psi`.
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto half = static_cast<float>(spacing[i] / 2), eighth = static_cast<float>(momentum[i] / 8);
+    const double guess = clamp(s_out[i], least, most);
+    const auto s = static_cast<float>(guess);
+    const float log_s = log_float(guess), m1 = s * s;  // below 1e-19 m1 is 0, and all depends on ln s alone
+    const KandEFloat at(m1, -2 * log_s);
+    psi[i] = static_cast<double>(log_s + HalleyStep<float>(at.K, at.E, m1, half, eighth).step);
+  }
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < n; ++i) {
+    const double half = spacing[i] / 2, eighth = momentum[i] / 8;
+    const double log_s = clamp(psi[i], -668.0, -0.105), from = exp_branch_free(log_s), from_square = from * from;
+    const KandE at(from_square, -2 * log_s);
+    const HalleyStep<double> halley(at.K, at.E, from_square, half, eighth);
+    const double step = halley.step;
+    // All to this step by derivatives; what is left is of the order of its third power.
+    const double K = at.K + step * (halley.slope_K + step / 2 * halley.curve_K);
+    const double E = at.E + step * (halley.slope_E + step / 2 * halley.curve_E);
+    const double s = from + from * (step * (1 + step * (0.5 + step * (1.0 / 6))));
+    const double m = 1 - s * s, push = half * eighth, forth = std::fabs(push), both = E * K;
+    // psi = ln((1 + s) / (1 - s)) / 2; tanh phi = push / E K, and so phi = ln(m (EK + forth)^2 / (E half)^2) / 2, as
+    // m ((EK)^2 - push^2) = (E half)^2.
+    const double sum = both + forth, steep = m * sum;
+    const LogRatio for_psi(1 + s, 1 - s, 2 * s);
+    const LogRatio for_phi(steep * sum, (E * half) * (E * half), 2 * steep * forth);
+    const double psi_phi = for_psi.below * for_phi.below, inverse = 1 / (both * psi_phi);  // one division for three
+    const double per_both = psi_phi * inverse, per_psi = both * for_phi.below * inverse,
+                 per_phi = both * for_psi.below * inverse;
+    sound[i] = s * K * K * per_both;
+    EK[i] = both;
+    U[i] = push * per_both;
+    psi[i] = for_psi.half_log(per_psi);
+    phi[i] = std::copysign(for_phi.half_log(per_phi), eighth);
+    // Single precision comes this near; what third order leaves is then a few ulp.
+    const bool near = std::fabs(step) * (halley.slope + std::fabs(halley.curve)) < (4e-6 + 5e-7 * K) * halley.slope;
+    const bool fine = near && half > 0 && s > least && s < most;
+    good[i] = fine ? 1.0 : 0.0;
+    s_out[i] = fine ? s : s_out[i];
+  }
+}
+
+}  // namespace slipfront::pulse
