@@ -117,7 +117,7 @@ double lagrangian_godunov(int cells) {
   pulse::ExplicitStep step(y.size());
   for (double t = 0; t < end * (1 - 1e-12);) {
     f(t, y.data(), rate.data());
-    const double dt = std::fmin(equations.crossing_time(y.data()), end - t);
+    const double dt = std::fmin(equations.crossing_time(y.data(), rate.data()), end - t);
     step(f, t, dt, y, rate);
     t += dt;
   }

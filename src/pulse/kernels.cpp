@@ -132,10 +132,15 @@ SLIPFRONT_CLONES double paper_rates(std::size_t size, double coefficient, const 
       size, 0, [=](std::size_t i) { return rate[i]; }, larger);
 }
 
-SLIPFRONT_CLONES double least_crossing_time(std::size_t size, const double* y, const double* U, const double* c0) {
+SLIPFRONT_CLONES double least_crossing_time(std::size_t size, const double* y, const double* dy, const double* U,
+                                            const double* c0) {
   return reduce(
       size, HUGE_VAL,
-      [=](std::size_t i) { return y[2 * i] * (1 - std::fabs(U[i]) * c0[i]) / (c0[i] * (1 - U[i] * U[i])); }, smaller);
+      [=](std::size_t i) {
+        const double slowed = 1 - std::fabs(U[i]) * c0[i];
+        return y[2 * i] * slowed / larger(c0[i] * (1 - U[i] * U[i]), -dy[2 * i] * slowed * (1 / 0.3));
+      },
+      smaller);
 }
 
 SLIPFRONT_CLONES void combine3(std::size_t size, std::array<double, 3> c, std::array<const double*, 3> x, double* sum) {

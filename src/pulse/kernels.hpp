@@ -54,8 +54,9 @@ double damp(std::size_t size, double rate, const double* y, const double* U, dou
 /// Viscous friction rates of closure "paper", C pi^2 / (4 E K), C where EK is given as 0; returns the largest.
 double paper_rates(std::size_t size, double coefficient, const double* EK, double* rate);
 
-/// Least time in which a wave crosses a cell of width y[2 i]: |lambda_pm - U| = c0 (1 - U^2) / (1 - |U| c0).
-double least_crossing_time(std::size_t size, const double* y, const double* U, const double* c0);
+/// Least time in which a wave crosses a cell of width y[2 i], |lambda_pm - U| = c0 (1 - U^2) / (1 - |U| c0), or the
+/// cell loses 0.3 of it.
+double least_crossing_time(std::size_t size, const double* y, const double* dy, const double* U, const double* c0);
 
 /// sum = c_0 x_0 + c_1 x_1 + ...
 void combine3(std::size_t size, std::array<double, 3> c, std::array<const double*, 3> x, double* sum);

@@ -78,16 +78,9 @@ SLIPFRONT_CLONES void resolve_all(const ResolveArrays& a) {
     const auto half = static_cast<float>(spacing[i] / 2), eighth = static_cast<float>(momentum[i] / 8);
     const double guess = clamp(s_out[i], least, most);
     const auto s = static_cast<float>(guess);
-    float log_s = log_float(guess), m1 = s * s;  // below 1e-19 m1 is 0, and everything depends on ln s alone
-    SLIPFRONT_UNROLL
-    for (int iteration = 0; iteration < 2; ++iteration) {
-      const KandEFloat at(m1, -2 * log_s);
-      const float step = HalleyStep<float>(at.K, at.E, m1, half, eighth).step;
-      log_s += step;
-      const float twice = 2 * step;
-      m1 *= 1 + twice * (1 + twice * (0.5f + twice * (1.0f / 6)));
-    }
-    psi[i] = static_cast<double>(log_s);
+    const float log_s = log_float(guess), m1 = s * s;  // below 1e-19 m1 is 0, and all depends on ln s alone
+    const KandEFloat at(m1, -2 * log_s);
+    psi[i] = static_cast<double>(log_s + HalleyStep<float>(at.K, at.E, m1, half, eighth).step);
   }
   SLIPFRONT_INDEPENDENT
   for (std::size_t i = 0; i < n; ++i) {

@@ -239,8 +239,8 @@ void Semidiscrete::operator()(double t, const double* y, double* dy) {
   add_sources(t, y, dy);
 }
 
-double Semidiscrete::crossing_time(const double* y) const {
-  return least_crossing_time(size(), y, velocity_.data(), sound_speed_.data());
+double Semidiscrete::crossing_time(const double* y, const double* dy) const {
+  return least_crossing_time(size(), y, dy, velocity_.data(), sound_speed_.data());
 }
 
 double Semidiscrete::mean_crossing_time(const double* y) const {

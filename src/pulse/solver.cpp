@@ -21,9 +21,6 @@ using std::numbers::pi;
 /// diffuses.
 constexpr double stiff_above = 1;
 
-/// Bound of cfl with a free edge: the cell there gives way to more than its own sound speed (1.3 has failed, 1.2 not).
-constexpr double cfl_at_free_edge = 1;
-
 void check(const Problem& p) {
   const auto refuse = [](const char* key, double value, const char* allowed) {
     throw InputError({.key = key, .value = std::to_string(value), .problem = "out of range", .allowed = allowed});
@@ -50,7 +47,6 @@ Solver::Solver(Problem problem) : problem_(std::move(problem)) {
   check(problem_);
   const Layout layout = lay_cells(problem_.stress, problem_.left, problem_.right, problem_.cells, problem_.corner);
   charge_ = layout.charge;
-  free_edge_ = layout.left_free || layout.right_free;
   const std::size_t n = size();
   cells_.y.assign(2 * n + Semidiscrete::extra, 0.0);
   cells_.s.resize(n);
@@ -86,8 +82,7 @@ bool Solver::advance_to(double time, const std::function<bool()>& interrupted) {
     equations.start_from(cells_.s);  // as a resumed run does, whoever has looked at the equations since the last step
     f(cells_.time, cells_.y.data(), rate.data());
     const double left = time - cells_.time;
-    const double cfl = free_edge_ ? std::fmin(problem_.cfl, cfl_at_free_edge) : problem_.cfl;
-    const double crossing = cfl * equations.crossing_time(cells_.y.data());
+    const double crossing = problem_.cfl * equations.crossing_time(cells_.y.data(), rate.data());
     const bool stiff = equations.largest_friction_rate() * equations.mean_crossing_time(cells_.y.data()) > stiff_above;
     double dt = crossing;
     if (!stiff) {

@@ -1,13 +1,11 @@
 #pragma once
 
 // For loops over cells. g++ makes a version for each level of x86-64, chosen at run time. clang 14 knows neither that
-// nor these pragmas (its own complain where optimisation is off): its build runs the loops as they come.
+// nor this pragma (its own complain where optimisation is off): its build runs the loops as they come.
 #if defined(__GNUC__) && !defined(__clang__)
 #define SLIPFRONT_INDEPENDENT _Pragma("GCC ivdep")
-#define SLIPFRONT_UNROLL _Pragma("GCC unroll 16")
 #else
 #define SLIPFRONT_INDEPENDENT
-#define SLIPFRONT_UNROLL
 #endif
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
 #define SLIPFRONT_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
