@@ -19,7 +19,7 @@ EVENT = ["name", "c_m_s", "rupture_velocity", "stress", "frictionless_slip_veloc
 
 PULSE = ["closure", "friction_coefficient", "damping_number", "time", "slip_velocity_at_origin", "stress_at_origin",
          "slip_at_origin", "peak_slip_velocity", "peak_position", "trailing_front", "leading_front", "conservation_error", "cells",
-         "steps", "wall_seconds"]
+         "steps", "solve_seconds", "wall_seconds"]
 
 
 def run(*arguments, stdin=""):
