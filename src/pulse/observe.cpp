@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "slipfront/modulation/characteristics.hpp"
-#include "slipfront/rupture/inverse.hpp"
+#include "slipfront/modulation/per_dislocation.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::pulse {
@@ -74,7 +74,7 @@ Energy energy_of(const Solver& solver, const Solver::View& v) {
     width[i] = v.faces[i + 1] - v.faces[i];
     if (v.states[i].empty()) continue;
     const train::Averages a = train::averages(v.states[i]);
-    rest[i] = train::averages({0, rupture::psi_of_stress(a.k)}).H;
+    rest[i] = train::averages(modulation::state_of({2 * pi / a.k, 0}, v.states[i].psi)).H;
     moving[i] = a.H - rest[i];
   }
   // A cell's integral from the values at centres, fourth order in the cells' own coordinate.
@@ -118,11 +118,13 @@ void LeftFront::advance(const Solver& now, double dt) {
     position_ += dt * speed_;
     return;
   }
-  const Solver::View v = now.view();
+  const std::vector<double>& y = now.cells().y;
+  std::size_t cell = 0;
+  for (double right = y[2 * now.size()] + y[0]; cell + 1 < now.size() && right <= position_; right += y[2 * cell])
+    ++cell;
   // Ahead of it by more than a reconstruction reaches, so that the front itself is not seen.
-  const auto cell = std::upper_bound(v.faces.begin(), v.faces.end(), position_) - v.faces.begin() - 1;
-  const std::size_t ahead = static_cast<std::size_t>(std::max<std::ptrdiff_t>(cell - 6, 0));
-  position_ += dt * modulation::characteristic_speeds(v.states[ahead]).minus;
+  const State ahead = now.state_in(cell > 6 ? cell - 6 : 0);
+  position_ += dt * modulation::characteristic_speeds(ahead).minus;
 }
 
 Snapshot observe(const Solver& solver, const std::vector<double>& x_edges, double left_front, double threshold) {

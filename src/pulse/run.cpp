@@ -1,5 +1,6 @@
 #include "slipfront/pulse/run.hpp"
 
+#include <chrono>
 #include <cstdint>
 #include <cstring>
 #include <utility>
@@ -112,7 +113,10 @@ bool Run::go(const std::function<bool()>& interrupted) {
       before = solver_.cells().time;
       return interrupted && interrupted();
     };
-    if (!solver_.advance_to(target, after_step)) return false;
+    const auto begun = std::chrono::steady_clock::now();
+    const bool reached = solver_.advance_to(target, after_step);
+    stepping_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+    if (!reached) return false;
     take();
   }
   return true;

@@ -6,9 +6,11 @@
 #include <string>
 #include <utility>
 
+#include "kernels.hpp"
 #include "layout.hpp"
 #include "semidiscrete.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/modulation/per_dislocation.hpp"
 #include "slipfront/rupture/inverse.hpp"
 #include "time_step.hpp"
 
@@ -154,6 +156,20 @@ Solver::View Solver::view() const {
     v.centres.push_back(inside ? (9 * (v.faces[i] + v.faces[i + 1]) - v.faces[i - 1] - v.faces[i + 2]) / 16 : middle);
   }
   return v;
+}
+
+State Solver::state_in(std::size_t cell) const {
+  constexpr std::size_t reach = 2, stencil = 2 * reach + 1;
+  const bool inside = cell >= reach && cell + reach < size();
+  const double psi = std::atanh(cells_.s[cell]);
+  if (!inside)
+    return modulation::state_of({cells_.y[2 * cell] / charge_[cell], cells_.y[2 * cell + 1] / charge_[cell]}, psi);
+  double width[stencil], momentum[stencil], width_at[stencil], momentum_at[stencil], charge_at[stencil];
+  split(stencil, cells_.y.data() + 2 * (cell - reach), width, momentum);
+  centre_values(stencil, width, width_at);
+  centre_values(stencil, momentum, momentum_at);
+  centre_values(stencil, charge_.data() + (cell - reach), charge_at);
+  return modulation::state_of({width_at[reach] / charge_at[reach], momentum_at[reach] / charge_at[reach]}, psi);
 }
 
 double Solver::initial_charge_left_of(double x) const { return charge_left_of(first_, x); }

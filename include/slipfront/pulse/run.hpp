@@ -31,6 +31,8 @@ class Run {
   const Solver& solver() const { return solver_; }
   const Schedule& schedule() const { return schedule_; }
   const std::vector<Snapshot>& snapshots() const { return snapshots_; }
+  /// Wall time that the steps have taken, without laying cells and outputs.
+  double stepping_seconds() const { return stepping_seconds_; }
   bool finished() const { return snapshots_.size() == schedule_.times.size(); }
   /// The state of the solver as bytes, for a checkpoint on the same kind of machine.
   std::string saved() const;
@@ -41,6 +43,7 @@ class Run {
   Schedule schedule_;
   Solver solver_;
   LeftFront left_front_;
+  double stepping_seconds_ = 0;
   std::vector<Snapshot> snapshots_;
 };
 

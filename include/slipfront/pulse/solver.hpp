@@ -71,6 +71,8 @@ class Solver {
     std::vector<State> states;    ///< at the centres
   };
   View view() const;
+  /// State at the centre of one cell, as in the view, without making it.
+  State state_in(std::size_t cell) const;
   /// Number of dislocations left of x at t = 0.
   double initial_charge_left_of(double x) const;
 
