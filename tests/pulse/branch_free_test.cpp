@@ -57,8 +57,8 @@ TEST(Kernels, PolynomialsAreKAndE) {
   EXPECT_LE(most_E, 3);
 }
 
-/// The vector route agrees with the scalar one to rounding, from a guess that is 0.2 % off, and says so where it cannot.
-/// What rounding the spacing does to ln psi is K ulp.
+/// The vector route agrees with the scalar one to rounding, from a guess that is 0.2 % off, and says so where it
+/// cannot. What rounding the spacing does to ln psi is K ulp.
 TEST(Kernels, ResolveAllIsResolve) {
   for (const double phi : {-6.0, -1.5, -0.3, 0.0, 1e-200, 1e-7, 0.02, 0.4, 3.0, 12.0})
     for (double psi = 1e-292; psi < 3; psi *= psi < 1e-3 ? 7.3 : 1.03) {
