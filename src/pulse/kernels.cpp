@@ -30,7 +30,7 @@ SLIPFRONT_CLONES void centre_values(std::size_t size, const double* averages, do
   SLIPFRONT_INDEPENDENT
   for (std::size_t i = 2; i < size - 2; ++i) {
     const Differences d(averages + i);
-    values[i] = averages[i] - d.second / 24 + d.fourth * (3.0 / 640);
+    values[i] = averages[i] - d.second * (1.0 / 24) + d.fourth * (3.0 / 640);
   }
   for (const std::size_t i : {std::size_t{0}, std::size_t{1}, size - 2, size - 1}) values[i] = averages[i];
 }
@@ -39,7 +39,7 @@ SLIPFRONT_CLONES void cell_means(std::size_t size, const double* values, double*
   SLIPFRONT_INDEPENDENT
   for (std::size_t i = 2; i < size - 2; ++i) {
     const Differences d(values + i);
-    averages[i] = values[i] + d.second / 24 - d.fourth * (17.0 / 5760);
+    averages[i] = values[i] + d.second * (1.0 / 24) - d.fourth * (17.0 / 5760);
   }
   for (const std::size_t i : {std::size_t{0}, std::size_t{1}, size - 2, size - 1}) averages[i] = values[i];
 }

@@ -6,20 +6,9 @@
 #include "slipfront/modulation/friction.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
 #include "slipfront/train/state.hpp"
+#include "stretch.hpp"
 
 namespace slipfront::pulse {
-
-/// Cells in a row with dislocations in them; between two stretches lies a gap, a cell without any, whose faces are free
-/// edges.
-struct Stretch {
-  std::size_t begin, end;  ///< cells
-  bool left_free, right_free;
-};
-std::vector<Stretch> stretches_of(const std::vector<double>& charge, bool left_free, bool right_free);
-
-/// x at the middle of each cell in s, from the faces: sixth order inside a stretch, fourth and second in its last
-/// cells.
-void middles(const std::vector<Stretch>& stretches, const std::vector<double>& faces, std::vector<double>& centres);
 
 /// The equations in space: time derivatives of the cells' widths X and momenta Y. Knows nothing of time steps.
 ///     X_t = [U] over the faces,   Y_t = -[p] + q_s (2 pi F - friction - l <1 - cos u> d(a^2)/dx)
@@ -68,6 +57,7 @@ class Semidiscrete {
   double mean_crossing_time(const double* y) const;
 
  private:
+  static constexpr std::size_t ghosts = 3;  ///< cells that a face sees to either side
   void find_states(double t, const double* y);
   void find_places(const double* y);
   void find_faces();

@@ -62,7 +62,8 @@ void stop_reversals(const std::vector<double>& before, std::vector<double>& afte
     if (before[i] * after[i] < 0) after[i] = 0;
 }
 
-/// Whether a step has changed the rapidity of some cell by about a half or more: a contact as steep as a wall.
+/// Whether a step has changed the rapidity of some cell by about a half or more: a dense train that runs into a sparse
+/// one, or a contact as steep as a wall.
 bool thrown(const std::vector<double>& before, const std::vector<double>& after, const std::vector<double>& charge) {
   for (std::size_t i = 0; i < charge.size(); ++i) {
     const double was = before[2 * i + 1], is = after[2 * i + 1];
@@ -207,13 +208,14 @@ bool Solver::advance_until_gap_closes(double time, const std::function<bool()>& 
     if (!stiff) {
       dt = share_of(left, dt);
       next = cells_.y;
-      // What comes up within a step (the edge meets a jump of the contact, say) may be too hard for it: shorter, then.
+      // What comes up within a step may be too hard for it: shorter, then.
       for (int halvings = 0;; ++halvings) {
         try {
           explicit_step(f, cells_.time, dt, cells_.y, rate);
-          if (!problem_.contact || !thrown(next, cells_.y, cells_.charge)) break;
+          if (!thrown(next, cells_.y, cells_.charge)) break;
           if (halvings == 40)
-            throw NumericsError("t = " + std::to_string(cells_.time) + ": the contact is as steep as a wall");
+            throw NumericsError("t = " + std::to_string(cells_.time) +
+                                ": what acts on a cell throws it, however short the step");
         } catch (const NumericsError&) {
           if (halvings == 40) throw;
         }

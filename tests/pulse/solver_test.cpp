@@ -10,6 +10,7 @@
 #include "slipfront/rupture/inverse.hpp"
 #include "slipfront/rupture/pulse.hpp"
 #include "slipfront/rupture/relations.hpp"
+#include "slipfront/rupture/riemann.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace {
@@ -108,6 +109,21 @@ TEST(Pulse, ShocksAreThoseOfTheRiemannProblem) {
       }
     }
   }
+}
+
+TEST(Pulse, DenseTrainsRunIntoSparseOnes) {
+  for (const auto& [left, right] : {std::pair{0.855, 0.05}, {3.0, 0.06}, {10.0, 0.3}})
+    for (const auto& [cells, allowed] : {std::pair{75, 4e-2}, {200, 4e-3}}) {
+      Problem p = step(left, right, 0, Closure::consistent, cells, 1);
+      p.right = 1.2;
+      Solver s(p);
+      s.advance_to(1);
+      const auto exact =
+          rupture::solve_riemann({0, rupture::psi_of_stress(left)}, {0, rupture::psi_of_stress(right)}).star;
+      const State at = state_at(s.view(), 0.9 * std::tanh(exact.phi));  // behind the shock
+      EXPECT_NEAR(at.phi / exact.phi, 1, allowed) << left << " " << cells;
+      EXPECT_NEAR(at.psi / exact.psi, 1, allowed) << left << " " << cells;
+    }
 }
 
 TEST(Pulse, TanhWithFriction) {
