@@ -78,11 +78,12 @@ SLIPFRONT_CLONES void split(std::size_t size, const double* pairs, double* first
   }
 }
 
-SLIPFRONT_CLONES void multiply(std::size_t size, const double* by, double* a, double* b) {
+SLIPFRONT_CLONES void per_dislocation(std::size_t size, const double* per_charge, const double* width, double* spacing,
+                                      double* momentum) {
   SLIPFRONT_INDEPENDENT
   for (std::size_t i = 0; i < size; ++i) {
-    a[i] *= by[i];
-    b[i] *= by[i];
+    spacing[i] = (spacing[i] > 0 ? spacing[i] : width[i]) * per_charge[i];
+    momentum[i] *= per_charge[i];
   }
 }
 
@@ -119,6 +120,17 @@ SLIPFRONT_CLONES double invariants(std::size_t size, const double* phi, const do
     minus[i] = (phi[i] - psi[i]) * inverse;
   }
   return scale;
+}
+
+SLIPFRONT_CLONES double hardest_collision(std::size_t size, const double* plus, const double* minus, double share) {
+  const double *left_plus = plus - 1, *left_minus = minus - 1;
+  return reduce(
+      size, -HUGE_VAL,
+      [=](std::size_t i) {
+        const double fall = left_plus[i] + left_minus[i] - plus[i + 1] - minus[i + 1];
+        return fall - share * (left_plus[i] - left_minus[i] + plus[i + 1] - minus[i + 1]);
+      },
+      larger);
 }
 
 SLIPFRONT_CLONES void differences(std::size_t size, const double* U, const double* p, double* dy) {

@@ -39,8 +39,14 @@ void face_fluxes(std::size_t faces, const double* phi, const double* psi, double
 /// first, second = pairs[2 i], pairs[2 i + 1].
 void split(std::size_t size, const double* pairs, double* first, double* second);
 
-/// a *= by, b *= by.
-void multiply(std::size_t size, const double* by, double* a, double* b);
+/// Spacing and momentum of one dislocation from those at the centres of cells; the width stands in for a centre value
+/// that is not positive (in a last cell, much narrower than the ones beside it).
+void per_dislocation(std::size_t size, const double* per_charge, const double* width, double* spacing,
+                     double* momentum);
+
+/// The hardest collision of trains: the largest fall of phi over two cells less `share` of the sum of their psi, both
+/// doubled, from the invariants with their ghosts.
+double hardest_collision(std::size_t size, const double* plus, const double* minus, double share);
 
 /// plus, minus = phi +- psi over the largest of them, which is returned: the squares of 1e-300 would underflow.
 double invariants(std::size_t size, const double* phi, const double* psi, double* plus, double* minus);

@@ -74,9 +74,8 @@ void Semidiscrete::find_states(double t, const double* y) {
       centre_values(r.end - r.begin, momentum_in_cell_.data() + r.begin, momentum_.data() + r.begin);
     }
   }
-  for (std::size_t i = 0; i < n; ++i)
-    if (!(spacing_[i] > 0)) spacing_[i] = width_[i];  // a last cell, much narrower than the ones beside it
-  multiply(n, (compact_ ? per_charge_ : per_charge_point_).data(), spacing_.data(), momentum_.data());
+  per_dislocation(n, (compact_ ? per_charge_ : per_charge_point_).data(), width_.data(), spacing_.data(),
+                  momentum_.data());
   if (setup_.contact) {
     for (std::size_t i = 0; i < n; ++i) {
       spacing_[i] *= contact_[i];

@@ -50,6 +50,7 @@ void Semidiscrete::find_faces(const Stretch& stretch) {
 void Semidiscrete::flatten_shocks(const Stretch& stretch, const double* plus, const double* minus, double scale) {
   constexpr double weak = 0.5, strong = 1;  // fall of phi over two cells, beside the mean of psi
   constexpr std::ptrdiff_t reach = 5;
+  if (!(hardest_collision(stretch.end - stretch.begin, plus, minus, weak) > 0)) return;
   const auto n = static_cast<std::ptrdiff_t>(stretch.end - stretch.begin);
   for (std::ptrdiff_t i = 0; i < n; ++i) {
     const double fall = plus[i - 1] + minus[i - 1] - plus[i + 1] - minus[i + 1];
