@@ -101,7 +101,7 @@ double velocity_left(const modulation::Friction& f, double weight, double free) 
   for (int i = 0; i < 60; ++i) {
     const double drag = strength * std::pow(v, n), step = (v + drag - size) / (v + n * drag);
     v *= std::exp(-step);
-    if (std::fabs(step) < 1e-15) break;
+    if (std::fabs(step) < 1e-8) break;  // what is left is of the order of its square
   }
   return std::copysign(v, free);
 }

@@ -64,6 +64,8 @@ Motion static_train(const Stress& stress, const Grid& grid, bool whole) {
     charge[j] = charge[j - 1] + more;
     lost = (charge[j] - charge[j - 1]) - more;
   }
+  // Around a periodic chain there is one more interval, from the last site to the first.
+  const double all = whole ? charge[n - 1] + integral(stress, grid.x(n - 1), grid.x(n)) / (2 * pi) : charge[n - 1];
   Motion motion;
   motion.u.assign(n, 0.0);
   LocalTrain train;
@@ -76,7 +78,7 @@ Motion static_train(const Stress& stress, const Grid& grid, bool whole) {
     if (empty) {
       for (std::size_t j = begin; j < end; ++j) motion.u[j] = 2 * pi * wells;
     } else {
-      const double from = begin > 0 ? charge[begin - 1] : charge[0], to = end < n ? charge[end] : charge[n - 1];
+      const double from = begin > 0 ? charge[begin - 1] : charge[0], to = end < n ? charge[end] : all;
       const bool closed = (begin > 0 && end < n) || whole;
       const double count = closed ? std::nearbyint(to - from) : to - from, stretch = closed ? count / (to - from) : 1;
       // Half a spacing between the last dislocation and the right edge; from the left edge where that alone is empty.

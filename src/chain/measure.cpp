@@ -59,28 +59,43 @@ Average average(const Chain& chain, double x, double width, double time) {
           (between(w.u, from - begin) - between(w.u, to - begin)) / width};
 }
 
+namespace {
+
+/// Those between values j and j + 1 of `turns` (u / 2 pi - 1/2), value 0 of which is at x.
+void find(const std::vector<double>& turns, std::size_t j, double x, double h, std::vector<Dislocation>& found) {
+  const double a = turns[j], b = turns[j + 1];
+  const int sign = a > b ? 1 : -1;
+  // Whole numbers passed on the way; more than one between two sites only on a lattice of dislocations narrower than A.
+  for (double level = sign > 0 ? std::ceil(a) - 1 : std::floor(a) + 1; sign * (level - b) >= 0; level -= sign) {
+    double low = static_cast<double>(j), high = low + 1;
+    for (int i = 0; i < 50; ++i) {
+      const double middle = (low + high) / 2;
+      (sign * (between(turns, middle) - level) > 0 ? low : high) = middle;
+    }
+    found.push_back({x + h * low, sign});
+  }
+}
+
+}  // namespace
+
 std::vector<Dislocation> dislocations(const Chain& chain) {
-  const Grid& grid = chain.problem().grid;
+  const Problem& p = chain.problem();
+  const Grid& grid = p.grid;
+  const auto turns = [](std::vector<double> u) {
+    for (double& v : u) v = v / turn - 0.5;
+    return u;
+  };
   std::vector<Dislocation> found;
   for (std::size_t begin = 0; begin + 1 < grid.sites; begin += stretch) {
     const std::size_t first = begin < 3 ? 0 : begin - 3, end = std::min(begin + stretch + 4, grid.sites);
-    std::vector<double> turns = chain.window(first, end).u;
-    for (double& u : turns) u = u / turn - 0.5;
-    for (std::size_t j = begin; j < std::min(begin + stretch, grid.sites - 1); ++j) {
-      const double a = turns[j - first], b = turns[j + 1 - first];
-      const int sign = a > b ? 1 : -1;
-      // Whole numbers passed on the way; more than one between two sites only on a lattice of dislocations narrower
-      // than A.
-      for (double level = sign > 0 ? std::ceil(a) - 1 : std::floor(a) + 1; sign * (level - b) >= 0; level -= sign) {
-        double low = static_cast<double>(j - first), high = low + 1;
-        const double at_low = between(turns, low) - level;
-        for (int i = 0; i < 50; ++i) {
-          const double middle = (low + high) / 2;
-          ((between(turns, middle) - level) * at_low > 0 ? low : high) = middle;
-        }
-        found.push_back({grid.x(first) + grid.spacing * low, sign});
-      }
-    }
+    const std::vector<double> values = turns(chain.window(first, end).u);
+    for (std::size_t j = begin; j < std::min(begin + stretch, grid.sites - 1); ++j)
+      find(values, j - first, grid.x(first), grid.spacing, found);
+  }
+  if (p.boundary.periodic) {  // between the last site and the first
+    std::vector<double> values = turns(chain.window(grid.sites - 3, grid.sites).u);
+    for (const double v : turns(chain.window(0, 3).u)) values.push_back(v - static_cast<double>(p.boundary.charge));
+    find(values, 2, grid.x(grid.sites - 3), grid.spacing, found);
   }
   return found;
 }
