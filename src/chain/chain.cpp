@@ -140,12 +140,15 @@ struct Chain::Parts {
 
   void advance(std::size_t count) {
     const int number = static_cast<int>(slabs.size());
+    // Fewer site updates than this take less time than it takes to wake a thread.
+    const bool worth = problem.grid.sites * count > 50000;
+    static_cast<void>(worth);  // where there is no OpenMP
 #ifdef _OPENMP
-#pragma omp parallel for num_threads(number) schedule(static, 1)
+#pragma omp parallel for num_threads(number) schedule(static, 1) if (worth)
 #endif
     for (int i = 0; i < number; ++i) exchange(static_cast<std::size_t>(i));
 #ifdef _OPENMP
-#pragma omp parallel for num_threads(number) schedule(static, 1)
+#pragma omp parallel for num_threads(number) schedule(static, 1) if (worth)
 #endif
     for (int i = 0; i < number; ++i) advance_slab(slabs[static_cast<std::size_t>(i)], count);
     level += static_cast<long>(count);

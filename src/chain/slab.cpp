@@ -8,6 +8,15 @@ namespace {
 
 void copy(const double* from, double* to, std::size_t count) { std::memcpy(to, from, count * sizeof(double)); }
 
+/// Asks for sites of the next tile while this one is computed, a share each level.
+void prefetch(const double* sites, std::size_t count) {
+#if defined(__GNUC__)
+  for (std::size_t j = 0; j < count; j += 8) __builtin_prefetch(sites + j, 1, 2);
+#else
+  static_cast<void>(sites + count);
+#endif
+}
+
 bool is_end(Side side) { return side != Side::joined && side != Side::seam; }
 
 }  // namespace
@@ -104,7 +113,12 @@ void Slab::advance(const LevelRule& rule, std::size_t count, std::size_t tile) {
     if (from + width < size_) sides.right = Side::joined;
     // Where there is a halo the range shrinks by a site a level; rounded outwards to whole vectors, never beyond the
     // pad.
+    const std::size_t share = (std::min(tile, size_ - from - width) / count + lanes) / lanes * lanes;
     for (std::size_t level = 0; level < count; ++level) {
+      if (from + width < size_) {
+        prefetch(now() + from + width + halo + level * share, share);
+        prefetch(old() + from + width + halo + level * share, share);
+      }
       const std::size_t left = is_end(sides.left) ? first : pad + level;
       const std::size_t right = is_end(sides.right) ? last + 1 : last + 1 + halo - level;
       const std::size_t begin = left / lanes * lanes, end = (right + lanes - 1) / lanes * lanes;

@@ -54,8 +54,8 @@ void expect_same(const Levels& a, const Levels& b, const std::string& what) {
 
 /// Threads, tiles and the way that steps are bundled change no bits; nor does a stop.
 TEST(ChainBits, DoNotDependOnThreadsTilesOrStops) {
-  for (const std::size_t sites : {9u, 50u, 130u, 1501u})
-    for (int kind = 0; kind < 5; ++kind) {
+  for (const std::size_t sites : {9u, 50u, 130u, 1501u, 12000u})
+    for (int kind = 0; kind < (sites > 10000 ? 2 : 5); ++kind) {  // the longest are worth true threads
       const Problem p = problem(sites, kind);
       const Motion start = bumpy(p);
       const std::string what = std::to_string(sites) + " sites, kind " + std::to_string(kind);
