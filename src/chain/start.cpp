@@ -50,20 +50,33 @@ Levels first_levels(const Problem& p, const Scheme& s, const Forces& forces, con
       acceleration[j] = spring - contact(j) * std::sin(start.u[j]) + forces.now(j) - forces.friction(w[j]);
     }
   }
-  const Extended A(acceleration, p.boundary, 0), velocities(w, p.boundary, 0);
+  const Extended A(acceleration, p.boundary, 0);
+  const auto cosine = [&](std::size_t j) { return contact(j) * std::cos(start.u[j]); };
+  const auto sine = [&](std::size_t j) { return contact(j) * std::sin(start.u[j]); };
+  std::vector<double> jerk(n);
+  {
+    const Extended velocities(w, p.boundary, 0);
+    for (std::size_t j = 0; j < n; ++j) {
+      const double spring = (p.model == Model::lattice ? velocities.bend(j) : velocities.fine_bend(j)) / h2;
+      jerk[j] = spring - cosine(j) * w[j] - C * acceleration[j] + forces.rate(j);
+    }
+  }
+  const Extended J(jerk, p.boundary, 0);
   Levels levels;
   levels.now.resize(n);
   levels.before.resize(n);
   const auto z = [&](std::size_t j, double u) { return (u + s.eps * contact(j) * std::sin(u)) / turn; };
   for (std::size_t j = 0; j < n; ++j) {
-    const double u = start.u[j], cosine = contact(j) * std::cos(u), sine = contact(j) * std::sin(u),
-                 a = acceleration[j];
-    const double jerk = velocities.bend(j) / h2 - cosine * w[j] - C * a + forces.rate(j);
-    const double snap = A.bend(j) / h2 - cosine * a + sine * w[j] * w[j] - C * jerk;
+    const double u = start.u[j], v = w[j], a = acceleration[j];
+    const double fourth = A.bend(j) / h2 - cosine(j) * a + sine(j) * v * v - C * jerk[j];
+    const double fifth =
+        J.bend(j) / h2 - cosine(j) * jerk[j] + sine(j) * 3 * v * a + cosine(j) * v * v * v - C * fourth;
     const bool held = (j == 0 && !p.boundary.periodic && p.boundary.left == End::fixed) ||
                       (j + 1 == n && !p.boundary.periodic && p.boundary.right == End::fixed);
     levels.now[j] = z(j, u);
-    levels.before[j] = held ? levels.now[j] : z(j, u - dt * (w[j] - dt / 2 * (a - dt / 3 * (jerk - dt / 4 * snap))));
+    levels.before[j] =
+        held ? levels.now[j]
+             : z(j, u - dt * (v - dt / 2 * (a - dt / 3 * (jerk[j] - dt / 4 * (fourth - dt / 5 * fifth)))));
   }
   return levels;
 }

@@ -6,7 +6,7 @@
 
 namespace slipfront::chain {
 
-/// The two levels, at 0 and -dt, of a motion given by u and velocity at t = 0: Taylor in t to dt^4, derivatives from
+/// The two levels, at 0 and -dt, of a motion given by u and velocity at t = 0: Taylor in t to dt^5, derivatives from
 /// the equation of motion.
 Levels first_levels(const Problem& problem, const Scheme& scheme, const Forces& forces, const Motion& start);
 

@@ -59,7 +59,7 @@ TEST(ChainBudget, TotalsOfADislocationAreTheExactOnes) {
   EXPECT_EQ(found[0].sign, 1);
   const Average a = average(run, 0, 50, run.time());
   EXPECT_NEAR(a.stress * 50, 2 * pi, 1e-9);
-  EXPECT_NEAR(a.velocity * 50, 2 * pi * U, 1e-4);
+  EXPECT_NEAR(a.velocity * 50, 2 * pi * U, 5e-4);
 }
 
 /// Energy changes by what F supplies less what friction takes, each law.
