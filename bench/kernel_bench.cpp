@@ -8,7 +8,7 @@
 
 #include "pulse/kernels.hpp"
 #include "pulse/semidiscrete.hpp"
-#include "pulse/vector_code.hpp"
+#include "vector_code.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
 
 // The cell stage of a pulse run, alone and by its two costliest loops, beside the limit of the arithmetic units: what a

@@ -4,7 +4,7 @@
 #include <initializer_list>
 
 #include "branch_free.hpp"
-#include "vector_code.hpp"
+#include "../vector_code.hpp"
 #include "weno.hpp"
 
 namespace slipfront::pulse {

@@ -6,7 +6,7 @@
 #include "branch_free.hpp"
 #include "elliptic_fit.hpp"
 #include "kernels.hpp"
-#include "vector_code.hpp"
+#include "../vector_code.hpp"
 
 namespace slipfront::pulse {
 namespace {

@@ -1,0 +1,120 @@
+// Site updates a second of a chain, beside what the machine does at most: the polynomial of the sine alone, and
+// multiply-adds in registers. Run with --benchmark_filter=chain.
+
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "chain/kernel.hpp"
+#include "vector_code.hpp"
+#include "slipfront/chain/chain.hpp"
+
+namespace {
+
+using namespace slipfront;
+using namespace slipfront::chain;
+
+/// Multiplications and additions that a site takes, a fused pair counted once: 3 to reduce, 1 to square, 8 for the
+/// polynomial, 4 for y and the local part, 2 for the neighbours.
+constexpr double operations_a_site = 18;
+
+SLIPFRONT_CLONES void sines(const PeriodicForce& force, const double* z, double* S, std::size_t n) {
+  const PeriodicForce f = force;
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t j = 0; j < n; ++j) S[j] = f(z[j]);
+}
+
+/// 32 multiply-adds a value, in four chains that do not wait for each other.
+SLIPFRONT_CLONES void multiply_adds(double* v, std::size_t n, double a, double b) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t j = 0; j < n; ++j) {
+    double p = v[j], q = p + b, r = p - b, s = q + a;
+    for (int k = 0; k < 8; ++k) {
+      p = p * a + b;
+      q = q * a + b;
+      r = r * a + b;
+      s = s * a + b;
+    }
+    v[j] = (p + q) + (r + s);
+  }
+}
+
+void chain_limit_sine(benchmark::State& state) {
+  const PeriodicForce f = substrate_force(1.0 / 48);
+  std::vector<double> z(1024), S(1024);
+  for (std::size_t j = 0; j < z.size(); ++j) z[j] = 1e4 * std::sin(static_cast<double>(j));
+  for (auto _ : state) {
+    sines(f, z.data(), S.data(), z.size());
+    benchmark::DoNotOptimize(S.data());
+    benchmark::ClobberMemory();
+  }
+  state.SetItemsProcessed(state.iterations() * 1024);
+}
+BENCHMARK(chain_limit_sine);
+
+void chain_limit_multiply_adds(benchmark::State& state) {
+  std::vector<double> v(1024, 0.5);
+  for (auto _ : state) {
+    multiply_adds(v.data(), v.size(), 0.5, 0.25);
+    benchmark::DoNotOptimize(v.data());
+    benchmark::ClobberMemory();
+  }
+  const double all = static_cast<double>(state.iterations()) * 1024 * 32;
+  state.counters["sites_at_most"] = benchmark::Counter(all / operations_a_site, benchmark::Counter::kIsRate);
+  state.SetItemsProcessed(state.iterations() * 1024 * 32);
+}
+BENCHMARK(chain_limit_multiply_adds);
+
+Problem damped_train(std::size_t sites) {
+  return {.grid = {0, 0.5, sites},
+          .model = Model::sine_gordon,
+          .boundary = {},
+          .friction = {modulation::FrictionLaw::viscous, 1e-4},
+          .forcing = {},
+          .contact = {}};
+}
+
+Motion rough_train(std::size_t sites) {
+  Motion m;
+  m.u.resize(sites);
+  for (std::size_t j = 0; j < sites; ++j)
+    m.u[j] = -0.4 * static_cast<double>(j) + 0.2 * std::sin(static_cast<double>(j % 1000));
+  return m;
+}
+
+/// Sites, threads. 1e8 sites lie in DRAM.
+void chain_sites(benchmark::State& state) {
+  const auto sites = static_cast<std::size_t>(state.range(0));
+  chain::Chain run(damped_train(sites), rough_train(sites), {.threads = static_cast<int>(state.range(1))});
+  const long levels = sites < 10000000 ? std::max<long>(32, 32 * (3000000 / static_cast<long>(sites))) : 64;
+  for (auto _ : state) run.advance(levels);
+  state.SetItemsProcessed(state.iterations() * levels * static_cast<long>(sites));
+}
+BENCHMARK(chain_sites)
+    ->Args({1400, 1})
+    ->Args({10000, 1})
+    ->Args({100000, 1})
+    ->Args({1000000, 1})
+    ->Args({1000000, 2})
+    ->Args({100000000, 1})
+    ->Args({100000000, 2})
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+
+/// Level by level: contact and forcing, dry friction.
+void chain_general(benchmark::State& state) {
+  const std::size_t sites = 100000;
+  Problem p = damped_train(sites);
+  if (state.range(0) == 0) p.contact = [](double x) { return 1 + 0.1 * std::sin(x); };
+  if (state.range(0) == 1) p.forcing = [](double x, double t) { return 0.01 * std::sin(x - t); };
+  if (state.range(0) == 2) p.friction = {modulation::FrictionLaw::coulomb, 0.01};
+  chain::Chain run(p, rough_train(sites));
+  for (auto _ : state) run.advance(10);
+  state.SetItemsProcessed(state.iterations() * 10 * static_cast<long>(sites));
+  state.SetLabel(state.range(0) == 0 ? "contact" : state.range(0) == 1 ? "forcing" : "Coulomb friction");
+}
+BENCHMARK(chain_general)->DenseRange(0, 2)->Unit(benchmark::kMillisecond);
+
+}  // namespace

@@ -1,0 +1,70 @@
+#pragma once
+/// \file
+/// A chain of dislocations in time: Eq. 3 on a grid, or the lattice of Eq. 1, site by site (docs/chain.md).
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "slipfront/chain/problem.hpp"
+
+namespace slipfront::chain {
+
+/// How a run is carried out; changes no bits of it.
+struct Execution {
+  int threads = 1;
+  std::size_t tile = 1472;  ///< sites that stay in the innermost cache for 32 levels; a multiple of 8
+};
+
+/// All that a chain needs to go on, to the same bits: two levels of z / 2 pi (docs/chain.md).
+struct Levels {
+  long level = 0;  ///< steps done
+  std::vector<double> now, before;
+};
+
+/// Sites [begin, begin + u.size()) at one time, in the units of Motion.
+struct Window {
+  std::size_t begin = 0;
+  std::vector<double> x, u, velocity;
+  std::vector<double> stress;  ///< -u_x; of a lattice, the mean of the bonds on either side
+};
+
+class Chain {
+ public:
+  /// \throws InputError as check(Problem) does, for a motion that does not fit the grid or is too steep for it (too few
+  /// sites to a dislocation), and for a periodic chain whose ends do not differ by its charge.
+  Chain(const Problem& problem, const Motion& start, const Execution& execution = {});
+  /// Continues. \throws InputError if the levels do not fit the problem.
+  Chain(const Problem& problem, const Levels& saved, const Execution& execution = {});
+  ~Chain();
+  Chain(Chain&&) noexcept;
+  Chain& operator=(Chain&&) noexcept;
+
+  /// \throws NumericsError with time and site where the displacement is no longer a number.
+  void advance(long levels);
+  /// To the level nearest to `time`. `interrupted` is asked every 32 levels or more; true stops early. Returns whether
+  /// `time` was reached.
+  bool advance_to(double time, const std::function<bool()>& interrupted = {});
+
+  const Problem& problem() const;
+  long level() const;
+  double dt() const;
+  double time() const;
+  Levels levels() const;
+
+  /// Sites [begin, end) at `time`, which is no more than a step away; fourth order in u and velocity.
+  Window window(std::size_t begin, std::size_t end, double time) const;
+  Window window(std::size_t begin, std::size_t end) const { return window(begin, end, time()); }
+
+  /// Forces on a site as they stand in the equation of motion, for inspection.
+  double contact_squared(std::size_t site) const;  ///< a^2
+  double forcing(std::size_t site) const;          ///< F now
+  double friction(double velocity) const;          ///< f
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace slipfront::chain

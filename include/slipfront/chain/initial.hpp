@@ -1,0 +1,34 @@
+#pragma once
+/// \file
+/// Where a chain starts: a train of dislocations at rest whose local density follows a stress profile (Eqs. 4-5 with
+/// U = 0).
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+namespace slipfront::chain {
+
+/// Evenly spaced sites: x = left + j spacing, j = 0 ... sites - 1, in b / A.
+struct Grid {
+  double left = 0;
+  double spacing = 0.5;
+  std::size_t sites = 0;
+
+  double x(std::size_t j) const { return left + static_cast<double>(j) * spacing; }
+};
+
+/// Displacement and velocity of every site at one time, in b / 2 pi and c A / 2 pi (u and u_t of Eq. 3).
+struct Motion {
+  std::vector<double> u;
+  std::vector<double> velocity;  ///< empty: at rest
+};
+
+/// The train at rest with <-u_x> = stress(x) >= 0; u falls with x. Where there is no stress u stays in a well, a
+/// multiple of 2 pi, 0 at the right end. A stretch with no stress at either end holds a whole number of dislocations:
+/// its stress is changed by the less than half a dislocation that this takes. With `whole` the entire chain does: what
+/// a periodic chain needs. Costs some microseconds a site where the stress changes. \throws InputError for a stress
+/// that is negative or not finite.
+Motion static_train(const std::function<double(double x)>& stress, const Grid& grid, bool whole = false);
+
+}  // namespace slipfront::chain

@@ -1,0 +1,64 @@
+#pragma once
+/// \file
+/// What is measured on a chain: averages over a window, dislocations one by one, and the budgets of Eq. 3.
+
+#include <cstddef>
+#include <vector>
+
+#include "slipfront/chain/chain.hpp"
+
+namespace slipfront::chain {
+
+/// Averages over [x - width / 2, x + width / 2].
+struct Average {
+  double x, width;  ///< the window
+  double u;         ///< displacement; slip is what it has gained since t = 0
+  double velocity;  ///< u_t
+  double stress;    ///< -u_x, from the displacements at the ends of the window
+};
+
+/// At `time`, no more than a step away. The window should hold whole spacings 2 pi / k of the train, or one
+/// dislocation more or less shows. \throws InputError for a window outside the chain or of no width.
+Average average(const Chain& chain, double x, double width, double time);
+
+/// One dislocation: where u passes pi (mod 2 pi).
+struct Dislocation {
+  double x;
+  int sign;  ///< +1: u falls by 2 pi with x; -1: an antidislocation
+};
+
+/// All, from left to right; sixth-order interpolation between sites.
+std::vector<Dislocation> dislocations(const Chain& chain);
+
+/// Sums over the chain. Energies and momentum in units of Eq. 3 (a dislocation at rest has energy 8).
+struct Totals {
+  double time = 0;
+  double charge = 0;           ///< (u at the left end - u at the right end) / 2 pi; of a periodic chain, its charge
+  long dislocations = 0;       ///< of either sign
+  double kinetic = 0;          ///< sum of u_t^2 / 2
+  double elastic = 0;          ///< of u_x^2 / 2
+  double substrate = 0;        ///< of a^2 (1 - cos u)
+  double momentum = 0;         ///< of -u_t u_x
+  double supplied_rate = 0;    ///< power of F, sum of F u_t
+  double dissipated_rate = 0;  ///< of friction, sum of f(u_t) u_t
+  double energy() const { return kinetic + elastic + substrate; }
+};
+
+/// At the present level; sums in the same order whatever the threads.
+Totals totals(const Chain& chain);
+
+/// Work since the first sample, by the trapezoidal rule between samples (every few time units for a long chain, where
+/// the rates are smooth; every few steps for one dislocation).
+class Work {
+ public:
+  void sample(const Totals& now);
+  double supplied() const { return supplied_; }
+  double dissipated() const { return dissipated_; }
+
+ private:
+  Totals last_;
+  bool started_ = false;
+  double supplied_ = 0, dissipated_ = 0;
+};
+
+}  // namespace slipfront::chain

@@ -1,0 +1,58 @@
+#pragma once
+/// \file
+/// What a chain run is given: Eqs. 1 and 3 in the units of docs/theory.md 1,
+///     u_tt - u_xx + a(x)^2 sin u = F(x, t) - f(u_t).
+
+#include <cstddef>
+#include <functional>
+
+#include "slipfront/chain/initial.hpp"
+#include "slipfront/modulation/friction.hpp"
+
+namespace slipfront::chain {
+
+enum class Model {
+  sine_gordon,  ///< Eq. 3, on a grid chosen by accuracy
+  lattice,      ///< Eq. 1: a site at every asperity, spacing A; discreteness is real
+};
+
+enum class End {
+  free,       ///< u_x = 0
+  fixed,      ///< u stays
+  absorbing,  ///< u_t +- u_x = 0: what leaves does not come back; exact for waves at speed 1
+};
+
+struct Boundary {
+  End left = End::free, right = End::free;
+  bool periodic = false;  ///< the ends above do not count then
+  long charge = 0;        ///< of a periodic chain: u falls by 2 pi charge once around
+};
+
+struct Problem {
+  Grid grid;
+  Model model = Model::sine_gordon;
+  Boundary boundary;
+  modulation::Friction friction;                      ///< the closure does not matter here
+  std::function<double(double x, double t)> forcing;  ///< F, t >= 0; null: none. Called from one thread only
+  std::function<double(double x)> contact;            ///< a > 0; null: 1. Called from one thread only
+  double step = 0;  ///< dt; 0: chosen. The fourth order of sine_gordon holds for the chosen one only
+};
+
+/// The coarsest grid that is accepted: sites in a width (b / A over a, Lorentz contraction apart) of a dislocation.
+inline constexpr double least_sites_per_width = 1.5;
+
+/// The step that `step = 0` chooses: of sine_gordon close to the spacing, of a lattice 0.05 or less.
+double chosen_step(const Problem& problem);
+
+/// The largest stable step.
+double largest_step(const Problem& problem);
+
+/// Bytes that a run holds, and what this machine has (0 where that cannot be told).
+double memory_needed(const Problem& problem);
+double memory_of_machine();
+
+/// \throws InputError for numbers out of range, a grid too coarse for a dislocation, a step beyond stability, or a need
+/// of memory beyond the machine. Allocates nothing.
+void check(const Problem& problem);
+
+}  // namespace slipfront::chain

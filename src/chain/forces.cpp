@@ -1,0 +1,144 @@
+#include "forces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace slipfront::chain {
+namespace {
+
+using modulation::FrictionLaw;
+constexpr double turn = 2 * std::numbers::pi;
+
+/// Site j of the problem's grid for -beyond <= j < sites + beyond: around a periodic chain, reflected at ends.
+std::size_t folded(const Problem& p, long j) {
+  const long n = static_cast<long>(p.grid.sites);
+  if (p.boundary.periodic) return static_cast<std::size_t>((j % n + n) % n);
+  return static_cast<std::size_t>(j < 0 ? -j : j >= n ? 2 * (n - 1) - j : j);
+}
+
+}  // namespace
+
+Forces::Forces(const Problem& problem, const Scheme& scheme, long level)
+    : problem_(problem),
+      scheme_(scheme),
+      sine_(substrate_force(0)),
+      dt_(scheme.dt),
+      level_(level),
+      dry_(problem.friction.coefficient > 0 &&
+           (problem.friction.law == FrictionLaw::coulomb || problem.friction.law == FrictionLaw::power)) {
+  const long n = static_cast<long>(problem_.grid.sites), reach = static_cast<long>(beyond);
+  if (problem_.contact) {
+    for (long j = -reach; j < n + reach; ++j) {
+      const double a = problem_.contact(problem_.grid.x(folded(problem_, j)));
+      a2_.push_back(a * a);
+    }
+  }
+  if (problem_.forcing) {
+    F_now_ = at(level_);
+    F_next_ = at(level_ + 1);
+    F_old_ = at(level_ - 1);
+    find_drive();
+  }
+}
+
+std::vector<double> Forces::at(long level) const {
+  const long n = static_cast<long>(problem_.grid.sites), reach = static_cast<long>(beyond);
+  std::vector<double> F(static_cast<std::size_t>(n + 2 * reach));
+  if (level < 0) {  // before the start, where F need not be defined: by extrapolation
+    const std::vector<double> zero = at(0), one = at(1), two = at(2);
+    for (std::size_t j = 0; j < F.size(); ++j) F[j] = 3 * zero[j] - 3 * one[j] + two[j];
+    return F;
+  }
+  const double t = static_cast<double>(level) * dt_;
+  for (long j = -reach; j < n + reach; ++j)
+    F[static_cast<std::size_t>(j + reach)] = problem_.forcing(problem_.grid.x(folded(problem_, j)), t);
+  return F;
+}
+
+void Forces::find_drive() {
+  const Scheme& s = scheme_;
+  drive_.assign(F_now_.size(), 0.0);
+  for (std::size_t j = 1; j + 1 < drive_.size(); ++j)
+    drive_[j] = s.force / turn *
+                (s.share_next * F_next_[j] + s.share_before * F_old_[j] + s.share_now * F_now_[j] +
+                 s.share_beside * (F_now_[j - 1] + F_now_[j + 1]));
+}
+
+void Forces::proceed() {
+  ++level_;
+  if (F_now_.empty()) return;
+  F_old_.swap(F_now_);
+  F_now_.swap(F_next_);
+  F_next_ = at(level_ + 1);
+  find_drive();
+}
+
+double Forces::friction(double velocity) const {
+  const modulation::Friction& f = problem_.friction;
+  const double sign = (velocity > 0) - (velocity < 0);
+  switch (f.law) {
+    case FrictionLaw::none:
+      return 0;
+    case FrictionLaw::viscous:
+      return f.coefficient * velocity;
+    case FrictionLaw::coulomb:
+      return f.coefficient * sign;
+    case FrictionLaw::power:
+      return f.coefficient * sign * std::pow(std::fabs(velocity), f.exponent);
+  }
+  return 0;
+}
+
+double velocity_left(const modulation::Friction& f, double weight, double free) {
+  const double size = std::fabs(free), strength = weight * f.coefficient;
+  if (size == 0 || strength == 0) return free;
+  if (f.law == FrictionLaw::coulomb) return std::copysign(std::fmax(size - strength, 0.0), free);
+  const double n = f.exponent;
+  // v + s v^n = size, monotone. Newton in ln v from above is monotone too: v + s v^n is convex in ln v.
+  double v = std::fmin(size, std::pow(size / strength, 1 / n));
+  for (int i = 0; i < 60; ++i) {
+    const double drag = strength * std::pow(v, n), step = (v + drag - size) / (v + n * drag);
+    v *= std::exp(-step);
+    if (std::fabs(step) < 1e-8) break;  // what is left is of the order of its square
+  }
+  return std::copysign(v, free);
+}
+
+void Forces::level(const Sides& sides, long offset, std::size_t size, const double* now, double* next, double* y,
+                   double* before) const {
+  std::copy(next, next + size, before);
+  if (!a2_.empty()) {
+    const double* a2 = a2_.data() + (offset + static_cast<long>(beyond) - 1);
+    local_part_with_contact(scheme_.rule, sine_, scheme_.eps, a2, now - 1, next - 1, y - 1, 0, size + 2);
+  } else {
+    local_part(scheme_.rule, now - 1, next - 1, y - 1, 0, (size + 2 + lanes - 1) / lanes * lanes);
+  }
+  // Counted from two sites before, so that a seam's other side has an index.
+  const EndSites bare = before_neighbours(sides, next - 2, 2, size + 1);
+  add_neighbours(scheme_.rule.spread, y, next, 0, (size + lanes - 1) / lanes * lanes);
+  mend_ends(sides, bare, scheme_.rule.spread, now - 2, y - 2, next - 2, 2, size + 1);
+  const auto given = [](Side side) { return side == Side::fixed || side == Side::absorbing; };
+  const std::size_t from = given(sides.left) ? 1 : 0, to = given(sides.right) ? size - 1 : size;
+  if (!drive_.empty()) {
+    const double* drive = drive_.data() + (offset + static_cast<long>(beyond));
+    for (std::size_t j = from; j < to; ++j) next[j] += drive[j];
+  }
+  if (dry_) add_friction(from, to, now, next, before);
+}
+
+void Forces::add_friction(std::size_t begin, std::size_t end, const double* now, double* next,
+                          const double* before) const {
+  const modulation::Friction& f = problem_.friction;
+  // Centred on the level where that is stable; dry friction and powers below 1, steep at rest, act on the half step
+  // after it: they can stop a site but not throw it back.
+  const bool centred = f.law == FrictionLaw::power && f.exponent >= 1;
+  for (std::size_t j = begin; j < end; ++j) {
+    const double from = centred ? before[j] : now[j], time = centred ? 2 * dt_ : dt_;
+    const double free = (next[j] - from) / time * turn;
+    next[j] = from + time / turn * velocity_left(f, dt_ * dt_ / time, free);
+  }
+}
+
+}  // namespace slipfront::chain

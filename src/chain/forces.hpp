@@ -1,0 +1,55 @@
+#pragma once
+
+#include <vector>
+
+#include "scheme.hpp"
+#include "slab.hpp"
+
+namespace slipfront::chain {
+
+/// What acts on a site besides springs, a substrate of strength 1 and viscous friction. Where there is nothing of it a
+/// chain advances many levels at a time; else level by level, through here.
+class Forces {
+ public:
+  /// Arrays reach this far beyond both ends of the chain.
+  static constexpr std::size_t beyond = 6;
+
+  Forces(const Problem& problem, const Scheme& scheme, long level);
+
+  bool none() const { return a2_.empty() && drive_.empty() && !dry_; }
+  /// a(x)^2 from site -beyond on; null where it is 1.
+  const double* a2() const { return a2_.empty() ? nullptr : a2_.data() + beyond; }
+  /// F in b / 2 pi at site j, now; and its rate of change. 0 where there is none.
+  double now(std::size_t j) const { return F_now_.empty() ? 0.0 : F_now_[j + beyond]; }
+  double rate(std::size_t j) const {
+    return F_now_.empty() ? 0.0 : (F_next_[j + beyond] - F_old_[j + beyond]) / (2 * dt_);
+  }
+
+  /// One level of `size` sites, the first of which is site `offset` of the chain; arrays count from it and have two
+  /// neighbours before and ten behind. `next` holds the level before on entry. `y` and `before` are room for work.
+  void level(const Sides& sides, long offset, std::size_t size, const double* now, double* next, double* y,
+             double* before) const;
+  /// To the next level of the forcing.
+  void proceed();
+
+  /// The friction force at velocity u_t.
+  double friction(double velocity) const;
+
+ private:
+  std::vector<double> at(long level) const;
+  void find_drive();
+  void add_friction(std::size_t begin, std::size_t end, const double* now, double* next, const double* before) const;
+
+  Problem problem_;
+  Scheme scheme_;
+  PeriodicForce sine_;
+  double dt_;
+  long level_;
+  bool dry_;
+  std::vector<double> a2_, F_old_, F_now_, F_next_, drive_;
+};
+
+/// v + weight f(v) = free, where f opposes v: the velocity that friction leaves of `free`.
+double velocity_left(const modulation::Friction& friction, double weight, double free);
+
+}  // namespace slipfront::chain

@@ -1,0 +1,161 @@
+#include "slipfront/chain/measure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "slipfront/error.hpp"
+
+namespace slipfront::chain {
+namespace {
+
+constexpr double turn = 2 * std::numbers::pi;
+constexpr std::size_t stretch = 16384;  // sites looked at together
+
+/// Lagrange interpolation of v through the (up to) six sites around r (counted in sites of v).
+double between(const std::vector<double>& v, double r) {
+  const long n = static_cast<long>(v.size()), points = std::min<long>(6, n);
+  const long first = std::clamp<long>(static_cast<long>(std::floor(r)) - points / 2 + 1, 0, n - points);
+  double sum = 0;
+  for (long a = 0; a < points; ++a) {
+    double weight = 1;
+    for (long b = 0; b < points; ++b)
+      if (b != a) weight *= (r - static_cast<double>(first + b)) / static_cast<double>(a - b);
+    sum += weight * v[static_cast<std::size_t>(first + a)];
+  }
+  return sum;
+}
+
+/// Integral of the interpolant over [from, to], in sites: Gauss-Legendre with three points in every interval of the
+/// grid.
+double integral(const std::vector<double>& v, double from, double to) {
+  double sum = 0;
+  for (double a = from; a < to;) {
+    const double b = std::fmin(std::floor(a) + 1, to), middle = (a + b) / 2, half = (b - a) / 2;
+    const double node = std::sqrt(0.6) * half;
+    sum += half * (5 * between(v, middle - node) + 8 * between(v, middle) + 5 * between(v, middle + node)) / 9;
+    a = b;
+  }
+  return sum;
+}
+
+}  // namespace
+
+Average average(const Chain& chain, double x, double width, double time) {
+  const Grid& grid = chain.problem().grid;
+  const double last = static_cast<double>(grid.sites - 1);
+  const double from = (x - width / 2 - grid.left) / grid.spacing, to = (x + width / 2 - grid.left) / grid.spacing;
+  if (!(width > 0) || !(from >= 0) || !(to <= last))
+    throw InputError({.key = "window",
+                      .value = std::to_string(x) + " +- " + std::to_string(width / 2),
+                      .problem = "not on the chain",
+                      .allowed = std::to_string(grid.left) + " to " + std::to_string(grid.x(grid.sites - 1))});
+  const double begin = std::fmax(0, std::floor(from) - 3), end = std::fmin(last, std::ceil(to) + 3);
+  const Window w = chain.window(static_cast<std::size_t>(begin), static_cast<std::size_t>(end) + 1, time);
+  const double sites = to - from;
+  return {x, width, integral(w.u, from - begin, to - begin) / sites,
+          integral(w.velocity, from - begin, to - begin) / sites,
+          (between(w.u, from - begin) - between(w.u, to - begin)) / width};
+}
+
+namespace {
+
+/// Those between values j and j + 1 of `turns` (u / 2 pi - 1/2), value 0 of which is at x.
+void find(const std::vector<double>& turns, std::size_t j, double x, double h, std::vector<Dislocation>& found) {
+  const double a = turns[j], b = turns[j + 1];
+  const int sign = a > b ? 1 : -1;
+  // Whole numbers passed on the way; more than one between two sites only on a lattice of dislocations narrower than A.
+  for (double level = sign > 0 ? std::ceil(a) - 1 : std::floor(a) + 1; sign * (level - b) >= 0; level -= sign) {
+    double low = static_cast<double>(j), high = low + 1;
+    for (int i = 0; i < 50; ++i) {
+      const double middle = (low + high) / 2;
+      (sign * (between(turns, middle) - level) > 0 ? low : high) = middle;
+    }
+    found.push_back({x + h * low, sign});
+  }
+}
+
+}  // namespace
+
+std::vector<Dislocation> dislocations(const Chain& chain) {
+  const Problem& p = chain.problem();
+  const Grid& grid = p.grid;
+  const auto turns = [](std::vector<double> u) {
+    for (double& v : u) v = v / turn - 0.5;
+    return u;
+  };
+  std::vector<Dislocation> found;
+  for (std::size_t begin = 0; begin + 1 < grid.sites; begin += stretch) {
+    const std::size_t first = begin < 3 ? 0 : begin - 3, end = std::min(begin + stretch + 4, grid.sites);
+    const std::vector<double> values = turns(chain.window(first, end).u);
+    for (std::size_t j = begin; j < std::min(begin + stretch, grid.sites - 1); ++j)
+      find(values, j - first, grid.x(first), grid.spacing, found);
+  }
+  if (p.boundary.periodic) {  // between the last site and the first
+    std::vector<double> values = turns(chain.window(grid.sites - 3, grid.sites).u);
+    for (const double v : turns(chain.window(0, 3).u)) values.push_back(v - static_cast<double>(p.boundary.charge));
+    find(values, 2, grid.x(grid.sites - 3), grid.spacing, found);
+  }
+  return found;
+}
+
+Totals totals(const Chain& chain) {
+  const Problem& p = chain.problem();
+  const double h = p.grid.spacing;
+  const std::size_t n = p.grid.sites;
+  Totals t;
+  t.time = chain.time();
+  const bool around = p.boundary.periodic;
+  double first = 0, last = 0;
+  for (std::size_t begin = 0; begin < n; begin += stretch) {
+    const std::size_t end = std::min(begin + stretch, n), low = begin < 2 ? 0 : begin - 2, high = std::min(end + 2, n);
+    const Window w = chain.window(low, high);
+    const auto u = [&](std::size_t j) { return w.u[j - low]; };
+    if (begin == 0) first = u(0);
+    if (end == n) last = u(n - 1);
+    for (std::size_t j = begin; j < end; ++j) {
+      const double weight = (j == 0 || j + 1 == n) && !around ? h / 2 : h;
+      const double velocity = w.velocity[j - low], cosine = std::cos(u(j));
+      t.kinetic += weight * velocity * velocity / 2;
+      t.substrate += weight * chain.contact_squared(j) * (1 - cosine);
+      t.momentum += weight * velocity * w.stress[j - low];
+      t.supplied_rate += weight * velocity * chain.forcing(j);
+      t.dissipated_rate += weight * velocity * chain.friction(velocity);
+      // u_x^2 by differences over a bond; on a grid with the next two terms of (2 asinh(D/2))^2.
+      if (j + 1 < n) {
+        const double rise = u(j + 1) - u(j);
+        t.elastic += rise * rise / (2 * h);
+        t.dislocations += std::labs(std::lround(std::floor(u(j + 1) / turn - 0.5) - std::floor(u(j) / turn - 0.5)));
+      }
+      if (p.model == Model::sine_gordon && j > 0 && j + 1 < n) {
+        const double bend = u(j + 1) - 2 * u(j) + u(j - 1);
+        t.elastic += bend * bend / (24 * h);
+        if (j + 2 < n) {
+          const double third = u(j + 2) - 3 * u(j + 1) + 3 * u(j) - u(j - 1);
+          t.elastic += third * third / (180 * h);
+        }
+      }
+    }
+  }
+  t.charge = (first - last) / turn;
+  if (around) {
+    const double rise = first - turn * static_cast<double>(p.boundary.charge) - last;
+    t.elastic += rise * rise / (2 * h);
+    t.dislocations += std::labs(std::lround(std::floor((last + rise) / turn - 0.5) - std::floor(last / turn - 0.5)));
+    t.charge = static_cast<double>(p.boundary.charge);
+  }
+  return t;
+}
+
+void Work::sample(const Totals& now) {
+  if (started_) {
+    const double half = (now.time - last_.time) / 2;
+    supplied_ += half * (last_.supplied_rate + now.supplied_rate);
+    dissipated_ += half * (last_.dissipated_rate + now.dissipated_rate);
+  }
+  last_ = now;
+  started_ = true;
+}
+
+}  // namespace slipfront::chain

@@ -1,0 +1,205 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "exact.hpp"
+#include "slipfront/chain/measure.hpp"
+#include "slipfront/error.hpp"
+#include "slipfront/train/train.hpp"
+
+namespace {
+
+using namespace slipfront;
+using namespace slipfront::chain;
+using modulation::FrictionLaw;
+constexpr double pi = std::numbers::pi;
+
+Problem line(double left, double right, double h) {
+  return {.grid = {left, h, static_cast<std::size_t>(std::lround((right - left) / h)) + 1},
+          .model = Model::sine_gordon,
+          .boundary = {},
+          .friction = {},
+          .forcing = {},
+          .contact = {}};
+}
+
+/// The dislocation density follows the stress, and a uniform train is the formula of Eq. 4.
+TEST(ChainInitial, TrainFollowsTheStress) {
+  const Grid grid{-200, 0.25, 1601};
+  const auto stress = [](double x) { return x < -150 || x > 100 ? 0.0 : 0.6 + 0.4 * std::tanh(x / 40); };
+  const Motion m = static_train(stress, grid);
+  const double charge = (40 * std::log(std::cosh(2.5) / std::cosh(150 / 40.0)) * 0.4 + 0.6 * 250) / (2 * pi);
+  EXPECT_EQ(m.u.front(), 2 * pi * std::round(charge));
+  EXPECT_EQ(m.u.back(), 0);
+  for (std::size_t j = 1; j < m.u.size(); ++j) ASSERT_LE(m.u[j], m.u[j - 1] + 1e-12) << grid.x(j);
+
+  const Motion uniform = static_train([](double x) { return x < 0 ? 0.855 : 0.0; }, grid);
+  const double spacing = 2 * pi / 0.855;
+  for (const double x : {-100.0, -31.5, -2.0}) {
+    const auto j = static_cast<std::size_t>(std::lround((x - grid.left) / grid.spacing));
+    // Half a spacing from the last dislocation to the edge at the site x = 0.
+    const auto exact = [&] {
+      double low = 1e-3, high = 1;
+      for (int i = 0; i < 100; ++i) (train::stress_at_rest((low + high) / 2) < 0.855 ? low : high) = (low + high) / 2;
+      return train::fields({0, low}, x + spacing / 2).u;
+    }();
+    EXPECT_NEAR(uniform.u[j], exact, 1e-9) << x;
+  }
+  EXPECT_THROW(static_train([](double) { return -1.0; }, grid), InputError);
+}
+
+/// A train at rest stays at rest: the initial state is an equilibrium to the order of the grid.
+TEST(ChainInitial, UniformTrainStaysAtRest) {
+  Problem p = line(0, 20 * 2 * pi, 20 * 2 * pi / 320);
+  p.grid.sites = 320;
+  p.boundary = {.periodic = true, .charge = 17};
+  const Motion m = static_train([](double) { return 17.0 / 20; }, p.grid, true);
+  chain::Chain run(p, m);
+  run.advance_to(100);
+  const Window w = run.window(0, 320);
+  for (std::size_t j = 0; j < 320; ++j) ASSERT_NEAR(w.u[j], m.u[j], 2e-3) << j;
+}
+
+/// On a lattice a dislocation is pinned until the force reaches the Peierls-Nabarro threshold; on the grid of the
+/// continuum equation it is not.
+TEST(ChainPhysics, LatticePinsDislocations) {
+  const auto moved = [](double A, double F, Model model) {
+    Problem p = line(-24, 24, A);
+    p.model = model;
+    p.friction = {FrictionLaw::viscous, 0.3};
+    p.forcing = [F](double, double t) { return F * std::fmin(t / 40, 1.0); };  // slowly, from rest
+    chain::Chain run(p,
+                     exact::motion_of([](double x, double) { return 4 * std::atan(std::exp(-x - 0.5)); }, p.grid, 0));
+    run.advance_to(60);
+    const double before = dislocations(run).at(0).x;
+    run.advance_to(160);
+    const auto after = dislocations(run);
+    return after.empty() ? 100.0 : after[0].x - before;
+  };
+  EXPECT_LT(std::fabs(moved(1.2, 0.005, Model::lattice)), 0.1);  // threshold about 0.02 for A = 1.2
+  EXPECT_GT(moved(1.2, 0.06, Model::lattice), 3);
+  EXPECT_GT(moved(0.5, 0.005, Model::lattice), 0.8);
+  EXPECT_GT(moved(0.5, 0.005, Model::sine_gordon), 0.8);
+}
+
+/// Coulomb friction holds a chain that is pushed less than it can bear, and slows uniform slip at the rate f.
+TEST(ChainPhysics, CoulombFrictionSticksAndSlows) {
+  Problem p = line(-20, 20, 0.4);
+  p.friction = {FrictionLaw::coulomb, 0.05};
+  Motion rest;
+  rest.u.assign(p.grid.sites, 0.03);  // sin u < f
+  chain::Chain stuck(p, rest);
+  stuck.advance_to(50);
+  for (const double u : stuck.window(0, p.grid.sites).u) EXPECT_NEAR(u, 0.03, 1e-3);
+
+  // Viscous and power laws with exponent 1 are the same law.
+  Problem viscous = line(-20, 20, 0.1), power = viscous;
+  viscous.friction = {FrictionLaw::viscous, 0.2};
+  power.friction = {FrictionLaw::power, 0.2, 1};
+  const Motion kink = exact::motion_of(exact::kink(0.5), viscous.grid, 0);
+  chain::Chain a(viscous, kink), b(power, kink);
+  a.advance_to(10);
+  b.advance_to(10);
+  EXPECT_NEAR(dislocations(a).at(0).x, dislocations(b).at(0).x, 2e-3);
+}
+
+/// Contact: x and t scaled by a give the equation with a = 1.
+TEST(ChainPhysics, UniformContactIsAScale) {
+  Problem plain = line(-20, 20, 0.2), strong = line(-10, 10, 0.1);
+  strong.contact = [](double) { return 2.0; };
+  const auto u = exact::kink(0.4);
+  chain::Chain a(plain, exact::motion_of(u, plain.grid, 0));
+  chain::Chain b(strong, exact::motion_of([u](double x, double t) { return u(2 * x, 2 * t); }, strong.grid, 0));
+  a.advance(60);
+  b.advance(60);
+  EXPECT_NEAR(a.time(), 2 * b.time(), 1e-12);
+  const Window wa = a.window(0, 201), wb = b.window(0, 201);
+  for (std::size_t j = 0; j < 201; ++j) EXPECT_NEAR(wa.u[j], wb.u[j], 1e-8);
+  EXPECT_EQ(b.contact_squared(7), 4);
+}
+
+/// A dislocation leaves through an absorbing end and little comes back.
+TEST(ChainPhysics, AbsorbingEndLetsDislocationsOut) {
+  Problem p = line(-15, 15, 0.25);
+  p.boundary = {End::absorbing, End::absorbing, false, 0};
+  chain::Chain run(p, exact::motion_of(exact::kink(0.9), p.grid, 0));
+  const double first = totals(run).energy();
+  run.advance_to(40);
+  EXPECT_EQ(dislocations(run).size(), 0u);
+  EXPECT_LT(totals(run).energy(), 0.05 * first);
+}
+
+/// Time shift of one dislocation passing through another, against 2 ln(U) / (gamma U): to 1e-6 on a fine grid.
+TEST(ChainPhysics, PhaseShiftOfACollision) {
+  const double U = 0.6, g = 1 / std::sqrt(1 - U * U);
+  const Problem p = line(-25, 25, 0.02);
+  const auto u = exact::kink_kink(U);
+  chain::Chain run(p, exact::motion_of(u, p.grid, -12));
+  run.advance_to(24);
+  // Two that repel: after it, each stands where g (x -+ U t) = -+ ln U.
+  const double t = run.time() - 12;
+  const auto found = dislocations(run);
+  ASSERT_EQ(found.size(), 2u);
+  // As they are at finite distance: u = -pi and pi exactly, U sinh(g x) = cosh(g U t).
+  const double exact = std::asinh(std::cosh(g * U * t) / U) / g;
+  EXPECT_NEAR(found[1].x, exact, 1e-6);
+  EXPECT_NEAR(found[0].x, -exact, 1e-6);
+  const double shift = found[1].x - U * t, limit = -std::log(U) / g;
+  EXPECT_NEAR(shift, limit, 1e-6 + std::fabs(exact - U * t - limit));
+}
+
+void refused(const Problem& p, const Motion& m, const std::string& what) {
+  try {
+    chain::Chain run(p, m);
+    ADD_FAILURE() << "accepted: " << what;
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find(what), std::string::npos) << e.what();
+  }
+}
+
+TEST(ChainRefuses, BadInputInOneLine) {
+  const Problem good = line(-20, 20, 0.4);
+  const Motion kink = exact::motion_of(exact::kink(0), good.grid, 0);
+  Problem p = good;
+  p.grid.spacing = 0.9;
+  refused(p, kink, "sites to the width of a dislocation");
+  p = good;
+  p.contact = [](double) { return 3.0; };
+  refused(p, kink, "0.833333 sites to the width");
+  p = good;
+  p.step = 0.41;
+  refused(p, kink, "unstable");
+  p.model = Model::lattice;
+  refused(p, kink, "unstable");
+  p = good;
+  p.grid.sites = std::size_t{1} << 40;
+  refused(p, kink, "GB");
+  p = good;
+  p.boundary = {.periodic = true, .charge = 2};
+  refused(p, kink, "charge");
+  p = good;
+  p.grid.sites = 90;
+  refused(p, kink, "does not fit the grid");
+  refused(good, exact::motion_of([](double x, double) { return -6 * x; }, good.grid, 0), "too coarse");
+  p = good;
+  p.friction = {FrictionLaw::viscous, -1};
+  refused(p, kink, "friction");
+  EXPECT_THROW(average(chain::Chain(good, kink), 19, 4, 0), InputError);
+  EXPECT_THROW(chain::Chain(good, Levels{0, {1, 2}, {1, 2}}), InputError);
+}
+
+TEST(ChainRefuses, NumbersThatAreNone) {
+  Problem p = line(-20, 20, 0.4);
+  p.forcing = [](double x, double t) { return t > 3 && x > 5 ? std::numeric_limits<double>::quiet_NaN() : 0.0; };
+  chain::Chain run(p, exact::motion_of(exact::kink(0), p.grid, 0));
+  try {
+    run.advance_to(10);
+    ADD_FAILURE();
+  } catch (const NumericsError& e) {
+    EXPECT_NE(std::string(e.what()).find("t = 3.1"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("site"), std::string::npos) << e.what();
+  }
+}
+
+}  // namespace
