@@ -30,6 +30,7 @@ using Runner = std::function<int()>;
 Runner add_relations(CLI::App& app);
 Runner add_event(CLI::App& app);
 Runner add_pulse(CLI::App& app);
+Runner add_chain(CLI::App& app);
 
 /// What `slipfront` does when asked for nothing: `event` on the shipped catalogue.
 int run_default();

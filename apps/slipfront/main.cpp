@@ -45,7 +45,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(0, 1);
   app.failure_message(CLI::FailureMessage::simple);
   Runner chosen = run_default;
-  const Runner relations = add_relations(app), event = add_event(app), pulse = add_pulse(app);
+  const Runner relations = add_relations(app), event = add_event(app), pulse = add_pulse(app), chain = add_chain(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {
@@ -57,6 +57,7 @@ int run(int argc, char** argv) {
   if (app.got_subcommand("relations")) chosen = relations;
   if (app.got_subcommand("event")) chosen = event;
   if (app.got_subcommand("pulse")) chosen = pulse;
+  if (app.got_subcommand("chain")) chosen = chain;
   const int code = chosen();
   finish_stdout();
   return code;

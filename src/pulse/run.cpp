@@ -2,64 +2,13 @@
 
 #include <chrono>
 #include <cstdint>
-#include <cstring>
 #include <utility>
 
+#include "../bytes.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::pulse {
 namespace {
-
-/// Numbers as bytes in a row, little endian as every machine that this runs on.
-class Writer {
- public:
-  template <class T>
-  void put(T value) {
-    text_.append(reinterpret_cast<const char*>(&value), sizeof value);
-  }
-  void put(const std::vector<double>& values) {
-    put(static_cast<std::uint64_t>(values.size()));
-    text_.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double));
-  }
-  std::string text() && { return std::move(text_); }
-
- private:
-  std::string text_;
-};
-
-class Reader {
- public:
-  explicit Reader(std::string_view text) : text_(text) {}
-  template <class T>
-  T get() {
-    T value;
-    take(&value, sizeof value);
-    return value;
-  }
-  std::vector<double> vector() {
-    const auto size = get<std::uint64_t>();
-    if (size > text_.size() / sizeof(double)) refuse();
-    std::vector<double> values(static_cast<std::size_t>(size));
-    take(values.data(), values.size() * sizeof(double));
-    return values;
-  }
-  void end() const {
-    if (!text_.empty()) refuse();
-  }
-
- private:
-  [[noreturn]] static void refuse() {
-    throw InputError({.key = "resume",
-                      .problem = "the saved state is not that of a pulse run",
-                      .allowed = "a file that slipfront pulse wrote"});
-  }
-  void take(void* to, std::size_t size) {
-    if (size > text_.size()) refuse();
-    if (size > 0) std::memcpy(to, text_.data(), size);
-    text_.remove_prefix(size);
-  }
-  std::string_view text_;
-};
 
 constexpr std::uint64_t format = 2;
 
@@ -70,7 +19,7 @@ Run::Run(Problem problem, Schedule schedule)
 
 Run::Run(Problem problem, Schedule schedule, std::string_view saved, std::vector<Snapshot> snapshots)
     : Run(std::move(problem), std::move(schedule)) {
-  Reader reader(saved);
+  bytes::Reader reader(saved);
   if (reader.get<std::uint64_t>() != format || snapshots.size() > schedule_.times.size())
     throw InputError({.key = "resume",
                       .problem = "the saved state is of another version or scenario",
@@ -89,7 +38,7 @@ Run::Run(Problem problem, Schedule schedule, std::string_view saved, std::vector
 }
 
 std::string Run::saved() const {
-  Writer writer;
+  bytes::Writer writer;
   const Cells& cells = solver_.cells();
   writer.put(format);
   writer.put(cells.time);

@@ -64,10 +64,10 @@ constexpr ScalarVariable scalars[] = {
         {"energy_dissipated", "energy lost to friction since time 0", energy, "Eq. 7"}),
     scalar<&Snapshot::energy, &Energy::supplied>(
         {"energy_supplied", "energy supplied by the forcing since time 0", energy, "Eq. 7"}),
-    scalar<&Snapshot::slip_velocity_at_origin>(
+    absentable<&Snapshot::slip_velocity_at_origin>(
         {"slip_velocity_at_origin", "slip velocity at x = 0", "c A / pi", "Eq. 5"}),
-    scalar<&Snapshot::stress_at_origin>({"stress_at_origin", "shear stress at x = 0", "mu A / pi", "Eq. 5"}),
-    scalar<&Snapshot::slip_at_origin>({"slip_at_origin", "slip at x = 0 since time 0", "b / (2 pi)", "Eq. 4"}),
+    absentable<&Snapshot::stress_at_origin>({"stress_at_origin", "shear stress at x = 0", "mu A / pi", "Eq. 5"}),
+    absentable<&Snapshot::slip_at_origin>({"slip_at_origin", "slip at x = 0 since time 0", "b / (2 pi)", "Eq. 4"}),
     scalar<&Snapshot::peak_slip_velocity>({"peak_slip_velocity", "greatest slip velocity", "c A / pi", "Eq. 5"}),
     absentable<&Snapshot::peak_position>({"peak_position", "position of the greatest slip velocity", "b / A", "Eq. 5"}),
 };

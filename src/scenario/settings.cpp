@@ -63,12 +63,22 @@ void read_pulse(const Document& document, PulseOptions& pulse) {
 }
 
 void read_chain(const Document& document, ChainOptions& chain) {
-  const Section section(document, "chain", {"scale", "spacing", "model"});
+  const Section section(document, "chain", {"scale", "spacing", "model", "left", "right", "periodic", "window"});
   chain.scale = section.number("scale", positive).value_or(chain.scale);
   chain.spacing = section.number("spacing", positive);
   chain.model =
       section.choice<ChainModel>("model", {{"sine-gordon", ChainModel::sine_gordon}, {"lattice", ChainModel::lattice}})
           .value_or(chain.model);
+  const auto end = [&](const char* key, ChainEnd otherwise) {
+    return section
+        .choice<ChainEnd>(key,
+                          {{"free", ChainEnd::free}, {"fixed", ChainEnd::fixed}, {"absorbing", ChainEnd::absorbing}})
+        .value_or(otherwise);
+  };
+  chain.left = end("left", chain.left);
+  chain.right = end("right", chain.right);
+  chain.periodic = section.choice<bool>("periodic", {{"yes", true}, {"no", false}}).value_or(chain.periodic);
+  chain.window = section.number("window", positive);
 }
 
 Output read_output(const Document& document, double end) {

@@ -12,12 +12,6 @@
 
 namespace slipfront::pulse {
 
-struct Schedule {
-  std::vector<double> times;    ///< ascending, from 0; a snapshot each
-  std::vector<double> x_edges;  ///< output grid
-  double threshold = 1e-3;      ///< of the observed fronts
-};
-
 class Run {
  public:
   Run(Problem problem, Schedule schedule);
@@ -33,6 +27,7 @@ class Run {
   const std::vector<Snapshot>& snapshots() const { return snapshots_; }
   /// Wall time that the steps have taken, without laying cells and outputs.
   double stepping_seconds() const { return stepping_seconds_; }
+  bool good() const { return true; }  ///< may be saved even after a NumericsError: a step that fails changes nothing
   bool finished() const { return snapshots_.size() == schedule_.times.size(); }
   /// The state of the solver as bytes, for a checkpoint on the same kind of machine.
   std::string saved() const;

@@ -6,6 +6,13 @@
 
 namespace slipfront::pulse {
 
+/// When and where to look at a run.
+struct Schedule {
+  std::vector<double> times;    ///< ascending, from 0; a snapshot each
+  std::vector<double> x_edges;  ///< output grid
+  double threshold = 1e-3;      ///< of the observed fronts, as a share of the peak slip velocity
+};
+
 /// Averaged fields on the scenario's output grid, cell by cell; all dimensionless (docs/NOTATION.md).
 struct Profile {
   std::vector<double> k;     ///< dislocation density = stress Sigma

@@ -51,11 +51,17 @@ enum class ChainModel {
   lattice,      ///< every site of the Frenkel-Kontorova chain
 };
 
+/// What holds an end of the chain.
+enum class ChainEnd { free, fixed, absorbing };
+
 /// [chain]
 struct ChainOptions {
   double scale = 1;               ///< > 0: x and t stretched by it, friction divided by it
   std::optional<double> spacing;  ///< of the grid or lattice, > 0, in the chain's own (stretched) x
   ChainModel model = ChainModel::sine_gordon;
+  ChainEnd left = ChainEnd::fixed, right = ChainEnd::fixed;
+  bool periodic = false;         ///< a ring: `left` and `right` do not count
+  std::optional<double> window;  ///< of averages at x = 0, > 0, in the scenario's x
 };
 
 /// [output]: either a list of times or an interval; the end is always written.

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <string>
+
+/// What long work shows and heeds: a line of progress, Ctrl-C.
+
+using Clock = std::chrono::steady_clock;
+inline double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// A line on a terminal, renewed five times a second: share done, rate, time left.
+class Progress {
+ public:
+  Progress(double end, bool wanted)
+      : end_(end), on_(wanted && isatty(STDERR_FILENO)), start_(Clock::now()), shown_(start_) {}
+  ~Progress() {
+    if (drawn_) std::fputs("\r\x1b[K", stderr);
+  }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  void at(double time, long steps) {
+    if (!on_ || seconds_since(shown_) < 0.2) return;
+    shown_ = Clock::now();
+    const double share = time / end_, elapsed = seconds_since(start_);
+    const double gained = (time - first_time_) / end_;
+    const double left = gained > 0 ? elapsed * (1 - share) / gained : 0;
+    std::string bar(30, '.');
+    for (std::size_t i = 0; i < static_cast<std::size_t>(share * 30); ++i) bar[i] = '#';
+    fmt::print(stderr, "\r[{}] {:5.1f} %  t = {:.4g} of {:.4g}  {:.0f} steps/s  {:.0f} s left\x1b[K", bar, 100 * share,
+               time, end_, static_cast<double>(steps - first_steps_) / elapsed, left);
+    std::fflush(stderr);
+    drawn_ = true;
+  }
+  void from(double time, long steps) {
+    first_steps_ = steps;
+    first_time_ = time;
+  }
+
+ private:
+  double end_;
+  bool on_, drawn_ = false;
+  Clock::time_point start_, shown_;
+  double first_time_ = 0;
+  long first_steps_ = 0;
+};
+
+/// Ctrl-C and SIGTERM are seen from now on, not obeyed at once.
+void watch_interrupts();
+bool interrupted_by_user();

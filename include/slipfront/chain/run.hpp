@@ -1,0 +1,88 @@
+#pragma once
+/// \file
+/// A chain run on a scenario: x and t stretched by a scale, friction divided by it (docs/chain.md), and reported back
+/// in the scenario's own units. Yields the same snapshots as a pulse run, and can be saved and continued to the same
+/// bits.
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "slipfront/chain/chain.hpp"
+#include "slipfront/pulse/snapshot.hpp"
+
+namespace slipfront::chain {
+
+/// A problem in the scenario's units.
+struct Stretched {
+  double scale = 1;                                   ///< x and t are stretched by it
+  double left = -1, right = 1;                        ///< of the scenario
+  std::function<double(double)> stress;               ///< initial stress at x; everything at rest
+  std::function<double(double x, double t)> forcing;  ///< F; null: none
+  std::function<double(double)> contact;              ///< a(x); null: 1
+  modulation::Friction friction;                      ///< of the scenario; the closure does not matter
+  Boundary boundary;
+  Model model = Model::sine_gordon;
+  double spacing = 0.5;  ///< of the grid or lattice, in the chain's own (stretched) x
+  double window = 0;     ///< of averages at x = 0, in the scenario's x; 0: one spacing of the train left of it
+};
+
+/// The same problem in the chain's own units. \throws InputError as check does.
+Problem problem_of(const Stretched& stretched);
+
+class Run {
+ public:
+  Run(Stretched stretched, pulse::Schedule schedule, const Execution& execution);
+  /// Continues a saved run. \throws InputError if it is of another.
+  Run(Stretched stretched, pulse::Schedule schedule, const Execution& execution, std::string_view saved,
+      std::vector<pulse::Snapshot> snapshots);
+
+  /// Goes on to the end or until `interrupted`, asked every tenth of a second or so, says so. Returns whether the end
+  /// was reached.
+  bool go(const std::function<bool()>& interrupted = {});
+
+  const Chain& chain() const { return chain_; }
+  const pulse::Schedule& schedule() const { return schedule_; }
+  const std::vector<pulse::Snapshot>& snapshots() const { return snapshots_; }
+  bool good() const { return good_; }  ///< false after a NumericsError: not to be saved
+  bool finished() const { return snapshots_.size() == schedule_.times.size(); }
+  std::string saved() const;
+
+  double time() const { return chain_.time() / stretched_.scale; }  ///< of the scenario
+  double scale() const { return stretched_.scale; }
+  double window() const { return window_; }  ///< of averages at x = 0, in the scenario's x
+  /// |energy + dissipated - supplied - that at t = 0|, over that at t = 0. The work is summed by the trapezoidal rule
+  /// over some 200 samples: without friction and forcing it is the drift of the scheme alone.
+  double energy_drift() const;
+  /// Charge less that at t = 0.
+  double charge_error() const;
+  long dislocations() const;
+
+ private:
+  struct Start {
+    Problem problem;
+    Motion motion;
+  };
+  static Start start(const Stretched& stretched);
+  Run(Stretched stretched, pulse::Schedule schedule, const Execution& execution, const Start& start);
+  double width_of_cell(std::size_t i) const;
+  double centre_of_cell(std::size_t i) const;
+  void look_at_start();
+  void sample_work();
+  void take();
+
+  Stretched stretched_;
+  pulse::Schedule schedule_;
+  Chain chain_;
+  double window_ = 0;
+  long work_every_ = 1;
+  bool good_ = true;
+  std::vector<pulse::Snapshot> snapshots_;
+  // Since t = 0; saved.
+  std::vector<double> first_u_;  ///< averages over the output cells at t = 0
+  double first_u_at_origin_ = 0, first_energy_ = 0, first_charge_ = 0;
+  double work_time_ = 0, supplied_rate_ = 0, dissipated_rate_ = 0, supplied_ = 0, dissipated_ = 0;
+};
+
+}  // namespace slipfront::chain

@@ -1,0 +1,220 @@
+#include "slipfront/chain/run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "../bytes.hpp"
+#include "slipfront/chain/measure.hpp"
+#include "slipfront/error.hpp"
+
+namespace slipfront::chain {
+namespace {
+
+using pulse::Snapshot;
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr std::uint64_t format = 0x636861696e000001;  // "chain", version 1
+
+/// The train's spacing just left of x = 0, or anywhere if it is empty there.
+double spacing_of_train(const Stretched& s) {
+  for (const double x : {-1e-9 * (s.right - s.left), s.left, s.right})
+    if (const double k = s.stress(x); k > 0) return 2 * std::numbers::pi / k / s.scale;
+  return (s.right - s.left) / 16;
+}
+
+}  // namespace
+
+Problem problem_of(const Stretched& s) {
+  if (!(s.scale > 0) || !std::isfinite(s.scale))
+    throw InputError(
+        {.key = "chain.scale", .value = std::to_string(s.scale), .problem = "out of range", .allowed = "> 0"});
+  const double length = s.scale * (s.right - s.left);
+  Problem p;
+  // A ring has one site less than ends: the last is the first again.
+  const double intervals = std::ceil(length / s.spacing - 1e-9);
+  if (!(intervals >= 1 && intervals < 1e15))
+    throw InputError({.key = "chain.spacing",
+                      .value = std::to_string(s.spacing),
+                      .problem = "does not divide a chain of length " + std::to_string(length),
+                      .allowed = "> 0, for 1 to 1e15 sites"});
+  p.grid.left = s.scale * s.left;
+  p.grid.sites = static_cast<std::size_t>(intervals) + (s.boundary.periodic ? 0 : 1);
+  p.grid.spacing = s.boundary.periodic ? length / intervals : s.spacing;
+  p.model = s.model;
+  p.boundary = s.boundary;
+  p.friction = s.friction;
+  p.friction.coefficient /= s.scale;
+  if (s.forcing) p.forcing = [f = s.forcing, c = s.scale](double x, double t) { return f(x / c, t / c) / c; };
+  if (s.contact) p.contact = [a = s.contact, c = s.scale](double x) { return a(x / c); };
+  check(p);
+  return p;
+}
+
+Run::Start Run::start(const Stretched& s) {
+  Start start{problem_of(s), {}};
+  start.motion = static_train([&](double x) { return s.stress(std::clamp(x / s.scale, s.left, s.right)); },
+                              start.problem.grid, s.boundary.periodic);
+  if (s.boundary.periodic) {  // as many dislocations as the stress asks for
+    const Grid& grid = start.problem.grid;
+    const double once_around = start.motion.u.front() - start.motion.u.back();
+    const double share = static_cast<double>(grid.sites) / std::max<double>(1, static_cast<double>(grid.sites) - 1);
+    start.problem.boundary.charge = std::lround(once_around * share / (2 * std::numbers::pi));
+  }
+  return start;
+}
+
+Run::Run(Stretched stretched, pulse::Schedule schedule, const Execution& execution, const Start& start)
+    : stretched_(std::move(stretched)), schedule_(std::move(schedule)), chain_(start.problem, start.motion, execution) {
+  look_at_start();
+}
+
+Run::Run(Stretched stretched, pulse::Schedule schedule, const Execution& execution)
+    : Run(stretched, std::move(schedule), execution, start(stretched)) {}
+
+double Run::centre_of_cell(std::size_t i) const {
+  const double half = width_of_cell(i) / 2 * (1 + 1e-9);  // the window stays on the chain
+  const double centre = (schedule_.x_edges[i] + schedule_.x_edges[i + 1]) / 2;
+  return std::clamp(centre, stretched_.left + half, stretched_.right - half);
+}
+
+double Run::width_of_cell(std::size_t i) const {
+  const double cell = schedule_.x_edges[i + 1] - schedule_.x_edges[i];
+  return std::min(std::max(cell, spacing_of_train(stretched_)), (stretched_.right - stretched_.left) * (1 - 1e-6));
+}
+
+void Run::look_at_start() {
+  const double length = stretched_.right - stretched_.left;
+  window_ = stretched_.window > 0 ? stretched_.window : std::min(spacing_of_train(stretched_), length / 4);
+  const double levels = schedule_.times.back() * stretched_.scale / chain_.dt();
+  work_every_ = std::max(32L, 32 * std::lround(levels / 200 / 32));
+  const double c = stretched_.scale;
+  for (std::size_t i = 0; i + 1 < schedule_.x_edges.size(); ++i)
+    first_u_.push_back(average(chain_, c * centre_of_cell(i), c * width_of_cell(i), 0).u);
+  if (stretched_.left + window_ / 2 <= 0 && stretched_.right - window_ / 2 >= 0)
+    first_u_at_origin_ = average(chain_, 0, c * window_, 0).u;
+  else
+    first_u_at_origin_ = none;
+  const Totals t = totals(chain_);
+  first_energy_ = t.energy();
+  first_charge_ = t.charge;
+  supplied_rate_ = t.supplied_rate;
+  dissipated_rate_ = t.dissipated_rate;
+}
+
+Run::Run(Stretched stretched, pulse::Schedule schedule, const Execution& execution, std::string_view saved,
+         std::vector<Snapshot> snapshots)
+    : Run(std::move(stretched), std::move(schedule), execution) {
+  bytes::Reader reader(saved);
+  if (reader.get<std::uint64_t>() != format || snapshots.size() > schedule_.times.size())
+    throw InputError({.key = "resume",
+                      .problem = "the saved state is of another version or scenario",
+                      .allowed = "a file of this version and scenario, written by slipfront chain"});
+  for (double* value : {&supplied_, &dissipated_, &work_time_, &supplied_rate_, &dissipated_rate_})
+    *value = reader.get<double>();
+  Levels levels;
+  levels.level = static_cast<long>(reader.get<std::int64_t>());
+  levels.now = reader.vector();
+  levels.before = reader.vector();
+  reader.end();
+  chain_ = Chain(chain_.problem(), levels, execution);
+  snapshots_ = std::move(snapshots);
+}
+
+std::string Run::saved() const {
+  bytes::Writer writer;
+  writer.put(format);
+  for (const double value : {supplied_, dissipated_, work_time_, supplied_rate_, dissipated_rate_}) writer.put(value);
+  const Levels levels = chain_.levels();
+  writer.put(static_cast<std::int64_t>(levels.level));
+  writer.put(levels.now);
+  writer.put(levels.before);
+  return std::move(writer).text();
+}
+
+void Run::sample_work() {
+  const Totals now = totals(chain_);
+  const double dt = now.time - work_time_;
+  supplied_ += dt / 2 * (supplied_rate_ + now.supplied_rate);
+  dissipated_ += dt / 2 * (dissipated_rate_ + now.dissipated_rate);
+  work_time_ = now.time;
+  supplied_rate_ = now.supplied_rate;
+  dissipated_rate_ = now.dissipated_rate;
+}
+
+bool Run::go(const std::function<bool()>& interrupted) {
+  // Work for a tenth of a second or so; where a run stops in between changes no bits.
+  const auto sites = static_cast<double>(chain_.problem().grid.sites);
+  const long most = 32 * std::max(1L, std::lround(2e8 / 32 / sites));
+  while (!finished()) {
+    const auto target = std::lround(schedule_.times[snapshots_.size()] * stretched_.scale / chain_.dt());
+    while (chain_.level() < target) {
+      const long level = chain_.level(), sample = (level / work_every_ + 1) * work_every_;
+      good_ = false;
+      chain_.advance(std::min({target, sample, level + most}) - level);
+      good_ = true;
+      if (chain_.level() == sample) sample_work();
+      if (interrupted && interrupted()) return false;
+    }
+    take();
+  }
+  return true;
+}
+
+void Run::take() {
+  const double time = schedule_.times[snapshots_.size()], c = stretched_.scale;
+  Snapshot s{};
+  s.time = time;
+  const std::size_t n = first_u_.size();
+  std::size_t peak = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Average a = average(chain_, c * centre_of_cell(i), c * width_of_cell(i), c * time);
+    s.profile.k.push_back(a.stress);
+    s.profile.W.push_back(a.velocity);
+    s.profile.U.push_back(a.stress > 1e-9 ? a.velocity / a.stress : 0);
+    s.profile.slip.push_back((a.u - first_u_[i]) / c);
+    if (std::fabs(a.velocity) > std::fabs(s.profile.W[peak])) peak = i;
+  }
+  s.peak_slip_velocity = s.profile.W[peak];
+  s.peak_position = centre_of_cell(peak);
+  s.slip_velocity_at_origin = s.stress_at_origin = s.slip_at_origin = none;
+  if (!std::isnan(first_u_at_origin_)) {
+    const Average origin = average(chain_, 0, c * window_, c * time);
+    s.slip_velocity_at_origin = origin.velocity;
+    s.stress_at_origin = origin.stress;
+    s.slip_at_origin = (origin.u - first_u_at_origin_) / c;
+  }
+  s.fronts = {none, none, none, none};
+  if (stretched_.stress(stretched_.right) == 0) {  // the last dislocation
+    const auto all = chain::dislocations(chain_);
+    if (!all.empty()) s.fronts.leading = all.back().x / c;
+  }
+  const double level = schedule_.threshold * std::fabs(s.peak_slip_velocity);
+  const auto moves = [&](std::size_t i) { return std::fabs(s.profile.W[i]) > level; };
+  if (level > 0) {
+    std::size_t first = 0, last = n - 1;
+    while (!moves(first)) ++first;
+    while (!moves(last)) --last;
+    s.fronts.trailing_observed = centre_of_cell(first);
+    s.fronts.leading_observed = centre_of_cell(last);
+  }
+  const Totals now = totals(chain_);
+  s.energy = {(now.elastic + now.substrate) / c, now.kinetic / c, dissipated_ / c, supplied_ / c};
+  snapshots_.push_back(std::move(s));
+}
+
+double Run::energy_drift() const {
+  const Totals now = totals(chain_);
+  const double rest = now.time - work_time_;
+  const double dissipated = dissipated_ + rest / 2 * (dissipated_rate_ + now.dissipated_rate);
+  const double supplied = supplied_ + rest / 2 * (supplied_rate_ + now.supplied_rate);
+  return std::fabs(now.energy() + dissipated - supplied - first_energy_) / first_energy_;
+}
+
+double Run::charge_error() const { return totals(chain_).charge - first_charge_; }
+
+long Run::dislocations() const { return totals(chain_).dislocations; }
+
+}  // namespace slipfront::chain
