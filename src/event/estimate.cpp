@@ -79,6 +79,8 @@ Numbers infer(const Observed& observed, const Elastic& e, std::optional<double> 
     n.stress = rupture::from_slip_velocity(*n.observed).stress;
   }
   if (n.stress && n.A) n.stress_pa = medium::stress_unit(e.shear_modulus, *n.A) * *n.stress;
+  for (auto* x : {&n.A, &n.observed, &n.ratio, &n.stress_pa})  // of a slip of 1e306 m, say
+    if (*x && !std::isfinite(**x)) x->reset();
   return n;
 }
 

@@ -126,4 +126,12 @@ TEST(Estimate, WarnsOfAContactBeyondPlastic) {
   EXPECT_TRUE(mentions(estimate(o, {}).warnings, "exceeds plastic contact"));
 }
 
+TEST(Estimate, AbsurdSlipMakesNoInfinity) {  // found by fuzzing an .fsp file
+  Observation o = from_case("parkfield-2004.toml");
+  o.slip_velocity = Measured{1e305, 1e305};
+  const Estimate e = estimate(o, {});
+  EXPECT_FALSE(e.stress_pa);
+  EXPECT_TRUE(e.stress);
+}
+
 }  // namespace
