@@ -77,7 +77,8 @@ Run::Run(Stretched stretched, pulse::Schedule schedule, const Execution& executi
 double Run::centre_of_cell(std::size_t i) const {
   const double half = width_of_cell(i) / 2 * (1 + 1e-9);  // the window stays on the chain
   const double centre = (schedule_.x_edges[i] + schedule_.x_edges[i + 1]) / 2;
-  return std::clamp(centre, stretched_.left + half, stretched_.right - half);
+  const Grid& grid = chain_.problem().grid;  // a ring's last site is a spacing before its end
+  return std::clamp(centre, stretched_.left + half, grid.x(grid.sites - 1) / stretched_.scale - half);
 }
 
 double Run::width_of_cell(std::size_t i) const {
@@ -93,7 +94,8 @@ void Run::look_at_start() {
   const double c = stretched_.scale;
   for (std::size_t i = 0; i + 1 < schedule_.x_edges.size(); ++i)
     first_u_.push_back(average(chain_, c * centre_of_cell(i), c * width_of_cell(i), 0).u);
-  if (stretched_.left + window_ / 2 <= 0 && stretched_.right - window_ / 2 >= 0)
+  const Grid& grid = chain_.problem().grid;
+  if (stretched_.left + window_ / 2 <= 0 && grid.x(grid.sites - 1) / stretched_.scale - window_ / 2 >= 0)
     first_u_at_origin_ = average(chain_, 0, c * window_, 0).u;
   else
     first_u_at_origin_ = none;

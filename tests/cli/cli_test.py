@@ -20,6 +20,8 @@ EVENT = ["name", "c_m_s", "rupture_velocity", "stress", "frictionless_slip_veloc
 PULSE = ["closure", "friction_coefficient", "damping_number", "time", "slip_velocity_at_origin", "stress_at_origin",
          "slip_at_origin", "peak_slip_velocity", "peak_position", "trailing_front", "leading_front", "conservation_error", "cells",
          "steps", "solve_seconds", "wall_seconds"]
+CHAIN = ["time", "scale", "slip_at_origin", "dislocations", "sites", "steps", "site_updates_per_second", "energy_drift", "charge_error",
+         "wall_seconds"]
 
 
 def run(*arguments, stdin=""):
@@ -226,34 +228,38 @@ class CommandLine(unittest.TestCase):
 
     def slow_case(self):
         return self.file("slow.toml", "[initial]\nstress_left = 0.855\n[friction]\nlaw = 'viscous'\ncoefficient = 0.5\n"
-                                      "[pulse]\ncells = 400\n[output]\nevery = 0.3\n".replace("stress_left", "stress_right = 0\nstress_left"))
+                                      "[pulse]\ncells = 1500\n[chain]\nscale = 5000\n[output]\nevery = 0.3\n".replace("stress_left", "stress_right = 0\nstress_left"))
 
-    def test_pulse_killed_and_resumed_is_the_same_file(self):
+    def killed_and_resumed(self, command, trials, longest):
+        """Kills a run at random moments and resumes it: the file must be that of a run left alone."""
         case = self.slow_case()
         folder = os.path.dirname(case)
-        whole = os.path.join(folder, "whole.nc")
-        self.ok("pulse", case, "-o", whole)
+        cut, reference = os.path.join(folder, "cut.nc"), os.path.join(folder, "reference.nc")
+        self.ok(command, case, "-o", reference)
         chance = random.Random(7)
         resumed = 0
-        for trial in range(20):
-            cut = os.path.join(folder, "cut.nc")
+        for trial in range(trials):
             if os.path.exists(cut):
                 os.remove(cut)
-            process = subprocess.Popen([PROGRAM, "pulse", case, "-o", cut, "--set", f"title=trial {trial}"], stdout=subprocess.DEVNULL)
+            process = subprocess.Popen([PROGRAM, command, case, "-o", cut], stdout=subprocess.DEVNULL)
             try:
-                process.wait(chance.uniform(0.02, 0.35))
+                process.wait(chance.uniform(0.02, longest))
             except subprocess.TimeoutExpired:
                 process.kill()
             process.wait()
             if not os.path.exists(cut):
                 continue  # killed before the first checkpoint: nothing was written, and nothing half-written either
             resumed += 1
-            self.ok("pulse", case, "--set", f"title=trial {trial}", "--resume", cut)
-            reference = os.path.join(folder, "reference.nc")
-            self.ok("pulse", case, "--set", f"title=trial {trial}", "-o", reference)
+            self.ok(command, case, "--resume", cut, "--threads", str(1 + trial % 2))
             with open(cut, "rb") as a, open(reference, "rb") as b:
                 self.assertEqual(a.read(), b.read(), trial)
-        self.assertGreater(resumed, 5)  # most were killed after their first checkpoint
+        self.assertGreater(resumed, trials / 4)  # most were killed after their first checkpoint
+
+    def test_pulse_killed_and_resumed_is_the_same_file(self):
+        self.killed_and_resumed("pulse", 20, 0.5)
+
+    def test_chain_killed_and_resumed_is_the_same_file(self):
+        self.killed_and_resumed("chain", 6, 1.0)
 
     def test_pulse_interrupted_leaves_a_checkpoint(self):
         case = self.slow_case()
@@ -268,10 +274,56 @@ class CommandLine(unittest.TestCase):
         self.assertIn("--resume", errors)
         self.refused(2, "pulse", case, "--resume", cut, says=["another scenario"])
 
+    # chain
+
+    def chain(self, *arguments):
+        return json.loads(self.ok("chain", *arguments, "--json"))
+
+    def test_chain_json_has_the_contract_keys(self):
+        case = os.path.join(SOURCE, "cases/step.toml")
+        out = self.chain(case, "--set", "chain.scale=300")
+        for key in CHAIN:
+            self.assertIn(key, out)
+        self.assertEqual(out["scale"], 300)
+        self.assertLess(abs(out["slip_at_origin"] / (2 * math.pi * 0.0482084) - 1), 0.01)
+        self.assertLess(out["energy_drift"], 1e-4)
+        self.assertEqual(out["charge_error"], 0)
+        self.assertIn("fine", self.ok("chain", case, "--check"))
+
+    def test_chain_tends_to_the_consistent_pulse(self):
+        case = os.path.join(SOURCE, "cases/step.toml")
+        friction = ["--set", "friction.law=viscous", "--set", "friction.coefficient=0.5"]
+        pulse = self.pulse(case, *friction)["slip_at_origin"]
+        paper = self.pulse(case, *friction, "--set", "friction.closure=paper")["slip_at_origin"]
+        error = [abs(self.chain(case, *friction, "--set", f"chain.scale={scale}")["slip_at_origin"] / pulse - 1) for scale in (100, 1000)]
+        self.assertLess(error[1], 0.005)
+        self.assertLess(error[1], error[0] / 3)
+        self.assertGreater(abs(paper / pulse - 1), 0.2)
+
+    def test_chain_lattice_and_ring(self):
+        case = os.path.join(SOURCE, "cases/step.toml")
+        lattice = self.chain(case, "--set", "chain.scale=100", "--set", "chain.model=lattice", "--set", "medium.contact_ratio=0.1")
+        self.assertEqual(lattice["spacing"], 0.1)
+        self.assertLess(abs(lattice["slip_at_origin"] / 0.3029 - 1), 0.02)
+        ring = self.chain(self.file("ring.toml", "[initial]\nprofile = 'formula'\nformula = '0.8'\n[domain]\nleft = -1\nright = 1\n"
+                                    "[chain]\nscale = 50\nperiodic = 'yes'\n[forcing]\nformula = '0.5'\n"))
+        self.assertEqual(ring["dislocations"], 13)
+        self.assertGreater(ring["slip_at_origin"], 0)
+
+    def test_chain_refuses(self):
+        case = os.path.join(SOURCE, "cases/step.toml")
+        for change, words in [("chain.spacing=0.9", ["spacing", "1.5"]), ("chain.scale=1e13", ["GB"]), ("chain.scale=0", ["scale"]),
+                              ("chain.model=lattice", ["chain.spacing"]), ("chain.left=open", ["absorbing"])]:
+            with self.subTest(change=change):
+                self.refused(2, "chain", case, "--set", "chain.model=sine-gordon", "--set", "time.end=60", "--set", change, says=words)
+        made = os.path.join(os.path.dirname(self.file("x", "")), "pulse.nc")
+        self.ok("pulse", case, "-o", made)
+        self.refused(2, "chain", case, "--resume", made, says=["resume"])
+
     # common
 
     def test_help_and_version(self):
-        for arguments in (["--help"], ["relations", "--help"], ["event", "--help"], ["--version"]):
+        for arguments in (["--help"], ["relations", "--help"], ["event", "--help"], ["pulse", "--help"], ["chain", "--help"], ["--version"]):
             self.assertTrue(self.ok(*arguments).strip())
 
     def test_full_disk_is_an_error(self):
