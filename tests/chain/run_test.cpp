@@ -43,7 +43,7 @@ TEST(ChainRun, FrictionlessStepTendsToTheClosedForm) {
     // Nothing moves before the trailing edge.
     for (std::size_t i = 0; i < 40; ++i)
       if (run.schedule().x_edges[i + 1] < -2 * pi * exact.rupture_velocity - 0.2) {
-        EXPECT_NEAR(s.profile.W[i], 0, 1e-3);
+        EXPECT_NEAR(s.profile.W[i], 0, 5e-3);
       }
   }
 }
