@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <utility>
 
@@ -13,69 +12,67 @@
 namespace slipfront::chain {
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
-
-void check_start(const Problem& p, const Motion& start) {
-  const std::size_t n = p.grid.sites;
-  if (start.u.size() != n || (!start.velocity.empty() && start.velocity.size() != n))
-    throw InputError({.key = "initial motion",
-                      .value = std::to_string(start.u.size()) + " sites",
-                      .problem = "does not fit the grid",
-                      .allowed = std::to_string(n) + " sites"});
-  // A dislocation in a train has the greatest slope 2 beta, beta its inverse width.
-  double steepest = 0, at = 0;
-  for (std::size_t j = 0; j < n; ++j) {
-    if (!std::isfinite(start.u[j]) || (!start.velocity.empty() && !std::isfinite(start.velocity[j])))
-      throw InputError({.key = "initial motion at x = " + std::to_string(p.grid.x(j)),
-                        .problem = "not a number",
-                        .allowed = "finite displacement and velocity"});
-    if (j == 0) continue;
-    const double rise = std::fabs(start.u[j] - start.u[j - 1]);
-    if (rise > steepest) {
-      steepest = rise;
-      at = p.grid.x(j);
-    }
-  }
-  if (p.model == Model::sine_gordon && steepest > 2 / least_sites_per_width)
-    throw InputError(
-        {.key = "spacing",
-         .value = std::to_string(p.grid.spacing),
-         .problem = "too coarse: " + std::to_string(2 / steepest) + " sites to the width of the dislocation at x = " +
-                    std::to_string(at) + ", " + std::to_string(least_sites_per_width) + " are needed",
-         .allowed = "about " + std::to_string(p.grid.spacing * 2 / (least_sites_per_width * steepest)) + " or less"});
-  if (p.boundary.periodic) {
-    const double fits = (start.u[0] - (2 * start.u[n - 1] - start.u[n - 2])) / turn;
-    if (std::fabs(fits - static_cast<double>(p.boundary.charge)) > 0.25)
-      throw InputError({.key = "charge",
-                        .value = std::to_string(p.boundary.charge),
-                        .problem = "does not fit the initial state, which falls by " + std::to_string(fits) + " turns",
-                        .allowed = "the whole number of dislocations between the ends"});
-  }
+std::vector<double> part(const std::vector<double>& all, std::size_t begin, std::size_t end) {
+  const auto at = [&](std::size_t j) { return all.begin() + static_cast<std::ptrdiff_t>(j); };
+  return {at(begin), at(end)};
 }
 
-void check_saved(const Problem& p, const Levels& saved) {
-  if (saved.now.size() != p.grid.sites || saved.before.size() != p.grid.sites || saved.level < 0)
-    throw InputError({.key = "resume",
-                      .value = std::to_string(saved.now.size()) + " sites",
-                      .problem = "does not fit the scenario",
-                      .allowed = std::to_string(p.grid.sites) + " sites"});
+void refuse_size(const char* what, std::size_t size, std::size_t sites, const char* with) {
+  throw InputError({.key = what,
+                    .value = std::to_string(size) + " sites",
+                    .problem = std::string("does not fit the ") + with,
+                    .allowed = std::to_string(sites) + " sites"});
+}
+
+/// Pieces of what is held whole.
+MotionOf pieces(const Motion& start, std::size_t sites) {
+  return [&start, sites](std::size_t begin, std::size_t end) -> Motion {
+    if (start.u.size() != sites || (!start.velocity.empty() && start.velocity.size() != sites))
+      refuse_size("initial motion", start.u.size(), sites, "grid");
+    if (start.velocity.empty()) return {part(start.u, begin, end), {}};
+    return {part(start.u, begin, end), part(start.velocity, begin, end)};
+  };
+}
+LevelsOf pieces(const Levels& saved, std::size_t sites) {
+  return [&saved, sites](std::size_t begin, std::size_t end) -> Levels {
+    if (saved.now.size() != sites || saved.before.size() != sites)
+      refuse_size("resume", saved.now.size(), sites, "scenario");
+    return {saved.level, part(saved.now, begin, end), part(saved.before, begin, end)};
+  };
 }
 
 }  // namespace
 
-Chain::Chain(const Problem& problem, const Motion& start, const Execution& execution) {
-  check(problem);
-  check_start(problem, start);
-  parts_ = std::make_unique<Parts>(problem, execution, 0);
-  parts_->fill(first_levels(problem, parts_->scheme, parts_->forces, start));
+Chain::Chain(const Problem& problem, const MotionOf& start, const Execution& execution) {
+  const Ranks& ranks = Parts::ranks_of(execution);
+  StartCheck look;
+  ranks.together([&] {
+    check(problem, ranks.share_of_machine());
+    parts_ = std::make_unique<Parts>(problem, execution, 0);
+    parts_->fill([&](std::size_t begin, std::size_t end) {
+      return first_levels(problem, parts_->scheme, parts_->forces, start, begin, end, look);
+    });
+  });
+  look.finish(problem, ranks);
+  ranks.together([&] { check_charge(problem, start); });
 }
 
-Chain::Chain(const Problem& problem, const Levels& saved, const Execution& execution) {
-  check(problem);
-  check_saved(problem, saved);
-  parts_ = std::make_unique<Parts>(problem, execution, saved.level);
-  parts_->fill(saved);
+Chain::Chain(const Problem& problem, long level, const LevelsOf& saved, const Execution& execution) {
+  const Ranks& ranks = Parts::ranks_of(execution);
+  ranks.together([&] {
+    check(problem, ranks.share_of_machine());
+    if (level < 0)
+      throw InputError(
+          {.key = "resume", .value = std::to_string(level), .problem = "not a level", .allowed = "0 or greater"});
+    parts_ = std::make_unique<Parts>(problem, execution, level);
+    parts_->fill(saved);
+  });
 }
+
+Chain::Chain(const Problem& problem, const Motion& start, const Execution& execution)
+    : Chain(problem, pieces(start, problem.grid.sites), execution) {}
+Chain::Chain(const Problem& problem, const Levels& saved, const Execution& execution)
+    : Chain(problem, saved.level, pieces(saved, problem.grid.sites), execution) {}
 
 Chain::~Chain() = default;
 Chain::Chain(Chain&&) noexcept = default;
@@ -85,7 +82,7 @@ void Chain::advance(long levels) {
   while (levels > 0) {
     const long some = std::min(levels, static_cast<long>(parts_->depth));
     parts_->advance(static_cast<std::size_t>(some));
-    parts_->check_numbers();
+    parts_->ranks.together([&] { parts_->check_numbers(); });
     levels -= some;
   }
 }
@@ -94,7 +91,7 @@ bool Chain::advance_to(double time, const std::function<bool()>& interrupted) {
   const long target = std::lround(time / dt());
   while (level() < target) {
     advance(std::min<long>(target - level(), halo));
-    if (interrupted && interrupted()) break;
+    if (interrupted && parts_->ranks.any(interrupted())) break;
   }
   return level() >= target;
 }
@@ -104,20 +101,44 @@ long Chain::level() const { return parts_->level; }
 double Chain::dt() const { return parts_->scheme.dt; }
 double Chain::time() const { return static_cast<double>(level()) * dt(); }
 
-Levels Chain::levels() const {
+std::size_t Chain::first_site() const { return parts_->begin; }
+std::size_t Chain::end_site() const { return parts_->end; }
+
+Levels Chain::levels(std::size_t begin, std::size_t end) const {
   Levels levels;
   levels.level = level();
   for (const Slab& slab : parts_->slabs) {
-    levels.now.insert(levels.now.end(), slab.now(), slab.now() + slab.size());
-    levels.before.insert(levels.before.end(), slab.old(), slab.old() + slab.size());
+    const std::size_t from = std::max(begin, slab.begin()), to = std::min(end, slab.begin() + slab.size());
+    if (from >= to) continue;
+    const std::size_t at = from - slab.begin(), size = to - from;
+    levels.now.insert(levels.now.end(), slab.now() + at, slab.now() + at + size);
+    levels.before.insert(levels.before.end(), slab.old() + at, slab.old() + at + size);
   }
+  if (parts_->ranks.size() == 1) return levels;
+  levels.now = parts_->ranks.joined_at_first(levels.now);
+  levels.before = parts_->ranks.joined_at_first(levels.before);
   return levels;
 }
 
-double Chain::contact_squared(std::size_t site) const {
-  return parts_->forces.a2() == nullptr ? 1 : parts_->forces.a2()[site];
+Levels Chain::levels() const {
+  const std::size_t sites = problem().grid.sites;
+  if (parts_->ranks.size() == 1) return levels(0, sites);
+  Levels all;
+  all.level = level();
+  constexpr std::size_t piece = std::size_t{1} << 26;  // what a message can carry
+  for (std::size_t begin = 0; begin < sites; begin += piece) {
+    const Levels some = levels(begin, std::min(begin + piece, sites));
+    all.now.insert(all.now.end(), some.now.begin(), some.now.end());
+    all.before.insert(all.before.end(), some.before.begin(), some.before.end());
+  }
+  return all;
 }
-double Chain::forcing(std::size_t site) const { return parts_->forces.now(site); }
+
+double Chain::contact_squared(std::size_t site) const {
+  const double* a2 = parts_->forces.a2(static_cast<long>(site));
+  return a2 == nullptr ? 1 : *a2;
+}
+double Chain::forcing(std::size_t site) const { return parts_->forces.now(static_cast<long>(site)); }
 double Chain::friction(double velocity) const { return parts_->forces.friction(velocity); }
 
 }  // namespace slipfront::chain

@@ -11,49 +11,49 @@ namespace {
 using modulation::FrictionLaw;
 constexpr double turn = 2 * std::numbers::pi;
 
-/// Site j of the problem's grid for -beyond <= j < sites + beyond: around a periodic chain, reflected at ends.
+/// Site j of the problem's grid, also beyond its ends.
 std::size_t folded(const Problem& p, long j) {
   const long n = static_cast<long>(p.grid.sites);
   if (p.boundary.periodic) return static_cast<std::size_t>((j % n + n) % n);
-  return static_cast<std::size_t>(j < 0 ? -j : j >= n ? 2 * (n - 1) - j : j);
+  while (j < 0 || j >= n) j = j < 0 ? -j : 2 * (n - 1) - j;
+  return static_cast<std::size_t>(j);
 }
 
 }  // namespace
 
-Forces::Forces(const Problem& problem, const Scheme& scheme, long level)
+Forces::Forces(const Problem& problem, const Scheme& scheme, long level, std::size_t begin, std::size_t end)
     : problem_(problem),
       scheme_(scheme),
       sine_(substrate_force(0)),
       dt_(scheme.dt),
       level_(level),
+      first_(static_cast<long>(begin) - static_cast<long>(beyond)),
+      last_(static_cast<long>(end + beyond)),
       dry_(problem.friction.coefficient > 0 &&
            (problem.friction.law == FrictionLaw::coulomb || problem.friction.law == FrictionLaw::power)) {
-  const long n = static_cast<long>(problem_.grid.sites), reach = static_cast<long>(beyond);
   if (problem_.contact) {
-    for (long j = -reach; j < n + reach; ++j) {
+    for (long j = first_; j < last_; ++j) {
       const double a = problem_.contact(problem_.grid.x(folded(problem_, j)));
       a2_.push_back(a * a);
     }
   }
   if (problem_.forcing) {
-    F_now_ = at(level_);
-    F_next_ = at(level_ + 1);
-    F_old_ = at(level_ - 1);
+    F_now_ = forcing_at(level_);
+    F_next_ = forcing_at(level_ + 1);
+    F_old_ = forcing_at(level_ - 1);
     find_drive();
   }
 }
 
-std::vector<double> Forces::at(long level) const {
-  const long n = static_cast<long>(problem_.grid.sites), reach = static_cast<long>(beyond);
-  std::vector<double> F(static_cast<std::size_t>(n + 2 * reach));
+std::vector<double> Forces::forcing_at(long level) const {
+  std::vector<double> F(at(last_));
   if (level < 0) {  // before the start, where F need not be defined: by extrapolation
-    const std::vector<double> zero = at(0), one = at(1), two = at(2);
+    const std::vector<double> zero = forcing_at(0), one = forcing_at(1), two = forcing_at(2);
     for (std::size_t j = 0; j < F.size(); ++j) F[j] = 3 * zero[j] - 3 * one[j] + two[j];
     return F;
   }
   const double t = static_cast<double>(level) * dt_;
-  for (long j = -reach; j < n + reach; ++j)
-    F[static_cast<std::size_t>(j + reach)] = problem_.forcing(problem_.grid.x(folded(problem_, j)), t);
+  for (long j = first_; j < last_; ++j) F[at(j)] = problem_.forcing(problem_.grid.x(folded(problem_, j)), t);
   return F;
 }
 
@@ -71,7 +71,7 @@ void Forces::proceed() {
   if (F_now_.empty()) return;
   F_old_.swap(F_now_);
   F_now_.swap(F_next_);
-  F_next_ = at(level_ + 1);
+  F_next_ = forcing_at(level_ + 1);
   find_drive();
 }
 
@@ -110,7 +110,7 @@ void Forces::level(const Sides& sides, long offset, std::size_t size, const doub
                    double* before) const {
   std::copy(next, next + size, before);
   if (!a2_.empty()) {
-    const double* a2 = a2_.data() + (offset + static_cast<long>(beyond) - 1);
+    const double* a2 = this->a2(offset - 1);
     local_part_with_contact(scheme_.rule, sine_, scheme_.eps, a2, now - 1, next - 1, y - 1, 0, size + 2);
   } else {
     local_part(scheme_.rule, now - 1, next - 1, y - 1, 0, (size + 2 + lanes - 1) / lanes * lanes);
@@ -122,7 +122,7 @@ void Forces::level(const Sides& sides, long offset, std::size_t size, const doub
   const auto given = [](Side side) { return side == Side::fixed || side == Side::absorbing; };
   const std::size_t from = given(sides.left) ? 1 : 0, to = given(sides.right) ? size - 1 : size;
   if (!drive_.empty()) {
-    const double* drive = drive_.data() + (offset + static_cast<long>(beyond));
+    const double* drive = drive_.data() + at(offset);
     for (std::size_t j = from; j < to; ++j) next[j] += drive[j];
   }
   if (dry_) add_friction(from, to, now, next, before);

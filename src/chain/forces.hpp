@@ -11,19 +11,18 @@ namespace slipfront::chain {
 /// chain advances many levels at a time; else level by level, through here.
 class Forces {
  public:
-  /// Arrays reach this far beyond both ends of the chain.
-  static constexpr std::size_t beyond = 6;
+  /// Arrays reach this far beyond both ends: what a window of a few sites beyond them needs.
+  static constexpr std::size_t beyond = 16;
 
-  Forces(const Problem& problem, const Scheme& scheme, long level);
+  /// On sites [begin, end), and `beyond`: around a periodic chain, reflected at the ends of others.
+  Forces(const Problem& problem, const Scheme& scheme, long level, std::size_t begin, std::size_t end);
 
   bool none() const { return a2_.empty() && drive_.empty() && !dry_; }
-  /// a(x)^2 from site -beyond on; null where it is 1.
-  const double* a2() const { return a2_.empty() ? nullptr : a2_.data() + beyond; }
+  /// a(x)^2 from site j on; null where it is 1.
+  const double* a2(long j) const { return a2_.empty() ? nullptr : a2_.data() + at(j); }
   /// F in b / 2 pi at site j, now; and its rate of change. 0 where there is none.
-  double now(std::size_t j) const { return F_now_.empty() ? 0.0 : F_now_[j + beyond]; }
-  double rate(std::size_t j) const {
-    return F_now_.empty() ? 0.0 : (F_next_[j + beyond] - F_old_[j + beyond]) / (2 * dt_);
-  }
+  double now(long j) const { return F_now_.empty() ? 0.0 : F_now_[at(j)]; }
+  double rate(long j) const { return F_now_.empty() ? 0.0 : (F_next_[at(j)] - F_old_[at(j)]) / (2 * dt_); }
 
   /// One level of `size` sites, the first of which is site `offset` of the chain; arrays count from it and have two
   /// neighbours before and ten behind. `next` holds the level before on entry. `y` and `before` are room for work.
@@ -36,7 +35,8 @@ class Forces {
   double friction(double velocity) const;
 
  private:
-  std::vector<double> at(long level) const;
+  std::size_t at(long j) const { return static_cast<std::size_t>(j - first_); }
+  std::vector<double> forcing_at(long level) const;
   void find_drive();
   void add_friction(std::size_t begin, std::size_t end, const double* now, double* next, const double* before) const;
 
@@ -45,6 +45,7 @@ class Forces {
   PeriodicForce sine_;
   double dt_;
   long level_;
+  long first_, last_;  ///< sites of the arrays' first element and behind their last
   bool dry_;
   std::vector<double> a2_, F_old_, F_now_, F_next_, drive_;
 };

@@ -1,8 +1,10 @@
 #include "slipfront/chain/initial.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "slipfront/elliptic/jacobi.hpp"
 #include "slipfront/error.hpp"
@@ -33,6 +35,8 @@ double integral(const Stress& stress, double a, double b, int depth = 0) {
   return half * (5 * f0 + 8 * f1 + 5 * f2) / 9;
 }
 
+}  // namespace
+
 /// u of the train with stress k where the phase (2 pi a dislocation, 0 at its centre) is theta: Eq. 4 with
 /// beta x = K theta / pi.
 class LocalTrain {
@@ -51,52 +55,71 @@ class LocalTrain {
   elliptic::AtPsi at_{};
 };
 
-}  // namespace
+void StaticTrain::Charge::add(double more) {
+  const double corrected = more - lost, next = sum + corrected;
+  lost = (next - sum) - corrected;
+  sum = next;
+}
 
-Motion static_train(const Stress& stress, const Grid& grid, bool whole) {
-  const std::size_t n = grid.sites;
-  std::vector<double> k(n), charge(n, 0.0);  // charge: dislocations left of the site
-  double lost = 0;                           // compensated: 1e8 sites
+StaticTrain::StaticTrain(Stress stress, const Grid& grid, bool whole)
+    : stress_(std::move(stress)), grid_(grid), whole_(whole) {
+  const std::size_t n = grid_.sites;
+  Charge charge;
   for (std::size_t j = 0; j < n; ++j) {
-    k[j] = checked(stress, grid.x(j));
-    if (j == 0) continue;
-    const double more = integral(stress, grid.x(j - 1), grid.x(j)) / (2 * pi) - lost;
-    charge[j] = charge[j - 1] + more;
-    lost = (charge[j] - charge[j - 1]) - more;
-  }
-  // Around a periodic chain there is one more interval, from the last site to the first.
-  const double all = whole ? charge[n - 1] + integral(stress, grid.x(n - 1), grid.x(n)) / (2 * pi) : charge[n - 1];
-  Motion motion;
-  motion.u.assign(n, 0.0);
-  LocalTrain train;
-  double wells = 0;  // dislocations right of what is being filled: u = 2 pi wells there
-  std::size_t end = n;
-  while (end > 0) {  // stretch by stretch, from the right
-    const bool empty = k[end - 1] == 0;
-    std::size_t begin = end;
-    while (begin > 0 && (k[begin - 1] == 0) == empty) --begin;
-    if (empty) {
-      for (std::size_t j = begin; j < end; ++j) motion.u[j] = 2 * pi * wells;
-    } else {
-      const double from = begin > 0 ? charge[begin - 1] : charge[0], to = end < n ? charge[end] : all;
-      const bool closed = (begin > 0 && end < n) || whole;
-      const double count = closed ? std::nearbyint(to - from) : to - from, stretch = closed ? count / (to - from) : 1;
-      // Half a spacing between the last dislocation and the right edge; from the left edge where that alone is empty.
-      const bool from_left = begin > 0 && end == n && !whole;
-      for (std::size_t j = begin; j < end; ++j) {
-        if (closed && count == 0) {
-          motion.u[j] = 2 * pi * wells;
-          continue;
-        }
-        const double turns = from_left ? charge[j] - from - 0.5 : (charge[j] - to) * stretch + 0.5;
-        const double right = from_left ? wells + std::nearbyint(count) - 1 : wells;
-        motion.u[j] = train(k[j] * stretch, 2 * pi * turns) + 2 * pi * right;
-      }
-      wells += std::nearbyint(to - from);
+    const double before = charge.sum;
+    if (j > 0) charge.add(integral(stress_, grid_.x(j - 1), grid_.x(j)) / (2 * pi));
+    if (j % piece == 0) charges_.push_back(charge);
+    const bool empty = checked(stress_, grid_.x(j)) == 0;
+    if (j > 0 && stretches_.back().empty == empty) continue;
+    if (j > 0) {
+      stretches_.back().end = j;
+      stretches_.back().to = charge.sum;
     }
-    end = begin;
+    stretches_.push_back({.begin = j, .empty = empty, .from = before});
+  }
+  if (n == 0) return;
+  // Around a periodic chain there is one more interval, from the last site to the first.
+  stretches_.back().end = n;
+  stretches_.back().to = whole_ ? charge.sum + integral(stress_, grid_.x(n - 1), grid_.x(n)) / (2 * pi) : charge.sum;
+  double wells = 0;
+  for (auto s = stretches_.rbegin(); s != stretches_.rend(); ++s) {
+    s->wells = wells;
+    if (!s->empty) wells += std::nearbyint(s->to - s->from);
+  }
+}
+
+double StaticTrain::u(const Stretch& s, double k, double charge, LocalTrain& train) const {
+  const bool closed = (s.begin > 0 && s.end < grid_.sites) || whole_;
+  const double charge_of_it = s.to - s.from, count = closed ? std::nearbyint(charge_of_it) : charge_of_it;
+  if (s.empty || (closed && count == 0)) return 2 * pi * s.wells;
+  const double factor = closed ? count / charge_of_it : 1;
+  // Half a spacing between the last dislocation and the right edge; from the left edge where that alone is empty.
+  const bool from_left = s.begin > 0 && s.end == grid_.sites && !whole_;
+  const double turns = from_left ? charge - s.from - 0.5 : (charge - s.to) * factor + 0.5;
+  const double right = from_left ? s.wells + std::nearbyint(count) - 1 : s.wells;
+  return train(k * factor, 2 * pi * turns) + 2 * pi * right;
+}
+
+Motion StaticTrain::operator()(std::size_t begin, std::size_t end) const {
+  Motion motion;
+  LocalTrain train;
+  auto stretch = std::upper_bound(stretches_.begin(), stretches_.end(), begin,
+                                  [](std::size_t j, const Stretch& s) { return j < s.end; });
+  Charge charge;
+  for (std::size_t j = begin / piece * piece; j < end; ++j) {
+    if (j % piece == 0)
+      charge = charges_[j / piece];
+    else
+      charge.add(integral(stress_, grid_.x(j - 1), grid_.x(j)) / (2 * pi));
+    if (j < begin) continue;
+    if (j == stretch->end) ++stretch;
+    motion.u.push_back(u(*stretch, stress_(grid_.x(j)), charge.sum, train));
   }
   return motion;
+}
+
+Motion static_train(const Stress& stress, const Grid& grid, bool whole) {
+  return StaticTrain(stress, grid, whole)(0, grid.sites);
 }
 
 }  // namespace slipfront::chain

@@ -1,17 +1,33 @@
 #include "slipfront/chain/measure.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 
+#include "parts.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::chain {
 namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
-constexpr std::size_t stretch = 16384;  // sites looked at together
+/// Calls measure(parts, begin, end) for this rank's sites in order, some 16 384 at a time, in stretches that depend on
+/// the number of sites alone, and done() behind every block.
+template <class Measure, class Done>
+void in_blocks(const Chain& chain, const Measure& measure, const Done& done) {
+  constexpr std::size_t stretch = 16384;
+  auto& parts = Inside::of(chain);
+  parts.exchange();
+  for (std::size_t block = parts.first_block; block < parts.end_block; ++block) {
+    const std::size_t end = parts.blocks.begin(block + 1);
+    for (std::size_t begin = parts.blocks.begin(block); begin < end; begin += stretch)
+      measure(parts, begin, std::min(begin + stretch, end));
+    done();
+  }
+}
 
 /// Lagrange interpolation of v through the (up to) six sites around r (counted in sites of v).
 double between(const std::vector<double>& v, double r) {
@@ -86,11 +102,22 @@ std::vector<Dislocation> dislocations(const Chain& chain) {
     return u;
   };
   std::vector<Dislocation> found;
-  for (std::size_t begin = 0; begin + 1 < grid.sites; begin += stretch) {
-    const std::size_t first = begin < 3 ? 0 : begin - 3, end = std::min(begin + stretch + 4, grid.sites);
-    const std::vector<double> values = turns(chain.window(first, end).u);
-    for (std::size_t j = begin; j < std::min(begin + stretch, grid.sites - 1); ++j)
-      find(values, j - first, grid.x(first), grid.spacing, found);
+  in_blocks(
+      chain,
+      [&](const auto& parts, std::size_t begin, std::size_t end) {
+        const std::size_t first = begin < 3 ? 0 : begin - 3, last = std::min(end + 4, grid.sites);
+        const std::vector<double> values = turns(parts.window(first, last, chain.time()).u);
+        for (std::size_t j = begin; j < std::min(end, grid.sites - 1); ++j)
+          find(values, j - first, grid.x(first), grid.spacing, found);
+      },
+      [] {});
+  const Ranks& ranks = Inside::of(chain).ranks;
+  if (ranks.size() > 1) {
+    std::vector<double> mine;
+    for (const Dislocation& d : found) mine.insert(mine.end(), {d.x, static_cast<double>(d.sign)});
+    const std::vector<double> all = ranks.joined(mine);
+    found.clear();
+    for (std::size_t i = 0; i < all.size(); i += 2) found.push_back({all[i], static_cast<int>(all[i + 1])});
   }
   if (p.boundary.periodic) {  // between the last site and the first
     std::vector<double> values = turns(chain.window(grid.sites - 3, grid.sites).u);
@@ -100,51 +127,74 @@ std::vector<Dislocation> dislocations(const Chain& chain) {
   return found;
 }
 
-Totals totals(const Chain& chain) {
+namespace {
+
+/// What is summed, as many numbers in a row.
+constexpr std::size_t sums = 7;
+std::array<double*, sums> summed(Totals& t, double& dislocations) {
+  return {&t.kinetic, &t.elastic, &t.substrate, &t.momentum, &t.supplied_rate, &t.dissipated_rate, &dislocations};
+}
+
+/// Adds sites [begin, end), seen in a window that has two more on either side where there are.
+void add(const Chain& chain, const Window& w, std::size_t begin, std::size_t end, Totals& t, double& dislocations) {
   const Problem& p = chain.problem();
   const double h = p.grid.spacing;
-  const std::size_t n = p.grid.sites;
-  Totals t;
-  t.time = chain.time();
-  const bool around = p.boundary.periodic;
-  double first = 0, last = 0;
-  for (std::size_t begin = 0; begin < n; begin += stretch) {
-    const std::size_t end = std::min(begin + stretch, n), low = begin < 2 ? 0 : begin - 2, high = std::min(end + 2, n);
-    const Window w = chain.window(low, high);
-    const auto u = [&](std::size_t j) { return w.u[j - low]; };
-    if (begin == 0) first = u(0);
-    if (end == n) last = u(n - 1);
-    for (std::size_t j = begin; j < end; ++j) {
-      const double weight = (j == 0 || j + 1 == n) && !around ? h / 2 : h;
-      const double velocity = w.velocity[j - low], cosine = std::cos(u(j));
-      t.kinetic += weight * velocity * velocity / 2;
-      t.substrate += weight * chain.contact_squared(j) * (1 - cosine);
-      t.momentum += weight * velocity * w.stress[j - low];
-      t.supplied_rate += weight * velocity * chain.forcing(j);
-      t.dissipated_rate += weight * velocity * chain.friction(velocity);
-      // u_x^2 by differences over a bond; on a grid with the next two terms of (2 asinh(D/2))^2.
-      if (j + 1 < n) {
-        const double rise = u(j + 1) - u(j);
-        t.elastic += rise * rise / (2 * h);
-        t.dislocations += std::labs(std::lround(std::floor(u(j + 1) / turn - 0.5) - std::floor(u(j) / turn - 0.5)));
-      }
-      if (p.model == Model::sine_gordon && j > 0 && j + 1 < n) {
-        const double bend = u(j + 1) - 2 * u(j) + u(j - 1);
-        t.elastic += bend * bend / (24 * h);
-        if (j + 2 < n) {
-          const double third = u(j + 2) - 3 * u(j + 1) + 3 * u(j) - u(j - 1);
-          t.elastic += third * third / (180 * h);
-        }
+  const std::size_t n = p.grid.sites, low = w.begin;
+  const auto u = [&](std::size_t j) { return w.u[j - low]; };
+  for (std::size_t j = begin; j < end; ++j) {
+    const double weight = (j == 0 || j + 1 == n) && !p.boundary.periodic ? h / 2 : h;
+    const double velocity = w.velocity[j - low], cosine = std::cos(u(j));
+    t.kinetic += weight * velocity * velocity / 2;
+    t.substrate += weight * chain.contact_squared(j) * (1 - cosine);
+    t.momentum += weight * velocity * w.stress[j - low];
+    t.supplied_rate += weight * velocity * chain.forcing(j);
+    t.dissipated_rate += weight * velocity * chain.friction(velocity);
+    // u_x^2 by differences over a bond; on a grid with the next two terms of (2 asinh(D/2))^2.
+    if (j + 1 < n) {
+      const double rise = u(j + 1) - u(j);
+      t.elastic += rise * rise / (2 * h);
+      dislocations += std::fabs(std::floor(u(j + 1) / turn - 0.5) - std::floor(u(j) / turn - 0.5));
+    }
+    if (p.model == Model::sine_gordon && j > 0 && j + 1 < n) {
+      const double bend = u(j + 1) - 2 * u(j) + u(j - 1);
+      t.elastic += bend * bend / (24 * h);
+      if (j + 2 < n) {
+        const double third = u(j + 2) - 3 * u(j + 1) + 3 * u(j) - u(j - 1);
+        t.elastic += third * third / (180 * h);
       }
     }
   }
+}
+
+}  // namespace
+
+Totals totals(const Chain& chain) {
+  const Problem& p = chain.problem();
+  const std::size_t n = p.grid.sites;
+  Totals block, t;
+  double found = 0, all_found = 0;
+  std::vector<double> blocks;  // block by block; added up in order whatever the ranks
+  in_blocks(
+      chain,
+      [&](const auto& parts, std::size_t begin, std::size_t end) {
+        const Window w = parts.window(begin < 2 ? 0 : begin - 2, std::min(end + 2, n), chain.time());
+        add(chain, w, begin, end, block, found);
+      },
+      [&] {
+        for (double* sum : summed(block, found)) blocks.push_back(std::exchange(*sum, 0.0));
+      });
+  blocks = Inside::of(chain).ranks.joined(blocks);
+  for (std::size_t i = 0; i < blocks.size(); ++i) *summed(t, all_found)[i % sums] += blocks[i];
+  const double first = chain.window(0, 1).u[0], last = chain.window(n - 1, n).u[0];
+  t.time = chain.time();
   t.charge = (first - last) / turn;
-  if (around) {
+  if (p.boundary.periodic) {
     const double rise = first - turn * static_cast<double>(p.boundary.charge) - last;
-    t.elastic += rise * rise / (2 * h);
-    t.dislocations += std::labs(std::lround(std::floor((last + rise) / turn - 0.5) - std::floor(last / turn - 0.5)));
+    t.elastic += rise * rise / (2 * p.grid.spacing);
+    all_found += std::fabs(std::floor((last + rise) / turn - 0.5) - std::floor(last / turn - 0.5));
     t.charge = static_cast<double>(p.boundary.charge);
   }
+  t.dislocations = std::lround(all_found);
   return t;
 }
 

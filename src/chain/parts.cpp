@@ -1,6 +1,7 @@
 #include "parts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 #include "slipfront/error.hpp"
@@ -19,44 +20,99 @@ Sides sides_of(const Problem& p, const Scheme& s) {
 
 }  // namespace
 
+const Ranks& Chain::Parts::ranks_of(const Execution& e) {
+  static const Ranks alone;
+  return e.ranks == nullptr ? alone : *e.ranks;
+}
+
 Chain::Parts::Parts(const Problem& p, const Execution& e, long at)
-    : problem(p), scheme(scheme_of(p)), sides(sides_of(p, scheme)), execution(e), forces(p, scheme, at), level(at) {
+    : ranks(ranks_of(e)),
+      problem(p),
+      scheme(scheme_of(p)),
+      sides(sides_of(p, scheme)),
+      execution(e),
+      blocks{p.grid.sites},
+      first_block(blocks.first_of(ranks.rank(), ranks.size())),
+      end_block(blocks.first_of(ranks.rank() + 1, ranks.size())),
+      begin(blocks.begin(first_block)),
+      end(blocks.begin(end_block)),
+      forces(p, scheme, at, begin, end),
+      level(at) {
   if (e.threads < 1)
     throw InputError(
         {.key = "threads", .value = std::to_string(e.threads), .problem = "out of range", .allowed = ">= 1"});
-  const std::size_t n = p.grid.sites;
+  if (static_cast<std::size_t>(ranks.size()) > blocks.count)
+    throw InputError({.key = "ranks",
+                      .value = std::to_string(ranks.size()),
+                      .problem = "too many for " + std::to_string(p.grid.sites) + " sites",
+                      .allowed = "1 to " + std::to_string(blocks.count)});
+  const std::size_t n = end - begin;
   const std::size_t count = std::clamp<std::size_t>(n / (2 * halo), 1, static_cast<std::size_t>(e.threads));
   execution.tile = std::max(e.tile / lanes * lanes, 2 * halo);
   for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t begin = n * i / count, end = n * (i + 1) / count;
+    const std::size_t from = begin + n * i / count, to = begin + n * (i + 1) / count;
     Sides s = sides;
-    if (i > 0) s.left = Side::joined;
-    if (i + 1 < count) s.right = Side::joined;
-    slabs.emplace_back(begin, end - begin, s);
+    if (from > 0) s.left = Side::joined;
+    if (to < p.grid.sites) s.right = Side::joined;
+    slabs.emplace_back(from, to - from, s);
   }
   depth = forces.none() ? std::min(halo, n) : 1;
 }
 
-void Chain::Parts::fill(const Levels& levels) {
-  for (Slab& slab : slabs) {
-    std::copy_n(levels.now.data() + slab.begin(), slab.size(), slab.now());
-    std::copy_n(levels.before.data() + slab.begin(), slab.size(), slab.old());
+void Chain::Parts::fill(const std::function<Levels(std::size_t, std::size_t)>& source) {
+  constexpr std::size_t piece = 65536;
+  for (Slab& slab : slabs)
+    for (std::size_t at = 0; at < slab.size(); at += piece) {
+      const std::size_t size = std::min(piece, slab.size() - at), from = slab.begin() + at;
+      const Levels levels = source(from, from + size);
+      if (levels.now.size() != size || levels.before.size() != size)
+        throw InputError({.key = "resume",
+                          .value = std::to_string(levels.now.size()) + " sites",
+                          .problem = "does not fit the scenario",
+                          .allowed = std::to_string(size) + " of " + std::to_string(problem.grid.sites) + " sites"});
+      std::copy_n(levels.now.data(), size, slab.now() + at);
+      std::copy_n(levels.before.data(), size, slab.old() + at);
+    }
+}
+
+void Chain::Parts::exchange_with_ranks() {
+  std::array<double, 2 * halo> to_left, to_right, from_left, from_right;
+  Slab &first = slabs.front(), &last = slabs.back();
+  const std::size_t rest = last.size() - halo;
+  std::copy_n(first.now(), halo, to_left.begin());
+  std::copy_n(first.old(), halo, to_left.begin() + halo);
+  std::copy_n(last.now() + rest, halo, to_right.begin());
+  std::copy_n(last.old() + rest, halo, to_right.begin() + halo);
+  ranks.exchange(to_left, to_right, from_left, from_right, problem.boundary.periodic);
+  if (first.sides().left == Side::joined || first.sides().left == Side::seam) {
+    std::copy_n(from_left.begin(), halo, first.now() - halo);
+    std::copy_n(from_left.begin() + halo, halo, first.old() - halo);
+  }
+  if (last.sides().right == Side::joined || last.sides().right == Side::seam) {
+    std::copy_n(from_right.begin(), halo, last.now() + last.size());
+    std::copy_n(from_right.begin() + halo, halo, last.old() + last.size());
   }
 }
 
-void Chain::Parts::exchange(std::size_t i) {
+void Chain::Parts::exchange_slab(std::size_t i) {
   Slab& slab = slabs[i];
   const std::size_t count = slabs.size(), most = std::min(halo, problem.grid.sites);
-  if (slab.sides().left == Side::joined || slab.sides().left == Side::seam) {
+  const bool alone = ranks.size() == 1;
+  if ((slab.sides().left == Side::joined || slab.sides().left == Side::seam) && (alone || i > 0)) {
     const Slab& from = slabs[(i + count - 1) % count];
     std::copy_n(from.now() + from.size() - most, most, slab.now() - most);
     std::copy_n(from.old() + from.size() - most, most, slab.old() - most);
   }
-  if (slab.sides().right == Side::joined || slab.sides().right == Side::seam) {
+  if ((slab.sides().right == Side::joined || slab.sides().right == Side::seam) && (alone || i + 1 < count)) {
     const Slab& from = slabs[(i + 1) % count];
     std::copy_n(from.now(), most, slab.now() + slab.size());
     std::copy_n(from.old(), most, slab.old() + slab.size());
   }
+}
+
+void Chain::Parts::exchange() {
+  if (ranks.size() > 1) exchange_with_ranks();
+  for (std::size_t i = 0; i < slabs.size(); ++i) exchange_slab(i);
 }
 
 void Chain::Parts::advance_slab(Slab& slab, std::size_t count) {
@@ -74,12 +130,13 @@ void Chain::Parts::advance_slab(Slab& slab, std::size_t count) {
 void Chain::Parts::advance(std::size_t count) {
   const int number = static_cast<int>(slabs.size());
   // Fewer site updates than this take less time than it takes to wake a thread.
-  const bool worth = problem.grid.sites * count > 50000;
+  const bool worth = (end - begin) * count > 50000;
   static_cast<void>(worth);  // where there is no OpenMP
+  if (ranks.size() > 1) exchange_with_ranks();
 #ifdef _OPENMP
 #pragma omp parallel for num_threads(number) schedule(static, 1) if (worth)
 #endif
-  for (int i = 0; i < number; ++i) exchange(static_cast<std::size_t>(i));
+  for (int i = 0; i < number; ++i) exchange_slab(static_cast<std::size_t>(i));
 #ifdef _OPENMP
 #pragma omp parallel for num_threads(number) schedule(static, 1) if (worth)
 #endif
@@ -102,28 +159,25 @@ void Chain::Parts::check_numbers() const {
 std::pair<double, double> Chain::Parts::site(long j) const {
   const long n = static_cast<long>(problem.grid.sites);
   double now_shift = 0, old_shift = 0, sign = 1;
-  const auto reflect = [&](long end, End kind) {
-    j = 2 * end - j;
+  const auto reflect = [&](long last, End kind) {
+    j = 2 * last - j;
     if (kind != End::fixed) return;
-    const auto [now, old] = site(end);
+    const auto [now, old] = site(last);
     sign = -1;
     now_shift = 2 * now;
     old_shift = 2 * old;
   };
   if (problem.boundary.periodic) {
     const long around = j < 0 ? -1 : j >= n ? 1 : 0;
-    j -= around * n;
     now_shift = old_shift = -static_cast<double>(around * problem.boundary.charge);
   } else if (j < 0) {
     reflect(0, problem.boundary.left);
   } else if (j >= n) {
     reflect(n - 1, problem.boundary.right);
   }
-  const auto at = static_cast<std::size_t>(j);
-  std::size_t i = std::min(at * slabs.size() / problem.grid.sites, slabs.size() - 1);
-  while (at < slabs[i].begin()) --i;
-  while (at >= slabs[i].begin() + slabs[i].size()) ++i;
-  const std::size_t k = at - slabs[i].begin();
+  std::size_t i = 0;  // sites before the first slab and behind the last are in their halos
+  while (i + 1 < slabs.size() && j >= static_cast<long>(slabs[i + 1].begin())) ++i;
+  const long k = j - static_cast<long>(slabs[i].begin());
   return {sign * slabs[i].now()[k] + now_shift, sign * slabs[i].old()[k] + old_shift};
 }
 

@@ -1,41 +1,59 @@
 #pragma once
 
+#include <functional>
 #include <utility>
 #include <vector>
 
+#include "blocks.hpp"
 #include "forces.hpp"
 #include "scheme.hpp"
 #include "slab.hpp"
 #include "slipfront/chain/chain.hpp"
+#include "slipfront/chain/ranks.hpp"
 
 namespace slipfront::chain {
 
-/// A chain cut into slabs, a thread each.
+/// What one rank has of a chain, cut into slabs, a thread each. Calls marked (all) are messages between ranks.
 struct Chain::Parts {
+  const Ranks& ranks;
   Problem problem;
   Scheme scheme;
   Sides sides;
   Execution execution;
+  Blocks blocks;
+  std::size_t first_block, end_block;  ///< of this rank
+  std::size_t begin, end;              ///< their sites
   Forces forces;
   std::vector<Slab> slabs;
   long level = 0;
   std::size_t depth = halo;  ///< levels between exchanges
 
   Parts(const Problem& p, const Execution& e, long at);
+  static const Ranks& ranks_of(const Execution& e);
 
-  void fill(const Levels& levels);
-  /// `count` <= depth levels.
+  /// From `source`, a piece at a time.
+  void fill(const std::function<Levels(std::size_t begin, std::size_t end)>& source);
+  /// (all) `count` <= depth levels.
   void advance(std::size_t count);
   /// \throws NumericsError
   void check_numbers() const;
-  /// z / 2 pi of site j at both levels, also beyond the ends.
+
+  /// (all) Halos from neighbours, around a periodic chain too; across its seam the values are left as they are.
+  void exchange();
+  /// z / 2 pi of site j at both levels, also beyond the ends; in this rank's halo after an exchange.
   std::pair<double, double> site(long j) const;
+  /// Of sites that are at most 4 beyond this rank's, after an exchange.
+  Window window(std::size_t from, std::size_t to, double time) const;
 
  private:
-  /// Halos of slab i from its neighbours, around a periodic chain too; across its seam the values are left as they are.
-  /// Where a chain is cut over processes this is the place of the messages.
-  void exchange(std::size_t i);
+  void exchange_with_ranks();
+  void exchange_slab(std::size_t i);
   void advance_slab(Slab& slab, std::size_t count);
+};
+
+/// For what is measured rank by rank.
+struct Inside {
+  static Chain::Parts& of(const Chain& chain) { return *chain.parts_; }
 };
 
 }  // namespace slipfront::chain

@@ -75,7 +75,7 @@ double memory_of_machine() {
 #endif
 }
 
-void check(const Problem& p) {
+void check(const Problem& p, double share_of_machine) {
   const double h = p.grid.spacing;
   if (!(h > 0) || !std::isfinite(h)) refuse("spacing", h, "out of range", "> 0, finite");
   if (!std::isfinite(p.grid.left)) refuse("left", p.grid.left, "out of range", "finite");
@@ -84,7 +84,7 @@ void check(const Problem& p) {
     refuse("friction.coefficient", p.friction.coefficient, "out of range", ">= 0, finite");
   if (p.friction.law == modulation::FrictionLaw::power && !(p.friction.exponent > 0))
     refuse("friction.exponent", p.friction.exponent, "out of range", "> 0");
-  const double need = memory_needed(p), have = memory_of_machine();
+  const double need = memory_needed(p) * share_of_machine, have = memory_of_machine();
   if (have > 0 && need > have)
     refuse("sites", static_cast<double>(p.grid.sites),
            "a run needs " + digits(need / 1e9) + " GB, this machine has " + digits(have / 1e9) + " GB",

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -13,36 +14,47 @@ constexpr double turn = 2 * std::numbers::pi;
 }  // namespace
 
 Window Chain::window(std::size_t begin, std::size_t end, double time) const {
-  const Parts& parts = *parts_;
-  const Scheme& s = parts.scheme;
-  const double dt = s.dt, h = s.h, tau = time - this->time();
-  const long n = static_cast<long>(parts.problem.grid.sites);
-  if (!(begin < end) || end > parts.problem.grid.sites || !(std::fabs(tau) <= 1.0001 * dt))
+  Parts& parts = *parts_;
+  if (!(begin < end) || end > parts.problem.grid.sites || !(std::fabs(time - this->time()) <= 1.0001 * dt()))
     throw InputError(
         {.key = "window", .problem = "outside the chain or its present step", .allowed = "sites of the chain, now"});
+  parts.exchange();
+  const std::size_t from = std::max(begin, parts.begin), to = std::min(end, parts.end);
+  Window window;
+  if (from < to) window = parts.window(from, to, time);
+  window.begin = begin;
+  if (parts.ranks.size() > 1)
+    for (std::vector<double>* values : {&window.x, &window.u, &window.velocity, &window.stress})
+      *values = parts.ranks.joined(*values);
+  return window;
+}
+
+Window Chain::Parts::window(std::size_t from, std::size_t to, double time) const {
+  const Scheme& s = scheme;
+  const double dt = s.dt, h = s.h, tau = time - static_cast<double>(level) * dt;
+  const long n = static_cast<long>(problem.grid.sites);
   // Three levels of z and u with five sites beyond; the next level is computed and thrown away.
   constexpr long reach = 5;
-  const std::size_t size = end - begin, wide = size + 2 * reach, room = wide + 4 * lanes;
-  const long low = static_cast<long>(begin) - reach;
+  const std::size_t size = to - from, wide = size + 2 * reach, room = wide + 4 * lanes;
+  const long low = static_cast<long>(from) - reach;
   std::vector<double> z(room), old(room), next(room), y(room), work(room);
   for (std::size_t j = 0; j < wide; ++j) {
-    const auto [a, b] = parts.site(low + static_cast<long>(j));
+    const auto [a, b] = site(low + static_cast<long>(j));
     z[j + lanes] = a;
     old[j + lanes] = b;
   }
   next = old;
   constexpr std::size_t edge = lanes + 2;  // two sites in, neighbours are there
-  parts.forces.level({}, low + 2, wide - 4, z.data() + edge, next.data() + edge, y.data() + edge, work.data());
-  if (!parts.problem.boundary.periodic) {  // the ends by their own rule
+  forces.level({}, low + 2, wide - 4, z.data() + edge, next.data() + edge, y.data() + edge, work.data());
+  if (!problem.boundary.periodic) {  // the ends by their own rule
     const auto at = [&](long j) { return static_cast<std::size_t>(j - low) + lanes; };
-    const double courant = parts.sides.courant;
-    if (begin == 0 && parts.sides.left == Side::absorbing) next[at(0)] = z[at(0)] + courant * (z[at(1)] - z[at(0)]);
-    if (static_cast<long>(end) == n && parts.sides.right == Side::absorbing)
+    const double courant = sides.courant;
+    if (low <= 0 && sides.left == Side::absorbing) next[at(0)] = z[at(0)] + courant * (z[at(1)] - z[at(0)]);
+    if (low + static_cast<long>(wide) >= n && sides.right == Side::absorbing)
       next[at(n - 1)] = z[at(n - 1)] + courant * (z[at(n - 2)] - z[at(n - 1)]);
   }
   std::vector<double> a2;
-  if (parts.forces.a2() != nullptr)
-    a2.assign(parts.forces.a2() + low, parts.forces.a2() + low + static_cast<long>(wide));
+  if (forces.a2(low) != nullptr) a2.assign(forces.a2(low), forces.a2(low) + wide);
   std::vector<double> u_old(wide), u_now(wide), u_next(wide), S_old(wide), S_now(wide), S_next(wide);
   const PeriodicForce sine = substrate_force(0);
   const double* contact = a2.empty() ? nullptr : a2.data();
@@ -50,24 +62,23 @@ Window Chain::window(std::size_t begin, std::size_t end, double time) const {
   displacements(sine, s.eps, contact, z.data() + lanes, u_now.data(), S_now.data(), wide);
   displacements(sine, s.eps, contact, next.data() + lanes, u_next.data(), S_next.data(), wide);
 
-  const double C =
-      parts.problem.friction.law == modulation::FrictionLaw::viscous ? parts.problem.friction.coefficient : 0;
+  const double C = problem.friction.law == modulation::FrictionLaw::viscous ? problem.friction.coefficient : 0;
   const auto rate = [&](std::size_t j) { return (u_next[j] - u_old[j]) / (2 * dt); };
   Window window;
-  window.begin = begin;
+  window.begin = from;
   for (std::size_t j = reach; j < reach + size; ++j) {
-    const std::size_t site = begin + j - reach;
+    const std::size_t at = from + j - reach;
     const double acceleration = (u_next[j] - 2 * u_now[j] + u_old[j]) / (dt * dt);
     // u_ttt from the equation of motion: what the central difference needs to be of fourth order.
     const double jerk = (rate(j + 1) - 2 * rate(j) + rate(j - 1)) / (h * h) - (S_next[j] - S_old[j]) / (2 * dt) -
-                        C * acceleration + parts.forces.rate(site) / turn;
+                        C * acceleration + forces.rate(static_cast<long>(at)) / turn;
     const double velocity = rate(j) - dt * dt / 6 * jerk;
     const auto stress = [&](const std::vector<double>& u) {
-      if (parts.problem.model == Model::lattice) return (u[j - 1] - u[j + 1]) / (2 * h);
+      if (problem.model == Model::lattice) return (u[j - 1] - u[j + 1]) / (2 * h);
       return (45 * (u[j - 1] - u[j + 1]) - 9 * (u[j - 2] - u[j + 2]) + (u[j - 3] - u[j + 3])) / (60 * h);
     };
     const double stress_rate = (stress(u_next) - stress(u_old)) / (2 * dt);
-    window.x.push_back(parts.problem.grid.x(site));
+    window.x.push_back(problem.grid.x(at));
     window.u.push_back(turn * (u_now[j] + tau * (velocity + tau / 2 * (acceleration + tau / 3 * jerk))));
     window.velocity.push_back(turn * (velocity + tau * (acceleration + tau / 2 * jerk)));
     window.stress.push_back(turn * (stress(u_now) + tau * stress_rate));

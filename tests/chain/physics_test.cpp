@@ -49,6 +49,24 @@ TEST(ChainInitial, TrainFollowsTheStress) {
   EXPECT_THROW(static_train([](double) { return -1.0; }, grid), InputError);
 }
 
+/// A train made piece by piece, in any order, is the same to the bit.
+TEST(ChainInitial, PiecesAreThoseOfTheWhole) {
+  const Grid grid{-2000, 0.4, 10000};
+  const auto stress = [](double x) {
+    return x < -1500 || x > 100 || (x > -800 && x < -700) ? 0.0 : 0.6 + 0.4 * std::tanh(x / 40);
+  };
+  for (const bool whole : {false, true}) {
+    const StaticTrain train(stress, grid, whole);
+    const Motion all = static_train(stress, grid, whole);
+    for (const std::size_t begin : {9000u, 0u, 4095u, 4096u, 1249u, 3000u, 9999u}) {
+      const std::size_t end = std::min<std::size_t>(begin + 5001, grid.sites);
+      const Motion some = train(begin, end);
+      ASSERT_EQ(some.u.size(), end - begin);
+      for (std::size_t j = begin; j < end; ++j) ASSERT_EQ(some.u[j - begin], all.u[j]) << begin << " " << j;
+    }
+  }
+}
+
 /// A train at rest stays at rest: the initial state is an equilibrium to the order of the grid.
 TEST(ChainInitial, UniformTrainStaysAtRest) {
   Problem p = line(0, 20 * 2 * pi, 20 * 2 * pi / 320);

@@ -11,10 +11,15 @@
 
 namespace slipfront::chain {
 
+class Ranks;
+struct Inside;
+
 /// How a run is carried out; changes no bits of it.
 struct Execution {
-  int threads = 1;
+  int threads = 1;          ///< of each rank
   std::size_t tile = 1472;  ///< sites that stay in the innermost cache for 32 levels; a multiple of 8
+  /// Processes that share the chain, 64 sites or more each; they outlive it. Null: this one has it all.
+  const Ranks* ranks = nullptr;
 };
 
 /// All that a chain needs to go on, to the same bits: two levels of z / 2 pi (docs/chain.md).
@@ -23,6 +28,11 @@ struct Levels {
   std::vector<double> now, before;
 };
 
+/// The motion, or the levels, of sites [begin, end): for chains that nobody holds whole. Asked for some 65 536 sites at
+/// a time, on each rank for its own sites and a few beside them.
+using MotionOf = std::function<Motion(std::size_t begin, std::size_t end)>;
+using LevelsOf = std::function<Levels(std::size_t begin, std::size_t end)>;
+
 /// Sites [begin, begin + u.size()) at one time, in the units of Motion.
 struct Window {
   std::size_t begin = 0;
@@ -30,39 +40,52 @@ struct Window {
   std::vector<double> stress;  ///< -u_x; of a lattice, the mean of the bonds on either side
 };
 
+/// With Execution::ranks a chain is shared among processes: each has the sites [first_site(), end_site()), each makes
+/// the same calls in the same order with the same arguments and gets the same results, to the bits of one process
+/// alone; an error on one is thrown on all.
 class Chain {
  public:
   /// \throws InputError as check(Problem) does, for a motion that does not fit the grid or is too steep for it (too few
-  /// sites to a dislocation), and for a periodic chain whose ends do not differ by its charge.
+  /// sites to a dislocation), and for a periodic chain whose ends do not differ by its charge. More ranks than the
+  /// chain has room for are an InputError too.
   Chain(const Problem& problem, const Motion& start, const Execution& execution = {});
-  /// Continues. \throws InputError if the levels do not fit the problem.
+  Chain(const Problem& problem, const MotionOf& start, const Execution& execution = {});
+  /// Continues, with any number of threads and ranks. \throws InputError if the levels do not fit the problem.
   Chain(const Problem& problem, const Levels& saved, const Execution& execution = {});
+  Chain(const Problem& problem, long level, const LevelsOf& saved, const Execution& execution = {});
   ~Chain();
   Chain(Chain&&) noexcept;
   Chain& operator=(Chain&&) noexcept;
 
   /// \throws NumericsError with time and site where the displacement is no longer a number.
   void advance(long levels);
-  /// To the level nearest to `time`. `interrupted` is asked every 32 levels or more; true stops early. Returns whether
-  /// `time` was reached.
+  /// To the level nearest to `time`. `interrupted` is asked every 32 levels or more; true, on any rank, stops early.
+  /// Returns whether `time` was reached.
   bool advance_to(double time, const std::function<bool()>& interrupted = {});
 
   const Problem& problem() const;
   long level() const;
   double dt() const;
   double time() const;
+
+  /// This rank's sites.
+  std::size_t first_site() const;
+  std::size_t end_site() const;
+  /// All sites, or [begin, end), on rank 0; none on others. A piece at a time, no rank need hold them all.
   Levels levels() const;
+  Levels levels(std::size_t begin, std::size_t end) const;
 
   /// Sites [begin, end) at `time`, which is no more than a step away; fourth order in u and velocity.
   Window window(std::size_t begin, std::size_t end, double time) const;
   Window window(std::size_t begin, std::size_t end) const { return window(begin, end, time()); }
 
-  /// Forces on a site as they stand in the equation of motion, for inspection.
+  /// Forces on a site of this rank as they stand in the equation of motion, for inspection.
   double contact_squared(std::size_t site) const;  ///< a^2
   double forcing(std::size_t site) const;          ///< F now
   double friction(double velocity) const;          ///< f
 
  private:
+  friend struct Inside;
   struct Parts;
   std::unique_ptr<Parts> parts_;
 };

@@ -24,11 +24,46 @@ struct Motion {
   std::vector<double> velocity;  ///< empty: at rest
 };
 
+class LocalTrain;
+
 /// The train at rest with <-u_x> = stress(x) >= 0; u falls with x. Where there is no stress u stays in a well, a
 /// multiple of 2 pi, 0 at the right end. A stretch with no stress at either end holds a whole number of dislocations:
 /// its stress is changed by the less than half a dislocation that this takes. With `whole` the entire chain does: what
-/// a periodic chain needs. Costs some microseconds a site where the stress changes. \throws InputError for a stress
-/// that is negative or not finite.
+/// a periodic chain needs. Sites are made when asked for: nobody need hold them all, and the bits of a site do not
+/// depend on what it is asked with. Costs some microseconds a site where the stress changes.
+class StaticTrain {
+ public:
+  /// Integrates the stress over the chain once. \throws InputError for a stress that is negative or not finite.
+  StaticTrain(std::function<double(double x)> stress, const Grid& grid, bool whole = false);
+
+  /// Sites [begin, end).
+  Motion operator()(std::size_t begin, std::size_t end) const;
+
+ private:
+  /// The running integral of the stress over 2 pi: dislocations left of a site.
+  struct Charge {
+    double sum = 0, lost = 0;  ///< compensated: 1e8 sites
+    void add(double more);
+  };
+  /// Consecutive sites with stress, or without.
+  struct Stretch {
+    std::size_t begin = 0, end = 0;
+    bool empty = false;
+    double from = 0, to = 0;  ///< charge at its edges
+    double wells = 0;         ///< dislocations right of it
+  };
+  static constexpr std::size_t piece = 4096;  ///< the charge is kept at every so many sites
+
+  double u(const Stretch& stretch, double stress, double charge, LocalTrain& train) const;
+
+  std::function<double(double)> stress_;
+  Grid grid_;
+  bool whole_;
+  std::vector<Charge> charges_;
+  std::vector<Stretch> stretches_;
+};
+
+/// All sites of StaticTrain.
 Motion static_train(const std::function<double(double x)>& stress, const Grid& grid, bool whole = false);
 
 }  // namespace slipfront::chain

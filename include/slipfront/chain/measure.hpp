@@ -44,7 +44,7 @@ struct Totals {
   double energy() const { return kinetic + elastic + substrate; }
 };
 
-/// At the present level; sums in the same order whatever the threads.
+/// At the present level; sums in the same order whatever the threads and ranks.
 Totals totals(const Chain& chain);
 
 /// Work since the first sample, by the trapezoidal rule between samples (every few time units for a long chain, where

@@ -52,7 +52,7 @@ double memory_needed(const Problem& problem);
 double memory_of_machine();
 
 /// \throws InputError for numbers out of range, a grid too coarse for a dislocation, a step beyond stability, or a need
-/// of memory beyond the machine. Allocates nothing.
-void check(const Problem& problem);
+/// of memory beyond the machine, which holds `share_of_machine` of the chain (Ranks). Allocates nothing.
+void check(const Problem& problem, double share_of_machine = 1);
 
 }  // namespace slipfront::chain

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+namespace slipfront::chain {
+
+/// A chain in stretches of 64 sites or more that depend on the number of its sites alone. Ranks hold whole blocks, and
+/// sums over the chain are sums over blocks, added up in order: the same bits whatever the ranks.
+struct Blocks {
+  static constexpr std::size_t least = 64;  ///< two halos
+  static constexpr std::size_t most = 4096;
+
+  std::size_t sites;
+  std::size_t count = std::clamp<std::size_t>(sites / least, 1, most);
+
+  std::size_t begin(std::size_t block) const { return sites / count * block + sites % count * block / count; }
+  /// The first block of `rank` of `ranks`.
+  std::size_t first_of(int rank, int ranks) const {
+    return count * static_cast<std::size_t>(rank) / static_cast<std::size_t>(ranks);
+  }
+};
+
+}  // namespace slipfront::chain

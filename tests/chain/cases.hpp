@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+#include "slipfront/chain/chain.hpp"
+
+/// Chains of every kind of end and force, from a rough start, for comparisons to the bit.
+namespace cases {
+
+inline constexpr int kinds = 6;
+
+inline slipfront::chain::Problem problem(std::size_t sites, int kind) {
+  using namespace slipfront::chain;
+  using slipfront::modulation::FrictionLaw;
+  Problem p{.grid = {-10, 0.4, sites},
+            .model = Model::sine_gordon,
+            .boundary = {End::free, End::absorbing, false, 0},
+            .friction = {},
+            .forcing = {},
+            .contact = {}};
+  if (kind == 1) p.boundary = {.periodic = true, .charge = sites < 20 ? 1 : 3};
+  if (kind == 2) p.boundary = {End::fixed, End::free, false, 0};
+  if (kind == 2 || kind == 1) p.friction = {FrictionLaw::viscous, 0.3};
+  if (kind == 3 || kind == 5) {
+    p.forcing = [](double x, double t) { return 0.1 * std::sin(0.1 * x + t); };
+    p.contact = [](double x) { return 1 + 0.2 * std::cos(0.3 * x); };
+  }
+  if (kind == 3) {
+    p.boundary = {.periodic = true, .charge = sites < 20 ? 1 : 2};
+    p.friction = {FrictionLaw::power, 0.2, 1.5};
+  }
+  if (kind == 4) {
+    p.model = Model::lattice;
+    p.boundary = {End::fixed, End::absorbing, false, 0};
+    p.friction = {FrictionLaw::coulomb, 0.02};
+  }
+  if (kind == 5) {
+    p.boundary = {End::absorbing, End::free, false, 0};
+    p.friction = {FrictionLaw::viscous, 0.1};
+  }
+  return p;
+}
+
+inline slipfront::chain::Motion bumpy(const slipfront::chain::Problem& p) {
+  slipfront::chain::Motion m;
+  const double turns = 2 * std::numbers::pi * static_cast<double>(p.boundary.charge);
+  const double length = p.grid.spacing * static_cast<double>(p.grid.sites);
+  for (std::size_t j = 0; j < p.grid.sites; ++j) {
+    const double s = (p.grid.x(j) - p.grid.left) / length;
+    m.u.push_back(1000 - turns * s + 0.3 * std::sin(7 * s));
+    m.velocity.push_back(0.1 * std::cos(90 * s));
+  }
+  return m;
+}
+
+}  // namespace cases
