@@ -5,6 +5,7 @@
 #include "chain_setup.hpp"
 #include "long_run.hpp"
 #include "pulse_setup.hpp"
+#include "slipfront/chain/ranks.hpp"
 
 namespace {
 
@@ -15,6 +16,9 @@ void print(const chain::Run& run, const scenario::Scenario& scenario, double ste
   const pulse::Snapshot& s = run.snapshots().back();
   const chain::Problem& problem = run.chain().problem();
   const auto sites = static_cast<double>(problem.grid.sites);
+  const long dislocations = run.dislocations();  // asks all ranks
+  const double drift = run.energy_drift(), charge_error = run.charge_error();
+  if (the_ranks->rank() > 0) return;
   print_rows(
       scenario.title,
       {
@@ -30,13 +34,14 @@ void print(const chain::Run& run, const scenario::Scenario& scenario, double ste
           {"trailing_front_observed", json_number(s.fronts.trailing_observed),
            "as an observer with a threshold sees it"},
           {"leading_front_observed", json_number(s.fronts.leading_observed), "as an observer with a threshold sees it"},
-          {"dislocations", fmt::format("{}", run.dislocations()), "at the end"},
-          {"energy_drift", json_number(run.energy_drift()), "energy and work since t = 0, relative"},
-          {"charge_error", json_number(run.charge_error()), "change of the charge"},
+          {"dislocations", fmt::format("{}", dislocations), "at the end"},
+          {"energy_drift", json_number(drift), "energy and work since t = 0, relative"},
+          {"charge_error", json_number(charge_error), "change of the charge"},
           {"sites", fmt::format("{}", problem.grid.sites), ""},
           {"spacing", json_number(problem.grid.spacing), "of the sites, on the chain"},
           {"steps", fmt::format("{}", run.chain().level()), ""},
-          {"threads", fmt::format("{}", arguments.common.threads), ""},
+          {"ranks", fmt::format("{}", the_ranks->size()), ""},
+          {"threads", fmt::format("{}", arguments.common.threads), "of each rank"},
           {"site_updates_per_second", json_number(stepping > 0 ? sites * static_cast<double>(steps) / stepping : 0),
            "output included"},
           {"wall_seconds", json_number(wall), "of the whole command"},
@@ -46,22 +51,29 @@ void print(const chain::Run& run, const scenario::Scenario& scenario, double ste
 
 int run_chain(const ScenarioArguments& a) {
   const auto start = Clock::now();
-  const scenario::Scenario s = read_scenario_of(a);
-  const chain::Stretched stretched = chain_problem(s);
-  const pulse::Schedule schedule = pulse_schedule(s, pulse_problem(s));
+  scenario::Scenario s;
+  chain::Stretched stretched;
+  pulse::Schedule schedule;
+  record::Checkpoint saved;
+  the_ranks->together([&] {  // so that what is wrong is said once
+    s = read_scenario_of(a);
+    stretched = chain_problem(s);
+    schedule = pulse_schedule(s, pulse_problem(s));
+    if (!a.resume.empty()) saved = checkpoint_of(a, s);
+  });
   if (a.check) {
+    if (the_ranks->rank() > 0) return exit_done;
     const chain::Problem p = chain::problem_of(stretched);
     put(fmt::format("{}: fine. Would run {} sites, {:.6g} apart, at scale {:.6g} for {:.0f} steps: {:.3g} GB.\n",
                     s.title.empty() ? s.file : s.title, p.grid.sites, p.grid.spacing, stretched.scale,
                     s.end * stretched.scale / chain::chosen_step(p), chain::memory_needed(p) / 1e9));
     return exit_done;
   }
-  const chain::Execution execution{.threads = a.common.threads};
+  const chain::Execution execution{.threads = a.common.threads, .ranks = the_ranks->size() > 1 ? the_ranks : nullptr};
   std::unique_ptr<chain::Run> run;
   if (a.resume.empty()) {
     run = std::make_unique<chain::Run>(stretched, schedule, execution);
   } else {
-    const record::Checkpoint saved = checkpoint_of(a, s);
     run = std::make_unique<chain::Run>(stretched, schedule, execution, saved.solver_state, saved.snapshots);
   }
   const long first = run->chain().level();

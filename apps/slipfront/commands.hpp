@@ -4,6 +4,9 @@
 #include <string>
 #include <string_view>
 
+namespace slipfront::chain {
+class Ranks;
+}
 namespace CLI {
 class App;
 }
@@ -31,6 +34,9 @@ Runner add_relations(CLI::App& app);
 Runner add_event(CLI::App& app);
 Runner add_pulse(CLI::App& app);
 Runner add_chain(CLI::App& app);
+
+/// The processes that run this program, of which the first prints and writes.
+extern const slipfront::chain::Ranks* the_ranks;
 
 /// What `slipfront` does when asked for nothing: `event` on the shipped catalogue.
 int run_default();

@@ -8,6 +8,7 @@
 
 #include "commands.hpp"
 #include "progress.hpp"
+#include "slipfront/chain/ranks.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/record/pulse_file.hpp"
 #include "slipfront/record/table_file.hpp"
@@ -53,10 +54,20 @@ int carry_out(Run& run, const ScenarioArguments& a, const slipfront::scenario::S
       s.output.variables};
   auto written = Clock::now();
   double cost = 0;
+  const bool first = the_ranks->rank() == 0;
+  const bool alone = command != "chain" || the_ranks->size() == 1;
+  const auto agreed = [&](bool mine) { return alone ? mine : the_ranks->any(mine); };
   const auto write = [&] {
     if (output.empty()) return;
     const auto begun = Clock::now();
-    record::write_pulse(output, metadata, run.snapshots(), run.saved(), run.finished());
+    const std::string state = run.saved();  // ranks send their parts to the first
+    const auto put_down = [&] {
+      if (first) record::write_pulse(output, metadata, run.snapshots(), state, run.finished());
+    };
+    if (alone)
+      put_down();
+    else
+      the_ranks->together(put_down);
     cost = seconds_since(begun);
     written = Clock::now();
   };
@@ -65,13 +76,13 @@ int carry_out(Run& run, const ScenarioArguments& a, const slipfront::scenario::S
 
   bool reached = false;
   {
-    Progress progress(s.end, !a.common.quiet);
+    Progress progress(s.end, first && !a.common.quiet);
     progress.from(time(), steps());
     const auto after_step = [&] {
       progress.at(time(), steps());
       // A checkpoint is the whole file: writing it must stay a small part of the work.
-      if (seconds_since(written) > std::fmax(0.05, 20 * cost)) write();
-      return interrupted_by_user();
+      if (agreed(first && seconds_since(written) > std::fmax(0.05, 20 * cost))) write();
+      return agreed(interrupted_by_user());
     };
     try {
       reached = run.go(after_step);
@@ -83,7 +94,8 @@ int carry_out(Run& run, const ScenarioArguments& a, const slipfront::scenario::S
   }
   write();
   if (reached) return exit_done;
-  complain(output.empty() ? "interrupted; no checkpoint, as there is no -o FILE"
-                          : fmt::format("interrupted at t = {:.6g}; go on with --resume {}", time(), output));
+  if (first)
+    complain(output.empty() ? "interrupted; no checkpoint, as there is no -o FILE"
+                            : fmt::format("interrupted at t = {:.6g}; go on with --resume {}", time(), output));
   return exit_interrupted;
 }

@@ -6,6 +6,7 @@
 
 #include "batch.hpp"
 #include "commands.hpp"
+#include "slipfront/chain/ranks.hpp"
 #include "slipfront/error.hpp"
 
 void complain(std::string_view line) {
@@ -23,6 +24,8 @@ void add_common_options(CLI::App& command, CommonOptions& options, bool with_csv
     if (options.threads == 0) options.threads = omp_get_max_threads();
   });
 }
+
+const slipfront::chain::Ranks* the_ranks = nullptr;
 
 namespace {
 
@@ -49,15 +52,17 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {
-    return app.exit(help);
+    return the_ranks->rank() == 0 ? app.exit(help) : exit_done;
   } catch (const CLI::ParseError& error) {
-    complain(usage_error(app, error));
+    if (the_ranks->rank() == 0) complain(usage_error(app, error));
     return exit_input;
   }
   if (app.got_subcommand("relations")) chosen = relations;
   if (app.got_subcommand("event")) chosen = event;
   if (app.got_subcommand("pulse")) chosen = pulse;
   if (app.got_subcommand("chain")) chosen = chain;
+  // Only a chain is shared; of anything else the first rank does it all.
+  if (the_ranks->rank() > 0 && !app.got_subcommand("chain")) return exit_done;
   const int code = chosen();
   finish_stdout();
   return code;
@@ -67,18 +72,22 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return run(argc, argv);
-  } catch (const slipfront::InputError& error) {
+    const slipfront::chain::Ranks ranks = slipfront::chain::Ranks::of_mpirun();
+    the_ranks = &ranks;
+    const auto failed = [&](int code, const char* text) { return ranks.failed(code, [text] { complain(text); }); };
+    try {
+      return run(argc, argv);
+    } catch (const slipfront::InputError& error) {
+      return failed(exit_input, error.what());
+    } catch (const slipfront::FileError& error) {
+      return failed(exit_file, error.what());
+    } catch (const std::bad_alloc&) {
+      return failed(exit_numerics, "out of memory");
+    } catch (const std::exception& error) {
+      return failed(exit_numerics, error.what());
+    }
+  } catch (const std::exception& error) {  // MPI that is not there
     complain(error.what());
     return exit_input;
-  } catch (const slipfront::FileError& error) {
-    complain(error.what());
-    return exit_file;
-  } catch (const std::bad_alloc&) {
-    complain("out of memory");
-    return exit_numerics;
-  } catch (const std::exception& error) {
-    complain(error.what());
-    return exit_numerics;
   }
 }

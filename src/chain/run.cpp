@@ -54,20 +54,23 @@ Problem problem_of(const Stretched& s) {
 }
 
 Run::Start Run::start(const Stretched& s) {
-  Start start{problem_of(s), {}};
-  start.motion = static_train([&](double x) { return s.stress(std::clamp(x / s.scale, s.left, s.right)); },
-                              start.problem.grid, s.boundary.periodic);
+  Problem problem = problem_of(s);
+  StaticTrain train([s](double x) { return s.stress(std::clamp(x / s.scale, s.left, s.right)); }, problem.grid,
+                    s.boundary.periodic);
   if (s.boundary.periodic) {  // as many dislocations as the stress asks for
-    const Grid& grid = start.problem.grid;
-    const double once_around = start.motion.u.front() - start.motion.u.back();
-    const double share = static_cast<double>(grid.sites) / std::max<double>(1, static_cast<double>(grid.sites) - 1);
-    start.problem.boundary.charge = std::lround(once_around * share / (2 * std::numbers::pi));
+    const std::size_t n = problem.grid.sites;
+    const double once_around = train(0, 1).u[0] - train(n - 1, n).u[0];
+    const double share = static_cast<double>(n) / std::max<double>(1, static_cast<double>(n) - 1);
+    problem.boundary.charge = std::lround(once_around * share / (2 * std::numbers::pi));
   }
-  return start;
+  return {std::move(problem), std::move(train)};
 }
 
 Run::Run(Stretched stretched, pulse::Schedule schedule, const Execution& execution, const Start& start)
-    : stretched_(std::move(stretched)), schedule_(std::move(schedule)), chain_(start.problem, start.motion, execution) {
+    : stretched_(std::move(stretched)),
+      schedule_(std::move(schedule)),
+      chain_(
+          start.problem, [&](std::size_t begin, std::size_t end) { return start.train(begin, end); }, execution) {
   look_at_start();
 }
 

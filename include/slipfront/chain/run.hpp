@@ -62,7 +62,7 @@ class Run {
  private:
   struct Start {
     Problem problem;
-    Motion motion;
+    StaticTrain train;
   };
   static Start start(const Stretched& stretched);
   Run(Stretched stretched, pulse::Schedule schedule, const Execution& execution, const Start& start);
