@@ -61,10 +61,10 @@ SLIPFRONT_CLONES void displacements(const PeriodicForce& sine, double eps, const
 
 SLIPFRONT_CLONES void add_neighbours(double spread, const double* y, double* next, std::size_t begin, std::size_t end) {
   const std::size_t n = (end - begin) / lanes * lanes;
-  y += begin;
+  const double *left = y + begin - 1, *right = y + begin + 1;
   next += begin;
   SLIPFRONT_INDEPENDENT
-  for (std::size_t j = 0; j < n; ++j) next[j] += spread * (y[j - 1] + y[j + 1]);
+  for (std::size_t j = 0; j < n; ++j) next[j] += spread * (left[j] + right[j]);
 }
 
 SLIPFRONT_CLONES bool bounded(const double* z, std::size_t size) {
