@@ -63,8 +63,9 @@ double chosen_step(const Problem& p) { return p.step > 0 ? p.step : chosen(p, la
 double largest_step(const Problem& p) { return largest(p, largest_contact(p)); }
 
 double memory_needed(const Problem& p) {
-  // Two levels and the initial state; where not plain also contact, three levels of forcing and two of work.
-  return static_cast<double>(p.grid.sites) * 8 * (plain(p) ? 5 : 10);
+  // Two levels, and a displacement to start from; where not plain also contact, three levels of forcing, what they add
+  // up to and two of work.
+  return static_cast<double>(p.grid.sites) * 8 * (plain(p) ? 3 : 10);
 }
 
 double memory_of_machine() {

@@ -6,6 +6,7 @@ import json
 import math
 import os
 import random
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -309,6 +310,30 @@ class CommandLine(unittest.TestCase):
                                     "[chain]\nscale = 50\nperiodic = 'yes'\n[forcing]\nformula = '0.5'\n"))
         self.assertEqual(ring["dislocations"], 13)
         self.assertGreater(ring["slip_at_origin"], 0)
+
+    @unittest.skipUnless(shutil.which("mpirun"), "no mpirun")
+    def test_chain_under_mpirun_writes_the_same_file(self):
+        case = self.slow_case()
+        folder = os.path.dirname(case)
+        environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_rmaps_base_oversubscribe="1",
+                           OMPI_MCA_hwloc_base_binding_policy="none", OMPI_MCA_mpi_yield_when_idle="1", ASAN_OPTIONS="detect_leaks=0")
+
+        def mpirun(ranks, *arguments):
+            return subprocess.run(["mpirun", "-n", str(ranks), PROGRAM, "chain", case, "--set", "chain.scale=500", *arguments],
+                                  env=environment, capture_output=True, text=True, timeout=120)
+
+        alone, shared = os.path.join(folder, "alone.nc"), os.path.join(folder, "shared.nc")
+        self.ok("chain", case, "--set", "chain.scale=500", "-o", alone)
+        done = mpirun(2, "--threads", "1", "-o", shared, "--json")
+        if "not built with MPI" in done.stderr or "without MPI" in done.stderr:
+            self.skipTest("built without MPI")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(json.loads(done.stdout)["ranks"], 2)
+        with open(alone, "rb") as a, open(shared, "rb") as b:
+            self.assertEqual(a.read(), b.read())
+        refused = mpirun(2, "--set", "chain.spacing=0.9")
+        self.assertEqual(refused.returncode, 2)
+        self.assertEqual(refused.stderr.count("slipfront: "), 1, refused.stderr)
 
     def test_chain_refuses(self):
         case = os.path.join(SOURCE, "cases/step.toml")

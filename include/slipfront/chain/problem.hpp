@@ -47,7 +47,7 @@ double chosen_step(const Problem& problem);
 /// The largest stable step.
 double largest_step(const Problem& problem);
 
-/// Bytes that a run holds, and what this machine has (0 where that cannot be told).
+/// Bytes that a run holds, all ranks together, and what this machine has (0 where that cannot be told).
 double memory_needed(const Problem& problem);
 double memory_of_machine();
 
