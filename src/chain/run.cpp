@@ -5,10 +5,12 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "../bytes.hpp"
 #include "slipfront/chain/measure.hpp"
+#include "slipfront/chain/ranks.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::chain {
@@ -66,6 +68,14 @@ Run::Start Run::start(const Stretched& s) {
   return {std::move(problem), std::move(train)};
 }
 
+/// What is wrong with it is thrown by all ranks together.
+Run::Start Run::start(const Stretched& stretched, const Execution& execution) {
+  if (!execution.ranks) return start(stretched);
+  std::optional<Start> made;
+  execution.ranks->together([&] { made = start(stretched); });
+  return *std::move(made);
+}
+
 Run::Run(Stretched stretched, pulse::Schedule schedule, const Execution& execution, const Start& start)
     : stretched_(std::move(stretched)),
       schedule_(std::move(schedule)),
@@ -75,7 +85,7 @@ Run::Run(Stretched stretched, pulse::Schedule schedule, const Execution& executi
 }
 
 Run::Run(Stretched stretched, pulse::Schedule schedule, const Execution& execution)
-    : Run(stretched, std::move(schedule), execution, start(stretched)) {}
+    : Run(stretched, std::move(schedule), execution, start(stretched, execution)) {}
 
 double Run::centre_of_cell(std::size_t i) const {
   const double half = width_of_cell(i) / 2 * (1 + 1e-9);  // the window stays on the chain

@@ -65,6 +65,7 @@ class Run {
     StaticTrain train;
   };
   static Start start(const Stretched& stretched);
+  static Start start(const Stretched& stretched, const Execution& execution);
   Run(Stretched stretched, pulse::Schedule schedule, const Execution& execution, const Start& start);
   double width_of_cell(std::size_t i) const;
   double centre_of_cell(std::size_t i) const;
