@@ -15,9 +15,9 @@ class Ranks {
  public:
   /// One process by itself.
   Ranks() = default;
-  /// Starts MPI if mpirun (or srun) started this process, and ends it when destroyed: one object a program, in main,
-  /// before anything else and outside its try block. \throws InputError if there are several processes and the library
-  /// was built without MPI.
+  /// Starts MPI if mpirun (or srun) started this process, and ends it when destroyed: one object a program, which
+  /// catches errors while it lives (failed). \throws InputError if there are several processes and the library was
+  /// built without MPI.
   static Ranks of_mpirun();
   /// Ends MPI; the other ranks too, by force, if an exception that they do not know of is on its way.
   ~Ranks();
