@@ -29,7 +29,7 @@ double spacing_of_train(const Stretched& s) {
 
 }  // namespace
 
-Problem problem_of(const Stretched& s) {
+Problem problem_of(const Stretched& s, double share_of_machine) {
   if (!(s.scale > 0) || !std::isfinite(s.scale))
     throw InputError(
         {.key = "chain.scale", .value = std::to_string(s.scale), .problem = "out of range", .allowed = "> 0"});
@@ -51,12 +51,12 @@ Problem problem_of(const Stretched& s) {
   p.friction.coefficient /= s.scale;
   if (s.forcing) p.forcing = [f = s.forcing, c = s.scale](double x, double t) { return f(x / c, t / c) / c; };
   if (s.contact) p.contact = [a = s.contact, c = s.scale](double x) { return a(x / c); };
-  check(p);
+  check(p, share_of_machine);
   return p;
 }
 
-Run::Start Run::start(const Stretched& s) {
-  Problem problem = problem_of(s);
+Run::Start Run::start(const Stretched& s, double share_of_machine) {
+  Problem problem = problem_of(s, share_of_machine);
   StaticTrain train([s](double x) { return s.stress(std::clamp(x / s.scale, s.left, s.right)); }, problem.grid,
                     s.boundary.periodic);
   if (s.boundary.periodic) {  // as many dislocations as the stress asks for
@@ -70,9 +70,9 @@ Run::Start Run::start(const Stretched& s) {
 
 /// What is wrong with it is thrown by all ranks together.
 Run::Start Run::start(const Stretched& stretched, const Execution& execution) {
-  if (!execution.ranks) return start(stretched);
+  if (!execution.ranks) return start(stretched, 1.0);
   std::optional<Start> made;
-  execution.ranks->together([&] { made = start(stretched); });
+  execution.ranks->together([&] { made = start(stretched, execution.ranks->share_of_machine()); });
   return *std::move(made);
 }
 

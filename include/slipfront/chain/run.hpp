@@ -28,8 +28,9 @@ struct Stretched {
   double window = 0;     ///< of averages at x = 0, in the scenario's x; 0: one spacing of the train left of it
 };
 
-/// The same problem in the chain's own units. \throws InputError as check does.
-Problem problem_of(const Stretched& stretched);
+/// The same problem in the chain's own units. `share_of_machine` of it runs on this one. \throws InputError as check
+/// does.
+Problem problem_of(const Stretched& stretched, double share_of_machine = 1);
 
 class Run {
  public:
@@ -64,7 +65,7 @@ class Run {
     Problem problem;
     StaticTrain train;
   };
-  static Start start(const Stretched& stretched);
+  static Start start(const Stretched& stretched, double share_of_machine);
   static Start start(const Stretched& stretched, const Execution& execution);
   Run(Stretched stretched, pulse::Schedule schedule, const Execution& execution, const Start& start);
   double width_of_cell(std::size_t i) const;
