@@ -72,6 +72,13 @@ Window Chain::window(std::size_t begin, std::size_t end, double time) const {
     window.velocity.push_back(turn * (velocity + tau * (acceleration + tau / 2 * jerk)));
     window.stress.push_back(turn * (stress(u_now) + tau * stress_rate));
   }
+  // A fixed end stays where it is held: the equation of motion above knows nothing of what holds it.
+  const auto hold = [&](std::size_t i) {
+    window.u[i] = turn * u_now[reach + i];
+    window.velocity[i] = 0;
+  };
+  if (begin == 0 && parts.sides.left == Side::fixed) hold(0);
+  if (static_cast<long>(end) == n && parts.sides.right == Side::fixed) hold(size - 1);
   return window;
 }
 
