@@ -31,6 +31,7 @@ Runner add_relations(CLI::App& app);
 Runner add_event(CLI::App& app);
 Runner add_pulse(CLI::App& app);
 Runner add_chain(CLI::App& app);
+Runner add_compare(CLI::App& app);
 
 /// What `slipfront` does when asked for nothing: `event` on the shipped catalogue.
 int run_default();
