@@ -39,7 +39,7 @@ double default_spacing(const scenario::Scenario& s, double left, double right) {
 chain::Stretched chain_problem(const scenario::Scenario& s) {
   const pulse::Problem pulse = pulse_problem(s);
   chain::Stretched c;
-  c.scale = s.chain.scale;
+  c.scale = s.chain.scale.value_or(1);
   c.left = pulse.left;
   c.right = pulse.right;
   c.stress = s.stress;

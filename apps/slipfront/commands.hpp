@@ -34,6 +34,7 @@ Runner add_relations(CLI::App& app);
 Runner add_event(CLI::App& app);
 Runner add_pulse(CLI::App& app);
 Runner add_chain(CLI::App& app);
+Runner add_compare(CLI::App& app);
 
 /// The processes that run this program, of which the first prints and writes.
 extern const slipfront::chain::Ranks* the_ranks;

@@ -7,10 +7,12 @@
 
 using namespace slipfront;
 
-void add_scenario_options(CLI::App& command, ScenarioArguments& a) {
+void add_scenario_options(CLI::App& command, ScenarioArguments& a, bool with_resume) {
   command.add_option("SCENARIO", a.scenario, "Scenario file, TOML")->required();
   command.add_option("-o,--output", a.output, "NetCDF file to write")->type_name("OUT.nc");
-  command.add_option("--resume", a.resume, "Go on from a file of this scenario, and write to it")->type_name("OUT.nc");
+  if (with_resume)
+    command.add_option("--resume", a.resume, "Go on from a file of this scenario, and write to it")
+        ->type_name("OUT.nc");
   command.add_option("--set", a.set, "table.key=value, in place of the scenario's; repeatable")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");

@@ -23,7 +23,7 @@ struct ScenarioArguments {
   bool check = false;
 };
 
-void add_scenario_options(CLI::App& command, ScenarioArguments& arguments);
+void add_scenario_options(CLI::App& command, ScenarioArguments& arguments, bool with_resume = true);
 
 /// The scenario; its warnings are said.
 slipfront::scenario::Scenario read_scenario_of(const ScenarioArguments& arguments);

@@ -48,7 +48,8 @@ int run(int argc, char** argv) {
   app.require_subcommand(0, 1);
   app.failure_message(CLI::FailureMessage::simple);
   Runner chosen = run_default;
-  const Runner relations = add_relations(app), event = add_event(app), pulse = add_pulse(app), chain = add_chain(app);
+  const Runner relations = add_relations(app), event = add_event(app), pulse = add_pulse(app), chain = add_chain(app),
+               compare = add_compare(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {
@@ -61,6 +62,7 @@ int run(int argc, char** argv) {
   if (app.got_subcommand("event")) chosen = event;
   if (app.got_subcommand("pulse")) chosen = pulse;
   if (app.got_subcommand("chain")) chosen = chain;
+  if (app.got_subcommand("compare")) chosen = compare;
   // Only a chain is shared; of anything else the first rank does it all.
   if (the_ranks->rank() > 0 && !app.got_subcommand("chain")) return exit_done;
   const int code = chosen();

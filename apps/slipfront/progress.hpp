@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstdio>
 #include <string>
+#include <utility>
 
 /// What long work shows and heeds: a line of progress, Ctrl-C.
 
@@ -18,8 +19,12 @@ inline double seconds_since(Clock::time_point start) {
 /// A line on a terminal, renewed five times a second: share done, rate, time left.
 class Progress {
  public:
-  Progress(double end, bool wanted)
-      : end_(end), on_(wanted && isatty(STDERR_FILENO)), start_(Clock::now()), shown_(start_) {}
+  Progress(double end, bool wanted, std::string label = {})
+      : label_(std::move(label)),
+        end_(end),
+        on_(wanted && isatty(STDERR_FILENO)),
+        start_(Clock::now()),
+        shown_(start_) {}
   ~Progress() {
     if (drawn_) std::fputs("\r\x1b[K", stderr);
   }
@@ -34,8 +39,9 @@ class Progress {
     const double left = gained > 0 ? elapsed * (1 - share) / gained : 0;
     std::string bar(30, '.');
     for (std::size_t i = 0; i < static_cast<std::size_t>(share * 30); ++i) bar[i] = '#';
-    fmt::print(stderr, "\r[{}] {:5.1f} %  t = {:.4g} of {:.4g}  {:.0f} steps/s  {:.0f} s left\x1b[K", bar, 100 * share,
-               time, end_, static_cast<double>(steps - first_steps_) / elapsed, left);
+    fmt::print(stderr, "\r{}{}[{}] {:5.1f} %  t = {:.4g} of {:.4g}  {:.0f} steps/s  {:.0f} s left\x1b[K", label_,
+               label_.empty() ? "" : " ", bar, 100 * share, time, end_,
+               static_cast<double>(steps - first_steps_) / elapsed, left);
     std::fflush(stderr);
     drawn_ = true;
   }
@@ -45,6 +51,7 @@ class Progress {
   }
 
  private:
+  std::string label_;  ///< of what runs, where a command runs several
   double end_;
   bool on_, drawn_ = false;
   Clock::time_point start_, shown_;

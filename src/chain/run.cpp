@@ -11,6 +11,7 @@
 #include "../bytes.hpp"
 #include "slipfront/chain/measure.hpp"
 #include "slipfront/chain/ranks.hpp"
+#include "slipfront/chain/smooth.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::chain {
@@ -19,6 +20,9 @@ namespace {
 using pulse::Snapshot;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr std::uint64_t format = 0x636861696e000001;  // "chain", version 1
+
+/// In the window of velocities and stresses (smooth_average): their ripple is some 0.1 % then.
+constexpr double dislocations_in_window = 8;
 
 /// The train's spacing just left of x = 0, or anywhere if it is empty there.
 double spacing_of_train(const Stretched& s) {
@@ -102,6 +106,8 @@ double Run::width_of_cell(std::size_t i) const {
 void Run::look_at_start() {
   const double length = stretched_.right - stretched_.left;
   window_ = stretched_.window > 0 ? stretched_.window : std::min(spacing_of_train(stretched_), length / 4);
+  smooth_window_ = stretched_.window > 0 ? stretched_.window
+                                         : std::min(dislocations_in_window * spacing_of_train(stretched_), length / 4);
   const double levels = schedule_.times.back() * stretched_.scale / chain_.dt();
   work_every_ = std::max(32L, 32 * std::lround(levels / 200 / 32));
   const double c = stretched_.scale;
@@ -184,22 +190,25 @@ void Run::take() {
   s.time = time;
   const std::size_t n = first_u_.size();
   std::size_t peak = 0;
+  const auto middle = [&](std::size_t i) { return (schedule_.x_edges[i] + schedule_.x_edges[i + 1]) / 2; };
   for (std::size_t i = 0; i < n; ++i) {
-    const Average a = average(chain_, c * centre_of_cell(i), c * width_of_cell(i), c * time);
+    const double u = average(chain_, c * centre_of_cell(i), c * width_of_cell(i), c * time).u;
+    const double wide = std::max(2 * (schedule_.x_edges[i + 1] - schedule_.x_edges[i]), smooth_window_);
+    const Average a = smooth_average(chain_, c * middle(i), c * wide, c * time);
     s.profile.k.push_back(a.stress);
     s.profile.W.push_back(a.velocity);
     s.profile.U.push_back(a.stress > 1e-9 ? a.velocity / a.stress : 0);
-    s.profile.slip.push_back((a.u - first_u_[i]) / c);
+    s.profile.slip.push_back((u - first_u_[i]) / c);
     if (std::fabs(a.velocity) > std::fabs(s.profile.W[peak])) peak = i;
   }
   s.peak_slip_velocity = s.profile.W[peak];
-  s.peak_position = centre_of_cell(peak);
+  s.peak_position = middle(peak);
   s.slip_velocity_at_origin = s.stress_at_origin = s.slip_at_origin = none;
   if (!std::isnan(first_u_at_origin_)) {
-    const Average origin = average(chain_, 0, c * window_, c * time);
+    const Average origin = smooth_average(chain_, 0, c * smooth_window_, c * time);
     s.slip_velocity_at_origin = origin.velocity;
     s.stress_at_origin = origin.stress;
-    s.slip_at_origin = (origin.u - first_u_at_origin_) / c;
+    s.slip_at_origin = (average(chain_, 0, c * window_, c * time).u - first_u_at_origin_) / c;
   }
   s.fronts = {none, none, none, none};
   if (stretched_.stress(stretched_.right) == 0) {  // the last dislocation
@@ -207,13 +216,22 @@ void Run::take() {
     if (!all.empty()) s.fronts.leading = all.back().x / c;
   }
   const double level = schedule_.threshold * std::fabs(s.peak_slip_velocity);
-  const auto moves = [&](std::size_t i) { return std::fabs(s.profile.W[i]) > level; };
+  // At an end the window is cut, and phonons show that a whole one averages away: no front is seen there.
+  const double half = std::min(smooth_window_ / 2, (stretched_.right - stretched_.left) / 4);
+  const auto speed = [&](std::size_t i) {
+    return middle(i) - half < stretched_.left || middle(i) + half > stretched_.right ? 0 : std::fabs(s.profile.W[i]);
+  };
+  const auto crossing = [&](std::size_t slow, std::size_t fast) {
+    return std::lerp(middle(slow), middle(fast), (level - speed(slow)) / (speed(fast) - speed(slow)));
+  };
   if (level > 0) {
     std::size_t first = 0, last = n - 1;
-    while (!moves(first)) ++first;
-    while (!moves(last)) --last;
-    s.fronts.trailing_observed = centre_of_cell(first);
-    s.fronts.leading_observed = centre_of_cell(last);
+    while (first < n && !(speed(first) > level)) ++first;
+    while (last > first && !(speed(last) > level)) --last;
+    if (first < n) {
+      s.fronts.trailing_observed = first > 0 ? crossing(first - 1, first) : middle(first);
+      s.fronts.leading_observed = last + 1 < n ? crossing(last + 1, last) : middle(last);
+    }
   }
   const Totals now = totals(chain_);
   s.energy = {(now.elastic + now.substrate) / c, now.kinetic / c, dissipated_ / c, supplied_ / c};

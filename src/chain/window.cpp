@@ -83,6 +83,13 @@ Window Chain::Parts::window(std::size_t from, std::size_t to, double time) const
     window.velocity.push_back(turn * (velocity + tau * (acceleration + tau / 2 * jerk)));
     window.stress.push_back(turn * (stress(u_now) + tau * stress_rate));
   }
+  // A fixed end stays where it is held: the equation of motion above knows nothing of what holds it.
+  const auto hold = [&](std::size_t i) {
+    window.u[i] = turn * u_now[reach + i];
+    window.velocity[i] = 0;
+  };
+  if (from == 0 && sides.left == Side::fixed) hold(0);
+  if (static_cast<long>(to) == n && sides.right == Side::fixed) hold(size - 1);
   return window;
 }
 

@@ -69,6 +69,10 @@ int Writer::bytes(const std::string& name, const std::vector<int>& dimensions) {
   return variable(name, NC_UBYTE, dimensions);
 }
 
+int Writer::characters(const std::string& name, const std::vector<int>& dimensions) {
+  return variable(name, NC_CHAR, dimensions);
+}
+
 void Writer::attribute(int variable, const std::string& name, std::string_view text) {
   require(nc_put_att_text(id_, variable, name.c_str(), text.size(), text.data()), "attribute " + name);
 }
@@ -98,6 +102,14 @@ void Writer::write(int variable, std::string_view values) {
 void Writer::write_row(int variable, std::size_t row, std::span<const double> values) {
   const std::size_t start[] = {row, 0}, size[] = {1, values.size()};
   require(nc_put_vara_double(id_, variable, start, size, values.data()), "data");
+}
+
+void Writer::write_all(int variable, const std::vector<double>& values) {
+  require(nc_put_var_double(id_, variable, values.data()), "data");
+}
+
+void Writer::write_all(int variable, std::string_view characters) {
+  require(nc_put_var_text(id_, variable, characters.data()), "data");
 }
 
 Image Writer::finish() {

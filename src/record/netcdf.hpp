@@ -60,6 +60,7 @@ class Writer : Handle {
   int dimension(const std::string& name, std::size_t size);
   int reals(const std::string& name, const std::vector<int>& dimensions);
   int bytes(const std::string& name, const std::vector<int>& dimensions);
+  int characters(const std::string& name, const std::vector<int>& dimensions);
   void attribute(int variable, const std::string& name, std::string_view text);
   void attribute(int variable, const std::string& name, int value);
   void fill_value(int variable, double value);
@@ -68,6 +69,10 @@ class Writer : Handle {
   void write(int variable, std::span<const double> values);
   void write(int variable, std::string_view values);
   void write_row(int variable, std::size_t row, std::span<const double> values);
+
+  /// Of any rank, all of it.
+  void write_all(int variable, const std::vector<double>& values);
+  void write_all(int variable, std::string_view characters);
 
   Image finish();
 

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "cf.hpp"
 #include "netcdf.hpp"
 #include "pulse_layout.hpp"
 #include "pulse_variables.hpp"
@@ -16,16 +17,10 @@
 namespace slipfront::record {
 namespace {
 
+using cf::reals;
 using netcdf::Writer;
 using pulse::Snapshot;
 using Fields = std::vector<const FieldVariable*>;
-
-constexpr std::string_view paper = "Gershenzon, Bambakidis and Skinner (2015)";
-constexpr std::string_view paper_title =
-    "How does dissipation affect the transition from static to dynamic macroscopic friction?";
-constexpr Description time_axis = {"time", "time", "b / (c A)", "Eq. 3"};
-constexpr Description x_axis = {"x", "position along the interface, centre of the cell", "b / A", "Eq. 3"};
-constexpr Description x_ends = {"x_bounds", "ends of the cell", "b / A", "Eq. 3"};
 
 void require(bool truth, const char* what) {
   if (!truth) throw std::invalid_argument(std::string("write_pulse: ") + what);
@@ -44,19 +39,6 @@ void check(const PulseMetadata& metadata, const std::vector<Snapshot>& snapshots
   }
 }
 
-void describe(Writer& file, int variable, const Description& about) {
-  file.attribute(variable, "long_name", about.long_name);
-  file.attribute(variable, "units", "1");
-  file.attribute(variable, "dimensional_unit", about.dimensional_unit);
-  file.attribute(variable, "references", std::string(paper) + ", " + std::string(about.reference));
-}
-
-int reals(Writer& file, const Description& about, const std::vector<int>& dimensions) {
-  const int variable = file.reals(std::string(about.name), dimensions);
-  describe(file, variable, about);
-  return variable;
-}
-
 /// Bytes that mean nothing to anyone else.
 int opaque(Writer& file, const std::string& name, const std::string& long_name, std::size_t size) {
   const int variable = file.bytes(name, {file.dimension(name + "_bytes", size)});
@@ -68,21 +50,7 @@ int opaque(Writer& file, const std::string& name, const std::string& long_name, 
 
 /// Attributes of the file. Returns whether they hold the scenario exactly.
 bool describe_file(Writer& file, const PulseMetadata& metadata, bool finished) {
-  const auto text = [&](const char* name, std::string_view value) {
-    file.attribute(Writer::global, name, clean_text(value, netcdf::longest_text));
-  };
-  text("Conventions", "CF-1.10");
-  text("title", metadata.title);
-  text("source", "slipfront " + metadata.version);
-  text("history", metadata.command_line);
-  text("references", std::string(paper) + ", " + std::string(paper_title));
-  text("comment",
-       "All values are dimensionless; multiply by dimensional_unit: A contact ratio, b asperity spacing, c speed of "
-       "strain waves, mu shear modulus, nu Poisson ratio.");
-  text("version", metadata.version);
-  text("scenario", metadata.scenario_text);
-  text("slipfront_format", layout::format);
-  file.attribute(Writer::global, "finished", finished ? 1 : 0);
+  cf::describe_file(file, metadata, layout::format, finished);
   return clean_text(metadata.scenario_text, netcdf::longest_text) == metadata.scenario_text;
 }
 
@@ -148,9 +116,9 @@ void write_pulse(const std::string& path, const PulseMetadata& metadata, const s
   const int time = file.dimension("time", snapshots.size());
   const int x = file.dimension("x", cells);
   const int ends = file.dimension("ends", 2);
-  const Axes axes{reals(file, time_axis, {time}), reals(file, x_axis, {x}), reals(file, x_ends, {x, ends})};
+  const Axes axes{reals(file, cf::time_axis, {time}), reals(file, cf::x_axis, {x}), reals(file, cf::x_ends, {x, ends})};
   file.attribute(axes.x, "axis", "X");
-  file.attribute(axes.x, "bounds", x_ends.name);
+  file.attribute(axes.x, "bounds", cf::x_ends.name);
   std::vector<int> field_ids, scalar_ids;
   for (const FieldVariable* field : fields) field_ids.push_back(reals(file, field->about, {time, x}));
   for (const ScalarVariable& scalar : scalar_variables()) {

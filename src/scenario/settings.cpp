@@ -64,7 +64,7 @@ void read_pulse(const Document& document, PulseOptions& pulse) {
 
 void read_chain(const Document& document, ChainOptions& chain) {
   const Section section(document, "chain", {"scale", "spacing", "model", "left", "right", "periodic", "window"});
-  chain.scale = section.number("scale", positive).value_or(chain.scale);
+  chain.scale = section.number("scale", positive);
   chain.spacing = section.number("spacing", positive);
   chain.model =
       section.choice<ChainModel>("model", {{"sine-gordon", ChainModel::sine_gordon}, {"lattice", ChainModel::lattice}})

@@ -94,7 +94,7 @@ anything = nan
   EXPECT_EQ(s.pulse.cells, 1000);
   EXPECT_EQ(s.pulse.tolerance, 1e-9);
   EXPECT_EQ(s.pulse.threshold, 0.01);
-  EXPECT_EQ(s.chain.scale, 4);
+  EXPECT_EQ(s.chain.scale, 4.0);
   EXPECT_EQ(*s.chain.spacing, 0.05);
   EXPECT_EQ(s.chain.model, ChainModel::lattice);
   EXPECT_DOUBLE_EQ(*s.medium.shear_modulus, 30e9);

@@ -25,7 +25,8 @@ struct Stretched {
   Boundary boundary;
   Model model = Model::sine_gordon;
   double spacing = 0.5;  ///< of the grid or lattice, in the chain's own (stretched) x
-  double window = 0;     ///< of averages at x = 0, in the scenario's x; 0: one spacing of the train left of it
+  double window = 0;  ///< of averages at x = 0, in the scenario's x; 0: spacings of the train left of it, one for the
+                      ///< slip, eight for velocity and stress
 };
 
 /// The same problem in the chain's own units. `share_of_machine` of it runs on this one. \throws InputError as check
@@ -52,7 +53,10 @@ class Run {
 
   double time() const { return chain_.time() / stretched_.scale; }  ///< of the scenario
   double scale() const { return stretched_.scale; }
-  double window() const { return window_; }  ///< of averages at x = 0, in the scenario's x
+  /// Windows at x = 0, in the scenario's x: of the slip (a box), and of velocity and stress (smooth_average), which the
+  /// profiles share unless two output cells are wider.
+  double window() const { return window_; }
+  double smooth_window() const { return smooth_window_; }
   /// |energy + dissipated - supplied - that at t = 0|, over that at t = 0. The work is summed by the trapezoidal rule
   /// over some 200 samples: without friction and forcing it is the drift of the scheme alone.
   double energy_drift() const;
@@ -77,7 +81,7 @@ class Run {
   Stretched stretched_;
   pulse::Schedule schedule_;
   Chain chain_;
-  double window_ = 0;
+  double window_ = 0, smooth_window_ = 0;
   long work_every_ = 1;
   bool good_ = true;
   std::vector<pulse::Snapshot> snapshots_;

@@ -56,7 +56,7 @@ enum class ChainEnd { free, fixed, absorbing };
 
 /// [chain]
 struct ChainOptions {
-  double scale = 1;               ///< > 0: x and t stretched by it, friction divided by it
+  std::optional<double> scale;    ///< > 0: x and t stretched by it, friction divided by it; 1 where none is asked for
   std::optional<double> spacing;  ///< of the grid or lattice, > 0, in the chain's own (stretched) x
   ChainModel model = ChainModel::sine_gordon;
   ChainEnd left = ChainEnd::fixed, right = ChainEnd::fixed;

@@ -1,0 +1,109 @@
+#include <cmath>
+#include <limits>
+
+#include "compare.hpp"
+#include "slipfront/rupture/inverse.hpp"
+#include "slipfront/rupture/riemann.hpp"
+#include "slipfront/train/train.hpp"
+
+using namespace slipfront;
+
+namespace {
+
+using rupture::RiemannSolution;
+using rupture::Wave;
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+/// x/t of the edges of what moves.
+struct Edges {
+  double left, right;
+};
+Edges edges_of(const RiemannSolution& solution) {
+  const Wave &left = solution.left_wave, &right = solution.right_wave;
+  return {left.kind != Wave::Kind::none ? left.outer : right.inner,
+          right.kind != Wave::Kind::none ? right.outer : left.inner};
+}
+
+train::Averages at(const RiemannSolution& solution, double x_over_t) {
+  return train::averages(rupture::sample(solution, x_over_t));
+}
+
+double speed(const RiemannSolution& solution, double x_over_t) { return std::fabs(at(solution, x_over_t).W); }
+
+/// x/t of the greatest slip velocity: the best of many samples, then the golden section between its neighbours.
+double peak_of(const RiemannSolution& solution, const Edges& edges) {
+  constexpr int samples = 2000;
+  const double width = edges.right - edges.left;
+  const auto place = [&](int i) { return edges.left + width * i / samples; };
+  int best = 1;
+  for (int i = 2; i < samples; ++i)
+    if (speed(solution, place(i)) > speed(solution, place(best))) best = i;
+  double low = place(best - 1), high = place(best + 1);
+  constexpr double golden = 0.6180339887498949;
+  for (int i = 0; i < 60; ++i) {
+    const double a = high - golden * (high - low), b = low + golden * (high - low);
+    (speed(solution, a) < speed(solution, b) ? low : high) = speed(solution, a) < speed(solution, b) ? a : b;
+  }
+  return (low + high) / 2;
+}
+
+/// Between a place at rest and the peak: where the slip velocity passes `level`. It is monotone in each wave.
+double passes(const RiemannSolution& solution, double resting, double peak, double level) {
+  for (int i = 0; i < 100; ++i) {
+    const double middle = (resting + peak) / 2;
+    (speed(solution, middle) < level ? resting : peak) = middle;
+  }
+  return (resting + peak) / 2;
+}
+
+pulse::Snapshot snapshot_of(const RiemannSolution& solution, const pulse::Schedule& schedule, double time) {
+  pulse::Snapshot s{};
+  s.time = time;
+  const double left = train::averages(solution.left).k, right = train::averages(solution.right).k;
+  // k_t + W_x = 0 and k, W of x/t alone: slip = t (W + (k0 - k) x/t), k0 the density at t = 0.
+  const auto slip = [&](const train::Averages& a, double x) { return time * a.W + x * ((x < 0 ? left : right) - a.k); };
+  const auto state = [&](double x) {
+    return time > 0 ? rupture::sample(solution, x / time) : (x < 0 ? solution.left : solution.right);
+  };
+  for (std::size_t i = 0; i + 1 < schedule.x_edges.size(); ++i) {
+    const double x = (schedule.x_edges[i] + schedule.x_edges[i + 1]) / 2;
+    const State here = state(x);
+    const train::Averages a = train::averages(here);
+    s.profile.k.push_back(a.k);
+    s.profile.U.push_back(here.empty() ? 0.0 : std::tanh(here.phi));
+    s.profile.W.push_back(a.W);
+    s.profile.slip.push_back(slip(a, x));
+  }
+  const Edges edges = edges_of(solution);
+  s.energy = {none, none, 0, 0};
+  s.fronts = {time * edges.left, time * edges.right, none, none};
+  const train::Averages origin = train::averages(state(0));
+  s.slip_velocity_at_origin = origin.W;
+  s.stress_at_origin = origin.k;
+  s.slip_at_origin = slip(origin, 0);
+  s.peak_position = none;
+  if (time > 0) {
+    const double peak = peak_of(solution, edges), most = speed(solution, peak);
+    s.peak_slip_velocity = at(solution, peak).W;
+    s.peak_position = time * peak;
+    s.fronts.trailing_observed = time * passes(solution, edges.left, peak, schedule.threshold * most);
+    s.fronts.leading_observed = time * passes(solution, edges.right, peak, schedule.threshold * most);
+  }
+  return s;
+}
+
+}  // namespace
+
+std::optional<Level> closed_form(const scenario::Scenario& s, const pulse::Schedule& schedule) {
+  const bool resisted = s.friction.law != modulation::FrictionLaw::none && s.friction.coefficient > 0;
+  if (s.initial.profile != scenario::ProfileKind::step || resisted || s.forcing_at || s.contact_at) return {};
+  if (s.initial.stress_left == s.initial.stress_right) return {};  // nothing moves: no wave to compare
+  const auto at_rest = [](double stress) { return stress > 0 ? State{0, rupture::psi_of_stress(stress)} : State{}; };
+  const RiemannSolution solution =
+      rupture::solve_riemann(at_rest(s.initial.stress_left), at_rest(s.initial.stress_right));
+  const Edges edges = edges_of(solution);
+  if (schedule.x_edges.front() > s.end * edges.left || schedule.x_edges.back() < s.end * edges.right) return {};
+  Level level{.name = "closed-form"};
+  for (const double time : schedule.times) level.snapshots.push_back(snapshot_of(solution, schedule, time));
+  return level;
+}

@@ -1,0 +1,107 @@
+#include <cmath>
+
+#include "batch.hpp"
+#include "compare.hpp"
+#include "long_run.hpp"
+
+using namespace slipfront;
+
+namespace {
+
+std::string json_text(const std::string& text) { return text.empty() ? "null" : fmt::format("\"{}\"", text); }
+std::string json_or_null(const std::optional<double>& value) { return value ? json_number(*value) : "null"; }
+
+double last(const Level& level, const Quantity& quantity) { return quantity.get(level.snapshots.back()); }
+
+std::string json_level(const Level& level, const Level* reference) {
+  const pulse::Snapshot& s = level.snapshots.back();
+  std::string text = fmt::format("{{\"level\": \"{}\", \"closure\": {}, \"scale\": {}", level.name,
+                                 json_text(level.closure), json_or_null(level.scale));
+  for (const Quantity& q : compared_quantities()) text += fmt::format(", \"{}\": {}", q.key, json_number(q.get(s)));
+  text += fmt::format(
+      ", \"stress_at_origin\": {}, \"peak_position\": {}, \"trailing_front\": {}, \"energy_dissipated\": {}, "
+      "\"window\": {}, \"smooth_window\": {}, \"wall_seconds\": {}, \"difference\": {{",
+      json_number(s.stress_at_origin), json_number(s.peak_position), json_number(s.fronts.trailing),
+      json_number(s.energy.dissipated), json_or_null(level.window), json_or_null(level.smooth_window),
+      json_number(level.wall_seconds));
+  for (const Quantity& q : compared_quantities())
+    text += fmt::format("{}\"{}\": {}", &q == compared_quantities().data() ? "" : ", ", q.key,
+                        reference ? json_number(q.get(s) - last(*reference, q)) : "null");
+  return text + "}}";
+}
+
+void print_json(const scenario::Scenario& s, const std::vector<Level>& levels) {
+  std::string text = fmt::format(
+      "{{\"time\": {}, \"friction_coefficient\": {}, \"damping_number\": {}, \"reference\": \"pulse-consistent\", "
+      "\"levels\": [",
+      json_number(s.end), json_number(s.friction.coefficient), json_number(s.friction.coefficient * s.end));
+  for (const Level& level : levels)
+    text += (&level == levels.data() ? "" : ", ") + json_level(level, reference_level(levels));
+  text += "], \"trend\": {";
+  for (const Quantity& q : compared_quantities()) {
+    const Trend t = trend_of(levels, q);
+    text += fmt::format("{}\"{}\": {{\"exponent\": {}, \"extrapolated\": {}, \"difference\": {}}}",
+                        &q == compared_quantities().data() ? "" : ", ", q.key, json_number(t.exponent),
+                        json_number(t.extrapolated), json_number(t.difference));
+  }
+  text += "}, \"notes\": [";
+  const std::vector<std::string> notes = notes_on(s);
+  for (const std::string& note : notes) text += fmt::format("{}\"{}\"", &note == notes.data() ? "" : ", ", note);
+  put(text + "]}\n");
+}
+
+std::string cell(double value, const char* unit = "") {
+  return std::isfinite(value) ? fmt::format("{:>13}", fmt::format("{:.5g}{}", value, unit))
+                              : fmt::format("{:>13}", "-");
+}
+
+/// Slip and slip velocities differ by a share of the reference, fronts by a length.
+bool is_front(const Quantity& q) { return std::string_view(q.key).find("front") != std::string_view::npos; }
+
+std::string difference_cell(double difference, double theory, const Quantity& q) {
+  if (is_front(q)) return std::isfinite(difference) ? fmt::format("{:>+13.5f}", difference) : cell(difference);
+  const double percent = 100 * difference / theory;
+  return std::isfinite(percent) ? fmt::format("{:>+11.3f} %", percent) : cell(percent);
+}
+
+void print_table(const scenario::Scenario& s, const std::vector<Level>& levels) {
+  const Level* reference = reference_level(levels);
+  put(fmt::format("{}{}t = {:.6g}, C = {:.6g}, Gamma = C t = {:.6g}\n\n{:<18}", s.title, s.title.empty() ? "" : ": ",
+                  s.end, s.friction.coefficient, s.friction.coefficient * s.end, "at the end"));
+  for (const Quantity& q : compared_quantities()) put(fmt::format("{:>13}", q.heading));
+  put(fmt::format("{:>10}\n{:<18}", "seconds", ""));
+  for (const char* unit : {"b / (2 pi)", "c A / pi", "c A / pi", "b / A", "b / A", "b / A"})
+    put(fmt::format("{:>13}", unit));
+  put("\n");
+  for (const Level& level : levels) {
+    put(fmt::format("{:<18}", level.name));
+    for (const Quantity& q : compared_quantities()) put(cell(last(level, q)));
+    put(fmt::format("{:>10.2g}\n", level.wall_seconds));
+  }
+  if (!reference) return;
+  put("\ndifference from pulse-consistent\n");
+  for (const Level& level : levels) {
+    if (&level == reference) continue;
+    put(fmt::format("{:<18}", level.name));
+    for (const Quantity& q : compared_quantities())
+      put(difference_cell(last(level, q) - last(*reference, q), last(*reference, q), q));
+    put("\n");
+  }
+  std::string exponents, extrapolated, left;
+  for (const Quantity& q : compared_quantities()) {
+    const Trend t = trend_of(levels, q);
+    exponents += cell(t.exponent);
+    extrapolated += cell(t.extrapolated);
+    left += difference_cell(t.difference, last(*reference, q), q);
+  }
+  put(fmt::format("\ntrend of the chain with scale\n{:<18}{}\n{:<18}{}\n", "falls as s^-p, p =", exponents,
+                  "at infinite scale", extrapolated));
+  put(fmt::format("{:<18}{}\n\n", "less pulse", left));
+  for (const std::string& note : notes_on(s)) put(note + "\n");
+}
+
+}  // namespace
+
+void print_comparison(const scenario::Scenario& s, const std::vector<Level>& levels, bool json) {
+  json ? print_json(s, levels) : print_table(s, levels);
+}

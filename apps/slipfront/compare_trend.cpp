@@ -1,0 +1,68 @@
+#include <cmath>
+
+#include "compare.hpp"
+
+using namespace slipfront;
+
+const std::vector<Quantity>& compared_quantities() {
+  using pulse::Snapshot;
+  static const std::vector<Quantity> quantities = {
+      {"slip_at_origin", "slip(0)", [](const Snapshot& s) { return s.slip_at_origin; }},
+      {"slip_velocity_at_origin", "W(0)", [](const Snapshot& s) { return s.slip_velocity_at_origin; }},
+      {"peak_slip_velocity", "peak W", [](const Snapshot& s) { return s.peak_slip_velocity; }},
+      {"leading_front", "leading", [](const Snapshot& s) { return s.fronts.leading; }},
+      {"trailing_front_observed", "trailing*", [](const Snapshot& s) { return s.fronts.trailing_observed; }},
+      {"leading_front_observed", "leading*", [](const Snapshot& s) { return s.fronts.leading_observed; }},
+  };
+  return quantities;
+}
+
+const Level* reference_level(const std::vector<Level>& levels) {
+  for (const Level& level : levels)
+    if (level.name == "pulse-consistent" && !level.snapshots.empty()) return &level;
+  return nullptr;
+}
+
+Trend trend_of(const std::vector<Level>& levels, const Quantity& quantity) {
+  Trend trend;
+  const Level* reference = reference_level(levels);
+  if (!reference) return trend;
+  const double theory = quantity.get(reference->snapshots.back());
+  std::vector<double> scale, value;  // ascending
+  for (const Level& level : levels)
+    if (level.scale && !level.snapshots.empty()) {
+      scale.push_back(*level.scale);
+      value.push_back(quantity.get(level.snapshots.back()));
+    }
+  const std::size_t n = scale.size();
+  if (n < 2) return trend;
+  double x = 0, y = 0, xx = 0, xy = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double a = std::log(scale[i]), b = std::log(std::fabs(value[i] - theory));
+    x += a;
+    y += b;
+    xx += a * a;
+    xy += a * b;
+  }
+  const auto count = static_cast<double>(n);
+  trend.exponent = -(count * xy - x * y) / (count * xx - x * x);
+  trend.extrapolated = (scale[n - 1] * value[n - 1] - scale[n - 2] * value[n - 2]) / (scale[n - 1] - scale[n - 2]);
+  trend.difference = trend.extrapolated - theory;
+  return trend;
+}
+
+std::vector<std::string> notes_on(const scenario::Scenario& s) {
+  std::vector<std::string> notes;
+  const bool resisted = s.friction.law != modulation::FrictionLaw::none && s.friction.coefficient > 0;
+  const bool two_sides =
+      s.initial.profile == scenario::ProfileKind::step || s.initial.profile == scenario::ProfileKind::tanh;
+  if (!resisted && two_sides && s.initial.stress_left > 0 && s.initial.stress_right > 0 &&
+      s.initial.stress_left != s.initial.stress_right)
+    notes.emplace_back(
+        "without friction the energy that a shock takes from the averaged motion stays behind it, as phonons: there no "
+        "scale brings chain and pulse together (docs/theory.md 3.2)");
+  notes.emplace_back(
+      "* as an observer with a threshold sees it; on a chain with little friction phonons run ahead, and raising "
+      "pulse.threshold hides them");
+  return notes;
+}

@@ -1,0 +1,25 @@
+#pragma once
+/// \file
+/// The file of a comparison: NetCDF-4 by the CF-1.10 conventions, dimensions level, time and x.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "slipfront/record/pulse_file.hpp"
+
+namespace slipfront::record {
+
+/// One level of theory, run to its end.
+struct ComparedLevel {
+  std::string name;
+  std::optional<double> scale;  ///< of a chain
+  std::vector<pulse::Snapshot> snapshots;
+};
+
+/// Writes `path` whole or not at all. Every level has a snapshot at each of `times`, or this throws
+/// std::invalid_argument. \throws FileError (one line: path and reason), InputError for an unknown variable.
+void write_comparison(const std::string& path, const PulseMetadata& metadata, const std::vector<double>& times,
+                      const std::vector<ComparedLevel>& levels, bool finished);
+
+}  // namespace slipfront::record

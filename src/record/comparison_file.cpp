@@ -1,0 +1,119 @@
+#include "slipfront/record/comparison_file.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+#include "cf.hpp"
+#include "netcdf.hpp"
+#include "pulse_variables.hpp"
+#include "seal.hpp"
+#include "whole_file.hpp"
+
+namespace slipfront::record {
+namespace {
+
+using netcdf::Writer;
+using pulse::Snapshot;
+using Levels = std::vector<ComparedLevel>;
+
+constexpr const char* format = "comparison 1";
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr Description scale_of_chain = {"scale", "of a chain: x and t stretched by it, friction divided", "", "Eq. 3"};
+
+/// A value of every snapshot, level by level.
+std::vector<double> over_time(const Levels& levels, const ScalarVariable& variable) {
+  std::vector<double> values;
+  for (const ComparedLevel& level : levels)
+    for (const Snapshot& snapshot : level.snapshots) values.push_back(variable.get(snapshot));
+  return values;
+}
+
+/// And of every cell.
+std::vector<double> over_time_and_x(const Levels& levels, const FieldVariable& variable) {
+  std::vector<double> values;
+  for (const ComparedLevel& level : levels)
+    for (const Snapshot& snapshot : level.snapshots) {
+      const auto& now = snapshot.profile.*variable.values;
+      const auto& first = level.snapshots.front().profile.*variable.values;
+      for (std::size_t i = 0; i < now.size(); ++i) values.push_back(variable.drop ? first[i] - now[i] : now[i]);
+    }
+  return values;
+}
+
+/// Names as rows of equal length: what CF calls a label.
+struct Labels {
+  std::size_t width = 1;
+  std::string text;
+};
+Labels labels_of(const Levels& levels) {
+  Labels labels;
+  for (const ComparedLevel& level : levels) labels.width = std::max(labels.width, level.name.size());
+  for (const ComparedLevel& level : levels) {
+    labels.text += level.name;
+    labels.text.append(labels.width - level.name.size(), '\0');
+  }
+  return labels;
+}
+
+}  // namespace
+
+void write_comparison(const std::string& path, const PulseMetadata& metadata, const std::vector<double>& times,
+                      const Levels& levels, bool finished) {
+  const auto fields = chosen_fields(metadata.variables);
+  const std::size_t cells = metadata.x_edges.size() - 1;
+  for (const ComparedLevel& level : levels) {
+    if (level.snapshots.size() != times.size())
+      throw std::invalid_argument("write_comparison: a level is not finished");
+    for (const Snapshot& snapshot : level.snapshots)
+      for (const FieldVariable* field : fields)
+        if ((snapshot.profile.*field->values).size() != cells)
+          throw std::invalid_argument("write_comparison: a profile has not as many cells as x");
+  }
+  const Labels labels = labels_of(levels);
+
+  Writer file(path);
+  cf::describe_file(file, metadata, format, finished);
+  const int level = file.dimension("level", levels.size()), time = file.dimension("time", times.size());
+  const int x = file.dimension("x", cells), ends = file.dimension("ends", 2);
+  const int letters = file.dimension("letters", labels.width);
+  const int name = file.characters("name", {level, letters});
+  file.attribute(name, "long_name", "level of theory");
+  const int scale = cf::reals(file, scale_of_chain, {level});
+  file.fill_value(scale, none);
+  const int time_axis = cf::reals(file, cf::time_axis, {time}), x_axis = cf::reals(file, cf::x_axis, {x});
+  const int x_ends = cf::reals(file, cf::x_ends, {x, ends});
+  file.attribute(x_axis, "axis", "X");
+  file.attribute(x_axis, "bounds", cf::x_ends.name);
+  std::vector<int> field_ids, scalar_ids;
+  const auto add = [&](const Description& about, const std::vector<int>& dimensions) {
+    const int id = cf::reals(file, about, dimensions);
+    file.fill_value(id, none);
+    file.attribute(id, "coordinates", "name scale");
+    return id;
+  };
+  for (const FieldVariable* field : fields) field_ids.push_back(add(field->about, {level, time, x}));
+  for (const ScalarVariable& scalar : scalar_variables()) scalar_ids.push_back(add(scalar.about, {level, time}));
+  file.end_definitions();
+
+  std::vector<double> scales, centres;
+  for (const ComparedLevel& l : levels) scales.push_back(l.scale.value_or(none));
+  for (std::size_t i = 0; i < cells; ++i) {
+    centres.push_back(std::midpoint(metadata.x_edges[i], metadata.x_edges[i + 1]));
+    file.write_row(x_ends, i, std::span(metadata.x_edges).subspan(i, 2));
+  }
+  file.write(time_axis, times);
+  file.write(x_axis, centres);
+  if (!levels.empty()) {  // a dimension of size 0 is an unlimited one
+    file.write_all(name, labels.text);
+    file.write(scale, scales);
+    for (std::size_t i = 0; i < fields.size(); ++i) file.write_all(field_ids[i], over_time_and_x(levels, *fields[i]));
+    for (std::size_t i = 0; i < scalar_ids.size(); ++i)
+      file.write_all(scalar_ids[i], over_time(levels, scalar_variables()[i]));
+  }
+  const netcdf::Image image = file.finish();
+  replace_file(path, {image.bytes(), seal(image.bytes())});
+}
+
+}  // namespace slipfront::record
