@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "chain/kernel.hpp"
-#include "vector_code.hpp"
 #include "slipfront/chain/chain.hpp"
+#include "vector_code.hpp"
 
 namespace {
 

@@ -8,8 +8,8 @@
 
 #include "pulse/kernels.hpp"
 #include "pulse/semidiscrete.hpp"
-#include "vector_code.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
+#include "vector_code.hpp"
 
 // The cell stage of a pulse run, alone and by its two costliest loops, beside the limit of the arithmetic units: what a
 // loop of nothing but independent fused multiply-adds reaches, same vector width, same run. Operations are those of the

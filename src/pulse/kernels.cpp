@@ -3,8 +3,8 @@
 #include <cmath>
 #include <initializer_list>
 
-#include "branch_free.hpp"
 #include "../vector_code.hpp"
+#include "branch_free.hpp"
 #include "weno.hpp"
 
 namespace slipfront::pulse {

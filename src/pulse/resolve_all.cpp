@@ -3,10 +3,10 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "../vector_code.hpp"
 #include "branch_free.hpp"
 #include "elliptic_fit.hpp"
 #include "kernels.hpp"
-#include "../vector_code.hpp"
 
 namespace slipfront::pulse {
 namespace {
