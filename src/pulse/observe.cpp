@@ -42,7 +42,9 @@ void find_peak_and_observed_fronts(const Solver::View& v, double threshold, Snap
     if (size(i) > size(peak)) peak = i;
   s.peak_slip_velocity = W[peak];
   s.peak_position = v.centres[peak];
-  if (peak > 0 && peak + 1 < n) {  // top of the parabola through three centres
+  // Top of the parabola through three centres; beside a shock there is none.
+  const bool smooth = peak > 0 && peak + 1 < n && std::fmin(size(peak - 1), size(peak + 1)) > 0.9 * size(peak);
+  if (smooth) {
     const double a = v.centres[peak - 1] - v.centres[peak], b = v.centres[peak + 1] - v.centres[peak];
     const double fa = (W[peak - 1] - W[peak]) / a, fb = (W[peak + 1] - W[peak]) / b;
     const double curve = (fb - fa) / (b - a), slope = fa - curve * a;
