@@ -65,11 +65,18 @@ StaticTrain::StaticTrain(Stress stress, const Grid& grid, bool whole)
     : stress_(std::move(stress)), grid_(grid), whole_(whole) {
   const std::size_t n = grid_.sites;
   Charge charge;
+  double last_stress = 0, hardest_jump = 0.1;  // of the stress, as a share of it
   for (std::size_t j = 0; j < n; ++j) {
     const double before = charge.sum;
     if (j > 0) charge.add(integral(stress_, grid_.x(j - 1), grid_.x(j)) / (2 * pi));
     if (j % piece == 0) charges_.push_back(charge);
-    const bool empty = checked(stress_, grid_.x(j)) == 0;
+    const double k = checked(stress_, grid_.x(j)), jump = std::fabs(k - last_stress) / std::fmax(k, last_stress);
+    if (j > 0 && k > 0 && last_stress > 0 && jump > hardest_jump) {
+      hardest_jump = jump;
+      jump_at_ = (before + charge.sum) / 2;
+    }
+    last_stress = k;
+    const bool empty = k == 0;
     if (j > 0 && stretches_.back().empty == empty) continue;
     if (j > 0) {
       stretches_.back().end = j;
@@ -95,7 +102,9 @@ double StaticTrain::u(const Stretch& s, double k, double charge, LocalTrain& tra
   const double factor = closed ? count / charge_of_it : 1;
   // Half a spacing between the last dislocation and the right edge; from the left edge where that alone is empty.
   const bool from_left = s.begin > 0 && s.end == grid_.sites && !whole_;
-  const double turns = from_left ? charge - s.from - 0.5 : (charge - s.to) * factor + 0.5;
+  const bool stressed_throughout = s.begin == 0 && s.end == grid_.sites && !whole_;
+  const double anchor = stressed_throughout && jump_at_ ? *jump_at_ : s.to;
+  const double turns = from_left ? charge - s.from - 0.5 : (charge - anchor) * factor + 0.5;
   const double right = from_left ? s.wells + std::nearbyint(count) - 1 : s.wells;
   return train(k * factor, 2 * pi * turns) + 2 * pi * right;
 }

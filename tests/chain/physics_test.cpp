@@ -67,6 +67,18 @@ TEST(ChainInitial, PiecesAreThoseOfTheWhole) {
   }
 }
 
+/// Where one stress jumps to another, u is as smooth as within either train, whatever lies to the right.
+TEST(ChainInitial, JumpsOfStressLieBetweenDislocations) {
+  for (const double right : {100.0, 101.3, 103.7, 106.1, 110.9}) {
+    const Grid grid{-100, 0.25, static_cast<std::size_t>((right + 100) / 0.25) + 1};
+    const Motion m = static_train([](double x) { return x < 0 ? 0.855 : 0.3; }, grid);
+    for (std::size_t j = 1; j < m.u.size(); ++j) {
+      ASSERT_LE(m.u[j], m.u[j - 1] + 1e-12) << grid.x(j);
+      ASSERT_LT(m.u[j - 1] - m.u[j], 2.1 * 0.25) << grid.x(j);  // a dislocation is no steeper
+    }
+  }
+}
+
 /// A train at rest stays at rest: the initial state is an equilibrium to the order of the grid.
 TEST(ChainInitial, UniformTrainStaysAtRest) {
   Problem p = line(0, 20 * 2 * pi, 20 * 2 * pi / 320);

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace slipfront::chain {
@@ -28,9 +29,10 @@ class LocalTrain;
 
 /// The train at rest with <-u_x> = stress(x) >= 0; u falls with x. Where there is no stress u stays in a well, a
 /// multiple of 2 pi, 0 at the right end. A stretch with no stress at either end holds a whole number of dislocations:
-/// its stress is changed by the less than half a dislocation that this takes. With `whole` the entire chain does: what
-/// a periodic chain needs. Sites are made when asked for: nobody need hold them all, and the bits of a site do not
-/// depend on what it is asked with. Costs some microseconds a site where the stress changes.
+/// its stress is changed by the less than half a dislocation that this takes. Where all is stressed and the stress
+/// jumps, the jump lies midway between two dislocations: u is smooth there. With `whole` the entire chain does: what a
+/// periodic chain needs. Sites are made when asked for: nobody need hold them all, and the bits of a site do not depend
+/// on what it is asked with. Costs some microseconds a site where the stress changes.
 class StaticTrain {
  public:
   /// Integrates the stress over the chain once. \throws InputError for a stress that is negative or not finite.
@@ -59,6 +61,7 @@ class StaticTrain {
   std::function<double(double)> stress_;
   Grid grid_;
   bool whole_;
+  std::optional<double> jump_at_;  ///< dislocations left of the hardest jump from one stress to another
   std::vector<Charge> charges_;
   std::vector<Stretch> stretches_;
 };
