@@ -1,6 +1,8 @@
 #include <omp.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <new>
 
@@ -8,6 +10,8 @@
 #include "commands.hpp"
 #include "slipfront/chain/ranks.hpp"
 #include "slipfront/error.hpp"
+
+const slipfront::chain::Ranks* the_ranks = nullptr;
 
 void complain(std::string_view line) {
   std::fprintf(stderr, "slipfront: %.*s\n", static_cast<int>(line.size()), line.data());
@@ -21,11 +25,11 @@ void add_common_options(CLI::App& command, CommonOptions& options, bool with_csv
       ->check(CLI::Range(1, 4096))
       ->type_name("N");
   command.parse_complete_callback([&options] {
-    if (options.threads == 0) options.threads = omp_get_max_threads();
+    if (options.threads > 0) return;  // else the cores of this machine, shared by the ranks on it
+    const long ranks = std::lround(the_ranks->size() * the_ranks->share_of_machine());
+    options.threads = std::max(1, omp_get_max_threads() / static_cast<int>(std::max(1L, ranks)));
   });
 }
-
-const slipfront::chain::Ranks* the_ranks = nullptr;
 
 namespace {
 
