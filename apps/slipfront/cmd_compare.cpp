@@ -79,6 +79,7 @@ void write(const Arguments& a, const scenario::Scenario& s, const pulse::Schedul
            const std::vector<Level>& levels, bool finished) {
   if (a.output.empty()) return;
   std::vector<record::ComparedLevel> compared;
+  compared.reserve(levels.size());
   for (const Level& level : levels) compared.push_back({level.name, level.scale, level.snapshots});
   record::write_comparison(
       a.output,

@@ -88,7 +88,7 @@ Run::Run(Stretched stretched, pulse::Schedule schedule, const Execution& executi
   look_at_start();
 }
 
-Run::Run(Stretched stretched, pulse::Schedule schedule, const Execution& execution)
+Run::Run(const Stretched& stretched, pulse::Schedule schedule, const Execution& execution)
     : Run(stretched, std::move(schedule), execution, start(stretched, execution)) {}
 
 double Run::centre_of_cell(std::size_t i) const {
@@ -125,9 +125,9 @@ void Run::look_at_start() {
   dissipated_rate_ = t.dissipated_rate;
 }
 
-Run::Run(Stretched stretched, pulse::Schedule schedule, const Execution& execution, std::string_view saved,
+Run::Run(const Stretched& stretched, pulse::Schedule schedule, const Execution& execution, std::string_view saved,
          std::vector<Snapshot> snapshots)
-    : Run(std::move(stretched), std::move(schedule), execution) {
+    : Run(stretched, std::move(schedule), execution) {
   bytes::Reader reader(saved);
   if (reader.get<std::uint64_t>() != format || snapshots.size() > schedule_.times.size())
     throw InputError({.key = "resume",

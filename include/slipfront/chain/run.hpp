@@ -35,9 +35,9 @@ Problem problem_of(const Stretched& stretched, double share_of_machine = 1);
 
 class Run {
  public:
-  Run(Stretched stretched, pulse::Schedule schedule, const Execution& execution);
+  Run(const Stretched& stretched, pulse::Schedule schedule, const Execution& execution);
   /// Continues a saved run. \throws InputError if it is of another.
-  Run(Stretched stretched, pulse::Schedule schedule, const Execution& execution, std::string_view saved,
+  Run(const Stretched& stretched, pulse::Schedule schedule, const Execution& execution, std::string_view saved,
       std::vector<pulse::Snapshot> snapshots);
 
   /// Goes on to the end or until `interrupted`, asked every tenth of a second or so, says so. Returns whether the end
