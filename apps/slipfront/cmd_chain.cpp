@@ -16,8 +16,7 @@ void print(const chain::Run& run, const scenario::Scenario& scenario, double ste
   const pulse::Snapshot& s = run.snapshots().back();
   const chain::Problem& problem = run.chain().problem();
   const auto sites = static_cast<double>(problem.grid.sites);
-  const long dislocations = run.dislocations();  // asks all ranks
-  const double drift = run.energy_drift(), charge_error = run.charge_error();
+  const chain::Run::Balance balance = run.balance();  // asks all ranks
   if (the_ranks->rank() > 0) return;
   print_rows(
       scenario.title,
@@ -35,9 +34,9 @@ void print(const chain::Run& run, const scenario::Scenario& scenario, double ste
           {"trailing_front_observed", json_number(s.fronts.trailing_observed),
            "as an observer with a threshold sees it"},
           {"leading_front_observed", json_number(s.fronts.leading_observed), "as an observer with a threshold sees it"},
-          {"dislocations", fmt::format("{}", dislocations), "at the end"},
-          {"energy_drift", json_number(drift), "energy and work since t = 0, relative"},
-          {"charge_error", json_number(charge_error), "change of the charge"},
+          {"dislocations", fmt::format("{}", balance.dislocations), "at the end"},
+          {"energy_drift", json_number(balance.energy_drift), "energy and work since t = 0, relative"},
+          {"charge_error", json_number(balance.charge_error), "change of the charge"},
           {"sites", fmt::format("{}", problem.grid.sites), ""},
           {"spacing", json_number(problem.grid.spacing), "of the sites, on the chain"},
           {"steps", fmt::format("{}", run.chain().level()), ""},

@@ -199,13 +199,15 @@ Totals totals(const Chain& chain) {
 }
 
 void Work::sample(const Totals& now) {
-  if (started_) {
-    const double half = (now.time - last_.time) / 2;
-    supplied_ += half * (last_.supplied_rate + now.supplied_rate);
-    dissipated_ += half * (last_.dissipated_rate + now.dissipated_rate);
+  if (started) {
+    const double half = (now.time - time) / 2;
+    supplied += half * (supplied_rate + now.supplied_rate);
+    dissipated += half * (dissipated_rate + now.dissipated_rate);
   }
-  last_ = now;
-  started_ = true;
+  started = true;
+  time = now.time;
+  supplied_rate = now.supplied_rate;
+  dissipated_rate = now.dissipated_rate;
 }
 
 }  // namespace slipfront::chain

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "../bytes.hpp"
-#include "slipfront/chain/measure.hpp"
 #include "slipfront/chain/ranks.hpp"
 #include "slipfront/chain/smooth.hpp"
 #include "slipfront/error.hpp"
@@ -121,8 +120,7 @@ void Run::look_at_start() {
   const Totals t = totals(chain_);
   first_energy_ = t.energy();
   first_charge_ = t.charge;
-  supplied_rate_ = t.supplied_rate;
-  dissipated_rate_ = t.dissipated_rate;
+  work_.sample(t);
 }
 
 Run::Run(const Stretched& stretched, pulse::Schedule schedule, const Execution& execution, std::string_view saved,
@@ -133,7 +131,7 @@ Run::Run(const Stretched& stretched, pulse::Schedule schedule, const Execution& 
     throw InputError({.key = "resume",
                       .problem = "the saved state is of another version or scenario",
                       .allowed = "a file of this version and scenario, written by slipfront chain"});
-  for (double* value : {&supplied_, &dissipated_, &work_time_, &supplied_rate_, &dissipated_rate_})
+  for (double* value : {&work_.supplied, &work_.dissipated, &work_.time, &work_.supplied_rate, &work_.dissipated_rate})
     *value = reader.get<double>();
   Levels levels;
   levels.level = static_cast<long>(reader.get<std::int64_t>());
@@ -147,22 +145,13 @@ Run::Run(const Stretched& stretched, pulse::Schedule schedule, const Execution& 
 std::string Run::saved() const {
   bytes::Writer writer;
   writer.put(format);
-  for (const double value : {supplied_, dissipated_, work_time_, supplied_rate_, dissipated_rate_}) writer.put(value);
+  for (const double value : {work_.supplied, work_.dissipated, work_.time, work_.supplied_rate, work_.dissipated_rate})
+    writer.put(value);
   const Levels levels = chain_.levels();
   writer.put(static_cast<std::int64_t>(levels.level));
   writer.put(levels.now);
   writer.put(levels.before);
   return std::move(writer).text();
-}
-
-void Run::sample_work() {
-  const Totals now = totals(chain_);
-  const double dt = now.time - work_time_;
-  supplied_ += dt / 2 * (supplied_rate_ + now.supplied_rate);
-  dissipated_ += dt / 2 * (dissipated_rate_ + now.dissipated_rate);
-  work_time_ = now.time;
-  supplied_rate_ = now.supplied_rate;
-  dissipated_rate_ = now.dissipated_rate;
 }
 
 bool Run::go(const std::function<bool()>& interrupted) {
@@ -176,7 +165,7 @@ bool Run::go(const std::function<bool()>& interrupted) {
       good_ = false;
       chain_.advance(std::min({target, sample, level + most}) - level);
       good_ = true;
-      if (chain_.level() == sample) sample_work();
+      if (chain_.level() == sample) work_.sample(totals(chain_));
       if (interrupted && interrupted()) return false;
     }
     take();
@@ -234,20 +223,16 @@ void Run::take() {
     }
   }
   const Totals now = totals(chain_);
-  s.energy = {(now.elastic + now.substrate) / c, now.kinetic / c, dissipated_ / c, supplied_ / c};
+  s.energy = {(now.elastic + now.substrate) / c, now.kinetic / c, work_.dissipated / c, work_.supplied / c};
   snapshots_.push_back(std::move(s));
 }
 
-double Run::energy_drift() const {
+Run::Balance Run::balance() const {
   const Totals now = totals(chain_);
-  const double rest = now.time - work_time_;
-  const double dissipated = dissipated_ + rest / 2 * (dissipated_rate_ + now.dissipated_rate);
-  const double supplied = supplied_ + rest / 2 * (supplied_rate_ + now.supplied_rate);
-  return std::fabs(now.energy() + dissipated - supplied - first_energy_) / first_energy_;
+  Work work = work_;
+  work.sample(now);
+  return {std::fabs(now.energy() + work.dissipated - work.supplied - first_energy_) / first_energy_,
+          now.charge - first_charge_, now.dislocations};
 }
-
-double Run::charge_error() const { return totals(chain_).charge - first_charge_; }
-
-long Run::dislocations() const { return totals(chain_).dislocations; }
 
 }  // namespace slipfront::chain

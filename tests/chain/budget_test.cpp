@@ -83,10 +83,10 @@ TEST(ChainBudget, WorkOfForcingAndFrictionBalances) {
       }
       const double gained = totals(run).energy() - first;
       const bool smooth = f.law == FrictionLaw::none || f.law == FrictionLaw::viscous;
-      EXPECT_NEAR(gained, work.supplied() - work.dissipated(), smooth ? 3e-4 : 5e-3)
+      EXPECT_NEAR(gained, work.supplied - work.dissipated, smooth ? 3e-4 : 5e-3)
           << static_cast<int>(f.law) << f.exponent << forced;
-      EXPECT_EQ(work.dissipated() > 0.01, f.law != FrictionLaw::none);
-      EXPECT_EQ(work.supplied() != 0, forced);
+      EXPECT_EQ(work.dissipated > 0.01, f.law != FrictionLaw::none);
+      EXPECT_EQ(work.supplied != 0, forced);
     }
 }
 

@@ -38,8 +38,8 @@ TEST(ChainRun, FrictionlessStepTendsToTheClosedForm) {
     const pulse::Snapshot& s = run.snapshots().back();
     const double error = std::fabs(s.slip_at_origin / (2 * pi * exact.slip_velocity) - 1);
     EXPECT_LT(error * 2 * pi * exact.slip_velocity, 0.001 + 2 * pi / scale);  // one dislocation
-    EXPECT_LT(run.energy_drift(), 1e-5);
-    EXPECT_EQ(run.charge_error(), 0);
+    EXPECT_LT(run.balance().energy_drift, 1e-5);
+    EXPECT_EQ(run.balance().charge_error, 0);
     // Nothing moves before the trailing edge.
     for (std::size_t i = 0; i < 40; ++i)
       if (run.schedule().x_edges[i + 1] < -2 * pi * exact.rupture_velocity - 0.2) {
@@ -52,7 +52,8 @@ TEST(ChainRun, ScaleChangesTheNumberOfDislocationsOnly) {
   chain::Run small(step(200, 0.5), schedule({0, 1}), {}), large(step(400, 0.5), schedule({0, 1}), {});
   small.go();
   large.go();
-  EXPECT_NEAR(static_cast<double>(large.dislocations()) / static_cast<double>(small.dislocations()), 2, 0.02);
+  EXPECT_NEAR(static_cast<double>(large.balance().dislocations) / static_cast<double>(small.balance().dislocations), 2,
+              0.02);
   EXPECT_NEAR(small.snapshots().back().slip_at_origin, large.snapshots().back().slip_at_origin, 2 * pi / 200);
 }
 

@@ -49,16 +49,12 @@ Totals totals(const Chain& chain);
 
 /// Work since the first sample, by the trapezoidal rule between samples (every few time units for a long chain, where
 /// the rates are smooth; every few steps for one dislocation).
-class Work {
- public:
-  void sample(const Totals& now);
-  double supplied() const { return supplied_; }
-  double dissipated() const { return dissipated_; }
+struct Work {
+  double time = 0, supplied_rate = 0, dissipated_rate = 0;  ///< of the last sample
+  double supplied = 0, dissipated = 0;
+  bool started = false;
 
- private:
-  Totals last_;
-  bool started_ = false;
-  double supplied_ = 0, dissipated_ = 0;
+  void sample(const Totals& now);
 };
 
 }  // namespace slipfront::chain

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "slipfront/chain/chain.hpp"
+#include "slipfront/chain/measure.hpp"
 #include "slipfront/pulse/snapshot.hpp"
 
 namespace slipfront::chain {
@@ -57,12 +57,15 @@ class Run {
   /// profiles share unless two output cells are wider.
   double window() const { return window_; }
   double smooth_window() const { return smooth_window_; }
-  /// |energy + dissipated - supplied - that at t = 0|, over that at t = 0. The work is summed by the trapezoidal rule
-  /// over some 200 samples: without friction and forcing it is the drift of the scheme alone.
-  double energy_drift() const;
-  /// Charge less that at t = 0.
-  double charge_error() const;
-  long dislocations() const;
+  /// What should not have changed since t = 0, and what there is. Looks at every site.
+  struct Balance {
+    /// |energy + dissipated - supplied - that at t = 0|, over that at t = 0. The work is summed by the trapezoidal rule
+    /// over some 200 samples: without friction and forcing it is the drift of the scheme alone.
+    double energy_drift;
+    double charge_error;  ///< charge less that at t = 0
+    long dislocations;    ///< of either sign
+  };
+  Balance balance() const;
 
  private:
   struct Start {
@@ -75,7 +78,6 @@ class Run {
   double width_of_cell(std::size_t i) const;
   double centre_of_cell(std::size_t i) const;
   void look_at_start();
-  void sample_work();
   void take();
 
   Stretched stretched_;
@@ -85,10 +87,10 @@ class Run {
   long work_every_ = 1;
   bool good_ = true;
   std::vector<pulse::Snapshot> snapshots_;
-  // Since t = 0; saved.
-  std::vector<double> first_u_;  ///< averages over the output cells at t = 0
+  // At t = 0.
+  std::vector<double> first_u_;  ///< averages over the output cells
   double first_u_at_origin_ = 0, first_energy_ = 0, first_charge_ = 0;
-  double work_time_ = 0, supplied_rate_ = 0, dissipated_rate_ = 0, supplied_ = 0, dissipated_ = 0;
+  Work work_;  ///< since then
 };
 
 }  // namespace slipfront::chain
