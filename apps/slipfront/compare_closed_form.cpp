@@ -10,19 +10,9 @@ using namespace slipfront;
 
 namespace {
 
+using rupture::Edges;
 using rupture::RiemannSolution;
-using rupture::Wave;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
-/// x/t of the edges of what moves.
-struct Edges {
-  double left, right;
-};
-Edges edges_of(const RiemannSolution& solution) {
-  const Wave &left = solution.left_wave, &right = solution.right_wave;
-  return {left.kind != Wave::Kind::none ? left.outer : right.inner,
-          right.kind != Wave::Kind::none ? right.outer : left.inner};
-}
 
 train::Averages at(const RiemannSolution& solution, double x_over_t) {
   return train::averages(rupture::sample(solution, x_over_t));
@@ -42,7 +32,10 @@ double peak_of(const RiemannSolution& solution, const Edges& edges) {
   constexpr double golden = 0.6180339887498949;
   for (int i = 0; i < 60; ++i) {
     const double a = high - golden * (high - low), b = low + golden * (high - low);
-    (speed(solution, a) < speed(solution, b) ? low : high) = speed(solution, a) < speed(solution, b) ? a : b;
+    if (speed(solution, a) < speed(solution, b))
+      low = a;
+    else
+      high = b;
   }
   return (low + high) / 2;
 }
@@ -74,7 +67,7 @@ pulse::Snapshot snapshot_of(const RiemannSolution& solution, const pulse::Schedu
     s.profile.W.push_back(a.W);
     s.profile.slip.push_back(slip(a, x));
   }
-  const Edges edges = edges_of(solution);
+  const Edges edges = rupture::edges_of(solution);
   s.energy = {none, none, 0, 0};
   s.fronts = {time * edges.left, time * edges.right, none, none};
   const train::Averages origin = train::averages(state(0));
@@ -95,13 +88,11 @@ pulse::Snapshot snapshot_of(const RiemannSolution& solution, const pulse::Schedu
 }  // namespace
 
 std::optional<Level> closed_form(const scenario::Scenario& s, const pulse::Schedule& schedule) {
-  const bool resisted = s.friction.law != modulation::FrictionLaw::none && s.friction.coefficient > 0;
-  if (s.initial.profile != scenario::ProfileKind::step || resisted || s.forcing_at || s.contact_at) return {};
+  if (s.initial.profile != scenario::ProfileKind::step || s.friction.acts() || s.forcing_at || s.contact_at) return {};
   if (s.initial.stress_left == s.initial.stress_right) return {};  // nothing moves: no wave to compare
-  const auto at_rest = [](double stress) { return stress > 0 ? State{0, rupture::psi_of_stress(stress)} : State{}; };
   const RiemannSolution solution =
-      rupture::solve_riemann(at_rest(s.initial.stress_left), at_rest(s.initial.stress_right));
-  const Edges edges = edges_of(solution);
+      rupture::solve_riemann(rupture::at_rest(s.initial.stress_left), rupture::at_rest(s.initial.stress_right));
+  const Edges edges = rupture::edges_of(solution);
   if (schedule.x_edges.front() > s.end * edges.left || schedule.x_edges.back() < s.end * edges.right) return {};
   Level level{.name = "closed-form"};
   for (const double time : schedule.times) level.snapshots.push_back(snapshot_of(solution, schedule, time));

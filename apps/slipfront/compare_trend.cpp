@@ -53,10 +53,9 @@ Trend trend_of(const std::vector<Level>& levels, const Quantity& quantity) {
 
 std::vector<std::string> notes_on(const scenario::Scenario& s) {
   std::vector<std::string> notes;
-  const bool resisted = s.friction.law != modulation::FrictionLaw::none && s.friction.coefficient > 0;
   const bool two_sides =
       s.initial.profile == scenario::ProfileKind::step || s.initial.profile == scenario::ProfileKind::tanh;
-  if (!resisted && two_sides && s.initial.stress_left > 0 && s.initial.stress_right > 0 &&
+  if (!s.friction.acts() && two_sides && s.initial.stress_left > 0 && s.initial.stress_right > 0 &&
       s.initial.stress_left != s.initial.stress_right)
     notes.emplace_back(
         "without friction the energy that a shock takes from the averaged motion stays behind it, as phonons: there no "

@@ -16,14 +16,9 @@ struct Reach {
   double left, right;
 };
 Reach reach_of(const scenario::Scenario& s) {
-  const auto state = [](double stress) { return stress > 0 ? State{0, rupture::psi_of_stress(stress)} : State{}; };
-  const auto waves = rupture::solve_riemann(state(s.initial.stress_left), state(s.initial.stress_right));
-  const auto edge = [](const rupture::Wave& wave) {
-    return wave.kind == rupture::Wave::Kind::none ? 0.0 : std::fabs(wave.outer);
-  };
-  double left = edge(waves.left_wave), right = edge(waves.right_wave);
-  if (s.initial.stress_right == 0) right = std::fabs(waves.left_wave.inner);
-  if (s.initial.stress_left == 0) left = std::fabs(waves.right_wave.inner);
+  const rupture::Edges edges = rupture::edges_of(
+      rupture::solve_riemann(rupture::at_rest(s.initial.stress_left), rupture::at_rest(s.initial.stress_right)));
+  const double left = std::fabs(edges.left), right = std::fabs(edges.right);
   double share = 1;
   if (s.friction.law == modulation::FrictionLaw::viscous)
     share = std::fmin(1, 8 / std::sqrt(1 + s.friction.coefficient * s.end));

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "parts.hpp"
+#include "refuse_window.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::chain {
@@ -58,15 +59,18 @@ double integral(const std::vector<double>& v, double from, double to) {
 
 }  // namespace
 
+void refuse_window(const Grid& grid, double x, double width) {
+  throw InputError({.key = "window",
+                    .value = std::to_string(x) + " +- " + std::to_string(width / 2),
+                    .problem = "not on the chain",
+                    .allowed = std::to_string(grid.left) + " to " + std::to_string(grid.x(grid.sites - 1))});
+}
+
 Average average(const Chain& chain, double x, double width, double time) {
   const Grid& grid = chain.problem().grid;
   const double last = static_cast<double>(grid.sites - 1);
   const double from = (x - width / 2 - grid.left) / grid.spacing, to = (x + width / 2 - grid.left) / grid.spacing;
-  if (!(width > 0) || !(from >= 0) || !(to <= last))
-    throw InputError({.key = "window",
-                      .value = std::to_string(x) + " +- " + std::to_string(width / 2),
-                      .problem = "not on the chain",
-                      .allowed = std::to_string(grid.left) + " to " + std::to_string(grid.x(grid.sites - 1))});
+  if (!(width > 0) || !(from >= 0) || !(to <= last)) refuse_window(grid, x, width);
   const double begin = std::fmax(0, std::floor(from) - 3), end = std::fmin(last, std::ceil(to) + 3);
   const Window w = chain.window(static_cast<std::size_t>(begin), static_cast<std::size_t>(end) + 1, time);
   const double sites = to - from;

@@ -204,24 +204,18 @@ void Run::take() {
     const auto all = chain::dislocations(chain_);
     if (!all.empty()) s.fronts.leading = all.back().x / c;
   }
-  const double level = schedule_.threshold * std::fabs(s.peak_slip_velocity);
   // At an end the window is cut, and phonons show that a whole one averages away: no front is seen there.
   const double half = std::min(smooth_window_ / 2, (stretched_.right - stretched_.left) / 4);
-  const auto speed = [&](std::size_t i) {
-    return middle(i) - half < stretched_.left || middle(i) + half > stretched_.right ? 0 : std::fabs(s.profile.W[i]);
-  };
-  const auto crossing = [&](std::size_t slow, std::size_t fast) {
-    return std::lerp(middle(slow), middle(fast), (level - speed(slow)) / (speed(fast) - speed(slow)));
-  };
-  if (level > 0) {
-    std::size_t first = 0, last = n - 1;
-    while (first < n && !(speed(first) > level)) ++first;
-    while (last > first && !(speed(last) > level)) --last;
-    if (first < n) {
-      s.fronts.trailing_observed = first > 0 ? crossing(first - 1, first) : middle(first);
-      s.fronts.leading_observed = last + 1 < n ? crossing(last + 1, last) : middle(last);
-    }
+  std::vector<double> x, speed;
+  for (std::size_t i = 0; i < n; ++i) {
+    x.push_back(middle(i));
+    const bool cut = x[i] - half < stretched_.left || x[i] + half > stretched_.right;
+    speed.push_back(cut ? 0 : std::fabs(s.profile.W[i]));
   }
+  const pulse::Observed seen =
+      pulse::observed_fronts(x, speed, schedule_.threshold * std::fabs(s.peak_slip_velocity), x.front(), x.back());
+  s.fronts.trailing_observed = seen.trailing;
+  s.fronts.leading_observed = seen.leading;
   const Totals now = totals(chain_);
   s.energy = {(now.elastic + now.substrate) / c, now.kinetic / c, work_.dissipated / c, work_.supplied / c};
   snapshots_.push_back(std::move(s));

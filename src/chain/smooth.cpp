@@ -2,9 +2,8 @@
 
 #include <cmath>
 #include <numbers>
-#include <string>
 
-#include "slipfront/error.hpp"
+#include "refuse_window.hpp"
 
 namespace slipfront::chain {
 
@@ -13,11 +12,7 @@ Average smooth_average(const Chain& chain, double x, double width, double time) 
   const double last = static_cast<double>(grid.sites - 1);
   const double from = std::fmax(0, std::ceil((x - width / 2 - grid.left) / grid.spacing));
   const double to = std::fmin(last, std::floor((x + width / 2 - grid.left) / grid.spacing));
-  if (!(width > 0) || !(from <= to))
-    throw InputError({.key = "window",
-                      .value = std::to_string(x) + " +- " + std::to_string(width / 2),
-                      .problem = "not on the chain",
-                      .allowed = std::to_string(grid.left) + " to " + std::to_string(grid.x(grid.sites - 1))});
+  if (!(width > 0) || !(from <= to)) refuse_window(grid, x, width);
   const Window w = chain.window(static_cast<std::size_t>(from), static_cast<std::size_t>(to) + 1, time);
   // The weight and its slope vanish at the ends: the sum over sites is as good as the integral.
   Average a{x, width, 0, 0, 0};

@@ -15,11 +15,6 @@ namespace {
 using std::numbers::pi;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// Place between two cell centres where a quantity passes a level.
-double crossing(double xa, double a, double xb, double b, double level) {
-  return xa + (xb - xa) * (level - a) / (b - a);
-}
-
 /// The right edge of what moves: the free edge, or where the velocity behind it falls through half of its largest.
 double right_front(const Solver::View& v) {
   if (v.face_states.back().empty()) return v.faces.back();
@@ -27,7 +22,8 @@ double right_front(const Solver::View& v) {
   for (const State& s : v.states) fastest = std::fmax(fastest, std::fabs(s.phi));
   for (std::size_t i = v.states.size() - 1; i-- > 0 && fastest > 0;) {
     const double a = std::fabs(v.states[i].phi), b = std::fabs(v.states[i + 1].phi);
-    if (a >= fastest / 2 && b < fastest / 2) return crossing(v.centres[i], a, v.centres[i + 1], b, fastest / 2);
+    if (a >= fastest / 2 && b < fastest / 2)
+      return std::lerp(v.centres[i], v.centres[i + 1], (fastest / 2 - a) / (b - a));
   }
   return none;
 }
@@ -54,18 +50,11 @@ void find_peak_and_observed_fronts(const Solver::View& v, double threshold, Snap
       s.peak_position += top;
     }
   }
-  s.fronts.trailing_observed = s.fronts.leading_observed = none;
-  const double level = threshold * std::fabs(s.peak_slip_velocity);
-  if (!(level > 0)) return;
-  std::size_t first = 0, last = n - 1;
-  while (first < n && size(first) < level) ++first;
-  while (last > first && size(last) < level) --last;
-  if (first == n) return;
-  s.fronts.trailing_observed =
-      first > 0 ? crossing(v.centres[first - 1], size(first - 1), v.centres[first], size(first), level)
-                : v.faces.front();
-  s.fronts.leading_observed =
-      last + 1 < n ? crossing(v.centres[last], size(last), v.centres[last + 1], size(last + 1), level) : v.faces.back();
+  for (double& w : W) w = std::fabs(w);
+  const Observed seen =
+      observed_fronts(v.centres, W, threshold * std::fabs(s.peak_slip_velocity), v.faces.front(), v.faces.back());
+  s.fronts.trailing_observed = seen.trailing;
+  s.fronts.leading_observed = seen.leading;
 }
 
 Energy energy_of(const Solver& solver, const Solver::View& v) {

@@ -48,7 +48,7 @@ void Semidiscrete::add_contact_force(double* dy) {
 void Semidiscrete::add_sources(double t, const double* y, double* dy) {
   const std::size_t n = size();
   const modulation::Friction& friction = setup_.friction;
-  const bool frictional = friction.law != modulation::FrictionLaw::none && friction.coefficient > 0;
+  const bool frictional = friction.acts();
   const bool dry = frictional && friction.law == modulation::FrictionLaw::coulomb;
   const bool linear =
       friction.law == modulation::FrictionLaw::viscous && friction.closure == modulation::Closure::consistent;

@@ -1,5 +1,7 @@
 #include "cf.hpp"
 
+#include <numeric>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -10,6 +12,9 @@ namespace {
 
 using netcdf::Writer;
 
+constexpr Description time_axis = {"time", "time", "b / (c A)", "Eq. 3"};
+constexpr Description x_axis = {"x", "position along the interface, centre of the cell", "b / A", "Eq. 3"};
+constexpr Description x_ends = {"x_bounds", "ends of the cell", "b / A", "Eq. 3"};
 constexpr std::string_view paper = "Gershenzon, Bambakidis and Skinner (2015)";
 constexpr std::string_view paper_title =
     "How does dissipation affect the transition from static to dynamic macroscopic friction?";
@@ -27,6 +32,29 @@ int reals(Writer& file, const Description& about, const std::vector<int>& dimens
   const int variable = file.reals(std::string(about.name), dimensions);
   describe(file, variable, about);
   return variable;
+}
+
+Axes axes(Writer& file, std::size_t times, std::size_t cells) {
+  Axes axes{};
+  axes.time = file.dimension("time", times);
+  axes.x = file.dimension("x", cells);
+  const int ends = file.dimension("ends", 2);
+  axes.times = reals(file, time_axis, {axes.time});
+  axes.centres = reals(file, x_axis, {axes.x});
+  axes.bounds = reals(file, x_ends, {axes.x, ends});
+  file.attribute(axes.centres, "axis", "X");
+  file.attribute(axes.centres, "bounds", x_ends.name);
+  return axes;
+}
+
+void write_axes(Writer& file, const Axes& axes, const std::vector<double>& times, const std::vector<double>& edges) {
+  file.write(axes.times, times);
+  std::vector<double> centres;
+  for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
+    centres.push_back(std::midpoint(edges[i], edges[i + 1]));
+    file.write_row(axes.bounds, i, std::span(edges).subspan(i, 2));
+  }
+  file.write(axes.centres, centres);
 }
 
 void describe_file(Writer& file, const PulseMetadata& metadata, const char* format, bool finished) {

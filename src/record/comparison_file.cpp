@@ -75,17 +75,12 @@ void write_comparison(const std::string& path, const PulseMetadata& metadata, co
 
   Writer file(path);
   cf::describe_file(file, metadata, format, finished);
-  const int level = file.dimension("level", levels.size()), time = file.dimension("time", times.size());
-  const int x = file.dimension("x", cells), ends = file.dimension("ends", 2);
-  const int letters = file.dimension("letters", labels.width);
+  const int level = file.dimension("level", levels.size()), letters = file.dimension("letters", labels.width);
   const int name = file.characters("name", {level, letters});
   file.attribute(name, "long_name", "level of theory");
   const int scale = cf::reals(file, scale_of_chain, {level});
   file.fill_value(scale, none);
-  const int time_axis = cf::reals(file, cf::time_axis, {time}), x_axis = cf::reals(file, cf::x_axis, {x});
-  const int x_ends = cf::reals(file, cf::x_ends, {x, ends});
-  file.attribute(x_axis, "axis", "X");
-  file.attribute(x_axis, "bounds", cf::x_ends.name);
+  const cf::Axes axes = cf::axes(file, times.size(), cells);
   std::vector<int> field_ids, scalar_ids;
   const auto add = [&](const Description& about, const std::vector<int>& dimensions) {
     const int id = cf::reals(file, about, dimensions);
@@ -93,18 +88,13 @@ void write_comparison(const std::string& path, const PulseMetadata& metadata, co
     file.attribute(id, "coordinates", "name scale");
     return id;
   };
-  for (const FieldVariable* field : fields) field_ids.push_back(add(field->about, {level, time, x}));
-  for (const ScalarVariable& scalar : scalar_variables()) scalar_ids.push_back(add(scalar.about, {level, time}));
+  for (const FieldVariable* field : fields) field_ids.push_back(add(field->about, {level, axes.time, axes.x}));
+  for (const ScalarVariable& scalar : scalar_variables()) scalar_ids.push_back(add(scalar.about, {level, axes.time}));
   file.end_definitions();
 
-  std::vector<double> scales, centres;
+  cf::write_axes(file, axes, times, metadata.x_edges);
+  std::vector<double> scales;
   for (const ComparedLevel& l : levels) scales.push_back(l.scale.value_or(none));
-  for (std::size_t i = 0; i < cells; ++i) {
-    centres.push_back(std::midpoint(metadata.x_edges[i], metadata.x_edges[i + 1]));
-    file.write_row(x_ends, i, std::span(metadata.x_edges).subspan(i, 2));
-  }
-  file.write(time_axis, times);
-  file.write(x_axis, centres);
   if (!levels.empty()) {  // a dimension of size 0 is an unlimited one
     file.write_all(name, labels.text);
     file.write(scale, scales);

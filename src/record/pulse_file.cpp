@@ -54,24 +54,6 @@ bool describe_file(Writer& file, const PulseMetadata& metadata, bool finished) {
   return clean_text(metadata.scenario_text, netcdf::longest_text) == metadata.scenario_text;
 }
 
-struct Axes {
-  int time, x, x_bounds;
-};
-
-void write_axes(Writer& file, const Axes& axes, const std::vector<double>& edges,
-                const std::vector<Snapshot>& snapshots) {
-  std::vector<double> times;
-  times.reserve(snapshots.size());
-  for (const Snapshot& snapshot : snapshots) times.push_back(snapshot.time);
-  file.write(axes.time, times);
-  std::vector<double> centres;
-  for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
-    centres.push_back(std::midpoint(edges[i], edges[i + 1]));
-    file.write_row(axes.x_bounds, i, std::span(edges).subspan(i, 2));
-  }
-  file.write(axes.x, centres);
-}
-
 void write_field(Writer& file, int variable, const FieldVariable& field, const std::vector<Snapshot>& snapshots) {
   std::vector<double> drop;
   for (std::size_t row = 0; row < snapshots.size(); ++row) {
@@ -113,16 +95,11 @@ void write_pulse(const std::string& path, const PulseMetadata& metadata, const s
   const bool scenario_in_attribute = describe_file(file, metadata, finished);
   file.attribute(Writer::global, "checksum",
                  layout::checksum(metadata.scenario_text, solver_state, finished, snapshots, fields));
-  const int time = file.dimension("time", snapshots.size());
-  const int x = file.dimension("x", cells);
-  const int ends = file.dimension("ends", 2);
-  const Axes axes{reals(file, cf::time_axis, {time}), reals(file, cf::x_axis, {x}), reals(file, cf::x_ends, {x, ends})};
-  file.attribute(axes.x, "axis", "X");
-  file.attribute(axes.x, "bounds", cf::x_ends.name);
+  const cf::Axes axes = cf::axes(file, snapshots.size(), cells);
   std::vector<int> field_ids, scalar_ids;
-  for (const FieldVariable* field : fields) field_ids.push_back(reals(file, field->about, {time, x}));
+  for (const FieldVariable* field : fields) field_ids.push_back(cf::reals(file, field->about, {axes.time, axes.x}));
   for (const ScalarVariable& scalar : scalar_variables()) {
-    scalar_ids.push_back(reals(file, scalar.about, {time}));
+    scalar_ids.push_back(cf::reals(file, scalar.about, {axes.time}));
     if (scalar.may_be_absent) file.fill_value(scalar_ids.back(), std::numeric_limits<double>::quiet_NaN());
   }
   const int state = opaque(file, layout::solver_state, "state of the solver, to resume the run", solver_state.size());
@@ -131,7 +108,10 @@ void write_pulse(const std::string& path, const PulseMetadata& metadata, const s
                                                       metadata.scenario_text.size());
 
   file.end_definitions();
-  write_axes(file, axes, metadata.x_edges, snapshots);
+  std::vector<double> times;
+  times.reserve(snapshots.size());
+  for (const Snapshot& snapshot : snapshots) times.push_back(snapshot.time);
+  cf::write_axes(file, axes, times, metadata.x_edges);
   for (std::size_t i = 0; i < fields.size(); ++i) write_field(file, field_ids[i], *fields[i], snapshots);
   for (std::size_t i = 0; i < scalar_ids.size(); ++i)
     write_scalar(file, scalar_ids[i], scalar_variables()[i], snapshots);

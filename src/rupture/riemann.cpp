@@ -156,6 +156,12 @@ RiemannSolution solve_riemann(const State& left, const State& right) {
   return s;
 }
 
+Edges edges_of(const RiemannSolution& solution) {
+  const Wave &left = solution.left_wave, &right = solution.right_wave;
+  return {left.kind != Wave::Kind::none ? left.outer : right.inner,
+          right.kind != Wave::Kind::none ? right.outer : left.inner};
+}
+
 State sample(const RiemannSolution& s, double x_over_t) {
   if (s.left_wave.kind != Wave::Kind::none || !s.left.empty()) {
     if (x_over_t <= s.left_wave.outer) return s.left;

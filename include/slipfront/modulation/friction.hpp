@@ -25,6 +25,8 @@ struct Friction {
   double coefficient = 0;  ///< C >= 0
   double exponent = 1;     ///< n of the power law
   Closure closure = Closure::consistent;
+
+  bool acts() const { return law != FrictionLaw::none && coefficient > 0; }
 };
 
 /// Rate of momentum loss per unit length, with the sign of U. Zero for the empty state.

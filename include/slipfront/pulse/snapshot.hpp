@@ -29,6 +29,15 @@ struct Fronts {
   double leading_observed;   ///< and from the right
 };
 
+/// What an observer with a threshold sees: the outermost places, from the left and from the right, where `speed`
+/// (|W| at `x`, ascending) passes `level`; `left` or `right` where already the first or last of them moves. NaN where
+/// nothing does.
+struct Observed {
+  double trailing, leading;
+};
+Observed observed_fronts(const std::vector<double>& x, const std::vector<double>& speed, double level, double left,
+                         double right);
+
 /// Energy over the domain per unit width, in units of the scenario (H of docs/theory.md 3.2).
 struct Energy {
   double elastic;     ///< of the state at rest with the same density

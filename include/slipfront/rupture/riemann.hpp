@@ -27,6 +27,13 @@ struct RiemannSolution {
 /// the states are so far apart that no double holds the star state.
 RiemannSolution solve_riemann(const State& left, const State& right);
 
+/// x/t of the left and right edge of what moves: of the outermost waves, or of the last dislocation where a side is
+/// empty.
+struct Edges {
+  double left, right;
+};
+Edges edges_of(const RiemannSolution& solution);
+
 /// State at x/t.
 State sample(const RiemannSolution& solution, double x_over_t);
 
