@@ -1,0 +1,87 @@
+"""slipfront chain as a user meets it."""
+
+import json
+import math
+import os
+import shutil
+import subprocess
+import unittest
+
+from support import CommandLine, PROGRAM, SOURCE
+
+CHAIN = ["time", "scale", "slip_at_origin", "dislocations", "sites", "steps", "site_updates_per_second", "energy_drift", "charge_error",
+         "wall_seconds"]
+
+
+class Chain(CommandLine):
+    def test_json_has_the_contract_keys(self):
+        case = os.path.join(SOURCE, "cases/step.toml")
+        out = self.chain(case, "--set", "chain.scale=300")
+        for key in CHAIN:
+            self.assertIn(key, out)
+        self.assertEqual(out["scale"], 300)
+        self.assertLess(abs(out["slip_at_origin"] / (2 * math.pi * 0.0482084) - 1), 0.01)
+        self.assertLess(out["energy_drift"], 1e-4)
+        self.assertEqual(out["charge_error"], 0)
+        self.assertIn("fine", self.ok("chain", case, "--check"))
+
+    def test_tends_to_the_consistent_pulse(self):
+        case = os.path.join(SOURCE, "cases/step.toml")
+        friction = ["--set", "friction.law=viscous", "--set", "friction.coefficient=0.5"]
+        pulse = self.pulse(case, *friction)["slip_at_origin"]
+        paper = self.pulse(case, *friction, "--set", "friction.closure=paper")["slip_at_origin"]
+        error = [abs(self.chain(case, *friction, "--set", f"chain.scale={scale}")["slip_at_origin"] / pulse - 1) for scale in (100, 1000)]
+        self.assertLess(error[1], 0.005)
+        self.assertLess(error[1], error[0] / 3)
+        self.assertGreater(abs(paper / pulse - 1), 0.2)
+
+    def test_lattice_and_ring(self):
+        case = os.path.join(SOURCE, "cases/step.toml")
+        lattice = self.chain(case, "--set", "chain.scale=100", "--set", "chain.model=lattice", "--set", "medium.contact_ratio=0.1")
+        self.assertEqual(lattice["spacing"], 0.1)
+        self.assertLess(abs(lattice["slip_at_origin"] / 0.3029 - 1), 0.02)
+        ring = self.chain(self.file("ring.toml", "[initial]\nprofile = 'formula'\nformula = '0.8'\n[domain]\nleft = -1\nright = 1\n"
+                                    "[chain]\nscale = 50\nperiodic = 'yes'\n[forcing]\nformula = '0.5'\n"))
+        self.assertEqual(ring["dislocations"], 13)
+        self.assertGreater(ring["slip_at_origin"], 0)
+
+    @unittest.skipUnless(shutil.which("mpirun"), "no mpirun")
+    def test_under_mpirun_writes_the_same_file(self):
+        case = self.slow_case()
+        folder = os.path.dirname(case)
+        environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_rmaps_base_oversubscribe="1",
+                           OMPI_MCA_hwloc_base_binding_policy="none", OMPI_MCA_mpi_yield_when_idle="1", ASAN_OPTIONS="detect_leaks=0")
+
+        def mpirun(ranks, *arguments):
+            return subprocess.run(["mpirun", "-n", str(ranks), PROGRAM, "chain", case, "--set", "chain.scale=500", *arguments],
+                                  env=environment, capture_output=True, text=True, timeout=120)
+
+        alone, shared = os.path.join(folder, "alone.nc"), os.path.join(folder, "shared.nc")
+        self.ok("chain", case, "--set", "chain.scale=500", "-o", alone)
+        done = mpirun(2, "--threads", "1", "-o", shared, "--json")
+        if "not built with MPI" in done.stderr or "without MPI" in done.stderr:
+            self.skipTest("built without MPI")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(json.loads(done.stdout)["ranks"], 2)
+        with open(alone, "rb") as a, open(shared, "rb") as b:
+            self.assertEqual(a.read(), b.read())
+        refused = mpirun(2, "--set", "chain.spacing=0.9")
+        self.assertEqual(refused.returncode, 2)
+        self.assertEqual(refused.stderr.count("slipfront: "), 1, refused.stderr)
+
+    def test_refuses(self):
+        case = os.path.join(SOURCE, "cases/step.toml")
+        for change, words in [("chain.spacing=0.9", ["spacing", "1.5"]), ("chain.scale=1e13", ["GB"]), ("chain.scale=0", ["scale"]),
+                              ("chain.model=lattice", ["chain.spacing"]), ("chain.left=open", ["absorbing"])]:
+            with self.subTest(change=change):
+                self.refused(2, "chain", case, "--set", "chain.model=sine-gordon", "--set", "time.end=60", "--set", change, says=words)
+        made = os.path.join(os.path.dirname(self.file("x", "")), "pulse.nc")
+        self.ok("pulse", case, "-o", made)
+        self.refused(2, "chain", case, "--resume", made, says=["resume"])
+
+    def test_killed_and_resumed_is_the_same_file(self):
+        self.killed_and_resumed("chain", 6)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,86 @@
+"""slipfront event as a user meets it."""
+
+import csv
+import io
+import json
+import os
+import unittest
+
+from support import CommandLine, run, SOURCE
+
+EVENT = ["name", "c_m_s", "rupture_velocity", "stress", "frictionless_slip_velocity", "observed_slip_velocity",
+         "contact_ratio", "stress_pa", "damping_number", "warnings"]
+
+
+class Event(CommandLine):
+    def test_json_has_the_contract_keys(self):
+        out = json.loads(self.ok("event", os.path.join(SOURCE, "cases/ets.toml"), os.path.join(SOURCE, "cases/parkfield-2004.toml"), "--json"))
+        self.assertEqual(list(out), ["events"])
+        ets, parkfield = out["events"]
+        for event in (ets, parkfield):
+            for key in EVENT:
+                self.assertIn(key, event)
+        self.assertAlmostEqual(ets["rupture_velocity"], 2.135e-5, 8)
+        self.assertAlmostEqual(ets["slip_velocity_ratio"], 0.199, 3)
+        self.assertAlmostEqual(parkfield["c_m_s"], 5421.0, 0)
+        self.assertIsNone(parkfield["observed_slip_velocity"])
+        self.assertIsNone(parkfield["damping_number"])
+
+    def test_bad_rows_keep_the_good_ones(self):
+        path = self.file("c.csv", "name,rupture_velocity_km_s\ngood,2.8\nfast,9\nword,x\ngood too,3\n")
+        done = run("event", path, "--json")
+        self.assertEqual(done.returncode, 2)
+        events = json.loads(done.stdout)["events"]
+        self.assertEqual([e["error"] is None for e in events], [True, False, False, True])
+        self.assertEqual(done.stderr.count("\n"), 2)
+        self.assertIn("c.csv:3: rupture_velocity = '9000 m/s'", done.stderr)
+        self.assertIn("c.csv:4: rupture_velocity_km_s = 'x'", done.stderr)
+        rows = list(csv.DictReader(io.StringIO(run("event", path, "--csv").stdout)))
+        self.assertEqual(len(rows), 4)
+        self.assertIn("error", run("event", path).stdout)
+
+    def test_refuses_files(self):
+        self.refused(3, "event", "/nowhere/x.csv", says=["/nowhere/x.csv", "No such file"])
+        self.refused(3, "event", "/", says=["directory"])
+        self.refused(2, "event", self.file("empty.csv", ""), says=["empty"])
+        self.refused(2, "event", self.file("nu.toml", '[event]\nrupture_velocity = "3 km/s"\n[medium]\npoisson_ratio = 0.5\n'),
+                     says=["poisson_ratio = '0.5", "-1 < poisson_ratio < 0.5"])
+        self.refused(2, "event", self.file("unit.toml", '[event]\nrupture_velocity = "3 km"\n'), says=["unit.toml:2", "'3 km'"])
+        self.refused(2, "event", self.file("cut.fsp", "% FINITE-SOURCE RUPTURE MODEL\n% Event : X 01/01/2000 [Y]\n"), says=["cut.fsp"])
+        self.refused(2, "event", "--poisson-ratio", "0.7", self.file("a.csv", "name,rupture_velocity_km_s\nA,3\n"), says=["0.7"])
+        self.refused(2, "event", "--p-wave-speed", "6", says=["--p-wave-speed", "unit"])
+
+    @unittest.skipIf(os.geteuid() == 0, "root may read everything")
+    def test_file_that_may_not_be_read(self):
+        path = self.file("secret.csv", "name,slip_m\nA,1\n")
+        os.chmod(path, 0)
+        self.refused(3, "event", path, says=["Permission denied"])
+
+    def test_a_file_that_fails_does_not_lose_the_others(self):
+        done = run("event", "/nowhere.csv", os.path.join(SOURCE, "cases/ets.toml"), "--json")
+        self.assertEqual(done.returncode, 3)
+        self.assertEqual([e["stress"] is None for e in json.loads(done.stdout)["events"]], [True, False])
+
+    def test_from_stdin_with_a_million_rows(self):
+        stdin = "name,rupture_velocity_km_s,slip_velocity_m_s\n" + "E,2.8,0.5\n" * 1000000
+        out = self.ok("event", "-", "--csv", "--quiet", stdin=stdin)
+        self.assertEqual(out.count("\n"), 1000001)
+
+    def test_reads_the_fsp_dialects(self):
+        for name in ("fsp_srcmod_single.fsp", "fsp_dirty.fsp", "fsp_usgs_single.fsp", "fsp_usgs_segments.fsp"):
+            event, = json.loads(self.ok("event", os.path.join(SOURCE, "tests/data", name), "--json"))["events"]
+            self.assertGreater(event["stress"], 0, name)
+
+    def test_default_is_the_shipped_catalogue(self):
+        table = self.ok()
+        self.assertIn("Parkfield 2004", table)
+        events = json.loads(self.ok("event", "--json"))["events"]
+        self.assertGreaterEqual(len(events), 25)
+        self.assertTrue(all(e["citation"] for e in events))
+        self.assertGreaterEqual(sum(e["stress"] is not None for e in events), 25)
+        velocities = [e["rupture_velocity_m_s"] for e in events if e["rupture_velocity_m_s"]]
+        self.assertGreater(max(velocities) / min(velocities), 1e5)  # from great earthquakes to long-term slow slip
+
+
+if __name__ == "__main__":
+    unittest.main()

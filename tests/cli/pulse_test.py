@@ -1,0 +1,73 @@
+"""slipfront pulse as a user meets it."""
+
+import math
+import os
+import unittest
+
+from support import CommandLine, SOURCE
+
+PULSE = ["closure", "friction_coefficient", "damping_number", "time", "slip_velocity_at_origin", "stress_at_origin",
+         "slip_at_origin", "peak_slip_velocity", "peak_position", "trailing_front", "leading_front", "conservation_error", "cells",
+         "steps", "solve_seconds", "wall_seconds"]
+
+
+class Pulse(CommandLine):
+    def test_json_has_the_contract_keys(self):
+        out = self.pulse(os.path.join(SOURCE, "cases/step.toml"))
+        for key in PULSE:
+            self.assertIn(key, out)
+        self.assertLess(abs(out["slip_velocity_at_origin"] / 0.0482084 - 1), 1e-5)
+        self.assertLess(abs(out["trailing_front"] + 0.36443433 * 2 * math.pi), 1e-6)
+        self.assertLess(out["conservation_error"], 1e-13)
+
+    def test_every_case_runs(self):
+        folder = os.path.join(SOURCE, "cases")
+        for name in sorted(os.listdir(folder)):
+            if name.endswith(".toml"):
+                with self.subTest(case=name):
+                    self.assertIn("fine", self.ok("pulse", os.path.join(folder, name), "--check"))
+                    self.assertGreater(self.pulse(os.path.join(folder, name), "--set", "pulse.cells=50")["steps"], 0)
+
+    def test_closures_are_both_there_and_named(self):
+        case = os.path.join(SOURCE, "cases/fig-08.toml")
+        paper = self.pulse(case)
+        right = self.pulse(case, "--set", "friction.closure=consistent")
+        self.assertEqual((paper["closure"], right["closure"]), ("paper", "consistent"))
+        self.assertLess(abs(paper["slip_velocity_at_origin"] - 0.015248), 3e-6)
+        self.assertLess(abs(right["slip_velocity_at_origin"] - 0.009337), 3e-6)
+        self.assertAlmostEqual(right["damping_number"], math.pi)
+
+    def test_refuses(self):
+        case = os.path.join(SOURCE, "cases/step.toml")
+        self.refused(2, "pulse", says=["SCENARIO"])
+        barrier = os.path.join(SOURCE, "cases/barrier.toml")
+        self.refused(2, "pulse", barrier, "--set", "interface.contact=x>0.3 ? 2 : 1", says=["jumps", "x = 0.3"])
+        self.refused(2, "pulse", barrier, "--set", "interface.contact=1e4", says=["interface.contact", "0.0045"])
+        self.refused(2, "pulse", case, "--set", "interface.contact=1+x^2", says=["domain", "left and right"])
+        self.refused(3, "pulse", "/nowhere.toml", says=["No such file"])
+        self.refused(3, "pulse", case, "-o", "/nowhere/o.nc", says=["/nowhere/o.nc"])
+        self.refused(3, "pulse", case, "--resume", "/nowhere.nc", says=["/nowhere.nc"])
+        self.refused(3, "pulse", case, "--resume", case, says=["step.toml"])
+        for change, word in [("pulse.cells=3", "cells"), ("time.end=0", "end"), ("initial.stress_left=-1", "stress_left"),
+                             ("initial.strss_left=1", "stress_left"), ("domain.left=9", "left"), ("friction.law=sticky", "viscous"),
+                             ("nonsense", "--set"), ("initial.profile=formula", "formula")]:
+            with self.subTest(change=change):
+                self.refused(2, "pulse", case, "--set", change, says=[word])
+        self.refused(2, "pulse", self.file("f.toml", "[initial]\nprofile = 'formula'\nformula = 'x'\n[domain]\nleft = -1\nright = 1\n"),
+                     says=["f.toml:3", "x"])
+        self.refused(2, "pulse", self.file("g.toml", "[initial]\nprofile = 'formula'\nformula = 'foo(x)'\n"), says=["g.toml:3", "foo"])
+
+    def test_killed_and_resumed_is_the_same_file(self):
+        self.killed_and_resumed("pulse", 20)
+
+    def test_interrupted_leaves_a_checkpoint(self):
+        case = self.slow_case()
+        folder = os.path.dirname(case)
+        cut = os.path.join(folder, "cut.nc")
+        errors = self.interrupted(cut, "pulse", case, "--set", "pulse.cells=2000")
+        self.assertIn("--resume", errors)
+        self.refused(2, "pulse", case, "--resume", cut, says=["another scenario"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,94 @@
+"""What the tests of the command line share. They run the program named by $SLIPFRONT."""
+
+import json
+import os
+import random
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+PROGRAM = os.environ["SLIPFRONT"]
+SOURCE = os.environ["SLIPFRONT_SOURCE"]
+
+
+def run(*arguments, stdin=""):
+    return subprocess.run([PROGRAM, *arguments], input=stdin, capture_output=True, text=True, timeout=120)
+
+
+class CommandLine(unittest.TestCase):
+    def ok(self, *arguments, stdin=""):
+        done = run(*arguments, stdin=stdin)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout
+
+    def refused(self, code, *arguments, stdin="", says=()):
+        done = run(*arguments, stdin=stdin)
+        self.assertEqual(done.returncode, code, (arguments, done.stdout[:300], done.stderr))
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        self.assertTrue(done.stderr.startswith("slipfront: "), done.stderr)
+        for text in says:
+            self.assertIn(text, done.stderr)
+        return done
+
+    def file(self, name, text):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        path = os.path.join(folder.name, name)
+        with open(path, "w", encoding="utf-8") as out:
+            out.write(text)
+        return path
+
+    def pulse(self, *arguments):
+        return json.loads(self.ok("pulse", *arguments, "--json"))
+
+    def chain(self, *arguments):
+        return json.loads(self.ok("chain", *arguments, "--json"))
+
+    def slow_case(self):
+        return self.file("slow.toml", "[initial]\nstress_left = 0.855\nstress_right = 0\n[friction]\nlaw = 'viscous'\ncoefficient = 0.5\n"
+                                      "[pulse]\ncells = 700\n[chain]\nscale = 1500\n[output]\nevery = 0.3\n")
+
+    def wait_for(self, path, process):
+        """Until the process has written the file, or has ended."""
+        while not os.path.exists(path) and process.poll() is None:
+            time.sleep(1e-4)
+
+    def interrupted(self, path, *arguments):
+        """What a run says that gets Ctrl-C once its file is there."""
+        process = subprocess.Popen([PROGRAM, *arguments, "-o", path], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        self.wait_for(path, process)
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130, errors)
+        return errors
+
+    def killed_and_resumed(self, command, trials):
+        """Kills a run at random moments and resumes it: the file must be that of a run left alone."""
+        case = self.slow_case()
+        folder = os.path.dirname(case)
+        cut, reference = os.path.join(folder, "cut.nc"), os.path.join(folder, "reference.nc")
+        started = time.monotonic()
+        self.ok(command, case, "-o", reference)
+        whole = time.monotonic() - started  # on this machine, in this build
+        chance = random.Random(7)
+        resumed = 0
+        for trial in range(trials):
+            if os.path.exists(cut):
+                os.remove(cut)
+            process = subprocess.Popen([PROGRAM, command, case, "-o", cut], stdout=subprocess.DEVNULL)
+            if trial % 2:  # every other one has a checkpoint for sure, however long the machine took to start it
+                self.wait_for(cut, process)
+            try:
+                process.wait(chance.uniform(0, whole))
+            except subprocess.TimeoutExpired:
+                process.kill()
+            process.wait()
+            if not os.path.exists(cut):
+                continue  # killed before the first checkpoint: nothing was written, and nothing half-written either
+            resumed += 1
+            self.ok(command, case, "--resume", cut, "--threads", str(1 + trial % 2))
+            with open(cut, "rb") as a, open(reference, "rb") as b:
+                self.assertEqual(a.read(), b.read(), trial)
+        self.assertGreaterEqual(resumed, trials // 2)
