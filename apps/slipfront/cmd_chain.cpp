@@ -35,6 +35,7 @@ void print(const chain::Run& run, const scenario::Scenario& scenario, double ste
            "as an observer with a threshold sees it"},
           {"leading_front_observed", json_number(s.fronts.leading_observed), "as an observer with a threshold sees it"},
           {"dislocations", fmt::format("{}", balance.dislocations), "at the end"},
+          {"energy_phonons", json_number(s.energy.phonons), "energy that uniform trains of the same averages lack"},
           {"energy_drift", json_number(balance.energy_drift), "energy and work since t = 0, relative"},
           {"charge_error", json_number(balance.charge_error), "change of the charge"},
           {"sites", fmt::format("{}", problem.grid.sites), ""},

@@ -65,11 +65,14 @@ pulse::Snapshot snapshot_of(const RiemannSolution& solution, const pulse::Schedu
     s.profile.k.push_back(a.k);
     s.profile.U.push_back(here.empty() ? 0.0 : std::tanh(here.phi));
     s.profile.W.push_back(a.W);
+    s.profile.H.push_back(a.H);
     s.profile.slip.push_back(slip(a, x));
   }
   const Edges edges = rupture::edges_of(solution);
-  s.energy = {none, none, 0, 0};
-  s.fronts = {time * edges.left, time * edges.right, none, none};
+  s.energy = {none, none, 0, 0, none};
+  const bool stressed_left = left >= right;
+  const double fast = stressed_left ? edges.left : edges.right, slow = stressed_left ? edges.right : edges.left;
+  s.fronts = {time * fast, time * slow, none, none};
   const train::Averages origin = train::averages(state(0));
   s.slip_velocity_at_origin = origin.W;
   s.stress_at_origin = origin.k;
@@ -79,8 +82,8 @@ pulse::Snapshot snapshot_of(const RiemannSolution& solution, const pulse::Schedu
     const double peak = peak_of(solution, edges), most = speed(solution, peak);
     s.peak_slip_velocity = at(solution, peak).W;
     s.peak_position = time * peak;
-    s.fronts.trailing_observed = time * passes(solution, edges.left, peak, schedule.threshold * most);
-    s.fronts.leading_observed = time * passes(solution, edges.right, peak, schedule.threshold * most);
+    s.fronts.trailing_observed = time * passes(solution, fast, peak, schedule.threshold * most);
+    s.fronts.leading_observed = time * passes(solution, slow, peak, schedule.threshold * most);
   }
   return s;
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "elastic.hpp"
 #include "parts.hpp"
 #include "refuse_window.hpp"
 #include "slipfront/error.hpp"
@@ -153,20 +154,8 @@ void add(const Chain& chain, const Window& w, std::size_t begin, std::size_t end
     t.momentum += weight * velocity * w.stress[j - low];
     t.supplied_rate += weight * velocity * chain.forcing(j);
     t.dissipated_rate += weight * velocity * chain.friction(velocity);
-    // u_x^2 by differences over a bond; on a grid with the next two terms of (2 asinh(D/2))^2.
-    if (j + 1 < n) {
-      const double rise = u(j + 1) - u(j);
-      t.elastic += rise * rise / (2 * h);
-      dislocations += std::fabs(std::floor(u(j + 1) / turn - 0.5) - std::floor(u(j) / turn - 0.5));
-    }
-    if (p.model == Model::sine_gordon && j > 0 && j + 1 < n) {
-      const double bend = u(j + 1) - 2 * u(j) + u(j - 1);
-      t.elastic += bend * bend / (24 * h);
-      if (j + 2 < n) {
-        const double third = u(j + 2) - 3 * u(j + 1) + 3 * u(j) - u(j - 1);
-        t.elastic += third * third / (180 * h);
-      }
-    }
+    t.elastic += h * elastic_energy(u, j, n, h, p.model);
+    if (j + 1 < n) dislocations += std::fabs(std::floor(u(j + 1) / turn - 0.5) - std::floor(u(j) / turn - 0.5));
   }
 }
 

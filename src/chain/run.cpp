@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "../bytes.hpp"
@@ -29,6 +30,9 @@ double spacing_of_train(const Stretched& s) {
     if (const double k = s.stress(x); k > 0) return 2 * std::numbers::pi / k / s.scale;
   return (s.right - s.left) / 16;
 }
+
+/// Dislocations are wider than that; what has more has blown up.
+constexpr double most_dislocations_a_site = 8;
 
 }  // namespace
 
@@ -138,6 +142,12 @@ Run::Run(const Stretched& stretched, pulse::Schedule schedule, const Execution& 
   levels.now = reader.vector();
   levels.before = reader.vector();
   reader.end();
+  const double last = schedule_.times.back() * stretched_.scale / chain_.dt();
+  if (!(levels.level >= 0 && static_cast<double>(levels.level) < last + 1))
+    throw InputError({.key = "resume",
+                      .value = std::to_string(levels.level) + " steps",
+                      .problem = "beyond the end of the run",
+                      .allowed = "a file that slipfront chain wrote for this scenario"});
   chain_ = Chain(chain_.problem(), levels, execution);
   snapshots_ = std::move(snapshots);
 }
@@ -182,27 +192,38 @@ void Run::take() {
   const auto middle = [&](std::size_t i) { return (schedule_.x_edges[i] + schedule_.x_edges[i + 1]) / 2; };
   for (std::size_t i = 0; i < n; ++i) {
     const double u = average(chain_, c * centre_of_cell(i), c * width_of_cell(i), c * time).u;
-    const double wide = std::max(2 * (schedule_.x_edges[i + 1] - schedule_.x_edges[i]), smooth_window_);
-    const Average a = smooth_average(chain_, c * middle(i), c * wide, c * time);
+    const double cell = schedule_.x_edges[i + 1] - schedule_.x_edges[i];
+    const double wide = std::max(2 * cell, smooth_window_);
+    const SmoothAverage a = smooth_average(chain_, c * middle(i), c * wide, c * time);
     s.profile.k.push_back(a.stress);
     s.profile.W.push_back(a.velocity);
     s.profile.U.push_back(a.stress > 1e-9 ? a.velocity / a.stress : 0);
+    s.profile.H.push_back(a.energy);
     s.profile.slip.push_back((u - first_u_[i]) / c);
+    // At an end the window is cut: what it makes even there is no phonons.
+    const bool whole = middle(i) - wide / 2 >= stretched_.left && middle(i) + wide / 2 <= stretched_.right;
+    if (whole) s.energy.phonons += cell * (a.energy - energy_of_train(a.stress, a.velocity));
     if (std::fabs(a.velocity) > std::fabs(s.profile.W[peak])) peak = i;
   }
   s.peak_slip_velocity = s.profile.W[peak];
   s.peak_position = middle(peak);
   s.slip_velocity_at_origin = s.stress_at_origin = s.slip_at_origin = none;
   if (!std::isnan(first_u_at_origin_)) {
-    const Average origin = smooth_average(chain_, 0, c * smooth_window_, c * time);
+    const SmoothAverage origin = smooth_average(chain_, 0, c * smooth_window_, c * time);
     s.slip_velocity_at_origin = origin.velocity;
     s.stress_at_origin = origin.stress;
     s.slip_at_origin = (average(chain_, 0, c * window_, c * time).u - first_u_at_origin_) / c;
   }
+  const Totals now = totals(chain_);
+  if (static_cast<double>(now.dislocations) >
+      most_dislocations_a_site * static_cast<double>(chain_.problem().grid.sites))
+    throw NumericsError("chain: more dislocations than sites bear, at t = " + std::to_string(time));
   s.fronts = {none, none, none, none};
-  if (stretched_.stress(stretched_.right) == 0) {  // the last dislocation
+  const double stress_left = stretched_.stress(stretched_.left), stress_right = stretched_.stress(stretched_.right);
+  const bool stressed_left = stress_left >= stress_right;
+  if (std::fmin(stress_left, stress_right) == 0) {  // the outermost dislocation
     const auto all = chain::dislocations(chain_);
-    if (!all.empty()) s.fronts.leading = all.back().x / c;
+    if (!all.empty()) s.fronts.leading = (stressed_left ? all.back() : all.front()).x / c;
   }
   // At an end the window is cut, and phonons show that a whole one averages away: no front is seen there.
   const double half = std::min(smooth_window_ / 2, (stretched_.right - stretched_.left) / 4);
@@ -214,10 +235,10 @@ void Run::take() {
   }
   const pulse::Observed seen =
       pulse::observed_fronts(x, speed, schedule_.threshold * std::fabs(s.peak_slip_velocity), x.front(), x.back());
-  s.fronts.trailing_observed = seen.trailing;
-  s.fronts.leading_observed = seen.leading;
-  const Totals now = totals(chain_);
-  s.energy = {(now.elastic + now.substrate) / c, now.kinetic / c, work_.dissipated / c, work_.supplied / c};
+  s.fronts.trailing_observed = stressed_left ? seen.left : seen.right;
+  s.fronts.leading_observed = stressed_left ? seen.right : seen.left;
+  s.energy = {(now.elastic + now.substrate) / c, now.kinetic / c, work_.dissipated / c, work_.supplied / c,
+              stretched_.contact ? none : s.energy.phonons};  // that of a train here is that of a = 1
   snapshots_.push_back(std::move(s));
 }
 

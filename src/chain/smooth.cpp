@@ -1,34 +1,54 @@
 #include "slipfront/chain/smooth.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "elastic.hpp"
 #include "refuse_window.hpp"
+#include "slipfront/rupture/inverse.hpp"
+#include "slipfront/train/train.hpp"
 
 namespace slipfront::chain {
 
-Average smooth_average(const Chain& chain, double x, double width, double time) {
+SmoothAverage smooth_average(const Chain& chain, double x, double width, double time) {
   const Grid& grid = chain.problem().grid;
   const double last = static_cast<double>(grid.sites - 1);
   const double from = std::fmax(0, std::ceil((x - width / 2 - grid.left) / grid.spacing));
   const double to = std::fmin(last, std::floor((x + width / 2 - grid.left) / grid.spacing));
   if (!(width > 0) || !(from <= to)) refuse_window(grid, x, width);
-  const Window w = chain.window(static_cast<std::size_t>(from), static_cast<std::size_t>(to) + 1, time);
+  const auto begin = static_cast<std::size_t>(from), end = static_cast<std::size_t>(to) + 1;
+  // Two more on either side, for the elastic energy.
+  const std::size_t low = begin < 2 ? 0 : begin - 2, high = std::min(end + 2, grid.sites);
+  const Window w = chain.window(low, high, time);
+  const auto u = [&](std::size_t j) { return w.u[j - low]; };
   // The weight and its slope vanish at the ends: the sum over sites is as good as the integral.
-  Average a{x, width, 0, 0, 0};
+  SmoothAverage a{};
   double sum = 0;
-  for (std::size_t i = 0; i < w.u.size(); ++i) {
+  for (std::size_t j = begin; j < end; ++j) {
+    const std::size_t i = j - low;
     const double weight = 1 + std::cos(2 * std::numbers::pi * (w.x[i] - x) / width);
     sum += weight;
-    a.u += weight * w.u[i];
     a.velocity += weight * w.velocity[i];
     a.stress += weight * w.stress[i];
+    a.energy += weight * (w.velocity[i] * w.velocity[i] / 2 + chain.contact_squared(j) * (1 - std::cos(u(j))) +
+                          elastic_energy(u, j, grid.sites, grid.spacing, chain.problem().model));
   }
   if (!(sum > 0)) sum = 1;  // a single site, at the very end of the window
-  a.u /= sum;
   a.velocity /= sum;
   a.stress /= sum;
+  a.energy /= sum;
   return a;
+}
+
+double energy_of_train(double stress, double velocity) {
+  const double gamma2 = 1 - velocity * velocity / (stress * stress);
+  if (!(stress > 0 && gamma2 > 0)) return 0;          // no train: all the energy is in phonons
+  const double at_rest = stress * std::sqrt(gamma2);  // Eq. 4: a moving train is contracted
+  if (at_rest < 2 * train::smallest_stress) return 4 / std::numbers::pi * stress / std::sqrt(gamma2);  // 8 each
+  State state = rupture::at_rest(at_rest);
+  state.phi = std::atanh(velocity / stress);
+  return train::averages(state).H;
 }
 
 }  // namespace slipfront::chain

@@ -15,20 +15,24 @@ namespace {
 using std::numbers::pi;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// The right edge of what moves: the free edge, or where the velocity behind it falls through half of its largest.
-double right_front(const Solver::View& v) {
-  if (v.face_states.back().empty()) return v.faces.back();
+/// The edge of what moves on the less stressed side: the free edge, or where the velocity behind it falls through half
+/// of its largest.
+double leading_front(const Solver::View& v, bool to_right) {
+  const std::size_t n = v.states.size();
+  if ((to_right ? v.face_states.back() : v.face_states.front()).empty())
+    return to_right ? v.faces.back() : v.faces.front();
   double fastest = 0;
   for (const State& s : v.states) fastest = std::fmax(fastest, std::fabs(s.phi));
-  for (std::size_t i = v.states.size() - 1; i-- > 0 && fastest > 0;) {
-    const double a = std::fabs(v.states[i].phi), b = std::fabs(v.states[i + 1].phi);
+  for (std::size_t i = 1; i < n && fastest > 0; ++i) {  // from the front inwards
+    const std::size_t out = to_right ? n - i : i - 1, in = to_right ? out - 1 : out + 1;
+    const double a = std::fabs(v.states[in].phi), b = std::fabs(v.states[out].phi);
     if (a >= fastest / 2 && b < fastest / 2)
-      return std::lerp(v.centres[i], v.centres[i + 1], (fastest / 2 - a) / (b - a));
+      return std::lerp(v.centres[in], v.centres[out], (fastest / 2 - a) / (b - a));
   }
   return none;
 }
 
-void find_peak_and_observed_fronts(const Solver::View& v, double threshold, Snapshot& s) {
+void find_peak_and_observed_fronts(const Solver::View& v, double threshold, bool to_right, Snapshot& s) {
   const std::size_t n = v.states.size();
   std::vector<double> W(n);
   for (std::size_t i = 0; i < n; ++i) W[i] = averages_of(v, v.states[i], v.centres[i]).W;
@@ -53,12 +57,12 @@ void find_peak_and_observed_fronts(const Solver::View& v, double threshold, Snap
   for (double& w : W) w = std::fabs(w);
   const Observed seen =
       observed_fronts(v.centres, W, threshold * std::fabs(s.peak_slip_velocity), v.faces.front(), v.faces.back());
-  s.fronts.trailing_observed = seen.trailing;
-  s.fronts.leading_observed = seen.leading;
+  s.fronts.trailing_observed = to_right ? seen.left : seen.right;
+  s.fronts.leading_observed = to_right ? seen.right : seen.left;
 }
 
 Energy energy_of(const Solver& solver, const Solver::View& v) {
-  Energy e{0, 0, solver.dissipated(), solver.supplied()};
+  Energy e{0, 0, solver.dissipated(), solver.supplied(), none};
   const std::size_t n = v.states.size();
   std::vector<double> width(n), rest(n), moving(n);
   for (std::size_t i = 0; i < n; ++i) {
@@ -85,28 +89,37 @@ Energy energy_of(const Solver& solver, const Solver::View& v) {
 
 }  // namespace
 
-LeftFront::LeftFront(const Solver& start) {
+TrailingFront::TrailingFront(const Solver& start) {
   const Solver::View v = start.view();
-  double low = v.states.front().psi, high = low;
+  const std::size_t n = v.states.size();
+  // Cells stop at a free edge: there it is the face that is empty.
+  stressed_left_ =
+      v.face_states.back().empty() || (!v.face_states.front().empty() && v.states.front().psi >= v.states.back().psi);
+  const auto from_stressed = [&](std::size_t i) { return stressed_left_ ? i : n - 1 - i; };
+  const State stressed = v.states[from_stressed(0)];
+  double low = stressed.psi, high = low;
   for (const State& s : v.states) {
     low = std::fmin(low, s.psi);
     high = std::fmax(high, s.psi);
   }
-  const auto departs = [&](std::size_t i, double share) {
-    return std::fabs(v.states[i].psi - v.states.front().psi) > share * (high - low);
-  };
-  const std::size_t n = v.states.size();
   const bool uniform = high - low <= 1e-12 * high;  // up to a free edge: the front starts there
-  std::size_t i = 0;
-  while (i < n && (uniform || !departs(i, 0.01))) ++i;
-  position_ = v.faces[i];
-  std::size_t moved = 0;
-  while (moved < n && (uniform || !departs(moved, 1e-12))) ++moved;
-  steady_ = moved == i && !start.problem().forcing;
-  speed_ = modulation::characteristic_speeds(v.states.front()).minus;
+  const auto departs = [&](double share) {
+    std::size_t i = 0;
+    while (i < n && (uniform || std::fabs(v.states[from_stressed(i)].psi - stressed.psi) <= share * (high - low))) ++i;
+    return i;
+  };
+  const std::size_t i = departs(0.01);
+  position_ = v.faces[stressed_left_ ? i : n - i];
+  steady_ = departs(1e-12) == i && !start.problem().forcing;
+  speed_ = speed_into(stressed);
 }
 
-void LeftFront::advance(const Solver& now, double dt) {
+double TrailingFront::speed_into(const State& ahead) const {
+  const auto speeds = modulation::characteristic_speeds(ahead);
+  return stressed_left_ ? speeds.minus : speeds.plus;
+}
+
+void TrailingFront::advance(const Solver& now, double dt) {
   if (steady_) {
     position_ += dt * speed_;
     return;
@@ -116,11 +129,12 @@ void LeftFront::advance(const Solver& now, double dt) {
   for (double right = y[2 * now.size()] + y[0]; cell + 1 < now.size() && right <= position_; right += y[2 * cell])
     ++cell;
   // Ahead of it by more than a reconstruction reaches, so that the front itself is not seen.
-  const State ahead = now.state_in(cell > 6 ? cell - 6 : 0);
-  position_ += dt * modulation::characteristic_speeds(ahead).minus;
+  const std::size_t ahead = stressed_left_ ? (cell > 6 ? cell - 6 : 0) : std::min(cell + 6, now.size() - 1);
+  position_ += dt * speed_into(now.state_in(ahead));
 }
 
-Snapshot observe(const Solver& solver, const std::vector<double>& x_edges, double left_front, double threshold) {
+Snapshot observe(const Solver& solver, const std::vector<double>& x_edges, const TrailingFront& trailing,
+                 double threshold) {
   const Solver::View v = solver.view();
   Snapshot s{};
   s.time = solver.cells().time;
@@ -131,7 +145,9 @@ Snapshot observe(const Solver& solver, const std::vector<double>& x_edges, doubl
     const State state = state_at(v, x);
     s.profile.k.push_back(2 * pi * (right - left) / (x_edges[i + 1] - x_edges[i]));
     s.profile.U.push_back(state.empty() ? 0.0 : std::tanh(state.phi));
-    s.profile.W.push_back(averages_of(v, state, x).W);
+    const train::Averages a = averages_of(v, state, x);
+    s.profile.W.push_back(a.W);
+    s.profile.H.push_back(a.H);
     s.profile.slip.push_back(2 * pi * (solver.initial_charge_left_of(x) - charge_left_of(v, x)));
     left = right;
   }
@@ -139,9 +155,9 @@ Snapshot observe(const Solver& solver, const std::vector<double>& x_edges, doubl
   s.slip_velocity_at_origin = origin.W;
   s.stress_at_origin = origin.k;
   s.slip_at_origin = 2 * pi * (solver.initial_charge_left_of(0) - charge_left_of(v, 0));
-  s.fronts.trailing = left_front;
-  s.fronts.leading = right_front(v);
-  find_peak_and_observed_fronts(v, threshold, s);
+  s.fronts.trailing = trailing.position();
+  s.fronts.leading = leading_front(v, trailing.stressed_left());
+  find_peak_and_observed_fronts(v, threshold, trailing.stressed_left(), s);
   s.energy = energy_of(solver, v);
   return s;
 }

@@ -15,7 +15,7 @@ constexpr std::uint64_t format = 2;
 }  // namespace
 
 Run::Run(Problem problem, Schedule schedule)
-    : schedule_(std::move(schedule)), solver_(std::move(problem)), left_front_(solver_) {}
+    : schedule_(std::move(schedule)), solver_(std::move(problem)), trailing_front_(solver_) {}
 
 Run::Run(Problem problem, Schedule schedule, std::string_view saved, std::vector<Snapshot> snapshots)
     : Run(std::move(problem), std::move(schedule)) {
@@ -28,7 +28,7 @@ Run::Run(Problem problem, Schedule schedule, std::string_view saved, std::vector
   cells.time = reader.get<double>();
   cells.steps = static_cast<long>(reader.get<std::int64_t>());
   cells.step = reader.get<double>();
-  left_front_.restore(reader.get<double>());
+  trailing_front_.restore(reader.get<double>());
   cells.y = reader.vector();
   cells.s = reader.vector();
   cells.charge = reader.vector();
@@ -44,7 +44,7 @@ std::string Run::saved() const {
   writer.put(cells.time);
   writer.put(static_cast<std::int64_t>(cells.steps));
   writer.put(cells.step);
-  writer.put(left_front_.position());
+  writer.put(trailing_front_.position());
   writer.put(cells.y);
   writer.put(cells.s);
   writer.put(cells.charge);
@@ -52,7 +52,7 @@ std::string Run::saved() const {
 }
 
 void Run::take() {
-  snapshots_.push_back(observe(solver_, schedule_.x_edges, left_front_.position(), schedule_.threshold));
+  snapshots_.push_back(observe(solver_, schedule_.x_edges, trailing_front_, schedule_.threshold));
 }
 
 bool Run::go(const std::function<bool()>& interrupted) {
@@ -60,7 +60,7 @@ bool Run::go(const std::function<bool()>& interrupted) {
     const double target = schedule_.times[snapshots_.size()];
     double before = solver_.cells().time;
     const auto after_step = [&] {
-      left_front_.advance(solver_, solver_.cells().time - before);
+      trailing_front_.advance(solver_, solver_.cells().time - before);
       before = solver_.cells().time;
       return interrupted && interrupted();
     };

@@ -12,13 +12,15 @@ using pulse::Fronts;
 using pulse::Profile;
 using pulse::Snapshot;
 
-constexpr std::vector<double> Profile::*every_field[] = {&Profile::k, &Profile::U, &Profile::W, &Profile::slip};
+constexpr std::vector<double> Profile::*every_field[] = {&Profile::k, &Profile::U, &Profile::W, &Profile::H,
+                                                         &Profile::slip};
 
 constexpr FieldVariable fields[] = {
     {{"k", "dislocation density (2 pi times dislocations per length)", "A / b", "Eqs. 4-5"}, &Profile::k},
     {{"Sigma", "shear stress, averaged over a period of the train (equal to k)", "mu A / pi", "Eq. 5"}, &Profile::k},
     {{"U", "velocity of the dislocations", "c", "Eq. 4"}, &Profile::U},
     {{"W", "slip velocity, averaged over a period of the train", "c A / pi", "Eq. 5"}, &Profile::W},
+    {{"H", "energy density", "mu A^2 b / (2 pi^2 (1 - nu))", "Eq. 6"}, &Profile::H},
     {{"slip", "slip since time 0", "b / (2 pi)", "Eq. 4"}, &Profile::slip},
     {{"stress_drop", "Sigma at the first time less Sigma", "mu A / pi", "Eq. 5"}, &Profile::k, true},
 };
@@ -52,11 +54,11 @@ constexpr ScalarVariable scalars[] = {
     absentable<&Snapshot::fronts, &Fronts::leading>(
         {"leading_front", "position of the slow front, into the less stressed side", "b / A", "Eqs. 8-10"}),
     absentable<&Snapshot::fronts, &Fronts::trailing_observed>(
-        {"trailing_front_observed", "where slip is first seen by an observer with a threshold, from the left", "b / A",
-         "Eqs. 8-10"}),
+        {"trailing_front_observed", "where slip is first seen by an observer with a threshold, from the stressed side",
+         "b / A", "Eqs. 8-10"}),
     absentable<&Snapshot::fronts, &Fronts::leading_observed>(
-        {"leading_front_observed", "where slip is first seen by an observer with a threshold, from the right", "b / A",
-         "Eqs. 8-10"}),
+        {"leading_front_observed", "where slip is first seen by an observer with a threshold, from the other side",
+         "b / A", "Eqs. 8-10"}),
     scalar<&Snapshot::energy, &Energy::elastic>(
         {"energy_elastic", "energy of the state at rest with the same density", energy, "Eq. 6"}),
     scalar<&Snapshot::energy, &Energy::kinetic>({"energy_kinetic", "energy less the elastic energy", energy, "Eq. 6"}),
@@ -64,6 +66,8 @@ constexpr ScalarVariable scalars[] = {
         {"energy_dissipated", "energy lost to friction since time 0", energy, "Eq. 7"}),
     scalar<&Snapshot::energy, &Energy::supplied>(
         {"energy_supplied", "energy supplied by the forcing since time 0", energy, "Eq. 7"}),
+    absentable<&Snapshot::energy, &Energy::phonons>(
+        {"energy_phonons", "energy of a chain less that of uniform trains with its averages", energy, "Eq. 6"}),
     absentable<&Snapshot::slip_velocity_at_origin>(
         {"slip_velocity_at_origin", "slip velocity at x = 0", "c A / pi", "Eq. 5"}),
     absentable<&Snapshot::stress_at_origin>({"stress_at_origin", "shear stress at x = 0", "mu A / pi", "Eq. 5"}),

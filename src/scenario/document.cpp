@@ -23,6 +23,8 @@ Value convert(const toml::node& node, bool overridden) {
     value.number = integer ? static_cast<double>(integer->get()) : node.as_floating_point()->get();
     value.text = integer ? std::to_string(integer->get()) : shortest(value.number);
   } else if (const auto* truth = node.as_boolean()) {
+    value.kind = Value::Kind::truth;
+    value.number = truth->get() ? 1 : 0;
     value.text = truth->get() ? "true" : "false";
   } else if (const auto* array = node.as_array()) {
     value.kind = Value::Kind::array;

@@ -11,9 +11,9 @@ namespace slipfront::scenario {
 
 /// One value of a scenario file, freed from its syntax.
 struct Value {
-  enum class Kind { number, text, array, other };
+  enum class Kind { number, text, truth, array, other };
   Kind kind = Kind::other;
-  double number = 0;
+  double number = 0;      ///< of a truth: 1 or 0
   std::string text = {};  ///< the text, or a number as it is shown to people
   std::vector<Value> items = {};
   std::size_t line = 0;

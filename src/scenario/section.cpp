@@ -64,6 +64,13 @@ std::optional<std::string> Section::text(std::string_view key) const {
   return value->text;
 }
 
+std::optional<bool> Section::truth(std::string_view key) const {
+  const Value* const value = find(key);
+  if (!value) return std::nullopt;
+  if (value->kind != Value::Kind::truth) throw refuse(key, "neither true nor false", "true or false");
+  return value->number != 0;
+}
+
 std::optional<std::string> Section::formula(std::string_view key) const {
   const Value* const value = find(key);
   if (!value) return std::nullopt;

@@ -44,6 +44,7 @@ class Section {
   std::optional<double> number(std::string_view key, const Limits& limits) const;
   std::optional<int> whole_number(std::string_view key, int least, int most) const;
   std::optional<std::string> text(std::string_view key) const;
+  std::optional<bool> truth(std::string_view key) const;
   std::optional<std::string> formula(std::string_view key) const;  ///< a text, or a number as a constant formula
   const Value* array(std::string_view key, const char* allowed) const;
 

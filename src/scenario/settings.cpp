@@ -24,7 +24,7 @@ std::vector<double> read_times(const Section& section, double end) {
 }
 
 std::vector<std::string> read_variables(const Section& section) {
-  static const std::vector<std::string_view> known = {"k", "Sigma", "U", "W", "slip", "stress_drop"};
+  static const std::vector<std::string_view> known = {"k", "Sigma", "U", "W", "H", "slip", "stress_drop"};
   std::vector<std::string> variables;
   const Value* const array = section.array("variables", "an array of names, such as [\"Sigma\", \"slip\"]");
   if (!array) return variables;
@@ -77,7 +77,7 @@ void read_chain(const Document& document, ChainOptions& chain) {
   };
   chain.left = end("left", chain.left);
   chain.right = end("right", chain.right);
-  chain.periodic = section.choice<bool>("periodic", {{"yes", true}, {"no", false}}).value_or(chain.periodic);
+  chain.periodic = section.truth("periodic").value_or(chain.periodic);
   chain.window = section.number("window", positive);
 }
 

@@ -38,9 +38,11 @@ TEST(ChainSmooth, AverageOfATrainIsThatOfTheoryWhereverTheWindow) {
   const State state{std::atanh(U), rupture::psi_of_stress(stress)};
   const train::Averages exact = train::averages(state);
   for (double x = 0; x < 8; x += 0.7) {
-    const Average a = smooth_average(chain, x, 60, chain.time());
+    const SmoothAverage a = smooth_average(chain, x, 60, chain.time());
     EXPECT_NEAR(a.velocity, exact.W, 1e-3 * exact.W) << x;
     EXPECT_NEAR(a.stress, exact.k, 1e-3 * exact.k) << x;
+    EXPECT_NEAR(a.energy, exact.H, 1e-3 * exact.H) << x;
+    EXPECT_NEAR(energy_of_train(exact.k, exact.W), exact.H, 1e-12 * exact.H);
   }
   EXPECT_THROW(smooth_average(chain, 0, 0, 0), InputError);
   EXPECT_THROW(smooth_average(chain, 1000, 8, 0), InputError);

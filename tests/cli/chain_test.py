@@ -41,9 +41,14 @@ class Chain(CommandLine):
         self.assertEqual(lattice["spacing"], 0.1)
         self.assertLess(abs(lattice["slip_at_origin"] / 0.3029 - 1), 0.02)
         ring = self.chain(self.file("ring.toml", "[initial]\nprofile = 'formula'\nformula = '0.8'\n[domain]\nleft = -1\nright = 1\n"
-                                    "[chain]\nscale = 50\nperiodic = 'yes'\n[forcing]\nformula = '0.5'\n"))
+                                    "[chain]\nscale = 50\nperiodic = true\n[forcing]\nformula = '0.5'\n"))
         self.assertEqual(ring["dislocations"], 13)
         self.assertGreater(ring["slip_at_origin"], 0)
+
+    def test_phonons_hold_what_a_shock_loses(self):
+        case = os.path.join(SOURCE, "cases/shock.toml")
+        lost = 3.925e-4  # elastic and kinetic energy of `slipfront pulse` at the start less that at the end
+        self.assertLess(abs(self.chain(case, "--set", "chain.scale=4000")["energy_phonons"] / lost - 1), 0.15)
 
     @unittest.skipUnless(shutil.which("mpirun"), "no mpirun")
     def test_under_mpirun_writes_the_same_file(self):
@@ -72,7 +77,7 @@ class Chain(CommandLine):
     def test_refuses(self):
         case = os.path.join(SOURCE, "cases/step.toml")
         for change, words in [("chain.spacing=0.9", ["spacing", "1.5"]), ("chain.scale=1e13", ["GB"]), ("chain.scale=0", ["scale"]),
-                              ("chain.model=lattice", ["chain.spacing"]), ("chain.left=open", ["absorbing"])]:
+                              ("chain.model=lattice", ["chain.spacing"]), ("chain.left=open", ["absorbing"]), ("chain.periodic=yes", ["true or false"])]:
             with self.subTest(change=change):
                 self.refused(2, "chain", case, "--set", "chain.model=sine-gordon", "--set", "time.end=60", "--set", change, says=words)
         made = os.path.join(os.path.dirname(self.file("x", "")), "pulse.nc")

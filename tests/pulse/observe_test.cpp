@@ -72,6 +72,27 @@ TEST(Observe, TrailingEdgeDoesNotKnowFriction) {
   }
 }
 
+/// What is stressed on the right is the same thing in a mirror.
+TEST(Observe, AMirrorSwapsNoNames) {
+  for (const double right : {0.0, 0.179}) {
+    Problem p = smooth(0.3, modulation::Closure::consistent), mirrored = p;
+    p.left = mirrored.left = -4;
+    p.right = mirrored.right = 4;
+    p.cells = mirrored.cells = 200;
+    p.stress = [right](double x) { return x < 0 ? 0.855 : right; };
+    mirrored.stress = [right](double x) { return x > 0 ? 0.855 : right; };
+    pulse::Run run(p, schedule(2)), mirror(mirrored, schedule(2));
+    run.go();
+    mirror.go();
+    const Fronts a = run.snapshots().back().fronts, b = mirror.snapshots().back().fronts;
+    EXPECT_LT(a.trailing, -0.7);
+    EXPECT_NEAR(a.trailing, -b.trailing, 1e-9);
+    EXPECT_NEAR(a.leading, -b.leading, 1e-9);
+    EXPECT_NEAR(a.trailing_observed, -b.trailing_observed, 1e-9);
+    EXPECT_NEAR(a.leading_observed, -b.leading_observed, 1e-9);
+  }
+}
+
 /// Fronts do not depend on how often one looks.
 TEST(Observe, FrontsDoNotDependOnOutputTimes) {
   Schedule often = schedule(2);

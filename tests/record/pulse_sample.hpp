@@ -19,12 +19,13 @@ inline std::vector<slipfront::pulse::Snapshot> sample_snapshots(std::size_t time
       profile.k.push_back(x * x);
       profile.U.push_back(j == 0 ? -0.0 : x / 3);
       profile.W.push_back(j == 1 ? std::numeric_limits<double>::denorm_min() : x * 1e-300);
+      profile.H.push_back(2 - x);
       profile.slip.push_back(j == 2 ? nan : std::exp(x));
     }
     snapshots.push_back({t,
                          profile,
                          {i == 0 ? nan : -t / 3, i == 0 ? nan : t / 7, nan, t / 11},
-                         {1.0 / 3, t / 13, t / 17, -0.0},
+                         {1.0 / 3, t / 13, t / 17, -0.0, i == 1 ? nan : t / 37},
                          t / 19,
                          0.855 - t / 23,
                          t / 29,

@@ -71,7 +71,7 @@ contact_ratio = 4e-5
 asperity_spacing = "1 mm"
 [output]
 times = [0, 1.5, 12]
-variables = ["k", "Sigma", "U", "W", "slip", "stress_drop"]
+variables = ["k", "Sigma", "U", "W", "H", "slip", "stress_drop"]
 [event]
 anything = nan
 )");
@@ -105,7 +105,7 @@ anything = nan
   EXPECT_DOUBLE_EQ(*s.medium.contact_ratio, 4e-5);
   EXPECT_DOUBLE_EQ(*s.medium.asperity_spacing, 1e-3);
   EXPECT_EQ(s.output.times, (std::vector<double>{0, 1.5, 12}));
-  EXPECT_EQ(s.output.variables.size(), 6u);
+  EXPECT_EQ(s.output.variables.size(), 7u);
   EXPECT_EQ(*read(step + "[output]\nevery = 0.5\n").output.every, 0.5);
 }
 

@@ -9,27 +9,32 @@
 
 namespace slipfront::pulse {
 
-/// The characteristic that left the leftmost change of stress at t = 0: the trailing (or left) edge of what moves.
-class LeftFront {
+/// The characteristic that left the outermost change of stress at t = 0 on the more stressed side (the left one if
+/// both are alike): the trailing edge of what moves.
+class TrailingFront {
  public:
-  /// Starts where the initial stress first departs from its value at the left end by 1 % of its range: at the corner of
-  /// a step.
-  explicit LeftFront(const Solver& start);
-  /// Follows dx/dt = lambda_- of the state just ahead of it over one step; exact where that state is uniform and at
-  /// rest.
+  /// Starts where the initial stress first departs from its value at the stressed end by 1 % of its range: at the
+  /// corner of a step.
+  explicit TrailingFront(const Solver& start);
+  /// Follows dx/dt = lambda_- (to the left) or lambda_+ (to the right) of the state just ahead of it over one step;
+  /// exact where that state is uniform and at rest.
   void advance(const Solver& now, double dt);
   double position() const { return position_; }
+  bool stressed_left() const { return stressed_left_; }
   void restore(double position) { position_ = position; }
 
  private:
+  double speed_into(const State& ahead) const;
+
   double position_;
+  bool stressed_left_;
   bool steady_ = false;  ///< the state ahead is uniform and stays so: its speed never changes
   double speed_ = 0;
 };
 
-/// Everything of Snapshot. `x_edges` ascend; `left_front` is where LeftFront stands; `threshold` is the observer's, as
-/// a share of the peak slip velocity.
-Snapshot observe(const Solver& solver, const std::vector<double>& x_edges, double left_front, double threshold);
+/// Everything of Snapshot. `x_edges` ascend; `threshold` is the observer's, as a share of the peak slip velocity.
+Snapshot observe(const Solver& solver, const std::vector<double>& x_edges, const TrailingFront& trailing,
+                 double threshold);
 
 /// |dislocations in the cells of the grid and outside it - those at t = 0|, over those at t = 0.
 double conservation_error(const Solver& solver, const std::vector<double>& x_edges, const Profile& profile);

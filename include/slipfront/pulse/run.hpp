@@ -37,7 +37,7 @@ class Run {
 
   Schedule schedule_;
   Solver solver_;
-  LeftFront left_front_;
+  TrailingFront trailing_front_;
   double stepping_seconds_ = 0;
   std::vector<Snapshot> snapshots_;
 };

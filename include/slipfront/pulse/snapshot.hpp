@@ -18,6 +18,7 @@ struct Profile {
   std::vector<double> k;     ///< dislocation density = stress Sigma
   std::vector<double> U;     ///< velocity of the dislocations, 0 where there are none
   std::vector<double> W;     ///< slip velocity
+  std::vector<double> H;     ///< energy density
   std::vector<double> slip;  ///< slip since t = 0 (u, in b / 2 pi)
 };
 
@@ -25,15 +26,15 @@ struct Profile {
 struct Fronts {
   double trailing;           ///< fast front, into the stressed side, from its characteristic
   double leading;            ///< slow front, into the empty or less stressed side
-  double trailing_observed;  ///< where |W| first exceeds the observer's threshold, from the left
-  double leading_observed;   ///< and from the right
+  double trailing_observed;  ///< where |W| first exceeds the observer's threshold, from the stressed side
+  double leading_observed;   ///< and from the other
 };
 
 /// What an observer with a threshold sees: the outermost places, from the left and from the right, where `speed`
 /// (|W| at `x`, ascending) passes `level`; `left` or `right` where already the first or last of them moves. NaN where
 /// nothing does.
 struct Observed {
-  double trailing, leading;
+  double left, right;
 };
 Observed observed_fronts(const std::vector<double>& x, const std::vector<double>& speed, double level, double left,
                          double right);
@@ -44,6 +45,7 @@ struct Energy {
   double kinetic;     ///< H less that
   double dissipated;  ///< by friction since t = 0
   double supplied;    ///< by the forcing F since t = 0
+  double phonons;     ///< of a chain, H less that of the uniform train with the same k and W; NaN for other runs
 };
 
 struct Snapshot {

@@ -1,0 +1,81 @@
+// libFuzzer target: no change of a saved state may crash a run that is to go on from it. The first byte says which run;
+// the rest directs what is changed in what such a run saved: three bytes each, where (two) and to what.
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "slipfront/chain/run.hpp"
+#include "slipfront/error.hpp"
+#include "slipfront/pulse/run.hpp"
+
+using namespace slipfront;
+
+namespace {
+
+const pulse::Schedule schedule{.times = {0, 1}, .x_edges = {-1, -0.5, 0, 0.5}, .threshold = 1e-3};
+
+double stress(double x) { return x < 0 ? 0.855 : 0.0; }
+
+template <class Run>
+void go(Run& run, int steps) {
+  run.go([&steps] { return --steps <= 0; });
+}
+
+pulse::Problem pulse_problem() {
+  pulse::Problem p;
+  p.stress = stress;
+  p.left = -1;
+  p.right = 0.5;
+  p.cells = 8;
+  return p;
+}
+
+chain::Stretched chain_problem() {
+  chain::Stretched small;
+  small.stress = stress;
+  small.left = -1;
+  small.right = 0.5;
+  small.scale = 60;
+  return small;
+}
+
+std::string saved_pulse() {
+  pulse::Run run(pulse_problem(), schedule);
+  go(run, 2);
+  return run.saved();
+}
+
+std::string saved_chain() { return chain::Run(chain_problem(), schedule, chain::Execution{}).saved(); }
+
+std::string changed(std::string state, const std::uint8_t* bytes, std::size_t size) {
+  for (std::size_t i = 0; i + 2 < size; i += 3) {
+    const std::size_t where = bytes[i] + 256u * bytes[i + 1];
+    if (where < state.size())
+      state[where] = static_cast<char>(bytes[i + 2]);
+    else
+      state.resize(state.size() - std::min(state.size(), where % 64));
+  }
+  return state;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
+  static const std::string pulse_state = saved_pulse(), chain_state = saved_chain();
+  if (size == 0) return 0;
+  try {
+    if (bytes[0] % 2 == 0) {
+      pulse::Run run(pulse_problem(), schedule, changed(pulse_state, bytes + 1, size - 1), {});
+      go(run, 3);
+    } else {
+      chain::Run run(chain_problem(), schedule, chain::Execution{}, changed(chain_state, bytes + 1, size - 1), {});
+      go(run, 1);
+    }
+  } catch (const InputError&) {
+  } catch (const NumericsError&) {
+  }
+  return 0;
+}
