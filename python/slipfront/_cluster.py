@@ -27,8 +27,7 @@ def on_cluster(client, command, asked, work, variables, deliver):
     """The same on a cluster, in tasks of many points. A task whose worker dies is tried again by Dask, then point by
     point, so that one deadly point costs none of its neighbours. Raises NumericsError if the cluster is gone."""
     distributed = need("distributed")
-    gone = (distributed.client.FutureCancelledError if hasattr(distributed.client, "FutureCancelledError") else distributed.client.CancelledError,
-            OSError, TimeoutError)
+    gone = (distributed.client.CancelledError, OSError, TimeoutError)
     threads = sum(client.nthreads().values()) or 1
     size = max(1, min(_most_points_a_task, len(work) // (_tasks_a_thread * threads)))
 
@@ -53,6 +52,8 @@ def on_cluster(client, command, asked, work, variables, deliver):
                     continue
                 rows = [(part[0][0], [], f"{type(error).__name__}: {' '.join(str(error).split())}")]
             deliver(rows)
+    except NumericsError:  # nobody is left to be told
+        raise
     except BaseException:
-        client.cancel([future for future in running.futures])
+        client.cancel(list(running.futures))
         raise
