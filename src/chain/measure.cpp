@@ -187,7 +187,7 @@ Totals totals(const Chain& chain) {
     all_found += std::fabs(std::floor((last + rise) / turn - 0.5) - std::floor(last / turn - 0.5));
     t.charge = static_cast<double>(p.boundary.charge);
   }
-  t.dislocations = std::lround(all_found);
+  t.dislocations = std::lround(std::fmin(all_found, 9e18));  // of a chain that has blown up, at least so many
   return t;
 }
 

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "../../src/record/netcdf.hpp"
-#include "../../src/record/pulse_variables.hpp"
 #include "../../src/record/seal.hpp"
 #include "pulse_sample.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/record/pulse_file.hpp"
+#include "slipfront/record/pulse_variables.hpp"
 #include "temporary_folder.hpp"
 
 namespace {

@@ -1,0 +1,58 @@
+#pragma once
+/// \file
+/// What a finished run is summed up by: the keys that `--json` prints and that Python attaches to a result.
+
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "slipfront/chain/run.hpp"
+#include "slipfront/pulse/run.hpp"
+#include "slipfront/scenario/scenario.hpp"
+
+namespace slipfront::setup {
+
+/// A double that is not finite says that there is none.
+using Value = std::variant<double, long, std::string>;
+
+/// A key, how it is got from a finished run, and what it means.
+template <class End>
+struct SummaryItem {
+  const char* key;
+  Value (*get)(const End&);
+  const char* meaning;
+};
+
+/// A pulse run that has reached its end.
+struct PulseEnd {
+  const scenario::Scenario& scenario;
+  const pulse::Run& run;
+  double wall;  ///< seconds, set-up and output included
+};
+std::span<const SummaryItem<PulseEnd>> pulse_summary();
+
+/// A chain run that has reached its end, and how it was run.
+struct ChainEnd {
+  const chain::Run& run;
+  chain::Run::Balance balance;  ///< run.balance(), which all ranks take part in
+  double stepping, wall;        ///< seconds: of the run alone, of everything
+  long steps;                   ///< of these seconds
+  int ranks, threads;
+};
+std::span<const SummaryItem<ChainEnd>> chain_summary();
+
+struct SummaryValue {
+  const char* key;
+  Value value;
+  const char* meaning;
+};
+template <class End>
+std::vector<SummaryValue> summary(std::span<const SummaryItem<End>> items, const End& end) {
+  std::vector<SummaryValue> values;
+  values.reserve(items.size());
+  for (const SummaryItem<End>& item : items) values.push_back({item.key, item.get(end), item.meaning});
+  return values;
+}
+
+}  // namespace slipfront::setup
