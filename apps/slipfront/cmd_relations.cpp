@@ -13,6 +13,8 @@ namespace {
 
 using slipfront::InputError;
 using slipfront::rupture::Relations;
+using slipfront::rupture::relations_quantities;
+using slipfront::rupture::RelationsQuantity;
 
 /// What a state may be given by.
 struct Given {
@@ -22,23 +24,6 @@ struct Given {
   std::size_t used = 0;
   CLI::Option* parsed = nullptr;
 };
-
-struct Output {
-  const char* key;
-  double Relations::*value;
-  const char* meaning;
-};
-constexpr std::array<Output, 9> outputs = {{
-    {"stress", &Relations::stress, "Sigma-, in mu A / pi"},
-    {"rupture_velocity", &Relations::rupture_velocity, "|V-| of the fast (trailing) front, in c"},
-    {"leading_velocity", &Relations::leading_velocity, "V+ of the slow (leading) front, in c"},
-    {"velocity_ratio", &Relations::velocity_ratio, "|V- / V+| = K / E"},
-    {"slip_velocity", &Relations::slip_velocity, "W at x = 0, in c A / pi"},
-    {"stress_at_origin", &Relations::stress_at_origin, "Sigma at x = 0, in mu A / pi"},
-    {"dislocation_velocity_at_origin", &Relations::dislocation_velocity_at_origin, "U at x = 0, in c"},
-    {"psi", &Relations::psi, "of the stressed side, sqrt(1 - m) = tanh psi"},
-    {"psi_at_origin", &Relations::psi_at_origin, "at x = 0"},
-}};
 
 struct State {
   const Given* given;
@@ -58,13 +43,15 @@ Relations solve(const State& state) {
 
 std::string json_row(const Relations& r) {
   std::string row = "{";
-  for (const Output& o : outputs) row += fmt::format("{}\"{}\": {}", row.size() > 1 ? ", " : "", o.key, r.*o.value);
+  for (const RelationsQuantity& q : relations_quantities())
+    row += fmt::format("{}\"{}\": {}", row.size() > 1 ? ", " : "", q.about.name, r.*q.value);
   return row + "}";
 }
 
 std::string csv_row(const Relations& r) {
   std::string row;
-  for (const Output& o : outputs) row += fmt::format("{}{}", row.empty() ? "" : ",", r.*o.value);
+  for (const RelationsQuantity& q : relations_quantities())
+    row += fmt::format("{}{}", row.empty() ? "" : ",", r.*q.value);
   return row + "\n";
 }
 
@@ -81,7 +68,10 @@ constexpr const char* table_head =
     "  \n";
 
 void print_one(const Relations& r) {
-  for (const Output& o : outputs) put(fmt::format("{:<31} {:<24} {}\n", o.key, r.*o.value, o.meaning));
+  for (const RelationsQuantity& q : relations_quantities()) {
+    const auto& [name, long_name, unit, reference] = q.about;
+    put(fmt::format("{:<31} {:<24} {}{}{}\n", name, r.*q.value, long_name, unit.empty() ? "" : ", in ", unit));
+  }
 }
 
 int print(const std::vector<State>& states, const CommonOptions& options) {
@@ -101,7 +91,8 @@ int print(const std::vector<State>& states, const CommonOptions& options) {
   }
   if (options.csv) {
     std::string head;
-    for (const Output& o : outputs) head += (head.empty() ? "" : ",") + std::string(o.key);
+    for (const RelationsQuantity& q : relations_quantities())
+      head += (head.empty() ? "" : ",") + std::string(q.about.name);
     put(head + "\n");
   } else {
     put(table_head);

@@ -36,6 +36,12 @@ Runner add_pulse(CLI::App& app);
 Runner add_chain(CLI::App& app);
 Runner add_compare(CLI::App& app);
 
+/// Lists the subcommands that are written in Python, in the help.
+void add_python_commands(CLI::App& app);
+/// Becomes the Python program if the first argument names one of these subcommands; else returns. \throws FileError
+/// where the package or the interpreter is missing.
+void become_python(int argc, char** argv);
+
 /// The processes that run this program, of which the first prints and writes.
 extern const slipfront::chain::Ranks* the_ranks;
 

@@ -54,6 +54,8 @@ int run(int argc, char** argv) {
   Runner chosen = run_default;
   const Runner relations = add_relations(app), event = add_event(app), pulse = add_pulse(app), chain = add_chain(app),
                compare = add_compare(app);
+  add_python_commands(app);
+  if (the_ranks->rank() == 0) become_python(argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {

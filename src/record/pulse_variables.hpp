@@ -7,17 +7,10 @@
 #include <string_view>
 #include <vector>
 
+#include "slipfront/description.hpp"
 #include "slipfront/pulse/snapshot.hpp"
 
 namespace slipfront::record {
-
-/// What CF asks to be said of every variable.
-struct Description {
-  std::string_view name;
-  std::string_view long_name;
-  std::string_view dimensional_unit;  ///< multiply by this for a dimensional value; empty: none
-  std::string_view reference;         ///< where in the paper
-};
 
 /// Over time and x.
 struct FieldVariable {

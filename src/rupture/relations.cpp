@@ -91,4 +91,19 @@ Relations from_slip_velocity(double slip_velocity) {
   return r;
 }
 
+std::span<const RelationsQuantity> relations_quantities() {
+  static constexpr RelationsQuantity quantities[] = {
+      {{"stress", "Sigma-, stress before the rupture", "mu A / pi", "Eqs. 8-10"}, &Relations::stress},
+      {{"rupture_velocity", "|V-| of the fast (trailing) front", "c", "Eqs. 8-10"}, &Relations::rupture_velocity},
+      {{"leading_velocity", "V+ of the slow (leading) front", "c", "Eqs. 8-10"}, &Relations::leading_velocity},
+      {{"velocity_ratio", "|V- / V+| = K / E", "", "Eqs. 8-10"}, &Relations::velocity_ratio},
+      {{"slip_velocity", "W at x = 0", "c A / pi", "Eqs. 8-10"}, &Relations::slip_velocity},
+      {{"stress_at_origin", "Sigma at x = 0", "mu A / pi", "Eqs. 8-10"}, &Relations::stress_at_origin},
+      {{"dislocation_velocity_at_origin", "U at x = 0", "c", "Eqs. 8-10"}, &Relations::dislocation_velocity_at_origin},
+      {{"psi", "psi of the stressed side, sqrt(1 - m) = tanh psi", "", "Eqs. 8-10"}, &Relations::psi},
+      {{"psi_at_origin", "psi at x = 0", "", "Eqs. 8-10"}, &Relations::psi_at_origin},
+  };
+  return quantities;
+}
+
 }  // namespace slipfront::rupture

@@ -3,6 +3,10 @@
 /// The frictionless slip pulse from a step of stress into an empty interface (Eqs. 8-10): any one of stress, rupture
 /// velocity and slip velocity gives all the others. Velocities in c, stress in mu A / pi, slip velocity in c A / pi.
 
+#include <span>
+
+#include "slipfront/description.hpp"
+
 namespace slipfront::rupture {
 
 /// One pulse. Speeds are positive; "origin" is x = 0, where the step of stress was.
@@ -25,5 +29,12 @@ struct Relations {
 Relations from_stress(double stress);
 Relations from_rupture_velocity(double rupture_velocity);
 Relations from_slip_velocity(double slip_velocity);
+
+/// The nine members, named as they are, in their order.
+struct RelationsQuantity {
+  Description about;
+  double Relations::*value;
+};
+std::span<const RelationsQuantity> relations_quantities();
 
 }  // namespace slipfront::rupture

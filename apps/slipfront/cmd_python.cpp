@@ -1,0 +1,66 @@
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "commands.hpp"
+#include "slipfront/error.hpp"
+
+/// Subcommands that live in the Python package: handed over with their arguments as they are.
+
+namespace {
+
+struct PythonCommand {
+  const char* name;
+  const char* help;
+};
+constexpr std::array<PythonCommand, 3> commands = {{
+    {"reproduce", "Every number and figure of the paper, as a page that opens in a browser"},
+    {"plot", "Figures of the files that pulse, chain and compare write"},
+    {"animate", "A slip pulse as a moving picture"},
+}};
+
+/// The package of this executable, in the build tree or installed. Empty: neither.
+std::filesystem::path package_folder() {
+  std::error_code error;
+  const auto here = std::filesystem::read_symlink("/proc/self/exe", error).parent_path().parent_path();
+  if (error) return {};
+  for (const char* place : {"python", SLIPFRONT_PYTHON_DIR})
+    if (std::filesystem::exists(here / place / "slipfront" / "__main__.py", error)) return here / place;
+  return {};
+}
+
+}  // namespace
+
+void add_python_commands(CLI::App& app) {
+  for (const PythonCommand& command : commands) app.add_subcommand(command.name, command.help);
+}
+
+void become_python(int argc, char** argv) {
+  if (argc < 2) return;
+  bool ours = false;
+  for (const PythonCommand& command : commands) ours = ours || std::strcmp(argv[1], command.name) == 0;
+  if (!ours) return;
+  std::filesystem::path folder = package_folder();
+  if (folder.empty())
+    throw slipfront::FileError(std::string(argv[1]) +
+                               ": the Python package slipfront is not beside this program; install the Debian packages "
+                               "pybind11-dev and python3-dev, and build again");
+  std::string path = folder.string();
+  if (const char* others = std::getenv("PYTHONPATH"); others && *others) path += std::string(":") + others;
+  setenv("PYTHONPATH", path.c_str(), 1);
+  setenv("PYTHONSAFEPATH", "1", 1);  // a folder `slipfront` where the user stands is not the package
+  std::string interpreter = SLIPFRONT_PYTHON_INTERPRETER, option = "-m", module = "slipfront";
+  std::vector<char*> arguments = {interpreter.data(), option.data(), module.data()};
+  for (int i = 1; i < argc; ++i) arguments.push_back(argv[i]);
+  arguments.push_back(nullptr);
+  execv(interpreter.c_str(), arguments.data());
+  throw slipfront::FileError(interpreter + ": " + std::strerror(errno) + "; install the Debian package python3");
+}

@@ -1,0 +1,16 @@
+"""From arrays and what is said of them to xarray."""
+
+from ._need import need
+
+_paper = "Gershenzon, Bambakidis and Skinner (2015), "
+
+
+def attributes(about):
+    """CF attributes of a variable from its (name, long_name, dimensional_unit, reference), as in the NetCDF files."""
+    _, long_name, dimensional_unit, reference = about
+    return {"long_name": long_name, "units": "1", "dimensional_unit": dimensional_unit, "references": _paper + reference}
+
+
+def dataset(variables, coordinates=None, attrs=None):
+    """xarray.Dataset of {name: (dimensions, values, attributes)}."""
+    return need("xarray").Dataset(variables, coordinates, attrs)

@@ -1,0 +1,36 @@
+"""Arrays as users give them."""
+
+import os
+
+from ._need import need
+from ._slipfront import InputError
+
+np = need("numpy")
+
+
+def numbers(name, values):
+    """`values` as an array of doubles, copied only where it is none. Raises InputError unless it holds real numbers."""
+    try:
+        array = np.asarray(values)
+    except Exception as error:
+        raise InputError(f"{name}: not an array: {error}; allowed: numbers") from error
+    if array.dtype.kind not in "fiu":
+        raise InputError(f"{name}: an array of {array.dtype}; allowed: real numbers")
+    return np.ascontiguousarray(array, dtype=np.float64).reshape(array.shape)
+
+
+def dimensions(values, array):
+    """Names of the dimensions of a result that has the shape of `values`, and its coordinates: those of a DataArray,
+    else "state" or dim_0, dim_1, ..."""
+    if hasattr(values, "dims") and hasattr(values, "coords"):
+        return values.dims, dict(values.coords)
+    return (("state",) if array.ndim == 1 else tuple(f"dim_{i}" for i in range(array.ndim))), {}
+
+
+def thread_count(threads):
+    """Number of threads for a `threads` argument; None means all cores."""
+    if threads is None:
+        return len(os.sched_getaffinity(0))
+    if isinstance(threads, bool) or not isinstance(threads, (int, np.integer)) or not 1 <= threads <= 4096:
+        raise InputError(f"threads = '{threads}': out of range; allowed: a whole number from 1 to 4096")
+    return int(threads)

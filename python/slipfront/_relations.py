@@ -1,0 +1,46 @@
+"""slipfront.relations"""
+
+from . import _slipfront
+from ._dataset import attributes, dataset
+from ._numbers import dimensions, numbers, thread_count
+from ._slipfront import InputError
+
+_ways = "stress, rupture_velocity or slip_velocity"
+
+
+def relations(*, stress=None, rupture_velocity=None, slip_velocity=None, threads=None):
+    """The frictionless slip pulse from a step of stress into an empty interface (Eqs. 8-10): any one of three
+    quantities gives all the others.
+
+    Parameters
+    ----------
+    stress : array of any shape
+        Sigma-, before the rupture, in mu A / pi; 0.00447 to 1e308.
+    rupture_velocity : array of any shape
+        |V-| of the fast front, in c; 2e-302 to 1, exclusive.
+    slip_velocity : array of any shape
+        W at x = 0, in c A / pi; 7.2e-308 to 5e307.
+    threads : int, optional
+        All cores unless given; results do not depend on it.
+
+    Returns
+    -------
+    xarray.Dataset of the shape given, with stress, rupture_velocity, leading_velocity, velocity_ratio, slip_velocity,
+    stress_at_origin, dislocation_velocity_at_origin, psi and psi_at_origin, each to a few ulp times the condition of
+    the question. Dimensions and coordinates are those of a DataArray, else "state" or dim_0, dim_1, ...
+
+    Raises
+    ------
+    InputError unless exactly one quantity is given, all of it in its range.
+    """
+    given = [(name, values) for name, values in (("stress", stress), ("rupture_velocity", rupture_velocity),
+                                                 ("slip_velocity", slip_velocity)) if values is not None]
+    if len(given) != 1:
+        raise InputError(f"relations: {'nothing was' if not given else 'more than one quantity was'} given; allowed: {_ways}")
+    name, values = given[0]
+    array = numbers(name, values)
+    columns = _slipfront.relations(name, array.reshape(-1), thread_count(threads))
+    dims, coords = dimensions(values, array)
+    return dataset({about[0]: (dims, column.reshape(array.shape), attributes(about))
+                    for about, column in zip(_slipfront.relations_quantities, columns)},
+                   {key: value for key, value in coords.items() if key not in dict.fromkeys(a[0] for a in _slipfront.relations_quantities)})
