@@ -1,0 +1,37 @@
+"""All of the reproduction, in order."""
+
+import numpy
+
+import slipfront
+
+from . import formulas, laws, numbers, outputs, pulses, report, statements, states, sweeps, widths
+from .runs import Runs
+
+
+def reproduce(folder, threads, tell, seconds) -> dict:
+    """Computes all and writes it into a folder that is there. Returns the tables: numbers, formulas, statements.
+
+    tell: called with a text as the work goes on. seconds: called for the time spent so far.
+    """
+    paper = numbers.printed()
+    runs = Runs(threads, tell)
+    printed = {c: float(next(n["printed"] for n in paper["number"] if n["key"] == f"fig_8_factor_{c}")) for c in paper["inputs"]["friction"][1:]}
+    factors = widths.factors(runs, paper)
+    width = widths.nearest(factors, printed)
+    values = numbers.computed(runs, paper, factors, width)
+    slip, (small_drop, drops) = sweeps.slip(runs, paper), pulses.small_drop(runs)
+    fronts = sweeps.fronts(runs, paper, laws.laws().sel(stress_index=slice(None)))
+    weak, middle, strong = paper["inputs"]["friction"]
+    pictures = [states.contact(), states.dislocation(), states.initial(runs), laws.pulse(runs), laws.rupture(values), laws.slip(values),
+                pulses.fields(runs, 7, weak, "weak"), pulses.scaled(runs, [weak, middle, strong], width), widths.picture(factors, printed, width),
+                pulses.fields(runs, 9, strong, "strong"), slip, small_drop, fronts]
+    tables = {"numbers": numbers.table(paper, values), "formulas": formulas.table(paper),
+              "statements": statements.table(slip.data, fronts.data, drops, slipfront.relations(stress=numpy.asarray(fronts.data["stress"])))}
+    for picture in pictures:
+        tell(f"writing {picture.name}")
+        outputs.write_picture(folder, picture)
+    for name, rows in tables.items():
+        outputs.write_rows(folder / f"{name}.csv", rows)
+    about = {"version": slipfront.__version__, "seconds": seconds(), "pulses": len(runs.done)}
+    (folder / "report.html").write_text(report.page(folder, pictures, tables["numbers"], tables["formulas"], tables["statements"], about), encoding="utf-8")
+    return tables

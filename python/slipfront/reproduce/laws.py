@@ -1,0 +1,81 @@
+"""Figs. 4-6: the frictionless slip pulse, closed form."""
+
+import numpy
+import xarray
+from matplotlib.figure import Figure
+
+import slipfront
+
+from ..plots.style import label, styled
+from .picture import Picture
+
+#: The paper's two worked examples, marked in Figs. 5 and 6: (name, key of the computed numbers for stress, mark).
+EXAMPLES = (("Parkfield 2004", "parkfield", "o"), ("ETS", "ets", "s"))
+
+
+@styled
+def draw_pulse(pulse, relation) -> Figure:
+    """Stress and slip velocity of the frictionless pulse at three times."""
+    figure = Figure(figsize=(7.2, 3.3))
+    for axes, name in zip(figure.subplots(1, 2), ("Sigma", "W")):
+        for i, row in enumerate((4, 8, 16)):
+            now = pulse.isel(time=row)
+            axes.plot(now["x"], now[name], color=f"C{i}", label=f"t = {float(now['time']):.3g}")
+            for edge in (-relation["rupture_velocity"], relation["leading_velocity"]):
+                axes.axvline(float(edge) * float(now["time"]), color=f"C{i}", linestyle=":", linewidth=0.8)
+        axes.set(xlabel=label(pulse["x"]), ylabel=label(pulse[name]), xlim=(-3.2, 1.6))
+        axes.plot(0, float(relation["stress_at_origin" if name == "Sigma" else "slip_velocity"]), "k+", markersize=9, label="closed form at x = 0")
+    figure.axes[0].legend()
+    return figure
+
+
+def pulse(runs) -> Picture:
+    """Fig. 4."""
+    data = runs.pulse("step.toml", {"output.every": numpy.pi / 8})
+    relation = slipfront.relations(stress=[0.855]).isel(state=0)
+    return Picture("fig-04", "The slip pulse without friction", "Stress and slip velocity at three times after a step of Σ− = 0.855 meets an empty interface. The solution depends on x/t alone: "
+                   "its edges (dotted, closed form) move at V− and V+, stress and slip velocity at x = 0 (crosses, Eqs. 8-10) stay. "
+                   "Drawn by the pulse solver with 400 cells.", draw_pulse(data, relation), kept(data))
+
+
+def kept(pulse):
+    """The fields of a pulse that its figure shows, without checkpoint."""
+    return pulse[["W", "Sigma", "slip", "trailing_front", "leading_front"]]
+
+
+def laws():
+    """The closed form over the stress of both figures."""
+    return slipfront.relations(stress=xarray.DataArray(numpy.round(numpy.geomspace(0.1, 2.5, 241), 6), dims="stress_index"))
+
+
+@styled
+def draw_laws(data, names, values) -> Figure:
+    """Quantities against the initial stress: linear left, logarithmic right, with the paper's examples."""
+    figure = Figure(figsize=(7.2, 3.4))
+    for axes, scale in zip(figure.subplots(1, 2), ("linear", "log")):
+        for name, text in names.items():
+            axes.plot(data["stress"], data[name], label=text)
+        for example, key, mark in EXAMPLES:
+            stress = values[f"{key}_stress"]
+            point = float(slipfront.relations(stress=[stress])[next(iter(names))].values[0])
+            axes.plot(stress, point, mark, color="black", markerfacecolor="white", markersize=6, linestyle="none", label=example)
+        axes.set(xlabel=label(data["stress"]), yscale=scale, title="linear" if scale == "linear" else "logarithmic")
+    unit = "cA/π" if "slip_velocity" in names else "c"
+    figure.axes[0].set_ylabel(f"{'slip velocity W at x = 0' if unit != 'c' else 'velocity of an edge'}, {unit}")
+    figure.axes[1].legend(loc="lower right")
+    return figure
+
+
+def rupture(values) -> Picture:
+    """Fig. 5."""
+    data = laws()[["stress", "rupture_velocity", "leading_velocity", "velocity_ratio"]]
+    return Picture("fig-05", "Rupture velocity against initial stress", "|V−| of the trailing edge and V+ of the leading edge, closed form (Eqs. 8-10), with the paper's two examples. "
+                   "|V−| is larger than V+ at every stress, and both tend to c.",
+                   draw_laws(data, {"rupture_velocity": "|V−|, trailing edge", "leading_velocity": "V+, leading edge"}, values), data)
+
+
+def slip(values) -> Picture:
+    """Fig. 6."""
+    data = laws()[["stress", "slip_velocity", "stress_at_origin"]]
+    return Picture("fig-06", "Slip velocity against initial stress", "W at x = 0 without friction, closed form (Eqs. 8-10), with the paper's two examples: at Parkfield's Σ− it is 0.1 cA/π; "
+                   "at that of an ETS event, a fifth of it, it is millions of times less.", draw_laws(data, {"slip_velocity": "W(0)"}, values), data)

@@ -1,0 +1,60 @@
+"""report.html: all of it on one page that needs nothing else."""
+
+import base64
+import html
+import pathlib
+
+STYLE = pathlib.Path(__file__).with_name("report.css")
+
+
+def number(value) -> str:
+    """A computed number, to four digits."""
+    return "–" if value is None else f"{value:.4g}"
+
+
+def table(heading, rows, numeric=()) -> str:
+    """An HTML table; on a narrow page each row becomes a card (report.css), so cells carry their heading."""
+    head = "".join(f'<th scope="col">{html.escape(text)}</th>' for text in heading)
+    body = "".join("<tr>" + "".join(f'<td{" class=n" if i in numeric else ""} data-name="{html.escape(heading[i])}">{html.escape(str(cell))}</td>'
+                                    for i, cell in enumerate(row)) + "</tr>\n" for row in rows)
+    return f"<table><thead><tr>{head}</tr></thead>\n<tbody>\n{body}</tbody></table>\n"
+
+
+def figure(folder, picture) -> str:
+    """A figure with the picture inside the page and links to the files beside it."""
+    picture_64 = base64.b64encode((folder / f"{picture.name}.svg").read_bytes()).decode()
+    number_ = picture.name.replace("fig-0", "Fig. ").replace("fig-", "Fig. ")
+    title = f"{number_}. {picture.title}" if picture.name.startswith("fig-") else picture.title
+    links = " ".join(f'<a href="{picture.name}.{ending}">{ending.upper()}</a>' for ending in ("svg", "png", "csv", "nc"))
+    return (f'<figure id="{picture.name}"><h3>{html.escape(title)}</h3>\n<div class=wide><img alt="{html.escape(title)}" src="data:image/svg+xml;base64,{picture_64}"></div>\n'
+            f"<figcaption>{html.escape(picture.caption)} <span class=files>{links}</span></figcaption></figure>\n")
+
+
+def numbers_table(rows) -> str:
+    return table(("what", "unit", "printed", "computed", "difference", "same to the digits printed", "remark"),
+                 [(r["what"], r["unit"], r["printed"], number(r["computed"]), f"{100 * r['difference']:+.1f} %", "yes" if r["agrees"] else "no", r["remark"]) for r in rows], (2, 3, 4))
+
+
+def page(folder, pictures, numbers, formulas, statements, about) -> str:
+    """The page.
+
+    folder: where the pictures are. about: {"version", "seconds", "pulses"}.
+    """
+    agree = sum(row["agrees"] for row in numbers)
+    parts = [
+        "<!DOCTYPE html>\n<html lang=en><head><meta charset=utf-8><meta name=viewport content='width=device-width, initial-scale=1'>",
+        f"<title>The paper, reproduced</title><link rel=icon href='data:,'><style>\n{STYLE.read_text(encoding='utf-8')}</style></head><body><main>\n",
+        "<h1>How does dissipation affect the transition from static to dynamic macroscopic friction?</h1>\n",
+        "<p>Gershenzon, Bambakidis and Skinner, <i>Lubricants</i> 3(2):311-331, 2015, doi 10.3390/lubricants3020311: each figure and each number, computed again by "
+        f"slipfront {html.escape(about['version'])} in one run ({about['pulses']} pulses with friction, {about['seconds']:.0f} s). All is dimensionless: A contact ratio, b asperity spacing, c speed of strain waves, μ shear modulus. "
+        "Closures: the paper averages friction in a way that understates it (“paper”); the exact average is “consistent”.</p>\n",
+        "<p>The paper states neither the width of the smooth initial profile of its Figs. 7-12, nor were its captions at hand: each figure says what it took.</p>\n",
+        f"<h2>Numbers</h2>\n<p>{agree} of {len(numbers)} printed numbers are the same to the digits printed.</p>\n", numbers_table(numbers),
+        "<h2>Formulas printed with a slip</h2>\n",
+        table(("where", "printed", "meant", "what tells", "by the printed", "by the meant"),
+              [(r["where"], r["printed"], r["mended"], r["check"], number(r["by_printed"]), number(r["by_mended"])) for r in formulas], (4, 5)),
+        "<h2>Statements</h2>\n",
+        table(("the paper says", "found here", "holds"), [(r["statement"], r["found"], "yes" if r["holds"] else "no") for r in statements]),
+        "<h2>Figures</h2>\n", *(figure(folder, picture) for picture in pictures), "</main></body></html>\n",
+    ]
+    return "".join(parts)

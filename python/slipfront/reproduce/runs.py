@@ -1,0 +1,43 @@
+"""Pulses that the reproduction needs: each is run once, side by side on all cores."""
+
+import concurrent.futures
+import pathlib
+
+import slipfront
+
+CASES = pathlib.Path(__file__).parent.parent / "cases"
+CLOSURES = ("paper", "consistent")
+
+
+def frozen(case, changes):
+    """The key of a run."""
+    return case, tuple(sorted(changes.items()))
+
+
+class Runs:
+    """Runs of the pulse solver by case file and changes, kept.
+
+    threads: how many at the same time. tell: called with a text before each group of runs.
+    """
+
+    def __init__(self, threads, tell):
+        self.threads, self.tell, self.done = threads, tell, {}
+
+    def pulse(self, case, changes=None):
+        """One run of a file of cases/, with {"table.key": value} changed."""
+        return self.many("", [(case, changes or {})])[0]
+
+    def many(self, what, wanted):
+        """Runs, in the order of `wanted`: (case, changes) each."""
+        missing = {frozen(*run): run for run in wanted if frozen(*run) not in self.done}
+        if missing:
+            self.tell(f"{what}: {len(missing)} pulses" if what else "pulses")
+            with concurrent.futures.ThreadPoolExecutor(self.threads) as workers:
+                results = workers.map(lambda run: slipfront.pulse(str(CASES / run[0]), set=run[1]), missing.values())
+                self.done.update(zip(missing, results))
+        return [self.done[frozen(*run)] for run in wanted]
+
+
+def at_origin(pulse, name="slip_velocity_at_origin"):
+    """A quantity over time, at the last time."""
+    return float(pulse[name][-1])
