@@ -2,52 +2,16 @@
 #include <memory>
 
 #include "batch.hpp"
-#include "chain_setup.hpp"
 #include "long_run.hpp"
-#include "pulse_setup.hpp"
 #include "slipfront/chain/ranks.hpp"
+#include "slipfront/setup/chain.hpp"
+#include "slipfront/setup/pulse.hpp"
+#include "slipfront/setup/summary.hpp"
 
 namespace {
 
 using namespace slipfront;
-
-void print(const chain::Run& run, const scenario::Scenario& scenario, double stepping, double wall, long steps,
-           const ScenarioArguments& arguments) {
-  const pulse::Snapshot& s = run.snapshots().back();
-  const chain::Problem& problem = run.chain().problem();
-  const auto sites = static_cast<double>(problem.grid.sites);
-  const chain::Run::Balance balance = run.balance();  // asks all ranks
-  if (the_ranks->rank() > 0) return;
-  print_rows(
-      scenario.title,
-      {
-          {"time", json_number(s.time), "in b / (c A)"},
-          {"scale", json_number(run.scale()), "x and t are stretched by it, friction divided"},
-          {"slip_at_origin", json_number(s.slip_at_origin), "u at x = 0 since t = 0 over the scale, in b / (2 pi)"},
-          {"slip_velocity_at_origin", json_number(s.slip_velocity_at_origin), "weighted mean of u_t, in c A / pi"},
-          {"stress_at_origin", json_number(s.stress_at_origin), "weighted mean of -u_x, in mu A / pi"},
-          {"window", json_number(run.window()), "of the slip at x = 0, in b / A"},
-          {"smooth_window", json_number(run.smooth_window()), "of velocities and stresses, in b / A"},
-          {"peak_slip_velocity", json_number(s.peak_slip_velocity), "largest of the profile, in c A / pi"},
-          {"peak_position", json_number(s.peak_position), "its x, in b / A"},
-          {"leading_front", json_number(s.fronts.leading), "x of the last dislocation, in b / A"},
-          {"trailing_front_observed", json_number(s.fronts.trailing_observed),
-           "as an observer with a threshold sees it"},
-          {"leading_front_observed", json_number(s.fronts.leading_observed), "as an observer with a threshold sees it"},
-          {"dislocations", fmt::format("{}", balance.dislocations), "at the end"},
-          {"energy_drift", json_number(balance.energy_drift), "energy and work since t = 0, relative"},
-          {"charge_error", json_number(balance.charge_error), "change of the charge"},
-          {"sites", fmt::format("{}", problem.grid.sites), ""},
-          {"spacing", json_number(problem.grid.spacing), "of the sites, on the chain"},
-          {"steps", fmt::format("{}", run.chain().level()), ""},
-          {"ranks", fmt::format("{}", the_ranks->size()), ""},
-          {"threads", fmt::format("{}", arguments.common.threads), "of each rank"},
-          {"site_updates_per_second", json_number(stepping > 0 ? sites * static_cast<double>(steps) / stepping : 0),
-           "output included"},
-          {"wall_seconds", json_number(wall), "of the whole command"},
-      },
-      arguments);
-}
+using namespace slipfront::setup;
 
 int run_chain(const ScenarioArguments& a) {
   const auto start = Clock::now();
@@ -80,7 +44,14 @@ int run_chain(const ScenarioArguments& a) {
   const auto begun = Clock::now();
   const int code = carry_out(
       *run, a, s, "chain", [&] { return run->time(); }, [&] { return run->chain().level(); });
-  if (code == exit_done) print(*run, s, seconds_since(begun), seconds_since(start), run->chain().level() - first, a);
+  if (code != exit_done) return code;
+  const chain::Run::Balance balance = run->balance();  // asks all ranks
+  const ChainWork work{.stepping = seconds_since(begun),
+                       .wall = seconds_since(start),
+                       .steps = run->chain().level() - first,
+                       .ranks = the_ranks->size(),
+                       .threads = a.common.threads};
+  if (the_ranks->rank() == 0) print_summary(s.title, chain_summary(*run, balance, work), a);
   return code;
 }
 

@@ -1,79 +1,22 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cmath>
 #include <memory>
+#include <optional>
 
 #include "batch.hpp"
-#include "chain_setup.hpp"
-#include "compare.hpp"
+#include "compare_print.hpp"
 #include "long_run.hpp"
-#include "pulse_setup.hpp"
 #include "slipfront/record/comparison_file.hpp"
 
 namespace {
 
 using namespace slipfront;
+using namespace slipfront::setup;
 
 struct Arguments : ScenarioArguments {
   std::vector<double> scales;
 };
-
-std::vector<double> scales_of(const Arguments& a, const scenario::Scenario& s) {
-  const auto refuse = [](double scale, const char* problem, const char* allowed) {
-    throw InputError({.file = "command line",
-                      .key = "--scale",
-                      .value = fmt::format("{}", scale),
-                      .problem = problem,
-                      .allowed = allowed});
-  };
-  std::vector<double> scales = a.scales;
-  for (const double scale : scales)
-    if (!(scale > 0) || !std::isfinite(scale)) refuse(scale, "out of range", "> 0");
-  if (scales.empty()) scales = s.chain.scale ? std::vector{*s.chain.scale} : std::vector{100.0, 300.0, 1000.0};
-  std::sort(scales.begin(), scales.end());
-  if (const auto twice = std::adjacent_find(scales.begin(), scales.end()); twice != scales.end())
-    refuse(*twice, "given twice", "each scale once");
-  return scales;
-}
-
-/// Runs one level to its end; false if the user interrupted.
-template <class Run, class Time, class Steps>
-bool carry(Run& run, Level& level, double end, const Arguments& a, Time&& time, Steps&& steps) {
-  const auto begun = Clock::now();
-  bool reached = false;
-  try {
-    Progress progress(end, !a.common.quiet, level.name);
-    reached = run.go([&] {
-      progress.at(time(), steps());
-      return interrupted_by_user();
-    });
-  } catch (const NumericsError& error) {
-    throw NumericsError(level.name + ": " + error.what());
-  }
-  level.wall_seconds = seconds_since(begun);
-  level.snapshots = run.snapshots();
-  return reached;
-}
-
-bool run_pulse_level(Level& level, pulse::Problem problem, modulation::Closure closure, const pulse::Schedule& schedule,
-                     const Arguments& a) {
-  problem.friction.closure = closure;
-  pulse::Run run(std::move(problem), schedule);
-  const auto& cells = [&]() -> const pulse::Cells& { return run.solver().cells(); };
-  return carry(
-      run, level, schedule.times.back(), a, [&] { return cells().time; }, [&] { return cells().steps; });
-}
-
-bool run_chain_level(Level& level, const chain::Stretched& stretched, const pulse::Schedule& schedule,
-                     const Arguments& a) {
-  chain::Run run(stretched, schedule, {.threads = a.common.threads});
-  level.window = run.window();
-  level.smooth_window = run.smooth_window();
-  return carry(
-      run, level, schedule.times.back(), a, [&] { return run.time(); }, [&] { return run.chain().level(); });
-}
 
 void write(const Arguments& a, const scenario::Scenario& s, const pulse::Schedule& schedule,
            const std::vector<Level>& levels, bool finished) {
@@ -87,48 +30,40 @@ void write(const Arguments& a, const scenario::Scenario& s, const pulse::Schedul
       schedule.times, compared, finished);
 }
 
+void describe(const scenario::Scenario& s, const Comparison& c) {
+  const pulse::Run laid(c.problem, c.schedule);  // what is wrong with the cells is said here
+  std::string text = fmt::format("{}: fine. Would compare {}pulse (consistent, paper)",
+                                 s.title.empty() ? s.file : s.title, c.exact ? "the closed form, " : "");
+  for (const auto& chain : c.chains)
+    text += fmt::format(", chain at scale {:.6g} ({} sites)", chain.scale, chain::problem_of(chain).grid.sites);
+  put(text + fmt::format(" over x = {:.6g} ... {:.6g} to t = {:.6g}.\n", c.problem.left, c.problem.right, s.end));
+}
+
 int run_compare(const Arguments& a) {
-  scenario::Scenario s = read_scenario_of(a);
-  const pulse::Problem problem = pulse_problem(s);
-  const pulse::Schedule schedule = pulse_schedule(s, problem);
-  std::vector<chain::Stretched> chains;
-  for (const double scale : scales_of(a, s)) {
-    s.chain.scale = scale;
-    chains.push_back(chain_problem(s));
-    chain::problem_of(chains.back());  // what is wrong with any of them is known before the work, not after
-  }
-  std::vector<Level> levels;
-  if (auto exact = closed_form(s, schedule)) levels.push_back(std::move(*exact));
+  const scenario::Scenario s = read_scenario_of(a);
+  const Comparison comparison = comparison_of(s, a.scales);
   if (a.check) {
-    const pulse::Run laid(problem, schedule);
-    std::string text = fmt::format("{}: fine. Would compare {}pulse (consistent, paper)",
-                                   s.title.empty() ? s.file : s.title, levels.empty() ? "" : "the closed form, ");
-    for (const auto& c : chains)
-      text += fmt::format(", chain at scale {:.6g} ({} sites)", c.scale, chain::problem_of(c).grid.sites);
-    put(text + fmt::format(" over x = {:.6g} ... {:.6g} to t = {:.6g}.\n", problem.left, problem.right, s.end));
+    describe(s, comparison);
     return exit_done;
   }
-
   watch_interrupts();
-  bool reached = true;
-  const auto go = [&](Level level, auto&& run) {
-    if (!reached) return;
-    write(a, s, schedule, levels, false);
-    reached = run(level);
-    if (reached) levels.push_back(std::move(level));
-  };
-  using modulation::Closure;
-  go({.name = "pulse-consistent", .closure = "consistent"},
-     [&](Level& l) { return run_pulse_level(l, problem, Closure::consistent, schedule, a); });
-  go({.name = "pulse-paper", .closure = "paper"},
-     [&](Level& l) { return run_pulse_level(l, problem, Closure::paper, schedule, a); });
-  for (const auto& c : chains)
-    go({.name = fmt::format("chain-{:.6g}", c.scale), .scale = c.scale},
-       [&](Level& l) { return run_chain_level(l, c, schedule, a); });
-  write(a, s, schedule, levels, reached);
+  std::vector<Level> levels;
+  std::optional<Progress> progress;
+  const bool reached = run_levels(
+      comparison, a.common.threads, levels,
+      [&] {
+        progress.reset();
+        write(a, s, comparison.schedule, levels, false);
+      },
+      [&](const std::string& level, double time, long steps) {
+        if (!progress) progress.emplace(s.end, !a.common.quiet, level);
+        progress->at(time, steps);
+        return interrupted_by_user();
+      });
+  progress.reset();
+  write(a, s, comparison.schedule, levels, reached);
   if (!reached) {
-    complain(fmt::format("interrupted; {} of {} levels were done{}", levels.size(),
-                         chains.size() + 2 + (levels.empty() || levels.front().name != "closed-form" ? 0U : 1U),
+    complain(fmt::format("interrupted; {} of {} levels were done{}", levels.size(), comparison.levels(),
                          a.output.empty() ? "" : " and are in " + a.output));
     return exit_interrupted;
   }

@@ -9,9 +9,7 @@
 #include "batch.hpp"
 #include "commands.hpp"
 #include "event_output.hpp"
-#include "slipfront/event/estimate.hpp"
 #include "slipfront/event/read.hpp"
-#include "slipfront/medium/quantity.hpp"
 #include "slipfront/record/text_file.hpp"
 
 namespace {
@@ -22,52 +20,13 @@ using namespace slipfront::event;
 struct Arguments {
   CommonOptions common;
   std::vector<std::string> files;
-  std::string p_wave_speed, poisson_ratio, shear_modulus;
+  StatedMedium medium;
 };
-
-/// Defaults of the medium as the command line sets them.
-MediumDefaults defaults_of(const Arguments& a) {
-  MediumDefaults d;
-  const auto set = [](const std::string& text, const char* option, slipfront::medium::Dimension dimension,
-                      double& value, bool& stated) {
-    if (text.empty()) return;
-    try {
-      const auto span = slipfront::medium::parse_quantity(text, dimension);
-      if (span.low < span.high)
-        throw InputError({.value = text,
-                          .problem = "a range, where one number is needed",
-                          .allowed = std::string(slipfront::medium::example(dimension))});
-      value = span.low;
-      stated = true;
-    } catch (const InputError& error) {
-      slipfront::Complaint c = error.complaint();
-      c.file = "command line";
-      c.key = option;
-      throw InputError(c);
-    }
-  };
-  using slipfront::medium::Dimension;
-  set(a.p_wave_speed, "--p-wave-speed", Dimension::velocity, d.p_wave_speed, d.stated_speed);
-  set(a.poisson_ratio, "--poisson-ratio", Dimension::ratio, d.poisson_ratio, d.stated_poisson);
-  set(a.shear_modulus, "--shear-modulus", Dimension::pressure, d.shear_modulus, d.stated_modulus);
-  return d;
-}
-
-EventResult evaluate(Entry&& entry, const MediumDefaults& defaults) {
-  EventResult result{std::move(entry.observation), {}, {}};
-  try {
-    if (entry.error) throw InputError(*entry.error);
-    result.estimate = estimate(result.observation, defaults);
-  } catch (const InputError& error) {
-    result.error = error.what();
-  }
-  return result;
-}
 
 /// Takes entries as the readers find them, evaluates them by the batch and prints them in order.
 class Printer {
  public:
-  Printer(const Arguments& arguments) : options_(arguments.common), defaults_(defaults_of(arguments)) {
+  Printer(const Arguments& arguments) : options_(arguments.common), defaults_(defaults_of(arguments.medium)) {
     if (options_.json) put("{\"events\": [");
     if (options_.csv) put(event_csv_head());
   }
@@ -189,11 +148,13 @@ Runner add_event(CLI::App& app) {
       "FILE", arguments->files,
       "Events: .toml (one), .csv (a catalogue), SRCMOD or USGS .fsp, - for stdin; none: the shipped catalogue");
   command
-      ->add_option("--p-wave-speed", arguments->p_wave_speed,
+      ->add_option("--p-wave-speed", arguments->medium.p_wave_speed,
                    "For events that give no elastic constants (default: 6 km/s)")
       ->type_name("SPEED");
-  command->add_option("--poisson-ratio", arguments->poisson_ratio, "Likewise (default: 0.3)")->type_name("RATIO");
-  command->add_option("--shear-modulus", arguments->shear_modulus, "Likewise (default: 30 GPa)")->type_name("MODULUS");
+  command->add_option("--poisson-ratio", arguments->medium.poisson_ratio, "Likewise (default: 0.3)")
+      ->type_name("RATIO");
+  command->add_option("--shear-modulus", arguments->medium.shear_modulus, "Likewise (default: 30 GPa)")
+      ->type_name("MODULUS");
   add_common_options(*command, arguments->common);
   return [arguments] { return run_event(*arguments); };
 }

@@ -1,10 +1,12 @@
+#include "compare_print.hpp"
+
 #include <cmath>
 
 #include "batch.hpp"
-#include "compare.hpp"
 #include "long_run.hpp"
 
 using namespace slipfront;
+using namespace slipfront::setup;
 
 namespace {
 

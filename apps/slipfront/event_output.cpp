@@ -10,26 +10,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using slipfront::event::Estimate;
+using slipfront::event::EventResult;
 using slipfront::event::Inferred;
-
-template <class T>
-struct Item {
-  const char* key;
-  std::optional<T> Estimate::*member;
-};
-constexpr Item<double> measured[] = {
-    {"rupture_velocity_m_s", &Estimate::observed_rupture_velocity},
-    {"slip_velocity_m_s", &Estimate::observed_slip_velocity_m_s},
-};
-constexpr Item<Inferred> inferred[] = {
-    {"rupture_velocity", &Estimate::rupture_velocity},
-    {"stress", &Estimate::stress},
-    {"frictionless_slip_velocity", &Estimate::frictionless_slip_velocity},
-    {"observed_slip_velocity", &Estimate::observed_slip_velocity},
-    {"slip_velocity_ratio", &Estimate::slip_velocity_ratio},
-    {"contact_ratio", &Estimate::contact_ratio},
-    {"stress_pa", &Estimate::stress_pa},
-};
+using slipfront::event::inferred_quantities;
+using slipfront::event::measured_quantities;
 
 /// An absent estimate reads like one in which nothing is identifiable.
 const Estimate& estimate_of(const EventResult& result) {
@@ -95,11 +79,12 @@ std::string event_json(const EventResult& result) {
   j["file"] = o.file;
   j["line"] = o.line;
   j["c_m_s"] = result.estimate ? Json(e.speed) : Json();
-  for (const auto& item : measured) j[item.key] = e.*item.member ? Json(*(e.*item.member)) : Json();
-  for (const auto& item : inferred) {
-    const auto& x = e.*item.member;
-    j[item.key] = x ? Json(x->value) : Json();
-    j[item.key + std::string("_interval")] = x && x->interval ? Json{x->interval->low, x->interval->high} : Json();
+  for (const auto& q : measured_quantities()) j[std::string(q.about.name)] = e.*q.value ? Json(*(e.*q.value)) : Json();
+  for (const auto& q : inferred_quantities()) {
+    const auto& x = e.*q.value;
+    const std::string name(q.about.name);
+    j[name] = x ? Json(x->value) : Json();
+    j[name + "_interval"] = x && x->interval ? Json{x->interval->low, x->interval->high} : Json();
   }
   j["damping_number"] = nullptr;  // needs friction: not identifiable from the frictionless relations
   j["damping_number_interval"] = nullptr;
@@ -110,8 +95,8 @@ std::string event_json(const EventResult& result) {
 
 std::string event_csv_head() {
   std::string head = "name,date,kind,c_m_s";
-  for (const auto& item : measured) head += std::string(",") + item.key;
-  for (const auto& item : inferred) head += fmt::format(",{0},{0}_low,{0}_high", item.key);
+  for (const auto& q : measured_quantities()) head += fmt::format(",{}", q.about.name);
+  for (const auto& q : inferred_quantities()) head += fmt::format(",{0},{0}_low,{0}_high", q.about.name);
   return head + ",damping_number,warnings,error,citation,note,file,line\n";
 }
 
@@ -120,9 +105,9 @@ std::string event_csv_row(const EventResult& result) {
   const auto& o = result.observation;
   std::string row = quoted(o.name) + "," + quoted(o.date) + "," + quoted(o.kind) + ",";
   if (result.estimate) row += fmt::format("{}", e.speed);
-  for (const auto& item : measured) row += e.*item.member ? fmt::format(",{}", *(e.*item.member)) : ",";
-  for (const auto& item : inferred) {
-    const auto& x = e.*item.member;
+  for (const auto& q : measured_quantities()) row += e.*q.value ? fmt::format(",{}", *(e.*q.value)) : ",";
+  for (const auto& q : inferred_quantities()) {
+    const auto& x = e.*q.value;
     row += x ? fmt::format(",{}", x->value) : ",";
     row += x && x->interval ? fmt::format(",{},{}", x->interval->low, x->interval->high) : ",,";
   }

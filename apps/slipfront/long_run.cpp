@@ -29,29 +29,28 @@ scenario::Scenario read_scenario_of(const ScenarioArguments& a) {
 }
 
 record::Checkpoint checkpoint_of(const ScenarioArguments& a, const scenario::Scenario& s) {
-  record::Checkpoint saved = record::read_checkpoint(a.resume);
-  const auto refuse = [&](const char* what, const std::string& wanted) {
-    throw InputError({.file = a.resume,
-                      .key = "--resume",
-                      .problem = std::string("was written by another ") + what,
-                      .allowed = wanted});
-  };
-  if (saved.scenario_text != s.text) refuse("scenario", "the scenario that began it, with the same --set");
-  if (saved.version != SLIPFRONT_VERSION) refuse("version", "version " SLIPFRONT_VERSION);
-  return saved;
+  return record::read_checkpoint_of(a.resume, s.text, SLIPFRONT_VERSION);
 }
 
 std::string json_number(double value) { return std::isfinite(value) ? fmt::format("{}", value) : "null"; }
 
-void print_rows(const std::string& title, const std::vector<ResultRow>& rows, const ScenarioArguments& a) {
+void print_summary(const std::string& title, const std::vector<setup::SummaryValue>& summary,
+                   const ScenarioArguments& a) {
+  struct AsJson {
+    std::string operator()(double value) const { return json_number(value); }
+    std::string operator()(long value) const { return fmt::format("{}", value); }
+    std::string operator()(const std::string& value) const { return fmt::format("\"{}\"", value); }
+  };
   if (a.common.json) {
     std::string text = "{";
-    for (const auto& row : rows) text += fmt::format("{}\"{}\": {}", text.size() > 1 ? ", " : "", row.key, row.value);
+    for (const auto& row : summary)
+      text += fmt::format("{}\"{}\": {}", text.size() > 1 ? ", " : "", row.key, std::visit(AsJson{}, row.value));
     put(text + "}\n");
     return;
   }
   if (!title.empty()) put(title + "\n");
-  for (const auto& row : rows) put(fmt::format("{:<25} {:<24} {}\n", row.key, row.value, row.meaning));
+  for (const auto& row : summary)
+    put(fmt::format("{:<25} {:<24} {}\n", row.key, std::visit(AsJson{}, row.value), row.meaning));
   const std::string& output = a.output.empty() ? a.resume : a.output;
   if (!output.empty() && !a.common.quiet) put("written to " + output + "\n");
 }

@@ -15,6 +15,12 @@ using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
 void bind_errors(py::module_& m);
 void bind_relations(py::module_& m);
+void bind_train(py::module_& m);
+void bind_medium(py::module_& m);
+void bind_pulse(py::module_& m);
+void bind_chain(py::module_& m);
+void bind_compare(py::module_& m);
+void bind_event(py::module_& m);
 
 /// (name, long_name, dimensional_unit, reference)
 inline py::tuple described(const slipfront::Description& about) {

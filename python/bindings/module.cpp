@@ -4,4 +4,10 @@ PYBIND11_MODULE(_slipfront, m) {
   m.attr("__version__") = SLIPFRONT_VERSION;
   bind_errors(m);
   bind_relations(m);
+  bind_train(m);
+  bind_medium(m);
+  bind_pulse(m);
+  bind_chain(m);
+  bind_compare(m);
+  bind_event(m);
 }

@@ -12,9 +12,11 @@ namespace {
 
 using netcdf::Writer;
 
-constexpr Description time_axis = {"time", "time", "b / (c A)", "Eq. 3"};
-constexpr Description x_axis = {"x", "position along the interface, centre of the cell", "b / A", "Eq. 3"};
-constexpr Description x_ends = {"x_bounds", "ends of the cell", "b / A", "Eq. 3"};
+constexpr AxisVariables axis = {
+    .time = {"time", "time", "b / (c A)", "Eq. 3"},
+    .x = {"x", "position along the interface, centre of the cell", "b / A", "Eq. 3"},
+    .x_bounds = {"x_bounds", "ends of the cell", "b / A", "Eq. 3"},
+};
 constexpr std::string_view paper = "Gershenzon, Bambakidis and Skinner (2015)";
 constexpr std::string_view paper_title =
     "How does dissipation affect the transition from static to dynamic macroscopic friction?";
@@ -23,7 +25,7 @@ void describe(Writer& file, int variable, const Description& about) {
   file.attribute(variable, "long_name", about.long_name);
   file.attribute(variable, "units", "1");
   file.attribute(variable, "dimensional_unit", about.dimensional_unit);
-  file.attribute(variable, "references", std::string(paper) + ", " + std::string(about.reference));
+  file.attribute(variable, "references", reference_of(about));
 }
 
 }  // namespace
@@ -39,11 +41,11 @@ Axes axes(Writer& file, std::size_t times, std::size_t cells) {
   axes.time = file.dimension("time", times);
   axes.x = file.dimension("x", cells);
   const int ends = file.dimension("ends", 2);
-  axes.times = reals(file, time_axis, {axes.time});
-  axes.centres = reals(file, x_axis, {axes.x});
-  axes.bounds = reals(file, x_ends, {axes.x, ends});
+  axes.times = reals(file, axis.time, {axes.time});
+  axes.centres = reals(file, axis.x, {axes.x});
+  axes.bounds = reals(file, axis.x_bounds, {axes.x, ends});
   file.attribute(axes.centres, "axis", "X");
-  file.attribute(axes.centres, "bounds", x_ends.name);
+  file.attribute(axes.centres, "bounds", axis.x_bounds.name);
   return axes;
 }
 
@@ -58,21 +60,36 @@ void write_axes(Writer& file, const Axes& axes, const std::vector<double>& times
 }
 
 void describe_file(Writer& file, const PulseMetadata& metadata, const char* format, bool finished) {
-  const auto text = [&](const char* name, std::string_view value) {
+  for (const auto& [name, value] : file_attributes(metadata, format))
     file.attribute(Writer::global, name, clean_text(value, netcdf::longest_text));
-  };
-  text("Conventions", "CF-1.10");
-  text("title", metadata.title);
-  text("source", "slipfront " + metadata.version);
-  text("history", metadata.command_line);
-  text("references", std::string(paper) + ", " + std::string(paper_title));
-  text("comment",
-       "All values are dimensionless; multiply by dimensional_unit: A contact ratio, b asperity spacing, c speed of "
-       "strain waves, mu shear modulus, nu Poisson ratio.");
-  text("version", metadata.version);
-  text("scenario", metadata.scenario_text);
-  text("slipfront_format", format);
   file.attribute(Writer::global, "finished", finished ? 1 : 0);
 }
 
 }  // namespace slipfront::record::cf
+
+namespace slipfront::record {
+
+const AxisVariables& axis_variables() { return cf::axis; }
+
+std::string reference_of(const Description& about) {
+  return std::string(cf::paper) + ", " + std::string(about.reference);
+}
+
+std::vector<std::pair<std::string, std::string>> file_attributes(const PulseMetadata& metadata,
+                                                                 const std::string& format) {
+  return {
+      {"Conventions", "CF-1.10"},
+      {"title", metadata.title},
+      {"source", "slipfront " + metadata.version},
+      {"history", metadata.command_line},
+      {"references", std::string(cf::paper) + ", " + std::string(cf::paper_title)},
+      {"comment",
+       "All values are dimensionless; multiply by dimensional_unit: A contact ratio, b asperity spacing, c speed of "
+       "strain waves, mu shear modulus, nu Poisson ratio."},
+      {"version", metadata.version},
+      {"scenario", metadata.scenario_text},
+      {"slipfront_format", format},
+  };
+}
+
+}  // namespace slipfront::record

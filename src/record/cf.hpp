@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "netcdf.hpp"
-#include "pulse_variables.hpp"
 #include "slipfront/record/pulse_file.hpp"
+#include "slipfront/record/pulse_variables.hpp"
 
 namespace slipfront::record::cf {
 

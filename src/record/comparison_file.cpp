@@ -7,8 +7,8 @@
 
 #include "cf.hpp"
 #include "netcdf.hpp"
-#include "pulse_variables.hpp"
 #include "seal.hpp"
+#include "slipfront/record/pulse_variables.hpp"
 #include "whole_file.hpp"
 
 namespace slipfront::record {
@@ -18,9 +18,7 @@ using netcdf::Writer;
 using pulse::Snapshot;
 using Levels = std::vector<ComparedLevel>;
 
-constexpr const char* format = "comparison 1";
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-constexpr Description scale_of_chain = {"scale", "of a chain: x and t stretched by it, friction divided", "", "Eq. 3"};
 
 /// A value of every snapshot, level by level.
 std::vector<double> over_time(const Levels& levels, const ScalarVariable& variable) {
@@ -74,11 +72,11 @@ void write_comparison(const std::string& path, const PulseMetadata& metadata, co
   const Labels labels = labels_of(levels);
 
   Writer file(path);
-  cf::describe_file(file, metadata, format, finished);
+  cf::describe_file(file, metadata, comparison_format, finished);
   const int level = file.dimension("level", levels.size()), letters = file.dimension("letters", labels.width);
   const int name = file.characters("name", {level, letters});
   file.attribute(name, "long_name", "level of theory");
-  const int scale = cf::reals(file, scale_of_chain, {level});
+  const int scale = cf::reals(file, scale_variable, {level});
   file.fill_value(scale, none);
   const cf::Axes axes = cf::axes(file, times.size(), cells);
   std::vector<int> field_ids, scalar_ids;

@@ -9,8 +9,8 @@
 #include "cf.hpp"
 #include "netcdf.hpp"
 #include "pulse_layout.hpp"
-#include "pulse_variables.hpp"
 #include "seal.hpp"
+#include "slipfront/record/pulse_variables.hpp"
 #include "utf8.hpp"
 #include "whole_file.hpp"
 
@@ -50,7 +50,7 @@ int opaque(Writer& file, const std::string& name, const std::string& long_name, 
 
 /// Attributes of the file. Returns whether they hold the scenario exactly.
 bool describe_file(Writer& file, const PulseMetadata& metadata, bool finished) {
-  cf::describe_file(file, metadata, layout::format, finished);
+  cf::describe_file(file, metadata, pulse_format, finished);
   return clean_text(metadata.scenario_text, netcdf::longest_text) == metadata.scenario_text;
 }
 

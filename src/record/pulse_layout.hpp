@@ -7,12 +7,11 @@
 #include <vector>
 
 #include "fnv.hpp"
-#include "pulse_variables.hpp"
 #include "slipfront/record/pulse_file.hpp"
+#include "slipfront/record/pulse_variables.hpp"
 
 namespace slipfront::record::layout {
 
-inline constexpr const char* format = "pulse 1";  ///< attribute slipfront_format; count up when old readers would fail
 inline constexpr const char* scenario_bytes = "scenario_text";  ///< variable; only if no attribute can hold the text
 inline constexpr const char* solver_state = "checkpoint";       ///< variable
 

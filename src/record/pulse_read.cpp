@@ -6,10 +6,10 @@
 
 #include "netcdf.hpp"
 #include "pulse_layout.hpp"
-#include "pulse_variables.hpp"
 #include "seal.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/record/pulse_file.hpp"
+#include "slipfront/record/pulse_variables.hpp"
 #include "slipfront/record/text_file.hpp"
 
 namespace slipfront::record {
@@ -29,8 +29,8 @@ using pulse::Snapshot;
 class PulseReader {
  public:
   PulseReader(const std::string& path, std::string_view image) : path_(path), file_(path, image, image.size()) {
-    if (const std::string format = text("slipfront_format"); format != layout::format)
-      fail(path_, "its slipfront_format is '" + format.substr(0, 40) + "', read here is '" + layout::format + "'");
+    if (const std::string format = text("slipfront_format"); format != pulse_format)
+      fail(path_, "its slipfront_format is '" + format.substr(0, 40) + "', read here is '" + pulse_format + "'");
     times_ = require_rank("time", 1).shape[0];
     cells_ = require_rank("x", 1).shape[0];
   }
@@ -136,6 +136,17 @@ Checkpoint read_checkpoint(const std::string& path) {
     throw FileError(path + ": is not a regular file");  // a device may never end
   const std::string file = read_text(path);
   return PulseReader(path, sealed_content(file, path)).read();
+}
+
+Checkpoint read_checkpoint_of(const std::string& path, const std::string& scenario_text, const std::string& version) {
+  Checkpoint saved = read_checkpoint(path);
+  const auto refuse = [&](const char* what, const std::string& wanted) {
+    throw InputError(
+        {.file = path, .key = "--resume", .problem = std::string("was written by another ") + what, .allowed = wanted});
+  };
+  if (saved.scenario_text != scenario_text) refuse("scenario", "the scenario that began it, with the same --set");
+  if (saved.version != version) refuse("version", "version " + version);
+  return saved;
 }
 
 }  // namespace slipfront::record

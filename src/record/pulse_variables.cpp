@@ -1,4 +1,4 @@
-#include "pulse_variables.hpp"
+#include "slipfront/record/pulse_variables.hpp"
 
 #include <algorithm>
 

@@ -14,6 +14,7 @@
 #include "pulse_sample.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/record/pulse_file.hpp"
+#include "slipfront/record/pulse_variables.hpp"
 #include "temporary_folder.hpp"
 
 namespace {

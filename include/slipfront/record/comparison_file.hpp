@@ -6,9 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "slipfront/description.hpp"
 #include "slipfront/record/pulse_file.hpp"
 
 namespace slipfront::record {
+
+inline constexpr const char* comparison_format = "comparison 1";  ///< slipfront_format
+inline constexpr Description scale_variable = {"scale", "of a chain: x and t stretched by it, friction divided", "",
+                                               "Eq. 3"};
 
 /// One level of theory, run to its end.
 struct ComparedLevel {

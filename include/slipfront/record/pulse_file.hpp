@@ -9,6 +9,9 @@
 
 namespace slipfront::record {
 
+/// Attribute slipfront_format; count up when old readers would fail.
+inline constexpr const char* pulse_format = "pulse 1";
+
 /// What a pulse file says besides the snapshots.
 struct PulseMetadata {
   std::string title;
@@ -41,5 +44,8 @@ void write_pulse(const std::string& path, const PulseMetadata& metadata, const s
 /// Reads back what write_pulse wrote, to the bit. \throws FileError if the file is not there, not of slipfront, cut
 /// short, damaged, or changed by another program.
 Checkpoint read_checkpoint(const std::string& path);
+
+/// The same, to go on from. \throws InputError if another scenario or version of slipfront wrote it.
+Checkpoint read_checkpoint_of(const std::string& path, const std::string& scenario_text, const std::string& version);
 
 }  // namespace slipfront::record

@@ -1,8 +1,8 @@
 #include <cmath>
 
-#include "compare.hpp"
+#include "slipfront/setup/compare.hpp"
 
-using namespace slipfront;
+namespace slipfront::setup {
 
 const std::vector<Quantity>& compared_quantities() {
   using pulse::Snapshot;
@@ -65,3 +65,5 @@ std::vector<std::string> notes_on(const scenario::Scenario& s) {
       "pulse.threshold hides them");
   return notes;
 }
+
+}  // namespace slipfront::setup

@@ -5,12 +5,26 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "slipfront/description.hpp"
 #include "slipfront/pulse/snapshot.hpp"
+#include "slipfront/record/pulse_file.hpp"
 
 namespace slipfront::record {
+
+/// The coordinates: time, x, x_bounds (cells by their two ends).
+struct AxisVariables {
+  Description time, x, x_bounds;
+};
+const AxisVariables& axis_variables();
+
+/// What a file says of itself, attribute by attribute; `format` is its slipfront_format.
+std::vector<std::pair<std::string, std::string>> file_attributes(const PulseMetadata& metadata,
+                                                                 const std::string& format);
+/// What `references` says of a variable.
+std::string reference_of(const Description& about);
 
 /// Over time and x.
 struct FieldVariable {

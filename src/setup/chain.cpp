@@ -1,13 +1,12 @@
-#include "chain_setup.hpp"
+#include "slipfront/setup/chain.hpp"
 
 #include <cmath>
 
-#include "pulse_setup.hpp"
 #include "slipfront/rupture/inverse.hpp"
+#include "slipfront/setup/pulse.hpp"
 #include "slipfront/train/train.hpp"
 
-using namespace slipfront;
-
+namespace slipfront::setup {
 namespace {
 
 chain::End end_of(scenario::ChainEnd end) {
@@ -62,3 +61,5 @@ chain::Stretched chain_problem(const scenario::Scenario& s) {
   }
   return c;
 }
+
+}  // namespace slipfront::setup

@@ -1,14 +1,19 @@
 #pragma once
+/// \file
+/// The three levels of one model on one scenario, side by side: what `slipfront compare` runs and says.
 
+#include <cstddef>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "slipfront/pulse/snapshot.hpp"
+#include "slipfront/chain/run.hpp"
+#include "slipfront/pulse/run.hpp"
 #include "slipfront/scenario/scenario.hpp"
 
-/// The three levels of one model on one scenario, side by side: what `slipfront compare` runs and says.
+namespace slipfront::setup {
 
 /// One level, as far as it was run.
 struct Level {
@@ -17,21 +22,40 @@ struct Level {
   std::optional<double> scale = {};          ///< of a chain
   std::optional<double> window = {};         ///< of a chain: of the slip at x = 0
   std::optional<double> smooth_window = {};  ///< of a chain: of velocities and stresses
-  std::vector<slipfront::pulse::Snapshot> snapshots = {};
+  std::vector<pulse::Snapshot> snapshots = {};
   double wall_seconds = 0;
 };
+
+/// What there is to run, laid out and checked.
+struct Comparison {
+  pulse::Problem problem;
+  pulse::Schedule schedule;
+  std::optional<Level> exact;  ///< the closed form, where there is one
+  std::vector<chain::Stretched> chains;
+  std::size_t levels() const { return chains.size() + (exact ? 3 : 2); }
+};
+
+/// `scales` of the chains; empty: the scenario's, or 100, 300, 1000. \throws InputError for a scale that is not > 0 or
+/// is there twice, and for what is wrong with any level: it is known before the work.
+Comparison comparison_of(scenario::Scenario scenario, std::vector<double> scales);
+
+/// Runs the levels that are missing, in order, and appends each to `levels` when it is done; before each, `next`.
+/// `after_step` (level, its time, its steps) may stop it all by returning true. Returns whether the end was reached.
+/// \throws NumericsError that names the level.
+bool run_levels(const Comparison& comparison, int threads, std::vector<Level>& levels,
+                const std::function<void()>& next,
+                const std::function<bool(const std::string& level, double time, long steps)>& after_step);
 
 /// The closed form over the same output grid: the exact Riemann problem (Eqs. 8-10 where the right side is empty).
 /// Nothing where there is none: friction, forcing, a contact profile, no step, or waves that reach an end of the
 /// domain.
-std::optional<Level> closed_form(const slipfront::scenario::Scenario& scenario,
-                                 const slipfront::pulse::Schedule& schedule);
+std::optional<Level> closed_form(const scenario::Scenario& scenario, const pulse::Schedule& schedule);
 
 /// A quantity that the levels are compared by, at the end of the run.
 struct Quantity {
   const char* key;
   const char* heading;  ///< of a column
-  double (*get)(const slipfront::pulse::Snapshot&);
+  double (*get)(const pulse::Snapshot&);
 };
 const std::vector<Quantity>& compared_quantities();
 
@@ -49,7 +73,6 @@ struct Trend {
 Trend trend_of(const std::vector<Level>& levels, const Quantity& quantity);
 
 /// What a reader has to know of these levels, a line each.
-std::vector<std::string> notes_on(const slipfront::scenario::Scenario& scenario);
+std::vector<std::string> notes_on(const scenario::Scenario& scenario);
 
-/// As a table or as one JSON object, on stdout.
-void print_comparison(const slipfront::scenario::Scenario& scenario, const std::vector<Level>& levels, bool json);
+}  // namespace slipfront::setup

@@ -1,13 +1,12 @@
 #include <cmath>
 #include <limits>
 
-#include "compare.hpp"
 #include "slipfront/rupture/inverse.hpp"
 #include "slipfront/rupture/riemann.hpp"
+#include "slipfront/setup/compare.hpp"
 #include "slipfront/train/train.hpp"
 
-using namespace slipfront;
-
+namespace slipfront::setup {
 namespace {
 
 using rupture::Edges;
@@ -98,3 +97,5 @@ std::optional<Level> closed_form(const scenario::Scenario& s, const pulse::Sched
   for (const double time : schedule.times) level.snapshots.push_back(snapshot_of(solution, schedule, time));
   return level;
 }
+
+}  // namespace slipfront::setup

@@ -1,4 +1,4 @@
-#include "pulse_setup.hpp"
+#include "slipfront/setup/pulse.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,9 @@
 #include "slipfront/rupture/inverse.hpp"
 #include "slipfront/rupture/riemann.hpp"
 
+namespace slipfront::setup {
 namespace {
 
-using namespace slipfront;
 using scenario::ProfileKind;
 
 /// How far waves from a step reach by the end: the frictionless fronts, or the diffusion length where friction rules.
@@ -40,6 +40,10 @@ const char* law_name(modulation::FrictionLaw law) {
       break;
   }
   return "no";
+}
+
+const char* closure_name(modulation::Closure closure) {
+  return closure == modulation::Closure::paper ? "paper" : "consistent";
 }
 
 pulse::Problem pulse_problem(const scenario::Scenario& s) {
@@ -78,3 +82,5 @@ pulse::Schedule pulse_schedule(const scenario::Scenario& s, const pulse::Problem
                                                   : problem.left + (problem.right - problem.left) * i / problem.cells);
   return schedule;
 }
+
+}  // namespace slipfront::setup

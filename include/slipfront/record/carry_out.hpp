@@ -1,0 +1,70 @@
+#pragma once
+/// \file
+/// A run (of pulse or chain) carried to its end with checkpoints.
+
+#include <chrono>
+#include <functional>
+#include <string>
+
+#include "slipfront/chain/ranks.hpp"
+#include "slipfront/error.hpp"
+#include "slipfront/record/pulse_file.hpp"
+
+namespace slipfront::record {
+
+/// Where a run is written to, and by whom.
+struct Keeping {
+  std::string path;  ///< empty: nowhere
+  PulseMetadata metadata;
+  bool resumed = false;                 ///< `path` holds what the run went on from
+  const chain::Ranks* ranks = nullptr;  ///< that share the run, if any: all of them call
+};
+
+/// Carries `run` on until its end or until `after_step` says to stop, and writes it: at the start (a path that cannot
+/// be written is known before the work), now and then, and at the end, wherever that is. Returns whether the end was
+/// reached. \throws NumericsError, after what was computed has been written; FileError.
+template <class Run>
+bool carry_out(Run& run, const Keeping& keeping, const std::function<bool()>& after_step) {
+  using Clock = std::chrono::steady_clock;
+  const auto seconds_since = [](Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+  };
+  const bool first = !keeping.ranks || keeping.ranks->rank() == 0;
+  const auto agreed = [&](bool mine) { return keeping.ranks ? keeping.ranks->any(mine) : mine; };
+  auto written = Clock::now();
+  double cost = 0;
+  const auto write = [&] {
+    if (keeping.path.empty()) return;
+    const auto begun = Clock::now();
+    const std::string state = run.saved();  // ranks send their parts to the first
+    const auto put_down = [&] {
+      if (first) write_pulse(keeping.path, keeping.metadata, run.snapshots(), state, run.finished());
+    };
+    if (keeping.ranks)
+      keeping.ranks->together(put_down);
+    else
+      put_down();
+    cost = seconds_since(begun);
+    written = Clock::now();
+  };
+  if (!keeping.resumed) write();
+  bool reached = false;
+  try {
+    reached = run.go([&] {
+      const bool stop = after_step();
+      // A checkpoint is the whole file: writing it must stay a small part of the work.
+      if (!keeping.path.empty() && agreed(first && seconds_since(written) > 0.05 && seconds_since(written) > 20 * cost))
+        write();
+      return agreed(stop);
+    });
+  } catch (const NumericsError& error) {  // the run stands at its last good step, or the last checkpoint does
+    if (run.good()) write();
+    if (!keeping.path.empty())
+      throw NumericsError(std::string(error.what()) + "; what was computed is in " + keeping.path);
+    throw;
+  }
+  write();
+  return reached;
+}
+
+}  // namespace slipfront::record

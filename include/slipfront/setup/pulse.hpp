@@ -1,0 +1,22 @@
+#pragma once
+/// \file
+/// From a scenario to what the pulse solver runs.
+
+#include "slipfront/pulse/run.hpp"
+#include "slipfront/scenario/scenario.hpp"
+
+namespace slipfront::setup {
+
+/// The problem that a scenario poses: its domain, where the scenario leaves it open, holds everything that moves until
+/// the end. \throws InputError where that takes a domain which is not given.
+pulse::Problem pulse_problem(const scenario::Scenario& scenario);
+
+/// When and where to look at it: t = 0, the output times, the end.
+pulse::Schedule pulse_schedule(const scenario::Scenario& scenario, const pulse::Problem& problem);
+
+/// "viscous", "coulomb", "power"; "no" without friction.
+const char* law_name(modulation::FrictionLaw law);
+/// "consistent" or "paper".
+const char* closure_name(modulation::Closure closure);
+
+}  // namespace slipfront::setup

@@ -1,0 +1,72 @@
+#include "slipfront/setup/chain.hpp"
+
+#include <chrono>
+#include <memory>
+
+#include "results.hpp"
+#include "slipfront/record/carry_out.hpp"
+#include "slipfront/setup/pulse.hpp"
+#include "watch.hpp"
+
+namespace {
+
+using namespace slipfront;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+py::dict run_chain(const py::dict& arguments, int threads) {
+  const auto start = Clock::now();
+  const Asked a = asked(arguments);
+  const scenario::Scenario s = scenario_of(a);
+  Watch watch(a.progress, s.end);
+  std::unique_ptr<chain::Run> run;
+  record::Keeping keeping;
+  setup::ChainWork work{.stepping = 0, .wall = 0, .steps = 0, .ranks = 1, .threads = threads};
+  chain::Run::Balance balance{};
+  {
+    const py::gil_scoped_release others_may_run;
+    const chain::Stretched stretched = setup::chain_problem(s);
+    const pulse::Schedule schedule = setup::pulse_schedule(s, setup::pulse_problem(s));
+    const chain::Execution execution{.threads = threads};
+    if (a.resume.empty()) {
+      run = std::make_unique<chain::Run>(stretched, schedule, execution);
+    } else {
+      const record::Checkpoint saved = record::read_checkpoint_of(a.resume, s.text, SLIPFRONT_VERSION);
+      run = std::make_unique<chain::Run>(stretched, schedule, execution, saved.solver_state, saved.snapshots);
+    }
+    keeping = {.path = a.output.empty() ? a.resume : a.output,
+               .metadata = metadata_of(a, s, "chain", schedule.x_edges),
+               .resumed = !a.resume.empty()};
+    const long first = run->chain().level();
+    const auto begun = Clock::now();
+    if (record::carry_out(*run, keeping, [&] { return watch(run->time(), run->chain().level()); }))
+      balance = run->balance();
+    work.stepping = seconds_since(begun);
+    work.steps = run->chain().level() - first;
+  }
+  watch.finish();
+  work.wall = seconds_since(start);
+  py::dict result = dataset_of(keeping.metadata, record::pulse_format, run->finished(), run->schedule().times,
+                               {&run->snapshots()}, false, s);
+  result["summary"] = summary_of(setup::chain_summary(*run, balance, work));
+  return result;
+}
+
+py::dict check_chain(const py::dict& arguments) {
+  using namespace pybind11::literals;
+  const scenario::Scenario s = scenario_of(asked(arguments));
+  const chain::Stretched stretched = setup::chain_problem(s);
+  const chain::Problem p = chain::problem_of(stretched);
+  return py::dict("title"_a = s.title, "sites"_a = p.grid.sites, "spacing"_a = p.grid.spacing,
+                  "scale"_a = stretched.scale, "left"_a = stretched.left, "right"_a = stretched.right, "end"_a = s.end,
+                  "steps"_a = static_cast<long>(s.end * stretched.scale / chain::chosen_step(p)),
+                  "memory_bytes"_a = chain::memory_needed(p));
+}
+
+}  // namespace
+
+void bind_chain(py::module_& m) {
+  m.def("chain", run_chain);
+  m.def("check_chain", check_chain);
+}

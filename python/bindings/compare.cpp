@@ -1,0 +1,86 @@
+#include "slipfront/setup/compare.hpp"
+
+#include <pybind11/stl.h>
+
+#include "results.hpp"
+#include "slipfront/record/comparison_file.hpp"
+#include "watch.hpp"
+
+namespace {
+
+using namespace slipfront;
+using namespace pybind11::literals;
+using setup::Level;
+
+py::list trends(const std::vector<Level>& levels) {
+  py::list rows;
+  for (const setup::Quantity& q : setup::compared_quantities()) {
+    const setup::Trend t = setup::trend_of(levels, q);
+    rows.append(py::make_tuple(q.key, t.exponent, t.extrapolated, t.difference));
+  }
+  return rows;
+}
+
+py::list level_rows(const std::vector<Level>& levels) {
+  py::list rows;
+  for (const Level& level : levels)
+    rows.append(py::dict("name"_a = level.name, "closure"_a = level.closure, "scale"_a = level.scale,
+                         "window"_a = level.window, "smooth_window"_a = level.smooth_window,
+                         "wall_seconds"_a = level.wall_seconds));
+  return rows;
+}
+
+py::dict run_compare(const py::dict& arguments, const std::vector<double>& scales, int threads) {
+  const Asked a = asked(arguments);
+  const scenario::Scenario s = scenario_of(a);
+  Watch watch(a.progress, s.end);
+  std::vector<Level> levels;
+  setup::Comparison comparison;
+  record::PulseMetadata metadata;
+  bool reached = false;
+  {
+    const py::gil_scoped_release others_may_run;
+    comparison = setup::comparison_of(s, scales);
+    metadata = metadata_of(a, s, "compare", comparison.schedule.x_edges);
+    const auto write = [&] {
+      if (a.output.empty()) return;
+      std::vector<record::ComparedLevel> compared;
+      compared.reserve(levels.size());
+      for (const Level& level : levels) compared.push_back({level.name, level.scale, level.snapshots});
+      record::write_comparison(a.output, metadata, comparison.schedule.times, compared, reached);
+    };
+    reached =
+        setup::run_levels(comparison, threads, levels, write,
+                          [&](const std::string& level, double time, long steps) { return watch(time, steps, level); });
+    write();
+  }
+  watch.finish();
+  Levels series;
+  for (const Level& level : levels) series.push_back(&level.snapshots);
+  py::dict result =
+      dataset_of(metadata, record::comparison_format, reached, comparison.schedule.times, series, true, s);
+  result["levels"] = level_rows(levels);
+  result["scale_about"] = described(record::scale_variable);
+  result["trends"] = trends(levels);
+  result["notes"] = setup::notes_on(s);
+  result["summary"] = py::dict("time"_a = s.end, "friction_coefficient"_a = s.friction.coefficient,
+                               "damping_number"_a = s.friction.coefficient * s.end);
+  return result;
+}
+
+py::dict check_compare(const py::dict& arguments, const std::vector<double>& scales) {
+  const scenario::Scenario s = scenario_of(asked(arguments));
+  const setup::Comparison c = setup::comparison_of(s, scales);
+  const pulse::Run laid(c.problem, c.schedule);  // what is wrong with the cells is said here
+  std::vector<double> chains;
+  for (const auto& chain : c.chains) chains.push_back(chain.scale);
+  return py::dict("title"_a = s.title, "levels"_a = c.levels(), "closed_form"_a = c.exact.has_value(),
+                  "scales"_a = chains, "left"_a = c.problem.left, "right"_a = c.problem.right, "end"_a = s.end);
+}
+
+}  // namespace
+
+void bind_compare(py::module_& m) {
+  m.def("compare", run_compare);
+  m.def("check_compare", check_compare);
+}

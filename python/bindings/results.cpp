@@ -1,0 +1,119 @@
+#include "results.hpp"
+
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+#include <variant>
+
+#include "slipfront/record/pulse_variables.hpp"
+#include "slipfront/record/table_file.hpp"
+#include "slipfront/record/text_file.hpp"
+
+using namespace slipfront;
+using pulse::Snapshot;
+
+Asked asked(const py::dict& arguments) {
+  const auto text = [&](const char* key) { return arguments[key].cast<std::string>(); };
+  return {text("text"),   text("path"),   arguments["set"].cast<std::vector<std::string>>(),
+          text("output"), text("resume"), arguments["progress"]};
+}
+
+scenario::Scenario scenario_of(const Asked& asked) {
+  const bool is_file = !asked.path.empty();
+  return scenario::read_scenario(is_file ? record::read_text(asked.path) : asked.text,
+                                 is_file ? asked.path : "scenario", asked.set, record::read_profile_table);
+}
+
+record::PulseMetadata metadata_of(const Asked& asked, const scenario::Scenario& scenario, const std::string& command,
+                                  const std::vector<double>& x_edges) {
+  return {scenario.title,    scenario.text,
+          SLIPFRONT_VERSION, "slipfront " + command + " " + (asked.path.empty() ? "scenario" : asked.path),
+          x_edges,           scenario.output.variables};
+}
+
+namespace {
+
+using Shape = std::vector<py::ssize_t>;
+
+py::array_t<double> array(const std::vector<double>& values) {
+  return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
+}
+
+py::array_t<double> field(const record::FieldVariable& variable, const Levels& levels, const Shape& shape) {
+  py::array_t<double> values(shape);
+  double* out = values.mutable_data();
+  for (const auto* level : levels) {
+    for (const Snapshot& snapshot : *level) {
+      const auto& now = snapshot.profile.*variable.values;
+      const auto& first = level->front().profile.*variable.values;
+      if (variable.drop)
+        std::transform(first.begin(), first.end(), now.begin(), out, std::minus<>{});
+      else
+        std::copy(now.begin(), now.end(), out);
+      out += now.size();
+    }
+  }
+  return values;
+}
+
+py::array_t<double> scalar(const record::ScalarVariable& variable, const Levels& levels, const Shape& shape) {
+  py::array_t<double> values(shape);
+  double* out = values.mutable_data();
+  for (const auto* level : levels)
+    for (const Snapshot& snapshot : *level) *out++ = variable.get(snapshot);
+  return values;
+}
+
+py::dict axes(const std::vector<double>& times, const std::vector<double>& edges) {
+  const auto cells = static_cast<py::ssize_t>(edges.size()) - 1;
+  py::array_t<double> x(cells), bounds(Shape{cells, 2});
+  double *centre = x.mutable_data(), *end = bounds.mutable_data();
+  for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
+    *centre++ = std::midpoint(edges[i], edges[i + 1]);
+    *end++ = edges[i];
+    *end++ = edges[i + 1];
+  }
+  const record::AxisVariables& about = record::axis_variables();
+  py::dict result;
+  result["time"] = py::make_tuple(described(about.time), array(times));
+  result["x"] = py::make_tuple(described(about.x), x);
+  result["x_bounds"] = py::make_tuple(described(about.x_bounds), bounds);
+  return result;
+}
+
+}  // namespace
+
+py::dict dataset_of(const record::PulseMetadata& metadata, const std::string& format, bool finished,
+                    const std::vector<double>& times, const Levels& levels, bool by_level,
+                    const scenario::Scenario& scenario) {
+  Shape over_time, over_time_and_x;
+  if (by_level) over_time.push_back(static_cast<py::ssize_t>(levels.size()));
+  over_time.push_back(static_cast<py::ssize_t>(times.size()));
+  over_time_and_x = over_time;
+  over_time_and_x.push_back(static_cast<py::ssize_t>(metadata.x_edges.size()) - 1);
+
+  py::dict attributes;
+  for (const auto& [name, value] : record::file_attributes(metadata, format))
+    attributes[py::str(name)] = py::str(py::bytes(value).attr("decode")("utf-8", "replace"));
+  attributes["finished"] = finished ? 1 : 0;
+  py::list fields, scalars;
+  for (const record::FieldVariable* variable : record::chosen_fields(metadata.variables))
+    fields.append(py::make_tuple(described(variable->about), field(*variable, levels, over_time_and_x)));
+  for (const record::ScalarVariable& variable : record::scalar_variables())
+    scalars.append(py::make_tuple(described(variable.about), scalar(variable, levels, over_time)));
+  py::dict result;
+  result["attributes"] = attributes;
+  result["axes"] = axes(times, metadata.x_edges);
+  result["fields"] = fields;
+  result["scalars"] = scalars;
+  result["warnings"] = py::cast(scenario.warnings);
+  return result;
+}
+
+py::dict summary_of(const std::vector<setup::SummaryValue>& summary) {
+  py::dict result;
+  for (const auto& row : summary) result[row.key] = py::cast(row.value);
+  return result;
+}

@@ -1,0 +1,167 @@
+#include "slipfront/train/train.hpp"
+
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "bindings.hpp"
+#include "slipfront/elliptic/jacobi.hpp"
+#include "slipfront/error.hpp"
+#include "slipfront/rupture/inverse.hpp"
+#include "slipfront/rupture/riemann.hpp"
+#include "slipfront/scenario/scenario.hpp"
+
+namespace {
+
+using namespace slipfront;
+
+State state(double phi, double psi) {
+  if (!std::isfinite(phi))
+    throw InputError({.key = "phi", .value = std::to_string(phi), .problem = "not finite", .allowed = "a number"});
+  if (!std::isfinite(psi) || psi < 0)
+    throw InputError({.key = "psi", .value = std::to_string(psi), .problem = "out of range", .allowed = "psi >= 0"});
+  return {phi, psi};
+}
+
+/// Columns of N numbers, one an element of `make(i)`, all as long as the first input.
+template <std::size_t N, class Make>
+py::list columns(py::ssize_t count, Make&& make) {
+  py::list result;
+  std::array<double*, N> out{};
+  for (std::size_t k = 0; k < N; ++k) {
+    py::array_t<double> column(count);
+    out[k] = column.mutable_data();
+    result.append(column);
+  }
+  const py::gil_scoped_release others_may_run;
+  for (py::ssize_t i = 0; i < count; ++i) {
+    const std::array<double, N> row = make(i);
+    for (std::size_t k = 0; k < N; ++k) out[k][i] = row[k];
+  }
+  return result;
+}
+
+constexpr std::array<Description, 10> averages_described = {{
+    {"k", "density of dislocations and stress Sigma, <sigma>", "mu A / pi", "Eq. 5"},
+    {"W", "slip velocity <w> = U k", "c A / pi", "Eq. 5"},
+    {"sigma2", "<sigma^2>", "(mu A / pi)^2", "Eq. 5"},
+    {"sigma3", "<sigma^3>", "(mu A / pi)^3", "Eq. 5"},
+    {"one_minus_cos", "<1 - cos u>", "", "Eq. 6"},
+    {"P", "momentum density U <sigma^2>, also the energy flux", "", "Eq. 6"},
+    {"Q", "momentum flux", "", "Eq. 6"},
+    {"H", "energy density", "", "Eq. 6"},
+    {"I", "wave action density P / k", "", "Eqs. 6-7"},
+    {"J", "wave action flux", "", "Eqs. 6-7"},
+}};
+
+py::list averages(const Numbers& phi, const Numbers& psi, const Numbers& contact) {
+  const double *f = phi.data(), *s = psi.data(), *c = contact.data();
+  return columns<10>(phi.size(), [=](py::ssize_t i) {
+    if (!(c[i] > 0) || !std::isfinite(c[i]))
+      throw InputError({.key = "contact", .value = std::to_string(c[i]), .problem = "out of range", .allowed = "> 0"});
+    const train::Averages a = train::averages(state(f[i], s[i]), c[i]);
+    return std::array{a.k, a.W, a.sigma2, a.sigma3, a.one_minus_cos, a.P, a.Q, a.H, a.I, a.J};
+  });
+}
+
+constexpr std::array<Description, 3> fields_described = {{
+    {"u", "slip; falls by 2 pi at each dislocation", "b / (2 pi)", "Eq. 4"},
+    {"sigma", "stress -u_x", "mu A / pi", "Eq. 4"},
+    {"w", "slip velocity u_t = U sigma", "c A / pi", "Eq. 4"},
+}};
+
+py::list fields(const Numbers& phi, const Numbers& psi, const Numbers& xi) {
+  const double *f = phi.data(), *s = psi.data(), *x = xi.data();
+  return columns<3>(phi.size(), [=](py::ssize_t i) {
+    if (!std::isfinite(x[i]))
+      throw InputError({.key = "xi", .value = std::to_string(x[i]), .problem = "not finite", .allowed = "a number"});
+    const train::Fields at = train::fields(state(f[i], s[i]), x[i]);
+    return std::array{at.u, at.sigma, at.w};
+  });
+}
+
+constexpr std::array<Description, 4> jacobi_described = {{
+    {"am", "amplitude am(z)", "", "Eq. 4"},
+    {"sn", "sn(z)", "", "Eq. 4"},
+    {"cn", "cn(z)", "", "Eq. 4"},
+    {"dn", "dn(z)", "", "Eq. 4"},
+}};
+
+py::list jacobi(const Numbers& z, const Numbers& psi) {
+  const double *at = z.data(), *s = psi.data();
+  return columns<4>(z.size(), [=](py::ssize_t i) {
+    if (!std::isfinite(at[i]))
+      throw InputError({.key = "z", .value = std::to_string(at[i]), .problem = "not finite", .allowed = "a number"});
+    const elliptic::Jacobi j = elliptic::jacobi(at[i], elliptic::at_psi(s[i]));
+    return std::array{j.am, j.sn, j.cn, j.dn};
+  });
+}
+
+py::list spacing(const Numbers& phi, const Numbers& psi) {
+  const double *f = phi.data(), *s = psi.data();
+  return columns<1>(phi.size(), [=](py::ssize_t i) { return std::array{train::spacing(state(f[i], s[i]))}; });
+}
+
+State at_rest(double stress, const char* key) {
+  if (stress != 0 && !(stress >= train::smallest_stress && stress <= scenario::largest_stress))
+    throw InputError(
+        {.key = key, .value = std::to_string(stress), .problem = "out of range", .allowed = "0 or 0.0045 to 1e6"});
+  return rupture::at_rest(stress);
+}
+
+py::list psi_at_rest(const Numbers& stress) {
+  const double* k = stress.data();
+  return columns<1>(stress.size(), [=](py::ssize_t i) { return std::array{at_rest(k[i], "stress").psi}; });
+}
+
+py::list stress_at_rest(const Numbers& psi) {
+  const double* s = psi.data();
+  return columns<1>(psi.size(), [=](py::ssize_t i) { return std::array{train::stress_at_rest(s[i])}; });
+}
+
+constexpr std::array<Description, 4> profile_described = {{
+    {"U", "velocity of the dislocations", "c", "Eqs. 8-9"},
+    {"Sigma", "stress", "mu A / pi", "Eqs. 8-9"},
+    {"W", "slip velocity", "c A / pi", "Eqs. 8-9"},
+    {"P", "momentum density", "", "Eqs. 8-9"},
+}};
+
+/// The exact Riemann problem between two stresses, and its edges.
+py::tuple profile(double left, double right, const Numbers& x_over_t) {
+  const rupture::RiemannSolution solution =
+      rupture::solve_riemann(at_rest(left, "stress"), at_rest(right, "stress_right"));
+  const double* x = x_over_t.data();
+  const py::list rows = columns<4>(x_over_t.size(), [&, x](py::ssize_t i) {
+    if (!std::isfinite(x[i]))
+      throw InputError(
+          {.key = "x_over_t", .value = std::to_string(x[i]), .problem = "not finite", .allowed = "a number"});
+    const State here = rupture::sample(solution, x[i]);
+    const train::Averages a = train::averages(here);
+    return std::array{here.empty() ? 0.0 : std::tanh(here.phi), a.k, a.W, a.P};
+  });
+  const rupture::Edges edges = rupture::edges_of(solution);
+  return py::make_tuple(rows, edges.left, edges.right);
+}
+
+template <std::size_t N>
+py::list all(const std::array<Description, N>& about) {
+  py::list result;
+  for (const Description& a : about) result.append(described(a));
+  return result;
+}
+
+}  // namespace
+
+void bind_train(py::module_& m) {
+  m.def("averages", averages);
+  m.def("fields", fields);
+  m.def("jacobi", jacobi);
+  m.def("spacing", spacing);
+  m.def("psi_at_rest", psi_at_rest);
+  m.def("stress_at_rest", stress_at_rest);
+  m.def("profile", profile);
+  m.attr("averages_described") = all(averages_described);
+  m.attr("fields_described") = all(fields_described);
+  m.attr("jacobi_described") = all(jacobi_described);
+  m.attr("profile_described") = all(profile_described);
+}

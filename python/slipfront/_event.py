@@ -1,0 +1,97 @@
+"""slipfront.event"""
+
+import csv
+import io
+import pathlib
+from collections.abc import Mapping
+
+from . import _slipfront
+from ._dataset import attributes, dataset
+from ._numbers import np, thread_count
+from ._scenario import is_path, path, to_toml
+from ._slipfront import InputError
+
+_units = {"c_m_s": "m s-1", "rupture_velocity_m_s": "m s-1", "slip_velocity_m_s": "m s-1", "stress_pa": "Pa"}
+_shipped = pathlib.Path(__file__).parent / "cases" / "catalogue.csv"
+
+
+def _row(event):
+    """A flat dict as a catalogue of one row, named by columns as docs/events.md has them."""
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow(event)
+    writer.writerow(["" if value is None or value != value else value for value in event.values()])
+    return out.getvalue()
+
+
+def _source(event, name):
+    """(text, name or path, whether it is a path) of one item that a user gives."""
+    if isinstance(event, Mapping):
+        nested = any(isinstance(value, Mapping) for value in event.values())
+        return (to_toml(event) if nested else _row(event)), name, False
+    if is_path(event):
+        return "", path("events", event), True
+    if isinstance(event, str):
+        return event, name, False
+    if hasattr(event, "to_csv") and hasattr(event, "columns"):
+        return event.to_csv(index=False), name, False
+    raise InputError(f"{name}: a {type(event).__name__}; allowed: a path, text, a dict, a DataFrame or a list of these")
+
+
+def _default(value):
+    return "" if value is None else str(value)
+
+
+def event(events=None, *, p_wave_speed=None, poisson_ratio=None, shear_modulus=None, threads=None):
+    """Stress, contact ratio and frictionless slip velocity of observed events, by the frictionless relations (Eqs. 8-10).
+
+    Parameters
+    ----------
+    events : path, text, dict, DataFrame or list of these, optional
+        A .toml, .csv or .fsp file or its text (docs/events.md); a dict nested like the TOML, {"event": {...}, "medium":
+        {...}}, or flat with the columns of a catalogue, {"name": ..., "rupture_velocity": "3 km/s", ...}; a DataFrame
+        with these columns. Nothing: the shipped catalogue.
+    p_wave_speed, poisson_ratio, shear_modulus : str or float, optional
+        Of events that give none, such as "6 km/s", 0.3, "30 GPa" (the defaults).
+    threads : int, optional
+        All cores unless given; results do not depend on it.
+
+    Returns
+    -------
+    xarray.Dataset over `event`: name, c_m_s, rupture_velocity (V / c), stress (mu A / pi), frictionless_slip_velocity and
+    observed_slip_velocity (c A / pi), slip_velocity_ratio, contact_ratio, stress_pa (Pa), damping_number (always NaN: it
+    needs friction), `<name>_interval` = [5 %, 95 %] of each, NaN where not identifiable, and `warnings`. One bad event of
+    several does not lose the others: its `error` says why, and is "" for the rest.
+
+    Raises
+    ------
+    InputError if all events are bad, FileError.
+    """
+    if events is None:
+        events = _shipped
+    sources = ([_source(item, f"events[{i}]") for i, item in enumerate(events)] if isinstance(events, (list, tuple))
+               else [_source(events, "events")])
+    if not sources:
+        raise InputError("events: none; allowed: one or more")
+    columns = _slipfront.event(sources, _default(p_wave_speed), _default(poisson_ratio), _default(shear_modulus), thread_count(threads))
+    errors = columns["about"]["error"]
+    if errors and all(errors):
+        raise InputError(errors[0])
+    if not errors:
+        raise InputError("events: none in the text; allowed: one or more")
+
+    variables = {name: ("event", np.array(values, dtype=object)) for name, values in columns["about"].items()}
+    one = ("name", "speed of strain waves, in m/s", "", "Eq. 3")
+    variables["c_m_s"] = ("event", columns["c_m_s"], attributes(one))
+    for about, values in columns["measured"]:
+        variables[about[0]] = ("event", values, attributes(about))
+    unknown = np.full(len(errors), np.nan)
+    damping = ("damping_number", "Gamma = C t; needs friction, not identifiable from frictionless relations", "", "Eq. 7")
+    for about, values, interval in [*columns["inferred"], (damping, unknown, np.stack([unknown, unknown], 1))]:
+        variables[about[0]] = ("event", values, attributes(about))
+        variables[about[0] + "_interval"] = (("event", "bound"), interval, {**attributes(about), "long_name": f"5 % and 95 % of: {about[1]}"})
+    for name, unit in _units.items():
+        for key in (name, name + "_interval"):
+            if key in variables:
+                variables[key][2]["units"] = unit
+    return dataset(variables, {"bound": ("bound", ["5 %", "95 %"])}, {"ignored_columns": ", ".join(columns["ignored"])})

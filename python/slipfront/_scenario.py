@@ -1,0 +1,96 @@
+"""Scenarios as users give them: the path of a TOML file, TOML text, or a dict nested like it."""
+
+import json
+import os
+from collections.abc import Mapping
+
+from ._numbers import np
+from ._slipfront import InputError
+
+
+def _value(key, value):
+    """A value as TOML. Raises InputError for what TOML does not have."""
+    if isinstance(value, (np.generic, np.ndarray)):
+        value = value.tolist()
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, (int, float)):
+        return repr(value)
+    if isinstance(value, os.PathLike):
+        value = os.fspath(value)
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(_value(key, item) for item in value) + "]"
+    raise InputError(f"{key} = '{value}': a {type(value).__name__}; allowed: a number, a text or a list of them")
+
+
+def to_toml(tables):
+    """TOML text of a dict of values and of dicts of values."""
+    lines, later = [], []
+    for name, table in tables.items():
+        if isinstance(table, Mapping):
+            later += [f"[{_name(name)}]"] + [f"{_name(key)} = {_value(f'{name}.{key}', value)}" for key, value in table.items()]
+        else:
+            lines.append(f"{_name(name)} = {_value(name, table)}")
+    return "\n".join(lines + later) + "\n"
+
+
+def _name(key):
+    if not isinstance(key, str):
+        raise InputError(f"'{key}': a key that is a {type(key).__name__}; allowed: a text")
+    return _value(key, key)
+
+
+def is_path(source):
+    """Whether this is the path of a file: a str without line breaks, or os.PathLike."""
+    return isinstance(source, os.PathLike) or (isinstance(source, str) and "\n" not in source)
+
+
+def overrides(settings):
+    """{"table.key": value} as the command line's --set has it."""
+    if settings is None:
+        return []
+    if not isinstance(settings, Mapping):
+        raise InputError(f"set = '{settings}': a {type(settings).__name__}; allowed: a dict such as {{'friction.coefficient': 0.5}}")
+    return [f"{key}={value if isinstance(value, str) else _value(key, value)}" for key, value in settings.items()]
+
+
+def path(name, value):
+    """A path as str; "" for None."""
+    if value is None:
+        return ""
+    try:
+        text = os.fspath(value)
+    except TypeError:
+        text = None
+    if not isinstance(text, str) or not text or "\0" in text:
+        raise InputError(f"{name} = '{value}': not a path; allowed: a str or os.PathLike")
+    return text
+
+
+def arguments(scenario, *, set=None, output=None, resume=None, progress=None):
+    """What the compiled half takes."""
+    text = source = ""
+    if isinstance(scenario, Mapping):
+        text = to_toml(scenario)
+    elif is_path(scenario):
+        source = path("scenario", scenario)
+    elif isinstance(scenario, str):
+        text = scenario
+    else:
+        raise InputError(f"scenario: a {type(scenario).__name__}; allowed: the path of a TOML file, TOML text or a dict")
+    result = {"text": text, "path": source, "set": overrides(set), "output": path("output", output),
+              "resume": path("resume", resume), "progress": progress}
+    for key in ("text", "path", "output", "resume"):
+        _encodable(key, result[key])
+    for override in result["set"]:
+        _encodable("set", override)
+    return result
+
+
+def _encodable(key, text):
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        raise InputError(f"{key}: holds half a surrogate pair; allowed: text that UTF-8 can hold") from None

@@ -1,0 +1,92 @@
+#include "slipfront/setup/compare.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "slipfront/error.hpp"
+#include "slipfront/setup/chain.hpp"
+#include "slipfront/setup/pulse.hpp"
+
+namespace slipfront::setup {
+namespace {
+
+std::string text(double value) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.6g", value);
+  return buffer;
+}
+
+std::vector<double> checked(std::vector<double> scales, const scenario::Scenario& s) {
+  const auto refuse = [](double scale, const char* problem, const char* allowed) {
+    throw InputError(
+        {.file = "command line", .key = "--scale", .value = text(scale), .problem = problem, .allowed = allowed});
+  };
+  for (const double scale : scales)
+    if (!(scale > 0) || !std::isfinite(scale)) refuse(scale, "out of range", "> 0");
+  if (scales.empty()) scales = s.chain.scale ? std::vector{*s.chain.scale} : std::vector{100.0, 300.0, 1000.0};
+  std::sort(scales.begin(), scales.end());
+  if (const auto twice = std::adjacent_find(scales.begin(), scales.end()); twice != scales.end())
+    refuse(*twice, "given twice", "each scale once");
+  return scales;
+}
+
+/// Runs one level to its end; false if stopped.
+template <class Run>
+bool carry(Run& run, Level& level, const std::function<bool()>& after_step) {
+  const auto begun = std::chrono::steady_clock::now();
+  bool reached = false;
+  try {
+    reached = run.go(after_step);
+  } catch (const NumericsError& error) {
+    throw NumericsError(level.name + ": " + error.what());
+  }
+  level.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  level.snapshots = run.snapshots();
+  return reached;
+}
+
+}  // namespace
+
+Comparison comparison_of(scenario::Scenario scenario, std::vector<double> scales) {
+  Comparison c;
+  c.problem = pulse_problem(scenario);
+  c.schedule = pulse_schedule(scenario, c.problem);
+  c.exact = closed_form(scenario, c.schedule);
+  for (const double scale : checked(std::move(scales), scenario)) {
+    scenario.chain.scale = scale;
+    c.chains.push_back(chain_problem(scenario));
+    chain::problem_of(c.chains.back());
+  }
+  return c;
+}
+
+bool run_levels(const Comparison& c, int threads, std::vector<Level>& levels, const std::function<void()>& next,
+                const std::function<bool(const std::string& level, double time, long steps)>& after_step) {
+  if (c.exact) levels.push_back(*c.exact);
+  for (const modulation::Closure closure : {modulation::Closure::consistent, modulation::Closure::paper}) {
+    next();
+    const char* name = closure_name(closure);
+    Level level{.name = std::string("pulse-") + name, .closure = name};
+    pulse::Problem problem = c.problem;
+    problem.friction.closure = closure;
+    pulse::Run run(std::move(problem), c.schedule);
+    const auto after = [&] { return after_step(level.name, run.solver().cells().time, run.solver().cells().steps); };
+    if (!carry(run, level, after)) return false;
+    levels.push_back(std::move(level));
+  }
+  for (const chain::Stretched& stretched : c.chains) {
+    next();
+    Level level{.name = "chain-" + text(stretched.scale), .scale = stretched.scale};
+    chain::Run run(stretched, c.schedule, {.threads = threads});
+    level.window = run.window();
+    level.smooth_window = run.smooth_window();
+    if (!carry(run, level, [&] { return after_step(level.name, run.time(), run.chain().level()); })) return false;
+    levels.push_back(std::move(level));
+  }
+  return true;
+}
+
+}  // namespace slipfront::setup
