@@ -15,11 +15,15 @@ def texts(variable) -> list:
 
 
 def bars(events, name):
-    """Distances from the value to both ends of its interval, as errorbar takes them; None where no event has one."""
-    if f"{name}_low" not in events:
+    """Distances from the value to both ends of its interval (<name>_interval, or the columns <name>_low and <name>_high of a CSV file), as
+    errorbar takes them; None where no event has one."""
+    if f"{name}_interval" in events:
+        low, high = events[f"{name}_interval"].values.T
+    elif f"{name}_low" in events:
+        low, high = (events[f"{name}_{end}"].values.astype(float) for end in ("low", "high"))
+    else:
         return None
-    value, low, high = (events[key].values.astype(float) for key in (name, f"{name}_low", f"{name}_high"))
-    both = numpy.array([value - low, high - value])
+    both = numpy.array([events[name].values - low, high - events[name].values])
     return None if numpy.isnan(both).all() else numpy.nan_to_num(both)
 
 
@@ -39,7 +43,7 @@ def events(events, line) -> Figure:
     """Stress, and frictionless slip velocity beside the observed one, against rupture velocity, with the closed-form lines (Eqs. 8-10).
 
     events: Dataset over one dimension with rupture_velocity (c), stress (mu A / pi), frictionless_slip_velocity and observed_slip_velocity
-        (c A / pi; nan where not known), kind, and <name>_low, <name>_high where there are intervals: as `slipfront.event` gives it.
+        (c A / pi; nan where not known), kind, and intervals where there are any: as `slipfront.event` gives it.
     line: Dataset of `slipfront.relations` over the range to draw.
     """
     kinds = sorted(set(texts(events["kind"]))) if "kind" in events else [""]

@@ -20,9 +20,9 @@ def reproduce(folder, threads, tell, seconds) -> dict:
     width = widths.nearest(factors, printed)
     values = numbers.computed(runs, paper, factors, width)
     slip, (small_drop, drops) = sweeps.slip(runs, paper), pulses.small_drop(runs)
-    fronts = sweeps.fronts(runs, paper, laws.laws().sel(stress_index=slice(None)))
+    fronts = sweeps.fronts(runs, paper, laws.laws())
     weak, middle, strong = paper["inputs"]["friction"]
-    pictures = [states.contact(), states.dislocation(), states.initial(runs), laws.pulse(runs), laws.rupture(values), laws.slip(values),
+    pictures = [states.contact(), states.dislocation(), states.initial(runs), laws.pulse(), laws.rupture(values), laws.slip(values),
                 pulses.fields(runs, 7, weak, "weak"), pulses.scaled(runs, [weak, middle, strong], width), widths.picture(factors, printed, width),
                 pulses.fields(runs, 9, strong, "strong"), slip, small_drop, fronts]
     tables = {"numbers": numbers.table(paper, values), "formulas": formulas.table(paper),

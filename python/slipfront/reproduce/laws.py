@@ -14,28 +14,26 @@ EXAMPLES = (("Parkfield 2004", "parkfield", "o"), ("ETS", "ets", "s"))
 
 
 @styled
-def draw_pulse(pulse, relation) -> Figure:
-    """Stress and slip velocity of the frictionless pulse at three times."""
+def draw_pulse(data, times) -> Figure:
+    """Stress and slip velocity of the frictionless pulse at several times, and its edges."""
     figure = Figure(figsize=(7.2, 3.3))
     for axes, name in zip(figure.subplots(1, 2), ("Sigma", "W")):
-        for i, row in enumerate((4, 8, 16)):
-            now = pulse.isel(time=row)
-            axes.plot(now["x"], now[name], color=f"C{i}", label=f"t = {float(now['time']):.3g}")
-            for edge in (-relation["rupture_velocity"], relation["leading_velocity"]):
-                axes.axvline(float(edge) * float(now["time"]), color=f"C{i}", linestyle=":", linewidth=0.8)
-        axes.set(xlabel=label(pulse["x"]), ylabel=label(pulse[name]), xlim=(-3.2, 1.6))
-        axes.plot(0, float(relation["stress_at_origin" if name == "Sigma" else "slip_velocity"]), "k+", markersize=9, label="closed form at x = 0")
+        for i, (time, text) in enumerate(times.items()):
+            axes.plot(data["x_over_t"] * time, data[name], color=f"C{i}", label=f"t = {text}")
+            for edge in (data.attrs["left_edge"], data.attrs["right_edge"]):
+                axes.axvline(edge * time, color=f"C{i}", linestyle=":", linewidth=0.8)
+        axes.set(xlabel="position x, b/A", ylabel=label(data[name]), xlim=(-3, 1.5))
     figure.axes[0].legend()
     return figure
 
 
-def pulse(runs) -> Picture:
+def pulse() -> Picture:
     """Fig. 4."""
-    data = runs.pulse("step.toml", {"output.every": numpy.pi / 8})
-    relation = slipfront.relations(stress=[0.855]).isel(state=0)
-    return Picture("fig-04", "The slip pulse without friction", "Stress and slip velocity at three times after a step of Σ− = 0.855 meets an empty interface. The solution depends on x/t alone: "
-                   "its edges (dotted, closed form) move at V− and V+, stress and slip velocity at x = 0 (crosses, Eqs. 8-10) stay. "
-                   "Drawn by the pulse solver with 400 cells.", draw_pulse(data, relation), kept(data))
+    x_over_t = numpy.unique(numpy.concatenate((numpy.linspace(-2, 1, 1201), numpy.linspace(0.095, 0.105, 401))))
+    data = slipfront.train.profile(0.855, x_over_t)
+    return Picture("fig-04", "The slip pulse without friction", "Stress and slip velocity at three times after a step of Σ− = 0.855 meets an empty interface, closed form (Eqs. 8-10). "
+                   "The solution depends on x/t alone: its edges (dotted) move at V− and V+, stress and slip velocity at x = 0 stay as they are.",
+                   draw_pulse(data, {numpy.pi / 2: "π/2", numpy.pi: "π", 2 * numpy.pi: "2π"}), data)
 
 
 def kept(pulse):

@@ -43,8 +43,7 @@ def computed(runs, paper, factors, width) -> dict:
         run = runs.pulse("fig-10.toml", {"friction.coefficient": coefficient})
         slip_velocities[str(coefficient)] = values[f"parkfield_slip_velocity_{coefficient}"] = at_origin(run)
     without = at_origin(runs.pulse("fig-10.toml", {"friction.coefficient": 0}))
-    shares = ", ".join(f"{slip_velocities[str(coefficient)] / without:.3f}" for coefficient in inputs["friction"])
-    values["ratio_note"] = f"W(0) over that without friction at the same Σ+ = {inputs['stress_right']} is {shares} for C = 0.1, 0.5, 2."
+    values["scaled"] = ", ".join(f"{slip_velocities[str(coefficient)] / without * slip_velocities['0']:.4f}" for coefficient in inputs["friction"])
     for key, slip_velocity in slip_velocities.items():
         contact_ratio = math.pi * inputs["slip_velocity_m_s"] / (c * slip_velocity)  # the unit of W is c A / pi
         values[f"parkfield_contact_ratio_{key}"] = contact_ratio

@@ -4,6 +4,8 @@ import numpy
 import xarray
 from matplotlib.figure import Figure
 
+import slipfront
+
 from ..plots.style import styled
 from .picture import Picture
 
@@ -27,10 +29,10 @@ def static_chain(contact_ratio: float, sites: int) -> numpy.ndarray:
     raise RuntimeError("static chain: the forces do not vanish in 50 steps")
 
 
-def kink_sum(x, places, velocity=0.0):
-    """Slip (b / 2 pi) and stress (mu A / pi) of dislocations at `places`, far apart or in a train (a train's dn is a sum of sech)."""
-    distance = (x - numpy.asarray(places)[:, None]) / numpy.sqrt(1 - velocity**2)
-    return (4 * numpy.arctan(numpy.exp(-distance))).sum(axis=0), (2 / numpy.cosh(distance)).sum(axis=0) / numpy.sqrt(1 - velocity**2)
+def alone(x, velocity=0.0):
+    """Slip (b / 2 pi) and stress (mu A / pi) of one dislocation at x = 0, falling from 2 pi to 0: Eq. 4 with its neighbours out of sight."""
+    fields = slipfront.train.fields(numpy.arctanh(velocity), 1e-250, x)  # the next one is 1150 away
+    return fields["u"].values, fields["sigma"].values
 
 
 @styled
@@ -49,8 +51,8 @@ def draw_contact(chain) -> Figure:
         zigzag = 0.09 * numpy.where((numpy.arange(25) > 3) & (numpy.arange(25) < 21), (-1.0) ** numpy.arange(25), 0)
         upper.plot(now[i] + along * (now[i + 1] - now[i]), height[i] + along * (height[i + 1] - height[i]) + zigzag, color="0.45", linestyle="-", linewidth=0.6)
     upper.plot(now, height, "o", color="C0", markersize=8, linestyle="none")
-    upper.set(ylim=(-1.6, 0.9), ylabel="force potential\nof the substrate", yticks=[])
-    upper.set_title("asperities (dots) on the rigid substrate; one valley too many holds none")
+    upper.set(ylim=(-1.6, 0.9), ylabel="potential of\nthe substrate", yticks=[])
+    upper.set_title("asperities (dots), joined by springs, on the rigid substrate: one more than there are valleys")
     upper.grid(False)
     lower.plot(place, u / (2 * numpy.pi), "o-", color="C0")
     lower.set(xlabel="position along the interface, b", ylabel="slip, b", xlim=(-9.6, 9.6))
@@ -90,7 +92,7 @@ def dislocation() -> Picture:
     """Fig. 2."""
     contact_ratio, sites = 0.3, 41
     x, velocities = numpy.linspace(-6, 6, 481), [0.0, 0.8]
-    fields = [kink_sum(x, [0.0], velocity) for velocity in velocities]
+    fields = [alone(x, velocity) for velocity in velocities]
     data = xarray.Dataset({"slip": (("velocity", "x"), [f[0] for f in fields], {"units": "1", "dimensional_unit": "b / (2 pi)"}),
                            "stress": (("velocity", "x"), [f[1] for f in fields], {"units": "1", "dimensional_unit": "mu A / pi"}),
                            "slip_of_site": ("site", static_chain(contact_ratio, sites), {"units": "1", "dimensional_unit": "b / (2 pi)"})},
@@ -121,7 +123,8 @@ def initial(runs) -> Picture:
     stress = numpy.interp(x, start["x"], start["Sigma"])
     count = numpy.concatenate(([0], numpy.cumsum((stress[1:] + stress[:-1]) / 2 * numpy.diff(x)))) * scale / (2 * numpy.pi)  # dislocations from the left
     places = numpy.interp(numpy.arange(0.5, count[-1]), count, x)
-    slip, sharp = kink_sum(scale * x, scale * places)
+    # Far apart or in a train, stresses of dislocations add up: dn is a sum of sech.
+    slip, sharp = sum(numpy.array(alone(scale * (x - place))) for place in places)
     data = xarray.Dataset({"Sigma": ("x", stress, {"units": "1", "dimensional_unit": "mu A / pi"}), "stress": ("x", sharp, {"units": "1", "dimensional_unit": "mu A / pi"}),
                            "slip": ("x", slip / (2 * numpy.pi), {"units": "1", "dimensional_unit": "b"})}, {"x": ("x", x, {"units": "1", "dimensional_unit": "b / A"})},
                           {"scale": scale, "dislocations": len(places)})

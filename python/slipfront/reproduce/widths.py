@@ -43,9 +43,9 @@ def draw(table, printed, width) -> Figure:
             axes.axhline(factor, color=f"C{i}", linestyle=":", linewidth=1, label=f"printed: {factor:g}")
         axes.axvline(width, color="0.6", linestyle="-", linewidth=0.8)
         axes.set(title=f"closure {closure}", xlabel="width of the initial profile, b/A", xlim=(0, float(table["width"][-1])))
-    figure.axes[0].set(ylabel="peak W at C = 0.1 over peak W at C", yscale="log", yticks=[1, 2, 5, 10, 20])
+    figure.axes[0].set(ylabel="peak W at C = 0.1 over peak W at C", yscale="log", ylim=(1, 10), yticks=[1, 2, 5, 10])
     figure.axes[0].set_yticks([], minor=True)
-    figure.axes[0].set_yticklabels(["1", "2", "5", "10", "20"])
+    figure.axes[0].set_yticklabels(["1", "2", "5", "10"])
     figure.axes[0].legend(loc="upper left", ncol=2)
     return figure
 
