@@ -75,5 +75,7 @@ def rupture(values) -> Picture:
 def slip(values) -> Picture:
     """Fig. 6."""
     data = laws()[["stress", "slip_velocity", "stress_at_origin"]]
-    return Picture("fig-06", "Slip velocity against initial stress", "W at x = 0 without friction, closed form (Eqs. 8-10), with the paper's two examples: at Parkfield's Σ− it is 0.1 cA/π; "
-                   "at that of an ETS event, a fifth of it, it is millions of times less.", draw_laws(data, {"slip_velocity": "W(0)"}, values), data)
+    parkfield, ets = (float(slipfront.relations(stress=[values[f"{key}_stress"]])["slip_velocity"].values[0]) for key in ("parkfield", "ets"))
+    share = values["parkfield_stress"] / values["ets_stress"]
+    return Picture("fig-06", "Slip velocity against initial stress", f"W at x = 0 without friction, closed form (Eqs. 8-10), with the paper's two examples: {parkfield:.3g} cA/π for Parkfield; for an ETS event, "
+                   f"whose stress is {share:.2g} times less, it is {parkfield / ets:,.0f} times less.", draw_laws(data, {"slip_velocity": "W(0)"}, values), data)

@@ -72,7 +72,7 @@ def scaled(runs, coefficients, width) -> Picture:
     peak = data["W"].max("x")
     data["factor"] = peak.isel(coefficient=0) / peak
     return Picture("fig-08", "Slip velocity at t = 2π for three friction coefficients", f"Left as it is, right multiplied so that the peaks agree. Σ− = 0.855, Σ+ = 0.179, tanh of width {width:.2g} b/A, the one "
-                   "that comes nearest to the factors 1.8 and 5.2 that the paper prints (next figure). Peaks move with C: the shapes are alike, not the same.",
+                   "that comes nearest to the factors that the paper prints (next figure). Peaks move with C: the shapes are alike, not the same.",
                    draw_scaled(data, data["factor"]), data)
 
 

@@ -46,7 +46,7 @@ def page(folder, pictures, numbers, formulas, statements, about) -> str:
         f"<title>The paper, reproduced</title><link rel=icon href='data:,'><style>\n{STYLE.read_text(encoding='utf-8')}</style></head><body><main>\n",
         "<h1>How does dissipation affect the transition from static to dynamic macroscopic friction?</h1>\n",
         "<p>Gershenzon, Bambakidis and Skinner, <i>Lubricants</i> 3(2):311-331, 2015, doi 10.3390/lubricants3020311: each figure and each number, computed again by "
-        f"slipfront {html.escape(about['version'])} in one run ({about['pulses']} pulses with friction, {about['seconds']:.0f} s). All is dimensionless: A contact ratio, b asperity spacing, c speed of strain waves, μ shear modulus. "
+        f"slipfront {html.escape(about['version'])} in one run ({about['pulses']} pulses, {about['seconds']:.0f} s). All is dimensionless: A contact ratio, b asperity spacing, c speed of strain waves, μ shear modulus. "
         "Closures: the paper averages friction in a way that understates it (“paper”); the exact average is “consistent”.</p>\n",
         "<p>The paper states neither the width of the smooth initial profile of its Figs. 7-12, nor were its captions at hand: each figure says what it took.</p>\n",
         f"<h2>Numbers</h2>\n<p>{agree} of {len(numbers)} printed numbers are the same to the digits printed.</p>\n", numbers_table(numbers),
