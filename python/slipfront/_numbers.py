@@ -19,6 +19,14 @@ def numbers(name, values):
     return np.ascontiguousarray(array, dtype=np.float64).reshape(array.shape)
 
 
+def one_number(name, value):
+    """A single real number. Raises InputError."""
+    array = numbers(name, value)
+    if array.ndim:
+        raise InputError(f"{name}: an array of shape {array.shape}; allowed: one number")
+    return float(array)
+
+
 def dimensions(values, array):
     """Names of the dimensions of a result that has the shape of `values`, and its coordinates: those of a DataArray,
     else "state" or dim_0, dim_1, ..."""

@@ -1,7 +1,60 @@
-"""Constants of rock and interface (Eqs. 1-3), in SI units; arrays as in numpy."""
+"""Constants of rock and interface (Eqs. 1-3), in SI units. Arguments broadcast as in numpy."""
 
-from ._slipfront import (plastic_contact_ratio, poisson_ratio, slip_velocity_unit, speed_from_p_wave, speed_from_s_wave,
-                         speed_from_shear_modulus, stress_unit, units)
+from . import _slipfront
+from ._numbers import np, numbers, one_number
+from ._slipfront import InputError
 
 __all__ = ["plastic_contact_ratio", "poisson_ratio", "slip_velocity_unit", "speed_from_p_wave", "speed_from_s_wave",
            "speed_from_shear_modulus", "stress_unit", "units"]
+
+
+def _each(function, **given):
+    arrays = [numbers(name, values) for name, values in given.items()]
+    try:
+        np.broadcast_shapes(*(array.shape for array in arrays))
+    except ValueError:
+        shapes = ", ".join(f"{name} {array.shape}" for name, array in zip(given, arrays))
+        raise InputError(f"{shapes}: shapes do not match; allowed: shapes that broadcast") from None
+    return getattr(_slipfront, function)(*arrays)
+
+
+def speed_from_p_wave(p_wave_speed, poisson_ratio):
+    """The speed c of Eq. (3) in m/s, c_l sqrt(1 - 2 nu) / (1 - nu)."""
+    return _each("speed_from_p_wave", p_wave_speed=p_wave_speed, poisson_ratio=poisson_ratio)
+
+
+def speed_from_s_wave(s_wave_speed, poisson_ratio):
+    """The speed c of Eq. (3) in m/s, c_s sqrt(2 / (1 - nu))."""
+    return _each("speed_from_s_wave", s_wave_speed=s_wave_speed, poisson_ratio=poisson_ratio)
+
+
+def speed_from_shear_modulus(shear_modulus, density, poisson_ratio):
+    """The speed c of Eq. (3) in m/s, sqrt(2 mu / (rho (1 - nu)))."""
+    return _each("speed_from_shear_modulus", shear_modulus=shear_modulus, density=density, poisson_ratio=poisson_ratio)
+
+
+def poisson_ratio(p_wave_speed, s_wave_speed):
+    """Poisson ratio from the two wave speeds, for c_l > 2 c_s / sqrt(3)."""
+    return _each("poisson_ratio", p_wave_speed=p_wave_speed, s_wave_speed=s_wave_speed)
+
+
+def plastic_contact_ratio(poisson_ratio):
+    """A_plastic = sqrt((1 - nu) / 2), the contact ratio at which the interface yields."""
+    return _each("plastic_contact_ratio", poisson_ratio=poisson_ratio)
+
+
+def stress_unit(shear_modulus, contact_ratio):
+    """mu A / pi, in Pa."""
+    return _each("stress_unit", shear_modulus=shear_modulus, contact_ratio=contact_ratio)
+
+
+def slip_velocity_unit(speed, contact_ratio):
+    """c A / pi, in m/s: twice what differentiating u gives, as both faces move."""
+    return _each("slip_velocity_unit", speed=speed, contact_ratio=contact_ratio)
+
+
+def units(shear_modulus, speed, contact_ratio, asperity_spacing):
+    """A dict of the SI value of each dimensionless unit: slip, length, time, strain, stress, slip_velocity, force,
+    velocity. Arguments are single numbers."""
+    given = {"shear_modulus": shear_modulus, "speed": speed, "contact_ratio": contact_ratio, "asperity_spacing": asperity_spacing}
+    return _slipfront.units(*(one_number(name, value) for name, value in given.items()))

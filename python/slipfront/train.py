@@ -7,7 +7,7 @@ Datasets over "state", dim_0 ..., or the dimensions of the first argument that i
 
 from . import _slipfront
 from ._dataset import attributes, dataset
-from ._numbers import dimensions, np, numbers
+from ._numbers import dimensions, np, numbers, one_number
 from ._slipfront import InputError
 
 __all__ = ["averages", "fields", "jacobi", "profile", "psi_at_rest", "spacing", "stress_at_rest"]
@@ -72,7 +72,7 @@ def stress_at_rest(psi):
 def profile(stress, x_over_t, stress_right=0.0):
     """The frictionless pulse that a step of stress becomes (Eqs. 8-9; the exact Riemann problem where the right side is
     stressed): U, Sigma, W and P at x/t in c. Attributes left_edge and right_edge are x/t of the edges of what moves."""
-    left, right = float(numbers("stress", stress)), float(numbers("stress_right", stress_right))
+    left, right = one_number("stress", stress), one_number("stress_right", stress_right)
     (x,), *rest = _flat(x_over_t=x_over_t)
     columns, left_edge, right_edge = _slipfront.profile(left, right, x)
     data = _dataset(_slipfront.profile_described, columns, *rest)

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "../../src/record/netcdf.hpp"
-#include "../../src/record/pulse_variables.hpp"
 #include "../../src/record/seal.hpp"
 #include "pulse_sample.hpp"
 #include "slipfront/error.hpp"

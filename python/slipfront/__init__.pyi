@@ -1,0 +1,38 @@
+import os
+import pathlib
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy.typing as npt
+import pandas
+import xarray
+
+from . import medium as medium
+from . import train as train
+
+__all__: list[str]
+__version__: str
+cases: pathlib.Path
+
+_Path = str | os.PathLike[str]
+_Scenario = _Path | Mapping[str, Any]
+_Settings = Mapping[str, Any] | None
+_Progress = bool | Callable[..., object] | None
+_Event = _Path | Mapping[str, Any] | pandas.DataFrame
+
+class InputError(ValueError): ...
+class FileError(OSError): ...
+class NumericsError(RuntimeError): ...
+
+def relations(*, stress: npt.ArrayLike | None = ..., rupture_velocity: npt.ArrayLike | None = ..., slip_velocity: npt.ArrayLike | None = ...,
+              threads: int | None = ...) -> xarray.Dataset: ...
+def pulse(scenario: _Scenario, *, set: _Settings = ..., output: _Path | None = ..., resume: _Path | None = ..., progress: _Progress = ...,
+          threads: int | None = ...) -> xarray.Dataset: ...
+def chain(scenario: _Scenario, *, set: _Settings = ..., output: _Path | None = ..., resume: _Path | None = ..., progress: _Progress = ...,
+          threads: int | None = ...) -> xarray.Dataset: ...
+def compare(scenario: _Scenario, *, scales: Sequence[float] = ..., set: _Settings = ..., output: _Path | None = ..., progress: _Progress = ...,
+            threads: int | None = ...) -> xarray.Dataset: ...
+def event(events: _Event | Sequence[_Event] | None = ..., *, p_wave_speed: str | float | None = ..., poisson_ratio: str | float | None = ...,
+          shear_modulus: str | float | None = ..., threads: int | None = ...) -> xarray.Dataset: ...
+def check(scenario: _Scenario, *, set: _Settings = ..., command: str = ..., scales: Sequence[float] = ...) -> dict[str, Any]: ...
+def open(file: _Path) -> xarray.Dataset: ...

@@ -1,0 +1,160 @@
+"""What the package refuses, and how."""
+
+import math
+import os
+import shutil
+import subprocess
+import sys
+import unittest
+import warnings
+
+import numpy as np
+
+import slipfront
+from support import CommandLine, PROGRAM, SOURCE
+
+STEP = os.path.join(SOURCE, "cases/step.toml")
+
+
+def python(code, **environment):
+    return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120, env={**os.environ, **environment})
+
+
+class Errors(CommandLine):
+    def test_the_line_of_the_command_line(self):
+        for key, value in [("pulse.cells", 3), ("time.end", 0), ("time.end", math.nan), ("initial.stress_left", -1), ("initial.strss_left", 1),
+                           ("domain.left", 9), ("friction.law", "sticky"), ("initial.profile", "formula"), ("pulse.cells", 1.5),
+                           ("friction.coefficient", -1), ("nonsense", 1), ("no.such", 1), ("title", 3)]:
+            with self.subTest(key=key, value=value), self.assertRaises(slipfront.InputError) as caught:
+                slipfront.pulse(STEP, set={key: value})
+            self.assertEqual(self.refused(2, "pulse", STEP, "--set", f"{key}={value}").stderr, f"slipfront: {caught.exception}\n")
+        for arguments in (("/nowhere.toml",), (SOURCE,)):
+            with self.assertRaises(slipfront.FileError) as caught:
+                slipfront.pulse(*arguments)
+            self.assertEqual(self.refused(3, "pulse", *arguments).stderr, f"slipfront: {caught.exception}\n")
+        for key, value in (("output", "/nowhere/o.nc"), ("resume", "/nowhere.nc"), ("resume", STEP)):
+            with self.assertRaises(OSError) as caught:
+                slipfront.pulse(STEP, **{key: value})
+            self.assertEqual(self.refused(3, "pulse", STEP, "--" + key, value).stderr, f"slipfront: {caught.exception}\n")
+
+    def test_refuses(self):
+        good = {"initial": {"stress_left": 1.0, "stress_right": 0}}
+        slipfront.check(good)  # so that what is wrong is what the table says
+
+        def initial(**change):
+            return {"initial": {**good["initial"], **change}}
+
+        event = {"name": "a", "rupture_velocity": "3 km/s"}
+        table = [
+            ("scenario", slipfront.pulse, 3), ("scenario", slipfront.pulse, None), ("initial", slipfront.pulse, {}), ("initial", slipfront.pulse, {"initial": 3}),
+            ("stress_left = 'nan'", slipfront.pulse, initial(stress_left=math.nan)), ("stress_left = '-1'", slipfront.pulse, initial(stress_left=-1)),
+            ("stress_left", slipfront.pulse, initial(stress_left=np.ones((2, 2)))), ("initial.stress_left", slipfront.pulse, initial(stress_left=object())),
+            ("NoneType", slipfront.pulse, initial(stress_left=None)), ("stress_left = '1'", slipfront.pulse, initial(stress_left="1")),
+            ("initial", slipfront.pulse, {"inital": {}}), ("'3'", slipfront.pulse, {3: 4}), ("'3'", slipfront.pulse, {"initial": {3: 4}}),
+            ("surrogate", slipfront.pulse, {**good, "title": "\ud800"}), ("scenario", slipfront.pulse, {**good, "friction": {"law": "viscous", "coefficient": 10**400}}),
+            ("shear_modulus", slipfront.pulse, {**good, "medium": {"shear_modulus": "30 km"}}), ("set", slipfront.pulse, good, {"set": ["pulse.cells=3"]}),
+            ("'3=4'", slipfront.pulse, good, {"set": {3: 4}}), ("pulse.cells", slipfront.pulse, good, {"set": {"pulse.cells": object()}}),
+            ("one line", slipfront.pulse, good, {"set": {"title": "two\nlines"}}), ("progress", slipfront.pulse, good, {"progress": 3}),
+            ("threads", slipfront.pulse, good, {"threads": -1}), ("output", slipfront.pulse, good, {"output": 3}), ("output", slipfront.pulse, good, {"output": ""}),
+            ("output", slipfront.pulse, good, {"output": "a\0b"}), ("scenario", slipfront.pulse, "a\0b"), ("scenario", slipfront.pulse, ""),
+            ("scenario:1", slipfront.pulse, "[initial\n"), ("initial", slipfront.pulse, "\n"), ("walk", slipfront.check, good, {"command": "walk"}),
+            ("spacing", slipfront.chain, good, {"set": {"chain.spacing": 0.9, "chain.scale": 100}}), ("contact_ratio", slipfront.chain, good, {"set": {"chain.model": "lattice"}}),
+            ("twice", slipfront.compare, good, {"scales": [7, 7]}), ("'nan'", slipfront.compare, good, {"scales": [math.nan]}),
+            ("scales", slipfront.compare, good, {"scales": ["x"]}), ("'-1'", slipfront.compare, good, {"scales": [-1]}),
+            ("GB", slipfront.compare, good, {"scales": [1e11]}), ("file", slipfront.open, 3), ("events", slipfront.event, 3), ("events", slipfront.event, []),
+            ("events[0]", slipfront.event, [3]), ("events", slipfront.event, {}), ("-3 km/s", slipfront.event, {**event, "rupture_velocity": "-3 km/s"}),
+            ("3 kg", slipfront.event, {**event, "rupture_velocity": "3 kg"}), ("30", slipfront.event, {**event, "rupture_velocity": "30 km/s"}),
+            ("rupture_velocity", slipfront.event, {"event": {"rupture_velocty": "3 km/s"}}), ("p-wave-speed", slipfront.event, event, {"p_wave_speed": "6"}),
+            ("poisson", slipfront.event, event, {"poisson_ratio": 0.7}), ("p-wave-speed", slipfront.event, event, {"p_wave_speed": math.nan})]
+        for says, call, argument, *rest in table:
+            with self.subTest(says=says, argument=str(argument)[:60]), self.assertRaises(slipfront.InputError) as caught:
+                call(argument, **(rest[0] if rest else {}))
+            self.assertNotIn("\n", str(caught.exception))
+            self.assertIn(says, str(caught.exception))
+        for call in [lambda: slipfront.open("/nowhere.nc"), lambda: slipfront.open(STEP), lambda: slipfront.open(SOURCE), lambda: slipfront.event("/nowhere.csv")]:
+            with self.assertRaises(slipfront.FileError):
+                call()
+
+    def test_hierarchy(self):
+        self.assertTrue(issubclass(slipfront.InputError, ValueError))
+        self.assertTrue(issubclass(slipfront.FileError, OSError))
+        self.assertTrue(issubclass(slipfront.NumericsError, RuntimeError))
+
+    def test_numerics_that_give_up(self):
+        """Dislocations thrown at each other until no state exists; what was computed is kept."""
+        case = {"initial": {"stress_left": 0.855, "stress_right": 0.855}, "domain": {"left": -2, "right": 2}, "forcing": {"formula": "1e5*sin(40*x)"},
+                "time": {"end": 50}, "pulse": {"cells": 40}}
+        output = os.path.join(os.path.dirname(self.file("x", "")), "o.nc")
+        with self.assertRaises(slipfront.NumericsError) as caught:
+            slipfront.pulse(case, output=output)
+        self.assertIn("what was computed is in " + output, str(caught.exception))
+        self.assertEqual(slipfront.open(output).attrs["finished"], 0)
+
+    def test_another_scenario_is_not_resumed(self):
+        output = os.path.join(os.path.dirname(self.file("x", "")), "o.nc")
+        slipfront.pulse(STEP, output=output)
+        with self.assertRaises(slipfront.InputError) as caught:
+            slipfront.pulse(STEP, resume=output, set={"pulse.cells": 50})
+        self.assertIn("another scenario", str(caught.exception))
+
+    def test_missing_library_names_the_package(self):
+        for library, code, package in [("xarray", "slipfront.relations(stress=1)", "python3-xarray"), ("numpy", "", "python3-numpy"),
+                                       ("netCDF4", f"slipfront.open({STEP!r})", "python3-netcdf4")]:
+            done = python(f"import sys; sys.modules[{library!r}] = None\nimport slipfront\n{code}")
+            self.assertIn(f"ImportError: {library} is missing; install the Debian package {package}", done.stderr)
+
+    def test_an_interrupted_run_leaves_a_checkpoint(self):
+        case = self.slow_case()
+        folder = os.path.dirname(case)
+        for command, change in [("pulse", "pulse.cells=2000"), ("chain", "chain.scale=2500")]:
+            cut, whole = os.path.join(folder, command + ".nc"), os.path.join(folder, command + "-whole.nc")
+            key, value = change.split("=")
+            code = f"import slipfront\nslipfront.{command}({case!r}, set={{{key!r}: {value}}}, output={cut!r}, threads=1)"
+            process = subprocess.Popen([sys.executable, "-c", code], stderr=subprocess.PIPE, text=True)
+            self.wait_for(cut, process)
+            process.send_signal(2)
+            _, errors = process.communicate(timeout=60)
+            self.assertIn("KeyboardInterrupt", errors)
+            self.assertEqual(slipfront.open(cut).attrs["finished"], 0)
+            getattr(slipfront, command)(case, set={key: int(value)}, resume=cut)
+            self.ok(command, case, "--set", change, "-o", whole)
+            with open(cut, "rb") as a, open(whole, "rb") as b:
+                self.assertEqual(a.read(), b.read())
+
+    def test_warnings_of_a_scenario_are_warnings(self):
+        with warnings.catch_warnings(record=True) as seen:
+            warnings.simplefilter("always")
+            slipfront.pulse(STEP)
+        self.assertEqual([str(w.message) for w in seen], [])
+
+
+class Commands(CommandLine):
+    def test_python_subcommands_are_handed_over(self):
+        help = self.ok("--help")
+        for name in ("plot", "reproduce", "animate"):
+            self.assertIn("\n  " + name, help)
+        self.refused(3, "plot", "/nowhere.nc")
+
+    def test_without_the_package(self):
+        folder = os.path.dirname(self.file("x", ""))
+        alone = shutil.copy(PROGRAM, folder)
+        done = subprocess.run([alone, "plot", "x.nc"], capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stderr.count("\n")), (3, 1))
+        self.assertIn("pybind11-dev", done.stderr)
+
+    def test_a_folder_of_that_name_is_not_the_package(self):
+        folder = os.path.dirname(self.file("x", ""))
+        os.makedirs(os.path.join(folder, "slipfront"))
+        with open(os.path.join(folder, "slipfront", "__init__.py"), "w") as out:
+            out.write("raise SystemExit(77)\n")
+        done = subprocess.run([PROGRAM, "plot", "/nowhere.nc"], capture_output=True, text=True, cwd=folder)
+        self.assertEqual(done.returncode, 3)
+
+    def test_module_alone_says_what_it_knows(self):
+        done = subprocess.run([sys.executable, "-m", "slipfront", "walk"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("reproduce, plot, animate", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,63 @@
+"""slipfront.event against the command line."""
+
+import json
+import os
+import unittest
+
+import numpy as np
+import pandas as pd
+
+import slipfront
+from support import CommandLine, SOURCE
+
+INFERRED = ["rupture_velocity", "stress", "frictionless_slip_velocity", "observed_slip_velocity", "contact_ratio", "stress_pa", "damping_number"]
+
+
+def nothing(value):
+    return np.nan if value is None else value
+
+
+class Event(CommandLine):
+    def test_is_what_the_command_line_says(self):
+        for files in (["cases/parkfield-2004.toml", "cases/ets.toml"], ["cases/catalogue.csv"], ["tests/data/fsp_usgs_single.fsp"]):
+            files = [os.path.join(SOURCE, file) for file in files]
+            rows = json.loads(self.ok("event", *files, "--json"))["events"]
+            data = slipfront.event(files)
+            self.assertEqual(data.sizes["event"], len(rows))
+            for i, row in enumerate(rows):
+                self.assertEqual(data.name.values[i], row["name"])
+                self.assertEqual(data.warnings.values[i], "; ".join(row["warnings"]))
+                np.testing.assert_equal(float(data.c_m_s[i]), nothing(row["c_m_s"]))
+                for key in INFERRED:
+                    np.testing.assert_equal(float(data[key][i]), nothing(row[key]), key)
+                    np.testing.assert_equal(data[key + "_interval"].values[i], row[key + "_interval"] or [np.nan, np.nan], key)
+        self.assertEqual(data.stress_pa.attrs["units"], "Pa")
+
+    def test_nothing_is_the_shipped_catalogue(self):
+        self.assertEqual(slipfront.event().sizes["event"], len(json.loads(self.ok("event", "--json"))["events"]))
+
+    def test_dicts_and_frames(self):
+        flat = {"name": "a", "rupture_velocity": "3.0 km/s", "slip_velocity": "0.5 m/s"}
+        nested = {"event": {"name": "a", "rupture_velocity": "3.0 km/s", "slip_velocity": "0.5 m/s"}}
+        one, two = slipfront.event(flat), slipfront.event(nested)
+        self.assertAlmostEqual(float(one.rupture_velocity), 0.5534, 4)
+        self.assertEqual(float(one.stress), float(two.stress))
+        frame = pd.DataFrame({"name": ["a", "b"], "rupture_velocity_km_s": [3.0, np.nan], "slip_velocity_m_s": [0.5, 0.1]})
+        data = slipfront.event(frame)
+        self.assertEqual(float(data.stress[0]), float(one.stress))
+        self.assertTrue(np.isnan(data.stress[1]))
+        self.assertEqual(slipfront.event([flat, nested, frame]).sizes["event"], 4)
+
+    def test_a_bad_event_does_not_lose_the_others(self):
+        data = slipfront.event([{"name": "good", "rupture_velocity": "3 km/s"}, {"name": "bad", "rupture_velocity": "9 km/s"}])
+        self.assertEqual(data.error.values[0], "")
+        self.assertIn("9", data.error.values[1])
+        self.assertTrue(np.isnan(data.stress[1]) and not np.isnan(data.stress[0]))
+
+    def test_medium_of_the_user(self):
+        slow = slipfront.event({"name": "a", "rupture_velocity": "3 km/s"}, p_wave_speed="7 km/s", poisson_ratio=0.25)
+        self.assertAlmostEqual(float(slow.c_m_s), float(slipfront.medium.speed_from_p_wave(7000.0, 0.25)), 9)
+
+
+if __name__ == "__main__":
+    unittest.main()

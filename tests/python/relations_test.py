@@ -1,0 +1,125 @@
+"""slipfront.relations and slipfront.train: shapes, numbers, what they refuse."""
+
+import json
+import math
+import unittest
+
+import numpy as np
+import xarray as xr
+
+import slipfront
+from support import CommandLine
+
+KEYS = ["stress", "rupture_velocity", "leading_velocity", "velocity_ratio", "slip_velocity", "stress_at_origin",
+        "dislocation_velocity_at_origin", "psi", "psi_at_origin"]
+
+
+class Relations(CommandLine):
+    def test_is_what_the_command_line_says_to_the_bit(self):
+        for name, values in [("stress", [0.01, 0.855, 1.03]), ("rupture_velocity", [1e-300, 0.5534, 1 - 1e-16]), ("slip_velocity", [1e-300, 0.1])]:
+            out = slipfront.relations(**{name: values})
+            self.assertEqual(list(out.data_vars), KEYS)
+            arguments = [item for value in values for item in ("--" + name.replace("_", "-"), repr(value))]
+            rows = json.loads(self.ok("relations", *arguments, "--json"))["relations"]
+            for i, row in enumerate(rows):
+                self.assertEqual({key: float(out[key][i]) for key in KEYS}, row)
+
+    def test_numbers_of_the_paper(self):
+        self.assertAlmostEqual(float(slipfront.relations(stress=1.03).slip_velocity), 0.1000039, 7)
+        self.assertAlmostEqual(float(slipfront.relations(rupture_velocity=0.55).stress), 1.03653, 5)
+        self.assertAlmostEqual(float(slipfront.relations(rupture_velocity=2.1352e-5).stress), 0.21173, 5)
+
+    def test_shapes(self):
+        self.assertEqual(slipfront.relations(stress=1.03).stress.shape, ())
+        self.assertEqual(slipfront.relations(stress=[]).stress.shape, (0,))
+        square = np.linspace(0.1, 2, 12).reshape(3, 4)
+        out = slipfront.relations(stress=square.T)  # not contiguous
+        self.assertEqual(out.psi.shape, (4, 3))
+        np.testing.assert_array_equal(out.psi.values.T.ravel(), slipfront.relations(stress=square.ravel()).psi)
+        np.testing.assert_array_equal(slipfront.relations(stress=np.float32([0.5])).stress, [0.5])
+        named = xr.DataArray([0.5, 1.0], dims="event", coords={"event": ["a", "b"]})
+        self.assertEqual(float(slipfront.relations(stress=named).stress.sel(event="b")), 1)
+
+    def test_says_what_it_gives(self):
+        about = slipfront.relations(stress=1.03)
+        for key in KEYS:
+            self.assertEqual(about[key].attrs["units"], "1")
+            self.assertTrue(about[key].attrs["long_name"])
+            self.assertIn("Eqs. 8-10", about[key].attrs["references"])
+        self.assertEqual(about.slip_velocity.attrs["dimensional_unit"], "c A / pi")
+
+    def test_threads_change_nothing(self):
+        stress = np.geomspace(0.01, 100, 3000)
+        self.assertTrue(slipfront.relations(stress=stress, threads=1).identical(slipfront.relations(stress=stress, threads=4)))
+
+    def test_refuses(self):
+        for arguments, says in [({}, "nothing"), ({"stress": 1, "slip_velocity": 1}, "more than one"), ({"stress": -1}, "'-1'"),
+                                ({"stress": math.nan}, "not a number"), ({"rupture_velocity": 1}, "rupture_velocity"),
+                                ({"stress": [1, 0, -3]}, "stress[1]"), ({"stress": "1"}, "allowed"), ({"stress": 1j}, "complex"),
+                                ({"stress": [True]}, "bool"), ({"stress": [[1], [1, 2]]}, "stress"), ({"stress": {}}, "stress"),
+                                ({"stress": 1, "threads": 0}, "threads"), ({"stress": 1, "threads": 1.5}, "threads")]:
+            with self.subTest(**arguments), self.assertRaises(slipfront.InputError) as caught:
+                slipfront.relations(**arguments)
+            self.assertIn(says, str(caught.exception))
+            self.assertNotIn("\n", str(caught.exception))
+        with self.assertRaises(ValueError) as caught:  # the line of the command line
+            slipfront.relations(stress=1e-9)
+        self.assertIn(str(caught.exception).split("'")[2], self.refused(2, "relations", "--stress", "1e-9").stderr)
+
+
+class Train(unittest.TestCase):
+    def test_averages_and_fields_belong_together(self):
+        phi, psi = 0.3, 0.1
+        length = float(slipfront.train.spacing(phi, psi))
+        xi = (np.arange(4000) + 0.5) / 4000 * length
+        at = slipfront.train.fields(phi, psi, xi)
+        mean = slipfront.train.averages(phi, psi)
+        self.assertAlmostEqual(float(at.sigma.mean()), float(mean.k), 9)
+        self.assertAlmostEqual(float((at.sigma**2).mean()), float(mean.sigma2), 9)
+        self.assertAlmostEqual(float((1 - np.cos(at.u)).mean()), float(mean.one_minus_cos), 9)
+        self.assertAlmostEqual(float(at.w.mean()), float(mean.W), 9)
+        self.assertAlmostEqual(length, 2 * math.pi / float(mean.k), 12)
+        np.testing.assert_allclose(-np.gradient(at.u.values, xi)[5:-5], at.sigma.values[5:-5], rtol=1e-4)
+
+    def test_broadcasts(self):
+        self.assertEqual(slipfront.train.averages(np.zeros((3, 1)), [0.1, 0.2]).k.shape, (3, 2))
+        self.assertEqual(slipfront.train.averages(0, 0).k.shape, ())
+
+    def test_rest_and_jacobi(self):
+        stress = np.array([0.05, 0.855, 1.03, 30])
+        np.testing.assert_allclose(slipfront.train.stress_at_rest(slipfront.train.psi_at_rest(stress)), stress, rtol=1e-14)
+        z = np.linspace(-3, 3, 50)
+        j = slipfront.train.jacobi(z, 0.2)
+        np.testing.assert_allclose(j.sn**2 + j.cn**2, 1, rtol=1e-14)
+        m = 1 - math.tanh(0.2) ** 2
+        np.testing.assert_allclose(j.dn**2 + m * j.sn**2, 1, rtol=1e-14)
+
+    def test_profile_of_the_pulse(self):
+        known = slipfront.relations(stress=0.855)
+        at = slipfront.train.profile(0.855, [-1, -float(known.rupture_velocity), 0, 0.09, 1])
+        self.assertAlmostEqual(float(at.W.sel(x_over_t=0)), float(known.slip_velocity), 12)
+        self.assertAlmostEqual(at.attrs["left_edge"], -float(known.rupture_velocity), 12)
+        self.assertEqual(float(at.Sigma[-1]), 0)
+        shock = slipfront.train.profile(0.855, 0.0, stress_right=0.179)
+        self.assertAlmostEqual(float(shock.W), 0.0458180779, 9)
+
+    def test_refuses(self):
+        train, medium = slipfront.train, slipfront.medium
+        for call in [lambda: train.averages(0, -1), lambda: train.averages(math.nan, 1), lambda: train.averages([1, 2], [1, 2, 3]),
+                     lambda: train.averages(0, 1, 0), lambda: train.fields(0, 0, 1), lambda: train.fields(0, 1, math.inf), lambda: train.jacobi(1, 0),
+                     lambda: train.spacing(0, 0), lambda: train.psi_at_rest(-1), lambda: train.psi_at_rest(math.nan),
+                     lambda: train.profile(-1, 0), lambda: train.profile(1, math.nan), lambda: train.profile([1, 2], 0),
+                     lambda: medium.speed_from_p_wave(-1, 0.3), lambda: medium.speed_from_p_wave(6000, 0.6),
+                     lambda: medium.speed_from_p_wave([1, 2], [1, 2, 3]), lambda: medium.speed_from_p_wave("6 km/s", 0.3),
+                     lambda: medium.units(30e9, 5000, [0.1], 1)]:
+            with self.assertRaises(slipfront.InputError) as caught:
+                call()
+            self.assertNotIn("\n", str(caught.exception))
+
+    def test_medium(self):
+        self.assertAlmostEqual(float(slipfront.medium.speed_from_p_wave(6000.0, 0.3)), 5421.0, 0)
+        np.testing.assert_allclose(slipfront.medium.plastic_contact_ratio([0, 0.3]), [0.5**0.5, 0.35**0.5])
+
+
+if __name__ == "__main__":
+    unittest.main()
