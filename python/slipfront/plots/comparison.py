@@ -21,12 +21,18 @@ def name_of(level) -> str:
 
 @styled
 def comparison(levels, fields=("W", "Sigma", "slip")) -> Figure:
-    """Profiles of the levels at the last time, and how slip at x = 0 grows on each.
+    """Profiles of the levels at the last time, and slip at x = 0 on each: over time, or at the end where there are few times.
 
-    levels: Dataset over level, time and x with the levels' names in `name`, as `slipfront.compare` gives it.
+    Parameters
+    ----------
+    levels : xarray.Dataset
+        Over level, time and x with the levels' names in `name`: what `slipfront.compare` gives.
+    fields : sequence of str
+        Three variables over level, time and x.
     """
     figure = Figure(figsize=(9.2, 5.8))
     panels = figure.subplots(2, 2)
+    grows = levels.sizes["time"] > 4  # else there is no course of time to draw
     chains = [row for row in range(levels.sizes["level"]) if name_of(levels.isel(level=row)) not in LEVELS]
     lines = dict(zip(chains, shades(len(chains))))
     for row in range(levels.sizes["level"]):
@@ -36,10 +42,17 @@ def comparison(levels, fields=("W", "Sigma", "slip")) -> Figure:
         last = level.isel(time=-1)
         for axes, field in zip(panels.flat, fields):
             axes.plot(last["x"], last[field], label=name, **look)
-        panels[1, 1].plot(level["time"], level["slip_at_origin"], label=name, marker="." if levels.sizes["time"] < 5 else None, **look)
+        if grows:
+            panels[1, 1].plot(level["time"], level["slip_at_origin"], label=name, **look)
+        else:
+            panels[1, 1].barh(name, float(last["slip_at_origin"]), color=look["color"], height=0.6)
     for axes, field in zip(panels.flat, fields):
         axes.set(xlabel=label(levels["x"]), ylabel=label(levels[field]), xlim=window(levels))
-    panels[1, 1].set(xlabel=label(levels["time"]), ylabel=label(levels["slip_at_origin"]))
+    if grows:
+        panels[1, 1].set(xlabel=label(levels["time"]), ylabel=label(levels["slip_at_origin"]))
+    else:
+        panels[1, 1].set(xlabel=label(levels["slip_at_origin"]))
+        panels[1, 1].invert_yaxis()
     panels[0, 1].legend()
     figure.suptitle(f"{title_of(levels)}, t = {float(levels['time'][-1]):.4g} b/(cA)")
     return figure

@@ -28,10 +28,18 @@ def bins_of(values, count):
 def corner(samples, names=None, bins: int = 30) -> Figure:
     """Histograms of each quantity with median and the interval from 5 % to 95 %, and of each pair with the regions that hold 50 % and 90 %.
 
-    samples: Dataset of variables over one common dimension (more are taken as one), 20 samples or more. Samples that are not finite in all
-        chosen variables are left out.
-    names: which variables, in which order; default all that are numbers.
-    Raises ValueError where too few samples are left or a quantity has but one value.
+    Parameters
+    ----------
+    samples : xarray.Dataset
+        Variables over one common dimension (more are taken as one), 20 samples or more. Those not finite in all variables chosen are left out.
+    names : sequence of str, optional
+        Which variables, in which order; default all that are numbers.
+    bins : int
+        Of each histogram.
+
+    Raises
+    ------
+    ValueError where too few samples are left or a quantity has but one value.
     """
     names = list(names or (name for name in samples.data_vars if samples[name].dtype.kind in "fiu"))
     table = numpy.array([samples[name].values.astype(float).ravel() for name in names])

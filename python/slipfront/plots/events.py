@@ -40,11 +40,15 @@ def panel(axes, events, name, kinds):
 
 @styled
 def events(events, line) -> Figure:
-    """Stress, and frictionless slip velocity beside the observed one, against rupture velocity, with the closed-form lines (Eqs. 8-10).
+    """Stress, and observed slip velocity where there is any, against rupture velocity, with the closed-form lines (Eqs. 8-10).
 
-    events: Dataset over one dimension with rupture_velocity (c), stress (mu A / pi), frictionless_slip_velocity and observed_slip_velocity
-        (c A / pi; nan where not known), kind, and intervals where there are any: as `slipfront.event` gives it.
-    line: Dataset of `slipfront.relations` over the range to draw.
+    Parameters
+    ----------
+    events : xarray.Dataset
+        Over one dimension: rupture_velocity (c), stress (mu A / pi), observed_slip_velocity (c A / pi; NaN where not known), kind, and
+        intervals where there are any: what `slipfront.event` gives.
+    line : xarray.Dataset
+        Of `slipfront.relations`, over the range to draw.
     """
     kinds = sorted(set(texts(events["kind"]))) if "kind" in events else [""]
     observed = "observed_slip_velocity" in events and bool(events["observed_slip_velocity"].notnull().any())

@@ -11,9 +11,14 @@ from .style import label, styled, unit
 def profiles(pulse, fields=("W", "Sigma", "slip"), times: int = 5) -> Figure:
     """Profiles of fields at several times, one panel a field.
 
-    pulse: Dataset over time and x, as `slipfront.pulse` and `slipfront.chain` give it.
-    fields: names of variables over time and x; those that are not in it are left out.
-    times: how many, spread evenly over the outputs, the first and the last among them.
+    Parameters
+    ----------
+    pulse : xarray.Dataset
+        Over time and x: what `slipfront.pulse` and `slipfront.chain` give.
+    fields : sequence of str
+        Variables over time and x; those that are not in it are left out.
+    times : int
+        How many, spread evenly over the outputs, the first and the last among them.
     """
     fields = [name for name in fields if name in pulse]
     rows = numpy.unique(numpy.linspace(0, pulse.sizes["time"] - 1, times).round().astype(int))

@@ -10,8 +10,10 @@ from .style import label, styled
 def relations(states) -> Figure:
     """Rupture and leading velocity (above) and slip velocity at x = 0 (below) against the initial stress, on linear and logarithmic axes.
 
-    states: Dataset with stress, rupture_velocity, leading_velocity and slip_velocity, all of one shape, as `slipfront.relations` gives it;
-        positive and dimensionless. Any order of the states.
+    Parameters
+    ----------
+    states : xarray.Dataset
+        stress, rupture_velocity, leading_velocity and slip_velocity, positive, of one shape and in any order: what `slipfront.relations` gives.
     """
     order = numpy.argsort(states["stress"].values.ravel())
     stress = states["stress"].values.ravel()[order]

@@ -8,12 +8,22 @@ from .pulse_parts import fronts_of, title_of, window
 from .style import label, styled
 
 
+def colours(values) -> dict:
+    """Colours of a map: white at zero where the field goes both ways, the style sheet's where it goes one."""
+    highest = float(numpy.nanmax(numpy.abs(values)))
+    return {"cmap": "PuOr_r", "vmin": -highest, "vmax": highest} if numpy.nanmin(values) < -0.05 * highest else {}
+
+
 @styled
 def space_time(pulse, fields=("W", "Sigma")) -> Figure:
     """Maps of fields over position (across) and time (upwards), with the lines of the fronts.
 
-    pulse: Dataset over time (two or more) and x, with x_bounds, as `slipfront.pulse` and `slipfront.chain` give it.
-    fields: names of variables over time and x; those that are not in it are left out.
+    Parameters
+    ----------
+    pulse : xarray.Dataset
+        Over time (two or more) and x, with x_bounds: what `slipfront.pulse` and `slipfront.chain` give.
+    fields : sequence of str
+        Variables over time and x; those that are not in it are left out.
     """
     fields = [name for name in fields if name in pulse]
     figure = Figure(figsize=(3.7 * len(fields), 4.2))
@@ -22,7 +32,8 @@ def space_time(pulse, fields=("W", "Sigma")) -> Figure:
     for axes, name in zip(panels, fields):
         values = pulse[name].transpose("time", "x").values
         # A band of colour lies between two outputs and is their mean.
-        image = axes.pcolormesh(numpy.append(bounds[:, 0], bounds[-1, 1]), pulse["time"].values, (values[1:] + values[:-1]) / 2, rasterized=True)
+        image = axes.pcolormesh(numpy.append(bounds[:, 0], bounds[-1, 1]), pulse["time"].values, (values[1:] + values[:-1]) / 2, rasterized=True,
+                                **colours(values))
         figure.colorbar(image, ax=axes, location="top", label=label(pulse[name]), aspect=30, ticks=MaxNLocator(6))
         for front, line, text in fronts_of(pulse):
             axes.plot(front, pulse["time"], color="C6", linestyle=line, label=text, linewidth=1.3)
