@@ -45,13 +45,14 @@ int run_chain(const ScenarioArguments& a) {
   const int code = carry_out(
       *run, a, s, "chain", [&] { return run->time(); }, [&] { return run->chain().level(); });
   if (code != exit_done) return code;
-  const chain::Run::Balance balance = run->balance();  // asks all ranks
-  const ChainWork work{.stepping = seconds_since(begun),
-                       .wall = seconds_since(start),
-                       .steps = run->chain().level() - first,
-                       .ranks = the_ranks->size(),
-                       .threads = a.common.threads};
-  if (the_ranks->rank() == 0) print_summary(s.title, chain_summary(*run, balance, work), a);
+  const ChainEnd end{.run = *run,
+                     .balance = run->balance(),  // asks all ranks
+                     .stepping = seconds_since(begun),
+                     .wall = seconds_since(start),
+                     .steps = run->chain().level() - first,
+                     .ranks = the_ranks->size(),
+                     .threads = a.common.threads};
+  if (the_ranks->rank() == 0) print_summary(s.title, summary(chain_summary(), end), a);
   return code;
 }
 

@@ -22,7 +22,8 @@ py::dict run_chain(const py::dict& arguments, int threads) {
   Watch watch(a.progress, s.end);
   std::unique_ptr<chain::Run> run;
   record::Keeping keeping;
-  setup::ChainWork work{.stepping = 0, .wall = 0, .steps = 0, .ranks = 1, .threads = threads};
+  double stepping = 0;
+  long steps = 0;
   chain::Run::Balance balance{};
   {
     const py::gil_scoped_release others_may_run;
@@ -42,14 +43,20 @@ py::dict run_chain(const py::dict& arguments, int threads) {
     const auto begun = Clock::now();
     if (record::carry_out(*run, keeping, [&] { return watch(run->time(), run->chain().level()); }))
       balance = run->balance();
-    work.stepping = seconds_since(begun);
-    work.steps = run->chain().level() - first;
+    stepping = seconds_since(begun);
+    steps = run->chain().level() - first;
   }
   watch.finish();
-  work.wall = seconds_since(start);
+  const setup::ChainEnd end{.run = *run,
+                            .balance = balance,
+                            .stepping = stepping,
+                            .wall = seconds_since(start),
+                            .steps = steps,
+                            .ranks = 1,
+                            .threads = threads};
   py::dict result = dataset_of(keeping.metadata, record::pulse_format, run->finished(), run->schedule().times,
                                {&run->snapshots()}, false, s);
-  result["summary"] = summary_of(setup::chain_summary(*run, balance, work));
+  result["summary"] = summary_of(setup::summary(setup::chain_summary(), end));
   return result;
 }
 

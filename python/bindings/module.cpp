@@ -10,4 +10,5 @@ PYBIND11_MODULE(_slipfront, m) {
   bind_chain(m);
   bind_compare(m);
   bind_event(m);
+  bind_sweep(m);
 }

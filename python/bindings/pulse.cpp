@@ -38,7 +38,7 @@ py::dict run_pulse(const py::dict& arguments) {
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   py::dict result = dataset_of(keeping.metadata, record::pulse_format, run->finished(), run->schedule().times,
                                {&run->snapshots()}, false, s);
-  result["summary"] = summary_of(setup::pulse_summary(s, *run, wall));
+  result["summary"] = summary_of(setup::summary(setup::pulse_summary(), {s, *run, wall}));
   return result;
 }
 

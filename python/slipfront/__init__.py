@@ -10,6 +10,7 @@ paper (Gershenzon, Bambakidis and Skinner 2015, doi 10.3390/lubricants3020311).
     pulse       the modulation equations with friction (Eqs. 7), on a scenario
     chain       every dislocation, directly (Eqs. 1 and 3)
     compare     closed form, pulse and chain side by side
+    sweep       pulse or chain over a grid of settings, on all cores or a Dask cluster
     event       stress and contact ratio of observed events
     check, open a scenario without running it; a file that was written
     cases       folder of the scenarios that come with slipfront
@@ -21,9 +22,10 @@ from . import medium, train
 from ._event import event
 from ._relations import relations
 from ._run import chain, check, compare, open, pulse
+from ._sweep import sweep
 from ._slipfront import FileError, InputError, NumericsError, __version__
 
 cases = pathlib.Path(__file__).parent / "cases"
 
 __all__ = ["FileError", "InputError", "NumericsError", "__version__", "cases", "chain", "check", "compare", "event", "medium", "open",
-           "pulse", "relations", "train"]
+           "pulse", "relations", "sweep", "train"]

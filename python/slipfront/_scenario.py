@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 from collections.abc import Mapping
 
 from ._numbers import np
@@ -39,7 +40,7 @@ def to_toml(tables):
 def _name(key):
     if not isinstance(key, str):
         raise InputError(f"'{key}': a key that is a {type(key).__name__}; allowed: a text")
-    return _value(key, key)
+    return key if re.fullmatch("[A-Za-z0-9_-]+", key) else _value(key, key)
 
 
 def is_path(source):

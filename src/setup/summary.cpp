@@ -4,66 +4,96 @@
 #include "slipfront/setup/pulse.hpp"
 
 namespace slipfront::setup {
+namespace {
 
-std::vector<SummaryValue> pulse_summary(const scenario::Scenario& scenario, const pulse::Run& run, double wall) {
-  const pulse::Snapshot& s = run.snapshots().back();
-  const modulation::Friction& friction = scenario.friction;
-  return {
-      {"closure", closure_name(friction.closure), "how friction is averaged"},
-      {"friction_coefficient", friction.coefficient, "C"},
-      {"damping_number", friction.coefficient * s.time, "Gamma = C t"},
-      {"time", s.time, "in b / (c A)"},
-      {"slip_velocity_at_origin", s.slip_velocity_at_origin, "W at x = 0, in c A / pi"},
-      {"stress_at_origin", s.stress_at_origin, "Sigma at x = 0, in mu A / pi"},
-      {"slip_at_origin", s.slip_at_origin, "u at x = 0 since t = 0, in b / (2 pi)"},
-      {"peak_slip_velocity", s.peak_slip_velocity, "largest W, in c A / pi"},
-      {"peak_position", s.peak_position, "its x, in b / A"},
-      {"trailing_front", s.fronts.trailing, "x of the fast front (its characteristic), in b / A"},
-      {"leading_front", s.fronts.leading, "x of the slow front, in b / A"},
-      {"trailing_front_observed", s.fronts.trailing_observed, "as an observer with a threshold sees it"},
-      {"leading_front_observed", s.fronts.leading_observed, "as an observer with a threshold sees it"},
-      {"energy_elastic", s.energy.elastic, "of the state at rest"},
-      {"energy_kinetic", s.energy.kinetic, "the rest of H"},
-      {"energy_dissipated", s.energy.dissipated, "by friction since t = 0"},
-      {"energy_supplied", s.energy.supplied, "by F since t = 0"},
-      {"conservation_error", pulse::conservation_error(run.solver(), run.schedule().x_edges, s.profile),
-       "of the dislocation number, relative"},
-      {"cells", static_cast<long>(run.solver().size()), ""},
-      {"steps", run.solver().cells().steps, ""},
-      {"solve_seconds", run.stepping_seconds(), "of the time steps alone"},
-      {"wall_seconds", wall, "of the whole command"},
-  };
+const pulse::Snapshot& last(const PulseEnd& end) { return end.run.snapshots().back(); }
+const pulse::Snapshot& last(const ChainEnd& end) { return end.run.snapshots().back(); }
+const chain::Grid& grid(const ChainEnd& end) { return end.run.chain().problem().grid; }
+
+constexpr SummaryItem<PulseEnd> pulse_items[] = {
+    {"closure", [](const PulseEnd& e) -> Value { return closure_name(e.scenario.friction.closure); },
+     "how friction is averaged"},
+    {"friction_coefficient", [](const PulseEnd& e) -> Value { return e.scenario.friction.coefficient; }, "C"},
+    {"damping_number", [](const PulseEnd& e) -> Value { return e.scenario.friction.coefficient * last(e).time; },
+     "Gamma = C t"},
+    {"time", [](const PulseEnd& e) -> Value { return last(e).time; }, "in b / (c A)"},
+    {"slip_velocity_at_origin", [](const PulseEnd& e) -> Value { return last(e).slip_velocity_at_origin; },
+     "W at x = 0, in c A / pi"},
+    {"stress_at_origin", [](const PulseEnd& e) -> Value { return last(e).stress_at_origin; },
+     "Sigma at x = 0, in mu A / pi"},
+    {"slip_at_origin", [](const PulseEnd& e) -> Value { return last(e).slip_at_origin; },
+     "u at x = 0 since t = 0, in b / (2 pi)"},
+    {"peak_slip_velocity", [](const PulseEnd& e) -> Value { return last(e).peak_slip_velocity; },
+     "largest W, in c A / pi"},
+    {"peak_position", [](const PulseEnd& e) -> Value { return last(e).peak_position; }, "its x, in b / A"},
+    {"trailing_front", [](const PulseEnd& e) -> Value { return last(e).fronts.trailing; },
+     "x of the fast front (its characteristic), in b / A"},
+    {"leading_front", [](const PulseEnd& e) -> Value { return last(e).fronts.leading; },
+     "x of the slow front, in b / A"},
+    {"trailing_front_observed", [](const PulseEnd& e) -> Value { return last(e).fronts.trailing_observed; },
+     "as an observer with a threshold sees it"},
+    {"leading_front_observed", [](const PulseEnd& e) -> Value { return last(e).fronts.leading_observed; },
+     "as an observer with a threshold sees it"},
+    {"energy_elastic", [](const PulseEnd& e) -> Value { return last(e).energy.elastic; }, "of the state at rest"},
+    {"energy_kinetic", [](const PulseEnd& e) -> Value { return last(e).energy.kinetic; }, "the rest of H"},
+    {"energy_dissipated", [](const PulseEnd& e) -> Value { return last(e).energy.dissipated; },
+     "by friction since t = 0"},
+    {"energy_supplied", [](const PulseEnd& e) -> Value { return last(e).energy.supplied; }, "by F since t = 0"},
+    {"conservation_error",
+     [](const PulseEnd& e) -> Value {
+       return pulse::conservation_error(e.run.solver(), e.run.schedule().x_edges, last(e).profile);
+     },
+     "of the dislocation number, relative"},
+    {"cells", [](const PulseEnd& e) -> Value { return static_cast<long>(e.run.solver().size()); }, ""},
+    {"steps", [](const PulseEnd& e) -> Value { return e.run.solver().cells().steps; }, ""},
+    {"solve_seconds", [](const PulseEnd& e) -> Value { return e.run.stepping_seconds(); }, "of the time steps alone"},
+    {"wall_seconds", [](const PulseEnd& e) -> Value { return e.wall; }, "of the whole command"},
+};
+
+double site_updates_per_second(const ChainEnd& end) {
+  const double updates = static_cast<double>(grid(end).sites) * static_cast<double>(end.steps);
+  return end.stepping > 0 ? updates / end.stepping : 0;
 }
 
-std::vector<SummaryValue> chain_summary(const chain::Run& run, const chain::Run::Balance& balance,
-                                        const ChainWork& work) {
-  const pulse::Snapshot& s = run.snapshots().back();
-  const chain::Grid& grid = run.chain().problem().grid;
-  const double updates = static_cast<double>(grid.sites) * static_cast<double>(work.steps);
-  return {
-      {"time", s.time, "in b / (c A)"},
-      {"scale", run.scale(), "x and t are stretched by it, friction divided"},
-      {"slip_at_origin", s.slip_at_origin, "u at x = 0 since t = 0 over the scale, in b / (2 pi)"},
-      {"slip_velocity_at_origin", s.slip_velocity_at_origin, "weighted mean of u_t, in c A / pi"},
-      {"stress_at_origin", s.stress_at_origin, "weighted mean of -u_x, in mu A / pi"},
-      {"window", run.window(), "of the slip at x = 0, in b / A"},
-      {"smooth_window", run.smooth_window(), "of velocities and stresses, in b / A"},
-      {"peak_slip_velocity", s.peak_slip_velocity, "largest of the profile, in c A / pi"},
-      {"peak_position", s.peak_position, "its x, in b / A"},
-      {"leading_front", s.fronts.leading, "x of the last dislocation, in b / A"},
-      {"trailing_front_observed", s.fronts.trailing_observed, "as an observer with a threshold sees it"},
-      {"leading_front_observed", s.fronts.leading_observed, "as an observer with a threshold sees it"},
-      {"dislocations", balance.dislocations, "at the end"},
-      {"energy_drift", balance.energy_drift, "energy and work since t = 0, relative"},
-      {"charge_error", balance.charge_error, "change of the charge"},
-      {"sites", static_cast<long>(grid.sites), ""},
-      {"spacing", grid.spacing, "of the sites, on the chain"},
-      {"steps", run.chain().level(), ""},
-      {"ranks", static_cast<long>(work.ranks), ""},
-      {"threads", static_cast<long>(work.threads), "of each rank"},
-      {"site_updates_per_second", work.stepping > 0 ? updates / work.stepping : 0, "output included"},
-      {"wall_seconds", work.wall, "of the whole command"},
-  };
-}
+constexpr SummaryItem<ChainEnd> chain_items[] = {
+    {"time", [](const ChainEnd& e) -> Value { return last(e).time; }, "in b / (c A)"},
+    {"scale", [](const ChainEnd& e) -> Value { return e.run.scale(); },
+     "x and t are stretched by it, friction divided"},
+    {"slip_at_origin", [](const ChainEnd& e) -> Value { return last(e).slip_at_origin; },
+     "u at x = 0 since t = 0 over the scale, in b / (2 pi)"},
+    {"slip_velocity_at_origin", [](const ChainEnd& e) -> Value { return last(e).slip_velocity_at_origin; },
+     "weighted mean of u_t, in c A / pi"},
+    {"stress_at_origin", [](const ChainEnd& e) -> Value { return last(e).stress_at_origin; },
+     "weighted mean of -u_x, in mu A / pi"},
+    {"window", [](const ChainEnd& e) -> Value { return e.run.window(); }, "of the slip at x = 0, in b / A"},
+    {"smooth_window", [](const ChainEnd& e) -> Value { return e.run.smooth_window(); },
+     "of velocities and stresses, in b / A"},
+    {"peak_slip_velocity", [](const ChainEnd& e) -> Value { return last(e).peak_slip_velocity; },
+     "largest of the profile, in c A / pi"},
+    {"peak_position", [](const ChainEnd& e) -> Value { return last(e).peak_position; }, "its x, in b / A"},
+    {"leading_front", [](const ChainEnd& e) -> Value { return last(e).fronts.leading; },
+     "x of the last dislocation, in b / A"},
+    {"trailing_front_observed", [](const ChainEnd& e) -> Value { return last(e).fronts.trailing_observed; },
+     "as an observer with a threshold sees it"},
+    {"leading_front_observed", [](const ChainEnd& e) -> Value { return last(e).fronts.leading_observed; },
+     "as an observer with a threshold sees it"},
+    {"dislocations", [](const ChainEnd& e) -> Value { return e.balance.dislocations; }, "at the end"},
+    {"energy_drift", [](const ChainEnd& e) -> Value { return e.balance.energy_drift; },
+     "energy and work since t = 0, relative"},
+    {"charge_error", [](const ChainEnd& e) -> Value { return e.balance.charge_error; }, "change of the charge"},
+    {"sites", [](const ChainEnd& e) -> Value { return static_cast<long>(grid(e).sites); }, ""},
+    {"spacing", [](const ChainEnd& e) -> Value { return grid(e).spacing; }, "of the sites, on the chain"},
+    {"steps", [](const ChainEnd& e) -> Value { return e.run.chain().level(); }, ""},
+    {"ranks", [](const ChainEnd& e) -> Value { return static_cast<long>(e.ranks); }, ""},
+    {"threads", [](const ChainEnd& e) -> Value { return static_cast<long>(e.threads); }, "of each rank"},
+    {"site_updates_per_second", [](const ChainEnd& e) -> Value { return site_updates_per_second(e); },
+     "output included"},
+    {"wall_seconds", [](const ChainEnd& e) -> Value { return e.wall; }, "of the whole command"},
+};
+
+}  // namespace
+
+std::span<const SummaryItem<PulseEnd>> pulse_summary() { return pulse_items; }
+std::span<const SummaryItem<ChainEnd>> chain_summary() { return chain_items; }
 
 }  // namespace slipfront::setup

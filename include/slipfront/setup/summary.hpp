@@ -2,6 +2,7 @@
 /// \file
 /// What a finished run is summed up by: the keys that `--json` prints and that Python attaches to a result.
 
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -12,23 +13,46 @@
 
 namespace slipfront::setup {
 
-struct SummaryValue {
+/// A double that is not finite says that there is none.
+using Value = std::variant<double, long, std::string>;
+
+/// A key, how it is got from a finished run, and what it means.
+template <class End>
+struct SummaryItem {
   const char* key;
-  std::variant<double, long, std::string> value;  ///< a double that is not finite: there is none
+  Value (*get)(const End&);
   const char* meaning;
 };
 
-/// Of a pulse run that has reached its end; `wall` in seconds, set-up and output included.
-std::vector<SummaryValue> pulse_summary(const scenario::Scenario& scenario, const pulse::Run& run, double wall);
+/// A pulse run that has reached its end.
+struct PulseEnd {
+  const scenario::Scenario& scenario;
+  const pulse::Run& run;
+  double wall;  ///< seconds, set-up and output included
+};
+std::span<const SummaryItem<PulseEnd>> pulse_summary();
 
-/// How a chain was run.
-struct ChainWork {
-  double stepping, wall;  ///< seconds: of the run alone, of everything
-  long steps;             ///< of these seconds
+/// A chain run that has reached its end, and how it was run.
+struct ChainEnd {
+  const chain::Run& run;
+  chain::Run::Balance balance;  ///< run.balance(), which all ranks take part in
+  double stepping, wall;        ///< seconds: of the run alone, of everything
+  long steps;                   ///< of these seconds
   int ranks, threads;
 };
-/// Of a chain run that has reached its end. `balance` is run.balance(), which all ranks take part in.
-std::vector<SummaryValue> chain_summary(const chain::Run& run, const chain::Run::Balance& balance,
-                                        const ChainWork& work);
+std::span<const SummaryItem<ChainEnd>> chain_summary();
+
+struct SummaryValue {
+  const char* key;
+  Value value;
+  const char* meaning;
+};
+template <class End>
+std::vector<SummaryValue> summary(std::span<const SummaryItem<End>> items, const End& end) {
+  std::vector<SummaryValue> values;
+  values.reserve(items.size());
+  for (const SummaryItem<End>& item : items) values.push_back({item.key, item.get(end), item.meaning});
+  return values;
+}
 
 }  // namespace slipfront::setup

@@ -1,0 +1,178 @@
+#include <pybind11/stl.h>
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <limits>
+#include <mutex>
+#include <span>
+#include <string_view>
+#include <thread>
+#include <utility>
+
+#include "results.hpp"
+#include "slipfront/record/table_file.hpp"
+#include "slipfront/record/text_file.hpp"
+#include "slipfront/setup/chain.hpp"
+#include "slipfront/setup/pulse.hpp"
+
+namespace {
+
+using namespace slipfront;
+using Overrides = std::vector<std::string>;
+using Variables = std::vector<std::string>;
+
+/// What came of one point: numbers, or the reason why there are none.
+struct Outcome {
+  std::size_t point;
+  std::vector<double> values;
+  std::string reason;
+};
+
+/// Keys of a summary that are numbers, with what they mean.
+template <class End>
+py::list number_keys(std::span<const setup::SummaryItem<End>> items) {
+  py::list keys;
+  for (const auto& item : items)
+    if (std::string_view(item.key) != "closure") keys.append(py::make_tuple(item.key, item.meaning));
+  return keys;
+}
+
+double number(const setup::Value& value) {
+  if (const auto* real = std::get_if<double>(&value)) return *real;
+  if (const auto* whole = std::get_if<long>(&value)) return static_cast<double>(*whole);
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+template <class End>
+std::vector<double> numbers(std::span<const setup::SummaryItem<End>> items, const Variables& variables,
+                            const End& end) {
+  std::vector<double> values;
+  for (const std::string& variable : variables)
+    for (const auto& item : items)
+      if (variable == item.key) values.push_back(number(item.get(end)));
+  return values;
+}
+
+/// The points of a sweep, each on one thread; nothing here needs the GIL.
+class Sweep {
+ public:
+  Sweep(std::string command, const Asked& scenario, std::vector<Overrides> points, Variables variables)
+      : command_(std::move(command)),
+        text_(scenario.text),
+        file_(scenario.path.empty() ? "scenario" : scenario.path),
+        points_(std::move(points)),
+        variables_(std::move(variables)) {}
+
+  /// Runs points until none is left or stop() was called. For any number of threads at once.
+  void work() {
+    while (!stopped_) {
+      const std::size_t point = next_++;
+      if (point >= points_.size()) break;
+      Outcome outcome{point, {}, {}};
+      try {
+        outcome.values = run(point);
+      } catch (const std::bad_alloc&) {
+        outcome.reason = "out of memory";
+      } catch (const std::exception& error) {
+        outcome.reason = error.what();
+      }
+      if (stopped_) break;  // it may have been cut short
+      const std::lock_guard lock(mutex_);
+      finished_.push_back(std::move(outcome));
+    }
+    const std::lock_guard lock(mutex_);
+    ++at_rest_;
+    changed_.notify_all();
+  }
+  void stop() { stopped_ = true; }
+
+  /// What has finished since the last call; waits a while for `threads` workers to come to rest, and says if they have.
+  std::pair<std::vector<Outcome>, bool> collect(int threads) {
+    std::unique_lock lock(mutex_);
+    const bool all = changed_.wait_for(lock, std::chrono::milliseconds(50), [&] { return at_rest_ >= threads; });
+    return {std::exchange(finished_, {}), all};
+  }
+
+ private:
+  std::vector<double> run(std::size_t point) {
+    const scenario::Scenario s = scenario::read_scenario(text_, file_, points_[point], record::read_profile_table);
+    const auto begun = std::chrono::steady_clock::now();
+    const auto seconds = [&] {
+      return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+    };
+    const auto interrupted = [this] { return stopped_.load(); };
+    const pulse::Problem problem = setup::pulse_problem(s);
+    pulse::Schedule schedule = setup::pulse_schedule(s, problem);
+    if (command_ == "chain") {
+      chain::Run run(setup::chain_problem(s), schedule, {.threads = 1});
+      if (!run.go(interrupted)) return {};
+      const double wall = seconds();
+      return numbers(setup::chain_summary(), variables_,
+                     setup::ChainEnd{.run = run,
+                                     .balance = run.balance(),
+                                     .stepping = wall,
+                                     .wall = wall,
+                                     .steps = run.chain().level(),
+                                     .ranks = 1,
+                                     .threads = 1});
+    }
+    pulse::Run run(problem, schedule);
+    if (!run.go(interrupted)) return {};
+    return numbers(setup::pulse_summary(), variables_, setup::PulseEnd{s, run, seconds()});
+  }
+
+  std::string command_, text_, file_;
+  std::vector<Overrides> points_;
+  Variables variables_;
+  std::atomic<std::size_t> next_ = 0;
+  std::atomic<bool> stopped_ = false;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<Outcome> finished_;
+  int at_rest_ = 0;
+};
+
+/// Calls deliver([(point, values, reason), ...]) now and then, with all that has finished meanwhile. What it raises,
+/// or Ctrl-C, stops the sweep.
+void sweep(const std::string& command, const py::dict& arguments, std::vector<Overrides> points, Variables variables,
+           int threads, const py::object& deliver) {
+  Sweep work(command, asked(arguments), std::move(points), std::move(variables));
+  const py::gil_scoped_release others_may_run;
+  std::vector<std::jthread> workers;
+  for (int i = 0; i < threads; ++i) workers.emplace_back([&] { work.work(); });
+  std::exception_ptr raised;
+  bool delivers = true;
+  while (true) {
+    const auto [outcomes, all] = work.collect(threads);
+    const py::gil_scoped_acquire lock;
+    try {
+      if (delivers && !outcomes.empty()) {
+        py::list rows;
+        for (const Outcome& o : outcomes) rows.append(py::make_tuple(o.point, py::cast(o.values), o.reason));
+        delivers = false;  // unless it comes back
+        deliver(rows);
+        delivers = true;
+      }
+      if (!raised && PyErr_CheckSignals() != 0) throw py::error_already_set();
+    } catch (const py::error_already_set&) {
+      if (!raised) raised = std::current_exception();
+      work.stop();
+    }
+    if (all) break;
+  }
+  workers.clear();
+  if (raised) {
+    const py::gil_scoped_acquire lock;
+    std::rethrow_exception(raised);
+  }
+}
+
+}  // namespace
+
+void bind_sweep(py::module_& m) {
+  m.def("read_text", record::read_text);
+  m.def("sweep", sweep);
+  m.def("pulse_numbers", [] { return number_keys(setup::pulse_summary()); });
+  m.def("chain_numbers", [] { return number_keys(setup::chain_summary()); });
+}

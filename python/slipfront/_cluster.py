@@ -1,0 +1,59 @@
+"""Points of a sweep: on this machine, and on the workers of a Dask cluster."""
+
+from . import _slipfront
+from ._need import need
+from ._slipfront import NumericsError
+
+_most_points_a_task = 64
+_tasks_a_thread = 8
+_tries = 3
+
+
+def run_points(command, asked, work, variables, threads, deliver):
+    """Runs `work`, [(point, overrides), ...], on threads without the GIL; deliver([(point, numbers, reason), ...]) is
+    called here, several times a second. Results come in any order."""
+    numbers = [point for point, _ in work]
+    _slipfront.sweep(command, asked, [overrides for _, overrides in work], variables, min(threads, len(work)),
+                     lambda rows: deliver([(numbers[i], values, reason) for i, values, reason in rows]))
+
+
+def _task(command, asked, work, variables):
+    rows = []
+    run_points(command, asked, work, variables, 1, rows.extend)
+    return rows
+
+
+def on_cluster(client, command, asked, work, variables, deliver):
+    """The same on a cluster, in tasks of many points. A task whose worker dies is tried again by Dask, then point by
+    point, so that one deadly point costs none of its neighbours. Raises NumericsError if the cluster is gone."""
+    distributed = need("distributed")
+    gone = (distributed.client.CancelledError, OSError, TimeoutError)
+    threads = sum(client.nthreads().values()) or 1
+    size = max(1, min(_most_points_a_task, len(work) // (_tasks_a_thread * threads)))
+
+    def submit(part):
+        future = client.submit(_task, command, asked, part, variables, pure=False, retries=_tries)
+        parts[future.key] = part
+        return future
+
+    parts = {}
+    running = distributed.as_completed([submit(work[i:i + size]) for i in range(0, len(work), size)])
+    try:
+        for future in running:
+            part = parts.pop(future.key)
+            try:
+                rows = future.result()
+            except gone as error:
+                raise NumericsError(f"the Dask cluster is gone: {' '.join(str(error).split()) or type(error).__name__}") from error
+            except Exception as error:
+                if len(part) > 1:
+                    for one in part:
+                        running.add(submit([one]))
+                    continue
+                rows = [(part[0][0], [], f"{type(error).__name__}: {' '.join(str(error).split())}")]
+            deliver(rows)
+    except NumericsError:  # nobody is left to be told
+        raise
+    except BaseException:
+        client.cancel(list(running.futures))
+        raise

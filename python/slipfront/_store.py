@@ -1,0 +1,86 @@
+"""Results of a sweep on disk while it runs: lines that are appended whole, each with its checksum, so that a killed sweep
+loses at most the line that it was writing."""
+
+import fcntl
+import json
+import os
+import zlib
+
+from ._slipfront import FileError, InputError
+
+
+def _line(content):
+    text = json.dumps(content)
+    return f"{zlib.crc32(text.encode()):08x} {text}\n".encode()
+
+
+def _content(line):
+    """What a line holds; None for one that is cut or damaged."""
+    if not line.endswith(b"\n") or line[8:9] != b" ":
+        return None
+    text = line[9:-1]
+    return json.loads(text) if line[:8] == f"{zlib.crc32(text):08x}".encode() else None
+
+
+class Store:
+    """Rows of the sweep that `about` (JSON) describes, in `path`. Raises FileError where that cannot be read or written,
+    InputError if it holds another sweep, or an unfinished one that is not to be resumed."""
+
+    def __init__(self, path, about, resume):
+        self.path, self.rows, self.rows_written = path, [], False
+        try:
+            self._file = os.open(path, os.O_RDWR | os.O_APPEND | (0 if resume else os.O_CREAT | os.O_EXCL), 0o666)
+        except FileExistsError:
+            raise InputError(f"{path}: holds an unfinished sweep; allowed: resume it, or remove the file") from None
+        except OSError as error:
+            raise FileError(f"{path}: {error.strerror}") from error
+        try:
+            fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            if resume:
+                self._read(about)
+            else:
+                self.append(about)
+        except OSError as error:
+            os.close(self._file)
+            if isinstance(error, FileError):
+                raise
+            reason = "another process is writing it" if isinstance(error, BlockingIOError) else error.strerror
+            raise FileError(f"{path}: {reason}") from error
+        except InputError:
+            os.close(self._file)
+            raise
+
+    def _read(self, about):
+        whole = 0
+        with os.fdopen(os.dup(self._file), "rb") as file:
+            for line in file:
+                content = _content(line)
+                if content is None:
+                    break
+                if whole == 0 and content != about:
+                    raise InputError(f"{self.path}: was written by another sweep; allowed: the scenario, axes, variables and version that began it")
+                if whole > 0:
+                    self.rows += content
+                whole += len(line)
+        os.ftruncate(self._file, whole)
+        self.rows_written = bool(self.rows)
+        if whole == 0:
+            self.append(about)
+
+    def append(self, content):
+        """Adds a line; a full disk leaves none of it."""
+        line, end = _line(content), os.lseek(self._file, 0, os.SEEK_END)
+        try:
+            if os.write(self._file, line) == len(line):
+                self.rows_written = self.rows_written or isinstance(content, list)
+                return
+            reason = "cannot be written whole"
+        except OSError as error:
+            reason = error.strerror
+        os.ftruncate(self._file, end)
+        raise FileError(f"{self.path}: {reason}")
+
+    def close(self, remove=False):
+        if remove:
+            os.unlink(self.path)
+        os.close(self._file)

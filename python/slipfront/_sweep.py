@@ -1,0 +1,187 @@
+"""slipfront.sweep"""
+
+import itertools
+import json
+import os
+import warnings
+
+from . import _slipfront
+from ._cluster import on_cluster, run_points
+from ._dataset import dataset
+from ._need import need
+from ._numbers import np, thread_count
+from ._progress import showing
+from ._run import check, open
+from ._scenario import arguments, overrides
+from ._slipfront import FileError, InputError, __version__
+from ._store import Store
+
+_format = "sweep 1"
+_not_by_default = {"time", "wall_seconds", "solve_seconds", "site_updates_per_second", "ranks", "threads"}
+
+
+def _axes(axes):
+    """{key: list of values}, each list one-dimensional and without repetition."""
+    if not hasattr(axes, "items") or not axes:
+        raise InputError(f"axes = '{axes}': not a dict; allowed: {{'friction.coefficient': [0.1, 0.5], ...}}")
+    checked = {}
+    for key, values in axes.items():
+        array = np.asarray(values)
+        if not isinstance(key, str):
+            raise InputError(f"axes: '{key}' is no key; allowed: texts such as 'friction.coefficient'")
+        if array.ndim != 1 or array.size == 0 or array.dtype.kind not in "fiubU":
+            raise InputError(f"axes: {key}: an array of shape {array.shape} of {array.dtype}; allowed: one row of numbers or texts")
+        if array.dtype.kind == "f" and not np.isfinite(array).all():
+            raise InputError(f"axes: {key}: a value that is not finite; allowed: finite numbers or texts")
+        checked[key] = array.tolist()
+        if len(set(checked[key])) < array.size:
+            raise InputError(f"axes: {key}: a value is given twice; allowed: each once")
+    return checked
+
+
+def _variables(variables, command):
+    known = dict({"pulse": _slipfront.pulse_numbers, "chain": _slipfront.chain_numbers}[command]())
+    if variables is None:
+        variables = [key for key in known if key not in _not_by_default]
+    if isinstance(variables, str):
+        variables = [variables]
+    for name in variables:
+        if name not in known:
+            raise InputError(f"variables: '{name}': unknown; allowed: {', '.join(known)}")
+    return {name: known[name] for name in variables}
+
+
+def _check_some(scenario, settings, points, command):
+    """Raises the first point's error if no point can run: a wrong key is said at once, a wrong value in its own place."""
+    first = None
+    for point in points:
+        try:
+            check(scenario, set={**settings, **point}, command=command)
+            return
+        except InputError as error:
+            first = first or error
+    raise first
+
+
+def _write(data, output):
+    """Writes the Dataset whole or not at all."""
+    need("netCDF4")
+    beside = f"{output}.new"
+    try:
+        data.to_netcdf(beside, engine="netcdf4", format="NETCDF4")
+        os.replace(beside, output)
+    except OSError as error:
+        if os.path.exists(beside):
+            os.unlink(beside)
+        raise FileError(f"{output}: {error.strerror or error}") from error
+
+
+def sweep(scenario, axes, *, variables=None, set=None, command="pulse", output=None, resume=None, client=None, progress=None, threads=None):
+    """Runs a scenario at every point of a grid of settings.
+
+    Parameters
+    ----------
+    scenario, set
+        As of `pulse`.
+    axes : dict
+        Key of the scenario -> its values, such as {"friction.coefficient": [0.1, 0.5], "friction.closure": ["paper",
+        "consistent"]}. Every combination is run.
+    variables : list of str, optional
+        Numbers of `slipfront pulse --json` (or chain) to keep, at the end of each run; all but clocks unless given.
+    command : str
+        "pulse" or "chain".
+    output : path, optional
+        NetCDF file to write when all is done. Until then results are appended to `<output>.part`.
+    resume : path, optional
+        Output of a killed or interrupted sweep, the same in all else, to go on with; a finished one is given back.
+    client : distributed.Client, optional
+        Dask cluster to run on, where slipfront must be installed; tables of initial stress are read by its workers. Points
+        whose worker dies are tried again.
+    progress : bool or callable, optional
+        True for a line on stderr; or called with (points done, all points).
+    threads : int, optional
+        Without a client: points at a time; all cores unless given. Results do not depend on it.
+
+    Returns
+    -------
+    xarray.Dataset with the axes as dimensions, by their full keys; `data.sel({"friction.coefficient": 0.5})`. A point that
+    failed is NaN, and `failure` holds the reason ("" elsewhere).
+
+    Raises
+    ------
+    InputError for what is wrong with every point, or with the axes; FileError. KeyboardInterrupt keeps what is done.
+    """
+    if command not in ("pulse", "chain"):
+        raise InputError(f"command = '{command}': unknown; allowed: pulse, chain")
+    threads = thread_count(threads)
+    axes, kept = _axes(axes), _variables(variables, command)
+    shape = tuple(len(values) for values in axes.values())
+    points = [dict(zip(axes, values)) for values in itertools.product(*axes.values())]
+    asked = arguments(scenario, output=output, resume=resume)
+    if asked["path"]:
+        asked["text"] = _slipfront.read_text(asked["path"])
+    settings = overrides(set)
+    about = {"format": _format, "version": __version__, "command": command, "scenario": asked["text"], "set": settings, "axes": axes,
+             "variables": list(kept)}
+    kept_in = asked["resume"] or asked["output"]
+    if resume is not None and os.path.exists(kept_in) and not os.path.exists(kept_in + ".part"):
+        return _finished(kept_in, about)
+    store = Store(kept_in + ".part", about, resume is not None) if kept_in else None
+    try:
+        if not (store and store.rows):
+            _check_some(scenario, set or {}, points, command)
+        values = np.full((len(kept), len(points)), np.nan)
+        reasons = np.full(len(points), "", dtype=object)
+        left = np.ones(len(points), dtype=bool)
+
+        def take(rows):
+            for point, numbers, reason in rows:
+                left[point], reasons[point] = False, reason
+                if not reason:
+                    values[:, point] = numbers
+
+        if store:
+            take(store.rows)
+        with showing(progress) as tell:
+            def deliver(rows):
+                if store:
+                    store.append(rows)
+                take(rows)
+                if tell:
+                    tell(int(len(points) - left.sum()), len(points))
+
+            work = [(int(i), settings + overrides(points[i])) for i in np.flatnonzero(left)]
+            if client is not None:
+                on_cluster(client, command, asked, work, list(kept), deliver)
+            elif work:
+                run_points(command, asked, work, list(kept), threads, deliver)
+        data = _dataset(about, axes, kept, values.reshape(-1, *shape), reasons.reshape(shape))
+        if store:
+            _write(data, asked["output"] or asked["resume"])
+    except BaseException:
+        if store:
+            store.close(remove=not store.rows_written and resume is None)
+        raise
+    if store:
+        store.close(remove=True)
+    failed = int((reasons != "").sum())
+    if failed:
+        first = next(reason for reason in reasons if reason)
+        warnings.warn(f"{failed} of {len(points)} points failed (see `failure`), the first: {first}", stacklevel=2)
+    return data
+
+
+def _dataset(about, axes, kept, values, reasons):
+    variables = {name: (tuple(axes), array, {"long_name": meaning or name, "units": "1"}) for (name, meaning), array in zip(kept.items(), values)}
+    variables["failure"] = (tuple(axes), reasons, {"long_name": "why there is no result; empty where there is one"})
+    return dataset(variables, {key: (key, array) for key, array in axes.items()},
+                   {"Conventions": "CF-1.10", "source": f"slipfront {__version__}", "history": f"slipfront.sweep of {about['command']}",
+                    "version": __version__, "scenario": about["scenario"], "set": "\n".join(about["set"]), "slipfront_format": _format,
+                    "sweep": json.dumps(about)})
+
+
+def _finished(file, about):
+    data = open(file)
+    if data.attrs.get("sweep") != json.dumps(about):
+        raise InputError(f"{file}: was written by another sweep; allowed: the scenario, axes, variables and version that began it")
+    return data

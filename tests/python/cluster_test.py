@@ -1,0 +1,81 @@
+"""slipfront.sweep on a Dask cluster of two workers."""
+
+import logging
+import os
+import threading
+import unittest
+import warnings
+
+import slipfront
+from slipfront import _cluster
+from sweep_test import MANY, SCENARIO
+
+try:
+    from distributed import Client, LocalCluster
+except ImportError:
+    Client = None
+logging.getLogger("distributed").setLevel(logging.CRITICAL)  # it tells at length of what is done to it here
+
+
+@unittest.skipIf(Client is None, "needs the Debian package python3-distributed")
+class Cluster(unittest.TestCase):
+    def cluster(self, **options):
+        cluster = LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None, **options)
+        self.addCleanup(cluster.close)
+        client = Client(cluster)
+        self.addCleanup(client.close)
+        return cluster, client
+
+    def test_is_what_one_machine_gives_also_when_a_worker_dies(self):
+        cluster, client = self.cluster()
+        here = slipfront.sweep(SCENARIO, MANY)
+        self.assertTrue(slipfront.sweep(SCENARIO, MANY, client=client).identical(here))
+        victim = next(iter(cluster.workers.values())).pid
+        killed = threading.Event()
+
+        def kill(done, _):
+            if not killed.is_set():
+                killed.set()
+                os.kill(victim, 9)
+
+        self.assertTrue(slipfront.sweep(SCENARIO, MANY, client=client, progress=kill).identical(here))
+        self.assertTrue(killed.is_set())
+
+    def test_a_point_that_no_worker_survives_costs_no_other(self):
+        _, client = self.cluster(processes=False)
+        real, tries = _cluster._task, []
+
+        def task(command, asked, work, variables):
+            if any(point == 7 for point, _ in work):
+                tries.append(len(work))
+                raise Dies("worker is gone")
+            return real(command, asked, work, variables)
+
+        class Dies(Exception):
+            pass
+
+        _cluster._task = task
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                data = slipfront.sweep(SCENARIO, MANY, client=client)
+        finally:
+            _cluster._task = real
+        self.assertEqual(int((data.failure != "").sum()), 1)
+        self.assertIn("worker is gone", data.failure.values.ravel()[7])
+        whole = slipfront.sweep(SCENARIO, MANY)
+        self.assertTrue(data.slip_at_origin.where(data.failure == "").broadcast_equals(whole.slip_at_origin.where(data.failure == "")))
+
+    def test_a_cluster_that_is_gone_is_an_error(self):
+        cluster, client = self.cluster(processes=False)
+
+        def leave(*_):
+            cluster.close()
+
+        with self.assertRaises(slipfront.NumericsError) as caught:
+            slipfront.sweep(SCENARIO, {"friction.coefficient": [0.1 * i for i in range(1, 400)]}, client=client, progress=leave)
+        self.assertIn("cluster is gone", str(caught.exception))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,154 @@
+"""slipfront.sweep: every point is the pulse it stands for; nothing is lost when it is killed."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+import unittest
+import warnings
+
+import numpy as np
+
+import slipfront
+from support import CommandLine
+
+SCENARIO = {"initial": {"profile": "tanh", "stress_left": 0.855, "stress_right": 0.179, "width": 1}, "friction": {"law": "viscous", "coefficient": 0.5},
+            "pulse": {"cells": 60}}
+AXES = {"friction.coefficient": [0.1, 0.5, 2.0], "friction.closure": ["paper", "consistent"]}
+MANY = {"friction.coefficient": np.linspace(0.05, 2, 300).tolist(), "initial.stress_left": [0.7, 0.855]}
+
+
+class Sweep(CommandLine):
+    def setUp(self):
+        self.output = os.path.join(os.path.dirname(self.file("unused", "")), "sweep.nc")
+
+    def test_each_point_is_the_pulse_that_it_stands_for(self):
+        data = slipfront.sweep(SCENARIO, AXES, set={"friction.law": "viscous"})
+        self.assertEqual(data.sizes, {key: len(values) for key, values in AXES.items()})
+        self.assertNotIn("wall_seconds", data)
+        for coefficient in AXES["friction.coefficient"]:
+            for closure in AXES["friction.closure"]:
+                at = {"friction.coefficient": coefficient, "friction.closure": closure}
+                alone = slipfront.pulse(SCENARIO, set=at).attrs
+                for name, value in data.sel(at).data_vars.items():
+                    np.testing.assert_equal(value.item(), alone.get(name, ""), name)
+        self.assertTrue(all(data[name].attrs["long_name"] for name in data.data_vars))
+
+    def test_chain(self):
+        axes = {"chain.scale": [50, 100]}
+        data = slipfront.sweep(SCENARIO, axes, command="chain", variables=["slip_at_origin", "dislocations"])
+        for scale in axes["chain.scale"]:
+            alone = slipfront.chain(SCENARIO, set={"chain.scale": scale}).attrs
+            self.assertEqual(float(data.slip_at_origin.sel({"chain.scale": scale})), alone["slip_at_origin"])
+            self.assertEqual(float(data.dislocations.sel({"chain.scale": scale})), alone["dislocations"])
+
+    def test_threads_change_nothing_and_progress_is_told(self):
+        told = []
+        one = slipfront.sweep(SCENARIO, MANY, threads=1, progress=lambda *at: told.append(at))
+        self.assertTrue(one.identical(slipfront.sweep(SCENARIO, MANY, threads=3)))
+        self.assertEqual(told[-1], (600, 600))
+        self.assertTrue(all(a[0] < b[0] for a, b in zip(told, told[1:])))
+
+    def test_a_failed_point_is_a_nan_with_a_reason(self):
+        axes = {"friction.coefficient": [-1, 0.5]}
+        with warnings.catch_warnings(record=True) as seen:
+            warnings.simplefilter("always")
+            data = slipfront.sweep(SCENARIO, axes, output=self.output)
+        self.assertIn("1 of 2 points failed", str(seen[-1].message))
+        self.assertTrue(np.isnan(data.slip_at_origin[0]) and not np.isnan(data.slip_at_origin[1]))
+        self.assertIn("friction.coefficient = '-1.0'", data.failure.values[0])
+        self.assertEqual(data.failure.values[1], "")
+        self.assertTrue(slipfront.open(self.output).identical(data))
+
+    def test_refuses(self):
+        for says, change in [("not a dict", {"axes": []}), ("not a dict", {"axes": {}}), ("'3'", {"axes": {3: [1]}}), ("shape", {"axes": {"pulse.cells": []}}),
+                             ("shape", {"axes": {"pulse.cells": 50}}), ("shape", {"axes": {"pulse.cells": [[50]]}}), ("twice", {"axes": {"pulse.cells": [50, 50]}}),
+                             ("not finite", {"axes": {"friction.coefficient": [np.nan]}}), ("'coefficient'", {"axes": {"friction.coeficient": [1, 2]}}),
+                             ("out of range", {"axes": {"friction.coefficient": [-1, -2]}}), ("slip_at_origin", {"variables": ["slip"]}),
+                             ("closure", {"variables": "closure"}), ("pulse, chain", {"command": "compare"}), ("threads", {"threads": 0}),
+                             ("progress", {"progress": 1}), ("scenario", {"scenario": 3})]:
+            with self.subTest(change=change), self.assertRaises(slipfront.InputError) as caught:
+                slipfront.sweep(**{"scenario": SCENARIO, "axes": AXES, **change})
+            self.assertIn(says, str(caught.exception))
+        for change in ({"output": "/nowhere/s.nc"}, {"resume": "/nowhere/s.nc"}, {"scenario": "/nowhere.toml"}):
+            with self.assertRaises(slipfront.FileError):
+                slipfront.sweep(**{"scenario": SCENARIO, "axes": AXES, **change})
+        with self.assertRaises(slipfront.InputError):
+            slipfront.sweep(SCENARIO, {"friction.coefficient": [-1, -2]}, output=self.output)
+        self.assertEqual(os.listdir(os.path.dirname(self.output)), ["unused"])  # nothing is left of a sweep that never began
+
+    def begin(self):
+        code = f"import slipfront\nslipfront.sweep({SCENARIO!r}, {MANY!r}, output={self.output!r}, threads=1)"
+        process = subprocess.Popen([sys.executable, "-c", code], stderr=subprocess.PIPE, text=True)
+        self.addCleanup(process.stderr.close)
+        return process
+
+    def wait_for_rows(self, process, rows):
+        def count():
+            with open(self.output + ".part", "rb") as store:
+                return store.read().count(b"\n")
+        while process.poll() is None and not (os.path.exists(self.output + ".part") and count() > rows):
+            time.sleep(0.001)
+
+    def test_killed_and_resumed_without_loss(self):
+        whole = slipfront.sweep(SCENARIO, MANY)
+        for trial in range(3):
+            process = self.begin()
+            self.wait_for_rows(process, 1 + trial)
+            process.kill()
+            process.wait()
+            self.assertFalse(os.path.exists(self.output))
+            with open(self.output + ".part", "rb") as store:
+                kept = sum(len(slipfront._store._content(line) or []) for line in store.readlines()[1:])
+            self.assertTrue(0 < kept < 600, kept)
+            with open(self.output + ".part", "ab") as store:  # as if it had been killed while it wrote
+                store.write([b"", b"0a1b2c3d [[17", b"0a1b2c3d [[17, [1.0], \"\"]]\n"][trial])
+            told = []
+            resumed = slipfront.sweep(SCENARIO, MANY, resume=self.output, progress=lambda *at: told.append(at))
+            self.assertGreater(told[0][0], kept)  # what was done is not done again
+            self.assertTrue(resumed.identical(whole))
+            self.assertTrue(slipfront.open(self.output).identical(whole))
+            self.assertFalse(os.path.exists(self.output + ".part"))
+            self.assertTrue(slipfront.sweep(SCENARIO, MANY, resume=self.output).identical(whole))  # a finished one
+            with self.assertRaises(slipfront.InputError):
+                slipfront.sweep(SCENARIO, AXES, resume=self.output)
+            os.remove(self.output)
+
+    def test_interrupted_keeps_what_is_done(self):
+        process = self.begin()
+        self.wait_for_rows(process, 1)
+        process.send_signal(signal.SIGINT)
+        errors = process.communicate(timeout=60)[1]
+        self.assertIn("KeyboardInterrupt", errors)
+        with self.assertRaises(slipfront.InputError) as caught:  # an unfinished sweep is not written over
+            slipfront.sweep(SCENARIO, MANY, output=self.output)
+        self.assertIn("unfinished", str(caught.exception))
+        with self.assertRaises(slipfront.InputError) as caught:
+            slipfront.sweep(SCENARIO, AXES, resume=self.output)
+        self.assertIn("another sweep", str(caught.exception))
+        self.assertTrue(slipfront.sweep(SCENARIO, MANY, resume=self.output).identical(slipfront.sweep(SCENARIO, MANY)))
+
+    def test_progress_may_stop_it(self):
+        def stop(*_):
+            raise RuntimeError("enough")
+
+        with self.assertRaisesRegex(RuntimeError, "enough"):
+            slipfront.sweep(SCENARIO, MANY, output=self.output, progress=stop)
+        self.assertTrue(slipfront.sweep(SCENARIO, MANY, resume=self.output).identical(slipfront.sweep(SCENARIO, MANY)))
+
+    def test_two_do_not_write_one_store(self):
+        process = self.begin()
+        self.wait_for_rows(process, 1)
+        process.send_signal(signal.SIGSTOP)
+        try:
+            with self.assertRaises(slipfront.FileError) as caught:
+                slipfront.sweep(SCENARIO, MANY, resume=self.output)
+            self.assertIn("another process", str(caught.exception))
+        finally:
+            process.kill()
+            process.wait()
+
+
+if __name__ == "__main__":
+    unittest.main()
