@@ -3,11 +3,14 @@ project = "slipfront"
 copyright = "the authors of slipfront"
 extensions = ["sphinx.ext.autodoc", "sphinx.ext.napoleon"]
 html_theme = "alabaster"
-html_theme_options = {"nosidebar": True, "page_width": "60em", "font_size": "16px", "font_family": "sans-serif"}
+html_theme_options = {"nosidebar": True, "page_width": "68em", "font_size": "16px", "font_family": "sans-serif"}
 html_show_copyright = False
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"
 napoleon_google_docstring = False
+SENTENCES = {"Returns": "Result", "Raises": "Errors"}
+napoleon_custom_sections = list(SENTENCES.values())
+highlight_language = "none"
 
 
 def plain(app, what, name, obj, options, lines):
@@ -15,14 +18,10 @@ def plain(app, what, name, obj, options, lines):
     is a table; Sphinx would take each for something else."""
     out = []
     for i, line in enumerate(lines):
-        if line in ("Returns", "Raises") and i + 1 < len(lines) and lines[i + 1].startswith("---"):
-            out += [f".. rubric:: {line}", ""]
-        elif line.startswith("---") and i and lines[i - 1] in ("Returns", "Raises"):
-            continue
-        else:
-            if what == "module" and line.startswith("    ") and not lines[i - 1]:
-                out += ["::", ""]
-            out.append(line.replace("|", r"\|"))
+        if what == "module" and line.startswith("    ") and not lines[i - 1]:
+            out += ["::", ""]
+        heading = i + 1 < len(lines) and lines[i + 1].startswith("---")
+        out.append(SENTENCES.get(line, line) if heading else line.replace("|", r"\|"))
     lines[:] = out
 
 

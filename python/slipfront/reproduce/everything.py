@@ -32,6 +32,6 @@ def reproduce(folder, threads, tell, seconds) -> dict:
         outputs.write_picture(folder, picture)
     for name, rows in tables.items():
         outputs.write_rows(folder / f"{name}.csv", rows)
-    about = {"version": slipfront.__version__, "seconds": seconds(), "pulses": len(runs.done)}
+    about = {"version": slipfront.__version__, "seconds": seconds(), "pulses": len(runs.done) + runs.swept}
     (folder / "report.html").write_text(report.page(folder, pictures, tables["numbers"], tables["formulas"], tables["statements"], about), encoding="utf-8")
     return tables

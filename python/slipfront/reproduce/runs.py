@@ -1,11 +1,11 @@
 """Pulses that the reproduction needs: each is run once, side by side on all cores."""
 
 import concurrent.futures
-import pathlib
+import math
 
 import slipfront
 
-CASES = pathlib.Path(__file__).parent.parent / "cases"
+CASES = slipfront.cases
 CLOSURES = ("paper", "consistent")
 
 
@@ -21,7 +21,7 @@ class Runs:
     """
 
     def __init__(self, threads, tell):
-        self.threads, self.tell, self.done = threads, tell, {}
+        self.threads, self.tell, self.done, self.swept = threads, tell, {}, 0
 
     def pulse(self, case, changes=None):
         """One run of a file of cases/, with {"table.key": value} changed."""
@@ -36,6 +36,17 @@ class Runs:
                 results = workers.map(lambda run: slipfront.pulse(str(CASES / run[0]), set=run[1]), missing.values())
                 self.done.update(zip(missing, results))
         return [self.done[frozen(*run)] for run in wanted]
+
+
+    def sweep(self, what, case, axes, changes, variables):
+        """Numbers at the end of the runs of a grid, {"table.key": values}. Raises NumericsError if one failed: the paper is reproduced whole."""
+        self.tell(f"{what}: {math.prod(len(values) for values in axes.values())} pulses")
+        data = slipfront.sweep(CASES / case, axes, variables=variables, set=changes, threads=self.threads)
+        failures = [text for text in data["failure"].values.ravel() if text]
+        if failures:
+            raise slipfront.NumericsError(failures[0])
+        self.swept += data["failure"].size
+        return data[variables]
 
 
 def at_origin(pulse, name="slip_velocity_at_origin"):

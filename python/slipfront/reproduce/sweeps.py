@@ -6,17 +6,15 @@ from matplotlib.figure import Figure
 
 from ..plots.style import label, styled
 from .picture import Picture
-from .runs import CLOSURES, at_origin
+from .runs import CLOSURES
 
 
 def sweep(runs, what, case, stresses, coefficients, changes, quantities) -> xarray.Dataset:
-    """Quantities at the last time over closure, coefficient and stress, from one run each."""
-    axes = [(closure, c, s) for closure in CLOSURES for c in coefficients for s in stresses]
-    found = runs.many(what, [(case, {"friction.closure": closure, "friction.coefficient": c, "initial.stress_left": float(s)} | changes) for closure, c, s in axes])
-    shape, dims = (len(CLOSURES), len(coefficients), len(stresses)), ("closure", "coefficient", "stress")
-    data = {name: (dims, numpy.reshape([at_origin(run, name) for run in found], shape), found[0][name].attrs) for name in quantities}
-    return xarray.Dataset(data, {"closure": list(CLOSURES), "coefficient": list(coefficients),
-                                 "stress": ("stress", stresses, {"long_name": "initial stress Sigma-", "units": "1", "dimensional_unit": "mu A / pi"})})
+    """Quantities at the last time over closure, coefficient and stress, by slipfront.sweep."""
+    axes = {"friction.closure": list(CLOSURES), "friction.coefficient": list(coefficients), "initial.stress_left": list(stresses)}
+    data = runs.sweep(what, case, axes, changes, quantities)
+    data = data.rename(dict(zip(axes, ("closure", "coefficient", "stress"))))
+    return data.assign_coords(stress=("stress", stresses, {"long_name": "initial stress Sigma-", "units": "1", "dimensional_unit": "mu A / pi"}))
 
 
 @styled
