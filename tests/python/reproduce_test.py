@@ -39,8 +39,12 @@ class Reproduce(CommandLine):
     @classmethod
     def setUpClass(cls):
         cls.temporary = tempfile.TemporaryDirectory()
-        cls.folder = os.path.join(cls.temporary.name, "out")
-        done = subprocess.run([PROGRAM, "reproduce", "-o", cls.folder, "--json"], capture_output=True, text=True, timeout=280)
+        cls.folder = os.path.join(cls.temporary.name, "reproduction")
+        # Without arguments, in a folder of its own: this is the main job.
+        done = subprocess.run([PROGRAM], capture_output=True, text=True, timeout=280, cwd=cls.temporary.name)
+        assert done.returncode == 0, done.stderr
+        cls.printed, cls.errors = done.stdout, done.stderr
+        done = subprocess.run([PROGRAM, "reproduce", "-o", cls.folder, "--json", "--threads", "1"], capture_output=True, text=True, timeout=280)
         assert done.returncode == 0, done.stderr
         cls.out = json.loads(done.stdout)
         with open(PAPER, "rb") as file:
@@ -50,6 +54,13 @@ class Reproduce(CommandLine):
     @classmethod
     def tearDownClass(cls):
         cls.temporary.cleanup()
+
+    def test_prints_the_table_and_where_the_page_is(self):
+        self.assertEqual(self.errors, "")
+        self.assertIn(os.path.join("reproduction", "report.html"), self.printed.splitlines()[-1])
+        for row in self.out["numbers"]:  # of another run, on one thread
+            self.assertIn(f"{row['printed']:>9} {row['computed']:>10.4g}", self.printed)
+        self.assertEqual(os.listdir(self.temporary.name), ["reproduction"])
 
     def test_every_figure_with_its_data(self):
         for name in [f"fig-{i:02d}" for i in range(1, 13)] + ["width"]:
