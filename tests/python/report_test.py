@@ -25,7 +25,9 @@ class Report(unittest.TestCase):
             picture = contact()
             outputs.write_picture(place, picture)
             formula = {"where": "Eq. 1", "printed": "u", "mended": "2 u", "check": "slip", "by_printed": 0.5, "by_mended": None}
-            page = report.page(place, [picture], [ROW], [formula], [{"statement": "s", "found": "f", "holds": True}], {"version": "0", "seconds": 1.0, "pulses": 2})
+            statement = {"statement": "s", "found": "f", "holds": True}
+            tables = {"numbers": [ROW], "formulas": [formula], "statements": [statement]}
+            page = report.page(place, [picture], tables, {"version": "0", "seconds": 1.0, "pulses": 2})
             # The page says by its title how wide it came out.
             measure = "<script>document.title=JSON.stringify([document.documentElement.scrollWidth,innerWidth])</script>"
             (place / "report.html").write_text(page.replace("</body>", measure + "</body>"), encoding="utf-8")

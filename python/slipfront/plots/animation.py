@@ -29,7 +29,8 @@ class Scene:
             low, high = min(0.0, float(pulse[name].min())), float(pulse[name].max())
             axes.set(ylabel=label(pulse[name]).replace(", ", ",\n"), ylim=(low, 1.08 * high if high > 0 else 1))
         self.panels[1].plot(pulse["x"], pulse["Sigma"][0], color="0.7", linestyle="-", linewidth=1)
-        self.lines = [axes.plot(pulse["x"], pulse[name][0], color=colour, linestyle="-")[0] for axes, name, colour in zip(self.panels, ("W", "Sigma"), ("C1", "C0"))]
+        self.lines = [axes.plot(pulse["x"], pulse[name][0], color=colour, linestyle="-")[0]
+                      for axes, name, colour in zip(self.panels, ("W", "Sigma"), ("C1", "C0"))]
         self.marks = self.panels[2].plot([], [], marker="$⊥$", color="black", markersize=6, linestyle="none")[0]
         self.panels[2].set(ylim=(-1, 1), yticks=[], ylabel="dislo-\ncations", xlabel=label(pulse["x"]), xlim=(left, right))
         self.panels[2].grid(False)

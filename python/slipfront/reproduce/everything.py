@@ -22,9 +22,9 @@ def reproduce(folder, threads, tell, seconds) -> dict:
     slip, (small_drop, drops) = sweeps.slip(runs, paper), pulses.small_drop(runs)
     fronts = sweeps.fronts(runs, paper, laws.laws())
     weak, middle, strong = paper["inputs"]["friction"]
+    seventh, ninth = pulses.weak_and_strong(runs, weak, strong)
     pictures = [states.contact(), states.dislocation(), states.initial(runs), laws.pulse(), laws.rupture(values), laws.slip(values),
-                pulses.fields(runs, 7, weak, "weak"), pulses.scaled(runs, [weak, middle, strong], width), widths.picture(factors, printed, width),
-                pulses.fields(runs, 9, strong, "strong"), slip, small_drop, fronts]
+                seventh, pulses.scaled(runs, [weak, middle, strong], width), widths.pictured(factors, printed, width), ninth, slip, small_drop, fronts]
     tables = {"numbers": numbers.table(paper, values), "formulas": formulas.table(paper),
               "statements": statements.table(slip.data, fronts.data, drops, slipfront.relations(stress=numpy.asarray(fronts.data["stress"])))}
     for picture in pictures:
@@ -33,5 +33,6 @@ def reproduce(folder, threads, tell, seconds) -> dict:
     for name, rows in tables.items():
         outputs.write_rows(folder / f"{name}.csv", rows)
     about = {"version": slipfront.__version__, "seconds": seconds(), "pulses": len(runs.done) + runs.swept}
-    (folder / "report.html").write_text(report.page(folder, pictures, tables["numbers"], tables["formulas"], tables["statements"], about), encoding="utf-8")
+    page = report.page(folder, pictures, tables, about)
+    (folder / "report.html").write_text(page, encoding="utf-8")
     return tables

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 import slipfront
 
 from ..plots.style import label, styled
-from .picture import Picture
+from .picture import Picture, picture
 
 #: The paper's two worked examples, marked in Figs. 5 and 6: (name, key of the computed numbers for stress, mark).
 EXAMPLES = (("Parkfield 2004", "parkfield", "o"), ("ETS", "ets", "s"))
@@ -31,13 +31,11 @@ def pulse() -> Picture:
     """Fig. 4."""
     x_over_t = numpy.unique(numpy.concatenate((numpy.linspace(-2, 1, 1201), numpy.linspace(0.095, 0.105, 401))))
     data = slipfront.train.profile(0.855, x_over_t)
-    return Picture("fig-04", "The slip pulse without friction", "Stress and slip velocity at three times after a step of Σ− = 0.855 meets an empty interface, closed form (Eqs. 8-10). "
-                   "The solution depends on x/t alone: its edges (dotted) move at V− and V+, stress and slip velocity at x = 0 stay as they are.",
-                   draw_pulse(data, {numpy.pi / 2: "π/2", numpy.pi: "π", 2 * numpy.pi: "2π"}), data)
+    return picture("fig-04", draw_pulse(data, {numpy.pi / 2: "π/2", numpy.pi: "π", 2 * numpy.pi: "2π"}), data, stress=data.attrs["stress"])
 
 
 def kept(pulse):
-    """The fields of a pulse that its figure shows, without checkpoint."""
+    """The fields of a pulse that its figure shows."""
     return pulse[["W", "Sigma", "slip", "trailing_front", "leading_front"]]
 
 
@@ -67,15 +65,13 @@ def draw_laws(data, names, values) -> Figure:
 def rupture(values) -> Picture:
     """Fig. 5."""
     data = laws()[["stress", "rupture_velocity", "leading_velocity", "velocity_ratio"]]
-    return Picture("fig-05", "Rupture velocity against initial stress", "|V−| of the trailing edge and V+ of the leading edge, closed form (Eqs. 8-10), with the paper's two examples. "
-                   "|V−| is larger than V+ at every stress, and both tend to c.",
-                   draw_laws(data, {"rupture_velocity": "|V−|, trailing edge", "leading_velocity": "V+, leading edge"}, values), data)
+    return picture("fig-05", draw_laws(data, {"rupture_velocity": "|V−|, trailing edge", "leading_velocity": "V+, leading edge"}, values), data)
 
 
 def slip(values) -> Picture:
     """Fig. 6."""
     data = laws()[["stress", "slip_velocity", "stress_at_origin"]]
-    parkfield, ets = (float(slipfront.relations(stress=[values[f"{key}_stress"]])["slip_velocity"].values[0]) for key in ("parkfield", "ets"))
-    share = values["parkfield_stress"] / values["ets_stress"]
-    return Picture("fig-06", "Slip velocity against initial stress", f"W at x = 0 without friction, closed form (Eqs. 8-10), with the paper's two examples: {parkfield:.3g} cA/π for Parkfield; for an ETS event, "
-                   f"whose stress is {share:.2g} times less, it is {parkfield / ets:,.0f} times less.", draw_laws(data, {"slip_velocity": "W(0)"}, values), data)
+    stresses = [values[f"{key}_stress"] for key in ("parkfield", "ets")]
+    parkfield, ets = slipfront.relations(stress=stresses)["slip_velocity"].values
+    return picture("fig-06", draw_laws(data, {"slip_velocity": "W(0)"}, values), data, parkfield=parkfield, slip_ratio=parkfield / ets,
+                   stress_ratio=stresses[0] / stresses[1])

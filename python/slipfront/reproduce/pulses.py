@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 from ..plots.pulse_parts import shades
 from ..plots.style import label, styled
 from .laws import kept
-from .picture import Picture
+from .picture import Picture, picture
 from .runs import CLOSURES, at_origin
 
 
@@ -36,12 +36,22 @@ def draw_fields(data) -> Figure:
     return figure
 
 
-def fields(runs, number, c, words) -> Picture:
+def fields(runs, number, c, **facts) -> Picture:
     """Figs. 7 and 9: one state at several times."""
     data = both(runs, f"fig-{number:02d}.toml")
-    return Picture(f"fig-{number:02d}", f"A pulse with {words} friction, C = {c:g}", f"Slip velocity and stress at five times to t = 2π (Γ = C t = {2 * numpy.pi * c:.3g}), from a tanh of width 1 b/A "
-                   "between Σ− = 0.855 and Σ+ = 0.179: left with the paper's closure, right with the consistent one, which brakes more. "
-                   "The paper states neither its width nor, here, its caption.", draw_fields(data), data)
+    return picture(f"fig-{number:02d}", draw_fields(data), data, c=c, damping_number=2 * numpy.pi * c, **facts)
+
+
+def peak(pictured) -> float:
+    """Greatest slip velocity at the last time, with the paper's closure."""
+    return float(pictured.data["W"].sel(closure="paper").isel(time=-1).max())
+
+
+def weak_and_strong(runs, weak, strong) -> tuple:
+    """Figs. 7 and 9."""
+    seventh = fields(runs, 7, weak)
+    times = peak(seventh) / float(both(runs, "fig-09.toml")["W"].sel(closure="paper").isel(time=-1).max())
+    return seventh, fields(runs, 9, strong, times=times)
 
 
 @styled
@@ -71,23 +81,21 @@ def scaled(runs, coefficients, width) -> Picture:
     data = xarray.concat(cases, xarray.DataArray(coefficients, dims="coefficient", name="coefficient"), join="exact")
     peak = data["W"].max("x")
     data["factor"] = peak.isel(coefficient=0) / peak
-    return Picture("fig-08", "Slip velocity at t = 2π for three friction coefficients", f"Left as it is, right multiplied so that the peaks agree. Σ− = 0.855, Σ+ = 0.179, tanh of width {width:.2g} b/A, the one "
-                   "that comes nearest to the factors that the paper prints (next figure). Peaks move with C: the shapes are alike, not the same.",
-                   draw_scaled(data, data["factor"]), data)
+    return picture("fig-08", draw_scaled(data, data["factor"]), data, width=width)
 
 
 def drops(runs, stress, coefficient) -> xarray.Dataset:
     """Slip velocity at x = 0 at t = 2 pi after a step of stress, against the stress drop, with each closure and without friction."""
     right = numpy.round(stress * (1 - numpy.linspace(0.35, 1, 14)), 6)
-    wanted = {(closure, c): [("step.toml", {"friction.law": "viscous", "friction.closure": closure, "friction.coefficient": c, "initial.stress_right": float(r)})
-                             for r in right]
-              for closure, c in (("paper", coefficient), ("consistent", coefficient), ("consistent", 0))}
-    runs.many("Fig. 11", [run for group in wanted.values() for run in group])
-    named = ("paper", "consistent", "no friction")
-    values = [[at_origin(pulse) for pulse in runs.many("Fig. 11", group)] for group in wanted.values()]
-    return xarray.Dataset({"slip_velocity_at_origin": (("state", "relative_drop"), values, {"units": "1", "dimensional_unit": "c A / pi", "long_name": "slip velocity at x = 0, t = 2 pi"})},
-                          {"state": list(named), "relative_drop": ("relative_drop", 1 - right / stress, {"long_name": "stress drop over Sigma-", "units": "1"}),
-                           "stress_right": ("relative_drop", right, {"units": "1", "dimensional_unit": "mu A / pi"})})
+    states = {"paper": ("paper", coefficient), "consistent": ("consistent", coefficient), "no friction": ("consistent", 0)}
+    wanted = [("step.toml", {"friction.law": "viscous", "friction.closure": closure, "friction.coefficient": c, "initial.stress_right": float(r)})
+              for closure, c in states.values() for r in right]
+    values = numpy.reshape([at_origin(pulse) for pulse in runs.many("Fig. 11", wanted)], (len(states), len(right)))
+    attrs = {"units": "1", "dimensional_unit": "c A / pi", "long_name": "slip velocity at x = 0, t = 2 pi"}
+    return xarray.Dataset(
+        {"slip_velocity_at_origin": (("state", "relative_drop"), values, attrs)},
+        {"state": list(states), "relative_drop": ("relative_drop", 1 - right / stress, {"long_name": "stress drop over Sigma-", "units": "1"}),
+         "stress_right": ("relative_drop", right, {"units": "1", "dimensional_unit": "mu A / pi"})})
 
 
 @styled
@@ -97,7 +105,8 @@ def draw_drops(profiles, sweep) -> Figure:
     left, right = figure.subplots(1, 2)
     for i, stress in enumerate(profiles["stress_right"].values):
         for closure, line in zip(profiles["closure"].values, ("-", "--")):
-            left.plot(profiles["x"], profiles["W"].sel(stress_right=stress, closure=closure), color=f"C{i}", linestyle=line, label=f"Σ+ = {stress:g}, {closure}")
+            one = profiles["W"].sel(stress_right=stress, closure=closure)
+            left.plot(profiles["x"], one, color=f"C{i}", linestyle=line, label=f"Σ+ = {stress:g}, {closure}")
     left.set(xlabel=label(profiles["x"]), ylabel=label(profiles["W"]), xlim=(-6, 4), ylim=(0, 1.4 * float(profiles["W"].max())))
     left.legend(loc="upper left", fontsize="x-small")
     for state in sweep["state"].values:
@@ -115,7 +124,4 @@ def small_drop(runs) -> tuple:
     grid = ends[0]["x"]  # each run has its own cells
     profiles = xarray.concat([end.interp(x=grid) for end in ends], xarray.DataArray(list(pair), dims="stress_right", name="stress_right"))
     sweep = drops(runs, stress, coefficient)
-    picture = Picture("fig-11", "A smaller stress drop", "Left: slip velocity at t = 2π with C = 0.5 into Σ+ = 0.179 and 0.547 (stress drops of 79 % and 36 % of Σ− = 0.855). Right: W(0) at t = 2π after a step of Σ− meets Σ+, "
-                      "against the stress drop. The paper finds W independent of Σ+ for drops of 35 to 100 %; it falls towards small drops, with either closure. "
-                      "Left from a tanh of width 1 b/A; which state the paper's Fig. 11 holds is our reading.", draw_drops(profiles, sweep), sweep)
-    return picture, sweep
+    return picture("fig-11", draw_drops(profiles, sweep), sweep), sweep

@@ -31,7 +31,7 @@ class Runs:
         """Runs, in the order of `wanted`: (case, changes) each."""
         missing = {frozen(*run): run for run in wanted if frozen(*run) not in self.done}
         if missing:
-            self.tell(f"{what}: {len(missing)} pulses" if what else "pulses")
+            self.tell(f"{what}: {len(missing)} pulses" if what else f"{len(missing)} pulses")
             with concurrent.futures.ThreadPoolExecutor(self.threads) as workers:
                 results = workers.map(lambda run: slipfront.pulse(str(CASES / run[0]), set=run[1]), missing.values())
                 self.done.update(zip(missing, results))

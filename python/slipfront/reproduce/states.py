@@ -7,7 +7,12 @@ from matplotlib.figure import Figure
 import slipfront
 
 from ..plots.style import styled
-from .picture import Picture
+from .picture import Picture, picture
+
+
+def in_units(dimensional_unit) -> dict:
+    """Attributes of a dimensionless variable."""
+    return {"units": "1", "dimensional_unit": dimensional_unit}
 
 
 def static_chain(contact_ratio: float, sites: int) -> numpy.ndarray:
@@ -49,7 +54,8 @@ def draw_contact(chain) -> Figure:
     for i in range(len(now) - 1):
         along = numpy.linspace(0, 1, 25)
         zigzag = 0.09 * numpy.where((numpy.arange(25) > 3) & (numpy.arange(25) < 21), (-1.0) ** numpy.arange(25), 0)
-        upper.plot(now[i] + along * (now[i + 1] - now[i]), height[i] + along * (height[i + 1] - height[i]) + zigzag, color="0.45", linestyle="-", linewidth=0.6)
+        across, up = now[i] + along * (now[i + 1] - now[i]), height[i] + along * (height[i + 1] - height[i])
+        upper.plot(across, up + zigzag, color="0.45", linestyle="-", linewidth=0.6)
     upper.plot(now, height, "o", color="C0", markersize=8, linestyle="none")
     upper.set(ylim=(-1.6, 0.9), ylabel="potential of\nthe substrate", yticks=[])
     upper.set_title("asperities (dots), joined by springs, on the rigid substrate: one more than there are valleys")
@@ -63,12 +69,10 @@ def contact() -> Picture:
     """Fig. 1."""
     contact_ratio, sites = 0.4, 41
     u = static_chain(contact_ratio, sites)
-    data = xarray.Dataset({"slip": ("site", u, {"long_name": "displacement of an asperity", "units": "1", "dimensional_unit": "b / (2 pi)"}),
-                           "place": ("site", numpy.arange(sites) - (sites - 1) / 2, {"long_name": "its place without slip", "units": "1", "dimensional_unit": "b"})},
-                          attrs={"contact_ratio": contact_ratio})
-    return Picture("fig-01", "Asperity contact: the Frenkel-Kontorova chain", "A chain of asperities at rest on the sinusoidal substrate (Eq. 1, solved by Newton's method), "
-                   f"with one dislocation: those left of it have slipped by one spacing. Contact ratio A = {contact_ratio}, large, so that the dislocation, b/A wide, "
-                   "is a few asperities across; in rock it is hundreds. A schematic: the paper's own drawing was not at hand.", draw_contact(data), data)
+    place = numpy.arange(sites) - (sites - 1) / 2
+    data = xarray.Dataset({"slip": ("site", u, {"long_name": "displacement of an asperity", **in_units("b / (2 pi)")}),
+                           "place": ("site", place, {"long_name": "its place without slip", **in_units("b")})}, attrs={"contact_ratio": contact_ratio})
+    return picture("fig-01", draw_contact(data), data, contact_ratio=contact_ratio)
 
 
 @styled
@@ -80,7 +84,8 @@ def draw_dislocation(data) -> Figure:
         one = data.sel(velocity=velocity)
         left.plot(data["x"], one["slip"], color=f"C{i}", label=f"U = {velocity:g} c")
         right.plot(data["x"], one["stress"], color=f"C{i}", label=f"U = {velocity:g} c")
-    left.plot(data["site"], data["slip_of_site"], "o", color="C2", markersize=3, linestyle="none", label=f"asperities, A = {data.attrs['contact_ratio']}")
+    sites = f"asperities, A = {data.attrs['contact_ratio']}"
+    left.plot(data["site"], data["slip_of_site"], "o", color="C2", markersize=3, linestyle="none", label=sites)
     left.set(xlabel="position x, b/A", ylabel="slip u, b/2π", title="slip", yticks=[0, numpy.pi, 2 * numpy.pi], yticklabels=["0", "π", "2π"])
     right.set(xlabel="position x, b/A", ylabel="stress σ = −∂u/∂x, μA/π", title="stress", xlim=(-6, 6))
     left.legend()
@@ -93,12 +98,12 @@ def dislocation() -> Picture:
     contact_ratio, sites = 0.3, 41
     x, velocities = numpy.linspace(-6, 6, 481), [0.0, 0.8]
     fields = [alone(x, velocity) for velocity in velocities]
-    data = xarray.Dataset({"slip": (("velocity", "x"), [f[0] for f in fields], {"units": "1", "dimensional_unit": "b / (2 pi)"}),
-                           "stress": (("velocity", "x"), [f[1] for f in fields], {"units": "1", "dimensional_unit": "mu A / pi"}),
-                           "slip_of_site": ("site", static_chain(contact_ratio, sites), {"units": "1", "dimensional_unit": "b / (2 pi)"})},
-                          {"x": x, "velocity": velocities, "site": contact_ratio * (numpy.arange(sites) - (sites - 1) / 2)}, {"contact_ratio": contact_ratio})
-    return Picture("fig-02", "A dislocation", "Slip and stress of one dislocation, the limit of Eq. 4 where its neighbours are far: it carries one asperity spacing (2π) of slip, "
-                   f"and contracts as it moves. Dots: asperities of the lattice (Eq. 1) at rest, A = {contact_ratio}. A schematic.", draw_dislocation(data), data)
+    site = contact_ratio * (numpy.arange(sites) - (sites - 1) / 2)
+    data = xarray.Dataset({"slip": (("velocity", "x"), [f[0] for f in fields], in_units("b / (2 pi)")),
+                           "stress": (("velocity", "x"), [f[1] for f in fields], in_units("mu A / pi")),
+                           "slip_of_site": ("site", static_chain(contact_ratio, sites), in_units("b / (2 pi)"))},
+                          {"x": x, "velocity": velocities, "site": site}, {"contact_ratio": contact_ratio})
+    return picture("fig-02", draw_dislocation(data), data, contact_ratio=contact_ratio)
 
 
 @styled
@@ -111,7 +116,8 @@ def draw_initial(data) -> Figure:
     upper.set(ylabel="stress, μA/π", ylim=(0, 2.9))
     upper.legend(loc="upper right", ncol=2)
     lower.plot(data["x"], data["slip"], color="C0", linestyle="-")
-    lower.set(xlabel="position x, b/A (stretched by the scale)", ylabel="slip u over 2π\n= dislocations to the right", xlim=(float(data["x"][0]), float(data["x"][-1])))
+    lower.set(xlabel="position x, b/A (stretched by the scale)", ylabel="slip u over 2π\n= dislocations to the right",
+              xlim=(float(data["x"][0]), float(data["x"][-1])))
     return figure
 
 
@@ -121,13 +127,12 @@ def initial(runs) -> Picture:
     start = runs.pulse("fig-08.toml").isel(time=0)
     x = numpy.linspace(-half, half, 2001)
     stress = numpy.interp(x, start["x"], start["Sigma"])
-    count = numpy.concatenate(([0], numpy.cumsum((stress[1:] + stress[:-1]) / 2 * numpy.diff(x)))) * scale / (2 * numpy.pi)  # dislocations from the left
+    between = (stress[1:] + stress[:-1]) / 2 * numpy.diff(x)
+    count = numpy.concatenate(([0], numpy.cumsum(between))) * scale / (2 * numpy.pi)  # dislocations from the left
     places = numpy.interp(numpy.arange(0.5, count[-1]), count, x)
     # Far apart or in a train, stresses of dislocations add up: dn is a sum of sech.
     slip, sharp = sum(numpy.array(alone(scale * (x - place))) for place in places)
-    data = xarray.Dataset({"Sigma": ("x", stress, {"units": "1", "dimensional_unit": "mu A / pi"}), "stress": ("x", sharp, {"units": "1", "dimensional_unit": "mu A / pi"}),
-                           "slip": ("x", slip / (2 * numpy.pi), {"units": "1", "dimensional_unit": "b"})}, {"x": ("x", x, {"units": "1", "dimensional_unit": "b / A"})},
+    data = xarray.Dataset({"Sigma": ("x", stress, in_units("mu A / pi")), "stress": ("x", sharp, in_units("mu A / pi")),
+                           "slip": ("x", slip / (2 * numpy.pi), in_units("b"))}, {"x": ("x", x, in_units("b / A"))},
                           {"scale": scale, "dislocations": len(places)})
-    return Picture("fig-03", "Initial stress", f"The stress before the rupture, and the static dislocations that carry it: density N = Σ/2π. Profile of cases/fig-08.toml: tanh of width 1, "
-                   f"Σ− = 0.855 to Σ+ = 0.179; scale {scale}: x stretched {scale} times, to show each of the {len(places)} dislocations. A schematic.",
-                   draw_initial(data), data)
+    return picture("fig-03", draw_initial(data), data, scale=scale, count=len(places))

@@ -5,7 +5,7 @@ import xarray
 from matplotlib.figure import Figure
 
 from ..plots.style import label, styled
-from .picture import Picture
+from .picture import Picture, picture
 from .runs import CLOSURES
 
 
@@ -43,10 +43,7 @@ def slip(runs, paper) -> Picture:
     """Fig. 10."""
     stresses = numpy.unique(numpy.append(numpy.round(numpy.linspace(0.6, 1.6, 11), 6), paper["inputs"]["stress"]))
     data = sweep(runs, "Fig. 10", "fig-10.toml", stresses, [0, *paper["inputs"]["friction"]], {}, ["slip_velocity_at_origin"])
-    return Picture("fig-10", "Slip velocity against initial stress, with friction", "W(0) at t = 2π, Σ+ = 0.179, tanh of width 0.1 b/A, and its share of that without friction. Circles: what the paper "
-                   "reads off for Parkfield, Σ− = 1.03. With the paper's closure the values are close to the printed ones; the consistent closure gives less slip. "
-                   "Below Σ− = 0.6 the pulse has hardly left its initial profile by then.",
-                   draw_slip(data, paper), data)
+    return picture("fig-10", draw_slip(data, paper), data)
 
 
 @styled
@@ -69,12 +66,9 @@ def draw_fronts(data, closed_form) -> Figure:
 def fronts(runs, paper, relations) -> Picture:
     """Fig. 12."""
     stresses = numpy.round(numpy.linspace(0.3, 1.3, 11), 6)
-    data = sweep(runs, "Fig. 12", "step.toml", stresses, [0, *paper["inputs"]["friction"]], {"initial.stress_right": paper["inputs"]["stress_right"], "friction.law": "viscous"},
-                 ["trailing_front", "leading_front"])
+    changes = {"initial.stress_right": paper["inputs"]["stress_right"], "friction.law": "viscous"}
+    data = sweep(runs, "Fig. 12", "step.toml", stresses, [0, *paper["inputs"]["friction"]], changes, ["trailing_front", "leading_front"])
     for name in ("trailing", "leading"):
         data[f"{name}_velocity"] = data[f"{name}_front"] / (2 * numpy.pi)
         data[f"{name}_velocity"].attrs = {"long_name": f"mean velocity of the {name} edge to t = 2 pi", "units": "1", "dimensional_unit": "c"}
-    return Picture("fig-12", "Both edges of the pulse against initial stress, with friction", "Mean velocities from t = 0 to 2π after a step of Σ− meets Σ+ = 0.179. The trailing edge runs into a state at rest, "
-                   "where friction has nothing to act on: its velocity is |V−| of the closed form for every C. The leading edge is slowed, more so with the consistent closure. "
-                   "A step in place of the tanh of cases/fig-12.toml, so that both edges start at x = 0; which sweep the paper's Fig. 12 shows is our reading.",
-                   draw_fronts(data, relations), data)
+    return picture("fig-12", draw_fronts(data, relations), data)

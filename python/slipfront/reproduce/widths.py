@@ -5,7 +5,7 @@ import xarray
 from matplotlib.figure import Figure
 
 from ..plots.style import styled
-from .picture import Picture
+from .picture import Picture, picture
 from .runs import CLOSURES
 
 WIDTHS = numpy.round(numpy.concatenate((numpy.arange(0.2, 1.0, 0.1), numpy.arange(1.0, 3.05, 0.1))), 3)
@@ -50,8 +50,7 @@ def draw(table, printed, width) -> Figure:
     return figure
 
 
-def picture(table, printed, width) -> Picture:
+def pictured(table, printed, width) -> Picture:
     """The figure that the paper does not have."""
-    return Picture("width", "The width of the initial profile", f"Factors that bring the peak of the slip velocity at C = 0.5 and 2 to that at C = 0.1 (Fig. 8), "
-                   f"Σ− = 0.855, Σ+ = 0.179, t = 2π. The paper does not state the width of its smooth profile; with its closure, {width:.2g} b/A (grey line) comes "
-                   "nearest to both printed factors. With the consistent closure friction is stronger, and no width gives both.", draw(table, printed, width), table)
+    least = float(table["factor"].sel(closure="consistent", coefficient=min(printed)).min())
+    return picture("width", draw(table, printed, width), table, width=width, least=least)
