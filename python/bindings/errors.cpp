@@ -1,11 +1,21 @@
 #include "bindings.hpp"
 #include "slipfront/error.hpp"
 
+namespace {
+
+template <class Error>
+void bind(py::module_& m, const char* name, PyObject* base, const char* meaning) {
+  auto& type = py::register_exception<Error>(m, name, base);
+  type.attr("__doc__") = meaning;
+  type.attr("__module__") = "slipfront";  // where users find it
+}
+
+}  // namespace
+
 void bind_errors(py::module_& m) {
-  py::register_exception<slipfront::InputError>(m, "InputError", PyExc_ValueError).attr("__doc__") =
-      "Bad usage or input; one line says what, its value and what is allowed.";
-  py::register_exception<slipfront::FileError>(m, "FileError", PyExc_OSError).attr("__doc__") =
-      "A file could not be read or written.";
-  py::register_exception<slipfront::NumericsError>(m, "NumericsError", PyExc_RuntimeError).attr("__doc__") =
-      "The numerics gave up; one line says what, where and at what time.";
+  bind<slipfront::InputError>(m, "InputError", PyExc_ValueError,
+                              "Bad usage or input; one line says what, its value and what is allowed.");
+  bind<slipfront::FileError>(m, "FileError", PyExc_OSError, "A file could not be read or written.");
+  bind<slipfront::NumericsError>(m, "NumericsError", PyExc_RuntimeError,
+                                 "The numerics gave up; one line says what, where and at what time.");
 }

@@ -8,6 +8,7 @@
 #include <span>
 #include <string_view>
 #include <thread>
+#include <tuple>
 #include <utility>
 
 #include "results.hpp"
@@ -138,34 +139,38 @@ class Sweep {
 void sweep(const std::string& command, const py::dict& arguments, std::vector<Overrides> points, Variables variables,
            int threads, const py::object& deliver) {
   Sweep work(command, asked(arguments), std::move(points), std::move(variables));
-  const py::gil_scoped_release others_may_run;
-  std::vector<std::jthread> workers;
-  for (int i = 0; i < threads; ++i) workers.emplace_back([&] { work.work(); });
   std::exception_ptr raised;
-  bool delivers = true;
-  while (true) {
-    const auto [outcomes, all] = work.collect(threads);
-    const py::gil_scoped_acquire lock;
+  /// Whether `call` came back; else the sweep stops, and ends with the first error.
+  const auto comes_back = [&](const auto& call) {
     try {
-      if (delivers && !outcomes.empty()) {
-        py::list rows;
-        for (const Outcome& o : outcomes) rows.append(py::make_tuple(o.point, py::cast(o.values), o.reason));
-        delivers = false;  // unless it comes back
-        deliver(rows);
-        delivers = true;
-      }
-      if (!raised && PyErr_CheckSignals() != 0) throw py::error_already_set();
-    } catch (const py::error_already_set&) {
+      call();
+      return true;
+    } catch (...) {
       if (!raised) raised = std::current_exception();
       work.stop();
+      return false;
     }
-    if (all) break;
+  };
+  {
+    const py::gil_scoped_release others_may_run;
+    std::vector<std::jthread> workers(static_cast<std::size_t>(threads));
+    for (std::jthread& worker : workers) worker = std::jthread([&] { work.work(); });
+    for (bool all = false, delivers = true; !all;) {
+      std::vector<Outcome> outcomes;
+      std::tie(outcomes, all) = work.collect(threads);
+      const py::gil_scoped_acquire lock;
+      if (delivers && !outcomes.empty())
+        delivers = comes_back([&] {
+          py::list rows;
+          for (const Outcome& o : outcomes) rows.append(py::make_tuple(o.point, py::cast(o.values), o.reason));
+          deliver(rows);
+        });
+      comes_back([] {
+        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      });
+    }
   }
-  workers.clear();
-  if (raised) {
-    const py::gil_scoped_acquire lock;
-    std::rethrow_exception(raised);
-  }
+  if (raised) std::rethrow_exception(raised);
 }
 
 }  // namespace

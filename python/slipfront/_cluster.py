@@ -1,11 +1,14 @@
 """Points of a sweep: on this machine, and on the workers of a Dask cluster."""
 
+import pickle
+
 from . import _slipfront
 from ._need import need
 from ._slipfront import NumericsError
 
-_most_points_a_task = 64
-_tasks_a_thread = 8
+_most_points_a_task = 256
+_tasks_a_thread = 4  # of what is left
+_most_tasks_a_thread = 256
 _tries = 3
 
 
@@ -17,10 +20,22 @@ def run_points(command, asked, work, variables, threads, deliver):
                      lambda rows: deliver([(numbers[i], values, reason) for i, values, reason in rows]))
 
 
-def _task(command, asked, work, variables):
+def _task(packed):
+    """Points and results travel as bytes: Dask would look into every text of them."""
+    command, asked, work, variables = pickle.loads(packed)
     rows = []
     run_points(command, asked, work, variables, 1, rows.extend)
-    return rows
+    return pickle.dumps(rows)
+
+
+def _parts(work, threads):
+    """Tasks of many points, smaller and smaller: few messages, and workers that end together."""
+    parts, begin, least = [], 0, max(1, len(work) // (_most_tasks_a_thread * threads))
+    while begin < len(work):
+        size = max(least, min(_most_points_a_task, (len(work) - begin) // (_tasks_a_thread * threads)))
+        parts.append(work[begin:begin + size])
+        begin += size
+    return parts
 
 
 def on_cluster(client, command, asked, work, variables, deliver):
@@ -29,20 +44,19 @@ def on_cluster(client, command, asked, work, variables, deliver):
     distributed = need("distributed")
     gone = (distributed.client.CancelledError, OSError, TimeoutError)
     threads = sum(client.nthreads().values()) or 1
-    size = max(1, min(_most_points_a_task, len(work) // (_tasks_a_thread * threads)))
 
     def submit(part):
-        future = client.submit(_task, command, asked, part, variables, pure=False, retries=_tries)
+        future = client.submit(_task, pickle.dumps((command, asked, part, variables)), pure=False, retries=_tries)
         parts[future.key] = part
         return future
 
     parts = {}
-    running = distributed.as_completed([submit(work[i:i + size]) for i in range(0, len(work), size)])
+    running = distributed.as_completed([submit(part) for part in _parts(work, threads)])
     try:
         for future in running:
             part = parts.pop(future.key)
             try:
-                rows = future.result()
+                rows = pickle.loads(future.result())
             except gone as error:
                 raise NumericsError(f"the Dask cluster is gone: {' '.join(str(error).split()) or type(error).__name__}") from error
             except Exception as error:

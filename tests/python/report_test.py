@@ -1,7 +1,6 @@
 """report.html in a browser: no console message, nothing loaded, nothing wider than the page. Skipped where there is no chromium."""
 
 import json
-import os
 import re
 import shutil
 import subprocess

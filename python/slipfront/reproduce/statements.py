@@ -50,7 +50,7 @@ def drop(drops):
     if w["relative_drop"][0] > w["relative_drop"][-1]:
         shares = 1 / shares
     text = ", ".join(f"{100 * share:.0f} % ({state})" for state, share in shares.items())
-    return row("W(0) does not depend on Σ+ for stress drops of 35 to 100 %", f"at a drop of 35 % it is of that at 100 %: {text}", shares.min() > 0.95)
+    return row("W(0) does not depend on Σ+ for stress drops of 35 to 100 %", f"at a drop of 35 %, as a share of that at 100 %: {text}", shares.min() > 0.95)
 
 
 def larger(relations):

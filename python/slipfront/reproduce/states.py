@@ -116,7 +116,7 @@ def draw_initial(data) -> Figure:
     upper.set(ylabel="stress, μA/π", ylim=(0, 2.9))
     upper.legend(loc="upper right", ncol=2)
     lower.plot(data["x"], data["slip"], color="C0", linestyle="-")
-    lower.set(xlabel="position x, b/A (stretched by the scale)", ylabel="slip u over 2π\n= dislocations to the right",
+    lower.set(xlabel="position x, b/A", ylabel="slip u over 2π\n= dislocations to the right",
               xlim=(float(data["x"][0]), float(data["x"][-1])))
     return figure
 
