@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -157,10 +156,4 @@ Runner add_event(CLI::App& app) {
       ->type_name("MODULUS");
   add_common_options(*command, arguments->common);
   return [arguments] { return run_event(*arguments); };
-}
-
-int run_default() {
-  Arguments arguments;
-  arguments.common.threads = omp_get_max_threads();
-  return run_event(arguments);
 }

@@ -37,6 +37,25 @@ std::filesystem::path package_folder() {
   return {};
 }
 
+/// Becomes the Python interpreter that runs a subcommand with these arguments. Does not return.
+[[noreturn]] void hand_over(std::string name, char** first, char** last) {
+  const std::filesystem::path folder = package_folder();
+  if (folder.empty())
+    throw slipfront::FileError(name +
+                               ": the Python package slipfront is not beside this program; install the Debian packages "
+                               "pybind11-dev and python3-dev, and build again");
+  std::string path = folder.string();
+  if (const char* others = std::getenv("PYTHONPATH"); others && *others) path += std::string(":") + others;
+  setenv("PYTHONPATH", path.c_str(), 1);
+  setenv("PYTHONSAFEPATH", "1", 1);  // a folder `slipfront` where the user stands is not the package
+  std::string interpreter = SLIPFRONT_PYTHON_INTERPRETER, option = "-m", module = "slipfront";
+  std::vector<char*> arguments = {interpreter.data(), option.data(), module.data(), name.data()};
+  arguments.insert(arguments.end(), first, last);
+  arguments.push_back(nullptr);
+  execv(interpreter.c_str(), arguments.data());
+  throw slipfront::FileError(interpreter + ": " + std::strerror(errno) + "; install the Debian package python3");
+}
+
 }  // namespace
 
 void add_python_commands(CLI::App& app) {
@@ -45,22 +64,8 @@ void add_python_commands(CLI::App& app) {
 
 void become_python(int argc, char** argv) {
   if (argc < 2) return;
-  bool ours = false;
-  for (const PythonCommand& command : commands) ours = ours || std::strcmp(argv[1], command.name) == 0;
-  if (!ours) return;
-  std::filesystem::path folder = package_folder();
-  if (folder.empty())
-    throw slipfront::FileError(std::string(argv[1]) +
-                               ": the Python package slipfront is not beside this program; install the Debian packages "
-                               "pybind11-dev and python3-dev, and build again");
-  std::string path = folder.string();
-  if (const char* others = std::getenv("PYTHONPATH"); others && *others) path += std::string(":") + others;
-  setenv("PYTHONPATH", path.c_str(), 1);
-  setenv("PYTHONSAFEPATH", "1", 1);  // a folder `slipfront` where the user stands is not the package
-  std::string interpreter = SLIPFRONT_PYTHON_INTERPRETER, option = "-m", module = "slipfront";
-  std::vector<char*> arguments = {interpreter.data(), option.data(), module.data()};
-  for (int i = 1; i < argc; ++i) arguments.push_back(argv[i]);
-  arguments.push_back(nullptr);
-  execv(interpreter.c_str(), arguments.data());
-  throw slipfront::FileError(interpreter + ": " + std::strerror(errno) + "; install the Debian package python3");
+  for (const PythonCommand& command : commands)
+    if (std::strcmp(argv[1], command.name) == 0) hand_over(command.name, argv + 2, argv + argc);
 }
+
+int run_default() { hand_over("reproduce", nullptr, nullptr); }

@@ -45,7 +45,7 @@ void become_python(int argc, char** argv);
 /// The processes that run this program, of which the first prints and writes.
 extern const slipfront::chain::Ranks* the_ranks;
 
-/// What `slipfront` does when asked for nothing: `event` on the shipped catalogue.
+/// What `slipfront` does when asked for nothing: `reproduce` into ./reproduction.
 int run_default();
 
 /// cases/catalogue.csv, embedded.

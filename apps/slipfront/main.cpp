@@ -45,8 +45,8 @@ std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
 
 int run(int argc, char** argv) {
   CLI::App app{
-      "slipfront: how an interface goes from stuck to sliding. Without a subcommand: `event` on the shipped "
-      "catalogue."};
+      "slipfront: how an interface goes from stuck to sliding. Without a subcommand: `reproduce`, the paper "
+      "in ./reproduction."};
   app.name("slipfront");
   app.set_version_flag("--version", SLIPFRONT_VERSION);
   app.require_subcommand(0, 1);

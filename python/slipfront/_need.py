@@ -3,7 +3,7 @@
 import importlib
 
 _packages = {"xarray": "python3-xarray", "numpy": "python3-numpy", "matplotlib": "python3-matplotlib", "netCDF4": "python3-netcdf4",
-             "distributed": "python3-distributed", "pandas": "python3-pandas"}
+             "distributed": "python3-distributed", "pandas": "python3-pandas", "PIL": "python3-pil"}
 
 
 def need(module):

@@ -72,7 +72,7 @@ class Event(CommandLine):
             self.assertGreater(event["stress"], 0, name)
 
     def test_default_is_the_shipped_catalogue(self):
-        table = self.ok()
+        table = self.ok("event")
         self.assertIn("Parkfield 2004", table)
         events = json.loads(self.ok("event", "--json"))["events"]
         self.assertGreaterEqual(len(events), 25)

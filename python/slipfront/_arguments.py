@@ -1,0 +1,32 @@
+"""Command lines of the subcommands that are written in Python."""
+
+import argparse
+import os
+import sys
+
+
+class Arguments(argparse.ArgumentParser):
+    """A parser whose errors are one line (ValueError: exit code 2), with the options that every subcommand takes."""
+
+    def __init__(self, name, description):
+        super().__init__(prog=f"slipfront {name}", description=description, allow_abbrev=False)
+        self.add_argument("--json", action="store_true", help="one JSON object on stdout, nothing else")
+        self.add_argument("--quiet", action="store_true", help="no notes, no progress")
+        self.add_argument("--threads", type=threads, default=len(os.sched_getaffinity(0)), metavar="N",
+                          help="threads; results do not depend on it (default: all cores)")
+
+    def error(self, message):
+        raise ValueError(f"{message}; see {self.prog} --help")
+
+
+def threads(text):
+    """A number of threads."""
+    if not text.isascii() or not text.isdigit() or not 1 <= int(text) <= 4096:
+        raise argparse.ArgumentTypeError(f"'{text}' is no number of threads; allowed: 1 to 4096")
+    return int(text)
+
+
+def progress(options, text):
+    """One line on stderr that the next one overwrites; only on a terminal, and not with --quiet. An empty text wipes it."""
+    if sys.stderr.isatty() and not options.quiet:
+        print(f"\r\033[K{text}", end="", file=sys.stderr, flush=True)

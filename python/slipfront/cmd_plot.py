@@ -1,0 +1,46 @@
+"""slipfront plot: pictures of the files that slipfront writes."""
+
+import json
+import pathlib
+
+from ._arguments import Arguments
+from ._need import need
+
+FORMATS = ("png", "svg", "pdf", "jpg", "webp")
+
+
+def main(argv) -> int:
+    """Draws the pictures of a file. Returns the exit code; raises ValueError (bad input), OSError (files), ImportError (matplotlib)."""
+    parser = Arguments("plot", "Pictures of the NetCDF files of pulse, chain and compare, of the CSV of relations and event, and of samples.")
+    parser.add_argument("file", metavar="FILE", help="NetCDF or CSV")
+    parser.add_argument("-o", "--output", metavar="PICTURE", help="its ending is the format: " + ", ".join(FORMATS) + " (default: FILE's name, .png)")
+    parser.add_argument("--kind", help="one picture alone (default: all that the file affords, -KIND added to the name)")
+    options = parser.parse_args(argv)
+    need("xarray")
+    need("matplotlib")
+    from .plots import choose, files, save
+
+    output = pathlib.Path(options.output) if options.output else pathlib.Path(options.file).with_suffix(".png")
+    if output.suffix.lower().lstrip(".") not in FORMATS:
+        raise ValueError(f"-o {output}: '{output.suffix}' is no picture; allowed endings: {', '.join(FORMATS)}")
+    dataset = files.read(options.file)
+    kinds = choose.kinds_of(dataset)
+    if not kinds:
+        raise ValueError(f"{options.file}: nothing to draw in it; allowed: what pulse, chain, compare, relations and event write, or samples")
+    if options.kind is not None:
+        if options.kind not in kinds:
+            raise ValueError(f"--kind {options.kind}: not for {options.file}; allowed: {', '.join(kinds)}")
+        kinds = [options.kind]
+    written = []
+    for kind in kinds:
+        path = output if len(kinds) == 1 else output.with_stem(f"{output.stem}-{kind}")
+        try:
+            save(choose.draw(dataset, kind), path)
+        except OSError as error:
+            raise OSError(f"{path}: {error.strerror or error}") from error
+        written.append(str(path))
+        if not options.json and not options.quiet:
+            print(f"written to {path}")
+    if options.json:
+        print(json.dumps({"pictures": written}))
+    return 0

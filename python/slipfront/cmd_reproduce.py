@@ -1,0 +1,40 @@
+"""slipfront reproduce: every number and figure of the paper, as a page that opens in a browser."""
+
+import json
+import pathlib
+import time
+import warnings
+
+from ._arguments import Arguments, progress
+from ._need import need
+
+
+def line(row) -> str:
+    """A row of the table of numbers, for a terminal."""
+    return f"{row['what'][:62]:<62} {row['printed']:>9} {row['computed']:>10.4g} {100 * row['difference']:>+7.1f} %  {'yes' if row['agrees'] else 'no':<4}{row['unit']}"
+
+
+def main(argv) -> int:
+    """Writes the folder and prints the table. Returns the exit code; raises ValueError (bad input), OSError (files), ImportError (a library)."""
+    parser = Arguments("reproduce", "Every number and figure of the paper, with the data of each, and report.html, a page that needs nothing else.")
+    parser.add_argument("-o", "--output", metavar="DIR", default="reproduction", help="folder to write: a new one, or an earlier reproduction, which it replaces (default: reproduction)")
+    options = parser.parse_args(argv)
+    for module in ("numpy", "xarray", "matplotlib", "netCDF4", "pandas"):
+        need(module)
+    from .reproduce import everything, outputs
+
+    warnings.filterwarnings("ignore", "initial stress between 0 and")  # the far end of a tanh
+    started = time.monotonic()
+    with outputs.whole_folder(options.output) as folder:
+        tables = everything.reproduce(folder, options.threads, lambda text: progress(options, text), lambda: time.monotonic() - started)
+    progress(options, "")
+    report = str(pathlib.Path(options.output) / "report.html")
+    if options.json:
+        print(json.dumps(tables | {"report": report, "wall_seconds": time.monotonic() - started}))
+        return 0
+    print(f"{'the paper prints':<62} {'printed':>9} {'computed':>10} {'differs':>9}  same")
+    for row in tables["numbers"]:
+        print(line(row))
+    same = sum(row["agrees"] for row in tables["numbers"])
+    print(f"\n{same} of {len(tables['numbers'])} are the same to the digits printed; remarks, figures and data: {report}")
+    return 0

@@ -1,0 +1,58 @@
+"""Closed form, pulse and chain side by side."""
+
+from matplotlib.figure import Figure
+
+from .pulse_parts import shades, title_of, window
+from .style import label, styled
+
+#: Lines of the levels that are no chains; chains are shaded by their scale.
+LEVELS = {
+    "closed-form": {"color": "0.65", "linestyle": "-", "linewidth": 3.5},
+    "pulse-consistent": {"color": "black", "linestyle": "-"},
+    "pulse-paper": {"color": "C1", "linestyle": "--"},
+}
+
+
+def name_of(level) -> str:
+    """Name of a level of theory, bytes or text, as it stands in a comparison."""
+    name = level["name"].item()
+    return name.decode() if isinstance(name, bytes) else str(name)
+
+
+@styled
+def comparison(levels, fields=("W", "Sigma", "slip")) -> Figure:
+    """Profiles of the levels at the last time, and slip at x = 0 on each: over time, or at the end where there are few times.
+
+    Parameters
+    ----------
+    levels : xarray.Dataset
+        Over level, time and x with the levels' names in `name`: what `slipfront.compare` gives.
+    fields : sequence of str
+        Three variables over level, time and x.
+    """
+    figure = Figure(figsize=(9.2, 5.8))
+    panels = figure.subplots(2, 2)
+    grows = levels.sizes["time"] > 4  # else there is no course of time to draw
+    chains = [row for row in range(levels.sizes["level"]) if name_of(levels.isel(level=row)) not in LEVELS]
+    lines = dict(zip(chains, shades(len(chains))))
+    for row in range(levels.sizes["level"]):
+        level = levels.isel(level=row)
+        name = name_of(level)
+        look = LEVELS.get(name, {"color": lines.get(row), "linestyle": "-", "linewidth": 0.9})
+        last = level.isel(time=-1)
+        for axes, field in zip(panels.flat, fields):
+            axes.plot(last["x"], last[field], label=name, **look)
+        if grows:
+            panels[1, 1].plot(level["time"], level["slip_at_origin"], label=name, **look)
+        else:
+            panels[1, 1].barh(name, float(last["slip_at_origin"]), color=look["color"], height=0.6)
+    for axes, field in zip(panels.flat, fields):
+        axes.set(xlabel=label(levels["x"]), ylabel=label(levels[field]), xlim=window(levels))
+    if grows:
+        panels[1, 1].set(xlabel=label(levels["time"]), ylabel=label(levels["slip_at_origin"]))
+    else:
+        panels[1, 1].set(xlabel=label(levels["slip_at_origin"]))
+        panels[1, 1].invert_yaxis()
+    panels[0, 1].legend()
+    figure.suptitle(f"{title_of(levels)}, t = {float(levels['time'][-1]):.4g} b/(cA)")
+    return figure

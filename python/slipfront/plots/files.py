@@ -1,0 +1,45 @@
+"""Files that slipfront writes -> Datasets."""
+
+import pathlib
+
+import xarray
+
+
+def read(path) -> xarray.Dataset:
+    """The Dataset of a NetCDF file, or of a CSV file of `slipfront relations` or `event` (one row a state or event).
+
+    Raises OSError, in one line with the file's name, where it cannot be read; ValueError where it is neither.
+    """
+    path = pathlib.Path(path)
+    try:
+        with path.open("rb") as file:
+            start = file.read(8)
+    except OSError as error:
+        raise OSError(f"{path}: {error.strerror}") from error
+    if start.startswith((b"\x89HDF", b"CDF")):
+        return netcdf(path)
+    if path.suffix.lower() == ".csv":
+        return rows(path)
+    raise ValueError(f"{path}: neither NetCDF nor CSV by its start and name; allowed: files of pulse, chain, compare (-o), relations, event (--csv)")
+
+
+def netcdf(path) -> xarray.Dataset:
+    """A NetCDF file, read as a whole so that it is closed again."""
+    try:
+        with xarray.open_dataset(path) as dataset:
+            return dataset.load()
+    except (OSError, RuntimeError, ValueError) as error:
+        raise OSError(f"{path}: not a whole NetCDF file: {' '.join(str(error).split())}") from error
+
+
+def rows(path) -> xarray.Dataset:
+    """A CSV file with a header, as a Dataset over `row`."""
+    import pandas
+
+    try:
+        table = pandas.read_csv(path)
+    except (ValueError, UnicodeError) as error:  # pandas' own errors are ValueErrors
+        raise ValueError(f"{path}: not a CSV file: {' '.join(str(error).split())}") from error
+    if table.empty:
+        raise ValueError(f"{path}: no rows below the header; allowed: one or more")
+    return xarray.Dataset.from_dataframe(table.rename_axis("row"))

@@ -1,0 +1,35 @@
+"""Profiles of fields along the interface at several times."""
+
+import numpy
+from matplotlib.figure import Figure
+
+from .pulse_parts import shades, title_of, window
+from .style import label, styled, unit
+
+
+@styled
+def profiles(pulse, fields=("W", "Sigma", "slip"), times: int = 5) -> Figure:
+    """Profiles of fields at several times, one panel a field.
+
+    Parameters
+    ----------
+    pulse : xarray.Dataset
+        Over time and x: what `slipfront.pulse` and `slipfront.chain` give.
+    fields : sequence of str
+        Variables over time and x; those that are not in it are left out.
+    times : int
+        How many, spread evenly over the outputs, the first and the last among them.
+    """
+    fields = [name for name in fields if name in pulse]
+    rows = numpy.unique(numpy.linspace(0, pulse.sizes["time"] - 1, times).round().astype(int))
+    figure = Figure(figsize=(6.4, 0.7 + 1.9 * len(fields)))
+    panels = figure.subplots(len(fields), 1, sharex=True, squeeze=False)[:, 0]
+    for axes, name in zip(panels, fields):
+        for colour, row in zip(shades(len(rows)), rows):
+            now = pulse.isel(time=row)
+            axes.plot(now["x"], now[name], color=colour, linestyle="-", label=f"{float(now['time']):.3g}")
+        axes.set(ylabel=label(pulse[name]), xlim=window(pulse))
+    panels[0].set_title(title_of(pulse))
+    panels[0].legend(title=f"t, {unit(pulse['time'])}", loc="upper left", bbox_to_anchor=(1.0, 1.0))
+    panels[-1].set_xlabel(label(pulse["x"]))
+    return figure

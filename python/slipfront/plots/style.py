@@ -1,0 +1,85 @@
+"""The look that all pictures share, and the labels of their axes."""
+
+import functools
+import os
+import pathlib
+
+import matplotlib
+from matplotlib.figure import Figure
+
+SHEET = pathlib.Path(__file__).resolve().parent.parent / "slipfront.mplstyle"
+
+#: Short names of quantities on axes; any other has its long_name. Symbols: docs/NOTATION.md.
+NAMES = {
+    "x": "position x",
+    "time": "time t",
+    "W": "slip velocity W",
+    "Sigma": "stress Σ",
+    "k": "dislocation density k",
+    "U": "dislocation velocity U",
+    "slip": "slip u",
+    "stress_drop": "stress drop",
+    "stress": "initial stress Σ−",
+    "rupture_velocity": "rupture velocity |V−|",
+    "leading_velocity": "velocity of the leading edge V+",
+    "velocity_ratio": "|V−| / V+",
+    "slip_velocity": "slip velocity W at x = 0",
+    "slip_velocity_at_origin": "slip velocity W at x = 0",
+    "slip_at_origin": "slip u at x = 0",
+    "stress_at_origin": "stress Σ at x = 0",
+    "peak_slip_velocity": "greatest slip velocity W",
+    "peak_position": "position of the greatest W",
+    "contact_ratio": "contact ratio A",
+    "damping_number": "damping number Γ",
+}
+
+#: Units of quantities whose variable does not say (rows of CSV files).
+UNITS = {
+    "stress": "mu A / pi",
+    "stress_at_origin": "mu A / pi",
+    "rupture_velocity": "c",
+    "leading_velocity": "c",
+    "slip_velocity": "c A / pi",
+    "frictionless_slip_velocity": "c A / pi",
+    "observed_slip_velocity": "c A / pi",
+}
+
+
+def styled(draw):
+    """Makes a function that returns a Figure draw it with the style sheet."""
+
+    @functools.wraps(draw)
+    def drawn(*arguments, **options):
+        with matplotlib.rc_context(fname=SHEET):
+            return draw(*arguments, **options)
+
+    return drawn
+
+
+def save(figure: Figure, path, **options) -> None:
+    """Writes a picture; its format is the name's ending. The file is whole or not there: it is written beside its name and renamed.
+
+    Raises OSError where it cannot be written, ValueError for an ending that matplotlib does not write.
+    """
+    path = pathlib.Path(path)
+    beside = path.with_name(f".{path.stem}.{os.getpid()}{path.suffix}")
+    with matplotlib.rc_context(fname=SHEET):
+        try:
+            figure.savefig(beside, metadata={"Date": None} if path.suffix == ".svg" else None, **options)
+            beside.replace(path)
+        finally:
+            beside.unlink(missing_ok=True)
+
+
+def unit(variable) -> str:
+    """The unit of a DataArray, as it is printed on an axis; empty for a pure number."""
+    text = variable.attrs.get("dimensional_unit", UNITS.get(variable.name, ""))
+    for plain, printed in ((" ", ""), ("mu", "μ"), ("nu", "ν"), ("pi", "π"), ("^2", "²")):
+        text = text.replace(plain, printed)
+    return "" if text == "1" else text
+
+
+def label(variable, name: str = "") -> str:
+    """Name (the quantity's own unless given) and unit of a DataArray."""
+    name = name or NAMES.get(variable.name) or variable.attrs.get("long_name") or str(variable.name).replace("_", " ")
+    return f"{name}, {unit(variable)}" if unit(variable) else name

@@ -1,0 +1,1 @@
+"""The paper, reproduced: every number and figure, computed in one run."""

@@ -1,0 +1,68 @@
+"""slipfront animate: dislocations where the field has them, files that play, what is refused."""
+
+import json
+import os
+import shutil
+import unittest
+
+import numpy as np
+from PIL import Image
+
+import slipfront
+from slipfront.plots.dislocations import positions
+from support import CommandLine, SOURCE
+
+STEP = os.path.join(SOURCE, "cases/step.toml")
+
+
+class Positions(unittest.TestCase):
+    def test_rest_is_evenly_spaced(self):
+        places = positions(slipfront.pulse(STEP), 100)[0]
+        np.testing.assert_allclose(np.diff(places)[:-3], 2 * np.pi / (0.855 * 100), rtol=1e-6)
+        self.assertLess(places[-1], 0)
+
+    def test_passed_dislocations_are_the_slip(self):
+        pulse, scale = slipfront.pulse(STEP), 2000
+        places = positions(pulse, scale)
+        passed = (places[-1] > 0).sum() - (places[0] > 0).sum()
+        self.assertLess(abs(passed - scale * float(pulse["slip_at_origin"][-1]) / (2 * np.pi)), 1.5)
+
+    def test_first_moves_with_the_leading_edge(self):
+        pulse = slipfront.pulse(STEP)
+        self.assertLess(abs(np.nanmax(positions(pulse, 5000)[-1]) - float(pulse["leading_front"][-1])), 0.01)
+
+
+class Animate(CommandLine):
+    def test_plays(self):
+        folder = os.path.dirname(self.file("x", ""))
+        source = os.path.join(folder, "p.nc")
+        self.ok("pulse", STEP, "-o", source, "--set", "output.every=1.5")
+        for ending in ("gif", "webp"):
+            out = os.path.join(folder, f"a.{ending}")
+            said = json.loads(self.ok("animate", source, "-o", out, "--json"))
+            with Image.open(out) as picture:
+                self.assertEqual(picture.n_frames, said["frames"])
+                self.assertEqual(picture.n_frames, slipfront.open(source).sizes["time"])
+                first = np.asarray(picture.convert("RGB"))
+                picture.seek(picture.n_frames - 1)
+                self.assertGreater((first != np.asarray(picture.convert("RGB"))).mean(), 1e-3)  # it moves
+        if shutil.which("ffmpeg"):
+            out = os.path.join(folder, "a.mp4")
+            self.ok("animate", source, "-o", out)
+            with open(out, "rb") as file:
+                self.assertEqual(file.read(12)[4:8], b"ftyp")
+        self.assertEqual([name for name in os.listdir(folder) if name.startswith(".")], [])
+
+    def test_refuses(self):
+        table = self.file("r.csv", self.ok("relations", "--stress", "1", "--csv"))
+        out = os.path.join(os.path.dirname(table), "a.gif")
+        self.refused(2, "animate", table, "-o", out, says=["no pulse"])
+        self.refused(2, "animate", STEP, says=["-o"])
+        self.refused(2, "animate", STEP, "-o", "a.png", says=["'.png'", "gif, webp, mp4"])
+        self.refused(3, "animate", "/nowhere.toml", "-o", out, says=["nowhere.toml"])
+        self.refused(2, "animate", self.file("bad.toml", "title = 3"), "-o", out, says=["title"])
+        self.refused(3, "animate", STEP, "-o", "/nowhere/a.gif", says=["/nowhere/a.gif"])
+
+
+if __name__ == "__main__":
+    unittest.main()

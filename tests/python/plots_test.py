@@ -1,0 +1,141 @@
+"""slipfront plot and slipfront.plots: what is drawn from what, labels with units, what is refused."""
+
+import os
+import unittest
+
+import numpy as np
+import xarray as xr
+
+import slipfront
+from slipfront import plots
+from slipfront.plots import choose, files
+from slipfront.plots.style import label
+from support import CommandLine, SOURCE
+
+CASE = os.path.join(SOURCE, "cases/fig-08.toml")
+STEP = os.path.join(SOURCE, "cases/step.toml")
+
+
+def samples(count=200):
+    chance = np.random.default_rng(5)
+    return xr.Dataset({"stress": ("sample", 1 + 0.1 * chance.normal(size=count)), "damping_number": ("sample", np.exp(chance.normal(size=count)))})
+
+
+class Figures(CommandLine):
+    def labels(self, figure):
+        """Texts on the axes; none is without, unless the axes next to it say it."""
+        shown = [axes for axes in figure.axes if axes.axison]
+        for axes in shown:
+            beside = axes.get_shared_x_axes().get_siblings(axes)
+            self.assertTrue(any(other.get_xlabel() for other in beside), axes)
+        return [axes.get_xlabel() for axes in shown] + [axes.get_ylabel() for axes in shown]
+
+    def test_pulse(self):
+        pulse = slipfront.pulse(CASE)
+        figure = plots.profiles(pulse)
+        texts = self.labels(figure)
+        self.assertIn("slip velocity W, cA/π", texts)
+        self.assertIn("position x, b/A", texts)
+        # The last line of the first panel is the slip velocity at the end.
+        np.testing.assert_array_equal(figure.axes[0].lines[-1].get_ydata(), pulse["W"][-1])
+        figure = plots.space_time(pulse)
+        lines = {line.get_label(): line for line in figure.axes[0].lines}
+        np.testing.assert_array_equal(lines["trailing edge"].get_xdata(), pulse["trailing_front"])
+        np.testing.assert_array_equal(lines["trailing edge"].get_ydata(), pulse["time"])
+
+    def test_relations_are_drawn_in_order(self):
+        states = slipfront.relations(stress=[1.0, 0.2, 0.5])
+        figure = plots.relations(states)
+        self.assertEqual(len(figure.axes), 4)
+        for axes in figure.axes:
+            for line in axes.lines:
+                self.assertTrue(np.all(np.diff(line.get_xdata()) > 0))
+                self.assertTrue(np.all(np.diff(line.get_ydata()) > 0))
+        self.labels(figure)
+        self.assertEqual([axes.get_yscale() for axes in figure.axes], ["linear", "log", "linear", "log"])
+
+    def test_comparison(self):
+        levels = slipfront.compare(STEP, scales=[30])
+        figure = plots.comparison(levels)
+        self.labels(figure)
+        names = [line.get_label() for line in figure.axes[0].lines]
+        self.assertEqual(names, ["closed-form", "pulse-consistent", "pulse-paper", "chain-30"])
+
+    def test_events_lie_on_the_closed_form(self):
+        events = slipfront.event()
+        line = choose.line_through(events)
+        figure = plots.events(events, line)
+        at = np.interp(np.log(events["rupture_velocity"].dropna("event")), np.log(line["rupture_velocity"]), line["stress"])
+        np.testing.assert_allclose(at, events["stress"].dropna("event"), rtol=2e-3)
+        self.assertEqual(figure.axes[0].get_xscale(), "log")
+
+    def test_corner(self):
+        figure = plots.corner(samples())
+        self.assertEqual(sum(axes.axison for axes in figure.axes), 3)
+        self.assertEqual(figure.axes[3].get_xscale(), "log")  # spreads over decades
+        with self.assertRaisesRegex(ValueError, "too few"):
+            plots.corner(samples(10))
+        with self.assertRaisesRegex(ValueError, "in every sample"):
+            plots.corner(samples().assign(stress=("sample", np.ones(200))))
+
+    def test_units(self):
+        pulse = slipfront.pulse(CASE)
+        self.assertEqual(label(pulse["slip"]), "slip u, b/(2π)")
+        self.assertEqual(label(pulse["time"]), "time t, b/(cA)")
+
+    def test_style_stays_inside(self):
+        import matplotlib
+
+        before = dict(matplotlib.rcParams)
+        plots.relations(slipfront.relations(stress=[1.0, 2.0]))
+        self.assertEqual(before, dict(matplotlib.rcParams))
+
+
+class Command(CommandLine):
+    def made(self, name, *arguments):
+        path = os.path.join(os.path.dirname(self.file("x", "")), name)
+        text = self.ok(*arguments) if arguments[0] in ("relations", "event") else self.ok(*arguments, "-o", path)
+        if arguments[0] in ("relations", "event"):
+            with open(path, "w", encoding="utf-8") as out:
+                out.write(text)
+        return path
+
+    def test_draws_what_the_file_holds(self):
+        for kinds, path in ((["space-time", "profiles"], self.made("p.nc", "pulse", CASE)), (["relations"], self.made("r.csv", "relations", "--stress", "0.2:2:9", "--csv")),
+                            (["events"], self.made("e.csv", "event", "--csv")), (["comparison"], self.made("c.nc", "compare", STEP, "--scale", "30"))):
+            self.assertEqual(choose.kinds_of(files.read(path)), kinds)
+            out = os.path.join(os.path.dirname(path), "picture.svg")
+            printed = self.ok("plot", path, "-o", out).split("\n")[:-1]
+            written = [line.removeprefix("written to ") for line in printed]
+            self.assertEqual(len(written), len(kinds))
+            for picture in written:
+                with open(picture, encoding="utf-8") as svg:
+                    self.assertIn("<svg", svg.read(3000))
+            self.assertEqual([name for name in os.listdir(os.path.dirname(path)) if name.startswith(".")], [])
+            again = os.path.join(os.path.dirname(path), "again.svg")
+            self.ok("plot", path, "--kind", kinds[0], "-o", again)
+            with open(again, "rb") as a, open(written[0], "rb") as b:
+                self.assertEqual(a.read(), b.read())  # the same bytes each time
+
+    def test_refuses(self):
+        csv = self.file("r.csv", self.ok("relations", "--stress", "1", "--csv"))
+        folder = os.path.dirname(csv)
+        self.refused(3, "plot", os.path.join(folder, "none.nc"), says=["none.nc", "No such file"])
+        self.refused(2, "plot", csv, "-o", "x.bmp", says=[".bmp", "allowed"])
+        self.refused(2, "plot", csv, "--kind", "corner", says=["corner", "allowed: relations"])
+        self.refused(2, "plot", says=["FILE"])
+        self.refused(2, "plot", csv, "--threads", "0", says=["'0'", "1 to 4096"])
+        self.refused(2, "plot", self.file("empty.csv", "a,b\n"), says=["no rows"])
+        self.refused(2, "plot", self.file("other.csv", "a,b\n1,2\n"), says=["nothing to draw"])
+        self.refused(2, "plot", self.file("a.txt", "hello"), says=["neither NetCDF nor CSV"])
+        self.refused(3, "plot", csv, "-o", os.path.join(folder, "nowhere", "x.png"), says=["nowhere"])
+        whole = self.made("p.nc", "pulse", CASE)
+        with open(whole, "rb") as file:
+            start = file.read(20000)
+        with open(os.path.join(folder, "cut.nc"), "wb") as file:
+            file.write(start)
+        self.refused(3, "plot", os.path.join(folder, "cut.nc"), says=["cut.nc", "not a whole NetCDF file"])
+
+
+if __name__ == "__main__":
+    unittest.main()
