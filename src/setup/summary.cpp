@@ -78,6 +78,8 @@ constexpr SummaryItem<ChainEnd> chain_items[] = {
     {"leading_front_observed", [](const ChainEnd& e) -> Value { return last(e).fronts.leading_observed; },
      "as an observer with a threshold sees it"},
     {"dislocations", [](const ChainEnd& e) -> Value { return e.balance.dislocations; }, "at the end"},
+    {"energy_phonons", [](const ChainEnd& e) -> Value { return last(e).energy.phonons; },
+     "energy that uniform trains of the same averages lack"},
     {"energy_drift", [](const ChainEnd& e) -> Value { return e.balance.energy_drift; },
      "energy and work since t = 0, relative"},
     {"charge_error", [](const ChainEnd& e) -> Value { return e.balance.charge_error; }, "change of the charge"},
