@@ -14,7 +14,6 @@
 
 namespace {
 
-using slipfront::InputError;
 using namespace slipfront::event;
 
 struct Arguments {
