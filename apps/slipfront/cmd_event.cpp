@@ -13,7 +13,6 @@
 
 namespace {
 
-using slipfront::InputError;
 using namespace slipfront::event;
 
 struct Arguments {

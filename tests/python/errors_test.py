@@ -116,8 +116,8 @@ class Errors(CommandLine):
             _, errors = process.communicate(timeout=60)
             self.assertIn("KeyboardInterrupt", errors)
             self.assertEqual(slipfront.open(cut).attrs["finished"], 0)
-            getattr(slipfront, command)(case, set={key: int(value)}, resume=cut)
-            self.ok(command, case, "--set", change, "-o", whole)
+            getattr(slipfront, command)(case, set={key: int(value)}, resume=cut, threads=1)
+            self.ok(command, case, "--set", change, "--threads", "1", "-o", whole)
             with open(cut, "rb") as a, open(whole, "rb") as b:
                 self.assertEqual(a.read(), b.read())
 
