@@ -54,8 +54,8 @@ def page(folder, pictures, tables, about) -> str:
         f"number, computed again by slipfront {html.escape(about['version'])} in one run ({about['pulses']} pulses, {about['seconds']:.0f} s). ",
         "All is dimensionless: A contact ratio, b asperity spacing, c speed of strain waves, μ shear modulus. Closures: the paper averages ",
         "friction in a way that understates it (“paper”); the exact average is “consistent”.</p>\n",
-        "<p>The paper states neither the width of the smooth initial profile of its Figs. 7-12, nor were its captions at hand: each figure says "
-        "what it took.</p>\n",
+        "<p>The paper does not state the width of the smooth initial profile of its Figs. 7-12, and its captions were not at hand: each figure ",
+        "says what it took.</p>\n",
         f"<h2>Numbers</h2>\n<p>{agree} of {len(numbers)} printed numbers are the same to the digits printed.</p>\n", numbers_table(numbers),
         "<h2>Formulas printed with a slip</h2>\n",
         table(("where", "printed", "meant", "what tells", "by the printed", "by the meant"),
