@@ -9,7 +9,7 @@
 #include "batch.hpp"
 #include "commands.hpp"
 #include "event_output.hpp"
-#include "slipfront/event/estimate.hpp"
+#include "slipfront/event/posterior.hpp"
 #include "slipfront/event/read.hpp"
 #include "slipfront/medium/quantity.hpp"
 #include "slipfront/record/text_file.hpp"
@@ -23,6 +23,9 @@ struct Arguments {
   CommonOptions common;
   std::vector<std::string> files;
   std::string p_wave_speed, poisson_ratio, shear_modulus;
+  std::optional<std::size_t> samples;
+  std::uint64_t seed = 1;
+  std::string closure = "consistent";
 };
 
 /// Defaults of the medium as the command line sets them.
@@ -53,12 +56,32 @@ MediumDefaults defaults_of(const Arguments& a) {
   return d;
 }
 
-EventResult evaluate(Entry&& entry, const MediumDefaults& defaults) {
-  EventResult result{std::move(entry.observation), {}, {}};
+/// How to sample, and whether to sample all events or those that speak of friction or of their errors.
+struct Plan {
+  Sampling sampling;
+  bool all;
+  bool along_fault;
+};
+
+Plan plan_of(const Arguments& a) {
+  return {{.samples = a.samples.value_or(Sampling{}.samples),
+           .seed = a.seed,
+           .closure = a.closure == "paper" ? slipfront::modulation::Closure::paper
+                                           : slipfront::modulation::Closure::consistent},
+          a.samples.has_value(),
+          a.common.json};
+}
+
+EventResult evaluate(Entry&& entry, const MediumDefaults& defaults, const Plan& plan) {
+  EventResult result{std::move(entry.observation), {}, {}, {}, {}};
   try {
     if (entry.error) throw InputError(*entry.error);
     result.estimate = estimate(result.observation, defaults);
+    if (plan.sampling.samples > 0 && (plan.all || speaks_of_friction_or_error(result.observation)))
+      result.posterior = posterior(result.observation, defaults, plan.sampling);
+    if (plan.along_fault) result.along_fault = along_fault(result.observation, defaults);
   } catch (const InputError& error) {
+    result.estimate.reset();
     result.error = error.what();
   }
   return result;
@@ -67,7 +90,8 @@ EventResult evaluate(Entry&& entry, const MediumDefaults& defaults) {
 /// Takes entries as the readers find them, evaluates them by the batch and prints them in order.
 class Printer {
  public:
-  Printer(const Arguments& arguments) : options_(arguments.common), defaults_(defaults_of(arguments)) {
+  Printer(const Arguments& arguments)
+      : options_(arguments.common), defaults_(defaults_of(arguments)), plan_(plan_of(arguments)) {
     if (options_.json) put("{\"events\": [");
     if (options_.csv) put(event_csv_head());
   }
@@ -108,7 +132,7 @@ class Printer {
 
   void flush() {
     auto printed = in_parallel<Printed>(waiting_.size(), options_.threads, [&](std::size_t i) {
-      const EventResult result = evaluate(std::move(waiting_[i]), defaults_);
+      const EventResult result = evaluate(std::move(waiting_[i]), defaults_, plan_);
       return Printed{options_.json  ? event_json(result)
                      : options_.csv ? event_csv_row(result)
                                     : event_table_row(result),
@@ -142,6 +166,7 @@ class Printer {
 
   CommonOptions options_;
   MediumDefaults defaults_;
+  Plan plan_;
   std::vector<Entry> waiting_;
   std::size_t count_ = 0, errors_ = 0;
   std::string table_;
@@ -194,6 +219,14 @@ Runner add_event(CLI::App& app) {
       ->type_name("SPEED");
   command->add_option("--poisson-ratio", arguments->poisson_ratio, "Likewise (default: 0.3)")->type_name("RATIO");
   command->add_option("--shear-modulus", arguments->shear_modulus, "Likewise (default: 30 GPa)")->type_name("MODULUS");
+  command
+      ->add_option("--samples", arguments->samples,
+                   "Sample every event with this many states of the fault (default: 1000 for events that carry an "
+                   "uncertainty, a contact ratio, a stress drop or a friction coefficient; 0: none)")
+      ->check(CLI::Range(0, 10000000));
+  command->add_option("--seed", arguments->seed, "Of the samples (default: 1)");
+  command->add_option("--closure", arguments->closure, "Of the friction: consistent (default) or paper")
+      ->check(CLI::IsMember({"consistent", "paper"}));
   add_common_options(*command, arguments->common);
   return [arguments] { return run_event(*arguments); };
 }

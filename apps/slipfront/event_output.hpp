@@ -3,16 +3,24 @@
 #include <optional>
 #include <string>
 
-#include "slipfront/event/estimate.hpp"
+#include "slipfront/event/along_fault.hpp"
+#include "slipfront/event/posterior.hpp"
 #include "slipfront/event/read.hpp"
 
 /// One event of a file, after the theory: an estimate or the reason why there is none.
 struct EventResult {
   slipfront::event::Observation observation;
   std::optional<slipfront::event::Estimate> estimate;
-  std::string error;  ///< one line; empty when there is an estimate
+  std::optional<slipfront::event::Posterior> posterior;   ///< where the event was sampled
+  std::vector<slipfront::event::LocalState> along_fault;  ///< of a finite-fault model, for --json
+  std::string error;                                      ///< one line; empty when there is an estimate
 
-  const std::vector<std::string>& warnings() const { return estimate ? estimate->warnings : observation.warnings; }
+  /// Those of the closed forms, then what the samples say.
+  std::vector<std::string> warnings() const {
+    std::vector<std::string> all = estimate ? estimate->warnings : observation.warnings;
+    if (posterior) all.insert(all.end(), posterior->notes.begin(), posterior->notes.end());
+    return all;
+  }
 };
 
 /// One object of `{"events": [...]}`; null where not identifiable.
