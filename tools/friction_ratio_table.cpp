@@ -102,7 +102,10 @@ int make() {
     const std::size_t j = n % layout::u_nodes, i = n / layout::u_nodes % layout::y_nodes;
     const std::size_t piece = n / (layout::u_nodes * layout::y_nodes) % layout::pieces;
     const Closure closure = closures[n / (total / layout::closures)];
-    const double stress = std::exp(layout::of_stress().at(node(i, layout::y_nodes)));
+    const double stress = i == 0 ? layout::most_stress
+                          : i == layout::y_nodes - 1
+                              ? layout::least_stress
+                              : layout::stress_of(layout::of_stress().at(node(i, layout::y_nodes)));
     const double damping = j == 0 ? layout::ends[piece + 1]
                            : j == layout::u_nodes - 1
                                ? layout::ends[piece]
@@ -172,7 +175,7 @@ int check(long points) {
     for (long n = 0; n < points; ++n) {
       std::mt19937_64 random(static_cast<std::uint64_t>(n));
       const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
-      const double stress = std::exp(layout::of_stress().at(2 * uniform() - 1));
+      const double stress = layout::least_stress * std::pow(layout::most_stress / layout::least_stress, uniform());
       const double damping = std::expm1(uniform() * std::log1p(layout::most_damping));
       try {
         const Values from_solver = computed(closure, stress, damping);

@@ -14,7 +14,6 @@ namespace slipfront::event {
 namespace {
 
 using Shape = Measured::Shape;
-using std::numbers::pi;
 
 constexpr const char* forms = "such as 3.0 +- 0.2 km/s, 3.0 */ 1.2 km/s, 2.8..3.2 km/s, lognormal(3.0, 1.2) km/s";
 
@@ -33,8 +32,7 @@ struct Parts {
 /// Splits "b unit" behind the number b, where a blank or a unit begins and not inside of a number ("1e400").
 std::pair<std::string, std::string> number_and_unit(const std::string& text) {
   const std::size_t end = std::min(text.find_first_not_of("+-.0123456789eE"), text.size());
-  for (const std::size_t at : {end, end - (end > 0 ? 1 : 0)})  // a unit may begin with e
-    if (medium::number(std::string_view(text).substr(0, at))) return {text.substr(0, at), trimmed(text.substr(at))};
+  if (medium::number(std::string_view(text).substr(0, end))) return {text.substr(0, end), trimmed(text.substr(end))};
   return {text, {}};
 }
 
@@ -101,12 +99,14 @@ double Measured::quantile(double p) const {
   return shape == Shape::normal ? low + spread * z : low * std::exp(std::log(spread) * z);
 }
 
-double Measured::density(double x) const {
-  if (shape == Shape::range) return x >= low && x <= high ? 1 / (high - low) : 0;
-  const double s = shape == Shape::normal ? spread : std::log(spread);
-  const double z = (shape == Shape::normal ? x - low : std::log(x / low)) / s;
-  return std::exp(-z * z / 2) / (s * std::sqrt(2 * pi)) / (shape == Shape::normal ? 1 : x);
+double Measured::likelihood(double x) const {
+  if (shape == Shape::range) return x >= low && x <= high ? 1 : 0;
+  if (!(x > 0) && shape == Shape::lognormal) return 0;
+  const double z = shape == Shape::normal ? (x - low) / spread : std::log(x / low) / std::log(spread);
+  return std::exp(-z * z / 2);
 }
+
+double Measured::weight_of_draw(double x) const { return shape == Shape::lognormal || is_exact() ? 1 : 1 / x; }
 
 Measured parse_measured(std::string_view text, medium::Dimension dimension, std::string_view default_unit) {
   const std::string whole = trimmed(text);

@@ -54,12 +54,12 @@ bool Sampler::draw_contact(Sample& s) {
   switch (contact_from_) {
     case ContactFrom::ratio:
       s.contact_ratio = contact_measured_ ? at(*contact_measured_, 3) : *o_.contact_ratio;
-      s.weight /= s.contact_ratio;
+      if (contact_measured_) s.weight *= contact_measured_->weight_of_draw(s.contact_ratio);
       break;
     case ContactFrom::drop: {
       const double drop = at(*o_.stress_drop, 3);
       s.contact_ratio = drop / medium::stress_unit(elastic_.shear_modulus, 1) / s.stress;
-      s.weight /= drop;
+      s.weight *= o_.stress_drop->weight_of_draw(drop);
       break;
     }
     case ContactFrom::strength:
@@ -79,7 +79,7 @@ bool Sampler::draw_friction(Sample& s, double w) {
     const auto found = damping_at(pulse_, w / (unit * s.contact_ratio));
     if (!found) return refuse(w > unit * s.contact_ratio * pulse_.at(0).W ? slips_too_fast : slips_too_slowly);
     s.u = found->u;
-    s.weight /= w * std::fabs(found->slope);
+    s.weight /= std::fabs(found->slope);
   } else if (knows_friction()) {  // (V, w, C) -> A and Gamma; d(ln w, ln C) / d(ln A, ln Gamma) = 1 + d ln W / d ln
                                   // Gamma
     const double C = at(*o_.friction_coefficient, 5);
@@ -91,11 +91,10 @@ bool Sampler::draw_friction(Sample& s, double w) {
     s.u = found->u;
     if (s.u > most_u) return refuse(slips_too_slowly);
     const double share = -std::expm1(-s.u);  // Gamma / (1 + Gamma) = du / d ln Gamma
-    s.weight *= share / (1 + found->slope * share) / (w * C);
+    s.weight *= share / (1 + found->slope * share) * o_.friction_coefficient->weight_of_draw(C);
   } else {  // (V, w, u) -> A
     s.u = points_(point_, 5) * most_u;
     s.contact_ratio = w / (unit * pulse_.at(s.u).W);
-    s.weight /= w;
     if (!(s.contact_ratio >= least_contact_ratio && s.contact_ratio <= plastic_)) return refuse(bad_contact);
   }
   return true;
@@ -105,7 +104,7 @@ bool Sampler::draw_friction(Sample& s, double w) {
 bool Sampler::agrees(Sample& s) const {
   const auto weigh = [&](const Measured& m, double value) {
     if (m.is_exact()) return;  // cannot weigh: a note says that it was not used
-    s.weight *= m.density(value);
+    s.weight *= m.likelihood(value);
   };
   if (contact_from_ == ContactFrom::ratio && o_.stress_drop) weigh(*o_.stress_drop, s.stress_pa);
   if (knows_contact() && knows_slip_velocity() && knows_friction())
@@ -123,7 +122,7 @@ Sample Sampler::draw(std::size_t i) {
   if (!draw_constants()) return nothing(bad_constants);
   s.V = at(*o_.rupture_velocity, 0);
   if (!(s.V > 0 && s.V < elastic_.speed)) return nothing(too_fast);
-  s.weight = 1 / s.V;
+  s.weight = o_.rupture_velocity->weight_of_draw(s.V);
   const rupture::Relations r = rupture::from_rupture_velocity(s.V / elastic_.speed);
   s.stress = r.stress;
   pulse_ = {r.stress, r.slip_velocity, o_.slip_velocity_is, sampling_.closure};
@@ -135,13 +134,15 @@ Sample Sampler::draw(std::size_t i) {
   if (fixes_friction()) {
     if (!tabled) return nothing(off_table);
     if (knows_slip_velocity()) {
-      const double w = o_.slip_velocity ? at(*o_.slip_velocity, 1) : at(*o_.slip, 1) / duration_;
+      const Measured& slip = o_.slip_velocity ? *o_.slip_velocity : *o_.slip;
+      const double drawn = at(slip, 1), w = o_.slip_velocity ? drawn : drawn / duration_;
       if (!(w > 0)) return nothing(contradicted);
+      s.weight *= slip.weight_of_draw(drawn);
       if (!draw_friction(s, w)) return {};
     } else {
       const double C = at(*o_.friction_coefficient, 5);
       s.u = std::log1p(C * duration_ * elastic_.speed * s.contact_ratio / *constants_.asperity_spacing);
-      s.weight *= -std::expm1(-s.u) / C;
+      s.weight *= -std::expm1(-s.u) * o_.friction_coefficient->weight_of_draw(C);
       if (!(C > 0)) return nothing(contradicted);
     }
   }

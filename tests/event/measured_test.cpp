@@ -62,17 +62,23 @@ TEST(Measured, RefusesWithTheReason) {
     EXPECT_NE(complaint(text).find(says), std::string::npos) << text << ": " << complaint(text);
 }
 
-/// The density is the slope of the inverse of the quantile.
-TEST(Measured, DensityFitsQuantile) {
+/// Draws weigh what takes them from their own density to the likelihood over ln x.
+TEST(Measured, LikelihoodFitsQuantile) {
   for (const char* text : {"3 +- 0.5", "3 */ 1.4", "2..4"}) {
     const Measured m = read(text);
     for (const double p : {0.05, 0.3, 0.5, 0.8, 0.99}) {
-      const double h = 1e-6, slope = (m.quantile(p + h) - m.quantile(p - h)) / (2 * h);
-      EXPECT_NEAR(m.density(m.quantile(p)) * slope, 1, 1e-6) << text << " " << p;
+      const double h = 1e-6;
+      const auto even =
+          [&](double at) {  // likelihood over ln x, over the density of draws and their weight: a constant
+            const double x = m.quantile(at);
+            const double pace = (m.quantile(at + h) - m.quantile(at - h)) / (2 * h);
+            return m.likelihood(x) / x * pace / m.weight_of_draw(x);
+          };
+      EXPECT_NEAR(even(p) / even(0.5), 1, 1e-6) << text << " " << p;
     }
     EXPECT_NEAR(m.quantile(0.5), 3000, 1e-9);
   }
-  EXPECT_EQ(read("2..4").density(1999), 0);
+  EXPECT_EQ(read("2..4").likelihood(1999), 0);
 }
 
 }  // namespace

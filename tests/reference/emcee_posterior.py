@@ -24,7 +24,7 @@ except ImportError as missing:
     sys.exit(77)
 
 ENDS = np.log1p([0, 1, 3, 15, 100, 1000, 1e4, 1e8])
-STRESS = np.log([0.05, 3])
+STRESS = np.array([0.05 / 1.05, 3 / 4])
 C_SPEED = 6000 * np.sqrt(0.4) / 0.7
 PLASTIC = np.sqrt(0.35)
 
@@ -61,7 +61,8 @@ def closed_form(V):
 
 def ln_ratio(coefficients, ln_stress, u):
     piece = min(max(np.searchsorted(ENDS, u, side="right") - 1, 0), 6)
-    y = (2 * ln_stress - STRESS.sum()) / (STRESS[1] - STRESS[0])
+    stress = np.exp(ln_stress)
+    y = (2 * stress / (1 + stress) - STRESS.sum()) / (STRESS[1] - STRESS[0])
     x = (2 * u - ENDS[piece] - ENDS[piece + 1]) / (ENDS[piece + 1] - ENDS[piece])
     return np.polynomial.chebyshev.chebval2d(y, x, coefficients[piece])
 

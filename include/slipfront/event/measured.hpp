@@ -26,8 +26,10 @@ struct Measured {
   bool is_exact() const { return shape == Shape::range && low == high; }
   /// The value below which it lies with `probability`, 0 < probability < 1.
   double quantile(double probability) const;
-  /// Probability density at x; not for an exact number.
-  double density(double x) const;
+  /// Of the true value x, given what was measured; largest 1. Not for an exact number.
+  double likelihood(double x) const;
+  /// What a value that `quantile` gave at an even probability weighs where ln x is even before the measurement.
+  double weight_of_draw(double x) const;
 };
 
 /// "3.0 km/s", "3.0 +- 0.2 km/s" (or the sign for it), "3.0 */ 1.2 km/s", "2.8..3.2 km/s", "2.8-3.2 km/s",
