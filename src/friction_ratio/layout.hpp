@@ -1,8 +1,8 @@
 #pragma once
 /// \file
 /// How the table of friction ratios is laid out: ln(W / frictionless W(0)) as Chebyshev polynomials in
-/// y = ln Sigma- over the whole range and in u = ln(1 + Gamma) piece by piece. Pieces share their end nodes, so the
-/// table is continuous, and Gamma = 0 is a node.
+/// y = Sigma- / (1 + Sigma-) over the whole range (which needs fewer of them than ln Sigma-) and in u = ln(1 + Gamma)
+/// piece by piece. Pieces share their end nodes, so the table is continuous, and Gamma = 0 is a node.
 
 #include <array>
 #include <cmath>
@@ -30,7 +30,10 @@ struct Range {
   double to_unit(double x) const { return (2 * x - low - high) / (high - low); }
   double unit_slope() const { return 2 / (high - low); }
 };
-inline Range of_stress() { return {std::log(least_stress), std::log(most_stress)}; }
+inline double y_of(double stress) { return stress / (1 + stress); }
+inline double y_slope(double stress) { return 1 / ((1 + stress) * (1 + stress)); }
+inline double stress_of(double y) { return y / (1 - y); }
+inline Range of_stress() { return {y_of(least_stress), y_of(most_stress)}; }
 inline Range of_piece(std::size_t piece) { return {std::log1p(ends[piece]), std::log1p(ends[piece + 1])}; }
 
 }  // namespace slipfront::friction_ratio::layout

@@ -42,7 +42,7 @@ Ratio evaluate(Measure measure, modulation::Closure closure, double stress, doub
   const auto piece = static_cast<std::size_t>(above - layout::ends.begin()) - 1;
   const layout::Range u_range = layout::of_piece(piece), y_range = layout::of_stress();
   const Chebyshev<layout::u_nodes> u(u_range.to_unit(std::log1p(tabled)));
-  const Chebyshev<layout::y_nodes> y(y_range.to_unit(std::log(stress)));
+  const Chebyshev<layout::y_nodes> y(y_range.to_unit(layout::y_of(stress)));
   const layout::Piece& c =
       coefficients[closure == modulation::Closure::paper ? 1 : 0][static_cast<std::size_t>(measure)][piece];
   double sum = 0, by_u = 0, by_y = 0;
@@ -57,7 +57,7 @@ Ratio evaluate(Measure measure, modulation::Closure closure, double stress, doub
     by_y += y.slope[i] * along;
   }
   Ratio r{std::exp(sum), 0, 0};
-  r.by_stress = r.value * by_y * y_range.unit_slope() / stress;
+  r.by_stress = r.value * by_y * y_range.unit_slope() * layout::y_slope(stress);
   r.by_damping = r.value * by_u * u_range.unit_slope() / (1 + damping);
   if (damping > layout::most_damping) {  // nonlinear diffusion: W ~ Gamma^(-1/2)
     const double fall = std::sqrt(layout::most_damping / damping);
