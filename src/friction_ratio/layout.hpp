@@ -16,6 +16,8 @@ inline constexpr double least_stress = 0.05, most_stress = 3, most_damping = 1e8
 
 /// Ends of the pieces, in Gamma. Between `unstable_from` and `unstable_to` the closure "paper" is not certified.
 inline constexpr double unstable_from = 3, unstable_to = 1e4;
+/// Closure "consistent": W(0) and the peak have a corner here that the polynomials round off.
+inline constexpr double corner_from = 0.5, corner_to = 10;
 inline constexpr std::array<double, 8> ends{0, 1, unstable_from, 15, 100, 1000, unstable_to, most_damping};
 inline constexpr std::size_t pieces = ends.size() - 1;
 

@@ -67,9 +67,9 @@ Ratio evaluate(Measure measure, modulation::Closure closure, double stress, doub
 }
 
 double uncertainty(modulation::Closure closure, double damping) {
-  const bool unstable =
-      closure == modulation::Closure::paper && damping > layout::unstable_from && damping < layout::unstable_to;
-  return unstable ? 1e-2 : 1e-4;
+  if (closure == modulation::Closure::paper)
+    return damping > layout::unstable_from && damping < layout::unstable_to ? 1e-2 : 1e-4;
+  return damping > layout::corner_from && damping < layout::corner_to ? 1e-3 : 1e-4;
 }
 
 StressRange stress_range() { return {layout::least_stress, layout::most_stress}; }

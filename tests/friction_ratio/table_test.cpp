@@ -29,7 +29,8 @@ TEST(FrictionRatio, IsWhatThePulseSolverGives) {
       const double unit = rupture::from_stress(p.stress).slip_velocity;
       const double wanted[] = {w.origin / unit, w.mean / unit, w.peak / unit};
       for (const Measure m : measures)
-        EXPECT_NEAR(evaluate(m, closure, p.stress, p.damping).value / wanted[static_cast<int>(m)], 1, 1e-4)
+        EXPECT_NEAR(evaluate(m, closure, p.stress, p.damping).value / wanted[static_cast<int>(m)], 1,
+                    uncertainty(closure, p.damping))
             << p.stress << " " << p.damping << " " << static_cast<int>(closure) << static_cast<int>(m);
     }
 }

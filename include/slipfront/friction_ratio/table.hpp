@@ -22,11 +22,12 @@ struct Ratio {
 };
 
 /// `stress` = Sigma- in 0.05 ... 3, `damping_number` >= 0; above 1e8 the diffusion limit, falling as Gamma^(-1/2).
-/// Relative error 1e-4 but for closure "paper" between Gamma = 3 and 1e4 (see `uncertainty`). \throws InputError.
+/// Relative error: see `uncertainty`. \throws InputError.
 Ratio evaluate(Measure measure, modulation::Closure closure, double stress, double damping_number);
 
-/// Relative error to allow for. Closure "paper" is unstable where dislocations outrun their own sound
-/// (docs/friction_ratio.md): for 3 < Gamma < 1e4 no number of cells settles its slip velocities.
+/// Relative error to allow for: 1e-4; closure "consistent" 1e-3 for 0.5 < Gamma < 10, where the slip velocities have a
+/// corner; closure "paper" 1e-2 for 3 < Gamma < 1e4. Closure "paper" is unstable where dislocations outrun their own
+/// sound (docs/friction_ratio.md): for 3 < Gamma < 1e4 no number of cells settles its slip velocities.
 double uncertainty(modulation::Closure closure, double damping_number);
 
 /// Sigma- for which there is a table.
