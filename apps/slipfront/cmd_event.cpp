@@ -19,12 +19,26 @@ struct Arguments {
   CommonOptions common;
   std::vector<std::string> files;
   StatedMedium medium;
+  std::optional<std::size_t> samples;
+  std::uint64_t seed = 1;
+  std::string closure = "consistent";
 };
+
+/// All events are sampled if the user says how often; those of --json are looked at along the fault.
+Plan plan_of(const Arguments& a) {
+  return {{.samples = a.samples.value_or(Sampling{}.samples),
+           .seed = a.seed,
+           .closure = a.closure == "paper" ? slipfront::modulation::Closure::paper
+                                           : slipfront::modulation::Closure::consistent},
+          a.samples.has_value(),
+          a.common.json};
+}
 
 /// Takes entries as the readers find them, evaluates them by the batch and prints them in order.
 class Printer {
  public:
-  Printer(const Arguments& arguments) : options_(arguments.common), defaults_(defaults_of(arguments.medium)) {
+  Printer(const Arguments& arguments)
+      : options_(arguments.common), defaults_(defaults_of(arguments.medium)), plan_(plan_of(arguments)) {
     if (options_.json) put("{\"events\": [");
     if (options_.csv) put(event_csv_head());
   }
@@ -65,7 +79,7 @@ class Printer {
 
   void flush() {
     auto printed = in_parallel<Printed>(waiting_.size(), options_.threads, [&](std::size_t i) {
-      const EventResult result = evaluate(std::move(waiting_[i]), defaults_);
+      const EventResult result = evaluate(std::move(waiting_[i]), defaults_, plan_);
       return Printed{options_.json  ? event_json(result)
                      : options_.csv ? event_csv_row(result)
                                     : event_table_row(result),
@@ -99,6 +113,7 @@ class Printer {
 
   CommonOptions options_;
   MediumDefaults defaults_;
+  Plan plan_;
   std::vector<Entry> waiting_;
   std::size_t count_ = 0, errors_ = 0;
   std::string table_;
@@ -153,6 +168,14 @@ Runner add_event(CLI::App& app) {
       ->type_name("RATIO");
   command->add_option("--shear-modulus", arguments->medium.shear_modulus, "Likewise (default: 30 GPa)")
       ->type_name("MODULUS");
+  command
+      ->add_option("--samples", arguments->samples,
+                   "Sample every event with this many states of the fault (default: 1000 for events that carry an "
+                   "uncertainty, a contact ratio, a stress drop or a friction coefficient; 0: none)")
+      ->check(CLI::Range(0, 10000000));
+  command->add_option("--seed", arguments->seed, "Of the samples (default: 1)");
+  command->add_option("--closure", arguments->closure, "Of the friction: consistent (default) or paper")
+      ->check(CLI::IsMember({"consistent", "paper"}));
   add_common_options(*command, arguments->common);
   return [arguments] { return run_event(*arguments); };
 }

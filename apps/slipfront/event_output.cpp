@@ -14,6 +14,9 @@ using slipfront::event::EventResult;
 using slipfront::event::Inferred;
 using slipfront::event::inferred_quantities;
 using slipfront::event::measured_quantities;
+using slipfront::event::Posterior;
+using slipfront::event::posterior_quantities;
+using slipfront::event::Quantiles;
 
 /// An absent estimate reads like one in which nothing is identifiable.
 const Estimate& estimate_of(const EventResult& result) {
@@ -21,7 +24,7 @@ const Estimate& estimate_of(const EventResult& result) {
   return result.estimate ? *result.estimate : nothing;
 }
 
-constexpr const char* table_layout = "{} {:>12} {:>9} {:>9} {:>12} {:>12} {:>12} {:>9} {:>9}\n";
+constexpr const char* table_layout = "{} {:>12} {:>9} {:>9} {:>12} {:>12} {:>12} {:>9} {:>9} {:>9}\n";
 constexpr std::size_t name_width = 34;
 
 /// The first `width` characters (code points) of a UTF-8 text, padded.
@@ -65,6 +68,77 @@ std::string joined(const std::vector<std::string>& parts) {
   return out;
 }
 
+const char* measure_name(slipfront::event::Measure measure) {
+  using slipfront::event::Measure;
+  return measure == Measure::mean ? "mean" : measure == Measure::peak ? "peak" : "origin";
+}
+
+Json number_or_null(const std::optional<double>& x) { return x ? Json(*x) : Json(); }
+
+Json posterior_json(const EventResult& result) {
+  if (!result.posterior) return nullptr;
+  const Posterior& p = *result.posterior;
+  Json j;
+  for (const auto& quantity : posterior_quantities()) {
+    const auto& q = p.*quantity.value;
+    const std::string name(quantity.about.name);
+    j[name] = q ? Json(q->median) : Json();
+    j[name + "_interval"] = q ? Json{q->low, q->high} : Json();
+  }
+  j["slip_velocity_is"] = measure_name(result.observation.slip_velocity_is);
+  j["friction_identified"] = p.friction_identified;
+  j["prior_share"] = {{"contact_ratio", number_or_null(p.contact_ratio_prior_share)},
+                      {"damping_number", number_or_null(p.damping_number_prior_share)}};
+  j["trade_off"] = Json::array();
+  for (const auto& t : p.trade_off)
+    j["trade_off"].push_back(
+        {{"damping_number", t.damping_number}, {"contact_ratio", t.contact_ratio}, {"stress_pa", t.stress_pa}});
+  j["notes"] = p.notes;
+  j["effective_samples"] = p.effective_samples;
+  j["samples"] = p.samples;
+  j["seed"] = p.seed;
+  return j;
+}
+
+Json along_fault_json(const EventResult& result) {
+  Json all = Json::array();
+  for (const auto& s : result.along_fault)
+    all.push_back({{"segment", s.subfault.segment + 1},
+                   {"along_strike_m", s.along_strike},
+                   {"down_dip_m", s.down_dip},
+                   {"depth_m", s.subfault.z},
+                   {"slip_m", s.subfault.slip},
+                   {"rupture_velocity_m_s", number_or_null(s.rupture_velocity)},
+                   {"slip_velocity_m_s", number_or_null(s.slip_velocity)},
+                   {"stress", number_or_null(s.stress)},
+                   {"contact_ratio", number_or_null(s.contact_ratio)},
+                   {"stress_pa", number_or_null(s.stress_pa)}});
+  return all;
+}
+
+/// Fills what the closed forms leave open with what the samples say.
+void fill_from_posterior(Json& j, const EventResult& result) {
+  if (!result.posterior) return;
+  const Posterior& p = *result.posterior;
+  const auto interval = [&](const std::string& key, const std::optional<Quantiles>& q) {
+    if (q && j[key + "_interval"].is_null() && q->low < q->high) j[key + "_interval"] = Json{q->low, q->high};
+  };
+  if (p.rupture_velocity && result.estimate && j["rupture_velocity_interval"].is_null() &&
+      p.rupture_velocity->low < p.rupture_velocity->high && result.observation.uncertain_constants.empty())
+    j["rupture_velocity_interval"] =
+        Json{p.rupture_velocity->low / result.estimate->speed, p.rupture_velocity->high / result.estimate->speed};
+  interval("stress", p.stress);
+  if (!p.friction_identified) return;
+  for (const auto& [key, member] :
+       {std::pair("contact_ratio", &Posterior::contact_ratio), std::pair("damping_number", &Posterior::damping_number),
+        std::pair("friction_coefficient", &Posterior::friction_coefficient),
+        std::pair("stress_pa", &Posterior::stress_pa)})
+    if (const auto& q = p.*member) {
+      j[key] = q->median;
+      j[key + std::string("_interval")] = Json{q->low, q->high};
+    }
+}
+
 }  // namespace
 
 std::string event_json(const EventResult& result) {
@@ -86,8 +160,13 @@ std::string event_json(const EventResult& result) {
     j[name] = x ? Json(x->value) : Json();
     j[name + "_interval"] = x && x->interval ? Json{x->interval->low, x->interval->high} : Json();
   }
-  j["damping_number"] = nullptr;  // needs friction: not identifiable from the frictionless relations
-  j["damping_number_interval"] = nullptr;
+  for (const char* key : {"damping_number", "friction_coefficient"}) {  // need more than the frictionless relations
+    j[key] = nullptr;
+    j[key + std::string("_interval")] = nullptr;
+  }
+  fill_from_posterior(j, result);
+  j["posterior"] = posterior_json(result);
+  if (!result.along_fault.empty()) j["along_fault"] = along_fault_json(result);
   j["warnings"] = result.warnings();
   j["error"] = result.error.empty() ? Json() : Json(result.error);
   return j.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -97,7 +176,9 @@ std::string event_csv_head() {
   std::string head = "name,date,kind,c_m_s";
   for (const auto& q : measured_quantities()) head += fmt::format(",{}", q.about.name);
   for (const auto& q : inferred_quantities()) head += fmt::format(",{0},{0}_low,{0}_high", q.about.name);
-  return head + ",damping_number,warnings,error,citation,note,file,line\n";
+  for (const auto& q : posterior_quantities())
+    head += fmt::format(",posterior_{0},posterior_{0}_low,posterior_{0}_high", q.about.name);
+  return head + ",friction_identified,effective_samples,seed,damping_number,warnings,error,citation,note,file,line\n";
 }
 
 std::string event_csv_row(const EventResult& result) {
@@ -111,17 +192,30 @@ std::string event_csv_row(const EventResult& result) {
     row += x ? fmt::format(",{}", x->value) : ",";
     row += x && x->interval ? fmt::format(",{},{}", x->interval->low, x->interval->high) : ",,";
   }
-  return row + ",," + quoted(joined(result.warnings())) + "," + quoted(result.error) + "," + quoted(o.citation) + "," +
-         quoted(o.note) + "," + quoted(o.file) + fmt::format(",{}\n", o.line);
+  std::string damping;
+  const Posterior none;
+  for (const auto& quantity : posterior_quantities()) {
+    const auto& q = (result.posterior ? *result.posterior : none).*quantity.value;
+    row += q ? fmt::format(",{},{},{}", q->median, q->low, q->high) : ",,,";
+  }
+  if (const auto& p = result.posterior) {
+    row += fmt::format(",{},{},{}", p->friction_identified ? "yes" : "no", p->effective_samples, p->seed);
+    if (p->friction_identified) damping = fmt::format("{}", p->damping_number->median);
+  } else {
+    row += ",,,";
+  }
+  return row + "," + damping + "," + quoted(joined(result.warnings())) + "," + quoted(result.error) + "," +
+         quoted(o.citation) + "," + quoted(o.note) + "," + quoted(o.file) + fmt::format(",{}\n", o.line);
 }
 
 std::string event_table_head() {
-  const auto line = [](const std::array<const char*, 9>& cells) {
+  const auto line = [](const std::array<const char*, 10>& cells) {
     return fmt::format(table_layout, clipped(cells[0], name_width), cells[1], cells[2], cells[3], cells[4], cells[5],
-                       cells[6], cells[7], cells[8]);
+                       cells[6], cells[7], cells[8], cells[9]);
   };
-  return line({"", "rupture", "", "stress", "slip", "frictionless", "observed /", "contact", "stress"}) +
-         line({"event", "velocity", "V / c", "mu A / pi", "velocity", "c A / pi", "frictionless", "ratio A", "MPa"});
+  return line({"", "rupture", "", "stress", "slip", "frictionless", "observed /", "contact", "stress", "damping"}) +
+         line({"event", "velocity", "V / c", "mu A / pi", "velocity", "c A / pi", "frictionless", "ratio A", "MPa",
+               "C T"});
 }
 
 std::string event_table_row(const EventResult& result) {
@@ -130,5 +224,8 @@ std::string event_table_row(const EventResult& result) {
   return fmt::format(table_layout, clipped(result.observation.name, name_width),
                      front_text(e.observed_rupture_velocity), number_text(e.rupture_velocity), number_text(e.stress),
                      speed_text(e.observed_slip_velocity_m_s), number_text(e.frictionless_slip_velocity),
-                     number_text(e.slip_velocity_ratio), number_text(e.contact_ratio), number_text(e.stress_pa, 1e6));
+                     number_text(e.slip_velocity_ratio), number_text(e.contact_ratio), number_text(e.stress_pa, 1e6),
+                     result.posterior && result.posterior->friction_identified
+                         ? fmt::format("{:.3g}", result.posterior->damping_number->median)
+                         : "-");
 }

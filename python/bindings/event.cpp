@@ -1,7 +1,9 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -45,6 +47,25 @@ py::array_t<double> intervals(const std::vector<EventResult>& results, std::opti
 }
 
 template <class Get>
+py::array_t<double> of_posterior(const std::vector<EventResult>& results, Get&& get) {
+  py::array_t<double> column(static_cast<py::ssize_t>(results.size()));
+  double* out = column.mutable_data();
+  for (const EventResult& r : results) *out++ = r.posterior ? get(*r.posterior) : none;
+  return column;
+}
+
+/// 5 %, median, 95 %.
+py::array_t<double> quantiles(const std::vector<EventResult>& results, std::optional<Quantiles> Posterior::*value) {
+  py::array_t<double> column({static_cast<py::ssize_t>(results.size()), py::ssize_t{3}});
+  double* out = column.mutable_data();
+  for (const EventResult& r : results) {
+    const Quantiles q = (r.posterior ? (*r.posterior).*value : std::nullopt).value_or(Quantiles{none, none, none});
+    for (const double x : {q.low, q.median, q.high}) *out++ = x;
+  }
+  return column;
+}
+
+template <class Get>
 py::list texts(const std::vector<EventResult>& results, Get&& get) {
   py::list column;
   for (const EventResult& r : results) column.append(text(get(r)));
@@ -61,7 +82,7 @@ std::string joined(const std::vector<std::string>& parts) {
 using Source = std::tuple<std::string, std::string, bool>;
 
 /// Columns of all events of all sources: texts as lists, numbers as arrays.
-py::dict evaluate_all(const std::vector<Source>& sources, const StatedMedium& medium, int threads) {
+py::dict evaluate_all(const std::vector<Source>& sources, const StatedMedium& medium, const Plan& plan, int threads) {
   std::vector<EventResult> results;
   std::vector<std::string> ignored;
   {
@@ -74,7 +95,7 @@ py::dict evaluate_all(const std::vector<Source>& sources, const StatedMedium& me
         if (std::find(ignored.begin(), ignored.end(), title) == ignored.end()) ignored.push_back(std::move(title));
     results.resize(entries.size());
     for_each_parallel(entries.size(), threads,
-                      [&](std::size_t i) { results[i] = evaluate(std::move(entries[i]), defaults); });
+                      [&](std::size_t i) { results[i] = evaluate(std::move(entries[i]), defaults, plan); });
   }
   py::dict about;
   py::list measured, inferred;
@@ -98,6 +119,13 @@ py::dict evaluate_all(const std::vector<Source>& sources, const StatedMedium& me
   columns["c_m_s"] = numbers(results, [](const Estimate& e) { return e.speed; });
   columns["measured"] = measured;
   columns["inferred"] = inferred;
+  py::list posterior;
+  for (const auto& q : posterior_quantities())
+    posterior.append(py::make_tuple(described(q.about), quantiles(results, q.value)));
+  columns["posterior"] = posterior;
+  columns["effective_samples"] = of_posterior(results, [](const Posterior& p) { return p.effective_samples; });
+  columns["friction_identified"] =
+      of_posterior(results, [](const Posterior& p) { return p.friction_identified ? 1.0 : 0.0; });
   columns["ignored"] = ignored;
   return columns;
 }
@@ -106,7 +134,13 @@ py::dict evaluate_all(const std::vector<Source>& sources, const StatedMedium& me
 
 void bind_event(py::module_& m) {
   m.def("event", [](const std::vector<Source>& sources, const std::string& p_wave_speed,
-                    const std::string& poisson_ratio, const std::string& shear_modulus, int threads) {
-    return evaluate_all(sources, {p_wave_speed, poisson_ratio, shear_modulus}, threads);
+                    const std::string& poisson_ratio, const std::string& shear_modulus,
+                    std::optional<std::size_t> samples, std::uint64_t seed, bool paper, int threads) {
+    const Plan plan{{.samples = samples.value_or(Sampling{}.samples),
+                     .seed = seed,
+                     .closure = paper ? modulation::Closure::paper : modulation::Closure::consistent},
+                    samples.has_value(),
+                    false};
+    return evaluate_all(sources, {p_wave_speed, poisson_ratio, shear_modulus}, plan, threads);
   });
 }

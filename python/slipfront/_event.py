@@ -38,11 +38,18 @@ def _source(event, name):
     raise InputError(f"{name}: a {type(event).__name__}; allowed: a path, text, a dict, a DataFrame or a list of these")
 
 
+def _whole(name, value):
+    if value is None or (isinstance(value, int) and not isinstance(value, bool) and 0 <= value < 2**63):
+        return value
+    raise InputError(f"{name} = '{value}': not a whole number; allowed: >= 0")
+
+
 def _default(value):
     return "" if value is None else str(value)
 
 
-def event(events=None, *, p_wave_speed=None, poisson_ratio=None, shear_modulus=None, threads=None):
+def event(events=None, *, p_wave_speed=None, poisson_ratio=None, shear_modulus=None, samples=None, seed=1, closure="consistent",
+          threads=None):
     """Stress, contact ratio and frictionless slip velocity of observed events, by the frictionless relations (Eqs. 8-10).
 
     Parameters
@@ -53,14 +60,23 @@ def event(events=None, *, p_wave_speed=None, poisson_ratio=None, shear_modulus=N
         with these columns. Nothing: the shipped catalogue.
     p_wave_speed, poisson_ratio, shear_modulus : str or float, optional
         Of events that give none, such as "6 km/s", 0.3, "30 GPa" (the defaults).
+    samples : int, optional
+        Samples of the state of every event, friction and errors included (docs/events.md); without it, 1000 for events that
+        carry an uncertainty, a contact ratio, a stress drop or a friction coefficient. 0: none.
+    seed : int, optional
+        Of the samples.
+    closure : "consistent" or "paper", optional
+        Of the friction.
     threads : int, optional
         All cores unless given; results do not depend on it.
 
     Returns
     -------
     xarray.Dataset over `event`: name, c_m_s, rupture_velocity (V / c), stress (mu A / pi), frictionless_slip_velocity and
-    observed_slip_velocity (c A / pi), slip_velocity_ratio, contact_ratio, stress_pa (Pa), damping_number (always NaN: it
-    needs friction), `<name>_interval` = [5 %, 95 %] of each, NaN where not identifiable, and `warnings`. One bad event of
+    observed_slip_velocity (c A / pi), slip_velocity_ratio, contact_ratio, stress_pa (Pa), `<name>_interval` = [5 %, 95 %] of
+    each, all by the closed forms without friction; `posterior_<name>` over `quantile` (5 %, 50 %, 95 %) with friction, for
+    sampled events, effective_samples and friction_identified (1 or 0); damping_number, the posterior's median where friction
+    is identified. NaN where not identifiable; and `warnings`. One bad event of
     several does not lose the others: its `error` says why, and is "" for the rest.
 
     Raises
@@ -73,7 +89,10 @@ def event(events=None, *, p_wave_speed=None, poisson_ratio=None, shear_modulus=N
                else [_source(events, "events")])
     if not sources:
         raise InputError("events: none; allowed: one or more")
-    columns = _slipfront.event(sources, _default(p_wave_speed), _default(poisson_ratio), _default(shear_modulus), thread_count(threads))
+    if closure not in ("consistent", "paper"):
+        raise InputError(f"closure = '{closure}'; allowed: consistent, paper")
+    columns = _slipfront.event(sources, _default(p_wave_speed), _default(poisson_ratio), _default(shear_modulus),
+                               _whole("samples", samples), _whole("seed", seed), closure == "paper", thread_count(threads))
     errors = columns["about"]["error"]
     if errors and all(errors):
         raise InputError(errors[0])
@@ -85,13 +104,20 @@ def event(events=None, *, p_wave_speed=None, poisson_ratio=None, shear_modulus=N
     variables["c_m_s"] = ("event", columns["c_m_s"], attributes(one))
     for about, values in columns["measured"]:
         variables[about[0]] = ("event", values, attributes(about))
-    unknown = np.full(len(errors), np.nan)
-    damping = ("damping_number", "Gamma = C t; needs friction, not identifiable from frictionless relations", "", "Eq. 7")
-    for about, values, interval in [*columns["inferred"], (damping, unknown, np.stack([unknown, unknown], 1))]:
+    for about, values, interval in columns["inferred"]:
         variables[about[0]] = ("event", values, attributes(about))
         variables[about[0] + "_interval"] = (("event", "bound"), interval, {**attributes(about), "long_name": f"5 % and 95 % of: {about[1]}"})
+    for about, values in columns["posterior"]:
+        variables["posterior_" + about[0]] = (("event", "quantile"), values, {**attributes(about), "long_name": f"with friction and errors: {about[1]}"})
+    identified = columns["friction_identified"]
+    variables["effective_samples"] = ("event", columns["effective_samples"], {"long_name": "effective number of samples"})
+    variables["friction_identified"] = ("event", identified, {"long_name": "1 where the data say what the friction is, else 0"})
+    damping = variables["posterior_damping_number"]
+    known = np.where((identified == 1)[:, None], damping[1], np.nan)
+    variables["damping_number"] = ("event", known[:, 1], damping[2])
+    variables["damping_number_interval"] = (("event", "bound"), known[:, ::2], {**damping[2], "long_name": "5 % and 95 % of: Gamma = C T"})
     for name, unit in _units.items():
-        for key in (name, name + "_interval"):
+        for key in (name, name + "_interval", "posterior_" + name):
             if key in variables:
                 variables[key][2]["units"] = unit
-    return dataset(variables, {"bound": ("bound", ["5 %", "95 %"])}, {"ignored_columns": ", ".join(columns["ignored"])})
+    return dataset(variables, {"bound": ("bound", ["5 %", "95 %"]), "quantile": ("quantile", [0.05, 0.5, 0.95])}, {"ignored_columns": ", ".join(columns["ignored"])})

@@ -28,6 +28,16 @@ void store_cell(Observation& o, const Column& column, const std::string& cell) {
   }
 }
 
+void store_measure(Observation& o, const Column& column, const std::string& cell) {
+  try {
+    o.slip_velocity_is = parse_measure(cell);
+  } catch (const InputError& error) {
+    Complaint c = error.complaint();
+    c.key = column.title;
+    throw InputError(c);
+  }
+}
+
 /// A range from its two ends, where the quantity itself was left blank.
 void close_ranges(Observation& o, const std::vector<Ends>& ranges) {
   for (const Ends& r : ranges) {
@@ -94,6 +104,9 @@ Entry read_row(const std::vector<Column>& columns, const std::vector<std::string
           break;
         case Role::note:
           o.note = cell;
+          break;
+        case Role::slip_velocity_is:
+          store_measure(o, column, cell);
           break;
         case Role::name:
         case Role::ignored:

@@ -18,7 +18,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 4> aliases =
     {"vs_at_hypocentre", "s_wave_speed"},
     {"vp_at_hypocentre", "p_wave_speed"},
 }};
-constexpr std::array<std::pair<std::string_view, Role>, 9> texts = {{
+constexpr std::array<std::pair<std::string_view, Role>, 10> texts = {{
     {"name", Role::name},
     {"event", Role::name},
     {"date", Role::date},
@@ -28,6 +28,7 @@ constexpr std::array<std::pair<std::string_view, Role>, 9> texts = {{
     {"source", Role::citation},
     {"note", Role::note},
     {"notes", Role::note},
+    {"slip_velocity_is", Role::slip_velocity_is},
 }};
 /// Endings of columns that say how a quantity was found.
 constexpr std::array<std::string_view, 6> about = {"how", "type", "source", "method", "note", "notes"};

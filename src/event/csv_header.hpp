@@ -9,7 +9,19 @@ namespace slipfront::event {
 
 /// What one column of a catalogue holds.
 struct Column {
-  enum class Role { ignored, quantity, range_low, range_high, provenance, name, date, kind, citation, note };
+  enum class Role {
+    ignored,
+    quantity,
+    range_low,
+    range_high,
+    provenance,
+    name,
+    date,
+    kind,
+    citation,
+    note,
+    slip_velocity_is
+  };
   Role role = Role::ignored;
   std::string title;         ///< as the header has it
   const Key* key = nullptr;  ///< of a quantity, a range end or its provenance

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "elastic.hpp"
 #include "slipfront/medium/medium.hpp"
 #include "slipfront/rupture/relations.hpp"
 
@@ -16,40 +17,9 @@ std::string text(double value, const char* unit) {
   return buffer;
 }
 
-/// Elastic constants of one event, after the defaults have filled the gaps.
-struct Elastic {
-  double speed;
-  double shear_modulus;
-  double poisson_ratio;
-};
-
-Elastic elastic(const Observation& o, const MediumDefaults& d, std::vector<std::string>& warnings) {
-  std::string assumed;
-  const auto assume = [&](double value, const char* key, const char* unit, bool stated) {
-    if (!stated) assumed += (assumed.empty() ? "" : ", ") + (key + (" " + text(value, unit)));
-    return value;
-  };
-  Elastic e{};
-  const bool both_speeds = o.p_wave_speed && o.s_wave_speed;
-  e.poisson_ratio = o.poisson_ratio ? *o.poisson_ratio
-                    : both_speeds   ? medium::poisson_ratio(*o.p_wave_speed, *o.s_wave_speed)
-                                    : assume(d.poisson_ratio, "poisson_ratio", "", d.stated_poisson);
-  const bool by_modulus = o.shear_modulus && o.density;
-  e.speed = o.p_wave_speed   ? medium::speed_from_p_wave(*o.p_wave_speed, e.poisson_ratio)
-            : o.s_wave_speed ? medium::speed_from_s_wave(*o.s_wave_speed, e.poisson_ratio)
-            : by_modulus     ? medium::speed_from_shear_modulus(*o.shear_modulus, *o.density, e.poisson_ratio)
-                             : medium::speed_from_p_wave(assume(d.p_wave_speed, "p_wave_speed", " m/s", d.stated_speed),
-                                                         e.poisson_ratio);
-  e.shear_modulus = o.shear_modulus               ? *o.shear_modulus
-                    : o.s_wave_speed && o.density ? *o.density * *o.s_wave_speed * *o.s_wave_speed
-                                                  : assume(d.shear_modulus, "shear_modulus", " Pa", d.stated_modulus);
-  if (!assumed.empty()) warnings.push_back("assumed: " + assumed);
-  return e;
-}
-
 /// The observed quantities that enter, as single numbers.
 struct Observed {
-  std::optional<double> V, w, slip, time;
+  std::optional<double> V, w, slip, time, drop;
 
   std::optional<double> slip_velocity() const {
     if (w) return w;
@@ -65,6 +35,9 @@ struct Numbers {
 
 Numbers infer(const Observed& observed, const Elastic& e, std::optional<double> given_A) {
   Numbers n;
+  if (!given_A && observed.drop && observed.V)
+    given_A = *observed.drop / medium::stress_unit(e.shear_modulus, 1) /
+              rupture::from_rupture_velocity(*observed.V / e.speed).stress;
   const std::optional<double> w = observed.slip_velocity();
   n.A = given_A;
   if (given_A && w) n.observed = *w / medium::slip_velocity_unit(e.speed, *given_A);
@@ -113,7 +86,9 @@ std::optional<Inferred> inferred(const Numbers& middle, const std::vector<Spread
 Estimate estimate(const Observation& o, const MediumDefaults& defaults) try {
   Estimate result;
   result.warnings = o.warnings;
-  const Elastic e = elastic(o, defaults, result.warnings);
+  std::string assumed;
+  const Elastic e = elastic(o, defaults, &assumed);
+  if (!assumed.empty()) result.warnings.push_back("assumed: " + assumed);
   result.speed = e.speed;
   const double plastic = medium::plastic_contact_ratio(e.poisson_ratio);
   if (o.contact_ratio && !(*o.contact_ratio > 0 && *o.contact_ratio <= plastic))
@@ -127,6 +102,10 @@ Estimate estimate(const Observation& o, const MediumDefaults& defaults) try {
                       .problem = "not below the speed c of the model",
                       .allowed = "rupture_velocity < c = " + text(e.speed, " m/s")});
 
+  std::optional<double> given_A = o.contact_ratio;
+  if (!given_A && o.normal_stress && o.hardness && !o.stress_drop)
+    given_A = medium::contact_ratio(o.normal_stress->middle(), o.hardness->middle(), e.poisson_ratio,
+                                    medium::ContactForm::derived);
   Observed middle;
   std::vector<std::pair<std::optional<double> Observed::*, Measured>> ranges;
   const auto take = [&](const std::optional<Measured>& measured, std::optional<double> Observed::*member) {
@@ -135,6 +114,7 @@ Estimate estimate(const Observation& o, const MediumDefaults& defaults) try {
     if (measured->is_range()) ranges.emplace_back(member, *measured);
   };
   take(o.rupture_velocity, &Observed::V);
+  take(o.stress_drop, &Observed::drop);
   if (o.slip_velocity) {
     take(o.slip_velocity, &Observed::w);
   } else if (o.slip && (o.rise_time || o.duration)) {
@@ -143,13 +123,13 @@ Estimate estimate(const Observation& o, const MediumDefaults& defaults) try {
     result.warnings.push_back(std::string("slip_velocity is slip / ") + (o.rise_time ? "rise_time" : "duration"));
   }
 
-  const Numbers n = infer(middle, e, o.contact_ratio);
+  const Numbers n = infer(middle, e, given_A);
   std::vector<Spread> spreads;
   for (const auto& [member, range] : ranges) {
     const auto at = [&, member = member, range = range](double quantile) {
       Observed shifted = middle;
       shifted.*member = range.low + quantile * (range.high - range.low);
-      return infer(shifted, e, o.contact_ratio);
+      return infer(shifted, e, given_A);
     };
     spreads.push_back({at(0.05), at(0.95)});
   }
@@ -172,7 +152,7 @@ Estimate estimate(const Observation& o, const MediumDefaults& defaults) try {
                                   : "no rupture_velocity: stress is not identifiable");
   } else if (!n.A) {
     result.warnings.push_back("no slip velocity and no contact_ratio: stress in Pa is not identifiable");
-  } else if (!o.contact_ratio) {
+  } else if (!given_A && !o.stress_drop) {
     result.warnings.push_back("contact_ratio as if there were no friction: a lower bound");
   }
   if (n.A && *n.A > plastic)

@@ -6,12 +6,22 @@
 
 namespace slipfront::event {
 
-EventResult evaluate(Entry&& entry, const MediumDefaults& defaults) {
-  EventResult result{std::move(entry.observation), {}, {}};
+std::vector<std::string> EventResult::warnings() const {
+  std::vector<std::string> all = estimate ? estimate->warnings : observation.warnings;
+  if (posterior) all.insert(all.end(), posterior->notes.begin(), posterior->notes.end());
+  return all;
+}
+
+EventResult evaluate(Entry&& entry, const MediumDefaults& defaults, const Plan& plan) {
+  EventResult result{std::move(entry.observation), {}, {}, {}, {}};
   try {
     if (entry.error) throw InputError(*entry.error);
     result.estimate = estimate(result.observation, defaults);
+    if (plan.sampling.samples > 0 && (plan.all || speaks_of_friction_or_error(result.observation)))
+      result.posterior = posterior(result.observation, defaults, plan.sampling);
+    if (plan.along_fault) result.along_fault = along_fault(result.observation, defaults);
   } catch (const InputError& error) {
+    result.estimate.reset();
     result.error = error.what();
   }
   return result;
@@ -67,6 +77,18 @@ std::span<const EstimateQuantity<Inferred>> inferred_quantities() {
       {{"contact_ratio", "A, real to nominal contact area: given, or as if there were no friction", "", "Eq. 1"},
        &Estimate::contact_ratio},
       {{"stress_pa", "stress before the rupture, in Pa", "", "Eqs. 8-10"}, &Estimate::stress_pa},
+  };
+  return quantities;
+}
+
+std::span<const PosteriorQuantity> posterior_quantities() {
+  static constexpr PosteriorQuantity quantities[] = {
+      {{"rupture_velocity_m_s", "rupture velocity, in m/s", "", "Eqs. 8-10"}, &Posterior::rupture_velocity},
+      {{"stress", "Sigma-, stress before the rupture", "mu A / pi", "Eqs. 8-10"}, &Posterior::stress},
+      {{"contact_ratio", "A, real to nominal contact area", "", "Eq. 1"}, &Posterior::contact_ratio},
+      {{"damping_number", "Gamma = C T", "", "Eq. 7"}, &Posterior::damping_number},
+      {{"friction_coefficient", "C of viscous friction", "", "Eq. 7"}, &Posterior::friction_coefficient},
+      {{"stress_pa", "stress before the rupture, in Pa", "", "Eqs. 8-10"}, &Posterior::stress_pa},
   };
   return quantities;
 }

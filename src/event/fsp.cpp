@@ -166,6 +166,7 @@ Observation Reader::finish() {
   }
   tables_.check(header_, end, out.warnings);
   fill_velocities(out);
+  out.subfaults = tables_.subfaults();
   layers_.fill(header_.hypocentre_depth(), out);
   return out;
 }

@@ -133,6 +133,8 @@ class SubfaultTables {
   void check(const Header& header, const Place& end, std::vector<std::string>& warnings) const;
   /// Mean slip, m, weighted with the areas of the subfaults.
   double mean_slip(const Header& header, std::vector<std::string>& warnings) const;
+  /// The rows one by one, of segments that give X, Y and Z.
+  const std::vector<Subfault>& subfaults() const { return subfaults_; }
   /// Mean of column RISE, s, weighted with slip, over rows where both are given.
   std::optional<double> mean_rise_time() const;
 
@@ -141,17 +143,19 @@ class SubfaultTables {
     std::optional<std::size_t> stated_rows;
     std::optional<double> length, width, dx, dz;  ///< km
     std::size_t columns = 0, slip_column = 0;
-    std::optional<std::size_t> rise_column;
+    std::optional<std::size_t> rise_column, time_column, x_column, y_column, z_column;
     std::size_t line = 0, rows = 0;
     double slip = 0, slip_with_rise = 0, slip_times_rise = 0;
 
     std::optional<double> area(const Header& header) const;
   };
 
+  void keep_subfault(const Segment& segment, const std::vector<double>& values);
   void check_rows(std::size_t index, const Header& header, const Place& end, std::vector<std::string>& warnings) const;
   std::string label(std::size_t index) const;
 
   std::vector<Segment> segments_;
+  std::vector<Subfault> subfaults_;
   Segment next_;                ///< what has been said of the segment whose column header is still to come
   std::size_t announced_ = 0;   ///< line of its `SEGMENT #`, 0 if there was none
   std::size_t stray_rows_ = 0;  ///< rows with words that are no numbers

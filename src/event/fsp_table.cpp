@@ -71,6 +71,12 @@ void SubfaultTables::take_heading(const Words& names, const Place& place) {
   next_.columns = names.size();
   next_.slip_column = index_of(names, "SLIP").value();
   next_.rise_column = index_of(names, "RISE");
+  next_.time_column = index_of(names, "TRUP");
+  next_.z_column = index_of(names, "Z");
+  for (std::size_t i = 0; i < names.size(); ++i) {  // X==NS or X==EW
+    if (begins(names[i], "X==")) next_.x_column = i;
+    if (begins(names[i], "Y==")) next_.y_column = i;
+  }
   next_.line = place.line;
   segments_.push_back(next_);
   next_ = {};
@@ -94,12 +100,28 @@ void SubfaultTables::take_row(const Words& row, const Place& place) {
   if (slip < 0) ++negative_rows_;
   segment.slip += slip;
   ++segment.rows;
+  keep_subfault(segment, values);
   if (!segment.rise_column) return;
   const double rise = values[*segment.rise_column];
   if (slip > 0 && rise > 0 && rise < longest_rise_time) {
     segment.slip_with_rise += slip;
     segment.slip_times_rise += slip * rise;
   }
+}
+
+void SubfaultTables::keep_subfault(const Segment& segment, const std::vector<double>& values) {
+  if (!segment.x_column || !segment.y_column || !segment.z_column) return;
+  constexpr double m_per_km = 1000;
+  Subfault s{.segment = segments_.size() - 1,
+             .x = values[*segment.x_column] * m_per_km,
+             .y = values[*segment.y_column] * m_per_km,
+             .z = values[*segment.z_column] * m_per_km,
+             .slip = values[segment.slip_column]};
+  if (segment.rise_column && values[*segment.rise_column] > 0 && values[*segment.rise_column] < longest_rise_time)
+    s.rise_time = values[*segment.rise_column];
+  if (segment.time_column && values[*segment.time_column] >= 0 && values[*segment.time_column] < longest_rise_time)
+    s.rupture_time = values[*segment.time_column];
+  subfaults_.push_back(s);
 }
 
 void SubfaultTables::check(const Header& header, const Place& end, std::vector<std::string>& warnings) const {

@@ -13,6 +13,10 @@ const std::vector<Key>& quantity_keys() {
         {"slip", Dimension::length, &Observation::slip},
         {"rise_time", Dimension::time, &Observation::rise_time},
         {"duration", Dimension::time, &Observation::duration},
+        {"stress_drop", Dimension::pressure, &Observation::stress_drop},
+        {"friction_coefficient", Dimension::ratio, &Observation::friction_coefficient},
+        {"normal_stress", Dimension::pressure, &Observation::normal_stress},
+        {"hardness", Dimension::pressure, &Observation::hardness},
     };
     for (const medium::Constant& constant : medium::constants())
       all.push_back({constant.name, constant.dimension, nullptr, constant.member});
@@ -27,19 +31,23 @@ const Key* find_key(std::string_view name) {
   return nullptr;
 }
 
+Measure parse_measure(std::string_view text) {
+  if (text == "origin") return Measure::origin;
+  if (text == "mean") return Measure::mean;
+  if (text == "peak") return Measure::peak;
+  throw InputError({.value = std::string(text), .problem = "unknown", .allowed = "origin, mean, peak"});
+}
+
 void store(Observation& observation, const Key& key, std::string_view text, std::string_view default_unit) {
-  const medium::Span span = medium::parse_quantity(text, key.dimension, default_unit);
-  const auto refuse = [&](const char* problem, std::string allowed) {
-    return InputError({.value = std::string(text), .problem = problem, .allowed = std::move(allowed)});
-  };
+  const Measured measured = parse_measured(text, key.dimension, default_unit);
   const bool positive = key.name != "poisson_ratio";  // its own range is checked with the medium
-  if (positive && !(span.low > 0)) throw refuse("not positive", "> 0");
+  if (positive && !(measured.low > 0))
+    throw InputError({.value = std::string(text), .problem = "not positive", .allowed = "> 0"});
   if (key.measured) {
-    observation.*key.measured = Measured{span.low, span.high};
+    observation.*key.measured = measured;
   } else {
-    if (span.low < span.high)
-      throw refuse("a range, where one number is needed", std::string(medium::example(key.dimension)));
-    observation.*key.constant = span.low;
+    observation.*key.constant = measured.middle();
+    if (!measured.is_exact()) observation.uncertain_constants.push_back({key.constant, measured});
   }
 }
 

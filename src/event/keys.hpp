@@ -13,16 +13,19 @@ namespace slipfront::event {
 struct Key {
   std::string_view name;
   medium::Dimension dimension;
-  std::optional<Measured> Observation::*measured = nullptr;  ///< observed, may be a range; > 0
-  std::optional<double> Observation::*constant = nullptr;    ///< of the medium, one number
+  std::optional<Measured> Observation::*measured = nullptr;      ///< observed, may be uncertain; > 0
+  std::optional<double> medium::Constants::*constant = nullptr;  ///< of the medium
 };
 
 /// All quantities; observed ones first.
 const std::vector<Key>& quantity_keys();
 const Key* find_key(std::string_view name);
 
-/// Parses `text` and stores it. \throws InputError (value, problem, allowed) for bad text, a bad unit, a range where
-/// one number is needed, or an observed quantity that is not positive.
+/// "origin", "mean" or "peak". \throws InputError (value, problem, allowed) otherwise.
+Measure parse_measure(std::string_view text);
+
+/// Parses `text` and stores it. \throws InputError (value, problem, allowed) for bad text, a bad unit, an uncertainty
+/// or a quantity that is not positive.
 void store(Observation& observation, const Key& key, std::string_view text, std::string_view default_unit);
 
 }  // namespace slipfront::event

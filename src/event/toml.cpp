@@ -48,10 +48,21 @@ void read_quantity(Observation& o, const Key& key, const std::string& full_key, 
   }
 }
 
+void read_measure(Observation& o, const std::string& full_key, const toml::node& node) {
+  try {
+    o.slip_velocity_is = parse_measure(text_value(node, full_key));
+  } catch (const InputError& error) {
+    Complaint c = error.complaint();
+    c.key = full_key;
+    c.line = line_of(node);
+    throw InputError(c);
+  }
+}
+
 /// Reads one table: quantities on the wanted side (observed or of the medium), texts if it is [event].
 void read_table(Observation& o, const toml::table& table, const std::string& name, bool observed) {
   std::vector<std::string_view> known;
-  if (observed) known = {"name", "date", "kind", "citation", "note"};
+  if (observed) known = {"name", "date", "kind", "citation", "note", "slip_velocity_is"};
   for (const Key& key : quantity_keys())
     if ((key.measured != nullptr) == observed) known.push_back(key.name);
   for (const auto& [key_node, node] : table) {
@@ -70,6 +81,8 @@ void read_table(Observation& o, const toml::table& table, const std::string& nam
       o.citation = text_value(node, full_key);
     } else if (observed && key == "note") {
       o.note = text_value(node, full_key);
+    } else if (observed && key == "slip_velocity_is") {
+      read_measure(o, full_key, node);
     } else {
       throw InputError(
           {.line = line_of(node), .key = full_key, .problem = "unknown key", .allowed = nearest_or_all(key, known)});

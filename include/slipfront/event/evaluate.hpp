@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "slipfront/description.hpp"
+#include "slipfront/event/along_fault.hpp"
 #include "slipfront/event/estimate.hpp"
+#include "slipfront/event/posterior.hpp"
 
 namespace slipfront::event {
 
@@ -16,13 +18,23 @@ namespace slipfront::event {
 struct EventResult {
   Observation observation;
   std::optional<Estimate> estimate;
-  std::string error;  ///< one line; empty when there is an estimate
+  std::optional<Posterior> posterior;   ///< where the event was sampled
+  std::vector<LocalState> along_fault;  ///< of a finite-fault model, if asked for
+  std::string error;                    ///< one line; empty when there is an estimate
 
-  const std::vector<std::string>& warnings() const { return estimate ? estimate->warnings : observation.warnings; }
+  /// Those of the closed forms, then what the samples say.
+  std::vector<std::string> warnings() const;
+};
+
+/// What is done with an event besides the closed forms.
+struct Plan {
+  Sampling sampling;         ///< no samples: none
+  bool all = false;          ///< sample all events, or those that speak of friction or of their errors
+  bool along_fault = false;  ///< the closed forms subfault by subfault
 };
 
 /// Never throws InputError: what is wrong with the entry is in the result.
-EventResult evaluate(Entry&& entry, const MediumDefaults& defaults);
+EventResult evaluate(Entry&& entry, const MediumDefaults& defaults, const Plan& plan);
 
 /// The constants of the medium as a user states them, such as "6 km/s", 0.3 and "30 GPa"; empty: the default.
 struct StatedMedium {
@@ -39,5 +51,12 @@ struct EstimateQuantity {
 };
 std::span<const EstimateQuantity<double>> measured_quantities();
 std::span<const EstimateQuantity<Inferred>> inferred_quantities();
+
+/// Members of Posterior by name, likewise.
+struct PosteriorQuantity {
+  Description about;
+  std::optional<Quantiles> Posterior::*value;
+};
+std::span<const PosteriorQuantity> posterior_quantities();
 
 }  // namespace slipfront::event

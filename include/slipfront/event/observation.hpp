@@ -8,16 +8,28 @@
 #include <vector>
 
 #include "slipfront/error.hpp"
+#include "slipfront/event/measured.hpp"
+#include "slipfront/friction_ratio/table.hpp"
 #include "slipfront/medium/constants.hpp"
 
 namespace slipfront::event {
 
-/// A measured quantity in SI units; low == high for a single number, else the published range (read as uniform).
-struct Measured {
-  double low = 0;
-  double high = 0;
-  double middle() const { return low + (high - low) / 2; }
-  bool is_range() const { return low < high; }
+/// What the slip velocity of an event is, of the model's: W(0), the mean weighted with slip, or the peak.
+using friction_ratio::Measure;
+
+/// A constant of the medium that was stated with an error; the constant itself holds the middle.
+struct UncertainConstant {
+  std::optional<double> medium::Constants::*member;
+  Measured measured;
+};
+
+/// One patch of a finite-fault model. Absent: no such column, or a placeholder.
+struct Subfault {
+  std::size_t segment = 0;
+  double x = 0, y = 0, z = 0;               ///< m, z downwards
+  double slip = 0;                          ///< m
+  std::optional<double> rise_time = {};     ///< s
+  std::optional<double> rupture_time = {};  ///< s, when it began to slip
 };
 
 /// One event as its file gives it. Everything is optional but the name: absent means not observed.
@@ -35,6 +47,14 @@ struct Observation : medium::Constants {
   std::optional<Measured> slip;              ///< m
   std::optional<Measured> rise_time;         ///< s, time that one point slips
   std::optional<Measured> duration;          ///< s, of the whole event
+
+  std::optional<Measured> stress_drop;           ///< Pa, mu A Sigma- / pi: all that was stored
+  std::optional<Measured> friction_coefficient;  ///< C
+  std::optional<Measured> normal_stress;         ///< Pa
+  std::optional<Measured> hardness;              ///< Pa; contact_ratio = A_plastic normal_stress / hardness
+  std::vector<Subfault> subfaults;               ///< of a finite-fault model that gives their places
+  Measure slip_velocity_is = Measure::origin;
+  std::vector<UncertainConstant> uncertain_constants;
 
   std::vector<std::string> warnings;  ///< what the reader had to assume or leave out
 };

@@ -1,0 +1,27 @@
+#pragma once
+/// \file
+/// Slip velocity of one pulse with viscous friction, from the pulse solver: what the table of `table.hpp` is made from
+/// and checked against. True step of stress, from Sigma- into the empty interface.
+
+#include "slipfront/modulation/friction.hpp"
+
+namespace slipfront::friction_ratio {
+
+/// Slip velocities in c A / pi, at the time T where the damping number C T is the one that was asked for.
+struct SlipVelocities {
+  double origin;  ///< W(0)
+  double mean;    ///< integral of W slip dx over integral of slip dx
+  double peak;    ///< the top of W(x) that is reached uphill from x = 0
+};
+
+struct Question {
+  double stress = 0;          ///< Sigma-, in mu A / pi
+  double damping_number = 0;  ///< Gamma = C T, f = C w
+  modulation::Closure closure = modulation::Closure::consistent;
+  int cells = 400;
+};
+
+/// \throws InputError, NumericsError as the solver does.
+SlipVelocities solve(const Question& question);
+
+}  // namespace slipfront::friction_ratio

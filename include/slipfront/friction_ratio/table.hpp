@@ -1,0 +1,39 @@
+#pragma once
+/// \file
+/// What viscous friction leaves of the slip velocity, W with friction over W(0) without, as a function of Sigma- and
+/// the damping number Gamma = C T: a table made from the pulse solver (docs/friction_ratio.md), for a true step of
+/// stress into the empty interface.
+
+#include "slipfront/modulation/friction.hpp"
+
+namespace slipfront::friction_ratio {
+
+/// Which slip velocity of the pulse at time T.
+enum class Measure {
+  origin,  ///< W(0), where the step of stress was
+  mean,    ///< weighted with slip: integral of W slip dx over integral of slip dx
+  peak,    ///< the top of W(x) at or nearest to x = 0
+};
+
+struct Ratio {
+  double value;       ///< W / frictionless W(0); for `origin` 1 at Gamma = 0
+  double by_damping;  ///< its derivative d/dGamma
+  double by_stress;   ///< and d/dSigma-
+};
+
+/// `stress` = Sigma- in 0.05 ... 3, `damping_number` >= 0; above 1e8 the diffusion limit, falling as Gamma^(-1/2).
+/// Relative error: see `uncertainty`. \throws InputError.
+Ratio evaluate(Measure measure, modulation::Closure closure, double stress, double damping_number);
+
+/// Relative error to allow for: 1e-4; closure "consistent" 1e-3 for 0.5 < Gamma < 10, where the slip velocities have a
+/// corner; closure "paper" 1e-2 for 3 < Gamma < 1e4. Closure "paper" is unstable where dislocations outrun their own
+/// sound (docs/friction_ratio.md): for 3 < Gamma < 1e4 no number of cells settles its slip velocities.
+double uncertainty(modulation::Closure closure, double damping_number);
+
+/// Sigma- for which there is a table.
+struct StressRange {
+  double least, most;
+};
+StressRange stress_range();
+
+}  // namespace slipfront::friction_ratio

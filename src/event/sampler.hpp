@@ -1,0 +1,80 @@
+#pragma once
+
+#include <array>
+
+#include "balance.hpp"
+#include "elastic.hpp"
+#include "slipfront/event/posterior.hpp"
+#include "sobol.hpp"
+
+namespace slipfront::event {
+
+/// Why a sample cannot be.
+enum Refusal : std::size_t {
+  too_fast,
+  off_table,
+  slips_too_fast,
+  slips_too_slowly,
+  bad_contact,
+  bad_constants,
+  contradicted,
+  refusals
+};
+
+/// One state of the fault with its weight: prior times likelihood over the density that it was drawn from.
+struct Sample {
+  double weight, V, stress, contact_ratio, u, friction_coefficient, stress_pa;
+};
+
+/// What of an event enters, and how its samples are drawn. Coordinates of the Sobol points: 0 V, 1 slip velocity or
+/// slip, 2 time, 3 what gives A, 4 hardness, 5 C or ln(1 + Gamma), from 6 constants of the medium.
+class Sampler {
+ public:
+  Sampler(const Observation& o, const MediumDefaults& defaults, const Sampling& sampling);
+
+  bool knows_contact() const { return contact_from_ != ContactFrom::nothing; }
+  bool knows_slip_velocity() const { return o_.slip_velocity || (o_.slip && time_); }
+  /// C, spacing and duration: then C A is known as well as Gamma / A.
+  bool knows_friction() const { return o_.friction_coefficient && o_.asperity_spacing && time_; }
+  bool knows_duration() const { return time_ != nullptr; }
+  bool fixes_friction() const { return knows_slip_velocity() || (knows_contact() && knows_friction()); }
+
+  /// Draws sample i; weight 0 and a refusal counted where it cannot be.
+  Sample draw(std::size_t i);
+  const std::array<std::size_t, refusals>& refused() const { return refused_; }
+  std::uint64_t seed() const { return seed_; }
+
+ private:
+  enum class ContactFrom { nothing, ratio, drop, strength };
+
+  double at(const Measured& m, std::size_t dimension) const {
+    return m.is_exact() ? m.low : m.quantile(points_(point_, dimension));
+  }
+  bool draw_constants();
+  bool draw_contact(Sample& s);
+  bool draw_friction(Sample& s, double w);
+  bool agrees(Sample& s) const;
+  bool refuse(Refusal why) {
+    ++refused_[why];
+    return false;
+  }
+
+  const Observation& o_;
+  const MediumDefaults& defaults_;
+  Sampling sampling_;
+  std::uint64_t seed_;
+  ShiftedSobol points_;
+  const Measured* time_;                        ///< of the slip, for slip / time and Gamma = C T; null: unknown
+  const Measured* contact_measured_ = nullptr;  ///< of contact_ratio, where it was stated with an error
+  ContactFrom contact_from_ = ContactFrom::nothing;
+  std::array<std::size_t, refusals> refused_{};
+
+  // Of the sample in hand.
+  std::size_t point_ = 0;
+  medium::Constants constants_;
+  Elastic elastic_{};
+  double plastic_ = 0, duration_ = 0;
+  Pulse pulse_{};
+};
+
+}  // namespace slipfront::event

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "layout.hpp"
+
+namespace slipfront::friction_ratio {
+
+/// Made by tools/friction_ratio_table.cpp.
+extern const layout::Table coefficients;
+
+}  // namespace slipfront::friction_ratio

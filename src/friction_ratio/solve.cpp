@@ -1,0 +1,75 @@
+#include "slipfront/friction_ratio/solve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "slipfront/pulse/solver.hpp"
+#include "slipfront/rupture/relations.hpp"
+
+namespace slipfront::friction_ratio {
+namespace {
+
+using std::numbers::pi;
+
+/// W and slip at one place.
+struct Point {
+  double x, W, slip;
+};
+
+std::vector<Point> points_of(const pulse::Solver::View& view, double stress) {
+  const double charge = view.charge_faces.back();
+  const auto point = [&](double x, const State& state, double charge_left) {
+    const double initial_left = charge + stress * std::fmin(x, 0) / (2 * pi);
+    return Point{x, pulse::averages_of(view, state, x).W, 2 * pi * (initial_left - charge_left)};
+  };
+  std::vector<Point> points{point(view.faces[0], view.face_states[0], 0)};
+  for (std::size_t i = 0; i < view.centres.size(); ++i) {
+    points.push_back(point(view.centres[i], view.states[i], pulse::charge_left_of(view, view.centres[i])));
+    points.push_back(point(view.faces[i + 1], view.face_states[i + 1], view.charge_faces[i + 1]));
+  }
+  return points;
+}
+
+/// The top of W(x) that is reached uphill from x = 0, by a parabola through three points. Uphill and not the largest:
+/// at the free edge the last few cells of a strongly damped pulse are not resolved.
+double peak_of(const std::vector<Point>& points) {
+  auto top = std::find_if(points.begin() + 1, points.end() - 2, [](const Point& p) { return p.x >= 0; });
+  while (top != points.begin() + 1 && top[-1].W > top->W) --top;
+  while (top != points.end() - 2 && top[1].W > top->W) ++top;
+  const double a = top[-1].x - top->x, b = top[1].x - top->x;
+  const double fa = (top[-1].W - top->W) / a, fb = (top[1].W - top->W) / b;
+  const double curve = (fb - fa) / (b - a), slope = fa - curve * a;
+  return curve < 0 ? top->W - slope * slope / (4 * curve) : top->W;
+}
+
+double slip_weighted_mean_of(const std::vector<Point>& points) {
+  double moment = 0, slip = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const Point &a = points[i - 1], &b = points[i];
+    moment += (a.W * a.slip + b.W * b.slip) * (b.x - a.x);
+    slip += (a.slip + b.slip) * (b.x - a.x);
+  }
+  return moment / slip;
+}
+
+}  // namespace
+
+SlipVelocities solve(const Question& question) {
+  const double V = rupture::from_stress(question.stress).rupture_velocity;
+  // What moves ends at the trailing edge, V T; late, in diffusion, far inside it.
+  const double reach = V * std::fmin(1.02, 9 / std::sqrt(question.damping_number));
+  pulse::Solver solver({.stress = [&](double x) { return x < 0 ? question.stress : 0.0; },
+                        .forcing = {},
+                        .friction = {modulation::FrictionLaw::viscous, question.damping_number, 1, question.closure},
+                        .left = -reach,
+                        .right = reach,
+                        .cells = question.cells});
+  solver.advance_to(1);
+  const pulse::Solver::View view = solver.view();
+  const std::vector<Point> points = points_of(view, question.stress);
+  return {pulse::averages_of(view, pulse::state_at(view, 0), 0).W, slip_weighted_mean_of(points), peak_of(points)};
+}
+
+}  // namespace slipfront::friction_ratio

@@ -1,0 +1,96 @@
+#include "slipfront/friction_ratio/table.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "slipfront/error.hpp"
+#include "slipfront/friction_ratio/solve.hpp"
+#include "slipfront/rupture/relations.hpp"
+
+namespace {
+
+using namespace slipfront;
+using namespace slipfront::friction_ratio;
+using modulation::Closure;
+
+constexpr Closure closures[] = {Closure::consistent, Closure::paper};
+constexpr Measure measures[] = {Measure::origin, Measure::mean, Measure::peak};
+
+/// A few points of `friction_ratio_table check`, none of them a node.
+TEST(FrictionRatio, IsWhatThePulseSolverGives) {
+  struct Point {
+    double stress, damping;
+  };
+  for (const Closure closure : closures)
+    for (const Point p :
+         {Point{0.06, 0.4}, {0.213, 0.05}, {0.855, 2.7}, {2.6, 1.3}, {0.9, 3e4}, {1.7, 4e6}, {0.3, 7e7}}) {
+      const SlipVelocities w = solve({.stress = p.stress, .damping_number = p.damping, .closure = closure});
+      const double unit = rupture::from_stress(p.stress).slip_velocity;
+      const double wanted[] = {w.origin / unit, w.mean / unit, w.peak / unit};
+      for (const Measure m : measures)
+        EXPECT_NEAR(evaluate(m, closure, p.stress, p.damping).value / wanted[static_cast<int>(m)], 1,
+                    uncertainty(closure, p.damping))
+            << p.stress << " " << p.damping << " " << static_cast<int>(closure) << static_cast<int>(m);
+    }
+}
+
+/// W(0) sqrt(Gamma) of the step 0.855 solved apart from the scheme (docs/pulse.md).
+TEST(FrictionRatio, HasTheDiffusionLimit) {
+  const double unit = rupture::from_stress(0.855).slip_velocity;
+  const double damping = 1e12;
+  const auto W = [&](Closure c) {
+    return evaluate(Measure::origin, c, 0.855, damping).value * unit * std::sqrt(damping);
+  };
+  EXPECT_NEAR(W(Closure::consistent) / 0.0254766, 1, 3e-5);
+  EXPECT_NEAR(W(Closure::paper) / 0.0343860, 1, 3e-5);
+}
+
+TEST(FrictionRatio, IsOneWithoutFriction) {
+  for (const Closure closure : closures)
+    for (const double stress : {0.05, 0.0731, 0.5, 3.0})
+      EXPECT_NEAR(evaluate(Measure::origin, closure, stress, 0).value, 1, 1e-6);
+}
+
+TEST(FrictionRatio, DerivativesAreThose) {
+  for (const Closure closure : closures)
+    for (const Measure m : measures)
+      for (const double damping : {0.3, 20.0, 5e3, 1e7, 1e9})
+        for (const double stress : {0.07, 0.9, 2.5}) {
+          const auto value = [&](double s, double g) { return evaluate(m, closure, s, g).value; };
+          const Ratio r = evaluate(m, closure, stress, damping);
+          const double hs = 1e-5 * stress, hg = 1e-5 * damping;
+          EXPECT_NEAR(r.by_stress, (value(stress + hs, damping) - value(stress - hs, damping)) / (2 * hs),
+                      1e-6 * r.value / stress);
+          EXPECT_NEAR(r.by_damping, (value(stress, damping + hg) - value(stress, damping - hg)) / (2 * hg),
+                      1e-6 * r.value / damping);
+        }
+}
+
+TEST(FrictionRatio, FallsWithFrictionAndHasNoSteps) {
+  for (const Closure closure : closures)
+    for (const Measure m : measures)
+      for (const double stress : {0.05, 0.12, 0.5, 1.3, 3.0}) {
+        double last = evaluate(m, closure, stress, 0).value;
+        for (double u = 0.01; u < 20; u += 0.01) {
+          const double now = evaluate(m, closure, stress, std::expm1(u)).value;
+          EXPECT_LT(now, last) << stress << " " << std::expm1(u);
+          EXPECT_GT(now, 0.98 * last);
+          last = now;
+        }
+      }
+}
+
+TEST(FrictionRatio, RefusesWhatIsOutside) {
+  const auto at = [](double stress, double damping) {
+    return evaluate(Measure::origin, Closure::consistent, stress, damping);
+  };
+  EXPECT_THROW(at(0.049, 1), InputError);
+  EXPECT_THROW(at(3.01, 1), InputError);
+  EXPECT_THROW(at(NAN, 1), InputError);
+  EXPECT_THROW(at(1, -1), InputError);
+  EXPECT_THROW(at(1, NAN), InputError);
+  EXPECT_THROW(at(1, INFINITY), InputError);
+}
+
+}  // namespace
