@@ -10,6 +10,8 @@ np = need("numpy")
 
 def numbers(name, values):
     """`values` as an array of doubles, copied only where it is none. Raises InputError unless it holds real numbers."""
+    if np.ma.is_masked(values):
+        raise InputError(f"{name}: some of it is masked; allowed: numbers")
     try:
         array = np.asarray(values)
     except Exception as error:

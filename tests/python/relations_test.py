@@ -56,7 +56,7 @@ class Relations(CommandLine):
         for arguments, says in [({}, "nothing"), ({"stress": 1, "slip_velocity": 1}, "more than one"), ({"stress": -1}, "'-1'"),
                                 ({"stress": math.nan}, "not a number"), ({"rupture_velocity": 1}, "rupture_velocity"),
                                 ({"stress": [1, 0, -3]}, "stress[1]"), ({"stress": "1"}, "allowed"), ({"stress": 1j}, "complex"),
-                                ({"stress": [True]}, "bool"), ({"stress": [[1], [1, 2]]}, "stress"), ({"stress": {}}, "stress"),
+                                ({"stress": [True]}, "bool"), ({"stress": [[1], [1, 2]]}, "stress"), ({"stress": {}}, "stress"), ({"stress": np.ma.array([1.0, 2.0], mask=[0, 1])}, "masked"),
                                 ({"stress": 1, "threads": 0}, "threads"), ({"stress": 1, "threads": 1.5}, "threads")]:
             with self.subTest(**arguments), self.assertRaises(slipfront.InputError) as caught:
                 slipfront.relations(**arguments)
