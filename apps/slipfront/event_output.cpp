@@ -116,29 +116,6 @@ Json along_fault_json(const EventResult& result) {
   return all;
 }
 
-/// Fills what the closed forms leave open with what the samples say.
-void fill_from_posterior(Json& j, const EventResult& result) {
-  if (!result.posterior) return;
-  const Posterior& p = *result.posterior;
-  const auto interval = [&](const std::string& key, const std::optional<Quantiles>& q) {
-    if (q && j[key + "_interval"].is_null() && q->low < q->high) j[key + "_interval"] = Json{q->low, q->high};
-  };
-  if (p.rupture_velocity && result.estimate && j["rupture_velocity_interval"].is_null() &&
-      p.rupture_velocity->low < p.rupture_velocity->high && result.observation.uncertain_constants.empty())
-    j["rupture_velocity_interval"] =
-        Json{p.rupture_velocity->low / result.estimate->speed, p.rupture_velocity->high / result.estimate->speed};
-  interval("stress", p.stress);
-  if (!p.friction_identified) return;
-  for (const auto& [key, member] :
-       {std::pair("contact_ratio", &Posterior::contact_ratio), std::pair("damping_number", &Posterior::damping_number),
-        std::pair("friction_coefficient", &Posterior::friction_coefficient),
-        std::pair("stress_pa", &Posterior::stress_pa)})
-    if (const auto& q = p.*member) {
-      j[key] = q->median;
-      j[key + std::string("_interval")] = Json{q->low, q->high};
-    }
-}
-
 }  // namespace
 
 std::string event_json(const EventResult& result) {
@@ -160,11 +137,6 @@ std::string event_json(const EventResult& result) {
     j[name] = x ? Json(x->value) : Json();
     j[name + "_interval"] = x && x->interval ? Json{x->interval->low, x->interval->high} : Json();
   }
-  for (const char* key : {"damping_number", "friction_coefficient"}) {  // need more than the frictionless relations
-    j[key] = nullptr;
-    j[key + std::string("_interval")] = nullptr;
-  }
-  fill_from_posterior(j, result);
   j["posterior"] = posterior_json(result);
   if (!result.along_fault.empty()) j["along_fault"] = along_fault_json(result);
   j["warnings"] = result.warnings();
@@ -178,7 +150,7 @@ std::string event_csv_head() {
   for (const auto& q : inferred_quantities()) head += fmt::format(",{0},{0}_low,{0}_high", q.about.name);
   for (const auto& q : posterior_quantities())
     head += fmt::format(",posterior_{0},posterior_{0}_low,posterior_{0}_high", q.about.name);
-  return head + ",friction_identified,effective_samples,seed,damping_number,warnings,error,citation,note,file,line\n";
+  return head + ",friction_identified,effective_samples,seed,warnings,error,citation,note,file,line\n";
 }
 
 std::string event_csv_row(const EventResult& result) {
@@ -192,7 +164,6 @@ std::string event_csv_row(const EventResult& result) {
     row += x ? fmt::format(",{}", x->value) : ",";
     row += x && x->interval ? fmt::format(",{},{}", x->interval->low, x->interval->high) : ",,";
   }
-  std::string damping;
   const Posterior none;
   for (const auto& quantity : posterior_quantities()) {
     const auto& q = (result.posterior ? *result.posterior : none).*quantity.value;
@@ -200,12 +171,11 @@ std::string event_csv_row(const EventResult& result) {
   }
   if (const auto& p = result.posterior) {
     row += fmt::format(",{},{},{}", p->friction_identified ? "yes" : "no", p->effective_samples, p->seed);
-    if (p->friction_identified) damping = fmt::format("{}", p->damping_number->median);
   } else {
     row += ",,,";
   }
-  return row + "," + damping + "," + quoted(joined(result.warnings())) + "," + quoted(result.error) + "," +
-         quoted(o.citation) + "," + quoted(o.note) + "," + quoted(o.file) + fmt::format(",{}\n", o.line);
+  return row + "," + quoted(joined(result.warnings())) + "," + quoted(result.error) + "," + quoted(o.citation) + "," +
+         quoted(o.note) + "," + quoted(o.file) + fmt::format(",{}\n", o.line);
 }
 
 std::string event_table_head() {
@@ -225,7 +195,5 @@ std::string event_table_row(const EventResult& result) {
                      front_text(e.observed_rupture_velocity), number_text(e.rupture_velocity), number_text(e.stress),
                      speed_text(e.observed_slip_velocity_m_s), number_text(e.frictionless_slip_velocity),
                      number_text(e.slip_velocity_ratio), number_text(e.contact_ratio), number_text(e.stress_pa, 1e6),
-                     result.posterior && result.posterior->friction_identified
-                         ? fmt::format("{:.3g}", result.posterior->damping_number->median)
-                         : "-");
+                     e.damping_number ? fmt::format("{:.3g}", e.damping_number->value) : "-");
 }

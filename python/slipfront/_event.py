@@ -73,10 +73,10 @@ def event(events=None, *, p_wave_speed=None, poisson_ratio=None, shear_modulus=N
     Returns
     -------
     xarray.Dataset over `event`: name, c_m_s, rupture_velocity (V / c), stress (mu A / pi), frictionless_slip_velocity and
-    observed_slip_velocity (c A / pi), slip_velocity_ratio, contact_ratio, stress_pa (Pa), `<name>_interval` = [5 %, 95 %] of
-    each, all by the closed forms without friction; `posterior_<name>` over `quantile` (5 %, 50 %, 95 %) with friction, for
-    sampled events, effective_samples and friction_identified (1 or 0); damping_number, the posterior's median where friction
-    is identified. NaN where not identifiable; and `warnings`. One bad event of
+    observed_slip_velocity (c A / pi), slip_velocity_ratio, contact_ratio, stress_pa (Pa), damping_number, friction_coefficient, `<name>_interval`
+    = [5 %, 95 %] of each: by the closed forms, as if there were no friction, and by samples where these say what the friction
+    is; `posterior_<name>` over `quantile` (5 %, 50 %, 95 %) of sampled events, effective_samples and friction_identified (1 or
+    0). NaN where not identifiable; and `warnings`. One bad event of
     several does not lose the others: its `error` says why, and is "" for the rest.
 
     Raises
@@ -109,13 +109,9 @@ def event(events=None, *, p_wave_speed=None, poisson_ratio=None, shear_modulus=N
         variables[about[0] + "_interval"] = (("event", "bound"), interval, {**attributes(about), "long_name": f"5 % and 95 % of: {about[1]}"})
     for about, values in columns["posterior"]:
         variables["posterior_" + about[0]] = (("event", "quantile"), values, {**attributes(about), "long_name": f"with friction and errors: {about[1]}"})
-    identified = columns["friction_identified"]
     variables["effective_samples"] = ("event", columns["effective_samples"], {"long_name": "effective number of samples"})
-    variables["friction_identified"] = ("event", identified, {"long_name": "1 where the data say what the friction is, else 0"})
-    damping = variables["posterior_damping_number"]
-    known = np.where((identified == 1)[:, None], damping[1], np.nan)
-    variables["damping_number"] = ("event", known[:, 1], damping[2])
-    variables["damping_number_interval"] = (("event", "bound"), known[:, ::2], {**damping[2], "long_name": "5 % and 95 % of: Gamma = C T"})
+    variables["friction_identified"] = ("event", columns["friction_identified"],
+                                        {"long_name": "1 where the data say what the friction is, else 0"})
     for name, unit in _units.items():
         for key in (name, name + "_interval", "posterior_" + name):
             if key in variables:

@@ -12,6 +12,32 @@ std::vector<std::string> EventResult::warnings() const {
   return all;
 }
 
+namespace {
+
+/// The interval of samples, in `unit`; none where nothing moved.
+std::optional<Interval> interval_of(const Quantiles& q, double unit = 1) {
+  if (!(q.low < q.high)) return {};
+  return Interval{q.low / unit, q.high / unit};
+}
+
+void fill(Estimate& e, const Posterior& p, const Observation& observation) {
+  // V in m/s is sampled: it tells V / c where c is a plain number.
+  if (e.rupture_velocity && !e.rupture_velocity->interval && p.rupture_velocity &&
+      observation.uncertain_constants.empty())
+    e.rupture_velocity->interval = interval_of(*p.rupture_velocity, e.speed);
+  if (e.stress && !e.stress->interval && p.stress) e.stress->interval = interval_of(*p.stress);
+  if (!p.friction_identified) return;
+  const auto set = [](std::optional<Inferred>& to, const std::optional<Quantiles>& from) {
+    if (from) to = Inferred{from->median, interval_of(*from)};
+  };
+  set(e.contact_ratio, p.contact_ratio);
+  set(e.stress_pa, p.stress_pa);
+  set(e.damping_number, p.damping_number);
+  set(e.friction_coefficient, p.friction_coefficient);
+}
+
+}  // namespace
+
 EventResult evaluate(Entry&& entry, const MediumDefaults& defaults, const Plan& plan) {
   EventResult result{std::move(entry.observation), {}, {}, {}, {}};
   try {
@@ -19,6 +45,7 @@ EventResult evaluate(Entry&& entry, const MediumDefaults& defaults, const Plan& 
     result.estimate = estimate(result.observation, defaults);
     if (plan.sampling.samples > 0 && (plan.all || speaks_of_friction_or_error(result.observation)))
       result.posterior = posterior(result.observation, defaults, plan.sampling);
+    if (result.posterior) fill(*result.estimate, *result.posterior, result.observation);
     if (plan.along_fault) result.along_fault = along_fault(result.observation, defaults);
   } catch (const InputError& error) {
     result.estimate.reset();
@@ -77,6 +104,8 @@ std::span<const EstimateQuantity<Inferred>> inferred_quantities() {
       {{"contact_ratio", "A, real to nominal contact area: given, or as if there were no friction", "", "Eq. 1"},
        &Estimate::contact_ratio},
       {{"stress_pa", "stress before the rupture, in Pa", "", "Eqs. 8-10"}, &Estimate::stress_pa},
+      {{"damping_number", "Gamma = C T; needs friction", "", "Eq. 7"}, &Estimate::damping_number},
+      {{"friction_coefficient", "C of viscous friction", "", "Eq. 7"}, &Estimate::friction_coefficient},
   };
   return quantities;
 }

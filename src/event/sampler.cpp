@@ -18,7 +18,7 @@ Sampler::Sampler(const Observation& o, const MediumDefaults& defaults, const Sam
             : o.rise_time   ? &*o.rise_time
             : o.duration    ? &*o.duration
                             : nullptr),
-      constants_(o),
+      constants_(static_cast<const medium::Constants&>(o)),
       elastic_(elastic(o, defaults)),
       plastic_(medium::plastic_contact_ratio(elastic_.poisson_ratio)) {
   for (const UncertainConstant& c : o.uncertain_constants)

@@ -39,6 +39,31 @@ class Event(CommandLine):
         self.assertEqual(len(rows), 4)
         self.assertIn("error", run("event", path).stdout)
 
+    def test_friction_and_errors(self):
+        path = self.file("f.csv", "name,rupture_velocity,slip_velocity,contact_ratio,slip_velocity_is\n"
+                         "known,3.0 +- 0.2 km/s,0.5 */ 1.2 m/s,0.01 +- 0.002,mean\n"
+                         "unknown,3.0 +- 0.2 km/s,0.5 m/s,,\n"
+                         "impossible,3.0 km/s,0.5 m/s,0.001,\n"
+                         "word,gauss(3; 1) km/s,0.5 m/s,,\n"
+                         "zero,3 +- 0 km/s,0.5 m/s,,\n")
+        done = run("event", path, "--json")
+        self.assertEqual(done.returncode, 2)
+        known, unknown, impossible, word, zero = json.loads(done.stdout)["events"]
+        low, high = known["damping_number_interval"]
+        self.assertTrue(0 < low < known["damping_number"] < high)
+        self.assertTrue(known["posterior"]["friction_identified"])
+        self.assertIsNone(unknown["damping_number"])
+        self.assertGreater(len(unknown["posterior"]["trade_off"]), 3)
+        for event, says in ((impossible, "above what any friction leaves"), (word, "unknown distribution"), (zero, "uncertainty is 0")):
+            self.assertIn(says, event["error"])
+        one, two = (run("event", path, "--json", "--threads", n).stdout for n in "12")
+        self.assertEqual(one, two)
+        paper = json.loads(run("event", path, "--json", "--closure", "paper").stdout)["events"][0]
+        self.assertGreater(paper["damping_number"], known["damping_number"])
+        rows = list(csv.DictReader(io.StringIO(run("event", path, "--csv").stdout)))
+        self.assertAlmostEqual(float(rows[0]["posterior_damping_number"]), known["damping_number"])
+        self.assertFalse(any(None in row or None in row.values() for row in rows))
+
     def test_refuses_files(self):
         self.refused(3, "event", "/nowhere/x.csv", says=["/nowhere/x.csv", "No such file"])
         self.refused(3, "event", "/", says=["directory"])

@@ -125,7 +125,7 @@ TEST(Toml, RefusesWithLineKeyAndNearestName) {
   EXPECT_EQ(refused("[event]\nrupture_velocity = [1, 2]\n").line, 2u);
   EXPECT_EQ(refused("[event]\nrupture_velocity = \"-1 km/s\"\n").problem, "not positive");
   EXPECT_EQ(refused("[event]\np_wave_speed = \"6 km/s\"\n").key, "event.p_wave_speed");  // belongs to [medium]
-  EXPECT_EQ(refused("[event]\n[medium]\nshear_modulus = \"20-30 GPa\"\n").key, "medium.shear_modulus");
+  EXPECT_EQ(refused("[event]\n[medium]\nshear_modulus = \"20-30 km\"\n").key, "medium.shear_modulus");
   EXPECT_EQ(refused("[evnt]\n").key, "evnt");
   EXPECT_EQ(refused("event = 3\n").problem, "not a table");
   EXPECT_EQ(refused("[medium]\n").problem, "there is no [event] table");

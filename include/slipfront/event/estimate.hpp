@@ -27,8 +27,9 @@ struct Interval {
   double high;
 };
 
-/// An inferred number; `interval` is there when exactly one observed range moves it (read as uniform): every inferred
-/// quantity is monotone in each observed one, so its quantiles are those of the range, exactly.
+/// An inferred number. By the closed forms `interval` is there when exactly one observed range moves it (read as
+/// uniform): every inferred quantity is monotone in each observed one, so its quantiles are those of the range,
+/// exactly. Where the event is sampled, see EventResult.
 struct Inferred {
   double value;
   std::optional<Interval> interval;
@@ -46,6 +47,8 @@ struct Estimate {
   std::optional<Inferred> slip_velocity_ratio;     ///< observed over frictionless; 1 - ratio is what friction took
   std::optional<Inferred> contact_ratio;           ///< A: given, or pi w / (c W(0)) as if there were no friction
   std::optional<Inferred> stress_pa;               ///< mu A Sigma- / pi, Pa
+  std::optional<Inferred> damping_number;          ///< Gamma = C T; needs the posterior, like the next
+  std::optional<Inferred> friction_coefficient;    ///< C
   std::vector<std::string> warnings;
 };
 

@@ -17,6 +17,8 @@ namespace slipfront::event {
 /// One event of a file, after the theory: an estimate or the reason why there is none.
 struct EventResult {
   Observation observation;
+  /// By the closed forms; where the event was sampled, filled with what these leave open: the intervals of V and
+  /// Sigma-, and where friction is identified A, Gamma, C and the stress in Pa with theirs.
   std::optional<Estimate> estimate;
   std::optional<Posterior> posterior;   ///< where the event was sampled
   std::vector<LocalState> along_fault;  ///< of a finite-fault model, if asked for
