@@ -51,9 +51,7 @@ std::string Run::saved() const {
   return std::move(writer).text();
 }
 
-void Run::take() {
-  snapshots_.push_back(observe(solver_, schedule_.x_edges, trailing_front_, schedule_.threshold));
-}
+void Run::take() { snapshots_.push_back(observe(solver_, schedule_.x_edges, trailing_front_, schedule_.threshold)); }
 
 bool Run::go(const std::function<bool()>& interrupted) {
   while (!finished()) {
