@@ -14,10 +14,10 @@
 #include <vector>
 
 #include "../src/record/netcdf.hpp"
-#include "../src/record/pulse_variables.hpp"
 #include "../src/record/seal.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/record/pulse_file.hpp"
+#include "slipfront/record/pulse_variables.hpp"
 
 namespace {
 

@@ -290,6 +290,8 @@ Solver::View Solver::view() const {
   v.states = equations_->states();
   v.contact = problem_.contact;
   for (std::size_t f = 0; f <= n; ++f) v.face_states.push_back({equations_->face_phi()[f], equations_->face_psi()[f]});
+  for (std::size_t f = 0; f <= n; ++f)
+    v.face_density.push_back(averages_of(v, v.face_states[f], v.faces[f]).k / (2 * pi));
   v.centres.resize(n);
   middles(equations_->stretches(), v.faces, v.centres);
   return v;

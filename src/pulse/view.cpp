@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "slipfront/pulse/solver.hpp"
 #include "slipfront/train/train.hpp"
@@ -54,9 +53,7 @@ double charge_left_of(const Solver::View& v, double x) {
   const std::size_t i = interval(v.faces, x);
   // Cubic Hermite: the slopes k / 2 pi at the faces are known; limited so that it cannot fall (Fritsch & Carlson).
   const double h = v.faces[i + 1] - v.faces[i], rise = v.charge_faces[i + 1] - v.charge_faces[i], mean = rise / h;
-  const auto slope = [&](std::size_t f) {
-    return std::fmin(averages_of(v, v.face_states[f], v.faces[f]).k / (2 * std::numbers::pi), 3 * mean);
-  };
+  const auto slope = [&](std::size_t f) { return std::fmin(v.face_density[f], 3 * mean); };
   const double s = (x - v.faces[i]) / h, r = 1 - s;
   return v.charge_faces[i] + rise * s * s * (3 - 2 * s) + h * s * r * (slope(i) * r - slope(i + 1) * s);
 }

@@ -69,6 +69,7 @@ class Solver {
     std::vector<double> faces;         ///< x
     std::vector<double> charge_faces;  ///< dislocations left of each face
     std::vector<State> face_states;
+    std::vector<double> face_density;  ///< dislocations per unit of x, k / 2 pi, at the faces
     std::vector<double> centres;  ///< x
     std::vector<State> states;    ///< at the centres, in local units where there is a contact profile; empty in a gap
     std::function<double(double)> contact;
