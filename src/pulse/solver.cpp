@@ -190,86 +190,105 @@ bool Solver::advance_to(double time, const std::function<bool()>& interrupted) {
   return cells_.time >= time;
 }
 
+/// What steps work with, as long as the cells stay the same.
+struct Solver::Work {
+  Rates f;
+  ExplicitStep explicit_step;
+  std::unique_ptr<ImplicitStep> implicit_step;  ///< made when first needed
+  std::vector<double> rate, next, scale;
+
+  explicit Work(Semidiscrete& equations, std::size_t cells, std::size_t size)
+      : f([&equations](double t, const double* y, double* dy) { equations(t, y, dy); }),
+        explicit_step(size),
+        rate(size),
+        next(size),
+        scale(2 * cells) {}
+};
+
+double Solver::step_explicitly(Work& work, double left, double crossing) {
+  double dt = share_of(left, crossing);
+  work.next = cells_.y;
+  // What comes up within a step may be too hard for it: shorter, then.
+  for (int halvings = 0;; ++halvings) {
+    try {
+      work.explicit_step(work.f, cells_.time, dt, cells_.y, work.rate);
+      if (!thrown(work.next, cells_.y, cells_.charge)) break;
+      if (halvings == 40)
+        throw NumericsError("t = " + std::to_string(cells_.time) +
+                            ": what acts on a cell throws it, however short the step");
+    } catch (const NumericsError&) {
+      if (halvings == 40) throw;
+    }
+    cells_.y = work.next;
+    equations_->start_from(cells_.s);
+    dt /= 2;
+  }
+  if (problem_.friction.law == modulation::FrictionLaw::coulomb) stop_reversals(work.next, cells_.y);
+  return dt;
+}
+
+/// Momenta are measured by the largest, or at rest by what the pressure soon makes of the densest cell: a sparse cell
+/// is pushed by its neighbours.
+void Solver::find_scale(double crossing, std::vector<double>& scale) const {
+  double fastest = 8e-3 * *std::max_element(equations_->s().begin(), equations_->s().end()) /
+                   (1 + equations_->largest_friction_rate() * crossing);
+  for (std::size_t i = 0; i < size(); ++i)
+    if (cells_.charge[i] > 0) fastest = std::fmax(fastest, std::fabs(cells_.y[2 * i + 1] / cells_.charge[i]));
+  for (std::size_t i = 0; i < size(); ++i) {
+    scale[2 * i] = cells_.y[2 * i];
+    scale[2 * i + 1] = cells_.charge[i] > 0 ? cells_.charge[i] * fastest : 1;
+  }
+}
+
+double Solver::step_implicitly(Work& work, double left, double crossing) {
+  equations_->use_compact(true);
+  work.f(cells_.time, cells_.y.data(), work.rate.data());
+  if (!work.implicit_step)
+    work.implicit_step =
+        std::make_unique<ImplicitStep>(size(), cells_.y.size(), Semidiscrete::compact_reach, bool(problem_.forcing));
+  find_scale(crossing, work.scale);
+  work.implicit_step->linearise(work.f, cells_.time, cells_.y, work.rate, work.scale);
+  double dt = cells_.step > 0 ? cells_.step : std::fmin(crossing, 1 / equations_->largest_friction_rate());
+  while (true) {
+    const double wanted = dt;
+    dt = share_of(left, dt);
+    double error = HUGE_VAL;
+    try {
+      error = (*work.implicit_step)(work.f, cells_.time, dt, cells_.y, work.rate, work.scale, problem_.tolerance,
+                                    work.next);
+    } catch (const NumericsError&) {  // a stage left the range of states: as good as a large error
+    }
+    const double factor = std::clamp(0.9 * std::pow(error, -0.25), 0.2, 4.0);
+    if (error <= 1) {
+      cells_.step = dt < wanted ? std::fmax(wanted, dt * factor) : dt * factor;
+      cells_.y.swap(work.next);
+      equations_->use_compact(false);
+      return dt;
+    }
+    dt *= factor;
+    if (!(cells_.time + dt > cells_.time))
+      throw NumericsError("t = " + std::to_string(cells_.time) + ": the time step fell below rounding");
+    equations_->start_from(cells_.s);
+  }
+}
+
 /// Returns false if interrupted.
 bool Solver::advance_until_gap_closes(double time, const std::function<bool()>& interrupted) {
   Semidiscrete& equations = *equations_;
-  const Rates f = [&equations](double t, const double* y, double* dy) { equations(t, y, dy); };
   const std::size_t n = size();
-  ExplicitStep explicit_step(cells_.y.size());
-  std::unique_ptr<ImplicitStep> implicit_step;
-  std::vector<double> rate(cells_.y.size()), next(cells_.y.size()), scale(2 * n);
-  while (cells_.time < time) {
+  Work work(equations, n, cells_.y.size());
+  while (cells_.time < time && size() == n) {
     equations.start_from(cells_.s);  // as a resumed run does, whoever has looked at the equations since the last step
-    f(cells_.time, cells_.y.data(), rate.data());
-    const double left = std::fmin(time - cells_.time, gaps_close_in(rate));
-    const double crossing = problem_.cfl * equations.crossing_time(cells_.y.data(), rate.data());
+    work.f(cells_.time, cells_.y.data(), work.rate.data());
+    const double left = std::fmin(time - cells_.time, gaps_close_in(work.rate));
+    const double crossing = problem_.cfl * equations.crossing_time(cells_.y.data(), work.rate.data());
     const bool stiff = equations.largest_friction_rate() * equations.mean_crossing_time(cells_.y.data()) > stiff_above;
-    double dt = crossing;
-    if (!stiff) {
-      dt = share_of(left, dt);
-      next = cells_.y;
-      // What comes up within a step may be too hard for it: shorter, then.
-      for (int halvings = 0;; ++halvings) {
-        try {
-          explicit_step(f, cells_.time, dt, cells_.y, rate);
-          if (!thrown(next, cells_.y, cells_.charge)) break;
-          if (halvings == 40)
-            throw NumericsError("t = " + std::to_string(cells_.time) +
-                                ": what acts on a cell throws it, however short the step");
-        } catch (const NumericsError&) {
-          if (halvings == 40) throw;
-        }
-        cells_.y = next;
-        equations.start_from(cells_.s);
-        dt /= 2;
-      }
-      if (problem_.friction.law == modulation::FrictionLaw::coulomb) stop_reversals(next, cells_.y);
-    } else {
-      equations.use_compact(true);
-      f(cells_.time, cells_.y.data(), rate.data());
-      if (!implicit_step)
-        implicit_step =
-            std::make_unique<ImplicitStep>(n, cells_.y.size(), Semidiscrete::compact_reach, bool(problem_.forcing));
-      // Momenta are measured by the largest, or at rest by what the pressure soon makes of the densest cell: a sparse
-      // cell is pushed by its neighbours.
-      double fastest = 8e-3 * *std::max_element(equations.s().begin(), equations.s().end()) /
-                       (1 + equations.largest_friction_rate() * crossing);
-      for (std::size_t i = 0; i < n; ++i)
-        if (cells_.charge[i] > 0) fastest = std::fmax(fastest, std::fabs(cells_.y[2 * i + 1] / cells_.charge[i]));
-      for (std::size_t i = 0; i < n; ++i) {
-        scale[2 * i] = cells_.y[2 * i];
-        scale[2 * i + 1] = cells_.charge[i] > 0 ? cells_.charge[i] * fastest : 1;
-      }
-      implicit_step->linearise(f, cells_.time, cells_.y, rate, scale);
-      dt = cells_.step > 0 ? cells_.step : std::fmin(crossing, 1 / equations.largest_friction_rate());
-      while (true) {
-        const double wanted = dt;
-        dt = share_of(left, dt);
-        double error = HUGE_VAL;
-        try {
-          error = (*implicit_step)(f, cells_.time, dt, cells_.y, rate, scale, problem_.tolerance, next);
-        } catch (const NumericsError&) {  // a stage left the range of states: as good as a large error
-        }
-        const double factor = std::clamp(0.9 * std::pow(error, -0.25), 0.2, 4.0);
-        if (error <= 1) {
-          cells_.step = dt < wanted ? std::fmax(wanted, dt * factor) : dt * factor;
-          cells_.y.swap(next);
-          break;
-        }
-        dt *= factor;
-        if (!(cells_.time + dt > cells_.time))
-          throw NumericsError("t = " + std::to_string(cells_.time) + ": the time step fell below rounding");
-        equations.start_from(cells_.s);
-      }
-    }
-    equations.use_compact(false);
+    const double dt = stiff ? step_implicitly(work, left, crossing) : step_explicitly(work, left, crossing);
     cells_.time = dt == time - cells_.time ? time : cells_.time + dt;
     ++cells_.steps;
     cells_.s = equations.s();
-    const std::size_t before = size();
     close_gaps();
     if (interrupted && interrupted()) return false;
-    if (size() != before) return true;
   }
   return true;
 }

@@ -70,8 +70,8 @@ class Solver {
     std::vector<double> charge_faces;  ///< dislocations left of each face
     std::vector<State> face_states;
     std::vector<double> face_density;  ///< dislocations per unit of x, k / 2 pi, at the faces
-    std::vector<double> centres;  ///< x
-    std::vector<State> states;    ///< at the centres, in local units where there is a contact profile; empty in a gap
+    std::vector<double> centres;       ///< x
+    std::vector<State> states;  ///< at the centres, in local units where there is a contact profile; empty in a gap
     std::function<double(double)> contact;
   };
   View view() const;
@@ -86,6 +86,12 @@ class Solver {
  private:
   void lay_equations();
   bool advance_until_gap_closes(double time, const std::function<bool()>& interrupted);
+  struct Work;
+  /// One step of at most `left`, from the rates in `work`; returns its length. `crossing` is the time in which a wave
+  /// crosses a cell.
+  double step_explicitly(Work& work, double left, double crossing);
+  double step_implicitly(Work& work, double left, double crossing);
+  void find_scale(double crossing, std::vector<double>& scale) const;
   double gaps_close_in(const std::vector<double>& rate) const;
   void close_gaps();
   void join(std::size_t cell, std::size_t into);
