@@ -17,7 +17,6 @@
 namespace slipfront::record {
 namespace {
 
-using cf::reals;
 using netcdf::Writer;
 using pulse::Snapshot;
 using Fields = std::vector<const FieldVariable*>;
