@@ -16,7 +16,6 @@ using slipfront::event::inferred_quantities;
 using slipfront::event::measured_quantities;
 using slipfront::event::Posterior;
 using slipfront::event::posterior_quantities;
-using slipfront::event::Quantiles;
 
 /// An absent estimate reads like one in which nothing is identifiable.
 const Estimate& estimate_of(const EventResult& result) {
