@@ -22,6 +22,7 @@ struct Arguments {
   std::optional<std::size_t> samples;
   std::uint64_t seed = 1;
   std::string closure = "consistent";
+  bool pulse = false;
 };
 
 /// All events are sampled if the user says how often; those of --json are looked at along the fault.
@@ -31,7 +32,8 @@ Plan plan_of(const Arguments& a) {
            .closure = a.closure == "paper" ? slipfront::modulation::Closure::paper
                                            : slipfront::modulation::Closure::consistent},
           a.samples.has_value(),
-          a.common.json};
+          a.common.json,
+          a.pulse};
 }
 
 /// Takes entries as the readers find them, evaluates them by the batch and prints them in order.
@@ -82,7 +84,7 @@ class Printer {
       const EventResult result = evaluate(std::move(waiting_[i]), defaults_, plan_);
       return Printed{options_.json  ? event_json(result)
                      : options_.csv ? event_csv_row(result)
-                                    : event_table_row(result),
+                                    : event_table_row(result) + event_pulse_lines(result),
                      result.error, result.warnings()};
     });
     waiting_.clear();
@@ -176,6 +178,9 @@ Runner add_event(CLI::App& app) {
   command->add_option("--seed", arguments->seed, "Of the samples (default: 1)");
   command->add_option("--closure", arguments->closure, "Of the friction: consistent (default) or paper")
       ->check(CLI::IsMember({"consistent", "paper"}));
+  command->add_flag("--pulse", arguments->pulse,
+                    "Run a frictionless pulse through the slip distribution of a .fsp; its front and slip beside the "
+                    "model's (table and --json)");
   add_common_options(*command, arguments->common);
   return [arguments] { return run_event(*arguments); };
 }

@@ -11,6 +11,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using slipfront::event::Estimate;
 using slipfront::event::EventResult;
+using slipfront::event::FaultPulse;
 using slipfront::event::Inferred;
 using slipfront::event::inferred_quantities;
 using slipfront::event::measured_quantities;
@@ -115,6 +116,28 @@ Json along_fault_json(const EventResult& result) {
   return all;
 }
 
+Json pulse_json(const FaultPulse& p) {
+  if (!p.reason.empty()) return {{"reason", p.reason}};
+  const auto times = [](const std::vector<std::optional<double>>& all) {
+    Json j = Json::array();
+    for (const auto& time : all) j.push_back(number_or_null(time));
+    return j;
+  };
+  return {{"reason", nullptr},
+          {"x_m", p.x},
+          {"stress", p.stress},
+          {"model_rupture_time_s", times(p.model_time)},
+          {"pulse_front_time_s", times(p.front_time)},
+          {"model_slip_m", p.model_slip},
+          {"pulse_slip_m", p.pulse_slip},
+          {"end_s", p.end},
+          {"columns_reached", p.reached},
+          {"front_velocity_ratio", number_or_null(p.front_velocity_ratio)},
+          {"correlation_of_slip", number_or_null(p.correlation_of_slip)},
+          {"slip_error", number_or_null(p.slip_error)},
+          {"contact_ratio", number_or_null(p.contact_ratio)}};
+}
+
 }  // namespace
 
 std::string event_json(const EventResult& result) {
@@ -138,6 +161,7 @@ std::string event_json(const EventResult& result) {
   }
   j["posterior"] = posterior_json(result);
   if (!result.along_fault.empty()) j["along_fault"] = along_fault_json(result);
+  if (result.pulse) j["pulse"] = pulse_json(*result.pulse);
   j["warnings"] = result.warnings();
   j["error"] = result.error.empty() ? Json() : Json(result.error);
   return j.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -195,4 +219,15 @@ std::string event_table_row(const EventResult& result) {
                      speed_text(e.observed_slip_velocity_m_s), number_text(e.frictionless_slip_velocity),
                      number_text(e.slip_velocity_ratio), number_text(e.contact_ratio), number_text(e.stress_pa, 1e6),
                      e.damping_number ? fmt::format("{:.3g}", e.damping_number->value) : "-");
+}
+
+std::string event_pulse_lines(const EventResult& result) {
+  if (!result.pulse) return {};
+  const FaultPulse& p = *result.pulse;
+  if (!p.reason.empty()) return "  no pulse: " + p.reason + "\n";
+  const auto number = [](const std::optional<double>& x) { return x ? fmt::format("{:.3g}", *x) : std::string("-"); };
+  return fmt::format("  pulse: front velocity over the model's {}; {} of {} columns reached by {:.3g} s\n",
+                     number(p.front_velocity_ratio), p.reached, p.x.size(), p.end) +
+         fmt::format("         correlation of slip {}; contact ratio A by its size {}\n", number(p.correlation_of_slip),
+                     number(p.contact_ratio));
 }

@@ -36,10 +36,21 @@ void fill(Estimate& e, const Posterior& p, const Observation& observation) {
   set(e.friction_coefficient, p.friction_coefficient);
 }
 
+FaultPulse pulse_of(const EventResult& result, const MediumDefaults& defaults) {
+  FaultPulse none;
+  if (result.observation.subfaults.empty())
+    none.reason = "no finite-fault model that gives the places of its subfaults";
+  else if (!result.estimate->stress)
+    none.reason = "no rupture velocity, so no stress of the event";
+  if (!none.reason.empty()) return none;
+  return pulse_along_fault(along_fault(result.observation, defaults), result.estimate->stress->value,
+                           result.estimate->speed);
+}
+
 }  // namespace
 
 EventResult evaluate(Entry&& entry, const MediumDefaults& defaults, const Plan& plan) {
-  EventResult result{std::move(entry.observation), {}, {}, {}, {}};
+  EventResult result{std::move(entry.observation), {}, {}, {}, {}, {}};
   try {
     if (entry.error) throw InputError(*entry.error);
     result.estimate = estimate(result.observation, defaults);
@@ -47,6 +58,7 @@ EventResult evaluate(Entry&& entry, const MediumDefaults& defaults, const Plan& 
       result.posterior = posterior(result.observation, defaults, plan.sampling);
     if (result.posterior) fill(*result.estimate, *result.posterior, result.observation);
     if (plan.along_fault) result.along_fault = along_fault(result.observation, defaults);
+    if (plan.pulse) result.pulse = pulse_of(result, defaults);
   } catch (const InputError& error) {
     result.estimate.reset();
     result.error = error.what();

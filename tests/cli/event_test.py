@@ -96,6 +96,43 @@ class Event(CommandLine):
             event, = json.loads(self.ok("event", os.path.join(SOURCE, "tests/data", name), "--json"))["events"]
             self.assertGreater(event["stress"], 0, name)
 
+    def fault(self, slip):
+        """A .fsp of 9 columns of two subfaults, that slip by slip(column), ruptured from the middle at 2.5 km/s."""
+        with open(os.path.join(SOURCE, "tests/data/fsp_srcmod_single.fsp")) as file:
+            head = [line for line in file.read().split("\n") if line.startswith("%")]
+        text = "\n".join(head).replace("Nx  =    3", "Nx  =    9").replace("Nsbfs =      6", "Nsbfs =     18")
+        self.assertIn("SLIP      RAKE\n", text)
+        text = text.replace("SLIP      RAKE\n", "SLIP      RAKE     TRUP     RISE\n")
+        rows = [f" 35.0 -120.0 {2 * (i - 4)} 0.0 {0.5 + 2 * j} {slip(i)} 180.0 {abs(i - 4) * 2 / 2.5} 1.5"
+                for j in range(2) for i in range(9)]
+        return self.file("fault.fsp", text + "\n" + "\n".join(rows) + "\n")
+
+    def test_pulse_through_a_finite_fault_model(self):
+        path = self.fault(lambda i: 1.0)
+        event, = json.loads(self.ok("event", path, "--pulse", "--json"))["events"]
+        pulse = event["pulse"]
+        self.assertIsNone(pulse["reason"])
+        for key in ("x_m", "stress", "model_rupture_time_s", "pulse_front_time_s", "model_slip_m", "pulse_slip_m"):
+            self.assertEqual(len(pulse[key]), 9, key)
+        self.assertAlmostEqual(pulse["front_velocity_ratio"], 1, 5)  # avVr is the velocity of the rupture times
+        self.assertAlmostEqual(pulse["stress"][3], event["stress"], 9)
+        self.assertEqual(pulse["pulse_slip_m"][4], max(pulse["pulse_slip_m"]))
+        for x, model, front in zip(pulse["x_m"], pulse["model_rupture_time_s"], pulse["pulse_front_time_s"]):
+            self.assertAlmostEqual(model, abs(x) / 2500, 6)
+            self.assertAlmostEqual(front, abs(x) / 2500, 3)
+        self.assertIn("pulse: front velocity over the model's 1; ", self.ok("event", path, "--pulse", "--quiet"))
+        self.assertNotIn("pulse", self.ok("event", path, "--quiet"))
+        uneven, = json.loads(self.ok("event", self.fault(lambda i: 0.2 if i == 6 else 1.0), "--pulse", "--json"))["events"]
+        self.assertGreater(uneven["pulse"]["pulse_front_time_s"][8], 1.2 * uneven["pulse"]["pulse_front_time_s"][0])
+
+    def test_pulse_says_what_is_missing(self):
+        for name, reason in (("tests/data/fsp_srcmod_single.fsp", "rupture times"), ("tests/data/fsp_usgs_single.fsp", "2 columns"),
+                             ("tests/data/fsp_srcmod_segments.fsp", "no rupture velocity"), ("cases/ets.toml", "finite-fault")):
+            path = os.path.join(SOURCE, name)
+            event, = json.loads(self.ok("event", path, "--pulse", "--json"))["events"]
+            self.assertIn(reason, event["pulse"]["reason"])
+            self.assertIn("no pulse: ", self.ok("event", path, "--pulse", "--quiet"))
+
     def test_default_is_the_shipped_catalogue(self):
         table = self.ok("event")
         self.assertIn("Parkfield 2004", table)

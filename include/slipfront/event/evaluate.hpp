@@ -11,6 +11,7 @@
 #include "slipfront/event/along_fault.hpp"
 #include "slipfront/event/estimate.hpp"
 #include "slipfront/event/posterior.hpp"
+#include "slipfront/event/pulse_along_fault.hpp"
 
 namespace slipfront::event {
 
@@ -22,6 +23,7 @@ struct EventResult {
   std::optional<Estimate> estimate;
   std::optional<Posterior> posterior;   ///< where the event was sampled
   std::vector<LocalState> along_fault;  ///< of a finite-fault model, if asked for
+  std::optional<FaultPulse> pulse;      ///< through its slip distribution, if asked for
   std::string error;                    ///< one line; empty when there is an estimate
 
   /// Those of the closed forms, then what the samples say.
@@ -33,6 +35,7 @@ struct Plan {
   Sampling sampling;         ///< no samples: none
   bool all = false;          ///< sample all events, or those that speak of friction or of their errors
   bool along_fault = false;  ///< the closed forms subfault by subfault
+  bool pulse = false;        ///< a pulse through the slip distribution of a finite-fault model
 };
 
 /// Never throws InputError: what is wrong with the entry is in the result.
