@@ -4,7 +4,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "columns.hpp"
+#include "fault_columns.hpp"
 #include "held_side.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/medium/medium.hpp"
@@ -125,14 +125,14 @@ double stress_by_slip(double event_stress, double share) {
 }
 
 FaultPulse pulse_along_fault(const std::vector<LocalState>& states, double stress, double speed) {
-  const Columns found = columns_of(states);
+  const FaultColumns found = columns_of(states);
   FaultPulse p;
   p.reason = found.reason;
   if (!p.reason.empty()) return p;
   p.end = found.end;
   double slip = 0, square = 0;
-  for (const Column& c : found.columns) slip += c.slip, square += c.slip * c.slip;
-  for (const Column& c : found.columns) {
+  for (const FaultColumn& c : found.columns) slip += c.slip, square += c.slip * c.slip;
+  for (const FaultColumn& c : found.columns) {
     p.x.push_back(c.x);
     p.model_slip.push_back(c.slip);
     p.model_time.push_back(std::isnan(c.rupture_time) ? std::nullopt : std::optional(c.rupture_time));

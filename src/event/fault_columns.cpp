@@ -1,4 +1,4 @@
-#include "columns.hpp"
+#include "fault_columns.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,10 +14,10 @@ bool timed(const LocalState& s, double least_slip) { return s.subfault.rupture_t
 double time_of(const LocalState& s) { return *s.subfault.rupture_time; }
 
 /// One column from its subfaults, [from, to). Without a time of its own it gets none: NaN.
-Column column_of(const std::vector<LocalState>& states, std::size_t from, std::size_t to, double origin, double begin,
-                 double least_slip) {
+FaultColumn column_of(const std::vector<LocalState>& states, std::size_t from, std::size_t to, double origin,
+                      double begin, double least_slip) {
   const double n = static_cast<double>(to - from);
-  Column c{0, 0, NAN};
+  FaultColumn c{0, 0, NAN};
   for (std::size_t i = from; i < to; ++i) {
     c.x += (states[i].along_strike - origin) / n;
     c.slip += std::fmax(0, states[i].subfault.slip) / n;
@@ -28,7 +28,7 @@ Column column_of(const std::vector<LocalState>& states, std::size_t from, std::s
 
 }  // namespace
 
-Columns columns_of(const std::vector<LocalState>& states) {
+FaultColumns columns_of(const std::vector<LocalState>& states) {
   if (states.empty()) return {{}, 0, "the file gives no places of subfaults"};
   double least_slip = 0;
   for (const LocalState& s : states) least_slip = std::fmax(least_slip, least_share * s.subfault.slip);
@@ -44,7 +44,7 @@ Columns columns_of(const std::vector<LocalState>& states) {
   std::sort(segment.begin(), segment.end(),
             [](const LocalState& a, const LocalState& b) { return a.along_strike < b.along_strike; });
 
-  Columns out;
+  FaultColumns out;
   double origin = 0, beginning = 0, latest = 0, widest = 0;
   for (std::size_t i = 0; i < segment.size(); ++i) {
     const LocalState& s = segment[i];
