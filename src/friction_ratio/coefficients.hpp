@@ -6,5 +6,6 @@ namespace slipfront::friction_ratio {
 
 /// Made by tools/friction_ratio_table.cpp.
 extern const layout::Table coefficients;
+extern const layout::Corners corners;
 
 }  // namespace slipfront::friction_ratio

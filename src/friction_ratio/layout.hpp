@@ -16,14 +16,31 @@ inline constexpr double least_stress = 0.05, most_stress = 3, most_damping = 1e8
 
 /// Ends of the pieces, in Gamma. Between `unstable_from` and `unstable_to` the closure "paper" is not certified.
 inline constexpr double unstable_from = 3, unstable_to = 1e4;
-/// Closure "consistent": W(0) and the peak have a corner here that the polynomials round off.
-inline constexpr double corner_from = 0.5, corner_to = 10;
 inline constexpr std::array<double, 8> ends{0, 1, unstable_from, 15, 100, 1000, unstable_to, most_damping};
 inline constexpr std::size_t pieces = ends.size() - 1;
 
-inline constexpr std::size_t u_nodes = 9, y_nodes = 15;
+inline constexpr std::size_t u_nodes = 9, y_nodes = 15, corner_terms = 9;
 using Piece = std::array<std::array<double, u_nodes>, y_nodes>;  ///< coefficient of T_i(y) T_j(u)
 using Table = std::array<std::array<std::array<Piece, pieces>, measures>, closures>;
+
+/// n numbers as functions of a variable, with their slopes.
+template <std::size_t n>
+struct Values {
+  std::array<double, n> value, slope;
+};
+
+/// T_0 ... T_(n-1) at t.
+template <std::size_t n>
+Values<n> chebyshev(double t) {
+  Values<n> T;
+  T.value[0] = 1, T.value[1] = t;
+  T.slope[0] = 0, T.slope[1] = 1;
+  for (std::size_t i = 2; i < n; ++i) {
+    T.value[i] = 2 * t * T.value[i - 1] - T.value[i - 2];
+    T.slope[i] = 2 * T.value[i - 1] + 2 * t * T.slope[i - 1] - T.slope[i - 2];
+  }
+  return T;
+}
 
 /// A range, and where one of its points lies between -1 and 1.
 struct Range {
@@ -36,6 +53,37 @@ inline double y_of(double stress) { return stress / (1 + stress); }
 inline double y_slope(double stress) { return 1 / ((1 + stress) * (1 + stress)); }
 inline double stress_of(double y) { return y / (1 - y); }
 inline Range of_stress() { return {y_of(least_stress), y_of(most_stress)}; }
-inline Range of_piece(std::size_t piece) { return {std::log1p(ends[piece]), std::log1p(ends[piece + 1])}; }
+
+/// Closure "consistent": W(0) and the peak have a corner in Gamma where the wave that left the leading edge at t = 0
+/// passes them, at a ln(1 + Gamma) that is a polynomial of y, and the first two pieces meet there. All 0: no corner.
+using Corner = std::array<double, corner_terms>;  ///< coefficient of T_i(y)
+using Corners = std::array<std::array<Corner, measures>, closures>;
+inline bool exists(const Corner& corner) { return corner[0] != 0; }
+
+/// Ends of the pieces in u, and d/dy, at t = y between -1 and 1.
+inline Values<pieces + 1> ends_at(const Corner& corner, double t) {
+  Values<pieces + 1> u{};
+  for (std::size_t i = 0; i <= pieces; ++i) u.value[i] = std::log1p(ends[i]);
+  if (!exists(corner)) return u;
+  const Values<corner_terms> T = chebyshev<corner_terms>(t);
+  u.value[1] = 0;
+  for (std::size_t i = 0; i < corner_terms; ++i) {
+    u.value[1] += corner[i] * T.value[i];
+    u.slope[1] += corner[i] * T.slope[i] * of_stress().unit_slope();
+  }
+  u.value[2] = (u.value[1] + u.value[3]) / 2;
+  u.slope[2] = u.slope[1] / 2;
+  return u;
+}
+
+/// Behind the corner W falls like a root of the distance to it: there the polynomials are in the root of what
+/// elsewhere is x, the share of the piece that lies below u.
+inline bool by_root(const Corner& corner, std::size_t piece) { return exists(corner) && piece == 1; }
+inline double x_at(double t, bool root) { return root ? (1 + t) * (1 + t) / 4 : (1 + t) / 2; }
+/// t between -1 and 1, and dt/dx, finite at the corner too.
+inline Values<1> t_of(double x, bool root) {
+  const double r = root ? std::sqrt(x) : x;
+  return {{2 * r - 1}, {root ? 1 / std::fmax(r, 1e-6) : 2}};
+}
 
 }  // namespace slipfront::friction_ratio::layout

@@ -32,12 +32,13 @@ std::vector<Point> points_of(const pulse::Solver::View& view, double stress) {
   return points;
 }
 
-/// The top of W(x) that is reached uphill from x = 0, by a parabola through three points. Uphill and not the largest:
+/// The largest W up to the top that is reached uphill from x = 0, by a parabola through three points. Not beyond it:
 /// at the free edge the last few cells of a strongly damped pulse are not resolved.
 double peak_of(const std::vector<Point>& points) {
   auto top = std::find_if(points.begin() + 1, points.end() - 2, [](const Point& p) { return p.x >= 0; });
   while (top != points.begin() + 1 && top[-1].W > top->W) --top;
   while (top != points.end() - 2 && top[1].W > top->W) ++top;
+  top = std::max_element(points.begin() + 1, top + 1, [](const Point& a, const Point& b) { return a.W < b.W; });
   const double a = top[-1].x - top->x, b = top[1].x - top->x;
   const double fa = (top[-1].W - top->W) / a, fb = (top[1].W - top->W) / b;
   const double curve = (fb - fa) / (b - a), slope = fa - curve * a;
@@ -54,22 +55,41 @@ double slip_weighted_mean_of(const std::vector<Point>& points) {
   return moment / slip;
 }
 
-}  // namespace
-
-SlipVelocities solve(const Question& question) {
+pulse::Solver solver_of(const Question& question) {
   const double V = rupture::from_stress(question.stress).rupture_velocity;
   // What moves ends at the trailing edge, V T; late, in diffusion, far inside it.
   const double reach = V * std::fmin(1.02, 9 / std::sqrt(question.damping_number));
-  pulse::Solver solver({.stress = [&](double x) { return x < 0 ? question.stress : 0.0; },
+  return pulse::Solver({.stress = [stress = question.stress](double x) { return x < 0 ? stress : 0.0; },
                         .forcing = {},
                         .friction = {modulation::FrictionLaw::viscous, question.damping_number, 1, question.closure},
                         .left = -reach,
                         .right = reach,
                         .cells = question.cells});
-  solver.advance_to(1);
+}
+
+SlipVelocities velocities_of(const pulse::Solver& solver, double stress) {
   const pulse::Solver::View view = solver.view();
-  const std::vector<Point> points = points_of(view, question.stress);
+  const std::vector<Point> points = points_of(view, stress);
   return {pulse::averages_of(view, pulse::state_at(view, 0), 0).W, slip_weighted_mean_of(points), peak_of(points)};
+}
+
+}  // namespace
+
+SlipVelocities solve(const Question& question) {
+  pulse::Solver solver = solver_of(question);
+  solver.advance_to(1);
+  return velocities_of(solver, question.stress);
+}
+
+std::vector<SlipVelocities> solve_each(double stress, modulation::Closure closure, int cells,
+                                       const std::vector<double>& damping_numbers) {
+  pulse::Solver solver = solver_of({stress, damping_numbers.back(), closure, cells});
+  std::vector<SlipVelocities> found;
+  for (const double damping : damping_numbers) {
+    solver.advance_to(damping / damping_numbers.back());
+    found.push_back(velocities_of(solver, stress));
+  }
+  return found;
 }
 
 }  // namespace slipfront::friction_ratio

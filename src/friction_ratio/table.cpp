@@ -11,20 +11,6 @@
 namespace slipfront::friction_ratio {
 namespace {
 
-/// T_0 ... T_(n-1) and their slopes at t.
-template <std::size_t n>
-struct Chebyshev {
-  std::array<double, n> value, slope;
-  explicit Chebyshev(double t) {
-    value[0] = 1, value[1] = t;
-    slope[0] = 0, slope[1] = 1;
-    for (std::size_t i = 2; i < n; ++i) {
-      value[i] = 2 * t * value[i - 1] - value[i - 2];
-      slope[i] = 2 * value[i - 1] + 2 * t * slope[i - 1] - slope[i - 2];
-    }
-  }
-};
-
 void check(double stress, double damping) {
   const auto refuse = [](const char* key, double value, const char* allowed) {
     throw InputError({.key = key, .value = std::to_string(value), .problem = "out of range", .allowed = allowed});
@@ -37,28 +23,35 @@ void check(double stress, double damping) {
 
 Ratio evaluate(Measure measure, modulation::Closure closure, double stress, double damping) {
   check(stress, damping);
-  const double tabled = std::fmin(damping, layout::most_damping);
-  const auto above = std::upper_bound(layout::ends.begin() + 1, layout::ends.end() - 1, tabled);
-  const auto piece = static_cast<std::size_t>(above - layout::ends.begin()) - 1;
-  const layout::Range u_range = layout::of_piece(piece), y_range = layout::of_stress();
-  const Chebyshev<layout::u_nodes> u(u_range.to_unit(std::log1p(tabled)));
-  const Chebyshev<layout::y_nodes> y(y_range.to_unit(layout::y_of(stress)));
-  const layout::Piece& c =
-      coefficients[closure == modulation::Closure::paper ? 1 : 0][static_cast<std::size_t>(measure)][piece];
-  double sum = 0, by_u = 0, by_y = 0;
+  const std::size_t c = closure == modulation::Closure::paper ? 1 : 0, m = static_cast<std::size_t>(measure);
+  const layout::Range y_range = layout::of_stress();
+  const double t = y_range.to_unit(layout::y_of(stress));
+  const auto ends = layout::ends_at(corners[c][m], t);
+  const double u = std::log1p(std::fmin(damping, layout::most_damping));
+  const auto above = std::upper_bound(ends.value.begin() + 1, ends.value.end() - 1, u);
+  const auto piece = static_cast<std::size_t>(above - ends.value.begin()) - 1;
+  const double low = ends.value[piece], length = ends.value[piece + 1] - low, x = (u - low) / length;
+  const auto v = layout::t_of(x, layout::by_root(corners[c][m], piece));
+  const auto in_u = layout::chebyshev<layout::u_nodes>(v.value[0]);
+  const auto in_y = layout::chebyshev<layout::y_nodes>(t);
+  const layout::Piece& a = coefficients[c][m][piece];
+  double sum = 0, by_v = 0, by_t = 0;
   for (std::size_t i = 0; i < layout::y_nodes; ++i) {
     double along = 0, slope = 0;
     for (std::size_t j = 0; j < layout::u_nodes; ++j) {
-      along += c[i][j] * u.value[j];
-      slope += c[i][j] * u.slope[j];
+      along += a[i][j] * in_u.value[j];
+      slope += a[i][j] * in_u.slope[j];
     }
-    sum += y.value[i] * along;
-    by_u += y.value[i] * slope;
-    by_y += y.slope[i] * along;
+    sum += in_y.value[i] * along;
+    by_v += in_y.value[i] * slope;
+    by_t += in_y.slope[i] * along;
   }
+  const double by_u = by_v * v.slope[0] / length;
+  // Where the ends of the piece move with y, so does a point between them.
+  const double by_y = by_t * y_range.unit_slope() - by_u * std::lerp(ends.slope[piece], ends.slope[piece + 1], x);
   Ratio r{std::exp(sum), 0, 0};
-  r.by_stress = r.value * by_y * y_range.unit_slope() * layout::y_slope(stress);
-  r.by_damping = r.value * by_u * u_range.unit_slope() / (1 + damping);
+  r.by_stress = r.value * by_y * layout::y_slope(stress);
+  r.by_damping = r.value * by_u / (1 + damping);
   if (damping > layout::most_damping) {  // nonlinear diffusion: W ~ Gamma^(-1/2)
     const double fall = std::sqrt(layout::most_damping / damping);
     r = {r.value * fall, -r.value * fall / (2 * damping), r.by_stress * fall};
@@ -67,9 +60,8 @@ Ratio evaluate(Measure measure, modulation::Closure closure, double stress, doub
 }
 
 double uncertainty(modulation::Closure closure, double damping) {
-  if (closure == modulation::Closure::paper)
-    return damping > layout::unstable_from && damping < layout::unstable_to ? 1e-2 : 1e-4;
-  return damping > layout::corner_from && damping < layout::corner_to ? 1e-3 : 1e-4;
+  const bool unstable = damping > layout::unstable_from && damping < layout::unstable_to;
+  return closure == modulation::Closure::paper && unstable ? 1e-2 : 1e-4;
 }
 
 StressRange stress_range() { return {layout::least_stress, layout::most_stress}; }

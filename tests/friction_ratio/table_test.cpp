@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "slipfront/error.hpp"
 #include "slipfront/friction_ratio/solve.hpp"
@@ -35,6 +36,37 @@ TEST(FrictionRatio, IsWhatThePulseSolverGives) {
     }
 }
 
+/// On both sides of the corners of W(0), 0.36 and 1.27, and of the peak, 1.68 and 2.58.
+TEST(FrictionRatio, FollowsTheCorners) {
+  struct Point {
+    double stress, damping;
+  };
+  for (const Point p : {Point{0.0623, 0.30},
+                        {0.0623, 0.36},
+                        {0.0623, 0.4},
+                        {0.0623, 1.66},
+                        {0.0623, 1.70},
+                        Point{0.79, 1.20},
+                        {0.79, 1.27},
+                        {0.79, 1.30},
+                        {0.79, 2.5},
+                        {0.79, 2.6}}) {
+    const SlipVelocities w = solve({.stress = p.stress, .damping_number = p.damping, .cells = 800});
+    const double unit = rupture::from_stress(p.stress).slip_velocity;
+    const double wanted[] = {w.origin / unit, w.mean / unit, w.peak / unit};
+    for (const Measure m : measures)
+      EXPECT_NEAR(evaluate(m, Closure::consistent, p.stress, p.damping).value / wanted[static_cast<int>(m)], 1, 3e-5)
+          << p.stress << " " << p.damping << " " << static_cast<int>(m);
+  }
+}
+
+TEST(FrictionRatio, HasOneRunForManyDampingNumbers) {
+  const std::vector<SlipVelocities> w = solve_each(0.855, Closure::consistent, 400, {0.5, 2});
+  ASSERT_EQ(w.size(), 2u);
+  EXPECT_NEAR(w[0].origin / solve({.stress = 0.855, .damping_number = 0.5}).origin, 1, 1e-5);
+  EXPECT_NEAR(w[1].origin / solve({.stress = 0.855, .damping_number = 2}).origin, 1, 1e-5);
+}
+
 /// W(0) sqrt(Gamma) of the step 0.855 solved apart from the scheme (docs/pulse.md).
 TEST(FrictionRatio, HasTheDiffusionLimit) {
   const double unit = rupture::from_stress(0.855).slip_velocity;
@@ -55,7 +87,7 @@ TEST(FrictionRatio, IsOneWithoutFriction) {
 TEST(FrictionRatio, DerivativesAreThose) {
   for (const Closure closure : closures)
     for (const Measure m : measures)
-      for (const double damping : {0.3, 20.0, 5e3, 1e7, 1e9})
+      for (const double damping : {0.3, 1.5, 2.2, 20.0, 5e3, 1e7, 1e9})
         for (const double stress : {0.07, 0.9, 2.5}) {
           const auto value = [&](double s, double g) { return evaluate(m, closure, s, g).value; };
           const Ratio r = evaluate(m, closure, stress, damping);

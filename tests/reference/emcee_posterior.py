@@ -38,10 +38,14 @@ EVENTS = [
 ]
 
 
+def numbers(text):
+    return np.array([float(x) for x in re.findall(r"-?\d\.\d+e[-+]\d+", text)])
+
+
 def table(path):
-    """Coefficients [closure, measure, piece, y, u]."""
-    body = open(path).read().split("coefficients = ")[1]
-    return np.array([float(x) for x in re.findall(r"-?\d\.\d+e[-+]\d+", body)]).reshape(2, 3, 7, 15, 9)
+    """Coefficients [measure, piece, y, u] and corners [measure, y] of closure "consistent"."""
+    coefficients, corners = open(path).read().split("coefficients = ")[1].split("corners = ")
+    return numbers(coefficients).reshape(2, 3, 7, 15, 9)[0], numbers(corners).reshape(2, 3, 9)[0]
 
 
 def sound_speed(psi):
@@ -59,15 +63,21 @@ def closed_form(V):
     return stress, np.pi * np.sinh(phi) * np.cosh(at_origin) / ellipkm1(np.tanh(at_origin) ** 2)
 
 
-def ln_ratio(coefficients, ln_stress, u):
-    piece = min(max(np.searchsorted(ENDS, u, side="right") - 1, 0), 6)
+def ln_ratio(coefficients, corner, ln_stress, u):
     stress = np.exp(ln_stress)
     y = (2 * stress / (1 + stress) - STRESS.sum()) / (STRESS[1] - STRESS[0])
-    x = (2 * u - ENDS[piece] - ENDS[piece + 1]) / (ENDS[piece + 1] - ENDS[piece])
-    return np.polynomial.chebyshev.chebval2d(y, x, coefficients[piece])
+    ends = ENDS.copy()
+    if corner[0] != 0:
+        ends[1] = np.polynomial.chebyshev.chebval(y, corner)
+        ends[2] = (ends[1] + ends[3]) / 2
+    piece = min(max(np.searchsorted(ends, u, side="right") - 1, 0), 6)
+    x = (u - ends[piece]) / (ends[piece + 1] - ends[piece])
+    if corner[0] != 0 and piece == 1:
+        x = np.sqrt(x)
+    return np.polynomial.chebyshev.chebval2d(y, 2 * x - 1, coefficients[piece])
 
 
-def sampled(event, coefficients):
+def sampled(event, coefficients, corners):
     """5, 50, 95 % of A and Gamma by emcee, and the Monte Carlo error of each in units of ln."""
     _, measure, (V0, sd), (w0, w_factor), (A0, A_factor) = event
     grid = np.linspace(np.log(max(V0 - 6 * sd, V0 / 30)), np.log(min(V0 + 6 * sd, 0.97 * C_SPEED)), 400)
@@ -79,7 +89,7 @@ def sampled(event, coefficients):
         if not (grid[0] < ln_V < grid[-1] and np.log(1e-8) < ln_A < np.log(PLASTIC) and 0 < u < ENDS[-1]):
             return -np.inf
         stress, W = (np.interp(ln_V, grid, forms[:, 0]), np.exp(np.interp(ln_V, grid, np.log(forms[:, 1]))))
-        ln_w = ln_A + np.log(C_SPEED / np.pi * W) + ln_ratio(coefficients[index], np.log(stress), u)
+        ln_w = ln_A + np.log(C_SPEED / np.pi * W) + ln_ratio(coefficients[index], corners[index], np.log(stress), u)
         return (-0.5 * ((np.exp(ln_V) - V0) / sd) ** 2 - 0.5 * ((ln_w - np.log(w0)) / np.log(w_factor)) ** 2
                 - 0.5 * ((ln_A - np.log(A0)) / np.log(A_factor)) ** 2)
 
@@ -95,7 +105,7 @@ def sampled(event, coefficients):
 
 
 def main(program, path):
-    coefficients = table(path)[0]
+    coefficients, corners = table(path)
     good = True
     with tempfile.NamedTemporaryFile("w", suffix=".csv") as file:
         file.write("name,slip_velocity_is,rupture_velocity,slip_velocity,contact_ratio\n")
@@ -105,7 +115,7 @@ def main(program, path):
         run = subprocess.run([program, "event", file.name, "--json", "--samples", "20000"], capture_output=True, check=True)
     ours = json.loads(run.stdout)["events"]
     for event, result in zip(EVENTS, ours):
-        points, errors = sampled(event, coefficients)
+        points, errors = sampled(event, coefficients, corners)
         p = result["posterior"]
         for row, key, scale in ((0, "contact_ratio", np.log), (1, "damping_number", np.log1p)):
             mine = scale([p[key + "_interval"][0], p[key], p[key + "_interval"][1]])

@@ -3,6 +3,8 @@
 /// Slip velocity of one pulse with viscous friction, from the pulse solver: what the table of `table.hpp` is made from
 /// and checked against. True step of stress, from Sigma- into the empty interface.
 
+#include <vector>
+
 #include "slipfront/modulation/friction.hpp"
 
 namespace slipfront::friction_ratio {
@@ -11,7 +13,7 @@ namespace slipfront::friction_ratio {
 struct SlipVelocities {
   double origin;  ///< W(0)
   double mean;    ///< integral of W slip dx over integral of slip dx
-  double peak;    ///< the top of W(x) that is reached uphill from x = 0
+  double peak;    ///< the largest W(x) up to the top that is reached uphill from x = 0
 };
 
 struct Question {
@@ -23,5 +25,9 @@ struct Question {
 
 /// \throws InputError, NumericsError as the solver does.
 SlipVelocities solve(const Question& question);
+
+/// The same at each of `damping_numbers`, ascending and > 0, in one run to the last of them.
+std::vector<SlipVelocities> solve_each(double stress, modulation::Closure closure, int cells,
+                                       const std::vector<double>& damping_numbers);
 
 }  // namespace slipfront::friction_ratio

@@ -12,7 +12,7 @@ namespace slipfront::friction_ratio {
 enum class Measure {
   origin,  ///< W(0), where the step of stress was
   mean,    ///< weighted with slip: integral of W slip dx over integral of slip dx
-  peak,    ///< the top of W(x) at or nearest to x = 0
+  peak,    ///< the largest W(x) up to the top that is reached uphill from x = 0
 };
 
 struct Ratio {
@@ -25,9 +25,8 @@ struct Ratio {
 /// Relative error: see `uncertainty`. \throws InputError.
 Ratio evaluate(Measure measure, modulation::Closure closure, double stress, double damping_number);
 
-/// Relative error to allow for: 1e-4; closure "consistent" 1e-3 for 0.5 < Gamma < 10, where the slip velocities have a
-/// corner; closure "paper" 1e-2 for 3 < Gamma < 1e4. Closure "paper" is unstable where dislocations outrun their own
-/// sound (docs/friction_ratio.md): for 3 < Gamma < 1e4 no number of cells settles its slip velocities.
+/// Relative error to allow for: 1e-4; closure "paper" 1e-2 for 3 < Gamma < 1e4. It is unstable where dislocations
+/// outrun their own sound (docs/friction_ratio.md): there no number of cells settles its slip velocities.
 double uncertainty(modulation::Closure closure, double damping_number);
 
 /// Sigma- for which there is a table.
