@@ -1,7 +1,13 @@
+#include <string>
+
 #include "bindings.hpp"
+#include "slipfront/record/pulse_variables.hpp"
 
 PYBIND11_MODULE(_slipfront, m) {
   m.attr("__version__") = SLIPFRONT_VERSION;
+  m.def("reference_of", [](const std::string& reference) {
+    return slipfront::record::reference_of({{}, {}, {}, reference});
+  });
   bind_errors(m);
   bind_relations(m);
   bind_train(m);

@@ -44,17 +44,11 @@ py::array_t<double> array(const std::vector<double>& values) {
 py::array_t<double> field(const record::FieldVariable& variable, const Levels& levels, const Shape& shape) {
   py::array_t<double> values(shape);
   double* out = values.mutable_data();
-  for (const auto* level : levels) {
+  for (const auto* level : levels)
     for (const Snapshot& snapshot : *level) {
-      const auto& now = snapshot.profile.*variable.values;
-      const auto& first = level->front().profile.*variable.values;
-      if (variable.drop)
-        std::transform(first.begin(), first.end(), now.begin(), out, std::minus<>{});
-      else
-        std::copy(now.begin(), now.end(), out);
-      out += now.size();
+      const std::vector<double> row = variable.of(snapshot, level->front());
+      out = std::copy(row.begin(), row.end(), out);
     }
-  }
   return values;
 }
 

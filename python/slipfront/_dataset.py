@@ -1,14 +1,13 @@
 """From arrays and what is said of them to xarray."""
 
+from . import _slipfront
 from ._need import need
-
-_paper = "Gershenzon, Bambakidis and Skinner (2015), "
 
 
 def attributes(about):
     """CF attributes of a variable from its (name, long_name, dimensional_unit, reference), as in the NetCDF files."""
     _, long_name, dimensional_unit, reference = about
-    return {"long_name": long_name, "units": "1", "dimensional_unit": dimensional_unit, "references": _paper + reference}
+    return {"long_name": long_name, "units": "1", "dimensional_unit": dimensional_unit, "references": _slipfront.reference_of(reference)}
 
 
 def dataset(variables, coordinates=None, attrs=None):

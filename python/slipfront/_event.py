@@ -73,11 +73,11 @@ def event(events=None, *, p_wave_speed=None, poisson_ratio=None, shear_modulus=N
     Returns
     -------
     xarray.Dataset over `event`: name, c_m_s, rupture_velocity (V / c), stress (mu A / pi), frictionless_slip_velocity and
-    observed_slip_velocity (c A / pi), slip_velocity_ratio, contact_ratio, stress_pa (Pa), damping_number, friction_coefficient, `<name>_interval`
-    = [5 %, 95 %] of each: by the closed forms, as if there were no friction, and by samples where these say what the friction
-    is; `posterior_<name>` over `quantile` (5 %, 50 %, 95 %) of sampled events, effective_samples and friction_identified (1 or
-    0). NaN where not identifiable; and `warnings`. One bad event of
-    several does not lose the others: its `error` says why, and is "" for the rest.
+    observed_slip_velocity (c A / pi), slip_velocity_ratio, contact_ratio, stress_pa (Pa), damping_number,
+    friction_coefficient, and `<name>_interval` = [5 %, 95 %] of each: by the closed forms, as if there were no friction,
+    and by samples where these say what the friction is. Of sampled events `posterior_<name>` over `quantile` (5 %, 50 %,
+    95 %), effective_samples and friction_identified (1 or 0). NaN where not identifiable; and `warnings`. One bad event
+    of several does not lose the others: its `error` says why, and is "" for the rest.
 
     Raises
     ------

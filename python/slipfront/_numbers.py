@@ -29,6 +29,17 @@ def one_number(name, value):
     return float(array)
 
 
+def broadcasting(**given):
+    """The arguments as arrays of doubles. Raises InputError unless their shapes broadcast."""
+    arrays = [numbers(name, values) for name, values in given.items()]
+    try:
+        np.broadcast_shapes(*(array.shape for array in arrays))
+    except ValueError:
+        shapes = ", ".join(f"{name} {array.shape}" for name, array in zip(given, arrays))
+        raise InputError(f"{shapes}: shapes do not match; allowed: shapes that broadcast") from None
+    return arrays
+
+
 def dimensions(values, array):
     """Names of the dimensions of a result that has the shape of `values`, and its coordinates: those of a DataArray,
     else "state" or dim_0, dim_1, ..."""

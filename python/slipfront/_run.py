@@ -79,6 +79,10 @@ def chain(scenario, *, set=None, output=None, resume=None, progress=None, thread
                                          thread_count(threads)))
 
 
+def _scales(scales):
+    return numbers("scales", scales).reshape(-1).tolist() if np.size(scales) else []
+
+
 def compare(scenario, *, scales=(), set=None, output=None, progress=None, threads=None):
     """Closed form, pulse with both closures and chain, side by side on a scenario.
 
@@ -96,9 +100,8 @@ def compare(scenario, *, scales=(), set=None, output=None, progress=None, thread
     its end is from that of pulse-consistent, `trend_exponent`, `trend_extrapolated` and `trend_difference` (by quantity)
     how the chain tends to it. Attributes time, friction_coefficient, damping_number, reference and notes.
     """
-    scales = numbers("scales", scales if np.size(scales) else np.zeros(0)).reshape(-1)
     with showing(progress) as call:
-        result = _slipfront.compare(arguments(scenario, set=set, output=output, progress=call), list(scales), thread_count(threads))
+        result = _slipfront.compare(arguments(scenario, set=set, output=output, progress=call), _scales(scales), thread_count(threads))
     levels, trends = result["levels"], result["trends"]
     result["summary"].update(reference="pulse-consistent", notes="\n".join(result["notes"]))
     data = _dataset(result, ("level",))
@@ -139,7 +142,7 @@ def check(scenario, *, set=None, command="pulse", scales=()):
     if command == "chain":
         return _slipfront.check_chain(asked)
     if command == "compare":
-        return _slipfront.check_compare(asked, list(numbers("scales", scales if np.size(scales) else np.zeros(0)).reshape(-1)))
+        return _slipfront.check_compare(asked, _scales(scales))
     raise InputError(f"command = '{command}': unknown; allowed: pulse, chain, compare")
 
 
@@ -148,18 +151,24 @@ def open(file):
 
     Raises FileError unless it is one.
     """
-    name = path("file", file)
+    return read(path("file", file))
+
+
+def read(name, any_file=False):
+    """The same, or the Dataset of any NetCDF file."""
     xarray = need("xarray")
     need("netCDF4")
     try:
         with xarray.open_dataset(name, engine="netcdf4") as stored:
-            if "slipfront_format" not in stored.attrs:
+            if not (any_file or "slipfront_format" in stored.attrs):
                 raise FileError(f"{name}: not a file of slipfront")
             data = stored.drop_vars(["checkpoint", "scenario_text"], errors="ignore").load()
     except OSError as error:
         if isinstance(error, FileError):
             raise
         raise FileError(f"{name}: {error.strerror or error}") from error
+    except (RuntimeError, ValueError) as error:  # damaged inside
+        raise FileError(f"{name}: {' '.join(str(error).split())}") from error
     if "name" in data.coords and data["name"].dtype.kind == "S":
         data = data.assign_coords(name=(data["name"].dims, np.char.decode(data["name"].values, "utf-8"), data["name"].attrs)).set_xindex("name")
     return data

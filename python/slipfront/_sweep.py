@@ -6,6 +6,7 @@ import os
 import warnings
 
 from . import _slipfront
+from ._beside import beside
 from ._cluster import on_cluster, run_points
 from ._dataset import dataset
 from ._need import need
@@ -66,13 +67,10 @@ def _check_some(scenario, settings, points, command):
 def _write(data, output):
     """Writes the Dataset whole or not at all."""
     need("netCDF4")
-    beside = f"{output}.new"
     try:
-        data.to_netcdf(beside, engine="netcdf4", format="NETCDF4")
-        os.replace(beside, output)
+        with beside(output) as name:
+            data.to_netcdf(name, engine="netcdf4", format="NETCDF4")
     except OSError as error:
-        if os.path.exists(beside):
-            os.unlink(beside)
         raise FileError(f"{output}: {error.strerror or error}") from error
 
 

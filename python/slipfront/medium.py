@@ -1,21 +1,14 @@
 """Constants of rock and interface (Eqs. 1-3), in SI units. Arguments broadcast as in numpy."""
 
 from . import _slipfront
-from ._numbers import np, numbers, one_number
-from ._slipfront import InputError
+from ._numbers import broadcasting, one_number
 
 __all__ = ["plastic_contact_ratio", "poisson_ratio", "slip_velocity_unit", "speed_from_p_wave", "speed_from_s_wave",
            "speed_from_shear_modulus", "stress_unit", "units"]
 
 
 def _each(function, **given):
-    arrays = [numbers(name, values) for name, values in given.items()]
-    try:
-        np.broadcast_shapes(*(array.shape for array in arrays))
-    except ValueError:
-        shapes = ", ".join(f"{name} {array.shape}" for name, array in zip(given, arrays))
-        raise InputError(f"{shapes}: shapes do not match; allowed: shapes that broadcast") from None
-    return getattr(_slipfront, function)(*arrays)
+    return getattr(_slipfront, function)(*broadcasting(**given))
 
 
 def speed_from_p_wave(p_wave_speed, poisson_ratio):

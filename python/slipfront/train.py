@@ -7,20 +7,14 @@ Datasets over "state", dim_0 ..., or the dimensions of the first argument that i
 
 from . import _slipfront
 from ._dataset import attributes, dataset
-from ._numbers import dimensions, np, numbers, one_number
-from ._slipfront import InputError
+from ._numbers import broadcasting, dimensions, np, one_number
 
 __all__ = ["averages", "fields", "jacobi", "profile", "psi_at_rest", "spacing", "stress_at_rest"]
 
 
 def _flat(**given):
     """The arguments as arrays of one shape, flat; that shape; and the names of its dimensions."""
-    arrays = [numbers(name, values) for name, values in given.items()]
-    try:
-        arrays = np.broadcast_arrays(*arrays)
-    except ValueError:
-        shapes = ", ".join(f"{name} {array.shape}" for name, array in zip(given, arrays))
-        raise InputError(f"{shapes}: shapes do not match; allowed: shapes that broadcast") from None
+    arrays = np.broadcast_arrays(*broadcasting(**given))
     named = [values for values in given.values() if hasattr(values, "dims") and np.shape(values) == arrays[0].shape]
     dims, coords = dimensions(named[0] if named else None, arrays[0])
     return [np.ascontiguousarray(array).reshape(-1) for array in arrays], arrays[0].shape, dims, coords

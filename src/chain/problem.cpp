@@ -2,24 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 #if defined(__unix__) && !defined(__EMSCRIPTEN__)
 #include <unistd.h>
 #endif
 
+#include "../digits.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::chain {
 namespace {
-
-/// Six digits: std::to_string would show 1e-9 as 0.
-std::string digits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
-}
 
 [[noreturn]] void refuse(const char* key, double value, std::string problem, std::string allowed) {
   throw InputError({.key = key, .value = digits(value), .problem = std::move(problem), .allowed = std::move(allowed)});

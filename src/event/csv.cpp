@@ -18,19 +18,11 @@ struct Ends {
   std::optional<Measured> low, high;
 };
 
-void store_cell(Observation& o, const Column& column, const std::string& cell) {
+/// Reads a cell; what is wrong with it gets the column's title.
+template <class Read>
+void read_cell(const Column& column, const Read& read) {
   try {
-    store(o, *column.key, cell, column.unit);
-  } catch (const InputError& error) {
-    Complaint c = error.complaint();
-    c.key = column.title;
-    throw InputError(c);
-  }
-}
-
-void store_measure(Observation& o, const Column& column, const std::string& cell) {
-  try {
-    o.slip_velocity_is = parse_measure(cell);
+    read();
   } catch (const InputError& error) {
     Complaint c = error.complaint();
     c.key = column.title;
@@ -78,12 +70,12 @@ Entry read_row(const std::vector<Column>& columns, const std::vector<std::string
       if (blank(cell)) continue;
       switch (column.role) {
         case Role::quantity:
-          store_cell(o, column, cell);
+          read_cell(column, [&] { store(o, *column.key, cell, column.unit); });
           break;
         case Role::range_low:
         case Role::range_high: {
           Observation end;
-          store_cell(end, column, cell);
+          read_cell(column, [&] { store(end, *column.key, cell, column.unit); });
           auto same =
               std::find_if(ranges.begin(), ranges.end(), [&](const Ends& r) { return r.column->key == column.key; });
           if (same == ranges.end()) same = ranges.insert(ranges.end(), Ends{&column, {}, {}});
@@ -106,7 +98,7 @@ Entry read_row(const std::vector<Column>& columns, const std::vector<std::string
           o.note = cell;
           break;
         case Role::slip_velocity_is:
-          store_measure(o, column, cell);
+          read_cell(column, [&] { o.slip_velocity_is = parse_measure(cell); });
           break;
         case Role::name:
         case Role::ignored:

@@ -1,23 +1,13 @@
 #include "elastic.hpp"
 
-#include <cstdio>
-
+#include "../digits.hpp"
 #include "slipfront/medium/medium.hpp"
 
 namespace slipfront::event {
-namespace {
-
-std::string text(double value, const char* unit) {
-  char buffer[64];
-  std::snprintf(buffer, sizeof buffer, "%.6g%s", value, unit);
-  return buffer;
-}
-
-}  // namespace
 
 Elastic elastic(const medium::Constants& o, const MediumDefaults& d, std::string* assumed) {
   const auto assume = [&](double value, const char* key, const char* unit, bool stated) {
-    if (!stated && assumed) *assumed += (assumed->empty() ? "" : ", ") + (key + (" " + text(value, unit)));
+    if (!stated && assumed) *assumed += (assumed->empty() ? "" : ", ") + (key + (" " + digits(value)) + unit);
     return value;
   };
   Elastic e{};

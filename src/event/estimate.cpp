@@ -1,21 +1,15 @@
 #include "slipfront/event/estimate.hpp"
 
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
+#include "../digits.hpp"
 #include "elastic.hpp"
 #include "slipfront/medium/medium.hpp"
 #include "slipfront/rupture/relations.hpp"
 
 namespace slipfront::event {
 namespace {
-
-std::string text(double value, const char* unit) {
-  char buffer[64];
-  std::snprintf(buffer, sizeof buffer, "%.6g%s", value, unit);
-  return buffer;
-}
 
 /// The observed quantities that enter, as single numbers.
 struct Observed {
@@ -93,14 +87,14 @@ Estimate estimate(const Observation& o, const MediumDefaults& defaults) try {
   const double plastic = medium::plastic_contact_ratio(e.poisson_ratio);
   if (o.contact_ratio && !(*o.contact_ratio > 0 && *o.contact_ratio <= plastic))
     throw InputError({.key = "contact_ratio",
-                      .value = text(*o.contact_ratio, ""),
+                      .value = digits(*o.contact_ratio),
                       .problem = "out of range",
-                      .allowed = "0 < contact_ratio <= " + text(plastic, " (plastic contact)")});
+                      .allowed = "0 < contact_ratio <= " + digits(plastic) + " (plastic contact)"});
   if (o.rupture_velocity && !(o.rupture_velocity->high < e.speed))
     throw InputError({.key = "rupture_velocity",
-                      .value = text(o.rupture_velocity->high, " m/s"),
+                      .value = digits(o.rupture_velocity->high) + " m/s",
                       .problem = "not below the speed c of the model",
-                      .allowed = "rupture_velocity < c = " + text(e.speed, " m/s")});
+                      .allowed = "rupture_velocity < c = " + digits(e.speed) + " m/s"});
 
   std::optional<double> given_A = o.contact_ratio;
   if (!given_A && o.normal_stress && o.hardness && !o.stress_drop)
@@ -156,7 +150,7 @@ Estimate estimate(const Observation& o, const MediumDefaults& defaults) try {
     result.warnings.push_back("contact_ratio as if there were no friction: a lower bound");
   }
   if (n.A && *n.A > plastic)
-    result.warnings.push_back("contact_ratio " + text(*n.A, "") + " exceeds plastic contact, " + text(plastic, "") +
+    result.warnings.push_back("contact_ratio " + digits(*n.A) + " exceeds plastic contact, " + digits(plastic) +
                               ": slip velocity too high for this rupture velocity");
   if (n.ratio && *n.ratio > 1)
     result.warnings.push_back("slips faster than without friction: contact_ratio or the velocities are off");

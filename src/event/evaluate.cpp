@@ -43,8 +43,9 @@ FaultPulse pulse_of(const EventResult& result, const MediumDefaults& defaults) {
   else if (!result.estimate->stress)
     none.reason = "no rupture velocity, so no stress of the event";
   if (!none.reason.empty()) return none;
-  return pulse_along_fault(along_fault(result.observation, defaults), result.estimate->stress->value,
-                           result.estimate->speed);
+  const std::vector<LocalState>& known = result.along_fault;
+  return pulse_along_fault(known.empty() ? along_fault(result.observation, defaults) : known,
+                           result.estimate->stress->value, result.estimate->speed);
 }
 
 }  // namespace

@@ -12,8 +12,7 @@
 namespace slipfront::event {
 namespace {
 
-constexpr double least_stress = 0.005;  // what the solver bears; less counts as none
-constexpr std::size_t nodes = 8000;     // some hundreds to a column
+constexpr std::size_t nodes = 8000;  // some hundreds to a column
 
 }  // namespace
 

@@ -8,6 +8,9 @@
 
 namespace slipfront::event {
 
+/// What the solver bears; less counts as none.
+inline constexpr double least_stress = 0.005;
+
 /// Places and stresses (mu A / pi) by their distance from the hypocentre: ascending, the first at 0. Linear between
 /// them, constant beyond.
 struct SideStress {

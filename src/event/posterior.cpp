@@ -3,20 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
+#include "../digits.hpp"
 #include "sampler.hpp"
 #include "slipfront/medium/medium.hpp"
 #include "weighted.hpp"
 
 namespace slipfront::event {
 namespace {
-
-std::string text(double value) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.4g", value);
-  return buffer;
-}
 
 [[noreturn]] void refuse_event(const Observation& o, const Sampler& sampler) {
   static constexpr std::array<std::array<const char*, 2>, refusals> reasons = {{
@@ -71,7 +65,7 @@ void add_notes(Posterior& p, const Observation& o, const Sampler& s, modulation:
         std::string(cure));
   else if (p.damping_number_prior_share && *p.damping_number_prior_share > 0.5)
     p.notes.push_back("damping_number is known little better than before (prior's share " +
-                      text(*p.damping_number_prior_share) +
+                      digits(*p.damping_number_prior_share, 4) +
                       "): smaller errors of slip_velocity and contact_ratio needed");
   if (s.fixes_friction() && !p.friction_coefficient)
     p.notes.push_back(std::string("friction_coefficient needs ") +
@@ -82,7 +76,7 @@ void add_notes(Posterior& p, const Observation& o, const Sampler& s, modulation:
     p.notes.push_back(
         "friction_coefficient not used: with a contact_ratio and a slip velocity it needs an uncertainty");
   if (p.effective_samples < 100 && p.effective_samples < 0.9 * static_cast<double>(p.samples))
-    p.notes.push_back("only " + text(p.effective_samples) + " effective samples: more samples needed");
+    p.notes.push_back("only " + digits(p.effective_samples, 4) + " effective samples: more samples needed");
   if (p.damping_number && friction_ratio::uncertainty(closure, p.damping_number->median) > 1e-3)
     p.notes.push_back("closure paper is unstable at this damping number: its slip velocities are known to 1 %");
 }

@@ -13,7 +13,7 @@
 namespace slipfront::event {
 namespace {
 
-constexpr double least_stress = 0.005, most_stress = 5;
+constexpr double most_stress = 5;
 
 /// The stress on one side of the hypocentre (`sign` -1 or 1), in units of `length`; at the hypocentre as between its
 /// neighbours, beyond the last column constant.

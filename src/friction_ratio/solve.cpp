@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "../parabola.hpp"
 #include "slipfront/pulse/solver.hpp"
 #include "slipfront/rupture/relations.hpp"
 
@@ -39,9 +40,8 @@ double peak_of(const std::vector<Point>& points) {
   while (top != points.begin() + 1 && top[-1].W > top->W) --top;
   while (top != points.end() - 2 && top[1].W > top->W) ++top;
   top = std::max_element(points.begin() + 1, top + 1, [](const Point& a, const Point& b) { return a.W < b.W; });
-  const double a = top[-1].x - top->x, b = top[1].x - top->x;
-  const double fa = (top[-1].W - top->W) / a, fb = (top[1].W - top->W) / b;
-  const double curve = (fb - fa) / (b - a), slope = fa - curve * a;
+  const auto [slope, curve] =
+      parabola_through(top[-1].x - top->x, top[-1].W - top->W, top[1].x - top->x, top[1].W - top->W);
   return curve < 0 ? top->W - slope * slope / (4 * curve) : top->W;
 }
 

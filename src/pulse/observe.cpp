@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "../parabola.hpp"
 #include "slipfront/modulation/characteristics.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
 #include "slipfront/train/train.hpp"
@@ -46,8 +47,7 @@ void find_peak_and_observed_fronts(const Solver::View& v, double threshold, bool
   const bool smooth = peak > 0 && peak + 1 < n && std::fmin(size(peak - 1), size(peak + 1)) > 0.9 * size(peak);
   if (smooth) {
     const double a = v.centres[peak - 1] - v.centres[peak], b = v.centres[peak + 1] - v.centres[peak];
-    const double fa = (W[peak - 1] - W[peak]) / a, fb = (W[peak + 1] - W[peak]) / b;
-    const double curve = (fb - fa) / (b - a), slope = fa - curve * a;
+    const auto [slope, curve] = parabola_through(a, W[peak - 1] - W[peak], b, W[peak + 1] - W[peak]);
     const double top = curve != 0 ? -slope / (2 * curve) : 0;
     if (top > a && top < b) {
       s.peak_slip_velocity += top * (slope + curve * top);

@@ -33,9 +33,8 @@ std::vector<double> over_time_and_x(const Levels& levels, const FieldVariable& v
   std::vector<double> values;
   for (const ComparedLevel& level : levels)
     for (const Snapshot& snapshot : level.snapshots) {
-      const auto& now = snapshot.profile.*variable.values;
-      const auto& first = level.snapshots.front().profile.*variable.values;
-      for (std::size_t i = 0; i < now.size(); ++i) values.push_back(variable.drop ? first[i] - now[i] : now[i]);
+      const std::vector<double> row = variable.of(snapshot, level.snapshots.front());
+      values.insert(values.end(), row.begin(), row.end());
     }
   return values;
 }

@@ -54,18 +54,8 @@ bool describe_file(Writer& file, const PulseMetadata& metadata, bool finished) {
 }
 
 void write_field(Writer& file, int variable, const FieldVariable& field, const std::vector<Snapshot>& snapshots) {
-  std::vector<double> drop;
-  for (std::size_t row = 0; row < snapshots.size(); ++row) {
-    const auto& values = snapshots[row].profile.*field.values;
-    if (!field.drop) {
-      file.write_row(variable, row, values);
-      continue;
-    }
-    const auto& first = snapshots.front().profile.*field.values;
-    drop.resize(values.size());
-    for (std::size_t i = 0; i < values.size(); ++i) drop[i] = first[i] - values[i];
-    file.write_row(variable, row, drop);
-  }
+  for (std::size_t row = 0; row < snapshots.size(); ++row)
+    file.write_row(variable, row, field.of(snapshots[row], snapshots.front()));
 }
 
 void write_scalar(Writer& file, int variable, const ScalarVariable& scalar, const std::vector<Snapshot>& snapshots) {

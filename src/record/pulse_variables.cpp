@@ -78,6 +78,12 @@ constexpr ScalarVariable scalars[] = {
 
 }  // namespace
 
+std::vector<double> FieldVariable::of(const Snapshot& snapshot, const Snapshot& first) const {
+  std::vector<double> row = snapshot.profile.*values;
+  for (std::size_t i = 0; drop && i < row.size(); ++i) row[i] = (first.profile.*values)[i] - row[i];
+  return row;
+}
+
 std::span<const FieldVariable> field_variables() { return fields; }
 std::span<const ScalarVariable> scalar_variables() { return scalars; }
 std::span<std::vector<double> Profile::*const> profile_fields() { return every_field; }

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <string>
 
+#include "../digits.hpp"
 #include "slipfront/elliptic/complete.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/modulation/characteristics.hpp"
@@ -30,19 +31,13 @@ struct Range {
   const char* allowed;
 };
 
-std::string text(double value) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.17g", value);
-  return buffer;
-}
-
 void check(double value, const Range& range) {
   if (value >= range.least && value <= range.most) return;  // false for NaN
   const char* problem = std::isnan(value)     ? "not a number"
                         : value <= 0          ? "not positive"
                         : value < range.least ? "too small: some result would be below the smallest double"
                                               : "too large";
-  throw InputError({.key = range.key, .value = text(value), .problem = problem, .allowed = range.allowed});
+  throw InputError({.key = range.key, .value = digits(value, 17), .problem = problem, .allowed = range.allowed});
 }
 
 /// Eqs. 8-10 from psi on both sides of the fan: phi + psi = psi- throughout it.

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
+#include "../digits.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/setup/chain.hpp"
 #include "slipfront/setup/pulse.hpp"
@@ -13,16 +13,10 @@
 namespace slipfront::setup {
 namespace {
 
-std::string text(double value) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.6g", value);
-  return buffer;
-}
-
 std::vector<double> checked(std::vector<double> scales, const scenario::Scenario& s) {
   const auto refuse = [](double scale, const char* problem, const char* allowed) {
     throw InputError(
-        {.file = "command line", .key = "--scale", .value = text(scale), .problem = problem, .allowed = allowed});
+        {.file = "command line", .key = "--scale", .value = digits(scale), .problem = problem, .allowed = allowed});
   };
   for (const double scale : scales)
     if (!(scale > 0) || !std::isfinite(scale)) refuse(scale, "out of range", "> 0");
@@ -79,7 +73,7 @@ bool run_levels(const Comparison& c, int threads, std::vector<Level>& levels, co
   }
   for (const chain::Stretched& stretched : c.chains) {
     next();
-    Level level{.name = "chain-" + text(stretched.scale), .scale = stretched.scale};
+    Level level{.name = "chain-" + digits(stretched.scale), .scale = stretched.scale};
     chain::Run run(stretched, c.schedule, {.threads = threads});
     level.window = run.window();
     level.smooth_window = run.smooth_window();

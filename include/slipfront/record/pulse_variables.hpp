@@ -31,6 +31,9 @@ struct FieldVariable {
   Description about;
   std::vector<double> pulse::Profile::*values;
   bool drop = false;  ///< written as the first snapshot less this one
+
+  /// What is written of a snapshot.
+  std::vector<double> of(const pulse::Snapshot& snapshot, const pulse::Snapshot& first) const;
 };
 
 /// Over time.

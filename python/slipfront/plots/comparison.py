@@ -13,12 +13,6 @@ LEVELS = {
 }
 
 
-def name_of(level) -> str:
-    """Name of a level of theory, bytes or text, as it stands in a comparison."""
-    name = level["name"].item()
-    return name.decode() if isinstance(name, bytes) else str(name)
-
-
 @styled
 def comparison(levels, fields=("W", "Sigma", "slip")) -> Figure:
     """Profiles of the levels at the last time, and slip at x = 0 on each: over time, or at the end where there are few times.
@@ -33,12 +27,12 @@ def comparison(levels, fields=("W", "Sigma", "slip")) -> Figure:
     figure = Figure(figsize=(9.2, 5.8))
     panels = figure.subplots(2, 2)
     grows = levels.sizes["time"] > 4  # else there is no course of time to draw
-    chains = [row for row in range(levels.sizes["level"]) if name_of(levels.isel(level=row)) not in LEVELS]
+    names = [str(name) for name in levels["name"].values]
+    chains = [name for name in names if name not in LEVELS]
     lines = dict(zip(chains, shades(len(chains))))
-    for row in range(levels.sizes["level"]):
+    for row, name in enumerate(names):
         level = levels.isel(level=row)
-        name = name_of(level)
-        look = LEVELS.get(name, {"color": lines.get(row), "linestyle": "-", "linewidth": 0.9})
+        look = LEVELS.get(name, {"color": lines.get(name), "linestyle": "-", "linewidth": 0.9})
         last = level.isel(time=-1)
         for axes, field in zip(panels.flat, fields):
             axes.plot(last["x"], last[field], label=name, **look)

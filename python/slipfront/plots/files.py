@@ -4,6 +4,8 @@ import pathlib
 
 import xarray
 
+from .._run import read as read_netcdf
+
 
 def read(path) -> xarray.Dataset:
     """The Dataset of a NetCDF file, or of a CSV file of `slipfront relations` or `event` (one row a state or event).
@@ -24,12 +26,11 @@ def read(path) -> xarray.Dataset:
 
 
 def netcdf(path) -> xarray.Dataset:
-    """A NetCDF file, read as a whole so that it is closed again."""
+    """A NetCDF file, by slipfront or not."""
     try:
-        with xarray.open_dataset(path) as dataset:
-            return dataset.load()
-    except (OSError, RuntimeError, ValueError) as error:
-        raise OSError(f"{path}: not a whole NetCDF file: {' '.join(str(error).split())}") from error
+        return read_netcdf(path, any_file=True)
+    except OSError as error:
+        raise OSError(f"not a whole NetCDF file: {error}") from error
 
 
 def rows(path) -> xarray.Dataset:

@@ -1,12 +1,13 @@
 """Frames -> a file."""
 
-import os
 import pathlib
 import shutil
 import subprocess
 
 import numpy
 from PIL import Image
+
+from .._beside import beside
 
 FORMATS = ("gif", "webp", "mp4")
 PER_SECOND = 15
@@ -19,17 +20,14 @@ def write(frames, path) -> None:
     Raises OSError where it cannot be written, ImportError for MP4 without ffmpeg.
     """
     path = pathlib.Path(path)
-    beside = path.with_name(f".{path.stem}.{os.getpid()}{path.suffix}")
     try:
-        if path.suffix.lower() == ".mp4":
-            mp4(frames, beside)
-        else:
-            pictures(frames, beside)
-        beside.replace(path)
+        with beside(path) as name:
+            if path.suffix.lower() == ".mp4":
+                mp4(frames, name)
+            else:
+                pictures(frames, name)
     except OSError as error:
         raise OSError(f"{path}: {error.strerror or error}") from error
-    finally:
-        beside.unlink(missing_ok=True)
 
 
 def pictures(frames, path):

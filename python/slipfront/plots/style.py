@@ -1,11 +1,12 @@
 """The look that all pictures share, and the labels of their axes."""
 
 import functools
-import os
 import pathlib
 
 import matplotlib
 from matplotlib.figure import Figure
+
+from .._beside import beside
 
 SHEET = pathlib.Path(__file__).resolve().parent.parent / "slipfront.mplstyle"
 
@@ -57,18 +58,12 @@ def styled(draw):
 
 
 def save(figure: Figure, path, **options) -> None:
-    """Writes a picture; its format is the name's ending. The file is whole or not there: it is written beside its name and renamed.
+    """Writes a picture; its format is the name's ending. The file is whole or not there.
 
     Raises OSError where it cannot be written, ValueError for an ending that matplotlib does not write.
     """
-    path = pathlib.Path(path)
-    beside = path.with_name(f".{path.stem}.{os.getpid()}{path.suffix}")
-    with matplotlib.rc_context(fname=SHEET):
-        try:
-            figure.savefig(beside, metadata={"Date": None} if path.suffix == ".svg" else None, **options)
-            beside.replace(path)
-        finally:
-            beside.unlink(missing_ok=True)
+    with matplotlib.rc_context(fname=SHEET), beside(path) as name:
+        figure.savefig(name, metadata={"Date": None} if name.suffix == ".svg" else None, **options)
 
 
 def unit(variable) -> str:

@@ -34,11 +34,6 @@ def pulse() -> Picture:
     return picture("fig-04", draw_pulse(data, {numpy.pi / 2: "π/2", numpy.pi: "π", 2 * numpy.pi: "2π"}), data, stress=data.attrs["stress"])
 
 
-def kept(pulse):
-    """The fields of a pulse that its figure shows."""
-    return pulse[["W", "Sigma", "slip", "trailing_front", "leading_front"]]
-
-
 def laws():
     """The closed form over the stress of both figures."""
     return slipfront.relations(stress=xarray.DataArray(numpy.round(numpy.geomspace(0.1, 2.5, 241), 6), dims="stress_index"))

@@ -6,9 +6,13 @@ from matplotlib.figure import Figure
 
 from ..plots.pulse_parts import shades
 from ..plots.style import label, styled
-from .laws import kept
 from .picture import Picture, picture
 from .runs import CLOSURES, at_origin
+
+
+def kept(pulse):
+    """The fields of a pulse that its figure shows."""
+    return pulse[["W", "Sigma", "slip", "trailing_front", "leading_front"]]
 
 
 def both(runs, case, changes=None) -> xarray.Dataset:
@@ -36,22 +40,20 @@ def draw_fields(data) -> Figure:
     return figure
 
 
-def fields(runs, number, c, **facts) -> Picture:
-    """Figs. 7 and 9: one state at several times."""
-    data = both(runs, f"fig-{number:02d}.toml")
+def fields(data, number, c, **facts) -> Picture:
+    """Fig. 7 or 9: one state at several times."""
     return picture(f"fig-{number:02d}", draw_fields(data), data, c=c, damping_number=2 * numpy.pi * c, **facts)
 
 
-def peak(pictured) -> float:
+def peak(data) -> float:
     """Greatest slip velocity at the last time, with the paper's closure."""
-    return float(pictured.data["W"].sel(closure="paper").isel(time=-1).max())
+    return float(data["W"].sel(closure="paper").isel(time=-1).max())
 
 
 def weak_and_strong(runs, weak, strong) -> tuple:
     """Figs. 7 and 9."""
-    seventh = fields(runs, 7, weak)
-    times = peak(seventh) / float(both(runs, "fig-09.toml")["W"].sel(closure="paper").isel(time=-1).max())
-    return seventh, fields(runs, 9, strong, times=times)
+    seventh, ninth = both(runs, "fig-07.toml"), both(runs, "fig-09.toml")
+    return fields(seventh, 7, weak), fields(ninth, 9, strong, times=peak(seventh) / peak(ninth))
 
 
 @styled

@@ -37,7 +37,6 @@ class Runs:
                 self.done.update(zip(missing, results))
         return [self.done[frozen(*run)] for run in wanted]
 
-
     def sweep(self, what, case, axes, changes, variables):
         """Numbers at the end of the runs of a grid, {"table.key": values}. Raises NumericsError if one failed: the paper is reproduced whole."""
         self.tell(f"{what}: {math.prod(len(values) for values in axes.values())} pulses")
