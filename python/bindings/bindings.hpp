@@ -16,6 +16,7 @@ using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 void bind_errors(py::module_& m);
 void bind_relations(py::module_& m);
 void bind_train(py::module_& m);
+void bind_friction_ratio(py::module_& m);
 void bind_medium(py::module_& m);
 void bind_pulse(py::module_& m);
 void bind_chain(py::module_& m);

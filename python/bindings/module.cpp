@@ -11,6 +11,7 @@ PYBIND11_MODULE(_slipfront, m) {
   bind_errors(m);
   bind_relations(m);
   bind_train(m);
+  bind_friction_ratio(m);
   bind_medium(m);
   bind_pulse(m);
   bind_chain(m);

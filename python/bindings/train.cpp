@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "bindings.hpp"
+#include "columns.hpp"
 #include "slipfront/elliptic/jacobi.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/rupture/inverse.hpp"
@@ -21,24 +21,6 @@ State state(double phi, double psi) {
   if (!std::isfinite(psi) || psi < 0)
     throw InputError({.key = "psi", .value = std::to_string(psi), .problem = "out of range", .allowed = "psi >= 0"});
   return {phi, psi};
-}
-
-/// Columns of N numbers, one an element of `make(i)`, all as long as the first input.
-template <std::size_t N, class Make>
-py::list columns(py::ssize_t count, Make&& make) {
-  py::list result;
-  std::array<double*, N> out{};
-  for (std::size_t k = 0; k < N; ++k) {
-    py::array_t<double> column(count);
-    out[k] = column.mutable_data();
-    result.append(column);
-  }
-  const py::gil_scoped_release others_may_run;
-  for (py::ssize_t i = 0; i < count; ++i) {
-    const std::array<double, N> row = make(i);
-    for (std::size_t k = 0; k < N; ++k) out[k][i] = row[k];
-  }
-  return result;
 }
 
 constexpr std::array<Description, 10> averages_described = {{
@@ -141,13 +123,6 @@ py::tuple profile(double left, double right, const Numbers& x_over_t) {
   });
   const rupture::Edges edges = rupture::edges_of(solution);
   return py::make_tuple(rows, edges.left, edges.right);
-}
-
-template <std::size_t N>
-py::list all(const std::array<Description, N>& about) {
-  py::list result;
-  for (const Description& a : about) result.append(described(a));
-  return result;
 }
 
 }  // namespace

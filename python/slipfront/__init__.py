@@ -5,6 +5,8 @@ otherwise; the attribute `dimensional_unit` of a variable is what to multiply it
 paper (Gershenzon, Bambakidis and Skinner 2015, doi 10.3390/lubricants3020311).
 
     relations   stress, rupture velocity and slip velocity of a frictionless pulse, each from any other (Eqs. 8-10)
+    friction_ratio
+                what friction leaves of the slip velocity (Fig. 10)
     train       the uniform train of dislocations (Eqs. 4-5) and the closed-form profile of a pulse
     medium      constants of rock and interface (Eqs. 1-3)
     pulse       the modulation equations with friction (Eqs. 7), on a scenario
@@ -20,6 +22,7 @@ import pathlib
 
 from . import medium, train
 from ._event import event
+from ._friction_ratio import friction_ratio
 from ._relations import relations
 from ._run import chain, check, compare, open, pulse
 from ._sweep import sweep
@@ -27,5 +30,5 @@ from ._slipfront import FileError, InputError, NumericsError, __version__
 
 cases = pathlib.Path(__file__).parent / "cases"
 
-__all__ = ["FileError", "InputError", "NumericsError", "__version__", "cases", "chain", "check", "compare", "event", "medium", "open",
+__all__ = ["FileError", "InputError", "NumericsError", "__version__", "cases", "chain", "check", "compare", "event", "friction_ratio", "medium", "open",
            "pulse", "relations", "sweep", "train"]

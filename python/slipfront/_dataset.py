@@ -13,3 +13,10 @@ def attributes(about):
 def dataset(variables, coordinates=None, attrs=None):
     """xarray.Dataset of {name: (dimensions, values, attributes)}."""
     return need("xarray").Dataset(variables, coordinates, attrs)
+
+
+def of_columns(descriptions, columns, shape, dims, coords):
+    """Dataset of one variable a column, each of that shape, described; coordinates that are no variable stay."""
+    names = [about[0] for about in descriptions]
+    return dataset({about[0]: (dims, column.reshape(shape), attributes(about)) for about, column in zip(descriptions, columns)},
+                   {key: value for key, value in coords.items() if key not in names})

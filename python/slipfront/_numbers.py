@@ -48,6 +48,14 @@ def dimensions(values, array):
     return (("state",) if array.ndim == 1 else tuple(f"dim_{i}" for i in range(array.ndim))), {}
 
 
+def flat(**given):
+    """The arguments as arrays of one shape, flat; that shape; and the names of its dimensions."""
+    arrays = np.broadcast_arrays(*broadcasting(**given))
+    named = [values for values in given.values() if hasattr(values, "dims") and np.shape(values) == arrays[0].shape]
+    dims, coords = dimensions(named[0] if named else None, arrays[0])
+    return [np.ascontiguousarray(array).reshape(-1) for array in arrays], arrays[0].shape, dims, coords
+
+
 def thread_count(threads):
     """Number of threads for a `threads` argument; None means all cores."""
     if threads is None:

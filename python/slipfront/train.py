@@ -6,60 +6,46 @@ Datasets over "state", dim_0 ..., or the dimensions of the first argument that i
 """
 
 from . import _slipfront
-from ._dataset import attributes, dataset
-from ._numbers import broadcasting, dimensions, np, one_number
+from ._dataset import of_columns
+from ._numbers import flat, one_number
 
 __all__ = ["averages", "fields", "jacobi", "profile", "psi_at_rest", "spacing", "stress_at_rest"]
-
-
-def _flat(**given):
-    """The arguments as arrays of one shape, flat; that shape; and the names of its dimensions."""
-    arrays = np.broadcast_arrays(*broadcasting(**given))
-    named = [values for values in given.values() if hasattr(values, "dims") and np.shape(values) == arrays[0].shape]
-    dims, coords = dimensions(named[0] if named else None, arrays[0])
-    return [np.ascontiguousarray(array).reshape(-1) for array in arrays], arrays[0].shape, dims, coords
-
-
-def _dataset(descriptions, columns, shape, dims, coords):
-    names = [about[0] for about in descriptions]
-    return dataset({about[0]: (dims, column.reshape(shape), attributes(about)) for about, column in zip(descriptions, columns)},
-                   {key: value for key, value in coords.items() if key not in names})
 
 
 def averages(phi, psi, contact=1.0):
     """Averages over a period: k (= stress Sigma), W, <sigma^2>, <sigma^3>, <1 - cos u>, and the densities and fluxes P,
     Q, H, I, J of the conservation laws (Eqs. 5-7), where the relative contact ratio is `contact` > 0."""
-    (phi, psi, contact), *rest = _flat(phi=phi, psi=psi, contact=contact)
-    return _dataset(_slipfront.averages_described, _slipfront.averages(phi, psi, contact), *rest)
+    (phi, psi, contact), *rest = flat(phi=phi, psi=psi, contact=contact)
+    return of_columns(_slipfront.averages_described, _slipfront.averages(phi, psi, contact), *rest)
 
 
 def fields(phi, psi, xi):
     """Slip u, stress sigma and slip velocity w at xi = x - U t from the centre of a dislocation (Eq. 4). psi > 0."""
-    (phi, psi, xi), *rest = _flat(phi=phi, psi=psi, xi=xi)
-    return _dataset(_slipfront.fields_described, _slipfront.fields(phi, psi, xi), *rest)
+    (phi, psi, xi), *rest = flat(phi=phi, psi=psi, xi=xi)
+    return of_columns(_slipfront.fields_described, _slipfront.fields(phi, psi, xi), *rest)
 
 
 def jacobi(z, psi):
     """Jacobi's am, sn, cn and dn of z at sqrt(1 - m) = tanh(psi), psi > 0."""
-    (z, psi), *rest = _flat(z=z, psi=psi)
-    return _dataset(_slipfront.jacobi_described, _slipfront.jacobi(z, psi), *rest)
+    (z, psi), *rest = flat(z=z, psi=psi)
+    return of_columns(_slipfront.jacobi_described, _slipfront.jacobi(z, psi), *rest)
 
 
 def spacing(phi, psi):
     """Length of a period, 2 pi / k, in b / A, as an array. psi > 0."""
-    (phi, psi), shape, *_ = _flat(phi=phi, psi=psi)
+    (phi, psi), shape, *_ = flat(phi=phi, psi=psi)
     return _slipfront.spacing(phi, psi)[0].reshape(shape)
 
 
 def psi_at_rest(stress):
     """psi of a train at rest under a stress in mu A / pi (0, or 0.0045 to 1e6), as an array."""
-    (stress,), shape, *_ = _flat(stress=stress)
+    (stress,), shape, *_ = flat(stress=stress)
     return _slipfront.psi_at_rest(stress)[0].reshape(shape)
 
 
 def stress_at_rest(psi):
     """Stress of a train at rest, pi cosh(psi) / K, in mu A / pi, as an array. psi > 0."""
-    (psi,), shape, *_ = _flat(psi=psi)
+    (psi,), shape, *_ = flat(psi=psi)
     return _slipfront.stress_at_rest(psi)[0].reshape(shape)
 
 
@@ -67,9 +53,9 @@ def profile(stress, x_over_t, stress_right=0.0):
     """The frictionless pulse that a step of stress becomes (Eqs. 8-9; the exact Riemann problem where the right side is
     stressed): U, Sigma, W and P at x/t in c. Attributes left_edge and right_edge are x/t of the edges of what moves."""
     left, right = one_number("stress", stress), one_number("stress_right", stress_right)
-    (x,), *rest = _flat(x_over_t=x_over_t)
+    (x,), *rest = flat(x_over_t=x_over_t)
     columns, left_edge, right_edge = _slipfront.profile(left, right, x)
-    data = _dataset(_slipfront.profile_described, columns, *rest)
+    data = of_columns(_slipfront.profile_described, columns, *rest)
     if rest[1] == ("state",):
         data = data.rename(state="x_over_t").assign_coords(
             x_over_t=("x_over_t", x, {"long_name": "x / t", "units": "1", "dimensional_unit": "c"}))

@@ -121,5 +121,31 @@ class Train(unittest.TestCase):
         np.testing.assert_allclose(slipfront.medium.plastic_contact_ratio([0, 0.3]), [0.5**0.5, 0.35**0.5])
 
 
+class FrictionRatio(unittest.TestCase):
+    def test_is_what_the_pulse_solver_gives(self):
+        frictionless = slipfront.relations(stress=0.7).slip_velocity
+        for closure in ("consistent", "paper"):
+            run = slipfront.pulse({"initial": {"profile": "step", "stress_left": 0.7, "stress_right": 0.0},
+                                   "friction": {"law": "viscous", "coefficient": 2.0, "closure": closure},
+                                   "time": {"end": 1.0}, "domain": {"left": -0.5, "right": 0.5}, "pulse": {"cells": 800}})
+            ratio = slipfront.friction_ratio(0.7, 2.0, closure=closure).ratio
+            self.assertAlmostEqual(float(run.attrs["slip_velocity_at_origin"] / frictionless / ratio), 1, 4)
+
+    def test_shapes_and_derivatives(self):
+        damping = xr.DataArray(np.geomspace(1e-2, 1e9, 50), dims="damping")
+        out = slipfront.friction_ratio(0.855, damping)
+        self.assertEqual(out.ratio.dims, ("damping",))
+        self.assertTrue(np.all(np.diff(out.ratio) < 0))
+        near = slipfront.friction_ratio(0.855, damping * (1 + 1e-6))
+        np.testing.assert_allclose((near.ratio - out.ratio) / (damping * 1e-6), out.by_damping_number, rtol=1e-3)
+        self.assertEqual(slipfront.friction_ratio([0.5, 1.0], [[1.0], [2.0], [3.0]]).ratio.shape, (3, 2))
+
+    def test_refuses(self):
+        for arguments, named in [((0.01, 1), {}), ((1, -1), {}), ((1, 1), {"measure": "middle"}), ((1, 1), {"closure": "none"})]:
+            with self.assertRaises(slipfront.InputError):
+                slipfront.friction_ratio(*arguments, **named)
+        self.assertGreater(float(slipfront.friction_ratio(1.0, 100.0, closure="paper").uncertainty), 1e-3)
+
+
 if __name__ == "__main__":
     unittest.main()

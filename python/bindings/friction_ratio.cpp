@@ -1,0 +1,40 @@
+#include <string>
+
+#include "columns.hpp"
+#include "slipfront/error.hpp"
+#include "slipfront/friction_ratio/table.hpp"
+
+namespace {
+
+using namespace slipfront;
+
+constexpr std::array<Description, 4> friction_ratio_described = {{
+    {"ratio", "slip velocity with viscous friction over the frictionless one at x = 0", "", "Fig. 10"},
+    {"by_damping_number", "derivative of the ratio by the damping number", "", "Fig. 10"},
+    {"by_stress", "derivative of the ratio by the stress", "pi / (mu A)", "Fig. 10"},
+    {"uncertainty", "largest relative error of the ratio", "", "Fig. 10"},
+}};
+
+friction_ratio::Measure measure_of(const std::string& name) {
+  if (name == "origin") return friction_ratio::Measure::origin;
+  if (name == "mean") return friction_ratio::Measure::mean;
+  if (name == "peak") return friction_ratio::Measure::peak;
+  throw InputError({.key = "measure", .value = name, .problem = "unknown", .allowed = "origin, mean, peak"});
+}
+
+py::list friction_ratio_of(const Numbers& stress, const Numbers& damping, const std::string& measure, bool paper) {
+  const auto closure = paper ? modulation::Closure::paper : modulation::Closure::consistent;
+  const friction_ratio::Measure which = measure_of(measure);
+  const double *s = stress.data(), *g = damping.data();
+  return columns<4>(stress.size(), [=](py::ssize_t i) {
+    const friction_ratio::Ratio r = friction_ratio::evaluate(which, closure, s[i], g[i]);
+    return std::array{r.value, r.by_damping, r.by_stress, friction_ratio::uncertainty(closure, g[i])};
+  });
+}
+
+}  // namespace
+
+void bind_friction_ratio(py::module_& m) {
+  m.def("friction_ratio", friction_ratio_of);
+  m.attr("friction_ratio_described") = all(friction_ratio_described);
+}

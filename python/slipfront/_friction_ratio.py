@@ -1,0 +1,27 @@
+"""slipfront.friction_ratio"""
+
+from . import _slipfront
+from ._dataset import of_columns
+from ._numbers import flat
+from ._slipfront import InputError
+
+
+def friction_ratio(stress, damping_number, *, measure="origin", closure="consistent"):
+    """What viscous friction leaves of the slip velocity (Fig. 10, against the damping number), from a table that the pulse
+    solver made.
+
+    Parameters
+    ----------
+    stress : Sigma- of a step of stress into the empty interface, in mu A / pi, 0.05 to 3.
+    damping_number : Gamma = C T >= 0, with f = C w and T the time since the rupture began. Arguments broadcast.
+    measure : "origin" (slip velocity at x = 0), "mean" (weighted with slip) or "peak".
+    closure : "consistent" or "paper".
+
+    Returns a Dataset: ratio (over the frictionless slip velocity at x = 0), its derivatives by_damping_number and by_stress,
+    and uncertainty, its largest relative error. Raises InputError.
+    """
+    if closure not in ("consistent", "paper"):
+        raise InputError(f"closure = '{closure}'; allowed: consistent, paper")
+    (stress, damping_number), *rest = flat(stress=stress, damping_number=damping_number)
+    columns = _slipfront.friction_ratio(stress, damping_number, str(measure), closure == "paper")
+    return of_columns(_slipfront.friction_ratio_described, columns, *rest).assign_attrs(measure=str(measure), closure=closure)
