@@ -42,7 +42,7 @@ class Printer {
   Printer(const Arguments& arguments)
       : options_(arguments.common), defaults_(defaults_of(arguments.medium)), plan_(plan_of(arguments)) {
     if (options_.json) put("{\"events\": [");
-    if (options_.csv) put(event_csv_head());
+    if (options_.csv) put(event_csv_head(plan_.pulse));
   }
 
   void take(Entry&& entry) {
@@ -80,13 +80,16 @@ class Printer {
   bool is_table() const { return !options_.json && !options_.csv; }
 
   void flush() {
-    auto printed = in_parallel<Printed>(waiting_.size(), options_.threads, [&](std::size_t i) {
-      const EventResult result = evaluate(std::move(waiting_[i]), defaults_, plan_);
-      return Printed{options_.json  ? event_json(result)
-                     : options_.csv ? event_csv_row(result)
-                                    : event_table_row(result) + event_pulse_lines(result),
-                     result.error, result.warnings()};
-    });
+    auto printed = in_parallel<Printed>(
+        waiting_.size(), options_.threads,
+        [&](std::size_t i) {
+          const EventResult result = evaluate(std::move(waiting_[i]), defaults_, plan_);
+          return Printed{options_.json  ? event_json(result)
+                         : options_.csv ? event_csv_row(result, plan_.pulse)
+                                        : event_table_row(result) + event_pulse_lines(result),
+                         result.error, result.warnings()};
+        },
+        1);
     waiting_.clear();
     for (Printed& p : printed) {
       if (options_.json) put(count_ == 0 ? "\n" : ",\n");
@@ -180,7 +183,7 @@ Runner add_event(CLI::App& app) {
       ->check(CLI::IsMember({"consistent", "paper"}));
   command->add_flag("--pulse", arguments->pulse,
                     "Run a frictionless pulse through the slip distribution of a .fsp; its front and slip beside the "
-                    "model's (table and --json)");
+                    "model's");
   add_common_options(*command, arguments->common);
   return [arguments] { return run_event(*arguments); };
 }

@@ -125,6 +125,17 @@ class Event(CommandLine):
         uneven, = json.loads(self.ok("event", self.fault(lambda i: 0.2 if i == 6 else 1.0), "--pulse", "--json"))["events"]
         self.assertGreater(uneven["pulse"]["pulse_front_time_s"][8], 1.2 * uneven["pulse"]["pulse_front_time_s"][0])
 
+    def test_pulse_in_csv(self):
+        path = self.fault(lambda i: 1.0 + 0.1 * i)
+        event, = json.loads(self.ok("event", path, "--pulse", "--json"))["events"]
+        row, none = csv.DictReader(io.StringIO(self.ok("event", path, os.path.join(SOURCE, "cases/ets.toml"), "--pulse", "--csv")))
+        for key in ("front_velocity_ratio", "correlation_of_slip", "columns_reached", "slip_error", "contact_ratio"):
+            self.assertEqual(float(row["pulse_" + key]), event["pulse"][key], key)
+        self.assertEqual((row["pulse_columns"], row["pulse_reason"]), ("9", ""))
+        self.assertEqual(none["pulse_columns"], "")
+        self.assertIn("finite-fault", none["pulse_reason"])
+        self.assertNotIn("pulse", self.ok("event", path, "--csv").split("\n")[0])
+
     def test_pulse_says_what_is_missing(self):
         for name, reason in (("tests/data/fsp_srcmod_single.fsp", "rupture times"), ("tests/data/fsp_usgs_single.fsp", "2 columns"),
                              ("tests/data/fsp_srcmod_segments.fsp", "no rupture velocity"), ("cases/ets.toml", "finite-fault")):

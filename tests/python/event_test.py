@@ -33,6 +33,19 @@ class Event(CommandLine):
                     np.testing.assert_equal(data[key + "_interval"].values[i], row[key + "_interval"] or [np.nan, np.nan], key)
         self.assertEqual(data.stress_pa.attrs["units"], "Pa")
 
+    def test_pulse_through_a_finite_fault_model(self):
+        path = os.path.join(SOURCE, "tests/data/fsp_srcmod_single.fsp")
+        with open(path) as file:  # nine columns of two subfaults, ruptured from the middle at avVr
+            text = "".join(line for line in file if line.startswith("%"))
+        text = text.replace("Nx  =    3", "Nx  =    9").replace("Nsbfs =      6", "Nsbfs =     18").replace("SLIP      RAKE\n", "SLIP      RAKE     TRUP     RISE\n")
+        text += "".join(f"\n 35.0 -120.0 {2 * (i - 4)} 0.0 {0.5 + 2 * j} 1.0 180.0 {abs(i - 4) * 2 / 2.5} 1.5" for j in range(2) for i in range(9))
+        data = slipfront.event([text + "\n", path], pulse=True)
+        self.assertAlmostEqual(float(data.pulse_front_velocity_ratio[0]), 1, 5)
+        self.assertEqual(data.pulse_reason.values[0], "")
+        self.assertIn("rupture times", data.pulse_reason.values[1])
+        np.testing.assert_equal(data.pulse_columns.values, [9, np.nan])
+        self.assertNotIn("pulse_columns", slipfront.event(path))
+
     def test_nothing_is_the_shipped_catalogue(self):
         self.assertEqual(slipfront.event().sizes["event"], len(json.loads(self.ok("event", "--json"))["events"]))
 
