@@ -8,13 +8,6 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// By what a name ends with, less what is said of it.
-std::string_view unit_of(std::string_view name) {
-  for (const auto& [end, unit] : {std::pair<std::string_view, std::string_view>{"_m_s", "m s-1"}, {"_pa", "Pa"}})
-    if (name.ends_with(end)) return unit;
-  return "1";
-}
-
 template <class Get>
 NumberColumn column(const Description& about, std::string name, const std::string& of, Width width, Get&& get) {
   return {std::move(name),       of + std::string(about.long_name),
@@ -73,6 +66,12 @@ void add_posterior(std::vector<NumberColumn>& all) {
 }
 
 }  // namespace
+
+std::string_view unit_of(std::string_view name) {
+  for (const auto& [end, unit] : {std::pair<std::string_view, std::string_view>{"_m_s", "m s-1"}, {"_pa", "Pa"}})
+    if (name.ends_with(end)) return unit;
+  return "1";
+}
 
 std::span<const PulseQuantity> pulse_quantities() {
   static constexpr PulseQuantity quantities[] = {

@@ -46,6 +46,9 @@ struct PulseQuantity {
 };
 std::span<const PulseQuantity> pulse_quantities();
 
+/// SI unit of a quantity, by what its name ends with (`_m_s`, `_pa`); "1" where it is a pure number.
+std::string_view unit_of(std::string_view name);
+
 /// One text of several, "; " between them.
 std::string joined(const std::vector<std::string>& parts);
 
