@@ -2,12 +2,17 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <map>
+#include <filesystem>
+#include <functional>
 #include <memory>
+#include <system_error>
+#include <utility>
 
 #include "batch.hpp"
 #include "commands.hpp"
+#include "event_keep.hpp"
 #include "event_output.hpp"
+#include "event_print.hpp"
 #include "slipfront/event/read.hpp"
 #include "slipfront/record/text_file.hpp"
 
@@ -22,7 +27,8 @@ struct Arguments {
   std::optional<std::size_t> samples;
   std::uint64_t seed = 1;
   std::string closure = "consistent";
-  bool pulse = false;
+  bool pulse = false, population = false;
+  std::string output, resume;
 };
 
 /// All events are sampled if the user says how often; those of --json are looked at along the fault.
@@ -36,125 +42,153 @@ Plan plan_of(const Arguments& a) {
           a.pulse};
 }
 
-/// Takes entries as the readers find them, evaluates them by the batch and prints them in order.
-class Printer {
- public:
-  Printer(const Arguments& arguments)
-      : options_(arguments.common), defaults_(defaults_of(arguments.medium)), plan_(plan_of(arguments)) {
-    if (options_.json) put("{\"events\": [");
-    if (options_.csv) put(event_csv_head(plan_.pulse));
-  }
-
-  void take(Entry&& entry) {
-    waiting_.push_back(std::move(entry));
-    if (waiting_.size() == 4096) flush();
-  }
-
-  void finish(const std::vector<std::string>& ignored_columns) {
-    flush();
-    if (options_.json) {
-      put("\n]}\n");
-    } else if (!options_.csv && count_ > errors_) {  // a table of nothing but errors would only repeat stderr
-      put(event_table_head() + table_);
-      if (!options_.quiet) print_notes();
-    }
-    if (!options_.quiet && !ignored_columns.empty() && !options_.json) {
-      std::string line = "note: columns without an observation, ignored:";
-      for (const std::string& title : ignored_columns) line += " " + title;
-      std::fflush(stdout);
-      complain(line);
-    }
-    if (errors_ > most_errors_shown)
-      complain(fmt::format("... and {} more events with errors", errors_ - most_errors_shown));
-  }
-
-  std::size_t errors() const { return errors_; }
-
- private:
-  static constexpr std::size_t most_errors_shown = 20;
-  struct Printed {
-    std::string row, error;
-    std::vector<std::string> warnings;
-  };
-
-  bool is_table() const { return !options_.json && !options_.csv; }
-
-  void flush() {
-    auto printed = in_parallel<Printed>(
-        waiting_.size(), options_.threads,
-        [&](std::size_t i) {
-          const EventResult result = evaluate(std::move(waiting_[i]), defaults_, plan_);
-          return Printed{options_.json  ? event_json(result)
-                         : options_.csv ? event_csv_row(result, plan_.pulse)
-                                        : event_table_row(result) + event_pulse_lines(result),
-                         result.error, result.warnings()};
-        },
-        1);
-    waiting_.clear();
-    for (Printed& p : printed) {
-      if (options_.json) put(count_ == 0 ? "\n" : ",\n");
-      if (is_table())
-        table_ += p.row;
-      else
-        put(p.row);
-      ++count_;
-      for (const std::string& warning : p.warnings) ++warnings_[warning];
-      if (!p.error.empty() && ++errors_ <= most_errors_shown) complain(p.error);
-    }
-  }
-
-  /// Warnings, most frequent first, each once.
-  void print_notes() const {
-    std::vector<std::pair<std::size_t, std::string>> notes;
-    for (const auto& [text, count] : warnings_) notes.emplace_back(count, text);
-    std::stable_sort(notes.begin(), notes.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-    if (notes.empty()) return;
-    put("\nNotes (--json gives those of each event; --quiet none):\n");
-    constexpr std::size_t most = 15;
-    for (std::size_t i = 0; i < std::min(notes.size(), most); ++i)
-      put(fmt::format("  {} ({} event{})\n", notes[i].second, notes[i].first, notes[i].first == 1 ? "" : "s"));
-    if (notes.size() > most) put(fmt::format("  ... and {} more\n", notes.size() - most));
-  }
-
-  CommonOptions options_;
-  MediumDefaults defaults_;
-  Plan plan_;
-  std::vector<Entry> waiting_;
-  std::size_t count_ = 0, errors_ = 0;
-  std::string table_;
-  std::map<std::string, std::size_t> warnings_;
-};
-
-int run_event(const Arguments& arguments) {
-  Printer printer(arguments);
-  std::vector<std::string> ignored;
+/// Reads all files; what cannot be read is an entry with the reason. `with_text` is given each file's name and text.
+struct Read {
+  std::vector<std::string> ignored_columns;
   bool unreadable = false;
-  const Sink sink = [&](Entry&& entry) { printer.take(std::move(entry)); };
+};
+Read read_all(const Arguments& a, const Sink& sink,
+              const std::function<void(std::string_view, std::string_view)>& with_text) {
+  Read all;
+  auto& ignored = all.ignored_columns;
   const auto read = [&](std::string_view text, const std::string& name) {
+    with_text(name, text);
     for (std::string& title : read_events(text, name, sink))
       if (std::find(ignored.begin(), ignored.end(), title) == ignored.end()) ignored.push_back(std::move(title));
   };
-  if (arguments.files.empty()) {
+  if (a.files.empty()) {
     read(shipped_catalogue, "catalogue.csv");
     ignored.clear();  // ours, and known to be ignored
   }
-  for (const std::string& file : arguments.files) {
+  for (const std::string& file : a.files) {
     try {
       const bool standard_input = file == "-";
       read(standard_input ? slipfront::record::read_standard_input() : slipfront::record::read_text(file),
            standard_input ? "stdin" : file);
     } catch (const slipfront::FileError& error) {
-      unreadable = true;
+      all.unreadable = true;
+      with_text(file, error.what());
       Entry entry;
       entry.observation.name = file;
       entry.observation.file = file;
       entry.error = slipfront::Complaint{.problem = error.what()};
-      printer.take(std::move(entry));
+      sink(std::move(entry));
     }
   }
-  printer.finish(ignored);
-  return unreadable ? exit_file : printer.errors() > 0 ? exit_input : exit_done;
+  return all;
 }
+
+int exit_code(const Read& read, const EventPrinter& printer) {
+  return read.unreadable ? exit_file : printer.errors() > 0 ? exit_input : exit_done;
+}
+
+/// Events that are printed only: some at a time, so that a catalogue of a million rows is never held whole.
+int run_and_print(const Arguments& a) {
+  const MediumDefaults defaults = defaults_of(a.medium);
+  const Plan plan = plan_of(a);
+  EventPrinter printer(a.common, {.rows = !a.population, .population = a.population, .pulse = a.pulse});
+  std::vector<Entry> waiting;
+  const auto flush = [&] {
+    auto printed = in_parallel<EventPrinter::Printed>(
+        waiting.size(), a.common.threads,
+        [&](std::size_t i) { return printer.printed(evaluate(std::move(waiting[i]), defaults, plan)); }, 1);
+    waiting.clear();
+    for (auto& p : printed) printer.take(std::move(p));
+  };
+  const Read read = read_all(
+      a,
+      [&](Entry&& entry) {
+        waiting.push_back(std::move(entry));
+        if (waiting.size() == 4096) flush();
+      },
+      [](std::string_view, std::string_view) {});
+  flush();
+  printer.finish(read.ignored_columns, {});
+  return exit_code(read, printer);
+}
+
+bool is_csv(const std::string& path) { return std::string_view(path).ends_with(".csv"); }
+
+/// \throws InputError for a file that is neither NetCDF nor CSV by its name, or that the events are read from.
+void check_names(const Arguments& a) {
+  const auto refuse = [](const char* option, const std::string& value, const char* allowed) {
+    throw slipfront::InputError({.file = "command line",
+                                 .key = option,
+                                 .value = value,
+                                 .problem = "cannot be such a file",
+                                 .allowed = allowed});
+  };
+  const auto is_netcdf = [](const std::string& path) { return std::string_view(path).ends_with(".nc"); };
+  if (!a.output.empty() && !is_netcdf(a.output) && !is_csv(a.output)) refuse("-o", a.output, "OUT.nc or OUT.csv");
+  std::error_code not_there;
+  for (const std::string& file : a.files)
+    if (std::filesystem::equivalent(file, a.output, not_there)) refuse("-o", a.output, "another file than those read");
+  if (!a.resume.empty() && !is_netcdf(a.resume)) refuse("--resume", a.resume, "OUT.nc, as -o wrote it");
+  if (!a.resume.empty() && is_csv(a.output)) refuse("-o", a.output, "OUT.nc, with --resume");
+}
+
+/// What makes the results what they are; threads do not.
+std::vector<std::pair<std::string, std::string>> settings_of(const Arguments& a, const Plan& plan,
+                                                             const std::string& inputs) {
+  const auto stated = [](const std::string& text) { return text.empty() ? "default" : text; };
+  return {{"seed", fmt::format("{}", plan.sampling.seed)},
+          {"samples", fmt::format("{}", plan.sampling.samples)},
+          {"sampled_events", plan.all ? "all" : "those that speak of friction or errors"},
+          {"closure", a.closure},
+          {"pulse", a.pulse ? "yes" : "no"},
+          {"p_wave_speed", stated(a.medium.p_wave_speed)},
+          {"poisson_ratio", stated(a.medium.poisson_ratio)},
+          {"shear_modulus", stated(a.medium.shear_modulus)},
+          {"input_checksum", inputs}};
+}
+
+std::string command_line_of(const Arguments& a) {
+  std::string line = "slipfront event";
+  for (const std::string& file : a.files) line += " " + file;
+  return line;
+}
+
+void write_rows(const std::string& path, const std::vector<EventResult>& results, bool with_pulse) {
+  std::string text = event_csv_head(with_pulse);
+  for (const EventResult& r : results) text += event_csv_row(r, with_pulse);
+  slipfront::record::write_text(path, text);
+}
+
+/// Events that are written to a file.
+int run_and_keep(const Arguments& a) {
+  check_names(a);
+  const MediumDefaults defaults = defaults_of(a.medium);
+  const Plan plan = plan_of(a);
+  std::vector<Entry> entries;
+  std::string inputs;
+  const Read read = read_all(
+      a, [&](Entry&& entry) { entries.push_back(std::move(entry)); },
+      [&](std::string_view name, std::string_view text) {
+        inputs = slipfront::record::checksum_of_inputs(inputs, name, text);
+      });
+  const std::size_t total = entries.size();
+  const std::string& path = a.output.empty() ? a.resume : a.output;
+  const KeptEvents kept =
+      evaluate_and_keep(std::move(entries), defaults, plan,
+                        {.output = is_csv(path) ? "" : path,
+                         .resume = a.resume,
+                         .metadata = {SLIPFRONT_VERSION, command_line_of(a), settings_of(a, plan, inputs), a.pulse},
+                         .threads = a.common.threads,
+                         .quiet = a.common.quiet});
+  if (!kept.finished) {
+    complain(
+        fmt::format("interrupted after {} of {} events; {}", kept.results.size(), total,
+                    is_csv(path) ? "nothing was written: -o OUT.nc could be resumed" : "go on with --resume " + path));
+    return exit_interrupted;
+  }
+  if (is_csv(path)) write_rows(path, kept.results, a.pulse);
+  EventPrinter printer(a.common, {.rows = false, .population = a.population, .pulse = a.pulse});
+  for (const EventResult& result : kept.results) printer.take(printer.printed(result));
+  printer.finish(read.ignored_columns, path);
+  return exit_code(read, printer);
+}
+
+int run_event(const Arguments& a) { return a.output.empty() && a.resume.empty() ? run_and_print(a) : run_and_keep(a); }
 
 }  // namespace
 
@@ -184,6 +218,15 @@ Runner add_event(CLI::App& app) {
   command->add_flag("--pulse", arguments->pulse,
                     "Run a frictionless pulse through the slip distribution of a .fsp; its front and slip beside the "
                     "model's");
+  command->add_flag("--population", arguments->population,
+                    "Decades of rupture velocity instead of events (with --json: besides): how many events each has, "
+                    "medians and 5-95 % of what is known of them, and the closed form");
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "File to write instead of the table: NetCDF, or CSV rows by its ending")
+      ->type_name("OUT.nc");
+  command->add_option("--resume", arguments->resume, "Go on from an unfinished file of these events, and write to it")
+      ->type_name("OUT.nc");
   add_common_options(*command, arguments->common);
   return [arguments] { return run_event(*arguments); };
 }

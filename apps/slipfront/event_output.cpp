@@ -43,17 +43,6 @@ std::string clipped(const std::string& text, std::size_t width) {
   return out + std::string(width - count, ' ');
 }
 
-std::string speed_text(const std::optional<double>& v) {
-  if (!v) return "-";
-  if (*v >= 100) return fmt::format("{:.3g} km/s", *v / 1e3);
-  if (*v >= 1e-3) return fmt::format("{:.3g} m/s", *v);
-  return fmt::format("{:.3g} mm/day", *v * 86400e3);
-}
-
-std::string front_text(const std::optional<double>& v) {
-  return v && *v < 1 ? fmt::format("{:.3g} km/day", *v * 86.4) : speed_text(v);
-}
-
 std::string number_text(const std::optional<Inferred>& x, double unit = 1) {
   return x ? fmt::format("{:.4g}", x->value / unit) : "-";
 }
@@ -135,6 +124,17 @@ Json pulse_json(const FaultPulse& p) {
 }
 
 }  // namespace
+
+std::string speed_text(const std::optional<double>& v) {
+  if (!v) return "-";
+  if (*v >= 100) return fmt::format("{:.3g} km/s", *v / 1e3);
+  if (*v >= 1e-3) return fmt::format("{:.3g} m/s", *v);
+  return fmt::format("{:.3g} mm/day", *v * 86400e3);
+}
+
+std::string front_text(const std::optional<double>& v) {
+  return v && *v < 1 ? fmt::format("{:.3g} km/day", *v * 86.4) : speed_text(v);
+}
 
 std::string event_json(const EventResult& result) {
   const Estimate& e = estimate_of(result);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "slipfront/event/columns.hpp"
@@ -11,6 +12,11 @@ std::string event_json(const slipfront::event::EventResult& result);
 /// summed up by has columns of its own `with_pulse`.
 std::string event_csv_head(bool with_pulse);
 std::string event_csv_row(const slipfront::event::EventResult& result, bool with_pulse);
+
+/// "2.8 m/s", "0.3 mm/day", "-".
+std::string speed_text(const std::optional<double>& metres_per_second);
+/// The same of a rupture front: slow ones in km/day.
+std::string front_text(const std::optional<double>& metres_per_second);
 
 /// A table for people.
 std::string event_table_head();

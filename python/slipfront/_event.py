@@ -106,4 +106,5 @@ def event(events=None, *, p_wave_speed=None, poisson_ratio=None, shear_modulus=N
     for name, dimensions, values, long_name, unit, dimensional_unit, reference in columns["numbers"]:
         attrs = attributes((name, long_name, dimensional_unit, reference))
         variables[name] = (dimensions, values, {**attrs, "units": unit} if reference else {"long_name": long_name, "units": unit})
-    return dataset(variables, {"bound": ("bound", ["5 %", "95 %"]), "quantile": ("quantile", [0.05, 0.5, 0.95])}, {"ignored_columns": ", ".join(columns["ignored"])})
+    return dataset(variables, {"bound": ("bound", ["5 %", "95 %"], {"long_name": "ends of an interval"}),
+                               "quantile": ("quantile", [0.05, 0.5, 0.95], {"long_name": "share of the values below", "units": "1"})}, {"ignored_columns": ", ".join(columns["ignored"])})

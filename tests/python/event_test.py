@@ -6,6 +6,7 @@ import unittest
 
 import numpy as np
 import pandas as pd
+import xarray as xr
 
 import slipfront
 from support import CommandLine, SOURCE
@@ -32,6 +33,26 @@ class Event(CommandLine):
                     np.testing.assert_equal(float(data[key][i]), nothing(row[key]), key)
                     np.testing.assert_equal(data[key + "_interval"].values[i], row[key + "_interval"] or [np.nan, np.nan], key)
         self.assertEqual(data.stress_pa.attrs["units"], "Pa")
+
+    def test_is_what_the_file_holds(self):
+        path = os.path.join(os.path.dirname(self.file("a", "")), "events.nc")
+        case = os.path.join(SOURCE, "cases/catalogue.csv")
+        self.ok("event", case, "-o", path)
+        data = slipfront.event(case)
+        with xr.open_dataset(path) as file:
+            for name, variable in data.variables.items():
+                self.assertEqual(file[name].dims, variable.dims, name)
+                self.assertEqual(file[name].attrs, variable.attrs, name)
+                np.testing.assert_equal(file[name].values, variable.values, name)
+            self.assertEqual(file.attrs["seed"], "1")
+            self.assertEqual(int(file.population_events.sum()), int(data.rupture_velocity.notnull().sum()))
+            top = file.isel(decade=-1)
+            inside = data.rupture_velocity >= float(top.decade_bounds[0])
+            np.testing.assert_allclose(top.population_stress, data.stress.where(inside).quantile([0.05, 0.5, 0.95]), rtol=1e-14)
+            np.testing.assert_allclose(file.line_stress, slipfront.relations(rupture_velocity=file.line_rupture_velocity.values).stress, rtol=1e-12)
+        opened = slipfront.open(path)
+        self.assertNotIn("done", opened)
+        self.assertEqual(opened.sizes["event"], data.sizes["event"])
 
     def test_pulse_through_a_finite_fault_model(self):
         path = os.path.join(SOURCE, "tests/data/fsp_srcmod_single.fsp")
