@@ -76,6 +76,11 @@ class Event(CommandLine):
         one, two = slipfront.event(flat), slipfront.event(nested)
         self.assertAlmostEqual(float(one.rupture_velocity), 0.5534, 4)
         self.assertEqual(float(one.stress), float(two.stress))
+        written = slipfront.event({"event": {"name": "a", "rupture_velocity": "3.0 +- 0.2 km/s"}})
+        table = slipfront.event({"event": {"name": "a", "rupture_velocity": {"mean": "3 km/s", "sd": "200 m/s"}}})
+        np.testing.assert_allclose(table.stress_interval, written.stress_interval, rtol=1e-3)
+        with self.assertRaisesRegex(slipfront.InputError, "event.rupture_velocity.meen: unknown key"):
+            slipfront.event({"event": {"rupture_velocity": {"meen": "3 km/s", "sd": "200 m/s"}}})
         frame = pd.DataFrame({"name": ["a", "b"], "rupture_velocity_km_s": [3.0, np.nan], "slip_velocity_m_s": [0.5, 0.1]})
         data = slipfront.event(frame)
         self.assertEqual(float(data.stress[0]), float(one.stress))
