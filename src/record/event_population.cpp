@@ -17,6 +17,7 @@ NumberColumn said(const std::string& name, const std::string& long_name, std::st
 template <class Row, class Get>
 std::vector<double> each(const std::vector<Row>& rows, Get&& get) {
   std::vector<double> values;
+  values.reserve(rows.size());
   for (const Row& row : rows) values.push_back(static_cast<double>(get(row)));
   return values;
 }

@@ -119,6 +119,7 @@ void Writer::write_all(int variable, std::string_view characters) {
 
 void Writer::write_all(int variable, const std::vector<std::string>& texts) {
   std::vector<const char*> pointers;
+  pointers.reserve(texts.size());
   for (const std::string& text : texts) pointers.push_back(text.c_str());
   require(nc_put_var_string(id_, variable, pointers.data()), "data");
 }
