@@ -16,6 +16,7 @@
 #include "../src/record/netcdf.hpp"
 #include "../src/record/seal.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/record/event_file.hpp"
 #include "slipfront/record/pulse_file.hpp"
 #include "slipfront/record/pulse_variables.hpp"
 
@@ -33,12 +34,21 @@ const std::string& file_of(std::string_view bytes) {
   return path;
 }
 
-void read(std::string_view bytes) {
+template <class Read>
+void attempt(const Read& read) {
   try {
-    slipfront::record::read_checkpoint(file_of(bytes));
+    read();
   } catch (const slipfront::FileError&) {
   } catch (const slipfront::InputError&) {
   }
+}
+
+void read(std::string_view bytes) {
+  const std::string& path = file_of(bytes);
+  attempt([&] { slipfront::record::read_checkpoint(path); });
+  attempt([&] {
+    slipfront::record::read_events_done(path, {.version = "1", .command_line = {}, .settings = {{"seed", "1"}}});
+  });
 }
 
 std::string made(FuzzedDataProvider& data) {
@@ -48,7 +58,9 @@ std::string made(FuzzedDataProvider& data) {
     if (usual())
       file.attribute(Writer::global, name, usual() ? std::string(value) : data.ConsumeRandomLengthString(40));
   };
-  text("slipfront_format", "pulse 1");
+  const bool events = data.ConsumeBool();
+  text("slipfront_format", events ? "event 1" : "pulse 1");
+  if (events) text("seed", "1");
   text("scenario", "title = \"a\"");
   text("version", "1");
   text("checksum", "0");
@@ -77,6 +89,7 @@ std::string made(FuzzedDataProvider& data) {
   for (const auto& scalar : slipfront::record::scalar_variables())
     add(std::string(scalar.about.name), {dimensions[0]}, false);
   add("checkpoint", {dimensions[2]}, true);
+  if (events) add("done", {dimensions[2]}, true);
   if (!usual()) add("scenario_text", {dimensions[2]}, true);
   file.end_definitions();
   for (const auto& [id, length] : vectors) {

@@ -5,10 +5,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "slipfront/chain/run.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/event/columns.hpp"
+#include "slipfront/event/read.hpp"
+#include "slipfront/event/saved.hpp"
 #include "slipfront/pulse/run.hpp"
 
 using namespace slipfront;
@@ -50,6 +54,36 @@ std::string saved_pulse() {
 
 std::string saved_chain() { return chain::Run(chain_problem(), schedule, chain::Execution{}).saved(); }
 
+std::vector<event::Entry> entries() {
+  std::vector<event::Entry> all;
+  event::read_events(
+      "name,rupture_velocity,slip_velocity,contact_ratio\n"
+      "known,3.0 +- 0.2 km/s,0.5 m/s,0.01 +- 0.002\ntrades off,3.0 +- 0.2 km/s,0.5 m/s,\nfast,9 km/s,,\n",
+      "a.csv", [&](event::Entry&& entry) { all.push_back(std::move(entry)); });
+  return all;
+}
+
+constexpr event::Plan plan{.sampling = {.samples = 20}};
+
+std::string saved_events() {
+  std::vector<event::EventResult> results;
+  for (event::Entry& entry : entries()) results.push_back(event::evaluate(std::move(entry), {}, plan));
+  return event::saved(results);
+}
+
+/// Results of what was saved, looked at as files do.
+void go_on_with_events(const std::string& state) {
+  std::vector<event::Found> found = event::found_in(state);
+  for (event::Entry& entry : entries()) {
+    if (found.empty()) return;
+    const event::EventResult result = event::evaluate(std::move(entry), {}, plan, std::move(found.back()));
+    found.pop_back();
+    double out[3];
+    for (const auto& column : event::number_columns(true)) column.get(result, out);
+    for (const auto& column : event::text_columns(true)) column.get(result);
+  }
+}
+
 std::string changed(std::string state, const std::uint8_t* bytes, std::size_t size) {
   for (std::size_t i = 0; i + 2 < size; i += 3) {
     const std::size_t where = bytes[i] + 256u * bytes[i + 1];
@@ -64,10 +98,12 @@ std::string changed(std::string state, const std::uint8_t* bytes, std::size_t si
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
-  static const std::string pulse_state = saved_pulse(), chain_state = saved_chain();
+  static const std::string pulse_state = saved_pulse(), chain_state = saved_chain(), event_state = saved_events();
   if (size == 0) return 0;
   try {
-    if (bytes[0] % 2 == 0) {
+    if (bytes[0] % 3 == 2) {
+      go_on_with_events(changed(event_state, bytes + 1, size - 1));
+    } else if (bytes[0] % 3 == 0) {
       pulse::Run run(pulse_problem(), schedule, changed(pulse_state, bytes + 1, size - 1), {});
       go(run, 3);
     } else {

@@ -45,6 +45,7 @@ class Reader {
     take(values.data(), values.size() * sizeof(double));
     return values;
   }
+  bool at_end() const { return text_.empty(); }
   void end() const {
     if (!text_.empty()) refuse();
   }

@@ -9,11 +9,12 @@
 #include "slipfront/parallel.hpp"
 
 /// `make(i)` for i < count on several threads, in order: the result does not depend on how many. The exception of the
-/// lowest i is thrown.
+/// lowest i is thrown. `few`: see for_each_parallel.
 template <class Result, class Make>
-std::vector<Result> in_parallel(std::size_t count, int threads, Make&& make) {
+std::vector<Result> in_parallel(std::size_t count, int threads, Make&& make, std::size_t few = 256) {
   std::vector<Result> results(count);
-  slipfront::for_each_parallel(count, threads, [&](std::size_t i) { results[i] = make(i); });
+  slipfront::for_each_parallel(
+      count, threads, [&](std::size_t i) { results[i] = make(i); }, few);
   return results;
 }
 

@@ -14,9 +14,11 @@ using slipfront::event::EventResult;
 using slipfront::event::FaultPulse;
 using slipfront::event::Inferred;
 using slipfront::event::inferred_quantities;
+using slipfront::event::joined;
 using slipfront::event::measured_quantities;
 using slipfront::event::Posterior;
 using slipfront::event::posterior_quantities;
+using slipfront::event::pulse_quantities;
 
 /// An absent estimate reads like one in which nothing is identifiable.
 const Estimate& estimate_of(const EventResult& result) {
@@ -41,17 +43,6 @@ std::string clipped(const std::string& text, std::size_t width) {
   return out + std::string(width - count, ' ');
 }
 
-std::string speed_text(const std::optional<double>& v) {
-  if (!v) return "-";
-  if (*v >= 100) return fmt::format("{:.3g} km/s", *v / 1e3);
-  if (*v >= 1e-3) return fmt::format("{:.3g} m/s", *v);
-  return fmt::format("{:.3g} mm/day", *v * 86400e3);
-}
-
-std::string front_text(const std::optional<double>& v) {
-  return v && *v < 1 ? fmt::format("{:.3g} km/day", *v * 86.4) : speed_text(v);
-}
-
 std::string number_text(const std::optional<Inferred>& x, double unit = 1) {
   return x ? fmt::format("{:.4g}", x->value / unit) : "-";
 }
@@ -60,12 +51,6 @@ std::string quoted(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c == '\n' || c == '\r' ? ' ' : c);
   return out + "\"";
-}
-
-std::string joined(const std::vector<std::string>& parts) {
-  std::string out;
-  for (const std::string& part : parts) out += (out.empty() ? "" : "; ") + part;
-  return out;
 }
 
 const char* measure_name(slipfront::event::Measure measure) {
@@ -140,6 +125,17 @@ Json pulse_json(const FaultPulse& p) {
 
 }  // namespace
 
+std::string speed_text(const std::optional<double>& v) {
+  if (!v) return "-";
+  if (*v >= 100) return fmt::format("{:.3g} km/s", *v / 1e3);
+  if (*v >= 1e-3) return fmt::format("{:.3g} m/s", *v);
+  return fmt::format("{:.3g} mm/day", *v * 86400e3);
+}
+
+std::string front_text(const std::optional<double>& v) {
+  return v && *v < 1 ? fmt::format("{:.3g} km/day", *v * 86.4) : speed_text(v);
+}
+
 std::string event_json(const EventResult& result) {
   const Estimate& e = estimate_of(result);
   const auto& o = result.observation;
@@ -167,16 +163,21 @@ std::string event_json(const EventResult& result) {
   return j.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-std::string event_csv_head() {
+std::string event_csv_head(bool with_pulse) {
   std::string head = "name,date,kind,c_m_s";
   for (const auto& q : measured_quantities()) head += fmt::format(",{}", q.about.name);
   for (const auto& q : inferred_quantities()) head += fmt::format(",{0},{0}_low,{0}_high", q.about.name);
   for (const auto& q : posterior_quantities())
     head += fmt::format(",posterior_{0},posterior_{0}_low,posterior_{0}_high", q.about.name);
-  return head + ",friction_identified,effective_samples,seed,warnings,error,citation,note,file,line\n";
+  head += ",friction_identified,effective_samples,seed,warnings,error,citation,note,file,line";
+  if (with_pulse) {
+    for (const auto& q : pulse_quantities()) head += fmt::format(",{}", q.about.name);
+    head += ",pulse_reason";
+  }
+  return head + "\n";
 }
 
-std::string event_csv_row(const EventResult& result) {
+std::string event_csv_row(const EventResult& result, bool with_pulse) {
   const Estimate& e = estimate_of(result);
   const auto& o = result.observation;
   std::string row = quoted(o.name) + "," + quoted(o.date) + "," + quoted(o.kind) + ",";
@@ -197,8 +198,17 @@ std::string event_csv_row(const EventResult& result) {
   } else {
     row += ",,,";
   }
-  return row + "," + quoted(joined(result.warnings())) + "," + quoted(result.error) + "," + quoted(o.citation) + "," +
-         quoted(o.note) + "," + quoted(o.file) + fmt::format(",{}\n", o.line);
+  row += "," + quoted(joined(result.warnings())) + "," + quoted(result.error) + "," + quoted(o.citation) + "," +
+         quoted(o.note) + "," + quoted(o.file) + fmt::format(",{}", o.line);
+  if (with_pulse) {
+    const bool ran = result.pulse && result.pulse->reason.empty();
+    for (const auto& q : pulse_quantities()) {
+      const auto x = ran ? q.get(*result.pulse) : std::nullopt;
+      row += x ? fmt::format(",{}", *x) : ",";
+    }
+    row += "," + quoted(result.pulse ? result.pulse->reason : "");
+  }
+  return row + "\n";
 }
 
 std::string event_table_head() {

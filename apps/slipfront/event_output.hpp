@@ -1,15 +1,22 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
-#include "slipfront/event/evaluate.hpp"
+#include "slipfront/event/columns.hpp"
 
 /// One object of `{"events": [...]}`; null where not identifiable.
 std::string event_json(const slipfront::event::EventResult& result);
 
-/// Full-precision CSV with the same names; empty where not identifiable.
-std::string event_csv_head();
-std::string event_csv_row(const slipfront::event::EventResult& result);
+/// Full-precision CSV with the same names; empty where not identifiable. What a pulse through a finite-fault model is
+/// summed up by has columns of its own `with_pulse`.
+std::string event_csv_head(bool with_pulse);
+std::string event_csv_row(const slipfront::event::EventResult& result, bool with_pulse);
+
+/// "2.8 m/s", "0.3 mm/day", "-".
+std::string speed_text(const std::optional<double>& metres_per_second);
+/// The same of a rupture front: slow ones in km/day.
+std::string front_text(const std::optional<double>& metres_per_second);
 
 /// A table for people.
 std::string event_table_head();

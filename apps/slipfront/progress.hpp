@@ -16,11 +16,19 @@ inline double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+/// How a line of progress speaks of what is done.
+struct ProgressWords {
+  const char* before = "t = ";
+  const char* steps = "steps";
+  int digits = 4;  ///< of what is done, and of the end
+};
+
 /// A line on a terminal, renewed five times a second: share done, rate, time left.
 class Progress {
  public:
-  Progress(double end, bool wanted, std::string label = {})
+  Progress(double end, bool wanted, std::string label = {}, const ProgressWords& words = {})
       : label_(std::move(label)),
+        words_(words),
         end_(end),
         on_(wanted && isatty(STDERR_FILENO)),
         start_(Clock::now()),
@@ -39,9 +47,9 @@ class Progress {
     const double left = gained > 0 ? elapsed * (1 - share) / gained : 0;
     std::string bar(30, '.');
     for (std::size_t i = 0; i < static_cast<std::size_t>(share * 30); ++i) bar[i] = '#';
-    fmt::print(stderr, "\r{}{}[{}] {:5.1f} %  t = {:.4g} of {:.4g}  {:.0f} steps/s  {:.0f} s left\x1b[K", label_,
-               label_.empty() ? "" : " ", bar, 100 * share, time, end_,
-               static_cast<double>(steps - first_steps_) / elapsed, left);
+    fmt::print(stderr, "\r{}{}[{}] {:5.1f} %  {}{:.{}g} of {:.{}g}  {:.0f} {}/s  {:.0f} s left\x1b[K", label_,
+               label_.empty() ? "" : " ", bar, 100 * share, words_.before, time, words_.digits, end_, words_.digits,
+               static_cast<double>(steps - first_steps_) / elapsed, words_.steps, left);
     std::fflush(stderr);
     drawn_ = true;
   }
@@ -52,6 +60,7 @@ class Progress {
 
  private:
   std::string label_;  ///< of what runs, where a command runs several
+  ProgressWords words_;
   double end_;
   bool on_, drawn_ = false;
   Clock::time_point start_, shown_;

@@ -11,7 +11,6 @@ from ._numbers import np, thread_count
 from ._scenario import is_path, path, to_toml
 from ._slipfront import InputError
 
-_units = {"c_m_s": "m s-1", "rupture_velocity_m_s": "m s-1", "slip_velocity_m_s": "m s-1", "stress_pa": "Pa"}
 _shipped = pathlib.Path(__file__).parent / "cases" / "catalogue.csv"
 
 
@@ -49,7 +48,7 @@ def _default(value):
 
 
 def event(events=None, *, p_wave_speed=None, poisson_ratio=None, shear_modulus=None, samples=None, seed=1, closure="consistent",
-          threads=None):
+          pulse=False, threads=None):
     """Stress, contact ratio and frictionless slip velocity of observed events, by the frictionless relations (Eqs. 8-10).
 
     Parameters
@@ -67,6 +66,9 @@ def event(events=None, *, p_wave_speed=None, poisson_ratio=None, shear_modulus=N
         Of the samples.
     closure : "consistent" or "paper", optional
         Of the friction.
+    pulse : bool, optional
+        A frictionless pulse through the slip of each finite-fault model: adds pulse_front_velocity_ratio, pulse_correlation_of_slip,
+        pulse_columns, pulse_columns_reached, pulse_slip_error, pulse_contact_ratio, and pulse_reason where there is none.
     threads : int, optional
         All cores unless given; results do not depend on it.
 
@@ -92,28 +94,17 @@ def event(events=None, *, p_wave_speed=None, poisson_ratio=None, shear_modulus=N
     if closure not in ("consistent", "paper"):
         raise InputError(f"closure = '{closure}'; allowed: consistent, paper")
     columns = _slipfront.event(sources, _default(p_wave_speed), _default(poisson_ratio), _default(shear_modulus),
-                               _whole("samples", samples), _whole("seed", seed), closure == "paper", thread_count(threads))
-    errors = columns["about"]["error"]
+                               _whole("samples", samples), _whole("seed", seed), closure == "paper", bool(pulse), thread_count(threads))
+    texts = {name: (values, long_name) for name, values, long_name in columns["texts"]}
+    errors = texts["error"][0]
     if errors and all(errors):
         raise InputError(errors[0])
     if not errors:
         raise InputError("events: none in the text; allowed: one or more")
 
-    variables = {name: ("event", np.array(values, dtype=object)) for name, values in columns["about"].items()}
-    one = ("name", "speed of strain waves, in m/s", "", "Eq. 3")
-    variables["c_m_s"] = ("event", columns["c_m_s"], attributes(one))
-    for about, values in columns["measured"]:
-        variables[about[0]] = ("event", values, attributes(about))
-    for about, values, interval in columns["inferred"]:
-        variables[about[0]] = ("event", values, attributes(about))
-        variables[about[0] + "_interval"] = (("event", "bound"), interval, {**attributes(about), "long_name": f"5 % and 95 % of: {about[1]}"})
-    for about, values in columns["posterior"]:
-        variables["posterior_" + about[0]] = (("event", "quantile"), values, {**attributes(about), "long_name": f"with friction and errors: {about[1]}"})
-    variables["effective_samples"] = ("event", columns["effective_samples"], {"long_name": "effective number of samples"})
-    variables["friction_identified"] = ("event", columns["friction_identified"],
-                                        {"long_name": "1 where the data say what the friction is, else 0"})
-    for name, unit in _units.items():
-        for key in (name, name + "_interval", "posterior_" + name):
-            if key in variables:
-                variables[key][2]["units"] = unit
-    return dataset(variables, {"bound": ("bound", ["5 %", "95 %"]), "quantile": ("quantile", [0.05, 0.5, 0.95])}, {"ignored_columns": ", ".join(columns["ignored"])})
+    variables = {name: ("event", np.array(values, dtype=object), {"long_name": long_name}) for name, (values, long_name) in texts.items()}
+    for name, dimensions, values, long_name, unit, dimensional_unit, reference in columns["numbers"]:
+        attrs = attributes((name, long_name, dimensional_unit, reference))
+        variables[name] = (dimensions, values, {**attrs, "units": unit} if reference else {"long_name": long_name, "units": unit})
+    return dataset(variables, {"bound": ("bound", ["5 %", "95 %"], {"long_name": "ends of an interval"}),
+                               "quantile": ("quantile", [0.05, 0.5, 0.95], {"long_name": "share of the values below", "units": "1"})}, {"ignored_columns": ", ".join(columns["ignored"])})

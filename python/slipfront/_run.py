@@ -147,7 +147,7 @@ def check(scenario, *, set=None, command="pulse", scales=()):
 
 
 def open(file):
-    """The Dataset of a file that pulse, chain, compare or sweep has written, read whole; a checkpoint in it is left out.
+    """The Dataset of a file that pulse, chain, compare, sweep or event (-o) has written, read whole; a checkpoint in it is left out.
 
     Raises FileError unless it is one.
     """
@@ -162,7 +162,7 @@ def read(name, any_file=False):
         with xarray.open_dataset(name, engine="netcdf4") as stored:
             if not (any_file or "slipfront_format" in stored.attrs):
                 raise FileError(f"{name}: not a file of slipfront")
-            data = stored.drop_vars(["checkpoint", "scenario_text"], errors="ignore").load()
+            data = stored.drop_vars(["checkpoint", "scenario_text", "done"], errors="ignore").load()
     except OSError as error:
         if isinstance(error, FileError):
             raise

@@ -23,7 +23,9 @@ def _value(key, value):
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(_value(key, item) for item in value) + "]"
-    raise InputError(f"{key} = '{value}': a {type(value).__name__}; allowed: a number, a text or a list of them")
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f"{_name(name)} = {_value(f'{key}.{name}', item)}" for name, item in value.items()) + " }"
+    raise InputError(f"{key} = '{value}': a {type(value).__name__}; allowed: a number, a text, a list or a dict of them")
 
 
 def to_toml(tables):

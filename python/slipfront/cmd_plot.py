@@ -11,7 +11,7 @@ FORMATS = ("png", "svg", "pdf", "jpg", "webp")
 
 def main(argv) -> int:
     """Draws the pictures of a file. Returns the exit code; raises ValueError (bad input), OSError (files), ImportError (matplotlib)."""
-    parser = Arguments("plot", "Pictures of the NetCDF files of pulse, chain and compare, of the CSV of relations and event, and of samples.")
+    parser = Arguments("plot", "Pictures of the NetCDF files of pulse, chain, compare and event, of the CSV of relations and event, and of samples.")
     parser.add_argument("file", metavar="FILE", help="NetCDF or CSV")
     parser.add_argument("-o", "--output", metavar="PICTURE", help="its ending is the format: " + ", ".join(FORMATS) + " (default: FILE's name, .png)")
     parser.add_argument("--kind", help="one picture alone (default: all that the file affords, -KIND added to the name)")

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "slipfront/event/saved.hpp"
 #include "slipfront/medium/quantity.hpp"
 
 namespace slipfront::event {
@@ -48,23 +49,42 @@ FaultPulse pulse_of(const EventResult& result, const MediumDefaults& defaults) {
                            result.estimate->stress->value, result.estimate->speed);
 }
 
-}  // namespace
-
-EventResult evaluate(Entry&& entry, const MediumDefaults& defaults, const Plan& plan) {
+/// What takes long comes from `posterior_of` and `pulse_of`.
+template <class PosteriorOf, class PulseOf>
+EventResult evaluate(Entry&& entry, const MediumDefaults& defaults, const Plan& plan, const PosteriorOf& posterior_of,
+                     const PulseOf& pulse_of) {
   EventResult result{std::move(entry.observation), {}, {}, {}, {}, {}};
   try {
     if (entry.error) throw InputError(*entry.error);
     result.estimate = estimate(result.observation, defaults);
-    if (plan.sampling.samples > 0 && (plan.all || speaks_of_friction_or_error(result.observation)))
-      result.posterior = posterior(result.observation, defaults, plan.sampling);
+    result.posterior = posterior_of(result);
     if (result.posterior) fill(*result.estimate, *result.posterior, result.observation);
     if (plan.along_fault) result.along_fault = along_fault(result.observation, defaults);
-    if (plan.pulse) result.pulse = pulse_of(result, defaults);
+    result.pulse = pulse_of(result);
   } catch (const InputError& error) {
     result.estimate.reset();
     result.error = error.what();
   }
   return result;
+}
+
+}  // namespace
+
+EventResult evaluate(Entry&& entry, const MediumDefaults& defaults, const Plan& plan) {
+  return evaluate(
+      std::move(entry), defaults, plan,
+      [&](const EventResult& r) -> std::optional<Posterior> {
+        if (plan.sampling.samples == 0 || !(plan.all || speaks_of_friction_or_error(r.observation))) return {};
+        return posterior(r.observation, defaults, plan.sampling);
+      },
+      [&](const EventResult& r) { return plan.pulse ? std::optional(pulse_of(r, defaults)) : std::nullopt; });
+}
+
+EventResult evaluate(Entry&& entry, const MediumDefaults& defaults, const Plan& plan, Found&& found) {
+  if (!found.error.empty()) return {std::move(entry.observation), {}, {}, {}, {}, std::move(found.error)};
+  return evaluate(
+      std::move(entry), defaults, plan, [&](const EventResult&) { return std::move(found.posterior); },
+      [&](const EventResult&) { return std::move(found.pulse); });
 }
 
 MediumDefaults defaults_of(const StatedMedium& stated) {

@@ -39,7 +39,10 @@ Measure parse_measure(std::string_view text) {
 }
 
 void store(Observation& observation, const Key& key, std::string_view text, std::string_view default_unit) {
-  const Measured measured = parse_measured(text, key.dimension, default_unit);
+  store(observation, key, parse_measured(text, key.dimension, default_unit), text);
+}
+
+void store(Observation& observation, const Key& key, const Measured& measured, std::string_view text) {
   const bool positive = key.name != "poisson_ratio";  // its own range is checked with the medium
   if (positive && !(measured.low > 0))
     throw InputError({.value = std::string(text), .problem = "not positive", .allowed = "> 0"});

@@ -27,5 +27,7 @@ Measure parse_measure(std::string_view text);
 /// Parses `text` and stores it. \throws InputError (value, problem, allowed) for bad text, a bad unit, an uncertainty
 /// or a quantity that is not positive.
 void store(Observation& observation, const Key& key, std::string_view text, std::string_view default_unit);
+/// What was parsed already; `text` as it was written.
+void store(Observation& observation, const Key& key, const Measured& measured, std::string_view text);
 
 }  // namespace slipfront::event

@@ -5,22 +5,12 @@
 #include "../parse_toml.hpp"
 #include "keys.hpp"
 #include "slipfront/event/read.hpp"
+#include "toml_distribution.hpp"
 
 namespace slipfront::event {
 namespace {
 
 std::size_t line_of(const toml::node& node) { return node.source().begin.line; }
-
-/// The text of a value, a number printed so that it reads back the same.
-std::string text_of(const toml::node& node) {
-  if (const auto text = node.value<std::string>()) return *text;
-  if (!node.is_number()) return {};
-  std::ostringstream out;
-  out.imbue(std::locale::classic());
-  out.precision(17);
-  out << node.value_or(0.0);
-  return out.str();
-}
 
 std::string text_value(const toml::node& node, const std::string& key) {
   if (const auto text = node.value<std::string>()) return *text;
@@ -36,14 +26,20 @@ std::string text_value(const toml::node& node, const std::string& key) {
 
 void read_quantity(Observation& o, const Key& key, const std::string& full_key, const toml::node& node) {
   try {
+    if (const toml::table* table = node.as_table()) {
+      std::ostringstream text;
+      text << *table;
+      store(o, key, read_distribution(*table, full_key, key), text.str());
+      return;
+    }
     if (!node.is_string() && !node.is_number())
       throw InputError(
           {.problem = "neither a number nor a text", .allowed = std::string(medium::example(key.dimension))});
-    store(o, key, text_of(node), {});
+    store(o, key, quantity_text(node), {});
   } catch (const InputError& error) {
     Complaint c = error.complaint();
-    c.key = full_key;
-    c.line = line_of(node);
+    if (c.key.empty()) c.key = full_key;
+    if (c.line == 0) c.line = line_of(node);
     throw InputError(c);
   }
 }

@@ -56,8 +56,9 @@ int Writer::dimension(const std::string& name, std::size_t size) {
 int Writer::variable(const std::string& name, int type, const std::vector<int>& dimensions) {
   int id = -1;
   require(nc_def_var(id_, name.c_str(), type, static_cast<int>(dimensions.size()), dimensions.data(), &id), name);
-  require(nc_def_var_fill(id_, id, NC_NOFILL, nullptr),
-          name);  // every value is written once: no need to write it twice
+  if (type != NC_STRING)
+    require(nc_def_var_fill(id_, id, NC_NOFILL, nullptr),
+            name);  // every value is written once: no need to write it twice
   return id;
 }
 
@@ -71,6 +72,10 @@ int Writer::bytes(const std::string& name, const std::vector<int>& dimensions) {
 
 int Writer::characters(const std::string& name, const std::vector<int>& dimensions) {
   return variable(name, NC_CHAR, dimensions);
+}
+
+int Writer::strings(const std::string& name, const std::vector<int>& dimensions) {
+  return variable(name, NC_STRING, dimensions);
 }
 
 void Writer::attribute(int variable, const std::string& name, std::string_view text) {
@@ -110,6 +115,13 @@ void Writer::write_all(int variable, const std::vector<double>& values) {
 
 void Writer::write_all(int variable, std::string_view characters) {
   require(nc_put_var_text(id_, variable, characters.data()), "data");
+}
+
+void Writer::write_all(int variable, const std::vector<std::string>& texts) {
+  std::vector<const char*> pointers;
+  pointers.reserve(texts.size());
+  for (const std::string& text : texts) pointers.push_back(text.c_str());
+  require(nc_put_var_string(id_, variable, pointers.data()), "data");
 }
 
 Image Writer::finish() {

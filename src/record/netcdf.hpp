@@ -61,6 +61,7 @@ class Writer : Handle {
   int reals(const std::string& name, const std::vector<int>& dimensions);
   int bytes(const std::string& name, const std::vector<int>& dimensions);
   int characters(const std::string& name, const std::vector<int>& dimensions);
+  int strings(const std::string& name, const std::vector<int>& dimensions);
   void attribute(int variable, const std::string& name, std::string_view text);
   void attribute(int variable, const std::string& name, int value);
   void fill_value(int variable, double value);
@@ -73,6 +74,7 @@ class Writer : Handle {
   /// Of any rank, all of it.
   void write_all(int variable, const std::vector<double>& values);
   void write_all(int variable, std::string_view characters);
+  void write_all(int variable, const std::vector<std::string>& texts);
 
   Image finish();
 

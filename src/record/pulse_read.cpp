@@ -1,7 +1,5 @@
 #include <cmath>
 #include <cstddef>
-#include <filesystem>
-#include <system_error>
 #include <utility>
 
 #include "netcdf.hpp"
@@ -130,11 +128,7 @@ class PulseReader {
 }  // namespace
 
 Checkpoint read_checkpoint(const std::string& path) {
-  std::error_code error;
-  if (std::filesystem::exists(path, error) && !std::filesystem::is_directory(path, error) &&
-      !std::filesystem::is_regular_file(path, error))
-    throw FileError(path + ": is not a regular file");  // a device may never end
-  const std::string file = read_text(path);
+  const std::string file = read_regular(path);
   return PulseReader(path, sealed_content(file, path)).read();
 }
 

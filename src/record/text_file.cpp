@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "slipfront/error.hpp"
+#include "whole_file.hpp"
 
 namespace slipfront::record {
 namespace {
@@ -33,6 +34,16 @@ std::string read_text(const std::string& path) {
   if (!file) throw FileError(path + ": cannot be opened: " + std::strerror(errno));
   return read_all(file.get(), path);
 }
+
+std::string read_regular(const std::string& path) {
+  std::error_code error;
+  if (std::filesystem::exists(path, error) && !std::filesystem::is_directory(path, error) &&
+      !std::filesystem::is_regular_file(path, error))
+    throw FileError(path + ": is not a regular file");
+  return read_text(path);
+}
+
+void write_text(const std::string& path, const std::string& text) { replace_file(path, {text}); }
 
 std::string read_standard_input() { return read_all(stdin, "stdin"); }
 

@@ -4,9 +4,12 @@ import csv
 import io
 import json
 import os
+import signal
+import subprocess
+import time
 import unittest
 
-from support import CommandLine, run, SOURCE
+from support import CommandLine, PROGRAM, run, SOURCE
 
 EVENT = ["name", "c_m_s", "rupture_velocity", "stress", "frictionless_slip_velocity", "observed_slip_velocity",
          "contact_ratio", "stress_pa", "damping_number", "warnings"]
@@ -125,6 +128,17 @@ class Event(CommandLine):
         uneven, = json.loads(self.ok("event", self.fault(lambda i: 0.2 if i == 6 else 1.0), "--pulse", "--json"))["events"]
         self.assertGreater(uneven["pulse"]["pulse_front_time_s"][8], 1.2 * uneven["pulse"]["pulse_front_time_s"][0])
 
+    def test_pulse_in_csv(self):
+        path = self.fault(lambda i: 1.0 + 0.1 * i)
+        event, = json.loads(self.ok("event", path, "--pulse", "--json"))["events"]
+        row, none = csv.DictReader(io.StringIO(self.ok("event", path, os.path.join(SOURCE, "cases/ets.toml"), "--pulse", "--csv")))
+        for key in ("front_velocity_ratio", "correlation_of_slip", "columns_reached", "slip_error", "contact_ratio"):
+            self.assertEqual(float(row["pulse_" + key]), event["pulse"][key], key)
+        self.assertEqual((row["pulse_columns"], row["pulse_reason"]), ("9", ""))
+        self.assertEqual(none["pulse_columns"], "")
+        self.assertIn("finite-fault", none["pulse_reason"])
+        self.assertNotIn("pulse", self.ok("event", path, "--csv").split("\n")[0])
+
     def test_pulse_says_what_is_missing(self):
         for name, reason in (("tests/data/fsp_srcmod_single.fsp", "rupture times"), ("tests/data/fsp_usgs_single.fsp", "2 columns"),
                              ("tests/data/fsp_srcmod_segments.fsp", "no rupture velocity"), ("cases/ets.toml", "finite-fault")):
@@ -132,6 +146,128 @@ class Event(CommandLine):
             event, = json.loads(self.ok("event", path, "--pulse", "--json"))["events"]
             self.assertIn(reason, event["pulse"]["reason"])
             self.assertIn("no pulse: ", self.ok("event", path, "--pulse", "--quiet"))
+
+    def catalogue(self, rows):
+        """Rows that are sampled, of rupture velocities over seven decades; every tenth is bad."""
+        kinds = ["{0:.6g} +- {1:.3g} m/s,{2:.3g} */ 1.5 m/s,", "{0:.6g} +- {1:.3g} m/s,,1e-3 */ 2"]
+        lines = ["9 km/s,,0.01 +- 0.001" if i % 10 == 9 else kinds[i % 2].format(v, v / 10, v * 1e-4)
+                 for i in range(rows) for v in [10 ** (-3.5 + 7 * i / rows)]]
+        return self.file("catalogue.csv", "name,rupture_velocity,slip_velocity,contact_ratio\n" + "".join(f"E{i},{line}\n" for i, line in enumerate(lines)))
+
+    def test_written_to_a_file(self):
+        case = self.catalogue(100)
+        beside = lambda name: os.path.join(os.path.dirname(case), name)
+        whole = run("event", case, "-o", beside("a.nc"))
+        self.assertEqual(whole.returncode, 2)  # of the bad rows
+        self.assertIn(f"100 events, 10 of them with errors, written to {beside('a.nc')}", whole.stdout)
+        self.assertNotIn("E3", whole.stdout)
+        for arguments in (["--threads", "1", "-o"], ["--threads", "2", "--json", "-o"], ["--population", "-o"]):
+            run("event", case, *arguments, beside("b.nc"))
+            self.same(beside("a.nc"), beside("b.nc"))
+        run("event", case, "-o", beside("rows.csv"))
+        with open(beside("rows.csv"), encoding="utf-8", newline="") as rows:
+            self.assertEqual(rows.read(), run("event", case, "--csv").stdout)
+        self.assertEqual(run("event", case, "--json", "-o", beside("b.nc")).stdout, run("event", case, "--json").stdout)
+        self.assertEqual(sorted(os.listdir(os.path.dirname(case))), ["a.nc", "b.nc", "catalogue.csv", "rows.csv"])
+
+    def same(self, one, other):
+        with open(one, "rb") as a, open(other, "rb") as b:
+            self.assertTrue(a.read() == b.read(), (one, other))
+
+    def test_refuses_names_of_files(self):
+        case = os.path.join(SOURCE, "cases/ets.toml")
+        self.refused(2, "event", case, "-o", "out.txt", says=["-o = 'out.txt'", "OUT.nc or OUT.csv"])
+        self.refused(2, "event", case, "--resume", "out.csv", says=["--resume = 'out.csv'", "OUT.nc"])
+        self.refused(2, "event", case, "--resume", "a.nc", "-o", "out.csv", says=["-o = 'out.csv'"])
+        rows = self.file("rows.csv", "name,rupture_velocity\nA,3 km/s\n")
+        self.refused(2, "event", case, rows, "-o", rows, says=["-o", "another file than those read"])
+        self.refused(3, "event", case, "-o", "/nowhere/a.nc", says=["/nowhere/a.nc", "does not exist"])
+        self.refused(3, "event", case, "-o", "/nowhere/a.csv", says=["/nowhere/a.csv", "does not exist"])
+        self.refused(3, "event", case, "--resume", "/nowhere/a.nc", says=["/nowhere/a.nc"])
+        self.refused(3, "event", case, "--resume", self.file("a.nc", "text"), says=["not a NetCDF-4 file"])
+
+    def test_resumes_the_same_catalogue_only(self):
+        case = self.file("a.csv", "name,rupture_velocity\nA,3 +- 0.1 km/s\nB,2 km/s\n")
+        path = os.path.join(os.path.dirname(case), "a.nc")
+        self.ok("event", case, "-o", path)
+        with open(path, "rb") as file:
+            before = file.read()
+        for changed, says in ((["--seed", "2"], "another seed"), (["--samples", "50"], "another samples"), (["--samples", "1000"], "another sampled_events"),
+                              (["--closure", "paper"], "another closure"), (["--pulse"], "another pulse"),
+                              (["--poisson-ratio", "0.25"], "another poisson_ratio"), ([case], "another input_checksum")):
+            self.refused(2, "event", case, *changed, "--resume", path, says=[path, "--resume", says])
+        with open(case, "a", encoding="utf-8") as file:
+            file.write("C,1 km/s\n")
+        self.refused(2, "event", case, "--resume", path, says=["another input_checksum"])
+        with open(path, "rb") as file:
+            self.assertEqual(file.read(), before)
+
+    def test_killed_and_resumed(self):
+        case = self.catalogue(1500)
+        quiet = subprocess.DEVNULL
+        folder = os.path.dirname(case)
+        cut, reference = os.path.join(folder, "cut.nc"), os.path.join(folder, "reference.nc")
+        run("event", case, "-o", reference)
+        process = subprocess.Popen([PROGRAM, "event", case, "-o", cut], stdout=quiet, stderr=quiet)
+        self.wait_for(cut, process)
+        empty = os.stat(cut).st_size
+        while process.poll() is None and os.stat(cut).st_size == empty:
+            pass  # until some events are in it
+        process.kill()
+        process.wait()
+        grown = os.stat(cut).st_size
+        self.assertTrue(empty < grown < os.stat(reference).st_size)
+        # Ctrl-C on the way keeps what there is; then to the end, to the bits of a run left alone.
+        process = subprocess.Popen([PROGRAM, "event", case, "--resume", cut, "--threads", "1"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        while process.poll() is None and os.stat(cut).st_size == grown:
+            pass
+        process.send_signal(signal.SIGINT)
+        out, errors = process.communicate(timeout=60)
+        self.assertEqual((process.returncode, out), (130, ""), errors)
+        self.assertRegex(errors, "interrupted after [0-9]+ of 1500 events; go on with --resume ")
+        self.assertGreater(os.stat(cut).st_size, grown)
+        self.assertEqual(run("event", case, "--resume", cut).returncode, 2)
+        self.same(cut, reference)
+        os.remove(cut)
+        self.assertIn("nothing was written", self.interrupted_csv(case, os.path.join(folder, "cut.csv")))
+        self.assertFalse(os.path.exists(os.path.join(folder, "cut.csv")))
+
+    def interrupted_csv(self, case, path):
+        process = subprocess.Popen([PROGRAM, "event", case, "--samples", "100000", "-o", path], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        time.sleep(0.5)
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130, errors)
+        return errors
+
+    def test_population(self):
+        path = self.file("p.csv", "name,rupture_velocity,slip_velocity\na,1.2 m/s,\nb,1.1 m/s,1 mm/s\nc,1.3 m/s,3 mm/s\nfast,3 km/s,0.5 m/s\nnone,,1 m/s\nbad,x,\n")
+        done = run("event", path, "--json", "--population")
+        self.assertEqual(done.returncode, 2)
+        out = json.loads(done.stdout)
+        self.assertEqual(list(out), ["events", "population"])
+        self.assertEqual(len(out["events"]), 6)
+        decades = out["population"]
+        self.assertEqual([d["events"] for d in decades], [3, 0, 0, 1])
+        first = decades[0]
+        self.assertEqual((first["rupture_velocity_from"], first["rupture_velocity_to"]), (1e-4, 1e-3))
+        relation, = json.loads(self.ok("relations", "--rupture-velocity", repr(first["closed_form"]["rupture_velocity"]), "--json"))["relations"]
+        self.assertEqual(first["closed_form"]["stress"], relation["stress"])
+        self.assertAlmostEqual(first["rupture_velocity_m_s"], 1.2)
+        self.assertAlmostEqual(first["rupture_velocity_m_s_interval"][0], 1.11)
+        self.assertEqual((first["slip_velocity_m_s"], first["slip_velocity_m_s_events"]), (2e-3, 2))
+        self.assertIsNone(decades[1]["stress"])
+        table = run("event", path, "--population").stdout
+        self.assertIn("4 of 6 events have a rupture velocity (1 refused)", table)
+        self.assertIn("1e-4 ... 1e-3       3", table)
+        self.assertNotIn("fast", table)
+        rows = list(csv.DictReader(io.StringIO(run("event", path, "--csv", "--population").stdout)))
+        self.assertEqual([row["events"] for row in rows], ["3", "0", "0", "1"])
+        self.assertEqual(float(rows[0]["stress_high"]), first["stress_interval"][1])
+        self.assertEqual(rows[1]["stress"], "")
+        nobody = self.file("n.csv", "name,slip_velocity\na,1 m/s\n")
+        self.assertEqual(json.loads(self.ok("event", nobody, "--json", "--population"))["population"], [])
+        self.assertIn("0 of 1 events", self.ok("event", nobody, "--population"))
 
     def test_default_is_the_shipped_catalogue(self):
         table = self.ok("event")

@@ -42,6 +42,48 @@ TEST(Csv, ReadsUnitsFromHeaderAndCell) {
   EXPECT_FALSE(rows[1].observation.slip_velocity);
 }
 
+TEST(Toml, ReadsDistributionsAsTables) {
+  const Observation o = read_toml(
+      "[event]\nrupture_velocity = { mean = \"3 km/s\", sd = \"200 m/s\" }\n"
+      "slip_velocity = { median = \"0.5 m/s\", factor = 1.2 }\n"
+      "duration = { low = \"1 day\", high = \"2 weeks\" }\n"
+      "[medium]\ncontact_ratio = { mean = 0.01, sd = 0.002 }\n",
+      "t.toml");
+  const Observation same = read_toml(
+      "[event]\nrupture_velocity = \"3.0 +- 0.2 km/s\"\nslip_velocity = \"0.5 */ 1.2 m/s\"\nduration = \"1..14 day\"\n"
+      "[medium]\ncontact_ratio = \"0.01 +- 0.002\"\n",
+      "t.toml");
+  const auto expect_same = [](const Measured& a, const Measured& b) {
+    EXPECT_DOUBLE_EQ(a.low, b.low);
+    EXPECT_DOUBLE_EQ(a.high, b.high);
+    EXPECT_EQ(a.shape, b.shape);
+    EXPECT_DOUBLE_EQ(a.spread, b.spread);
+  };
+  expect_same(*o.rupture_velocity, *same.rupture_velocity);
+  expect_same(*o.slip_velocity, *same.slip_velocity);
+  expect_same(*o.duration, *same.duration);
+  expect_same(o.uncertain_constants.at(0).measured, same.uncertain_constants.at(0).measured);
+}
+
+TEST(Toml, RefusesTablesThatAreNoDistribution) {
+  const auto c = [](const std::string& table) {
+    return refusal([&] { read_toml("[event]\nslip_velocity = " + table + "\n", "t.toml"); });
+  };
+  EXPECT_EQ(c("{ meen = \"3 m/s\", sd = \"1 m/s\" }").key, "event.slip_velocity.meen");
+  EXPECT_EQ(c("{ meen = \"3 m/s\", sd = \"1 m/s\" }").allowed, "'mean' (the nearest known key)");
+  EXPECT_EQ(c("{ mean = \"3 m/s\", sd = \"0 m/s\" }").key, "event.slip_velocity.sd");
+  EXPECT_EQ(c("{ mean = \"3 m/s\", sd = \"0 m/s\" }").line, 2u);
+  EXPECT_EQ(c("{ median = \"3 m/s\", factor = 1 }").allowed, "> 1");
+  EXPECT_EQ(c("{ low = \"3 m/s\", high = \"1 m/s\" }").problem, "the range runs downwards");
+  EXPECT_EQ(c("{ low = \"1..2 m/s\", high = \"1 m/s\" }").problem, "not one number");
+  EXPECT_EQ(c("{ mean = \"-3 m/s\", sd = \"1 m/s\" }").allowed, "> 0");
+  EXPECT_EQ(c("{ mean = [3], sd = \"1 m/s\" }").key, "event.slip_velocity.mean");
+  for (const char* table : {"{}", "{ mean = \"3 m/s\" }", "{ mean = \"3 m/s\", factor = 2 }",
+                            "{ low = \"1 m/s\", high = \"2 m/s\", sd = \"1 m/s\" }"})
+    EXPECT_EQ(c(table).problem, "these keys do not make a distribution") << table;
+  EXPECT_NE(c("{ mean = \"3 m\", sd = \"1 m/s\" }").problem, "");
+}
+
 TEST(Csv, ReadsPublishedColumnNames) {
   const auto rows =
       csv("name,year,duration_days,slip_cm,slip_type,length_km,slip_velocity_cm_day,slip_velocity_how,rupture_velocity_"

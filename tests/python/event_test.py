@@ -6,6 +6,7 @@ import unittest
 
 import numpy as np
 import pandas as pd
+import xarray as xr
 
 import slipfront
 from support import CommandLine, SOURCE
@@ -33,6 +34,39 @@ class Event(CommandLine):
                     np.testing.assert_equal(data[key + "_interval"].values[i], row[key + "_interval"] or [np.nan, np.nan], key)
         self.assertEqual(data.stress_pa.attrs["units"], "Pa")
 
+    def test_is_what_the_file_holds(self):
+        path = os.path.join(os.path.dirname(self.file("a", "")), "events.nc")
+        case = os.path.join(SOURCE, "cases/catalogue.csv")
+        self.ok("event", case, "-o", path)
+        data = slipfront.event(case)
+        with xr.open_dataset(path) as file:
+            for name, variable in data.variables.items():
+                self.assertEqual(file[name].dims, variable.dims, name)
+                self.assertEqual(file[name].attrs, variable.attrs, name)
+                np.testing.assert_equal(file[name].values, variable.values, name)
+            self.assertEqual(file.attrs["seed"], "1")
+            self.assertEqual(int(file.population_events.sum()), int(data.rupture_velocity.notnull().sum()))
+            top = file.isel(decade=-1)
+            inside = data.rupture_velocity >= float(top.decade_bounds[0])
+            np.testing.assert_allclose(top.population_stress, data.stress.where(inside).quantile([0.05, 0.5, 0.95]), rtol=1e-14)
+            np.testing.assert_allclose(file.line_stress, slipfront.relations(rupture_velocity=file.line_rupture_velocity.values).stress, rtol=1e-12)
+        opened = slipfront.open(path)
+        self.assertNotIn("done", opened)
+        self.assertEqual(opened.sizes["event"], data.sizes["event"])
+
+    def test_pulse_through_a_finite_fault_model(self):
+        path = os.path.join(SOURCE, "tests/data/fsp_srcmod_single.fsp")
+        with open(path) as file:  # nine columns of two subfaults, ruptured from the middle at avVr
+            text = "".join(line for line in file if line.startswith("%"))
+        text = text.replace("Nx  =    3", "Nx  =    9").replace("Nsbfs =      6", "Nsbfs =     18").replace("SLIP      RAKE\n", "SLIP      RAKE     TRUP     RISE\n")
+        text += "".join(f"\n 35.0 -120.0 {2 * (i - 4)} 0.0 {0.5 + 2 * j} 1.0 180.0 {abs(i - 4) * 2 / 2.5} 1.5" for j in range(2) for i in range(9))
+        data = slipfront.event([text + "\n", path], pulse=True)
+        self.assertAlmostEqual(float(data.pulse_front_velocity_ratio[0]), 1, 5)
+        self.assertEqual(data.pulse_reason.values[0], "")
+        self.assertIn("rupture times", data.pulse_reason.values[1])
+        np.testing.assert_equal(data.pulse_columns.values, [9, np.nan])
+        self.assertNotIn("pulse_columns", slipfront.event(path))
+
     def test_nothing_is_the_shipped_catalogue(self):
         self.assertEqual(slipfront.event().sizes["event"], len(json.loads(self.ok("event", "--json"))["events"]))
 
@@ -42,6 +76,11 @@ class Event(CommandLine):
         one, two = slipfront.event(flat), slipfront.event(nested)
         self.assertAlmostEqual(float(one.rupture_velocity), 0.5534, 4)
         self.assertEqual(float(one.stress), float(two.stress))
+        written = slipfront.event({"event": {"name": "a", "rupture_velocity": "3.0 +- 0.2 km/s"}})
+        table = slipfront.event({"event": {"name": "a", "rupture_velocity": {"mean": "3 km/s", "sd": "200 m/s"}}})
+        np.testing.assert_allclose(table.stress_interval, written.stress_interval, rtol=1e-3)
+        with self.assertRaisesRegex(slipfront.InputError, "event.rupture_velocity.meen: unknown key"):
+            slipfront.event({"event": {"rupture_velocity": {"meen": "3 km/s", "sd": "200 m/s"}}})
         frame = pd.DataFrame({"name": ["a", "b"], "rupture_velocity_km_s": [3.0, np.nan], "slip_velocity_m_s": [0.5, 0.1]})
         data = slipfront.event(frame)
         self.assertEqual(float(data.stress[0]), float(one.stress))

@@ -69,6 +69,26 @@ class Figures(CommandLine):
         np.testing.assert_allclose(at, events["stress"].dropna("event"), rtol=2e-3)
         self.assertEqual(figure.axes[0].get_xscale(), "log")
 
+    def test_events_with_their_population(self):
+        rows = "".join(f"E{i},{10 ** (-3 + 6 * i / 500)} m/s,{10 ** (-7 + 6 * i / 500)} m/s\n" for i in range(501))
+        case = self.file("many.csv", "name,rupture_velocity,slip_velocity\n" + rows)
+        path = os.path.join(os.path.dirname(case), "many.nc")
+        self.ok("event", case, "-o", path)
+        events = files.read(path)
+        self.assertEqual(choose.kinds_of(events), ["events"])
+        figure = choose.draw(events, "events")
+        self.labels(figure)
+        stress, pascal = figure.axes
+        self.assertEqual((stress.get_yscale(), pascal.get_yscale()), ("linear", "log"))
+        for axes in figure.axes:
+            self.assertIn("decade: median, 5-95 %", [text.get_text() for text in axes.get_legend().get_texts()])
+        cloud = pascal.lines[0]
+        self.assertEqual(cloud.get_marker(), ".")
+        np.testing.assert_allclose(cloud.get_ydata(), events["stress_pa"] / 1e6)
+        one = self.file("one.csv", "name,rupture_velocity,slip_velocity\na,1 km/s,0.1 m/s\n")
+        self.ok("event", one, "-o", path)
+        self.assertNotIn("decade", str([t.get_text() for t in choose.draw(files.read(path), "events").axes[0].get_legend().get_texts()]))
+
     def test_corner(self):
         figure = plots.corner(samples())
         self.assertEqual(sum(axes.axison for axes in figure.axes), 3)

@@ -8,6 +8,12 @@ from .style import styled
 #: Marks of the kinds of event in the shipped catalogue; any other gets the next.
 MARKS = "osD^vP*X"
 
+#: More events than this are drawn as a cloud.
+MANY = 400
+
+#: Pa, of the lines of equal contact ratio.
+SHEAR_MODULUS = 30e9
+
 
 def texts(variable) -> list:
     """Values of a variable as strings; empty where there is none."""
@@ -27,41 +33,87 @@ def bars(events, name):
     return None if numpy.isnan(both).all() else numpy.nan_to_num(both)
 
 
-def panel(axes, events, name, kinds):
-    """Events of one quantity against the rupture velocity, marked by kind."""
+def panel(axes, events, name, kinds, scale=1.0):
+    """Events of one quantity, times `scale`, against the rupture velocity, marked by kind; of many a cloud of points without intervals."""
     kind_of = numpy.array(texts(events["kind"]) if "kind" in events else [""] * events["stress"].size)
     across, up = bars(events, "rupture_velocity"), bars(events, name)
+    there = ~numpy.isnan(events["rupture_velocity"].values.astype(float) * events[name].values.astype(float))
     for i, kind in enumerate(kinds):
-        chosen = kind_of == kind
-        axes.errorbar(events["rupture_velocity"].values[chosen], events[name].values[chosen], fmt=MARKS[i % len(MARKS)], color=f"C{i}",
-                      xerr=None if across is None else across[:, chosen], yerr=None if up is None else up[:, chosen],
-                      label=kind.replace("_", " ") or "events", alpha=0.85, linewidth=0.8, linestyle="none", markeredgewidth=0.8)
+        chosen = (kind_of == kind) & there
+        if not chosen.any():
+            continue
+        x, y = events["rupture_velocity"].values[chosen], scale * events[name].values[chosen].astype(float)
+        label = kind.replace("_", " ") or "events"
+        if events["stress"].size > MANY:
+            axes.plot(x, y, linestyle="none", marker=".", markersize=2, markeredgewidth=0, color=f"C{i}", alpha=0.4, label=label, rasterized=True)
+            continue
+        axes.errorbar(x, y, fmt=MARKS[i % len(MARKS)], color=f"C{i}", xerr=None if across is None else across[:, chosen],
+                      yerr=None if up is None else scale * up[:, chosen], label=label, alpha=0.85, linewidth=0.8, linestyle="none", markeredgewidth=0.8)
+
+
+def decades(axes, events, name, scale=1.0):
+    """Median and 5-95 % of both axes over the events of each decade, where the Dataset has a population (the files of `slipfront event -o`)."""
+    if f"population_{name}" not in events:
+        return
+    several = events[f"population_{name}_events"].values > 1
+    if not several.any():
+        return
+    left, x, right = events["population_rupture_velocity"].values[several].T
+    low, median, high = scale * events[f"population_{name}"].values[several].T
+    axes.errorbar(x, median, xerr=[x - left, right - x], yerr=[median - low, high - median], fmt="none", ecolor="k", elinewidth=1.2, capsize=2, zorder=4,
+                  label="decade: median, 5-95 %")
+
+
+def contact_lines(axes, line, low, high):
+    """Stress of the closed form for contact ratios, a power of ten each, between two stresses in Pa; shear modulus 30 GPa."""
+    rising = line["rupture_velocity"].values, line["stress"].values * SHEAR_MODULUS / numpy.pi
+    least, most = (int(numpy.round(numpy.log10(stress / rising[1].min()))) for stress in (low, high))
+    for i, exponent in enumerate(range(least, most + 1)):
+        axes.plot(rising[0], rising[1] * 10.0**exponent / 1e6, color="0.55", linestyle=":", linewidth=0.9, zorder=1,
+                  label="closed form for A = 10$^n$, μ = 30 GPa" if i == 0 else None)
+        axes.annotate(f"$10^{{{exponent}}}$", (rising[0][0], rising[1][0] * 10.0**exponent / 1e6), color="0.45", fontsize=7, va="bottom")
+
+
+def known(events, name) -> bool:
+    """Whether any event has this quantity."""
+    return name in events and bool(events[name].notnull().any())
 
 
 @styled
 def events(events, line) -> Figure:
-    """Stress, and observed slip velocity where there is any, against rupture velocity, with the closed-form lines (Eqs. 8-10).
+    """Stress against rupture velocity, dimensionless and in MPa, and slip velocity where there is any, with the closed-form lines (Eqs. 8-10).
 
     Parameters
     ----------
     events : xarray.Dataset
-        Over one dimension: rupture_velocity (c), stress (mu A / pi), observed_slip_velocity (c A / pi; NaN where not known), kind, and
-        intervals where there are any: what `slipfront.event` gives.
+        Over one dimension: rupture_velocity (c), stress (mu A / pi), stress_pa (Pa), observed_slip_velocity (c A / pi; NaN where not known), kind, and
+        intervals where there are any: what `slipfront.event` gives. A population, as the files of `slipfront event -o` have it, is drawn over the events.
     line : xarray.Dataset
         Of `slipfront.relations`, over the range to draw.
     """
     kinds = sorted(set(texts(events["kind"]))) if "kind" in events else [""]
-    observed = "observed_slip_velocity" in events and bool(events["observed_slip_velocity"].notnull().any())
-    figure = Figure(figsize=(8.6 if observed else 5.4, 3.9))
-    panels = figure.subplots(1, 2 if observed else 1, squeeze=False)[0]
-    panels[0].plot(line["rupture_velocity"], line["stress"], color="0.35", linestyle="-", label="closed form")
-    panel(panels[0], events, "stress", kinds)
-    panels[0].set(ylabel="initial stress Σ−, μA/π", title="Stress that the rupture velocity means")
-    if observed:
-        panels[1].plot(line["rupture_velocity"], line["slip_velocity"], color="0.35", linestyle="-", label="closed form, no friction")
-        panel(panels[1], events, "observed_slip_velocity", kinds)
-        panels[1].set(yscale="log", ylabel="slip velocity W, cA/π", title="Slip velocity: observed, and without friction")
-    for axes in panels:
+    shown = ["stress"] + [name for name in ("stress_pa", "observed_slip_velocity") if known(events, name)]
+    figure = Figure(figsize=((5.4, 8.6, 12.2)[len(shown) - 1], 3.9))
+    panels = dict(zip(shown, figure.subplots(1, len(shown), squeeze=False)[0]))
+    for name, axes in panels.items():
+        scale = 1e-6 if name == "stress_pa" else 1.0
+        panel(axes, events, name, kinds, scale)
+        decades(axes, events, name, scale)
         axes.set(xscale="log", xlabel="rupture velocity |V−|, c")
-        axes.legend()
+    panels["stress"].plot(line["rupture_velocity"], line["stress"], color="0.35", linestyle="-", label="closed form", zorder=3)
+    panels["stress"].set(ylabel="initial stress Σ−, μA/π", title="Stress that the rupture velocity means")
+    if "stress_pa" in panels:
+        values = events["stress_pa"].values
+        panels["stress_pa"].set(yscale="log", ylabel="initial stress, MPa", title="The same with the contact ratio A")
+        contact_lines(panels["stress_pa"], line, numpy.nanmin(values), numpy.nanmax(values))
+    if "observed_slip_velocity" in panels:
+        axes = panels["observed_slip_velocity"]
+        axes.plot(line["rupture_velocity"], line["slip_velocity"], color="0.35", linestyle="-", label="closed form, no friction", zorder=3)
+        axes.set(yscale="log", ylabel="slip velocity W, cA/π", title="Slip velocity: observed, and without friction")
+    for name, axes in panels.items():
+        if name == "stress":
+            axes.legend(markerscale=4 if events["stress"].size > MANY else 1)
+        else:  # the kinds are named once
+            handles = [(handle, text) for handle, text in zip(*axes.get_legend_handles_labels()) if text.startswith(("closed", "decade"))]
+            axes.legend(*zip(*handles)) if handles else None
     return figure

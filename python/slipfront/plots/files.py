@@ -22,7 +22,7 @@ def read(path) -> xarray.Dataset:
         return netcdf(path)
     if path.suffix.lower() == ".csv":
         return rows(path)
-    raise ValueError(f"{path}: neither NetCDF nor CSV by its start and name; allowed: files of pulse, chain, compare (-o), relations, event (--csv)")
+    raise ValueError(f"{path}: neither NetCDF nor CSV by its start and name; allowed: files of pulse, chain, compare, event (-o), relations, event (--csv)")
 
 
 def netcdf(path) -> xarray.Dataset:

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "slipfront/event/evaluate.hpp"
+#include "slipfront/record/event_file.hpp"
+
+/// A catalogue that is written to a file while it is evaluated.
+struct EventKeeping {
+  std::string output;  ///< NetCDF; empty: nowhere, and an interrupted catalogue is lost
+  std::string resume;  ///< what an earlier call wrote; empty: begin anew
+  slipfront::record::EventMetadata metadata;
+  int threads = 1;
+  bool quiet = false;
+};
+
+struct KeptEvents {
+  std::vector<slipfront::event::EventResult> results;  ///< of all entries, or of the first if not `finished`
+  bool finished = false;                               ///< else Ctrl-C came first; the file holds what was done
+};
+
+/// Evaluates all entries, in parallel, with a line of progress on a terminal and a checkpoint now and then. The results
+/// and the file have the same bits however often the work was stopped and resumed. \throws InputError if `resume` is
+/// another catalogue's, FileError.
+KeptEvents evaluate_and_keep(std::vector<slipfront::event::Entry>&& entries,
+                             const slipfront::event::MediumDefaults& defaults, const slipfront::event::Plan& plan,
+                             const EventKeeping& keeping);

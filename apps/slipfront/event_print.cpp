@@ -1,0 +1,91 @@
+#include "event_print.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "batch.hpp"
+#include "event_output.hpp"
+#include "population_output.hpp"
+
+namespace {
+
+using namespace slipfront::event;
+
+constexpr std::size_t most_errors_shown = 20;
+
+std::string events(std::size_t count) { return fmt::format("{} event{}", count, count == 1 ? "" : "s"); }
+
+}  // namespace
+
+EventPrinter::EventPrinter(const CommonOptions& options, const EventShown& shown) : options_(options), shown_(shown) {
+  if (options_.json) put("{\"events\": [");
+  if (options_.csv && has_rows()) put(event_csv_head(shown_.pulse));
+}
+
+EventPrinter::Printed EventPrinter::printed(const EventResult& result) const {
+  Printed p{{}, result.error, result.warnings(), {}};
+  if (shown_.population) p.member = member_of(result);
+  if (!has_rows()) return p;
+  p.row = options_.json  ? event_json(result)
+          : options_.csv ? event_csv_row(result, shown_.pulse)
+                         : event_table_row(result) + event_pulse_lines(result);
+  return p;
+}
+
+void EventPrinter::take(Printed&& p) {
+  if (options_.json) put(count_ == 0 ? "\n" : ",\n");
+  if (is_table())
+    table_ += p.row;
+  else
+    put(p.row);
+  ++count_;
+  if (p.member) population_.add(*p.member);
+  for (const std::string& warning : p.warnings) ++warnings_[warning];
+  if (!p.error.empty() && ++errors_ <= most_errors_shown) complain(p.error);
+}
+
+void EventPrinter::finish(const std::vector<std::string>& ignored_columns, const std::string& written) {
+  if (options_.json) {
+    put("\n]");
+    if (shown_.population) put(", \"population\": " + population_json(population_.decades()));
+    put("}\n");
+  } else if (options_.csv) {
+    if (shown_.population) put(population_csv(population_.decades()));
+  } else if (count_ > errors_) {  // a table of nothing but errors would only repeat stderr
+    print_table(written);
+  }
+  if (!options_.quiet && !ignored_columns.empty() && !options_.json) {
+    std::string line = "note: columns without an observation, ignored:";
+    for (const std::string& title : ignored_columns) line += " " + title;
+    std::fflush(stdout);
+    complain(line);
+  }
+  if (errors_ > most_errors_shown)
+    complain(fmt::format("... and {} more events with errors", errors_ - most_errors_shown));
+}
+
+void EventPrinter::print_table(const std::string& written) const {
+  if (has_rows()) put(event_table_head() + table_);
+  if (shown_.population) put(population_table(population_.decades(), count_, errors_));
+  if (options_.quiet) return;
+  print_notes();
+  if (written.empty()) return;
+  put(fmt::format("{}{}{} written to {}\n", shown_.population || !warnings_.empty() ? "\n" : "", events(count_),
+                  errors_ > 0 ? fmt::format(", {} of them with errors,", errors_) : "", written));
+}
+
+/// Warnings, most frequent first, each once.
+void EventPrinter::print_notes() const {
+  std::vector<std::pair<std::size_t, std::string>> notes;
+  for (const auto& [text, count] : warnings_) notes.emplace_back(count, text);
+  std::stable_sort(notes.begin(), notes.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  if (notes.empty()) return;
+  put(fmt::format("{}Notes (--json gives those of each event; --quiet none):\n",
+                  has_rows() || shown_.population ? "\n" : ""));
+  constexpr std::size_t most = 15;
+  for (std::size_t i = 0; i < std::min(notes.size(), most); ++i)
+    put(fmt::format("  {} ({})\n", notes[i].second, events(notes[i].first)));
+  if (notes.size() > most) put(fmt::format("  ... and {} more\n", notes.size() - most));
+}

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "commands.hpp"
+#include "slipfront/event/evaluate.hpp"
+#include "slipfront/event/population.hpp"
+
+/// What of the events is printed.
+struct EventShown {
+  bool rows = true;  ///< one an event, in a table; JSON and CSV have them always, CSV unless there is a population
+  bool population = false;  ///< decades of rupture velocity
+  bool pulse = false;       ///< columns of a pulse through each finite-fault model
+};
+
+/// Prints results one by one as they come, and at the end what is to be said of them all.
+class EventPrinter {
+ public:
+  /// One event, ready to print: made on any thread.
+  struct Printed {
+    std::string row, error;
+    std::vector<std::string> warnings;
+    std::optional<slipfront::event::Member> member;
+  };
+
+  EventPrinter(const CommonOptions& options, const EventShown& shown);
+  Printed printed(const slipfront::event::EventResult& result) const;
+  void take(Printed&& printed);
+
+  /// `written`: to which file, if any.
+  void finish(const std::vector<std::string>& ignored_columns, const std::string& written);
+  std::size_t errors() const { return errors_; }
+
+ private:
+  bool is_table() const { return !options_.json && !options_.csv; }
+  bool has_rows() const { return options_.json || (options_.csv ? !shown_.population : shown_.rows); }
+  void print_table(const std::string& written) const;
+  void print_notes() const;
+
+  CommonOptions options_;
+  EventShown shown_;
+  std::size_t count_ = 0, errors_ = 0;
+  std::string table_;
+  std::map<std::string, std::size_t> warnings_;
+  slipfront::event::Population population_;
+};

@@ -1,0 +1,100 @@
+#include "population_output.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string_view>
+
+#include "event_output.hpp"
+
+using namespace slipfront::event;
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The spread of a quantity of this name.
+const Spread& spread_of(const Decade& decade, std::string_view name) {
+  const auto quantities = population_quantities();
+  for (std::size_t i = 0; i < quantities.size(); ++i)
+    if (quantities[i].name == name) return decade.spread[i];
+  throw std::logic_error("no such quantity of a population");
+}
+
+/// "median (5 % to 95 %)" in `unit`; one event has but its value.
+std::string spread_text(const Spread& s, double unit = 1) {
+  if (s.events == 0) return "-";
+  const auto text = [unit](double value) { return fmt::format("{:.3g}", value / unit); };
+  if (s.events == 1) return text(s.of.median);
+  return fmt::format("{} ({} to {})", text(s.of.median), text(s.of.low), text(s.of.high));
+}
+
+/// The same of velocities in m/s, with the unit that suits the median.
+std::string velocities_text(const Spread& s) {
+  if (s.events == 0) return "-";
+  if (s.of.median >= 1e-3) return spread_text(s) + " m/s";
+  if (s.of.median >= 1e-6) return spread_text(s, 1e-3) + " mm/s";
+  return spread_text(s, 1e-3 / 86400) + " mm/day";
+}
+
+constexpr const char* layout = "{:<13} {:>7} {:>16} {:>11}  {:<24} {:<35} {:<32} {}\n";
+
+}  // namespace
+
+std::string population_json(const std::vector<Decade>& decades) {
+  Json all = Json::array();
+  for (const Decade& d : decades) {
+    Json j;
+    j["rupture_velocity_from"] = d.low;
+    j["rupture_velocity_to"] = d.high;
+    j["events"] = d.events;
+    j["closed_form"] = {
+        {"rupture_velocity", d.middle}, {"stress", d.stress}, {"frictionless_slip_velocity", d.slip_velocity}};
+    std::size_t i = 0;
+    for (const auto& about : population_quantities()) {
+      const Spread& s = d.spread[i++];
+      const std::string name(about.name);
+      j[name] = s.events > 0 ? Json(s.of.median) : Json();
+      j[name + "_interval"] = s.events > 0 ? Json{s.of.low, s.of.high} : Json();
+      j[name + "_events"] = s.events;
+    }
+    all.push_back(j);
+  }
+  return all.dump();
+}
+
+std::string population_csv(const std::vector<Decade>& decades) {
+  std::string text =
+      "rupture_velocity_from,rupture_velocity_to,events,closed_form_rupture_velocity,closed_form_stress,"
+      "closed_form_frictionless_slip_velocity";
+  for (const auto& about : population_quantities()) text += fmt::format(",{0},{0}_low,{0}_high,{0}_events", about.name);
+  text += "\n";
+  for (const Decade& d : decades) {
+    text += fmt::format("{},{},{},{},{},{}", d.low, d.high, d.events, d.middle, d.stress, d.slip_velocity);
+    for (const Spread& s : d.spread)
+      text += s.events > 0 ? fmt::format(",{},{},{},{}", s.of.median, s.of.low, s.of.high, s.events) : ",,,,0";
+    text += "\n";
+  }
+  return text;
+}
+
+std::string population_table(const std::vector<Decade>& decades, std::size_t events, std::size_t errors) {
+  std::size_t binned = 0;
+  for (const Decade& d : decades) binned += d.events;
+  std::string text = fmt::format(
+      "{} of {} events have a rupture velocity{}. Medians (5 % to 95 %) over the events of a decade; the closed form "
+      "is "
+      "in its middle.\n\n",
+      binned, events, errors > 0 ? fmt::format(" ({} refused)", errors) : "");
+  text += fmt::format("{:<13} {:>7} {:>16} {:>11}\n", "", "", "rupture", "stress by");
+  text += fmt::format(layout, "V / c", "events", "velocity", "closed form", "stress, mu A / pi", "slip velocity",
+                      "contact ratio A", "stress, MPa");
+  for (const Decade& d : decades)
+    text += fmt::format(layout, fmt::format("1e{} ... 1e{}", d.exponent, d.exponent + 1), d.events,
+                        d.events > 0 ? front_text(spread_of(d, "rupture_velocity_m_s").of.median) : "-",
+                        fmt::format("{:.3g}", d.stress), spread_text(spread_of(d, "stress")),
+                        velocities_text(spread_of(d, "slip_velocity_m_s")), spread_text(spread_of(d, "contact_ratio")),
+                        spread_text(spread_of(d, "stress_pa"), 1e6));
+  return text;
+}

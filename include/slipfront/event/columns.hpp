@@ -1,0 +1,55 @@
+#pragma once
+/// \file
+/// Results of events as columns, said once for files and other languages: docs/events.md.
+
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "slipfront/event/evaluate.hpp"
+
+namespace slipfront::event {
+
+/// How many numbers an event has in a column.
+enum class Width : std::size_t {
+  one = 1,
+  bounds = 2,     ///< 5 %, 95 %
+  quantiles = 3,  ///< 5 %, 50 %, 95 %
+};
+
+/// Numbers of each event; NaN where not known.
+struct NumberColumn {
+  std::string name, long_name;
+  std::string_view unit;              ///< SI, "1" for a pure number
+  std::string_view dimensional_unit;  ///< of a dimensionless value; may be empty
+  std::string_view reference;         ///< where in the paper; may be empty
+  Width width;
+  std::function<void(const EventResult&, double* out)> get;  ///< writes as many as `width` says
+};
+
+/// A text of each event; may be empty.
+struct TextColumn {
+  std::string_view name, long_name;
+  std::string (*get)(const EventResult&);
+};
+
+/// In the order of output; those of a pulse through a finite-fault model only `with_pulse`.
+std::vector<NumberColumn> number_columns(bool with_pulse);
+std::vector<TextColumn> text_columns(bool with_pulse);
+
+/// What a pulse through a finite-fault model is summed up by.
+struct PulseQuantity {
+  Description about;
+  std::optional<double> (*get)(const FaultPulse&);
+};
+std::span<const PulseQuantity> pulse_quantities();
+
+/// SI unit of a quantity, by what its name ends with (`_m_s`, `_pa`); "1" where it is a pure number.
+std::string_view unit_of(std::string_view name);
+
+/// One text of several, "; " between them.
+std::string joined(const std::vector<std::string>& parts);
+
+}  // namespace slipfront::event

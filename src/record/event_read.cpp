@@ -1,0 +1,37 @@
+#include "event_layout.hpp"
+#include "netcdf.hpp"
+#include "seal.hpp"
+#include "slipfront/error.hpp"
+#include "slipfront/record/event_file.hpp"
+#include "slipfront/record/text_file.hpp"
+#include "utf8.hpp"
+
+namespace slipfront::record {
+
+std::string read_events_done(const std::string& path, const EventMetadata& metadata) {
+  const std::string content = read_regular(path);
+  const netcdf::Reader file(path, sealed_content(content, path), content.size());
+  const auto fail = [&](const std::string& reason) {
+    throw FileError(path + ": not a catalogue to resume from: " + reason);
+  };
+  const std::string format = file.text("slipfront_format").value_or("");
+  if (format != event_format)
+    fail("its slipfront_format is '" + format.substr(0, 40) + "', read here is '" + event_format + "'");
+  const auto require = [&](const std::string& name, const std::string& wanted) {
+    const auto written = file.text(name);
+    if (!written) fail("attribute " + name + " is missing");
+    if (*written == clean_text(wanted, netcdf::longest_text)) return;
+    throw InputError({.file = path,
+                      .key = "--resume",
+                      .value = *written,
+                      .problem = "was written with another " + name,
+                      .allowed = "go on as it was begun, here it is '" + wanted + "'"});
+  };
+  require("version", metadata.version);
+  for (const auto& [name, text] : metadata.settings) require(name, text);
+  const auto done = file.find(event_layout::state);
+  if (!done || done->shape.size() != 1) fail(std::string("variable ") + event_layout::state + " is missing");
+  return file.bytes(*done);
+}
+
+}  // namespace slipfront::record
