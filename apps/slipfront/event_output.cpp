@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -12,7 +11,6 @@ using Json = nlohmann::ordered_json;
 using slipfront::event::Estimate;
 using slipfront::event::EventResult;
 using slipfront::event::FaultPulse;
-using slipfront::event::Inferred;
 using slipfront::event::inferred_quantities;
 using slipfront::event::joined;
 using slipfront::event::measured_quantities;
@@ -24,27 +22,6 @@ using slipfront::event::pulse_quantities;
 const Estimate& estimate_of(const EventResult& result) {
   static const Estimate nothing;
   return result.estimate ? *result.estimate : nothing;
-}
-
-constexpr const char* table_layout = "{} {:>12} {:>9} {:>9} {:>12} {:>12} {:>12} {:>9} {:>9} {:>9}\n";
-constexpr std::size_t name_width = 34;
-
-/// The first `width` characters (code points) of a UTF-8 text, padded.
-std::string clipped(const std::string& text, std::size_t width) {
-  std::string out;
-  std::size_t count = 0;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    const bool starts = (byte & 0xC0u) != 0x80u;
-    if (starts && count == width) break;
-    if (starts) ++count;
-    out += byte < 0x20 ? ' ' : c;
-  }
-  return out + std::string(width - count, ' ');
-}
-
-std::string number_text(const std::optional<Inferred>& x, double unit = 1) {
-  return x ? fmt::format("{:.4g}", x->value / unit) : "-";
 }
 
 std::string quoted(const std::string& text) {
@@ -125,17 +102,6 @@ Json pulse_json(const FaultPulse& p) {
 
 }  // namespace
 
-std::string speed_text(const std::optional<double>& v) {
-  if (!v) return "-";
-  if (*v >= 100) return fmt::format("{:.3g} km/s", *v / 1e3);
-  if (*v >= 1e-3) return fmt::format("{:.3g} m/s", *v);
-  return fmt::format("{:.3g} mm/day", *v * 86400e3);
-}
-
-std::string front_text(const std::optional<double>& v) {
-  return v && *v < 1 ? fmt::format("{:.3g} km/day", *v * 86.4) : speed_text(v);
-}
-
 std::string event_json(const EventResult& result) {
   const Estimate& e = estimate_of(result);
   const auto& o = result.observation;
@@ -209,35 +175,4 @@ std::string event_csv_row(const EventResult& result, bool with_pulse) {
     row += "," + quoted(result.pulse ? result.pulse->reason : "");
   }
   return row + "\n";
-}
-
-std::string event_table_head() {
-  const auto line = [](const std::array<const char*, 10>& cells) {
-    return fmt::format(table_layout, clipped(cells[0], name_width), cells[1], cells[2], cells[3], cells[4], cells[5],
-                       cells[6], cells[7], cells[8], cells[9]);
-  };
-  return line({"", "rupture", "", "stress", "slip", "frictionless", "observed /", "contact", "stress", "damping"}) +
-         line({"event", "velocity", "V / c", "mu A / pi", "velocity", "c A / pi", "frictionless", "ratio A", "MPa",
-               "C T"});
-}
-
-std::string event_table_row(const EventResult& result) {
-  if (!result.estimate) return clipped(result.observation.name, name_width) + " error: " + result.error + "\n";
-  const Estimate& e = *result.estimate;
-  return fmt::format(table_layout, clipped(result.observation.name, name_width),
-                     front_text(e.observed_rupture_velocity), number_text(e.rupture_velocity), number_text(e.stress),
-                     speed_text(e.observed_slip_velocity_m_s), number_text(e.frictionless_slip_velocity),
-                     number_text(e.slip_velocity_ratio), number_text(e.contact_ratio), number_text(e.stress_pa, 1e6),
-                     e.damping_number ? fmt::format("{:.3g}", e.damping_number->value) : "-");
-}
-
-std::string event_pulse_lines(const EventResult& result) {
-  if (!result.pulse) return {};
-  const FaultPulse& p = *result.pulse;
-  if (!p.reason.empty()) return "  no pulse: " + p.reason + "\n";
-  const auto number = [](const std::optional<double>& x) { return x ? fmt::format("{:.3g}", *x) : std::string("-"); };
-  return fmt::format("  pulse: front velocity over the model's {}; {} of {} columns reached by {:.3g} s\n",
-                     number(p.front_velocity_ratio), p.reached, p.x.size(), p.end) +
-         fmt::format("         correlation of slip {}; contact ratio A by its size {}\n", number(p.correlation_of_slip),
-                     number(p.contact_ratio));
 }

@@ -18,7 +18,7 @@ std::string speed_text(const std::optional<double>& metres_per_second);
 /// The same of a rupture front: slow ones in km/day.
 std::string front_text(const std::optional<double>& metres_per_second);
 
-/// A table for people.
+/// A table for people: a line an event, and below it the ends of the intervals, where there are any.
 std::string event_table_head();
 std::string event_table_row(const slipfront::event::EventResult& result);
 /// Two lines on the pulse through a finite-fault model, or one with the reason why there is none; nothing if it was

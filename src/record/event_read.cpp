@@ -24,7 +24,8 @@ std::string read_events_done(const std::string& path, const EventMetadata& metad
     throw InputError({.file = path,
                       .key = "--resume",
                       .value = *written,
-                      .problem = "was written with another " + name,
+                      .problem = name == "input_checksum" ? "was written from other files or contents"
+                                                          : "was written with another " + name,
                       .allowed = "go on as it was begun, here it is '" + wanted + "'"});
   };
   require("version", metadata.version);

@@ -194,11 +194,11 @@ class Event(CommandLine):
             before = file.read()
         for changed, says in ((["--seed", "2"], "another seed"), (["--samples", "50"], "another samples"), (["--samples", "1000"], "another sampled_events"),
                               (["--closure", "paper"], "another closure"), (["--pulse"], "another pulse"),
-                              (["--poisson-ratio", "0.25"], "another poisson_ratio"), ([case], "another input_checksum")):
+                              (["--poisson-ratio", "0.25"], "another poisson_ratio"), ([case], "other files or contents")):
             self.refused(2, "event", case, *changed, "--resume", path, says=[path, "--resume", says])
         with open(case, "a", encoding="utf-8") as file:
             file.write("C,1 km/s\n")
-        self.refused(2, "event", case, "--resume", path, says=["another input_checksum"])
+        self.refused(2, "event", case, "--resume", path, says=["other files or contents"])
         with open(path, "rb") as file:
             self.assertEqual(file.read(), before)
 
@@ -268,6 +268,18 @@ class Event(CommandLine):
         nobody = self.file("n.csv", "name,slip_velocity\na,1 m/s\n")
         self.assertEqual(json.loads(self.ok("event", nobody, "--json", "--population"))["population"], [])
         self.assertIn("0 of 1 events", self.ok("event", nobody, "--population"))
+
+    def test_the_table_shows_intervals(self):
+        path = self.file("e.toml", '[event]\nname = "E"\nrupture_velocity = "3.0 +- 0.2 km/s"\nslip_velocity = "0.5 */ 1.3 m/s"\n'
+                                   'stress_drop = "30 +- 10 MPa"\n')
+        event = json.loads(self.ok("event", path, "--json"))["events"][0]
+        head, row, low, high = self.ok("event", path).splitlines()[1:5]
+        for line, label, end in ((low, "5 %", 0), (high, "95 %", 1)):
+            self.assertTrue(line.strip().startswith(label))
+            for title, key, unit, digits in (("V / c", "rupture_velocity", 1, 4), ("MPa", "stress_pa", 1e6, 4), ("C T", "damping_number", 1, 3)):
+                stop = head.index(title) + len(title)  # right-aligned below its title
+                self.assertTrue(line[:stop].endswith(f" {event[key + '_interval'][end] / unit:.{digits}g}"), (line, key))
+        self.assertNotIn(" 5 %", self.ok("event", self.file("f.csv", "name,rupture_velocity\na,3 km/s\n")))
 
     def test_default_is_the_shipped_catalogue(self):
         table = self.ok("event")
