@@ -49,7 +49,7 @@ def _default(value):
 
 def event(events=None, *, p_wave_speed=None, poisson_ratio=None, shear_modulus=None, samples=None, seed=1, closure="consistent",
           pulse=False, threads=None):
-    """Stress, contact ratio and frictionless slip velocity of observed events, by the frictionless relations (Eqs. 8-10).
+    """Stress, contact ratio, slip velocity and friction of observed events, by the closed forms (Eqs. 8-10) and by samples.
 
     Parameters
     ----------
