@@ -1,4 +1,4 @@
-// Made by tools/friction_ratio_table.cpp. Do not edit.
+// Made by tools/friction_ratio. Do not edit.
 
 #include "coefficients.hpp"
 

@@ -4,7 +4,7 @@
 
 namespace slipfront::friction_ratio {
 
-/// Made by tools/friction_ratio_table.cpp.
+/// Made by tools/friction_ratio.
 extern const layout::Table coefficients;
 extern const layout::Corners corners;
 

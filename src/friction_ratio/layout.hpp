@@ -62,9 +62,13 @@ inline bool exists(const Corner& corner) { return corner[0] != 0; }
 
 /// Ends of the pieces in u, and d/dy, at t = y between -1 and 1.
 inline Values<pieces + 1> ends_at(const Corner& corner, double t) {
-  Values<pieces + 1> u{};
-  for (std::size_t i = 0; i <= pieces; ++i) u.value[i] = std::log1p(ends[i]);
-  if (!exists(corner)) return u;
+  static const Values<pieces + 1> fixed = [] {
+    Values<pieces + 1> v{};
+    for (std::size_t i = 0; i <= pieces; ++i) v.value[i] = std::log1p(ends[i]);
+    return v;
+  }();
+  if (!exists(corner)) return fixed;
+  Values<pieces + 1> u = fixed;
   const Values<corner_terms> T = chebyshev<corner_terms>(t);
   u.value[1] = 0;
   for (std::size_t i = 0; i < corner_terms; ++i) {

@@ -1,0 +1,67 @@
+#include "computed.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "slipfront/error.hpp"
+#include "slipfront/friction_ratio/table.hpp"
+#include "slipfront/rupture/relations.hpp"
+
+namespace slipfront::friction_ratio {
+
+namespace {
+
+using modulation::Closure;
+
+Logarithms logarithms(const Question& question) {
+  const SlipVelocities w = solve(question);
+  const double unit = rupture::from_stress(question.stress).slip_velocity;
+  return {std::log(w.origin / unit), std::log(w.mean / unit), std::log(w.peak / unit)};
+}
+
+/// Where closure "paper" is unstable: the median of a few coarse runs, which the instability has not yet spoilt.
+Logarithms median_of_coarse_runs(Question question) {
+  std::vector<Logarithms> found;
+  for (const int cells : {120, 150, 180, 210, 240, 270, 300}) {
+    question.cells = cells;
+    try {
+      const Logarithms v = logarithms(question);
+      if (std::isfinite(v[0] + v[1] + v[2])) found.push_back(v);
+    } catch (const NumericsError&) {
+    }
+  }
+  if (found.empty()) throw NumericsError("no run of closure paper came through");
+  Logarithms median{};
+  for (std::size_t m = 0; m < layout::measures; ++m) {
+    std::sort(found.begin(), found.end(), [m](const Logarithms& a, const Logarithms& b) { return a[m] < b[m]; });
+    median[m] = found[found.size() / 2][m];
+  }
+  return median;
+}
+
+/// Cells that keep the error of the solver below 3e-5: more where it meets its switch to implicit steps, and where the
+/// stress is high and friction young.
+int cells_for(double damping) { return damping < 30 || (damping >= 1000 && damping < 1e5) ? 800 : 400; }
+
+/// Closure "paper" would lose more to its instability with 800 cells than it gains, and some runs of 400 fail
+/// (docs/friction_ratio.md).
+Logarithms by_paper(double stress, double damping) {
+  for (const int cells : {400, 360, 330}) try {
+      return logarithms({stress, damping, Closure::paper, cells});
+    } catch (const NumericsError&) {
+    }
+  return logarithms({stress, damping, Closure::paper, 300});
+}
+
+}  // namespace
+
+Logarithms computed(Closure closure, double stress, double damping) {
+  if (uncertainty(closure, damping) > 1e-3) return median_of_coarse_runs({stress, damping, closure});
+  Logarithms values = closure == Closure::paper ? by_paper(stress, damping)
+                                                : logarithms({stress, damping, closure, cells_for(damping)});
+  if (damping == 0) values[0] = 0;
+  return values;
+}
+
+}  // namespace slipfront::friction_ratio

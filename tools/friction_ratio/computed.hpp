@@ -1,0 +1,20 @@
+#pragma once
+/// \file
+/// What the table of friction ratios is made from and checked against: runs of the pulse solver.
+
+#include <array>
+
+#include "../../src/friction_ratio/layout.hpp"
+#include "slipfront/friction_ratio/solve.hpp"
+
+namespace slipfront::friction_ratio {
+
+inline constexpr modulation::Closure closures[layout::closures] = {modulation::Closure::consistent,
+                                                                   modulation::Closure::paper};
+
+using Logarithms = std::array<double, layout::measures>;  ///< ln of W over the frictionless W(0)
+
+/// \throws InputError, NumericsError as the solver does.
+Logarithms computed(modulation::Closure closure, double stress, double damping);
+
+}  // namespace slipfront::friction_ratio

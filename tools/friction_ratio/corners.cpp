@@ -1,0 +1,75 @@
+#include "corners.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include "nodes.hpp"
+#include "slipfront/friction_ratio/solve.hpp"
+#include "slipfront/friction_ratio/table.hpp"
+
+namespace slipfront::friction_ratio {
+
+namespace {
+
+/// Index, on an even grid of ln(1 + Gamma), where the second derivative of `y` jumps up most.
+std::size_t sharpest(const std::vector<double>& y) {
+  std::size_t at = 0;
+  double jump = 0;
+  for (std::size_t n = 8; n + 8 < y.size(); ++n) {
+    const double found = y[n + 2] - 2 * y[n + 1] + 2 * y[n - 1] - y[n - 2];
+    if (found > jump) jump = found, at = n;
+  }
+  return at;
+}
+
+/// Where the parabola through y[from - 4], y[from - 2], y[from] meets that through y[to], y[to + 2], y[to + 4], counted
+/// from `from`.
+double meeting(const std::vector<double>& y, std::size_t from, std::size_t to) {
+  const auto parabola = [&](const double* v, int direction, double x) {  // v[0], v[2 direction], v[4 direction]
+    const double a = v[0], b = v[2 * direction], c = v[4 * direction];
+    const double s = x / 2;
+    return a + s * (b - a) + s * (s - 1) / 2 * (c - 2 * b + a);
+  };
+  const double width = static_cast<double>(to - from);
+  double low = 0, high = width;
+  const auto above = [&](double x) { return parabola(&y[from], -1, -x) > parabola(&y[to], 1, x - width); };
+  const bool left_above = above(low);
+  for (int n = 0; n < 40; ++n) (above((low + high) / 2) == left_above ? low : high) = (low + high) / 2;
+  return low;
+}
+
+/// ln(1 + Gamma) at the corners of ln W(0), whose slope turns there, and of the peak, where one top overtakes another.
+struct CornersAt {
+  double origin, peak;
+};
+CornersAt corners_at(double stress) {
+  constexpr double step = 0.004, first = 0.15, last = 1.5;
+  std::vector<double> dampings, origin, peak;
+  for (double u = first; u < last; u += step) dampings.push_back(std::expm1(u));
+  for (const SlipVelocities& w : solve_each(stress, modulation::Closure::consistent, 3200, dampings)) {
+    origin.push_back(std::log(w.origin));
+    peak.push_back(std::log(w.peak));
+  }
+  const std::size_t near_peak = sharpest(peak);
+  return {first + step * static_cast<double>(sharpest(origin)),
+          first + step * (static_cast<double>(near_peak - 2) + meeting(peak, near_peak - 2, near_peak + 2))};
+}
+
+}  // namespace
+
+layout::Corners find_corners() {
+  std::array<CornersAt, layout::y_nodes> found;
+#pragma omp parallel for schedule(dynamic)
+  for (std::size_t i = 0; i < layout::y_nodes; ++i) found[i] = corners_at(stress_node(i));
+  layout::Corners corners{};
+  for (std::size_t i = 0; i < layout::corner_terms; ++i) {
+    const auto term = [&](double CornersAt::*u) {
+      return coefficient(i, layout::y_nodes, [&](std::size_t n) { return found[n].*u; });
+    };
+    corners[0][static_cast<std::size_t>(Measure::origin)][i] = term(&CornersAt::origin);
+    corners[0][static_cast<std::size_t>(Measure::peak)][i] = term(&CornersAt::peak);
+  }
+  return corners;
+}
+
+}  // namespace slipfront::friction_ratio

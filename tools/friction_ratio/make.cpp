@@ -1,0 +1,131 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "commands.hpp"
+#include "computed.hpp"
+#include "corners.hpp"
+#include "nodes.hpp"
+
+namespace slipfront::friction_ratio {
+
+namespace {
+
+/// Where the solver is to be run.
+struct Node {
+  modulation::Closure closure;
+  double stress, damping;
+  auto operator<=>(const Node&) const = default;
+};
+using Solved = std::map<Node, Logarithms>;
+
+/// A place in the table.
+struct Place {
+  std::size_t closure, measure, piece, i, j;
+};
+
+Node node_at(const layout::Corners& corners, const Place& p) {
+  const layout::Corner& corner = corners[p.closure][p.measure];
+  const auto ends = layout::ends_at(corner, node(p.i, layout::y_nodes)).value;
+  const double low = ends[p.piece], high = ends[p.piece + 1];
+  const double x = layout::x_at(node(p.j, layout::u_nodes), layout::by_root(corner, p.piece));
+  const double u = p.j == 0 ? high : p.j == layout::u_nodes - 1 ? low : std::lerp(low, high, x);
+  return {closures[p.closure], stress_node(p.i), std::fmin(std::expm1(u), layout::most_damping)};
+}
+
+/// All nodes, once each: measures share those that no corner moves.
+Solved nodes_of(const layout::Corners& corners) {
+  Solved all;
+  for (std::size_t c = 0; c < layout::closures; ++c)
+    for (std::size_t m = 0; m < layout::measures; ++m)
+      for (std::size_t p = 0; p < layout::pieces; ++p)
+        for (std::size_t i = 0; i < layout::y_nodes; ++i)
+          for (std::size_t j = 0; j < layout::u_nodes; ++j) all[node_at(corners, {c, m, p, i, j})] = {};
+  return all;
+}
+
+/// Returns what went wrong; nothing if nothing did.
+std::string solve_all(Solved& solved) {
+  std::vector<Solved::value_type*> work;
+  for (auto& entry : solved) work.push_back(&entry);
+  std::string failed;
+#pragma omp parallel for schedule(dynamic)
+  for (std::size_t n = 0; n < work.size(); ++n) {
+    const Node& at = work[n]->first;
+    try {
+      work[n]->second = computed(at.closure, at.stress, at.damping);
+    } catch (const std::exception& error) {
+#pragma omp critical
+      failed = "stress " + std::to_string(at.stress) + ", damping number " + std::to_string(at.damping) + ": " +
+               error.what();
+    }
+  }
+  return failed;
+}
+
+void print_row(const std::vector<double>& numbers, const char* after) {
+  for (std::size_t n = 0; n < numbers.size(); ++n) std::printf("%s%.6e", n == 0 ? "{{" : ",", numbers[n]);
+  std::printf("}}%s\n", after);
+}
+
+/// Coefficient of T_a(y) T_b(u) in a piece.
+double coefficient_at(const Solved& solved, const layout::Corners& corners, const Place& p, std::size_t a,
+                      std::size_t b) {
+  return coefficient(a, layout::y_nodes, [&](std::size_t i) {
+    return coefficient(b, layout::u_nodes, [&](std::size_t j) {
+      return solved.at(node_at(corners, {p.closure, p.measure, p.piece, i, j}))[p.measure];
+    });
+  });
+}
+
+void print_table(const Solved& solved, const layout::Corners& corners) {
+  std::puts("const layout::Table coefficients = {{");
+  for (std::size_t c = 0; c < layout::closures; ++c) {
+    std::puts("{{");
+    for (std::size_t m = 0; m < layout::measures; ++m) {
+      std::puts("{{");
+      for (std::size_t p = 0; p < layout::pieces; ++p) {
+        std::fputs("{{", stdout);
+        for (std::size_t a = 0; a < layout::y_nodes; ++a) {
+          std::vector<double> row;
+          for (std::size_t b = 0; b < layout::u_nodes; ++b)
+            row.push_back(coefficient_at(solved, corners, {c, m, p, 0, 0}, a, b));
+          print_row(row, a + 1 < layout::y_nodes ? "," : "}},");
+        }
+      }
+      std::puts("}},");
+    }
+    std::puts("}},");
+  }
+  std::puts("}};\n\nconst layout::Corners corners = {{");
+  for (const auto& of_closure : corners) {
+    std::puts("{{");
+    for (const layout::Corner& corner : of_closure) print_row({corner.begin(), corner.end()}, ",");
+    std::puts("}},");
+  }
+  std::puts("}};");
+}
+
+}  // namespace
+
+int make() {
+  const layout::Corners corners = find_corners();
+  Solved solved = nodes_of(corners);
+  const std::string failed = solve_all(solved);
+  if (!failed.empty()) {
+    std::fprintf(stderr, "friction_ratio_table: %s\n", failed.c_str());
+    return 1;
+  }
+  std::puts("// Made by tools/friction_ratio. Do not edit.\n");
+  std::puts("#include \"coefficients.hpp\"\n\nnamespace slipfront::friction_ratio {\n\n// clang-format off");
+  print_table(solved, corners);
+  std::puts("// clang-format on\n\n}  // namespace slipfront::friction_ratio");
+  return 0;
+}
+
+}  // namespace slipfront::friction_ratio
