@@ -1,6 +1,7 @@
 #include "corners.hpp"
 
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include "nodes.hpp"
@@ -25,7 +26,7 @@ std::size_t sharpest(const std::vector<double>& y) {
 /// Where the parabola through y[from - 4], y[from - 2], y[from] meets that through y[to], y[to + 2], y[to + 4], counted
 /// from `from`.
 double meeting(const std::vector<double>& y, std::size_t from, std::size_t to) {
-  const auto parabola = [&](const double* v, int direction, double x) {  // v[0], v[2 direction], v[4 direction]
+  const auto parabola = [&](const double* v, std::ptrdiff_t direction, double x) {  // v[0], v[2 direction], v[4 direction]
     const double a = v[0], b = v[2 * direction], c = v[4 * direction];
     const double s = x / 2;
     return a + s * (b - a) + s * (s - 1) / 2 * (c - 2 * b + a);
