@@ -26,7 +26,8 @@ std::size_t sharpest(const std::vector<double>& y) {
 /// Where the parabola through y[from - 4], y[from - 2], y[from] meets that through y[to], y[to + 2], y[to + 4], counted
 /// from `from`.
 double meeting(const std::vector<double>& y, std::size_t from, std::size_t to) {
-  const auto parabola = [&](const double* v, std::ptrdiff_t direction, double x) {  // v[0], v[2 direction], v[4 direction]
+  const auto parabola = [&](const double* v, std::ptrdiff_t direction,
+                            double x) {  // v[0], v[2 direction], v[4 direction]
     const double a = v[0], b = v[2 * direction], c = v[4 * direction];
     const double s = x / 2;
     return a + s * (b - a) + s * (s - 1) / 2 * (c - 2 * b + a);
@@ -44,9 +45,10 @@ struct CornersAt {
   double origin, peak;
 };
 CornersAt corners_at(double stress) {
-  constexpr double step = 0.004, first = 0.15, last = 1.5;
+  constexpr double step = 0.004, first = 0.15;
+  constexpr int count = 338;  // up to 1.498
   std::vector<double> dampings, origin, peak;
-  for (double u = first; u < last; u += step) dampings.push_back(std::expm1(u));
+  for (int n = 0; n < count; ++n) dampings.push_back(std::expm1(first + step * n));
   for (const SlipVelocities& w : solve_each(stress, modulation::Closure::consistent, 3200, dampings)) {
     origin.push_back(std::log(w.origin));
     peak.push_back(std::log(w.peak));
