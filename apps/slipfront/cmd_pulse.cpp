@@ -16,7 +16,7 @@ void describe(const scenario::Scenario& s, const pulse::Problem& problem, const 
       "{}: fine. Would run {} cells over x = {:.6g} ... {:.6g} to t = {:.6g}, {} friction {} (closure {}), {} "
       "snapshots.\n",
       s.title.empty() ? s.file : s.title, problem.cells, problem.left, problem.right, s.end, law_name(s.friction.law),
-      s.friction.coefficient, closure_name(s.friction.closure), schedule.times.size()));
+      s.friction.coefficient, name_of(s.friction.closure), schedule.times.size()));
 }
 
 int run_pulse(const ScenarioArguments& a) {

@@ -30,11 +30,6 @@ std::string quoted(const std::string& text) {
   return out + "\"";
 }
 
-const char* measure_name(slipfront::event::Measure measure) {
-  using slipfront::event::Measure;
-  return measure == Measure::mean ? "mean" : measure == Measure::peak ? "peak" : "origin";
-}
-
 Json number_or_null(const std::optional<double>& x) { return x ? Json(*x) : Json(); }
 
 Json posterior_json(const EventResult& result) {
@@ -47,7 +42,7 @@ Json posterior_json(const EventResult& result) {
     j[name] = q ? Json(q->median) : Json();
     j[name + "_interval"] = q ? Json{q->low, q->high} : Json();
   }
-  j["slip_velocity_is"] = measure_name(result.observation.slip_velocity_is);
+  j["slip_velocity_is"] = name_of(result.observation.slip_velocity_is);
   j["friction_identified"] = p.friction_identified;
   j["prior_share"] = {{"contact_ratio", number_or_null(p.contact_ratio_prior_share)},
                       {"damping_number", number_or_null(p.damping_number_prior_share)}};

@@ -12,8 +12,7 @@ using namespace slipfront::event;
 Plan plan_of(const EventArguments& a) {
   return {{.samples = a.samples.value_or(Sampling{}.samples),
            .seed = a.seed,
-           .closure = a.closure == "paper" ? slipfront::modulation::Closure::paper
-                                           : slipfront::modulation::Closure::consistent},
+           .closure = slipfront::modulation::closure_named(a.closure)},
           a.samples.has_value(),
           a.common.json,
           a.pulse};

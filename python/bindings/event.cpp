@@ -95,13 +95,13 @@ py::dict evaluate_all(const std::vector<Source>& sources, const StatedMedium& me
 void bind_event(py::module_& m) {
   m.def("event", [](const std::vector<Source>& sources, const std::string& p_wave_speed,
                     const std::string& poisson_ratio, const std::string& shear_modulus,
-                    std::optional<std::size_t> samples, std::uint64_t seed, bool paper, bool pulse, int threads) {
-    const Plan plan{{.samples = samples.value_or(Sampling{}.samples),
-                     .seed = seed,
-                     .closure = paper ? modulation::Closure::paper : modulation::Closure::consistent},
-                    samples.has_value(),
-                    false,
-                    pulse};
+                    std::optional<std::size_t> samples, std::uint64_t seed, const std::string& closure, bool pulse,
+                    int threads) {
+    const Plan plan{
+        {.samples = samples.value_or(Sampling{}.samples), .seed = seed, .closure = modulation::closure_named(closure)},
+        samples.has_value(),
+        false,
+        pulse};
     return evaluate_all(sources, {p_wave_speed, poisson_ratio, shear_modulus}, plan, threads);
   });
 }

@@ -1,7 +1,6 @@
 #include <string>
 
 #include "columns.hpp"
-#include "slipfront/error.hpp"
 #include "slipfront/friction_ratio/table.hpp"
 
 namespace {
@@ -15,16 +14,10 @@ constexpr std::array<Description, 4> friction_ratio_described = {{
     {"uncertainty", "largest relative error of the ratio", "", "Fig. 10"},
 }};
 
-friction_ratio::Measure measure_of(const std::string& name) {
-  if (name == "origin") return friction_ratio::Measure::origin;
-  if (name == "mean") return friction_ratio::Measure::mean;
-  if (name == "peak") return friction_ratio::Measure::peak;
-  throw InputError({.key = "measure", .value = name, .problem = "unknown", .allowed = "origin, mean, peak"});
-}
-
-py::list friction_ratio_of(const Numbers& stress, const Numbers& damping, const std::string& measure, bool paper) {
-  const auto closure = paper ? modulation::Closure::paper : modulation::Closure::consistent;
-  const friction_ratio::Measure which = measure_of(measure);
+py::list friction_ratio_of(const Numbers& stress, const Numbers& damping, const std::string& measure,
+                           const std::string& closure_name) {
+  const modulation::Closure closure = modulation::closure_named(closure_name);
+  const friction_ratio::Measure which = friction_ratio::measure_named(measure, "measure");
   const double *s = stress.data(), *g = damping.data();
   return columns<4>(stress.size(), [=](py::ssize_t i) {
     const friction_ratio::Ratio r = friction_ratio::evaluate(which, closure, s[i], g[i]);

@@ -49,8 +49,8 @@ py::dict check_pulse(const py::dict& arguments) {
   const pulse::Run laid(problem, setup::pulse_schedule(s, problem));  // what is wrong with the cells is said here
   return py::dict("title"_a = s.title, "cells"_a = problem.cells, "left"_a = problem.left, "right"_a = problem.right,
                   "end"_a = s.end, "friction_law"_a = setup::law_name(s.friction.law),
-                  "friction_coefficient"_a = s.friction.coefficient,
-                  "closure"_a = setup::closure_name(s.friction.closure), "times"_a = laid.schedule().times.size());
+                  "friction_coefficient"_a = s.friction.coefficient, "closure"_a = name_of(s.friction.closure),
+                  "times"_a = laid.schedule().times.size());
 }
 
 }  // namespace

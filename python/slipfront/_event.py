@@ -91,10 +91,8 @@ def event(events=None, *, p_wave_speed=None, poisson_ratio=None, shear_modulus=N
                else [_source(events, "events")])
     if not sources:
         raise InputError("events: none; allowed: one or more")
-    if closure not in ("consistent", "paper"):
-        raise InputError(f"closure = '{closure}'; allowed: consistent, paper")
     columns = _slipfront.event(sources, _default(p_wave_speed), _default(poisson_ratio), _default(shear_modulus),
-                               _whole("samples", samples), _whole("seed", seed), closure == "paper", bool(pulse), thread_count(threads))
+                               _whole("samples", samples), _whole("seed", seed), str(closure), bool(pulse), thread_count(threads))
     texts = {name: (values, long_name) for name, values, long_name in columns["texts"]}
     errors = texts["error"][0]
     if errors and all(errors):

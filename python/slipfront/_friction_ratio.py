@@ -3,7 +3,6 @@
 from . import _slipfront
 from ._dataset import of_columns
 from ._numbers import flat
-from ._slipfront import InputError
 
 
 def friction_ratio(stress, damping_number, *, measure="origin", closure="consistent"):
@@ -20,8 +19,6 @@ def friction_ratio(stress, damping_number, *, measure="origin", closure="consist
     Returns a Dataset: ratio (over the frictionless slip velocity at x = 0), its derivatives by_damping_number and by_stress,
     and uncertainty, its largest relative error. Raises InputError.
     """
-    if closure not in ("consistent", "paper"):
-        raise InputError(f"closure = '{closure}'; allowed: consistent, paper")
     (stress, damping_number), *rest = flat(stress=stress, damping_number=damping_number)
-    columns = _slipfront.friction_ratio(stress, damping_number, str(measure), closure == "paper")
-    return of_columns(_slipfront.friction_ratio_described, columns, *rest).assign_attrs(measure=str(measure), closure=closure)
+    columns = _slipfront.friction_ratio(stress, damping_number, str(measure), str(closure))
+    return of_columns(_slipfront.friction_ratio_described, columns, *rest).assign_attrs(measure=str(measure), closure=str(closure))

@@ -98,7 +98,7 @@ Entry read_row(const std::vector<Column>& columns, const std::vector<std::string
           o.note = cell;
           break;
         case Role::slip_velocity_is:
-          read_cell(column, [&] { o.slip_velocity_is = parse_measure(cell); });
+          read_cell(column, [&] { o.slip_velocity_is = friction_ratio::measure_named(cell); });
           break;
         case Role::name:
         case Role::ignored:

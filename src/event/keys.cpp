@@ -31,13 +31,6 @@ const Key* find_key(std::string_view name) {
   return nullptr;
 }
 
-Measure parse_measure(std::string_view text) {
-  if (text == "origin") return Measure::origin;
-  if (text == "mean") return Measure::mean;
-  if (text == "peak") return Measure::peak;
-  throw InputError({.value = std::string(text), .problem = "unknown", .allowed = "origin, mean, peak"});
-}
-
 void store(Observation& observation, const Key& key, std::string_view text, std::string_view default_unit) {
   store(observation, key, parse_measured(text, key.dimension, default_unit), text);
 }

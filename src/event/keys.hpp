@@ -21,9 +21,6 @@ struct Key {
 const std::vector<Key>& quantity_keys();
 const Key* find_key(std::string_view name);
 
-/// "origin", "mean" or "peak". \throws InputError (value, problem, allowed) otherwise.
-Measure parse_measure(std::string_view text);
-
 /// Parses `text` and stores it. \throws InputError (value, problem, allowed) for bad text, a bad unit, an uncertainty
 /// or a quantity that is not positive.
 void store(Observation& observation, const Key& key, std::string_view text, std::string_view default_unit);

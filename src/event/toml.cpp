@@ -46,7 +46,7 @@ void read_quantity(Observation& o, const Key& key, const std::string& full_key, 
 
 void read_measure(Observation& o, const std::string& full_key, const toml::node& node) {
   try {
-    o.slip_velocity_is = parse_measure(text_value(node, full_key));
+    o.slip_velocity_is = friction_ratio::measure_named(text_value(node, full_key));
   } catch (const InputError& error) {
     Complaint c = error.complaint();
     c.key = full_key;

@@ -19,7 +19,18 @@ void check(double stress, double damping) {
   if (!(damping >= 0) || std::isinf(damping)) refuse("damping_number", damping, ">= 0, finite");
 }
 
+constexpr std::array<const char*, layout::measures> measure_names = {"origin", "mean", "peak"};
+
 }  // namespace
+
+const char* name_of(Measure measure) { return measure_names[static_cast<std::size_t>(measure)]; }
+
+Measure measure_named(std::string_view name, std::string_view key) {
+  for (const Measure m : {Measure::origin, Measure::mean, Measure::peak})
+    if (name == name_of(m)) return m;
+  throw InputError(
+      {.key = std::string(key), .value = std::string(name), .problem = "unknown", .allowed = "origin, mean, peak"});
+}
 
 Ratio evaluate(Measure measure, modulation::Closure closure, double stress, double damping) {
   check(stress, damping);

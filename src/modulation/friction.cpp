@@ -2,8 +2,10 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "slipfront/elliptic/complete.hpp"
+#include "slipfront/error.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::modulation {
@@ -29,6 +31,15 @@ double mean_power(const State& state, double n) {
 }
 
 }  // namespace
+
+const char* name_of(Closure closure) { return closure == Closure::paper ? "paper" : "consistent"; }
+
+Closure closure_named(std::string_view name) {
+  for (const Closure c : {Closure::consistent, Closure::paper})
+    if (name == name_of(c)) return c;
+  throw InputError(
+      {.key = "closure", .value = std::string(name), .problem = "unknown", .allowed = "consistent, paper"});
+}
 
 double momentum_loss(const State& state, const Friction& f) {
   if (f.law == FrictionLaw::none || f.coefficient == 0 || state.empty()) return 0;

@@ -62,7 +62,7 @@ bool run_levels(const Comparison& c, int threads, std::vector<Level>& levels, co
   if (c.exact) levels.push_back(*c.exact);
   for (const modulation::Closure closure : {modulation::Closure::consistent, modulation::Closure::paper}) {
     next();
-    const char* name = closure_name(closure);
+    const char* name = name_of(closure);
     Level level{.name = std::string("pulse-") + name, .closure = name};
     pulse::Problem problem = c.problem;
     problem.friction.closure = closure;

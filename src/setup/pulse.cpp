@@ -42,10 +42,6 @@ const char* law_name(modulation::FrictionLaw law) {
   return "no";
 }
 
-const char* closure_name(modulation::Closure closure) {
-  return closure == modulation::Closure::paper ? "paper" : "consistent";
-}
-
 pulse::Problem pulse_problem(const scenario::Scenario& s) {
   pulse::Problem p{.stress = s.stress,
                    .forcing = s.forcing_at,

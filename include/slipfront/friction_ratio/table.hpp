@@ -4,6 +4,8 @@
 /// the damping number Gamma = C T: a table made from the pulse solver (docs/friction_ratio.md), for a true step of
 /// stress into the empty interface.
 
+#include <string_view>
+
 #include "slipfront/modulation/friction.hpp"
 
 namespace slipfront::friction_ratio {
@@ -14,6 +16,10 @@ enum class Measure {
   mean,    ///< weighted with slip: integral of W slip dx over integral of slip dx
   peak,    ///< the largest W(x) up to the top that is reached uphill from x = 0
 };
+
+/// "origin", "mean" or "peak", and back. \throws InputError (with that key) for any other word.
+const char* name_of(Measure measure);
+Measure measure_named(std::string_view name, std::string_view key = {});
 
 struct Ratio {
   double value;       ///< W / frictionless W(0); for `origin` 1 at Gamma = 0

@@ -2,6 +2,8 @@
 /// \file
 /// Friction laws and the two ways to average them over a period (docs/theory.md 3.3; Eqs. 7).
 
+#include <string_view>
+
 #include "slipfront/train/state.hpp"
 
 namespace slipfront::modulation {
@@ -19,6 +21,10 @@ enum class Closure {
   consistent,  ///< loss = <f(w) sigma>, the exact average
   paper,       ///< loss = k <f(w)>, as the paper's Eqs. (7) have it; understates friction
 };
+
+/// "consistent" or "paper", and back. \throws InputError (key "closure") for any other word.
+const char* name_of(Closure closure);
+Closure closure_named(std::string_view name);
 
 struct Friction {
   FrictionLaw law = FrictionLaw::none;

@@ -16,7 +16,5 @@ pulse::Schedule pulse_schedule(const scenario::Scenario& scenario, const pulse::
 
 /// "viscous", "coulomb", "power"; "no" without friction.
 const char* law_name(modulation::FrictionLaw law);
-/// "consistent" or "paper".
-const char* closure_name(modulation::Closure closure);
 
 }  // namespace slipfront::setup
