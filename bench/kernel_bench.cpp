@@ -116,12 +116,10 @@ BENCHMARK(kernel_faces);
 
 void kernel_stage(benchmark::State& state) {
   const Pulse p;
-  pulse::Semidiscrete equations({std::vector<double>(cells, 0.01),
-                                 false,
-                                 false,
-                                 {modulation::FrictionLaw::viscous, 0.5, 1, modulation::Closure::consistent},
-                                 {},
-                                 {}});
+  pulse::Semidiscrete::Setup setup;
+  setup.charge.assign(cells, 0.01);
+  setup.friction = {modulation::FrictionLaw::viscous, 0.5, 1, modulation::Closure::consistent};
+  pulse::Semidiscrete equations(std::move(setup));
   std::vector<double> y(2 * cells + pulse::Semidiscrete::extra), dy(y.size()), s(cells);
   for (std::size_t i = 0; i < cells; ++i) {
     y[2 * i] = 0.01 * p.spacing[i];

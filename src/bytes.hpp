@@ -23,6 +23,10 @@ class Writer {
     put(static_cast<std::uint64_t>(values.size()));
     text_.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double));
   }
+  void put_text(std::string_view text) {
+    put(static_cast<std::uint64_t>(text.size()));
+    text_.append(text);
+  }
   std::string text() && { return std::move(text_); }
 
  private:
@@ -44,6 +48,13 @@ class Reader {
     std::vector<double> values(static_cast<std::size_t>(size));
     take(values.data(), values.size() * sizeof(double));
     return values;
+  }
+  std::string text() {
+    const auto size = get<std::uint64_t>();
+    if (size > text_.size()) refuse();
+    std::string text(static_cast<std::size_t>(size), '\0');
+    take(text.data(), text.size());
+    return text;
   }
   bool at_end() const { return text_.empty(); }
   void end() const {

@@ -7,6 +7,7 @@
 
 #include "slipfront/error.hpp"
 #include "slipfront/parallel.hpp"
+#include "slipfront/printable.hpp"
 
 /// `make(i)` for i < count on several threads, in order: the result does not depend on how many. The exception of the
 /// lowest i is thrown. `few`: see for_each_parallel.
@@ -18,8 +19,10 @@ std::vector<Result> in_parallel(std::size_t count, int threads, Make&& make, std
   return results;
 }
 
-/// Writes to stdout; a full disk or a closed pipe is an error, not a silence.
-inline void put(const std::string& text) {
+/// Writes to stdout what may be shown (titles and names come from files); a full disk or a closed pipe is an error, not
+/// a silence. JSON passes unchanged: it has escapes for all the rest.
+inline void put(const std::string& raw) {
+  const std::string text = slipfront::printable_lines(raw);
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size())
     throw slipfront::FileError("stdout: cannot be written");
 }

@@ -25,6 +25,8 @@ int run_chain(const ScenarioArguments& a) {
     schedule = pulse_schedule(s, pulse_problem(s));
     if (!a.resume.empty()) saved = checkpoint_of(a, s);
   });
+  the_ranks->require_same("SCENARIO", s.text);
+  the_ranks->require_same("--resume", saved.solver_state);
   if (a.check) {
     if (the_ranks->rank() > 0) return exit_done;
     const chain::Problem p = chain::problem_of(stretched);

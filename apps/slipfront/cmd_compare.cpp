@@ -6,8 +6,10 @@
 
 #include "batch.hpp"
 #include "compare_print.hpp"
+#include "interrupts.hpp"
 #include "long_run.hpp"
 #include "slipfront/record/comparison_file.hpp"
+#include "slipfront/record/unfinished.hpp"
 
 namespace {
 
@@ -18,16 +20,17 @@ struct Arguments : ScenarioArguments {
   std::vector<double> scales;
 };
 
-void write(const Arguments& a, const scenario::Scenario& s, const pulse::Schedule& schedule,
-           const std::vector<Level>& levels, bool finished) {
-  if (a.output.empty()) return;
+void write(const record::Output& output, const Arguments& a, const scenario::Scenario& s,
+           const pulse::Schedule& schedule, const std::vector<Level>& levels, bool finished) {
+  if (!output.wanted()) return;
   std::vector<record::ComparedLevel> compared;
   compared.reserve(levels.size());
   for (const Level& level : levels) compared.push_back({level.name, level.scale, level.snapshots});
-  record::write_comparison(
-      a.output,
-      {s.title, s.text, SLIPFRONT_VERSION, "slipfront compare " + a.scenario, schedule.x_edges, s.output.variables},
-      schedule.times, compared, finished);
+  record::write_comparison(finished ? output.finished() : output.unfinished(),
+                           {s.title, s.text, SLIPFRONT_VERSION, scenario::command_line(s, "compare", a.scales),
+                            schedule.x_edges, s.output.variables},
+                           schedule.times, compared, finished);
+  if (finished) output.clear();
 }
 
 void describe(const scenario::Scenario& s, const Comparison& c) {
@@ -46,14 +49,16 @@ int run_compare(const Arguments& a) {
     describe(s, comparison);
     return exit_done;
   }
-  watch_interrupts();
+  const record::Output output(a.output, "");
+  if (output.wanted()) interrupted_means("; the levels that were done are in " + output.unfinished());
+  const WatchInterrupts watch;
   std::vector<Level> levels;
   std::optional<Progress> progress;
   const bool reached = run_levels(
       comparison, a.common.threads, levels,
       [&] {
         progress.reset();
-        write(a, s, comparison.schedule, levels, false);
+        write(output, a, s, comparison.schedule, levels, false);
       },
       [&](const std::string& level, double time, long steps) {
         if (!progress) progress.emplace(s.end, !a.common.quiet, level);
@@ -61,10 +66,10 @@ int run_compare(const Arguments& a) {
         return interrupted_by_user();
       });
   progress.reset();
-  write(a, s, comparison.schedule, levels, reached);
+  write(output, a, s, comparison.schedule, levels, reached);
   if (!reached) {
     complain(fmt::format("interrupted; {} of {} levels were done{}", levels.size(), comparison.levels(),
-                         a.output.empty() ? "" : " and are in " + a.output));
+                         a.output.empty() ? "" : " and are in " + output.unfinished()));
     return exit_interrupted;
   }
   print_comparison(s, levels, a.common.json);

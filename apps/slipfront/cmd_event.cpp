@@ -1,8 +1,10 @@
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <string>
 
 #include "commands.hpp"
 #include "event_run.hpp"
+#include "slipfront/error.hpp"
 
 Runner add_event(CLI::App& app) {
   auto arguments = std::make_shared<EventArguments>();
@@ -22,8 +24,13 @@ Runner add_event(CLI::App& app) {
   command
       ->add_option("--samples", arguments->samples,
                    "Sample every event with this many states of the fault (default: 1000 for events that carry an "
-                   "uncertainty, a contact ratio, a stress drop or a friction coefficient; 0: none)")
+                   "uncertainty, a contact ratio, a stress drop or a friction coefficient; 0: none). They double until "
+                   "they suffice for intervals")
       ->check(CLI::Range(0, 10000000));
+  command
+      ->add_option("--draws", arguments->draws,
+                   "Write this many states of the posterior of each sampled event too (with -o OUT.nc)")
+      ->check(CLI::Range(1, 100000));
   command->add_option("--seed", arguments->seed, "Of the samples (default: 1)");
   command->add_option("--closure", arguments->closure, "Of the friction: consistent (default) or paper")
       ->check(CLI::IsMember({"consistent", "paper"}));
@@ -36,11 +43,18 @@ Runner add_event(CLI::App& app) {
   command
       ->add_option("-o,--output", arguments->output,
                    "File to write instead of the table: NetCDF, or CSV rows by its ending")
+      ->check([](const std::string& path) { return path.empty() ? "no name of a file" : ""; })
       ->type_name("OUT.nc");
   command->add_option("--resume", arguments->resume, "Go on from an unfinished file of these events, and write to it")
       ->type_name("OUT.nc");
   add_common_options(*command, arguments->common);
   return [arguments] {
+    if (arguments->draws > 0 && arguments->output.empty() && arguments->resume.empty())
+      throw slipfront::InputError({.file = "command line",
+                                   .key = "--draws",
+                                   .value = std::to_string(arguments->draws),
+                                   .problem = "nowhere to write the draws",
+                                   .allowed = "with -o OUT.nc"});
     return arguments->output.empty() && arguments->resume.empty() ? print_events(*arguments) : write_events(*arguments);
   };
 }

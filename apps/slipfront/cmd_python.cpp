@@ -37,6 +37,17 @@ std::filesystem::path package_folder() {
   return {};
 }
 
+/// What Python is given to run: the subcommand, and an answer to Ctrl-C from the first moment.
+constexpr const char* launch =
+    "import sys\n"
+    "try:\n"
+    "    from slipfront.__main__ import main\n"
+    "    code = main()\n"
+    "except KeyboardInterrupt:\n"
+    "    print('slipfront: interrupted', file=sys.stderr)\n"
+    "    code = 130\n"
+    "sys.exit(code)\n";
+
 /// Becomes the Python interpreter that runs a subcommand with these arguments. Does not return.
 [[noreturn]] void hand_over(std::string name, char** first, char** last) {
   const std::filesystem::path folder = package_folder();
@@ -48,8 +59,8 @@ std::filesystem::path package_folder() {
   if (const char* others = std::getenv("PYTHONPATH"); others && *others) path += std::string(":") + others;
   setenv("PYTHONPATH", path.c_str(), 1);
   setenv("PYTHONSAFEPATH", "1", 1);  // a folder `slipfront` where the user stands is not the package
-  std::string interpreter = SLIPFRONT_PYTHON_INTERPRETER, option = "-m", module = "slipfront";
-  std::vector<char*> arguments = {interpreter.data(), option.data(), module.data(), name.data()};
+  std::string interpreter = SLIPFRONT_PYTHON_INTERPRETER, option = "-c", code = launch;
+  std::vector<char*> arguments = {interpreter.data(), option.data(), code.data(), name.data()};
   arguments.insert(arguments.end(), first, last);
   arguments.push_back(nullptr);
   execv(interpreter.c_str(), arguments.data());

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "batch.hpp"
+#include "interrupts.hpp"
 #include "progress.hpp"
 #include "slipfront/event/population.hpp"
 #include "slipfront/event/saved.hpp"
@@ -51,12 +52,14 @@ class Catalogue {
   }
 
   void write() {
-    if (keeping_.output.empty()) return;
+    if (!keeping_.output.wanted()) return;
     const auto begun = Clock::now();
     Population population;
     for (const EventResult& r : done())
       if (const auto member = member_of(r)) population.add(*member);
-    record::write_events(keeping_.output, keeping_.metadata, done(), population.decades(), finished());
+    record::write_events(finished() ? keeping_.output.finished() : keeping_.output.unfinished(), keeping_.metadata,
+                         done(), population.decades(), finished());
+    if (finished()) keeping_.output.clear();
     written_ = Clock::now();
     cost_ = seconds_since(begun);
   }
@@ -92,11 +95,14 @@ KeptEvents evaluate_and_keep(std::vector<Entry>&& entries, const MediumDefaults&
                              const EventKeeping& keeping) {
   const auto total = static_cast<double>(entries.size());
   Catalogue catalogue(std::move(entries), defaults, plan, keeping);
-  watch_interrupts();
-  if (keeping.resume.empty())
-    catalogue.write();  // a path that cannot be written is known before the work
-  else
+  interrupted_means(keeping.output.wanted()
+                        ? "; what was written last stays: go on with " + keeping.output.how_to_resume()
+                        : "; nothing was written: -o OUT.nc could be resumed");
+  const WatchInterrupts watch;
+  if (!keeping.resume.empty())
     catalogue.resume();
+  else if (!keeping.output.replaces())
+    catalogue.write();  // a path that cannot be written is known before the work
   {
     Progress progress(total, !keeping.quiet, {}, {"", "events", 8});
     const auto at = [&] { return catalogue.count_done(); };

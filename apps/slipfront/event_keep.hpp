@@ -5,11 +5,12 @@
 
 #include "slipfront/event/evaluate.hpp"
 #include "slipfront/record/event_file.hpp"
+#include "slipfront/record/unfinished.hpp"
 
 /// A catalogue that is written to a file while it is evaluated.
 struct EventKeeping {
-  std::string output;  ///< NetCDF; empty: nowhere, and an interrupted catalogue is lost
-  std::string resume;  ///< what an earlier call wrote; empty: begin anew
+  slipfront::record::Output output;  ///< NetCDF; none: an interrupted catalogue is lost
+  std::string resume;                ///< what an earlier call wrote; empty: begin anew
   slipfront::record::EventMetadata metadata;
   int threads = 1;
   bool quiet = false;

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <string_view>
 #include <vector>
 
 namespace {
 
 using Json = nlohmann::ordered_json;
+using slipfront::event::bound_quantities;
 using slipfront::event::Estimate;
 using slipfront::event::EventResult;
 using slipfront::event::FaultPulse;
@@ -24,8 +26,10 @@ const Estimate& estimate_of(const EventResult& result) {
   return result.estimate ? *result.estimate : nothing;
 }
 
+/// A cell of text. A spreadsheet runs one that begins like a formula: it gets an apostrophe before it (docs/events.md).
 std::string quoted(const std::string& text) {
-  std::string out = "\"";
+  const bool like_formula = !text.empty() && std::string_view("=+-@\t").find(text[0]) != std::string_view::npos;
+  std::string out = like_formula ? "\"'" : "\"";
   for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c == '\n' || c == '\r' ? ' ' : c);
   return out + "\"";
 }
@@ -42,7 +46,7 @@ Json posterior_json(const EventResult& result) {
     j[name] = q ? Json(q->median) : Json();
     j[name + "_interval"] = q ? Json{q->low, q->high} : Json();
   }
-  j["slip_velocity_is"] = name_of(result.observation.slip_velocity_is);
+  j["slip_velocity_is"] = name_of(result.observation.measure());
   j["friction_identified"] = p.friction_identified;
   j["prior_share"] = {{"contact_ratio", number_or_null(p.contact_ratio_prior_share)},
                       {"damping_number", number_or_null(p.damping_number_prior_share)}};
@@ -51,7 +55,9 @@ Json posterior_json(const EventResult& result) {
     j["trade_off"].push_back(
         {{"damping_number", t.damping_number}, {"contact_ratio", t.contact_ratio}, {"stress_pa", t.stress_pa}});
   j["notes"] = p.notes;
+  j["suffices"] = p.suffices;
   j["effective_samples"] = p.effective_samples;
+  j["pareto_k"] = p.pareto_k;
   j["samples"] = p.samples;
   j["seed"] = p.seed;
   return j;
@@ -110,18 +116,19 @@ std::string event_json(const EventResult& result) {
   j["line"] = o.line;
   j["c_m_s"] = result.estimate ? Json(e.speed) : Json();
   for (const auto& q : measured_quantities()) j[std::string(q.about.name)] = e.*q.value ? Json(*(e.*q.value)) : Json();
-  for (const auto& q : inferred_quantities()) {
-    const auto& x = e.*q.value;
-    const std::string name(q.about.name);
-    j[name] = x ? Json(x->value) : Json();
-    j[name + "_interval"] = x && x->interval ? Json{x->interval->low, x->interval->high} : Json();
-  }
+  for (const auto quantities : {inferred_quantities(), bound_quantities()})
+    for (const auto& q : quantities) {
+      const auto& x = e.*q.value;
+      const std::string name(q.about.name);
+      j[name] = x ? Json(x->value) : Json();
+      j[name + "_interval"] = x && x->interval ? Json{x->interval->low, x->interval->high} : Json();
+    }
   j["posterior"] = posterior_json(result);
   if (!result.along_fault.empty()) j["along_fault"] = along_fault_json(result);
   if (result.pulse) j["pulse"] = pulse_json(*result.pulse);
   j["warnings"] = result.warnings();
   j["error"] = result.error.empty() ? Json() : Json(result.error);
-  return j.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return j.dump(-1, ' ', true, Json::error_handler_t::replace);
 }
 
 std::string event_csv_head(bool with_pulse) {
@@ -135,8 +142,18 @@ std::string event_csv_head(bool with_pulse) {
     for (const auto& q : pulse_quantities()) head += fmt::format(",{}", q.about.name);
     head += ",pulse_reason";
   }
-  return head + "\n";
+  for (const auto& q : bound_quantities()) head += fmt::format(",{0},{0}_low,{0}_high", q.about.name);
+  return head + ",pareto_k,samples\n";
 }
+
+namespace {
+
+std::string csv_cells(const std::optional<slipfront::event::Inferred>& x) {
+  return (x ? fmt::format(",{}", x->value) : ",") +
+         (x && x->interval ? fmt::format(",{},{}", x->interval->low, x->interval->high) : ",,");
+}
+
+}  // namespace
 
 std::string event_csv_row(const EventResult& result, bool with_pulse) {
   const Estimate& e = estimate_of(result);
@@ -144,11 +161,7 @@ std::string event_csv_row(const EventResult& result, bool with_pulse) {
   std::string row = quoted(o.name) + "," + quoted(o.date) + "," + quoted(o.kind) + ",";
   if (result.estimate) row += fmt::format("{}", e.speed);
   for (const auto& q : measured_quantities()) row += e.*q.value ? fmt::format(",{}", *(e.*q.value)) : ",";
-  for (const auto& q : inferred_quantities()) {
-    const auto& x = e.*q.value;
-    row += x ? fmt::format(",{}", x->value) : ",";
-    row += x && x->interval ? fmt::format(",{},{}", x->interval->low, x->interval->high) : ",,";
-  }
+  for (const auto& q : inferred_quantities()) row += csv_cells(e.*q.value);
   const Posterior none;
   for (const auto& quantity : posterior_quantities()) {
     const auto& q = (result.posterior ? *result.posterior : none).*quantity.value;
@@ -169,5 +182,7 @@ std::string event_csv_row(const EventResult& result, bool with_pulse) {
     }
     row += "," + quoted(result.pulse ? result.pulse->reason : "");
   }
+  for (const auto& q : bound_quantities()) row += csv_cells(e.*q.value);
+  row += result.posterior ? fmt::format(",{},{}", result.posterior->pareto_k, result.posterior->samples) : ",,";
   return row + "\n";
 }

@@ -80,7 +80,11 @@ void EventPrinter::print_table(const std::string& written) const {
 void EventPrinter::print_notes() const {
   std::vector<std::pair<std::size_t, std::string>> notes;
   for (const auto& [text, count] : warnings_) notes.emplace_back(count, text);
-  std::stable_sort(notes.begin(), notes.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  // Sources that disagree come first: each speaks of a few events, and must not be among those left out.
+  const auto rank = [](const auto& note) {
+    return std::pair(note.second.starts_with("sources of ") ? 1 : 0, note.first);
+  };
+  std::stable_sort(notes.begin(), notes.end(), [&](const auto& a, const auto& b) { return rank(a) > rank(b); });
   if (notes.empty()) return;
   put(fmt::format("{}Notes (--json gives those of each event; --quiet none):\n",
                   has_rows() || shown_.population ? "\n" : ""));

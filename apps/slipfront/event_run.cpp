@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "batch.hpp"
+#include "slipfront/event/sources.hpp"
 #include "slipfront/record/text_file.hpp"
 
 using namespace slipfront::event;
@@ -12,40 +13,44 @@ using namespace slipfront::event;
 Plan plan_of(const EventArguments& a) {
   return {{.samples = a.samples.value_or(Sampling{}.samples),
            .seed = a.seed,
-           .closure = slipfront::modulation::closure_named(a.closure)},
+           .closure = slipfront::modulation::closure_named(a.closure),
+           .draws = a.draws},
           a.samples.has_value(),
           a.common.json,
           a.pulse};
 }
 
-EventsRead read_all(const EventArguments& a, const Sink& sink,
-                    const std::function<void(std::string_view, std::string_view)>& with_text) {
+std::vector<EventText> texts_of(const EventArguments& a) {
+  if (a.files.empty()) return {{"catalogue.csv", std::string(shipped_catalogue), {}}};
+  std::vector<EventText> all;
+  for (const std::string& file : a.files) try {
+      const bool standard_input = file == "-";
+      all.push_back({standard_input ? "stdin" : file,
+                     standard_input ? slipfront::record::read_standard_input() : slipfront::record::read_text(file),
+                     {}});
+    } catch (const slipfront::FileError& error) {
+      all.push_back({file, {}, error.what()});
+    }
+  return all;
+}
+
+EventsRead read_all(const EventArguments& a, const std::vector<EventText>& texts, const Sink& sink) {
   EventsRead all;
   auto& ignored = all.ignored_columns;
-  const auto read = [&](std::string_view text, const std::string& name) {
-    with_text(name, text);
-    for (std::string& title : read_events(text, name, sink))
-      if (std::find(ignored.begin(), ignored.end(), title) == ignored.end()) ignored.push_back(std::move(title));
-  };
-  if (a.files.empty()) {
-    read(shipped_catalogue, "catalogue.csv");
-    ignored.clear();  // ours, and known to be ignored
-  }
-  for (const std::string& file : a.files) {
-    try {
-      const bool standard_input = file == "-";
-      read(standard_input ? slipfront::record::read_standard_input() : slipfront::record::read_text(file),
-           standard_input ? "stdin" : file);
-    } catch (const slipfront::FileError& error) {
-      all.unreadable = true;
-      with_text(file, error.what());
-      Entry entry;
-      entry.observation.name = file;
-      entry.observation.file = file;
-      entry.error = slipfront::Complaint{.problem = error.what()};
-      sink(std::move(entry));
+  for (const EventText& t : texts) {
+    if (t.error.empty()) {
+      for (std::string& title : read_events(t.text, t.name, sink))
+        if (std::find(ignored.begin(), ignored.end(), title) == ignored.end()) ignored.push_back(std::move(title));
+      continue;
     }
+    all.unreadable = true;
+    Entry entry;
+    entry.observation.name = t.name;
+    entry.observation.file = t.name;
+    entry.error = slipfront::Complaint{.problem = t.error};
+    sink(std::move(entry));
   }
+  if (a.files.empty()) ignored.clear();  // ours, and known to be ignored
   return all;
 }
 
@@ -56,6 +61,11 @@ int exit_code(const EventsRead& read, const EventPrinter& printer) {
 int print_events(const EventArguments& a) {
   const MediumDefaults defaults = defaults_of(a.medium);
   const Plan plan = plan_of(a);
+  const std::vector<EventText> texts = texts_of(a);
+  Sources sources;  // read twice: whether sources of one earthquake disagree is known when all are
+  read_all(a, texts, [&](Entry&& entry) {
+    if (!entry.error) sources.add(entry.observation, defaults);
+  });
   EventPrinter printer(a.common, {.rows = !a.population, .population = a.population, .pulse = a.pulse});
   std::vector<Entry> waiting;
   const auto flush = [&] {
@@ -65,13 +75,11 @@ int print_events(const EventArguments& a) {
     waiting.clear();
     for (auto& p : printed) printer.take(std::move(p));
   };
-  const EventsRead read = read_all(
-      a,
-      [&](Entry&& entry) {
-        waiting.push_back(std::move(entry));
-        if (waiting.size() == 4096) flush();
-      },
-      [](std::string_view, std::string_view) {});
+  const EventsRead read = read_all(a, texts, [&](Entry&& entry) {
+    if (!entry.error) sources.warn(entry.observation);
+    waiting.push_back(std::move(entry));
+    if (waiting.size() == 4096) flush();
+  });
   flush();
   printer.finish(read.ignored_columns, {});
   return exit_code(read, printer);

@@ -1,10 +1,8 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "commands.hpp"
@@ -22,17 +20,26 @@ struct EventArguments {
   std::string closure = "consistent";
   bool pulse = false, population = false;
   std::string output, resume;
+  std::size_t draws = 0;
 };
 
 slipfront::event::Plan plan_of(const EventArguments& arguments);
 
-/// Reads all files; what cannot be read is an entry with the reason. `with_text` is given each file's name and text.
+/// A file of events, as text.
+struct EventText {
+  std::string name;
+  std::string text;
+  std::string error;  ///< why it could not be read; empty: it was
+};
+std::vector<EventText> texts_of(const EventArguments& arguments);
+
+/// The entries of all files; of one that cannot be read, an entry with the reason.
 struct EventsRead {
   std::vector<std::string> ignored_columns;
   bool unreadable = false;
 };
-EventsRead read_all(const EventArguments& arguments, const slipfront::event::Sink& sink,
-                    const std::function<void(std::string_view, std::string_view)>& with_text);
+EventsRead read_all(const EventArguments& arguments, const std::vector<EventText>& texts,
+                    const slipfront::event::Sink& sink);
 
 int exit_code(const EventsRead& read, const EventPrinter& printer);
 

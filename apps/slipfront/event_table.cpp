@@ -12,7 +12,7 @@ using slipfront::event::EventResult;
 using slipfront::event::FaultPulse;
 using slipfront::event::Inferred;
 
-constexpr const char* table_layout = "{} {:>12} {:>9} {:>9} {:>12} {:>12} {:>12} {:>9} {:>9} {:>9}\n";
+constexpr const char* table_layout = "{} {:>12} {:>9} {:>9} {:>12} {:>12} {:>12} {:>11} {:>9} {:>9}\n";
 constexpr std::size_t name_width = 34;
 
 /// The first `width` characters (code points) of a UTF-8 text, padded.
@@ -36,19 +36,23 @@ std::string line_of(const Cells& cells) {
                      cells[6], cells[7], cells[8], cells[9]);
 }
 
-/// What is inferred, by its column.
+/// What is inferred, by its column; or a lower bound of it, if there is but that.
 struct Column {
   std::size_t cell;
   std::optional<Inferred> Estimate::*value;
   double unit = 1;
   int digits = 4;
+  std::optional<Inferred> Estimate::*bound = nullptr;
+
+  bool is_bound(const Estimate& e) const { return bound && e.*bound; }
+  const std::optional<Inferred>& of(const Estimate& e) const { return is_bound(e) ? e.*bound : e.*value; }
 };
 constexpr std::array<Column, 7> columns = {{{2, &Estimate::rupture_velocity},
-                                            {3, &Estimate::stress},
+                                            {3, &Estimate::stress, 1, 4, &Estimate::stress_bound},
                                             {5, &Estimate::frictionless_slip_velocity},
                                             {6, &Estimate::slip_velocity_ratio},
-                                            {7, &Estimate::contact_ratio},
-                                            {8, &Estimate::stress_pa, 1e6},
+                                            {7, &Estimate::contact_ratio, 1, 3, &Estimate::contact_ratio_bound},
+                                            {8, &Estimate::stress_pa, 1e6, 4, &Estimate::stress_pa_bound},
                                             {9, &Estimate::damping_number, 1, 3}}};
 
 /// One end of the intervals, below the values; nothing where there is none.
@@ -57,7 +61,7 @@ std::string interval_line(const Estimate& e, const char* label, double slipfront
   cells[0] = fmt::format("{:>{}}", label, name_width);
   bool any = false;
   for (const Column& c : columns) {
-    const auto& x = e.*c.value;
+    const auto& x = c.of(e);
     if (!x || !x->interval) continue;
     cells[c.cell] = fmt::format("{:.{}g}", (*x->interval).*end / c.unit, c.digits);
     any = true;
@@ -94,8 +98,8 @@ std::string event_table_row(const EventResult& result) {
   cells[1] = front_text(e.observed_rupture_velocity);
   cells[4] = speed_text(e.observed_slip_velocity_m_s);
   for (const Column& c : columns) {
-    const auto& x = e.*c.value;
-    cells[c.cell] = x ? fmt::format("{:.{}g}", x->value / c.unit, c.digits) : "-";
+    const auto& x = c.of(e);
+    cells[c.cell] = x ? fmt::format("{}{:.{}g}", c.is_bound(e) ? ">=" : "", x->value / c.unit, c.digits) : "-";
   }
   return line_of(cells) + interval_line(e, "5 %", &slipfront::event::Interval::low) +
          interval_line(e, "95 %", &slipfront::event::Interval::high);

@@ -8,6 +8,7 @@
 #include "event_keep.hpp"
 #include "event_output.hpp"
 #include "event_run.hpp"
+#include "slipfront/event/sources.hpp"
 #include "slipfront/record/text_file.hpp"
 
 using namespace slipfront::event;
@@ -31,6 +32,7 @@ void check_names(const EventArguments& a) {
   for (const std::string& file : a.files)
     if (std::filesystem::equivalent(file, a.output, not_there)) refuse("-o", a.output, "another file than those read");
   if (!a.resume.empty() && !is_netcdf(a.resume)) refuse("--resume", a.resume, "OUT.nc, as -o wrote it");
+  if (a.draws > 0 && is_csv(a.output)) refuse("-o", a.output, "OUT.nc, with --draws");
   if (!a.resume.empty() && is_csv(a.output)) refuse("-o", a.output, "OUT.nc, with --resume");
 }
 
@@ -43,6 +45,7 @@ std::vector<std::pair<std::string, std::string>> settings_of(const EventArgument
           {"sampled_events", plan.all ? "all" : "those that speak of friction or errors"},
           {"closure", a.closure},
           {"pulse", a.pulse ? "yes" : "no"},
+          {"posterior_draws", fmt::format("{}", a.draws)},
           {"p_wave_speed", stated(a.medium.p_wave_speed)},
           {"poisson_ratio", stated(a.medium.poisson_ratio)},
           {"shear_modulus", stated(a.medium.shear_modulus)},
@@ -69,24 +72,25 @@ int write_events(const EventArguments& a) {
   const Plan plan = plan_of(a);
   std::vector<Entry> entries;
   std::string inputs;
-  const EventsRead read = read_all(
-      a, [&](Entry&& entry) { entries.push_back(std::move(entry)); },
-      [&](std::string_view name, std::string_view text) {
-        inputs = slipfront::record::checksum_of_inputs(inputs, name, text);
-      });
+  const std::vector<EventText> texts = texts_of(a);
+  for (const EventText& t : texts)
+    inputs = slipfront::record::checksum_of_inputs(inputs, t.name, t.error.empty() ? t.text : t.error);
+  const EventsRead read = read_all(a, texts, [&](Entry&& entry) { entries.push_back(std::move(entry)); });
+  warn_of_other_sources(entries, defaults);
   const std::size_t total = entries.size();
   const std::string& path = a.output.empty() ? a.resume : a.output;
-  const KeptEvents kept =
-      evaluate_and_keep(std::move(entries), defaults, plan,
-                        {.output = is_csv(path) ? "" : path,
-                         .resume = a.resume,
-                         .metadata = {SLIPFRONT_VERSION, command_line_of(a), settings_of(a, plan, inputs), a.pulse},
-                         .threads = a.common.threads,
-                         .quiet = a.common.quiet});
+  const slipfront::record::Output output(is_csv(path) ? "" : path, a.resume);
+  const KeptEvents kept = evaluate_and_keep(
+      std::move(entries), defaults, plan,
+      {.output = output,
+       .resume = a.resume,
+       .metadata = {SLIPFRONT_VERSION, command_line_of(a), settings_of(a, plan, inputs), {a.pulse, a.draws}},
+       .threads = a.common.threads,
+       .quiet = a.common.quiet});
   if (!kept.finished) {
-    complain(
-        fmt::format("interrupted after {} of {} events; {}", kept.results.size(), total,
-                    is_csv(path) ? "nothing was written: -o OUT.nc could be resumed" : "go on with --resume " + path));
+    complain(fmt::format(
+        "interrupted after {} of {} events; {}", kept.results.size(), total,
+        is_csv(path) ? "nothing was written: -o OUT.nc could be resumed" : "go on with " + output.how_to_resume()));
     return exit_interrupted;
   }
   if (is_csv(path)) write_rows(path, kept.results, a.pulse);

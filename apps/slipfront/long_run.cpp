@@ -2,14 +2,53 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <filesystem>
+#include <system_error>
 
 #include "batch.hpp"
+#include "slipfront/record/unfinished.hpp"
 
 using namespace slipfront;
 
+namespace {
+
+constexpr int most_words = 1000;
+
+/// The scenario, and what stands behind one --set as if it had its own: --set a.b=1 c.d=2.
+void take_words(ScenarioArguments& a, const std::vector<std::string>& words) {
+  for (const std::string& word : words) {
+    std::error_code none;
+    if (word.find('=') != std::string::npos && !std::filesystem::exists(word, none))
+      a.more_set.push_back(word);
+    else if (a.scenario.empty())
+      a.scenario = word;
+    else
+      a.one_too_many = word;  // said later: an option that is unknown is the better reason
+  }
+}
+
+/// What is wrong with the name of an output, for CLI11.
+std::string netcdf_name(const std::string& path) {
+  try {
+    record::require_netcdf_name(path, "-o");
+    return {};
+  } catch (const InputError& error) {
+    return error.complaint().problem + " '" + path + "'; allowed: " + error.complaint().allowed;
+  }
+}
+
+}  // namespace
+
 void add_scenario_options(CLI::App& command, ScenarioArguments& a, bool with_resume) {
-  command.add_option("SCENARIO", a.scenario, "Scenario file, TOML")->required();
-  command.add_option("-o,--output", a.output, "NetCDF file to write")->type_name("OUT.nc");
+  command
+      .add_option_function<std::vector<std::string>>(
+          "SCENARIO", [&a](const std::vector<std::string>& words) { take_words(a, words); }, "Scenario file, TOML")
+      ->required()
+      ->expected(1, most_words)
+      ->type_name("");
+  command.add_option("-o,--output", a.output, "NetCDF file to write; what stands there is replaced when all is done")
+      ->check(netcdf_name)
+      ->type_name("OUT.nc");
   if (with_resume)
     command.add_option("--resume", a.resume, "Go on from a file of this scenario, and write to it")
         ->type_name("OUT.nc");
@@ -21,8 +60,16 @@ void add_scenario_options(CLI::App& command, ScenarioArguments& a, bool with_res
 }
 
 scenario::Scenario read_scenario_of(const ScenarioArguments& a) {
+  if (a.scenario.empty() || !a.one_too_many.empty())
+    throw InputError({.file = "command line",
+                      .key = "SCENARIO",
+                      .value = a.one_too_many,
+                      .problem = a.scenario.empty() ? "missing" : "one too many",
+                      .allowed = "one file"});
+  std::vector<std::string> set = a.set;
+  set.insert(set.end(), a.more_set.begin(), a.more_set.end());
   scenario::Scenario s =
-      scenario::read_scenario(record::read_text(a.scenario), a.scenario, a.set, record::read_profile_table);
+      scenario::read_scenario(record::read_text(a.scenario), a.scenario, set, record::read_profile_table);
   if (!a.common.quiet)
     for (const std::string& warning : s.warnings) complain("warning: " + warning);
   return s;

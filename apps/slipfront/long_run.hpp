@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "interrupts.hpp"
 #include "progress.hpp"
 #include "slipfront/chain/ranks.hpp"
 #include "slipfront/record/carry_out.hpp"
@@ -18,7 +19,8 @@
 struct ScenarioArguments {
   CommonOptions common;
   std::string scenario, output, resume;
-  std::vector<std::string> set;
+  std::vector<std::string> set, more_set;  ///< the second: behind one --set
+  std::string one_too_many;                ///< a second scenario
   bool check = false;
 };
 
@@ -45,13 +47,18 @@ int carry_out(Run& run, const ScenarioArguments& a, const slipfront::scenario::S
   using namespace slipfront;
   const bool first = the_ranks->rank() == 0;
   // The history is that of the run, not of how it was interrupted and resumed: equal runs make equal files.
-  const record::Keeping keeping{
-      .path = a.output.empty() ? a.resume : a.output,
-      .metadata = {s.title, s.text, SLIPFRONT_VERSION, "slipfront " + command + " " + a.scenario,
-                   run.schedule().x_edges, s.output.variables},
-      .resumed = !a.resume.empty(),
-      .ranks = command == "chain" && the_ranks->size() > 1 ? the_ranks : nullptr};
-  watch_interrupts();
+  const chain::Ranks* const ranks = command == "chain" && the_ranks->size() > 1 ? the_ranks : nullptr;
+  record::Output output;
+  const auto open = [&] { output = record::Output(a.output.empty() ? a.resume : a.output, a.resume); };
+  ranks ? ranks->together(open) : open();
+  const record::Keeping keeping{.output = output,
+                                .metadata = {s.title, s.text, SLIPFRONT_VERSION, scenario::command_line(s, command),
+                                             run.schedule().x_edges, s.output.variables},
+                                .resumed = !a.resume.empty(),
+                                .ranks = ranks};
+  if (keeping.output.wanted())
+    interrupted_means("; what was written last stays: go on with " + keeping.output.how_to_resume());
+  const WatchInterrupts watch(!first);
   bool reached = false;
   {
     Progress progress(s.end, first && !a.common.quiet);
@@ -63,8 +70,8 @@ int carry_out(Run& run, const ScenarioArguments& a, const slipfront::scenario::S
   }
   if (reached) return exit_done;
   if (first)
-    complain(keeping.path.empty()
-                 ? "interrupted; no checkpoint, as there is no -o FILE"
-                 : fmt::format("interrupted at t = {:.6g}; go on with --resume {}", time(), keeping.path));
+    complain(keeping.output.wanted()
+                 ? fmt::format("interrupted at t = {:.6g}; go on with {}", time(), keeping.output.how_to_resume())
+                 : "interrupted; no checkpoint, as there is no -o FILE");
   return exit_interrupted;
 }

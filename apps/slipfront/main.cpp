@@ -4,18 +4,21 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iostream>
 #include <new>
+#include <string>
 
 #include "batch.hpp"
 #include "commands.hpp"
+#include "interrupts.hpp"
 #include "slipfront/chain/ranks.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/machine.hpp"
+#include "slipfront/printable.hpp"
 
 const slipfront::chain::Ranks* the_ranks = nullptr;
 
-void complain(std::string_view line) {
-  std::fprintf(stderr, "slipfront: %.*s\n", static_cast<int>(line.size()), line.data());
-}
+void complain(std::string_view line) { std::fprintf(stderr, "slipfront: %s\n", slipfront::printable(line).c_str()); }
 
 void add_common_options(CLI::App& command, CommonOptions& options, bool with_csv) {
   auto* json = command.add_flag("--json", options.json, "One JSON object on stdout, nothing else");
@@ -25,6 +28,7 @@ void add_common_options(CLI::App& command, CommonOptions& options, bool with_csv
       ->check(CLI::Range(1, 4096))
       ->type_name("N");
   command.parse_complete_callback([&options] {
+    options.threads = slipfront::sensible_threads(options.threads);
     if (options.threads > 0) return;  // else the cores of this machine, shared by the ranks on it
     const long ranks = std::lround(the_ranks->size() * the_ranks->share_of_machine());
     options.threads = std::max(1, omp_get_max_threads() / static_cast<int>(std::max(1L, ranks)));
@@ -59,7 +63,9 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {
-    return the_ranks->rank() == 0 ? app.exit(help) : exit_done;
+    if (the_ranks->rank() == 0) app.exit(help);
+    if (!std::cout.flush()) throw slipfront::FileError("stdout: cannot be written");
+    return exit_done;
   } catch (const CLI::ParseError& error) {
     if (the_ranks->rank() == 0) complain(usage_error(app, error));
     return exit_input;
@@ -79,11 +85,15 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  end_on_interrupts();
   try {
     const slipfront::chain::Ranks ranks = slipfront::chain::Ranks::of_mpirun();
     the_ranks = &ranks;
     const auto failed = [&](int code, const char* text) { return ranks.failed(code, [text] { complain(text); }); };
     try {
+      std::string arguments;
+      for (int i = 1; i < argc; ++i) arguments.append(argv[i]).append(1, '\0');
+      ranks.require_same("command line", arguments);
       return run(argc, argv);
     } catch (const slipfront::InputError& error) {
       return failed(exit_input, error.what());

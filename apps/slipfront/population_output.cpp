@@ -38,6 +38,12 @@ std::string velocities_text(const Spread& s) {
   return spread_text(s, 1e-3 / 86400) + " mm/day";
 }
 
+/// Stress in MPa: known values, and ">=" the lower bounds.
+std::string stress_text(const Spread& known, const Spread& bound) {
+  if (bound.events == 0) return spread_text(known, 1e6);
+  return (known.events > 0 ? spread_text(known, 1e6) + ", " : "") + ">= " + spread_text(bound, 1e6);
+}
+
 constexpr const char* layout = "{:<13} {:>7} {:>16} {:>11}  {:<24} {:<35} {:<32} {}\n";
 
 }  // namespace
@@ -95,6 +101,6 @@ std::string population_table(const std::vector<Decade>& decades, std::size_t eve
                         d.events > 0 ? front_text(spread_of(d, "rupture_velocity_m_s").of.median) : "-",
                         fmt::format("{:.3g}", d.stress), spread_text(spread_of(d, "stress")),
                         velocities_text(spread_of(d, "slip_velocity_m_s")), spread_text(spread_of(d, "contact_ratio")),
-                        spread_text(spread_of(d, "stress_pa"), 1e6));
+                        stress_text(spread_of(d, "stress_pa"), spread_of(d, "stress_pa_bound")));
   return text;
 }

@@ -4,12 +4,11 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <string>
 #include <utility>
 
-/// What long work shows and heeds: a line of progress, Ctrl-C.
+/// What long work shows: a line of progress.
 
 using Clock = std::chrono::steady_clock;
 inline double seconds_since(Clock::time_point start) {
@@ -67,7 +66,3 @@ class Progress {
   double first_time_ = 0;
   long first_steps_ = 0;
 };
-
-/// Ctrl-C and SIGTERM are seen from now on, not obeyed at once.
-void watch_interrupts();
-bool interrupted_by_user();

@@ -13,7 +13,7 @@ from slipfront import plots
 mine = {"name": "My earthquake", "kind": "earthquake", "rupture_velocity": "2.8 km/s", "slip_velocity": "0.6 m/s"}
 event = slipfront.event(mine).isel(event=0)
 print(f"{event.name.item()}: V = {float(event.rupture_velocity):.3f} c, stress {float(event.stress):.3f} mu A / pi")
-print(f"contact ratio A >= {float(event.contact_ratio):.2g}, stress >= {float(event.stress_pa) / 1e6:.0f} MPa")
+print(f"contact ratio A >= {float(event.contact_ratio):.2g}, stress >= {float(event.stress_pa_bound) / 1e6:.0f} MPa")
 print(event.warnings.item())
 
 # The shipped catalogue, from creep events to great earthquakes.

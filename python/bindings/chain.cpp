@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 
 #include "results.hpp"
 #include "slipfront/record/carry_out.hpp"
@@ -21,7 +22,7 @@ py::dict run_chain(const py::dict& arguments, int threads) {
   const scenario::Scenario s = scenario_of(a);
   Watch watch(a.progress, s.end);
   std::unique_ptr<chain::Run> run;
-  record::Keeping keeping;
+  std::optional<record::Keeping> keeping;
   double stepping = 0;
   long steps = 0;
   chain::Run::Balance balance{};
@@ -36,12 +37,12 @@ py::dict run_chain(const py::dict& arguments, int threads) {
       const record::Checkpoint saved = record::read_checkpoint_of(a.resume, s.text, SLIPFRONT_VERSION);
       run = std::make_unique<chain::Run>(stretched, schedule, execution, saved.solver_state, saved.snapshots);
     }
-    keeping = {.path = a.output.empty() ? a.resume : a.output,
-               .metadata = metadata_of(a, s, "chain", schedule.x_edges),
-               .resumed = !a.resume.empty()};
+    keeping = record::Keeping{.output = {a.output.empty() ? a.resume : a.output, a.resume},
+                              .metadata = metadata_of(s, "chain", schedule.x_edges),
+                              .resumed = !a.resume.empty()};
     const long first = run->chain().level();
     const auto begun = Clock::now();
-    if (record::carry_out(*run, keeping, [&] { return watch(run->time(), run->chain().level()); }))
+    if (record::carry_out(*run, *keeping, [&] { return watch(run->time(), run->chain().level()); }))
       balance = run->balance();
     stepping = seconds_since(begun);
     steps = run->chain().level() - first;
@@ -54,7 +55,7 @@ py::dict run_chain(const py::dict& arguments, int threads) {
                             .steps = steps,
                             .ranks = 1,
                             .threads = threads};
-  py::dict result = dataset_of(keeping.metadata, record::pulse_format, run->finished(), run->schedule().times,
+  py::dict result = dataset_of(keeping->metadata, record::pulse_format, run->finished(), run->schedule().times,
                                {&run->snapshots()}, false, s);
   result["summary"] = summary_of(setup::summary(setup::chain_summary(), end));
   return result;

@@ -4,6 +4,7 @@
 
 #include "results.hpp"
 #include "slipfront/record/comparison_file.hpp"
+#include "slipfront/record/unfinished.hpp"
 #include "watch.hpp"
 
 namespace {
@@ -41,13 +42,17 @@ py::dict run_compare(const py::dict& arguments, const std::vector<double>& scale
   {
     const py::gil_scoped_release others_may_run;
     comparison = setup::comparison_of(s, scales);
-    metadata = metadata_of(a, s, "compare", comparison.schedule.x_edges);
+    metadata = metadata_of(s, "compare", comparison.schedule.x_edges);
+    metadata.command_line = scenario::command_line(s, "compare", scales);
+    const record::Output output(a.output, "");
     const auto write = [&] {
-      if (a.output.empty()) return;
+      if (!output.wanted()) return;
       std::vector<record::ComparedLevel> compared;
       compared.reserve(levels.size());
       for (const Level& level : levels) compared.push_back({level.name, level.scale, level.snapshots});
-      record::write_comparison(a.output, metadata, comparison.schedule.times, compared, reached);
+      record::write_comparison(reached ? output.finished() : output.unfinished(), metadata, comparison.schedule.times,
+                               compared, reached);
+      if (reached) output.clear();
     };
     reached =
         setup::run_levels(comparison, threads, levels, write,

@@ -12,6 +12,7 @@
 #include "bindings.hpp"
 #include "slipfront/event/columns.hpp"
 #include "slipfront/event/read.hpp"
+#include "slipfront/event/sources.hpp"
 #include "slipfront/parallel.hpp"
 #include "slipfront/record/text_file.hpp"
 
@@ -26,9 +27,9 @@ py::str text(const std::string& bytes) {
 }
 
 py::array_t<double> numbers(const std::vector<EventResult>& results, const NumberColumn& column) {
-  const auto width = static_cast<py::ssize_t>(column.width);
+  const auto width = static_cast<py::ssize_t>(column.count);
   std::vector<py::ssize_t> shape = {static_cast<py::ssize_t>(results.size())};
-  if (column.width != Width::one) shape.push_back(width);
+  if (column.axis != Axis::none) shape.push_back(width);
   py::array_t<double> values(shape);
   double* out = values.mutable_data();
   for (const EventResult& r : results) {
@@ -45,16 +46,18 @@ py::list texts(const std::vector<EventResult>& results, const TextColumn& column
 }
 
 /// Dimensions of a column besides `event`, as the files have them.
-py::tuple dimensions(Width width) {
-  switch (width) {
-    case Width::one:
+py::tuple dimensions(Axis axis) {
+  switch (axis) {
+    case Axis::none:
       return py::make_tuple("event");
-    case Width::bounds:
+    case Axis::bound:
       return py::make_tuple("event", "bound");
-    case Width::quantiles:
+    case Axis::quantile:
       return py::make_tuple("event", "quantile");
+    case Axis::draw:
+      return py::make_tuple("event", "draw");
   }
-  throw std::logic_error("a width that is none");
+  throw std::logic_error("an axis that is none");
 }
 
 /// Text, name (a path if there is no text to it), whether it is a path.
@@ -72,6 +75,7 @@ py::dict evaluate_all(const std::vector<Source>& sources, const StatedMedium& me
       for (std::string& title : read_events(is_path ? record::read_text(name) : content, name,
                                             [&](Entry&& entry) { entries.push_back(std::move(entry)); }))
         if (std::find(ignored.begin(), ignored.end(), title) == ignored.end()) ignored.push_back(std::move(title));
+    warn_of_other_sources(entries, defaults);
     results.resize(entries.size());
     for_each_parallel(
         entries.size(), threads, [&](std::size_t i) { results[i] = evaluate(std::move(entries[i]), defaults, plan); },
@@ -79,8 +83,8 @@ py::dict evaluate_all(const std::vector<Source>& sources, const StatedMedium& me
   }
   py::dict columns;
   py::list of_numbers, of_texts;
-  for (const NumberColumn& c : number_columns(plan.pulse))
-    of_numbers.append(py::make_tuple(c.name, dimensions(c.width), numbers(results, c), c.long_name, c.unit,
+  for (const NumberColumn& c : number_columns({.pulse = plan.pulse, .draws = plan.sampling.draws}))
+    of_numbers.append(py::make_tuple(c.name, dimensions(c.axis), numbers(results, c), c.long_name, c.unit,
                                      c.dimensional_unit, c.reference));
   for (const TextColumn& c : text_columns(plan.pulse))
     of_texts.append(py::make_tuple(c.name, texts(results, c), c.long_name));
@@ -93,15 +97,17 @@ py::dict evaluate_all(const std::vector<Source>& sources, const StatedMedium& me
 }  // namespace
 
 void bind_event(py::module_& m) {
-  m.def("event", [](const std::vector<Source>& sources, const std::string& p_wave_speed,
-                    const std::string& poisson_ratio, const std::string& shear_modulus,
-                    std::optional<std::size_t> samples, std::uint64_t seed, const std::string& closure, bool pulse,
-                    int threads) {
-    const Plan plan{
-        {.samples = samples.value_or(Sampling{}.samples), .seed = seed, .closure = modulation::closure_named(closure)},
-        samples.has_value(),
-        false,
-        pulse};
-    return evaluate_all(sources, {p_wave_speed, poisson_ratio, shear_modulus}, plan, threads);
-  });
+  m.def("event",
+        [](const std::vector<Source>& sources, const std::string& p_wave_speed, const std::string& poisson_ratio,
+           const std::string& shear_modulus, std::optional<std::size_t> samples, std::uint64_t seed,
+           const std::string& closure, bool pulse, std::size_t draws, int threads) {
+          const Plan plan{{.samples = samples.value_or(Sampling{}.samples),
+                           .seed = seed,
+                           .closure = modulation::closure_named(closure),
+                           .draws = draws},
+                          samples.has_value(),
+                          false,
+                          pulse};
+          return evaluate_all(sources, {p_wave_speed, poisson_ratio, shear_modulus}, plan, threads);
+        });
 }

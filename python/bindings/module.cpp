@@ -18,4 +18,5 @@ PYBIND11_MODULE(_slipfront, m) {
   bind_compare(m);
   bind_event(m);
   bind_sweep(m);
+  bind_files(m);
 }

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 
 #include "results.hpp"
 #include "slipfront/record/carry_out.hpp"
@@ -17,7 +18,7 @@ py::dict run_pulse(const py::dict& arguments) {
   const scenario::Scenario s = scenario_of(a);
   Watch watch(a.progress, s.end);
   std::unique_ptr<pulse::Run> run;
-  record::Keeping keeping;
+  std::optional<record::Keeping> keeping;
   {
     const py::gil_scoped_release others_may_run;
     const pulse::Problem problem = setup::pulse_problem(s);
@@ -28,15 +29,15 @@ py::dict run_pulse(const py::dict& arguments) {
       const record::Checkpoint saved = record::read_checkpoint_of(a.resume, s.text, SLIPFRONT_VERSION);
       run = std::make_unique<pulse::Run>(problem, schedule, saved.solver_state, saved.snapshots);
     }
-    keeping = {.path = a.output.empty() ? a.resume : a.output,
-               .metadata = metadata_of(a, s, "pulse", schedule.x_edges),
-               .resumed = !a.resume.empty()};
+    keeping = record::Keeping{.output = {a.output.empty() ? a.resume : a.output, a.resume},
+                              .metadata = metadata_of(s, "pulse", schedule.x_edges),
+                              .resumed = !a.resume.empty()};
     const pulse::Solver& solver = run->solver();
-    record::carry_out(*run, keeping, [&] { return watch(solver.cells().time, solver.cells().steps); });
+    record::carry_out(*run, *keeping, [&] { return watch(solver.cells().time, solver.cells().steps); });
   }
   watch.finish();
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  py::dict result = dataset_of(keeping.metadata, record::pulse_format, run->finished(), run->schedule().times,
+  py::dict result = dataset_of(keeping->metadata, record::pulse_format, run->finished(), run->schedule().times,
                                {&run->snapshots()}, false, s);
   result["summary"] = summary_of(setup::summary(setup::pulse_summary(), {s, *run, wall}));
   return result;

@@ -10,12 +10,14 @@
 #include "slipfront/record/pulse_variables.hpp"
 #include "slipfront/record/table_file.hpp"
 #include "slipfront/record/text_file.hpp"
+#include "slipfront/record/unfinished.hpp"
 
 using namespace slipfront;
 using pulse::Snapshot;
 
 Asked asked(const py::dict& arguments) {
   const auto text = [&](const char* key) { return arguments[key].cast<std::string>(); };
+  if (const std::string output = text("output"); !output.empty()) record::require_netcdf_name(output, "output");
   return {text("text"),   text("path"),   arguments["set"].cast<std::vector<std::string>>(),
           text("output"), text("resume"), arguments["progress"]};
 }
@@ -26,10 +28,10 @@ scenario::Scenario scenario_of(const Asked& asked) {
                                  is_file ? asked.path : "scenario", asked.set, record::read_profile_table);
 }
 
-record::PulseMetadata metadata_of(const Asked& asked, const scenario::Scenario& scenario, const std::string& command,
+record::PulseMetadata metadata_of(const scenario::Scenario& scenario, const std::string& command,
                                   const std::vector<double>& x_edges) {
   return {scenario.title,    scenario.text,
-          SLIPFRONT_VERSION, "slipfront " + command + " " + (asked.path.empty() ? "scenario" : asked.path),
+          SLIPFRONT_VERSION, scenario::command_line(scenario, command),
           x_edges,           scenario.output.variables};
 }
 

@@ -22,8 +22,8 @@ Asked asked(const py::dict& arguments);
 slipfront::scenario::Scenario scenario_of(const Asked& asked);
 
 /// The metadata of a file that `command` makes, the same as the command line's.
-slipfront::record::PulseMetadata metadata_of(const Asked& asked, const slipfront::scenario::Scenario& scenario,
-                                             const std::string& command, const std::vector<double>& x_edges);
+slipfront::record::PulseMetadata metadata_of(const slipfront::scenario::Scenario& scenario, const std::string& command,
+                                             const std::vector<double>& x_edges);
 
 /// One series of snapshots a level of theory.
 using Levels = std::vector<const std::vector<slipfront::pulse::Snapshot>*>;

@@ -13,7 +13,6 @@
 
 #include "results.hpp"
 #include "slipfront/record/table_file.hpp"
-#include "slipfront/record/text_file.hpp"
 #include "slipfront/setup/chain.hpp"
 #include "slipfront/setup/pulse.hpp"
 
@@ -176,7 +175,6 @@ void sweep(const std::string& command, const py::dict& arguments, std::vector<Ov
 }  // namespace
 
 void bind_sweep(py::module_& m) {
-  m.def("read_text", record::read_text);
   m.def("sweep", sweep);
   m.def("pulse_numbers", [] { return number_keys(setup::pulse_summary()); });
   m.def("chain_numbers", [] { return number_keys(setup::chain_summary()); });

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "../../src/digits.hpp"
 #include "columns.hpp"
 #include "slipfront/elliptic/jacobi.hpp"
 #include "slipfront/error.hpp"
@@ -56,7 +57,7 @@ py::list fields(const Numbers& phi, const Numbers& psi, const Numbers& xi) {
   const double *f = phi.data(), *s = psi.data(), *x = xi.data();
   return columns<3>(phi.size(), [=](py::ssize_t i) {
     if (!std::isfinite(x[i]))
-      throw InputError({.key = "xi", .value = std::to_string(x[i]), .problem = "not finite", .allowed = "a number"});
+      throw InputError({.key = "xi", .value = digits(x[i]), .problem = "not finite", .allowed = "a number"});
     const train::Fields at = train::fields(state(f[i], s[i]), x[i]);
     return std::array{at.u, at.sigma, at.w};
   });
@@ -115,8 +116,7 @@ py::tuple profile(double left, double right, const Numbers& x_over_t) {
   const double* x = x_over_t.data();
   const py::list rows = columns<4>(x_over_t.size(), [&, x](py::ssize_t i) {
     if (!std::isfinite(x[i]))
-      throw InputError(
-          {.key = "x_over_t", .value = std::to_string(x[i]), .problem = "not finite", .allowed = "a number"});
+      throw InputError({.key = "x_over_t", .value = digits(x[i]), .problem = "not finite", .allowed = "a number"});
     const State here = rupture::sample(solution, x[i]);
     const train::Averages a = train::averages(here);
     return std::array{here.empty() ? 0.0 : std::tanh(here.phi), a.k, a.W, a.P};

@@ -1,8 +1,10 @@
 """`python3 -m slipfront NAME ARGS...`: the subcommands of the command line that are written in Python. Each is a module
 cmd_NAME.py with `main(argv) -> int`, argv without the name; what it raises becomes one line and an exit code."""
 
+import contextlib
 import importlib
 import os
+import signal
 import sys
 
 DONE, INPUT, FILE, NUMERICS, INTERRUPTED = 0, 2, 3, 4, 130
@@ -10,7 +12,36 @@ NAMES = ("reproduce", "plot", "animate")
 
 
 def complain(error):
-    print(f"slipfront: {' '.join(str(error).split()) or type(error).__name__}", file=sys.stderr)
+    text = " ".join(str(error).split()) or type(error).__name__
+    with contextlib.suppress(ImportError):  # then the complaint is that
+        from ._slipfront import printable
+
+        text = printable(text.encode("utf-8", "surrogateescape"))
+    with contextlib.suppress(OSError):
+        print(f"slipfront: {text}", file=sys.stderr)
+
+
+def interrupted(_signal, _frame):
+    """Ctrl-C, and what else asks a program to end: the work is left where it can be, a second time at once."""
+    for number in ENDING:
+        signal.signal(number, lambda *_: os._exit(INTERRUPTED))
+    signal.signal(signal.SIGALRM, end_now)
+    signal.alarm(1)  # for what is running to come to its end
+    raise KeyboardInterrupt
+
+
+def end_now(*_):
+    os.write(2, b"slipfront: interrupted\n")
+    os._exit(INTERRUPTED)
+
+
+ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+
+
+def heed_signals():
+    for number in ENDING:
+        if signal.getsignal(number) != signal.SIG_IGN:  # nohup
+            signal.signal(number, interrupted)
 
 
 def run(name, argv):
@@ -24,8 +55,11 @@ def run(name, argv):
         code = importlib.import_module(f".cmd_{name}", __package__).main(argv)
         sys.stdout.flush()
         return code
+    except SystemExit as end:  # --help
+        return end.code or DONE
     except KeyboardInterrupt:
         complain("interrupted")
+        signal.signal(signal.SIGALRM, lambda *_: os._exit(INTERRUPTED))
         return INTERRUPTED
     except (NumericsError, MemoryError) as error:
         complain(error if str(error) else "out of memory")
@@ -36,12 +70,18 @@ def run(name, argv):
     except (OSError, ImportError) as error:
         complain(error)
         return FILE
+    except Exception as error:
+        if sys.flags.dev_mode:
+            raise
+        complain(f"{name} failed: {type(error).__name__}: {error}")
+        return NUMERICS
 
 
 def main():
     if len(sys.argv) < 2 or sys.argv[1] not in NAMES:
         complain(f"python3 -m slipfront: which subcommand? allowed: {', '.join(NAMES)}")
         return INPUT
+    heed_signals()
     code = run(sys.argv[1], sys.argv[2:])
     try:
         sys.stdout.flush()

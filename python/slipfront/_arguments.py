@@ -4,6 +4,8 @@ import argparse
 import os
 import sys
 
+from ._slipfront import printable, sensible_threads
+
 
 class Arguments(argparse.ArgumentParser):
     """A parser whose errors are one line (ValueError: exit code 2), with the options that every subcommand takes."""
@@ -19,11 +21,23 @@ class Arguments(argparse.ArgumentParser):
         raise ValueError(f"{message}; see {self.prog} --help")
 
 
+def file_name(text):
+    """The name of a file or folder to write."""
+    if not text:
+        raise argparse.ArgumentTypeError("no name of a file")
+    return text
+
+
+def put(text):
+    """Prints what may hold names of files, as it may be shown."""
+    print("\n".join(printable(os.fsencode(line)) for line in text.split("\n")))
+
+
 def threads(text):
     """A number of threads."""
     if not text.isascii() or not text.isdigit() or not 1 <= int(text) <= 4096:
         raise argparse.ArgumentTypeError(f"'{text}' is no number of threads; allowed: 1 to 4096")
-    return int(text)
+    return sensible_threads(int(text))
 
 
 def progress(options, text):

@@ -48,7 +48,7 @@ def _default(value):
 
 
 def event(events=None, *, p_wave_speed=None, poisson_ratio=None, shear_modulus=None, samples=None, seed=1, closure="consistent",
-          pulse=False, threads=None):
+          pulse=False, draws=0, threads=None):
     """Stress, contact ratio, slip velocity and friction of observed events, by the closed forms (Eqs. 8-10) and by samples.
 
     Parameters
@@ -61,7 +61,7 @@ def event(events=None, *, p_wave_speed=None, poisson_ratio=None, shear_modulus=N
         Of events that give none, such as "6 km/s", 0.3, "30 GPa" (the defaults).
     samples : int, optional
         Samples of the state of every event, friction and errors included (docs/events.md); without it, 1000 for events that
-        carry an uncertainty, a contact ratio, a stress drop or a friction coefficient. 0: none.
+        carry an uncertainty, a contact ratio, a stress drop or a friction coefficient. They double until they suffice. 0: none.
     seed : int, optional
         Of the samples.
     closure : "consistent" or "paper", optional
@@ -69,6 +69,8 @@ def event(events=None, *, p_wave_speed=None, poisson_ratio=None, shear_modulus=N
     pulse : bool, optional
         A frictionless pulse through the slip of each finite-fault model: adds pulse_front_velocity_ratio, pulse_correlation_of_slip,
         pulse_columns, pulse_columns_reached, pulse_slip_error, pulse_contact_ratio, and pulse_reason where there is none.
+    draws : int, optional
+        States of the posterior of each sampled event to return, alike in weight: `draw_<name>` over `draw`.
     threads : int, optional
         All cores unless given; results do not depend on it.
 
@@ -76,10 +78,12 @@ def event(events=None, *, p_wave_speed=None, poisson_ratio=None, shear_modulus=N
     -------
     xarray.Dataset over `event`: name, c_m_s, rupture_velocity (V / c), stress (mu A / pi), frictionless_slip_velocity and
     observed_slip_velocity (c A / pi), slip_velocity_ratio, contact_ratio, stress_pa (Pa), damping_number,
-    friction_coefficient, and `<name>_interval` = [5 %, 95 %] of each: by the closed forms, as if there were no friction,
-    and by samples where these say what the friction is. Of sampled events `posterior_<name>` over `quantile` (5 %, 50 %,
-    95 %), effective_samples and friction_identified (1 or 0). NaN where not identifiable; and `warnings`. One bad event
-    of several does not lose the others: its `error` says why, and is "" for the rest.
+    friction_coefficient, and `<name>_interval` = [5 %, 95 %] of each: by the closed forms, and of sampled events the median
+    and interval of the samples. Where friction is not known contact_ratio is a lower bound and stress_pa NaN:
+    contact_ratio_bound and stress_pa_bound say what they are at least, if friction took nothing; stress_bound likewise where
+    there is no rupture velocity. Of sampled events `posterior_<name>` over `quantile` (5 %, 50 %, 95 %), effective_samples,
+    pareto_k, samples and friction_identified (1 or 0). NaN where not identifiable; and `warnings`. One bad event of several
+    does not lose the others: its `error` says why, and is "" for the rest.
 
     Raises
     ------
@@ -92,7 +96,7 @@ def event(events=None, *, p_wave_speed=None, poisson_ratio=None, shear_modulus=N
     if not sources:
         raise InputError("events: none; allowed: one or more")
     columns = _slipfront.event(sources, _default(p_wave_speed), _default(poisson_ratio), _default(shear_modulus),
-                               _whole("samples", samples), _whole("seed", seed), str(closure), bool(pulse), thread_count(threads))
+                               _whole("samples", samples), _whole("seed", seed), str(closure), bool(pulse), _whole("draws", draws), thread_count(threads))
     texts = {name: (values, long_name) for name, values, long_name in columns["texts"]}
     errors = texts["error"][0]
     if errors and all(errors):

@@ -2,7 +2,7 @@
 
 from . import _slipfront
 from ._dataset import of_columns
-from ._numbers import flat
+from ._numbers import flat, past_nan
 
 
 def friction_ratio(stress, damping_number, *, measure="origin", closure="consistent"):
@@ -13,12 +13,12 @@ def friction_ratio(stress, damping_number, *, measure="origin", closure="consist
     ----------
     stress : Sigma- of a step of stress into the empty interface, in mu A / pi, 0.05 to 3.
     damping_number : Gamma = C T >= 0, with f = C w and T the time since the rupture began. Arguments broadcast.
-    measure : "origin" (slip velocity at x = 0), "mean" (weighted with slip) or "peak".
+    measure : "origin" (slip velocity at x = 0), "mean" (weighted with slip), "peak" or "time-mean" (slip over duration).
     closure : "consistent" or "paper".
 
     Returns a Dataset: ratio (over the frictionless slip velocity at x = 0), its derivatives by_damping_number and by_stress,
     and uncertainty, its largest relative error. Raises InputError.
     """
     (stress, damping_number), *rest = flat(stress=stress, damping_number=damping_number)
-    columns = _slipfront.friction_ratio(stress, damping_number, str(measure), str(closure))
+    columns = past_nan(lambda s, d: _slipfront.friction_ratio(s, d, str(measure), str(closure)), stress, damping_number, instead=(1.0, 1.0))
     return of_columns(_slipfront.friction_ratio_described, columns, *rest).assign_attrs(measure=str(measure), closure=str(closure))

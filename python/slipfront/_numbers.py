@@ -2,6 +2,7 @@
 
 import os
 
+from . import _slipfront
 from ._need import need
 from ._slipfront import InputError
 
@@ -56,10 +57,19 @@ def flat(**given):
     return [np.ascontiguousarray(array).reshape(-1) for array in arrays], arrays[0].shape, dims, coords
 
 
+def past_nan(call, *arrays, instead):
+    """Columns that call(*arrays) gives; NaN where an array is NaN, which `call` refuses: it gets `instead` there."""
+    missing = np.isnan(arrays).any(axis=0)
+    columns = call(*(np.where(missing, other, array) for array, other in zip(arrays, instead)))
+    for column in columns:
+        column[missing] = np.nan
+    return columns
+
+
 def thread_count(threads):
     """Number of threads for a `threads` argument; None means all cores."""
     if threads is None:
         return len(os.sched_getaffinity(0))
     if isinstance(threads, bool) or not isinstance(threads, (int, np.integer)) or not 1 <= threads <= 4096:
         raise InputError(f"threads = '{threads}': out of range; allowed: a whole number from 1 to 4096")
-    return int(threads)
+    return _slipfront.sensible_threads(int(threads))

@@ -2,7 +2,7 @@
 
 from . import _slipfront
 from ._dataset import attributes, dataset
-from ._numbers import dimensions, numbers, thread_count
+from ._numbers import dimensions, numbers, past_nan, thread_count
 from ._slipfront import InputError
 
 _ways = "stress, rupture_velocity or slip_velocity"
@@ -31,7 +31,7 @@ def relations(*, stress=None, rupture_velocity=None, slip_velocity=None, threads
 
     Raises
     ------
-    InputError unless exactly one quantity is given, all of it in its range.
+    InputError unless exactly one quantity is given, all of it in its range or NaN. NaN gives NaN.
     """
     given = [(name, values) for name, values in (("stress", stress), ("rupture_velocity", rupture_velocity),
                                                  ("slip_velocity", slip_velocity)) if values is not None]
@@ -39,7 +39,8 @@ def relations(*, stress=None, rupture_velocity=None, slip_velocity=None, threads
         raise InputError(f"relations: {'nothing was' if not given else 'more than one quantity was'} given; allowed: {_ways}")
     name, values = given[0]
     array = numbers(name, values)
-    columns = _slipfront.relations(name, array.reshape(-1), thread_count(threads))
+    count = thread_count(threads)
+    columns = past_nan(lambda values: _slipfront.relations(name, values, count), array.reshape(-1), instead=(0.5,))
     dims, coords = dimensions(values, array)
     return dataset({about[0]: (dims, column.reshape(array.shape), attributes(about))
                     for about, column in zip(_slipfront.relations_quantities, columns)},

@@ -1,5 +1,6 @@
 """Runs of scenarios: slipfront.pulse, chain, compare, check, and open for the files that they write."""
 
+import os
 import warnings
 
 from . import _slipfront
@@ -158,6 +159,7 @@ def read(name, any_file=False):
     """The same, or the Dataset of any NetCDF file."""
     xarray = need("xarray")
     need("netCDF4")
+    _slipfront.require_readable_netcdf(os.fsencode(name))  # what is damaged would crash the library, and Python with it
     try:
         with xarray.open_dataset(name, engine="netcdf4") as stored:
             if not (any_file or "slipfront_format" in stored.attrs):

@@ -81,6 +81,11 @@ class Store:
         raise FileError(f"{self.path}: {reason}")
 
     def close(self, remove=False):
-        if remove:
-            os.unlink(self.path)
-        os.close(self._file)
+        """Ends it; one that is removed has its rows elsewhere, and needs no more of the disk."""
+        try:
+            if remove:
+                os.unlink(self.path)
+            os.close(self._file)
+        except OSError as error:
+            if not remove:
+                raise FileError(f"{self.path}: {error.strerror}") from error

@@ -2,14 +2,14 @@
 
 import itertools
 import json
+import math
 import os
 import warnings
 
 from . import _slipfront
-from ._beside import beside
 from ._cluster import on_cluster, run_points
 from ._dataset import dataset
-from ._need import need
+from ._files import write_dataset
 from ._numbers import np, thread_count
 from ._progress import showing
 from ._run import check, open
@@ -64,16 +64,6 @@ def _check_some(scenario, settings, points, command):
     raise first
 
 
-def _write(data, output):
-    """Writes the Dataset whole or not at all."""
-    need("netCDF4")
-    try:
-        with beside(output) as name:
-            data.to_netcdf(name, engine="netcdf4", format="NETCDF4")
-    except OSError as error:
-        raise FileError(f"{output}: {error.strerror or error}") from error
-
-
 def sweep(scenario, axes, *, variables=None, set=None, command="pulse", output=None, resume=None, client=None, progress=None, threads=None):
     """Runs a scenario at every point of a grid of settings.
 
@@ -114,6 +104,9 @@ def sweep(scenario, axes, *, variables=None, set=None, command="pulse", output=N
     threads = thread_count(threads)
     axes, kept = _axes(axes), _variables(variables, command)
     shape = tuple(len(values) for values in axes.values())
+    total = math.prod(shape)
+    if total * (8 * len(kept) + 1500) > _slipfront.usable_memory():
+        raise InputError(f"axes: {total} points need more memory than this process may have; allowed: fewer")
     points = [dict(zip(axes, values)) for values in itertools.product(*axes.values())]
     asked = arguments(scenario, output=output, resume=resume)
     if asked["path"]:
@@ -155,7 +148,7 @@ def sweep(scenario, axes, *, variables=None, set=None, command="pulse", output=N
                 run_points(command, asked, work, list(kept), threads, deliver)
         data = _dataset(about, axes, kept, values.reshape(-1, *shape), reasons.reshape(shape))
         if store:
-            _write(data, asked["output"] or asked["resume"])
+            write_dataset(data, asked["output"] or asked["resume"])
     except BaseException:
         if store:
             store.close(remove=not store.rows_written and resume is None)

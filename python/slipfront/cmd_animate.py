@@ -4,7 +4,7 @@ import json
 import pathlib
 import tomllib
 
-from ._arguments import Arguments, progress
+from ._arguments import Arguments, file_name, progress, put
 from ._need import need
 
 FRAMES = 75
@@ -26,7 +26,7 @@ def main(argv) -> int:
     """Writes the animation. Returns the exit code; raises ValueError (bad input), OSError (files), ImportError (a library)."""
     parser = Arguments("animate", "A slip pulse as a moving picture: the averaged slip velocity and stress, and the dislocations that carry them.")
     parser.add_argument("source", metavar="FILE", help="NetCDF of pulse or chain (a frame for each output time), or a scenario (TOML) to run")
-    parser.add_argument("-o", "--output", metavar="PICTURE", required=True, help="its ending is the format: gif, webp, mp4")
+    parser.add_argument("-o", "--output", metavar="PICTURE", type=file_name, required=True, help="its ending is the format: gif, webp, mp4")
     options = parser.parse_args(argv)
     for module in ("xarray", "matplotlib", "PIL"):
         need(module)
@@ -48,5 +48,5 @@ def main(argv) -> int:
     if options.json:
         print(json.dumps({"picture": str(output), "frames": len(frames), "dislocations_scale": scene.scale, "bytes": output.stat().st_size}))
     elif not options.quiet:
-        print(f"written to {output}: {len(frames)} frames, {output.stat().st_size / 1e6:.2f} MB")
+        put(f"written to {output}: {len(frames)} frames, {output.stat().st_size / 1e6:.2f} MB")
     return 0

@@ -3,7 +3,7 @@
 import json
 import pathlib
 
-from ._arguments import Arguments
+from ._arguments import Arguments, file_name, put
 from ._need import need
 
 FORMATS = ("png", "svg", "pdf", "jpg", "webp")
@@ -13,8 +13,9 @@ def main(argv) -> int:
     """Draws the pictures of a file. Returns the exit code; raises ValueError (bad input), OSError (files), ImportError (matplotlib)."""
     parser = Arguments("plot", "Pictures of the NetCDF files of pulse, chain, compare and event, of the CSV of relations and event, and of samples.")
     parser.add_argument("file", metavar="FILE", help="NetCDF or CSV")
-    parser.add_argument("-o", "--output", metavar="PICTURE", help="its ending is the format: " + ", ".join(FORMATS) + " (default: FILE's name, .png)")
-    parser.add_argument("--kind", help="one picture alone (default: all that the file affords, -KIND added to the name)")
+    parser.add_argument("-o", "--output", metavar="PICTURE", type=file_name,
+                        help="one picture, the most telling unless there is --kind; its ending is the format: " + ", ".join(FORMATS))
+    parser.add_argument("--kind", help="one picture alone (default without -o: all that the file affords, as FILE-KIND.png)")
     options = parser.parse_args(argv)
     need("xarray")
     need("matplotlib")
@@ -31,16 +32,15 @@ def main(argv) -> int:
         if options.kind not in kinds:
             raise ValueError(f"--kind {options.kind}: not for {options.file}; allowed: {', '.join(kinds)}")
         kinds = [options.kind]
+    if options.output:
+        kinds = kinds[:1]
     written = []
     for kind in kinds:
         path = output if len(kinds) == 1 else output.with_stem(f"{output.stem}-{kind}")
-        try:
-            save(choose.draw(dataset, kind), path)
-        except OSError as error:
-            raise OSError(f"{path}: {error.strerror or error}") from error
+        save(choose.draw(dataset, kind), path)
         written.append(str(path))
         if not options.json and not options.quiet:
-            print(f"written to {path}")
+            put(f"written to {path}")
     if options.json:
         print(json.dumps({"pictures": written}))
     return 0

@@ -5,7 +5,7 @@ import pathlib
 import time
 import warnings
 
-from ._arguments import Arguments, progress
+from ._arguments import Arguments, file_name, progress, put
 from ._need import need
 
 
@@ -17,7 +17,7 @@ def line(row) -> str:
 def main(argv) -> int:
     """Writes the folder and prints the table. Returns the exit code; raises ValueError (bad input), OSError (files), ImportError (a library)."""
     parser = Arguments("reproduce", "Every number and figure of the paper, with the data of each, and report.html, a page that needs nothing else.")
-    parser.add_argument("-o", "--output", metavar="DIR", default="reproduction", help="folder to write: a new one, or an earlier reproduction, which it replaces (default: reproduction)")
+    parser.add_argument("-o", "--output", metavar="DIR", type=file_name, default="reproduction", help="folder to write: a new one, or an earlier reproduction, which it replaces (default: reproduction)")
     options = parser.parse_args(argv)
     for module in ("numpy", "xarray", "matplotlib", "netCDF4", "pandas"):
         need(module)
@@ -36,5 +36,5 @@ def main(argv) -> int:
     for row in tables["numbers"]:
         print(line(row))
     same = sum(row["agrees"] for row in tables["numbers"])
-    print(f"\n{same} of {len(tables['numbers'])} are the same to the digits printed; remarks, figures and data: {report}")
+    put(f"\n{same} of {len(tables['numbers'])} are the same to the digits printed; remarks, figures and data: {report}")
     return 0

@@ -3,8 +3,8 @@
 from . import _slipfront
 from ._numbers import broadcasting, one_number
 
-__all__ = ["plastic_contact_ratio", "poisson_ratio", "slip_velocity_unit", "speed_from_p_wave", "speed_from_s_wave",
-           "speed_from_shear_modulus", "stress_unit", "units"]
+__all__ = ["plastic_contact_ratio", "poisson_ratio", "printed_traction_unit", "slip_velocity_unit", "speed_from_p_wave", "speed_from_s_wave",
+           "speed_from_shear_modulus", "stress_unit", "traction_unit", "units"]
 
 
 def _each(function, **given):
@@ -46,8 +46,18 @@ def slip_velocity_unit(speed, contact_ratio):
     return _each("slip_velocity_unit", speed=speed, contact_ratio=contact_ratio)
 
 
+def traction_unit(shear_modulus, poisson_ratio, contact_ratio):
+    """The unit of F and f, mu A^2 / (pi (1 - nu)), in Pa: F = 1 is the force F_d of Eq. (1) on each asperity, one to an area b^2."""
+    return _each("traction_unit", shear_modulus=shear_modulus, poisson_ratio=poisson_ratio, contact_ratio=contact_ratio)
+
+
+def printed_traction_unit(shear_modulus, contact_ratio):
+    """The unit of F and f that the paper prints, mu A / (2 pi), in Pa: larger than Eq. (1) gives by (1 - nu) / (2 A)."""
+    return _each("printed_traction_unit", shear_modulus=shear_modulus, contact_ratio=contact_ratio)
+
+
 def units(shear_modulus, speed, contact_ratio, asperity_spacing):
-    """A dict of the SI value of each dimensionless unit: slip, length, time, strain, stress, slip_velocity, force,
-    velocity. Arguments are single numbers."""
+    """A dict of the SI value of each dimensionless unit: slip, length, time, strain, stress, slip_velocity, velocity.
+    Arguments are single numbers. The unit of F needs Poisson's ratio too: traction_unit."""
     given = {"shear_modulus": shear_modulus, "speed": speed, "contact_ratio": contact_ratio, "asperity_spacing": asperity_spacing}
     return _slipfront.units(*(one_number(name, value) for name, value in given.items()))

@@ -96,6 +96,45 @@ bool Chain::advance_to(double time, const std::function<bool()>& interrupted) {
   return level() >= target;
 }
 
+std::vector<double> Chain::flow_sums() const {
+  std::vector<double> sums = parts_->ranks.joined(parts_->meter.sums);
+  double left = 0, right = 0;  // each of one slab of one rank
+  for (const Slab& slab : parts_->slabs) {
+    left += slab.outflow.left;
+    right += slab.outflow.right;
+  }
+  const std::vector<double> ends = parts_->ranks.joined({left, right});
+  left = right = 0;
+  for (std::size_t i = 0; i < ends.size(); i += 2) {
+    left += ends[i];
+    right += ends[i + 1];
+  }
+  sums.insert(sums.end(), {left, right});
+  return sums;
+}
+
+void Chain::continue_flows(const std::vector<double>& sums) {
+  std::vector<double>& mine = parts_->meter.sums;
+  if (sums.size() != 2 * parts_->blocks.count + 2)
+    refuse_size("resume", sums.size(), 2 * parts_->blocks.count + 2, "scenario");
+  std::copy_n(sums.begin() + static_cast<std::ptrdiff_t>(2 * parts_->first_block), mine.size(), mine.begin());
+  if (parts_->begin == 0) parts_->slabs.front().outflow.left = sums[sums.size() - 2];
+  if (parts_->end == problem().grid.sites) parts_->slabs.back().outflow.right = sums.back();
+}
+
+Chain::Flows Chain::flows() const {
+  Flows flows;
+  const std::vector<double> all = flow_sums();
+  for (std::size_t i = 0; i + 2 < all.size(); i += 2) {
+    flows.supplied += all[i];
+    flows.dissipated += all[i + 1];
+  }
+  flows.outflow = all[all.size() - 2] + all.back();
+  return flows;
+}
+
+bool Chain::meters_friction() const { return !parts_->forces.none(); }
+
 const Problem& Chain::problem() const { return parts_->problem; }
 long Chain::level() const { return parts_->level; }
 double Chain::dt() const { return parts_->scheme.dt; }

@@ -107,7 +107,7 @@ double velocity_left(const modulation::Friction& f, double weight, double free) 
 }
 
 void Forces::level(const Sides& sides, long offset, std::size_t size, const double* now, double* next, double* y,
-                   double* before) const {
+                   double* before, Outflow& outflow) const {
   std::copy(next, next + size, before);
   if (!a2_.empty()) {
     const double* a2 = this->a2(offset - 1);
@@ -118,9 +118,9 @@ void Forces::level(const Sides& sides, long offset, std::size_t size, const doub
   // Counted from two sites before, so that a seam's other side has an index.
   const EndSites bare = before_neighbours(sides, next - 2, 2, size + 1);
   add_neighbours(scheme_.rule.spread, y, next, 0, (size + lanes - 1) / lanes * lanes);
-  mend_ends(sides, bare, scheme_.rule.spread, now - 2, y - 2, next - 2, 2, size + 1);
   const auto given = [](Side side) { return side == Side::fixed || side == Side::absorbing; };
   const std::size_t from = given(sides.left) ? 1 : 0, to = given(sides.right) ? size - 1 : size;
+  mend_ends(sides, bare, scheme_.rule.spread, now - 2, y - 2, next - 2, 2, size + 1, outflow);
   if (!drive_.empty()) {
     const double* drive = drive_.data() + at(offset);
     for (std::size_t j = from; j < to; ++j) next[j] += drive[j];

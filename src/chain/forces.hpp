@@ -22,17 +22,22 @@ class Forces {
   const double* a2(long j) const { return a2_.empty() ? nullptr : a2_.data() + at(j); }
   /// F in b / 2 pi at site j, now; and its rate of change. 0 where there is none.
   double now(long j) const { return F_now_.empty() ? 0.0 : F_now_[at(j)]; }
+  double next(long j) const { return F_next_.empty() ? 0.0 : F_next_[at(j)]; }
   double rate(long j) const { return F_now_.empty() ? 0.0 : (F_next_[at(j)] - F_old_[at(j)]) / (2 * dt_); }
 
   /// One level of `size` sites, the first of which is site `offset` of the chain; arrays count from it and have two
   /// neighbours before and ten behind. `next` holds the level before on entry. `y` and `before` are room for work.
   void level(const Sides& sides, long offset, std::size_t size, const double* now, double* next, double* y,
-             double* before) const;
+             double* before, Outflow& outflow) const;
   /// To the next level of the forcing.
   void proceed();
 
   /// The friction force at velocity u_t.
   double friction(double velocity) const;
+  /// u from z, both in turns, of `size` sites from site j on; `S` is room for work.
+  void displacements_from(long j, std::size_t size, const double* z, double* u, double* S) const {
+    displacements(sine_, scheme_.eps, a2(j), z, u, S, size);
+  }
 
  private:
   std::size_t at(long j) const { return static_cast<std::size_t>(j - first_); }

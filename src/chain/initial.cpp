@@ -9,6 +9,7 @@
 #include "slipfront/elliptic/jacobi.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/rupture/inverse.hpp"
+#include "slipfront/train/train.hpp"
 
 namespace slipfront::chain {
 namespace {
@@ -37,8 +38,8 @@ double integral(const Stress& stress, double a, double b, int depth = 0) {
 
 }  // namespace
 
-/// u of the train with stress k where the phase (2 pi a dislocation, 0 at its centre) is theta: Eq. 4 with
-/// beta x = K theta / pi.
+/// u of the train with stress k, in local units (stress / a), where the phase (2 pi a dislocation, 0 at its centre) is
+/// theta: Eq. 4 with beta x = K theta / pi.
 class LocalTrain {
  public:
   double operator()(double k, double theta) {
@@ -61,8 +62,12 @@ void StaticTrain::Charge::add(double more) {
   sum = next;
 }
 
-StaticTrain::StaticTrain(Stress stress, const Grid& grid, bool whole)
-    : stress_(std::move(stress)), grid_(grid), whole_(whole) {
+StaticTrain::StaticTrain(Stress stress, const Grid& grid, bool whole, std::function<double(double)> contact)
+    : contact_(std::move(contact)), grid_(grid), whole_(whole) {
+  stress_ = [given = std::move(stress), a = contact_](double x) {
+    const double k = given(x);
+    return k > 0 && k < train::smallest_stress * (a ? a(x) : 1.0) ? 0.0 : k;
+  };
   const std::size_t n = grid_.sites;
   Charge charge;
   double last_stress = 0, hardest_jump = 0.1;  // of the stress, as a share of it
@@ -95,7 +100,7 @@ StaticTrain::StaticTrain(Stress stress, const Grid& grid, bool whole)
   }
 }
 
-double StaticTrain::u(const Stretch& s, double k, double charge, LocalTrain& train) const {
+double StaticTrain::u(const Stretch& s, std::size_t site, double charge, LocalTrain& train) const {
   const bool closed = (s.begin > 0 && s.end < grid_.sites) || whole_;
   const double charge_of_it = s.to - s.from, count = closed ? std::nearbyint(charge_of_it) : charge_of_it;
   if (s.empty || (closed && count == 0)) return 2 * pi * s.wells;
@@ -106,7 +111,8 @@ double StaticTrain::u(const Stretch& s, double k, double charge, LocalTrain& tra
   const double anchor = stressed_throughout && jump_at_ ? *jump_at_ : s.to;
   const double turns = from_left ? charge - s.from - 0.5 : (charge - anchor) * factor + 0.5;
   const double right = from_left ? s.wells + std::nearbyint(count) - 1 : s.wells;
-  return train(k * factor, 2 * pi * turns) + 2 * pi * right;
+  const double x = grid_.x(site), local = stress_(x) / (contact_ ? contact_(x) : 1.0);
+  return train(local * factor, 2 * pi * turns) + 2 * pi * right;
 }
 
 Motion StaticTrain::operator()(std::size_t begin, std::size_t end) const {
@@ -122,13 +128,13 @@ Motion StaticTrain::operator()(std::size_t begin, std::size_t end) const {
       charge.add(integral(stress_, grid_.x(j - 1), grid_.x(j)) / (2 * pi));
     if (j < begin) continue;
     if (j == stretch->end) ++stretch;
-    motion.u.push_back(u(*stretch, stress_(grid_.x(j)), charge.sum, train));
+    motion.u.push_back(u(*stretch, j, charge.sum, train));
   }
   return motion;
 }
 
-Motion static_train(const Stress& stress, const Grid& grid, bool whole) {
-  return StaticTrain(stress, grid, whole)(0, grid.sites);
+Motion static_train(const Stress& stress, const Grid& grid, bool whole, const std::function<double(double)>& contact) {
+  return StaticTrain(stress, grid, whole, contact)(0, grid.sites);
 }
 
 }  // namespace slipfront::chain

@@ -5,6 +5,8 @@
 #include <string>
 
 #include "slipfront/error.hpp"
+#include "slipfront/rupture/inverse.hpp"
+#include "slipfront/train/train.hpp"
 
 namespace slipfront::chain {
 namespace {
@@ -13,8 +15,16 @@ Sides sides_of(const Problem& p, const Scheme& s) {
   const auto side = [](End end) {
     return end == End::free ? Side::free : end == End::fixed ? Side::fixed : Side::absorbing;
   };
-  Sides sides{side(p.boundary.left), side(p.boundary.right), 0, s.dt / s.h};
-  if (p.boundary.periodic) sides = {Side::seam, Side::seam, static_cast<double>(p.boundary.charge), 1};
+  Sides sides{side(p.boundary.left), side(p.boundary.right), 0, {}, {}};
+  if (p.boundary.periodic) sides = {Side::seam, Side::seam, static_cast<double>(p.boundary.charge), {}, {}};
+  const auto absorbing = [&](double stress, std::size_t site, int outward) {
+    const double a = p.contact ? p.contact(p.grid.x(site)) : 1;
+    const double psi0 = stress > train::smallest_stress * a ? rupture::psi_of_stress(stress / a) : 0;
+    return AbsorbingEnd{psi0,    psi0 > 0 ? AbsorbingEnd::shocks_into(psi0) : nullptr, a, s.h, s.dt, s.eps,
+                        outward, std::min<std::size_t>(24, p.grid.sites - 3)};
+  };
+  if (sides.left == Side::absorbing) sides.beyond_left = absorbing(p.boundary.left_stress, 0, -1);
+  if (sides.right == Side::absorbing) sides.beyond_right = absorbing(p.boundary.right_stress, p.grid.sites - 1, 1);
   return sides;
 }
 
@@ -37,6 +47,7 @@ Chain::Parts::Parts(const Problem& p, const Execution& e, long at)
       begin(blocks.begin(first_block)),
       end(blocks.begin(end_block)),
       forces(p, scheme, at, begin, end),
+      meter(problem, scheme, blocks, first_block, end_block),
       level(at) {
   if (e.threads < 1)
     throw InputError(
@@ -46,11 +57,12 @@ Chain::Parts::Parts(const Problem& p, const Execution& e, long at)
                       .value = std::to_string(ranks.size()),
                       .problem = "too many for " + std::to_string(p.grid.sites) + " sites",
                       .allowed = "1 to " + std::to_string(blocks.count)});
-  const std::size_t n = end - begin;
-  const std::size_t count = std::clamp<std::size_t>(n / (2 * halo), 1, static_cast<std::size_t>(e.threads));
+  const std::size_t n = end - begin, whole = end_block - first_block;
+  const std::size_t count = std::clamp<std::size_t>(whole, 1, static_cast<std::size_t>(e.threads));
   execution.tile = std::max(e.tile / lanes * lanes, 2 * halo);
   for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t from = begin + n * i / count, to = begin + n * (i + 1) / count;
+    const std::size_t from = blocks.begin(first_block + whole * i / count);
+    const std::size_t to = blocks.begin(first_block + whole * (i + 1) / count);
     Sides s = sides;
     if (from > 0) s.left = Side::joined;
     if (to < p.grid.sites) s.right = Side::joined;
@@ -122,8 +134,10 @@ void Chain::Parts::advance_slab(Slab& slab, std::size_t count) {
   }
   constexpr std::size_t pad = lanes;
   Aligned y(slab.size() + 4 * pad), before(slab.size());
+  meter.look(forces, slab);
   forces.level(slab.sides(), static_cast<long>(slab.begin()), slab.size(), slab.now(), slab.old(), y.data() + pad,
-               before.data());
+               before.data(), slab.outflow);
+  meter.add(forces, slab, before.data(), slab.now(), slab.old());
   slab.swap();
 }
 

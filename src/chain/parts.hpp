@@ -10,6 +10,7 @@
 #include "slab.hpp"
 #include "slipfront/chain/chain.hpp"
 #include "slipfront/chain/ranks.hpp"
+#include "work_meter.hpp"
 
 namespace slipfront::chain {
 
@@ -24,6 +25,7 @@ struct Chain::Parts {
   std::size_t first_block, end_block;  ///< of this rank
   std::size_t begin, end;              ///< their sites
   Forces forces;
+  WorkMeter meter;
   std::vector<Slab> slabs;
   long level = 0;
   std::size_t depth = halo;  ///< levels between exchanges

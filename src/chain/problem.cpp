@@ -4,12 +4,9 @@
 #include <cmath>
 #include <string>
 
-#if defined(__unix__) && !defined(__EMSCRIPTEN__)
-#include <unistd.h>
-#endif
-
 #include "../digits.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/machine.hpp"
 
 namespace slipfront::chain {
 namespace {
@@ -37,16 +34,21 @@ bool plain(const Problem& p) {
          (p.friction.law == modulation::FrictionLaw::none || p.friction.law == modulation::FrictionLaw::viscous);
 }
 
+/// The step at which the amplitude f of the shortest wave in x and t, (-1)^(site + level) f, obeys
+///     f_tt - f_xx + ((a^2 - a^2 cos u) / 3 + mass^2) f = 0:
+/// 4 / dt^2 = 4 / h^2 + a^2 / 3 + mass^2. It is pumped where cos u varies at twice its least frequency, mass, or more
+/// (docs/chain.md).
+double step_for(double h, double a, double mass2) { return 1 / std::sqrt(1 / (h * h) + a * a / 12 + mass2 / 4); }
+
 double chosen(const Problem& p, double a) {
   const double h = p.grid.spacing;
-  // lambda^2 = 1 - h^2 / 12: the least departure from the light cone at which the shortest wave is stable.
-  if (p.model == Model::sine_gordon) return h * std::sqrt(1 - a * a * h * h / 12);
+  if (p.model == Model::sine_gordon) return step_for(h, a, a * a / 2 + 2 * a * p.crossing_stress);
   return std::fmin(0.05, 0.9 * h / std::sqrt(1 + a * a * h * h / 4));
 }
 
 double largest(const Problem& p, double a) {
   const double h = p.grid.spacing;
-  return p.model == Model::sine_gordon ? chosen(p, a) : h / std::sqrt(1 + a * a * h * h / 4);
+  return p.model == Model::sine_gordon ? h * std::sqrt(1 - a * a * h * h / 12) : h / std::sqrt(1 + a * a * h * h / 4);
 }
 
 }  // namespace
@@ -61,14 +63,6 @@ double memory_needed(const Problem& p) {
   return static_cast<double>(p.grid.sites) * 8 * (plain(p) ? 3 : 10);
 }
 
-double memory_of_machine() {
-#if defined(_SC_PHYS_PAGES) && defined(__unix__) && !defined(__EMSCRIPTEN__)
-  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-#else
-  return 0;
-#endif
-}
-
 void check(const Problem& p, double share_of_machine) {
   const double h = p.grid.spacing;
   if (!(h > 0) || !std::isfinite(h)) refuse("spacing", h, "out of range", "> 0, finite");
@@ -78,11 +72,13 @@ void check(const Problem& p, double share_of_machine) {
     refuse("friction.coefficient", p.friction.coefficient, "out of range", ">= 0, finite");
   if (p.friction.law == modulation::FrictionLaw::power && !(p.friction.exponent > 0))
     refuse("friction.exponent", p.friction.exponent, "out of range", "> 0");
-  const double need = memory_needed(p) * share_of_machine, have = memory_of_machine();
-  if (have > 0 && need > have)
+  const double need = memory_needed(p) * share_of_machine, have = usable_memory();
+  if (need > have)
     refuse("sites", static_cast<double>(p.grid.sites),
-           "a run needs " + digits(need / 1e9) + " GB, this machine has " + digits(have / 1e9) + " GB",
+           "a run needs " + digits(need / 1e9) + " GB, this process may have " + digits(have / 1e9) + " GB",
            "at most " + digits(have / need * static_cast<double>(p.grid.sites)) + " sites");
+  if (!(p.crossing_stress >= 0) || !std::isfinite(p.crossing_stress))
+    refuse("crossing_stress", p.crossing_stress, "out of range", ">= 0, finite");
   const double a = largest_contact(p), sites_per_width = 1 / (a * h);
   if (p.model == Model::sine_gordon && sites_per_width < least_sites_per_width)
     refuse("spacing", h,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <exception>
+#include <new>
 #include <string>
 
 #include "slipfront/error.hpp"
@@ -11,6 +12,7 @@
 #include <mpi.h>
 
 #include <climits>
+#include <cstdint>
 #endif
 
 namespace slipfront::chain {
@@ -80,6 +82,8 @@ void Ranks::together(const std::function<void()>& task) const {
   } catch (const FileError& error) {
     kind = file;
     text = error.what();
+  } catch (const std::bad_alloc&) {
+    text = "out of memory";
   } catch (const std::exception& error) {
     text = error.what();
   }
@@ -94,6 +98,17 @@ void Ranks::together(const std::function<void()>& task) const {
   if (head[0] == input) throw InputError({.problem = text});
   if (head[0] == file) throw FileError(text);
   throw NumericsError(text);
+}
+
+void Ranks::require_same(const char* what, std::string_view text) const {
+  if (size_ == 1) return;
+  std::uint64_t sum = 0xcbf29ce484222325ULL;  // FNV-1a
+  for (const char c : text) sum = (sum ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
+  std::uint64_t ends[2] = {sum, ~sum};  // the greatest, and the complement of the least
+  MPI_Allreduce(MPI_IN_PLACE, ends, 2, MPI_UINT64_T, MPI_MAX, MPI_COMM_WORLD);
+  agreed_ = true;
+  if (ends[0] != ~ends[1])
+    throw InputError({.key = what, .problem = "not the same on all ranks", .allowed = "the same for each process"});
 }
 
 bool Ranks::any(bool mine) const {
@@ -174,6 +189,7 @@ Ranks Ranks::of_mpirun() {
 
 Ranks::~Ranks() = default;
 void Ranks::together(const std::function<void()>& task) const { task(); }
+void Ranks::require_same(const char*, std::string_view) const {}
 bool Ranks::any(bool mine) const { return mine; }
 std::vector<double> Ranks::joined(const std::vector<double>& mine) const { return mine; }
 std::vector<double> Ranks::joined_at_first(const std::vector<double>& mine) const { return mine; }

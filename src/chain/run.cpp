@@ -13,13 +13,14 @@
 #include "slipfront/chain/ranks.hpp"
 #include "slipfront/chain/smooth.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/train/train.hpp"
 
 namespace slipfront::chain {
 namespace {
 
 using pulse::Snapshot;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-constexpr std::uint64_t format = 0x636861696e000001;  // "chain", version 1
+constexpr std::uint64_t format = 0x636861696e000002;  // "chain", version 2
 
 /// In the window of velocities and stresses (smooth_average): their ripple is some 0.1 % then.
 constexpr double dislocations_in_window = 8;
@@ -29,6 +30,16 @@ double spacing_of_train(const Stretched& s) {
   for (const double x : {-1e-9 * (s.right - s.left), s.left, s.right})
     if (const double k = s.stress(x); k > 0) return 2 * std::numbers::pi / k / s.scale;
   return (s.right - s.left) / 16;
+}
+
+/// Antidislocations come in at free ends and are made by a force; a slope of a(x) drives one stream through another.
+double crossing_stress(const Stretched& s) {
+  const bool free = !s.boundary.periodic && (s.boundary.left != End::fixed || s.boundary.right != End::fixed);
+  if (!free && !s.forcing && !s.contact) return 0;
+  constexpr int samples = 4096;
+  double most = 0;
+  for (int i = 0; i <= samples; ++i) most = std::fmax(most, s.stress(s.left + (s.right - s.left) * i / samples));
+  return most;
 }
 
 /// Dislocations are wider than that; what has more has blown up.
@@ -58,6 +69,9 @@ Problem problem_of(const Stretched& s, double share_of_machine) {
   p.friction.coefficient /= s.scale;
   if (s.forcing) p.forcing = [f = s.forcing, c = s.scale](double x, double t) { return f(x / c, t / c) / c; };
   if (s.contact) p.contact = [a = s.contact, c = s.scale](double x) { return a(x / c); };
+  p.crossing_stress = crossing_stress(s);
+  p.boundary.left_stress = s.stress(s.left);
+  p.boundary.right_stress = s.stress(s.right);
   check(p, share_of_machine);
   return p;
 }
@@ -65,7 +79,7 @@ Problem problem_of(const Stretched& s, double share_of_machine) {
 Run::Start Run::start(const Stretched& s, double share_of_machine) {
   Problem problem = problem_of(s, share_of_machine);
   StaticTrain train([s](double x) { return s.stress(std::clamp(x / s.scale, s.left, s.right)); }, problem.grid,
-                    s.boundary.periodic);
+                    s.boundary.periodic, problem.contact);
   if (s.boundary.periodic) {  // as many dislocations as the stress asks for
     const std::size_t n = problem.grid.sites;
     const double once_around = train(0, 1).u[0] - train(n - 1, n).u[0];
@@ -113,6 +127,8 @@ void Run::look_at_start() {
                                          : std::min(dislocations_in_window * spacing_of_train(stretched_), length / 4);
   const double levels = schedule_.times.back() * stretched_.scale / chain_.dt();
   work_every_ = std::max(32L, 32 * std::lround(levels / 200 / 32));
+  // So few sites that even the motion of one dislocation can be followed.
+  if (chain_.problem().grid.sites < 5000) work_every_ = std::clamp(work_every_ / 16, 2L, 32L);
   const double c = stretched_.scale;
   for (std::size_t i = 0; i + 1 < schedule_.x_edges.size(); ++i)
     first_u_.push_back(average(chain_, c * centre_of_cell(i), c * width_of_cell(i), 0).u);
@@ -124,7 +140,27 @@ void Run::look_at_start() {
   const Totals t = totals(chain_);
   first_energy_ = t.energy();
   first_charge_ = t.charge;
-  work_.sample(t);
+  first_dislocations_ = t.dislocations;
+  sample();
+}
+
+/// Rates that are integrated over time. Where nothing takes energy but what the chain meters there is no need of them.
+void Run::sample() {
+  const modulation::Friction& f = chain_.problem().friction;
+  if (f.law != modulation::FrictionLaw::none && f.coefficient > 0 && !chain_.meters_friction())
+    work_.sample(totals(chain_));
+  if (std::isnan(first_u_at_origin_)) return;
+  const double time = chain_.time(), velocity = average(chain_, 0, stretched_.scale * window_, time).velocity;
+  Passed& p = passed_;
+  p.slip += (time - p.time) * (velocity + p.velocity) / 2;
+  if (p.samples % 2 == 0) {
+    p.coarse_slip += (time - p.early_time) * (velocity + p.early_velocity) / 2;
+    p.early_time = time;
+    p.early_velocity = velocity;
+  }
+  p.time = time;
+  p.velocity = velocity;
+  ++p.samples;
 }
 
 Run::Run(const Stretched& stretched, pulse::Schedule schedule, const Execution& execution, std::string_view saved,
@@ -135,8 +171,12 @@ Run::Run(const Stretched& stretched, pulse::Schedule schedule, const Execution& 
     throw InputError({.key = "resume",
                       .problem = "the saved state is of another version or scenario",
                       .allowed = "a file of this version and scenario, written by slipfront chain"});
-  for (double* value : {&work_.supplied, &work_.dissipated, &work_.time, &work_.supplied_rate, &work_.dissipated_rate})
+  for (double* value :
+       {&work_.supplied, &work_.dissipated, &work_.time, &work_.supplied_rate, &work_.dissipated_rate, &passed_.time,
+        &passed_.velocity, &passed_.slip, &passed_.early_time, &passed_.early_velocity, &passed_.coarse_slip})
     *value = reader.get<double>();
+  passed_.samples = static_cast<long>(reader.get<std::int64_t>());
+  const std::vector<double> flows = reader.vector();
   Levels levels;
   levels.level = static_cast<long>(reader.get<std::int64_t>());
   levels.now = reader.vector();
@@ -149,14 +189,19 @@ Run::Run(const Stretched& stretched, pulse::Schedule schedule, const Execution& 
                       .problem = "beyond the end of the run",
                       .allowed = "a file that slipfront chain wrote for this scenario"});
   chain_ = Chain(chain_.problem(), levels, execution);
+  chain_.continue_flows(flows);
   snapshots_ = std::move(snapshots);
 }
 
 std::string Run::saved() const {
   bytes::Writer writer;
   writer.put(format);
-  for (const double value : {work_.supplied, work_.dissipated, work_.time, work_.supplied_rate, work_.dissipated_rate})
+  for (const double value :
+       {work_.supplied, work_.dissipated, work_.time, work_.supplied_rate, work_.dissipated_rate, passed_.time,
+        passed_.velocity, passed_.slip, passed_.early_time, passed_.early_velocity, passed_.coarse_slip})
     writer.put(value);
+  writer.put(static_cast<std::int64_t>(passed_.samples));
+  writer.put(chain_.flow_sums());
   const Levels levels = chain_.levels();
   writer.put(static_cast<std::int64_t>(levels.level));
   writer.put(levels.now);
@@ -171,15 +216,17 @@ bool Run::go(const std::function<bool()>& interrupted) {
   while (!finished()) {
     const auto target = std::lround(schedule_.times[snapshots_.size()] * stretched_.scale / chain_.dt());
     while (chain_.level() < target) {
-      const long level = chain_.level(), sample = (level / work_every_ + 1) * work_every_;
+      const long level = chain_.level(), next = (level / work_every_ + 1) * work_every_;
       good_ = false;
-      chain_.advance(std::min({target, sample, level + most}) - level);
+      chain_.advance(std::min({target, next, level + most}) - level);
       good_ = true;
-      if (chain_.level() == sample) work_.sample(totals(chain_));
+      if (chain_.level() == next) sample();
       if (interrupted && interrupted()) return false;
     }
     take();
+    if (!finished()) refuse_wrong_results();
   }
+  refuse_wrong_results();
   return true;
 }
 
@@ -189,6 +236,7 @@ void Run::take() {
   s.time = time;
   const std::size_t n = first_u_.size();
   std::size_t peak = 0;
+  const auto contact_at = [&](double x) { return stretched_.contact ? stretched_.contact(x) : 1.0; };
   const auto middle = [&](std::size_t i) { return (schedule_.x_edges[i] + schedule_.x_edges[i + 1]) / 2; };
   for (std::size_t i = 0; i < n; ++i) {
     const double u = average(chain_, c * centre_of_cell(i), c * width_of_cell(i), c * time).u;
@@ -197,12 +245,14 @@ void Run::take() {
     const SmoothAverage a = smooth_average(chain_, c * middle(i), c * wide, c * time);
     s.profile.k.push_back(a.stress);
     s.profile.W.push_back(a.velocity);
-    s.profile.U.push_back(a.stress > 1e-9 ? a.velocity / a.stress : 0);
+    // Where others than dislocations of one sign move, waves or antidislocations too, U is none of theirs.
+    const bool of_one_sign = std::fabs(a.velocity) < a.stress;
+    s.profile.U.push_back(a.stress < train::smallest_stress ? 0 : of_one_sign ? a.velocity / a.stress : none);
     s.profile.H.push_back(a.energy);
     s.profile.slip.push_back((u - first_u_[i]) / c);
     // At an end the window is cut: what it makes even there is no phonons.
     const bool whole = middle(i) - wide / 2 >= stretched_.left && middle(i) + wide / 2 <= stretched_.right;
-    if (whole) s.energy.phonons += cell * (a.energy - energy_of_train(a.stress, a.velocity));
+    if (whole) s.energy.phonons += cell * (a.energy - energy_of_train(a.stress, a.velocity, contact_at(middle(i))));
     if (std::fabs(a.velocity) > std::fabs(s.profile.W[peak])) peak = i;
   }
   s.peak_slip_velocity = s.profile.W[peak];
@@ -237,17 +287,12 @@ void Run::take() {
       pulse::observed_fronts(x, speed, schedule_.threshold * std::fabs(s.peak_slip_velocity), x.front(), x.back());
   s.fronts.trailing_observed = stressed_left ? seen.left : seen.right;
   s.fronts.leading_observed = stressed_left ? seen.right : seen.left;
-  s.energy = {(now.elastic + now.substrate) / c, now.kinetic / c, work_.dissipated / c, work_.supplied / c,
-              stretched_.contact ? none : s.energy.phonons};  // that of a train here is that of a = 1
-  snapshots_.push_back(std::move(s));
-}
-
-Run::Balance Run::balance() const {
-  const Totals now = totals(chain_);
+  const Chain::Flows flows = chain_.flows();
   Work work = work_;
-  work.sample(now);
-  return {std::fabs(now.energy() + work.dissipated - work.supplied - first_energy_) / first_energy_,
-          now.charge - first_charge_, now.dislocations};
+  if (work.started) work.sample(now);
+  s.energy = {(now.elastic + now.substrate) / c, now.kinetic / c,
+              (work.dissipated + flows.dissipated + flows.outflow) / c, flows.supplied / c, s.energy.phonons};
+  snapshots_.push_back(std::move(s));
 }
 
 }  // namespace slipfront::chain

@@ -42,7 +42,12 @@ EndSites before_neighbours(const Sides& s, const double* next, std::size_t first
 }
 
 void mend_ends(const Sides& s, const EndSites& bare, double spread, const double* now, const double* y, double* next,
-               std::size_t first, std::size_t last) {
+               std::size_t first, std::size_t last, Outflow& outflow) {
+  const auto absorb = [&](const AbsorbingEnd& end, std::size_t j) {
+    const AbsorbingEnd::Step step = end.step(now + j, next + j);
+    next[j] = step.next;
+    return step.outflow;
+  };
   // Across the seam: the site to the left of the first is the last, higher by a turn a dislocation.
   const auto first_of_chain = [&](std::size_t j, double w) {
     next[j] = w + spread * ((y[j - 1] + s.turns) + y[j + 1]);
@@ -56,7 +61,7 @@ void mend_ends(const Sides& s, const EndSites& bare, double spread, const double
       next[first] = now[first];
       break;
     case Side::absorbing:
-      next[first] = now[first] + s.courant * (now[first + 1] - now[first]);
+      outflow.left += absorb(s.beyond_left, first);
       break;
     case Side::seam:
       last_of_chain(first - 1, bare.left_beyond_bare);
@@ -73,7 +78,7 @@ void mend_ends(const Sides& s, const EndSites& bare, double spread, const double
       next[last] = now[last];
       break;
     case Side::absorbing:
-      next[last] = now[last] + s.courant * (now[last - 1] - now[last]);
+      outflow.right += absorb(s.beyond_right, last);
       break;
     case Side::seam:
       last_of_chain(last, bare.right_bare);
@@ -125,7 +130,7 @@ void Slab::advance(const LevelRule& rule, std::size_t count, std::size_t tile) {
       local_part(rule, z, next, y, begin, end);
       const EndSites bare = before_neighbours(sides, next, first, last);
       add_neighbours(rule.spread, y, next, begin, end);
-      mend_ends(sides, bare, rule.spread, z, y, next, first, last);
+      mend_ends(sides, bare, rule.spread, z, y, next, first, last, outflow);
       std::swap(z, next);
     }
     copy(z + first, now() + from, width);

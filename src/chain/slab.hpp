@@ -5,6 +5,7 @@
 #include <new>
 #include <vector>
 
+#include "absorbing_end.hpp"
 #include "scheme.hpp"
 
 namespace slipfront::chain {
@@ -32,7 +33,12 @@ enum class Side { joined, free, fixed, absorbing, seam };
 struct Sides {
   Side left = Side::joined, right = Side::joined;  ///< joined: a halo; seam: too, from the other end
   double turns = 0;                                ///< u falls by so many turns around
-  double courant = 1;                              ///< dt / h, for absorbing ends
+  AbsorbingEnd beyond_left, beyond_right;          ///< for absorbing ends
+};
+
+/// Energy that has left through absorbing ends.
+struct Outflow {
+  double left = 0, right = 0;
 };
 
 /// Sites [begin, begin + size) of a chain at two levels, with halos: what one thread (or one process) has. The halos
@@ -53,6 +59,8 @@ class Slab {
   /// `count` <= halo levels, tile by tile in cache, in place. Bits do not depend on `tile` (a multiple of lanes).
   void advance(const LevelRule& rule, std::size_t count, std::size_t tile);
 
+  Outflow outflow;  ///< through its ends
+
  private:
   static constexpr std::size_t margin = 2 * halo;
   std::size_t begin_, size_;
@@ -68,6 +76,6 @@ struct EndSites {
 };
 EndSites before_neighbours(const Sides& sides, const double* next, std::size_t first, std::size_t last);
 void mend_ends(const Sides& sides, const EndSites& bare, double spread, const double* now, const double* y,
-               double* next, std::size_t first, std::size_t last);
+               double* next, std::size_t first, std::size_t last, Outflow& outflow);
 
 }  // namespace slipfront::chain

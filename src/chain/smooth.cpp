@@ -41,7 +41,8 @@ SmoothAverage smooth_average(const Chain& chain, double x, double width, double 
   return a;
 }
 
-double energy_of_train(double stress, double velocity) {
+double energy_of_train(double stress, double velocity, double contact) {
+  if (contact != 1) return contact * contact * energy_of_train(stress / contact, velocity / contact);
   const double gamma2 = 1 - velocity * velocity / (stress * stress);
   if (!(stress > 0 && gamma2 > 0)) return 0;          // no train: all the energy is in phonons
   const double at_rest = stress * std::sqrt(gamma2);  // Eq. 4: a moving train is contracted

@@ -34,9 +34,16 @@ Window Chain::Parts::window(std::size_t from, std::size_t to, double time) const
   const double dt = s.dt, h = s.h, tau = time - static_cast<double>(level) * dt;
   const long n = static_cast<long>(problem.grid.sites);
   // Three levels of z and u with five sites beyond; the next level is computed and thrown away.
-  constexpr long reach = 5;
-  const std::size_t size = to - from, wide = size + 2 * reach, room = wide + 4 * lanes;
-  const long low = static_cast<long>(from) - reach;
+  constexpr std::size_t beside = 5;
+  const std::size_t size = to - from;
+  // An absorbing end looks at the sites beside it.
+  const bool absorbs_left = from == 0 && sides.left == Side::absorbing;
+  const bool absorbs_right = static_cast<long>(to) == n && sides.right == Side::absorbing;
+  const std::size_t more_left = absorbs_right ? std::min(from, sides.beyond_right.reach + 3) : 0;
+  const std::size_t more_right = absorbs_left ? std::min(end - to, sides.beyond_left.reach + 3) : 0;
+  const std::size_t reach = beside + more_left;
+  const std::size_t wide = reach + size + beside + more_right, room = wide + 4 * lanes;
+  const long low = static_cast<long>(from) - static_cast<long>(reach);
   std::vector<double> z(room), old(room), next(room), y(room), work(room);
   for (std::size_t j = 0; j < wide; ++j) {
     const auto [a, b] = site(low + static_cast<long>(j));
@@ -44,14 +51,13 @@ Window Chain::Parts::window(std::size_t from, std::size_t to, double time) const
     old[j + lanes] = b;
   }
   next = old;
+  Outflow unused;
   constexpr std::size_t edge = lanes + 2;  // two sites in, neighbours are there
-  forces.level({}, low + 2, wide - 4, z.data() + edge, next.data() + edge, y.data() + edge, work.data());
+  forces.level({}, low + 2, wide - 4, z.data() + edge, next.data() + edge, y.data() + edge, work.data(), unused);
   if (!problem.boundary.periodic) {  // the ends by their own rule
     const auto at = [&](long j) { return static_cast<std::size_t>(j - low) + lanes; };
-    const double courant = sides.courant;
-    if (low <= 0 && sides.left == Side::absorbing) next[at(0)] = z[at(0)] + courant * (z[at(1)] - z[at(0)]);
-    if (low + static_cast<long>(wide) >= n && sides.right == Side::absorbing)
-      next[at(n - 1)] = z[at(n - 1)] + courant * (z[at(n - 2)] - z[at(n - 1)]);
+    if (absorbs_left) next[at(0)] = sides.beyond_left.step(&z[at(0)], &next[at(0)]).next;
+    if (absorbs_right) next[at(n - 1)] = sides.beyond_right.step(&z[at(n - 1)], &next[at(n - 1)]).next;
   }
   std::vector<double> a2;
   if (forces.a2(low) != nullptr) a2.assign(forces.a2(low), forces.a2(low) + wide);

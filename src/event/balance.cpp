@@ -32,6 +32,13 @@ Pulse::At Pulse::at(double u) const {
   return {frictionless * r.value, (1 + damping) * r.by_damping / r.value};
 }
 
+double frictionless(Measure measure, double stress, double W_at_origin) {
+  if (measure != Measure::mean) return W_at_origin;
+  const auto range = friction_ratio::stress_range();
+  const double tabled = std::fmin(std::fmax(stress, range.least), range.most);
+  return W_at_origin * friction_ratio::evaluate(measure, modulation::Closure::consistent, tabled, 0).value;
+}
+
 std::optional<Damped> damping_at(const Pulse& pulse, double W) {
   const double most = std::log1p(most_damping_number), wanted = std::log(W);
   if (!(W <= pulse.at(0).W) || !(W >= pulse.at(most).W)) return std::nullopt;

@@ -23,6 +23,10 @@ struct Pulse {
   At at(double u) const;
 };
 
+/// W without friction. Of all but the mean over the fault it is the closed form's W(0); that is a share of it, which
+/// the table has for 0.05 <= Sigma- <= 3 (beyond, that of its end).
+double frictionless(Measure measure, double stress, double W_at_origin);
+
 /// u = ln(1 + Gamma) at which the pulse slips with W; absent where no 0 <= Gamma <= 1e8 does.
 struct Damped {
   double u, slope;

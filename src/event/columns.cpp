@@ -9,16 +9,36 @@ namespace {
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 template <class Get>
-NumberColumn column(const Description& about, std::string name, const std::string& of, Width width, Get&& get) {
-  return {std::move(name),       of + std::string(about.long_name),
-          unit_of(about.name),   about.dimensional_unit,
-          about.reference,       width,
+NumberColumn column(const Description& about, std::string name, const std::string& of, Axis axis, std::size_t count,
+                    Get&& get) {
+  return {std::move(name),
+          of + std::string(about.long_name),
+          unit_of(about.name),
+          about.dimensional_unit,
+          about.reference,
+          axis,
+          count,
           std::forward<Get>(get)};
 }
 
 template <class Get>
 NumberColumn column(const Description& about, Get&& get) {
-  return column(about, std::string(about.name), "", Width::one, std::forward<Get>(get));
+  return column(about, std::string(about.name), "", Axis::none, 1, std::forward<Get>(get));
+}
+
+void add_inferred(std::vector<NumberColumn>& all, const EstimateQuantity<Inferred>& q) {
+  const auto of = [value = q.value](const EventResult& r) { return r.estimate ? (*r.estimate).*value : std::nullopt; };
+  all.push_back(column(q.about, [of](const EventResult& r, double* out) {
+    const auto x = of(r);
+    *out = x ? x->value : none;
+  }));
+  all.push_back(column(q.about, std::string(q.about.name) + "_interval", "5 % and 95 % of: ", Axis::bound, 2,
+                       [of](const EventResult& r, double* out) {
+                         const auto x = of(r);
+                         const Interval i = x && x->interval ? *x->interval : Interval{none, none};
+                         out[0] = i.low;
+                         out[1] = i.high;
+                       }));
 }
 
 void add_estimates(std::vector<NumberColumn>& all) {
@@ -28,28 +48,14 @@ void add_estimates(std::vector<NumberColumn>& all) {
     all.push_back(column(q.about, [value = q.value](const EventResult& r, double* out) {
       *out = r.estimate ? ((*r.estimate).*value).value_or(none) : none;
     }));
-  for (const auto& q : inferred_quantities()) {
-    const auto of = [value = q.value](const EventResult& r) {
-      return r.estimate ? (*r.estimate).*value : std::nullopt;
-    };
-    all.push_back(column(q.about, [of](const EventResult& r, double* out) {
-      const auto x = of(r);
-      *out = x ? x->value : none;
-    }));
-    all.push_back(column(q.about, std::string(q.about.name) + "_interval", "5 % and 95 % of: ", Width::bounds,
-                         [of](const EventResult& r, double* out) {
-                           const auto x = of(r);
-                           const Interval i = x && x->interval ? *x->interval : Interval{none, none};
-                           out[0] = i.low;
-                           out[1] = i.high;
-                         }));
-  }
+  for (const auto quantities : {inferred_quantities(), bound_quantities()})
+    for (const auto& q : quantities) add_inferred(all, q);
 }
 
 void add_posterior(std::vector<NumberColumn>& all) {
   for (const auto& q : posterior_quantities())
     all.push_back(column(q.about, "posterior_" + std::string(q.about.name), "with friction and errors: ",
-                         Width::quantiles, [value = q.value](const EventResult& r, double* out) {
+                         Axis::quantile, 3, [value = q.value](const EventResult& r, double* out) {
                            const auto x = r.posterior ? (*r.posterior).*value : std::nullopt;
                            const Quantiles found = x.value_or(Quantiles{none, none, none});
                            out[0] = found.low;
@@ -59,16 +65,32 @@ void add_posterior(std::vector<NumberColumn>& all) {
   all.push_back(
       column({"effective_samples", "effective number of samples", "", ""},
              [](const EventResult& r, double* out) { *out = r.posterior ? r.posterior->effective_samples : none; }));
+  all.push_back(column({"pareto_k", "shape of the tail of the weights: above 0.7 no intervals", "", ""},
+                       [](const EventResult& r, double* out) { *out = r.posterior ? r.posterior->pareto_k : none; }));
+  all.push_back(column({"samples", "samples of the state of the fault", "", ""}, [](const EventResult& r, double* out) {
+    *out = r.posterior ? static_cast<double>(r.posterior->samples) : none;
+  }));
   all.push_back(column({"friction_identified", "1 where the data say what the friction is, else 0", "", ""},
                        [](const EventResult& r, double* out) {
                          *out = r.posterior ? (r.posterior->friction_identified ? 1 : 0) : none;
                        }));
 }
 
+void add_draws(std::vector<NumberColumn>& all, std::size_t draws) {
+  for (const StateQuantity& q : state_quantities())
+    all.push_back(column(q.about, "draw_" + std::string(q.about.name), "drawn from the posterior: ", Axis::draw, draws,
+                         [value = q.value, draws](const EventResult& r, double* out) {
+                           for (std::size_t i = 0; i < draws; ++i)
+                             out[i] =
+                                 r.posterior && i < r.posterior->draws.size() ? r.posterior->draws[i].*value : none;
+                         }));
+}
+
 }  // namespace
 
 std::string_view unit_of(std::string_view name) {
-  for (const auto& [end, unit] : {std::pair<std::string_view, std::string_view>{"_m_s", "m s-1"}, {"_pa", "Pa"}})
+  for (const auto& [end, unit] :
+       {std::pair<std::string_view, std::string_view>{"_m_s", "m s-1"}, {"_pa", "Pa"}, {"_pa_bound", "Pa"}})
     if (name.ends_with(end)) return unit;
   return "1";
 }
@@ -91,13 +113,14 @@ std::span<const PulseQuantity> pulse_quantities() {
   return quantities;
 }
 
-std::vector<NumberColumn> number_columns(bool with_pulse) {
+std::vector<NumberColumn> number_columns(const ColumnChoice& choice) {
   std::vector<NumberColumn> all;
   add_estimates(all);
   add_posterior(all);
   all.push_back(column({"line", "line of the event in its file", "", ""},
                        [](const EventResult& r, double* out) { *out = static_cast<double>(r.observation.line); }));
-  if (!with_pulse) return all;
+  if (choice.draws > 0) add_draws(all, choice.draws);
+  if (!choice.pulse) return all;
   for (const PulseQuantity& q : pulse_quantities())
     all.push_back(column(q.about, [get = q.get](const EventResult& r, double* out) {
       *out = r.pulse && r.pulse->reason.empty() ? get(*r.pulse).value_or(none) : none;

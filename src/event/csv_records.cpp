@@ -5,8 +5,13 @@
 #include <exception>
 #include <new>
 
+#include "slipfront/error.hpp"
+
 namespace slipfront::event {
 namespace {
+
+/// More than any table has; what looks columns up in each other takes time with their square.
+constexpr std::size_t most_columns = 10000;
 
 struct Records {
   const std::function<void(std::vector<std::string>&&, std::size_t)>& take;
@@ -20,6 +25,10 @@ void on_field(void* data, std::size_t size, void* self) {
   auto& records = *static_cast<Records*>(self);
   if (records.thrown) return;
   try {
+    if (records.fields.size() == most_columns)
+      throw InputError({.line = records.first,
+                        .problem = "more than " + std::to_string(most_columns) + " columns",
+                        .allowed = "fewer"});
     records.fields.emplace_back(data ? static_cast<const char*>(data) : "", data ? size : 0);
   } catch (...) {
     records.thrown = std::current_exception();

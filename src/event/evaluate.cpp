@@ -15,26 +15,41 @@ std::vector<std::string> EventResult::warnings() const {
 
 namespace {
 
-/// The interval of samples, in `unit`; none where nothing moved.
-std::optional<Interval> interval_of(const Quantiles& q, double unit = 1) {
+/// The interval of samples; none where nothing moved.
+std::optional<Interval> interval_of(const Quantiles& q) {
   if (!(q.low < q.high)) return {};
-  return Interval{q.low / unit, q.high / unit};
+  return Interval{q.low, q.high};
 }
 
-void fill(Estimate& e, const Posterior& p, const Observation& observation) {
-  // V in m/s is sampled: it tells V / c where c is a plain number.
-  if (e.rupture_velocity && !e.rupture_velocity->interval && p.rupture_velocity &&
-      observation.uncertain_constants.empty())
-    e.rupture_velocity->interval = interval_of(*p.rupture_velocity, e.speed);
-  if (e.stress && !e.stress->interval && p.stress) e.stress->interval = interval_of(*p.stress);
-  if (!p.friction_identified) return;
+/// The posterior's answer instead of that of the closed forms.
+void fill(Estimate& e, const Posterior& p) {
   const auto set = [](std::optional<Inferred>& to, const std::optional<Quantiles>& from) {
     if (from) to = Inferred{from->median, interval_of(*from)};
   };
+  set(e.rupture_velocity, p.rupture_velocity);
+  set(e.stress, p.stress);
+  set(e.frictionless_slip_velocity, p.frictionless_slip_velocity);
+  set(e.observed_slip_velocity, p.observed_slip_velocity);
+  set(e.slip_velocity_ratio, p.slip_velocity_ratio);
+  set(e.contact_ratio, p.contact_ratio_bound);
   set(e.contact_ratio, p.contact_ratio);
   set(e.stress_pa, p.stress_pa);
   set(e.damping_number, p.damping_number);
   set(e.friction_coefficient, p.friction_coefficient);
+  set(e.stress, p.stress_bound);
+  set(e.stress_bound, p.stress_bound);
+  set(e.contact_ratio_bound, p.contact_ratio_bound);
+  set(e.stress_pa_bound, p.stress_pa_bound);
+  if (p.suffices && p.friction_identified) e.contact_ratio_bound.reset(), e.stress_pa_bound.reset();
+  if (p.suffices) return;
+  for (const auto& q : inferred_quantities())
+    if (e.*q.value) (e.*q.value)->interval.reset();
+  for (const auto& q : bound_quantities())
+    if (e.*q.value) (e.*q.value)->interval.reset();
+}
+
+bool is_sampled(const Plan& plan, const Observation& o) {
+  return plan.sampling.samples > 0 && (plan.all || speaks_of_friction_or_error(o));
 }
 
 FaultPulse pulse_of(const EventResult& result, const MediumDefaults& defaults) {
@@ -56,9 +71,9 @@ EventResult evaluate(Entry&& entry, const MediumDefaults& defaults, const Plan& 
   EventResult result{std::move(entry.observation), {}, {}, {}, {}, {}};
   try {
     if (entry.error) throw InputError(*entry.error);
-    result.estimate = estimate(result.observation, defaults);
+    result.estimate = estimate(result.observation, defaults, is_sampled(plan, result.observation));
     result.posterior = posterior_of(result);
-    if (result.posterior) fill(*result.estimate, *result.posterior, result.observation);
+    if (result.posterior) fill(*result.estimate, *result.posterior);
     if (plan.along_fault) result.along_fault = along_fault(result.observation, defaults);
     result.pulse = pulse_of(result);
   } catch (const InputError& error) {
@@ -74,7 +89,7 @@ EventResult evaluate(Entry&& entry, const MediumDefaults& defaults, const Plan& 
   return evaluate(
       std::move(entry), defaults, plan,
       [&](const EventResult& r) -> std::optional<Posterior> {
-        if (plan.sampling.samples == 0 || !(plan.all || speaks_of_friction_or_error(r.observation))) return {};
+        if (!is_sampled(plan, r.observation)) return {};
         return posterior(r.observation, defaults, plan.sampling);
       },
       [&](const EventResult& r) { return plan.pulse ? std::optional(pulse_of(r, defaults)) : std::nullopt; });
@@ -98,6 +113,10 @@ MediumDefaults defaults_of(const StatedMedium& stated) {
         throw InputError({.value = text,
                           .problem = "a range, where one number is needed",
                           .allowed = std::string(medium::example(dimension))});
+      const bool is_ratio = dimension == medium::Dimension::ratio;  // said here, once for all events
+      if (is_ratio ? !(span.low > -1 && span.low < 0.5) : !(span.low > 0))
+        throw InputError(
+            {.value = text, .problem = "out of range", .allowed = is_ratio ? "-1 < poisson_ratio < 0.5" : "> 0"});
       value = span.low;
       is_stated = true;
     } catch (const InputError& error) {

@@ -41,6 +41,7 @@ std::vector<Description> population_quantities() {
   std::vector<Description> all;
   for (const auto& q : measured_quantities()) all.push_back(q.about);
   for (const auto& q : inferred_quantities()) all.push_back(q.about);
+  for (const auto& q : bound_quantities()) all.push_back(q.about);
   return all;
 }
 
@@ -48,10 +49,11 @@ std::optional<Member> member_of(const EventResult& result) {
   if (!result.estimate || !result.estimate->rupture_velocity) return {};
   Member m{result.estimate->rupture_velocity->value, {}};
   for (const auto& q : measured_quantities()) m.values.push_back(((*result.estimate).*q.value).value_or(none));
-  for (const auto& q : inferred_quantities()) {
-    const auto& x = (*result.estimate).*q.value;
-    m.values.push_back(x ? x->value : none);
-  }
+  for (const auto quantities : {inferred_quantities(), bound_quantities()})
+    for (const auto& q : quantities) {
+      const auto& x = (*result.estimate).*q.value;
+      m.values.push_back(x ? x->value : none);
+    }
   return m;
 }
 

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "../digits.hpp"
+#include "pareto.hpp"
 #include "sampler.hpp"
 #include "slipfront/medium/medium.hpp"
 #include "weighted.hpp"
@@ -33,21 +35,47 @@ namespace {
                     .allowed = reasons[why][1]});
 }
 
+/// The event could be but for a contact ratio above plastic contact: that is said, not refused, with or without errors.
+bool only_contact_refused(const Sampler& sampler) {
+  const auto& refused = sampler.refused();
+  return !sampler.fixes_friction() && !sampler.knows_contact() && refused[bad_contact] > 0 &&
+         std::max_element(refused.begin(), refused.end()) - refused.begin() == bad_contact;
+}
+
+std::string why_no_interval(double effective, double k, std::size_t samples) {
+  const std::string of = " of " + std::to_string(samples);
+  if (effective < least_effective_samples)
+    return "no intervals: only " + digits(effective, 3) + " effective samples" + of + ", " +
+           digits(least_effective_samples) + " needed; what was observed hardly agrees with itself";
+  return "no intervals: Pareto k-hat of the weights is " + digits(k, 3) + " with" + of.substr(3) +
+         " samples, above 0.7: a few samples decide";
+}
+
 void add_trade_off(Posterior& p, const Observation& o, const MediumDefaults& defaults, modulation::Closure closure) {
   const Elastic e = elastic(o, defaults);
-  const double time = o.rise_time ? o.rise_time->middle() : o.duration ? o.duration->middle() : 0;
-  const double w = o.slip_velocity ? o.slip_velocity->middle() : o.slip->middle() / time;
+  const double w = o.slip_velocity ? o.slip_velocity->middle() : o.slip->middle() / o.slip_time()->middle();
   const double V = o.rupture_velocity->middle() / e.speed;
   if (!(V < 1)) return;
   const rupture::Relations r = rupture::from_rupture_velocity(V);
   const auto range = friction_ratio::stress_range();
   if (r.stress < range.least || r.stress > range.most) return;
-  const Pulse pulse{r.stress, r.slip_velocity, o.slip_velocity_is, closure};
+  const Pulse pulse{r.stress, r.slip_velocity, o.measure(), closure};
   for (const double damping : {0.0, 1.0, 10.0, 1e2, 1e3, 1e4, 1e6, 1e8}) {
     const double A = w / medium::slip_velocity_unit(e.speed, pulse.at(std::log1p(damping)).W);
     if (A <= medium::plastic_contact_ratio(e.poisson_ratio))
       p.trade_off.push_back({damping, A, medium::stress_unit(e.shear_modulus, A) * r.stress});
   }
+}
+
+/// How much of an interval is the prior's, in words.
+std::string share_in_words(const char* name, double share) {
+  const std::string text(name);
+  if (share > 0.5)
+    return text +
+           ": mostly the prior speaks (its share of the interval is above 50 %): smaller errors of slip_velocity "
+           "and contact_ratio needed";
+  if (share > 0.1) return text + ": data and prior speak (the prior's share of the interval is 10 to 50 %)";
+  return text + ": the data speak (the prior's share of the interval is below 10 %)";
 }
 
 void add_notes(Posterior& p, const Observation& o, const Sampler& s, modulation::Closure closure) {
@@ -58,16 +86,16 @@ void add_notes(Posterior& p, const Observation& o, const Sampler& s, modulation:
     p.notes.push_back("damping_number is not identifiable without a slip velocity");
   if (!s.knows_contact() && !s.knows_slip_velocity())
     p.notes.push_back("contact_ratio and stress_pa are not identifiable without a slip velocity");
-  if (s.knows_slip_velocity() && !s.knows_contact() && !s.knows_friction())
+  if (o.rupture_velocity && s.knows_slip_velocity() && !s.fixes_friction())
     p.notes.push_back(
-        "contact_ratio and damping_number trade off: the velocities fix one of them when the other is known, their "
-        "intervals are the prior's; " +
+        "contact_ratio and damping_number trade off: the velocities fix one of them when the other is known, and above "
+        "the bounds only the prior speaks; " +
         std::string(cure));
-  else if (p.damping_number_prior_share && *p.damping_number_prior_share > 0.5)
-    p.notes.push_back("damping_number is known little better than before (prior's share " +
-                      digits(*p.damping_number_prior_share, 4) +
-                      "): smaller errors of slip_velocity and contact_ratio needed");
-  if (s.fixes_friction() && !p.friction_coefficient)
+  if (p.damping_number_prior_share && p.damping_number && s.is_uncertain())
+    p.notes.push_back(share_in_words("damping_number", *p.damping_number_prior_share));
+  if (p.contact_ratio_prior_share && p.contact_ratio && !s.knows_contact() && s.is_uncertain())
+    p.notes.push_back(share_in_words("contact_ratio", *p.contact_ratio_prior_share));
+  if (s.fixes_friction() && !(s.knows_duration() && o.asperity_spacing))
     p.notes.push_back(std::string("friction_coefficient needs ") +
                       (!o.asperity_spacing ? "asperity_spacing" : "duration or rise_time") + " beside damping_number");
   if (o.contact_ratio && o.stress_drop && o.stress_drop->is_exact())
@@ -75,13 +103,137 @@ void add_notes(Posterior& p, const Observation& o, const Sampler& s, modulation:
   if (s.knows_contact() && s.knows_slip_velocity() && s.knows_friction() && o.friction_coefficient->is_exact())
     p.notes.push_back(
         "friction_coefficient not used: with a contact_ratio and a slip velocity it needs an uncertainty");
-  if (p.effective_samples < 100 && p.effective_samples < 0.9 * static_cast<double>(p.samples))
-    p.notes.push_back("only " + digits(p.effective_samples, 4) + " effective samples: more samples needed");
   if (p.damping_number && friction_ratio::uncertainty(closure, p.damping_number->median) > 1e-3)
     p.notes.push_back("closure paper is unstable at this damping number: its slip velocities are known to 1 %");
 }
 
+/// Samples in hand, and whether they are enough.
+struct Samples {
+  std::vector<Sample> accepted;
+  double effective = 0, pareto_k = 0;
+
+  bool suffice() const {
+    return effective >= least_effective_samples && pareto_k <= most_pareto_k(static_cast<double>(accepted.size()));
+  }
+};
+
+void weigh(Samples& s) {
+  double sum = 0, squares = 0;
+  std::vector<double> weights;
+  weights.reserve(s.accepted.size());
+  for (const Sample& sample : s.accepted) {
+    sum += sample.weight;
+    squares += sample.weight * sample.weight;
+    weights.push_back(sample.weight);
+  }
+  s.effective = sum / squares * sum;
+  s.pareto_k = pareto_k(std::move(weights));
+}
+
+/// Doubles the samples until they suffice, or cannot be more, or none can be.
+Samples drawn(Sampler& sampler, std::size_t first, std::size_t& count) {
+  const std::size_t most = std::max(first, std::min(most_growth * first, most_samples));
+  Samples s;
+  for (std::size_t begin = 0;; begin = count, count = std::min(2 * count, most)) {
+    sampler.grow(count);
+    for (std::size_t i = begin; i < count; ++i)
+      if (const Sample sample = sampler.draw(i); sample.weight > 0) s.accepted.push_back(sample);
+    if (!sampler.is_uncertain()) {
+      s.effective = static_cast<double>(s.accepted.size());
+      return s;
+    }
+    if (!s.accepted.empty()) weigh(s);
+    // Effective samples grow with their number; a factor 4 for those that the first few misjudge.
+    const double promised = 4 * s.effective * static_cast<double>(most) / static_cast<double>(count);
+    if (s.suffice() || count == most || (count >= 8 * first && promised < least_effective_samples)) return s;
+  }
+}
+
+/// Quantiles of all quantities that are known. Most rise or fall together with the one before, so the order is kept.
+void set_quantiles(Posterior& p, const std::vector<Sample>& samples) {
+  std::vector<const Sample*> order;
+  for (const Sample& s : samples) order.push_back(&s);
+  std::vector<Weighted> values(samples.size());
+  for (const StateQuantity& q : state_quantities()) {
+    if (std::isnan(samples.front().state.*q.value)) continue;
+    const auto below = [&](const Sample* a, const Sample* b) { return a->state.*q.value < b->state.*q.value; };
+    if (!std::is_sorted(order.begin(), order.end(), below)) std::sort(order.begin(), order.end(), below);
+    for (std::size_t i = 0; i < order.size(); ++i) values[i] = {order[i]->state.*q.value, order[i]->weight};
+    p.*q.quantiles = quantiles(values);
+  }
+}
+
+/// States alike in weight, by systematic resampling.
+std::vector<FaultState> draws_of(const std::vector<Sample>& samples, std::size_t count) {
+  double total = 0, below = 0;
+  for (const Sample& s : samples) total += s.weight;
+  std::vector<FaultState> draws;
+  for (const Sample& s : samples) {
+    below += s.weight;
+    while (draws.size() < count &&
+           (static_cast<double>(draws.size()) + 0.5) * total <= below * static_cast<double>(count))
+      draws.push_back(s.state);
+  }
+  while (draws.size() < count) draws.push_back(samples.back().state);
+  return draws;
+}
+
+void set_prior_shares(Posterior& p, const Observation& o, const MediumDefaults& defaults) {
+  if (p.contact_ratio) {
+    const double prior =
+        0.9 * std::log(medium::plastic_contact_ratio(elastic(o, defaults).poisson_ratio) / least_contact_ratio);
+    p.contact_ratio_prior_share = std::log(p.contact_ratio->high / p.contact_ratio->low) / prior;
+  }
+  if (p.damping_number)
+    p.damping_number_prior_share = (std::log1p(p.damping_number->high) - std::log1p(p.damping_number->low)) /
+                                   (0.9 * std::log1p(most_damping_number));
+  if (p.contact_ratio_bound) p.contact_ratio_prior_share = p.damping_number_prior_share = 1;
+}
+
 }  // namespace
+
+std::span<const StateQuantity> state_quantities() {
+  static constexpr StateQuantity quantities[] = {
+      {{"rupture_velocity_m_s", "rupture velocity, in m/s", "", "Eqs. 8-10"},
+       &FaultState::rupture_velocity_m_s,
+       &Posterior::rupture_velocity_m_s},
+      {{"rupture_velocity", "rupture velocity", "c", "Eqs. 8-10"},
+       &FaultState::rupture_velocity,
+       &Posterior::rupture_velocity},
+      {{"stress", "Sigma-, stress before the rupture", "mu A / pi", "Eqs. 8-10"},
+       &FaultState::stress,
+       &Posterior::stress},
+      {{"frictionless_slip_velocity", "slip velocity W(0) as if there were no friction", "c A / pi", "Eqs. 8-10"},
+       &FaultState::frictionless_slip_velocity,
+       &Posterior::frictionless_slip_velocity},
+      {{"observed_slip_velocity", "observed slip velocity", "c A / pi", "Eqs. 8-10"},
+       &FaultState::observed_slip_velocity,
+       &Posterior::observed_slip_velocity},
+      {{"slip_velocity_ratio", "observed over frictionless slip velocity", "", "Eqs. 8-10"},
+       &FaultState::slip_velocity_ratio,
+       &Posterior::slip_velocity_ratio},
+      {{"contact_ratio", "A, real to nominal contact area", "", "Eq. 1"},
+       &FaultState::contact_ratio,
+       &Posterior::contact_ratio},
+      {{"damping_number", "Gamma = C T", "", "Eq. 7"}, &FaultState::damping_number, &Posterior::damping_number},
+      {{"friction_coefficient", "C of viscous friction", "", "Eq. 7"},
+       &FaultState::friction_coefficient,
+       &Posterior::friction_coefficient},
+      {{"stress_pa", "stress before the rupture, in Pa", "", "Eqs. 8-10"},
+       &FaultState::stress_pa,
+       &Posterior::stress_pa},
+      {{"stress_bound", "least Sigma-, if friction took nothing", "mu A / pi", "Eqs. 8-10"},
+       &FaultState::stress_bound,
+       &Posterior::stress_bound},
+      {{"contact_ratio_bound", "least A, if friction took nothing", "", "Eq. 1"},
+       &FaultState::contact_ratio_bound,
+       &Posterior::contact_ratio_bound},
+      {{"stress_pa_bound", "least stress before the rupture, in Pa, if friction took nothing", "", "Eqs. 8-10"},
+       &FaultState::stress_pa_bound,
+       &Posterior::stress_pa_bound},
+  };
+  return quantities;
+}
 
 bool speaks_of_friction_or_error(const Observation& o) {
   if (o.stress_drop || o.friction_coefficient || o.contact_ratio || (o.normal_stress && o.hardness) ||
@@ -93,48 +245,31 @@ bool speaks_of_friction_or_error(const Observation& o) {
 }
 
 std::optional<Posterior> posterior(const Observation& o, const MediumDefaults& defaults, const Sampling& sampling) {
-  if (!o.rupture_velocity) return std::nullopt;
   Sampler sampler(o, defaults, sampling);
-  std::vector<Sample> samples;
-  samples.reserve(sampling.samples);
-  double sum = 0, squares = 0;
-  for (std::size_t i = 0; i < sampling.samples; ++i) {
-    const Sample s = sampler.draw(i);
-    if (!(s.weight > 0)) continue;
-    samples.push_back(s);
-    sum += s.weight;
-    squares += s.weight * s.weight;
-  }
-  if (samples.empty()) refuse_event(o, sampler);
-
+  if (!sampler.knows_anything()) return std::nullopt;
   Posterior p;
   p.samples = sampling.samples;
   p.seed = sampler.seed();
-  p.effective_samples = sum / squares * sum;
-  const auto of = [&](auto value) {
-    std::vector<Weighted> values;
-    values.reserve(samples.size());
-    for (const Sample& s : samples) values.push_back({value(s), s.weight});
-    return quantiles(std::move(values));
-  };
-  p.rupture_velocity = of([](const Sample& s) { return s.V; });
-  p.stress = of([](const Sample& s) { return s.stress; });
-  if (samples.front().contact_ratio > 0) {
-    p.contact_ratio = of([](const Sample& s) { return s.contact_ratio; });
-    p.stress_pa = of([](const Sample& s) { return s.stress_pa; });
-    const double prior =
-        0.9 * std::log(medium::plastic_contact_ratio(elastic(o, defaults).poisson_ratio) / least_contact_ratio);
-    p.contact_ratio_prior_share = std::log(p.contact_ratio->high / p.contact_ratio->low) / prior;
+  const Samples samples = drawn(sampler, sampling.samples, p.samples);
+  if (samples.accepted.empty()) {
+    if (!only_contact_refused(sampler)) refuse_event(o, sampler);
+    p.notes.push_back(
+        "no contact ratio up to plastic contact explains this slip velocity, errors included: no interval");
+    return p;
   }
-  if (sampler.fixes_friction()) {
-    const Quantiles u = of([](const Sample& s) { return s.u; });
-    p.damping_number = Quantiles{std::expm1(u.low), std::expm1(u.median), std::expm1(u.high)};
-    p.friction_identified = sampler.knows_contact() || sampler.knows_friction();
-    p.damping_number_prior_share = (u.high - u.low) / (0.9 * std::log1p(most_damping_number));
-    if (sampler.knows_duration() && o.asperity_spacing)
-      p.friction_coefficient = of([](const Sample& s) { return s.friction_coefficient; });
-    if (!p.friction_identified) add_trade_off(p, o, defaults, sampling.closure);
+  p.effective_samples = samples.effective;
+  p.pareto_k = samples.pareto_k;
+  p.suffices = !sampler.is_uncertain() || samples.suffice();
+  p.friction_identified = sampler.fixes_friction();
+  if (p.suffices) {
+    set_quantiles(p, samples.accepted);
+    set_prior_shares(p, o, defaults);
+    p.draws = draws_of(samples.accepted, sampling.draws);
+  } else {
+    p.notes.push_back(why_no_interval(samples.effective, samples.pareto_k, p.samples));
   }
+  if (sampler.knows_slip_velocity() && o.rupture_velocity && !sampler.fixes_friction())
+    add_trade_off(p, o, defaults, sampling.closure);
   add_notes(p, o, sampler, sampling.closure);
   return p;
 }

@@ -60,11 +60,9 @@ void run_side(FaultPulse& p, double sign, double length, double speed) {
     if (distance < 0) continue;
     const double time = side.front_time(distance) * length / speed;
     if (starts && std::isfinite(time)) p.front_time[i] = time;
-    // Slip is 2 pi times the dislocations that have passed, towards the hypocentre.
-    const double passed =
-        view ? solver->initial_charge_left_of(-distance) - pulse::charge_left_of(*view, -distance) : 0;
+    const double slip = view ? solver->slip_at(*view, -distance) : 0;
     const bool both = distance == 0 && p.x.front() < 0 && p.x.back() > 0;
-    p.pulse_slip[i] += 2 * std::numbers::pi * passed * (both ? 0.5 : 1);
+    p.pulse_slip[i] += slip * (both ? 0.5 : 1);
   }
 }
 

@@ -24,16 +24,27 @@ std::span<const EstimateQuantity<Inferred>> inferred_quantities() {
        &Estimate::slip_velocity_ratio},
       {{"contact_ratio", "A, real to nominal contact area: given, or as if there were no friction", "", "Eq. 1"},
        &Estimate::contact_ratio},
-      {{"stress_pa", "stress before the rupture, in Pa", "", "Eqs. 8-10"}, &Estimate::stress_pa},
+      {{"stress_pa", "stress before the rupture, in Pa; none where only a bound is known", "", "Eqs. 8-10"},
+       &Estimate::stress_pa},
       {{"damping_number", "Gamma = C T; needs friction", "", "Eq. 7"}, &Estimate::damping_number},
       {{"friction_coefficient", "C of viscous friction", "", "Eq. 7"}, &Estimate::friction_coefficient},
   };
   return quantities;
 }
 
+std::span<const EstimateQuantity<Inferred>> bound_quantities() {
+  static constexpr EstimateQuantity<Inferred> quantities[] = {
+      {{"stress_bound", "least Sigma-, if friction took nothing", "mu A / pi", "Eqs. 8-10"}, &Estimate::stress_bound},
+      {{"contact_ratio_bound", "least A, if friction took nothing", "", "Eq. 1"}, &Estimate::contact_ratio_bound},
+      {{"stress_pa_bound", "least stress before the rupture, in Pa, if friction took nothing", "", "Eqs. 8-10"},
+       &Estimate::stress_pa_bound},
+  };
+  return quantities;
+}
+
 std::span<const PosteriorQuantity> posterior_quantities() {
   static constexpr PosteriorQuantity quantities[] = {
-      {{"rupture_velocity_m_s", "rupture velocity, in m/s", "", "Eqs. 8-10"}, &Posterior::rupture_velocity},
+      {{"rupture_velocity_m_s", "rupture velocity, in m/s", "", "Eqs. 8-10"}, &Posterior::rupture_velocity_m_s},
       {{"stress", "Sigma-, stress before the rupture", "mu A / pi", "Eqs. 8-10"}, &Posterior::stress},
       {{"contact_ratio", "A, real to nominal contact area", "", "Eq. 1"}, &Posterior::contact_ratio},
       {{"damping_number", "Gamma = C T", "", "Eq. 7"}, &Posterior::damping_number},

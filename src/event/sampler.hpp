@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "balance.hpp"
 #include "elastic.hpp"
@@ -23,22 +24,31 @@ enum Refusal : std::size_t {
 
 /// One state of the fault with its weight: prior times likelihood over the density that it was drawn from.
 struct Sample {
-  double weight, V, stress, contact_ratio, u, friction_coefficient, stress_pa;
+  double weight, u;  ///< u = ln(1 + Gamma)
+  FaultState state;
 };
 
 /// What of an event enters, and how its samples are drawn. Coordinates of the Sobol points: 0 V, 1 slip velocity or
-/// slip, 2 time, 3 what gives A, 4 hardness, 5 C or ln(1 + Gamma), from 6 constants of the medium.
+/// slip, 2 T, 3 what gives A, 4 hardness, 5 C, from 6 constants of the medium, 12 rise time where T is the duration.
 class Sampler {
  public:
   Sampler(const Observation& o, const MediumDefaults& defaults, const Sampling& sampling);
 
   bool knows_contact() const { return contact_from_ != ContactFrom::nothing; }
-  bool knows_slip_velocity() const { return o_.slip_velocity || (o_.slip && time_); }
+  bool knows_slip_velocity() const { return o_.has_slip_velocity(); }
   /// C, spacing and duration: then C A is known as well as Gamma / A.
   bool knows_friction() const { return o_.friction_coefficient && o_.asperity_spacing && time_; }
   bool knows_duration() const { return time_ != nullptr; }
-  bool fixes_friction() const { return knows_slip_velocity() || (knows_contact() && knows_friction()); }
+  /// Two of slip velocity, A and friction tell the third.
+  bool fixes_friction() const {
+    return o_.rupture_velocity && knows_slip_velocity() + knows_contact() + knows_friction() >= 2;
+  }
+  bool knows_anything() const { return o_.rupture_velocity || (knows_slip_velocity() && knows_contact()); }
+  /// Whether samples differ at all.
+  bool is_uncertain() const;
 
+  /// Makes room for `samples`; those drawn already stay the same.
+  void grow(std::size_t samples) { points_.grow(samples); }
   /// Draws sample i; weight 0 and a refusal counted where it cannot be.
   Sample draw(std::size_t i);
   const std::array<std::size_t, refusals>& refused() const { return refused_; }
@@ -51,8 +61,15 @@ class Sampler {
     return m.is_exact() ? m.low : m.quantile(points_(point_, dimension));
   }
   bool draw_constants();
+  bool draw_rupture_velocity(Sample& s);
   bool draw_contact(Sample& s);
+  bool draw_times();
+  /// w, m/s; none where it is not positive.
+  std::optional<double> draw_slip_velocity(Sample& s);
   bool draw_friction(Sample& s, double w);
+  bool find_friction(Sample& s, std::optional<double> w);
+  bool find_bound(Sample& s, double w);
+  void derive(Sample& s, std::optional<double> w) const;
   bool agrees(Sample& s) const;
   bool refuse(Refusal why) {
     ++refused_[why];
@@ -64,7 +81,8 @@ class Sampler {
   Sampling sampling_;
   std::uint64_t seed_;
   ShiftedSobol points_;
-  const Measured* time_;                        ///< of the slip, for slip / time and Gamma = C T; null: unknown
+  const Measured* time_;                        ///< T of Gamma = C T; null: unknown
+  const Measured* slip_time_;                   ///< of slip / time; null: unknown, or not needed
   const Measured* contact_measured_ = nullptr;  ///< of contact_ratio, where it was stated with an error
   ContactFrom contact_from_ = ContactFrom::nothing;
   std::array<std::size_t, refusals> refused_{};
@@ -73,7 +91,7 @@ class Sampler {
   std::size_t point_ = 0;
   medium::Constants constants_;
   Elastic elastic_{};
-  double plastic_ = 0, duration_ = 0;
+  double plastic_ = 0, duration_ = 0, slipping_ = 0;
   Pulse pulse_{};
 };
 

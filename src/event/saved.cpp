@@ -12,9 +12,10 @@ namespace {
 /// Both directions go through the same members in the same order: `walk`.
 template <class Io, class P>
 void walk_posterior(Io& io, P& p) {
-  io(p.rupture_velocity), io(p.stress), io(p.contact_ratio), io(p.damping_number), io(p.friction_coefficient);
-  io(p.stress_pa), io(p.friction_identified), io(p.contact_ratio_prior_share), io(p.damping_number_prior_share);
-  io(p.trade_off), io(p.notes), io(p.effective_samples), io(p.samples), io(p.seed);
+  for (const StateQuantity& q : state_quantities()) io(p.*q.quantiles);
+  io(p.friction_identified), io(p.contact_ratio_prior_share), io(p.damping_number_prior_share);
+  io(p.trade_off), io(p.draws), io(p.notes), io(p.suffices), io(p.effective_samples), io(p.pareto_k);
+  io(p.samples), io(p.seed);
 }
 
 template <class Io, class P>

@@ -31,12 +31,14 @@ const std::vector<std::uint64_t>& sequence(std::size_t points) {
 
 }  // namespace
 
-ShiftedSobol::ShiftedSobol(std::size_t points, std::uint64_t seed) : points_(sequence(points)) {
+ShiftedSobol::ShiftedSobol(std::size_t points, std::uint64_t seed) : points_(&sequence(points)) {
   for (std::uint64_t& shift : shift_) shift = mixed(seed);
 }
 
+void ShiftedSobol::grow(std::size_t points) { points_ = &sequence(points); }
+
 double ShiftedSobol::operator()(std::size_t point, std::size_t dimension) const {
-  const std::uint64_t bits = points_[point * dimensions + dimension] ^ shift_[dimension];
+  const std::uint64_t bits = (*points_)[point * dimensions + dimension] ^ shift_[dimension];
   return (static_cast<double>(bits >> 12) + 0.5) * 0x1p-52;
 }
 

@@ -12,11 +12,13 @@ class ShiftedSobol {
  public:
   static constexpr std::size_t dimensions = 16;
   ShiftedSobol(std::size_t points, std::uint64_t seed);
+  /// Makes room for more points; those there stay the same.
+  void grow(std::size_t points);
   /// Coordinate `dimension` of a point.
   double operator()(std::size_t point, std::size_t dimension) const;
 
  private:
-  const std::vector<std::uint64_t>& points_;
+  const std::vector<std::uint64_t>* points_;
   std::uint64_t shift_[dimensions];
 };
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <vector>
 
 #include "slipfront/event/posterior.hpp"
@@ -11,9 +10,8 @@ struct Weighted {
   double value, weight;  ///< weight > 0
 };
 
-/// 5, 50 and 95 % of weighted values, at least one: linear between the middles of their steps.
-inline Quantiles quantiles(std::vector<Weighted> values) {
-  std::sort(values.begin(), values.end(), [](const Weighted& a, const Weighted& b) { return a.value < b.value; });
+/// 5, 50 and 95 % of weighted values, at least one, ascending: linear between the middles of their steps.
+inline Quantiles quantiles(const std::vector<Weighted>& values) {
   double total = 0;
   for (const Weighted& v : values) total += v.weight;
   const auto at = [&](double share) {

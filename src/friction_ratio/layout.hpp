@@ -10,11 +10,13 @@
 
 namespace slipfront::friction_ratio::layout {
 
-inline constexpr std::size_t closures = 2, measures = 3;
+inline constexpr std::size_t closures = 2, measures = 4;
 
 inline constexpr double least_stress = 0.05, most_stress = 3, most_damping = 1e8;
 
-/// Ends of the pieces, in Gamma. Between `unstable_from` and `unstable_to` the closure "paper" is not certified.
+/// Ends of the pieces, in Gamma. Between `unstable_from` and `uncertain_to` the closure "paper" is not certified: it is
+/// unstable, and the more cells the farther up (from 400 cells on at Gamma = 3e4).
+inline constexpr double uncertain_to = 1e5;
 inline constexpr double unstable_from = 3, unstable_to = 1e4;
 inline constexpr std::array<double, 8> ends{0, 1, unstable_from, 15, 100, 1000, unstable_to, most_damping};
 inline constexpr std::size_t pieces = ends.size() - 1;

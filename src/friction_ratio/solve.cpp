@@ -67,10 +67,12 @@ pulse::Solver solver_of(const Question& question) {
                         .cells = question.cells});
 }
 
-SlipVelocities velocities_of(const pulse::Solver& solver, double stress) {
+SlipVelocities velocities_of(const pulse::Solver& solver, double stress, double time) {
   const pulse::Solver::View view = solver.view();
   const std::vector<Point> points = points_of(view, stress);
-  return {pulse::averages_of(view, pulse::state_at(view, 0), 0).W, slip_weighted_mean_of(points), peak_of(points)};
+  const double slip = 2 * pi * (view.charge_faces.back() - pulse::charge_left_of(view, 0));
+  return {pulse::averages_of(view, pulse::state_at(view, 0), 0).W, slip_weighted_mean_of(points), peak_of(points),
+          slip / time};
 }
 
 }  // namespace
@@ -78,7 +80,7 @@ SlipVelocities velocities_of(const pulse::Solver& solver, double stress) {
 SlipVelocities solve(const Question& question) {
   pulse::Solver solver = solver_of(question);
   solver.advance_to(1);
-  return velocities_of(solver, question.stress);
+  return velocities_of(solver, question.stress, 1);
 }
 
 std::vector<SlipVelocities> solve_each(double stress, modulation::Closure closure, int cells,
@@ -86,8 +88,9 @@ std::vector<SlipVelocities> solve_each(double stress, modulation::Closure closur
   pulse::Solver solver = solver_of({stress, damping_numbers.back(), closure, cells});
   std::vector<SlipVelocities> found;
   for (const double damping : damping_numbers) {
-    solver.advance_to(damping / damping_numbers.back());
-    found.push_back(velocities_of(solver, stress));
+    const double time = damping / damping_numbers.back();
+    solver.advance_to(time);
+    found.push_back(velocities_of(solver, stress, time));
   }
   return found;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "../digits.hpp"
 #include "coefficients.hpp"
 #include "slipfront/error.hpp"
 
@@ -13,23 +14,25 @@ namespace {
 
 void check(double stress, double damping) {
   const auto refuse = [](const char* key, double value, const char* allowed) {
-    throw InputError({.key = key, .value = std::to_string(value), .problem = "out of range", .allowed = allowed});
+    throw InputError({.key = key, .value = digits(value), .problem = "out of range", .allowed = allowed});
   };
   if (!(stress >= layout::least_stress && stress <= layout::most_stress)) refuse("stress", stress, "0.05 ... 3");
   if (!(damping >= 0) || std::isinf(damping)) refuse("damping_number", damping, ">= 0, finite");
 }
 
-constexpr std::array<const char*, layout::measures> measure_names = {"origin", "mean", "peak"};
+constexpr std::array<const char*, layout::measures> measure_names = {"origin", "mean", "peak", "time-mean"};
 
 }  // namespace
 
 const char* name_of(Measure measure) { return measure_names[static_cast<std::size_t>(measure)]; }
 
 Measure measure_named(std::string_view name, std::string_view key) {
-  for (const Measure m : {Measure::origin, Measure::mean, Measure::peak})
+  for (const Measure m : all_measures)
     if (name == name_of(m)) return m;
-  throw InputError(
-      {.key = std::string(key), .value = std::string(name), .problem = "unknown", .allowed = "origin, mean, peak"});
+  throw InputError({.key = std::string(key),
+                    .value = std::string(name),
+                    .problem = "unknown",
+                    .allowed = "origin, mean, peak, time-mean"});
 }
 
 Ratio evaluate(Measure measure, modulation::Closure closure, double stress, double damping) {
@@ -63,7 +66,7 @@ Ratio evaluate(Measure measure, modulation::Closure closure, double stress, doub
   Ratio r{std::exp(sum), 0, 0};
   r.by_stress = r.value * by_y * layout::y_slope(stress);
   r.by_damping = r.value * by_u / (1 + damping);
-  if (damping > layout::most_damping) {  // nonlinear diffusion: W ~ Gamma^(-1/2)
+  if (damping > layout::most_damping) {  // nonlinear diffusion: W ~ Gamma^(-1/2), and so its mean in time
     const double fall = std::sqrt(layout::most_damping / damping);
     r = {r.value * fall, -r.value * fall / (2 * damping), r.by_stress * fall};
   }
@@ -71,7 +74,7 @@ Ratio evaluate(Measure measure, modulation::Closure closure, double stress, doub
 }
 
 double uncertainty(modulation::Closure closure, double damping) {
-  const bool unstable = damping > layout::unstable_from && damping < layout::unstable_to;
+  const bool unstable = damping > layout::unstable_from && damping < layout::uncertain_to;
   return closure == modulation::Closure::paper && unstable ? 1e-2 : 1e-4;
 }
 

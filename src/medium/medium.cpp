@@ -4,6 +4,7 @@
 #include <numbers>
 #include <string>
 
+#include "../digits.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::medium {
@@ -13,8 +14,7 @@ using std::numbers::pi;
 
 double positive(double value, const char* key) {
   if (value > 0 && std::isfinite(value)) return value;
-  throw InputError(
-      {.key = key, .value = std::to_string(value), .problem = "not a positive number", .allowed = "> 0, finite"});
+  throw InputError({.key = key, .value = digits(value), .problem = "not a positive number", .allowed = "> 0, finite"});
 }
 
 double checked_poisson(double nu) {
@@ -86,8 +86,16 @@ Units units(double shear_modulus, double speed, double contact_ratio, double asp
           .strain = A / (2 * pi),
           .stress = stress_unit(mu, A),
           .slip_velocity = slip_velocity_unit(c, A),
-          .force = mu * A / (2 * pi),
           .velocity = c};
+}
+
+double traction_unit(double shear_modulus, double poisson_ratio, double contact_ratio) {
+  const double A = checked_contact(contact_ratio);
+  return positive(shear_modulus, "shear_modulus") * A * A / (pi * (1 - checked_poisson(poisson_ratio)));
+}
+
+double printed_traction_unit(double shear_modulus, double contact_ratio) {
+  return positive(shear_modulus, "shear_modulus") * checked_contact(contact_ratio) / (2 * pi);
 }
 
 double stress_unit(double shear_modulus, double contact_ratio) { return shear_modulus * contact_ratio / pi; }

@@ -1,5 +1,6 @@
 #include "slipfront/medium/quantity.hpp"
 
+#include <locale.h>
 #include <udunits2.h>
 
 #include <charconv>
@@ -52,6 +53,22 @@ struct Free {
 using Unit = std::unique_ptr<ut_unit, Free>;
 using Converter = std::unique_ptr<cv_converter, Free>;
 
+/// UDUNITS reads numbers as the locale writes them, and its database writes them with a point.
+class PlainLocale {
+ public:
+  PlainLocale() : plain_(newlocale(LC_ALL_MASK, "C", nullptr)), before_(plain_ ? uselocale(plain_) : nullptr) {}
+  ~PlainLocale() {
+    if (!plain_) return;
+    uselocale(before_);
+    freelocale(plain_);
+  }
+  PlainLocale(const PlainLocale&) = delete;
+  PlainLocale& operator=(const PlainLocale&) = delete;
+
+ private:
+  locale_t plain_, before_;
+};
+
 /// The unit database, read once and kept for the life of the process.
 ut_system* unit_system() {
   static ut_system* const system = [] {
@@ -100,6 +117,7 @@ bool may_be_unit(std::string_view text) {
 
 double look_up(const std::string& unit, Dimension dimension) {
   const Kind& wanted = kind(dimension);
+  const PlainLocale locale;
   ut_system* const system = unit_system();
   const Unit from{may_be_unit(unit) ? ut_parse(system, unit.c_str(), UT_ASCII) : nullptr};
   if (!from) throw InputError({.problem = "unknown unit '" + unit + "'", .allowed = wanted.example});

@@ -44,7 +44,10 @@ Resolved resolve_in_psi(const Carried& c, double psi) {
     const double most = step > 2 ? std::fmax(2, -std::log(psi)) : 2;  // where it is linear, up to psi = 1 at once
     const double limited = std::fmin(std::fmax(step, -40.0), most), before = psi;
     psi *= std::fabs(limited) < 0.1 ? 1 + std::expm1(limited) : std::exp(limited);
-    if (psi < psi_least) return {{std::asinh(c.momentum / 8), 0}, 0, 0};
+    if (psi < psi_least) {  // E = 1, and K from the spacing
+      const double phi = std::asinh(c.momentum / 8);
+      return {{phi, 0}, 0, half * std::cosh(phi)};
+    }
     if (psi > psi_most) {
       if (before == psi_most) give_up(c);
       psi = psi_most;

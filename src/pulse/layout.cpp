@@ -8,6 +8,18 @@
 #include "slipfront/error.hpp"
 
 namespace slipfront::pulse {
+
+double integral(const std::function<double(double)>& f, double a, double b) {
+  constexpr double node[5] = {0.1488743389816312, 0.4333953941292472, 0.6794095682990244, 0.8650633666889845,
+                              0.9739065285171717};
+  constexpr double weight[5] = {0.2955242247147529, 0.2692667193099964, 0.2190863625159820, 0.1494513491505806,
+                                0.0666713443086881};
+  const double middle = a + (b - a) / 2, half = (b - a) / 2;
+  double sum = 0;
+  for (int i = 0; i < 5; ++i) sum += weight[i] * (f(middle - half * node[i]) + f(middle + half * node[i]));
+  return sum * half;
+}
+
 namespace {
 
 using std::numbers::pi;
@@ -20,18 +32,6 @@ double edge_between(const std::function<double(double)>& stress, double empty, d
     (stress(middle) > 0 ? stressed : empty) = middle;
   }
   return stressed;
-}
-
-/// Ten-point Gauss rule: exact to rounding for smooth stress in one cell.
-double integral(const std::function<double(double)>& f, double a, double b) {
-  constexpr double node[5] = {0.1488743389816312, 0.4333953941292472, 0.6794095682990244, 0.8650633666889845,
-                              0.9739065285171717};
-  constexpr double weight[5] = {0.2955242247147529, 0.2692667193099964, 0.2190863625159820, 0.1494513491505806,
-                                0.0666713443086881};
-  const double middle = a + (b - a) / 2, half = (b - a) / 2;
-  double sum = 0;
-  for (int i = 0; i < 5; ++i) sum += weight[i] * (f(middle - half * node[i]) + f(middle + half * node[i]));
-  return sum * half;
 }
 
 /// From 0 to 1, with vanishing slope at the free ends.
@@ -141,22 +141,28 @@ std::vector<Stressed> stressed_stretches(const std::function<double(double)>& st
     if (!now && before) found.back().to = edge_between(stress, place(i), place(i - 1));
     before = now;
   }
+  // A single value, such as that of a step at the end of the domain, is no stretch.
+  const auto point = [h](const Stressed& s) { return !(s.to - s.from > 1e-9 * h); };
+  found.erase(std::remove_if(found.begin(), found.end(), point), found.end());
   if (found.empty())
     throw InputError(
         {.key = "initial", .problem = "no stress anywhere in the domain", .allowed = "stress > 0 somewhere"});
-  if (found.back().from == right) found.pop_back();  // the last sample alone
   return found;
 }
 
 }  // namespace
 
-Layout lay_cells(const std::function<double(double)>& stress, double left, double right, int cells, double corner) {
+Layout lay_cells(const std::function<double(double)>& stress, double left, double right, int cells, double corner,
+                 FreeEnds free) {
   const std::vector<Stressed> stretches = stressed_stretches(stress, left, right);
   double length = 0;
   for (const Stressed& s : stretches) length += s.to - s.from;
-  Layout layout{{stretches.front().from}, {}, stretches.front().from > left, stretches.back().to < right};
+  Layout layout{{stretches.front().from},
+                {},
+                free.left || stretches.front().from > left,
+                free.right || stretches.back().to < right};
   for (const Stressed& s : stretches) {
-    const bool left_free = s.from > left, right_free = s.to < right;
+    const bool left_free = free.left || s.from > left, right_free = free.right || s.to < right;
     if (layout.faces.back() < s.from) layout.faces.push_back(s.from);  // a gap is one cell
     const int share = std::max(4, static_cast<int>(std::lround(cells * (s.to - s.from) / length)));
     const Monitor monitor(stress, s.from, s.to, corner);

@@ -148,13 +148,13 @@ Snapshot observe(const Solver& solver, const std::vector<double>& x_edges, const
     const train::Averages a = averages_of(v, state, x);
     s.profile.W.push_back(a.W);
     s.profile.H.push_back(a.H);
-    s.profile.slip.push_back(2 * pi * (solver.initial_charge_left_of(x) - charge_left_of(v, x)));
+    s.profile.slip.push_back(solver.slip_at(v, x));
     left = right;
   }
   const train::Averages origin = averages_of(v, state_at(v, 0), 0);
   s.slip_velocity_at_origin = origin.W;
   s.stress_at_origin = origin.k;
-  s.slip_at_origin = 2 * pi * (solver.initial_charge_left_of(0) - charge_left_of(v, 0));
+  s.slip_at_origin = solver.slip_at(v, 0);
   s.fronts.trailing = trailing.position();
   s.fronts.leading = leading_front(v, trailing.stressed_left());
   find_peak_and_observed_fronts(v, threshold, trailing.stressed_left(), s);
@@ -166,10 +166,10 @@ double conservation_error(const Solver& solver, const std::vector<double>& x_edg
   const Solver::View v = solver.view();
   double sum = charge_left_of(v, x_edges.front());
   for (std::size_t i = 0; i + 1 < x_edges.size(); ++i) sum += profile.k[i] * (x_edges[i + 1] - x_edges[i]) / (2 * pi);
-  double initial = 0;
+  double initial = -solver.cells().entered_left;
   for (const double q : solver.charge()) initial += q;
   sum += v.charge_faces.back() - charge_left_of(v, x_edges.back());
-  return std::fabs(sum - initial) / initial;
+  return std::fabs(sum - initial) / (initial + solver.cells().entered_left);
 }
 
 }  // namespace slipfront::pulse

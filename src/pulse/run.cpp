@@ -10,7 +10,7 @@
 namespace slipfront::pulse {
 namespace {
 
-constexpr std::uint64_t format = 2;
+constexpr std::uint64_t format = 3;
 
 }  // namespace
 
@@ -32,6 +32,9 @@ Run::Run(Problem problem, Schedule schedule, std::string_view saved, std::vector
   cells.y = reader.vector();
   cells.s = reader.vector();
   cells.charge = reader.vector();
+  cells.face_momentum = reader.vector();
+  cells.entered_left = reader.get<double>();
+  cells.entered_right = reader.get<double>();
   reader.end();
   solver_.restore(std::move(cells));
   snapshots_ = std::move(snapshots);
@@ -48,6 +51,9 @@ std::string Run::saved() const {
   writer.put(cells.y);
   writer.put(cells.s);
   writer.put(cells.charge);
+  writer.put(cells.face_momentum);
+  writer.put(cells.entered_left);
+  writer.put(cells.entered_right);
   return std::move(writer).text();
 }
 

@@ -12,29 +12,14 @@
 namespace slipfront::pulse {
 
 Semidiscrete::Semidiscrete(Setup setup)
-    : setup_(std::move(setup)), stretches_(stretches_of(setup_.charge, setup_.left_free, setup_.right_free)) {
+    : setup_(std::move(setup)),
+      power_law_rate_(setup_.friction),
+      stretches_(stretches_of(setup_.charge, setup_.left, setup_.right)) {
   const std::size_t n = size();
-  for (auto* array : {&charge_point_,
-                      &per_charge_,
-                      &per_charge_point_,
-                      &width_,
-                      &momentum_in_cell_,
-                      &spacing_,
-                      &momentum_,
-                      &s_,
-                      &phi_,
-                      &psi_,
-                      &phi_mean_,
-                      &psi_mean_,
-                      &sound_speed_,
-                      &EK_,
-                      &good_,
-                      &rate_,
-                      &source_,
-                      &source_mean_,
-                      &centres_,
-                      &velocity_})
+  for (auto* array : {&charge_point_, &per_charge_point_, &width_, &momentum_in_cell_, &phi_mean_, &psi_mean_, &rate_,
+                      &source_, &source_mean_, &centres_, &shocked_})
     array->assign(n, 0);
+  at_.resize(n);
   for (auto* array : {&invariant_plus_, &invariant_minus_}) array->assign(n + 2 * ghosts, 0);
   for (auto* array : {&face_phi_, &face_psi_, &face_U_, &face_p_, &faces_}) array->assign(n + 1, 0);
   if (setup_.contact) {
@@ -46,75 +31,49 @@ Semidiscrete::Semidiscrete(Setup setup)
     centre_values(r.end - r.begin, setup_.charge.data() + r.begin, charge_point_.data() + r.begin);
   for (std::size_t i = 0; i < n; ++i) {
     if (gap(i)) {
-      EK_[i] = HUGE_VAL;  // no friction there
+      at_.EK[i] = HUGE_VAL;  // no friction there
       continue;
     }
-    per_charge_[i] = 1 / setup_.charge[i];
     per_charge_point_[i] = 1 / charge_point_[i];
   }
 }
 
-void Semidiscrete::start_from(const std::vector<double>& s) { s_ = s; }
+void Semidiscrete::start_from(const std::vector<double>& s) { at_.s = s; }
 
 std::vector<State> Semidiscrete::states() const {
   std::vector<State> states(size());
-  for (std::size_t i = 0; i < size(); ++i) states[i] = {phi_[i], psi_[i]};
+  for (std::size_t i = 0; i < size(); ++i) states[i] = {at_.phi[i], at_.psi[i]};
   return states;
 }
 
 void Semidiscrete::find_states(double t, const double* y) {
   const std::size_t n = size();
   split(n, y, width_.data(), momentum_in_cell_.data());
-  if (compact_) {
-    spacing_ = width_;
-    momentum_ = momentum_in_cell_;
-  } else {
-    for (const Stretch& r : stretches_) {
-      centre_values(r.end - r.begin, width_.data() + r.begin, spacing_.data() + r.begin);
-      centre_values(r.end - r.begin, momentum_in_cell_.data() + r.begin, momentum_.data() + r.begin);
-    }
+  for (const Stretch& r : stretches_) {
+    centre_values(r.end - r.begin, width_.data() + r.begin, at_.spacing.data() + r.begin);
+    centre_values(r.end - r.begin, momentum_in_cell_.data() + r.begin, at_.momentum.data() + r.begin);
   }
-  per_dislocation(n, (compact_ ? per_charge_ : per_charge_point_).data(), width_.data(), spacing_.data(),
-                  momentum_.data());
+  per_dislocation(n, per_charge_point_.data(), width_.data(), at_.spacing.data(), at_.momentum.data());
   if (setup_.contact) {
     for (std::size_t i = 0; i < n; ++i) {
-      spacing_[i] *= contact_[i];
-      momentum_[i] /= contact_[i];
+      at_.spacing[i] *= contact_[i];
+      at_.momentum[i] /= contact_[i];
     }
   }
-  for (const Stretch& r : stretches_) {
-    const std::size_t i = r.begin;
-    resolve_all({r.end - i, &spacing_[i], &momentum_[i], &s_[i], &phi_[i], &psi_[i], &sound_speed_[i], &EK_[i],
-                 &velocity_[i], &good_[i]});
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    if (good_[i] != 0 || gap(i)) continue;
-    try {
-      const double guess = std::atanh(std::fmin(std::fmax(s_[i], 0.0), 1 - 1e-16));
-      const modulation::Resolved at = modulation::resolve({spacing_[i], momentum_[i]}, guess);
-      phi_[i] = at.state.phi;
-      psi_[i] = at.state.psi;
-      s_[i] = std::tanh(at.state.psi);
-      sound_speed_[i] = at.sound_speed;
-      EK_[i] = at.EK;
-      velocity_[i] = std::tanh(at.state.phi);
-    } catch (const NumericsError& error) {
-      throw NumericsError("t = " + std::to_string(t) + ", cell " + std::to_string(i) + " of " + std::to_string(n) +
-                          ": " + error.what());
-    }
-  }
+  at_.resolve(stretches_, t);
   if (setup_.contact)
-    for (std::size_t i = 0; i < n; ++i) momentum_[i] *= contact_[i];
+    for (std::size_t i = 0; i < n; ++i) at_.momentum[i] *= contact_[i];
 }
 
-void Semidiscrete::find_places(const double* y) {
+void Semidiscrete::find_places(double t, const double* y) {
   const std::size_t n = size();
   faces_[0] = y[2 * n];
-  for (std::size_t i = 0; i < n; ++i) faces_[i + 1] = faces_[i] + y[2 * i];
-  if (compact_)
-    for (std::size_t i = 0; i < n; ++i) centres_[i] = faces_[i] + y[2 * i] / 2;
-  else
-    middles(stretches_, faces_, centres_);
+  for (std::size_t i = 0; i < n; ++i) {
+    faces_[i + 1] = faces_[i] + y[2 * i];
+    if (!(y[2 * i] > 0) && !gap(i))
+      throw NumericsError("t = " + std::to_string(t) + ", cell " + std::to_string(i) + ": squeezed to nothing");
+  }
+  middles(stretches_, faces_, centres_);
   if (!setup_.contact) return;
   for (std::size_t i = 0; i < n; ++i) contact_[i] = setup_.contact(centres_[i]);
   for (std::size_t f = 0; f <= n; ++f) face_contact_[f] = setup_.contact(faces_[f]);
@@ -122,13 +81,11 @@ void Semidiscrete::find_places(const double* y) {
 
 void Semidiscrete::operator()(double t, const double* y, double* dy) {
   const std::size_t n = size();
-  if (setup_.forcing || setup_.contact) find_places(y);
+  if (setup_.forcing || setup_.contact) find_places(t, y);
   find_states(t, y);
   find_rates();
-  if (compact_)
-    find_compact_faces(y);
-  else
-    find_faces();
+  find_edges(y);
+  find_faces();
   face_fluxes(n + 1, face_phi_.data(), face_psi_.data(), face_U_.data(), face_p_.data());
   for (std::size_t f = 0; f < face_contact_.size(); ++f) face_p_[f] *= face_contact_[f] * face_contact_[f];
   dy[2 * n] = face_U_[0];
@@ -142,7 +99,8 @@ double Semidiscrete::crossing_time(const double* y, const double* dy) const {
   double least = HUGE_VAL;
   for (const Stretch& r : stretches_) {
     const std::size_t i = r.begin;
-    least = std::fmin(least, least_crossing_time(r.end - i, y + 2 * i, dy + 2 * i, &velocity_[i], &sound_speed_[i]));
+    least =
+        std::fmin(least, least_crossing_time(r.end - i, y + 2 * i, dy + 2 * i, &at_.velocity[i], &at_.sound_speed[i]));
   }
   if (setup_.contact)  // which may not throw a cell, of mass 8 a dislocation, farther than a part of its width
     for (std::size_t i = 0; i < size(); ++i)
@@ -156,7 +114,7 @@ double Semidiscrete::mean_crossing_time(const double* y) const {
   for (std::size_t i = 0; i < size(); ++i) {
     if (gap(i)) continue;
     width += y[2 * i];
-    fastest = std::max(fastest, sound_speed_[i]);
+    fastest = std::max(fastest, at_.sound_speed[i]);
   }
   return fastest > 0 ? width / static_cast<double>(size()) / fastest : HUGE_VAL;
 }

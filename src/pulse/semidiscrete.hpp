@@ -3,6 +3,7 @@
 #include <functional>
 #include <vector>
 
+#include "cell_states.hpp"
 #include "slipfront/modulation/friction.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
 #include "slipfront/train/state.hpp"
@@ -20,7 +21,8 @@ class Semidiscrete {
  public:
   struct Setup {
     std::vector<double> charge;  ///< dislocations in each cell, 0 in a gap
-    bool left_free = false, right_free = false;
+    Edge left = Edge::continued, right = Edge::continued;
+    double left_wall = 0, right_wall = 0;  ///< x, where the edges are walls
     modulation::Friction friction;
     std::function<double(double, double)> forcing;  ///< null: none
     std::function<double(double)> contact;          ///< a(x); null: 1
@@ -34,21 +36,17 @@ class Semidiscrete {
   /// NumericsError with time and place.
   void operator()(double t, const double* y, double* dy);
   static constexpr std::size_t extra = 3;
-  /// Compact form for stiff friction: cell averages as point values, faces that know the friction between two cells
-  /// (Gosse & Toscani 2002). Second order in the diffusion limit, with entries of dy that depend on `compact_reach`
-  /// entries of y to either side.
-  void use_compact(bool compact) { compact_ = compact; }
-  static constexpr std::size_t compact_reach = 3;
-
   /// Starts the next solves for s = tanh(psi) from these values: the bits of a result depend on where its solves start.
   void start_from(const std::vector<double>& s);
 
   /// From the last call: states at the cell centres, rapidities and psi at the faces, friction rates (loss over
   /// momentum).
   std::vector<State> states() const;
-  const std::vector<double>& s() const { return s_; }
+  const std::vector<double>& s() const { return at_.s; }
   const std::vector<double>& face_phi() const { return face_phi_; }
   const std::vector<double>& face_psi() const { return face_psi_; }
+  /// 1 in the cells near a shock, 0 elsewhere: there the error of a step is that of the cells' size.
+  const std::vector<double>& shocked() const { return shocked_; }
   double largest_friction_rate() const { return largest_rate_; }
   /// Least time in which a wave crosses a cell, or a cell that is being compressed loses three tenths of its width:
   /// what runs into a nearly empty stretch compresses cells faster than waves cross them.
@@ -59,11 +57,12 @@ class Semidiscrete {
  private:
   static constexpr std::size_t ghosts = 3;  ///< cells that a face sees to either side
   void find_states(double t, const double* y);
-  void find_places(const double* y);
+  void find_places(double t, const double* y);
+  void find_edges(const double* y);
   void find_faces();
+  void fill_ghosts(const Stretch& stretch, double* plus, double* minus) const;
   void find_faces(const Stretch& stretch);
   void flatten_shocks(const Stretch& stretch, const double* plus, const double* minus, double scale);
-  void find_compact_faces(const double* y);
   void find_rates();
   void add_sources(double t, const double* y, double* dy);
   void add_contact_force(double* dy);
@@ -71,17 +70,18 @@ class Semidiscrete {
   bool gap(std::size_t i) const { return setup_.charge[i] == 0; }
 
   Setup setup_;
+  modulation::PowerLawRate power_law_rate_;
   std::vector<Stretch> stretches_;
   std::vector<double> charge_point_;  ///< q_s at the centres
-  std::vector<double> per_charge_, per_charge_point_;
+  std::vector<double> per_charge_point_;
   // At the cell centres.
-  std::vector<double> width_, momentum_in_cell_, spacing_, momentum_, s_, phi_, psi_, phi_mean_, psi_mean_;
-  std::vector<double> sound_speed_, EK_, good_, rate_, source_, source_mean_, centres_, velocity_;
+  CellStates at_;
+  std::vector<double> width_, momentum_in_cell_, phi_mean_, psi_mean_, rate_, source_, source_mean_, centres_;
   std::vector<double> invariant_plus_, invariant_minus_;  ///< cell averages of one stretch, with ghosts
   std::vector<double> face_phi_, face_psi_, face_U_, face_p_;
   std::vector<double> faces_, contact_, face_contact_, contact_force_;  ///< x of the faces; a(x) at centres and faces
+  std::vector<double> shocked_;
   double largest_rate_ = 0;
-  bool compact_ = false;
 };
 
 }  // namespace slipfront::pulse

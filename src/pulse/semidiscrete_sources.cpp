@@ -39,7 +39,7 @@ void Semidiscrete::add_contact_force(double* dy) {
     contact_force_[i] = 0;
     if (a != b || b != c)
       contact_force_[i] =
-          -(left * (4 * b - 3 * a - c) + 4 * substrate(psi_[i]) * (c - a) + right * (a - 4 * b + 3 * c)) / 6;
+          -(left * (4 * b - 3 * a - c) + 4 * substrate(at_.psi[i]) * (c - a) + right * (a - 4 * b + 3 * c)) / 6;
     dy[2 * i + 1] += contact_force_[i];
     left = right;
   }
@@ -53,36 +53,32 @@ void Semidiscrete::add_sources(double t, const double* y, double* dy) {
   const bool linear =
       friction.law == modulation::FrictionLaw::viscous && friction.closure == modulation::Closure::consistent;
   if (!frictional && !setup_.forcing) return;
-  const std::vector<double>& charge = compact_ ? setup_.charge : charge_point_;
   double dissipation = 0, supply = 0;
   if (linear && !setup_.forcing) {  // the plain case, without the detour over point values
-    dy[2 * n + 1] = damp(n, friction.coefficient, y, velocity_.data(), dy);
+    dy[2 * n + 1] = damp(n, friction.coefficient, y, at_.velocity.data(), dy);
     return;
   }
   for (std::size_t i = 0; i < n; ++i) {
-    const double U = velocity_[i];
+    const double U = at_.velocity[i];
     source_[i] = 0;
     if (setup_.forcing) {
-      const double push = 2 * pi * setup_.forcing(centres_[i], t) * charge[i];
+      const double push = 2 * pi * setup_.forcing(centres_[i], t) * charge_point_[i];
       supply += U * push;
       source_[i] += push;
     }
     if (frictional && !dry) {
-      const double loss = rate_[i] * momentum_[i] * charge[i];
+      const double loss = rate_[i] * at_.momentum[i] * charge_point_[i];
       dissipation += U * loss;
       if (!linear) source_[i] -= loss;
     }
   }
-  if (compact_)
-    source_mean_ = source_;
-  else
-    for (const Stretch& r : stretches_)
-      cell_means(r.end - r.begin, source_.data() + r.begin, source_mean_.data() + r.begin);
+  for (const Stretch& r : stretches_)
+    cell_means(r.end - r.begin, source_.data() + r.begin, source_mean_.data() + r.begin);
   for (std::size_t i = 0; i < n; ++i) {
     dy[2 * i + 1] += source_mean_[i];
     if (dry) {  // the same for each dislocation: no detour over point values
       const double force = coulomb(y[2 * i + 1], dy[2 * i + 1], 2 * pi * friction.coefficient * setup_.charge[i]);
-      dissipation -= velocity_[i] * force;
+      dissipation -= at_.velocity[i] * force;
       dy[2 * i + 1] += force;
     } else if (frictional && linear) {
       dy[2 * i + 1] -= friction.coefficient * y[2 * i + 1];
@@ -100,14 +96,15 @@ void Semidiscrete::find_rates() {
       std::fill(rate_.begin(), rate_.end(), f.coefficient);
       largest_rate_ = f.coefficient;
     } else {
-      largest_rate_ = paper_rates(size(), f.coefficient, EK_.data(), rate_.data());
+      largest_rate_ = paper_rates(size(), f.coefficient, at_.EK.data(), rate_.data());
     }
     return;
   }
   largest_rate_ = 0;
+  if (f.law != modulation::FrictionLaw::power) return;
   for (std::size_t i = 0; i < size(); ++i) {
     if (gap(i)) continue;
-    rate_[i] = modulation::relaxation_rate({phi_[i], psi_[i]}, f);
+    rate_[i] = power_law_rate_({at_.phi[i], at_.psi[i]});
     if (setup_.contact) rate_[i] *= std::pow(contact_[i], f.exponent - 1);  // <|w|^n sigma> over P, w in units of a
     largest_rate_ = std::max(largest_rate_, rate_[i]);
   }

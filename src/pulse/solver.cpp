@@ -13,6 +13,7 @@
 #include "slipfront/modulation/per_dislocation.hpp"
 #include "slipfront/rupture/inverse.hpp"
 #include "slipfront/train/train.hpp"
+#include "staggered.hpp"
 #include "time_step.hpp"
 
 namespace slipfront::pulse {
@@ -23,6 +24,10 @@ using std::numbers::pi;
 /// Friction times in which a wave crosses a cell of average width, above which steps are implicit: there the pulse
 /// diffuses.
 constexpr double stiff_above = 1;
+/// Explicit steps are stable up to 4 or so.
+constexpr double longest_in_friction_times = 2;
+/// And below which they are explicit again.
+constexpr double stiff_below = 0.3;
 
 void check(const Problem& p) {
   const auto refuse = [](const char* key, double value, const char* allowed) {
@@ -72,16 +77,26 @@ bool thrown(const std::vector<double>& before, const std::vector<double>& after,
   return false;
 }
 
-/// The step to take where `left` is left and `dt` is wanted: steps end on the target exactly, and the last two share
-/// what is left, so that none is a sliver.
-double share_of(double left, double dt) { return dt >= left ? left : dt > left / 2 ? left / 2 : dt; }
+/// The step to take where `dt` is wanted: steps end on the target exactly, and the last two share what remains, so that
+/// none is a sliver.
+double next_step(double remaining, double dt) {
+  return dt >= remaining ? remaining : dt > remaining / 2 ? remaining / 2 : dt;
+}
+
+Edge edge_of(End end) { return end == End::fixed ? Edge::wall : end == End::free ? Edge::free : Edge::continued; }
 
 }  // namespace
 
 Solver::Solver(Problem problem) : problem_(std::move(problem)) {
   check(problem_);
   if (problem_.contact) refuse_jumps(problem_.contact, problem_.left, problem_.right);
-  const Layout layout = lay_cells(problem_.stress, problem_.left, problem_.right, problem_.cells, problem_.corner);
+  const Layout layout = lay_cells(
+      problem_.stress, problem_.left, problem_.right, problem_.cells, problem_.corner,
+      {!problem_.periodic && problem_.left_end == End::free, !problem_.periodic && problem_.right_end == End::free});
+  if (problem_.periodic && (layout.left_free || layout.right_free))
+    throw InputError({.key = "pulse.periodic",
+                      .problem = "there is no stress at an end of the domain",
+                      .allowed = "a ring that is stressed where its ends meet: move domain.left and domain.right"});
   cells_.charge = layout.charge;
   left_free_ = layout.left_free;
   right_free_ = layout.right_free;
@@ -107,10 +122,32 @@ Solver::Solver(Problem problem) : problem_(std::move(problem)) {
 
 Solver::Solver(Problem problem, Cells cells) : Solver(std::move(problem)) { restore(std::move(cells)); }
 
-void Solver::lay_equations() {
-  equations_ = std::make_shared<Semidiscrete>(Semidiscrete::Setup{
-      cells_.charge, left_free_, right_free_, problem_.friction, problem_.forcing, problem_.contact});
+template <class Setup>
+Setup Solver::setup() const {
+  Setup s;
+  s.charge = cells_.charge;
+  const auto edge = [&](End end, bool free) {  // a wall knows by itself whether the train is at it
+    if (problem_.periodic) return Edge::ring;
+    return free && end != End::fixed ? Edge::free : edge_of(end);
+  };
+  s.left = edge(problem_.left_end, left_free_);
+  s.right = edge(problem_.right_end, right_free_);
+  s.left_wall = problem_.left;
+  s.right_wall = problem_.right;
+  s.friction = problem_.friction;
+  s.forcing = problem_.forcing;
+  s.contact = problem_.contact;
+  if (problem_.periodic) {
+    const auto on_ring = [left = problem_.left, period = problem_.right - problem_.left](double x) {
+      return x - std::floor((x - left) / period) * period;
+    };
+    if (s.forcing) s.forcing = [on_ring, f = s.forcing](double x, double t) { return f(on_ring(x), t); };
+    if (s.contact) s.contact = [on_ring, f = s.contact](double x) { return f(on_ring(x)); };
+  }
+  return s;
 }
+
+void Solver::lay_equations() { equations_ = std::make_shared<Semidiscrete>(setup<Semidiscrete::Setup>()); }
 
 void Solver::restore(Cells cells) {
   const std::size_t n = cells.charge.size();
@@ -118,15 +155,16 @@ void Solver::restore(Cells cells) {
   // them that they had.
   const std::vector<double>& faces = first_.charge_faces;
   const double all = faces.back();
-  double left = 0;
-  bool fits = n > 0 && cells.s.size() == n && cells.y.size() == 2 * n + Semidiscrete::extra && cells.charge[0] > 0 &&
-              cells.charge[n - 1] > 0;
+  double left = -cells.entered_left;
+  bool fits = std::isfinite(left) && std::isfinite(cells.entered_right) && n > 0 && cells.s.size() == n &&
+              cells.y.size() == 2 * n + Semidiscrete::extra && cells.charge[0] > 0 && cells.charge[n - 1] > 0;
   for (std::size_t i = 0; i < n && fits; ++i) {
     left += cells.charge[i];
     const auto near = std::lower_bound(faces.begin(), faces.end(), left - 1e-9 * all);
-    fits = cells.charge[i] >= 0 && near != faces.end() && *near <= left + 1e-9 * all;
+    const bool beyond = left < -1e-9 * all || left > (1 + 1e-9) * all;  // came in through an end
+    fits = cells.charge[i] >= 0 && (beyond || (near != faces.end() && *near <= left + 1e-9 * all));
   }
-  fits = fits && std::fabs(left - all) <= 1e-9 * all;
+  fits = fits && std::fabs(left - all - cells.entered_right) <= 1e-9 * (all + std::fabs(cells.entered_right));
   if (!fits)
     throw InputError({.key = "resume",
                       .value = std::to_string(n) + " cells",
@@ -136,8 +174,18 @@ void Solver::restore(Cells cells) {
   lay_equations();
 }
 
+/// Time until the edges of a gap meet, or a train that has left a wall is back at it.
 double Solver::gaps_close_in(const std::vector<double>& rate) const {
   double least = HUGE_VAL;
+  const std::size_t last = 2 * size();
+  if (problem_.left_end == End::fixed && rate[last] < 0)
+    least = std::fmax((problem_.left - cells_.y[last]) / rate[last], 0.0);
+  if (problem_.right_end == End::fixed) {
+    double speed = rate[last];
+    for (std::size_t i = 0; i < size(); ++i) speed += rate[2 * i];
+    if (speed > 0) least = std::fmin(least, std::fmax((problem_.right - right_edge()) / speed, 0.0));
+  }
+  if (least == 0) least = HUGE_VAL;  // at the wall
   for (std::size_t i = 0; i < size(); ++i)
     if (cells_.charge[i] == 0 && rate[2 * i] < 0) least = std::fmin(least, -cells_.y[2 * i] / rate[2 * i]);
   return least;
@@ -165,7 +213,9 @@ void Solver::close_gaps() {
       for (; small(j) && j > 0 && cells_.charge[j - 1] > 0; --j) join(j - 1, j);
     closed = true;
   }
-  if (closed) lay_equations();
+  if (!closed) return;
+  cells_.face_momentum.clear();
+  lay_equations();
 }
 
 /// Puts what is in a cell into a neighbour of it.
@@ -194,8 +244,10 @@ bool Solver::advance_to(double time, const std::function<bool()>& interrupted) {
 struct Solver::Work {
   Rates f;
   ExplicitStep explicit_step;
-  std::unique_ptr<ImplicitStep> implicit_step;  ///< made when first needed
   std::vector<double> rate, next, scale;
+  // Made when friction first rules.
+  std::unique_ptr<Staggered> staggered;
+  std::unique_ptr<ImplicitStep> implicit_step;
 
   explicit Work(Semidiscrete& equations, std::size_t cells, std::size_t size)
       : f([&equations](double t, const double* y, double* dy) { equations(t, y, dy); }),
@@ -205,25 +257,41 @@ struct Solver::Work {
         scale(2 * cells) {}
 };
 
-double Solver::step_explicitly(Work& work, double left, double crossing) {
-  double dt = share_of(left, crossing);
+double Solver::step_explicitly(Work& work, double remaining, double crossing) {
+  if (!cells_.face_momentum.empty()) {
+    cells_.face_momentum.clear();
+    cells_.step = 0;
+  }
+  const double wanted = cells_.step > 0 ? std::fmin(crossing, cells_.step) : crossing;
+  double dt = next_step(remaining, wanted);
+  find_scale(crossing, work.scale);
   work.next = cells_.y;
   // What comes up within a step may be too hard for it: shorter, then.
-  for (int halvings = 0;; ++halvings) {
+  for (int tries = 0;; ++tries) {
+    double factor = 0.5;
     try {
       work.explicit_step(work.f, cells_.time, dt, cells_.y, work.rate);
-      if (!thrown(work.next, cells_.y, cells_.charge)) break;
-      if (halvings == 40)
+      const double error =
+          work.explicit_step.error(dt, work.rate, work.scale, equations_->shocked()) / problem_.explicit_tolerance;
+      const bool jumped = thrown(work.next, cells_.y, cells_.charge);
+      factor = std::clamp(0.9 * std::pow(error, -0.25), 0.2, 4.0);
+      if (error <= 1 && !jumped) {
+        cells_.step = dt * factor;
+        break;
+      }
+      if (jumped) factor = std::fmin(factor, 0.5);
+      if (tries == 80)
         throw NumericsError("t = " + std::to_string(cells_.time) +
-                            ": what acts on a cell throws it, however short the step");
+                            ": the time step failed: the forces on a cell exceed what any step can resolve");
     } catch (const NumericsError&) {
-      if (halvings == 40) throw;
+      if (tries == 80) throw;
     }
     cells_.y = work.next;
     equations_->start_from(cells_.s);
-    dt /= 2;
+    dt *= factor;
   }
   if (problem_.friction.law == modulation::FrictionLaw::coulomb) stop_reversals(work.next, cells_.y);
+  cells_.s = equations_->s();
   return dt;
 }
 
@@ -240,35 +308,79 @@ void Solver::find_scale(double crossing, std::vector<double>& scale) const {
   }
 }
 
-double Solver::step_implicitly(Work& work, double left, double crossing) {
-  equations_->use_compact(true);
-  work.f(cells_.time, cells_.y.data(), work.rate.data());
-  if (!work.implicit_step)
-    work.implicit_step =
-        std::make_unique<ImplicitStep>(size(), cells_.y.size(), Semidiscrete::compact_reach, bool(problem_.forcing));
+std::vector<double> Solver::faces_of_cells(const Staggered& staggered) const {
+  const std::size_t n = size();
+  std::vector<double> faces(staggered.size()), momenta = cells_.face_momentum;
+  if (momenta.empty()) {
+    std::vector<double> in_cells(n);
+    for (std::size_t i = 0; i < n; ++i) in_cells[i] = cells_.y[2 * i + 1];
+    momenta = staggered.face_momenta(in_cells);
+  }
+  for (std::size_t f = 0; f <= n; ++f) {
+    faces[2 * f] = f == 0 ? cells_.y[2 * n] : cells_.y[2 * f - 2];
+    faces[2 * f + 1] = momenta[f];
+  }
+  faces[2 * n + 2] = dissipated();
+  faces[2 * n + 3] = supplied();
+  return faces;
+}
+
+void Solver::cells_of_faces(const Staggered& staggered, const std::vector<double>& faces) {
+  const std::size_t n = size();
+  cells_.face_momentum.resize(n + 1);
+  for (std::size_t f = 0; f <= n; ++f) {
+    (f == 0 ? cells_.y[2 * n] : cells_.y[2 * f - 2]) = faces[2 * f];
+    cells_.face_momentum[f] = faces[2 * f + 1];
+  }
+  const std::vector<double> momenta = staggered.cell_momenta(cells_.face_momentum);
+  for (std::size_t i = 0; i < n; ++i) cells_.y[2 * i + 1] = momenta[i];
+  cells_.y[2 * n + 1] = faces[2 * n + 2];
+  cells_.y[2 * n + 2] = faces[2 * n + 3];
+}
+
+double Solver::step_implicitly(Work& work, double remaining, double crossing) {
+  if (!work.staggered) {
+    work.staggered = std::make_unique<Staggered>(setup<Staggered::Setup>());
+    work.implicit_step = std::make_unique<ImplicitStep>(work.staggered->faces(), work.staggered->size(),
+                                                        Staggered::reach, bool(problem_.forcing));
+  }
+  if (cells_.face_momentum.empty()) cells_.step = 0;
+  Staggered& staggered = *work.staggered;
+  const Rates f = [&staggered](double t, const double* z, double* dz) { staggered(t, z, dz); };
+  const std::vector<double> z = faces_of_cells(staggered);
+  std::vector<double> rate(z.size()), next(z.size()), scale(2 * staggered.faces());
   find_scale(crossing, work.scale);
-  work.implicit_step->linearise(work.f, cells_.time, cells_.y, work.rate, work.scale);
+  double fastest = 0;
+  for (std::size_t i = 0; i < size(); ++i)
+    if (cells_.charge[i] > 0) fastest = std::fmax(fastest, work.scale[2 * i + 1] / cells_.charge[i]);
+  for (std::size_t face = 0; face < staggered.faces(); ++face) {
+    scale[2 * face] = work.scale[face == 0 ? 0 : 2 * face - 2];
+    scale[2 * face + 1] = staggered.charge_around(face) * fastest;
+  }
+  staggered.start_from(cells_.s);
+  f(cells_.time, z.data(), rate.data());
+  work.implicit_step->linearise(f, cells_.time, z, rate, scale);
   double dt = cells_.step > 0 ? cells_.step : std::fmin(crossing, 1 / equations_->largest_friction_rate());
   while (true) {
     const double wanted = dt;
-    dt = share_of(left, dt);
+    dt = next_step(remaining, dt);
     double error = HUGE_VAL;
     try {
-      error = (*work.implicit_step)(work.f, cells_.time, dt, cells_.y, work.rate, work.scale, problem_.tolerance,
-                                    work.next);
+      error = (*work.implicit_step)(f, cells_.time, dt, z, rate, scale, equations_->largest_friction_rate(),
+                                    problem_.tolerance, next);
     } catch (const NumericsError&) {  // a stage left the range of states: as good as a large error
     }
     const double factor = std::clamp(0.9 * std::pow(error, -0.25), 0.2, 4.0);
     if (error <= 1) {
       cells_.step = dt < wanted ? std::fmax(wanted, dt * factor) : dt * factor;
-      cells_.y.swap(work.next);
-      equations_->use_compact(false);
+      cells_of_faces(staggered, next);
+      cells_.s = staggered.s();
       return dt;
     }
     dt *= factor;
     if (!(cells_.time + dt > cells_.time))
       throw NumericsError("t = " + std::to_string(cells_.time) + ": the time step fell below rounding");
-    equations_->start_from(cells_.s);
+    staggered.start_from(cells_.s);
   }
 }
 
@@ -277,17 +389,20 @@ bool Solver::advance_until_gap_closes(double time, const std::function<bool()>& 
   Semidiscrete& equations = *equations_;
   const std::size_t n = size();
   Work work(equations, n, cells_.y.size());
-  while (cells_.time < time && size() == n) {
+  while (cells_.time < time && &equations == equations_.get()) {  // until the cells are others
     equations.start_from(cells_.s);  // as a resumed run does, whoever has looked at the equations since the last step
     work.f(cells_.time, cells_.y.data(), work.rate.data());
-    const double left = std::fmin(time - cells_.time, gaps_close_in(work.rate));
-    const double crossing = problem_.cfl * equations.crossing_time(cells_.y.data(), work.rate.data());
-    const bool stiff = equations.largest_friction_rate() * equations.mean_crossing_time(cells_.y.data()) > stiff_above;
-    const double dt = stiff ? step_implicitly(work, left, crossing) : step_explicitly(work, left, crossing);
+    const double remaining = std::fmin(std::fmin(time - cells_.time, problem_.longest_step), gaps_close_in(work.rate));
+    double crossing = problem_.cfl * equations.crossing_time(cells_.y.data(), work.rate.data());
+    const double friction_times = equations.largest_friction_rate() * equations.mean_crossing_time(cells_.y.data());
+    const bool stiff =
+        !problem_.periodic && friction_times > (cells_.face_momentum.empty() ? stiff_above : stiff_below);
+    if (!stiff) crossing = std::fmin(crossing, longest_in_friction_times / equations.largest_friction_rate());
+    const double dt = stiff ? step_implicitly(work, remaining, crossing) : step_explicitly(work, remaining, crossing);
     cells_.time = dt == time - cells_.time ? time : cells_.time + dt;
     ++cells_.steps;
-    cells_.s = equations.s();
     close_gaps();
+    adjust_ends();
     if (interrupted && interrupted()) return false;
   }
   return true;
@@ -302,6 +417,8 @@ Solver::View Solver::view() const {
   v.faces.resize(n + 1);
   v.charge_faces.resize(n + 1);
   v.faces[0] = cells_.y[2 * n];
+  v.charge_faces[0] = -cells_.entered_left;
+  if (problem_.periodic) v.period = problem_.right - problem_.left;
   for (std::size_t i = 0; i < n; ++i) {
     v.faces[i + 1] = v.faces[i] + cells_.y[2 * i];
     v.charge_faces[i + 1] = v.charge_faces[i] + cells_.charge[i];
@@ -333,7 +450,5 @@ State Solver::state_in(std::size_t cell) const {
   centre_values(stencil, &charge[cell - reach], charge_at);
   return modulation::state_of({width_at[reach] / charge_at[reach], momentum_at[reach] / charge_at[reach]}, psi);
 }
-
-double Solver::initial_charge_left_of(double x) const { return charge_left_of(first_, x); }
 
 }  // namespace slipfront::pulse

@@ -2,15 +2,15 @@
 
 namespace slipfront::pulse {
 
-std::vector<Stretch> stretches_of(const std::vector<double>& charge, bool left_free, bool right_free) {
+std::vector<Stretch> stretches_of(const std::vector<double>& charge, Edge left, Edge right) {
   std::vector<Stretch> stretches;
   for (std::size_t i = 0; i < charge.size(); ++i) {
     if (charge[i] == 0) continue;
     const bool opens = i == 0 || charge[i - 1] == 0;
-    if (opens) stretches.push_back({i, i, i > 0 || left_free, true});
+    if (opens) stretches.push_back({i, i, i > 0 ? Edge::free : left, Edge::free});
     stretches.back().end = i + 1;
   }
-  stretches.back().right_free = right_free;
+  stretches.back().right = right;
   return stretches;
 }
 

@@ -1,17 +1,31 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
 namespace slipfront::pulse {
 
+/// What lies beyond an end of a row of cells.
+enum class Edge {
+  free,       ///< no dislocations: no pressure, and the edge moves
+  continued,  ///< the same train as in the last cell
+  wall,       ///< nothing passes; the last dislocation may leave it
+  ring,       ///< the other end
+};
+
+/// Whether a train whose last cell has this width stands at the wall or has left it and ends in a free edge.
+inline Edge edge_at_wall(double x, double wall, double width) {
+  return std::fabs(x - wall) <= 1e-13 * std::fabs(wall) + 1e-6 * width ? Edge::wall : Edge::free;
+}
+
 /// Cells in a row with dislocations in them; between two stretches lies a gap, a cell without any, whose faces are free
 /// edges.
 struct Stretch {
   std::size_t begin, end;  ///< cells
-  bool left_free, right_free;
+  Edge left, right;
 };
-std::vector<Stretch> stretches_of(const std::vector<double>& charge, bool left_free, bool right_free);
+std::vector<Stretch> stretches_of(const std::vector<double>& charge, Edge left, Edge right);
 
 /// x at the middle of each cell in s, from the faces: sixth order inside a stretch, fourth and second in its last
 /// cells.

@@ -10,32 +10,37 @@ namespace slipfront::pulse {
 using Rates = std::function<void(double t, const double* y, double* dy)>;
 
 /// One step of SSPRK(5,4): explicit, fourth order, strong stability preserving up to 1.5 Euler steps (Spiteri & Ruuth
-/// 2002).
+/// 2002), with a third-order solution beside it for the error.
 class ExplicitStep {
  public:
   explicit ExplicitStep(std::size_t size);
   /// y(t) -> y(t + dt). `rate_at_start` is f(t, y), which the caller has already needed for the step size.
   void operator()(const Rates& f, double t, double dt, std::vector<double>& y,
                   const std::vector<double>& rate_at_start);
+  /// Of the last step: the difference of the two solutions in units of `scale`, two entries a cell, root mean square
+  /// over the cells that are not `excluded` (1; 0 elsewhere).
+  double error(double dt, const std::vector<double>& rate_at_start, const std::vector<double>& scale,
+               const std::vector<double>& excluded) const;
 
  private:
-  std::vector<double> u1_, u2_, u3_, u4_, rate_, rate3_;
+  std::vector<double> u1_, u2_, u3_, u4_, rate1_, rate2_, rate3_, rate4_;
 };
 
 /// One step of Rodas4: linearly implicit, fourth order, L-stable, stiffly accurate (Hairer & Wanner 1996, IV.10), with
-/// banded Jacobian by differences. y is that of Semidiscrete: width and momentum of each cell in turn, x of the left
-/// edge, then entries that only add up, here by the trapezoidal rule. Linear systems are solved for the faces' places
-/// instead of the widths: a force that depends on the place couples a cell with all widths to its left, but only with
-/// the faces beside it.
+/// banded Jacobian by differences. y holds pairs, a width and a momentum, then entries that only add up: these by
+/// Simpson's rule, with the step's own dense output in the middle. Linear systems are solved for places, the sums of
+/// the widths, instead of the widths: a force that depends on the place couples a pair with all widths before it, but
+/// only with the places beside it.
 class ImplicitStep {
  public:
-  /// Rates depend on `reach` entries to either side in the order: face, momentum, face, ... face.
-  ImplicitStep(std::size_t cells, std::size_t size, std::size_t reach, bool depends_on_time);
+  /// Rates depend on `reach` entries to either side in the order: place, momentum, place, ...
+  ImplicitStep(std::size_t pairs, std::size_t size, std::size_t reach, bool depends_on_time);
   /// Tries one step; returns the error in units of the tolerance (accept if <= 1) and leaves y(t + dt) in `next`.
-  /// `scale[i]` is the size that width or momentum i is measured by.
+  /// `scale[i]` is the size that width or momentum i is measured by. An error of momentum lasts for one friction time
+  /// only, 1 / `friction_rate`, and counts for less in longer steps, though never less than a twentieth.
   double operator()(const Rates& f, double t, double dt, const std::vector<double>& y,
-                    const std::vector<double>& rate_at_start, const std::vector<double>& scale, double tolerance,
-                    std::vector<double>& next);
+                    const std::vector<double>& rate_at_start, const std::vector<double>& scale, double friction_rate,
+                    double tolerance, std::vector<double>& next);
   /// Evaluates the Jacobian at (t, y); valid for any number of tries from there.
   void linearise(const Rates& f, double t, const std::vector<double>& y, const std::vector<double>& rate,
                  const std::vector<double>& scale);
@@ -48,8 +53,10 @@ class ImplicitStep {
   }
   void to_places(const std::vector<double>& y);
   void to_widths(std::vector<double>& y) const;
+  void add_sums(const Rates& f, double t, double dt, const std::vector<double>& y,
+                const std::vector<double>& rate_at_start, std::vector<double>& next);
 
-  std::size_t cells_, unknowns_, size_, reach_, stride_;
+  std::size_t unknowns_, size_, reach_, stride_;
   bool depends_on_time_;
   std::vector<double> jacobian_, lu_, by_time_, work_, rate_, places_, places_before_;
   std::vector<double> u_[6];

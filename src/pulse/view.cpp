@@ -1,22 +1,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "interval.hpp"
 #include "slipfront/pulse/solver.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::pulse {
 namespace {
 
-/// Index of the interval of a rising sequence that holds x.
-std::size_t interval(const std::vector<double>& rising, double x) {
-  const auto above = std::upper_bound(rising.begin(), rising.end(), x);
-  const std::size_t i = above == rising.begin() ? 0 : static_cast<std::size_t>(above - rising.begin()) - 1;
-  return std::min(i, rising.size() - 2);
-}
+/// How often a ring must be turned back to bring x among its faces.
+double turns(const Solver::View& v, double x) { return std::floor((x - v.faces.front()) / v.period); }
 
 }  // namespace
 
-State state_at(const Solver::View& v, double x) {
+State state_at(const Solver::View& v, double place) {
+  const double x = v.period > 0 ? place - turns(v, place) * v.period : place;
   if (x < v.faces.front() || x > v.faces.back()) return {};
   const std::size_t cell = interval(v.faces, x);
   if (v.states[cell].empty()) return {};
@@ -40,15 +38,27 @@ State state_at(const Solver::View& v, double x) {
     // Not smooth on the grid: no value beyond the four.
     return std::clamp(sum, std::min({f(0), f(1), f(2), f(3)}), std::max({f(0), f(1), f(2), f(3)}));
   };
-  return {interpolate(&State::phi), std::fmax(interpolate(&State::psi), 0.0)};
+  // In a slow train psi changes by decades from cell to cell, its logarithm is what is smooth.
+  double log_psi[4], least = HUGE_VAL, most = 0;
+  for (std::size_t j = 0; j < 4; ++j) {
+    const double psi = v.states[first + j].psi;
+    log_psi[j] = std::log(psi);
+    least = std::fmin(least, psi);
+    most = std::fmax(most, psi);
+  }
+  if (!(most > 100 * least)) return {interpolate(&State::phi), std::fmax(interpolate(&State::psi), 0.0)};
+  const double sum = weight[0] * log_psi[0] + weight[1] * log_psi[1] + weight[2] * log_psi[2] + weight[3] * log_psi[3];
+  return {interpolate(&State::phi), std::exp(std::clamp(sum, std::log(least), std::log(most)))};
 }
 
 train::Averages averages_of(const Solver::View& v, const State& state, double x) {
   return v.contact ? train::averages(state, v.contact(x)) : train::averages(state);
 }
 
-double charge_left_of(const Solver::View& v, double x) {
-  if (x <= v.faces.front()) return 0;
+double charge_left_of(const Solver::View& v, double place) {
+  const double whole = v.period > 0 ? turns(v, place) : 0, x = place - whole * v.period;
+  if (whole != 0) return whole * (v.charge_faces.back() - v.charge_faces.front()) + charge_left_of(v, x);
+  if (x <= v.faces.front()) return v.charge_faces.front();
   if (x >= v.faces.back()) return v.charge_faces.back();
   const std::size_t i = interval(v.faces, x);
   // Cubic Hermite: the slopes k / 2 pi at the faces are known; limited so that it cannot fall (Fritsch & Carlson).

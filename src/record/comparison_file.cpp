@@ -6,10 +6,8 @@
 #include <stdexcept>
 
 #include "cf.hpp"
-#include "netcdf.hpp"
-#include "seal.hpp"
+#include "netcdf_file.hpp"
 #include "slipfront/record/pulse_variables.hpp"
-#include "whole_file.hpp"
 
 namespace slipfront::record {
 namespace {
@@ -54,23 +52,11 @@ Labels labels_of(const Levels& levels) {
   return labels;
 }
 
-}  // namespace
-
-void write_comparison(const std::string& path, const PulseMetadata& metadata, const std::vector<double>& times,
-                      const Levels& levels, bool finished) {
-  const auto fields = chosen_fields(metadata.variables);
+/// All of the file.
+void fill(Writer& file, const PulseMetadata& metadata, const std::vector<double>& times, const Levels& levels,
+          bool finished, const std::vector<const FieldVariable*>& fields) {
   const std::size_t cells = metadata.x_edges.size() - 1;
-  for (const ComparedLevel& level : levels) {
-    if (level.snapshots.size() != times.size())
-      throw std::invalid_argument("write_comparison: a level is not finished");
-    for (const Snapshot& snapshot : level.snapshots)
-      for (const FieldVariable* field : fields)
-        if ((snapshot.profile.*field->values).size() != cells)
-          throw std::invalid_argument("write_comparison: a profile has not as many cells as x");
-  }
   const Labels labels = labels_of(levels);
-
-  Writer file(path);
   cf::describe_file(file, metadata, comparison_format, finished);
   const int level = file.dimension("level", levels.size()), letters = file.dimension("letters", labels.width);
   const int name = file.characters("name", {level, letters});
@@ -99,8 +85,23 @@ void write_comparison(const std::string& path, const PulseMetadata& metadata, co
     for (std::size_t i = 0; i < scalar_ids.size(); ++i)
       file.write_all(scalar_ids[i], over_time(levels, scalar_variables()[i]));
   }
-  const netcdf::Image image = file.finish();
-  replace_file(path, {image.bytes(), seal(image.bytes())});
+}
+
+}  // namespace
+
+void write_comparison(const std::string& path, const PulseMetadata& metadata, const std::vector<double>& times,
+                      const Levels& levels, bool finished) {
+  const auto fields = chosen_fields(metadata.variables);
+  const std::size_t cells = metadata.x_edges.size() - 1;
+  for (const ComparedLevel& level : levels) {
+    if (level.snapshots.size() != times.size())
+      throw std::invalid_argument("write_comparison: a level is not finished");
+    for (const Snapshot& snapshot : level.snapshots)
+      for (const FieldVariable* field : fields)
+        if ((snapshot.profile.*field->values).size() != cells)
+          throw std::invalid_argument("write_comparison: a profile has not as many cells as x");
+  }
+  write_netcdf(path, 0, [&](Writer& file) { fill(file, metadata, times, levels, finished, fields); });
 }
 
 }  // namespace slipfront::record

@@ -7,12 +7,10 @@
 #include "cf.hpp"
 #include "event_layout.hpp"
 #include "fnv.hpp"
-#include "netcdf.hpp"
-#include "seal.hpp"
+#include "netcdf_file.hpp"
 #include "slipfront/event/columns.hpp"
 #include "slipfront/event/saved.hpp"
 #include "utf8.hpp"
-#include "whole_file.hpp"
 
 namespace slipfront::record {
 namespace {
@@ -62,28 +60,29 @@ class Contents {
 };
 
 struct Dimensions {
-  int event, bound, quantile;
+  int event, bound, quantile, draw;
 };
 
-Dimensions axes(Writer& file, Contents& contents, std::size_t events) {
-  const Dimensions d{file.dimension("event", events), file.dimension("bound", 2), file.dimension("quantile", 3)};
+Dimensions axes(Writer& file, Contents& contents, std::size_t events, std::size_t draws) {
+  const Dimensions d{file.dimension("event", events), file.dimension("bound", 2), file.dimension("quantile", 3),
+                     draws > 0 ? file.dimension("draw", draws) : 0};
   contents.texts("bound", "ends of an interval", d.bound, {"5 %", "95 %"});
-  contents.reals({"quantile", "share of the values below", "1", "", "", event::Width::one, {}}, {d.quantile},
+  contents.reals({"quantile", "share of the values below", "1", "", "", event::Axis::none, 1, {}}, {d.quantile},
                  {0.05, 0.5, 0.95});
   return d;
 }
 
-void add_events(Contents& contents, const Dimensions& d, Results results, bool with_pulse) {
-  for (const event::NumberColumn& column : event::number_columns(with_pulse)) {
-    const auto width = static_cast<std::size_t>(column.width);
-    std::vector<double> values(results.size() * width);
-    for (std::size_t i = 0; i < results.size(); ++i) column.get(results[i], &values[i * width]);
+void add_events(Contents& contents, const Dimensions& d, Results results, const event::ColumnChoice& choice) {
+  for (const event::NumberColumn& column : event::number_columns(choice)) {
+    std::vector<double> values(results.size() * column.count);
+    for (std::size_t i = 0; i < results.size(); ++i) column.get(results[i], &values[i * column.count]);
     std::vector<int> dimensions = {d.event};
-    if (column.width == event::Width::bounds) dimensions.push_back(d.bound);
-    if (column.width == event::Width::quantiles) dimensions.push_back(d.quantile);
+    if (column.axis == event::Axis::bound) dimensions.push_back(d.bound);
+    if (column.axis == event::Axis::quantile) dimensions.push_back(d.quantile);
+    if (column.axis == event::Axis::draw) dimensions.push_back(d.draw);
     contents.reals(column, dimensions, std::move(values));
   }
-  for (const event::TextColumn& column : event::text_columns(with_pulse)) {
+  for (const event::TextColumn& column : event::text_columns(choice.pulse)) {
     std::vector<std::string> values;
     for (const EventResult& r : results) values.push_back(column.get(r));
     contents.texts(column.name, column.long_name, d.event, std::move(values));
@@ -109,16 +108,13 @@ void describe_file(Writer& file, const EventMetadata& metadata, bool finished) {
   file.attribute(Writer::global, "finished", finished ? 1 : 0);
 }
 
-}  // namespace
-
-void write_events(const std::string& path, const EventMetadata& metadata, Results results,
-                  const std::vector<Decade>& population, bool finished) {
-  const std::string state = event::saved(results);
-  Writer file(path, state.size() + results.size() * 1500 + (1 << 16));
+/// All of the file; `state` is what it takes to go on.
+void fill(Writer& file, const EventMetadata& metadata, Results results, const std::vector<Decade>& population,
+          bool finished, const std::string& state) {
   describe_file(file, metadata, finished);
   Contents contents(file);
-  const Dimensions d = axes(file, contents, results.size());
-  add_events(contents, d, results, metadata.with_pulse);
+  const Dimensions d = axes(file, contents, results.size(), metadata.columns.draws);
+  add_events(contents, d, results, metadata.columns);
   for (auto& [about, dimensions, values] : event_layout::population_variables(file, population, d.quantile))
     if (const int id = contents.reals(about, dimensions, std::move(values)); about.name == "decade")
       file.attribute(id, "bounds", "decade_bounds");
@@ -129,8 +125,17 @@ void write_events(const std::string& path, const EventMetadata& metadata, Result
   file.end_definitions();
   contents.write();
   file.write(done, state);
-  const netcdf::Image image = file.finish();
-  replace_file(path, {image.bytes(), seal(image.bytes())});
+}
+
+}  // namespace
+
+void write_events(const std::string& path, const EventMetadata& metadata, Results results,
+                  const std::vector<Decade>& population, bool finished) {
+  const std::string state = event::saved(results);
+  const std::size_t size = state.size() +
+                           results.size() * (1700 + metadata.columns.draws * 8 * event::state_quantities().size()) +
+                           (1 << 16);
+  write_netcdf(path, size, [&](Writer& file) { fill(file, metadata, results, population, finished, state); });
 }
 
 std::string checksum_of_inputs(const std::string& before, std::string_view name, std::string_view content) {

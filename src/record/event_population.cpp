@@ -5,13 +5,13 @@
 namespace slipfront::record::event_layout {
 namespace {
 
+using event::Axis;
 using event::Decade;
 using event::NumberColumn;
-using event::Width;
 
 NumberColumn said(const std::string& name, const std::string& long_name, std::string_view dimensional_unit,
                   std::string_view reference, std::string_view unit = "1") {
-  return {name, long_name, unit, dimensional_unit, reference, Width::one, {}};
+  return {name, long_name, unit, dimensional_unit, reference, Axis::none, 1, {}};
 }
 
 template <class Row, class Get>

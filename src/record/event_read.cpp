@@ -1,5 +1,5 @@
 #include "event_layout.hpp"
-#include "netcdf.hpp"
+#include "netcdf_file.hpp"
 #include "seal.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/record/event_file.hpp"
@@ -8,9 +8,9 @@
 
 namespace slipfront::record {
 
-std::string read_events_done(const std::string& path, const EventMetadata& metadata) {
-  const std::string content = read_regular(path);
-  const netcdf::Reader file(path, sealed_content(content, path), content.size());
+namespace {
+
+std::string done_in(const netcdf::Reader& file, const std::string& path, const EventMetadata& metadata) {
   const auto fail = [&](const std::string& reason) {
     throw FileError(path + ": not a catalogue to resume from: " + reason);
   };
@@ -33,6 +33,15 @@ std::string read_events_done(const std::string& path, const EventMetadata& metad
   const auto done = file.find(event_layout::state);
   if (!done || done->shape.size() != 1) fail(std::string("variable ") + event_layout::state + " is missing");
   return file.bytes(*done);
+}
+
+}  // namespace
+
+std::string read_events_done(const std::string& path, const EventMetadata& metadata) {
+  const std::string content = read_regular(path);
+  const std::string_view image = sealed_content(content, path);
+  return read_netcdf(path, image, image.size(),
+                     [&](const netcdf::Reader& file) { return done_in(file, path, metadata); });
 }
 
 }  // namespace slipfront::record

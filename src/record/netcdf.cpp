@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "isolated.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::record::netcdf {
@@ -14,11 +15,6 @@ static_assert(Writer::global == NC_GLOBAL);
 
 /// A plain name that the library cannot take for a URL. No such file is made or looked for.
 constexpr const char* plain_name = "slipfront-in-memory";
-
-std::recursive_mutex& library_lock() {
-  static std::recursive_mutex mutex;
-  return mutex;
-}
 
 bool is_number(nc_type type) {
   return (type >= NC_BYTE && type <= NC_UINT64) && type != NC_CHAR;  // NC_STRING and user types come after NC_UINT64
@@ -32,7 +28,7 @@ Variable::Kind kind_of(nc_type type) {
 
 }  // namespace
 
-Handle::Handle(std::string name) : name_(std::move(name)), lock_(library_lock()) {}
+Handle::Handle(std::string name) : name_(std::move(name)), lock_(lock_netcdf()) {}
 
 Handle::~Handle() {
   if (id_ >= 0) nc_close(id_);  // not nc_abort: it would delete a file of that name on the disk
@@ -66,6 +62,14 @@ int Writer::reals(const std::string& name, const std::vector<int>& dimensions) {
   return variable(name, NC_DOUBLE, dimensions);
 }
 
+int Writer::integers(const std::string& name, const std::vector<int>& dimensions) {
+  return variable(name, NC_INT64, dimensions);
+}
+
+int Writer::small_integers(const std::string& name, const std::vector<int>& dimensions) {
+  return variable(name, NC_BYTE, dimensions);
+}
+
 int Writer::bytes(const std::string& name, const std::vector<int>& dimensions) {
   return variable(name, NC_UBYTE, dimensions);
 }
@@ -79,11 +83,26 @@ int Writer::strings(const std::string& name, const std::vector<int>& dimensions)
 }
 
 void Writer::attribute(int variable, const std::string& name, std::string_view text) {
-  require(nc_put_att_text(id_, variable, name.c_str(), text.size(), text.data()), "attribute " + name);
+  if (text.size() <= longest_text) {
+    require(nc_put_att_text(id_, variable, name.c_str(), text.size(), text.data()), "attribute " + name);
+    return;
+  }
+  const std::string whole(text);  // a string of variable length lies elsewhere in the file
+  const char* pointer = whole.c_str();
+  require(nc_put_att_string(id_, variable, name.c_str(), 1, &pointer), "attribute " + name);
 }
 
 void Writer::attribute(int variable, const std::string& name, int value) {
   require(nc_put_att_int(id_, variable, name.c_str(), NC_INT, 1, &value), "attribute " + name);
+}
+
+void Writer::attribute(int variable, const std::string& name, std::int64_t value) {
+  const long long whole = value;
+  require(nc_put_att_longlong(id_, variable, name.c_str(), NC_INT64, 1, &whole), "attribute " + name);
+}
+
+void Writer::attribute(int variable, const std::string& name, double value) {
+  require(nc_put_att_double(id_, variable, name.c_str(), NC_DOUBLE, 1, &value), "attribute " + name);
 }
 
 void Writer::fill_value(int variable, double value) {
@@ -111,6 +130,15 @@ void Writer::write_row(int variable, std::size_t row, std::span<const double> va
 
 void Writer::write_all(int variable, const std::vector<double>& values) {
   require(nc_put_var_double(id_, variable, values.data()), "data");
+}
+
+void Writer::write_all(int variable, const std::vector<std::int64_t>& values) {
+  static_assert(sizeof(long long) == sizeof(std::int64_t));
+  require(nc_put_var(id_, variable, values.data()), "data");
+}
+
+void Writer::write_all(int variable, const std::vector<std::int8_t>& values) {
+  require(nc_put_var_schar(id_, variable, values.data()), "data");
 }
 
 void Writer::write_all(int variable, std::string_view characters) {
@@ -213,6 +241,31 @@ std::string Reader::bytes(const Variable& variable) const {
   if (!values.empty())
     require(nc_get_var_uchar(id_, variable.id, reinterpret_cast<unsigned char*>(values.data())), variable.name);
   return values;
+}
+
+void Reader::read_everything() const {
+  int variables = 0, globals = 0;
+  require(nc_inq(id_, nullptr, &variables, &globals, nullptr), "cannot be read");
+  for (int id = NC_GLOBAL; id < variables; ++id) {
+    int attributes = globals;
+    if (id != NC_GLOBAL) require(nc_inq_varnatts(id_, id, &attributes), "cannot be read");
+    char name[NC_MAX_NAME + 1];
+    for (int i = 0; i < attributes; ++i) {
+      nc_type type = NC_NAT;
+      std::size_t size = 0, width = 0;
+      require(nc_inq_attname(id_, id, i, name), "attribute");
+      require(nc_inq_att(id_, id, name, &type, &size), name);
+      if (nc_inq_type(id_, type, nullptr, &width) != NC_NOERR) continue;
+      if (type == NC_STRING || type > NC_MAX_ATOMIC_TYPE || (width > 0 && size > most_bytes_ / width)) continue;
+      std::vector<char> values(size * width);
+      if (!values.empty()) require(nc_get_att(id_, id, name, values.data()), name);
+    }
+    if (id == NC_GLOBAL) continue;
+    require(nc_inq_varname(id_, id, name), "variable");
+    const std::optional<Variable> variable = find(name);
+    if (!variable || variable->kind == Variable::Kind::other) continue;
+    reals(*variable);
+  }
 }
 
 void Reader::read_row(const Variable& variable, std::size_t row, std::span<double> values) const {

@@ -4,6 +4,7 @@
 /// blanks in it as more than a name, hide the reason when a disk is full, and hold locks that keep readers out.
 
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <memory>
 #include <mutex>
@@ -59,11 +60,16 @@ class Writer : Handle {
   /// A dimension of size 0 comes out as an unlimited one without records: NetCDF has no other.
   int dimension(const std::string& name, std::size_t size);
   int reals(const std::string& name, const std::vector<int>& dimensions);
+  int integers(const std::string& name, const std::vector<int>& dimensions);        ///< of 64 bits
+  int small_integers(const std::string& name, const std::vector<int>& dimensions);  ///< of 8 bits
   int bytes(const std::string& name, const std::vector<int>& dimensions);
   int characters(const std::string& name, const std::vector<int>& dimensions);
   int strings(const std::string& name, const std::vector<int>& dimensions);
+  /// A text of any length; one that is longer than `longest_text` must be without NUL.
   void attribute(int variable, const std::string& name, std::string_view text);
   void attribute(int variable, const std::string& name, int value);
+  void attribute(int variable, const std::string& name, std::int64_t value);
+  void attribute(int variable, const std::string& name, double value);
   void fill_value(int variable, double value);
   void end_definitions();
 
@@ -73,6 +79,8 @@ class Writer : Handle {
 
   /// Of any rank, all of it.
   void write_all(int variable, const std::vector<double>& values);
+  void write_all(int variable, const std::vector<std::int64_t>& values);
+  void write_all(int variable, const std::vector<std::int8_t>& values);
   void write_all(int variable, std::string_view characters);
   void write_all(int variable, const std::vector<std::string>& texts);
 
@@ -108,6 +116,8 @@ class Reader : Handle {
   std::string bytes(const Variable& variable) const;
   /// What `reals` checks. \throws FileError.
   void require_reals(const Variable& variable) const;
+  /// Reads all variables and attributes and forgets them. \throws FileError where one cannot be read.
+  void read_everything() const;
   /// After require_reals; values.size() must be the length of a row.
   void read_row(const Variable& variable, std::size_t row, std::span<double> values) const;
 

@@ -7,12 +7,10 @@
 #include <stdexcept>
 
 #include "cf.hpp"
-#include "netcdf.hpp"
+#include "netcdf_file.hpp"
 #include "pulse_layout.hpp"
-#include "seal.hpp"
 #include "slipfront/record/pulse_variables.hpp"
 #include "utf8.hpp"
-#include "whole_file.hpp"
 
 namespace slipfront::record {
 namespace {
@@ -65,22 +63,10 @@ void write_scalar(Writer& file, int variable, const ScalarVariable& scalar, cons
   file.write(variable, values);
 }
 
-}  // namespace
-
-std::vector<std::string> pulse_variables() {
-  std::vector<std::string> names;
-  for (const FieldVariable& field : field_variables()) names.emplace_back(field.about.name);
-  return names;
-}
-
-void write_pulse(const std::string& path, const PulseMetadata& metadata, const std::vector<Snapshot>& snapshots,
-                 const std::string& solver_state, bool finished) {
-  const Fields fields = chosen_fields(metadata.variables);
-  check(metadata, snapshots, fields);
+/// All of the file.
+void fill(Writer& file, const PulseMetadata& metadata, const std::vector<Snapshot>& snapshots,
+          const std::string& solver_state, bool finished, const Fields& fields) {
   const std::size_t cells = metadata.x_edges.size() - 1;
-  const std::size_t values = snapshots.size() * (fields.size() * cells + scalar_variables().size()) + 3 * cells;
-  Writer file(path, values * sizeof(double) + solver_state.size() + (1 << 16));
-
   const bool scenario_in_attribute = describe_file(file, metadata, finished);
   file.attribute(Writer::global, "checksum",
                  layout::checksum(metadata.scenario_text, solver_state, finished, snapshots, fields));
@@ -106,9 +92,31 @@ void write_pulse(const std::string& path, const PulseMetadata& metadata, const s
     write_scalar(file, scalar_ids[i], scalar_variables()[i], snapshots);
   file.write(state, solver_state);
   if (!scenario_in_attribute) file.write(scenario, metadata.scenario_text);
+}
 
-  const netcdf::Image image = file.finish();
-  replace_file(path, {image.bytes(), seal(image.bytes())});
+}  // namespace
+
+std::vector<std::string> pulse_variables() {
+  std::vector<std::string> names;
+  for (const FieldVariable& field : field_variables()) names.emplace_back(field.about.name);
+  return names;
+}
+
+double bytes_of(const PulseMetadata& metadata, std::size_t times) {
+  const std::size_t cells = metadata.x_edges.size() - 1;
+  const std::size_t values =
+      times * (chosen_fields(metadata.variables).size() * cells + scalar_variables().size()) + 3 * cells;
+  return static_cast<double>(values * sizeof(double));
+}
+
+void write_pulse(const std::string& path, const PulseMetadata& metadata, const std::vector<Snapshot>& snapshots,
+                 const std::string& solver_state, bool finished) {
+  const Fields fields = chosen_fields(metadata.variables);
+  check(metadata, snapshots, fields);
+  const std::size_t cells = metadata.x_edges.size() - 1;
+  const std::size_t values = snapshots.size() * (fields.size() * cells + scalar_variables().size()) + 3 * cells;
+  write_netcdf(path, values * sizeof(double) + solver_state.size() + (1 << 16),
+               [&](Writer& file) { fill(file, metadata, snapshots, solver_state, finished, fields); });
 }
 
 }  // namespace slipfront::record

@@ -1,8 +1,10 @@
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 
-#include "netcdf.hpp"
+#include "../bytes.hpp"
+#include "netcdf_file.hpp"
 #include "pulse_layout.hpp"
 #include "seal.hpp"
 #include "slipfront/error.hpp"
@@ -26,7 +28,7 @@ using pulse::Snapshot;
 /// A sealed file says what slipfront wrote; which slipfront, and whether a pulse, must still be checked.
 class PulseReader {
  public:
-  PulseReader(const std::string& path, std::string_view image) : path_(path), file_(path, image, image.size()) {
+  PulseReader(const std::string& path, const Reader& file) : path_(path), file_(file) {
     if (const std::string format = text("slipfront_format"); format != pulse_format)
       fail(path_, "its slipfront_format is '" + format.substr(0, 40) + "', read here is '" + pulse_format + "'");
     times_ = require_rank("time", 1).shape[0];
@@ -121,15 +123,45 @@ class PulseReader {
   }
 
   const std::string& path_;
-  Reader file_;
+  const Reader& file_;
   std::size_t times_ = 0, cells_ = 0;
 };
+
+/// A checkpoint as bytes, and back: from the process that reads the file to this one.
+std::string packed(const Checkpoint& run) {
+  bytes::Writer out;
+  for (const std::string* text : {&run.scenario_text, &run.version, &run.solver_state}) out.put_text(*text);
+  out.put(run.finished);
+  out.put(static_cast<std::uint64_t>(run.snapshots.size()));
+  for (const Snapshot& snapshot : run.snapshots) {
+    out.put(snapshot.time);
+    for (const ScalarVariable& scalar : scalar_variables()) out.put(scalar.get(snapshot));
+    for (const auto values : profile_fields()) out.put(snapshot.profile.*values);
+  }
+  return std::move(out).text();
+}
+
+Checkpoint unpacked(std::string_view packed_run) {
+  bytes::Reader in(packed_run);
+  Checkpoint run{};
+  for (std::string* text : {&run.scenario_text, &run.version, &run.solver_state}) *text = in.text();
+  run.finished = in.get<bool>();
+  run.snapshots.resize(static_cast<std::size_t>(in.get<std::uint64_t>()));
+  for (Snapshot& snapshot : run.snapshots) {
+    snapshot.time = in.get<double>();
+    for (const ScalarVariable& scalar : scalar_variables()) scalar.set(snapshot, in.get<double>());
+    for (const auto values : profile_fields()) snapshot.profile.*values = in.vector();
+  }
+  return run;
+}
 
 }  // namespace
 
 Checkpoint read_checkpoint(const std::string& path) {
   const std::string file = read_regular(path);
-  return PulseReader(path, sealed_content(file, path)).read();
+  const std::string_view image = sealed_content(file, path);
+  return unpacked(read_netcdf(path, image, image.size(),
+                              [&](const Reader& reader) { return packed(PulseReader(path, reader).read()); }));
 }
 
 Checkpoint read_checkpoint_of(const std::string& path, const std::string& scenario_text, const std::string& version) {

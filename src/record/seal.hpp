@@ -15,4 +15,7 @@ std::string seal(std::string_view content);
 /// What stands before the seal. \throws FileError with `name` if there is none or it is broken.
 std::string_view sealed_content(std::string_view file, const std::string& name);
 
+/// The same of a file that others may have written: without a seal it is taken as it is.
+std::string_view without_broken_seal(std::string_view file, const std::string& name);
+
 }  // namespace slipfront::record

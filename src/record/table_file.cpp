@@ -2,13 +2,16 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <filesystem>
 #include <optional>
 #include <string_view>
 #include <system_error>
 
+#include "../digits.hpp"
 #include "../event/csv_records.hpp"
-#include "netcdf.hpp"
+#include "netcdf_file.hpp"
+#include "seal.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/medium/quantity.hpp"
 #include "slipfront/record/text_file.hpp"
@@ -109,15 +112,13 @@ std::vector<double> read_variable(const netcdf::Reader& file, const std::string&
   std::vector<double> values = file.reals(*variable);
   for (std::size_t i = 0; i < values.size(); ++i) {
     const std::string index = "value " + std::to_string(i + 1) + " of " + std::to_string(values.size());
-    if (values[i] == fill || values[i] == missing) fail(std::to_string(values[i]), index + " is missing", "no gaps");
-    if (!std::isfinite(values[i])) fail(std::to_string(values[i]), index + " is not finite", "a finite number");
+    if (values[i] == fill || values[i] == missing) fail(digits(values[i]), index + " is missing", "no gaps");
+    if (!std::isfinite(values[i])) fail(digits(values[i]), index + " is not finite", "a finite number");
   }
   return values;
 }
 
-Table read_netcdf(std::string_view image, const std::string& path) {
-  constexpr std::size_t most_bytes = std::size_t{1} << 28;  // a compressed file may hold more than its own size
-  const netcdf::Reader file(path, image, most_bytes);
+Table columns_of(const netcdf::Reader& file, const std::string& path) {
   const std::vector<double> x = read_variable(file, "x", path), stress = read_variable(file, "stress", path);
   if (x.size() != stress.size())
     throw InputError({.file = path,
@@ -130,14 +131,25 @@ Table read_netcdf(std::string_view image, const std::string& path) {
   return table;
 }
 
+Table read_any_netcdf(std::string_view image, const std::string& path) {
+  constexpr std::size_t most_bytes = std::size_t{1} << 28;  // a compressed file may hold more than its own size
+  const std::string bytes = read_netcdf(path, image, most_bytes, [&](const netcdf::Reader& file) {
+    const Table table = columns_of(file, path);
+    return std::string(reinterpret_cast<const char*>(table.data()), table.size() * sizeof table[0]);
+  });
+  Table table(bytes.size() / sizeof table[0]);
+  std::memcpy(static_cast<void*>(table.data()), bytes.data(), bytes.size());
+  return table;
+}
+
 }  // namespace
 
 std::vector<std::pair<double, double>> read_profile_table(const std::string& path) {
   const std::string ending = std::filesystem::path(path).extension().string();
   if (ending != ".csv" && ending != ".nc")
     throw InputError({.file = path, .problem = "unknown ending '" + ending + "'", .allowed = ".csv or .nc"});
-  const std::string content = read_text(path);
-  return ending == ".csv" ? read_csv(content, path) : read_netcdf(content, path);
+  const std::string content = read_regular(path);
+  return ending == ".csv" ? read_csv(content, path) : read_any_netcdf(without_broken_seal(content, path), path);
 }
 
 }  // namespace slipfront::record

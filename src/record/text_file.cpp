@@ -13,10 +13,15 @@
 namespace slipfront::record {
 namespace {
 
+constexpr std::size_t most_bytes = std::size_t{1} << 32;  // a device may never end
+
 std::string read_all(std::FILE* file, const std::string& name) {
   std::string text;
   char buffer[1 << 16];
-  while (const std::size_t size = std::fread(buffer, 1, sizeof buffer, file)) text.append(buffer, size);
+  while (const std::size_t size = std::fread(buffer, 1, sizeof buffer, file)) {
+    text.append(buffer, size);
+    if (text.size() > most_bytes) throw FileError(name + ": more than 4 GB, or without an end");
+  }
   if (std::ferror(file)) throw FileError(name + ": cannot be read: " + std::strerror(errno));
   return text;
 }

@@ -9,9 +9,6 @@
 
 namespace slipfront::record {
 
-/// Length of the UTF-8 character at the front of `text` (RFC 3629), or 0 if there is none.
-std::size_t utf8_length(std::string_view text);
-
 /// `text` with '?' for each byte that is NUL or not UTF-8, cut between characters to at most `most` bytes.
 std::string clean_text(std::string_view text, std::size_t most);
 

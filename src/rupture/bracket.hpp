@@ -17,7 +17,8 @@ double root_in_bracket(double low, double high, Function&& f) {
   bool last_below = false;
   const double margin = 2.2e-16 * high;  // the secant lands no nearer to an end: then the other end follows at once
   while (high - low > 2 * margin) {
-    const double part = f_low / (f_low - f_high);
+    // An infinite value would hold the secant at the other end for ever.
+    const double part = std::isfinite(f_low - f_high) ? f_low / (f_low - f_high) : 0.5;
     double middle = low + (high - low) * (std::isfinite(part) ? part : 0.5);
     middle = std::fmin(std::fmax(middle, low + margin), high - margin);
     const double value = f(middle);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "../digits.hpp"
 #include "bracket.hpp"
 #include "slipfront/elliptic/complete.hpp"
 #include "slipfront/error.hpp"
@@ -121,17 +122,21 @@ State in_left_fan(const State& left, double x_over_t) {
   return {r - psi, psi};
 }
 
+/// Squares of stresses above overflow; a jump between faster trains loses more than half of its digits.
+constexpr double most_psi = 300, most_phi = 18;
+
 void check(const State& state, const char* side) {
-  if (!(state.psi >= 0) || !std::isfinite(state.psi))
+  if (!(state.psi >= 0 && state.psi <= most_psi))
     throw InputError({.key = std::string(side) + " psi",
-                      .value = std::to_string(state.psi),
-                      .problem = "not a density variable",
-                      .allowed = "psi >= 0, finite"});
-  if (!std::isfinite(state.phi))
+                      .value = digits(state.psi),
+                      .problem = "not a density that the Riemann problem can be solved for",
+                      .allowed = "0 <= psi <= " + digits(most_psi) + ", a stress of up to 2e130"});
+  if (!state.empty() && !(std::fabs(state.phi) <= most_phi))
     throw InputError({.key = std::string(side) + " phi",
-                      .value = std::to_string(state.phi),
-                      .problem = "not finite",
-                      .allowed = "a finite rapidity"});
+                      .value = digits(state.phi),
+                      .problem = "not a rapidity that the Riemann problem can be solved for",
+                      .allowed = "-" + digits(most_phi) + " <= phi <= " + digits(most_phi) +
+                                 ", where U = tanh(phi) differs from 1 in a double"});
 }
 
 }  // namespace

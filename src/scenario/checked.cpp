@@ -16,13 +16,15 @@ InputError refusal(Complaint where, const std::string& problem, const std::strin
   return InputError(std::move(where));
 }
 
-std::function<double(double)> checked_stress(const RawStress& raw) {
-  return [raw](double x) {
+/// 0 where the state is beyond doubles: that of dislocations so far apart, in units of their width 1 / a.
+std::function<double(double)> checked_stress(const RawStress& raw, const std::function<double(double)>& contact) {
+  return [raw, contact](double x) {
     const double stress = raw.at(x);
     if (!(stress >= 0 && stress <= largest_stress))
       throw refusal(raw.where, "the stress is " + shortest(stress) + " at x = " + shortest(x),
                     "0 (empty), or " + shortest(smallest_stress) + " to " + shortest(largest_stress));
-    return stress < smallest_stress ? 0.0 : stress;
+    const bool vanishes = stress < smallest_stress || (contact && stress < smallest_stress * contact(x));
+    return vanishes ? 0.0 : stress;
   };
 }
 
@@ -76,13 +78,16 @@ std::pair<double, double> trial_range(const Scenario& scenario, const RawStress&
   return {left, right};
 }
 
-void try_out(const RawStress& raw, Scenario& scenario) {
+void try_out(const Document& document, const RawStress& raw, Scenario& scenario) {
   const auto [left, right] = trial_range(scenario, raw);
   std::optional<double> first_small;
   double last_small = 0;
+  bool stressed = false;
   for (int i = 0; i < samples; ++i) {
     const double x = i == samples - 1 ? right : std::min(right, left + (right - left) * (i / (samples - 1.0)));
-    if (scenario.stress(x) == 0 && raw.at(x) > 0) {
+    if (scenario.stress(x) > 0) {
+      stressed = true;
+    } else if (raw.at(x) > 0) {
       first_small = first_small.value_or(x);
       last_small = x;
     }
@@ -92,8 +97,13 @@ void try_out(const RawStress& raw, Scenario& scenario) {
       scenario.forcing_at(x, scenario.end);
     }
   }
+  const std::string quantity = scenario.contact_at ? "initial stress over contact ratio" : "initial stress";
+  if (first_small && !stressed && scenario.contact_at)
+    throw refusal(Section(document, "interface", {"contact"}).where("contact"),
+                  quantity + " is below " + shortest(smallest_stress) + " everywhere",
+                  "at least " + shortest(smallest_stress) + " somewhere");
   if (first_small)
-    scenario.warnings.push_back("initial stress between 0 and " + shortest(smallest_stress) +
+    scenario.warnings.push_back(quantity + " between 0 and " + shortest(smallest_stress) +
                                 " counts as 0, for no double holds its state: first at x = " + shortest(*first_small) +
                                 ", last at x = " + shortest(last_small));
 }
@@ -101,10 +111,10 @@ void try_out(const RawStress& raw, Scenario& scenario) {
 }  // namespace
 
 void make_functions(const Document& document, const RawStress& raw, Scenario& scenario) {
-  scenario.stress = checked_stress(raw);
   make_forcing(document, scenario);
   make_contact(document, scenario);
-  try_out(raw, scenario);
+  scenario.stress = checked_stress(raw, scenario.contact_at);
+  try_out(document, raw, scenario);
 }
 
 }  // namespace slipfront::scenario

@@ -69,7 +69,8 @@ RawStress from_formula(const Section& section, const Initial& initial) {
 }  // namespace
 
 RawStress read_initial(const Document& document, const TableReader& tables, Initial& initial) {
-  const Section section(document, "initial", {"profile", "stress_left", "stress_right", "width", "file", "formula"});
+  const Section section(document, "initial",
+                        {"profile", "stress_left", "stress_right", "width", "file", "formula", "hold"});
   if (document.tables.count("initial") == 0)
     throw InputError({.file = document.file,
                       .problem = "there is no [initial] table",
@@ -82,6 +83,7 @@ RawStress read_initial(const Document& document, const TableReader& tables, Init
       throw section.refuse(key, "does not fit " + profile, "leave it out, or change initial.profile");
     if (!section.has(key) && wanted == Role::required) throw section.refuse(key, "missing", profile + " needs it");
   }
+  initial.hold = section.truth("hold").value_or(initial.hold);
   if (initial.profile == ProfileKind::formula) {
     initial.formula = *section.formula("formula");
     return from_formula(section, initial);
@@ -95,6 +97,8 @@ RawStress read_initial(const Document& document, const TableReader& tables, Init
   const double left = initial.stress_left = read_stress(section, "stress_left");
   const double right = initial.stress_right = read_stress(section, "stress_right");
   const Complaint where = section.where("profile");
+  if (initial.hold && initial.profile == ProfileKind::step && left != right)
+    throw section.refuse("hold", "no load holds a step of stress", "with a smooth profile, such as \"tanh\"");
   if (initial.profile == ProfileKind::step)
     return {.at = [left, right](double x) { return x < 0 ? left : right; }, .where = where};
   const Limits widths{.least = 0, .most = farthest, .without_least = true};

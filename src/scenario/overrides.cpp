@@ -62,6 +62,19 @@ toml::table& table_named(toml::table& root, const std::string& name, const std::
   return *node->as_table();
 }
 
+/// A title names what the file says: it goes on to name what was said instead.
+void tell_in_title(toml::table& root, const Overridden& overridden) {
+  const auto* const title = root.get_as<std::string>("title");
+  if (!title || title->get().empty() || overridden.empty() || overridden.count("title") > 0) return;
+  std::string told = title->get();
+  const char* separator = " (with ";
+  for (const auto& [key, text] : overridden) {
+    told += separator + key + "=" + text;
+    separator = ", ";
+  }
+  root.insert_or_assign("title", told + ")");
+}
+
 }  // namespace
 
 Overridden apply_overrides(toml::table& root, const std::vector<std::string>& overrides) {
@@ -85,6 +98,7 @@ Overridden apply_overrides(toml::table& root, const std::vector<std::string>& ov
     }
     overridden[key] = text;
   }
+  tell_in_title(root, overridden);
   return overridden;
 }
 

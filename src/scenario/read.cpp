@@ -26,6 +26,7 @@ Scenario read(std::string_view text, const std::string& file, const std::vector<
   scenario.title = read_title(document);
   scenario.file = file;
   scenario.text = document.text;
+  scenario.overrides = overrides;
   const RawStress raw = read_initial(document, tables, scenario.initial);
   read_friction(document, scenario);
   read_domain(document, scenario.domain);

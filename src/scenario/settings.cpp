@@ -55,11 +55,20 @@ double read_end(const Document& document, double otherwise) {
 }
 
 void read_pulse(const Document& document, PulseOptions& pulse) {
-  const Section section(document, "pulse", {"cells", "tolerance", "threshold"});
+  const Section section(document, "pulse", {"cells", "tolerance", "threshold", "left", "right", "periodic"});
   pulse.cells = section.whole_number("cells", 4, 10'000'000).value_or(pulse.cells);
   pulse.tolerance = section.number("tolerance", {.least = 1e-12, .most = 0.1}).value_or(pulse.tolerance);
   const Limits fraction{.least = 0, .most = 1, .without_least = true, .without_most = true};
   pulse.threshold = section.number("threshold", fraction).value_or(pulse.threshold);
+  const auto end = [&](const char* key, PulseEnd otherwise) {
+    return section
+        .choice<PulseEnd>(key,
+                          {{"continued", PulseEnd::continued}, {"fixed", PulseEnd::fixed}, {"free", PulseEnd::free}})
+        .value_or(otherwise);
+  };
+  pulse.left = end("left", pulse.left);
+  pulse.right = end("right", pulse.right);
+  pulse.periodic = section.truth("periodic").value_or(pulse.periodic);
 }
 
 void read_chain(const Document& document, ChainOptions& chain) {

@@ -42,7 +42,7 @@ chain::Stretched chain_problem(const scenario::Scenario& s) {
   c.left = pulse.left;
   c.right = pulse.right;
   c.stress = s.stress;
-  c.forcing = s.forcing_at;
+  c.forcing = pulse.forcing;  // with the load that holds the initial stress, if any
   c.contact = s.contact_at;
   c.friction = s.friction;
   c.boundary = {.left = end_of(s.chain.left), .right = end_of(s.chain.right), .periodic = s.chain.periodic};

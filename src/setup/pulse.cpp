@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hold.hpp"
 #include "slipfront/rupture/inverse.hpp"
 #include "slipfront/rupture/riemann.hpp"
+#include "slipfront/setup/estimate.hpp"
 
 namespace slipfront::setup {
 namespace {
@@ -44,7 +46,7 @@ const char* law_name(modulation::FrictionLaw law) {
 
 pulse::Problem pulse_problem(const scenario::Scenario& s) {
   pulse::Problem p{.stress = s.stress,
-                   .forcing = s.forcing_at,
+                   .forcing = {},
                    .contact = s.contact_at,
                    .friction = s.friction,
                    .cells = s.pulse.cells,
@@ -60,11 +62,22 @@ pulse::Problem pulse_problem(const scenario::Scenario& s) {
   const Reach reach = known ? reach_of(s) : Reach{0, 0};
   p.left = s.domain.left.value_or(-reach.left);
   p.right = s.domain.right.value_or(reach.right);
+  const auto end_of = [](scenario::PulseEnd end) {
+    return end == scenario::PulseEnd::fixed  ? pulse::End::fixed
+           : end == scenario::PulseEnd::free ? pulse::End::free
+                                             : pulse::End::continued;
+  };
+  p.left_end = end_of(s.pulse.left);
+  p.right_end = end_of(s.pulse.right);
+  p.periodic = s.pulse.periodic;
+  p.forcing = forcing_of(s, p.left, p.right);
+  if (s.forcing_at) p.longest_step = s.end / 100;  // so that no short pulse of it is stepped over
   p.corner = s.initial.profile == ProfileKind::step ? 0 : HUGE_VAL;
   return p;
 }
 
 pulse::Schedule pulse_schedule(const scenario::Scenario& s, const pulse::Problem& problem) {
+  require_memory(s, problem);
   pulse::Schedule schedule;
   schedule.threshold = s.pulse.threshold;
   schedule.times.push_back(0);

@@ -44,7 +44,8 @@ constexpr SummaryItem<PulseEnd> pulse_items[] = {
        return pulse::conservation_error(e.run.solver(), e.run.schedule().x_edges, last(e).profile);
      },
      "of the dislocation number, relative"},
-    {"cells", [](const PulseEnd& e) -> Value { return static_cast<long>(e.run.solver().size()); }, ""},
+    {"cells", [](const PulseEnd& e) -> Value { return static_cast<long>(e.run.solver().problem().cells); },
+     "over the domain at t = 0; others come in and leave through its ends"},
     {"steps", [](const PulseEnd& e) -> Value { return e.run.solver().cells().steps; }, ""},
     {"solve_seconds", [](const PulseEnd& e) -> Value { return e.run.stepping_seconds(); }, "of the time steps alone"},
     {"wall_seconds", [](const PulseEnd& e) -> Value { return e.wall; }, "of the whole command"},

@@ -6,6 +6,7 @@
 #include "exact.hpp"
 #include "slipfront/chain/measure.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/rupture/inverse.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace {
@@ -89,6 +90,56 @@ TEST(ChainInitial, UniformTrainStaysAtRest) {
   run.advance_to(100);
   const Window w = run.window(0, 320);
   for (std::size_t j = 0; j < 320; ++j) ASSERT_NEAR(w.u[j], m.u[j], 2e-3) << j;
+}
+
+/// So it does where the contact ratio is another: psi is that of the stress in local units, k / a.
+TEST(ChainInitial, UniformTrainStaysAtRestInStrongerOrWeakerContact) {
+  for (const double a : {0.7, 1.3}) {
+    Problem p = line(0, 20 * 2 * pi, 20 * 2 * pi / 480);
+    p.grid.sites = 480;
+    p.boundary = {.periodic = true, .charge = 17};
+    p.contact = [a](double) { return a; };
+    const Motion m = static_train([](double) { return 17.0 / 20; }, p.grid, true, p.contact);
+    chain::Chain run(p, m);
+    run.advance_to(100);
+    const Window w = run.window(0, 480);
+    for (std::size_t j = 0; j < 480; ++j) ASSERT_NEAR(w.u[j], m.u[j], 2e-3) << j;
+  }
+}
+
+/// Trains with the same J = (4 / pi) a cosh(psi) E are in equilibrium with each other on a slope of a(x), whatever
+/// their stress (docs/theory.md 6): little moves, and a train laid with psi of k moves at once.
+TEST(ChainInitial, EquilibriumOnASlopeOfContactStaysAtRest) {
+  const double length = 300;
+  Problem p = line(0, length, 0.25);
+  p.grid.sites -= 1;  // a ring
+  const auto a = [length](double x) { return 1 + 0.05 * std::sin(2 * pi * x / length); };
+  const double J0 = train::averages(rupture::at_rest(1.2)).J;
+  // Of each place, the stress a k(psi) of the psi with a J(psi) = J0.
+  const auto stress = [&](double x) {
+    double low = 1e-3, high = 3;
+    for (int i = 0; i < 60; ++i) {
+      const double middle = (low + high) / 2;
+      (a(x) * train::averages(State{0, middle}).J < J0 ? low : high) = middle;
+    }
+    return a(x) * train::stress_at_rest(low);
+  };
+  const auto drift = [&](const std::function<double(double)>& laid_with) {
+    const StaticTrain train(stress, p.grid, true, laid_with);
+    p.contact = a;
+    const double fall = train(0, 1).u[0] - train(p.grid.sites - 1, p.grid.sites).u[0];
+    p.boundary = {.periodic = true, .charge = std::lround(fall / (2 * pi))};
+    chain::Chain run(p, train(0, p.grid.sites));
+    double moving = 0;
+    for (int i = 0; i < 10; ++i) {
+      run.advance(20);
+      moving = std::fmax(moving, totals(run).kinetic / totals(run).energy());
+    }
+    return moving;
+  };
+  const double right = drift(a), wrong = drift({});
+  EXPECT_LT(right, 1e-5);
+  EXPECT_GT(wrong, 30 * right);
 }
 
 /// On a lattice a dislocation is pinned until the force reaches the Peierls-Nabarro threshold; on the grid of the

@@ -57,6 +57,21 @@ TEST(ChainRun, ScaleChangesTheNumberOfDislocationsOnly) {
   EXPECT_NEAR(small.snapshots().back().slip_at_origin, large.snapshots().back().slip_at_origin, 2 * pi / 200);
 }
 
+/// The train of a scenario is laid with its contact ratio: nothing moves (it was psi of k: energy grew 1300 times).
+TEST(ChainRun, UniformTrainInAnotherContactIsAtRest) {
+  chain::Stretched s = step(300);
+  s.stress = [](double) { return 0.8; };
+  s.contact = [](double) { return 1.3; };
+  s.spacing = 0.5 / 1.3;
+  s.boundary = {.periodic = true};
+  chain::Run run(s, schedule({0, 2}), {});
+  run.go();
+  for (const double W : run.snapshots().back().profile.W) EXPECT_NEAR(W, 0, 1e-4);
+  EXPECT_NEAR(run.snapshots().back().slip_at_origin, 0, 1e-5);
+  EXPECT_LT(run.balance().energy_drift, 1e-5);
+  EXPECT_NEAR(run.snapshots().back().energy.phonons / run.snapshots().back().energy.elastic, 0, 1e-4);
+}
+
 TEST(ChainRun, SavedRunGoesOnToTheSameBits) {
   const pulse::Schedule when = schedule({0, 0.5, 1});
   chain::Run whole(step(300, 0.5), when, {.threads = 2});

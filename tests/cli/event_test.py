@@ -67,6 +67,34 @@ class Event(CommandLine):
         self.assertAlmostEqual(float(rows[0]["posterior_damping_number"]), known["damping_number"])
         self.assertFalse(any(None in row or None in row.values() for row in rows))
 
+    def test_one_answer_everywhere(self):
+        """A bound is a bound in table, JSON, CSV and file, with every error in its interval."""
+        path = self.file("t.toml", '[event]\nname = "Tohoku 2011"\nrupture_velocity = "2.0 +- 0.4 km/s"\nslip = "12 */ 1.5 m"\nrise_time = "40 */ 1.4 s"\n'
+                         '[medium]\nshear_modulus = "40 GPa"\n')
+        event, = json.loads(self.ok("event", path, "--json"))["events"]
+        self.assertIsNone(event["stress_pa"])
+        self.assertIsNone(event["posterior"]["stress_pa"])
+        low, high = event["stress_pa_bound_interval"]
+        self.assertTrue(15e6 < low < 20e6 and 36e6 < event["stress_pa_bound"] < 44e6 and 100e6 < high < 130e6, event["stress_pa_bound_interval"])
+        self.assertEqual(event["posterior"]["slip_velocity_is"], "time-mean")
+        self.assertTrue(event["posterior"]["suffices"])
+        self.assertLess(event["posterior"]["pareto_k"], 0.7)
+        row, = csv.DictReader(io.StringIO(self.ok("event", path, "--csv")))
+        self.assertEqual([float(row["stress_pa_bound" + end]) for end in ("", "_low", "_high")], [event["stress_pa_bound"], low, high])
+        self.assertEqual(row["stress_pa"], "")
+        self.assertIn(f">={event['stress_pa_bound'] / 1e6:.4g}", self.ok("event", path))
+        folder = os.path.dirname(path)
+        self.refused(2, "event", path, "--draws", "9", says=["--draws", "-o OUT.nc"])
+        self.refused(2, "event", path, "--draws", "9", "-o", os.path.join(folder, "a.csv"), says=["OUT.nc, with --draws"])
+        self.ok("event", path, "--draws", "9", "-o", os.path.join(folder, "a.nc"))
+        self.ok("event", path, "--draws", "9", "--resume", os.path.join(folder, "a.nc"))
+        self.refused(2, "event", path, "--draws", "8", "--resume", os.path.join(folder, "a.nc"), says=["another posterior_draws"])
+
+    def test_sources_that_disagree(self):
+        table = self.ok("event", os.path.join(SOURCE, "cases/catalogue.csv"), os.path.join(SOURCE, "cases/parkfield-2004.toml"))
+        self.assertIn("sources of loma, 1989-10-18, disagree: stress from 81.1 MPa", table)
+        self.assertIn("sources of parkfield, 2004-09-28, disagree: stress from 4.74 MPa", table)
+
     def test_refuses_files(self):
         self.refused(3, "event", "/nowhere/x.csv", says=["/nowhere/x.csv", "No such file"])
         self.refused(3, "event", "/", says=["directory"])
@@ -205,10 +233,11 @@ class Event(CommandLine):
     def test_killed_and_resumed(self):
         case = self.catalogue(1500)
         quiet = subprocess.DEVNULL
+        slowly = ["--samples", "3000"]  # so that there are checkpoints on the way, however long each takes
         folder = os.path.dirname(case)
         cut, reference = os.path.join(folder, "cut.nc"), os.path.join(folder, "reference.nc")
-        run("event", case, "-o", reference)
-        process = subprocess.Popen([PROGRAM, "event", case, "-o", cut], stdout=quiet, stderr=quiet)
+        run("event", case, *slowly, "-o", reference)
+        process = subprocess.Popen([PROGRAM, "event", case, *slowly, "-o", cut], stdout=quiet, stderr=quiet)
         self.wait_for(cut, process)
         empty = os.stat(cut).st_size
         while process.poll() is None and os.stat(cut).st_size == empty:
@@ -218,7 +247,7 @@ class Event(CommandLine):
         grown = os.stat(cut).st_size
         self.assertTrue(empty < grown < os.stat(reference).st_size)
         # Ctrl-C on the way keeps what there is; then to the end, to the bits of a run left alone.
-        process = subprocess.Popen([PROGRAM, "event", case, "--resume", cut, "--threads", "1"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        process = subprocess.Popen([PROGRAM, "event", case, *slowly, "--resume", cut, "--threads", "1"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         while process.poll() is None and os.stat(cut).st_size == grown:
             pass
         process.send_signal(signal.SIGINT)
@@ -226,7 +255,7 @@ class Event(CommandLine):
         self.assertEqual((process.returncode, out), (130, ""), errors)
         self.assertRegex(errors, "interrupted after [0-9]+ of 1500 events; go on with --resume ")
         self.assertGreater(os.stat(cut).st_size, grown)
-        self.assertEqual(run("event", case, "--resume", cut).returncode, 2)
+        self.assertEqual(run("event", case, *slowly, "--resume", cut).returncode, 2)
         self.same(cut, reference)
         os.remove(cut)
         self.assertIn("nothing was written", self.interrupted_csv(case, os.path.join(folder, "cut.csv")))

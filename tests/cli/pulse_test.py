@@ -4,6 +4,8 @@ import math
 import os
 import unittest
 
+import netCDF4
+
 from support import CommandLine, SOURCE
 
 PULSE = ["closure", "friction_coefficient", "damping_number", "time", "slip_velocity_at_origin", "stress_at_origin",
@@ -56,6 +58,18 @@ class Pulse(CommandLine):
         self.refused(2, "pulse", self.file("f.toml", "[initial]\nprofile = 'formula'\nformula = 'x'\n[domain]\nleft = -1\nright = 1\n"),
                      says=["f.toml:3", "x"])
         self.refused(2, "pulse", self.file("g.toml", "[initial]\nprofile = 'formula'\nformula = 'foo(x)'\n"), says=["g.toml:3", "foo"])
+
+    def test_title_and_history_name_what_was_overridden(self):
+        case = os.path.join(SOURCE, "cases/step.toml")
+        output = os.path.join(os.path.dirname(self.file("unused", "")), "out.nc")
+        change = ("--set", "friction.law=viscous", "--set", "friction.coefficient=0.5", "--set", "forcing.formula=0 * x")
+        said = self.ok("pulse", case, "-o", output, *change)
+        title = "Frictionless step (with forcing.formula=0 * x, friction.coefficient=0.5, friction.law=viscous)"
+        self.assertEqual(said.split("\n")[0], title)
+        with netCDF4.Dataset(output) as data:
+            self.assertEqual(data.title, title)
+            self.assertEqual(data.history, f"slipfront pulse {case} --set friction.law=viscous --set friction.coefficient=0.5 "
+                                           "--set 'forcing.formula=0 * x'")
 
     def test_killed_and_resumed_is_the_same_file(self):
         self.killed_and_resumed("pulse", 20)

@@ -72,9 +72,9 @@ TEST(Posterior, HoldsTheTruthInNineOfTenEventsOfKnownContact) {
     const Truth truth = drawn(random);
     Observation o;
     o.name = "event " + std::to_string(n);
-    o.slip_velocity_is = static_cast<Measure>(n % 3);
+    o.slip_velocity_is = static_cast<Measure>(n % 4);
     o.rupture_velocity = lognormal(random.lognormal(truth.V, 1.1), 1.1);
-    const double w = truth.slip_velocity(o.slip_velocity_is, Closure::consistent);
+    const double w = truth.slip_velocity(o.measure(), Closure::consistent);
     o.slip_velocity = lognormal(random.lognormal(w, 1.15), 1.15);
     o.contact_ratio = random.lognormal(truth.A, 1.2);
     o.uncertain_constants.push_back({&medium::Constants::contact_ratio, lognormal(*o.contact_ratio, 1.2)});
@@ -184,7 +184,7 @@ TEST(Posterior, SolvesWhatIsExact) {
   o.duration = exact(10);
   o.asperity_spacing = 0.5;
   for (const Closure closure : {Closure::consistent, Closure::paper})
-    for (const Measure m : {Measure::origin, Measure::mean, Measure::peak}) {
+    for (const Measure m : friction_ratio::all_measures) {
       o.slip_velocity_is = m;
       o.slip_velocity = exact(truth.slip_velocity(m, closure));
       const Posterior p = *posterior(o, defaults, {.samples = 10, .closure = closure});

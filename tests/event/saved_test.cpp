@@ -29,7 +29,7 @@ std::vector<Entry> entries() {
 }
 
 void expect_same(const EventResult& a, const EventResult& b) {
-  for (const NumberColumn& c : number_columns(true)) {
+  for (const NumberColumn& c : number_columns({.pulse = true, .draws = 0})) {
     double x[3] = {}, y[3] = {};
     c.get(a, x);
     c.get(b, y);

@@ -16,7 +16,7 @@ using namespace slipfront::friction_ratio;
 using modulation::Closure;
 
 constexpr Closure closures[] = {Closure::consistent, Closure::paper};
-constexpr Measure measures[] = {Measure::origin, Measure::mean, Measure::peak};
+constexpr auto& measures = all_measures;
 
 /// A few points of `friction_ratio_table check`, none of them a node.
 TEST(FrictionRatio, IsWhatThePulseSolverGives) {
@@ -28,7 +28,7 @@ TEST(FrictionRatio, IsWhatThePulseSolverGives) {
          {Point{0.06, 0.4}, {0.213, 0.05}, {0.855, 2.7}, {2.6, 1.3}, {0.9, 3e4}, {1.7, 4e6}, {0.3, 7e7}}) {
       const SlipVelocities w = solve({.stress = p.stress, .damping_number = p.damping, .closure = closure});
       const double unit = rupture::from_stress(p.stress).slip_velocity;
-      const double wanted[] = {w.origin / unit, w.mean / unit, w.peak / unit};
+      const double wanted[] = {w.origin / unit, w.mean / unit, w.peak / unit, w.time_mean / unit};
       for (const Measure m : measures)
         EXPECT_NEAR(evaluate(m, closure, p.stress, p.damping).value / wanted[static_cast<int>(m)], 1,
                     uncertainty(closure, p.damping))
@@ -53,11 +53,39 @@ TEST(FrictionRatio, FollowsTheCorners) {
                         {0.79, 2.6}}) {
     const SlipVelocities w = solve({.stress = p.stress, .damping_number = p.damping, .cells = 800});
     const double unit = rupture::from_stress(p.stress).slip_velocity;
-    const double wanted[] = {w.origin / unit, w.mean / unit, w.peak / unit};
+    const double wanted[] = {w.origin / unit, w.mean / unit, w.peak / unit, w.time_mean / unit};
     for (const Measure m : measures)
       EXPECT_NEAR(evaluate(m, Closure::consistent, p.stress, p.damping).value / wanted[static_cast<int>(m)], 1, 3e-5)
           << p.stress << " " << p.damping << " " << static_cast<int>(m);
   }
+}
+
+/// The table has slip over duration from the dislocations that have passed x = 0; here it is the integral of its own
+/// W(0), since only Gamma = C t counts: (1 / Gamma) times that of the ratio from 0 to Gamma, in u = ln(1 + Gamma).
+TEST(FrictionRatio, TimeMeanIsTheIntegralOfTheSlipVelocityAtTheOrigin) {
+  for (const Closure closure : closures)
+    for (const double stress : {0.05, 0.2117, 0.855, 2.9})
+      for (const double damping : {0.01, 0.7, 21.4, 137.0, 3e3, 2e5, 9e7}) {
+        constexpr int intervals = 4000;
+        const double step = std::log1p(damping) / intervals;
+        double sum = 0;
+        for (int i = 0; i <= intervals; ++i) {
+          const double weight = i == 0 || i == intervals ? 1 : i % 2 == 1 ? 4 : 2, gamma = std::expm1(i * step);
+          sum += weight * evaluate(Measure::origin, closure, stress, gamma).value * (1 + gamma);
+        }
+        const double mean = sum * step / 3 / damping;
+        const bool unstable = closure == Closure::paper && damping > 3;
+        EXPECT_NEAR(evaluate(Measure::time_mean, closure, stress, damping).value / mean, 1, unstable ? 1e-2 : 5e-5)
+            << stress << " " << damping << " " << static_cast<int>(closure);
+      }
+}
+
+/// A fifth of the frictionless slip velocity, as slip over duration of the paper's ETS event: not Gamma = 5.7, or 36
+/// with the paper's closure, which are of W at the end.
+TEST(FrictionRatio, AFifthInTheMeanOverTime) {
+  EXPECT_NEAR(evaluate(Measure::time_mean, Closure::consistent, 0.2117, 21.4).value, 0.199, 3e-4);
+  EXPECT_NEAR(evaluate(Measure::time_mean, Closure::paper, 0.2117, 137).value, 0.199, 1e-3);
+  EXPECT_NEAR(evaluate(Measure::origin, Closure::consistent, 0.2117, 5.74).value, 0.199, 3e-4);
 }
 
 TEST(FrictionRatio, HasOneRunForManyDampingNumbers) {
@@ -65,6 +93,7 @@ TEST(FrictionRatio, HasOneRunForManyDampingNumbers) {
   ASSERT_EQ(w.size(), 2u);
   EXPECT_NEAR(w[0].origin / solve({.stress = 0.855, .damping_number = 0.5}).origin, 1, 1e-5);
   EXPECT_NEAR(w[1].origin / solve({.stress = 0.855, .damping_number = 2}).origin, 1, 1e-5);
+  EXPECT_NEAR(w[0].time_mean / solve({.stress = 0.855, .damping_number = 0.5}).time_mean, 1, 2e-5);
 }
 
 /// W(0) sqrt(Gamma) of the step 0.855 solved apart from the scheme (docs/pulse.md).

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "slipfront/error.hpp"
 
@@ -14,6 +15,9 @@ using std::numbers::pi;
 
 const medium::Interface rock{
     .shear_modulus = 30e9, .density = 2700, .poisson_ratio = 0.25, .asperity_spacing = 1e-3, .contact_ratio = 0.01};
+
+const medium::Interface soft{
+    .shear_modulus = 30e9, .density = 2700, .poisson_ratio = 0.3, .asperity_spacing = 1e-3, .contact_ratio = 0.05};
 
 TEST(Medium, SpeedOfThePaper) {  // docs/theory.md 5: 6 km/s and 0.3 give 5.4210 km/s
   EXPECT_NEAR(medium::speed_from_p_wave(6000, 0.3), 5421.0, 0.05);
@@ -51,8 +55,53 @@ TEST(Medium, UnitsTurnEquation1IntoEquation3) {
   EXPECT_NEAR(u.stress, 2 * rock.shear_modulus * u.strain, 1e-3);              // sigma = 2 mu strain
   EXPECT_NEAR(u.strain, u.slip / u.length, 1e-18);                             // strain = u_x
   EXPECT_NEAR(u.slip_velocity, medium::face_factor * u.slip / u.time, 1e-12);  // both faces move
-  EXPECT_NEAR(u.force, u.stress / 2, 1e-6);
   EXPECT_EQ(u.velocity, chain.speed);
+}
+
+/// Terminal velocity, over c, of one dislocation on the lattice of Eq. (1) in SI units, pushed by a traction (Pa) on
+/// the nominal area against a drag (N s/m) of each asperity: leapfrog steps, free ends.
+double pushed_dislocation(double traction, double drag) {
+  const medium::ChainConstants chain = medium::chain_constants(soft);
+  const double b = soft.asperity_spacing, width = b / soft.contact_ratio;  // b / A
+  const double dt = 0.02 * width / chain.speed, push = traction * b * b;
+  const double tilt = b / (2 * pi) * std::asin(push / chain.substrate_force);
+  constexpr std::size_t sites = 1200, middle = 400;
+  constexpr int steps = 4000;
+  std::vector<double> now(sites), before(sites), next(sites);
+  for (std::size_t i = 0; i < sites; ++i)
+    before[i] = now[i] = tilt + b / (2 * pi) * 4 * std::atan(std::exp((double(middle) - double(i)) * b / width));
+  const auto place = [&] {  // where slip is half a spacing
+    std::size_t i = 0;
+    while (now[i] > tilt + b / 2) ++i;
+    return b * (double(i) - (tilt + b / 2 - now[i]) / (now[i - 1] - now[i]));
+  };
+  double halfway = 0;
+  for (int n = 0; n < steps; ++n) {
+    if (n == steps / 2) halfway = place();
+    for (std::size_t i = 0; i < sites; ++i) {
+      const double bonds = (i > 0 ? now[i - 1] - now[i] : 0) + (i + 1 < sites ? now[i + 1] - now[i] : 0);
+      const double force = chain.spring * bonds - chain.substrate_force * std::sin(2 * pi * now[i] / b) + push;
+      const double share = drag * dt / (2 * chain.mass);
+      next[i] = (2 * now[i] - (1 - share) * before[i] + dt * dt / chain.mass * force) / (1 + share);
+    }
+    before.swap(now), now.swap(next);
+  }
+  return (place() - halfway) / (steps / 2 * dt) / chain.speed;
+}
+
+/// The unit of F by another route: the lattice in SI units knows it from Eq. (1) alone, and the textbook result for one
+/// dislocation (McLaughlin & Scott 1978) is stated in F and C. With mu A / (2 pi) F would be 7 times too small.
+TEST(Medium, TractionUnitMovesADislocationOfEquation1) {
+  const medium::ChainConstants chain = medium::chain_constants(soft);
+  const double unit = medium::traction_unit(soft.shear_modulus, soft.poisson_ratio, soft.contact_ratio);
+  EXPECT_NEAR(unit * soft.asperity_spacing * soft.asperity_spacing / chain.substrate_force, 1, 1e-14);
+  EXPECT_NEAR(medium::printed_traction_unit(soft.shear_modulus, soft.contact_ratio) / unit, 0.7 / (2 * 0.05), 1e-13);
+  for (const double F : {0.04, 0.08}) {
+    const double C = 0.2, drag = C * chain.substrate_force / (chain.speed * soft.contact_ratio / (2 * pi));
+    const double U = 1 / std::sqrt(1 + std::pow(4 * C / (pi * F), 2));
+    EXPECT_NEAR(pushed_dislocation(F * unit, drag) / U, 1, 0.01) << F;
+  }
+  EXPECT_NEAR(medium::printed_traction_unit(30e9, 0.003) / medium::traction_unit(30e9, 0.3, 0.003), 116.7, 0.05);
 }
 
 TEST(Medium, BothFormsOfTheContactRatio) {
@@ -68,6 +117,8 @@ TEST(Medium, RefusesConstantsOutOfRange) {
   EXPECT_THROW(medium::speed_from_p_wave(-6000, 0.3), InputError);
   EXPECT_THROW(medium::poisson_ratio(1, 1), InputError);
   EXPECT_THROW(medium::units(30e9, 5000, 0, 1e-3), InputError);
+  EXPECT_THROW(medium::traction_unit(30e9, 0.5, 0.01), InputError);
+  EXPECT_THROW(medium::printed_traction_unit(30e9, 0), InputError);
   medium::Interface bad = rock;
   bad.density = 0;
   try {

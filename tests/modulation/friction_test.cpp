@@ -108,4 +108,17 @@ TEST(Friction, PaperClosureUnderstates) {
               a.I / a.W, 1e-14);
 }
 
+TEST(PowerLawRate, IsTheRelaxationRate) {
+  for (const double n : {0.3, 0.7, 1.0, 1.5, 2.0, 5.0})
+    for (const Closure closure : {Closure::consistent, Closure::paper}) {
+      const Friction friction{FrictionLaw::power, 0.7, n, closure};
+      const PowerLawRate rate(friction);
+      for (const double psi : {1e-250, 1e-20, 1e-6, 1e-3, 0.011, 0.3, 0.97, 1.7, 4.3, 12.0, 25.0})
+        for (const double phi : {-2.0, 1e-3, 0.4}) {
+          const double want = relaxation_rate({phi, psi}, friction);
+          EXPECT_NEAR(rate({phi, psi}) / want, 1, 1e-9) << n << " " << psi << " " << phi;
+        }
+    }
+}
+
 }  // namespace

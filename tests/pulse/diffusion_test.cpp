@@ -97,8 +97,11 @@ Computed computed(double gamma, Closure closure, int cells) {
 TEST(Diffusion, IsTheLimitOfStrongFriction) {
   for (const Closure closure : {Closure::consistent, Closure::paper}) {
     const double limit = Diffusion{closure}.slip_velocity(0.855);
-    EXPECT_NEAR(computed(1e8, closure, 100).W / limit, 1, 2e-4);
-    EXPECT_NEAR(computed(1e8, closure, 400).W / limit, 1, 5e-6);
+    const double coarse = std::fabs(computed(1e8, closure, 100).W / limit - 1);
+    const double fine = std::fabs(computed(1e8, closure, 400).W / limit - 1);
+    EXPECT_LT(coarse, 2e-4);
+    EXPECT_LT(fine, coarse / 8);  // second order would be 16; the steps have errors too
+    EXPECT_LT(fine, 1e-5);
   }
 }
 
@@ -128,7 +131,7 @@ TEST(Diffusion, ASmoothedStepIntoTheEmptySideTendsToTheStep) {
               .corner = width > 0 ? HUGE_VAL : 0,
               .cells = 200});
     s.advance_to(2 * pi);
-    return charge_left_of(s.view(), 0) - s.initial_charge_left_of(0);
+    return s.slip_at(s.view(), 0);
   };
   EXPECT_NEAR(slip(reach / 1000) / slip(0), 1, 2e-2);
 }

@@ -37,7 +37,7 @@ struct Origin {
 };
 Origin origin_of(const Solver& s) {
   const auto view = s.view();
-  return {train::averages(state_at(view, 0)).W, 2 * pi * (s.initial_charge_left_of(0) - charge_left_of(view, 0))};
+  return {train::averages(state_at(view, 0)).W, s.slip_at(view, 0)};
 }
 
 TEST(Pulse, FrictionlessStepIsTheClosedForm) {

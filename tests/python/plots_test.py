@@ -84,7 +84,7 @@ class Figures(CommandLine):
             self.assertIn("decade: median, 5-95 %", [text.get_text() for text in axes.get_legend().get_texts()])
         cloud = pascal.lines[0]
         self.assertEqual(cloud.get_marker(), ".")
-        np.testing.assert_allclose(cloud.get_ydata(), events["stress_pa"] / 1e6)
+        np.testing.assert_allclose(cloud.get_ydata(), events["stress_pa_bound"] / 1e6)
         one = self.file("one.csv", "name,rupture_velocity,slip_velocity\na,1 km/s,0.1 m/s\n")
         self.ok("event", one, "-o", path)
         self.assertNotIn("decade", str([t.get_text() for t in choose.draw(files.read(path), "events").axes[0].get_legend().get_texts()]))
@@ -125,16 +125,18 @@ class Command(CommandLine):
                             (["events"], self.made("e.csv", "event", "--csv")), (["comparison"], self.made("c.nc", "compare", STEP, "--scale", "30"))):
             self.assertEqual(choose.kinds_of(files.read(path)), kinds)
             out = os.path.join(os.path.dirname(path), "picture.svg")
-            printed = self.ok("plot", path, "-o", out).split("\n")[:-1]
-            written = [line.removeprefix("written to ") for line in printed]
+            self.assertEqual(self.ok("plot", path, "-o", out), f"written to {out}\n")
+            with open(out, encoding="utf-8") as svg:
+                self.assertIn("<svg", svg.read(3000))
+            written = [line.removeprefix("written to ") for line in self.ok("plot", path).split("\n")[:-1]]
             self.assertEqual(len(written), len(kinds))
             for picture in written:
-                with open(picture, encoding="utf-8") as svg:
-                    self.assertIn("<svg", svg.read(3000))
+                with open(picture, "rb") as png:
+                    self.assertEqual(png.read(4), b"\x89PNG")
             self.assertEqual([name for name in os.listdir(os.path.dirname(path)) if name.startswith(".")], [])
             again = os.path.join(os.path.dirname(path), "again.svg")
             self.ok("plot", path, "--kind", kinds[0], "-o", again)
-            with open(again, "rb") as a, open(written[0], "rb") as b:
+            with open(again, "rb") as a, open(out, "rb") as b:
                 self.assertEqual(a.read(), b.read())  # the same bytes each time
 
     def test_refuses(self):

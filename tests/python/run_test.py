@@ -122,8 +122,9 @@ class Run(CommandLine):
             slipfront.chain(case, set={"chain.scale": 2000}, output=output, progress=stop, threads=1)
         self.assertEqual(slipfront.open(output).attrs["finished"], 0)
         slipfront.chain(case, set={"chain.scale": 2000}, resume=output, threads=1)
-        self.ok("chain", case, "--set", "chain.scale=2000", "--threads", "1", "-o", output + "2")
-        self.same(output, output + "2")
+        whole = os.path.join(self.folder(), "whole.nc")
+        self.ok("chain", case, "--set", "chain.scale=2000", "--threads", "1", "-o", whole)
+        self.same(output, whole)
 
     def test_others_run_meanwhile(self):
         """The GIL is free: Python goes on while another thread computes."""

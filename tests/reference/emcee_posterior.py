@@ -33,6 +33,7 @@ EVENTS = [
     ("crust", "origin", (3000, 150), (0.5, 1.2), (0.01, 1.3)),
     ("crust, mean", "mean", (2500, 200), (0.3, 1.3), (0.004, 1.5)),
     ("peak", "peak", (3300, 100), (2.0, 1.1), (0.03, 1.2)),
+    ("slow, mean in time", "time-mean", (0.116, 0.02), (3e-9, 1.5), (4e-5, 1.5)),
     ("slow", "mean", (0.116, 0.02), (3e-9, 1.5), (4e-5, 1.5)),
     ("strongly damped", "origin", (1000, 100), (1e-3, 1.3), (0.02, 1.2)),
 ]
@@ -45,7 +46,7 @@ def numbers(text):
 def table(path):
     """Coefficients [measure, piece, y, u] and corners [measure, y] of closure "consistent"."""
     coefficients, corners = open(path).read().split("coefficients = ")[1].split("corners = ")
-    return numbers(coefficients).reshape(2, 3, 7, 15, 9)[0], numbers(corners).reshape(2, 3, 9)[0]
+    return numbers(coefficients).reshape(2, 4, 7, 15, 9)[0], numbers(corners).reshape(2, 4, 9)[0]
 
 
 def sound_speed(psi):
@@ -82,7 +83,7 @@ def sampled(event, coefficients, corners):
     _, measure, (V0, sd), (w0, w_factor), (A0, A_factor) = event
     grid = np.linspace(np.log(max(V0 - 6 * sd, V0 / 30)), np.log(min(V0 + 6 * sd, 0.97 * C_SPEED)), 400)
     forms = np.array([closed_form(np.exp(v) / C_SPEED) for v in grid])
-    index = ["origin", "mean", "peak"].index(measure)
+    index = ["origin", "mean", "peak", "time-mean"].index(measure)
 
     def ln_density(theta):
         ln_V, ln_A, u = theta

@@ -186,6 +186,29 @@ TEST(Riemann, RefusesWhatIsNoState) {
   EXPECT_THROW(rupture::solve_riemann({0, -1}, {}), InputError);
   EXPECT_THROW(rupture::solve_riemann({0, std::nan("")}, {}), InputError);
   EXPECT_THROW(rupture::solve_riemann({}, {HUGE_VAL, 0.1}), InputError);
+  // Stresses whose squares overflow held the root finder for ever; rapidities beyond 18 gave phi = 3.7 for 0.
+  EXPECT_THROW(rupture::solve_riemann({0, 340}, {0, 1}), InputError);
+  EXPECT_THROW(rupture::solve_riemann({0, 700}, {0, 699}), InputError);
+  EXPECT_THROW(rupture::solve_riemann({50, 1e-3}, {-50, 1e-3}), InputError);
+}
+
+/// Dense trains carry d'Alembert waves: both phi + psi and phi - psi stay, through the shock too. The other rows were
+/// solved by bisection with 120 digits.
+TEST(Riemann, SolvesUpToTheEndsOfItsRange) {
+  const RiemannSolution dense = rupture::solve_riemann({0, 300}, {0, 290});
+  EXPECT_NEAR(dense.star.phi, 5, 1e-9);
+  EXPECT_NEAR(dense.star.psi, 295, 1e-9);
+  const RiemannSolution strong = rupture::solve_riemann({0, 80}, {0, 1});
+  EXPECT_NEAR(strong.star.phi, 39.5023080112, 1e-9);
+  EXPECT_NEAR(strong.star.psi, 40.4976919888, 1e-9);
+  const RiemannSolution collision = rupture::solve_riemann({18, 1}, {-18, 2});
+  EXPECT_NEAR(collision.star.phi, -0.501327122611, 1e-7);
+  EXPECT_NEAR(collision.star.psi, 19.4986598697, 1e-7);
+  for (const double psi : {1e-300, 1e-6, 1.0, 100.0, 300.0})
+    for (const double phi : {-18.0, -5.0, 0.0, 5.0, 18.0}) {
+      const RiemannSolution s = rupture::solve_riemann({0, 300}, {phi, psi});
+      EXPECT_TRUE(std::isfinite(s.star.phi) && std::isfinite(s.star.psi)) << psi << " " << phi;
+    }
 }
 
 TEST(SlipPulse, ProfileAgreesWithTheRelations) {

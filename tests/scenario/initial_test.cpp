@@ -103,6 +103,20 @@ TEST(ScenarioInitial, CountsTinyStressAsNoneAndWarnsOnce) {
   EXPECT_TRUE(read("[initial]\nprofile = \"formula\"\nformula = \"x < 1 ? 1 : 0\"\n").warnings.empty());
 }
 
+TEST(ScenarioInitial, CountsStressThatIsTinyForTheContactAsNone) {
+  const std::string tail = "[initial]\nprofile = \"formula\"\nformula = \"max(0, 0.01*(1 - x^2))\"\n";
+  const std::string domain = "[domain]\nleft = -1\nright = 1\n[interface]\ncontact = ";
+  const Scenario s = read(tail + domain + "\"2\"\n");
+  EXPECT_EQ(s.stress(0.5), 0);
+  EXPECT_EQ(s.stress(0.1), 0.0099);
+  ASSERT_EQ(s.warnings.size(), 1u);
+  EXPECT_TRUE(contains(s.warnings[0], "stress over contact ratio"));
+  EXPECT_EQ(read(tail + domain + "\"0.5\"\n").stress(0.9), 0);  // no stress below 0.0045, whatever the contact
+  const Complaint all = refused(tail + domain + "\"3\"\n");
+  EXPECT_EQ(all.key, "interface.contact");
+  EXPECT_TRUE(contains(all.problem, "below 0.0045 everywhere"));
+}
+
 TEST(ScenarioTable, InterpolatesMonotonically) {
   const std::string text = "[initial]\nprofile = \"table\"\nfile = \"t.csv\"\n";
   const Rows rows = {{-2, 0}, {-1, 0}, {0, 4}, {0.5, 4.1}, {3, 0}, {4, 0}};

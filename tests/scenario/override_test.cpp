@@ -40,6 +40,23 @@ TEST(ScenarioOverride, ComplaintsNameItAndItsText) {
     complaint(bad);
 }
 
+TEST(ScenarioOverride, IsNamedInTheTitle) {
+  const std::string titled = "title = \"Frictionless step\"\n" + step;
+  const Overrides viscous = {"friction.law=none", "friction.law=viscous", "friction.coefficient=0.5"};
+  const std::string told = "Frictionless step (with friction.coefficient=0.5, friction.law=viscous)";
+  EXPECT_EQ(read(titled).title, "Frictionless step");
+  EXPECT_EQ(read(titled, viscous).title, told);
+  EXPECT_EQ(read(read(titled, viscous).text).title, told);
+  EXPECT_EQ(read(titled, {"title=Mine", "time.end=1"}).title, "Mine");
+  EXPECT_EQ(read(step, viscous).title, "");
+}
+
+TEST(ScenarioOverride, IsPartOfTheCommandLine) {
+  EXPECT_EQ(command_line(read(step), "pulse"), "slipfront pulse dir/s.toml");
+  EXPECT_EQ(command_line(read(step, {"time.end=1", "title=it's two"}), "compare", {100, 1e-7}),
+            "slipfront compare dir/s.toml --set time.end=1 --set 'title=it'\\''s two' --scale 100 --scale 1e-07");
+}
+
 TEST(ScenarioFile, ReadsItsOwnTextBack) {
   const Overrides overrides = {"initial.profile=tanh",  "initial.width=0.1",
                                "friction.law=power",    "friction.coefficient=0.3",

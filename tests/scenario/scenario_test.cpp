@@ -224,7 +224,7 @@ TEST(ScenarioFile, KeepsTextsBeyondAscii) {  // the TOML parser itself does not 
   EXPECT_EQ(refused(step + "profile = 2u=\"\\(pi*\xEF\xB3\xBF").line, 4u);
   EXPECT_EQ(read("title = \"\"\"a\\\n" + letter + "\"\"\"\n" + step).title, "a" + letter);
   EXPECT_EQ(read("\xEF\xBB\xBFtitle = 'a@b @40 " + letter + "'\n" + step).title, "a@b @40 " + letter);
-  EXPECT_EQ(read("title = \"\\u00D4@\"\n" + step, {"time.end=1"}).title, letter + "@");
+  EXPECT_EQ(read("title = \"\\u00D4@\"\n" + step, {"time.end=1"}).title, letter + "@ (with time.end=1)");
   for (const std::string bad :
        {"\xFF", "\x80", "\xC3", "\xC0\x80", "\xE0\x80\x80", "\xED\xA0\x80", "\xF4\x90\x80\x80", "\xF0\x8F\xBF\xBF"})
     EXPECT_EQ(refused(step + "# " + bad + "\n").line, 4u);

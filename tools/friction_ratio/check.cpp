@@ -62,10 +62,11 @@ int check(long points) {
       const double allowed = uncertainty(closure, w.damping),
                    largest = *std::max_element(w.error.begin(), w.error.end());
       std::printf(
-          "%s%s: %zu points, largest relative difference: origin %.1e, mean %.1e, peak %.1e (at stress %.4g, damping "
+          "%s%s: %zu points, largest relative difference: origin %.1e, mean %.1e, peak %.1e, time-mean %.1e (at stress "
+          "%.4g, damping "
           "number %.4g), allowed %.0e\n",
           closure == Closure::paper ? "paper" : "consistent", u == 0 ? "" : ", unstable range", w.points, w.error[0],
-          w.error[1], w.error[2], w.stress, w.damping, allowed);
+          w.error[1], w.error[2], w.error[3], w.stress, w.damping, allowed);
       good = good && largest <= allowed;
     }
     if (!failed.empty()) {

@@ -17,7 +17,7 @@ using modulation::Closure;
 Logarithms logarithms(const Question& question) {
   const SlipVelocities w = solve(question);
   const double unit = rupture::from_stress(question.stress).slip_velocity;
-  return {std::log(w.origin / unit), std::log(w.mean / unit), std::log(w.peak / unit)};
+  return {std::log(w.origin / unit), std::log(w.mean / unit), std::log(w.peak / unit), std::log(w.time_mean / unit)};
 }
 
 /// Where closure "paper" is unstable: the median of a few coarse runs, which the instability has not yet spoilt.
@@ -27,7 +27,7 @@ Logarithms median_of_coarse_runs(Question question) {
     question.cells = cells;
     try {
       const Logarithms v = logarithms(question);
-      if (std::isfinite(v[0] + v[1] + v[2])) found.push_back(v);
+      if (std::isfinite(v[0] + v[1] + v[2] + v[3])) found.push_back(v);
     } catch (const NumericsError&) {
     }
   }
@@ -60,7 +60,7 @@ Logarithms computed(Closure closure, double stress, double damping) {
   if (uncertainty(closure, damping) > 1e-3) return median_of_coarse_runs({stress, damping, closure});
   Logarithms values = closure == Closure::paper ? by_paper(stress, damping)
                                                 : logarithms({stress, damping, closure, cells_for(damping)});
-  if (damping == 0) values[0] = 0;
+  if (damping == 0) values[0] = values[3] = 0;
   return values;
 }
 

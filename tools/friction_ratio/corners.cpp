@@ -71,6 +71,8 @@ layout::Corners find_corners() {
     };
     corners[0][static_cast<std::size_t>(Measure::origin)][i] = term(&CornersAt::origin);
     corners[0][static_cast<std::size_t>(Measure::peak)][i] = term(&CornersAt::peak);
+    // The slope of W(0) turns there, and with it the curvature of its mean in time.
+    corners[0][static_cast<std::size_t>(Measure::time_mean)][i] = term(&CornersAt::origin);
   }
   return corners;
 }

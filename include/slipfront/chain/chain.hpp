@@ -63,6 +63,19 @@ class Chain {
   /// Returns whether `time` was reached.
   bool advance_to(double time, const std::function<bool()>& interrupted = {});
 
+  /// Energy that has come in and gone since the start, in units of Eq. 3. Of viscous friction by itself nothing is
+  /// known here (it takes 32 levels at a time): its rate is in Totals.
+  struct Flows {
+    double supplied = 0, dissipated = 0;  ///< by the forcing, by friction
+    double outflow = 0;                   ///< through absorbing ends
+  };
+  Flows flows() const;
+  /// The same block by block, to continue with.
+  std::vector<double> flow_sums() const;
+  void continue_flows(const std::vector<double>& sums);
+  /// Whether friction is among the flows.
+  bool meters_friction() const;
+
   const Problem& problem() const;
   long level() const;
   double dt() const;

@@ -31,12 +31,16 @@ class LocalTrain;
 /// multiple of 2 pi, 0 at the right end. A stretch with no stress at either end holds a whole number of dislocations:
 /// its stress is changed by the less than half a dislocation that this takes. Where all is stressed and the stress
 /// jumps, the jump lies midway between two dislocations: u is smooth there. With `whole` the entire chain does: what a
-/// periodic chain needs. Sites are made when asked for: nobody need hold them all, and the bits of a site do not depend
-/// on what it is asked with. Costs some microseconds a site where the stress changes.
+/// periodic chain needs. With `contact`, a(x), a place has psi of stress / a: the substrate is a^2 as strong, and the
+/// train of Eq. 4 holds in the local units a x (docs/theory.md 6). Sites are made when asked for: nobody need hold them
+/// all, and the bits of a site do not depend on what it is asked with. Costs some microseconds a site where the stress
+/// changes.
 class StaticTrain {
  public:
-  /// Integrates the stress over the chain once. \throws InputError for a stress that is negative or not finite.
-  StaticTrain(std::function<double(double x)> stress, const Grid& grid, bool whole = false);
+  /// Integrates the stress over the chain once. A stress below what a train can have (train::smallest_stress, of
+  /// stress / a) counts as none. \throws InputError for a stress that is negative or not finite.
+  StaticTrain(std::function<double(double x)> stress, const Grid& grid, bool whole = false,
+              std::function<double(double x)> contact = {});
 
   /// Sites [begin, end).
   Motion operator()(std::size_t begin, std::size_t end) const;
@@ -56,9 +60,9 @@ class StaticTrain {
   };
   static constexpr std::size_t piece = 4096;  ///< the charge is kept at every so many sites
 
-  double u(const Stretch& stretch, double stress, double charge, LocalTrain& train) const;
+  double u(const Stretch& stretch, std::size_t site, double charge, LocalTrain& train) const;
 
-  std::function<double(double)> stress_;
+  std::function<double(double)> stress_, contact_;
   Grid grid_;
   bool whole_;
   std::optional<double> jump_at_;  ///< dislocations left of the hardest jump from one stress to another
@@ -67,6 +71,7 @@ class StaticTrain {
 };
 
 /// All sites of StaticTrain.
-Motion static_train(const std::function<double(double x)>& stress, const Grid& grid, bool whole = false);
+Motion static_train(const std::function<double(double x)>& stress, const Grid& grid, bool whole = false,
+                    const std::function<double(double x)>& contact = {});
 
 }  // namespace slipfront::chain

@@ -19,13 +19,14 @@ enum class Model {
 enum class End {
   free,       ///< u_x = 0
   fixed,      ///< u stays
-  absorbing,  ///< u_t +- u_x = 0: what leaves does not come back; exact for waves at speed 1
+  absorbing,  ///< what leaves does not come back; beyond lies a train at rest (Boundary::left_stress), or none
 };
 
 struct Boundary {
   End left = End::free, right = End::free;
-  bool periodic = false;  ///< the ends above do not count then
-  long charge = 0;        ///< of a periodic chain: u falls by 2 pi charge once around
+  bool periodic = false;                     ///< the ends above do not count then
+  long charge = 0;                           ///< of a periodic chain: u falls by 2 pi charge once around
+  double left_stress = 0, right_stress = 0;  ///< of the trains beyond absorbing ends
 };
 
 struct Problem {
@@ -35,6 +36,9 @@ struct Problem {
   modulation::Friction friction;                      ///< the closure does not matter here
   std::function<double(double x, double t)> forcing;  ///< F, t >= 0; null: none. Called from one thread only
   std::function<double(double x)> contact;            ///< a > 0; null: 1. Called from one thread only
+  /// Largest stress of trains of dislocations that may run into trains of antidislocations, or through each other: the
+  /// chosen step is shorter for it. 0: none will.
+  double crossing_stress = 0;
   double step = 0;  ///< dt; 0: chosen. The fourth order of sine_gordon holds for the chosen one only
 };
 

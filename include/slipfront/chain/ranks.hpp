@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace slipfront::chain {
@@ -34,6 +35,8 @@ class Ranks {
   /// (all) Does `task`, which makes no call marked (all) itself. If it throws on any rank, all ranks throw the error of
   /// the lowest of them: InputError, FileError or NumericsError as it was, any other as NumericsError.
   void together(const std::function<void()>& task) const;
+  /// (all) \throws InputError on all ranks unless all give the same text, which `what` names.
+  void require_same(const char* what, std::string_view text) const;
   /// (all) Whether `mine` is true on any rank.
   bool any(bool mine) const;
   /// (all) What the ranks have, one after the other, on every rank. At most 2^31 - 1 numbers.

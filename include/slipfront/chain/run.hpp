@@ -59,13 +59,18 @@ class Run {
   double smooth_window() const { return smooth_window_; }
   /// What should not have changed since t = 0, and what there is. Looks at every site.
   struct Balance {
-    /// |energy + dissipated - supplied - that at t = 0|, over that at t = 0. The work is summed by the trapezoidal rule
-    /// over some 200 samples: without friction and forcing it is the drift of the scheme alone.
+    /// |energy + dissipated + outflow - supplied - that at t = 0|, over the largest of them. Works are integrated level
+    /// by level, but that of viscous friction alone over 200 samples or more.
     double energy_drift;
     double charge_error;  ///< charge less that at t = 0
     long dislocations;    ///< of either sign
   };
   Balance balance() const;
+
+  /// What is amiss or doubtful in the results so far, a sentence each: invariants that do not hold (energy, slip at
+  /// x = 0 against the integral of the velocity there, dislocations that none of the ends explains, |W| <= k, fronts),
+  /// and too few dislocations for the answer. Above 1 % `go` ends with a NumericsError that says so.
+  std::vector<std::string> warnings() const;
 
  private:
   struct Start {
@@ -78,7 +83,11 @@ class Run {
   double width_of_cell(std::size_t i) const;
   double centre_of_cell(std::size_t i) const;
   void look_at_start();
+  void sample();
   void take();
+  struct Findings;
+  Findings findings() const;
+  void refuse_wrong_results() const;
 
   Stretched stretched_;
   pulse::Schedule schedule_;
@@ -90,7 +99,15 @@ class Run {
   // At t = 0.
   std::vector<double> first_u_;  ///< averages over the output cells
   double first_u_at_origin_ = 0, first_energy_ = 0, first_charge_ = 0;
-  Work work_;  ///< since then
+  long first_dislocations_ = 0;
+  Work work_;  ///< since then, of viscous friction that the chain itself does not meter
+  /// Integral of the velocity at x = 0 over the window of the slip, by samples, and by every other of them.
+  struct Passed {
+    double time = 0, velocity = 0, slip = 0;
+    double early_time = 0, early_velocity = 0, coarse_slip = 0;
+    long samples = 0;
+  };
+  Passed passed_;
 };
 
 }  // namespace slipfront::chain

@@ -20,6 +20,7 @@ SmoothAverage smooth_average(const Chain& chain, double x, double width, double 
 
 /// Energy density of the uniform train of this stress and slip velocity: what H of an average exceeds it by is in
 /// phonons (or, in a window with a front in it, in what the window makes even).
-double energy_of_train(double stress, double velocity);
+/// `contact` is a(x) there: the train is that of theory in its local units.
+double energy_of_train(double stress, double velocity, double contact = 1);
 
 }  // namespace slipfront::chain

@@ -12,11 +12,12 @@
 
 namespace slipfront::event {
 
-/// How many numbers an event has in a column.
-enum class Width : std::size_t {
-  one = 1,
-  bounds = 2,     ///< 5 %, 95 %
-  quantiles = 3,  ///< 5 %, 50 %, 95 %
+/// What an event's numbers in a column lie along.
+enum class Axis {
+  none,      ///< one number
+  bound,     ///< 5 %, 95 %
+  quantile,  ///< 5 %, 50 %, 95 %
+  draw,      ///< states of the posterior, alike in weight
 };
 
 /// Numbers of each event; NaN where not known.
@@ -25,8 +26,15 @@ struct NumberColumn {
   std::string_view unit;              ///< SI, "1" for a pure number
   std::string_view dimensional_unit;  ///< of a dimensionless value; may be empty
   std::string_view reference;         ///< where in the paper; may be empty
-  Width width;
-  std::function<void(const EventResult&, double* out)> get;  ///< writes as many as `width` says
+  Axis axis;
+  std::size_t count;                                         ///< numbers of an event
+  std::function<void(const EventResult&, double* out)> get;  ///< writes as many as `count` says
+};
+
+/// Which columns there are beside those of every catalogue.
+struct ColumnChoice {
+  bool pulse = false;     ///< of a pulse through each finite-fault model
+  std::size_t draws = 0;  ///< of the posterior
 };
 
 /// A text of each event; may be empty.
@@ -35,8 +43,8 @@ struct TextColumn {
   std::string (*get)(const EventResult&);
 };
 
-/// In the order of output; those of a pulse through a finite-fault model only `with_pulse`.
-std::vector<NumberColumn> number_columns(bool with_pulse);
+/// In the order of output.
+std::vector<NumberColumn> number_columns(const ColumnChoice& choice);
 std::vector<TextColumn> text_columns(bool with_pulse);
 
 /// What a pulse through a finite-fault model is summed up by.
@@ -46,7 +54,7 @@ struct PulseQuantity {
 };
 std::span<const PulseQuantity> pulse_quantities();
 
-/// SI unit of a quantity, by what its name ends with (`_m_s`, `_pa`); "1" where it is a pure number.
+/// SI unit of a quantity, by what its name ends with (`_m_s`, `_pa`, `_pa_bound`); "1" where it is a pure number.
 std::string_view unit_of(std::string_view name);
 
 /// One text of several, "; " between them.

@@ -18,8 +18,8 @@ namespace slipfront::event {
 /// One event of a file, after the theory: an estimate or the reason why there is none.
 struct EventResult {
   Observation observation;
-  /// By the closed forms; where the event was sampled, filled with what these leave open: the intervals of V and
-  /// Sigma-, and where friction is identified A, Gamma, C and the stress in Pa with theirs.
+  /// One answer: by the closed forms at the middle of what was observed; where the event was sampled and the samples
+  /// suffice, the median and the interval of the posterior.
   std::optional<Estimate> estimate;
   std::optional<Posterior> posterior;   ///< where the event was sampled
   std::vector<LocalState> along_fault;  ///< of a finite-fault model, if asked for
@@ -56,6 +56,7 @@ struct EstimateQuantity {
 };
 std::span<const EstimateQuantity<double>> measured_quantities();
 std::span<const EstimateQuantity<Inferred>> inferred_quantities();
+std::span<const EstimateQuantity<Inferred>> bound_quantities();  ///< lower bounds, if friction took nothing
 
 /// Members of Posterior by name, likewise.
 struct PosteriorQuantity {

@@ -14,7 +14,7 @@
 
 namespace slipfront::event {
 
-/// What the slip velocity of an event is, of the model's: W(0), the mean weighted with slip, or the peak.
+/// What the slip velocity of an event is, of the model's.
 using friction_ratio::Measure;
 
 /// A constant of the medium that was stated with an error; the constant itself holds the middle.
@@ -53,10 +53,21 @@ struct Observation : medium::Constants {
   std::optional<Measured> normal_stress;         ///< Pa
   std::optional<Measured> hardness;              ///< Pa; contact_ratio = A_plastic normal_stress / hardness
   std::vector<Subfault> subfaults;               ///< of a finite-fault model that gives their places
-  Measure slip_velocity_is = Measure::origin;
+  std::optional<Measure> slip_velocity_is;       ///< as stated; see measure()
   std::vector<UncertainConstant> uncertain_constants;
 
   std::vector<std::string> warnings;  ///< what the reader had to assume or leave out
+
+  /// The time that slip is divided by where no slip velocity was measured; null: none.
+  const Measured* slip_time() const {
+    if (slip_velocity || !slip) return nullptr;
+    return rise_time ? &*rise_time : duration ? &*duration : nullptr;
+  }
+  bool has_slip_velocity() const { return slip_velocity || slip_time(); }
+  /// T of Gamma = C T; null: unknown.
+  const Measured* damping_time() const { return duration ? &*duration : rise_time ? &*rise_time : nullptr; }
+  /// What the slip velocity is taken for where nobody says: slip over a time is the mean over that time.
+  Measure measure() const { return slip_velocity_is.value_or(slip_time() ? Measure::time_mean : Measure::origin); }
 };
 
 /// One entry of a file: an observation, or the reason why it is none. A bad entry does not lose its neighbours.

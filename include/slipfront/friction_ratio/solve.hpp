@@ -11,9 +11,10 @@ namespace slipfront::friction_ratio {
 
 /// Slip velocities in c A / pi, at the time T where the damping number C T is the one that was asked for.
 struct SlipVelocities {
-  double origin;  ///< W(0)
-  double mean;    ///< integral of W slip dx over integral of slip dx
-  double peak;    ///< the largest W(x) up to the top that is reached uphill from x = 0
+  double origin;     ///< W(0)
+  double mean;       ///< integral of W slip dx over integral of slip dx
+  double peak;       ///< the largest W(x) up to the top that is reached uphill from x = 0
+  double time_mean;  ///< slip at x = 0 over T, by the dislocations that have passed
 };
 
 struct Question {

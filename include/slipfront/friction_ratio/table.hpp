@@ -10,19 +10,21 @@
 
 namespace slipfront::friction_ratio {
 
-/// Which slip velocity of the pulse at time T.
+/// Which slip velocity of the pulse.
 enum class Measure {
-  origin,  ///< W(0), where the step of stress was
-  mean,    ///< weighted with slip: integral of W slip dx over integral of slip dx
-  peak,    ///< the largest W(x) up to the top that is reached uphill from x = 0
+  origin,     ///< W(0) at time T, where the step of stress was
+  mean,       ///< at time T, weighted with slip: integral of W slip dx over integral of slip dx
+  peak,       ///< at time T, the largest W(x) up to the top that is reached uphill from x = 0
+  time_mean,  ///< slip over duration: (1 / T) integral of W(0) dt from 0 to T
 };
+inline constexpr Measure all_measures[] = {Measure::origin, Measure::mean, Measure::peak, Measure::time_mean};
 
-/// "origin", "mean" or "peak", and back. \throws InputError (with that key) for any other word.
+/// "origin", "mean", "peak" or "time-mean", and back. \throws InputError (with that key) for any other word.
 const char* name_of(Measure measure);
 Measure measure_named(std::string_view name, std::string_view key = {});
 
 struct Ratio {
-  double value;       ///< W / frictionless W(0); for `origin` 1 at Gamma = 0
+  double value;       ///< W / frictionless W(0); for `origin` and `time_mean` 1 at Gamma = 0
   double by_damping;  ///< its derivative d/dGamma
   double by_stress;   ///< and d/dSigma-
 };
@@ -31,7 +33,7 @@ struct Ratio {
 /// Relative error: see `uncertainty`. \throws InputError.
 Ratio evaluate(Measure measure, modulation::Closure closure, double stress, double damping_number);
 
-/// Relative error to allow for: 1e-4; closure "paper" 1e-2 for 3 < Gamma < 1e4. It is unstable where dislocations
+/// Relative error to allow for: 1e-4; closure "paper" 1e-2 for 3 < Gamma < 1e5. It is unstable where dislocations
 /// outrun their own sound (docs/friction_ratio.md): there no number of cells settles its slip velocities.
 double uncertainty(modulation::Closure closure, double damping_number);
 

@@ -51,8 +51,7 @@ struct Units {
   double strain;         ///< A / (2 pi)
   double stress;         ///< mu A / pi, for sigma = -u_x
   double slip_velocity;  ///< c A / pi, for w = u_t: see face_factor
-  double force;          ///< mu A / (2 pi), for F and f
-  double velocity;       ///< c, for U, V and x/t
+  double velocity;       ///< c, for U, V and x/t. The unit of F and f needs nu too: see traction_unit
 };
 
 /// The paper's unit of slip velocity, c A / pi, is twice what differentiating u gives (c A / 2 pi): both faces move. It
@@ -65,5 +64,15 @@ Units units(double shear_modulus, double speed, double contact_ratio, double asp
 /// The two units that do not need the asperity spacing, which is seldom known.
 double stress_unit(double shear_modulus, double contact_ratio);
 double slip_velocity_unit(double speed, double contact_ratio);
+
+/// The unit of F and f in Eq. (3), as a traction on the nominal area, Pa. Dividing Eq. (1) by F_d makes F = 1 the force
+/// F_d = mu b^2 A^2 / (pi (1 - nu)) on each asperity (`ChainConstants::substrate_force`), and there is one asperity to
+/// an area b^2: mu A^2 / (pi (1 - nu)). \throws InputError.
+double traction_unit(double shear_modulus, double poisson_ratio, double contact_ratio);
+
+/// The unit of F and f that the paper prints, mu A / (2 pi), Pa: F_d over the real contact area A b^2, with A_plastic
+/// rounded to 1. It is not what Eq. (1) gives for a traction on the nominal area, such as the stress that loads a
+/// fault: at A = 0.003 and nu = 0.3 it is 117 times too large. \throws InputError.
+double printed_traction_unit(double shear_modulus, double contact_ratio);
 
 }  // namespace slipfront::medium

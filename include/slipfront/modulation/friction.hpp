@@ -2,13 +2,15 @@
 /// \file
 /// Friction laws and the two ways to average them over a period (docs/theory.md 3.3; Eqs. 7).
 
+#include <cstddef>
 #include <string_view>
+#include <vector>
 
 #include "slipfront/train/state.hpp"
 
 namespace slipfront::modulation {
 
-/// Force f(w) that opposes slip, in mu A / (2 pi).
+/// Force f(w) that opposes slip, in the unit of F (medium::traction_unit).
 enum class FrictionLaw {
   none,
   viscous,  ///< f = C w
@@ -41,5 +43,20 @@ double momentum_loss(const State& state, const Friction& friction);
 /// Rate at which friction relaxes the momentum, momentum_loss / P, with its limit at rest; 0 for Coulomb friction,
 /// which relaxes nothing but stops it. Times that resolve it are explicit, longer ones implicit.
 double relaxation_rate(const State& state, const Friction& friction);
+
+/// The same for the power law at many states: the rate is C (2 sinh |phi| cosh psi)^(n - 1) g(psi), and g is looked up
+/// in a table of ln psi that fills as it is used, to 1e-10. Not from two threads at once.
+class PowerLawRate {
+ public:
+  explicit PowerLawRate(const Friction& friction);
+  double operator()(const State& state) const;
+
+ private:
+  double shape(double psi) const;
+  double node(std::size_t i) const;
+
+  Friction friction_;
+  mutable std::vector<double> nodes_;  ///< g, NaN where not yet known
+};
 
 }  // namespace slipfront::modulation

@@ -7,6 +7,7 @@
 /// changes, an empty region is a free edge (p = 0) and no cell, and a slow pulse (V ~ 1e-26) is computed like a fast
 /// one.
 
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -17,6 +18,14 @@
 namespace slipfront::pulse {
 
 class Semidiscrete;
+class Staggered;
+
+/// What an end of the domain does where the stress reaches it.
+enum class End {
+  continued,  ///< the train goes on beyond, as it is at the end: dislocations come in and leave
+  fixed,      ///< nothing passes
+  free,       ///< no stress: dislocations leave, none comes in
+};
 
 /// What to solve.
 struct Problem {
@@ -26,9 +35,13 @@ struct Problem {
   modulation::Friction friction;
   double left = -1, right = 1;  ///< domain at t = 0
   double corner = 0;            ///< x of a step of stress: a face is laid there
-  int cells = 400;              ///< over the parts of the domain that are not empty, >= 4
-  double tolerance = 1e-6;      ///< relative, of the implicit steps
-  double cfl = 1.0;             ///< of the explicit steps; smooth problems bear 1.4, steps of stress do not
+  End left_end = End::continued, right_end = End::continued;
+  bool periodic = false;             ///< a ring of the domain's length, stressed at both ends, which then do not count
+  int cells = 400;                   ///< over the parts of the domain that are not empty, >= 4
+  double tolerance = 1e-6;           ///< relative, of the implicit steps
+  double explicit_tolerance = 1e-4;  ///< of the explicit steps, which the size of the cells mostly sets
+  double longest_step = HUGE_VAL;    ///< a forcing may change while waves hardly move
+  double cfl = 1.0;                  ///< of the explicit steps; smooth problems bear 1.4, steps of stress do not
 };
 
 /// The state of a run. Plain numbers: saved and restored, a run continues to the same bits. A gap between two stressed
@@ -36,11 +49,14 @@ struct Problem {
 struct Cells {
   double time = 0;
   long steps = 0;
-  double step = 0;  ///< last step of the implicit integrator, 0 before the first
+  double step = 0;  ///< longest that the error of the last step allows, 0 before the first
   std::vector<double>
       y;  ///< width and momentum of each cell in turn, x of the left edge, energy dissipated, energy supplied
   std::vector<double> s;       ///< tanh(psi) at the cell centres, where the next solve starts
   std::vector<double> charge;  ///< dislocations in each cell, constant; 0 in a gap
+  double entered_left = 0;     ///< dislocations that have come in (less those that have left) through the left end
+  double entered_right = 0;    ///< and through the right one
+  std::vector<double> face_momentum;  ///< where friction rules: momenta live at the faces, y has means; else empty
 };
 
 class Solver {
@@ -73,12 +89,14 @@ class Solver {
     std::vector<double> centres;       ///< x
     std::vector<State> states;  ///< at the centres, in local units where there is a contact profile; empty in a gap
     std::function<double(double)> contact;
+    double period = 0;  ///< of a ring: x and x + period are one place; 0: none
   };
   View view() const;
   /// State at the centre of one cell, as in the view, without making it.
   State state_in(std::size_t cell) const;
-  /// Number of dislocations left of x at t = 0.
-  double initial_charge_left_of(double x) const;
+  /// Slip at x since t = 0: 2 pi times the dislocations that have passed it, the integral of the initial stress from
+  /// where the dislocation now at x began. No difference of sums, so that a small slip has small errors.
+  double slip_at(const View& view, double x) const;
 
   double dissipated() const { return cells_.y[2 * size() + 1]; }
   double supplied() const { return cells_.y[2 * size() + 2]; }
@@ -87,13 +105,27 @@ class Solver {
   void lay_equations();
   bool advance_until_gap_closes(double time, const std::function<bool()>& interrupted);
   struct Work;
-  /// One step of at most `left`, from the rates in `work`; returns its length. `crossing` is the time in which a wave
-  /// crosses a cell.
-  double step_explicitly(Work& work, double left, double crossing);
-  double step_implicitly(Work& work, double left, double crossing);
+  /// One step of at most `remaining`, from the rates in `work`; returns its length. `crossing` is the time in which a
+  /// wave crosses a cell.
+  double step_explicitly(Work& work, double remaining, double crossing);
+  double step_implicitly(Work& work, double remaining, double crossing);
+  std::vector<double> faces_of_cells(const Staggered& staggered) const;
+  void cells_of_faces(const Staggered& staggered, const std::vector<double>& faces);
   void find_scale(double crossing, std::vector<double>& scale) const;
   double gaps_close_in(const std::vector<double>& rate) const;
   void close_gaps();
+  void adjust_ends();
+  void fill_end(bool left);
+  void drop_beyond(bool left);
+  void stop_at_walls();
+  double right_edge() const;
+  /// Where at t = 0 the dislocation with `charge` to its left was, one of a face; and the slip of a place that it has
+  /// come to.
+  double first_place(double charge) const;
+  double charge_between(double from, double to) const;
+  /// What Semidiscrete or Staggered are made from.
+  template <class Setup>
+  Setup setup() const;
   void join(std::size_t cell, std::size_t into);
   void drop_cell(std::size_t i);
 

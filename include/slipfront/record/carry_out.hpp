@@ -9,20 +9,22 @@
 #include "slipfront/chain/ranks.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/record/pulse_file.hpp"
+#include "slipfront/record/unfinished.hpp"
 
 namespace slipfront::record {
 
 /// Where a run is written to, and by whom.
 struct Keeping {
-  std::string path;  ///< empty: nowhere
+  Output output;
   PulseMetadata metadata;
-  bool resumed = false;                 ///< `path` holds what the run went on from
+  bool resumed = false;                 ///< what the run went on from is in a file
   const chain::Ranks* ranks = nullptr;  ///< that share the run, if any: all of them call
 };
 
 /// Carries `run` on until its end or until `after_step` says to stop, and writes it: at the start (a path that cannot
-/// be written is known before the work), now and then, and at the end, wherever that is. Returns whether the end was
-/// reached. \throws NumericsError, after what was computed has been written; FileError.
+/// be written, or a disk too small, is known before the work), now and then, and at the end, wherever that is. What
+/// stands at the output is replaced at the end of the run alone. Returns whether the end was reached. \throws
+/// NumericsError, after what was computed has been written; FileError.
 template <class Run>
 bool carry_out(Run& run, const Keeping& keeping, const std::function<bool()>& after_step) {
   using Clock = std::chrono::steady_clock;
@@ -34,11 +36,15 @@ bool carry_out(Run& run, const Keeping& keeping, const std::function<bool()>& af
   auto written = Clock::now();
   double cost = 0;
   const auto write = [&] {
-    if (keeping.path.empty()) return;
+    if (!keeping.output.wanted()) return;
     const auto begun = Clock::now();
     const std::string state = run.saved();  // ranks send their parts to the first
     const auto put_down = [&] {
-      if (first) write_pulse(keeping.path, keeping.metadata, run.snapshots(), state, run.finished());
+      if (!first) return;
+      const Output& output = keeping.output;
+      write_pulse(run.finished() ? output.finished() : output.unfinished(), keeping.metadata, run.snapshots(), state,
+                  run.finished());
+      if (run.finished()) output.clear();
     };
     if (keeping.ranks)
       keeping.ranks->together(put_down);
@@ -47,20 +53,27 @@ bool carry_out(Run& run, const Keeping& keeping, const std::function<bool()>& af
     cost = seconds_since(begun);
     written = Clock::now();
   };
-  if (!keeping.resumed) write();
+  if (keeping.output.wanted()) {
+    const auto require_space = [&] {
+      if (first) require_disk_space(keeping.output.finished(), bytes_of(keeping.metadata, run.schedule().times.size()));
+    };
+    keeping.ranks ? keeping.ranks->together(require_space) : require_space();
+  }
+  if (!keeping.resumed && !keeping.output.replaces()) write();
   bool reached = false;
   try {
     reached = run.go([&] {
       const bool stop = after_step();
       // A checkpoint is the whole file: writing it must stay a small part of the work.
-      if (!keeping.path.empty() && agreed(first && seconds_since(written) > 0.05 && seconds_since(written) > 20 * cost))
+      if (keeping.output.wanted() &&
+          agreed(first && seconds_since(written) > 0.05 && seconds_since(written) > 20 * cost))
         write();
       return agreed(stop);
     });
   } catch (const NumericsError& error) {  // the run stands at its last good step, or the last checkpoint does
     if (run.good()) write();
-    if (!keeping.path.empty())
-      throw NumericsError(std::string(error.what()) + "; what was computed is in " + keeping.path);
+    if (keeping.output.wanted())
+      throw NumericsError(std::string(error.what()) + "; what was computed is in " + keeping.output.unfinished());
     throw;
   }
   write();

@@ -9,12 +9,13 @@
 #include <utility>
 #include <vector>
 
+#include "slipfront/event/columns.hpp"
 #include "slipfront/event/evaluate.hpp"
 #include "slipfront/event/population.hpp"
 
 namespace slipfront::record {
 
-inline constexpr const char* event_format = "event 1";  ///< slipfront_format
+inline constexpr const char* event_format = "event 2";  ///< slipfront_format
 
 /// What the file of a catalogue says besides the events.
 struct EventMetadata {
@@ -22,7 +23,7 @@ struct EventMetadata {
   std::string command_line;  ///< the file's history
   /// Attributes that make the results what they are, such as seed and samples: names and values.
   std::vector<std::pair<std::string, std::string>> settings;
-  bool with_pulse = false;  ///< columns of a pulse through each finite-fault model
+  event::ColumnChoice columns = {};
 };
 
 /// Writes `path` whole or not at all: the columns of `results`, their population and the closed form. Equal arguments

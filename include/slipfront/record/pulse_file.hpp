@@ -2,6 +2,7 @@
 /// \file
 /// The file of a pulse run: NetCDF-4 by the CF-1.10 conventions, and the state from which the run can go on.
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,9 @@ struct Checkpoint {
 
 /// Names of the variables over time and x that a file can hold. Those over time alone are always there.
 std::vector<std::string> pulse_variables();
+
+/// Bytes of the file of a run with so many output times, about; its solver's state left out.
+double bytes_of(const PulseMetadata& metadata, std::size_t times);
 
 /// Writes `path` whole or not at all; an old file stays as it was when this fails. Equal arguments make equal files,
 /// byte by byte: no date, no host. Profiles must have as many cells as `x_edges` (fields that are not asked for may be

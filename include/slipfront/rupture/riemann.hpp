@@ -23,8 +23,9 @@ struct RiemannSolution {
 };
 
 /// Solves for any left and right states, empty ones included (psi = 0: no dislocations; its phi is ignored).
-/// \throws InputError for a psi that is negative or not finite, or a phi that is not finite. \throws NumericsError if
-/// the states are so far apart that no double holds the star state.
+/// \throws InputError unless 0 <= psi <= 300 (stresses of up to 2e130, whose squares a double holds) and |phi| <= 18
+/// (where U = tanh(phi) differs from 1). Relative error of the star state: 1e-8 at |phi| = 18 on both sides, where the
+/// momentum of two trains that collide cancels; 1e-12 below |phi| = 5.
 RiemannSolution solve_riemann(const State& left, const State& right);
 
 /// x/t of the left and right edge of what moves: of the outermost waves, or of the last dislocation where a side is

@@ -31,6 +31,7 @@ struct Initial {
   double stress_right = 0;  ///< 0 is the empty interface
   double width = 1;         ///< of tanh, > 0: right + (left - right)(1 - tanh(x / width))/2
   std::string formula;      ///< of x
+  bool hold = false;        ///< a static load keeps at rest what is not in equilibrium
   std::string file;         ///< CSV or NetCDF with columns / variables x and stress, relative to the scenario file
 };
 
@@ -39,11 +40,17 @@ struct Domain {
   std::optional<double> left, right;
 };
 
+/// What an end of the domain does to a pulse where the stress reaches it: the train goes on beyond, nothing passes, or
+/// dislocations leave and none comes in.
+enum class PulseEnd { continued, fixed, free };
+
 /// [pulse]
 struct PulseOptions {
   int cells = 400;          ///< >= 4
   double tolerance = 1e-6;  ///< of the adaptive time steps, where the source is stiff
   double threshold = 1e-3;  ///< of the observer who sees fronts, in units of the peak slip velocity
+  PulseEnd left = PulseEnd::continued, right = PulseEnd::continued;
+  bool periodic = false;  ///< a ring: `left` and `right` do not count
 };
 
 enum class ChainModel {
@@ -72,9 +79,9 @@ struct Output {
 };
 
 struct Scenario {
-  std::string title;
-  std::string file;  ///< as named by the user
-  std::string text;  ///< the TOML that was read; with overrides, the TOML they make of it. Reads back as this scenario
+  std::string title;  ///< with overrides, goes on to name them
+  std::string file;   ///< as named by the user
+  std::string text;   ///< the TOML that was read; with overrides, the TOML they make of it. Reads back as this scenario
   Initial initial;
   modulation::Friction friction;
   std::string forcing;  ///< formula F(x, t); empty: none
@@ -85,7 +92,8 @@ struct Scenario {
   ChainOptions chain;
   medium::Constants medium;  ///< [medium]
   Output output;
-  std::vector<std::string> warnings;  ///< what the user should know before the run, one line each
+  std::vector<std::string> overrides;  ///< "table.key=value", as given
+  std::vector<std::string> warnings;   ///< what the user should know before the run, one line each
 
   // Made from the above, checked, ready to call (not from two threads at once where they are formulas). They were tried
   // over the domain, but a call may still throw InputError where a formula fails or a table does not reach.
@@ -102,5 +110,9 @@ using TableReader = std::function<std::vector<std::pair<double, double>>(const s
 /// \throws InputError with file ("--set" for an override), line, key, value and what is allowed; what `tables` throws.
 Scenario read_scenario(std::string_view text, const std::string& file, const std::vector<std::string>& overrides,
                        const TableReader& tables);
+
+/// The command that runs the scenario, for a file's history, in words that a shell reads back: "slipfront pulse a.toml
+/// --set friction.coefficient=0.5". `scales` are those asked of compare.
+std::string command_line(const Scenario& scenario, std::string_view command, const std::vector<double>& scales = {});
 
 }  // namespace slipfront::scenario

@@ -11,7 +11,8 @@ namespace slipfront::setup {
 /// the end. \throws InputError where that takes a domain which is not given.
 pulse::Problem pulse_problem(const scenario::Scenario& scenario);
 
-/// When and where to look at it: t = 0, the output times, the end.
+/// When and where to look at it: t = 0, the output times, the end. \throws InputError if what is to be looked at would
+/// not fit into the memory (estimate.hpp).
 pulse::Schedule pulse_schedule(const scenario::Scenario& scenario, const pulse::Problem& problem);
 
 /// "viscous", "coulomb", "power"; "no" without friction.

@@ -5,7 +5,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from .dislocations import positions
-from .pulse_parts import title_of, window
+from .pulse_parts import finite, title_of, window
 from .style import label, styled
 
 SHOWN = 40  #: dislocations in the picture at the first time, about
@@ -16,7 +16,7 @@ class Scene:
 
     @styled
     def __init__(self, pulse):
-        self.pulse = pulse
+        pulse = self.pulse = finite(pulse)
         self.figure = Figure(figsize=(7.2, 4.2), dpi=100)
         FigureCanvasAgg(self.figure)
         self.panels = self.figure.subplots(3, 1, sharex=True, gridspec_kw={"height_ratios": (3, 3, 1)})
@@ -26,7 +26,8 @@ class Scene:
         self.scale = SHOWN / count if count > 0 else 1.0
         self.places = positions(pulse, self.scale)
         for axes, name in zip(self.panels, ("W", "Sigma")):
-            low, high = min(0.0, float(pulse[name].min())), float(pulse[name].max())
+            values = pulse[name].values[numpy.isfinite(pulse[name].values)]
+            low, high = min(0.0, values.min(initial=0.0)), values.max(initial=0.0)
             axes.set(ylabel=label(pulse[name]).replace(", ", ",\n"), ylim=(low, 1.08 * high if high > 0 else 1))
         self.panels[1].plot(pulse["x"], pulse["Sigma"][0], color="0.7", linestyle="-", linewidth=1)
         self.lines = [axes.plot(pulse["x"], pulse[name][0], color=colour, linestyle="-")[0]

@@ -3,7 +3,7 @@
 from matplotlib.figure import Figure
 
 from .pulse_parts import shades, title_of, window
-from .style import label, styled
+from .style import label, plain, styled
 
 #: Lines of the levels that are no chains; chains are shaded by their scale.
 LEVELS = {
@@ -27,7 +27,7 @@ def comparison(levels, fields=("W", "Sigma", "slip")) -> Figure:
     figure = Figure(figsize=(9.2, 5.8))
     panels = figure.subplots(2, 2)
     grows = levels.sizes["time"] > 4  # else there is no course of time to draw
-    names = [str(name) for name in levels["name"].values]
+    names = [plain(name) for name in levels["name"].values]
     chains = [name for name in names if name not in LEVELS]
     lines = dict(zip(chains, shades(len(chains))))
     for row, name in enumerate(names):

@@ -12,7 +12,7 @@ def positions(pulse, scale: float) -> numpy.ndarray:
     """
     bounds = pulse["x_bounds"].values
     edges = numpy.append(bounds[:, 0], bounds[-1, 1])
-    density = numpy.maximum(pulse["k"].transpose("time", "x").values, 0)
+    density = numpy.fmax(pulse["k"].transpose("time", "x").values, 0)  # a bad cell holds none
     held = numpy.cumsum(density * numpy.diff(edges), axis=1) * scale / (2 * numpy.pi)
     held = numpy.concatenate((numpy.zeros((len(held), 1)), held), axis=1)
     wanted = numpy.arange(0.5, held[0, -1])

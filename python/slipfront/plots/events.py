@@ -3,7 +3,7 @@
 import numpy
 from matplotlib.figure import Figure
 
-from .style import styled
+from .style import plain, styled
 
 #: Marks of the kinds of event in the shipped catalogue; any other gets the next.
 MARKS = "osD^vP*X"
@@ -43,7 +43,7 @@ def panel(axes, events, name, kinds, scale=1.0):
         if not chosen.any():
             continue
         x, y = events["rupture_velocity"].values[chosen], scale * events[name].values[chosen].astype(float)
-        label = kind.replace("_", " ") or "events"
+        label = plain(kind.replace("_", " ")) or "events"
         if events["stress"].size > MANY:
             axes.plot(x, y, linestyle="none", marker=".", markersize=2, markeredgewidth=0, color=f"C{i}", alpha=0.4, label=label, rasterized=True)
             continue
@@ -86,26 +86,28 @@ def events(events, line) -> Figure:
     Parameters
     ----------
     events : xarray.Dataset
-        Over one dimension: rupture_velocity (c), stress (mu A / pi), stress_pa (Pa), observed_slip_velocity (c A / pi; NaN where not known), kind, and
+        Over one dimension: rupture_velocity (c), stress (mu A / pi), stress_pa and stress_pa_bound (Pa), observed_slip_velocity (c A / pi; NaN where not known), kind, and
         intervals where there are any: what `slipfront.event` gives. A population, as the files of `slipfront event -o` have it, is drawn over the events.
     line : xarray.Dataset
         Of `slipfront.relations`, over the range to draw.
     """
     kinds = sorted(set(texts(events["kind"]))) if "kind" in events else [""]
-    shown = ["stress"] + [name for name in ("stress_pa", "observed_slip_velocity") if known(events, name)]
-    figure = Figure(figsize=((5.4, 8.6, 12.2)[len(shown) - 1], 3.9))
+    shown = ["stress"] + [name for name in ("stress_pa", "stress_pa_bound", "observed_slip_velocity") if known(events, name)]
+    figure = Figure(figsize=((5.4, 8.6, 12.2, 15.8)[len(shown) - 1], 3.9))
     panels = dict(zip(shown, figure.subplots(1, len(shown), squeeze=False)[0]))
     for name, axes in panels.items():
-        scale = 1e-6 if name == "stress_pa" else 1.0
+        scale = 1e-6 if name.startswith("stress_pa") else 1.0
         panel(axes, events, name, kinds, scale)
         decades(axes, events, name, scale)
         axes.set(xscale="log", xlabel="rupture velocity |V−|, c")
     panels["stress"].plot(line["rupture_velocity"], line["stress"], color="0.35", linestyle="-", label="closed form", zorder=3)
     panels["stress"].set(ylabel="initial stress Σ−, μA/π", title="Stress that the rupture velocity means")
-    if "stress_pa" in panels:
-        values = events["stress_pa"].values
-        panels["stress_pa"].set(yscale="log", ylabel="initial stress, MPa", title="The same with the contact ratio A")
-        contact_lines(panels["stress_pa"], line, numpy.nanmin(values), numpy.nanmax(values))
+    for name, label, title in (("stress_pa", "initial stress, MPa", "The same with the contact ratio A"),
+                               ("stress_pa_bound", "least initial stress, MPa", "Lower bound, if friction took nothing")):
+        if name in panels:
+            values = events[name].values
+            panels[name].set(yscale="log", ylabel=label, title=title)
+            contact_lines(panels[name], line, numpy.nanmin(values), numpy.nanmax(values))
     if "observed_slip_velocity" in panels:
         axes = panels["observed_slip_velocity"]
         axes.plot(line["rupture_velocity"], line["slip_velocity"], color="0.35", linestyle="-", label="closed form, no friction", zorder=3)

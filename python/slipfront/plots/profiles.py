@@ -3,7 +3,7 @@
 import numpy
 from matplotlib.figure import Figure
 
-from .pulse_parts import shades, title_of, window
+from .pulse_parts import finite, shades, title_of, window
 from .style import label, styled, unit
 
 
@@ -20,6 +20,7 @@ def profiles(pulse, fields=("W", "Sigma", "slip"), times: int = 5) -> Figure:
     times : int
         How many, spread evenly over the outputs, the first and the last among them.
     """
+    pulse = finite(pulse)
     fields = [name for name in fields if name in pulse]
     rows = numpy.unique(numpy.linspace(0, pulse.sizes["time"] - 1, times).round().astype(int))
     figure = Figure(figsize=(6.4, 0.7 + 1.9 * len(fields)))

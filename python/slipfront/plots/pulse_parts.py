@@ -3,6 +3,8 @@
 import numpy
 import matplotlib
 
+from .style import plain
+
 #: The fronts of a file, with the lines and names that they get.
 FRONTS = {
     "trailing_front": ("-", "trailing edge"),
@@ -14,7 +16,12 @@ FRONTS = {
 
 def title_of(dataset) -> str:
     """Title of the scenario that a Dataset holds, and which closure, where the scenario says so."""
-    return str(dataset.attrs.get("title", ""))
+    return plain(dataset.attrs.get("title", ""))
+
+
+def finite(dataset):
+    """The Dataset with NaN for what is infinite: no axis reaches so far."""
+    return dataset.map(lambda values: values.where(abs(values) < numpy.inf) if values.dtype.kind == "f" else values, keep_attrs=True)
 
 
 def fronts_of(dataset) -> list:

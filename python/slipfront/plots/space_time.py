@@ -4,12 +4,14 @@ import numpy
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from .pulse_parts import fronts_of, title_of, window
+from .pulse_parts import finite, fronts_of, title_of, window
 from .style import label, styled
 
 
 def colours(values) -> dict:
     """Colours of a map: white at zero where the field goes both ways, the style sheet's where it goes one."""
+    if numpy.isnan(values).all():
+        return {}
     highest = float(numpy.nanmax(numpy.abs(values)))
     return {"cmap": "PuOr_r", "vmin": -highest, "vmax": highest} if numpy.nanmin(values) < -0.05 * highest else {}
 
@@ -25,6 +27,7 @@ def space_time(pulse, fields=("W", "Sigma")) -> Figure:
     fields : sequence of str
         Variables over time and x; those that are not in it are left out.
     """
+    pulse = finite(pulse)
     fields = [name for name in fields if name in pulse]
     figure = Figure(figsize=(3.7 * len(fields), 4.2))
     panels = figure.subplots(1, len(fields), sharey=True, squeeze=False)[0]

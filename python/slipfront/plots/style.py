@@ -1,12 +1,14 @@
 """The look that all pictures share, and the labels of their axes."""
 
 import functools
+import io
 import pathlib
 
 import matplotlib
 from matplotlib.figure import Figure
 
-from .._beside import beside
+from .._files import write_bytes
+from .._slipfront import FileError, printable
 
 SHEET = pathlib.Path(__file__).resolve().parent.parent / "slipfront.mplstyle"
 
@@ -60,21 +62,31 @@ def styled(draw):
 def save(figure: Figure, path, **options) -> None:
     """Writes a picture; its format is the name's ending. The file is whole or not there.
 
-    Raises OSError where it cannot be written, ValueError for an ending that matplotlib does not write.
+    Raises FileError where it cannot be written, ValueError for an ending that matplotlib does not write.
     """
-    with matplotlib.rc_context(fname=SHEET), beside(path) as name:
-        figure.savefig(name, metadata={"Date": None} if name.suffix == ".svg" else None, **options)
+    kind, picture = pathlib.Path(path).suffix.lower().lstrip("."), io.BytesIO()
+    try:
+        with matplotlib.rc_context(fname=SHEET):
+            figure.savefig(picture, format=kind, metadata={"Date": None} if kind == "svg" else None, **options)
+    except (OSError, RuntimeError) as error:  # its fonts and encoders
+        raise FileError(f"{path}: cannot be drawn: {' '.join(str(error).split())}") from error
+    write_bytes(path, picture.getvalue())
+
+
+def plain(text) -> str:
+    """Text of a file or a user as it may stand in a picture: no control characters, and no mathematics between dollars."""
+    return printable(str(text).encode("utf-8", "replace")).replace("$", r"\$")
 
 
 def unit(variable) -> str:
     """The unit of a DataArray, as it is printed on an axis; empty for a pure number."""
-    text = variable.attrs.get("dimensional_unit", UNITS.get(variable.name, ""))
-    for plain, printed in ((" ", ""), ("mu", "μ"), ("nu", "ν"), ("pi", "π"), ("^2", "²")):
-        text = text.replace(plain, printed)
+    text = plain(variable.attrs.get("dimensional_unit", UNITS.get(variable.name, "")))
+    for written, printed in ((" ", ""), ("mu", "μ"), ("nu", "ν"), ("pi", "π"), ("^2", "²")):
+        text = text.replace(written, printed)
     return "" if text == "1" else text
 
 
 def label(variable, name: str = "") -> str:
     """Name (the quantity's own unless given) and unit of a DataArray."""
-    name = name or NAMES.get(variable.name) or variable.attrs.get("long_name") or str(variable.name).replace("_", " ")
+    name = name or NAMES.get(variable.name) or plain(variable.attrs.get("long_name") or str(variable.name).replace("_", " "))
     return f"{name}, {unit(variable)}" if unit(variable) else name

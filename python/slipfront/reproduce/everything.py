@@ -4,6 +4,7 @@ import numpy
 
 import slipfront
 
+from .._files import write_text
 from . import formulas, laws, numbers, outputs, pulses, report, statements, states, sweeps, widths
 from .runs import Runs
 
@@ -34,5 +35,5 @@ def reproduce(folder, threads, tell, seconds) -> dict:
         outputs.write_rows(folder / f"{name}.csv", rows)
     about = {"version": slipfront.__version__, "seconds": seconds(), "pulses": len(runs.done) + runs.swept}
     page = report.page(folder, pictures, tables, about)
-    (folder / "report.html").write_text(page, encoding="utf-8")
+    write_text(folder / "report.html", page)
     return tables

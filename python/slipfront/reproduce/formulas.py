@@ -4,7 +4,15 @@ import math
 
 import numpy
 
+from .. import medium
 from .numbers import relation
+
+
+def unit_of_force(paper) -> tuple:
+    """Traction of F = 1 in MPa, at the contact ratio that the paper finds for Parkfield without friction."""
+    contact_ratio = float(next(n["printed"] for n in paper["number"] if n["key"] == "parkfield_contact_ratio_0"))
+    modulus, nu = paper["inputs"]["shear_modulus_pa"], paper["inputs"]["poisson_ratio"]
+    return medium.printed_traction_unit(modulus, contact_ratio) / 1e6, medium.traction_unit(modulus, nu, contact_ratio) / 1e6
 
 
 def table(paper) -> list:
@@ -17,6 +25,7 @@ def table(paper) -> list:
     both = {
         "slip_of_one": (across, 2 * across),
         "slip_velocity": (velocity * per_length / (2 * math.pi), 2 * math.pi * velocity * per_length),
+        "unit_of_force": unit_of_force(paper),
         "trailing_edge": (-1.0, -relation("rupture_velocity", stress=stress)),
     }
     rows = []

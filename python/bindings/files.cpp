@@ -1,0 +1,62 @@
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <cstdint>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "bindings.hpp"
+#include "slipfront/machine.hpp"
+#include "slipfront/printable.hpp"
+#include "slipfront/record/dataset_file.hpp"
+#include "slipfront/record/text_file.hpp"
+
+namespace {
+
+using namespace slipfront;
+
+/// Name, dimensions, values, attributes. Values: an array of float64, int64 or int8, or a list of texts.
+using Variable = std::tuple<std::string, std::vector<std::string>, py::object, record::Attributes>;
+
+template <class T>
+std::vector<T> numbers(const py::object& values) {
+  const auto array = py::array_t<T, py::array::c_style>::ensure(values);
+  if (!array) throw py::error_already_set();
+  return {array.data(), array.data() + array.size()};
+}
+
+record::DatasetVariable variable_of(const Variable& given) {
+  const auto& [name, dimensions, values, attributes] = given;
+  record::DatasetVariable variable{name, dimensions, {}, attributes};
+  if (!py::isinstance<py::array>(values))
+    variable.values = values.cast<std::vector<std::string>>();
+  else if (py::isinstance<py::array_t<double>>(values))
+    variable.values = numbers<double>(values);
+  else if (py::isinstance<py::array_t<std::int64_t>>(values))
+    variable.values = numbers<std::int64_t>(values);
+  else
+    variable.values = numbers<std::int8_t>(values);
+  return variable;
+}
+
+void write_dataset(const std::string& path, std::vector<std::pair<std::string, std::size_t>> dimensions,
+                   const std::vector<Variable>& variables, const record::Attributes& attributes) {
+  record::Dataset dataset{std::move(dimensions), {}, attributes};
+  for (const Variable& variable : variables) dataset.variables.push_back(variable_of(variable));
+  const py::gil_scoped_release others_may_run;
+  record::write_dataset(path, dataset);
+}
+
+}  // namespace
+
+void bind_files(py::module_& m) {
+  m.def("printable", [](const std::string& text) { return printable(text); });
+  m.def("usable_memory", usable_memory);
+  m.def("sensible_threads", sensible_threads);
+  m.def("read_text", record::read_text);
+  m.def("write_file", record::write_text, py::call_guard<py::gil_scoped_release>());
+  m.def("write_dataset", write_dataset);
+  m.def("require_readable_netcdf", record::require_readable_netcdf, py::call_guard<py::gil_scoped_release>());
+}

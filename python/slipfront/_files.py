@@ -1,0 +1,80 @@
+"""Writing files: all of them by the code that writes the program's own, whole or not at all (src/record)."""
+
+import contextlib
+import numbers as kinds
+import os
+
+from . import _slipfront
+from ._need import need
+
+
+def write_bytes(path, content):
+    """Writes a file of these bytes. Raises FileError: path and reason."""
+    _slipfront.write_file(os.fsencode(path), content)
+
+
+def write_text(path, text):
+    """The same of a text, as UTF-8."""
+    write_bytes(path, text.encode("utf-8"))
+
+
+def _attribute(value):
+    if isinstance(value, str):
+        return value.encode("utf-8", "replace").decode()
+    if hasattr(value, "item"):
+        value = value.item()
+    return int(value) if isinstance(value, kinds.Integral) else float(value)
+
+
+def _values(array):
+    """What the compiled half takes: float64, int64 or int8, or a list of texts."""
+    if array.dtype.kind in "OUS":
+        return [str(text) for text in array.ravel().tolist()]
+    kind = "int8" if array.dtype.name == "int8" else {"f": "float64", "i": "int64", "u": "int64"}[array.dtype.kind]
+    return array.astype(kind).ravel()
+
+
+def write_dataset(data, path):
+    """Writes an xarray.Dataset as NetCDF, by the CF conventions as xarray has them. Raises FileError: path and reason."""
+    conventions = need("xarray.conventions")
+    variables, attributes = conventions.cf_encoder(*conventions.encode_dataset_coordinates(data))
+    sizes = {name: size for variable in variables.values() for name, size in zip(variable.dims, variable.shape)}
+    _slipfront.write_dataset(os.fsencode(path), list(sizes.items()),
+                             [(name, list(variable.dims), _values(variable.values), [(key, _attribute(value)) for key, value in variable.attrs.items()])
+                              for name, variable in variables.items()],
+                             [(name, _attribute(value)) for name, value in attributes.items()])
+
+
+def isolated(path, make):
+    """The bytes that make() gives, made in a fork of this process: for libraries that crash where memory ends. Raises FileError."""
+    reader, writer = os.pipe()
+    child = os.fork()
+    if child == 0:
+        try:
+            os.close(reader)
+            try:
+                said = b"d" + make()
+            except Exception as error:  # of any kind: the other libraries know none of ours
+                said = f"f{error or type(error).__name__}".encode("utf-8", "replace")
+            with os.fdopen(writer, "wb") as pipe:
+                pipe.write(said)
+        finally:
+            os._exit(0)
+    os.close(writer)
+    with os.fdopen(reader, "rb") as pipe:
+        said = pipe.read()
+    os.waitpid(child, 0)
+    if said[:1] != b"d":
+        raise _slipfront.FileError(f"{path}: cannot be written: {' '.join(said[1:].decode().split()) or 'the library that draws it gave up'}")
+    return said[1:]
+
+
+@contextlib.contextmanager
+def told_of(path):
+    """Errors of reading or writing `path` say its name: an OSError without it gets it."""
+    try:
+        yield
+    except _slipfront.FileError:
+        raise
+    except OSError as error:
+        raise _slipfront.FileError(f"{error.filename or path}: {error.strerror or error}") from error

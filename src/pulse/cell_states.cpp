@@ -1,0 +1,42 @@
+#include "cell_states.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "kernels.hpp"
+#include "slipfront/error.hpp"
+#include "slipfront/modulation/per_dislocation.hpp"
+
+namespace slipfront::pulse {
+
+void CellStates::resize(std::size_t size) {
+  for (auto* array : {&spacing, &momentum, &s, &phi, &psi, &sound_speed, &EK, &velocity, &good_})
+    array->assign(size, 0);
+}
+
+void CellStates::resolve(const std::vector<Stretch>& stretches, double time) {
+  for (const Stretch& r : stretches) {
+    const std::size_t b = r.begin;
+    resolve_all({r.end - b, &spacing[b], &momentum[b], &s[b], &phi[b], &psi[b], &sound_speed[b], &EK[b], &velocity[b],
+                 &good_[b]});
+    for (std::size_t i = b; i < r.end; ++i) {  // those that the vector code has left
+      if (good_[i] != 0) continue;
+      try {
+        const double guess = std::atanh(std::fmin(std::fmax(s[i], 0.0), 1 - 1e-16));
+        const modulation::Resolved at = modulation::resolve({spacing[i], momentum[i]}, guess);
+        phi[i] = at.state.phi;
+        psi[i] = at.state.psi;
+        s[i] = std::tanh(at.state.psi);
+        sound_speed[i] = at.sound_speed;
+        EK[i] = at.EK;
+        velocity[i] = std::tanh(at.state.phi);
+      } catch (const NumericsError& error) {
+        throw NumericsError("t = " + std::to_string(time) + ", cell " + std::to_string(i) + " of " +
+                            std::to_string(s.size()) + ": " + error.what());
+      }
+    }
+  }
+}
+
+}  // namespace slipfront::pulse

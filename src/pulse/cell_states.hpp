@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "stretch.hpp"
+
+namespace slipfront::pulse {
+
+/// The trains at the cell centres: spacing and momentum of one dislocation, and the state that they mean. Where the
+/// contact ratio a(x) is not 1, all are in the local units a x, a t.
+struct CellStates {
+  std::vector<double> spacing, momentum;
+  std::vector<double> s;  ///< tanh(psi); on entry to `resolve`, where its solves start
+  std::vector<double> phi, psi, sound_speed, EK, velocity;
+
+  void resize(std::size_t size);
+  /// Finds everything from spacing and momentum; gaps are left as they are. \throws NumericsError with time and cell
+  /// where no state exists.
+  void resolve(const std::vector<Stretch>& stretches, double time);
+
+ private:
+  std::vector<double> good_;
+};
+
+}  // namespace slipfront::pulse

@@ -1,0 +1,103 @@
+// What happens at the ends of the domain: dislocations come in, leave, or stop at a wall.
+
+#include <cmath>
+
+#include "slipfront/pulse/solver.hpp"
+
+namespace slipfront::pulse {
+namespace {
+
+constexpr std::size_t fewest = 8;     ///< cells that are kept, wherever they are
+constexpr std::size_t reach = 3;      ///< cells beyond a continued end, for the faces inside
+constexpr int most_at_once = 100000;  ///< cells that come in after one step
+
+}  // namespace
+
+double Solver::right_edge() const {
+  double x = cells_.y[2 * size()];
+  for (std::size_t i = 0; i < size(); ++i) x += cells_.y[2 * i];
+  return x;
+}
+
+/// A train that goes on beyond the end is as it is at the end: a cell like the last one comes in.
+void Solver::fill_end(bool left) {
+  const std::size_t n = size(), end = left ? 0 : n - 1;
+  const double charge = cells_.charge[end], width = cells_.y[2 * end], momentum = cells_.y[2 * end + 1],
+               s = cells_.s[end];
+  const auto at = [&](std::size_t i) { return static_cast<std::ptrdiff_t>(i); };
+  const std::size_t where = left ? 0 : n;
+  cells_.y.insert(cells_.y.begin() + at(2 * where), {width, momentum});
+  cells_.charge.insert(cells_.charge.begin() + at(where), charge);
+  cells_.s.insert(cells_.s.begin() + at(where), s);
+  if (!cells_.face_momentum.empty()) {  // around the face at an end there is half a cell
+    double& half = left ? cells_.face_momentum.front() : cells_.face_momentum.back();
+    const double outer = half;
+    half *= 2;
+    cells_.face_momentum.insert(left ? cells_.face_momentum.begin() : cells_.face_momentum.end(), outer);
+  }
+  (left ? cells_.entered_left : cells_.entered_right) += charge;
+  if (left) cells_.y[2 * size()] -= width;
+}
+
+/// What is beyond the end no longer counts.
+void Solver::drop_beyond(bool left) {
+  const std::size_t end = left ? 0 : size() - 1;
+  const double width = cells_.y[2 * end];
+  (left ? cells_.entered_left : cells_.entered_right) -= cells_.charge[end];
+  if (!cells_.face_momentum.empty()) {
+    const std::size_t next = left ? 1 : size() - 1;
+    const double around = cells_.charge[next] + cells_.charge[next - 1], inside = cells_.charge[left ? 1 : end - 1];
+    cells_.face_momentum[next] *= inside / around;
+    cells_.face_momentum.erase(left ? cells_.face_momentum.begin() : cells_.face_momentum.end() - 1);
+  }
+  drop_cell(end);
+  if (left) cells_.y[2 * size()] += width;
+}
+
+/// A free edge that comes back to a wall stops there.
+void Solver::stop_at_walls() {
+  double& x = cells_.y[2 * size()];
+  const double near = 1e-6;  // of a cell, as where a gap closes
+  if (problem_.left_end == End::fixed && x < problem_.left + near * cells_.y[0]) {
+    cells_.y[0] -= problem_.left - x;
+    x = problem_.left;
+  }
+  if (problem_.right_end != End::fixed) return;
+  double& last = cells_.y[2 * size() - 2];
+  const double beyond = right_edge() - problem_.right;
+  if (beyond > -near * last) last -= beyond;
+}
+
+void Solver::adjust_ends() {
+  if (problem_.periodic) return;
+  bool changed = false;
+  for (const bool left : {true, false}) {
+    const End end = left ? problem_.left_end : problem_.right_end;
+    if (end == End::fixed) continue;
+    const bool continued = end == End::continued;
+    if (continued && (left ? left_free_ : right_free_)) continue;  // the stress ends inside the domain
+    const double edge = left ? cells_.y[2 * size()] : right_edge();
+    // A train at rest moves by rounding: a sliver is no place that has to be filled.
+    const double sliver = continued ? 1e-3 * cells_.y[left ? 0 : 2 * size() - 2] : 0;
+    double inside = (left ? edge - problem_.left : problem_.right - edge) - sliver;
+    for (int i = 0; continued && inside > 0 && i < most_at_once; ++i) {
+      fill_end(left);
+      changed = true;
+      inside -= cells_.y[left ? 0 : 2 * size() - 2];
+    }
+    const std::size_t margin = continued ? reach : 0;
+    while (size() > fewest + margin) {
+      double first = 0;  // width of the cells that must lie beyond
+      for (std::size_t i = 0; i <= margin; ++i) first += cells_.y[2 * (left ? i : size() - 1 - i)];
+      const bool alone = cells_.charge[left ? 1 : size() - 2] == 0;
+      if (inside + first > 0 || alone) break;
+      inside += cells_.y[2 * (left ? 0 : size() - 1)];
+      drop_beyond(left);
+      changed = true;
+    }
+  }
+  stop_at_walls();
+  if (changed) lay_equations();
+}
+
+}  // namespace slipfront::pulse

@@ -1,0 +1,92 @@
+// Slip from the way that dislocations have come.
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "interval.hpp"
+#include "layout.hpp"
+#include "slipfront/pulse/solver.hpp"
+
+namespace slipfront::pulse {
+namespace {
+
+using std::numbers::pi;
+
+/// Lagrange through four points, but no farther than the middle two where these are not smooth on the grid.
+double cubic(const double* x, const double* f, double at) {
+  double sum = 0;
+  for (std::size_t j = 0; j < 4; ++j) {
+    double weight = 1;
+    for (std::size_t m = 0; m < 4; ++m)
+      if (m != j) weight *= (at - x[m]) / (x[j] - x[m]);
+    sum += weight * f[j];
+  }
+  const auto slope = [&](std::size_t j) { return (f[j + 1] - f[j]) / (x[j + 1] - x[j]); };
+  const double bend = slope(1) - slope(0), next_bend = slope(2) - slope(1);
+  if (std::fabs(next_bend - bend) < 0.7 * (std::fabs(bend) + std::fabs(next_bend))) return sum;
+  const double line = f[1] + (f[2] - f[1]) * (at - x[1]) / (x[2] - x[1]);
+  return at > x[1] && at < x[2] ? line : std::clamp(sum, std::min(f[0], f[3]), std::max(f[0], f[3]));
+}
+
+}  // namespace
+
+double Solver::first_place(double charge) const {
+  const std::vector<double>&charges = first_.charge_faces, &faces = first_.faces;
+  const double rounding = 1e-12 * (charges.back() - charges.front());
+  if (charge < charges.front() - rounding)  // came in through an end: the train beyond was as at the end
+    return faces.front() + (charge - charges.front()) * 2 * pi / problem_.stress(faces.front());
+  if (charge > charges.back() + rounding)
+    return faces.back() + (charge - charges.back()) * 2 * pi / problem_.stress(faces.back());
+  const std::size_t i = interval(charges, charge);
+  return charge - charges[i] < charges[i + 1] - charge ? faces[i] : faces[i + 1];
+}
+
+/// Of the initial stress, over 2 pi. Whole cells are known; the parts at either end are integrated.
+double Solver::charge_between(double from, double to) const {
+  if (from > to) return -charge_between(to, from);
+  const std::vector<double>& faces = first_.faces;
+  const auto beyond = [&](double a, double b, double end) {
+    const bool free = end == faces.front() ? left_free_ : right_free_;
+    return free || !(b > a) ? 0 : (b - a) * problem_.stress(end) / (2 * pi);
+  };
+  double sum =
+      beyond(from, std::min(to, faces.front()), faces.front()) + beyond(std::max(from, faces.back()), to, faces.back());
+  from = std::clamp(from, faces.front(), faces.back());
+  to = std::clamp(to, faces.front(), faces.back());
+  const std::size_t first = interval(faces, from), last = interval(faces, to);
+  const auto part = [&](double a, double b) { return integral(problem_.stress, a, b) / (2 * pi); };
+  if (first == last) return sum + part(from, to);
+  sum += part(from, faces[first + 1]) + part(faces[last], to);
+  for (std::size_t i = first + 1; i < last; ++i) sum += first_.charge_faces[i + 1] - first_.charge_faces[i];
+  return sum;
+}
+
+double Solver::slip_at(const View& v, double place) const {
+  const double x = v.period > 0 ? place - std::floor((place - v.faces.front()) / v.period) * v.period : place;
+  const std::size_t n = v.states.size();
+  const auto way = [&](std::size_t f) { return v.faces[f] - first_place(v.charge_faces[f]); };
+  double start = 0;
+  if (x <= v.faces.front() || x >= v.faces.back()) {
+    start = first_place(x <= v.faces.front() ? v.charge_faces.front() : v.charge_faces.back());
+  } else {
+    const std::size_t cell = interval(v.faces, x);
+    if (cells_.charge[cell] == 0) {  // nothing lies between the edges of a gap
+      start = first_place(v.charge_faces[cell]);
+    } else {
+      const bool inside = cell > 0 && cell + 1 < n && cells_.charge[cell - 1] > 0 && cells_.charge[cell + 1] > 0;
+      double moved = 0;
+      if (inside) {
+        const double ways[4] = {way(cell - 1), way(cell), way(cell + 1), way(cell + 2)};
+        moved = cubic(&v.faces[cell - 1], ways, x);
+      } else {
+        const double s = (x - v.faces[cell]) / (v.faces[cell + 1] - v.faces[cell]);
+        moved = std::lerp(way(cell), way(cell + 1), s);
+      }
+      start = x - moved;
+    }
+  }
+  return 2 * pi * charge_between(start, x);
+}
+
+}  // namespace slipfront::pulse

@@ -1,0 +1,151 @@
+#include "staggered.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "slipfront/error.hpp"
+#include "slipfront/modulation/per_dislocation.hpp"
+
+namespace slipfront::pulse {
+namespace {
+
+using std::numbers::pi;
+
+[[noreturn]] void give_up(double t, std::size_t cell) {
+  throw NumericsError("t = " + std::to_string(t) + ", cell " + std::to_string(cell) + ": squeezed to nothing");
+}
+
+}  // namespace
+
+Staggered::Staggered(Setup setup)
+    : setup_(std::move(setup)),
+      power_law_rate_(setup_.friction),
+      stretches_(stretches_of(setup_.charge, setup_.left, setup_.right)) {
+  const std::size_t n = setup_.charge.size();
+  cells_.resize(n);
+  for (auto* array : {&width_, &pressure_, &mass_, &balance_, &a_}) array->assign(n, 0);
+  place_.assign(n + 1, 0);
+}
+
+std::vector<double> Staggered::face_momenta(const std::vector<double>& cell_momenta) const {
+  std::vector<double> momenta(faces());
+  for (std::size_t f = 0; f < faces(); ++f) {
+    const double left = f > 0 ? cell_momenta[f - 1] : 0, right = f + 1 < faces() ? cell_momenta[f] : 0;
+    momenta[f] = (left + right) / 2;
+  }
+  if (setup_.left == Edge::wall) momenta.front() = 0;
+  if (setup_.right == Edge::wall) momenta.back() = 0;
+  return momenta;
+}
+
+/// Means over the cells of the cubic through four faces, and of the line through two in the last cells of a stretch.
+std::vector<double> Staggered::cell_momenta(const std::vector<double>& face_momenta) const {
+  std::vector<double> momenta(setup_.charge.size());
+  const auto of_one = [&](std::size_t f) { return face_momenta[f] / charge_around(f); };
+  for (const Stretch& stretch : stretches_)
+    for (std::size_t i = stretch.begin; i < stretch.end; ++i) {
+      const double beside = of_one(i) + of_one(i + 1);
+      const bool inside = i > stretch.begin && i + 1 < stretch.end;
+      const double mean = inside ? (13 * beside - of_one(i - 1) - of_one(i + 2)) / 24 : beside / 2;
+      momenta[i] = setup_.charge[i] * mean;
+    }
+  return momenta;
+}
+
+double Staggered::beside(const std::vector<double>& values, std::size_t face) const {
+  const bool left = charge_left(face) > 0, right = charge_right(face) > 0;
+  if (left && right) return (values[face - 1] + values[face]) / 2;
+  return left ? values[face - 1] : values[face];
+}
+
+void Staggered::find_cells(double t, const double* z) {
+  const std::size_t n = setup_.charge.size();
+  place_[0] = z[0];
+  for (std::size_t i = 0; i < n; ++i) {
+    width_[i] = z[2 * i + 2];
+    place_[i + 1] = place_[i] + width_[i];
+    if (!(width_[i] > 0 || setup_.charge[i] == 0)) give_up(t, i);
+    const double q = setup_.charge[i];
+    if (q == 0) continue;
+    const double a = a_[i] = setup_.contact ? setup_.contact((place_[i] + place_[i + 1]) / 2) : 1;
+    cells_.spacing[i] = a * width_[i] / q;
+    cells_.momentum[i] = (z[2 * i + 1] / charge_around(i) + z[2 * i + 3] / charge_around(i + 1)) / (2 * a);
+  }
+  cells_.resolve(stretches_, t);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (setup_.charge[i] == 0) continue;
+    // EK and l = 2 K / (cosh phi cosh psi) are known.
+    mass_[i] = 2 * cells_.EK[i] / (cells_.spacing[i] * std::cosh(cells_.phi[i]));
+    // Trains that run into each other are stopped by the pressure of the two-fan solution between them, as everywhere
+    // else; where they part, or move alike, nothing is added.
+    const double per_mass = 1 / (8 * a_[i] * mass_[i]);
+    const double closing = std::asinh(z[2 * i + 1] / charge_around(i) * per_mass) -
+                           std::asinh(z[2 * i + 3] / charge_around(i + 1) * per_mass);
+    const double rest = modulation::pressure(cells_.psi[i]);
+    pressure_[i] = closing > 0 ? modulation::pressure(cells_.psi[i] + closing / 2) : rest;
+    if (setup_.contact)  // dp = k dg
+      balance_[i] =
+          4 / pi * mass_[i] * a_[i] + a_[i] * a_[i] * (pressure_[i] - rest) * width_[i] / (2 * pi * setup_.charge[i]);
+  }
+}
+
+/// Of pressure and contact on the dislocations around a face; the train beyond an end pushes back.
+double Staggered::force_on(std::size_t f) const {
+  const bool left = charge_left(f) > 0, right = charge_right(f) > 0;
+  if (edge_at(f) == Edge::continued) return 0;
+  if (!setup_.contact) return (left ? pressure_[f - 1] : 0) - (right ? pressure_[f] : 0);
+  const double edge = 4 / pi * setup_.contact(place_[f]);
+  const double rise = (right ? balance_[f] : edge) - (left ? balance_[f - 1] : edge);
+  const double run = ((left ? width_[f - 1] : 0) + (right ? width_[f] : 0)) / 2;
+  return -2 * pi * rise / run * charge_around(f);
+}
+
+/// What lies beyond a face that is an end; free for all others, which need not ask. A train that has left a wall ends
+/// in a free edge.
+Edge Staggered::edge_at(std::size_t f) const {
+  if (f > 0 && f + 1 < faces()) return Edge::free;
+  const Edge end = f == 0 ? setup_.left : setup_.right;
+  if (end != Edge::wall) return end;
+  const double wall = f == 0 ? setup_.left_wall : setup_.right_wall, width = f == 0 ? width_.front() : width_.back();
+  return edge_at_wall(place_[f], wall, width);
+}
+
+double Staggered::loss_rate(std::size_t f, double phi) const {
+  const modulation::Friction& friction = setup_.friction;
+  if (friction.law == modulation::FrictionLaw::viscous)
+    return friction.closure == modulation::Closure::consistent
+               ? friction.coefficient
+               : friction.coefficient * pi * pi / (4 * beside(cells_.EK, f));
+  const double rate = power_law_rate_({phi, beside(cells_.psi, f)});
+  // <|w|^n sigma> over P, w in units of a
+  return setup_.contact ? rate * std::pow(setup_.contact(place_[f]), friction.exponent - 1) : rate;
+}
+
+void Staggered::operator()(double t, const double* z, double* dz) {
+  find_cells(t, z);
+  double before = 0, dissipation = 0, supply = 0;
+  for (std::size_t f = 0; f < faces(); ++f) {
+    const double q = charge_around(f), momentum = z[2 * f + 1];
+    const bool edge = charge_left(f) == 0 || charge_right(f) == 0;
+    const Edge end = edge_at(f);
+    const double a = setup_.contact ? setup_.contact(place_[f]) : 1;
+    const double mass = edge && end == Edge::free ? 1 : beside(mass_, f);
+    const double phi = std::asinh(momentum / (8 * q * a * mass)), U = std::tanh(phi);
+    const double loss = loss_rate(f, phi) * momentum;
+    const double push = setup_.forcing ? 2 * pi * q * setup_.forcing(place_[f], t) : 0;
+    const double force = setup_.contact ? force_on(f) / std::cosh(phi) : force_on(f);
+    dz[2 * f] = U - before;
+    dz[2 * f + 1] = force + push - loss;
+    if (end == Edge::wall)  // which holds what presses against it
+      dz[2 * f + 1] = f == 0 ? std::fmax(dz[2 * f + 1], 0) : std::fmin(dz[2 * f + 1], 0);
+    dissipation += U * loss;
+    supply += U * push;
+    before = U;
+  }
+  dz[2 * faces()] = dissipation;
+  dz[2 * faces() + 1] = supply;
+}
+
+}  // namespace slipfront::pulse

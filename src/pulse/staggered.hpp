@@ -1,0 +1,67 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "cell_states.hpp"
+#include "slipfront/modulation/friction.hpp"
+
+namespace slipfront::pulse {
+
+/// The equations in space where friction damps a wave before it has crossed a cell: widths live in the cells, momenta
+/// at the faces, so that the force on a face is the difference of the pressures beside it and nothing has to be
+/// reconstructed,
+///     X_t = [U] over the cell's faces,   Y_t = -[p] over the face's cells + q_f (2 pi F - loss).
+/// Second order. A face carries the flux of Darcy, M = -p_q / C, where the momentum has relaxed, and its own momentum
+/// where it has not: both limits hold for any size of cell. With a contact ratio a(x) the force is
+/// -2 pi g_x / cosh(phi), g = (4 / pi) a cosh(psi) E, which vanishes exactly for trains in equilibrium.
+class Staggered {
+ public:
+  struct Setup {
+    std::vector<double> charge;                            ///< dislocations in each cell, 0 in a gap
+    Edge left = Edge::continued, right = Edge::continued;  ///< no ring
+    double left_wall = 0, right_wall = 0;                  ///< x, where the edges are walls
+    modulation::Friction friction;
+    std::function<double(double, double)> forcing;  ///< null: none
+    std::function<double(double)> contact;          ///< a(x); null: 1
+  };
+  explicit Staggered(Setup setup);
+
+  /// Two entries a face: the width of the cell to its left (of the first face: its x) and the momentum Y around it,
+  /// from the middle of one cell to that of the next. Then energy dissipated and energy supplied.
+  std::size_t size() const { return 2 * faces() + sums; }
+  std::size_t faces() const { return setup_.charge.size() + 1; }
+  static constexpr std::size_t sums = 2;
+  /// Entries to either side that a rate depends on, widths taken as places.
+  static constexpr std::size_t reach = 3;
+
+  void operator()(double t, const double* z, double* dz);
+  /// tanh(psi) of the cells: where the next solves start, and what the last found.
+  void start_from(const std::vector<double>& s) { cells_.s = s; }
+  const std::vector<double>& s() const { return cells_.s; }
+
+  /// Momenta at the faces from those in the cells, and back.
+  std::vector<double> face_momenta(const std::vector<double>& cell_momenta) const;
+  std::vector<double> cell_momenta(const std::vector<double>& face_momenta) const;
+  /// Dislocations around a face.
+  double charge_around(std::size_t face) const { return (charge_left(face) + charge_right(face)) / 2; }
+
+ private:
+  double charge_left(std::size_t face) const { return face > 0 ? setup_.charge[face - 1] : 0; }
+  double charge_right(std::size_t face) const { return face < setup_.charge.size() ? setup_.charge[face] : 0; }
+  void find_cells(double t, const double* z);
+  double force_on(std::size_t face) const;
+  Edge edge_at(std::size_t face) const;
+  double loss_rate(std::size_t face, double phi) const;
+  /// Mean over the cells beside a face that hold dislocations.
+  double beside(const std::vector<double>& values, std::size_t face) const;
+
+  Setup setup_;
+  modulation::PowerLawRate power_law_rate_;
+  std::vector<Stretch> stretches_;
+  CellStates cells_;
+  std::vector<double> place_, width_, pressure_, mass_, balance_,
+      a_;  ///< mass_: cosh(psi) E, an eighth of M / sinh(phi)
+};
+
+}  // namespace slipfront::pulse

@@ -1,0 +1,54 @@
+#include "slipfront/record/unfinished.hpp"
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "../digits.hpp"
+#include "slipfront/error.hpp"
+#include "whole_file.hpp"
+
+namespace slipfront::record {
+
+namespace fs = std::filesystem;
+
+Output::Output(std::string path, const std::string& resumed_from) : path_(std::move(path)) {
+  if (path_.empty()) return;
+  require_replaceable(path_);
+  std::error_code none;
+  if (!fs::exists(path_, none) || fs::equivalent(path_, resumed_from, none)) return;
+  fs::path beside(path_);
+  beside.replace_extension(".unfinished.nc");
+  unfinished_ = beside.string();
+  require_replaceable(unfinished_);
+}
+
+std::string Output::how_to_resume() const {
+  return "--resume " + unfinished() + (unfinished_.empty() ? "" : " -o " + path_);
+}
+
+void Output::clear() const {
+  if (!unfinished_.empty()) unlink(unfinished_.c_str());
+}
+
+void require_netcdf_name(const std::string& path, const std::string& option) {
+  if (fs::path(path).extension() == ".nc") return;
+  throw InputError({.file = "command line",
+                    .key = option,
+                    .value = path,
+                    .problem = path.empty() ? "no name of a file" : "unsupported file type",
+                    .allowed = "a name that ends in .nc"});
+}
+
+void require_disk_space(const std::string& path, double bytes) {
+  std::error_code unknown;
+  fs::path folder = fs::path(path).parent_path();
+  const fs::space_info space = fs::space(folder.empty() ? "." : folder, unknown);
+  if (unknown || static_cast<double>(space.available) >= bytes) return;
+  throw FileError(path + ": the file needs " + digits(bytes / 1e9, 3) + " GB, the disk has " +
+                  digits(static_cast<double>(space.available) / 1e9, 3) + " GB free");
+}
+
+}  // namespace slipfront::record

@@ -1,0 +1,203 @@
+"""What goes wrong around a run: names of outputs, leftovers, signals, text that a terminal would obey, odd inputs."""
+
+import fcntl
+import os
+import signal
+import subprocess
+import time
+import unittest
+
+from support import CommandLine, PROGRAM, SOURCE, run
+
+STEP = os.path.join(SOURCE, "cases/step.toml")
+SMALL = ["--set", "pulse.cells=16", "--set", "chain.scale=20", "--set", "time.end=0.5"]
+
+
+def content(path):
+    with open(path, "rb") as file:
+        return file.read()
+
+
+class Outputs(CommandLine):
+    def test_names_that_are_none(self):
+        events = os.path.join(SOURCE, "cases/parkfield-2004.toml")
+        for command in (["pulse", STEP], ["chain", STEP], ["compare", STEP], ["event", events]):
+            self.refused(2, *command, "-o", "", says=["no name of a file"])
+            self.refused(2, *command, "-o", "x.txt", says=["x.txt"])
+        self.refused(2, "pulse", STEP, "-o", "x.csv", says=["unsupported file type", ".nc"])
+
+    def test_what_stdout_was_redirected_to_is_not_replaced(self):
+        folder = os.path.dirname(self.file("x", ""))
+        where = os.path.join(folder, "said.nc")
+        for name in ("/dev/stdout", "/proc/self/fd/1", "/dev/fd/1"):
+            link = os.path.join(folder, "link.nc")
+            os.symlink(name, link)
+            with open(where, "w", encoding="ascii") as out:
+                done = subprocess.run([PROGRAM, "pulse", STEP, *SMALL, "-o", link], stdout=out, stderr=subprocess.PIPE, text=True)
+            os.unlink(link)
+            self.assertEqual(done.returncode, 3, done.stderr)
+            self.assertIn("open file", done.stderr)
+            self.assertEqual((sorted(os.listdir(folder)), content(where)), (["said.nc", "x"], b""))
+
+    def test_a_finished_result_outlives_a_run_that_is_cut_short(self):
+        case = self.slow_case()
+        folder = os.path.dirname(case)
+        out, unfinished = os.path.join(folder, "out.nc"), os.path.join(folder, "out.unfinished.nc")
+        self.ok("pulse", STEP, *SMALL, "-o", out)
+        old = content(out)
+        process = subprocess.Popen([PROGRAM, "pulse", case, "--set", "pulse.cells=2000", "-o", out], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        self.wait_for(unfinished, process)
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130, errors)
+        self.assertIn(f"--resume {unfinished} -o {out}", errors)
+        self.assertEqual(content(out), old)
+        self.ok("pulse", case, "--set", "pulse.cells=2000", "--resume", unfinished, "-o", out)
+        self.assertNotEqual(content(out), old)
+        self.assertFalse(os.path.exists(unfinished))
+
+    def test_help_to_a_full_device(self):
+        for arguments in (["--help"], ["pulse", "--help"], ["--version"], ["plot", "--help"]):
+            with open("/dev/full", "w", encoding="ascii") as full:
+                done = subprocess.run([PROGRAM, *arguments], stdout=full, stderr=subprocess.PIPE, text=True)
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (3, 1), (arguments, done.stderr))
+
+    def test_leftovers_of_killed_runs_are_removed(self):
+        folder = os.path.dirname(self.file("mine.nc.part", ""))
+        out = os.path.join(folder, "out.nc")
+        for name in ("out.nc.part17-0", "out.nc.part99999-12", "out.nc.part18-0"):
+            with open(os.path.join(folder, name), "w", encoding="ascii") as left:
+                left.write("half")
+        with open(os.path.join(folder, "out.nc.part18-0"), "a", encoding="ascii") as living:
+            fcntl.flock(living, fcntl.LOCK_EX)
+            self.ok("pulse", STEP, *SMALL, "-o", out)
+        self.assertEqual(sorted(os.listdir(folder)), ["mine.nc.part", "out.nc", "out.nc.part18-0"])
+
+
+class Signals(CommandLine):
+    def ended_by(self, number, arguments, before, environment=None):
+        """What a run says that gets a signal some seconds after its start; it must end within two more."""
+        process = subprocess.Popen([PROGRAM, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment)
+        before(process)
+        process.send_signal(number)
+        begun = time.monotonic()
+        _, errors = process.communicate(timeout=60)
+        self.assertLess(time.monotonic() - begun, 2 * float(os.environ.get("SLIPFRONT_SLOWNESS", "3")), errors)
+        self.assertEqual((process.returncode, errors.count("\n")), (130, 1), errors)
+        return errors
+
+    def test_hang_up_is_like_ctrl_c(self):
+        case = self.slow_case()
+        out = os.path.join(os.path.dirname(case), "out.nc")
+        for number in (signal.SIGHUP, signal.SIGTERM):
+            errors = self.ended_by(number, ["pulse", case, "--set", "pulse.cells=2000", "-o", out], lambda process: self.wait_for(out, process))
+            self.assertIn("--resume", errors)
+            os.remove(out)
+
+    def test_while_a_large_chain_is_set_up(self):
+        errors = self.ended_by(signal.SIGINT, ["chain", STEP, "--set", "chain.scale=1e6"], lambda _: time.sleep(0.5))
+        self.assertIn("interrupted", errors)
+
+    def test_one_event_of_many_samples(self):
+        events = self.file("e.csv", "name,rupture_velocity,slip_velocity\na,3 +- 0.1 km/s,0.5 m/s\n")
+        out = os.path.join(os.path.dirname(events), "out.nc")
+        for where in (["-o", out], []):
+            self.ended_by(signal.SIGINT, ["event", events, "--samples", "9000000", *where], lambda _: time.sleep(0.7))
+
+    def test_python_commands(self):
+        folder = os.path.dirname(self.file("x", ""))
+        self.ended_by(signal.SIGTERM, ["reproduce", "-o", os.path.join(folder, "r")], lambda _: time.sleep(1.5))
+        self.ok("pulse", STEP, *SMALL, "-o", os.path.join(folder, "p.nc"))
+
+
+class Text(CommandLine):
+    HOSTILE = "a\\u001b[31mred\\u009b2J\\u202edlrow\\u0007"
+
+    def assert_harmless(self, text):
+        for character in "\x1b\x9b\u202e\x07":
+            self.assertNotIn(character, text)
+
+    def test_titles(self):
+        case = self.file("t.toml", f'title = "{self.HOSTILE}"\n[initial]\nstress_left = 0.8\nstress_right = 0\n[pulse]\ncells = 16\n[chain]\nscale = 20\n')
+        for arguments in (["pulse", case, "--check"], ["pulse", case], ["chain", case, "--check"], ["compare", case, "--check"]):
+            out = self.ok(*arguments)
+            self.assertIn("red", out)
+            self.assert_harmless(out)
+
+    def test_names_of_events_and_files(self):
+        events = self.file("e\x1b[2J.csv", "name,rupture_velocity\nred\x1b[31m\u202e,3 km/s\nbad\x1b]0;x\x07,-3 km/s\n")
+        done = run("event", events)
+        self.assert_harmless(done.stdout + done.stderr)
+        self.assertIn("red", done.stdout)
+        self.assert_harmless(run("event", events, "--csv").stdout)
+        self.assert_harmless(run("event", events, "--json").stdout)
+        self.assert_harmless(run("pulse", "/no\x1b[31m.toml").stderr)
+        self.assert_harmless(run("plot", "/no\x1b[31m.nc").stderr)
+
+    def test_spreadsheets_run_nothing(self):
+        events = self.file("e.csv", "name,note,rupture_velocity\n=1+cmd|x,@sum,3 km/s\n")
+        row = self.ok("event", events, "--csv").splitlines()[1]
+        self.assertTrue(row.startswith("\"'=1+cmd|x\""), row)
+        self.assertIn("\"'@sum\"", row)
+
+
+class Inputs(CommandLine):
+    def test_several_settings_behind_one_set(self):
+        together = self.pulse(STEP, "--set", "pulse.cells=16", "time.end=0.5")
+        self.assertEqual((together["cells"], together["time"]), (16, 0.5))
+        self.assertEqual(self.pulse("--set", "pulse.cells=16", "time.end=0.5", STEP)["cells"], 16)
+        self.refused(2, "pulse", STEP, STEP, says=["one too many"])
+
+    def test_a_result_is_no_scenario(self):
+        out = os.path.join(os.path.dirname(self.file("x", "")), "out.nc")
+        self.ok("pulse", STEP, *SMALL, "-o", out)
+        self.refused(2, "pulse", out, says=["a NetCDF file"])
+        self.refused(2, "event", out, says=["NetCDF"])
+
+    def test_tables_are_regular_files(self):
+        folder = os.path.dirname(self.file("x", ""))
+        os.mkfifo(os.path.join(folder, "pipe.csv"))
+        os.symlink("/dev/zero", os.path.join(folder, "zero.nc"))
+        for name in ("pipe.csv", "zero.nc"):
+            case = os.path.join(folder, "case.toml")
+            with open(case, "w", encoding="ascii") as file:
+                file.write(f"[initial]\nprofile = 'table'\nfile = '{name}'\n[domain]\nleft = -1\nright = 1\n")
+            self.refused(3, "pulse", case, says=["not a regular file"])
+
+    def test_damaged_tables_are_refused(self):
+        folder = os.path.dirname(self.file("case.toml", ""))
+        with open(os.path.join(folder, "case.toml"), "w", encoding="ascii") as file:
+            file.write("[initial]\nprofile = 'table'\nfile = 'stress.nc'\n[domain]\nleft = -1\nright = 1\n[pulse]\ncells = 16\n[time]\nend = 0.1\n")
+        whole = content(os.path.join(SOURCE, "tests/data/stress.nc"))
+        step = int(os.environ.get("SLIPFRONT_DAMAGE_STEP", "61"))  # 1: every byte
+        for at in range(0, len(whole), step):
+            with open(os.path.join(folder, "stress.nc"), "wb") as file:
+                file.write(whole[:at] + bytes([whole[at] ^ 0xff]) + whole[at + 1:])
+            done = run("pulse", os.path.join(folder, "case.toml"))
+            self.assertIn(done.returncode, (0, 2, 3), (at, done.stderr))
+            self.assertEqual(done.stderr.count("\n"), int(done.returncode != 0), (at, done.stderr))
+
+    def test_a_bad_medium_is_said_once(self):
+        for option, value in (("--poisson-ratio", "0.7"), ("--shear-modulus", "-3 GPa"), ("--p-wave-speed", "0 km/s")):
+            self.refused(2, "event", f"{option}={value}", says=[option, "out of range"])
+
+    def test_many_columns(self):
+        wide = self.file("wide.csv", ",".join(f"c{i}" for i in range(300000)) + "\n")
+        begun = time.monotonic()
+        self.refused(2, "event", wide, says=["columns"])
+        self.assertLess(time.monotonic() - begun, 10)
+
+    def test_sizes_are_known_before_the_work(self):
+        begun = time.monotonic()
+        for check in ([], ["--check"]):
+            self.refused(2, "pulse", STEP, "--set", "output.every=1e-12", *check, says=["output.every"])
+            done = subprocess.run(["prlimit", f"--as={4 << 30}", PROGRAM, "pulse", STEP, "--set", "output.every=1e-5", *check], capture_output=True, text=True)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertRegex(done.stderr, "output.every.* need .* GB of memory, this process may have 4.29 GB")
+        self.ok("pulse", STEP, "--set", "pulse.cells=5000000", "--check")
+        self.assertLess(time.monotonic() - begun, 20)
+        self.ok("relations", "--stress", "1:2:1000", "--csv", "--threads", "4096")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,117 @@
+"""The n-th call fails, n = 1, 2, ... until a run succeeds: the output is the old file or the new one, nothing else is left,
+and the run says one line with the contract's exit code. Usage: fail_each_call.py [--all] [COMMAND...]
+
+Without --all only allocations of 16 kB or more are failed; with it, every one (an hour). Environment: SLIPFRONT (the
+program), SLIPFRONT_SOURCE, FAILING_CALLS (the library of failing_calls.c)."""
+
+import concurrent.futures
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+PROGRAM, SOURCE, SHIM = os.environ["SLIPFRONT"], pathlib.Path(os.environ["SLIPFRONT_SOURCE"]), os.environ["FAILING_CALLS"]
+KINDS = ("open", "write", "fsync", "rename", "close", "malloc")
+SMALL = ["--set", "pulse.cells=16", "--set", "chain.scale=20", "--set", "time.end=0.5"]
+STEP = str(SOURCE / "cases/step.toml")
+EVENT = "name,rupture_velocity,slip_velocity\na,3 km/s,0.5 m/s\n"
+#: Command -> arguments without the output. "TABLE", "EVENTS" and "UNFINISHED" stand for files of the folder.
+JOBS = {
+    "pulse": ["pulse", STEP, *SMALL, "-o", "OUT"],
+    "table": ["pulse", "TABLE", *SMALL, "-o", "OUT"],
+    "resume": ["pulse", STEP, *SMALL, "--resume", "UNFINISHED", "-o", "OUT"],
+    "chain": ["chain", STEP, *SMALL, "-o", "OUT"],
+    "compare": ["compare", STEP, *SMALL, "--scale", "20", "-o", "OUT"],
+    "event": ["event", "EVENTS", "--samples", "20", "-o", "OUT"],
+    "relations": ["relations", "--stress", "1", "--csv"],
+}
+
+
+class Job:
+    """One command in a folder of its own."""
+
+    def __init__(self, command):
+        self.command, self.folder = command, pathlib.Path(tempfile.mkdtemp(prefix="slipfront-faults-"))
+        places = {"OUT": "out.nc", "TABLE": "table.toml", "EVENTS": "events.csv", "UNFINISHED": "unfinished.nc"}
+        self.arguments = [str(self.folder / places[word]) if word in places else word for word in JOBS[command]]
+        (self.folder / "events.csv").write_text(EVENT)
+        table = "[initial]\nprofile = 'table'\nfile = 'stress.nc'\n[domain]\nleft = -1\nright = 1\n"
+        (self.folder / "table.toml").write_text(table)
+        shutil.copy(SOURCE / "tests/data/stress.nc", self.folder / "stress.nc")
+        self.out = self.folder / "out.nc"
+        self.run({}, self.resumable(), check=True)
+        assert self.run({}, check=True).returncode == 0
+        self.new = self.bytes()
+        self.rest = sorted(os.listdir(self.folder))
+
+    def resumable(self):
+        return ["pulse", STEP, *SMALL, "-o", str(self.folder / "unfinished.nc")] if self.command == "resume" else ["--version"]
+
+    def bytes(self):
+        return self.out.read_bytes() if self.out.exists() else b""
+
+    def run(self, environment, arguments=None, check=False):
+        done = subprocess.run([PROGRAM, *(arguments or self.arguments)], env={**os.environ, **environment}, capture_output=True, text=True, timeout=120)
+        assert not check or done.returncode == 0, done
+        return done
+
+    def fail(self, kind, n, least):
+        """Runs with the n-th call failed. Returns (whether there was one, what was wrong)."""
+        report = self.folder.with_suffix(".report")
+        report.unlink(missing_ok=True)
+        old = b"an old result"
+        if self.out.exists():
+            self.out.write_bytes(old)
+        done = self.run({"LD_PRELOAD": SHIM, "FAIL_CALL": kind, "FAIL_AT": str(n), "FAIL_LEAST": str(least), "FAIL_REPORT": str(report)})
+        failed = not report.exists() or "failed" in report.read_text()
+        wrong = []
+        if done.returncode not in ((0, 2, 3, 4) if failed else (0,)):
+            wrong.append(f"exit code {done.returncode}")
+        lines = done.stderr.splitlines()
+        if done.returncode and (len(lines) != 1 or not lines[0].startswith("slipfront: ")):
+            wrong.append(f"said {done.stderr[-300:]!r}")
+        # A catalogue that cannot be read is written with the reason in its place, and the exit code says so.
+        with_reason = self.command == "event" and done.returncode in (2, 3) and self.bytes()[:4] == b"\x89HDF"
+        if self.new and self.bytes() not in (old, self.new) and not with_reason:
+            wrong.append("the output is neither the old nor the new file")
+        if self.new and done.returncode == 0 and self.bytes() != self.new:
+            wrong.append("the output is not the new file")
+        if self.command == "compare" and done.returncode:
+            (self.folder / "out.unfinished.nc").unlink(missing_ok=True)  # the levels that were done
+        if sorted(os.listdir(self.folder)) != self.rest:
+            wrong.append(f"left {sorted(set(os.listdir(self.folder)) - set(self.rest))}")
+            for name in set(os.listdir(self.folder)) - set(self.rest):
+                (self.folder / name).unlink()
+        return failed, [f"{self.command}: {kind} {n}: {text}" for text in wrong]
+
+
+def fail_all(command, kinds, least):
+    job, count, wrong = Job(command), 0, []
+    for kind in kinds:
+        n, failed = 0, True
+        while failed:
+            n += 1
+            failed, more = job.fail(kind, n, least)
+            wrong += more
+        count += n - 1
+    shutil.rmtree(job.folder)
+    job.folder.with_suffix(".report").unlink(missing_ok=True)
+    return count, wrong
+
+
+def main(arguments):
+    least = 0 if "--all" in arguments else 16384
+    commands = [word for word in arguments if word != "--all"] or list(JOBS)
+    with concurrent.futures.ThreadPoolExecutor(len(os.sched_getaffinity(0))) as workers:
+        results = list(workers.map(lambda command: fail_all(command, KINDS, least), commands))
+    for command, (count, wrong) in zip(commands, results):
+        print(f"{command}: {count} calls failed, {len(wrong)} wrong")
+        for text in wrong[:20]:
+            print("  " + text)
+    return 1 if any(wrong for _, wrong in results) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

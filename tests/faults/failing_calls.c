@@ -1,0 +1,200 @@
+/* Makes the n-th call of a kind fail, as an empty memory or a full or broken disk would. To be preloaded:
+     LD_PRELOAD=libfailing_calls.so FAIL_CALL=malloc FAIL_AT=3 program ...
+   FAIL_CALL   malloc (calloc, realloc and the aligned ones too), open, write, fsync, rename, close
+   FAIL_AT     which of them, from 1; FAIL_ON=1: and all behind it, as on a disk that stays full
+   FAIL_LEAST  of malloc: smaller ones are neither counted nor failed (bytes)
+   FAIL_REPORT a file that gets the number of calls that were seen, and "failed" if one was failed
+   A program may call fail_calls(kind, n) itself, to count from there. Calls on standard input, output and error count
+   like others, where they come by these functions: stdio's own do not. */
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/types.h>
+#include <unistd.h>
+
+extern void* __libc_malloc(size_t);
+extern void* __libc_calloc(size_t, size_t);
+extern void* __libc_realloc(void*, size_t);
+extern void* __libc_memalign(size_t, size_t);
+
+/* Shared with the processes that this one forks: the n-th call of them all fails. */
+struct state {
+  char wanted[16];
+  long fail_at, seen, failed;
+};
+static struct state before_mapping, *state = &before_mapping;
+static int fail_on;
+size_t least; /* of malloc */
+
+void fail_calls(const char* kind, long n) {
+  state->fail_at = n;
+  state->seen = state->failed = 0;
+  strncpy(state->wanted, kind, sizeof state->wanted - 1);
+}
+
+long calls_failed(void) { return state->failed; }
+
+static void report(void) {
+  const char* path = getenv("FAIL_REPORT");
+  if (path == NULL) return;
+  const long seen = state->seen, failed = state->failed;
+  state->wanted[0] = 0;
+  FILE* file = fopen(path, "w");
+  if (file == NULL) return;
+  fprintf(file, "%ld%s\n", seen, failed ? " failed" : "");
+  fclose(file);
+}
+
+__attribute__((constructor)) static void begin(void) {
+  const char* text = getenv("FAIL_LEAST");
+  least = text ? strtoul(text, NULL, 10) : 0;
+  fail_on = getenv("FAIL_ON") != NULL;
+  void* shared = mmap(NULL, sizeof *state, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  if (shared != MAP_FAILED) state = shared;
+  atexit(report);
+  if (getenv("FAIL_CALL") != NULL)
+    fail_calls(getenv("FAIL_CALL"), getenv("FAIL_AT") ? atol(getenv("FAIL_AT")) : 0);
+}
+
+static int fails(const char* kind) {
+  if (strcmp(state->wanted, kind) != 0) return 0;
+  const long n = __atomic_add_fetch(&state->seen, 1, __ATOMIC_RELAXED);
+  if (n != state->fail_at && !(fail_on && state->fail_at > 0 && n > state->fail_at)) return 0;
+  state->failed = 1;
+  return 1;
+}
+
+void* malloc(size_t size) {
+  if (size >= least && fails("malloc")) {
+    errno = ENOMEM;
+    return NULL;
+  }
+  return __libc_malloc(size);
+}
+
+void* calloc(size_t count, size_t size) {
+  if (count * size >= least && fails("malloc")) {
+    errno = ENOMEM;
+    return NULL;
+  }
+  return __libc_calloc(count, size);
+}
+
+void* realloc(void* old, size_t size) {
+  if (size >= least && size > 0 && fails("malloc")) {
+    errno = ENOMEM;
+    return NULL;
+  }
+  return __libc_realloc(old, size);
+}
+
+void* aligned_alloc(size_t alignment, size_t size) {
+  if (size >= least && fails("malloc")) {
+    errno = ENOMEM;
+    return NULL;
+  }
+  return __libc_memalign(alignment, size);
+}
+
+int posix_memalign(void** at, size_t alignment, size_t size) {
+  if (size >= least && fails("malloc")) return ENOMEM;
+  *at = __libc_memalign(alignment, size);
+  return *at == NULL ? ENOMEM : 0;
+}
+
+#define REAL(name) ((__typeof__(&name))dlsym(RTLD_NEXT, #name))
+
+static int real_open(const char* name, const char* path, int flags, va_list more) {
+  if (fails("open")) {
+    errno = EMFILE;
+    return -1;
+  }
+  const mode_t mode = (flags & (O_CREAT | O_TMPFILE)) ? va_arg(more, mode_t) : 0;
+  return ((int (*)(const char*, int, ...))dlsym(RTLD_NEXT, name))(path, flags, mode);
+}
+
+int open(const char* path, int flags, ...) {
+  va_list more;
+  va_start(more, flags);
+  const int file = real_open("open", path, flags, more);
+  va_end(more);
+  return file;
+}
+
+int open64(const char* path, int flags, ...) {
+  va_list more;
+  va_start(more, flags);
+  const int file = real_open("open64", path, flags, more);
+  va_end(more);
+  return file;
+}
+
+FILE* fopen(const char* path, const char* mode) {
+  if (fails("open")) {
+    errno = EMFILE;
+    return NULL;
+  }
+  return REAL(fopen)(path, mode);
+}
+
+FILE* fopen64(const char* path, const char* mode) {
+  if (fails("open")) {
+    errno = EMFILE;
+    return NULL;
+  }
+  return REAL(fopen64)(path, mode);
+}
+
+ssize_t write(int file, const void* data, size_t size) {
+  if (fails("write")) {
+    errno = ENOSPC;
+    return -1;
+  }
+  return REAL(write)(file, data, size);
+}
+
+ssize_t pwrite(int file, const void* data, size_t size, off_t at) {
+  if (fails("write")) {
+    errno = ENOSPC;
+    return -1;
+  }
+  return REAL(pwrite)(file, data, size, at);
+}
+
+ssize_t pwrite64(int file, const void* data, size_t size, off64_t at) {
+  if (fails("write")) {
+    errno = ENOSPC;
+    return -1;
+  }
+  return REAL(pwrite64)(file, data, size, at);
+}
+
+int fsync(int file) {
+  if (fails("fsync")) {
+    errno = EIO;
+    return -1;
+  }
+  return REAL(fsync)(file);
+}
+
+int rename(const char* from, const char* to) {
+  if (fails("rename")) {
+    errno = EIO;
+    return -1;
+  }
+  return REAL(rename)(from, to);
+}
+
+int close(int file) {
+  const int bad = fails("close"); /* the descriptor is gone nevertheless, as after a write-back that failed */
+  const int result = REAL(close)(file);
+  if (!bad) return result;
+  errno = EIO;
+  return -1;
+}

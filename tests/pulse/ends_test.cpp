@@ -1,0 +1,125 @@
+// What the ends of the domain do to a train.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "slipfront/error.hpp"
+#include "slipfront/modulation/per_dislocation.hpp"
+#include "slipfront/pulse/run.hpp"
+
+namespace {
+
+using namespace slipfront;
+using namespace slipfront::pulse;
+using modulation::FrictionLaw;
+using std::numbers::pi;
+
+Problem loaded(double C) {
+  return {.stress = [](double) { return 0.8; },
+          .forcing = [](double, double) { return 0.05; },
+          .friction = {C > 0 ? FrictionLaw::viscous : FrictionLaw::none, C, 1, {}},
+          .left = -4,
+          .right = 4,
+          .corner = HUGE_VAL,
+          .cells = 100};
+}
+
+double W(const Solver& s, double x) { return averages_of(s.view(), state_at(s.view(), x), x).W; }
+
+/// A uniform train under F stays uniform: M' = 2 pi F - C M, whatever the pressure.
+double slip_velocity_of_uniform_train(double C, double t) {
+  const double momentum = C > 0 ? 2 * pi * 0.05 / C * (1 - std::exp(-C * t)) : 2 * pi * 0.05 * t;
+  const State state = modulation::state_of({2 * pi / 0.8, momentum}, 0.1);
+  return 0.8 * std::tanh(state.phi);
+}
+
+TEST(Ends, ATrainThatGoesOnBeyondDoesNotRunOut) {
+  for (const double C : {0.0, 0.3, 20.0}) {  // the last with momenta at the faces
+    Solver continued(loaded(C));
+    continued.advance_to(20);
+    EXPECT_NEAR(continued.slip_at(continued.view(), 0) / continued.slip_at(continued.view(), 3.9), 1, 1e-4) << C;
+    for (const double x : {-3.9, 0.0, 3.9})
+      EXPECT_NEAR(W(continued, x) / slip_velocity_of_uniform_train(C, 20), 1, 1e-4) << C << " " << x;
+  }
+}
+
+TEST(Ends, ARingIsATrainWithoutEnds) {
+  Problem p = loaded(0.3);
+  p.periodic = true;
+  Solver ring(p);
+  ring.advance_to(20);
+  for (const double x : {-3.9, 0.0, 3.9}) EXPECT_NEAR(W(ring, x) / slip_velocity_of_uniform_train(0.3, 20), 1, 1e-5);
+  double charge = 0;
+  for (const double q : ring.charge()) charge += q;
+  EXPECT_NEAR(charge, 8 * 0.8 / (2 * pi), 1e-12);
+  // A wave goes round as if the stress were repeated beyond the ends.
+  p.forcing = {};
+  p.stress = [](double x) { return 0.8 + 0.05 * std::cos(pi * x / 4); };
+  Solver round(p);
+  p.periodic = false;
+  p.left = -12;
+  p.right = 12;
+  p.cells = 300;
+  Solver three(p);
+  round.advance_to(6);
+  three.advance_to(6);
+  for (const double x : {-3.0, 0.0, 2.0})
+    EXPECT_NEAR(round.slip_at(round.view(), x), three.slip_at(three.view(), x), 1e-5);
+  p.stress = [](double x) { return x < 0 ? 0.8 : 0.0; };
+  p.periodic = true;
+  EXPECT_THROW(Solver{p}, InputError);
+}
+
+TEST(Ends, NothingPassesAWall) {
+  for (const double C : {0.3, 20.0}) {
+    Problem p = loaded(C);
+    p.left_end = p.right_end = End::fixed;
+    Solver s(p);
+    s.advance_to(200);
+    const auto view = s.view();
+    EXPECT_GE(view.faces.front(), -4 - 1e-9);
+    EXPECT_NEAR(view.faces.back(), 4, 1e-9);
+    // At rest in the end, where the pressure balances the load: dJ/dx = F, J = (4 / pi) cosh(psi) E.
+    if (C < 1) {  // the other still flows
+      EXPECT_NEAR(W(s, 0), 0, 1e-3);
+    }
+    EXPECT_GT(averages_of(view, state_at(view, 3), 3).k, averages_of(view, state_at(view, -3), -3).k);
+  }
+}
+
+TEST(Ends, AtAFreeEndDislocationsLeave) {
+  Problem p = loaded(0.3);
+  p.forcing = {};
+  p.left_end = p.right_end = End::free;
+  Solver s(p);
+  s.advance_to(30);
+  EXPECT_LT(s.cells().entered_left, 0);
+  EXPECT_NEAR(s.cells().entered_left, s.cells().entered_right, 1e-6);
+  EXPECT_NEAR(s.slip_at(s.view(), 0), 0, 1e-6);
+}
+
+TEST(Ends, ARunWhoseCellsCameInResumesToTheSameBits) {
+  const Schedule schedule{.times = {0, 10}, .x_edges = {-4, 0, 4}};
+  pulse::Run whole(loaded(20), schedule), cut(loaded(20), schedule);
+  whole.go();
+  int steps = 0;
+  cut.go([&] { return ++steps == 40; });
+  pulse::Run resumed(loaded(20), schedule, cut.saved(), cut.snapshots());
+  resumed.go();
+  EXPECT_EQ(whole.saved(), resumed.saved());
+}
+
+TEST(Ends, StressAtOneSampleIsNoStretch) {
+  Problem p = loaded(0);
+  p.forcing = {};
+  p.right = 0;
+  p.stress = [](double x) { return x < 0 ? 0.0 : 0.8; };
+  EXPECT_THROW(Solver{p}, InputError);
+  p.right = 4;
+  p.stress = [](double x) { return x == 0 || x > 1 ? 0.8 : 0.0; };
+  EXPECT_EQ(Solver(p).view().faces.front(), std::nextafter(1.0, 2.0));
+}
+
+}  // namespace

@@ -1,0 +1,109 @@
+// Smooth slow stresses under strong friction or a forcing, where friction damps a wave before it has crossed a cell.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "slipfront/pulse/solver.hpp"
+
+namespace {
+
+using namespace slipfront;
+using namespace slipfront::pulse;
+using modulation::Friction;
+using modulation::FrictionLaw;
+using std::numbers::pi;
+
+double slip_at_origin(const Solver& s) { return s.slip_at(s.view(), 0); }
+
+Problem forced(double stress, double C, double reach, std::function<double(double, double)> forcing) {
+  return {.stress = [=](double) { return stress; },
+          .forcing = std::move(forcing),
+          .friction = {C > 0 ? FrictionLaw::viscous : FrictionLaw::none, C, 1, {}},
+          .left = -reach,
+          .right = reach,
+          .corner = HUGE_VAL};
+}
+
+/// Slip of a uniform train, the integral of k U, from M' = 2 pi F - C M alone: with McLaughlin & Scott's speed at last.
+double slip_of_uniform_train(double stress, double C, double end, const std::function<double(double)>& F) {
+  const int steps = 200000;
+  const double h = end / steps;
+  double momentum = 0, slip = 0;
+  for (int i = 0; i < steps; ++i) {  // the midpoint rule
+    const double middle = momentum + h / 2 * (2 * pi * F(i * h) - C * momentum);
+    slip += h * stress * std::tanh(std::asinh(middle / 8));
+    momentum += h * (2 * pi * F((i + 0.5) * h) - C * middle);
+  }
+  return slip;
+}
+
+/// Friction time and run are alike here, the time in which a wave crosses a cell is a thousand times longer: momenta
+/// never come to balance with the pressure, and the faces may not assume that they have.
+TEST(UnderLoad, SmoothSlowStressBeforeItsMomentumHasRelaxed) {
+  const auto slip = [](int cells) {
+    Solver s({.stress = [](double x) { return 0.2 + 0.1 * (1 - std::tanh(x)) / 2; },
+              .forcing = {},
+              .friction = {FrictionLaw::viscous, 0.16, 1, {}},
+              .left = -8,
+              .right = 7,
+              .corner = HUGE_VAL,
+              .cells = cells});
+    double integral = 0, before = 0;
+    for (int i = 1; i <= 400; ++i) {  // Simpson's rule needs the middles too
+      s.advance_to(2 * pi * (i - 0.5) / 400);
+      const double middle = averages_of(s.view(), state_at(s.view(), 0), 0).W;
+      s.advance_to(2 * pi * i / 400);
+      const double after = averages_of(s.view(), state_at(s.view(), 0), 0).W;
+      integral += 2 * pi / 400 / 6 * (before + 4 * middle + after);
+      before = after;
+    }
+    EXPECT_NEAR(slip_at_origin(s) / integral, 1, cells == 100 ? 4e-3 : 3e-4) << cells;
+    return slip_at_origin(s);
+  };
+  EXPECT_NEAR(slip(100) / 2.228e-8, 1, 3e-3);
+  EXPECT_NEAR(slip(400) / 2.228e-8, 1, 5e-4);
+}
+
+TEST(UnderLoad, AForcedSparseTrainMovesAsOneDislocation) {
+  Solver s(forced(0.3, 2, 10, [](double, double) { return 0.05; }));
+  s.advance_to(20);
+  const double want = slip_of_uniform_train(0.3, 2, 20, [](double) { return 0.05; });
+  EXPECT_NEAR(slip_at_origin(s) / want, 1, 1e-4);
+}
+
+TEST(UnderLoad, StepsFollowAForcingThatIsQuickerThanTheWaves) {
+  for (const double C : {0.0, 1.0}) {
+    const auto F = [](double t) { return 0.05 * std::cos(5 * t); };
+    Solver s(forced(0.2, C, 10, [&](double, double t) { return F(t); }));
+    s.advance_to(12);
+    const double want = slip_of_uniform_train(0.2, C, 12, F);
+    EXPECT_NEAR(slip_at_origin(s), want, 1e-3 * std::fabs(want) + 1e-7) << C;
+    // What F has supplied is what friction took and what moves now.
+    const State now = state_at(s.view(), 0);
+    const double energy = 20 * 0.2 / (2 * pi) * 8 * (std::cosh(now.phi) - 1);
+    EXPECT_NEAR(s.supplied() - s.dissipated(), energy, 1e-3 * s.supplied() + 1e-7) << C;
+  }
+}
+
+/// Two opinions: the same scenario by explicit steps with momenta in the cells and by implicit ones with momenta at the
+/// faces. The size of the cells chooses between them.
+TEST(UnderLoad, BothWaysOfSteppingAgree) {
+  double slip[2];
+  for (const int i : {0, 1}) {
+    Solver s({.stress = [](double x) { return 0.3 + 0.3 * (1 - std::tanh(x)) / 2; },
+              .forcing = [](double x, double t) { return 0.01 * std::exp(-x * x) * std::sin(t); },
+              .friction = {FrictionLaw::viscous, 3, 1, {}},
+              .left = -8,
+              .right = 8,
+              .corner = HUGE_VAL,
+              .cells = i == 0 ? 150 : 2400});
+    s.advance_to(2 * pi);
+    EXPECT_EQ(s.cells().face_momentum.empty(), i == 1);
+    slip[i] = slip_at_origin(s);
+  }
+  EXPECT_NEAR(slip[0] / slip[1], 1, 2e-3);
+}
+
+}  // namespace

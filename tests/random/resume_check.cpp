@@ -1,0 +1,64 @@
+// Runs each scenario named on the command line twice: at once, and in pieces that are saved and continued after every
+// third of its steps. Prints a line for each whose end is not the same to the last bit; exit code 1 then.
+
+#include <cstdio>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "slipfront/error.hpp"
+#include "slipfront/pulse/run.hpp"
+#include "slipfront/record/table_file.hpp"
+#include "slipfront/record/text_file.hpp"
+#include "slipfront/scenario/scenario.hpp"
+#include "slipfront/setup/pulse.hpp"
+
+using namespace slipfront;
+
+namespace {
+
+/// The state at the end, or what stopped the run; both must come out alike.
+std::string end_of(pulse::Run& run, const std::function<bool()>& interrupted, bool& finished) {
+  try {
+    finished = run.go(interrupted);
+    return run.saved();
+  } catch (const NumericsError& error) {
+    finished = true;
+    return error.what();
+  }
+}
+
+bool resumes(const char* path) {
+  const scenario::Scenario s = scenario::read_scenario(record::read_text(path), path, {}, record::read_profile_table);
+  const pulse::Problem problem = setup::pulse_problem(s);
+  const pulse::Schedule schedule = setup::pulse_schedule(s, problem);
+  bool finished = false;
+  pulse::Run whole(problem, schedule);
+  const std::string end = end_of(whole, {}, finished);
+  const long piece = whole.solver().cells().steps / 3 + 1;
+  auto run = std::make_unique<pulse::Run>(problem, schedule);
+  while (true) {
+    const long until = run->solver().cells().steps + piece;
+    const std::string state = end_of(
+        *run, [&] { return run->solver().cells().steps >= until; }, finished);
+    if (finished) return state == end;
+    run = std::make_unique<pulse::Run>(problem, schedule, state, run->snapshots());
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  int code = 0;
+  for (int i = 1; i < argc; ++i) {
+    try {
+      if (resumes(argv[i])) continue;
+      std::printf("%s: resumed, it ends differently\n", argv[i]);
+    } catch (const std::exception& error) {
+      std::printf("%s: %s\n", argv[i], error.what());
+    }
+    code = 1;
+  }
+  return code;
+}

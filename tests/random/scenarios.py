@@ -1,0 +1,244 @@
+"""Random scenarios, each made from a number: the same number makes the same scenario on every machine.
+
+A scenario is a dict of tables, as in TOML. `mirror` and `shift` give the same physics seen in another coordinate.
+"""
+
+import copy
+import math
+import random
+import re
+
+SMALLEST = 0.0045  # stress: smaller values count as zero
+
+
+def short(value):
+    """Three digits are enough for a random number, and make a scenario that a person can read."""
+    return float(f"{value:.3g}")
+
+
+def between(chance, low, high):
+    return short(chance.uniform(low, high))
+
+
+def decades(chance, low, high):
+    """Evenly distributed logarithm."""
+    return short(math.exp(chance.uniform(math.log(low), math.log(high))))
+
+
+# --- the parts of a scenario --------------------------------------------------------------------------------------
+
+def stress_of(chance):
+    """A dense train, or a slow one whose state differs from a stressed vacuum by 1e-7 and less."""
+    return between(chance, 0.15, 0.4) if chance.random() < 0.4 else decades(chance, 0.4, 2.0)
+
+
+def sides(chance):
+    high = stress_of(chance)
+    kind = chance.random()
+    if kind < 0.3:
+        low = 0
+    elif kind < 0.45:
+        low = decades(chance, 0.005, 0.05)
+    elif kind < 0.55:
+        low = high
+    else:
+        low = short(max(SMALLEST, high * chance.uniform(0.1, 0.95)))
+    return (high, low) if chance.random() < 0.7 else (low, high)
+
+
+def initial(chance):
+    kind = chance.random()
+    left, right = sides(chance)
+    if kind < 0.35:
+        return {"profile": "step", "stress_left": left, "stress_right": right}
+    if kind < 0.7:
+        return {"profile": "tanh", "stress_left": left, "stress_right": right,
+                "width": decades(chance, 0.05, 2)}
+    a, b, c = stress_of(chance), between(chance, -1.5, 1.5), decades(chance, 0.2, 2)
+    rest = chance.choice([0, short(a * chance.uniform(0.1, 0.9))])
+    shape = chance.choice([
+        f"{rest} + {a}*exp(-((x - ({b}))/{c})^2)",
+        f"{a}*(1 + {between(chance, 0.05, 0.6)}*sin({between(chance, 0.5, 4)}*x))",
+        f"abs(x - ({b})) < {c} ? {rest} : {a}",  # a gap, or a dip with steep walls
+        f"{a}/(1 + exp((x - ({b}))/{c}))",
+    ])
+    return {"profile": "formula", "formula": shape}
+
+
+def friction(chance):
+    kind = chance.random()
+    closure = "paper" if chance.random() < 0.2 else "consistent"
+    if kind < 0.15:
+        return {"law": "none"}
+    if kind < 0.7:
+        return {"law": "viscous", "coefficient": decades(chance, 0.02, 1e4), "closure": closure}
+    if kind < 0.82:
+        return {"law": "coulomb", "coefficient": decades(chance, 1e-5, 0.05), "closure": closure}
+    return {"law": "power", "coefficient": decades(chance, 0.01, 100),
+            "exponent": chance.choice([0.5, 0.7, 1.3, 2, 3]), "closure": closure}
+
+
+def forcing(chance):
+    size = chance.choice([-1, 1]) * decades(chance, 1e-3, 0.08)
+    omega = decades(chance, 0.3, 20)
+    return {"formula": chance.choice([
+        f"{size}",
+        f"{size}*cos({omega}*t)",
+        f"{size}*exp(-(x - ({between(chance, -1, 1)}))^2)",
+        f"{size}*sin({between(chance, 0.3, 2)}*x)*cos({omega}*t)",
+        f"t < {between(chance, 0.3, 3)} ? {size} : 0",
+    ])}
+
+
+def contact(chance):
+    size = between(chance, -0.4, 0.6)
+    place, width = between(chance, -2, 2), between(chance, 0.2, 2)
+    return {"contact": chance.choice([
+        f"1 + ({size})*exp(-((x - ({place}))/{width})^2)",
+        f"1 + ({size})*tanh((x - ({place}))/{width})",
+        f"{between(chance, 0.7, 1.4)}",
+    ])}
+
+
+def make(number):
+    """The scenario of this number."""
+    chance = random.Random(number)
+    s = {"title": f"random {number}", "initial": initial(chance), "friction": friction(chance)}
+    if s["initial"].get("stress_left") == s["initial"].get("stress_right") or chance.random() < 0.25:
+        s["forcing"] = forcing(chance)
+    if chance.random() < 0.2:
+        s["interface"] = contact(chance)
+    s["time"] = {"end": decades(chance, 0.3, 15)}
+    known = s["initial"]["profile"] != "formula" and "interface" not in s
+    if not known or "forcing" in s or chance.random() < 0.5:
+        reach = s["time"]["end"] * chance.choice([0.4, 1.1]) + 2 * s["initial"].get("width", 1)
+        s["domain"] = {"left": short(-reach * chance.uniform(0.7, 1.3)),
+                       "right": short(reach * chance.uniform(0.7, 1.3))}
+    s["pulse"] = {"cells": chance.choice([50, 100, 100, 200])}
+    return s
+
+
+def make_for_chain(number):
+    """A scenario that the chain can check: moderate stress, waves that do not reach the ends, no strong friction, and
+    a contact ratio that changes too little for dislocations to overtake each other."""
+    chance = random.Random(f"chain {number}")
+    high = decades(chance, 0.5, 1.4)
+    low = short(high * chance.uniform(0.25, 0.9))
+    left, right = (high, low) if chance.random() < 0.7 else (low, high)
+    end = decades(chance, 2, 5)
+    s = {"title": f"random {number} for the chain",
+         "initial": {"profile": "tanh", "stress_left": left, "stress_right": right,
+                     "width": decades(chance, 0.2, 1)},
+         "time": {"end": end}}
+    law = chance.choice(["viscous", "viscous", "coulomb", "power"])
+    if law != "viscous":  # only viscous friction damps what a shock radiates, so no shock
+        i = s["initial"]
+        i.update(width=between(chance, 0.8, 1.5), stress_left=max(left, short(0.6 * right)),
+                 stress_right=max(right, short(0.6 * left)))
+    s["friction"] = {"law": law, "closure": "consistent"}
+    if law == "viscous":
+        s["friction"]["coefficient"] = short(decades(chance, 0.3, 20) / end)  # Gamma > 0.3
+    elif law == "coulomb":
+        s["friction"]["coefficient"] = decades(chance, 1e-3, 0.02)
+    else:
+        s["friction"].update(coefficient=decades(chance, 0.1, 3), exponent=chance.choice([0.7, 1.3, 2]))
+    if chance.random() < 0.3:
+        s["forcing"] = {"formula": f"{between(chance, -0.02, 0.03)}*exp(-(x/{between(chance, 1, 3)})^2)"
+                                   f"*cos({between(chance, 0, 2)}*t)"}
+    reach = 0.8 * end + 4 * s["initial"]["width"]  # at 0.8 c, more than any wave on a train of stress 1.4
+    if chance.random() < 0.25:  # even at the ends, which the chain holds and the pulse continues
+        place, width = between(chance, -1, 1), between(chance, 0.8, 1.2)
+        s["interface"] = {"contact": f"1 + ({between(chance, -0.15, 0.2)})*exp(-((x - ({place}))/{width})^2)"}
+        reach = max(reach, abs(place) + 3 * width + 0.8 * end)
+    s["domain"] = {"left": -short(reach), "right": short(reach)}
+    s["pulse"] = {"cells": 200}
+    return s
+
+
+# --- the same physics in other coordinates ------------------------------------------------------------------------
+
+def of_x(formula, x):
+    """The formula with another expression in place of x."""
+    return re.sub(r"\bx\b", f"({x})", formula)
+
+
+def number(value):
+    """With all its digits, in brackets where it is negative."""
+    return repr(value) if value >= 0 else f"({value!r})"
+
+
+def as_formula(s):
+    """The same initial stress as a formula of x."""
+    s = copy.deepcopy(s)
+    i = s["initial"]
+    if i["profile"] == "formula":
+        return s
+    left, right = i["stress_left"], i["stress_right"]
+    shape = (f"x < 0 ? {left} : {right}" if i["profile"] == "step" else
+             f"{right} + {number(left - right)}*(1 - tanh(x/{i['width']}))/2")
+    s["initial"] = {"profile": "formula", "formula": shape}
+    return s
+
+
+def substituted(s, x, sign=""):
+    s = copy.deepcopy(s)
+    if "formula" in s["initial"]:
+        s["initial"]["formula"] = of_x(s["initial"]["formula"], x)
+    if "interface" in s:
+        s["interface"]["contact"] = of_x(s["interface"]["contact"], x)
+    if "forcing" in s:
+        s["forcing"]["formula"] = f"{sign}({of_x(s['forcing']['formula'], x)})"
+    return s
+
+
+def mirrored(s):
+    """x -> -x, u -> -u: stress keeps its sign, F, slip and slip velocity change theirs."""
+    m = substituted(s, "-x", "-")
+    i = m["initial"]
+    if "stress_left" in i:
+        i["stress_left"], i["stress_right"] = i["stress_right"], i["stress_left"]
+    if "domain" in s:
+        m["domain"] = {"left": -s["domain"]["right"], "right": -s["domain"]["left"]}
+    for table in ("pulse", "chain"):
+        for here, there in (("left", "right"), ("right", "left")):
+            if here in s.get(table, {}):
+                m[table][there] = s[table][here]
+            elif there in m.get(table, {}):
+                del m[table][there]
+    return m
+
+
+def shifted(s, by):
+    """Everything moved along x by a distance; the initial stress must be a formula."""
+    moved = substituted(s, f"x - {number(by)}")
+    moved["domain"] = {end: x + by for end, x in s["domain"].items()}
+    return moved
+
+
+def changed(s, **values):
+    """With other values, named table_key."""
+    s = copy.deepcopy(s)
+    for name, value in values.items():
+        table, key = name.split("_", 1)
+        s.setdefault(table, {})[key] = value
+    return s
+
+
+# --- TOML -----------------------------------------------------------------------------------------------------------
+
+def toml_value(value):
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        return f'"{value}"'
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(toml_value(v) for v in value) + "]"
+    return repr(value)
+
+
+def text(s):
+    lines = [f"{key} = {toml_value(value)}" for key, value in s.items() if not isinstance(value, dict)]
+    for name, table in s.items():
+        if isinstance(table, dict):
+            lines += [f"[{name}]"] + [f"{key} = {toml_value(value)}" for key, value in table.items()]
+    return "\n".join(lines) + "\n"

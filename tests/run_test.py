@@ -1,0 +1,102 @@
+"""./run where a checkout is read-only, copied, offline, or on a system without apt. The tools that it calls are stand-ins."""
+
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+SOURCE = pathlib.Path(os.environ["SLIPFRONT_SOURCE"])
+
+CMAKE = """#!/bin/bash
+echo "cmake $*" >>"$CALLS"
+while [ $# -gt 1 ]; do [ "$1" = -B ] && build="$2"; [ "$1" = --build ] && build="$2"; shift; done
+[ "$1" = -B ] || mkdir -p "$build/bin"
+[ -f "$build/CMakeCache.txt" ] || printf 'CMAKE_HOME_DIRECTORY:INTERNAL=%s\\nCMAKE_CACHEFILE_DIR:INTERNAL=%s\\n' "$PWD" "$build" >"$build/CMakeCache.txt"
+touch "$build/build.ninja"
+printf '#!/bin/bash\\necho "slipfront %s of %s"\\n' '$*' "$build" >"$build/bin/slipfront"
+chmod +x "$build/bin/slipfront"
+"""
+ALL_INSTALLED = """#!/bin/bash
+while [ $# -gt 0 ]; do case "$1" in -W) ;; -f) shift ;; *) echo "$1 installed" ;; esac; shift; done
+"""
+
+
+class Run(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.tools, self.calls = self.folder / "tools", self.folder / "calls"
+        self.tools.mkdir()
+        for tool in ("bash", "env", "dirname", "flock", "grep", "cat", "cksum", "cut", "mkdir", "find", "rm", "id", "mktemp", "tail", "touch", "chmod"):
+            (self.tools / tool).symlink_to(shutil.which(tool))
+        self.tool("cmake", CMAKE)
+        self.checkout = self.copy(SOURCE, "checkout")
+
+    def copy(self, source, name):
+        checkout = self.folder / name
+        checkout.mkdir()
+        for part in ("run", ".ci", "apt-packages.txt"):
+            (shutil.copytree if (source / part).is_dir() else shutil.copy)(source / part, checkout / part)
+        return checkout
+
+    def tool(self, name, text):
+        (self.tools / name).write_text(text)
+        (self.tools / name).chmod(0o755)
+
+    def run_in(self, checkout, *arguments):
+        environment = {"PATH": str(self.tools), "HOME": str(self.folder / "home"), "CALLS": str(self.calls)}
+        return subprocess.run([checkout / "run", *arguments], env=environment, capture_output=True, text=True, timeout=60)
+
+    def test_builds_and_runs(self):
+        self.tool("dpkg-query", ALL_INSTALLED)
+        done = self.run_in(self.checkout, "pulse", "x.toml")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(done.stdout, f"slipfront pulse x.toml of {self.checkout}/build/release\n")
+
+    def test_read_only_checkout_builds_elsewhere(self):
+        self.tool("dpkg-query", ALL_INSTALLED)
+        (self.checkout / "build").write_text("in the way")  # root may write anywhere else
+        done = self.run_in(self.checkout)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn(f"of {self.folder}/home/.cache/slipfront/", done.stdout)
+
+    def test_a_copy_builds_its_own_sources(self):
+        self.tool("dpkg-query", ALL_INSTALLED)
+        self.run_in(self.checkout)
+        copy = self.copy(self.checkout, "copy")
+        shutil.copytree(self.checkout / "build", copy / "build")
+        stale = copy / "build/release/stale"
+        stale.write_text("")
+        done = self.run_in(copy)
+        self.assertIn(f"of {copy}/build/release", done.stdout)
+        self.assertFalse(stale.exists())
+        self.assertEqual(self.calls.read_text().count("--preset"), 2)
+
+    def test_without_apt_says_what_to_install(self):
+        self.tool("dpkg-query", "#!/bin/bash\nexit 1\n")
+        done = self.run_in(self.checkout)
+        self.assertEqual(done.returncode, 3)
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        self.assertRegex(done.stderr, "apt-get install .*cmake")
+
+    def test_offline_says_what_to_install(self):
+        self.tool("dpkg-query", "#!/bin/bash\nexit 1\n")
+        self.tool("sudo", "#!/bin/bash\nexec \"$@\"\n")
+        self.tool("apt-get", "#!/bin/bash\necho 'Err: Temporary failure resolving' >&2\nexit 100\n")
+        done = self.run_in(self.checkout)
+        self.assertEqual(done.returncode, 3)
+        first, *_, last = done.stderr.splitlines()
+        self.assertRegex(first, "^slipfront: will install with apt-get: .*cmake")
+        self.assertRegex(last, "^slipfront: .*network.*apt-get install .*cmake")
+
+    def test_no_debian_tries_to_build(self):
+        done = self.run_in(self.checkout)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("libnetcdf-dev", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
