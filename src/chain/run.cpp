@@ -20,7 +20,7 @@ namespace {
 
 using pulse::Snapshot;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-constexpr std::uint64_t format = 0x636861696e000002;  // "chain", version 2
+constexpr std::uint64_t format = 0x636861696e000003;  // "chain", version 3
 
 /// In the window of velocities and stresses (smooth_average): their ripple is some 0.1 % then.
 constexpr double dislocations_in_window = 8;
@@ -152,6 +152,8 @@ void Run::sample() {
   if (std::isnan(first_u_at_origin_)) return;
   const double time = chain_.time(), velocity = average(chain_, 0, stretched_.scale * window_, time).velocity;
   Passed& p = passed_;
+  const double change = (time - p.time) * (velocity - p.velocity) / 2;
+  p.spread += change * change;
   p.slip += (time - p.time) * (velocity + p.velocity) / 2;
   if (p.samples % 2 == 0) {
     p.coarse_slip += (time - p.early_time) * (velocity + p.early_velocity) / 2;
@@ -171,9 +173,9 @@ Run::Run(const Stretched& stretched, pulse::Schedule schedule, const Execution& 
     throw InputError({.key = "resume",
                       .problem = "the saved state is of another version or scenario",
                       .allowed = "a file of this version and scenario, written by slipfront chain"});
-  for (double* value :
-       {&work_.supplied, &work_.dissipated, &work_.time, &work_.supplied_rate, &work_.dissipated_rate, &passed_.time,
-        &passed_.velocity, &passed_.slip, &passed_.early_time, &passed_.early_velocity, &passed_.coarse_slip})
+  for (double* value : {&work_.supplied, &work_.dissipated, &work_.time, &work_.supplied_rate, &work_.dissipated_rate,
+                        &passed_.time, &passed_.velocity, &passed_.slip, &passed_.early_time, &passed_.early_velocity,
+                        &passed_.coarse_slip, &passed_.spread})
     *value = reader.get<double>();
   passed_.samples = static_cast<long>(reader.get<std::int64_t>());
   const std::vector<double> flows = reader.vector();
@@ -196,9 +198,9 @@ Run::Run(const Stretched& stretched, pulse::Schedule schedule, const Execution& 
 std::string Run::saved() const {
   bytes::Writer writer;
   writer.put(format);
-  for (const double value :
-       {work_.supplied, work_.dissipated, work_.time, work_.supplied_rate, work_.dissipated_rate, passed_.time,
-        passed_.velocity, passed_.slip, passed_.early_time, passed_.early_velocity, passed_.coarse_slip})
+  for (const double value : {work_.supplied, work_.dissipated, work_.time, work_.supplied_rate, work_.dissipated_rate,
+                             passed_.time, passed_.velocity, passed_.slip, passed_.early_time, passed_.early_velocity,
+                             passed_.coarse_slip, passed_.spread})
     writer.put(value);
   writer.put(static_cast<std::int64_t>(passed_.samples));
   writer.put(chain_.flow_sums());

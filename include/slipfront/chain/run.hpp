@@ -105,6 +105,7 @@ class Run {
   struct Passed {
     double time = 0, velocity = 0, slip = 0;
     double early_time = 0, early_velocity = 0, coarse_slip = 0;
+    double spread = 0;  ///< sum of squares of what each sample leaves open: the waves between samples are not seen
     long samples = 0;
   };
   Passed passed_;
