@@ -70,8 +70,23 @@ static int fails(const char* kind) {
   return 1;
 }
 
+/* clang's OpenMP runtime ends the program by itself where it gets no memory: not this program's doing. */
+static int of_openmp(const void* caller) {
+  static __thread int asking;
+  if (asking || state->wanted[0] == 0) return 0;
+  asking = 1;
+  Dl_info from;
+  const int found = dladdr(caller, &from) != 0 && from.dli_fname != NULL && strstr(from.dli_fname, "libomp") != NULL;
+  asking = 0;
+  return found;
+}
+
+static int memory_fails(size_t size, const void* caller) {
+  return size >= least && strcmp(state->wanted, "malloc") == 0 && !of_openmp(caller) && fails("malloc");
+}
+
 void* malloc(size_t size) {
-  if (size >= least && fails("malloc")) {
+  if (memory_fails(size, __builtin_return_address(0))) {
     errno = ENOMEM;
     return NULL;
   }
@@ -79,7 +94,7 @@ void* malloc(size_t size) {
 }
 
 void* calloc(size_t count, size_t size) {
-  if (count * size >= least && fails("malloc")) {
+  if (memory_fails(count * size, __builtin_return_address(0))) {
     errno = ENOMEM;
     return NULL;
   }
@@ -87,7 +102,7 @@ void* calloc(size_t count, size_t size) {
 }
 
 void* realloc(void* old, size_t size) {
-  if (size >= least && size > 0 && fails("malloc")) {
+  if (size > 0 && memory_fails(size, __builtin_return_address(0))) {
     errno = ENOMEM;
     return NULL;
   }
@@ -95,7 +110,7 @@ void* realloc(void* old, size_t size) {
 }
 
 void* aligned_alloc(size_t alignment, size_t size) {
-  if (size >= least && fails("malloc")) {
+  if (memory_fails(size, __builtin_return_address(0))) {
     errno = ENOMEM;
     return NULL;
   }
@@ -103,7 +118,7 @@ void* aligned_alloc(size_t alignment, size_t size) {
 }
 
 int posix_memalign(void** at, size_t alignment, size_t size) {
-  if (size >= least && fails("malloc")) return ENOMEM;
+  if (memory_fails(size, __builtin_return_address(0))) return ENOMEM;
   *at = __libc_memalign(alignment, size);
   return *at == NULL ? ENOMEM : 0;
 }
