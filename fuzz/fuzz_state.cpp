@@ -78,8 +78,10 @@ void go_on_with_events(const std::string& state) {
     if (found.empty()) return;
     const event::EventResult result = event::evaluate(std::move(entry), {}, plan, std::move(found.back()));
     found.pop_back();
-    double out[3];
-    for (const auto& column : event::number_columns(true)) column.get(result, out);
+    for (const auto& column : event::number_columns({.pulse = true, .draws = 5})) {
+      std::vector<double> out(column.count);
+      column.get(result, out.data());
+    }
     for (const auto& column : event::text_columns(true)) column.get(result);
   }
 }

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <locale>
 #include <string>
 #endif
 
@@ -22,6 +23,7 @@ constexpr double unknown = std::numeric_limits<double>::infinity();
 /// The number that a file holds; infinity for "max" and where there is no such file.
 double limit_in(const std::string& path) {
   std::ifstream file(path);
+  file.imbue(std::locale::classic());
   double bytes = 0;
   return file >> bytes && bytes > 0 ? bytes : unknown;
 }

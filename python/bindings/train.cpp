@@ -18,9 +18,9 @@ using namespace slipfront;
 
 State state(double phi, double psi) {
   if (!std::isfinite(phi))
-    throw InputError({.key = "phi", .value = std::to_string(phi), .problem = "not finite", .allowed = "a number"});
+    throw InputError({.key = "phi", .value = digits(phi), .problem = "not finite", .allowed = "a number"});
   if (!std::isfinite(psi) || psi < 0)
-    throw InputError({.key = "psi", .value = std::to_string(psi), .problem = "out of range", .allowed = "psi >= 0"});
+    throw InputError({.key = "psi", .value = digits(psi), .problem = "out of range", .allowed = "psi >= 0"});
   return {phi, psi};
 }
 
@@ -41,7 +41,7 @@ py::list averages(const Numbers& phi, const Numbers& psi, const Numbers& contact
   const double *f = phi.data(), *s = psi.data(), *c = contact.data();
   return columns<10>(phi.size(), [=](py::ssize_t i) {
     if (!(c[i] > 0) || !std::isfinite(c[i]))
-      throw InputError({.key = "contact", .value = std::to_string(c[i]), .problem = "out of range", .allowed = "> 0"});
+      throw InputError({.key = "contact", .value = digits(c[i]), .problem = "out of range", .allowed = "> 0"});
     const train::Averages a = train::averages(state(f[i], s[i]), c[i]);
     return std::array{a.k, a.W, a.sigma2, a.sigma3, a.one_minus_cos, a.P, a.Q, a.H, a.I, a.J};
   });
@@ -74,7 +74,7 @@ py::list jacobi(const Numbers& z, const Numbers& psi) {
   const double *at = z.data(), *s = psi.data();
   return columns<4>(z.size(), [=](py::ssize_t i) {
     if (!std::isfinite(at[i]))
-      throw InputError({.key = "z", .value = std::to_string(at[i]), .problem = "not finite", .allowed = "a number"});
+      throw InputError({.key = "z", .value = digits(at[i]), .problem = "not finite", .allowed = "a number"});
     const elliptic::Jacobi j = elliptic::jacobi(at[i], elliptic::at_psi(s[i]));
     return std::array{j.am, j.sn, j.cn, j.dn};
   });
@@ -87,8 +87,7 @@ py::list spacing(const Numbers& phi, const Numbers& psi) {
 
 State at_rest(double stress, const char* key) {
   if (stress != 0 && !(stress >= train::smallest_stress && stress <= scenario::largest_stress))
-    throw InputError(
-        {.key = key, .value = std::to_string(stress), .problem = "out of range", .allowed = "0 or 0.0045 to 1e6"});
+    throw InputError({.key = key, .value = digits(stress), .problem = "out of range", .allowed = "0 or 0.0045 to 1e6"});
   return rupture::at_rest(stress);
 }
 

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <string>
 
+#include "../digits.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::elliptic {
@@ -73,10 +74,8 @@ AtPsi assemble(double s, double c1) {
 
 Complete complete(double m1) {
   if (!(m1 > 0 && m1 <= 1))
-    throw InputError({.key = "m1",
-                      .value = std::to_string(m1),
-                      .problem = "not a complementary parameter",
-                      .allowed = "0 < m1 <= 1"});
+    throw InputError(
+        {.key = "m1", .value = digits(m1), .problem = "not a complementary parameter", .allowed = "0 < m1 <= 1"});
   const double s = std::sqrt(m1);
   const AtPsi at = assemble(s, (1 - m1) / (2 * (1 + s)));
   return {at.K, at.E};
@@ -96,8 +95,7 @@ AtPsi at_modulus(double s) { return s < psi_empty_below ? at_psi_empty(s) : asse
 
 AtPsi at_psi(double psi) {
   if (!(psi > 0))
-    throw InputError(
-        {.key = "psi", .value = std::to_string(psi), .problem = "not a positive number", .allowed = "psi > 0"});
+    throw InputError({.key = "psi", .value = digits(psi), .problem = "not a positive number", .allowed = "psi > 0"});
   if (psi < psi_empty_below) return at_psi_empty(psi);
   if (psi > psi_dense_above) return at_psi_dense(psi);
   const double e = std::expm1(2 * psi);

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <string>
 
+#include "../digits.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::elliptic {
@@ -63,7 +64,7 @@ Triple first_half(double v, double s) {
 
 Jacobi evaluate(double z, double s, double K) {
   if (!std::isfinite(z))
-    throw InputError({.key = "z", .value = std::to_string(z), .problem = "not finite", .allowed = "a finite argument"});
+    throw InputError({.key = "z", .value = digits(z), .problem = "not finite", .allowed = "a finite argument"});
   const double n = std::nearbyint(z / (2 * K));  // am(z + 2K) = am(z) + pi
   const double rest = std::fma(-2 * K, n, z);
   const double v = std::fabs(rest);

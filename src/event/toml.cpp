@@ -1,3 +1,4 @@
+#include <locale>
 #include <sstream>
 #include <string>
 
@@ -16,6 +17,7 @@ std::string text_value(const toml::node& node, const std::string& key) {
   if (const auto text = node.value<std::string>()) return *text;
   if (node.is_integer() || node.is_date() || node.is_date_time()) {
     std::ostringstream out;
+    out.imbue(std::locale::classic());
     if (node.is_date()) out << *node.as_date();
     if (node.is_date_time()) out << *node.as_date_time();
     if (node.is_integer()) out << *node.as_integer();
@@ -28,6 +30,7 @@ void read_quantity(Observation& o, const Key& key, const std::string& full_key, 
   try {
     if (const toml::table* table = node.as_table()) {
       std::ostringstream text;
+      text.imbue(std::locale::classic());
       text << *table;
       store(o, key, read_distribution(*table, full_key, key), text.str());
       return;

@@ -19,18 +19,14 @@ double positive(double value, const char* key) {
 
 double checked_poisson(double nu) {
   if (nu > -1 && nu < 0.5) return nu;
-  throw InputError({.key = "poisson_ratio",
-                    .value = std::to_string(nu),
-                    .problem = "out of range",
-                    .allowed = "-1 < poisson_ratio < 0.5"});
+  throw InputError(
+      {.key = "poisson_ratio", .value = digits(nu), .problem = "out of range", .allowed = "-1 < poisson_ratio < 0.5"});
 }
 
 double checked_contact(double A) {
   if (A > 0 && A <= 1) return A;
-  throw InputError({.key = "contact_ratio",
-                    .value = std::to_string(A),
-                    .problem = "out of range",
-                    .allowed = "0 < contact_ratio <= 1"});
+  throw InputError(
+      {.key = "contact_ratio", .value = digits(A), .problem = "out of range", .allowed = "0 < contact_ratio <= 1"});
 }
 
 }  // namespace
@@ -70,8 +66,8 @@ double poisson_ratio(double p_wave_speed, double s_wave_speed) {
   const double square = ratio * ratio;
   if (!(square > 4.0 / 3.0))
     throw InputError({.key = "p_wave_speed",
-                      .value = std::to_string(p_wave_speed),
-                      .problem = "too slow for an s_wave_speed of " + std::to_string(s_wave_speed),
+                      .value = digits(p_wave_speed),
+                      .problem = "too slow for an s_wave_speed of " + digits(s_wave_speed),
                       .allowed = "above 2 / sqrt(3) times the s_wave_speed"});
   return (square - 2) / (2 * (square - 1));
 }

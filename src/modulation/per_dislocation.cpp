@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "../digits.hpp"
 #include "slipfront/elliptic/complete.hpp"
 #include "slipfront/error.hpp"
 
@@ -13,8 +14,8 @@ namespace {
 constexpr double psi_least = 1e-303, psi_most = 700;
 
 [[noreturn]] void give_up(const Carried& c) {
-  throw NumericsError("no state has the spacing " + std::to_string(c.spacing) + " and the momentum " +
-                      std::to_string(c.momentum) + " per dislocation");
+  throw NumericsError("no state has the spacing " + digits(c.spacing) + " and the momentum " + digits(c.momentum) +
+                      " per dislocation");
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "../digits.hpp"
 #include "kernels.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
@@ -32,8 +33,8 @@ void CellStates::resolve(const std::vector<Stretch>& stretches, double time) {
         EK[i] = at.EK;
         velocity[i] = std::tanh(at.state.phi);
       } catch (const NumericsError& error) {
-        throw NumericsError("t = " + std::to_string(time) + ", cell " + std::to_string(i) + " of " +
-                            std::to_string(s.size()) + ": " + error.what());
+        throw NumericsError("t = " + digits(time) + ", cell " + std::to_string(i) + " of " + std::to_string(s.size()) +
+                            ": " + error.what());
       }
     }
   }

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "../digits.hpp"
 #include "kernels.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
@@ -71,7 +72,7 @@ void Semidiscrete::find_places(double t, const double* y) {
   for (std::size_t i = 0; i < n; ++i) {
     faces_[i + 1] = faces_[i] + y[2 * i];
     if (!(y[2 * i] > 0) && !gap(i))
-      throw NumericsError("t = " + std::to_string(t) + ", cell " + std::to_string(i) + ": squeezed to nothing");
+      throw NumericsError("t = " + digits(t) + ", cell " + std::to_string(i) + ": squeezed to nothing");
   }
   middles(stretches_, faces_, centres_);
   if (!setup_.contact) return;

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "../digits.hpp"
 #include "kernels.hpp"
 #include "layout.hpp"
 #include "semidiscrete.hpp"
@@ -31,7 +32,7 @@ constexpr double stiff_below = 0.3;
 
 void check(const Problem& p) {
   const auto refuse = [](const char* key, double value, const char* allowed) {
-    throw InputError({.key = key, .value = std::to_string(value), .problem = "out of range", .allowed = allowed});
+    throw InputError({.key = key, .value = digits(value), .problem = "out of range", .allowed = allowed});
   };
   if (!(p.left < p.right) || !std::isfinite(p.right - p.left)) refuse("domain.left", p.left, "left < right, finite");
   if (p.cells < 4) refuse("pulse.cells", p.cells, ">= 4");
@@ -55,8 +56,7 @@ void refuse_jumps(const std::function<double(double)>& contact, double left, dou
     }
     if (std::fabs(at_b - at_a) > whole / 2)
       throw InputError({.key = "interface.contact",
-                        .problem = "jumps from " + std::to_string(from) + " to " + std::to_string(to) +
-                                   " at x = " + std::to_string(a),
+                        .problem = "jumps from " + digits(from) + " to " + digits(to) + " at x = " + digits(a),
                         .allowed = "a continuous profile, such as tanh of a width of some cells"});
   }
 }
@@ -109,10 +109,10 @@ Solver::Solver(Problem problem) : problem_(std::move(problem)) {
     const double a = problem_.contact ? problem_.contact((layout.faces[i] + layout.faces[i + 1]) / 2) : 1;
     const double local = 2 * pi * cells_.charge[i] / (a * cells_.y[2 * i]);
     if (!(local >= train::smallest_stress))
-      throw InputError({.key = problem_.contact ? "interface.contact" : "initial",
-                        .problem = "stress over contact ratio is " + std::to_string(local) +
-                                   " at x = " + std::to_string(layout.faces[i]),
-                        .allowed = "at least 0.0045 where there is stress: dislocations farther apart have no psi"});
+      throw InputError(
+          {.key = problem_.contact ? "interface.contact" : "initial",
+           .problem = "stress over contact ratio is " + digits(local) + " at x = " + digits(layout.faces[i]),
+           .allowed = "at least 0.0045 where there is stress: dislocations farther apart have no psi"});
     cells_.s[i] = std::tanh(rupture::psi_of_stress(local));
   }
   cells_.y[2 * n] = layout.faces.front();
@@ -281,7 +281,7 @@ double Solver::step_explicitly(Work& work, double remaining, double crossing) {
       }
       if (jumped) factor = std::fmin(factor, 0.5);
       if (tries == 80)
-        throw NumericsError("t = " + std::to_string(cells_.time) +
+        throw NumericsError("t = " + digits(cells_.time) +
                             ": the time step failed: the forces on a cell exceed what any step can resolve");
     } catch (const NumericsError&) {
       if (tries == 80) throw;
@@ -379,7 +379,7 @@ double Solver::step_implicitly(Work& work, double remaining, double crossing) {
     }
     dt *= factor;
     if (!(cells_.time + dt > cells_.time))
-      throw NumericsError("t = " + std::to_string(cells_.time) + ": the time step fell below rounding");
+      throw NumericsError("t = " + digits(cells_.time) + ": the time step fell below rounding");
     staggered.start_from(cells_.s);
   }
 }

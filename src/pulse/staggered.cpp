@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "../digits.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
 
@@ -14,7 +15,7 @@ namespace {
 using std::numbers::pi;
 
 [[noreturn]] void give_up(double t, std::size_t cell) {
-  throw NumericsError("t = " + std::to_string(t) + ", cell " + std::to_string(cell) + ": squeezed to nothing");
+  throw NumericsError("t = " + digits(t) + ", cell " + std::to_string(cell) + ": squeezed to nothing");
 }
 
 }  // namespace

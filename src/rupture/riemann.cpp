@@ -52,8 +52,7 @@ double shock_drop(const State& left, double psi_star) {
   while (mismatch(low) > 0 && low > DBL_MIN) low /= 2;
   while (mismatch(high) < 0) {
     high *= 2;
-    if (!(high < 1400))
-      throw NumericsError("shock from psi = " + std::to_string(left.psi) + " too strong for a double");
+    if (!(high < 1400)) throw NumericsError("shock from psi = " + digits(left.psi) + " too strong for a double");
   }
   return root_in_bracket(low, high, mismatch);
 }

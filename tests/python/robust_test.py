@@ -47,12 +47,23 @@ print(repr(float(event.stress[0])))
 case = {"initial": {"profile": "formula", "formula": "x<0.5?0.75:0.1"}, "domain": {"left": -1.5, "right": 1.5}, "pulse": {"cells": 16}, "time": {"end": 0.5},
         "medium": {"shear_modulus": "30.5 GPa"}}
 print(repr(slipfront.pulse(case).attrs["slip_at_origin"]))
+for refused in (lambda: slipfront.train.fields(0.5, -1.5, 0.5), lambda: slipfront.train.averages(0.5, 0.5, -1.5), lambda: slipfront.relations(stress=-2.5),
+                lambda: slipfront.pulse(case, set={"pulse.tolerance": 1.5}), lambda: slipfront.pulse(case, set={"interface.contact": "x<0.25?1.5:0.5"}),
+                lambda: slipfront.chain(case, set={"chain.spacing": 30.5}), lambda: slipfront.chain(case, set={"chain.window": -0.5}),
+                lambda: slipfront.event({"name": "a", "rupture_velocity": "2.5 km/s", "poisson_ratio": 0.75})):
+    try:
+        refused()
+        print("not refused")
+    except ValueError as error:
+        print(error)
 """
         def said(text):
             done = subprocess.run([sys.executable, "-c", text], env={**os.environ, "LOCPATH": folder}, capture_output=True, text=True)
             self.assertEqual(done.returncode, 0, done.stderr)
             return done.stdout
-        self.assertEqual(said(code), said("\n".join(code.splitlines()[3:])))
+        plain = said("\n".join(code.splitlines()[3:]))
+        self.assertEqual(said(code), plain)
+        self.assertNotIn("not refused", plain)
 
 
 class Pictures(CommandLine):
