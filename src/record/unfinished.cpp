@@ -17,10 +17,11 @@ namespace fs = std::filesystem;
 Output::Output(std::string path, const std::string& resumed_from) : path_(std::move(path)) {
   if (path_.empty()) return;
   require_replaceable(path_);
-  std::error_code none;
-  if (!fs::exists(path_, none) || fs::equivalent(path_, resumed_from, none)) return;
   fs::path beside(path_);
   beside.replace_extension(".unfinished.nc");
+  remove_leftovers(beside.string());  // this run may write no such file itself
+  std::error_code none;
+  if (!fs::exists(path_, none) || fs::equivalent(path_, resumed_from, none)) return;
   unfinished_ = beside.string();
   require_replaceable(unfinished_);
 }

@@ -57,9 +57,9 @@ bool is_part(std::string_view name, const std::string& target) {
   return dash != std::string_view::npos && all_digits(name.substr(0, dash)) && all_digits(name.substr(dash + 1));
 }
 
-/// Removes what killed processes left beside `target`: part files that nobody holds the lock of. Once a file, for a
-/// folder may be large; whatever stands in the way is not an error.
-void remove_leftovers(const fs::path& target) {
+/// Removes the part files beside `target` whose lock nobody holds. A process looks for each name once, because a folder
+/// may be large. Whatever stands in the way is not an error.
+void remove_parts(const fs::path& target) {
   static std::mutex mutex;
   static std::set<fs::path> looked_at;
   const std::scoped_lock lock(mutex);
@@ -189,12 +189,14 @@ void require_replaceable(const std::string& path) {
   if (access(place.folder.c_str(), W_OK | X_OK) != 0) fail(path, reason(errno));
 }
 
+void remove_leftovers(const std::string& path) { remove_parts(place_of(path).target); }
+
 bool is_writing() noexcept { return writing > 0; }
 
 void replace_file(const std::string& path, const std::function<void(const Put&)>& write) {
   const Counted counted;
   const Place place = place_of(path);
-  remove_leftovers(place.target);
+  remove_parts(place.target);
   PartFile part(path, place.target.string());
   if (place.replaces) part.set_mode(place.mode & 07777);
   write([&](std::string_view data) { part.write(data); });

@@ -23,4 +23,7 @@ void replace_file(const std::string& path, std::initializer_list<std::string_vie
 /// Whether a file could be put in the place of `path`, as far as can be told without touching it. \throws FileError.
 void require_replaceable(const std::string& path);
 
+/// Removes what killed processes left beside `path`, as replace_file does. \throws FileError as require_replaceable.
+void remove_leftovers(const std::string& path);
+
 }  // namespace slipfront::record

@@ -73,6 +73,20 @@ class Outputs(CommandLine):
             self.ok("pulse", STEP, *SMALL, "-o", out)
         self.assertEqual(sorted(os.listdir(folder)), ["mine.nc.part", "out.nc", "out.nc.part18-0"])
 
+    def test_leftovers_of_checkpoints_are_removed_by_every_command(self):
+        """A run that begins anew, or ends before its first checkpoint, has no OUT.unfinished.nc of its own."""
+        events = self.file("events.csv", "name,rupture_velocity,slip_velocity\na,3 km/s,0.5 m/s\n")
+        folder = os.path.dirname(events)
+        out, left = os.path.join(folder, "out.nc"), os.path.join(folder, "out.unfinished.nc.part17-0")
+        for command in (["pulse", STEP, *SMALL], ["chain", STEP, *SMALL], ["event", events], ["compare", STEP, *SMALL, "--scale", "20"]):
+            for there in (False, True):
+                with open(left, "w", encoding="ascii") as half:
+                    half.write("half")
+                if not there and os.path.exists(out):
+                    os.unlink(out)
+                self.ok(*command, "-o", out)
+                self.assertEqual(sorted(os.listdir(folder)), ["events.csv", "out.nc"], (command, there))
+
 
 class Signals(CommandLine):
     def ended_by(self, number, arguments, before, environment=None):
