@@ -1,10 +1,12 @@
 """The n-th call fails, n = 1, 2, ... until a run succeeds: the output is the old file or the new one, nothing else is left,
-and the run says one line with the contract's exit code. Usage: fail_each_call.py [--all] [COMMAND...]
+and the run says one line with the contract's exit code. Usage: fail_each_call.py [--places | --all] [COMMAND...]
 
-Without --all only allocations of 16 kB or more are failed; with it, every one (an hour). Environment: SLIPFRONT (the
+Without an option only allocations of 16 kB or more are failed; with --all, every one (hours); with --places, those of every
+place in the code (a stack of functions): the first, second, fourth ... and last that comes from it. Environment: SLIPFRONT (the
 program), SLIPFRONT_SOURCE, FAILING_CALLS (the library of failing_calls.c)."""
 
 import concurrent.futures
+import itertools
 import os
 import pathlib
 import shutil
@@ -27,6 +29,15 @@ JOBS = {
     "event": ["event", "EVENTS", "--samples", "20", "-o", "OUT"],
     "relations": ["relations", "--stress", "1", "--csv"],
 }
+
+
+def by_places(trace):
+    """Which calls of a trace (FAIL_TRACE) to fail: of each place those numbered 1, 2, 4, 8 ... and the last."""
+    places = {}
+    for line in trace.read_text().splitlines():
+        n, place = line.split()
+        places.setdefault(place, []).append(int(n))
+    return sorted({numbers[i] for numbers in places.values() for i in [*(2**k - 1 for k in range(len(numbers).bit_length())), -1]})
 
 
 class Job:
@@ -56,6 +67,14 @@ class Job:
         done = subprocess.run([PROGRAM, *(arguments or self.arguments)], env={**os.environ, **environment}, capture_output=True, text=True, timeout=120)
         assert not check or done.returncode == 0, done
         return done
+
+    def places(self, kind):
+        """The numbers of calls to fail, from a run in which none fails."""
+        trace = self.folder.with_suffix(".trace")
+        self.run({"LD_PRELOAD": SHIM, "FAIL_CALL": kind, "FAIL_TRACE": str(trace)}, check=True)
+        numbers = by_places(trace) if trace.exists() else []
+        trace.unlink(missing_ok=True)
+        return numbers
 
     def fail(self, kind, n, least):
         """Runs with the n-th call failed. Returns (whether there was one, what was wrong)."""
@@ -87,25 +106,26 @@ class Job:
         return failed, [f"{self.command}: {kind} {n}: {text}" for text in wrong]
 
 
-def fail_all(command, kinds, least):
+def fail_all(command, kinds, least, by_place):
     job, count, wrong = Job(command), 0, []
     for kind in kinds:
-        n, failed = 0, True
-        while failed:
-            n += 1
+        for n in job.places(kind) if by_place else itertools.count(1):
             failed, more = job.fail(kind, n, least)
             wrong += more
-        count += n - 1
+            if not failed:
+                break
+            count += 1
     shutil.rmtree(job.folder)
     job.folder.with_suffix(".report").unlink(missing_ok=True)
     return count, wrong
 
 
 def main(arguments):
-    least = 0 if "--all" in arguments else 16384
-    commands = [word for word in arguments if word != "--all"] or list(JOBS)
+    by_place = "--places" in arguments
+    least = 0 if by_place or "--all" in arguments else 16384
+    commands = [word for word in arguments if not word.startswith("--")] or list(JOBS)
     with concurrent.futures.ThreadPoolExecutor(len(os.sched_getaffinity(0))) as workers:
-        results = list(workers.map(lambda command: fail_all(command, KINDS, least), commands))
+        results = list(workers.map(lambda command: fail_all(command, KINDS, least, by_place), commands))
     for command, (count, wrong) in zip(commands, results):
         print(f"{command}: {count} calls failed, {len(wrong)} wrong")
         for text in wrong[:20]:

@@ -3,18 +3,21 @@
    FAIL_CALL   malloc (calloc, realloc and the aligned ones too), open, write, fsync, rename, close
    FAIL_AT     which of them, from 1; FAIL_ON=1: and all behind it, as on a disk that stays full
    FAIL_LEAST  of malloc: smaller ones are neither counted nor failed (bytes)
+   FAIL_TRACE  a file that gets a line for each call: its number, and one for the places (functions) that it came from
    FAIL_REPORT a file that gets the number of calls that were seen, and "failed" if one was failed
    A program may call fail_calls(kind, n) itself, to count from there. Calls on standard input, output and error count
    like others, where they come by these functions: stdio's own do not. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
+#include <execinfo.h>
 #include <fcntl.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <sys/syscall.h>
 #include <sys/types.h>
 #include <unistd.h>
 
@@ -31,6 +34,8 @@ struct state {
 static struct state before_mapping, *state = &before_mapping;
 static int fail_on;
 size_t least; /* of malloc */
+static int trace = -1;
+static __thread int tracing; /* backtrace allocates too */
 
 void fail_calls(const char* kind, long n) {
   state->fail_at = n;
@@ -55,16 +60,29 @@ __attribute__((constructor)) static void begin(void) {
   const char* text = getenv("FAIL_LEAST");
   least = text ? strtoul(text, NULL, 10) : 0;
   fail_on = getenv("FAIL_ON") != NULL;
+  if (getenv("FAIL_TRACE") != NULL)
+    trace = (int)syscall(SYS_openat, AT_FDCWD, getenv("FAIL_TRACE"), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
   void* shared = mmap(NULL, sizeof *state, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   if (shared != MAP_FAILED) state = shared;
   atexit(report);
-  if (getenv("FAIL_CALL") != NULL)
-    fail_calls(getenv("FAIL_CALL"), getenv("FAIL_AT") ? atol(getenv("FAIL_AT")) : 0);
+  if (getenv("FAIL_CALL") != NULL) fail_calls(getenv("FAIL_CALL"), getenv("FAIL_AT") ? atol(getenv("FAIL_AT")) : 0);
+}
+
+static void note_place(long n) {
+  void* places[48];
+  char line[64];
+  unsigned long hash = 5381;
+  tracing = 1;
+  const int depth = backtrace(places, 48);
+  for (int i = 0; i < depth; ++i) hash = hash * 33 ^ (unsigned long)places[i];
+  syscall(SYS_write, trace, line, snprintf(line, sizeof line, "%ld %lx\n", n, hash));
+  tracing = 0;
 }
 
 static int fails(const char* kind) {
-  if (strcmp(state->wanted, kind) != 0) return 0;
+  if (tracing || strcmp(state->wanted, kind) != 0) return 0;
   const long n = __atomic_add_fetch(&state->seen, 1, __ATOMIC_RELAXED);
+  if (trace >= 0) note_place(n);
   if (n != state->fail_at && !(fail_on && state->fail_at > 0 && n > state->fail_at)) return 0;
   state->failed = 1;
   return 1;

@@ -1,8 +1,9 @@
 """fail_each_call.py for what Python writes: the n-th call fails, n = 1, 2, ... until it succeeds. Each attempt is a process
 forked from this one, in which failing_calls.c counts from the start of the job. Usage, with that library preloaded and the
-package on the path: python_writers.py [--all]"""
+package on the path: python_writers.py [--places | --all], as there. With --places FAIL_TRACE has to name a file."""
 
 import ctypes
+import itertools
 import os
 import pathlib
 import shutil
@@ -15,6 +16,7 @@ import pandas
 import xarray as xr
 
 import slipfront
+from fail_each_call import by_places
 from slipfront import _files, plots
 from slipfront.plots import movie
 from slipfront.reproduce import outputs
@@ -99,7 +101,15 @@ def run_and_tell(job, path, kind, n, least, writer):
     os._exit(code)
 
 
-def fail_all(name, least):
+def places(job, path, kind):
+    """The numbers of calls to fail, from a run in which none fails."""
+    trace = pathlib.Path(os.environ["FAIL_TRACE"])
+    os.truncate(trace, 0)
+    attempt(job, path, kind, 0, 0)
+    return by_places(trace)
+
+
+def fail_all(name, least, by_place):
     job, output = JOBS[name]
     folder = pathlib.Path(tempfile.mkdtemp(prefix="slipfront-faults-"))
     path, wrong, count = folder / output, [], 0
@@ -107,9 +117,7 @@ def fail_all(name, least):
     assert code == 0, reason
     old = new = content(path)
     for kind in KINDS:
-        n, failed = 0, True
-        while failed:
-            n += 1
+        for n in places(job, path, kind) if by_place else itertools.count(1):
             code, failed, reason = attempt(job, path, kind, n, least)
             there = content(path)
             problems = [f"exit {code} {reason}"] * (code not in ((0, 3, 4) if failed else (0,)))
@@ -128,13 +136,16 @@ def fail_all(name, least):
             for left in os.listdir(folder):
                 if left != output:
                     shutil.rmtree(folder / left, ignore_errors=True) if (folder / left).is_dir() else (folder / left).unlink()
-        count += n - 1
+            if not failed:
+                break
+            count += 1
     shutil.rmtree(folder)
     print(f"{name}: {count} calls failed, {len(wrong)} wrong", *wrong[:20], sep="\n  ", flush=True)
     return wrong
 
 
 if __name__ == "__main__":
-    least = 0 if "--all" in sys.argv else 16384
-    names = [word for word in sys.argv[1:] if word != "--all"] or list(JOBS)
-    sys.exit(1 if sum((fail_all(name, least) for name in names), []) else 0)
+    by_place = "--places" in sys.argv
+    least = 0 if by_place or "--all" in sys.argv else 16384
+    names = [word for word in sys.argv[1:] if not word.startswith("--")] or list(JOBS)
+    sys.exit(1 if sum((fail_all(name, least, by_place) for name in names), []) else 0)

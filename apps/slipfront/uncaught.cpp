@@ -1,0 +1,46 @@
+// Memory that ends where nobody catches it, in a library's static objects before main or on a thread of OpenMP, ends
+// the program like any other want of memory: with one line and its exit code.
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <exception>
+#include <new>
+
+#include "commands.hpp"
+
+namespace {
+
+std::terminate_handler handler_of_library = nullptr;
+
+[[noreturn]] void end_in_one_line() {
+  try {
+    if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
+  } catch (const std::bad_alloc&) {
+    static constexpr char text[] = "slipfront: out of memory\n";
+    static_cast<void>(write(STDERR_FILENO, text, sizeof text - 1) + 1);
+    _exit(exit_numerics);
+  } catch (...) {
+  }
+  if (handler_of_library) handler_of_library();
+  std::abort();
+}
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__has_feature)
+#define SLIPFRONT_FIRST_OF_ALL
+#elif defined(__has_feature)
+#if !__has_feature(address_sanitizer)
+#define SLIPFRONT_FIRST_OF_ALL
+#endif
+#endif
+
+void heed_uncaught() { handler_of_library = std::set_terminate(end_in_one_line); }
+
+#if defined(SLIPFRONT_FIRST_OF_ALL) && defined(__linux__)
+// Called before the constructors of all libraries. AddressSanitizer, which has to come before us, does without.
+__attribute__((section(".preinit_array"), used)) void (*const before_libraries)() = heed_uncaught;
+#else
+[[maybe_unused]] const bool heeds_uncaught = (heed_uncaught(), true);
+#endif
+
+}  // namespace
