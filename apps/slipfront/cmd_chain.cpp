@@ -4,7 +4,9 @@
 #include "batch.hpp"
 #include "long_run.hpp"
 #include "slipfront/chain/ranks.hpp"
+#include "slipfront/record/unfinished.hpp"
 #include "slipfront/setup/chain.hpp"
+#include "slipfront/setup/estimate.hpp"
 #include "slipfront/setup/pulse.hpp"
 #include "slipfront/setup/summary.hpp"
 
@@ -23,6 +25,7 @@ int run_chain(const ScenarioArguments& a) {
     s = read_scenario_of(a);
     stretched = chain_problem(s);
     schedule = pulse_schedule(s, pulse_problem(s));
+    require_memory(s, stretched, the_ranks->share_of_machine());
     if (!a.resume.empty()) saved = checkpoint_of(a, s);
   });
   the_ranks->require_same("SCENARIO", s.text);
@@ -30,9 +33,11 @@ int run_chain(const ScenarioArguments& a) {
   if (a.check) {
     if (the_ranks->rank() > 0) return exit_done;
     const chain::Problem p = chain::problem_of(stretched);
-    put(fmt::format("{}: fine. Would run {} sites, {:.6g} apart, at scale {:.6g} for {:.0f} steps: {:.3g} GB.\n",
+    const Estimate need = estimate_of(s, stretched);
+    record::require_disk_space(a.output, need.disk);
+    put(fmt::format("{}: fine. Would run {} sites, {:.6g} apart, at scale {:.6g} for {:.0f} steps, {}.\n",
                     s.title.empty() ? s.file : s.title, p.grid.sites, p.grid.spacing, stretched.scale,
-                    s.end * stretched.scale / chain::chosen_step(p), chain::memory_needed(p) / 1e9));
+                    s.end * stretched.scale / chain::chosen_step(p), in_words(need)));
     return exit_done;
   }
   const chain::Execution execution{.threads = a.common.threads, .ranks = the_ranks->size() > 1 ? the_ranks : nullptr};
@@ -45,7 +50,8 @@ int run_chain(const ScenarioArguments& a) {
   const long first = run->chain().level();
   const auto begun = Clock::now();
   const int code = carry_out(
-      *run, a, s, "chain", [&] { return run->time(); }, [&] { return run->chain().level(); });
+      *run, a, s, "chain", estimate_of(s, stretched).disk, [&] { return run->time(); },
+      [&] { return run->chain().level(); });
   if (code != exit_done) return code;
   const ChainEnd end{.run = *run,
                      .balance = run->balance(),  // asks all ranks

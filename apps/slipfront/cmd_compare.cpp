@@ -10,6 +10,8 @@
 #include "long_run.hpp"
 #include "slipfront/record/comparison_file.hpp"
 #include "slipfront/record/unfinished.hpp"
+#include "slipfront/setup/estimate.hpp"
+#include "slipfront/setup/pulse.hpp"
 
 namespace {
 
@@ -33,23 +35,27 @@ void write(const record::Output& output, const Arguments& a, const scenario::Sce
   if (finished) output.clear();
 }
 
-void describe(const scenario::Scenario& s, const Comparison& c) {
-  const pulse::Run laid(c.problem, c.schedule);  // what is wrong with the cells is said here
+void describe(const scenario::Scenario& s, const Comparison& c, const std::string& output) {
+  const Estimate need = estimate_of(s, c);
+  record::require_disk_space(output, need.disk);
+  check_cells(s, c.problem);
   std::string text = fmt::format("{}: fine. Would compare {}pulse (consistent, paper)",
                                  s.title.empty() ? s.file : s.title, c.exact ? "the closed form, " : "");
   for (const auto& chain : c.chains)
     text += fmt::format(", chain at scale {:.6g} ({} sites)", chain.scale, chain::problem_of(chain).grid.sites);
-  put(text + fmt::format(" over x = {:.6g} ... {:.6g} to t = {:.6g}.\n", c.problem.left, c.problem.right, s.end));
+  put(text + fmt::format(" over x = {:.6g} ... {:.6g} to t = {:.6g}, {}.\n", c.problem.left, c.problem.right, s.end,
+                         in_words(need)));
 }
 
 int run_compare(const Arguments& a) {
   const scenario::Scenario s = read_scenario_of(a);
   const Comparison comparison = comparison_of(s, a.scales);
   if (a.check) {
-    describe(s, comparison);
+    describe(s, comparison, a.output);
     return exit_done;
   }
   const record::Output output(a.output, "");
+  record::require_disk_space(a.output, estimate_of(s, comparison).disk);
   if (output.wanted()) interrupted_means("; the levels that were done are in " + output.unfinished());
   const WatchInterrupts watch;
   std::vector<Level> levels;

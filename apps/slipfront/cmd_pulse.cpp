@@ -1,9 +1,9 @@
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <memory>
 
 #include "batch.hpp"
 #include "long_run.hpp"
+#include "slipfront/record/unfinished.hpp"
 #include "slipfront/setup/estimate.hpp"
 #include "slipfront/setup/pulse.hpp"
 #include "slipfront/setup/summary.hpp"
@@ -13,15 +13,13 @@ namespace {
 using namespace slipfront;
 using namespace slipfront::setup;
 
-constexpr int most_cells_to_check = 100000;
-
-void describe(const scenario::Scenario& s, const pulse::Problem& problem, const pulse::Schedule& schedule) {
+void describe(const scenario::Scenario& s, const pulse::Problem& problem, const std::string& output) {
   const Estimate need = estimate_of(s, problem);
+  record::require_disk_space(output, need.disk);
   put(fmt::format(
-      "{}: fine. Would run {} cells over x = {:.6g} ... {:.6g} to t = {:.6g}, {} friction {} (closure {}), {} "
-      "snapshots: {:.3g} GB of memory, {:.3g} GB on the disk with -o.\n",
+      "{}: fine. Would run {} cells over x = {:.6g} ... {:.6g} to t = {:.6g}, {} friction {} (closure {}), {}.\n",
       s.title.empty() ? s.file : s.title, problem.cells, problem.left, problem.right, s.end, law_name(s.friction.law),
-      s.friction.coefficient, name_of(s.friction.closure), schedule.times.size(), need.memory / 1e9, need.disk / 1e9));
+      s.friction.coefficient, name_of(s.friction.closure), in_words(need)));
 }
 
 int run_pulse(const ScenarioArguments& a) {
@@ -30,10 +28,8 @@ int run_pulse(const ScenarioArguments& a) {
   const pulse::Problem problem = pulse_problem(s);
   const pulse::Schedule schedule = pulse_schedule(s, problem);
   if (a.check) {
-    pulse::Problem some = problem;  // what is wrong with the cells is said here; of very many, some tell it
-    some.cells = std::min(problem.cells, most_cells_to_check);
-    const pulse::Run laid(some, pulse_schedule(s, some));
-    describe(s, problem, laid.schedule());
+    check_cells(s, problem);
+    describe(s, problem, a.output);
     return exit_done;
   }
   std::unique_ptr<pulse::Run> run;
@@ -44,7 +40,8 @@ int run_pulse(const ScenarioArguments& a) {
     run = std::make_unique<pulse::Run>(problem, schedule, saved.solver_state, saved.snapshots);
   }
   const int code = carry_out(
-      *run, a, s, "pulse", [&] { return run->solver().cells().time; }, [&] { return run->solver().cells().steps; });
+      *run, a, s, "pulse", estimate_of(s, problem).disk, [&] { return run->solver().cells().time; },
+      [&] { return run->solver().cells().steps; });
   if (code == exit_done) print_summary(s.title, summary(pulse_summary(), {s, *run, seconds_since(start)}), a);
   return code;
 }

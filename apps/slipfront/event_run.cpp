@@ -58,6 +58,12 @@ int exit_code(const EventsRead& read, const EventPrinter& printer) {
   return read.unreadable ? exit_file : printer.errors() > 0 ? exit_input : exit_done;
 }
 
+namespace {
+
+constexpr std::size_t most_waiting = 4096;
+
+}  // namespace
+
 int print_events(const EventArguments& a) {
   const MediumDefaults defaults = defaults_of(a.medium);
   const Plan plan = plan_of(a);
@@ -68,6 +74,7 @@ int print_events(const EventArguments& a) {
   });
   EventPrinter printer(a.common, {.rows = !a.population, .population = a.population, .pulse = a.pulse});
   std::vector<Entry> waiting;
+  require_memory(plan, most_waiting, a.common.threads);
   const auto flush = [&] {
     auto printed = in_parallel<EventPrinter::Printed>(
         waiting.size(), a.common.threads,
@@ -78,7 +85,7 @@ int print_events(const EventArguments& a) {
   const EventsRead read = read_all(a, texts, [&](Entry&& entry) {
     if (!entry.error) sources.warn(entry.observation);
     waiting.push_back(std::move(entry));
-    if (waiting.size() == 4096) flush();
+    if (waiting.size() == most_waiting) flush();
   });
   flush();
   printer.finish(read.ignored_columns, {});

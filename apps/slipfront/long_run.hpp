@@ -39,11 +39,11 @@ std::string json_number(double value);
 void print_summary(const std::string& title, const std::vector<slipfront::setup::SummaryValue>& summary,
                    const ScenarioArguments& arguments);
 
-/// Carries a run (pulse or chain) to its end with progress, checkpoints and heed to Ctrl-C. `time` and `steps` tell
-/// where it is. Returns the exit code.
+/// Carries a run (pulse or chain) to its end with progress, checkpoints and heed to Ctrl-C. The file will have some
+/// `disk` bytes; `time` and `steps` tell where the run is. Returns the exit code.
 template <class Run, class Time, class Steps>
 int carry_out(Run& run, const ScenarioArguments& a, const slipfront::scenario::Scenario& s, const std::string& command,
-              Time&& time, Steps&& steps) {
+              double disk, Time&& time, Steps&& steps) {
   using namespace slipfront;
   const bool first = the_ranks->rank() == 0;
   // The history is that of the run, not of how it was interrupted and resumed: equal runs make equal files.
@@ -54,6 +54,7 @@ int carry_out(Run& run, const ScenarioArguments& a, const slipfront::scenario::S
   const record::Keeping keeping{.output = output,
                                 .metadata = {s.title, s.text, SLIPFRONT_VERSION, scenario::command_line(s, command),
                                              run.schedule().x_edges, s.output.variables},
+                                .disk = disk,
                                 .resumed = !a.resume.empty(),
                                 .ranks = ranks};
   if (keeping.output.wanted())

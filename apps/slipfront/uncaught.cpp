@@ -7,6 +7,7 @@
 #include <exception>
 #include <new>
 
+#include "../../src/sanitized.hpp"
 #include "commands.hpp"
 
 namespace {
@@ -26,17 +27,9 @@ std::terminate_handler handler_of_library = nullptr;
   std::abort();
 }
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__has_feature)
-#define SLIPFRONT_FIRST_OF_ALL
-#elif defined(__has_feature)
-#if !__has_feature(address_sanitizer)
-#define SLIPFRONT_FIRST_OF_ALL
-#endif
-#endif
-
 void heed_uncaught() { handler_of_library = std::set_terminate(end_in_one_line); }
 
-#if defined(SLIPFRONT_FIRST_OF_ALL) && defined(__linux__)
+#if !SLIPFRONT_SANITIZED && defined(__linux__)
 // Called before the constructors of all libraries. AddressSanitizer, which has to come before us, does without.
 __attribute__((section(".preinit_array"), used)) void (*const before_libraries)() = heed_uncaught;
 #else

@@ -6,6 +6,7 @@
 
 #include "results.hpp"
 #include "slipfront/record/carry_out.hpp"
+#include "slipfront/setup/estimate.hpp"
 #include "slipfront/setup/pulse.hpp"
 #include "watch.hpp"
 
@@ -30,6 +31,7 @@ py::dict run_chain(const py::dict& arguments, int threads) {
     const py::gil_scoped_release others_may_run;
     const chain::Stretched stretched = setup::chain_problem(s);
     const pulse::Schedule schedule = setup::pulse_schedule(s, setup::pulse_problem(s));
+    setup::require_memory(s, stretched);
     const chain::Execution execution{.threads = threads};
     if (a.resume.empty()) {
       run = std::make_unique<chain::Run>(stretched, schedule, execution);
@@ -39,6 +41,7 @@ py::dict run_chain(const py::dict& arguments, int threads) {
     }
     keeping = record::Keeping{.output = {a.output.empty() ? a.resume : a.output, a.resume},
                               .metadata = metadata_of(s, "chain", schedule.x_edges),
+                              .disk = setup::estimate_of(s, stretched).disk,
                               .resumed = !a.resume.empty()};
     const long first = run->chain().level();
     const auto begun = Clock::now();
@@ -65,11 +68,13 @@ py::dict check_chain(const py::dict& arguments) {
   using namespace pybind11::literals;
   const scenario::Scenario s = scenario_of(asked(arguments));
   const chain::Stretched stretched = setup::chain_problem(s);
+  setup::require_memory(s, stretched);
   const chain::Problem p = chain::problem_of(stretched);
+  const setup::Estimate need = setup::estimate_of(s, stretched);
   return py::dict("title"_a = s.title, "sites"_a = p.grid.sites, "spacing"_a = p.grid.spacing,
                   "scale"_a = stretched.scale, "left"_a = stretched.left, "right"_a = stretched.right, "end"_a = s.end,
                   "steps"_a = static_cast<long>(s.end * stretched.scale / chain::chosen_step(p)),
-                  "memory_bytes"_a = chain::memory_needed(p));
+                  "memory_bytes"_a = need.memory_with_file(), "disk_bytes"_a = need.disk);
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include "results.hpp"
 #include "slipfront/record/comparison_file.hpp"
 #include "slipfront/record/unfinished.hpp"
+#include "slipfront/setup/estimate.hpp"
+#include "slipfront/setup/pulse.hpp"
 #include "watch.hpp"
 
 namespace {
@@ -45,6 +47,7 @@ py::dict run_compare(const py::dict& arguments, const std::vector<double>& scale
     metadata = metadata_of(s, "compare", comparison.schedule.x_edges);
     metadata.command_line = scenario::command_line(s, "compare", scales);
     const record::Output output(a.output, "");
+    record::require_disk_space(a.output, setup::estimate_of(s, comparison).disk);
     const auto write = [&] {
       if (!output.wanted()) return;
       std::vector<record::ComparedLevel> compared;
@@ -76,11 +79,13 @@ py::dict run_compare(const py::dict& arguments, const std::vector<double>& scale
 py::dict check_compare(const py::dict& arguments, const std::vector<double>& scales) {
   const scenario::Scenario s = scenario_of(asked(arguments));
   const setup::Comparison c = setup::comparison_of(s, scales);
-  const pulse::Run laid(c.problem, c.schedule);  // what is wrong with the cells is said here
+  setup::check_cells(s, c.problem);
   std::vector<double> chains;
   for (const auto& chain : c.chains) chains.push_back(chain.scale);
+  const setup::Estimate need = setup::estimate_of(s, c);
   return py::dict("title"_a = s.title, "levels"_a = c.levels(), "closed_form"_a = c.exact.has_value(),
-                  "scales"_a = chains, "left"_a = c.problem.left, "right"_a = c.problem.right, "end"_a = s.end);
+                  "scales"_a = chains, "left"_a = c.problem.left, "right"_a = c.problem.right, "end"_a = s.end,
+                  "memory_bytes"_a = need.memory_with_file(), "disk_bytes"_a = need.disk);
 }
 
 }  // namespace

@@ -76,6 +76,7 @@ py::dict evaluate_all(const std::vector<Source>& sources, const StatedMedium& me
                                             [&](Entry&& entry) { entries.push_back(std::move(entry)); }))
         if (std::find(ignored.begin(), ignored.end(), title) == ignored.end()) ignored.push_back(std::move(title));
     warn_of_other_sources(entries, defaults);
+    require_memory(plan, entries.size(), threads);
     results.resize(entries.size());
     for_each_parallel(
         entries.size(), threads, [&](std::size_t i) { results[i] = evaluate(std::move(entries[i]), defaults, plan); },

@@ -6,6 +6,7 @@
 
 #include "results.hpp"
 #include "slipfront/record/carry_out.hpp"
+#include "slipfront/setup/estimate.hpp"
 #include "watch.hpp"
 
 namespace {
@@ -31,6 +32,7 @@ py::dict run_pulse(const py::dict& arguments) {
     }
     keeping = record::Keeping{.output = {a.output.empty() ? a.resume : a.output, a.resume},
                               .metadata = metadata_of(s, "pulse", schedule.x_edges),
+                              .disk = setup::estimate_of(s, problem).disk,
                               .resumed = !a.resume.empty()};
     const pulse::Solver& solver = run->solver();
     record::carry_out(*run, *keeping, [&] { return watch(solver.cells().time, solver.cells().steps); });
@@ -47,11 +49,14 @@ py::dict check_pulse(const py::dict& arguments) {
   using namespace pybind11::literals;
   const scenario::Scenario s = scenario_of(asked(arguments));
   const pulse::Problem problem = setup::pulse_problem(s);
-  const pulse::Run laid(problem, setup::pulse_schedule(s, problem));  // what is wrong with the cells is said here
+  const pulse::Schedule schedule = setup::pulse_schedule(s, problem);
+  setup::check_cells(s, problem);
+  const setup::Estimate need = setup::estimate_of(s, problem);
   return py::dict("title"_a = s.title, "cells"_a = problem.cells, "left"_a = problem.left, "right"_a = problem.right,
                   "end"_a = s.end, "friction_law"_a = setup::law_name(s.friction.law),
                   "friction_coefficient"_a = s.friction.coefficient, "closure"_a = name_of(s.friction.closure),
-                  "times"_a = laid.schedule().times.size());
+                  "times"_a = schedule.times.size(), "memory_bytes"_a = need.memory_with_file(),
+                  "disk_bytes"_a = need.disk);
 }
 
 }  // namespace

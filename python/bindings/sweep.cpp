@@ -12,8 +12,10 @@
 #include <utility>
 
 #include "results.hpp"
+#include "slipfront/machine.hpp"
 #include "slipfront/record/table_file.hpp"
 #include "slipfront/setup/chain.hpp"
+#include "slipfront/setup/estimate.hpp"
 #include "slipfront/setup/pulse.hpp"
 
 namespace {
@@ -53,6 +55,44 @@ std::vector<double> numbers(std::span<const setup::SummaryItem<End>> items, cons
       if (variable == item.key) values.push_back(number(item.get(end)));
   return values;
 }
+
+/// Memory that points which run at the same time share: each waits until there is room for it beside the others.
+class SharedMemory {
+ public:
+  /// Holds some of it while it lives.
+  class Share {
+   public:
+    Share(SharedMemory& memory, double bytes) : memory_(memory), bytes_(bytes) {}
+    Share(const Share&) = delete;
+    Share& operator=(const Share&) = delete;
+    ~Share() {
+      const std::scoped_lock lock(memory_.mutex_);
+      memory_.used_ -= bytes_;
+      --memory_.shares_;
+      memory_.changed_.notify_all();
+    }
+
+   private:
+    SharedMemory& memory_;
+    double bytes_;
+  };
+
+  /// Waits for room, or for nobody else to hold any, or for `stopped`.
+  Share take(double bytes, const std::atomic<bool>& stopped) {
+    std::unique_lock lock(mutex_);
+    while (shares_ > 0 && used_ + bytes > all_ && !stopped) changed_.wait_for(lock, std::chrono::milliseconds(50));
+    used_ += bytes;
+    ++shares_;
+    return {*this, bytes};
+  }
+
+ private:
+  const double all_ = usable_memory();
+  double used_ = 0;
+  int shares_ = 0;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+};
 
 /// The points of a sweep, each on one thread; nothing here needs the GIL.
 class Sweep {
@@ -105,7 +145,10 @@ class Sweep {
     const pulse::Problem problem = setup::pulse_problem(s);
     pulse::Schedule schedule = setup::pulse_schedule(s, problem);
     if (command_ == "chain") {
-      chain::Run run(setup::chain_problem(s), schedule, {.threads = 1});
+      const chain::Stretched stretched = setup::chain_problem(s);
+      setup::require_memory(s, stretched);
+      const auto share = memory_.take(setup::estimate_of(s, stretched).memory, stopped_);
+      chain::Run run(stretched, schedule, {.threads = 1});
       if (!run.go(interrupted)) return {};
       const double wall = seconds();
       return numbers(setup::chain_summary(), variables_,
@@ -117,6 +160,7 @@ class Sweep {
                                      .ranks = 1,
                                      .threads = 1});
     }
+    const auto share = memory_.take(setup::estimate_of(s, problem).memory, stopped_);
     pulse::Run run(problem, schedule);
     if (!run.go(interrupted)) return {};
     return numbers(setup::pulse_summary(), variables_, setup::PulseEnd{s, run, seconds()});
@@ -125,6 +169,7 @@ class Sweep {
   std::string command_, text_, file_;
   std::vector<Overrides> points_;
   Variables variables_;
+  SharedMemory memory_;
   std::atomic<std::size_t> next_ = 0;
   std::atomic<bool> stopped_ = false;
   std::mutex mutex_;

@@ -1,9 +1,8 @@
-#include <locale>
-#include <sstream>
 #include <string>
 
 #include "../nearest.hpp"
 #include "../parse_toml.hpp"
+#include "../plain_stream.hpp"
 #include "keys.hpp"
 #include "slipfront/event/read.hpp"
 #include "toml_distribution.hpp"
@@ -16,8 +15,7 @@ std::size_t line_of(const toml::node& node) { return node.source().begin.line; }
 std::string text_value(const toml::node& node, const std::string& key) {
   if (const auto text = node.value<std::string>()) return *text;
   if (node.is_integer() || node.is_date() || node.is_date_time()) {
-    std::ostringstream out;
-    out.imbue(std::locale::classic());
+    std::ostringstream out = plain_stream();
     if (node.is_date()) out << *node.as_date();
     if (node.is_date_time()) out << *node.as_date_time();
     if (node.is_integer()) out << *node.as_integer();
@@ -29,8 +27,7 @@ std::string text_value(const toml::node& node, const std::string& key) {
 void read_quantity(Observation& o, const Key& key, const std::string& full_key, const toml::node& node) {
   try {
     if (const toml::table* table = node.as_table()) {
-      std::ostringstream text;
-      text.imbue(std::locale::classic());
+      std::ostringstream text = plain_stream();
       text << *table;
       store(o, key, read_distribution(*table, full_key, key), text.str());
       return;

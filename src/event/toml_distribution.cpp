@@ -1,12 +1,11 @@
 #include "toml_distribution.hpp"
 
 #include <algorithm>
-#include <locale>
-#include <sstream>
 #include <string_view>
 #include <vector>
 
 #include "../nearest.hpp"
+#include "../plain_stream.hpp"
 
 namespace slipfront::event {
 namespace {
@@ -71,8 +70,7 @@ double number_of(const toml::table& table, const char* name, const std::string& 
 std::string quantity_text(const toml::node& node) {
   if (const auto text = node.value<std::string>()) return *text;
   if (!node.is_number()) return {};
-  std::ostringstream out;
-  out.imbue(std::locale::classic());
+  std::ostringstream out = plain_stream();
   out.precision(17);
   out << node.value_or(0.0);
   return out.str();

@@ -13,6 +13,7 @@
 #include <new>
 #include <string_view>
 
+#include "../sanitized.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::record {
@@ -74,6 +75,16 @@ bool send(int pipe, std::string_view text) {
   return true;
 }
 
+/// The libraries print what goes wrong within them; the program says it in a line of its own.
+void silence_libraries() {
+  if (SLIPFRONT_SANITIZED) return;  // its reports are wanted
+  const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+  if (nowhere < 0) return;
+  dup2(nowhere, STDOUT_FILENO);
+  dup2(nowhere, STDERR_FILENO);
+  close(nowhere);
+}
+
 /// The copy's life. It ends without the ends of this program: no destructor and nothing that stdio still holds.
 [[noreturn]] void live_as_copy(int pipe, const std::function<std::string()>& work) {
   is_copy = true;
@@ -85,6 +96,7 @@ bool send(int pipe, std::string_view text) {
     sigdelset(&others, crash);
   }
   sigprocmask(SIG_BLOCK, &others, nullptr);
+  silence_libraries();
   bool sent = false;
   try {
     try {

@@ -102,13 +102,6 @@ std::vector<std::string> pulse_variables() {
   return names;
 }
 
-double bytes_of(const PulseMetadata& metadata, std::size_t times) {
-  const std::size_t cells = metadata.x_edges.size() - 1;
-  const std::size_t values =
-      times * (chosen_fields(metadata.variables).size() * cells + scalar_variables().size()) + 3 * cells;
-  return static_cast<double>(values * sizeof(double));
-}
-
 void write_pulse(const std::string& path, const PulseMetadata& metadata, const std::vector<Snapshot>& snapshots,
                  const std::string& solver_state, bool finished) {
   const Fields fields = chosen_fields(metadata.variables);

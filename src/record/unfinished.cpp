@@ -44,6 +44,7 @@ void require_netcdf_name(const std::string& path, const std::string& option) {
 }
 
 void require_disk_space(const std::string& path, double bytes) {
+  if (path.empty()) return;
   std::error_code unknown;
   fs::path folder = fs::path(path).parent_path();
   const fs::space_info space = fs::space(folder.empty() ? "." : folder, unknown);

@@ -1,5 +1,6 @@
 #include "whole_file.hpp"
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -10,6 +11,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <mutex>
 #include <set>
 #include <system_error>
@@ -65,12 +67,13 @@ void remove_parts(const fs::path& target) {
   const std::scoped_lock lock(mutex);
   if (looked_at.size() > 1000 || !looked_at.insert(fs::absolute(target)).second) return;
   const fs::path folder = target.has_parent_path() ? target.parent_path() : ".";
-  std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-    if (!is_part(entry->path().filename().string(), target.filename().string())) continue;
-    const int part = open(entry->path().c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+  // Not by std::filesystem, whose iterators end the program where memory ends.
+  const std::unique_ptr<DIR, int (*)(DIR*)> entries(opendir(folder.c_str()), closedir);
+  while (const dirent* entry = entries ? readdir(entries.get()) : nullptr) {
+    if (!is_part(entry->d_name, target.filename().string())) continue;
+    const int part = openat(dirfd(entries.get()), entry->d_name, O_WRONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
     if (part < 0) continue;
-    if (flock(part, LOCK_EX | LOCK_NB) == 0) unlink(entry->path().c_str());
+    if (flock(part, LOCK_EX | LOCK_NB) == 0) unlinkat(dirfd(entries.get()), entry->d_name, 0);
     close(part);
   }
 }

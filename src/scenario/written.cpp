@@ -1,9 +1,8 @@
 #include "written.hpp"
 
-#include <locale>
-#include <sstream>
 #include <type_traits>
 
+#include "../plain_stream.hpp"
 #include "document.hpp"
 
 namespace slipfront::scenario {
@@ -94,8 +93,7 @@ void write_entries(std::ostream& out, const toml::table& table, bool top) {
 }  // namespace
 
 std::string written(const toml::table& root, const std::vector<std::string>& overrides) {
-  std::ostringstream out;
-  out.imbue(std::locale::classic());
+  std::ostringstream out = plain_stream();
   for (const std::string& text : overrides) out << "# --set " << text << "\n";
   write_entries(out, root, true);
   for (const auto& [key, value] : root) {

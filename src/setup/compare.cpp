@@ -8,6 +8,7 @@
 #include "../digits.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/setup/chain.hpp"
+#include "slipfront/setup/estimate.hpp"
 #include "slipfront/setup/pulse.hpp"
 
 namespace slipfront::setup {
@@ -54,6 +55,7 @@ Comparison comparison_of(scenario::Scenario scenario, std::vector<double> scales
     c.chains.push_back(chain_problem(scenario));
     chain::problem_of(c.chains.back());
   }
+  require_memory(scenario, c);
   return c;
 }
 

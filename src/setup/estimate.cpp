@@ -1,5 +1,6 @@
 #include "slipfront/setup/estimate.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -14,32 +15,89 @@ constexpr double size = sizeof(double);
 constexpr double observed_fields = 5;   // of pulse::Profile
 constexpr double written_fields = 8;    // of a file, at most
 constexpr double scalars = 16;          // of a snapshot
-constexpr double solver_per_cell = 50;  // doubles: states, fluxes, the stages of a step and its Jacobian
+constexpr double solver_per_cell = 66;  // doubles: states, fluxes, the stages of a step and its Jacobian
+constexpr double state_per_cell = 6;    // of these, to resume from; the edges of x among them
+constexpr double state_per_site = 2;    // levels of a chain
 
-}  // namespace
-
-Estimate estimate_of(const scenario::Scenario& s, const pulse::Problem& problem) {
-  const double cells = problem.cells;
+/// What is observed of a run, whatever runs.
+Estimate observed(const scenario::Scenario& s) {
+  const double cells = s.pulse.cells;
   double outputs = 2 + static_cast<double>(s.output.times.size());
   if (s.output.every) outputs += std::ceil(s.end / *s.output.every) - 1;
   const double variables =
       s.output.variables.empty() ? written_fields : static_cast<double>(s.output.variables.size() + 1);
-  // A file is made in memory before it is written.
-  const double disk = size * (outputs * (cells * variables + scalars) + 8 * cells);
-  return {outputs, size * (outputs * (observed_fields * cells + scalars) + solver_per_cell * cells) + disk, disk};
+  return {outputs, size * outputs * (observed_fields * cells + scalars),
+          size * (outputs * (cells * variables + scalars) + 2 * cells)};
+}
+
+double sites_of(const chain::Stretched& c) { return c.scale * (c.right - c.left) / c.spacing + 1; }
+
+double memory_of(const chain::Stretched& c) {
+  chain::Problem p;  // as far as its memory depends on it
+  p.friction = c.friction;
+  p.forcing = c.forcing;
+  p.contact = c.contact;
+  p.grid.sites = static_cast<std::size_t>(std::clamp(sites_of(c), 1.0, 1e15));
+  return chain::memory_needed(p);
+}
+
+void require(const scenario::Scenario& s, const Estimate& need, const char* key, const std::string& what,
+             const char* allowed) {
+  const double have = usable_memory();
+  if (need.memory_with_file() <= have) return;
+  const bool by_outputs = need.outputs > 1000;
+  throw InputError({.file = s.file,
+                    .key = by_outputs ? (s.output.every ? "output.every" : "output.times") : key,
+                    .problem = digits(need.outputs, 4) + " outputs of " + digits(s.pulse.cells, 4) + " cells" + what +
+                               " need " + digits(need.memory_with_file() / 1e9, 3) +
+                               " GB of memory, this process may have " + digits(have / 1e9, 3) + " GB",
+                    .allowed = by_outputs ? "fewer outputs, or fewer output.variables" : allowed});
+}
+
+}  // namespace
+
+Estimate estimate_of(const scenario::Scenario& s, const pulse::Problem& problem) {
+  Estimate need = observed(s);
+  need.memory += size * solver_per_cell * problem.cells;
+  need.disk += size * state_per_cell * problem.cells;
+  return need;
+}
+
+Estimate estimate_of(const scenario::Scenario& s, const chain::Stretched& chain) {
+  Estimate need = observed(s);
+  need.memory += memory_of(chain);
+  need.disk += size * state_per_site * sites_of(chain);
+  return need;
+}
+
+Estimate estimate_of(const scenario::Scenario& s, const Comparison& comparison) {
+  const Estimate one = observed(s);
+  const auto levels = static_cast<double>(comparison.levels());
+  double largest = size * solver_per_cell * s.pulse.cells;
+  for (const chain::Stretched& chain : comparison.chains) largest = std::max(largest, memory_of(chain));
+  // A level in progress hands what it observed to the comparison as a copy.
+  return {one.outputs, (levels + 1) * one.memory + largest, levels * one.disk};
+}
+
+std::string in_words(const Estimate& need) {
+  return digits(need.outputs, 9) + " snapshots: " + digits(need.memory_with_file() / 1e9, 3) + " GB of memory, " +
+         digits(need.disk / 1e9, 3) + " GB on the disk with -o";
 }
 
 void require_memory(const scenario::Scenario& s, const pulse::Problem& problem) {
-  const Estimate need = estimate_of(s, problem);
-  const double have = usable_memory();
-  if (need.memory <= have) return;
-  const bool by_outputs = need.outputs > 1000;
-  throw InputError({.file = s.file,
-                    .key = by_outputs ? (s.output.every ? "output.every" : "output.times") : "pulse.cells",
-                    .problem = digits(need.outputs, 4) + " outputs of " + digits(problem.cells, 4) + " cells need " +
-                               digits(need.memory / 1e9, 3) + " GB of memory, this process may have " +
-                               digits(have / 1e9, 3) + " GB",
-                    .allowed = by_outputs ? "fewer outputs, or fewer output.variables" : "fewer cells or outputs"});
+  require(s, estimate_of(s, problem), "pulse.cells", "", "fewer cells or outputs");
+}
+
+void require_memory(const scenario::Scenario& s, const chain::Stretched& chain, double share_of_machine) {
+  Estimate need = estimate_of(s, chain);
+  need.memory -= (1 - share_of_machine) * memory_of(chain);
+  require(s, need, s.chain.spacing ? "chain.spacing" : "chain.scale", " and " + digits(sites_of(chain), 4) + " sites",
+          "fewer sites, cells or outputs");
+}
+
+void require_memory(const scenario::Scenario& s, const Comparison& comparison) {
+  require(s, estimate_of(s, comparison), "pulse.cells", ", " + std::to_string(comparison.levels()) + " levels together",
+          "smaller scales, fewer cells or outputs");
 }
 
 }  // namespace slipfront::setup

@@ -92,4 +92,11 @@ pulse::Schedule pulse_schedule(const scenario::Scenario& s, const pulse::Problem
   return schedule;
 }
 
+void check_cells(const scenario::Scenario& s, const pulse::Problem& problem) {
+  constexpr int enough = 100000;
+  pulse::Problem some = problem;
+  some.cells = std::min(problem.cells, enough);
+  const pulse::Run laid(some, pulse_schedule(s, some));
+}
+
 }  // namespace slipfront::setup

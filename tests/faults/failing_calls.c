@@ -88,13 +88,13 @@ static int fails(const char* kind) {
   return 1;
 }
 
-/* clang's OpenMP runtime ends the program by itself where it gets no memory: not this program's doing. */
+/* The OpenMP runtime, libgomp or libomp, ends the program by itself where it gets no memory: not this program's doing. */
 static int of_openmp(const void* caller) {
   static __thread int asking;
   if (asking || state->wanted[0] == 0) return 0;
   asking = 1;
   Dl_info from;
-  const int found = dladdr(caller, &from) != 0 && from.dli_fname != NULL && strstr(from.dli_fname, "libomp") != NULL;
+  const int found = dladdr(caller, &from) != 0 && from.dli_fname != NULL && strstr(from.dli_fname, "omp.so") != NULL;
   asking = 0;
   return found;
 }

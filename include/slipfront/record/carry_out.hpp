@@ -17,6 +17,7 @@ namespace slipfront::record {
 struct Keeping {
   Output output;
   PulseMetadata metadata;
+  double disk = 0;                      ///< bytes that the file will need, about
   bool resumed = false;                 ///< what the run went on from is in a file
   const chain::Ranks* ranks = nullptr;  ///< that share the run, if any: all of them call
 };
@@ -55,7 +56,7 @@ bool carry_out(Run& run, const Keeping& keeping, const std::function<bool()>& af
   };
   if (keeping.output.wanted()) {
     const auto require_space = [&] {
-      if (first) require_disk_space(keeping.output.finished(), bytes_of(keeping.metadata, run.schedule().times.size()));
+      if (first) require_disk_space(keeping.output.finished(), keeping.disk);
     };
     keeping.ranks ? keeping.ranks->together(require_space) : require_space();
   }

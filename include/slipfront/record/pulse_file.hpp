@@ -35,9 +35,6 @@ struct Checkpoint {
 /// Names of the variables over time and x that a file can hold. Those over time alone are always there.
 std::vector<std::string> pulse_variables();
 
-/// Bytes of the file of a run with so many output times, about; its solver's state left out.
-double bytes_of(const PulseMetadata& metadata, std::size_t times);
-
 /// Writes `path` whole or not at all; an old file stays as it was when this fails. Equal arguments make equal files,
 /// byte by byte: no date, no host. Profiles must have as many cells as `x_edges` (fields that are not asked for may be
 /// empty) and times must ascend, or this throws std::invalid_argument. No snapshots are fine. \throws FileError (one

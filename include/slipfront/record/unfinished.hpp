@@ -32,7 +32,7 @@ class Output {
 /// \throws InputError unless `path`, an `option` of a user, has a name that ends in .nc.
 void require_netcdf_name(const std::string& path, const std::string& option);
 
-/// \throws FileError if the disk of `path` has not as many free bytes.
+/// \throws FileError if the disk of `path`, if that is not empty, has not as many free bytes.
 void require_disk_space(const std::string& path, double bytes);
 
 }  // namespace slipfront::record

@@ -15,6 +15,10 @@ pulse::Problem pulse_problem(const scenario::Scenario& scenario);
 /// not fit into the memory (estimate.hpp).
 pulse::Schedule pulse_schedule(const scenario::Scenario& scenario, const pulse::Problem& problem);
 
+/// Lays the cells of a problem and forgets them; of very many, some tell what is wrong. \throws InputError as
+/// pulse::Run.
+void check_cells(const scenario::Scenario& scenario, const pulse::Problem& problem);
+
 /// "viscous", "coulomb", "power"; "no" without friction.
 const char* law_name(modulation::FrictionLaw law);
 
