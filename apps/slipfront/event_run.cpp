@@ -69,12 +69,14 @@ int print_events(const EventArguments& a) {
   const Plan plan = plan_of(a);
   const std::vector<EventText> texts = texts_of(a);
   Sources sources;  // read twice: whether sources of one earthquake disagree is known when all are
+  std::size_t count = 0;
   read_all(a, texts, [&](Entry&& entry) {
+    ++count;
     if (!entry.error) sources.add(entry.observation, defaults);
   });
   EventPrinter printer(a.common, {.rows = !a.population, .population = a.population, .pulse = a.pulse});
   std::vector<Entry> waiting;
-  require_memory(plan, most_waiting, a.common.threads);
+  require_memory(plan, std::min(count, most_waiting), a.common.threads);
   const auto flush = [&] {
     auto printed = in_parallel<EventPrinter::Printed>(
         waiting.size(), a.common.threads,

@@ -28,8 +28,9 @@ double memory_needed(const Plan& plan, std::size_t events, int at_once) {
   // Samples double: the vector that holds them does as well, and while it grows its old half is there too. Beside it
   // their weights and their order. The sequences that they are drawn from stay, each twice as long as the one before.
   const double of_sample = 3 * sizeof(Sample) + 4 * sizeof(double);
-  const double sequences = 2 * sizeof(double) * static_cast<double>(ShiftedSobol::dimensions);
   const double most = most_of(plan.sampling);
+  const double kept = most > static_cast<double>(plan.sampling.samples) ? 2 : 1;
+  const double sequences = kept * sizeof(double) * static_cast<double>(ShiftedSobol::dimensions);
   const double together = std::min(static_cast<double>(events), static_cast<double>(at_once));
   return most * (together * of_sample + sequences) + static_cast<double>(events) * (result_itself + draws_of(plan));
 }

@@ -2,6 +2,8 @@
 
 import fcntl
 import os
+import re
+import resource
 import signal
 import subprocess
 import time
@@ -11,6 +13,10 @@ from support import CommandLine, PROGRAM, SOURCE, run
 
 STEP = os.path.join(SOURCE, "cases/step.toml")
 SMALL = ["--set", "pulse.cells=16", "--set", "chain.scale=20", "--set", "time.end=0.5"]
+
+
+def little_memory():
+    resource.setrlimit(resource.RLIMIT_AS, (2 * 10**9, 2 * 10**9))
 
 
 def content(path):
@@ -86,6 +92,47 @@ class Outputs(CommandLine):
                     os.unlink(out)
                 self.ok(*command, "-o", out)
                 self.assertEqual(sorted(os.listdir(folder)), ["events.csv", "out.nc"], (command, there))
+
+
+class Sizes(CommandLine):
+    def said_by_check(self, *arguments):
+        """(GB of memory, GB on the disk) that --check speaks of."""
+        text = self.ok(*arguments, "--check")
+        return tuple(float(x) for x in re.search(r"([\d.e+-]+) GB of memory, ([\d.e+-]+) GB on the disk with -o\.", text).groups())
+
+    def test_every_check_tells_memory_and_disk(self):
+        for command in (["pulse", STEP], ["chain", STEP], ["compare", STEP, "--scale", "20"]):
+            few = self.said_by_check(*command)
+            many = self.said_by_check(*command, "--set", "output.every=0.001")
+            self.assertTrue(all(300 * a < b for a, b in zip(few, many)), (command, few, many))
+
+    def test_the_disk_that_check_speaks_of_is_what_a_file_needs(self):
+        for command, file in (("pulse", "p.nc"), ("chain", "c.nc"), ("compare", "l.nc")):
+            words = [command, STEP, *SMALL, *(["--scale", "20"] if command == "compare" else []), "--set", "pulse.cells=60", "--set", "output.every=0.005"]
+            out = os.path.join(os.path.dirname(self.file("x", "")), file)
+            self.ok(*words, "-o", out)
+            self.assertAlmostEqual(self.said_by_check(*words)[1] * 1e9 / os.path.getsize(out), 1, delta=0.25, msg=command)
+
+    def test_what_does_not_fit_is_refused_before_it_is_begun(self):
+        events = self.file("e.csv", "name,rupture_velocity,slip_velocity\n" + "a,3 +- 0.1 km/s,0.5 m/s\n" * 30)
+        draws = os.path.join(os.path.dirname(events), "d.nc")
+        # AddressSanitizer needs more than any limit: what a machine of any size refuses is asked of it then.
+        limited = subprocess.run([PROGRAM, "--version"], preexec_fn=little_memory, capture_output=True).returncode == 0
+        for says, command in (("pulse.cells", ["pulse", STEP, "--set", "pulse.cells=10000000"]),
+                              ("output.every", ["pulse", STEP, "--set", "output.every=1e-5"]),
+                              ("sites", ["chain", STEP, "--set", "chain.scale=1e9"]),
+                              ("levels together", ["compare", STEP, "--set", "output.every=1e-5"]),
+                              ("--samples", ["event", events, "--samples", "10000000", "--threads", "16"]),
+                              ("--draws", ["event", events, "--draws", "100000", "-o", draws])):
+            if command[0] == "event" and not limited:
+                continue
+            begun = time.monotonic()
+            done = subprocess.run([PROGRAM, *command], preexec_fn=little_memory if limited else None, capture_output=True, text=True)
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), (command, done.stderr))
+            self.assertIn(says, done.stderr)
+            self.assertIn("GB", done.stderr)
+            self.assertLess(time.monotonic() - begun, 20)
+        self.assertFalse(os.path.exists(draws))
 
 
 class Signals(CommandLine):
