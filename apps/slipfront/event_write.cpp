@@ -78,7 +78,7 @@ int write_events(const EventArguments& a) {
   const EventsRead read = read_all(a, texts, [&](Entry&& entry) { entries.push_back(std::move(entry)); });
   warn_of_other_sources(entries, defaults);
   const std::size_t total = entries.size();
-  require_memory(plan, total, a.common.threads);
+  require_memory(plan, total, a.common.threads, true);
   const std::string& path = a.output.empty() ? a.resume : a.output;
   const slipfront::record::Output output(is_csv(path) ? "" : path, a.resume);
   slipfront::record::require_disk_space(path, disk_needed(plan, total));

@@ -42,10 +42,11 @@ double disk_needed(const Plan& plan, std::size_t events) {
   return static_cast<double>(events) * (sizeof(double) * numbers + texts_in_file);
 }
 
-void require_memory(const Plan& plan, std::size_t events, int at_once) {
-  const double need = memory_needed(plan, events, at_once), have = usable_memory();
+void require_memory(const Plan& plan, std::size_t events, int at_once, bool with_file) {
+  const double need = memory_needed(plan, events, at_once) + (with_file ? 2 * disk_needed(plan, events) : 0);
+  const double have = usable_memory();
   if (need <= have) return;
-  const bool by_draws = draws_of(plan) * static_cast<double>(events) > need / 2;
+  const bool by_draws = draws_of(plan) * static_cast<double>(events) > need / 4;
   throw InputError({.file = "command line",
                     .key = by_draws ? "--draws" : "--samples",
                     .value = std::to_string(by_draws ? plan.sampling.draws : plan.sampling.samples),

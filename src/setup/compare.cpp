@@ -49,13 +49,13 @@ Comparison comparison_of(scenario::Scenario scenario, std::vector<double> scales
   Comparison c;
   c.problem = pulse_problem(scenario);
   c.schedule = pulse_schedule(scenario, c.problem);
-  c.exact = closed_form(scenario, c.schedule);
   for (const double scale : checked(std::move(scales), scenario)) {
     scenario.chain.scale = scale;
     c.chains.push_back(chain_problem(scenario));
     chain::problem_of(c.chains.back());
   }
-  require_memory(scenario, c);
+  require_memory(scenario, c);  // before the closed form, which is observed at once
+  c.exact = closed_form(scenario, c.schedule);
   return c;
 }
 

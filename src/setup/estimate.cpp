@@ -72,7 +72,7 @@ Estimate estimate_of(const scenario::Scenario& s, const chain::Stretched& chain)
 
 Estimate estimate_of(const scenario::Scenario& s, const Comparison& comparison) {
   const Estimate one = observed(s);
-  const auto levels = static_cast<double>(comparison.levels());
+  const double levels = 3 + static_cast<double>(comparison.chains.size());  // the closed form, if any, comes later
   double largest = size * solver_per_cell * s.pulse.cells;
   for (const chain::Stretched& chain : comparison.chains) largest = std::max(largest, memory_of(chain));
   // A level in progress hands what it observed to the comparison as a copy.
@@ -96,7 +96,8 @@ void require_memory(const scenario::Scenario& s, const chain::Stretched& chain, 
 }
 
 void require_memory(const scenario::Scenario& s, const Comparison& comparison) {
-  require(s, estimate_of(s, comparison), "pulse.cells", ", " + std::to_string(comparison.levels()) + " levels together",
+  require(s, estimate_of(s, comparison), "pulse.cells",
+          ", " + digits(3.0 + static_cast<double>(comparison.chains.size())) + " levels together",
           "smaller scales, fewer cells or outputs");
 }
 

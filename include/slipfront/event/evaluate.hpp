@@ -38,12 +38,12 @@ struct Plan {
   bool pulse = false;        ///< a pulse through the slip distribution of a finite-fault model
 };
 
-/// Bytes that it takes to evaluate `events` events, `at_once` of them at a time, and to keep their results; and bytes
-/// of a file of them.
+/// Bytes that it takes to evaluate `events` events, `at_once` of them at a time, and to keep their results.
 double memory_needed(const Plan& plan, std::size_t events, int at_once);
+/// Bytes of a file of them, which is made in memory.
 double disk_needed(const Plan& plan, std::size_t events);
 /// \throws InputError, which says both, if that is more memory than this process may have.
-void require_memory(const Plan& plan, std::size_t events, int at_once);
+void require_memory(const Plan& plan, std::size_t events, int at_once, bool with_file = false);
 
 /// Never throws InputError: what is wrong with the entry is in the result.
 EventResult evaluate(Entry&& entry, const MediumDefaults& defaults, const Plan& plan);
