@@ -35,7 +35,7 @@ void chain_sites_avx2(benchmark::State& state) {
   rule.force = 0.2;
   double *now = a, *next = b;
   for (auto _ : state) {
-    local_part(rule, now, next, y, lanes, lanes + sites);
+    local_part(rule, now, next, next, y, lanes, lanes + sites);
     add_neighbours(rule.spread, y, next, lanes, lanes + sites);
     std::swap(now, next);
     benchmark::DoNotOptimize(next);

@@ -103,18 +103,22 @@ BENCHMARK(chain_sites)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 
-/// Level by level: contact and forcing, dry friction.
+/// Level by level: contact, forcing (that changes with time, or not), dry friction, and viscous friction of a chain so
+/// short that its work is metered.
 void chain_general(benchmark::State& state) {
-  const std::size_t sites = 100000;
+  const char* const kinds[] = {"contact", "forcing", "steady forcing", "Coulomb friction", "metered viscous friction"};
+  const auto kind = static_cast<std::size_t>(state.range(0));
+  const std::size_t sites = kind == 4 ? 9000 : 100000;
   Problem p = damped_train(sites);
-  if (state.range(0) == 0) p.contact = [](double x) { return 1 + 0.1 * std::sin(x); };
-  if (state.range(0) == 1) p.forcing = [](double x, double t) { return 0.01 * std::sin(x - t); };
-  if (state.range(0) == 2) p.friction = {modulation::FrictionLaw::coulomb, 0.01};
+  if (kind == 0) p.contact = [](double x) { return 1 + 0.1 * std::sin(x); };
+  if (kind == 1 || kind == 2) p.forcing = [](double x, double t) { return 0.01 * std::sin(x - t); };
+  p.steady_forcing = kind == 2;
+  if (kind == 3) p.friction = {modulation::FrictionLaw::coulomb, 0.01};
   chain::Chain run(p, rough_train(sites));
   for (auto _ : state) run.advance(10);
   state.SetItemsProcessed(state.iterations() * 10 * static_cast<long>(sites));
-  state.SetLabel(state.range(0) == 0 ? "contact" : state.range(0) == 1 ? "forcing" : "Coulomb friction");
+  state.SetLabel(kinds[kind]);
 }
-BENCHMARK(chain_general)->DenseRange(0, 2)->Unit(benchmark::kMillisecond);
+BENCHMARK(chain_general)->DenseRange(0, 4)->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -15,6 +15,8 @@ struct Blocks {
   std::size_t count = std::clamp<std::size_t>(sites / least, 1, most);
 
   std::size_t begin(std::size_t block) const { return sites / count * block + sites % count * block / count; }
+  /// The block of a site: begin(b) is b sites / count, rounded down.
+  std::size_t of(std::size_t site) const { return ((site + 1) * count - 1) / sites; }
   /// The first block of `rank` of `ranks`.
   std::size_t first_of(int rank, int ranks) const {
     return count * static_cast<std::size_t>(rank) / static_cast<std::size_t>(ranks);

@@ -133,7 +133,7 @@ Chain::Flows Chain::flows() const {
   return flows;
 }
 
-bool Chain::meters_friction() const { return !parts_->forces.none(); }
+bool Chain::meters_friction() const { return parts_->level_by_level; }
 
 const Problem& Chain::problem() const { return parts_->problem; }
 long Chain::level() const { return parts_->level; }

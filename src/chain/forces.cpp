@@ -38,10 +38,10 @@ Forces::Forces(const Problem& problem, const Scheme& scheme, long level, std::si
     }
   }
   if (problem_.forcing) {
-    F_now_ = forcing_at(level_);
+    F_now_ = forcing_at(problem_.steady_forcing ? 0 : level_);
+    if (problem_.steady_forcing) return;
     F_next_ = forcing_at(level_ + 1);
-    F_old_ = forcing_at(level_ - 1);
-    find_drive();
+    F_before_ = forcing_at(level_ - 1);
   }
 }
 
@@ -57,22 +57,12 @@ std::vector<double> Forces::forcing_at(long level) const {
   return F;
 }
 
-void Forces::find_drive() {
-  const Scheme& s = scheme_;
-  drive_.assign(F_now_.size(), 0.0);
-  for (std::size_t j = 1; j + 1 < drive_.size(); ++j)
-    drive_[j] = s.force / turn *
-                (s.share_next * F_next_[j] + s.share_before * F_old_[j] + s.share_now * F_now_[j] +
-                 s.share_beside * (F_now_[j - 1] + F_now_[j + 1]));
-}
-
 void Forces::proceed() {
   ++level_;
-  if (F_now_.empty()) return;
-  F_old_.swap(F_now_);
+  if (steady()) return;
+  F_before_.swap(F_now_);
   F_now_.swap(F_next_);
   F_next_ = forcing_at(level_ + 1);
-  find_drive();
 }
 
 double Forces::friction(double velocity) const {
@@ -94,7 +84,6 @@ double Forces::friction(double velocity) const {
 double velocity_left(const modulation::Friction& f, double weight, double free) {
   const double size = std::fabs(free), strength = weight * f.coefficient;
   if (size == 0 || strength == 0) return free;
-  if (f.law == FrictionLaw::coulomb) return std::copysign(std::fmax(size - strength, 0.0), free);
   const double n = f.exponent;
   // v + s v^n = size, monotone. Newton in ln v from above is monotone too: v + s v^n is convex in ln v.
   double v = std::fmin(size, std::pow(size / strength, 1 / n));
@@ -106,14 +95,30 @@ double velocity_left(const modulation::Friction& f, double weight, double free) 
   return std::copysign(v, free);
 }
 
-void Forces::level(const Sides& sides, long offset, std::size_t size, const double* now, double* next, double* y,
-                   double* before, Outflow& outflow) const {
-  std::copy(next, next + size, before);
+void Forces::steps_from(long j, std::size_t size, const double* before, const double* now, const double* next,
+                        double* u, double* D, double* B, double* u_next, double* S) const {
+  if (a2_.empty()) {
+    take_steps(scheme_.rule.f, scheme_.eps, before, now, next, u, D, B, size);
+    return;
+  }
+  displacements(sine_, scheme_.eps, a2(j), next, u_next, S, size);
+  take_steps(before, now, next, u_next, u, D, B, size);
+}
+
+void Forces::displacements_from(long j, std::size_t size, const double* z, double* u, double* S) const {
+  if (a2_.empty())
+    displacements(scheme_.rule.f, scheme_.eps, z, u, size);
+  else
+    displacements(sine_, scheme_.eps, a2(j), z, u, S, size);
+}
+
+void Forces::level(const Sides& sides, long offset, std::size_t size, const double* before, const double* now,
+                   double* next, double* y, Outflow& outflow) const {
   if (!a2_.empty()) {
     const double* a2 = this->a2(offset - 1);
-    local_part_with_contact(scheme_.rule, sine_, scheme_.eps, a2, now - 1, next - 1, y - 1, 0, size + 2);
+    local_part_with_contact(scheme_.rule, sine_, scheme_.eps, a2, now - 1, before - 1, next - 1, y - 1, 0, size + 2);
   } else {
-    local_part(scheme_.rule, now - 1, next - 1, y - 1, 0, (size + 2 + lanes - 1) / lanes * lanes);
+    local_part(scheme_.rule, now - 1, before - 1, next - 1, y - 1, 0, (size + 2 + lanes - 1) / lanes * lanes);
   }
   // Counted from two sites before, so that a seam's other side has an index.
   const EndSites bare = before_neighbours(sides, next - 2, 2, size + 1);
@@ -121,19 +126,26 @@ void Forces::level(const Sides& sides, long offset, std::size_t size, const doub
   const auto given = [](Side side) { return side == Side::fixed || side == Side::absorbing; };
   const std::size_t from = given(sides.left) ? 1 : 0, to = given(sides.right) ? size - 1 : size;
   mend_ends(sides, bare, scheme_.rule.spread, now - 2, y - 2, next - 2, 2, size + 1, outflow);
-  if (!drive_.empty()) {
-    const double* drive = drive_.data() + at(offset);
-    for (std::size_t j = from; j < to; ++j) next[j] += drive[j];
+  if (!F_now_.empty()) {
+    const long first = offset + static_cast<long>(from);
+    const double strength = scheme_.force / turn;
+    const DriveRule rule{strength * scheme_.share_next, strength * scheme_.share_before, strength * scheme_.share_now,
+                         strength * scheme_.share_beside};
+    add_drive(rule, F_before(first), F_now(first), F_next(first), next + from, to - from);
   }
-  if (dry_) add_friction(from, to, now, next, before);
+  if (dry_) add_friction(from, to, before, now, next);
 }
 
-void Forces::add_friction(std::size_t begin, std::size_t end, const double* now, double* next,
-                          const double* before) const {
+void Forces::add_friction(std::size_t begin, std::size_t end, const double* before, const double* now,
+                          double* next) const {
   const modulation::Friction& f = problem_.friction;
-  // Centred on the level where that is stable; dry friction and powers below 1, steep at rest, act on the half step
-  // after it: they can stop a site but not throw it back.
-  const bool centred = f.law == FrictionLaw::power && f.exponent >= 1;
+  if (f.law == FrictionLaw::coulomb) {
+    shorten_steps(dt_ * dt_ * f.coefficient / turn, now + begin, next + begin, end - begin);
+    return;
+  }
+  // Centred on the level where that is stable; powers below 1, steep at rest, act on the half step after it, like dry
+  // friction: they can stop a site but not throw it back.
+  const bool centred = f.exponent >= 1;
   for (std::size_t j = begin; j < end; ++j) {
     const double from = centred ? before[j] : now[j], time = centred ? 2 * dt_ : dt_;
     const double free = (next[j] - from) / time * turn;

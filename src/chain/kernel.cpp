@@ -5,19 +5,25 @@
 #include "../vector_code.hpp"
 
 namespace slipfront::chain {
+namespace {
 
-SLIPFRONT_CLONES void local_part(const LevelRule& rule, const double* now, double* next, double* y, std::size_t begin,
-                                 std::size_t end) {
+constexpr double turn = 6.283185307179586;
+
+}  // namespace
+
+SLIPFRONT_CLONES void local_part(const LevelRule& rule, const double* now, const double* old, double* next, double* y,
+                                 std::size_t begin, std::size_t end) {
   const LevelRule r = rule;  // a copy: the stores cannot change it
   const std::size_t n = (end - begin) / lanes * lanes;
   now += begin;
+  old += begin;
   next += begin;
   y += begin;
   SLIPFRONT_INDEPENDENT
   for (std::size_t j = 0; j < n; ++j) {
     const double z = now[j], S = r.f(z);
     y[j] = z - r.coupled * S;
-    next[j] = (r.keep * z - r.force * S) - r.before * next[j];
+    next[j] = (r.keep * z - r.force * S) - r.before * old[j];
   }
 }
 
@@ -27,7 +33,7 @@ namespace {
 inline double displacement(const PeriodicForce& sine, double strength, double z) {
   double u = z - strength * sine(z);
   for (int i = 0; i < 2; ++i) {
-    const double slope = 1 + strength * 6.283185307179586 * sine(u + 0.25);
+    const double slope = 1 + strength * turn * sine(u + 0.25);
     u -= (u + strength * sine(u) - z) / slope;
   }
   return u;
@@ -36,15 +42,15 @@ inline double displacement(const PeriodicForce& sine, double strength, double z)
 }  // namespace
 
 SLIPFRONT_CLONES void local_part_with_contact(const LevelRule& rule, const PeriodicForce& sine, double eps,
-                                              const double* a2, const double* now, double* next, double* y,
-                                              std::size_t begin, std::size_t end) {
+                                              const double* a2, const double* now, const double* old, double* next,
+                                              double* y, std::size_t begin, std::size_t end) {
   const LevelRule r = rule;
   const PeriodicForce f = sine;
   SLIPFRONT_INDEPENDENT
   for (std::size_t j = begin; j < end; ++j) {
     const double z = now[j], S = a2[j] * f(displacement(f, eps * a2[j], z));
     y[j] = z - r.coupled * S;
-    next[j] = (r.keep * z - r.force * S) - r.before * next[j];
+    next[j] = (r.keep * z - r.force * S) - r.before * old[j];
   }
 }
 
@@ -59,12 +65,98 @@ SLIPFRONT_CLONES void displacements(const PeriodicForce& sine, double eps, const
   }
 }
 
+SLIPFRONT_CLONES void displacements(const PeriodicForce& force, double eps, const double* z, double* u,
+                                    std::size_t size) {
+  const PeriodicForce f = force;
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t j = 0; j < size; ++j) u[j] = z[j] - eps * f(z[j]);
+}
+
 SLIPFRONT_CLONES void add_neighbours(double spread, const double* y, double* next, std::size_t begin, std::size_t end) {
   const std::size_t n = (end - begin) / lanes * lanes;
   const double *left = y + begin - 1, *right = y + begin + 1;
   next += begin;
   SLIPFRONT_INDEPENDENT
   for (std::size_t j = 0; j < n; ++j) next[j] += spread * (left[j] + right[j]);
+}
+
+SLIPFRONT_CLONES void add_drive(const DriveRule& rule, const double* F_before, const double* F_now,
+                                const double* F_next, double* next, std::size_t size) {
+  const DriveRule r = rule;
+  const double *left = F_now - 1, *right = F_now + 1;
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t j = 0; j < size; ++j)
+    next[j] += r.next * F_next[j] + r.before * F_before[j] + r.now * F_now[j] + r.beside * (left[j] + right[j]);
+}
+
+SLIPFRONT_CLONES void shorten_steps(double most, const double* now, double* next, std::size_t size) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t j = 0; j < size; ++j) {
+    const double step = next[j] - now[j], rest = std::fabs(step) - most;
+    next[j] = now[j] + std::copysign(rest <= 0 ? 0.0 : rest, step);
+  }
+}
+
+SLIPFRONT_CLONES void take_steps(const double* before, const double* now, const double* next, const double* u_next,
+                                 double* u, double* D, double* B, std::size_t size) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t j = 0; j < size; ++j) {
+    D[j] = turn * (u_next[j] - u[j]);
+    B[j] = turn * ((next[j] - now[j]) - (now[j] - before[j]));
+    u[j] = u_next[j];
+  }
+}
+
+SLIPFRONT_CLONES void take_steps(const PeriodicForce& force, double eps, const double* before, const double* now,
+                                 const double* next, double* u, double* D, double* B, std::size_t size) {
+  const PeriodicForce f = force;
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t j = 0; j < size; ++j) {
+    const double z = next[j], u_next = z - eps * f(z);
+    D[j] = turn * (u_next - u[j]);
+    B[j] = turn * ((z - now[j]) - (now[j] - before[j]));
+    u[j] = u_next;
+  }
+}
+
+namespace {
+
+inline double total(const double (&part)[lanes]) {
+  return ((part[0] + part[4]) + (part[2] + part[6])) + ((part[1] + part[5]) + (part[3] + part[7]));
+}
+
+}  // namespace
+
+SLIPFRONT_CLONES double work_of_force(const double* F_before, const double* F_now, const double* F_next,
+                                      const double* D, const double* B, std::size_t size) {
+  double part[lanes] = {};
+  const std::size_t whole = size / lanes * lanes;
+  const auto work = [=](std::size_t j) {
+    return (F_now[j] + F_next[j]) * 0.5 * D[j] + (F_next[j] - F_before[j]) * B[j] * (1.0 / 12);
+  };
+  for (std::size_t j = 0; j < whole; j += lanes)
+    for (std::size_t k = 0; k < lanes; ++k) part[k] += work(j + k);
+  for (std::size_t k = 0; k < size - whole; ++k) part[k] += work(whole + k);
+  return total(part);
+}
+
+SLIPFRONT_CLONES double work_of_viscous_friction(const double* D, const double* B, std::size_t size) {
+  double part[lanes] = {};
+  const std::size_t whole = size / lanes * lanes;
+  for (std::size_t j = 0; j < whole; j += lanes)
+    for (std::size_t k = 0; k < lanes; ++k) part[k] += D[j + k] * D[j + k] + B[j + k] * B[j + k] * (1.0 / 12);
+  for (std::size_t k = 0; k < size - whole; ++k)
+    part[k] += D[whole + k] * D[whole + k] + B[whole + k] * B[whole + k] * (1.0 / 12);
+  return total(part);
+}
+
+SLIPFRONT_CLONES double work_of_coulomb_friction(const double* D, std::size_t size) {
+  double part[lanes] = {};
+  const std::size_t whole = size / lanes * lanes;
+  for (std::size_t j = 0; j < whole; j += lanes)
+    for (std::size_t k = 0; k < lanes; ++k) part[k] += std::fabs(D[j + k]);
+  for (std::size_t k = 0; k < size - whole; ++k) part[k] += std::fabs(D[whole + k]);
+  return total(part);
 }
 
 SLIPFRONT_CLONES bool bounded(const double* z, std::size_t size) {

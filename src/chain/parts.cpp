@@ -11,6 +11,32 @@
 namespace slipfront::chain {
 namespace {
 
+/// A chain with viscous friction alone advances level by level and meters its work up to so many sites. That costs
+/// about a nanosecond a site and level more; 200 samples (Run::sample) cost as much as 13 000 such levels.
+constexpr std::size_t metered_sites = 10000;
+
+bool has_friction(const Problem& p) {
+  return p.friction.law != modulation::FrictionLaw::none && p.friction.coefficient > 0;
+}
+
+/// Cuts blocks [begin, end) of sites into pieces that stay in the innermost cache with the forces on them and their
+/// works: as many whole blocks as fit, or some sites of one that is longer.
+std::vector<std::size_t> pieces_of(const Blocks& blocks, std::size_t begin, std::size_t end) {
+  constexpr std::size_t piece = WorkMeter::piece;
+  std::vector<std::size_t> cuts{begin};
+  while (cuts.back() < end) {
+    const std::size_t from = cuts.back();
+    std::size_t block = blocks.of(from) + 1;
+    if (blocks.begin(block) - from > 2 * piece) {
+      cuts.push_back(from + piece);
+      continue;
+    }
+    while (blocks.begin(block) < end && blocks.begin(block + 1) - from <= piece) ++block;
+    cuts.push_back(blocks.begin(block));
+  }
+  return cuts;
+}
+
 Sides sides_of(const Problem& p, const Scheme& s) {
   const auto side = [](End end) {
     return end == End::free ? Side::free : end == End::fixed ? Side::fixed : Side::absorbing;
@@ -47,7 +73,8 @@ Chain::Parts::Parts(const Problem& p, const Execution& e, long at)
       begin(blocks.begin(first_block)),
       end(blocks.begin(end_block)),
       forces(p, scheme, at, begin, end),
-      meter(problem, scheme, blocks, first_block, end_block),
+      level_by_level(!forces.none() || (has_friction(p) && p.grid.sites <= metered_sites)),
+      meter(problem, level_by_level && (p.forcing || has_friction(p)), scheme, blocks, first_block, end_block),
       level(at) {
   if (e.threads < 1)
     throw InputError(
@@ -68,7 +95,13 @@ Chain::Parts::Parts(const Problem& p, const Execution& e, long at)
     if (to < p.grid.sites) s.right = Side::joined;
     slabs.emplace_back(from, to - from, s);
   }
-  depth = forces.none() ? std::min(halo, n) : 1;
+  depth = level_by_level ? 1 : std::min(halo, n);
+  if (!level_by_level) return;
+  for (const Slab& slab : slabs) {
+    constexpr std::size_t room = 2 * WorkMeter::piece + 4 * lanes;  // of the longest piece, and beside it
+    by_level.push_back({pieces_of(blocks, slab.begin(), slab.begin() + slab.size()), Aligned(room), Aligned(room),
+                        WorkMeter::Room(meter.active() ? room : 0)});
+  }
 }
 
 void Chain::Parts::fill(const std::function<Levels(std::size_t, std::size_t)>& source) {
@@ -84,6 +117,7 @@ void Chain::Parts::fill(const std::function<Levels(std::size_t, std::size_t)>& s
                           .allowed = std::to_string(size) + " of " + std::to_string(problem.grid.sites) + " sites"});
       std::copy_n(levels.now.data(), size, slab.now() + at);
       std::copy_n(levels.before.data(), size, slab.old() + at);
+      meter.start(forces, from, size, slab.now() + at);
     }
 }
 
@@ -127,34 +161,47 @@ void Chain::Parts::exchange() {
   for (std::size_t i = 0; i < slabs.size(); ++i) exchange_slab(i);
 }
 
-void Chain::Parts::advance_slab(Slab& slab, std::size_t count) {
-  if (forces.none()) {
-    slab.advance(scheme.rule, count, execution.tile);
-    return;
+void Chain::Parts::advance_slab(std::size_t i, std::size_t count) {
+  if (level_by_level)
+    advance_by_one_level(i);
+  else
+    slabs[i].advance(scheme.rule, count, execution.tile);
+}
+
+void Chain::Parts::advance_by_one_level(std::size_t i) {
+  Slab& slab = slabs[i];
+  ByLevel& room = by_level[i];
+  double *const next = room.next.data() + lanes, *const y = room.y.data() + lanes;
+  for (std::size_t piece = 0; piece + 1 < room.cuts.size(); ++piece) {
+    const std::size_t first = room.cuts[piece], size = room.cuts[piece + 1] - first, at = first - slab.begin();
+    Sides here = slab.sides();
+    if (piece > 0) here.left = Side::joined;
+    if (piece + 2 < room.cuts.size()) here.right = Side::joined;
+    const double *now = slab.now() + at, *before = slab.old() + at;
+    forces.level(here, static_cast<long>(first), size, before, now, next, y, slab.outflow);
+    if (meter.active()) meter.add(forces, first, first + size, before, now, next, room.work);
+    std::copy_n(next, size, slab.old() + at);
   }
-  constexpr std::size_t pad = lanes;
-  Aligned y(slab.size() + 4 * pad), before(slab.size());
-  meter.look(forces, slab);
-  forces.level(slab.sides(), static_cast<long>(slab.begin()), slab.size(), slab.now(), slab.old(), y.data() + pad,
-               before.data(), slab.outflow);
-  meter.add(forces, slab, before.data(), slab.now(), slab.old());
   slab.swap();
 }
 
 void Chain::Parts::advance(std::size_t count) {
-  const int number = static_cast<int>(slabs.size());
   // Fewer site updates than this take less time than it takes to wake a thread.
-  const bool worth = (end - begin) * count > 50000;
-  static_cast<void>(worth);  // where there is no OpenMP
+  const bool worth = slabs.size() > 1 && (end - begin) * count > 50000;
+  const auto for_slabs = [&](const auto& each) {
+    const int number = static_cast<int>(slabs.size());
+    if (!worth) {
+      for (int i = 0; i < number; ++i) each(static_cast<std::size_t>(i));
+      return;
+    }
+#ifdef _OPENMP
+#pragma omp parallel for num_threads(number) schedule(static, 1)
+#endif
+    for (int i = 0; i < number; ++i) each(static_cast<std::size_t>(i));
+  };
   if (ranks.size() > 1) exchange_with_ranks();
-#ifdef _OPENMP
-#pragma omp parallel for num_threads(number) schedule(static, 1) if (worth)
-#endif
-  for (int i = 0; i < number; ++i) exchange_slab(static_cast<std::size_t>(i));
-#ifdef _OPENMP
-#pragma omp parallel for num_threads(number) schedule(static, 1) if (worth)
-#endif
-  for (int i = 0; i < number; ++i) advance_slab(slabs[static_cast<std::size_t>(i)], count);
+  for_slabs([&](std::size_t i) { exchange_slab(i); });
+  for_slabs([&](std::size_t i) { advance_slab(i, count); });
   level += static_cast<long>(count);
   if (!forces.none()) forces.proceed();
 }

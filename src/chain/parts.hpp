@@ -25,10 +25,18 @@ struct Chain::Parts {
   std::size_t first_block, end_block;  ///< of this rank
   std::size_t begin, end;              ///< their sites
   Forces forces;
+  bool level_by_level;  ///< and works are metered; else 32 levels at a time, tile by tile
   WorkMeter meter;
   std::vector<Slab> slabs;
   long level = 0;
-  std::size_t depth = halo;  ///< levels between exchanges
+  /// What a slab needs to advance by one level, piece by piece: where pieces begin and end, arrays for one piece.
+  struct ByLevel {
+    std::vector<std::size_t> cuts;
+    Aligned next, y;
+    WorkMeter::Room work;
+  };
+  std::vector<ByLevel> by_level;  ///< for each slab; empty unless level_by_level
+  std::size_t depth = halo;       ///< levels between exchanges
 
   Parts(const Problem& p, const Execution& e, long at);
   static const Ranks& ranks_of(const Execution& e);
@@ -50,7 +58,8 @@ struct Chain::Parts {
  private:
   void exchange_with_ranks();
   void exchange_slab(std::size_t i);
-  void advance_slab(Slab& slab, std::size_t count);
+  void advance_slab(std::size_t i, std::size_t count);
+  void advance_by_one_level(std::size_t i);
 };
 
 /// For what is measured rank by rank.

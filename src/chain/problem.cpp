@@ -58,9 +58,9 @@ double chosen_step(const Problem& p) { return p.step > 0 ? p.step : chosen(p, la
 double largest_step(const Problem& p) { return largest(p, largest_contact(p)); }
 
 double memory_needed(const Problem& p) {
-  // Two levels, and a displacement to start from; where not plain also contact, three levels of forcing, what they add
-  // up to and two of work.
-  return static_cast<double>(p.grid.sites) * 8 * (plain(p) ? 3 : 10);
+  // Two levels, and a displacement to start from; where not plain also contact, three levels of forcing and the
+  // displacement at the last level.
+  return static_cast<double>(p.grid.sites) * 8 * (plain(p) ? 3 : 8);
 }
 
 void check(const Problem& p, double share_of_machine) {

@@ -68,8 +68,10 @@ Problem problem_of(const Stretched& s, double share_of_machine) {
   p.friction = s.friction;
   p.friction.coefficient /= s.scale;
   if (s.forcing) p.forcing = [f = s.forcing, c = s.scale](double x, double t) { return f(x / c, t / c) / c; };
+  p.steady_forcing = s.steady_forcing;
   if (s.contact) p.contact = [a = s.contact, c = s.scale](double x) { return a(x / c); };
   p.crossing_stress = crossing_stress(s);
+  p.step = s.step;
   p.boundary.left_stress = s.stress(s.left);
   p.boundary.right_stress = s.stress(s.right);
   check(p, share_of_machine);
@@ -127,7 +129,7 @@ void Run::look_at_start() {
                                          : std::min(dislocations_in_window * spacing_of_train(stretched_), length / 4);
   const double levels = schedule_.times.back() * stretched_.scale / chain_.dt();
   work_every_ = std::max(32L, 32 * std::lround(levels / 200 / 32));
-  // So few sites that even the motion of one dislocation can be followed.
+  // The slip velocity at x = 0 of so few sites can be followed even where one dislocation passes.
   if (chain_.problem().grid.sites < 5000) work_every_ = std::clamp(work_every_ / 16, 2L, 32L);
   const double c = stretched_.scale;
   for (std::size_t i = 0; i + 1 < schedule_.x_edges.size(); ++i)

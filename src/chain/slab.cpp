@@ -127,7 +127,7 @@ void Slab::advance(const LevelRule& rule, std::size_t count, std::size_t tile) {
       const std::size_t left = is_end(sides.left) ? first : pad + level;
       const std::size_t right = is_end(sides.right) ? last + 1 : last + 1 + halo - level;
       const std::size_t begin = left / lanes * lanes, end = (right + lanes - 1) / lanes * lanes;
-      local_part(rule, z, next, y, begin, end);
+      local_part(rule, z, next, next, y, begin, end);
       const EndSites bare = before_neighbours(sides, next, first, last);
       add_neighbours(rule.spread, y, next, begin, end);
       mend_ends(sides, bare, rule.spread, z, y, next, first, last, outflow);

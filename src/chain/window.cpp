@@ -44,16 +44,15 @@ Window Chain::Parts::window(std::size_t from, std::size_t to, double time) const
   const std::size_t reach = beside + more_left;
   const std::size_t wide = reach + size + beside + more_right, room = wide + 4 * lanes;
   const long low = static_cast<long>(from) - static_cast<long>(reach);
-  std::vector<double> z(room), old(room), next(room), y(room), work(room);
+  std::vector<double> z(room), old(room), next(room), y(room);
   for (std::size_t j = 0; j < wide; ++j) {
     const auto [a, b] = site(low + static_cast<long>(j));
     z[j + lanes] = a;
     old[j + lanes] = b;
   }
-  next = old;
   Outflow unused;
   constexpr std::size_t edge = lanes + 2;  // two sites in, neighbours are there
-  forces.level({}, low + 2, wide - 4, z.data() + edge, next.data() + edge, y.data() + edge, work.data(), unused);
+  forces.level({}, low + 2, wide - 4, old.data() + edge, z.data() + edge, next.data() + edge, y.data() + edge, unused);
   if (!problem.boundary.periodic) {  // the ends by their own rule
     const auto at = [&](long j) { return static_cast<std::size_t>(j - low) + lanes; };
     if (absorbs_left) next[at(0)] = sides.beyond_left.step(&z[at(0)], &next[at(0)]).next;

@@ -2,72 +2,81 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "kernel.hpp"
 
 namespace slipfront::chain {
 namespace {
 
 using modulation::FrictionLaw;
-constexpr double turn = 2 * std::numbers::pi;
 
 }  // namespace
 
-WorkMeter::WorkMeter(const Problem& p, const Scheme& s, const Blocks& blocks, std::size_t first_block,
+WorkMeter::WorkMeter(const Problem& p, bool active, const Scheme& s, const Blocks& blocks, std::size_t first_block,
                      std::size_t end_block)
     : sums(2 * (end_block - first_block), 0.0),
       problem_(&p),
       dt_(s.dt),
       blocks_(blocks),
       first_block_(first_block),
-      end_block_(end_block),
       begin_(blocks.begin(first_block)) {
-  if (!p.forcing && (p.friction.law == FrictionLaw::none || p.friction.coefficient == 0)) return;  // no work to meter
+  if (!active) return;
   u_.resize(blocks.begin(end_block) - begin_);
-  next_.resize(u_.size());
-  room_.resize(u_.size());
-  known_.resize(end_block - first_block, 0);
+  for (std::size_t b = first_block; b <= end_block; ++b) begins_.push_back(blocks.begin(b));
 }
 
-void WorkMeter::look(const Forces& forces, const Slab& slab) {
+void WorkMeter::start(const Forces& forces, std::size_t begin, std::size_t size, const double* z) {
   if (u_.empty()) return;
-  for (std::size_t b = first_block_; b < end_block_; ++b) {
-    const std::size_t begin = blocks_.begin(b), end = blocks_.begin(b + 1), at = begin - begin_;
-    if (begin < slab.begin() || end > slab.begin() + slab.size() || known_[b - first_block_] != 0) continue;
-    forces.displacements_from(static_cast<long>(begin), end - begin, slab.now() + (begin - slab.begin()), &u_[at],
-                              &room_[at]);
-    known_[b - first_block_] = 1;
+  std::vector<double> room(size);
+  forces.displacements_from(static_cast<long>(begin), size, z, &u_[begin - begin_], room.data());
+}
+
+void WorkMeter::add(const Forces& forces, std::size_t begin, std::size_t end, const double* before, const double* now,
+                    const double* next, Room& room) {
+  const long site = static_cast<long>(begin);
+  const double *D = room.D.data(), *B = room.B.data();
+  forces.steps_from(site, end - begin, before, now, next, &u_[begin - begin_], room.D.data(), room.B.data(),
+                    room.u.data(), room.S.data());
+  if (problem_->forcing) {
+    const double *F_before = forces.F_before(site), *F_now = forces.F_now(site), *F_next = forces.F_next(site);
+    add_to_blocks(begin, end, 0, 1, [=](std::size_t at, std::size_t size) {
+      return work_of_force(F_before + at, F_now + at, F_next + at, D + at, B + at, size);
+    });
+  }
+  const double C = problem_->friction.coefficient;
+  if (!(C > 0)) return;
+  switch (problem_->friction.law) {
+    case FrictionLaw::none:
+      break;
+    case FrictionLaw::viscous:
+      add_to_blocks(begin, end, 1, C / dt_,
+                    [=](std::size_t at, std::size_t size) { return work_of_viscous_friction(D + at, B + at, size); });
+      break;
+    case FrictionLaw::coulomb:
+      add_to_blocks(begin, end, 1, C,
+                    [=](std::size_t at, std::size_t size) { return work_of_coulomb_friction(D + at, size); });
+      break;
+    case FrictionLaw::power:
+      add_to_blocks(begin, end, 1, 1, [&, D](std::size_t at, std::size_t size) {
+        double sum = 0;
+        for (std::size_t j = at; j < at + size; ++j) sum += std::fabs(forces.friction(D[j] / dt_) * D[j]);
+        return sum;
+      });
+      break;
   }
 }
 
-void WorkMeter::add(const Forces& forces, const Slab& slab, const double* before, const double* now,
-                    const double* next) {
-  if (u_.empty()) return;
-  const modulation::FrictionLaw law = problem_->friction.law;
-  const double C = problem_->friction.coefficient, h = problem_->grid.spacing;
-  for (std::size_t b = first_block_; b < end_block_; ++b) {
-    const std::size_t begin = blocks_.begin(b), end = blocks_.begin(b + 1);
-    if (begin < slab.begin() || end > slab.begin() + slab.size()) continue;
-    forces.displacements_from(static_cast<long>(begin), end - begin, next + (begin - slab.begin()),
-                              &next_[begin - begin_], &room_[begin - begin_]);
-    double supplied = 0, dissipated = 0;
-    for (std::size_t j = begin; j < end; ++j) {
-      const std::size_t i = j - slab.begin(), at = j - begin_;
-      const long site = static_cast<long>(j);
-      const bool last = !problem_->boundary.periodic && (j == 0 || j + 1 == problem_->grid.sites);
-      const double weight = last ? h / 2 : h, D = turn * (next_[at] - u_[at]);
-      const double B = turn * ((next[i] - now[i]) - (now[i] - before[i]));
-      if (problem_->forcing)
-        supplied += weight * ((forces.now(site) + forces.next(site)) / 2 * D + forces.rate(site) * dt_ * B / 6);
-      if (law == FrictionLaw::viscous)
-        dissipated += weight * C / dt_ * (D * D + B * B / 12);
-      else if (C > 0 && law != FrictionLaw::none)
-        dissipated += weight * std::fabs(forces.friction(D / dt_) * D);
-    }
-    sums[2 * (b - first_block_)] += supplied;
-    sums[2 * (b - first_block_) + 1] += dissipated;
-    std::swap_ranges(u_.begin() + static_cast<std::ptrdiff_t>(begin - begin_),
-                     u_.begin() + static_cast<std::ptrdiff_t>(end - begin_),
-                     next_.begin() + static_cast<std::ptrdiff_t>(begin - begin_));
+template <class Work>
+void WorkMeter::add_to_blocks(std::size_t begin, std::size_t end, std::size_t which, double strength,
+                              const Work& work) {
+  const bool ends = !problem_->boundary.periodic;
+  for (std::size_t b = blocks_.of(begin) - first_block_; b + 1 < begins_.size() && begins_[b] < end; ++b) {
+    const std::size_t from = std::max(begin, begins_[b]), to = std::min(end, begins_[b + 1]);
+    double sum = work(from - begin, to - from);
+    // Half a spacing belongs to the last site at an end.
+    if (ends && from == 0) sum -= work(0, 1) / 2;
+    if (ends && to == problem_->grid.sites) sum -= work(to - 1 - begin, 1) / 2;
+    sums[2 * b + which] += strength * problem_->grid.spacing * sum;
   }
 }
 

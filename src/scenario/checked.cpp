@@ -43,7 +43,9 @@ void make_forcing(const Document& document, Scenario& scenario) {
   const auto text = section.formula("formula");
   if (!text) return;
   scenario.forcing = *text;
-  scenario.forcing_at = [read = read_formula(section, "formula", *text, {"x", "t"})](double x, double t) {
+  auto formula = read_formula(section, "formula", *text, {"x", "t"});
+  scenario.steady_forcing = !formula.first.has("t");
+  scenario.forcing_at = [read = std::move(formula)](double x, double t) {
     const double force = read.first(x, t);
     if (!std::isfinite(force))
       throw refusal(read.second,

@@ -99,6 +99,10 @@ double Formula::operator()(double x, double t) const {
   }
 }
 
+bool Formula::has(std::string_view variable) const {
+  return compiled_->parser.GetUsedVar().count(std::string(variable)) > 0;
+}
+
 const std::vector<std::string_view>& formula_functions() {
   static const std::vector<std::string_view> names = [] {
     std::vector<std::string_view> all;

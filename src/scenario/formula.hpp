@@ -15,6 +15,8 @@ class Formula {
   Formula(const std::string& text, const std::vector<std::string_view>& variables);
   /// May be NaN or infinite: what that means is for the caller to say.
   double operator()(double x, double t = 0) const;
+  /// Whether its value depends on the variable.
+  bool has(std::string_view variable) const;
 
  private:
   struct Compiled;

@@ -21,8 +21,8 @@ chain::End end_of(scenario::ChainEnd end) {
   return chain::End::fixed;
 }
 
-/// Half a dislocation's width, where dislocations are narrowest: by the contact ratio, or packed densely.
-double default_spacing(const scenario::Scenario& s, double left, double right) {
+/// The default spacing in widths of a dislocation where they are narrowest: by the contact ratio, or packed densely.
+double chosen_spacing(const scenario::Scenario& s, double left, double right) {
   double narrowest = 1;
   constexpr int samples = 1000;
   for (int i = 0; i <= samples; ++i) {
@@ -30,7 +30,7 @@ double default_spacing(const scenario::Scenario& s, double left, double right) {
     const double packed = k / a > train::smallest_stress ? std::cosh(rupture::psi_of_stress(k / a)) : 1;
     narrowest = std::fmin(narrowest, 1 / (a * (packed > 1.05 ? packed : 1)));
   }
-  return 0.5 * narrowest;
+  return chain::default_spacing * narrowest;
 }
 
 }  // namespace
@@ -43,6 +43,7 @@ chain::Stretched chain_problem(const scenario::Scenario& s) {
   c.right = pulse.right;
   c.stress = s.stress;
   c.forcing = pulse.forcing;  // with the load that holds the initial stress, if any
+  c.steady_forcing = s.steady_forcing;
   c.contact = s.contact_at;
   c.friction = s.friction;
   c.boundary = {.left = end_of(s.chain.left), .right = end_of(s.chain.right), .periodic = s.chain.periodic};
@@ -57,7 +58,7 @@ chain::Stretched chain_problem(const scenario::Scenario& s) {
                         .allowed = "[chain] spacing = ... or [medium] contact_ratio = ..."});
     c.spacing = *spacing;
   } else {
-    c.spacing = s.chain.spacing ? *s.chain.spacing : default_spacing(s, c.left, c.right);
+    c.spacing = s.chain.spacing ? *s.chain.spacing : chosen_spacing(s, c.left, c.right);
   }
   return c;
 }

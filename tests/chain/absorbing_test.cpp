@@ -24,7 +24,7 @@ Result run_step(double left_stress, double right_stress, double left, double rig
   s.right = right;
   s.stress = [=](double x) { return x < 0 ? left_stress : right_stress; };
   s.boundary = {.left = ends, .right = ends};
-  s.spacing = 0.5 / std::cosh(rupture::psi_of_stress(left_stress));
+  s.spacing = default_spacing / std::cosh(rupture::psi_of_stress(left_stress));
   Run run(s, {.times = {0, end}, .x_edges = {left, 0, right}}, {});
   run.go();
   const pulse::Snapshot &first = run.snapshots().front(), &last = run.snapshots().back();

@@ -62,7 +62,7 @@ TEST(ChainRun, UniformTrainInAnotherContactIsAtRest) {
   chain::Stretched s = step(300);
   s.stress = [](double) { return 0.8; };
   s.contact = [](double) { return 1.3; };
-  s.spacing = 0.5 / 1.3;
+  s.spacing = chain::default_spacing / 1.3;
   s.boundary = {.periodic = true};
   chain::Run run(s, schedule({0, 2}), {});
   run.go();

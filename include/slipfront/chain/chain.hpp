@@ -63,8 +63,8 @@ class Chain {
   /// Returns whether `time` was reached.
   bool advance_to(double time, const std::function<bool()>& interrupted = {});
 
-  /// Energy that has come in and gone since the start, in units of Eq. 3. Of viscous friction by itself nothing is
-  /// known here (it takes 32 levels at a time): its rate is in Totals.
+  /// Energy that has come in and gone since the start, in units of Eq. 3. A chain of more than 10 000 sites with
+  /// viscous friction by itself takes 32 levels at a time and does not meter it: its rate is in Totals.
   struct Flows {
     double supplied = 0, dissipated = 0;  ///< by the forcing, by friction
     double outflow = 0;                   ///< through absorbing ends

@@ -10,10 +10,14 @@
 
 namespace slipfront::chain {
 
+/// The spacing of a grid unless another is given, in widths of a dislocation. At 0.5 the grid pins slow dislocations
+/// (docs/chain.md, "The barrier of the grid").
+inline constexpr double default_spacing = 0.4;
+
 /// Evenly spaced sites: x = left + j spacing, j = 0 ... sites - 1, in b / A.
 struct Grid {
   double left = 0;
-  double spacing = 0.5;
+  double spacing = default_spacing;
   std::size_t sites = 0;
 
   double x(std::size_t j) const { return left + static_cast<double>(j) * spacing; }

@@ -35,6 +35,7 @@ struct Problem {
   Boundary boundary;
   modulation::Friction friction;                      ///< the closure does not matter here
   std::function<double(double x, double t)> forcing;  ///< F, t >= 0; null: none. Called from one thread only
+  bool steady_forcing = false;                        ///< F does not depend on t: it is asked for at t = 0 only
   std::function<double(double x)> contact;            ///< a > 0; null: 1. Called from one thread only
   /// Largest stress of trains of dislocations that may run into trains of antidislocations, or through each other: the
   /// chosen step is shorter for it. 0: none will.

@@ -20,11 +20,13 @@ struct Stretched {
   double left = -1, right = 1;                        ///< of the scenario
   std::function<double(double)> stress;               ///< initial stress at x; everything at rest
   std::function<double(double x, double t)> forcing;  ///< F; null: none
+  bool steady_forcing = false;                        ///< F does not depend on t
   std::function<double(double)> contact;              ///< a(x); null: 1
   modulation::Friction friction;                      ///< of the scenario; the closure does not matter
   Boundary boundary;
   Model model = Model::sine_gordon;
-  double spacing = 0.5;  ///< of the grid or lattice, in the chain's own (stretched) x
+  double spacing = default_spacing;  ///< of the grid or lattice, in the chain's own (stretched) x
+  double step = 0;                   ///< of time, in the chain's own t; 0: chosen (chosen_step)
   double window = 0;  ///< of averages at x = 0, in the scenario's x; 0: spacings of the train left of it, one for the
                       ///< slip, eight for velocity and stress
 };

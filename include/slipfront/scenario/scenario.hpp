@@ -99,6 +99,7 @@ struct Scenario {
   // over the domain, but a call may still throw InputError where a formula fails or a table does not reach.
   std::function<double(double)> stress;                  ///< initial stress at x: 0, or smallest to largest_stress
   std::function<double(double x, double t)> forcing_at;  ///< finite; null: no forcing
+  bool steady_forcing = true;                            ///< forcing_at, if any, does not depend on t
   std::function<double(double)> contact_at;              ///< finite, > 0; null: 1 everywhere
 };
 

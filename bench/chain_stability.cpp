@@ -1,0 +1,129 @@
+// Where the chain's time step keeps the energy: the largest drift of runs of many densities, ends, spacings and scales
+// (docs/chain.md, "Stability"). Each run has a stress on the left of x = 0 and none, a third of it or the same on the
+// right, and ends so near that all that leaves x = 0 meets them.
+//
+// Usage: chain_stability [--mass M0 M1] [--quick] [--spacing H]... [--scale S]...
+// With --mass the step is that of mass^2 = M0 a^2 + M1 a k, k the largest stress (src/chain/problem.cpp), instead of
+// the chosen one. Prints a table in Markdown: the largest drift over all scales and right-hand stresses, a row a
+// stress, a column an end and a spacing. ">" is a run that ended early, with a drift of more than 1e-2 or a
+// NumericsError.
+
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "slipfront/chain/run.hpp"
+#include "slipfront/error.hpp"
+#include "slipfront/rupture/inverse.hpp"
+
+namespace {
+
+using namespace slipfront;
+using namespace slipfront::chain;
+constexpr double pi = std::numbers::pi;
+
+struct Kind {
+  const char* name;
+  End ends;
+  bool periodic = false;
+  std::function<double(double, double)> forcing = {};
+  std::function<double(double)> contact = {};
+};
+
+struct Mass {
+  double fixed, crossing;  // mass^2 = fixed a^2 + crossing a k; negative: as the library chooses
+};
+
+struct Outcome {
+  double drift;
+  long steps;
+};
+
+Outcome run(const Kind& kind, double stress, double right, double scale, double spacing, Mass mass) {
+  Stretched s;
+  s.scale = scale;
+  s.left = -pi;
+  s.right = pi;
+  s.stress = [=](double x) { return x < 0 ? stress : right; };
+  s.boundary = {.left = kind.ends, .right = kind.ends, .periodic = kind.periodic};
+  s.forcing = kind.forcing;
+  s.contact = kind.contact;
+  const double a = kind.contact ? 1.2 : 1, h = spacing / (a * std::cosh(rupture::psi_of_stress(stress / a)));
+  s.spacing = h;
+  if (mass.fixed >= 0)
+    s.step = 1 / std::sqrt(1 / (h * h) + a * a / 12 + (mass.fixed * a * a + mass.crossing * a * stress) / 4);
+  Run chain(s, {.times = {0, pi / 2, pi, 3 * pi / 2, 2 * pi}, .x_edges = {s.left, 0, s.right}}, {});
+  double drift = 0;
+  try {
+    chain.go();
+    drift = chain.balance().energy_drift;
+  } catch (const NumericsError& error) {
+    drift = chain.balance().energy_drift;
+    if (std::isnan(drift)) drift = std::numeric_limits<double>::infinity();
+    std::fprintf(stderr, "%s, stress %g to %g, scale %g, spacing %g: %s\n", kind.name, stress, right, scale, spacing,
+                 error.what());
+  }
+  return {drift, chain.chain().level()};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Mass mass{-1, 0};
+  std::vector<double> spacings, scales, stresses{0.3, 0.5, 0.7, 0.855, 1.03, 1.3, 1.6, 2, 2.5, 3, 4, 6};
+  for (int i = 1; i < argc; ++i) {
+    if (std::strcmp(argv[i], "--mass") == 0 && i + 2 < argc) {
+      mass = {std::stod(argv[i + 1]), std::stod(argv[i + 2])};
+      i += 2;
+    } else if (std::strcmp(argv[i], "--spacing") == 0 && i + 1 < argc) {
+      spacings.push_back(std::stod(argv[++i]));
+    } else if (std::strcmp(argv[i], "--scale") == 0 && i + 1 < argc) {
+      scales.push_back(std::stod(argv[++i]));
+    } else if (std::strcmp(argv[i], "--quick") == 0) {
+      stresses = {0.3, 0.855, 1.6, 3, 6};
+    } else {
+      std::fprintf(stderr, "usage: chain_stability [--mass M0 M1] [--quick] [--spacing H]... [--scale S]...\n");
+      return 2;
+    }
+  }
+  if (spacings.empty()) spacings = {default_spacing, 0.5};
+  if (scales.empty()) scales = {100, 300, 900};
+  const auto wave = [](double x) { return 1 + 0.2 * std::sin(2 * x); };
+  const auto push = [](double x, double t) { return 0.5 * std::cos(2 * x) * std::cos(3 * t); };
+  const std::vector<Kind> kinds{{"fixed", End::fixed},
+                                {"ring", End::fixed, true},
+                                {"free", End::free},
+                                {"absorbing", End::absorbing},
+                                {"fixed, F", End::fixed, false, push},
+                                {"fixed, a", End::fixed, false, {}, wave}};
+  for (const double spacing : spacings) {
+    std::printf("\nh = %g\n\n| stress |", spacing);
+    for (const Kind& kind : kinds) std::printf(" %s |", kind.name);
+    std::printf("\n|---|");
+    for (std::size_t i = 0; i < kinds.size(); ++i) std::printf("---|");
+    std::printf("\n");
+    long steps = 0;
+    for (const double stress : stresses) {
+      std::printf("| %g |", stress);
+      for (const Kind& kind : kinds) {
+        double worst = 0;
+        for (const double scale : scales)
+          for (const double share : {0.0, 1.0 / 3, 1.0}) {
+            // Of a train that falls into nothing around a ring both steps are hard; of one that is even nothing moves.
+            const Outcome one = run(kind, stress, share * stress, scale, spacing, mass);
+            worst = std::fmax(worst, one.drift);
+            steps += one.steps;
+          }
+        std::printf(worst >= 1e-2 ? " **%.0e** |" : " %.0e |", worst);
+        std::fflush(stdout);
+      }
+      std::printf("\n");
+    }
+    std::printf("\nsteps: %ld\n", steps);
+  }
+}
