@@ -2,7 +2,7 @@
 // (docs/chain.md, "Stability"). Each run has a stress on the left of x = 0 and none, a third of it or the same on the
 // right, and ends so near that all that leaves x = 0 meets them.
 //
-// Usage: chain_stability [--mass M0 M1] [--quick] [--spacing H]... [--scale S]...
+// Usage: chain_stability [--mass M0 M1] [--quick] [--only ENDS] [--stress K]... [--spacing H]... [--scale S]...
 // With --mass the step is that of mass^2 = M0 a^2 + M1 a k, k the largest stress (src/chain/problem.cpp), instead of
 // the chosen one. Prints a table in Markdown: the largest drift over all scales and right-hand stresses, a row a
 // stress, a column an end and a spacing. ">" is a run that ended early, with a drift of more than 1e-2 or a
@@ -53,6 +53,7 @@ Outcome run(const Kind& kind, double stress, double right, double scale, double 
   s.boundary = {.left = kind.ends, .right = kind.ends, .periodic = kind.periodic};
   s.forcing = kind.forcing;
   s.contact = kind.contact;
+  s.end = 2 * pi;
   const double a = kind.contact ? 1.2 : 1, h = spacing / (a * std::cosh(rupture::psi_of_stress(stress / a)));
   s.spacing = h;
   if (mass.fixed >= 0)
@@ -75,7 +76,8 @@ Outcome run(const Kind& kind, double stress, double right, double scale, double 
 
 int main(int argc, char** argv) {
   Mass mass{-1, 0};
-  std::vector<double> spacings, scales, stresses{0.3, 0.5, 0.7, 0.855, 1.03, 1.3, 1.6, 2, 2.5, 3, 4, 6};
+  const char* only = nullptr;
+  std::vector<double> spacings, scales, stresses;
   for (int i = 1; i < argc; ++i) {
     if (std::strcmp(argv[i], "--mass") == 0 && i + 2 < argc) {
       mass = {std::stod(argv[i + 1]), std::stod(argv[i + 2])};
@@ -84,23 +86,31 @@ int main(int argc, char** argv) {
       spacings.push_back(std::stod(argv[++i]));
     } else if (std::strcmp(argv[i], "--scale") == 0 && i + 1 < argc) {
       scales.push_back(std::stod(argv[++i]));
+    } else if (std::strcmp(argv[i], "--stress") == 0 && i + 1 < argc) {
+      stresses.push_back(std::stod(argv[++i]));
+    } else if (std::strcmp(argv[i], "--only") == 0 && i + 1 < argc) {
+      only = argv[++i];
     } else if (std::strcmp(argv[i], "--quick") == 0) {
       stresses = {0.3, 0.855, 1.6, 3, 6};
     } else {
-      std::fprintf(stderr, "usage: chain_stability [--mass M0 M1] [--quick] [--spacing H]... [--scale S]...\n");
+      std::fprintf(stderr,
+                   "usage: chain_stability [--mass M0 M1] [--quick] [--only ENDS] [--stress K]... [--spacing H]... "
+                   "[--scale S]...\n");
       return 2;
     }
   }
   if (spacings.empty()) spacings = {default_spacing, 0.5};
+  if (stresses.empty()) stresses = {0.3, 0.5, 0.7, 0.855, 1.03, 1.3, 1.6, 2, 2.5, 3, 4, 6};
   if (scales.empty()) scales = {100, 300, 900};
   const auto wave = [](double x) { return 1 + 0.2 * std::sin(2 * x); };
   const auto push = [](double x, double t) { return 0.5 * std::cos(2 * x) * std::cos(3 * t); };
-  const std::vector<Kind> kinds{{"fixed", End::fixed},
-                                {"ring", End::fixed, true},
-                                {"free", End::free},
-                                {"absorbing", End::absorbing},
-                                {"fixed, F", End::fixed, false, push},
-                                {"fixed, a", End::fixed, false, {}, wave}};
+  std::vector<Kind> kinds{{"fixed", End::fixed},
+                          {"ring", End::fixed, true},
+                          {"free", End::free},
+                          {"absorbing", End::absorbing},
+                          {"fixed, F", End::fixed, false, push},
+                          {"fixed, a", End::fixed, false, {}, wave}};
+  if (only != nullptr) std::erase_if(kinds, [&](const Kind& kind) { return std::strcmp(kind.name, only) != 0; });
   for (const double spacing : spacings) {
     std::printf("\nh = %g\n\n| stress |", spacing);
     for (const Kind& kind : kinds) std::printf(" %s |", kind.name);

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "../digits.hpp"
 #include "slipfront/elliptic/jacobi.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/rupture/inverse.hpp"
@@ -20,8 +21,8 @@ using Stress = std::function<double(double)>;
 double checked(const Stress& stress, double x) {
   const double k = stress(x);
   if (!(k >= 0) || !std::isfinite(k))
-    throw InputError({.key = "initial stress at x = " + std::to_string(x),
-                      .value = std::to_string(k),
+    throw InputError({.key = "initial stress at x = " + digits(x),
+                      .value = digits(k),
                       .problem = "not a stress",
                       .allowed = "0 or greater, finite"});
   return k;

@@ -57,7 +57,7 @@ double work_of_force(const double* F_before, const double* F_now, const double* 
 double work_of_viscous_friction(const double* D, const double* B, std::size_t size);
 double work_of_coulomb_friction(const double* D, std::size_t size);
 
-/// Whether all |z| are below what range reduction bears (false for NaN).
+/// Whether all |z| are small enough for the range reduction (false for NaN).
 bool bounded(const double* z, std::size_t size);
 
 }  // namespace slipfront::chain

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "../digits.hpp"
 #include "elastic.hpp"
 #include "parts.hpp"
 #include "refuse_window.hpp"
@@ -62,9 +63,9 @@ double integral(const std::vector<double>& v, double from, double to) {
 
 void refuse_window(const Grid& grid, double x, double width) {
   throw InputError({.key = "window",
-                    .value = std::to_string(x) + " +- " + std::to_string(width / 2),
+                    .value = digits(x) + " +- " + digits(width / 2),
                     .problem = "not on the chain",
-                    .allowed = std::to_string(grid.left) + " to " + std::to_string(grid.x(grid.sites - 1))});
+                    .allowed = digits(grid.left) + " to " + digits(grid.x(grid.sites - 1))});
 }
 
 Average average(const Chain& chain, double x, double width, double time) {
@@ -134,7 +135,7 @@ std::vector<Dislocation> dislocations(const Chain& chain) {
 
 namespace {
 
-/// What is summed, as many numbers in a row.
+/// The sums among the totals, as so many numbers in a row.
 constexpr std::size_t sums = 7;
 std::array<double*, sums> summed(Totals& t, double& dislocations) {
   return {&t.kinetic, &t.elastic, &t.substrate, &t.momentum, &t.supplied_rate, &t.dissipated_rate, &dislocations};
@@ -155,7 +156,9 @@ void add(const Chain& chain, const Window& w, std::size_t begin, std::size_t end
     t.supplied_rate += weight * velocity * chain.forcing(j);
     t.dissipated_rate += weight * velocity * chain.friction(velocity);
     t.elastic += h * elastic_energy(u, j, n, h, p.model);
-    if (j + 1 < n) dislocations += std::fabs(std::floor(u(j + 1) / turn - 0.5) - std::floor(u(j) / turn - 0.5));
+    if (j + 1 >= n) continue;
+    dislocations += std::fabs(std::floor(u(j + 1) / turn - 0.5) - std::floor(u(j) / turn - 0.5));
+    t.steepest = std::fmax(t.steepest, std::fabs(u(j + 1) - u(j)));
   }
 }
 
@@ -177,6 +180,8 @@ Totals totals(const Chain& chain) {
         for (double* sum : summed(block, found)) blocks.push_back(std::exchange(*sum, 0.0));
       });
   blocks = Inside::of(chain).ranks.joined(blocks);
+  for (const double steepest : Inside::of(chain).ranks.joined({block.steepest}))
+    t.steepest = std::fmax(t.steepest, steepest);
   for (std::size_t i = 0; i < blocks.size(); ++i) *summed(t, all_found)[i % sums] += blocks[i];
   const double first = chain.window(0, 1).u[0], last = chain.window(n - 1, n).u[0];
   t.time = chain.time();
@@ -184,6 +189,7 @@ Totals totals(const Chain& chain) {
   if (p.boundary.periodic) {
     const double rise = first - turn * static_cast<double>(p.boundary.charge) - last;
     t.elastic += rise * rise / (2 * p.grid.spacing);
+    t.steepest = std::fmax(t.steepest, std::fabs(rise));
     all_found += std::fabs(std::floor((last + rise) / turn - 0.5) - std::floor(last / turn - 0.5));
     t.charge = static_cast<double>(p.boundary.charge);
   }

@@ -4,6 +4,7 @@
 #include <array>
 #include <string>
 
+#include "../digits.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/rupture/inverse.hpp"
 #include "slipfront/train/train.hpp"
@@ -212,8 +213,8 @@ void Chain::Parts::check_numbers() const {
     std::size_t j = 0;
     while (bounded(slab.now() + j, 1)) ++j;
     const std::size_t site = slab.begin() + j;
-    throw NumericsError("t = " + std::to_string(static_cast<double>(level) * scheme.dt) + ": displacement of site " +
-                        std::to_string(site) + " (x = " + std::to_string(problem.grid.x(site)) + ") is not a number");
+    throw NumericsError("t = " + digits(static_cast<double>(level) * scheme.dt) + ": displacement of site " +
+                        std::to_string(site) + " (x = " + digits(problem.grid.x(site)) + ") is not a number");
   }
 }
 

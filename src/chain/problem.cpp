@@ -42,7 +42,10 @@ double step_for(double h, double a, double mass2) { return 1 / std::sqrt(1 / (h 
 
 double chosen(const Problem& p, double a) {
   const double h = p.grid.spacing;
-  if (p.model == Model::sine_gordon) return step_for(h, a, a * a / 2 + 2 * a * p.crossing_stress);
+  if (p.model == Model::sine_gordon) {
+    const double crossing = p.crossing_stress > 0 ? a * a / 2 + 2 * a * p.crossing_stress : 0;
+    return step_for(h, a, a * a / 2 + crossing);
+  }
   return std::fmin(0.05, 0.9 * h / std::sqrt(1 + a * a * h * h / 4));
 }
 

@@ -10,9 +10,11 @@
 #include <utility>
 
 #include "../bytes.hpp"
+#include "../digits.hpp"
 #include "slipfront/chain/ranks.hpp"
 #include "slipfront/chain/smooth.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/rupture/inverse.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::chain {
@@ -20,7 +22,7 @@ namespace {
 
 using pulse::Snapshot;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-constexpr std::uint64_t format = 0x636861696e000003;  // "chain", version 3
+constexpr std::uint64_t format = 0x636861696e000004;  // "chain", version 4
 
 /// In the window of velocities and stresses (smooth_average): their ripple is some 0.1 % then.
 constexpr double dislocations_in_window = 8;
@@ -32,14 +34,40 @@ double spacing_of_train(const Stretched& s) {
   return (s.right - s.left) / 16;
 }
 
-/// Antidislocations come in at free ends and are made by a force; a slope of a(x) drives one stream through another.
+/// Whether the forcing is too weak to make pairs of dislocations and antidislocations: for that it has to lift u out of
+/// a well, |F| >= 1 in the chain's units.
+bool weak_forcing(const Stretched& s) {
+  constexpr int places = 256, times = 16;
+  if (!(s.end > 0)) return false;
+  double most = 0;
+  for (int i = 0; i <= places; ++i)
+    for (int k = 0; k <= times; ++k)
+      most = std::fmax(most, std::fabs(s.forcing(s.left + (s.right - s.left) * i / places, s.end * k / times)));
+  return most < 0.1 * s.scale;
+}
+
+/// Antidislocations come in at free ends and are made by a strong force; a slope of a(x) drives one stream through
+/// another.
 double crossing_stress(const Stretched& s) {
   const bool free = !s.boundary.periodic && (s.boundary.left != End::fixed || s.boundary.right != End::fixed);
-  if (!free && !s.forcing && !s.contact) return 0;
+  if (!free && !s.contact && (!s.forcing || weak_forcing(s))) return 0;
   constexpr int samples = 4096;
   double most = 0;
   for (int i = 0; i <= samples; ++i) most = std::fmax(most, s.stress(s.left + (s.right - s.left) * i / samples));
   return most;
+}
+
+/// The first level behind `level` at which rates are sampled: one somewhere in each `every` levels. A train passes x =
+/// 0 with a period of its own, and regular samples, of any pattern, can see the same phase of it again and again.
+long sample_after(long level, long every) {
+  const auto sample = [every](long n) {
+    std::uint64_t z = static_cast<std::uint64_t>(n) * 0x9e3779b97f4a7c15u;  // splitmix64, of the number of the sample
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return n * every + static_cast<long>((z ^ (z >> 31)) % static_cast<std::uint64_t>(every));
+  };
+  const long n = level / every;
+  return sample(n) > level ? sample(n) : sample(n + 1);
 }
 
 /// Dislocations are wider than that; what has more has blown up.
@@ -49,16 +77,15 @@ constexpr double most_dislocations_a_site = 8;
 
 Problem problem_of(const Stretched& s, double share_of_machine) {
   if (!(s.scale > 0) || !std::isfinite(s.scale))
-    throw InputError(
-        {.key = "chain.scale", .value = std::to_string(s.scale), .problem = "out of range", .allowed = "> 0"});
+    throw InputError({.key = "chain.scale", .value = digits(s.scale), .problem = "out of range", .allowed = "> 0"});
   const double length = s.scale * (s.right - s.left);
   Problem p;
   // A ring has one site less than ends: the last is the first again.
   const double intervals = std::ceil(length / s.spacing - 1e-9);
   if (!(intervals >= 1 && intervals < 1e15))
     throw InputError({.key = "chain.spacing",
-                      .value = std::to_string(s.spacing),
-                      .problem = "does not divide a chain of length " + std::to_string(length),
+                      .value = digits(s.spacing),
+                      .problem = "does not divide a chain of length " + digits(length),
                       .allowed = "> 0, for 1 to 1e15 sites"});
   p.grid.left = s.scale * s.left;
   p.grid.sites = static_cast<std::size_t>(intervals) + (s.boundary.periodic ? 0 : 1);
@@ -91,7 +118,7 @@ Run::Start Run::start(const Stretched& s, double share_of_machine) {
   return {std::move(problem), std::move(train)};
 }
 
-/// What is wrong with it is thrown by all ranks together.
+/// All ranks throw the same error together.
 Run::Start Run::start(const Stretched& stretched, const Execution& execution) {
   if (!execution.ranks) return start(stretched, 1.0);
   std::optional<Start> made;
@@ -143,7 +170,26 @@ void Run::look_at_start() {
   first_energy_ = t.energy();
   first_charge_ = t.charge;
   first_dislocations_ = t.dislocations;
+  driving_force_ = driving_force();
   sample();
+}
+
+/// A dislocation in a train at rest feels the force dJ/dx (docs/theory.md 6) and F.
+double Run::driving_force() const {
+  const Stretched& s = stretched_;
+  constexpr int samples = 2000;
+  const double dx = (s.right - s.left) / samples;
+  double last = 0, by_stress = 0, by_forcing = 0;
+  for (int i = 0; i <= samples; ++i) {
+    const double x = s.left + dx * i, a = s.contact ? s.contact(x) : 1, k = s.stress(x);
+    const double J = a * train::averages(rupture::at_rest(k / a)).J;
+    if (i > 0) by_stress = std::fmax(by_stress, std::fabs(J - last) / dx);
+    last = J;
+    if (s.forcing)
+      for (const double share : {0.0, 0.5, 1.0})
+        by_forcing = std::fmax(by_forcing, std::fabs(s.forcing(x, share * schedule_.times.back())));
+  }
+  return by_stress + by_forcing;
 }
 
 /// Rates that are integrated over time. Where nothing takes energy but what the chain meters there is no need of them.
@@ -220,7 +266,7 @@ bool Run::go(const std::function<bool()>& interrupted) {
   while (!finished()) {
     const auto target = std::lround(schedule_.times[snapshots_.size()] * stretched_.scale / chain_.dt());
     while (chain_.level() < target) {
-      const long level = chain_.level(), next = (level / work_every_ + 1) * work_every_;
+      const long level = chain_.level(), next = sample_after(level, work_every_);
       good_ = false;
       chain_.advance(std::min({target, next, level + most}) - level);
       good_ = true;
@@ -271,7 +317,8 @@ void Run::take() {
   const Totals now = totals(chain_);
   if (static_cast<double>(now.dislocations) >
       most_dislocations_a_site * static_cast<double>(chain_.problem().grid.sites))
-    throw NumericsError("chain: more dislocations than sites bear, at t = " + std::to_string(time));
+    throw NumericsError("The chain diverged: more than " + digits(most_dislocations_a_site) +
+                        " dislocations per site at t = " + digits(time));
   s.fronts = {none, none, none, none};
   const double stress_left = stretched_.stress(stretched_.left), stress_right = stretched_.stress(stretched_.right);
   const bool stressed_left = stress_left >= stress_right;

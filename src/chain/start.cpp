@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "../digits.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::chain {
@@ -76,7 +77,7 @@ Motion part_of(const Problem& p, const MotionOf& start, long begin, long end) {
 void StartCheck::look(const Problem& p, const Motion& m, std::size_t first) {
   for (std::size_t j = 0; j < m.u.size(); ++j) {
     if (!std::isfinite(m.u[j]) || (!m.velocity.empty() && !std::isfinite(m.velocity[j])))
-      throw InputError({.key = "initial motion at x = " + std::to_string(p.grid.x(first + j)),
+      throw InputError({.key = "initial motion at x = " + digits(p.grid.x(first + j)),
                         .problem = "not a number",
                         .allowed = "finite displacement and velocity"});
     const double rise = j == 0 ? 0 : std::fabs(m.u[j] - m.u[j - 1]);
@@ -100,10 +101,10 @@ void StartCheck::finish(const Problem& p, const Ranks& ranks) const {
     ranks.together([&] {
       throw InputError(
           {.key = "spacing",
-           .value = std::to_string(p.grid.spacing),
-           .problem = "too coarse: " + std::to_string(2 / steepest) + " sites to the width of the dislocation at x = " +
-                      std::to_string(at) + ", " + std::to_string(least_sites_per_width) + " are needed",
-           .allowed = "about " + std::to_string(p.grid.spacing * 2 / (least_sites_per_width * steepest)) + " or less"});
+           .value = digits(p.grid.spacing),
+           .problem = "too coarse: " + digits(2 / steepest) + " sites to the width of the dislocation at x = " +
+                      digits(at) + ", " + digits(least_sites_per_width) + " are needed",
+           .allowed = "about " + digits(p.grid.spacing * 2 / (least_sites_per_width * steepest)) + " or less"});
     });
 }
 
@@ -115,7 +116,7 @@ void check_charge(const Problem& p, const MotionOf& start) {
   if (std::fabs(fits - static_cast<double>(p.boundary.charge)) > 0.25)
     throw InputError({.key = "charge",
                       .value = std::to_string(p.boundary.charge),
-                      .problem = "does not fit the initial state, which falls by " + std::to_string(fits) + " turns",
+                      .problem = "does not fit the initial state, which falls by " + digits(fits) + " turns",
                       .allowed = "the whole number of dislocations between the ends"});
 }
 

@@ -44,6 +44,7 @@ chain::Stretched chain_problem(const scenario::Scenario& s) {
   c.stress = s.stress;
   c.forcing = pulse.forcing;  // with the load that holds the initial stress, if any
   c.steady_forcing = s.steady_forcing;
+  c.end = s.end;
   c.contact = s.contact_at;
   c.friction = s.friction;
   c.boundary = {.left = end_of(s.chain.left), .right = end_of(s.chain.right), .periodic = s.chain.periodic};

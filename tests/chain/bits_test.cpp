@@ -43,4 +43,17 @@ TEST(ChainBits, DoNotDependOnThreadsTilesOrStops) {
     }
 }
 
+/// A forcing that is known not to depend on t is asked for once, to the same bits.
+TEST(ChainBits, SteadyForcingIsTheSame) {
+  Problem p = cases::problem(1501, 3);
+  p.forcing = [](double x, double) { return 0.1 * std::sin(0.1 * x); };
+  chain::Chain asked_each_level(p, cases::bumpy(p));
+  p.steady_forcing = true;
+  chain::Chain asked_once(p, cases::bumpy(p));
+  asked_each_level.advance(100);
+  asked_once.advance(100);
+  expect_same(asked_each_level.levels(), asked_once.levels(), "steady forcing");
+  EXPECT_EQ(asked_each_level.flow_sums(), asked_once.flow_sums());
+}
+
 }  // namespace

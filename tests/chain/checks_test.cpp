@@ -5,6 +5,7 @@
 
 #include "slipfront/chain/run.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/rupture/inverse.hpp"
 
 namespace {
 
@@ -49,7 +50,7 @@ TEST(ChainChecks, WorkOfAFastForceBalances) {
   }
 }
 
-/// Viscous friction alone, one dislocation in a chain: it passes places between samples.
+/// Viscous friction alone, one dislocation in a chain: its work is taken at every level.
 TEST(ChainChecks, ViscousFrictionOfAFewDislocationsBalances) {
   Stretched s = uniform(0, 60, 1);
   s.stress = [](double x) { return x < -20 ? 0.6 : 0; };
@@ -88,6 +89,51 @@ TEST(ChainChecks, SaysWhereDislocationsAreTooFew) {
     std::string all;
     for (const std::string& warning : run.warnings()) all += warning + "\n";
     EXPECT_EQ(all.find("chain.scale") != std::string::npos, scale < 100) << all;
+  }
+}
+
+/// A smooth step of little stress moves slowly. A grid that holds slow dislocations says so, and what would do.
+TEST(ChainChecks, SaysWhereTheGridHoldsDislocations) {
+  for (const double spacing : {default_spacing, 0.5, 0.6}) {
+    Stretched s = uniform(0, 2, 1000);
+    s.stress = [](double x) { return 0.533 + 0.148 * (1 - std::tanh(x / 0.5)) / 2; };
+    s.friction = {FrictionLaw::viscous, 0.257};
+    s.spacing = spacing;
+    chain::Run run(s, until(s, 0.05), {});
+    run.go();
+    std::string all;
+    for (const std::string& warning : run.warnings()) all += warning + "\n";
+    EXPECT_EQ(all.find("holds slow dislocations") != std::string::npos, spacing > default_spacing) << all;
+  }
+}
+
+/// A force without friction accelerates a ring until its dislocations are too narrow: the message says that.
+TEST(ChainChecks, NarrowDislocationsAreNamed) {
+  Stretched s = uniform(0.8, 1, 50);
+  s.boundary = {.periodic = true};
+  s.forcing = [](double, double) { return 0.5; };
+  s.spacing = 0.5;
+  chain::Run run(s, until(s, 6.28), {});
+  try {
+    run.go();
+    ADD_FAILURE() << run.balance().energy_drift;
+  } catch (const NumericsError& error) {
+    EXPECT_NE(std::string(error.what()).find("narrowest dislocation"), std::string::npos) << error.what();
+  }
+}
+
+/// No front is faster than c or warned of, whatever the step.
+TEST(ChainChecks, FrontsAreSlowerThanC) {
+  for (const double stress : {0.7, 0.855, 2.0, 4.0}) {
+    Stretched s = uniform(stress, 4, 200);
+    s.stress = [stress](double x) { return x < 0 ? stress : 0; };
+    s.spacing = default_spacing / std::cosh(rupture::psi_of_stress(stress));
+    pulse::Schedule when = until(s, 3, 200);
+    when.times = {0, 0.5, 1, 2, 3};
+    chain::Run run(s, when, {});
+    run.go();
+    for (const std::string& warning : run.warnings()) EXPECT_EQ(warning.find("front"), std::string::npos) << warning;
+    EXPECT_LT(run.snapshots().back().fronts.leading, 3) << stress;
   }
 }
 

@@ -142,8 +142,25 @@ TEST(ChainInitial, EquilibriumOnASlopeOfContactStaysAtRest) {
   EXPECT_GT(wrong, 30 * right);
 }
 
+/// The grid of the continuum equation holds a dislocation too, up to its Peierls-Nabarro barrier: (40 pi / h^2)
+/// exp(-pi^2 / h), 2.5e-5 at h = 0.6 (docs/chain.md).
+TEST(ChainPhysics, GridHoldsADislocationBelowItsBarrier) {
+  const double h = 0.6, barrier = 40 * pi / (h * h) * std::exp(-pi * pi / h);
+  const auto moved = [&](double share) {
+    Problem p = line(-24, 24, h);
+    p.friction = {FrictionLaw::viscous, 0.02};
+    p.forcing = [=](double, double t) { return share * barrier * std::fmin(t / 1000, 1.0); };  // slowly, from rest
+    p.boundary = {End::fixed, End::fixed, false, 0};
+    chain::Chain run(p, exact::motion_of(exact::kink(0), p.grid, 0));
+    run.advance_to(3000);
+    return std::fabs(dislocations(run).at(0).x);
+  };
+  EXPECT_LT(moved(0.9), 0.75 * h);  // from a site to the place between two where it is held, and half way to the next
+  EXPECT_GT(moved(1.2), h);
+}
+
 /// On a lattice a dislocation is pinned until the force reaches the Peierls-Nabarro threshold; on the grid of the
-/// continuum equation it is not.
+/// continuum equation a thousand times less does.
 TEST(ChainPhysics, LatticePinsDislocations) {
   const auto moved = [](double A, double F, Model model) {
     Problem p = line(-24, 24, A);

@@ -41,6 +41,7 @@ struct Totals {
   double momentum = 0;         ///< of -u_t u_x
   double supplied_rate = 0;    ///< power of F, sum of F u_t
   double dissipated_rate = 0;  ///< of friction, sum of f(u_t) u_t
+  double steepest = 0;         ///< largest difference of u between neighbours
   double energy() const { return kinetic + elastic + substrate; }
 };
 

@@ -21,6 +21,7 @@ struct Stretched {
   std::function<double(double)> stress;               ///< initial stress at x; everything at rest
   std::function<double(double x, double t)> forcing;  ///< F; null: none
   bool steady_forcing = false;                        ///< F does not depend on t
+  double end = 0;                                     ///< how long F is looked at for the step; 0: F may be strong
   std::function<double(double)> contact;              ///< a(x); null: 1
   modulation::Friction friction;                      ///< of the scenario; the closure does not matter
   Boundary boundary;
@@ -66,12 +67,14 @@ class Run {
     double energy_drift;
     double charge_error;  ///< charge less that at t = 0
     long dislocations;    ///< of either sign
+    double steepest;      ///< largest difference of u between neighbouring sites
   };
   Balance balance() const;
 
-  /// What is amiss or doubtful in the results so far, a sentence each: invariants that do not hold (energy, slip at
-  /// x = 0 against the integral of the velocity there, dislocations that none of the ends explains, |W| <= k, fronts),
-  /// and too few dislocations for the answer. Above 1 % `go` ends with a NumericsError that says so.
+  /// A sentence for each thing that is wrong or doubtful in the results so far: invariants that do not hold (energy,
+  /// slip at x = 0 against the integral of the velocity there, dislocations that none of the ends explains, |W| <= k,
+  /// fronts inside the domain and slower than c), a grid that holds slow dislocations, and too few dislocations. Above
+  /// 1 % `go` ends with a NumericsError that says so.
   std::vector<std::string> warnings() const;
 
  private:
@@ -87,8 +90,12 @@ class Run {
   void look_at_start();
   void sample();
   void take();
+  double driving_force() const;
   struct Findings;
   Findings findings() const;
+  void check_energy(Findings& findings) const;
+  void check_fronts(Findings& findings) const;
+  void check_barrier(Findings& findings) const;
   void refuse_wrong_results() const;
 
   Stretched stretched_;
@@ -102,7 +109,8 @@ class Run {
   std::vector<double> first_u_;  ///< averages over the output cells
   double first_u_at_origin_ = 0, first_energy_ = 0, first_charge_ = 0;
   long first_dislocations_ = 0;
-  Work work_;  ///< since then, of viscous friction that the chain itself does not meter
+  double driving_force_ = 0;  ///< the largest on a dislocation, as a force F of the scenario
+  Work work_;                 ///< since then, of viscous friction that the chain itself does not meter
   /// Integral of the velocity at x = 0 over the window of the slip, by samples, and by every other of them.
   struct Passed {
     double time = 0, velocity = 0, slip = 0;
