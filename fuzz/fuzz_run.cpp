@@ -1,6 +1,8 @@
 // libFuzzer target: whatever scenario is let through can be checked and run, at few cells and for a few steps, as a
 // pulse and as a chain. The input chooses from what scenarios are made of: profiles with stress at one point only,
-// empty ends, laws, forcings, contact profiles, domains; now and then a value of its own.
+// empty ends, laws, forcings, contact profiles, domains; now and then a value of its own. fuzz/random does so with
+// random inputs: with SLIPFRONT_COUNT in the environment the program says at its end how many scenarios ran,
+// with SLIPFRONT_PRINT it prints each.
 
 #include <fuzzer/FuzzedDataProvider.h>
 
@@ -8,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <string_view>
@@ -36,13 +39,25 @@ std::string number(FuzzedDataProvider& data) {
                     {"0", "1", "0.8", "0.855", "0.5", "-4", "4", "1e-3", "1e-9", "0.0045", "20", "-1", "0.1", "3"});
 }
 
+/// A number that is mostly allowed: few scenarios would run else.
+template <std::size_t n>
+std::string mostly(FuzzedDataProvider& data, const std::array<std::string_view, n>& words) {
+  return data.ConsumeIntegralInRange(0, 15) == 0 ? number(data) : one_of<n>(data, words);
+}
+std::string stress(FuzzedDataProvider& data) {
+  return mostly<10>(data, {"0", "0.8", "0.855", "0.5", "3", "0.0045", "0.1", "20", "0.01", "1"});
+}
+std::string positive(FuzzedDataProvider& data) {
+  return mostly<8>(data, {"1", "0.1", "0.5", "2", "4", "1e-3", "1e-6", "0.3"});
+}
+
 std::string initial(FuzzedDataProvider& data) {
   switch (data.ConsumeIntegralInRange(0, 2)) {
     case 0:
-      return "profile = 'step'\nstress_left = " + number(data) + "\nstress_right = " + number(data) + "\n";
+      return "profile = 'step'\nstress_left = " + stress(data) + "\nstress_right = " + stress(data) + "\n";
     case 1:
-      return "profile = 'tanh'\nstress_left = " + number(data) + "\nstress_right = " + number(data) +
-             "\nwidth = " + number(data) + "\n";
+      return "profile = 'tanh'\nstress_left = " + stress(data) + "\nstress_right = " + stress(data) +
+             "\nwidth = " + positive(data) + "\n";
     default:
       return "profile = 'formula'\nformula = '" +
              one_of<9>(data, {"x==1", "(x==0||x>1)?0.8:0", "x<0?0.8:0", "0.8*exp(-x^2)", "abs(x)<1?0.5:0",
@@ -54,31 +69,47 @@ std::string initial(FuzzedDataProvider& data) {
 std::string random_scenario(FuzzedDataProvider& data) {
   const auto sometimes = [&data] { return data.ConsumeIntegralInRange(0, 2) == 0; };
   std::string text = "[initial]\n" + initial(data);
-  text += "[friction]\nlaw = '" + one_of<4>(data, {"none", "viscous", "coulomb", "power"}) +
-          "'\ncoefficient = " + number(data) + "\n";
-  if (sometimes()) text += "exponent = " + number(data) + "\n";
+  text += "[friction]\nlaw = '" + one_of<4>(data, {"none", "viscous", "coulomb", "power"}) + "'\n";
+  text += "coefficient = " + mostly<7>(data, {"0.1", "0.5", "3", "100", "1e5", "1e-3", "0"}) + "\n";
+  if (sometimes()) text += "exponent = " + positive(data) + "\n";
   if (sometimes()) text += "closure = '" + one_of<2>(data, {"paper", "consistent"}) + "'\n";
   if (sometimes())
     text += "[forcing]\nformula = '" + one_of<5>(data, {"0.5", "sin(t)", "x", "1e5*sin(40*x)", "-1"}) + "'\n";
   if (sometimes())
     text += "[interface]\ncontact = '" + one_of<4>(data, {"1+0.2*sin(x)", "2", "x>0?2:1", "1e-3"}) + "'\n";
-  if (!sometimes()) text += "[domain]\nleft = " + number(data) + "\nright = " + number(data) + "\n";
-  text += "[time]\nend = " + number(data) + "\n";
+  if (!sometimes())
+    text += "[domain]\nleft = " + mostly<5>(data, {"-4", "-1", "-10", "-0.1", "0"}) +
+            "\nright = " + mostly<5>(data, {"4", "1", "10", "0.1", "0"}) + "\n";
+  text += "[time]\nend = " + positive(data) + "\n";
   text += "[pulse]\ncells = " + std::to_string(data.ConsumeIntegralInRange(4, 40)) + "\n";
+  if (sometimes()) text += "left = '" + one_of<3>(data, {"continued", "fixed", "free"}) + "'\n";
+  if (sometimes()) text += "right = '" + one_of<3>(data, {"continued", "fixed", "free"}) + "'\n";
+  if (sometimes()) text += "periodic = true\n";
   text += "[chain]\nscale = " + std::to_string(data.ConsumeIntegralInRange(1, 40)) + "\n";
   if (sometimes()) text += "periodic = true\n";
   if (sometimes()) text += "left = '" + one_of<3>(data, {"fixed", "free", "absorbing"}) + "'\n";
+  if (sometimes()) text += "model = 'lattice'\n";
+  if (sometimes()) text += "spacing = " + positive(data) + "\n";
+  if (sometimes()) text += "window = " + positive(data) + "\n";
   if (sometimes()) text += "[output]\nevery = 0.7\n";
   return text;
 }
 
-/// Runs a few steps; each number of dislocations and each slip that comes out has to be one.
+long scenarios = 0, pulses = 0, chains = 0;
+
+void say_counts() { std::printf("%ld scenarios: %ld pulses and %ld chains ran\n", scenarios, pulses, chains); }
+
+/// Runs a few steps; the slip at x = 0 that comes out is a number at all times or, where there is no such place, at
+/// none.
 template <class Run>
 void go(Run& run) {
-  int steps = 20;
+  static const int most = std::getenv("SLIPFRONT_COUNT") ? 60 : 20;
+  int steps = most;
   run.go([&steps] { return --steps <= 0; });
   for (const pulse::Snapshot& snapshot : run.snapshots())
-    if (!std::isfinite(snapshot.time) || std::isnan(snapshot.slip_at_origin)) std::abort();
+    if (!std::isfinite(snapshot.time) ||
+        std::isnan(snapshot.slip_at_origin) != std::isnan(run.snapshots().front().slip_at_origin))
+      std::abort();
 }
 
 template <class Body>
@@ -94,19 +125,23 @@ void attempt(const Body& body) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
+  if (scenarios++ == 0 && std::getenv("SLIPFRONT_COUNT")) std::atexit(say_counts);
   FuzzedDataProvider data(bytes, size);
   const std::string text = random_scenario(data);
+  if (std::getenv("SLIPFRONT_PRINT")) std::fputs((text + "\n").c_str(), stderr);
   attempt([&] {
     const scenario::Scenario s = scenario::read_scenario(text, "fuzz.toml", {}, nullptr);
     attempt([&] {
       const pulse::Problem problem = setup::pulse_problem(s);
       pulse::Run run(problem, setup::pulse_schedule(s, problem));
+      ++pulses;
       go(run);
     });
     attempt([&] {
       const chain::Stretched stretched = setup::chain_problem(s);
       if (chain::problem_of(stretched).grid.sites > 20000) return;
       chain::Run run(stretched, setup::pulse_schedule(s, setup::pulse_problem(s)), chain::Execution{});
+      ++chains;
       go(run);
     });
   });

@@ -142,14 +142,22 @@ std::vector<std::string> read_csv(std::string_view text, const std::string& file
   if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
   std::vector<Column> columns;
   std::size_t rows = 0;
-  const std::size_t open_quote = for_each_record(text, [&](std::vector<std::string>&& cells, std::size_t line) {
+  const auto take = [&](std::vector<std::string>&& cells, std::size_t line) {
     if (columns.empty()) {
       columns = read_header(cells, line, file);
     } else {
       ++rows;
       sink(read_row(columns, cells, line, file));
     }
-  });
+  };
+  std::size_t open_quote = 0;
+  try {
+    open_quote = for_each_record(text, take);
+  } catch (const InputError& error) {
+    Complaint c = error.complaint();
+    if (c.file.empty()) c.file = file;
+    throw InputError(c);
+  }
   if (open_quote != 0) {
     Entry entry;
     entry.observation.name = "line " + std::to_string(open_quote);

@@ -26,7 +26,7 @@ void on_field(void* data, std::size_t size, void* self) {
   if (records.thrown) return;
   try {
     if (records.fields.size() == most_columns)
-      throw InputError({.line = records.first,
+      throw InputError({.line = records.first > 0 ? records.first : records.line,
                         .problem = "more than " + std::to_string(most_columns) + " columns",
                         .allowed = "fewer"});
     records.fields.emplace_back(data ? static_cast<const char*>(data) : "", data ? size : 0);

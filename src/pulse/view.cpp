@@ -14,7 +14,8 @@ double turns(const Solver::View& v, double x) { return std::floor((x - v.faces.f
 }  // namespace
 
 State state_at(const Solver::View& v, double place) {
-  const double x = v.period > 0 ? place - turns(v, place) * v.period : place;
+  double x = place;
+  if (v.period > 0) x = std::clamp(place - turns(v, place) * v.period, v.faces.front(), v.faces.back());
   if (x < v.faces.front() || x > v.faces.back()) return {};
   const std::size_t cell = interval(v.faces, x);
   if (v.states[cell].empty()) return {};
@@ -57,15 +58,15 @@ train::Averages averages_of(const Solver::View& v, const State& state, double x)
 
 double charge_left_of(const Solver::View& v, double place) {
   const double whole = v.period > 0 ? turns(v, place) : 0, x = place - whole * v.period;
-  if (whole != 0) return whole * (v.charge_faces.back() - v.charge_faces.front()) + charge_left_of(v, x);
-  if (x <= v.faces.front()) return v.charge_faces.front();
-  if (x >= v.faces.back()) return v.charge_faces.back();
+  const double before = whole * (v.charge_faces.back() - v.charge_faces.front());
+  if (x <= v.faces.front()) return before + v.charge_faces.front();
+  if (x >= v.faces.back()) return before + v.charge_faces.back();
   const std::size_t i = interval(v.faces, x);
   // Cubic Hermite: the slopes k / 2 pi at the faces are known; limited so that it cannot fall (Fritsch & Carlson).
   const double h = v.faces[i + 1] - v.faces[i], rise = v.charge_faces[i + 1] - v.charge_faces[i], mean = rise / h;
   const auto slope = [&](std::size_t f) { return std::fmin(v.face_density[f], 3 * mean); };
   const double s = (x - v.faces[i]) / h, r = 1 - s;
-  return v.charge_faces[i] + rise * s * s * (3 - 2 * s) + h * s * r * (slope(i) * r - slope(i + 1) * s);
+  return before + v.charge_faces[i] + rise * s * s * (3 - 2 * s) + h * s * r * (slope(i) * r - slope(i + 1) * s);
 }
 
 }  // namespace slipfront::pulse

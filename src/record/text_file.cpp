@@ -1,5 +1,6 @@
 #include "slipfront/record/text_file.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -7,20 +8,25 @@
 #include <memory>
 #include <system_error>
 
+#include "../digits.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/machine.hpp"
 #include "whole_file.hpp"
 
 namespace slipfront::record {
 namespace {
 
-constexpr std::size_t most_bytes = std::size_t{1} << 32;  // a device may never end
+/// A device may never end. What is read takes some times its size.
+double most_bytes() { return std::min(0x1p32, usable_memory() / 8); }
 
 std::string read_all(std::FILE* file, const std::string& name) {
+  const double most = most_bytes();
   std::string text;
   char buffer[1 << 16];
   while (const std::size_t size = std::fread(buffer, 1, sizeof buffer, file)) {
     text.append(buffer, size);
-    if (text.size() > most_bytes) throw FileError(name + ": more than 4 GB, or without an end");
+    if (static_cast<double>(text.size()) > most)
+      throw FileError(name + ": more than " + digits(most / 1e9, 3) + " GB, or without an end");
   }
   if (std::ferror(file)) throw FileError(name + ": cannot be read: " + std::strerror(errno));
   return text;

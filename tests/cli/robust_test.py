@@ -245,8 +245,22 @@ class Inputs(CommandLine):
     def test_many_columns(self):
         wide = self.file("wide.csv", ",".join(f"c{i}" for i in range(300000)) + "\n")
         begun = time.monotonic()
-        self.refused(2, "event", wide, says=["columns"])
+        self.refused(2, "event", wide, says=["wide.csv:1: more than 10000 columns"])
         self.assertLess(time.monotonic() - begun, 10)
+
+    def test_a_ring_is_observed_at_its_very_end(self):
+        """Turned back by whole periods, the end of the domain stays beyond the ring's by a rounding: it was turned for ever."""
+        case = self.file("ring.toml", "[initial]\nprofile = 'step'\nstress_left = 4\nstress_right = 0.1\n[friction]\nlaw = 'power'\ncoefficient = 1\n"
+                         "[time]\nend = 0.855\n[pulse]\ncells = 30\nperiodic = true\n[output]\nevery = 0.7\n")
+        done = run("pulse", case, "--quiet")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_files_without_an_end(self):
+        """Devices and pipes may be read as events and scenarios; not more of them than the memory holds."""
+        for command in ("event", "pulse"):
+            done = subprocess.run(["prlimit", f"--as={4 << 30}", PROGRAM, command, "/dev/zero"], capture_output=True, text=True)
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (3, 1), done.stderr)
+            self.assertIn("without an end", done.stderr)
 
     def test_sizes_are_known_before_the_work(self):
         begun = time.monotonic()
