@@ -60,7 +60,8 @@ int run_chain(const ScenarioArguments& a) {
                      .steps = run->chain().level() - first,
                      .ranks = the_ranks->size(),
                      .threads = a.common.threads};
-  if (the_ranks->rank() == 0) print_summary(s.title, summary(chain_summary(), end), a);
+  const std::vector<std::string> warnings = run->warnings();  // asks all ranks
+  if (the_ranks->rank() == 0) print_summary(s.title, summary(chain_summary(), end), warnings, a);
   return code;
 }
 

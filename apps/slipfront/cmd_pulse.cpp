@@ -42,7 +42,8 @@ int run_pulse(const ScenarioArguments& a) {
   const int code = carry_out(
       *run, a, s, "pulse", estimate_of(s, problem).disk, [&] { return run->solver().cells().time; },
       [&] { return run->solver().cells().steps; });
-  if (code == exit_done) print_summary(s.title, summary(pulse_summary(), {s, *run, seconds_since(start)}), a);
+  if (code == exit_done)
+    print_summary(s.title, summary(pulse_summary(), {s, *run, seconds_since(start)}), run->warnings(), a);
   return code;
 }
 

@@ -47,7 +47,7 @@ void print_json(const scenario::Scenario& s, const std::vector<Level>& levels) {
                         json_number(t.extrapolated), json_number(t.difference));
   }
   text += "}, \"notes\": [";
-  const std::vector<std::string> notes = notes_on(s);
+  const std::vector<std::string> notes = notes_on(s, levels);
   for (const std::string& note : notes) text += fmt::format("{}\"{}\"", &note == notes.data() ? "" : ", ", note);
   put(text + "]}\n");
 }
@@ -99,7 +99,7 @@ void print_table(const scenario::Scenario& s, const std::vector<Level>& levels) 
   put(fmt::format("\ntrend of the chain with scale\n{:<18}{}\n{:<18}{}\n", "falls as s^-p, p =", exponents,
                   "at infinite scale", extrapolated));
   put(fmt::format("{:<18}{}\n\n", "less pulse", left));
-  for (const std::string& note : notes_on(s)) put(note + "\n");
+  for (const std::string& note : notes_on(s, levels)) put(note + "\n");
 }
 
 }  // namespace

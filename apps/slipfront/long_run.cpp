@@ -82,17 +82,22 @@ record::Checkpoint checkpoint_of(const ScenarioArguments& a, const scenario::Sce
 std::string json_number(double value) { return std::isfinite(value) ? fmt::format("{}", value) : "null"; }
 
 void print_summary(const std::string& title, const std::vector<setup::SummaryValue>& summary,
-                   const ScenarioArguments& a) {
+                   const std::vector<std::string>& warnings, const ScenarioArguments& a) {
   struct AsJson {
     std::string operator()(double value) const { return json_number(value); }
     std::string operator()(long value) const { return fmt::format("{}", value); }
     std::string operator()(const std::string& value) const { return fmt::format("\"{}\"", value); }
   };
+  if (!a.common.quiet)
+    for (const std::string& warning : warnings) complain("warning: " + warning);
   if (a.common.json) {
     std::string text = "{";
     for (const auto& row : summary)
       text += fmt::format("{}\"{}\": {}", text.size() > 1 ? ", " : "", row.key, std::visit(AsJson{}, row.value));
-    put(text + "}\n");
+    text += ", \"warnings\": [";
+    for (const std::string& warning : warnings)
+      text += fmt::format("{}\"{}\"", &warning == warnings.data() ? "" : ", ", warning);
+    put(text + "]}\n");
     return;
   }
   if (!title.empty()) put(title + "\n");

@@ -47,6 +47,7 @@ py::dict run_chain(const py::dict& arguments, int threads) {
     const auto begun = Clock::now();
     if (record::carry_out(*run, *keeping, [&] { return watch(run->time(), run->chain().level()); }))
       balance = run->balance();
+    if (run->finished()) keeping->metadata.warnings = run->warnings();
     stepping = seconds_since(begun);
     steps = run->chain().level() - first;
   }

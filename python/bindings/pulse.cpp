@@ -37,6 +37,7 @@ py::dict run_pulse(const py::dict& arguments) {
     const pulse::Solver& solver = run->solver();
     record::carry_out(*run, *keeping, [&] { return watch(solver.cells().time, solver.cells().steps); });
   }
+  if (run->finished()) keeping->metadata.warnings = run->warnings();
   watch.finish();
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   py::dict result = dataset_of(keeping->metadata, record::pulse_format, run->finished(), run->schedule().times,

@@ -104,7 +104,9 @@ py::dict dataset_of(const record::PulseMetadata& metadata, const std::string& fo
   result["axes"] = axes(times, metadata.x_edges);
   result["fields"] = fields;
   result["scalars"] = scalars;
-  result["warnings"] = py::cast(scenario.warnings);
+  std::vector<std::string> warnings = scenario.warnings;
+  warnings.insert(warnings.end(), metadata.warnings.begin(), metadata.warnings.end());
+  result["warnings"] = py::cast(warnings);
   return result;
 }
 

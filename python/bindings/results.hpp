@@ -30,6 +30,7 @@ using Levels = std::vector<const std::vector<slipfront::pulse::Snapshot>*>;
 
 /// A dict {attributes, axes, fields, scalars, warnings} for the pure-Python half; arrays have a dimension "level" in
 /// front if `by_level`.
+/// Warnings are those of the scenario and of the metadata.
 py::dict dataset_of(const slipfront::record::PulseMetadata& metadata, const std::string& format, bool finished,
                     const std::vector<double>& times, const Levels& levels, bool by_level,
                     const slipfront::scenario::Scenario& scenario);

@@ -319,7 +319,7 @@ void Run::take() {
       most_dislocations_a_site * static_cast<double>(chain_.problem().grid.sites))
     throw NumericsError("The chain diverged: more than " + digits(most_dislocations_a_site) +
                         " dislocations per site at t = " + digits(time));
-  s.fronts = {none, none, none, none};
+  s.fronts = {none, none, none, none, none};
   const double stress_left = stretched_.stress(stretched_.left), stress_right = stretched_.stress(stretched_.right);
   const bool stressed_left = stress_left >= stress_right;
   if (std::fmin(stress_left, stress_right) == 0) {  // the outermost dislocation
@@ -341,8 +341,13 @@ void Run::take() {
   const Chain::Flows flows = chain_.flows();
   Work work = work_;
   if (work.started) work.sample(now);
-  s.energy = {(now.elastic + now.substrate) / c, now.kinetic / c,
-              (work.dissipated + flows.dissipated + flows.outflow) / c, flows.supplied / c, s.energy.phonons};
+  s.energy = {.elastic = (now.elastic + now.substrate) / c,
+              .kinetic = now.kinetic / c,
+              .dissipated = (work.dissipated + flows.dissipated + flows.outflow) / c,
+              .supplied = flows.supplied / c,
+              .through_ends = none,
+              .shocks = none,
+              .phonons = s.energy.phonons};
   snapshots_.push_back(std::move(s));
 }
 

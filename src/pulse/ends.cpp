@@ -37,12 +37,14 @@ void Solver::fill_end(bool left) {
   }
   (left ? cells_.entered_left : cells_.entered_right) += charge;
   if (left) cells_.y[2 * size()] -= width;
+  cells_.y[2 * size() + 3] += energy_in(left ? 0 : size() - 1);
 }
 
 /// What is beyond the end no longer counts.
 void Solver::drop_beyond(bool left) {
   const std::size_t end = left ? 0 : size() - 1;
   const double width = cells_.y[2 * end];
+  cells_.y[2 * size() + 3] -= energy_in(end);
   (left ? cells_.entered_left : cells_.entered_right) -= cells_.charge[end];
   if (!cells_.face_momentum.empty()) {
     const std::size_t next = left ? 1 : size() - 1;

@@ -16,31 +16,102 @@ namespace {
 using std::numbers::pi;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// The edge of what moves on the less stressed side: the free edge, or where the velocity behind it falls through half
-/// of its largest.
-double leading_front(const Solver::View& v, bool to_right) {
-  const std::size_t n = v.states.size();
-  if ((to_right ? v.face_states.back() : v.face_states.front()).empty())
-    return to_right ? v.faces.back() : v.faces.front();
-  double fastest = 0;
-  for (const State& s : v.states) fastest = std::fmax(fastest, std::fabs(s.phi));
-  for (std::size_t i = 1; i < n && fastest > 0; ++i) {  // from the front inwards
+bool free_at(const Solver::View& v, bool right) { return right ? v.right_free : v.left_free; }
+
+/// Where a shock stands that W falls through in cell `in`, seen from the front: what slips in the cells from there
+/// outwards, in units of the slip velocity behind it, is the way that it has come into them.
+double shock_near(const Solver::View& v, const std::vector<double>& W, std::size_t in, bool to_right) {
+  constexpr std::size_t behind = 3, beyond = 6;
+  const std::size_t n = W.size();
+  const auto outward = [&](std::size_t steps) {
+    return to_right ? std::min(in + steps, n - 1) : in - std::min(in, steps);
+  };
+  const std::size_t back = to_right ? in - std::min(in, behind) : std::min(in + behind, n - 1);
+  double way = 0;
+  std::size_t last = n;
+  for (std::size_t j = 0; j <= beyond; ++j) {
+    const std::size_t i = outward(j);
+    if (i == last) break;
+    last = i;
+    way += (v.faces[i + 1] - v.faces[i]) * std::clamp(W[i] / W[back], 0.0, 1.0);
+  }
+  return to_right ? v.faces[in] + way : v.faces[in + 1] - way;
+}
+
+/// The edge of what moves on the less stressed side: the free edge, or where the slip velocity W (of the cells) falls
+/// through half of its largest. Velocities of the dislocations would not do: a shock pushes a few of a dilute train
+/// ahead of itself.
+double leading_front(const Solver::View& v, const std::vector<double>& W, bool to_right) {
+  const std::size_t n = W.size();
+  if (free_at(v, to_right)) return to_right ? v.faces.back() : v.faces.front();
+  double half = 0;
+  for (const double w : W) half = std::fmax(half, std::fabs(w) / 2);
+  for (std::size_t i = 1; i < n && half > 0; ++i) {  // from the front inwards
     const std::size_t out = to_right ? n - i : i - 1, in = to_right ? out - 1 : out + 1;
-    const double a = std::fabs(v.states[in].phi), b = std::fabs(v.states[out].phi);
-    if (a >= fastest / 2 && b < fastest / 2)
-      return std::lerp(v.centres[in], v.centres[out], (fastest / 2 - a) / (b - a));
+    const double a = std::fabs(W[in]), b = std::fabs(W[out]);
+    if (!(a >= half && b < half)) continue;
+    if (v.shocked[in] != 0) return shock_near(v, W, in, to_right);
+    return std::lerp(v.centres[in], v.centres[out], (half - a) / (b - a));
   }
   return none;
 }
 
-void find_peak_and_observed_fronts(const Solver::View& v, double threshold, bool to_right, Snapshot& s) {
+/// The foot of the fan on the more stressed side: behind the first cell whose slip velocity differs from that at the
+/// stressed end by a thousandth of the largest, the places of three cells as a parabola in that difference,
+/// continued to none. Where friction has drawn the foot out into a tail, the front is where the tail is felt.
+double trailing_front(const Solver::View& v, const std::vector<double>& W, bool stressed_left) {
+  constexpr double felt = 1e-3;
+  constexpr std::size_t behind = 4, apart = 3;  // cells: the corner of a fan is round by one or two
+  const std::size_t n = W.size();
+  if (free_at(v, !stressed_left)) return none;
+  const auto from_stressed = [&](std::size_t i) { return stressed_left ? i : n - 1 - i; };
+  const auto change = [&](std::size_t i) { return W[from_stressed(i)] - W[from_stressed(0)]; };
+  double most = 0;
+  for (const double w : W) most = std::fmax(most, std::fabs(w));
+  std::size_t first = 0;
+  while (first < n && !(std::fabs(change(first)) > felt * most)) ++first;
+  if (first <= 1 || first + behind + 2 * apart >= n) return none;  // it has reached the end, or nothing moves
+  double x[3], w[3];
+  for (std::size_t j = 0; j < 3; ++j) {
+    const std::size_t i = first + behind + apart * j;
+    x[j] = v.centres[from_stressed(i)];
+    w[j] = change(i);
+  }
+  const double seen = v.centres[from_stressed(first)], ahead = v.centres[from_stressed(first - 1)];
+  const bool rises = std::fabs(w[0]) > 0 && w[1] / w[0] > 1 && w[2] / w[1] > 1;
+  if (!rises) return seen;
+  const auto [slope, curve] = parabola_through(w[1] - w[0], x[1] - x[0], w[2] - w[0], x[2] - x[0]);
+  const double foot = x[0] - w[0] * (slope - curve * w[0]);
+  const double farthest = ahead - 2 * (seen - ahead);
+  return std::clamp(foot, std::fmin(farthest, x[0]), std::fmax(farthest, x[0]));
+}
+
+std::vector<double> slip_velocities(const Solver::View& v) {
+  std::vector<double> W(v.states.size());
+  for (std::size_t i = 0; i < W.size(); ++i) W[i] = averages_of(v, v.states[i], v.centres[i]).W;
+  return W;
+}
+
+/// A place of the domain as it is, on a ring the same one within it; NaN for what has left it.
+double in_domain(const Problem& p, double x) {
+  if (p.periodic) return x - std::floor((x - p.left) / (p.right - p.left)) * (p.right - p.left);
+  const double rounding = 1e-12 * (p.right - p.left);
+  return x >= p.left - rounding && x <= p.right + rounding ? std::clamp(x, p.left, p.right) : none;
+}
+
+/// Of the cells of the domain: some lie beyond an end where the train goes on.
+void find_peak_and_observed_fronts(const Problem& problem, const Solver::View& v, std::vector<double> W,
+                                   double threshold, bool to_right, Snapshot& s) {
   const std::size_t n = v.states.size();
-  std::vector<double> W(n);
-  for (std::size_t i = 0; i < n; ++i) W[i] = averages_of(v, v.states[i], v.centres[i]).W;
+  for (std::size_t i = 0; i < n; ++i)
+    if (std::isnan(in_domain(problem, v.centres[i]))) W[i] = 0;
   const auto size = [&](std::size_t i) { return std::fabs(W[i]); };
-  std::size_t peak = 0;
-  for (std::size_t i = 1; i < n; ++i)
-    if (size(i) > size(peak)) peak = i;
+  const bool calm = std::find(v.shocked.begin(), v.shocked.end(), 0.0) != v.shocked.end();
+  std::size_t peak = n;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (calm && v.shocked[i] != 0) continue;  // cells beside a shock exceed both sides by some per cent
+    if (peak == n || size(i) > size(peak)) peak = i;
+  }
   s.peak_slip_velocity = W[peak];
   s.peak_position = v.centres[peak];
   // Top of the parabola through three centres; beside a shock there is none.
@@ -54,15 +125,22 @@ void find_peak_and_observed_fronts(const Solver::View& v, double threshold, bool
       s.peak_position += top;
     }
   }
+  s.peak_position = in_domain(problem, s.peak_position);
   for (double& w : W) w = std::fabs(w);
-  const Observed seen =
-      observed_fronts(v.centres, W, threshold * std::fabs(s.peak_slip_velocity), v.faces.front(), v.faces.back());
-  s.fronts.trailing_observed = to_right ? seen.left : seen.right;
-  s.fronts.leading_observed = to_right ? seen.right : seen.left;
+  const double left = std::fmax(v.faces.front(), problem.left), right = std::fmin(v.faces.back(), problem.right);
+  const Observed seen = observed_fronts(v.centres, W, threshold * std::fabs(s.peak_slip_velocity), left, right);
+  s.fronts.trailing_observed = in_domain(problem, to_right ? seen.left : seen.right);
+  s.fronts.leading_observed = in_domain(problem, to_right ? seen.right : seen.left);
 }
 
 Energy energy_of(const Solver& solver, const Solver::View& v) {
-  Energy e{0, 0, solver.dissipated(), solver.supplied(), none};
+  Energy e{.elastic = 0,
+           .kinetic = 0,
+           .dissipated = solver.dissipated(),
+           .supplied = solver.supplied(),
+           .through_ends = solver.through_ends(),
+           .shocks = none,
+           .phonons = none};
   const std::size_t n = v.states.size();
   std::vector<double> width(n), rest(n), moving(n);
   for (std::size_t i = 0; i < n; ++i) {
@@ -76,7 +154,8 @@ Energy energy_of(const Solver& solver, const Solver::View& v) {
   }
   // A cell's integral from the values at centres, fourth order in the cells' own coordinate.
   const auto integral = [&](const std::vector<double>& f, std::size_t i) {
-    if (i == 0 || i + 1 == n || v.states[i - 1].empty() || v.states[i + 1].empty()) return f[i] * width[i];
+    const bool inside = i > 0 && i + 1 < n && !v.states[i - 1].empty() && !v.states[i + 1].empty();
+    if (!inside || v.states[i].empty()) return f[i] * width[i];
     return (f[i] + (f[i - 1] - 2 * f[i] + f[i + 1]) / 24) * width[i] +
            (f[i + 1] - f[i - 1]) * (width[i + 1] - width[i - 1]) / 48;
   };
@@ -89,12 +168,11 @@ Energy energy_of(const Solver& solver, const Solver::View& v) {
 
 }  // namespace
 
-TrailingFront::TrailingFront(const Solver& start) {
+TrailingCharacteristic::TrailingCharacteristic(const Solver& start) {
   const Solver::View v = start.view();
   const std::size_t n = v.states.size();
   // Cells stop at a free edge: there it is the face that is empty.
-  stressed_left_ =
-      v.face_states.back().empty() || (!v.face_states.front().empty() && v.states.front().psi >= v.states.back().psi);
+  stressed_left_ = v.right_free || (!v.left_free && v.states.front().psi >= v.states.back().psi);
   const auto from_stressed = [&](std::size_t i) { return stressed_left_ ? i : n - 1 - i; };
   const State stressed = v.states[from_stressed(0)];
   double low = stressed.psi, high = low;
@@ -114,12 +192,12 @@ TrailingFront::TrailingFront(const Solver& start) {
   speed_ = speed_into(stressed);
 }
 
-double TrailingFront::speed_into(const State& ahead) const {
+double TrailingCharacteristic::speed_into(const State& ahead) const {
   const auto speeds = modulation::characteristic_speeds(ahead);
   return stressed_left_ ? speeds.minus : speeds.plus;
 }
 
-void TrailingFront::advance(const Solver& now, double dt) {
+void TrailingCharacteristic::advance(const Solver& now, double dt) {
   if (steady_) {
     position_ += dt * speed_;
     return;
@@ -133,7 +211,7 @@ void TrailingFront::advance(const Solver& now, double dt) {
   position_ += dt * speed_into(now.state_in(ahead));
 }
 
-Snapshot observe(const Solver& solver, const std::vector<double>& x_edges, const TrailingFront& trailing,
+Snapshot observe(const Solver& solver, const std::vector<double>& x_edges, const TrailingCharacteristic& trailing,
                  double threshold) {
   const Solver::View v = solver.view();
   Snapshot s{};
@@ -146,7 +224,9 @@ Snapshot observe(const Solver& solver, const std::vector<double>& x_edges, const
     s.profile.k.push_back(2 * pi * (right - left) / (x_edges[i + 1] - x_edges[i]));
     s.profile.U.push_back(state.empty() ? 0.0 : std::tanh(state.phi));
     const train::Averages a = averages_of(v, state, x);
-    s.profile.W.push_back(a.W);
+    // Where k changes much within a cell of the grid, that of its centre is not its mean.
+    const double k = s.profile.k.back();
+    s.profile.W.push_back(std::clamp(a.W, -k, k));
     s.profile.H.push_back(a.H);
     s.profile.slip.push_back(solver.slip_at(v, x));
     left = right;
@@ -155,21 +235,30 @@ Snapshot observe(const Solver& solver, const std::vector<double>& x_edges, const
   s.slip_velocity_at_origin = origin.W;
   s.stress_at_origin = origin.k;
   s.slip_at_origin = solver.slip_at(v, 0);
-  s.fronts.trailing = trailing.position();
-  s.fronts.leading = leading_front(v, trailing.stressed_left());
-  find_peak_and_observed_fronts(v, threshold, trailing.stressed_left(), s);
+  const std::vector<double> W = slip_velocities(v);
+  const bool to_right = trailing.stressed_left();
+  const Problem& problem = solver.problem();
+  const double characteristic = free_at(v, !to_right) ? none : in_domain(problem, trailing.position());
+  s.fronts.trailing_characteristic = characteristic;
+  s.fronts.trailing = s.time == 0 ? characteristic : in_domain(problem, trailing_front(v, W, to_right));
+  s.fronts.leading = in_domain(problem, leading_front(v, W, to_right));
+  find_peak_and_observed_fronts(problem, v, W, threshold, to_right, s);
   s.energy = energy_of(solver, v);
   return s;
 }
 
-double conservation_error(const Solver& solver, const std::vector<double>& x_edges, const Profile& profile) {
+Energy energy_of(const Solver& solver) { return energy_of(solver, solver.view()); }
+
+double conservation_error(const Solver& solver) {
   const Solver::View v = solver.view();
-  double sum = charge_left_of(v, x_edges.front());
-  for (std::size_t i = 0; i + 1 < x_edges.size(); ++i) sum += profile.k[i] * (x_edges[i + 1] - x_edges[i]) / (2 * pi);
-  double initial = -solver.cells().entered_left;
-  for (const double q : solver.charge()) initial += q;
-  sum += v.charge_faces.back() - charge_left_of(v, x_edges.back());
-  return std::fabs(sum - initial) / (initial + solver.cells().entered_left);
+  double counted = 0, known = 0;
+  for (std::size_t i = 0; i < v.states.size(); ++i) {
+    known += solver.charge()[i];
+    if (v.states[i].empty()) continue;
+    const double middle = averages_of(v, v.states[i], v.centres[i]).k / (2 * pi);
+    counted += (v.face_density[i] + 4 * middle + v.face_density[i + 1]) / 6 * (v.faces[i + 1] - v.faces[i]);
+  }
+  return std::fabs(counted - known) / known;
 }
 
 }  // namespace slipfront::pulse

@@ -91,6 +91,7 @@ void Semidiscrete::operator()(double t, const double* y, double* dy) {
   for (std::size_t f = 0; f < face_contact_.size(); ++f) face_p_[f] *= face_contact_[f] * face_contact_[f];
   dy[2 * n] = face_U_[0];
   dy[2 * n + 1] = dy[2 * n + 2] = 0;
+  dy[2 * n + 3] = face_p_[0] * face_U_[0] - face_p_[n] * face_U_[n];
   differences(n, face_U_.data(), face_p_.data(), dy);
   if (setup_.contact) add_contact_force(dy);
   add_sources(t, y, dy);

@@ -32,10 +32,10 @@ class Semidiscrete {
   std::size_t size() const { return setup_.charge.size(); }
   const std::vector<Stretch>& stretches() const { return stretches_; }
 
-  /// y: X and Y of each cell in turn, x of the left edge, energy dissipated, energy supplied; dy alike. \throws
-  /// NumericsError with time and place.
+  /// y: X and Y of each cell in turn, x of the left edge, energy dissipated, energy supplied, energy that came in
+  /// through the ends; dy alike. \throws NumericsError with time and place.
   void operator()(double t, const double* y, double* dy);
-  static constexpr std::size_t extra = 3;
+  static constexpr std::size_t extra = 4;
   /// Starts the next solves for s = tanh(psi) from these values: the bits of a result depend on where its solves start.
   void start_from(const std::vector<double>& s);
 
@@ -48,6 +48,10 @@ class Semidiscrete {
   /// 1 in the cells near a shock, 0 elsewhere: there the error of a step is that of the cells' size.
   const std::vector<double>& shocked() const { return shocked_; }
   double largest_friction_rate() const { return largest_rate_; }
+  /// From the last call: the cell in the middle of the hardest collision between streams of dislocations that run into
+  /// each other faster than the pressure between them could stop over two cells; none: size(). Arguments as of the
+  /// call.
+  std::size_t crossing(double t, const double* y) const;
   /// Least time in which a wave crosses a cell, or a cell that is being compressed loses three tenths of its width:
   /// what runs into a nearly empty stretch compresses cells faster than waves cross them.
   double crossing_time(const double* y, const double* dy) const;
@@ -82,6 +86,7 @@ class Semidiscrete {
   std::vector<double> faces_, contact_, face_contact_, contact_force_;  ///< x of the faces; a(x) at centres and faces
   std::vector<double> shocked_;
   double largest_rate_ = 0;
+  bool collides_ = false;  ///< some cell is near a shock
 };
 
 }  // namespace slipfront::pulse

@@ -10,7 +10,8 @@
 namespace slipfront::pulse {
 
 void Semidiscrete::find_faces() {
-  std::fill(shocked_.begin(), shocked_.end(), 0.0);
+  if (collides_) std::fill(shocked_.begin(), shocked_.end(), 0.0);
+  collides_ = false;
   for (const Stretch& r : stretches_) {
     cell_means(r.end - r.begin, at_.phi.data() + r.begin, phi_mean_.data() + r.begin);
     cell_means(r.end - r.begin, at_.psi.data() + r.begin, psi_mean_.data() + r.begin);
@@ -113,6 +114,7 @@ void Semidiscrete::flatten_shocks(const Stretch& stretch, const double* plus, co
     const double fall = plus[i - 1] + minus[i - 1] - plus[i + 1] - minus[i + 1];
     const double density = plus[i - 1] - minus[i - 1] + plus[i + 1] - minus[i + 1];
     if (!(fall > weak * density)) continue;
+    collides_ = true;
     for (std::ptrdiff_t near = std::max<std::ptrdiff_t>(i - reach, 0); near <= std::min(i + reach, n - 1); ++near)
       shocked_[stretch.begin + static_cast<std::size_t>(near)] = 1;
     const double share = std::fmin((fall / density - weak) / (strong - weak), 1.0);
@@ -123,6 +125,29 @@ void Semidiscrete::flatten_shocks(const Stretch& stretch, const double* plus, co
       face_psi_[face] += share * (std::fmax((a - b) / 2, 0.0) - face_psi_[face]);
     }
   }
+}
+
+/// Two cells over which phi falls by more than the psi of both are further apart in velocity than any wave between them
+/// is fast. In a dilute train that alone is nothing yet. They have met where they are on the way to do so in less time
+/// than has passed, and psi has risen to the size of the fall.
+std::size_t Semidiscrete::crossing(double t, const double* y) const {
+  constexpr double met = 0.1, faint = 0.05;
+  if (!collides_) return size();
+  double fastest = 0;
+  for (const double phi : at_.phi) fastest = std::fmax(fastest, std::fabs(phi));
+  std::size_t hardest = size();
+  double most = faint * fastest;
+  for (const Stretch& r : stretches_)
+    for (std::size_t i = r.begin + 1; i + 1 < r.end; ++i) {
+      const double fall = at_.phi[i - 1] - at_.phi[i + 1];
+      const double highest = std::fmax(at_.psi[i], std::fmax(at_.psi[i - 1], at_.psi[i + 1]));
+      if (!(fall > most && fall > at_.psi[i - 1] + at_.psi[i + 1] && highest > met * fall)) continue;
+      const double apart = y[2 * i] + (y[2 * i - 2] + y[2 * i + 2]) / 2;
+      if (apart > t * (at_.velocity[i - 1] - at_.velocity[i + 1])) continue;
+      most = fall;
+      hardest = i;
+    }
+  return hardest;
 }
 
 }  // namespace slipfront::pulse

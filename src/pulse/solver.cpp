@@ -320,8 +320,7 @@ std::vector<double> Solver::faces_of_cells(const Staggered& staggered) const {
     faces[2 * f] = f == 0 ? cells_.y[2 * n] : cells_.y[2 * f - 2];
     faces[2 * f + 1] = momenta[f];
   }
-  faces[2 * n + 2] = dissipated();
-  faces[2 * n + 3] = supplied();
+  for (std::size_t i = 0; i < Staggered::sums; ++i) faces[2 * n + 2 + i] = cells_.y[2 * n + 1 + i];
   return faces;
 }
 
@@ -334,8 +333,7 @@ void Solver::cells_of_faces(const Staggered& staggered, const std::vector<double
   }
   const std::vector<double> momenta = staggered.cell_momenta(cells_.face_momentum);
   for (std::size_t i = 0; i < n; ++i) cells_.y[2 * i + 1] = momenta[i];
-  cells_.y[2 * n + 1] = faces[2 * n + 2];
-  cells_.y[2 * n + 2] = faces[2 * n + 3];
+  for (std::size_t i = 0; i < Staggered::sums; ++i) cells_.y[2 * n + 1 + i] = faces[2 * n + 2 + i];
 }
 
 double Solver::step_implicitly(Work& work, double remaining, double crossing) {
@@ -384,6 +382,15 @@ double Solver::step_implicitly(Work& work, double remaining, double crossing) {
   }
 }
 
+/// From the rates at the present time.
+void Solver::look_for_crossing() {
+  const std::size_t cell = equations_->crossing(cells_.time, cells_.y.data());
+  if (cell >= size()) return;
+  cells_.crossing_time = cells_.time;
+  cells_.crossing_position = cells_.y[2 * size()] + cells_.y[2 * cell] / 2;
+  for (std::size_t i = 0; i < cell; ++i) cells_.crossing_position += cells_.y[2 * i];
+}
+
 /// Returns false if interrupted.
 bool Solver::advance_until_gap_closes(double time, const std::function<bool()>& interrupted) {
   Semidiscrete& equations = *equations_;
@@ -392,6 +399,7 @@ bool Solver::advance_until_gap_closes(double time, const std::function<bool()>& 
   while (cells_.time < time && &equations == equations_.get()) {  // until the cells are others
     equations.start_from(cells_.s);  // as a resumed run does, whoever has looked at the equations since the last step
     work.f(cells_.time, cells_.y.data(), work.rate.data());
+    if (std::isnan(cells_.crossing_time)) look_for_crossing();
     const double remaining = std::fmin(std::fmin(time - cells_.time, problem_.longest_step), gaps_close_in(work.rate));
     double crossing = problem_.cfl * equations.crossing_time(cells_.y.data(), work.rate.data());
     const double friction_times = equations.largest_friction_rate() * equations.mean_crossing_time(cells_.y.data());
@@ -425,12 +433,24 @@ Solver::View Solver::view() const {
   }
   v.states = equations_->states();
   v.contact = problem_.contact;
+  v.shocked = equations_->shocked();
+  v.left_free = equations_->stretches().front().left == Edge::free;
+  v.right_free = equations_->stretches().back().right == Edge::free;
   for (std::size_t f = 0; f <= n; ++f) v.face_states.push_back({equations_->face_phi()[f], equations_->face_psi()[f]});
   for (std::size_t f = 0; f <= n; ++f)
     v.face_density.push_back(averages_of(v, v.face_states[f], v.faces[f]).k / (2 * pi));
   v.centres.resize(n);
   middles(equations_->stretches(), v.faces, v.centres);
   return v;
+}
+
+double Solver::energy_in(std::size_t cell) const {
+  double x = cells_.y[2 * size()] + cells_.y[2 * cell] / 2;
+  for (std::size_t i = 0; i < cell; ++i) x += cells_.y[2 * i];
+  const double q = cells_.charge[cell], width = cells_.y[2 * cell], a = problem_.contact ? problem_.contact(x) : 1;
+  const State state =
+      modulation::state_of({a * width / q, cells_.y[2 * cell + 1] / (a * q)}, std::atanh(cells_.s[cell]));
+  return train::averages(state, a).H * width;
 }
 
 State Solver::state_in(std::size_t cell) const {

@@ -126,7 +126,7 @@ double Staggered::loss_rate(std::size_t f, double phi) const {
 
 void Staggered::operator()(double t, const double* z, double* dz) {
   find_cells(t, z);
-  double before = 0, dissipation = 0, supply = 0;
+  double before = 0, dissipation = 0, supply = 0, through_ends = 0;
   for (std::size_t f = 0; f < faces(); ++f) {
     const double q = charge_around(f), momentum = z[2 * f + 1];
     const bool edge = charge_left(f) == 0 || charge_right(f) == 0;
@@ -141,12 +141,18 @@ void Staggered::operator()(double t, const double* z, double* dz) {
     dz[2 * f + 1] = force + push - loss;
     if (end == Edge::wall)  // which holds what presses against it
       dz[2 * f + 1] = f == 0 ? std::fmax(dz[2 * f + 1], 0) : std::fmin(dz[2 * f + 1], 0);
+    if (edge && end == Edge::continued) {
+      const std::size_t cell = f == 0 ? 0 : f - 1;
+      const double work = a_[cell] * a_[cell] * pressure_[cell] * U;
+      through_ends += f == 0 ? work : -work;
+    }
     dissipation += U * loss;
     supply += U * push;
     before = U;
   }
   dz[2 * faces()] = dissipation;
   dz[2 * faces() + 1] = supply;
+  dz[2 * faces() + 2] = through_ends;
 }
 
 }  // namespace slipfront::pulse

@@ -35,9 +35,12 @@ State state_at(const Solver::View& v, double place) {
     const auto f = [&](std::size_t j) { return v.states[first + j].*member; };
     const double sum = weight[0] * f(0) + weight[1] * f(1) + weight[2] * f(2) + weight[3] * f(3);
     const double bend = f(0) - 2 * f(1) + f(2), next_bend = f(1) - 2 * f(2) + f(3);
-    if (std::fabs(next_bend - bend) < 0.5 * (std::fabs(bend) + std::fabs(next_bend))) return sum;
-    // Not smooth on the grid: no value beyond the four.
-    return std::clamp(sum, std::min({f(0), f(1), f(2), f(3)}), std::max({f(0), f(1), f(2), f(3)}));
+    const double least = std::min({f(0), f(1), f(2), f(3)}), most = std::max({f(0), f(1), f(2), f(3)});
+    // A smooth extremum lies beyond the four by an eighth of their range; where they are not smooth on the grid, or
+    // cells differ much in width, there is no value beyond them.
+    const bool smooth = std::fabs(next_bend - bend) < 0.5 * (std::fabs(bend) + std::fabs(next_bend));
+    const double beyond = smooth ? (most - least) / 4 : 0;
+    return std::clamp(sum, least - beyond, most + beyond);
   };
   // In a slow train psi changes by decades from cell to cell, its logarithm is what is smooth.
   double log_psi[4], least = HUGE_VAL, most = 0;

@@ -77,6 +77,8 @@ std::string reference_of(const Description& about) {
 
 std::vector<std::pair<std::string, std::string>> file_attributes(const PulseMetadata& metadata,
                                                                  const std::string& format) {
+  std::string warnings;
+  for (const std::string& warning : metadata.warnings) warnings += (warnings.empty() ? "" : "\n") + warning;
   return {
       {"Conventions", "CF-1.10"},
       {"title", metadata.title},
@@ -87,6 +89,7 @@ std::vector<std::pair<std::string, std::string>> file_attributes(const PulseMeta
        "All values are dimensionless; multiply by dimensional_unit: A contact ratio, b asperity spacing, c speed of "
        "strain waves, mu shear modulus, nu Poisson ratio."},
       {"version", metadata.version},
+      {"warnings", warnings},
       {"scenario", metadata.scenario_text},
       {"slipfront_format", format},
   };

@@ -50,7 +50,10 @@ constexpr std::string_view energy = "mu b^2 A / (2 pi^2 (1 - nu))";
 
 constexpr ScalarVariable scalars[] = {
     absentable<&Snapshot::fronts, &Fronts::trailing>(
-        {"trailing_front", "position of the fast front, into the stressed side", "b / A", "Eqs. 8-10"}),
+        {"trailing_front", "position of the fast front, the foot of the slip velocity on the stressed side", "b / A",
+         "Eqs. 8-10"}),
+    absentable<&Snapshot::fronts, &Fronts::trailing_characteristic>(
+        {"trailing_characteristic", "position of the fast front as a characteristic", "b / A", "Eqs. 8-10"}),
     absentable<&Snapshot::fronts, &Fronts::leading>(
         {"leading_front", "position of the slow front, into the less stressed side", "b / A", "Eqs. 8-10"}),
     absentable<&Snapshot::fronts, &Fronts::trailing_observed>(
@@ -66,6 +69,10 @@ constexpr ScalarVariable scalars[] = {
         {"energy_dissipated", "energy lost to friction since time 0", energy, "Eq. 7"}),
     scalar<&Snapshot::energy, &Energy::supplied>(
         {"energy_supplied", "energy supplied by the forcing since time 0", energy, "Eq. 7"}),
+    absentable<&Snapshot::energy, &Energy::through_ends>(
+        {"energy_through_ends", "energy that came in through the ends of the domain since time 0", energy, "Eq. 7"}),
+    absentable<&Snapshot::energy, &Energy::shocks>(
+        {"energy_shocks", "energy lost where trains run into each other since time 0", energy, "Eq. 7"}),
     absentable<&Snapshot::energy, &Energy::phonons>(
         {"energy_phonons", "energy of a chain less that of uniform trains with its averages", energy, "Eq. 6"}),
     absentable<&Snapshot::slip_velocity_at_origin>(

@@ -68,10 +68,20 @@ pulse::Snapshot snapshot_of(const RiemannSolution& solution, const pulse::Schedu
     s.profile.slip.push_back(slip(a, x));
   }
   const Edges edges = rupture::edges_of(solution);
-  s.energy = {none, none, 0, 0, none};
+  s.energy = {.elastic = none,
+              .kinetic = none,
+              .dissipated = 0,
+              .supplied = 0,
+              .through_ends = none,
+              .shocks = none,
+              .phonons = none};
   const bool stressed_left = left >= right;
   const double fast = stressed_left ? edges.left : edges.right, slow = stressed_left ? edges.right : edges.left;
-  s.fronts = {time * fast, time * slow, none, none};
+  s.fronts = {.trailing = time * fast,
+              .leading = time * slow,
+              .trailing_characteristic = time * fast,
+              .trailing_observed = none,
+              .leading_observed = none};
   const train::Averages origin = train::averages(state(0));
   s.slip_velocity_at_origin = origin.W;
   s.stress_at_origin = origin.k;

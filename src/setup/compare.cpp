@@ -40,6 +40,7 @@ bool carry(Run& run, Level& level, const std::function<bool()>& after_step) {
   }
   level.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   level.snapshots = run.snapshots();
+  level.warnings = run.warnings();
   return reached;
 }
 

@@ -51,7 +51,7 @@ Trend trend_of(const std::vector<Level>& levels, const Quantity& quantity) {
   return trend;
 }
 
-std::vector<std::string> notes_on(const scenario::Scenario& s) {
+std::vector<std::string> notes_on(const scenario::Scenario& s, const std::vector<Level>& levels) {
   std::vector<std::string> notes;
   const bool two_sides =
       s.initial.profile == scenario::ProfileKind::step || s.initial.profile == scenario::ProfileKind::tanh;
@@ -63,6 +63,8 @@ std::vector<std::string> notes_on(const scenario::Scenario& s) {
   notes.emplace_back(
       "* as an observer with a threshold sees it; on a chain with little friction phonons run ahead, and raising "
       "pulse.threshold hides them");
+  for (const Level& level : levels)
+    for (const std::string& warning : level.warnings) notes.push_back(level.name + ": " + warning);
   return notes;
 }
 

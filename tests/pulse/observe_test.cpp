@@ -6,8 +6,12 @@
 #include <numbers>
 
 #include "slipfront/error.hpp"
+#include "slipfront/modulation/per_dislocation.hpp"
 #include "slipfront/pulse/run.hpp"
+#include "slipfront/rupture/inverse.hpp"
 #include "slipfront/rupture/relations.hpp"
+#include "slipfront/rupture/riemann.hpp"
+#include "slipfront/train/train.hpp"
 
 namespace {
 
@@ -48,7 +52,49 @@ TEST(Observe, EnergyIsAccountedFor) {
 TEST(Observe, CountsDislocations) {
   pulse::Run run(smooth(0.1, modulation::Closure::consistent), schedule(2 * pi));
   run.go();
-  EXPECT_LT(conservation_error(run.solver(), run.schedule().x_edges, run.snapshots().back().profile), 1e-13);
+  const double error = conservation_error(run.solver());  // of the states: not zero
+  EXPECT_GT(error, 1e-12);
+  EXPECT_LT(error, 1e-4);  // a shock begins to form
+  EXPECT_TRUE(run.warnings().empty());
+}
+
+/// Energy that the train beyond brings in, by its push and with its dislocations, closes the budget of a domain whose
+/// ends a train passes.
+TEST(Observe, EnergyThroughTheEndsIsAccountedFor) {
+  for (const double C : {0.0, 2.0}) {
+    Problem p{.stress = [](double) { return 0.8; },
+              .forcing = [](double, double) { return 0.05; },
+              .friction = {C > 0 ? modulation::FrictionLaw::viscous : modulation::FrictionLaw::none, C, 1, {}},
+              .left = -4,
+              .right = 4,
+              .cells = 200};
+    p.longest_step = 0.2;
+    pulse::Run run(p, {.times = {0, 20}, .x_edges = {-4, 0, 4}});
+    run.go();
+    const Energy e = run.snapshots().back().energy;
+    EXPECT_GT(e.through_ends, 0.1);
+    EXPECT_NEAR(e.shocks, 0, 1e-5 * e.supplied);
+  }
+}
+
+/// The exact Riemann problem knows what a shock takes: its energy jumps by more than what crosses it.
+TEST(Observe, ShockTakesWhatTheRiemannProblemSays) {
+  Problem p{.stress = [](double x) { return x < 0 ? 3 : 0.5; },
+            .forcing = {},
+            .friction = {},
+            .left = -8,
+            .right = 8,
+            .cells = 1600};
+  const auto solution = rupture::solve_riemann(rupture::at_rest(3), rupture::at_rest(0.5));
+  pulse::Run run(p, {.times = {0, 2, 4}, .x_edges = {-8, 0, 8}});
+  run.go();
+  const train::Averages behind = train::averages(solution.star), ahead = train::averages(solution.right);
+  const double speed = rupture::edges_of(solution).right;
+  // Energy flows at p U per unit of time through a place that moves with the dislocations, H x_t with that place.
+  const double flux = modulation::pressure(solution.star.psi) * std::tanh(solution.star.phi) +
+                      behind.H * (std::tanh(solution.star.phi) - speed) + ahead.H * speed;
+  const double lost = (run.snapshots()[2].energy.shocks - run.snapshots()[1].energy.shocks) / 2;
+  EXPECT_NEAR(lost, flux, 0.03 * flux);
 }
 
 /// The trailing edge moves at |V-| for every C; an observer with a threshold sees it fall behind.
@@ -65,7 +111,10 @@ TEST(Observe, TrailingEdgeDoesNotKnowFriction) {
     pulse::Run run(p, when);
     run.go();
     const Fronts f = run.snapshots().back().fronts;
-    EXPECT_NEAR(f.trailing, -rupture::from_stress(0.855).rupture_velocity * 2 * pi, 1e-12);
+    const double characteristic = -rupture::from_stress(0.855).rupture_velocity * 2 * pi;
+    EXPECT_NEAR(f.trailing_characteristic, characteristic, 1e-12);
+    // Measured: within two cells of it as long as friction leaves the foot, e^(-C t / 2), above a thousandth.
+    EXPECT_NEAR(f.trailing, characteristic, 0.02) << C;
     EXPECT_GT(f.trailing_observed, f.trailing);
     const double leading = C == 0 ? 0.63 : C == 0.5 ? 0.286 : 0.15;  // docs/theory.md 3.5
     EXPECT_NEAR(f.leading, leading, 0.005);

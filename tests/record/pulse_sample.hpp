@@ -24,8 +24,8 @@ inline std::vector<slipfront::pulse::Snapshot> sample_snapshots(std::size_t time
     }
     snapshots.push_back({t,
                          profile,
-                         {i == 0 ? nan : -t / 3, i == 0 ? nan : t / 7, nan, t / 11},
-                         {1.0 / 3, t / 13, t / 17, -0.0, i == 1 ? nan : t / 37},
+                         {i == 0 ? nan : -t / 3, i == 0 ? nan : t / 7, -t / 5, nan, t / 11},
+                         {1.0 / 3, t / 13, t / 17, -0.0, t / 41, i == 2 ? nan : -t, i == 1 ? nan : t / 37},
                          t / 19,
                          0.855 - t / 23,
                          t / 29,

@@ -29,16 +29,34 @@ class Run {
   double stepping_seconds() const { return stepping_seconds_; }
   bool good() const { return true; }  ///< may be saved even after a NumericsError: a step that fails changes nothing
   bool finished() const { return snapshots_.size() == schedule_.times.size(); }
+  /// What is amiss or doubtful in the results so far, a sentence each: invariants that do not hold (slip at x = 0
+  /// against the integral of the slip velocity there, energy that appears from nothing, the number of dislocations) and
+  /// streams that cross. Above 1 % `go` ends with a NumericsError that says so.
+  std::vector<std::string> warnings() const;
   /// The state of the solver as bytes, for a checkpoint on the same kind of machine.
   std::string saved() const;
 
  private:
   void take();
+  void sample();
+  struct Findings;
+  Findings findings() const;
+  void refuse_wrong_results() const;
 
   Schedule schedule_;
   Solver solver_;
-  TrailingFront trailing_front_;
+  TrailingCharacteristic trailing_characteristic_;
   double stepping_seconds_ = 0;
+  double first_energy_ = 0;
+  /// Integral of the slip velocity at x = 0 over samples, and over every other of them.
+  struct Passed {
+    double time = 0, velocity = 0, slip = 0, way = 0;  ///< way: integral of its size
+    double early_time = 0, early_velocity = 0, coarse_slip = 0;
+    double spread = 0;  ///< sum of squares of what each sample leaves open
+    double doubt = 0;   ///< integral of how wrong the velocity may be, from what it is in the cells around
+    long samples = 0;
+  };
+  Passed passed_;
   std::vector<Snapshot> snapshots_;
 };
 

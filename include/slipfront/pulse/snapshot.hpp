@@ -17,17 +17,20 @@ struct Schedule {
 struct Profile {
   std::vector<double> k;     ///< dislocation density = stress Sigma
   std::vector<double> U;     ///< velocity of the dislocations, 0 where there are none
-  std::vector<double> W;     ///< slip velocity
+  std::vector<double> W;     ///< slip velocity, at the centre; |W| <= k
   std::vector<double> H;     ///< energy density
   std::vector<double> slip;  ///< slip since t = 0 (u, in b / 2 pi)
 };
 
-/// Fronts at one time. NaN where there is no such front.
+/// Fronts at one time. NaN where there is no such front, or where it has left the domain. The trailing front runs into
+/// the more stressed side, the left one if both are alike; the leading front into the other. Where neither end of the
+/// domain is stressed there is no trailing front.
 struct Fronts {
-  double trailing;           ///< fast front, into the stressed side, from its characteristic
-  double leading;            ///< slow front, into the empty or less stressed side
-  double trailing_observed;  ///< where |W| first exceeds the observer's threshold, from the stressed side
-  double leading_observed;   ///< and from the other
+  double trailing;  ///< fast front: where the slip velocity first departs from that ahead of it
+  double leading;   ///< slow front: the free edge, or where the slip velocity falls through half of its largest
+  double trailing_characteristic;  ///< place that the fast front would have if its foot moved as a characteristic
+  double trailing_observed;        ///< where |W| first exceeds the observer's threshold, from the stressed side
+  double leading_observed;         ///< and from the other
 };
 
 /// What an observer with a threshold sees: the outermost places, from the left and from the right, where `speed`
@@ -41,11 +44,13 @@ Observed observed_fronts(const std::vector<double>& x, const std::vector<double>
 
 /// Energy over the domain per unit width, in units of the scenario (H of docs/theory.md 3.2).
 struct Energy {
-  double elastic;     ///< of the state at rest with the same density
-  double kinetic;     ///< H less that
-  double dissipated;  ///< by friction since t = 0
-  double supplied;    ///< by the forcing F since t = 0
-  double phonons;     ///< of a chain, H less that of the uniform train with the same k and W; NaN for other runs
+  double elastic;       ///< of the state at rest with the same density
+  double kinetic;       ///< H less that
+  double dissipated;    ///< by friction since t = 0
+  double supplied;      ///< by the forcing F since t = 0
+  double through_ends;  ///< come in through the ends of the domain since t = 0; NaN for a chain
+  double shocks;        ///< lost where trains run into each other since t = 0: what closes the budget; NaN for a chain
+  double phonons;       ///< of a chain, H less that of the uniform train with the same k and W; NaN for other runs
 };
 
 struct Snapshot {

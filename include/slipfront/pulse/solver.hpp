@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -49,13 +50,15 @@ struct Problem {
 struct Cells {
   double time = 0;
   long steps = 0;
-  double step = 0;  ///< longest that the error of the last step allows, 0 before the first
-  std::vector<double>
-      y;  ///< width and momentum of each cell in turn, x of the left edge, energy dissipated, energy supplied
-  std::vector<double> s;       ///< tanh(psi) at the cell centres, where the next solve starts
+  double step = 0;        ///< longest that the error of the last step allows, 0 before the first
+  std::vector<double> y;  ///< width and momentum of each cell in turn, x of the left edge, then energies: dissipated,
+                          ///< supplied, come in through the ends
+  std::vector<double> s;  ///< tanh(psi) at the cell centres, where the next solve starts
   std::vector<double> charge;  ///< dislocations in each cell, constant; 0 in a gap
   double entered_left = 0;     ///< dislocations that have come in (less those that have left) through the left end
   double entered_right = 0;    ///< and through the right one
+  double crossing_time = std::numeric_limits<double>::quiet_NaN();      ///< of the first crossing; NaN: none so far
+  double crossing_position = std::numeric_limits<double>::quiet_NaN();  ///< and its x
   std::vector<double> face_momentum;  ///< where friction rules: momenta live at the faces, y has means; else empty
 };
 
@@ -89,7 +92,9 @@ class Solver {
     std::vector<double> centres;       ///< x
     std::vector<State> states;  ///< at the centres, in local units where there is a contact profile; empty in a gap
     std::function<double(double)> contact;
-    double period = 0;  ///< of a ring: x and x + period are one place; 0: none
+    std::vector<double> shocked;                 ///< 1 in the cells near a shock, where values ring; 0 elsewhere
+    bool left_free = false, right_free = false;  ///< there is no stress beyond the first or last face
+    double period = 0;                           ///< of a ring: x and x + period are one place; 0: none
   };
   View view() const;
   /// State at the centre of one cell, as in the view, without making it.
@@ -100,6 +105,9 @@ class Solver {
 
   double dissipated() const { return cells_.y[2 * size() + 1]; }
   double supplied() const { return cells_.y[2 * size() + 2]; }
+  /// Energy that came in through the ends of the domain, less what went out: with the dislocations, and by the push of
+  /// the train beyond.
+  double through_ends() const { return cells_.y[2 * size() + 3]; }
 
  private:
   void lay_equations();
@@ -111,6 +119,8 @@ class Solver {
   double step_implicitly(Work& work, double remaining, double crossing);
   std::vector<double> faces_of_cells(const Staggered& staggered) const;
   void cells_of_faces(const Staggered& staggered, const std::vector<double>& faces);
+  void look_for_crossing();
+  double energy_in(std::size_t cell) const;
   void find_scale(double crossing, std::vector<double>& scale) const;
   double gaps_close_in(const std::vector<double>& rate) const;
   void close_gaps();

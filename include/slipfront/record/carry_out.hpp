@@ -40,10 +40,12 @@ bool carry_out(Run& run, const Keeping& keeping, const std::function<bool()>& af
     if (!keeping.output.wanted()) return;
     const auto begun = Clock::now();
     const std::string state = run.saved();  // ranks send their parts to the first
+    PulseMetadata metadata = keeping.metadata;
+    if (run.finished()) metadata.warnings = run.warnings();  // which asks all ranks
     const auto put_down = [&] {
       if (!first) return;
       const Output& output = keeping.output;
-      write_pulse(run.finished() ? output.finished() : output.unfinished(), keeping.metadata, run.snapshots(), state,
+      write_pulse(run.finished() ? output.finished() : output.unfinished(), metadata, run.snapshots(), state,
                   run.finished());
       if (run.finished()) output.clear();
     };

@@ -23,6 +23,7 @@ struct Level {
   std::optional<double> window = {};         ///< of a chain: of the slip at x = 0
   std::optional<double> smooth_window = {};  ///< of a chain: of velocities and stresses
   std::vector<pulse::Snapshot> snapshots = {};
+  std::vector<std::string> warnings = {};  ///< of the run, a sentence each
   double wall_seconds = 0;
 };
 
@@ -73,6 +74,6 @@ struct Trend {
 Trend trend_of(const std::vector<Level>& levels, const Quantity& quantity);
 
 /// What a reader has to know of these levels, a line each.
-std::vector<std::string> notes_on(const scenario::Scenario& scenario);
+std::vector<std::string> notes_on(const scenario::Scenario& scenario, const std::vector<Level>& levels);
 
 }  // namespace slipfront::setup

@@ -14,10 +14,11 @@ def row(statement, found, holds):
 
 
 def trailing(fronts, relations):
-    """The fast front does not know friction."""
+    """The foot of the fast front, measured: exact is only the characteristic that it would follow."""
     velocity = -fronts["trailing_velocity"].sel(closure="consistent")
     off = float(abs(velocity / relations["rupture_velocity"].values - 1).max())
-    return row("Rupture velocity does not depend on friction (trailing edge)", f"mean velocity within {off:.0e} of |V−| for every C and Σ−", off < 1e-6)
+    return row("Rupture velocity does not depend on friction (trailing edge)",
+               f"the foot of the slip velocity moves within {100 * off:.1f} % of |V−| for every C and Σ− tried", off < 0.03)
 
 
 def leading(fronts):
