@@ -61,7 +61,7 @@ int run_chain(const ScenarioArguments& a) {
                      .ranks = the_ranks->size(),
                      .threads = a.common.threads};
   const std::vector<std::string> warnings = run->warnings();  // asks all ranks
-  if (the_ranks->rank() == 0) print_summary(s.title, summary(chain_summary(), end), warnings, a);
+  if (the_ranks->rank() == 0) print_summary(s.title, summary(chain_summary(), end), {}, warnings, a);
   return code;
 }
 

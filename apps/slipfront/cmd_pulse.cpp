@@ -1,9 +1,16 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <atomic>
+#include <future>
 #include <memory>
+#include <new>
+#include <optional>
+#include <system_error>
 
 #include "batch.hpp"
 #include "long_run.hpp"
 #include "slipfront/record/unfinished.hpp"
+#include "slipfront/setup/errors.hpp"
 #include "slipfront/setup/estimate.hpp"
 #include "slipfront/setup/pulse.hpp"
 #include "slipfront/setup/summary.hpp"
@@ -22,8 +29,75 @@ void describe(const scenario::Scenario& s, const pulse::Problem& problem, const 
       s.friction.coefficient, name_of(s.friction.closure), in_words(need)));
 }
 
-int run_pulse(const ScenarioArguments& a) {
+constexpr int fewest_cells = 4, most_cells = 25600;
+
+/// A run with half the cells, beside the run itself on another thread: what it differs by is the error that is shown.
+/// It is cut short with the run.
+class Beside {
+ public:
+  explicit Beside(ScenarioArguments a) {
+    a.common.quiet = true;
+    scenario_ = read_scenario_of(a);  // formulas are not shared among threads
+    if (scenario_.pulse.cells / 2 < fewest_cells) return;
+    try {
+      result_ = std::async(std::launch::async, [this] { return coarse(); });
+    } catch (const std::system_error&) {  // no thread, no error
+    }
+  }
+  Beside(const Beside&) = delete;
+  Beside& operator=(const Beside&) = delete;
+  ~Beside() {
+    stopped_ = true;
+    if (result_.valid()) result_.wait();
+  }
+  std::vector<double> errors(const std::vector<SummaryValue>& fine) {
+    return differences(fine, result_.valid() ? result_.get() : std::vector<SummaryValue>{});
+  }
+
+ private:
+  std::vector<SummaryValue> coarse() {
+    try {
+      return pulse_summary_with(scenario_, scenario_.pulse.cells / 2,
+                                [this] { return stopped_ || interrupted_by_user(); });
+    } catch (const InputError&) {
+    } catch (const NumericsError&) {
+    } catch (const std::bad_alloc&) {
+    }
+    return {};  // then the error is not known
+  }
+
+  scenario::Scenario scenario_;
+  std::atomic<bool> stopped_ = false;
+  std::future<std::vector<SummaryValue>> result_;
+};
+
+/// The cells that a relative tolerance needs, from the scenario's on in doublings.
+int cells_for(double tolerance, const scenario::Scenario& s) {
+  std::vector<SummaryValue> coarse =
+      pulse_summary_with(s, std::max(s.pulse.cells / 2, fewest_cells), interrupted_by_user);
+  double reached = 0;
+  for (int cells = s.pulse.cells; cells <= most_cells && !coarse.empty(); cells *= 2) {
+    std::vector<SummaryValue> fine = pulse_summary_with(s, cells, interrupted_by_user);
+    if (fine.empty()) return s.pulse.cells;
+    reached = largest_relative(fine, differences(fine, coarse));
+    if (reached <= tolerance) return cells;
+    coarse = std::move(fine);
+  }
+  if (coarse.empty()) return s.pulse.cells;  // interrupted: the run will be too
+  throw NumericsError(
+      fmt::format("--tolerance {:.3g} is not reached with {} cells: {:.3g} is", tolerance, most_cells, reached));
+}
+
+int run_pulse(ScenarioArguments a, std::optional<double> tolerance) {
   const auto start = Clock::now();
+  if (tolerance) {
+    if (!a.resume.empty())
+      throw InputError({.file = "command line",
+                        .key = "--tolerance",
+                        .problem = "chooses the cells of a run that has begun",
+                        .allowed = "--tolerance without --resume"});
+    a.set.push_back(fmt::format("pulse.cells={}", cells_for(*tolerance, read_scenario_of(a))));
+  }
   const scenario::Scenario s = read_scenario_of(a);
   const pulse::Problem problem = pulse_problem(s);
   const pulse::Schedule schedule = pulse_schedule(s, problem);
@@ -39,11 +113,13 @@ int run_pulse(const ScenarioArguments& a) {
     const record::Checkpoint saved = checkpoint_of(a, s);
     run = std::make_unique<pulse::Run>(problem, schedule, saved.solver_state, saved.snapshots);
   }
+  Beside half(a);
   const int code = carry_out(
       *run, a, s, "pulse", estimate_of(s, problem).disk, [&] { return run->solver().cells().time; },
       [&] { return run->solver().cells().steps; });
-  if (code == exit_done)
-    print_summary(s.title, summary(pulse_summary(), {s, *run, seconds_since(start)}), run->warnings(), a);
+  if (code != exit_done) return code;
+  const std::vector<SummaryValue> values = summary(pulse_summary(), {s, *run, seconds_since(start)});
+  print_summary(s.title, values, half.errors(values), run->warnings(), a);
   return code;
 }
 
@@ -53,5 +129,11 @@ Runner add_pulse(CLI::App& app) {
   auto a = std::make_shared<ScenarioArguments>();
   CLI::App* command = app.add_subcommand("pulse", "The modulation equations with friction, Eqs. (7), on a scenario");
   add_scenario_options(*command, *a);
-  return [a] { return run_pulse(*a); };
+  auto tolerance = std::make_shared<std::optional<double>>();
+  command
+      ->add_option("--tolerance", *tolerance,
+                   "Relative error of slip, slip velocity and stress at x = 0: doubles pulse.cells until reached")
+      ->check(CLI::Range(1e-9, 1.0))
+      ->type_name("ERROR");
+  return [a, tolerance] { return run_pulse(*a, *tolerance); };
 }

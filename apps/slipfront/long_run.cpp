@@ -82,7 +82,8 @@ record::Checkpoint checkpoint_of(const ScenarioArguments& a, const scenario::Sce
 std::string json_number(double value) { return std::isfinite(value) ? fmt::format("{}", value) : "null"; }
 
 void print_summary(const std::string& title, const std::vector<setup::SummaryValue>& summary,
-                   const std::vector<std::string>& warnings, const ScenarioArguments& a) {
+                   const std::vector<double>& errors, const std::vector<std::string>& warnings,
+                   const ScenarioArguments& a) {
   struct AsJson {
     std::string operator()(double value) const { return json_number(value); }
     std::string operator()(long value) const { return fmt::format("{}", value); }
@@ -94,6 +95,11 @@ void print_summary(const std::string& title, const std::vector<setup::SummaryVal
     std::string text = "{";
     for (const auto& row : summary)
       text += fmt::format("{}\"{}\": {}", text.size() > 1 ? ", " : "", row.key, std::visit(AsJson{}, row.value));
+    std::string known;
+    for (std::size_t i = 0; i < errors.size(); ++i)
+      if (std::isfinite(errors[i]))
+        known += fmt::format("{}\"{}\": {:.3g}", known.empty() ? "" : ", ", summary[i].key, errors[i]);
+    if (!errors.empty()) text += ", \"errors\": {" + known + "}";
     text += ", \"warnings\": [";
     for (const std::string& warning : warnings)
       text += fmt::format("{}\"{}\"", &warning == warnings.data() ? "" : ", ", warning);
@@ -101,8 +107,13 @@ void print_summary(const std::string& title, const std::vector<setup::SummaryVal
     return;
   }
   if (!title.empty()) put(title + "\n");
-  for (const auto& row : summary)
-    put(fmt::format("{:<25} {:<24} {}\n", row.key, std::visit(AsJson{}, row.value), row.meaning));
+  for (std::size_t i = 0; i < summary.size(); ++i) {
+    const auto& row = summary[i];
+    const bool known = i < errors.size() && std::isfinite(errors[i]);
+    put(fmt::format("{:<25} {:<24} {}{}\n", row.key, std::visit(AsJson{}, row.value),
+                    errors.empty() ? "" : fmt::format("{:<12} ", known ? fmt::format("+- {:.2g}", errors[i]) : ""),
+                    row.meaning));
+  }
   const std::string& output = a.output.empty() ? a.resume : a.output;
   if (!output.empty() && !a.common.quiet) put("written to " + output + "\n");
 }

@@ -36,9 +36,10 @@ slipfront::record::Checkpoint checkpoint_of(const ScenarioArguments& arguments,
 /// A number as JSON, null where there is none.
 std::string json_number(double value);
 /// What a run is summed up by, as a table or one JSON object on stdout; its warnings, a sentence each, on stderr and in
-/// the JSON.
+/// the JSON. `errors`: of each row, NaN where there is none; empty: none at all.
 void print_summary(const std::string& title, const std::vector<slipfront::setup::SummaryValue>& summary,
-                   const std::vector<std::string>& warnings, const ScenarioArguments& arguments);
+                   const std::vector<double>& errors, const std::vector<std::string>& warnings,
+                   const ScenarioArguments& arguments);
 
 /// Carries a run (pulse or chain) to its end with progress, checkpoints and heed to Ctrl-C. The file will have some
 /// `disk` bytes; `time` and `steps` tell where the run is. Returns the exit code.

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <string>
 
+#include "../digits.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::pulse {
@@ -130,6 +131,20 @@ struct Stressed {
 };
 constexpr int samples = 4096;
 
+/// Between two neighbouring samples without stress, at fifteen more places: no such stretch is laid, and none may be
+/// lost unseen.
+void refuse_narrow_stress(const std::function<double(double)>& stress, double from, double to) {
+  constexpr int finer = 16;
+  for (int i = 1; i < finer; ++i) {
+    const double x = std::lerp(from, to, static_cast<double>(i) / finer);
+    if (stress(x) > 0)
+      throw InputError({.key = "initial",
+                        .problem = "the stress at x = " + digits(x) + " is on a stretch narrower than 1 / " +
+                                   std::to_string(samples) + " of the domain",
+                        .allowed = "wider stretches of stress, or a smaller domain"});
+  }
+}
+
 std::vector<Stressed> stressed_stretches(const std::function<double(double)>& stress, double left, double right) {
   const double h = (right - left) / samples;
   const auto place = [&](int i) { return i == samples ? right : left + i * h; };
@@ -139,6 +154,7 @@ std::vector<Stressed> stressed_stretches(const std::function<double(double)>& st
     const bool now = stress(place(i)) > 0;
     if (now && !before) found.push_back({i == 0 ? left : edge_between(stress, place(i - 1), place(i)), right});
     if (!now && before) found.back().to = edge_between(stress, place(i), place(i - 1));
+    if (!now && !before && i > 0) refuse_narrow_stress(stress, place(i - 1), place(i));
     before = now;
   }
   // A single value, such as that of a step at the end of the domain, is no stretch.

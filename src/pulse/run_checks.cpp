@@ -14,7 +14,7 @@ namespace {
 
 constexpr double worth_a_warning = 1e-3, wrong = 1e-2;  // relative
 /// Share of the energy of motion that is lost where streams cross, above which the averages are doubtful.
-constexpr double much = 0.15;
+constexpr double much = 0.05;
 
 }  // namespace
 

@@ -122,4 +122,14 @@ TEST(Ends, StressAtOneSampleIsNoStretch) {
   EXPECT_EQ(Solver(p).view().faces.front(), std::nextafter(1.0, 2.0));
 }
 
+TEST(Ends, StressTooNarrowToBeLaidIsRefused) {
+  Problem p = loaded(0);
+  p.forcing = {};
+  const double h = (p.right - p.left) / 4096, at = p.left + 1000.3 * h;
+  p.stress = [=](double x) { return x > 0 || std::fabs(x - at) < 0.2 * h ? 0.8 : 0.0; };
+  EXPECT_THROW(Solver{p}, InputError);
+  p.stress = [=](double x) { return x > 0 || std::fabs(x - at) < 1.2 * h ? 0.8 : 0.0; };
+  EXPECT_EQ(Solver(p).cells().charge.size(), static_cast<std::size_t>(p.cells) + 1 + 4);
+}
+
 }  // namespace
