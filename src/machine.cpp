@@ -25,7 +25,9 @@ double limit_in(const std::string& path) {
   std::ifstream file(path);
   file.imbue(std::locale::classic());
   double bytes = 0;
-  return file >> bytes && bytes > 0 ? bytes : unknown;
+  file >> bytes;
+  if (file.fail() || !(bytes > 0)) return unknown;
+  return bytes;
 }
 
 /// The least limit of a control group and of those that it lies in.

@@ -20,7 +20,7 @@ class Work {
 
   /// Carries out chunks until none is left.
   void go() noexcept {
-    for (std::size_t begin; (begin = next_.fetch_add(chunk_)) < count_;)
+    for (std::size_t begin = next_.fetch_add(chunk_); begin < count_; begin = next_.fetch_add(chunk_))
       for (std::size_t i = begin; i < std::min(begin + chunk_, count_); ++i) attempt(i);
   }
 

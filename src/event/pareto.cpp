@@ -18,7 +18,7 @@ double shape_at(const std::vector<double>& x, double a) {
 /// towards 0.5 by ten more values.
 double fitted_shape(const std::vector<double>& x) {
   const auto n = static_cast<double>(x.size());
-  const double quartile = x[static_cast<std::size_t>(n / 4 + 0.5) - 1], largest = x.back();
+  const double quartile = x[(x.size() + 2) / 4 - 1], largest = x.back();
   const int points = 30 + static_cast<int>(std::sqrt(n));
   std::vector<double> a, likelihood;
   for (int j = 1; j <= points; ++j) {

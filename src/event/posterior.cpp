@@ -152,6 +152,7 @@ Samples drawn(Sampler& sampler, std::size_t first, std::size_t& count) {
 /// Quantiles of all quantities that are known. Most rise or fall together with the one before, so the order is kept.
 void set_quantiles(Posterior& p, const std::vector<Sample>& samples) {
   std::vector<const Sample*> order;
+  order.reserve(samples.size());
   for (const Sample& s : samples) order.push_back(&s);
   std::vector<Weighted> values(samples.size());
   for (const StateQuantity& q : state_quantities()) {
