@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "../digits.hpp"
+#include "../findings.hpp"
 #include "barrier.hpp"
 #include "slipfront/chain/run.hpp"
 #include "slipfront/error.hpp"
@@ -15,24 +16,10 @@ namespace slipfront::chain {
 namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
-constexpr double worth_a_warning = 1e-3, wrong = 1e-2;  // relative
 
 }  // namespace
 
-/// Sentences for the user, and the worst violation among them.
-struct Run::Findings {
-  std::vector<std::string> sentences;
-  std::string worst;
-  double size = 0;
-
-  void violation(double relative, const std::string& sentence) {
-    if (relative <= worth_a_warning) return;  // NaN is a violation
-    sentences.push_back(sentence);
-    if (relative <= size) return;
-    size = std::isnan(relative) ? HUGE_VAL : relative;
-    worst = sentence;
-  }
-};
+struct Run::Findings : slipfront::Findings {};
 
 Run::Balance Run::balance() const {
   const Totals now = totals(chain_);
@@ -54,7 +41,7 @@ void Run::check_energy(Findings& found) const {
       sentence += ". The narrowest dislocation, made so by its speed or by others, has only " + digits(sites, 2) +
                   " sites to its width; " + digits(least_sites_per_width) + " are needed";
     // The error is of fourth order in the spacing.
-    const double finer = 0.9 * stretched_.spacing * std::pow(worth_a_warning / balance.energy_drift, 0.25);
+    const double finer = 0.9 * stretched_.spacing * std::pow(Findings::worth_a_warning / balance.energy_drift, 0.25);
     sentence += ". Try chain.spacing = " + digits(finer, 2);
   }
   found.violation(balance.energy_drift, sentence);
@@ -172,7 +159,7 @@ std::vector<std::string> Run::warnings() const { return findings().sentences; }
 
 void Run::refuse_wrong_results() const {
   const Findings found = findings();
-  if (found.size > wrong) throw NumericsError("t = " + digits(time()) + ": " + found.worst);
+  if (found.wrong_results()) throw NumericsError("t = " + digits(time()) + ": " + found.worst);
 }
 
 }  // namespace slipfront::chain

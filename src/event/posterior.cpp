@@ -35,7 +35,7 @@ namespace {
                     .allowed = reasons[why][1]});
 }
 
-/// The event could be but for a contact ratio above plastic contact: that is said, not refused, with or without errors.
+/// Whether only a contact ratio above plastic contact rules the event out: a warning, with errors or without.
 bool only_contact_refused(const Sampler& sampler) {
   const auto& refused = sampler.refused();
   return !sampler.fixes_friction() && !sampler.knows_contact() && refused[bad_contact] > 0 &&

@@ -13,9 +13,9 @@ constexpr int most_at_once = 100000;  ///< cells that come in after one step
 
 }  // namespace
 
-double Solver::right_edge() const {
+double Solver::left_face(std::size_t cell) const {
   double x = cells_.y[2 * size()];
-  for (std::size_t i = 0; i < size(); ++i) x += cells_.y[2 * i];
+  for (std::size_t i = 0; i < cell; ++i) x += cells_.y[2 * i];
   return x;
 }
 
@@ -66,7 +66,7 @@ void Solver::stop_at_walls() {
   }
   if (problem_.right_end != End::fixed) return;
   double& last = cells_.y[2 * size() - 2];
-  const double beyond = right_edge() - problem_.right;
+  const double beyond = left_face(size()) - problem_.right;
   if (beyond > -near * last) last -= beyond;
 }
 
@@ -78,7 +78,7 @@ void Solver::adjust_ends() {
     if (end == End::fixed) continue;
     const bool continued = end == End::continued;
     if (continued && (left ? left_free_ : right_free_)) continue;  // the stress ends inside the domain
-    const double edge = left ? cells_.y[2 * size()] : right_edge();
+    const double edge = left ? cells_.y[2 * size()] : left_face(size());
     // A train at rest moves by rounding: a sliver is no place that has to be filled.
     const double sliver = continued ? 1e-3 * cells_.y[left ? 0 : 2 * size() - 2] : 0;
     double inside = (left ? edge - problem_.left : problem_.right - edge) - sliver;

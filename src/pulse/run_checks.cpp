@@ -6,32 +6,19 @@
 #include <string>
 
 #include "../digits.hpp"
+#include "../findings.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/pulse/run.hpp"
 
 namespace slipfront::pulse {
 namespace {
 
-constexpr double worth_a_warning = 1e-3, wrong = 1e-2;  // relative
 /// Share of the energy of motion that is lost where streams cross, above which the averages are doubtful.
 constexpr double much = 0.05;
 
 }  // namespace
 
-/// Sentences, and the worst of them where it is more than a doubt.
-struct Run::Findings {
-  std::vector<std::string> sentences;
-  std::string worst;
-  double size = 0;
-
-  void violation(double relative, const std::string& sentence) {
-    if (relative <= worth_a_warning) return;  // NaN does not return here
-    sentences.push_back(sentence);
-    if (relative <= size) return;
-    size = std::isnan(relative) ? HUGE_VAL : relative;
-    worst = sentence;
-  }
-};
+struct Run::Findings : slipfront::Findings {};
 
 Run::Findings Run::findings() const {
   Findings found;
@@ -55,7 +42,7 @@ Run::Findings Run::findings() const {
 
   // Densities may be coarse where streams have piled up, while the dislocations themselves are all there.
   const double uncounted = conservation_error(solver_);
-  if (!(uncounted <= wrong))
+  if (!(uncounted <= Findings::wrong))
     found.sentences.push_back("pulse: the states of the cells hold " + digits(100 * uncounted) +
                               " % more or fewer dislocations than there are; more pulse.cells help");
 
@@ -78,7 +65,7 @@ std::vector<std::string> Run::warnings() const { return findings().sentences; }
 
 void Run::refuse_wrong_results() const {
   const Findings found = findings();
-  if (found.size > wrong) throw NumericsError("t = " + digits(solver_.cells().time) + ": " + found.worst);
+  if (found.wrong_results()) throw NumericsError("t = " + digits(solver_.cells().time) + ": " + found.worst);
 }
 
 }  // namespace slipfront::pulse

@@ -183,7 +183,7 @@ double Solver::gaps_close_in(const std::vector<double>& rate) const {
   if (problem_.right_end == End::fixed) {
     double speed = rate[last];
     for (std::size_t i = 0; i < size(); ++i) speed += rate[2 * i];
-    if (speed > 0) least = std::fmin(least, std::fmax((problem_.right - right_edge()) / speed, 0.0));
+    if (speed > 0) least = std::fmin(least, std::fmax((problem_.right - left_face(size())) / speed, 0.0));
   }
   if (least == 0) least = HUGE_VAL;  // at the wall
   for (std::size_t i = 0; i < size(); ++i)
@@ -387,8 +387,7 @@ void Solver::look_for_crossing() {
   const std::size_t cell = equations_->crossing(cells_.time, cells_.y.data());
   if (cell >= size()) return;
   cells_.crossing_time = cells_.time;
-  cells_.crossing_position = cells_.y[2 * size()] + cells_.y[2 * cell] / 2;
-  for (std::size_t i = 0; i < cell; ++i) cells_.crossing_position += cells_.y[2 * i];
+  cells_.crossing_position = left_face(cell) + cells_.y[2 * cell] / 2;
 }
 
 /// Returns false if interrupted.
@@ -445,8 +444,7 @@ Solver::View Solver::view() const {
 }
 
 double Solver::energy_in(std::size_t cell) const {
-  double x = cells_.y[2 * size()] + cells_.y[2 * cell] / 2;
-  for (std::size_t i = 0; i < cell; ++i) x += cells_.y[2 * i];
+  const double x = left_face(cell) + cells_.y[2 * cell] / 2;
   const double q = cells_.charge[cell], width = cells_.y[2 * cell], a = problem_.contact ? problem_.contact(x) : 1;
   const State state =
       modulation::state_of({a * width / q, cells_.y[2 * cell + 1] / (a * q)}, std::atanh(cells_.s[cell]));

@@ -128,7 +128,8 @@ class Solver {
   void fill_end(bool left);
   void drop_beyond(bool left);
   void stop_at_walls();
-  double right_edge() const;
+  /// x of the face to the left of a cell; of the last face for size().
+  double left_face(std::size_t cell) const;
   /// Where at t = 0 the dislocation with `charge` to its left was, one of a face; and the slip of a place that it has
   /// come to.
   double first_place(double charge) const;
