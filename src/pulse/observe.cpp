@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 #include "../parabola.hpp"
 #include "slipfront/modulation/characteristics.hpp"
@@ -99,34 +100,78 @@ double in_domain(const Problem& p, double x) {
   return x >= p.left - rounding && x <= p.right + rounding ? std::clamp(x, p.left, p.right) : none;
 }
 
-/// Of the cells of the domain: some lie beyond an end where the train goes on.
-void find_peak_and_observed_fronts(const Problem& problem, const Solver::View& v, std::vector<double> W,
-                                   double threshold, bool to_right, Snapshot& s) {
-  const std::size_t n = v.states.size();
-  for (std::size_t i = 0; i < n; ++i)
-    if (std::isnan(in_domain(problem, v.centres[i]))) W[i] = 0;
-  const auto size = [&](std::size_t i) { return std::fabs(W[i]); };
-  const bool calm = std::find(v.shocked.begin(), v.shocked.end(), 0.0) != v.shocked.end();
+/// Slip velocities at the faces and centres of the cells, from left to right. A pulse that is still narrower than a
+/// cell shows at its face alone.
+struct Points {
+  std::vector<double> x, W;
+  std::vector<bool> shocked;
+
+  void add(double place, double slip_velocity, bool near_shock) {
+    x.push_back(place);
+    W.push_back(slip_velocity);
+    shocked.push_back(near_shock);
+  }
+};
+
+/// Slip velocity in a cell as the mean over a ripple: behind a shock that runs from cell to cell W oscillates by some
+/// thousandths, with six to seven cells to a wave.
+double without_ripple(const std::vector<double>& W, std::size_t i) {
+  constexpr std::size_t half = 3;
+  constexpr double small = 0.02;
+  if (i < half || i + half >= W.size()) return W[i];
+  const double* begin = &W[i - half];
+  const double* end = &W[i + half] + 1;
+  const auto [least, most] = std::minmax_element(begin, end);
+  if (!(*most - *least < small * std::fabs(W[i]))) return W[i];
+  return std::accumulate(begin, end, 0.0) / (2 * half + 1);
+}
+
+/// Of the domain, as some cells lie beyond an end where the train goes on; `W` are those at the centres.
+Points points_of(const Problem& problem, const Solver::View& v, const std::vector<double>& W) {
+  Points points;
+  const std::size_t n = W.size();
+  const auto add = [&](double x, double slip_velocity, bool near_shock) {
+    if (!std::isnan(in_domain(problem, x))) points.add(x, slip_velocity, near_shock);
+  };
+  const bool shocks = std::find(v.shocked.begin(), v.shocked.end(), 1.0) != v.shocked.end();
+  const auto add_face = [&](std::size_t f) {
+    if (shocks) return;
+    add(v.faces[f], averages_of(v, v.face_states[f], v.faces[f]).W, false);
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    add_face(i);
+    add(v.centres[i], shocks ? without_ripple(W, i) : W[i], v.shocked[i] != 0);
+  }
+  add_face(n);
+  return points;
+}
+
+void find_peak(const Points& p, Snapshot& s) {
+  const auto size = [&](std::size_t i) { return std::fabs(p.W[i]); };
+  const std::size_t n = p.W.size();
+  const bool calm = std::find(p.shocked.begin(), p.shocked.end(), false) != p.shocked.end();
   std::size_t peak = n;
   for (std::size_t i = 0; i < n; ++i) {
-    if (calm && v.shocked[i] != 0) continue;  // cells beside a shock exceed both sides by some per cent
+    if (calm && p.shocked[i]) continue;  // cells beside a shock exceed both sides by some per cent
     if (peak == n || size(i) > size(peak)) peak = i;
   }
-  s.peak_slip_velocity = W[peak];
-  s.peak_position = v.centres[peak];
-  // Top of the parabola through three centres; beside a shock there is none.
+  s.peak_slip_velocity = p.W[peak];
+  s.peak_position = p.x[peak];
+  // Top of the parabola through three points; beside a shock there is none.
   const bool smooth = peak > 0 && peak + 1 < n && std::fmin(size(peak - 1), size(peak + 1)) > 0.9 * size(peak);
-  if (smooth) {
-    const double a = v.centres[peak - 1] - v.centres[peak], b = v.centres[peak + 1] - v.centres[peak];
-    const auto [slope, curve] = parabola_through(a, W[peak - 1] - W[peak], b, W[peak + 1] - W[peak]);
-    const double top = curve != 0 ? -slope / (2 * curve) : 0;
-    if (top > a && top < b) {
-      s.peak_slip_velocity += top * (slope + curve * top);
-      s.peak_position += top;
-    }
-  }
-  s.peak_position = in_domain(problem, s.peak_position);
-  for (double& w : W) w = std::fabs(w);
+  if (!smooth) return;
+  const double a = p.x[peak - 1] - p.x[peak], b = p.x[peak + 1] - p.x[peak];
+  const auto [slope, curve] = parabola_through(a, p.W[peak - 1] - p.W[peak], b, p.W[peak + 1] - p.W[peak]);
+  const double top = curve != 0 ? -slope / (2 * curve) : 0;
+  if (!(top > a && top < b)) return;
+  s.peak_slip_velocity += top * (slope + curve * top);
+  s.peak_position += top;
+}
+
+/// From the cells of the domain, with a threshold relative to the peak.
+void find_observed_fronts(const Problem& problem, const Solver::View& v, std::vector<double> W, double threshold,
+                          bool to_right, Snapshot& s) {
+  for (std::size_t i = 0; i < W.size(); ++i) W[i] = std::isnan(in_domain(problem, v.centres[i])) ? 0 : std::fabs(W[i]);
   const double left = std::fmax(v.faces.front(), problem.left), right = std::fmin(v.faces.back(), problem.right);
   const Observed seen = observed_fronts(v.centres, W, threshold * std::fabs(s.peak_slip_velocity), left, right);
   s.fronts.trailing_observed = in_domain(problem, to_right ? seen.left : seen.right);
@@ -242,7 +287,9 @@ Snapshot observe(const Solver& solver, const std::vector<double>& x_edges, const
   s.fronts.trailing_characteristic = characteristic;
   s.fronts.trailing = s.time == 0 ? characteristic : in_domain(problem, trailing_front(v, W, to_right));
   s.fronts.leading = in_domain(problem, leading_front(v, W, to_right));
-  find_peak_and_observed_fronts(problem, v, W, threshold, to_right, s);
+  find_peak(points_of(problem, v, W), s);
+  s.peak_position = in_domain(problem, s.peak_position);
+  find_observed_fronts(problem, v, W, threshold, to_right, s);
   s.energy = energy_of(solver, v);
   return s;
 }

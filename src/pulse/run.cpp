@@ -85,19 +85,17 @@ void Run::take() {
 
 namespace {
 
-/// By how much the slip velocity at x may be wrong: half of what it differs by over the four cells around. Where a
-/// pulse is narrower than that, as just after a step, the cells do not resolve it.
-double unresolved_at(const Solver::View& v, double x) {
-  const auto right = std::lower_bound(v.centres.begin(), v.centres.end(), x);
-  const auto i = right - v.centres.begin();
-  if (i < 2 || i + 2 > static_cast<std::ptrdiff_t>(v.centres.size())) return 0;
-  double least = HUGE_VAL, most = -HUGE_VAL;
-  for (auto cell = static_cast<std::size_t>(i - 2); cell < static_cast<std::size_t>(i + 2); ++cell) {
-    const double W = averages_of(v, v.states[cell], v.centres[cell]).W;
-    least = std::fmin(least, W);
-    most = std::fmax(most, W);
-  }
-  return (most - least) / 2;
+/// By how much the slip velocity at x may be wrong: what the curve between the centre and the face beside it adds to a
+/// straight line. Where a pulse is narrower than a cell, the cells do not resolve it.
+double unresolved_at(const Solver::View& v, double x, double W) {
+  const auto right = std::upper_bound(v.faces.begin() + 1, v.faces.end() - 1, x);
+  const auto cell = static_cast<std::size_t>(right - v.faces.begin() - 1);
+  if (v.states[cell].empty()) return 0;
+  const std::size_t face = x < v.centres[cell] ? cell : cell + 1;
+  const double at_face = averages_of(v, v.face_states[face], v.faces[face]).W;
+  const double at_centre = averages_of(v, v.states[cell], v.centres[cell]).W;
+  const double share = (x - v.centres[cell]) / (v.faces[face] - v.centres[cell]);
+  return std::fabs(W - std::lerp(at_centre, at_face, share));
 }
 
 }  // namespace
@@ -110,7 +108,7 @@ void Run::sample() {
   p.slip += elapsed * (velocity + p.velocity) / 2;
   p.way += elapsed * (std::fabs(velocity) + std::fabs(p.velocity)) / 2;
   p.spread += change * change;
-  p.doubt += elapsed * unresolved_at(v, 0);
+  p.doubt += elapsed * unresolved_at(v, 0, velocity);
   if (++p.samples % 2 == 0) {
     p.coarse_slip += (time - p.early_time) * (velocity + p.early_velocity) / 2;
     p.early_time = time;

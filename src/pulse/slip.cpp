@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "interval.hpp"
+#include "lagrange.hpp"
 #include "layout.hpp"
 #include "slipfront/pulse/solver.hpp"
 
@@ -15,13 +16,7 @@ using std::numbers::pi;
 
 /// Lagrange through four points, but no farther than the middle two where these are not smooth on the grid.
 double cubic(const double* x, const double* f, double at) {
-  double sum = 0;
-  for (std::size_t j = 0; j < 4; ++j) {
-    double weight = 1;
-    for (std::size_t m = 0; m < 4; ++m)
-      if (m != j) weight *= (at - x[m]) / (x[j] - x[m]);
-    sum += weight * f[j];
-  }
+  const double sum = lagrange(4, x, f, at);
   const auto slope = [&](std::size_t j) { return (f[j + 1] - f[j]) / (x[j + 1] - x[j]); };
   const double bend = slope(1) - slope(0), next_bend = slope(2) - slope(1);
   if (std::fabs(next_bend - bend) < 0.7 * (std::fabs(bend) + std::fabs(next_bend))) return sum;

@@ -61,10 +61,23 @@ void refuse_jumps(const std::function<double(double)>& contact, double left, dou
   }
 }
 
-/// Dry friction cannot reverse a cell: one that would have is at rest, and moves on only if pushed hard enough.
-void stop_reversals(const std::vector<double>& before, std::vector<double>& after) {
-  for (std::size_t i = 1; i + Semidiscrete::extra < after.size(); i += 2)
-    if (before[i] * after[i] < 0) after[i] = 0;
+/// Dry friction cannot reverse a cell: one that would have is at rest, and moves on only if pushed hard enough. So is
+/// one that `friction` (that of a dislocation) holds, as it has turned it back in a stage of the step and nothing else
+/// acts as strongly: what the step would have made of its momentum is no error then, nor what its friction does in the
+/// means over the cells beside it.
+void stop_reversals(const ExplicitStep& step, double friction, const std::vector<double>& charge,
+                    const std::vector<double>& before, std::vector<double>& after, std::vector<double>& scale) {
+  for (std::size_t cell = 0; cell < charge.size(); ++cell) {
+    const std::size_t i = 2 * cell + 1;
+    const bool reversed = before[i] * after[i] < 0;
+    const bool held = (reversed || step.returns_to_zero(i, before[i])) &&
+                      step.largest_rate(i) <= 2 * friction * charge[cell];
+    if (!reversed && !held) continue;
+    after[i] = 0;
+    if (!held) continue;
+    for (std::size_t j = cell > 1 ? cell - 2 : 0; j <= std::min(cell + 2, charge.size() - 1); ++j)
+      scale[2 * j + 1] = HUGE_VAL;
+  }
 }
 
 /// Whether a step has changed the rapidity of some cell by about a half or more: a dense train that runs into a sparse
@@ -147,7 +160,15 @@ Setup Solver::setup() const {
   return s;
 }
 
-void Solver::lay_equations() { equations_ = std::make_shared<Semidiscrete>(setup<Semidiscrete::Setup>()); }
+void Solver::lay_equations() {
+  equations_ = std::make_shared<Semidiscrete>(setup<Semidiscrete::Setup>());
+  staggered_.reset();
+}
+
+Staggered& Solver::staggered() const {
+  if (!staggered_) staggered_ = std::make_shared<Staggered>(setup<Staggered::Setup>());
+  return *staggered_;
+}
 
 void Solver::restore(Cells cells) {
   const std::size_t n = cells.charge.size();
@@ -245,9 +266,7 @@ struct Solver::Work {
   Rates f;
   ExplicitStep explicit_step;
   std::vector<double> rate, next, scale;
-  // Made when friction first rules.
-  std::unique_ptr<Staggered> staggered;
-  std::unique_ptr<ImplicitStep> implicit_step;
+  std::unique_ptr<ImplicitStep> implicit_step;  // made when friction first rules
 
   explicit Work(Semidiscrete& equations, std::size_t cells, std::size_t size)
       : f([&equations](double t, const double* y, double* dy) { equations(t, y, dy); }),
@@ -264,13 +283,16 @@ double Solver::step_explicitly(Work& work, double remaining, double crossing) {
   }
   const double wanted = cells_.step > 0 ? std::fmin(crossing, cells_.step) : crossing;
   double dt = next_step(remaining, wanted);
-  find_scale(crossing, work.scale);
+  const bool dry = problem_.friction.law == modulation::FrictionLaw::coulomb;
+  const double friction = 2 * pi * problem_.friction.coefficient;
   work.next = cells_.y;
   // What comes up within a step may be too hard for it: shorter, then.
   for (int tries = 0;; ++tries) {
     double factor = 0.5;
     try {
+      find_scale(crossing, work.scale);
       work.explicit_step(work.f, cells_.time, dt, cells_.y, work.rate);
+      if (dry) stop_reversals(work.explicit_step, friction, cells_.charge, work.next, cells_.y, work.scale);
       const double error =
           work.explicit_step.error(dt, work.rate, work.scale, equations_->shocked()) / problem_.explicit_tolerance;
       const bool jumped = thrown(work.next, cells_.y, cells_.charge);
@@ -290,7 +312,6 @@ double Solver::step_explicitly(Work& work, double remaining, double crossing) {
     equations_->start_from(cells_.s);
     dt *= factor;
   }
-  if (problem_.friction.law == modulation::FrictionLaw::coulomb) stop_reversals(work.next, cells_.y);
   cells_.s = equations_->s();
   return dt;
 }
@@ -337,13 +358,11 @@ void Solver::cells_of_faces(const Staggered& staggered, const std::vector<double
 }
 
 double Solver::step_implicitly(Work& work, double remaining, double crossing) {
-  if (!work.staggered) {
-    work.staggered = std::make_unique<Staggered>(setup<Staggered::Setup>());
-    work.implicit_step = std::make_unique<ImplicitStep>(work.staggered->faces(), work.staggered->size(),
-                                                        Staggered::reach, bool(problem_.forcing));
-  }
+  Staggered& staggered = this->staggered();
+  if (!work.implicit_step)
+    work.implicit_step = std::make_unique<ImplicitStep>(staggered.faces(), staggered.size(), Staggered::reach,
+                                                        bool(problem_.forcing));
   if (cells_.face_momentum.empty()) cells_.step = 0;
-  Staggered& staggered = *work.staggered;
   const Rates f = [&staggered](double t, const double* z, double* dz) { staggered(t, z, dz); };
   const std::vector<double> z = faces_of_cells(staggered);
   std::vector<double> rate(z.size()), next(z.size()), scale(2 * staggered.faces());
@@ -415,6 +434,17 @@ bool Solver::advance_until_gap_closes(double time, const std::function<bool()>& 
   return true;
 }
 
+namespace {
+
+/// psi at a face between two cells. It is half the difference of two invariants: in a dilute train, where psi is small
+/// beside what phi changes by from cell to cell, nothing of it may be left, and then it is taken from the cells.
+double plausible(double psi, double left, double right) {
+  const bool possible = psi >= std::fmin(left, right) / 2 && psi <= 2 * std::fmax(left, right);
+  return possible ? psi : std::sqrt(left * right);
+}
+
+}  // namespace
+
 Solver::View Solver::view() const {
   const std::size_t n = size();
   std::vector<double> rate(cells_.y.size());
@@ -435,7 +465,18 @@ Solver::View Solver::view() const {
   v.shocked = equations_->shocked();
   v.left_free = equations_->stretches().front().left == Edge::free;
   v.right_free = equations_->stretches().back().right == Edge::free;
-  for (std::size_t f = 0; f <= n; ++f) v.face_states.push_back({equations_->face_phi()[f], equations_->face_psi()[f]});
+  const std::vector<double>* face_phi = &equations_->face_phi();
+  if (!cells_.face_momentum.empty()) {  // where friction rules, velocities are those of the faces
+    staggered().start_from(cells_.s);
+    std::vector<double> face_rate(staggered().size());
+    staggered()(cells_.time, faces_of_cells(staggered()).data(), face_rate.data());
+    face_phi = &staggered().face_phi();
+  }
+  for (std::size_t f = 0; f <= n; ++f) {
+    const bool inside = f > 0 && f < n && cells_.charge[f - 1] > 0 && cells_.charge[f] > 0;
+    const double psi = equations_->face_psi()[f];
+    v.face_states.push_back({(*face_phi)[f], inside ? plausible(psi, v.states[f - 1].psi, v.states[f].psi) : psi});
+  }
   for (std::size_t f = 0; f <= n; ++f)
     v.face_density.push_back(averages_of(v, v.face_states[f], v.faces[f]).k / (2 * pi));
   v.centres.resize(n);

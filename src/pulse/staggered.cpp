@@ -28,6 +28,7 @@ Staggered::Staggered(Setup setup)
   cells_.resize(n);
   for (auto* array : {&width_, &pressure_, &mass_, &balance_, &a_}) array->assign(n, 0);
   place_.assign(n + 1, 0);
+  face_phi_.assign(n + 1, 0);
 }
 
 std::vector<double> Staggered::face_momenta(const std::vector<double>& cell_momenta) const {
@@ -134,6 +135,7 @@ void Staggered::operator()(double t, const double* z, double* dz) {
     const double a = setup_.contact ? setup_.contact(place_[f]) : 1;
     const double mass = edge && end == Edge::free ? 1 : beside(mass_, f);
     const double phi = std::asinh(momentum / (8 * q * a * mass)), U = std::tanh(phi);
+    face_phi_[f] = phi;
     const double loss = loss_rate(f, phi) * momentum;
     const double push = setup_.forcing ? 2 * pi * q * setup_.forcing(place_[f], t) : 0;
     const double force = setup_.contact ? force_on(f) / std::cosh(phi) : force_on(f);

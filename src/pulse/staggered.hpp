@@ -41,6 +41,9 @@ class Staggered {
   void start_from(const std::vector<double>& s) { cells_.s = s; }
   const std::vector<double>& s() const { return cells_.s; }
 
+  /// Rapidities of the dislocations at the faces, from the last call.
+  const std::vector<double>& face_phi() const { return face_phi_; }
+
   /// Momenta at the faces from those in the cells, and back.
   std::vector<double> face_momenta(const std::vector<double>& cell_momenta) const;
   std::vector<double> cell_momenta(const std::vector<double>& face_momenta) const;
@@ -61,8 +64,8 @@ class Staggered {
   modulation::PowerLawRate power_law_rate_;
   std::vector<Stretch> stretches_;
   CellStates cells_;
-  std::vector<double> place_, width_, pressure_, mass_, balance_,
-      a_;  ///< mass_: cosh(psi) E, an eighth of M / sinh(phi)
+  std::vector<double> place_, width_, pressure_, balance_, a_, face_phi_;
+  std::vector<double> mass_;  ///< cosh(psi) E, an eighth of M / sinh(phi)
 };
 
 }  // namespace slipfront::pulse

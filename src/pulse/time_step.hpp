@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <vector>
@@ -21,6 +23,17 @@ class ExplicitStep {
   /// over the cells that are not `excluded` (1; 0 elsewhere).
   double error(double dt, const std::vector<double>& rate_at_start, const std::vector<double>& scale,
                const std::vector<double>& excluded) const;
+  /// Whether some stage of the last step has carried entry i from `before` through zero, to where its rate turns it
+  /// back.
+  bool returns_to_zero(std::size_t i, double before) const {
+    const auto returns = [before](double u, double rate) { return before * u < 0 && before * rate > 0; };
+    return returns(u1_[i], rate1_[i]) || returns(u2_[i], rate2_[i]) || returns(u3_[i], rate3_[i]) ||
+           returns(u4_[i], rate4_[i]);
+  }
+  /// Largest rate of entry i in the stages of the last step.
+  double largest_rate(std::size_t i) const {
+    return std::max({std::fabs(rate1_[i]), std::fabs(rate2_[i]), std::fabs(rate3_[i]), std::fabs(rate4_[i])});
+  }
 
  private:
   std::vector<double> u1_, u2_, u3_, u4_, rate1_, rate2_, rate3_, rate4_;

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "interval.hpp"
+#include "lagrange.hpp"
 #include "slipfront/pulse/solver.hpp"
 #include "slipfront/train/train.hpp"
 
@@ -11,6 +12,51 @@ namespace {
 /// How often a ring must be turned back to bring x among its faces.
 double turns(const Solver::View& v, double x) { return std::floor((x - v.faces.front()) / v.period); }
 
+/// Centres and faces around a place, at most five that rise with x.
+struct Nodes {
+  double x[5];
+  State state[5];
+  std::size_t size = 0;
+
+  void add(double place, const State& s) {
+    x[size] = place;
+    state[size++] = s;
+  }
+};
+
+/// The centre of the cell, its faces, and the centres of its neighbours in the same stretch. A step of stress, or a
+/// pulse that is still narrower than a cell, is known at a face long before the cells feel it.
+Nodes nodes_around(const Solver::View& v, std::size_t cell) {
+  Nodes nodes;
+  if (cell > 0 && !v.states[cell - 1].empty()) nodes.add(v.centres[cell - 1], v.states[cell - 1]);
+  nodes.add(v.faces[cell], v.face_states[cell]);
+  nodes.add(v.centres[cell], v.states[cell]);
+  nodes.add(v.faces[cell + 1], v.face_states[cell + 1]);
+  if (cell + 1 < v.states.size() && !v.states[cell + 1].empty()) nodes.add(v.centres[cell + 1], v.states[cell + 1]);
+  return nodes;
+}
+
+/// Whether three values and the next one bend alike.
+bool bends_alike(const double* x, const double* f) {
+  const auto slope = [&](std::size_t j) { return (f[j + 1] - f[j]) / (x[j + 1] - x[j]); };
+  const double bend = (slope(1) - slope(0)) / (x[2] - x[0]), next = (slope(2) - slope(1)) / (x[3] - x[1]);
+  return std::fabs(next - bend) < 0.5 * (std::fabs(bend) + std::fabs(next));
+}
+
+/// The polynomial through all of `size` points. Where these are not smooth, there is no value beyond the two beside x;
+/// a smooth extremum lies beyond all of them by a part of their range.
+double bounded(std::size_t size, const double* at, const double* f, double x) {
+  const std::size_t next = std::clamp<std::size_t>(
+      static_cast<std::size_t>(std::upper_bound(at, at + size, x) - at), 1, size - 1);
+  bool smooth = true;
+  for (std::size_t j = 0; j + 3 < size; ++j) smooth = smooth && bends_alike(at + j, f + j);
+  const double sum = lagrange(size, at, f, x);
+  if (!smooth) return std::clamp(sum, std::min(f[next - 1], f[next]), std::max(f[next - 1], f[next]));
+  const auto [least, most] = std::minmax_element(f, f + size);
+  const double beyond = (*most - *least) / 4;
+  return std::clamp(sum, *least - beyond, *most + beyond);
+}
+
 }  // namespace
 
 State state_at(const Solver::View& v, double place) {
@@ -19,40 +65,18 @@ State state_at(const Solver::View& v, double place) {
   if (x < v.faces.front() || x > v.faces.back()) return {};
   const std::size_t cell = interval(v.faces, x);
   if (v.states[cell].empty()) return {};
-  std::size_t begin = cell, end = cell + 1;  // four centres of the same stretch
-  while (begin > 0 && cell - begin < 4 && !v.states[begin - 1].empty()) --begin;
-  while (end < v.states.size() && end - cell < 5 && !v.states[end].empty()) ++end;
-  if (end - begin < 4) return v.states[cell];
-  const std::size_t left = v.centres[cell] <= x || cell == 0 ? cell : cell - 1;
-  const std::size_t first = std::clamp<std::size_t>(left, begin + 1, end - 3) - 1;
-  double weight[4];
-  for (std::size_t j = 0; j < 4; ++j) {  // Lagrange through four centres
-    weight[j] = 1;
-    for (std::size_t m = 0; m < 4; ++m)
-      if (m != j) weight[j] *= (x - v.centres[first + m]) / (v.centres[first + j] - v.centres[first + m]);
+  const Nodes nodes = nodes_around(v, cell);
+  double phi[5], psi[5], log_psi[5];
+  for (std::size_t j = 0; j < nodes.size; ++j) {
+    phi[j] = nodes.state[j].phi;
+    psi[j] = nodes.state[j].psi;
+    log_psi[j] = std::log(psi[j]);
   }
-  const auto interpolate = [&](double State::*member) {
-    const auto f = [&](std::size_t j) { return v.states[first + j].*member; };
-    const double sum = weight[0] * f(0) + weight[1] * f(1) + weight[2] * f(2) + weight[3] * f(3);
-    const double bend = f(0) - 2 * f(1) + f(2), next_bend = f(1) - 2 * f(2) + f(3);
-    const double least = std::min({f(0), f(1), f(2), f(3)}), most = std::max({f(0), f(1), f(2), f(3)});
-    // A smooth extremum lies beyond the four by an eighth of their range; where they are not smooth on the grid, or
-    // cells differ much in width, there is no value beyond them.
-    const bool smooth = std::fabs(next_bend - bend) < 0.5 * (std::fabs(bend) + std::fabs(next_bend));
-    const double beyond = smooth ? (most - least) / 4 : 0;
-    return std::clamp(sum, least - beyond, most + beyond);
-  };
+  const auto [least, most] = std::minmax_element(psi, psi + nodes.size);
   // In a slow train psi changes by decades from cell to cell, its logarithm is what is smooth.
-  double log_psi[4], least = HUGE_VAL, most = 0;
-  for (std::size_t j = 0; j < 4; ++j) {
-    const double psi = v.states[first + j].psi;
-    log_psi[j] = std::log(psi);
-    least = std::fmin(least, psi);
-    most = std::fmax(most, psi);
-  }
-  if (!(most > 100 * least)) return {interpolate(&State::phi), std::fmax(interpolate(&State::psi), 0.0)};
-  const double sum = weight[0] * log_psi[0] + weight[1] * log_psi[1] + weight[2] * log_psi[2] + weight[3] * log_psi[3];
-  return {interpolate(&State::phi), std::exp(std::clamp(sum, std::log(least), std::log(most)))};
+  const bool decades = *least > 0 && *most > 100 * *least;
+  return {bounded(nodes.size, nodes.x, phi, x), decades ? std::exp(bounded(nodes.size, nodes.x, log_psi, x))
+                                                        : std::fmax(bounded(nodes.size, nodes.x, psi, x), 0.0)};
 }
 
 train::Averages averages_of(const Solver::View& v, const State& state, double x) {

@@ -39,17 +39,16 @@ struct Diffusion {
     return {1, -understated * std::sinh(at.psi) / (2 * e.E * at.g), -at.zeta / 2 * l_slope};
   }
 
-  /// From the edge with speed g0 until psi, or until g = 0.
+  /// From the edge with speed g0 until psi, or until g = 0. Steps shrink towards psi, where zeta goes to infinity.
   std::vector<Point> from_edge(double g0, double psi) const {
-    constexpr int steps = 4000;
-    const double h = psi / steps;
+    constexpr int steps = 16000;
     std::vector<Point> path{{1e-9 * psi, 0, g0}};
     for (int i = 0; i < steps; ++i) {
       const Point p = path.back();
       const auto moved = [&](const Point& d, double by) {
         return Point{p.psi + by, p.zeta + d.zeta * by, p.g + d.g * by};
       };
-      const double step = i == 0 ? h - p.psi : h;
+      const double step = psi * (1 - std::pow(1 - (i + 1.0) / steps, 4)) - p.psi;
       const Point a = slope(p), b = slope(moved(a, step / 2)), c = slope(moved(b, step / 2)), d = slope(moved(c, step));
       path.push_back({p.psi + step, p.zeta + step * (a.zeta + 2 * b.zeta + 2 * c.zeta + d.zeta) / 6,
                       p.g + step * (a.g + 2 * b.g + 2 * c.g + d.g) / 6});

@@ -113,7 +113,7 @@ TEST(Pulse, ShocksAreThoseOfTheRiemannProblem) {
 
 TEST(Pulse, DenseTrainsRunIntoSparseOnes) {
   for (const auto& [left, right] : {std::pair{0.855, 0.05}, {3.0, 0.06}, {10.0, 0.3}})
-    for (const auto& [cells, allowed] : {std::pair{75, 4e-2}, {200, 4e-3}}) {
+    for (const auto& [cells, allowed] : {std::pair{100, 2e-2}, {200, 4e-3}}) {
       Problem p = step(left, right, 0, Closure::consistent, cells, 1);
       p.right = 1.2;
       Solver s(p);

@@ -106,4 +106,25 @@ TEST(UnderLoad, BothWaysOfSteppingAgree) {
   EXPECT_NEAR(slip[0] / slip[1], 1, 2e-3);
 }
 
+/// After a push all cells slow down together and stop within a moment of each other; each is held then, instead of
+/// being sent to and fro by its friction in steps that shrink with what still moves.
+TEST(UnderLoad, DryFrictionHoldsCellsThatStopTogether) {
+  Problem p;
+  p.stress = [](double x) { return 0.303 + 0.041 * (1 - std::tanh(x / 1.23)) / 2; };
+  p.forcing = [](double, double t) { return t < 0.314 ? -0.0543 : 0.0; };
+  p.friction = {modulation::FrictionLaw::coulomb, 0.00448, 1, modulation::Closure::paper};
+  p.left = -6.07;
+  p.right = 5.23;
+  p.corner = HUGE_VAL;
+  p.cells = 100;
+  p.longest_step = 0.12;
+  Solver s(p);
+  s.advance_to(12);
+  EXPECT_LT(s.cells().steps, 500);
+  // Dislocations of mass 8, pushed for 0.314 and then stopped by dry friction alone, go this far.
+  const double gained = 2 * pi * (0.0543 - 0.00448) * 0.314 / 8, lost = 2 * pi * 0.00448 / 8;
+  const double way = gained * 0.314 / 2 + gained * gained / (2 * lost);
+  EXPECT_NEAR(s.slip_at(s.view(), 0) / (-way * 0.3235), 1, 5e-3);
+}
+
 }  // namespace

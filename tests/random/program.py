@@ -38,8 +38,8 @@ def number(value):
 
 
 def run(s, command="pulse", profiles=False, arguments=()):
-    """What a run of the scenario says: `summary`, a dict; `warnings`, its stderr; with `profiles` also `fields`, a dict
-    of arrays over time and x, or over time."""
+    """What a run of the scenario says: `summary`, a dict; `errors` of its numbers; `warnings`, a list; with `profiles` also
+    `fields`, a dict of arrays over time and x, or over time."""
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "scenario.toml")
         pathlib.Path(path).write_text(scenarios.text(s), encoding="utf-8")
@@ -51,9 +51,12 @@ def run(s, command="pulse", profiles=False, arguments=()):
             raise Failed("too slow", f"not done after {CPU_LIMIT} s of the processor")
         if done.returncode != 0:
             raise Failed(done.returncode, done.stderr.strip().split("\n")[-1].replace(path, "scenario.toml"))
-        summary = {key: number(value) for key, value in json.loads(done.stdout).items()}
+        told = json.loads(done.stdout)
+        errors = {key: number(value) for key, value in told.pop("errors", {}).items()}
+        warnings = told.pop("warnings", [])
+        summary = {key: number(value) for key, value in told.items()}
         fields = read_fields(output) if profiles else {}
-        return SimpleNamespace(summary=summary, fields=fields, warnings=done.stderr)
+        return SimpleNamespace(summary=summary, errors=errors, fields=fields, warnings=warnings)
 
 
 def resumes_to_the_same_bits(s):

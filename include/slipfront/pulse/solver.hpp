@@ -111,6 +111,7 @@ class Solver {
 
  private:
   void lay_equations();
+  Staggered& staggered() const;
   bool advance_until_gap_closes(double time, const std::function<bool()>& interrupted);
   struct Work;
   /// One step of at most `remaining`, from the rates in `work`; returns its length. `crossing` is the time in which a
@@ -145,6 +146,7 @@ class Solver {
   bool left_free_, right_free_;
   View first_;
   std::shared_ptr<Semidiscrete> equations_;
+  mutable std::shared_ptr<Staggered> staggered_;  ///< made when friction first rules
 };
 
 /// State at x between the dislocations of a view; empty outside.
