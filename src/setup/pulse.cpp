@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../digits.hpp"
 #include "hold.hpp"
 #include "slipfront/rupture/inverse.hpp"
 #include "slipfront/rupture/riemann.hpp"
@@ -60,6 +61,14 @@ pulse::Problem pulse_problem(const scenario::Scenario& s) {
                                               : "left and right are needed for this profile",
                       .allowed = "[domain] left = ..., right = ..."});
   const Reach reach = known ? reach_of(s) : Reach{0, 0};
+  // A forcing carries dislocations along; through a domain made for slow waves it would carry them without end.
+  constexpr double slow = 0.01;  // waves, in units of c
+  if (s.forcing_at && !(s.domain.left && s.domain.right) && std::fmax(reach.left, reach.right) < slow * s.end)
+    throw InputError({.file = s.file,
+                      .key = "domain",
+                      .problem = "left and right are needed with a forcing where waves are as slow as here: they reach " +
+                                 digits(std::fmax(reach.left, reach.right)) + ", dislocations farther",
+                      .allowed = "[domain] left = ..., right = ..."});
   p.left = s.domain.left.value_or(-reach.left);
   p.right = s.domain.right.value_or(reach.right);
   const auto end_of = [](scenario::PulseEnd end) {

@@ -87,6 +87,7 @@ cells = 200
         self.refused(2, "pulse", barrier, "--set", "interface.contact=x>0.3 ? 2 : 1", says=["jumps", "x = 0.3"])
         self.refused(2, "pulse", barrier, "--set", "interface.contact=1e4", says=["interface.contact", "0.0045"])
         self.refused(2, "pulse", case, "--set", "interface.contact=1+x^2", says=["domain", "left and right"])
+        self.refused(2, "pulse", case, "--set", "initial.stress_left=0.1", "forcing.formula=0.5", says=["domain", "with a forcing"])
         self.refused(3, "pulse", "/nowhere.toml", says=["No such file"])
         self.refused(3, "pulse", case, "-o", "/nowhere/o.nc", says=["/nowhere/o.nc"])
         self.refused(3, "pulse", case, "--resume", "/nowhere.nc", says=["/nowhere.nc"])
