@@ -23,7 +23,7 @@ void ExplicitStep::operator()(const Rates& f, double t, double dt, std::vector<d
   combine3(n, {0.620101851488403, 0.379898148511597, 0.251891774271694 * dt}, {y0, u2, k2}, u3_.data());
   f(t + 0.474542363121399 * dt, u3, rate3_.data());
   combine3(n, {0.178079954393132, 0.821920045606868, 0.544974750228521 * dt}, {y0, u3, k3}, u4_.data());
-  f(t + 0.935010630967652 * dt, u4, rate4_.data());
+  f(t + last_stage * dt, u4, rate4_.data());
   combine5(n, {0.517231671970585, 0.096059710526147, 0.063692468666290 * dt, 0.386708617503269, 0.226007483236906 * dt},
            {u2, u3, k3, u4, k4}, y.data());
 }

@@ -16,6 +16,7 @@ using Rates = std::function<void(double t, const double* y, double* dy)>;
 class ExplicitStep {
  public:
   explicit ExplicitStep(std::size_t size);
+  static constexpr double last_stage = 0.935010630967652;  ///< its time, in steps
   /// y(t) -> y(t + dt). `rate_at_start` is f(t, y), which the caller has already needed for the step size.
   void operator()(const Rates& f, double t, double dt, std::vector<double>& y,
                   const std::vector<double>& rate_at_start);

@@ -86,8 +86,11 @@ train::Averages averages_of(const Solver::View& v, const State& state, double x)
 double charge_left_of(const Solver::View& v, double place) {
   const double whole = v.period > 0 ? turns(v, place) : 0, x = place - whole * v.period;
   const double before = whole * (v.charge_faces.back() - v.charge_faces.front());
-  if (x <= v.faces.front()) return before + v.charge_faces.front();
-  if (x >= v.faces.back()) return before + v.charge_faces.back();
+  // Between an end of the domain and the last face there, the train that goes on beyond may have come in a little.
+  if (x <= v.faces.front())
+    return before + v.charge_faces.front() - (v.left_free ? 0 : (v.faces.front() - x) * v.face_density.front());
+  if (x >= v.faces.back())
+    return before + v.charge_faces.back() + (v.right_free ? 0 : (x - v.faces.back()) * v.face_density.back());
   const std::size_t i = interval(v.faces, x);
   // Cubic Hermite: the slopes k / 2 pi at the faces are known; limited so that it cannot fall (Fritsch & Carlson).
   const double h = v.faces[i + 1] - v.faces[i], rise = v.charge_faces[i + 1] - v.charge_faces[i], mean = rise / h;
