@@ -8,8 +8,8 @@
 #include "compare_print.hpp"
 #include "interrupts.hpp"
 #include "long_run.hpp"
-#include "slipfront/record/comparison_file.hpp"
 #include "slipfront/record/unfinished.hpp"
+#include "slipfront/run/run.hpp"
 #include "slipfront/setup/estimate.hpp"
 #include "slipfront/setup/pulse.hpp"
 
@@ -21,19 +21,6 @@ using namespace slipfront::setup;
 struct Arguments : ScenarioArguments {
   std::vector<double> scales;
 };
-
-void write(const record::Output& output, const Arguments& a, const scenario::Scenario& s,
-           const pulse::Schedule& schedule, const std::vector<Level>& levels, bool finished) {
-  if (!output.wanted()) return;
-  std::vector<record::ComparedLevel> compared;
-  compared.reserve(levels.size());
-  for (const Level& level : levels) compared.push_back({level.name, level.scale, level.snapshots});
-  record::write_comparison(finished ? output.finished() : output.unfinished(),
-                           {s.title, s.text, SLIPFRONT_VERSION, scenario::command_line(s, "compare", a.scales),
-                            schedule.x_edges, s.output.variables},
-                           schedule.times, compared, finished);
-  if (finished) output.clear();
-}
 
 void describe(const scenario::Scenario& s, const Comparison& c, const std::string& output) {
   const Estimate need = estimate_of(s, c);
@@ -60,19 +47,14 @@ int run_compare(const Arguments& a) {
   const WatchInterrupts watch;
   std::vector<Level> levels;
   std::optional<Progress> progress;
-  const bool reached = run_levels(
-      comparison, a.common.threads, levels,
-      [&] {
-        progress.reset();
-        write(output, a, s, comparison.schedule, levels, false);
-      },
+  const bool reached = run::compare(
+      s, comparison, a.scales, output, a.common.threads, levels, [&] { progress.reset(); },
       [&](const std::string& level, double time, long steps) {
         if (!progress) progress.emplace(s.end, !a.common.quiet, level);
         progress->at(time, steps);
         return interrupted_by_user();
       });
   progress.reset();
-  write(output, a, s, comparison.schedule, levels, reached);
   if (!reached) {
     complain(fmt::format("interrupted; {} of {} levels were done{}", levels.size(), comparison.levels(),
                          a.output.empty() ? "" : " and are in " + output.unfinished()));

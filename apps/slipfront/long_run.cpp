@@ -75,13 +75,9 @@ scenario::Scenario read_scenario_of(const ScenarioArguments& a) {
   return s;
 }
 
-record::Checkpoint checkpoint_of(const ScenarioArguments& a, const scenario::Scenario& s) {
-  return record::read_checkpoint_of(a.resume, s.text, SLIPFRONT_VERSION);
-}
-
 std::string json_number(double value) { return std::isfinite(value) ? fmt::format("{}", value) : "null"; }
 
-void print_summary(const std::string& title, const std::vector<setup::SummaryValue>& summary,
+void print_summary(const std::string& title, const std::vector<run::SummaryValue>& summary,
                    const std::vector<double>& errors, const std::vector<std::string>& warnings,
                    const ScenarioArguments& a) {
   struct AsJson {
@@ -116,4 +112,40 @@ void print_summary(const std::string& title, const std::vector<setup::SummaryVal
   }
   const std::string& output = a.output.empty() ? a.resume : a.output;
   if (!output.empty() && !a.common.quiet) put("written to " + output + "\n");
+}
+
+LongRun::LongRun(const ScenarioArguments& arguments, const scenario::Scenario& scenario, const chain::Ranks* ranks)
+    : a_(arguments), s_(scenario), ranks_(ranks), first_(the_ranks->rank() == 0) {
+  const auto open = [&] { output_ = record::Output(a_.output.empty() ? a_.resume : a_.output, a_.resume); };
+  ranks_ ? ranks_->together(open) : open();
+  if (output_.wanted()) interrupted_means("; what was written last stays: go on with " + output_.how_to_resume());
+  watch_.emplace(!first_);
+}
+
+run::Options LongRun::options(std::optional<record::Checkpoint> checkpoint, Clock::time_point begun) {
+  return {.output = output_,
+          .checkpoint = std::move(checkpoint),
+          .threads = a_.common.threads,
+          .ranks = ranks_,
+          .after_step =
+              [this](double time, long steps) {
+                if (!progress_) {
+                  progress_.emplace(s_.end, first_ && !a_.common.quiet);
+                  progress_->from(time, steps);
+                }
+                time_ = time;
+                progress_->at(time, steps);
+                return interrupted_by_user();
+              },
+          .begun = begun};
+}
+
+int LongRun::end(bool finished) {
+  progress_.reset();
+  watch_.reset();
+  if (finished) return exit_done;
+  if (first_)
+    complain(output_.wanted() ? fmt::format("interrupted at t = {:.6g}; go on with {}", time_, output_.how_to_resume())
+                              : "interrupted; no checkpoint, as there is no -o FILE");
+  return exit_interrupted;
 }

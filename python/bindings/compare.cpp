@@ -5,6 +5,7 @@
 #include "results.hpp"
 #include "slipfront/record/comparison_file.hpp"
 #include "slipfront/record/unfinished.hpp"
+#include "slipfront/run/run.hpp"
 #include "slipfront/setup/estimate.hpp"
 #include "slipfront/setup/pulse.hpp"
 #include "watch.hpp"
@@ -44,23 +45,12 @@ py::dict run_compare(const py::dict& arguments, const std::vector<double>& scale
   {
     const py::gil_scoped_release others_may_run;
     comparison = setup::comparison_of(s, scales);
-    metadata = metadata_of(s, "compare", comparison.schedule.x_edges);
-    metadata.command_line = scenario::command_line(s, "compare", scales);
+    metadata = run::metadata_of(s, "compare", comparison.schedule.x_edges, scales);
     const record::Output output(a.output, "");
     record::require_disk_space(a.output, setup::estimate_of(s, comparison).disk);
-    const auto write = [&] {
-      if (!output.wanted()) return;
-      std::vector<record::ComparedLevel> compared;
-      compared.reserve(levels.size());
-      for (const Level& level : levels) compared.push_back({level.name, level.scale, level.snapshots});
-      record::write_comparison(reached ? output.finished() : output.unfinished(), metadata, comparison.schedule.times,
-                               compared, reached);
-      if (reached) output.clear();
-    };
-    reached =
-        setup::run_levels(comparison, threads, levels, write,
-                          [&](const std::string& level, double time, long steps) { return watch(time, steps, level); });
-    write();
+    reached = run::compare(
+        s, comparison, scales, output, threads, levels, [] {},
+        [&](const std::string& level, double time, long steps) { return watch(time, steps, level); });
   }
   watch.finish();
   Levels series;

@@ -3,6 +3,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 #include <variant>
@@ -28,12 +29,7 @@ scenario::Scenario scenario_of(const Asked& asked) {
                                  is_file ? asked.path : "scenario", asked.set, record::read_profile_table);
 }
 
-record::PulseMetadata metadata_of(const scenario::Scenario& scenario, const std::string& command,
-                                  const std::vector<double>& x_edges) {
-  return {scenario.title,    scenario.text,
-          SLIPFRONT_VERSION, scenario::command_line(scenario, command),
-          x_edges,           scenario.output.variables};
-}
+record::Output output_of(const Asked& a) { return {a.output.empty() ? a.resume : a.output, a.resume}; }
 
 namespace {
 
@@ -110,8 +106,15 @@ py::dict dataset_of(const record::PulseMetadata& metadata, const std::string& fo
   return result;
 }
 
-py::dict summary_of(const std::vector<setup::SummaryValue>& summary) {
+py::dict summary_of(const std::vector<run::SummaryValue>& summary) {
   py::dict result;
   for (const auto& row : summary) result[row.key] = py::cast(row.value);
   return result;
+}
+
+py::dict errors_of(const std::vector<run::SummaryValue>& summary, const std::vector<double>& errors) {
+  py::dict known;
+  for (std::size_t i = 0; i < errors.size(); ++i)
+    if (std::isfinite(errors[i])) known[summary[i].key] = errors[i];
+  return known;
 }

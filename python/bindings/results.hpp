@@ -7,8 +7,8 @@
 
 #include "bindings.hpp"
 #include "slipfront/record/pulse_file.hpp"
+#include "slipfront/run/run.hpp"
 #include "slipfront/scenario/scenario.hpp"
-#include "slipfront/setup/summary.hpp"
 
 /// How a run was asked for.
 struct Asked {
@@ -21,9 +21,8 @@ Asked asked(const py::dict& arguments);
 
 slipfront::scenario::Scenario scenario_of(const Asked& asked);
 
-/// The metadata of a file that `command` makes, the same as the command line's.
-slipfront::record::PulseMetadata metadata_of(const slipfront::scenario::Scenario& scenario, const std::string& command,
-                                             const std::vector<double>& x_edges);
+/// Where a run writes to.
+slipfront::record::Output output_of(const Asked& asked);
 
 /// One series of snapshots a level of theory.
 using Levels = std::vector<const std::vector<slipfront::pulse::Snapshot>*>;
@@ -35,4 +34,15 @@ py::dict dataset_of(const slipfront::record::PulseMetadata& metadata, const std:
                     const std::vector<double>& times, const Levels& levels, bool by_level,
                     const slipfront::scenario::Scenario& scenario);
 
-py::dict summary_of(const std::vector<slipfront::setup::SummaryValue>& summary);
+py::dict summary_of(const std::vector<slipfront::run::SummaryValue>& summary);
+/// What is known of the errors of a summary's numbers; empty `errors`: of none.
+py::dict errors_of(const std::vector<slipfront::run::SummaryValue>& summary, const std::vector<double>& errors);
+
+/// That of a run of pulse or chain, with its summary.
+template <class Run>
+py::dict dataset_of(const slipfront::run::Result<Run>& result, const slipfront::scenario::Scenario& scenario) {
+  py::dict data = dataset_of(result.metadata, slipfront::record::pulse_format, result.finished(),
+                             result.run->schedule().times, {&result.run->snapshots()}, false, scenario);
+  data["summary"] = summary_of(result.summary);
+  return data;
+}

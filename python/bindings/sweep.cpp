@@ -14,9 +14,7 @@
 #include "results.hpp"
 #include "slipfront/machine.hpp"
 #include "slipfront/record/table_file.hpp"
-#include "slipfront/setup/chain.hpp"
-#include "slipfront/setup/estimate.hpp"
-#include "slipfront/setup/pulse.hpp"
+#include "slipfront/run/run.hpp"
 
 namespace {
 
@@ -33,26 +31,24 @@ struct Outcome {
 
 /// Keys of a summary that are numbers, with what they mean.
 template <class End>
-py::list number_keys(std::span<const setup::SummaryItem<End>> items) {
+py::list number_keys(std::span<const run::SummaryItem<End>> items) {
   py::list keys;
   for (const auto& item : items)
     if (std::string_view(item.key) != "closure") keys.append(py::make_tuple(item.key, item.meaning));
   return keys;
 }
 
-double number(const setup::Value& value) {
+double number(const run::Value& value) {
   if (const auto* real = std::get_if<double>(&value)) return *real;
   if (const auto* whole = std::get_if<long>(&value)) return static_cast<double>(*whole);
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-template <class End>
-std::vector<double> numbers(std::span<const setup::SummaryItem<End>> items, const Variables& variables,
-                            const End& end) {
+std::vector<double> numbers(const std::vector<run::SummaryValue>& summary, const Variables& variables) {
   std::vector<double> values;
   for (const std::string& variable : variables)
-    for (const auto& item : items)
-      if (variable == item.key) values.push_back(number(item.get(end)));
+    for (const run::SummaryValue& row : summary)
+      if (variable == row.key) values.push_back(number(row.value));
   return values;
 }
 
@@ -137,33 +133,15 @@ class Sweep {
  private:
   std::vector<double> run(std::size_t point) {
     const scenario::Scenario s = scenario::read_scenario(text_, file_, points_[point], record::read_profile_table);
-    const auto begun = std::chrono::steady_clock::now();
-    const auto seconds = [&] {
-      return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-    };
-    const auto interrupted = [this] { return stopped_.load(); };
-    const pulse::Problem problem = setup::pulse_problem(s);
-    pulse::Schedule schedule = setup::pulse_schedule(s, problem);
+    const run::Options options{.after_step = [this](double, long) { return stopped_.load(); }};
     if (command_ == "chain") {
-      const chain::Stretched stretched = setup::chain_problem(s);
-      setup::require_memory(s, stretched);
-      const auto share = memory_.take(setup::estimate_of(s, stretched).memory, stopped_);
-      chain::Run run(stretched, schedule, {.threads = 1});
-      if (!run.go(interrupted)) return {};
-      const double wall = seconds();
-      return numbers(setup::chain_summary(), variables_,
-                     setup::ChainEnd{.run = run,
-                                     .balance = run.balance(),
-                                     .stepping = wall,
-                                     .wall = wall,
-                                     .steps = run.chain().level(),
-                                     .ranks = 1,
-                                     .threads = 1});
+      const run::ChainPlan plan = run::plan_chain(s);
+      const auto share = memory_.take(plan.need.memory, stopped_);
+      return numbers(run::chain(s, plan, options).summary, variables_);
     }
-    const auto share = memory_.take(setup::estimate_of(s, problem).memory, stopped_);
-    pulse::Run run(problem, schedule);
-    if (!run.go(interrupted)) return {};
-    return numbers(setup::pulse_summary(), variables_, setup::PulseEnd{s, run, seconds()});
+    const run::PulsePlan plan = run::plan_pulse(s);
+    const auto share = memory_.take(plan.need.memory, stopped_);
+    return numbers(run::pulse(s, plan, options).summary, variables_);
   }
 
   std::string command_, text_, file_;
@@ -221,6 +199,6 @@ void sweep(const std::string& command, const py::dict& arguments, std::vector<Ov
 
 void bind_sweep(py::module_& m) {
   m.def("sweep", sweep);
-  m.def("pulse_numbers", [] { return number_keys(setup::pulse_summary()); });
-  m.def("chain_numbers", [] { return number_keys(setup::chain_summary()); });
+  m.def("pulse_numbers", [] { return number_keys(run::pulse_summary()); });
+  m.def("chain_numbers", [] { return number_keys(run::chain_summary()); });
 }

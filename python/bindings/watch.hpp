@@ -16,21 +16,15 @@ class Watch {
 
   /// Asked after each step, without the GIL. Whether to stop: then finish() throws.
   bool operator()(double time, long steps, const std::string& level = {}) {
-    const auto now = Clock::now();
-    if (now < next_) return false;
-    const py::gil_scoped_acquire lock;
-    next_ = now + std::chrono::milliseconds(20);
-    try {
-      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-      if (!progress_.is_none() && now >= tell_) {
-        progress_(time, end_, steps, level);
-        tell_ = Clock::now() + std::chrono::milliseconds(100);
-      }
-    } catch (const py::error_already_set&) {
-      raised_ = std::current_exception();
-      return true;
-    }
-    return false;
+    return look([&](Clock::time_point now) {
+      if (progress_.is_none() || now < tell_) return;
+      progress_(time, end_, steps, level);
+      tell_ = Clock::now() + std::chrono::milliseconds(100);
+    });
+  }
+  /// The same for work beside the run, which tells no progress.
+  bool interrupted() {
+    return look([](auto) {});
   }
 
   /// With the GIL: raises what stopped the run, if anything did.
@@ -40,6 +34,23 @@ class Watch {
 
  private:
   using Clock = std::chrono::steady_clock;
+
+  template <class Tell>
+  bool look(const Tell& tell) {
+    const auto now = Clock::now();
+    if (now < next_) return false;
+    const py::gil_scoped_acquire lock;
+    next_ = now + std::chrono::milliseconds(20);
+    try {
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      tell(now);
+    } catch (const py::error_already_set&) {
+      raised_ = std::current_exception();
+      return true;
+    }
+    return false;
+  }
+
   py::object progress_;
   double end_;
   std::exception_ptr raised_;

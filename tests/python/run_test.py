@@ -104,6 +104,18 @@ class Run(CommandLine):
         self.assertGreater(slipfront.check(CASE, command="chain", set={"chain.scale": 1e6})["sites"], 1e7)
         self.assertEqual(slipfront.check(STEP, command="compare", scales=[10])["levels"], 4)
 
+    def test_errors_are_stated_and_held(self):
+        """The error stated of W(0) holds the exact value; a tolerance chooses the cells that reach it."""
+        plain = slipfront.pulse(STEP, set={"pulse.cells": 100}).attrs
+        self.assertLess(abs(plain["slip_velocity_at_origin"] - 0.0482084186), plain["slip_velocity_at_origin_error"])
+        self.assertNotIn("slip_at_origin_error", slipfront.pulse(STEP, set={"pulse.cells": 100}, errors=False).attrs)
+        held = slipfront.pulse(STEP, set={"pulse.cells": 100}, tolerance=2e-5).attrs
+        self.assertGreater(held["cells"], 100)
+        self.assertLess(held["slip_at_origin_error"], 2e-5 * held["slip_at_origin"])
+        for wrong in ({"tolerance": 2}, {"tolerance": 0}, {"tolerance": "a"}, {"tolerance": 1e-3, "resume": "x.nc"}):
+            with self.assertRaises(slipfront.InputError):
+                slipfront.pulse(STEP, **wrong)
+
     def test_progress_is_told_and_may_stop_the_run(self):
         told = []
         slipfront.pulse(self.slow_case(), set={"pulse.cells": 2000}, progress=lambda *at: told.append(at))

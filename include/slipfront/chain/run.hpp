@@ -50,7 +50,7 @@ class Run {
   const Chain& chain() const { return chain_; }
   const pulse::Schedule& schedule() const { return schedule_; }
   const std::vector<pulse::Snapshot>& snapshots() const { return snapshots_; }
-  bool good() const { return good_; }  ///< false after a NumericsError: not to be saved
+  bool can_checkpoint() const { return good_; }  ///< false after a NumericsError: not to be saved
   bool finished() const { return snapshots_.size() == schedule_.times.size(); }
   std::string saved() const;
 

@@ -1,9 +1,9 @@
-#include "slipfront/setup/summary.hpp"
+#include "slipfront/run/summary.hpp"
 
 #include "slipfront/pulse/observe.hpp"
 #include "slipfront/setup/pulse.hpp"
 
-namespace slipfront::setup {
+namespace slipfront::run {
 namespace {
 
 const pulse::Snapshot& last(const PulseEnd& end) { return end.run.snapshots().back(); }
@@ -106,4 +106,4 @@ constexpr SummaryItem<ChainEnd> chain_items[] = {
 std::span<const SummaryItem<PulseEnd>> pulse_summary() { return pulse_items; }
 std::span<const SummaryItem<ChainEnd>> chain_summary() { return chain_items; }
 
-}  // namespace slipfront::setup
+}  // namespace slipfront::run

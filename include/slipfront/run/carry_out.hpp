@@ -11,12 +11,12 @@
 #include "slipfront/record/pulse_file.hpp"
 #include "slipfront/record/unfinished.hpp"
 
-namespace slipfront::record {
+namespace slipfront::run {
 
 /// Where a run is written to, and by whom.
-struct Keeping {
-  Output output;
-  PulseMetadata metadata;
+struct CheckpointOptions {
+  record::Output output;
+  record::PulseMetadata metadata;
   double disk = 0;                      ///< bytes that the file will need, about
   bool resumed = false;                 ///< what the run went on from is in a file
   const chain::Ranks* ranks = nullptr;  ///< that share the run, if any: all of them call
@@ -27,60 +27,60 @@ struct Keeping {
 /// stands at the output is replaced at the end of the run alone. Returns whether the end was reached. \throws
 /// NumericsError, after what was computed has been written; FileError.
 template <class Run>
-bool carry_out(Run& run, const Keeping& keeping, const std::function<bool()>& after_step) {
+bool carry_out(Run& run, const CheckpointOptions& options, const std::function<bool()>& after_step) {
   using Clock = std::chrono::steady_clock;
   const auto seconds_since = [](Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
   };
-  const bool first = !keeping.ranks || keeping.ranks->rank() == 0;
-  const auto agreed = [&](bool mine) { return keeping.ranks ? keeping.ranks->any(mine) : mine; };
+  const bool first = !options.ranks || options.ranks->rank() == 0;
+  const auto agreed = [&](bool mine) { return options.ranks ? options.ranks->any(mine) : mine; };
   auto written = Clock::now();
   double cost = 0;
   const auto write = [&] {
-    if (!keeping.output.wanted()) return;
+    if (!options.output.wanted()) return;
     const auto begun = Clock::now();
     const std::string state = run.saved();  // ranks send their parts to the first
-    PulseMetadata metadata = keeping.metadata;
+    record::PulseMetadata metadata = options.metadata;
     if (run.finished()) metadata.warnings = run.warnings();  // which asks all ranks
     const auto put_down = [&] {
       if (!first) return;
-      const Output& output = keeping.output;
-      write_pulse(run.finished() ? output.finished() : output.unfinished(), metadata, run.snapshots(), state,
-                  run.finished());
+      const record::Output& output = options.output;
+      record::write_pulse(run.finished() ? output.finished() : output.unfinished(), metadata, run.snapshots(), state,
+                          run.finished());
       if (run.finished()) output.clear();
     };
-    if (keeping.ranks)
-      keeping.ranks->together(put_down);
+    if (options.ranks)
+      options.ranks->together(put_down);
     else
       put_down();
     cost = seconds_since(begun);
     written = Clock::now();
   };
-  if (keeping.output.wanted()) {
+  if (options.output.wanted()) {
     const auto require_space = [&] {
-      if (first) require_disk_space(keeping.output.finished(), keeping.disk);
+      if (first) record::require_disk_space(options.output.finished(), options.disk);
     };
-    keeping.ranks ? keeping.ranks->together(require_space) : require_space();
+    options.ranks ? options.ranks->together(require_space) : require_space();
   }
-  if (!keeping.resumed && !keeping.output.replaces()) write();
+  if (!options.resumed && !options.output.replaces()) write();
   bool reached = false;
   try {
     reached = run.go([&] {
       const bool stop = after_step();
       // A checkpoint is the whole file: writing it must stay a small part of the work.
-      if (keeping.output.wanted() &&
+      if (options.output.wanted() &&
           agreed(first && seconds_since(written) > 0.05 && seconds_since(written) > 20 * cost))
         write();
       return agreed(stop);
     });
   } catch (const NumericsError& error) {  // the run stands at its last good step, or the last checkpoint does
-    if (run.good()) write();
-    if (keeping.output.wanted())
-      throw NumericsError(std::string(error.what()) + "; what was computed is in " + keeping.output.unfinished());
+    if (run.can_checkpoint()) write();
+    if (options.output.wanted())
+      throw NumericsError(std::string(error.what()) + "; what was computed is in " + options.output.unfinished());
     throw;
   }
   write();
   return reached;
 }
 
-}  // namespace slipfront::record
+}  // namespace slipfront::run

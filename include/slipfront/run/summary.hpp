@@ -11,7 +11,7 @@
 #include "slipfront/pulse/run.hpp"
 #include "slipfront/scenario/scenario.hpp"
 
-namespace slipfront::setup {
+namespace slipfront::run {
 
 /// A double that is not finite says that there is none.
 using Value = std::variant<double, long, std::string>;
@@ -24,7 +24,7 @@ struct SummaryItem {
   const char* meaning;
 };
 
-/// A pulse run that has reached its end.
+/// A pulse that has reached its end.
 struct PulseEnd {
   const scenario::Scenario& scenario;
   const pulse::Run& run;
@@ -32,7 +32,7 @@ struct PulseEnd {
 };
 std::span<const SummaryItem<PulseEnd>> pulse_summary();
 
-/// A chain run that has reached its end, and how it was run.
+/// A chain that has reached its end, and how it was run.
 struct ChainEnd {
   const chain::Run& run;
   chain::Run::Balance balance;  ///< run.balance(), which all ranks take part in
@@ -55,4 +55,4 @@ std::vector<SummaryValue> summary(std::span<const SummaryItem<End>> items, const
   return values;
 }
 
-}  // namespace slipfront::setup
+}  // namespace slipfront::run

@@ -1,0 +1,25 @@
+#pragma once
+/// \file
+/// How far the scalars of a pulse may be from those of infinitely many cells.
+
+#include <functional>
+#include <vector>
+
+#include "slipfront/run/summary.hpp"
+#include "slipfront/scenario/scenario.hpp"
+
+namespace slipfront::run {
+
+/// For each row of a summary its difference from the same row of a run with half the cells, which is made here and
+/// takes a quarter of the time. The scheme is of first order or better, so that the error of the finer run is no
+/// larger. NaN for what has no error of this kind, and where one of the two runs has no value or `interrupted` said to
+/// stop.
+std::vector<double> errors_of(const std::vector<SummaryValue>& fine, const scenario::Scenario& scenario,
+                              const std::function<bool()>& interrupted);
+
+/// The cells that a relative tolerance (> 0) of slip, slip velocity and stress at x = 0 and of the peak needs, from the
+/// scenario's on in doublings; those of the scenario where `interrupted` said to stop. \throws NumericsError where
+/// 25,600 do not reach it.
+int cells_for(double tolerance, const scenario::Scenario& scenario, const std::function<bool()>& interrupted);
+
+}  // namespace slipfront::run

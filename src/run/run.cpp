@@ -1,0 +1,122 @@
+#include "slipfront/run/run.hpp"
+
+#include "slipfront/record/comparison_file.hpp"
+#include "slipfront/run/carry_out.hpp"
+#include "slipfront/setup/chain.hpp"
+#include "slipfront/setup/pulse.hpp"
+
+namespace slipfront::run {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// A run from its beginning, or from where the checkpoint left it.
+template <class Run, class... Arguments>
+std::unique_ptr<Run> begin(const Options& options, const Arguments&... arguments) {
+  if (!options.checkpoint) return std::make_unique<Run>(arguments...);
+  return std::make_unique<Run>(arguments..., options.checkpoint->solver_state, options.checkpoint->snapshots);
+}
+
+}  // namespace
+
+record::Checkpoint checkpoint_of(const std::string& path, const scenario::Scenario& scenario) {
+  return record::read_checkpoint_of(path, scenario.text, SLIPFRONT_VERSION);
+}
+
+record::PulseMetadata metadata_of(const scenario::Scenario& scenario, const std::string& command,
+                                  const std::vector<double>& x_edges, const std::vector<double>& scales) {
+  // The history is that of the run, not of how it was interrupted and resumed: equal runs make equal files.
+  return {scenario.title,    scenario.text,
+          SLIPFRONT_VERSION, scenario::command_line(scenario, command, scales),
+          x_edges,           scenario.output.variables};
+}
+
+PulsePlan plan_pulse(const scenario::Scenario& scenario) {
+  PulsePlan plan{.problem = setup::pulse_problem(scenario), .schedule = {}, .need = {}};
+  plan.schedule = setup::pulse_schedule(scenario, plan.problem);
+  plan.need = setup::estimate_of(scenario, plan.problem);
+  return plan;
+}
+
+ChainPlan plan_chain(const scenario::Scenario& scenario, double share_of_machine) {
+  ChainPlan plan{.chain = setup::chain_problem(scenario),
+                 .schedule = setup::pulse_schedule(scenario, setup::pulse_problem(scenario)),
+                 .need = {}};
+  setup::require_memory(scenario, plan.chain, share_of_machine);
+  plan.need = setup::estimate_of(scenario, plan.chain);
+  return plan;
+}
+
+Result<pulse::Run> pulse(const scenario::Scenario& scenario, const PulsePlan& plan, const Options& options) {
+  Result<pulse::Run> result{.run = begin<pulse::Run>(options, plan.problem, plan.schedule),
+                            .metadata = metadata_of(scenario, "pulse", plan.schedule.x_edges)};
+  const pulse::Solver& solver = result.run->solver();
+  const bool reached = carry_out(*result.run,
+                                 {.output = options.output,
+                                  .metadata = result.metadata,
+                                  .disk = plan.need.disk,
+                                  .resumed = options.checkpoint.has_value()},
+                                 [&] {
+                                   const pulse::Cells& cells = solver.cells();
+                                   return options.after_step && options.after_step(cells.time, cells.steps);
+                                 });
+  if (!reached) return result;
+  result.metadata.warnings = result.run->warnings();
+  result.summary = summary(pulse_summary(), {scenario, *result.run, seconds_since(options.begun)});
+  return result;
+}
+
+Result<chain::Run> chain(const scenario::Scenario& scenario, const ChainPlan& plan, const Options& options) {
+  const chain::Execution execution{.threads = options.threads, .ranks = options.ranks};
+  Result<chain::Run> result{.run = begin<chain::Run>(options, plan.chain, plan.schedule, execution),
+                            .metadata = metadata_of(scenario, "chain", plan.schedule.x_edges)};
+  const chain::Run& run = *result.run;
+  const long first = run.chain().level();
+  const auto begun = Clock::now();
+  const bool reached =
+      carry_out(*result.run,
+                {.output = options.output,
+                 .metadata = result.metadata,
+                 .disk = plan.need.disk,
+                 .resumed = options.checkpoint.has_value(),
+                 .ranks = options.ranks},
+                [&] { return options.after_step && options.after_step(run.time(), run.chain().level()); });
+  if (!reached) return result;
+  const double stepping = seconds_since(begun);
+  result.metadata.warnings = run.warnings();  // asks all ranks
+  result.summary = summary(chain_summary(), {.run = run,
+                                             .balance = run.balance(),  // asks all ranks
+                                             .stepping = stepping,
+                                             .wall = seconds_since(options.begun),
+                                             .steps = run.chain().level() - first,
+                                             .ranks = options.ranks ? options.ranks->size() : 1,
+                                             .threads = options.threads});
+  return result;
+}
+
+bool compare(const scenario::Scenario& scenario, const setup::Comparison& comparison, const std::vector<double>& scales,
+             const record::Output& output, int threads, std::vector<setup::Level>& levels,
+             const std::function<void()>& next_level,
+             const std::function<bool(const std::string& level, double time, long steps)>& after_step) {
+  const auto write = [&](bool finished) {
+    if (!output.wanted()) return;
+    std::vector<record::ComparedLevel> compared;
+    compared.reserve(levels.size());
+    for (const setup::Level& level : levels) compared.push_back({level.name, level.scale, level.snapshots});
+    record::write_comparison(finished ? output.finished() : output.unfinished(),
+                             metadata_of(scenario, "compare", comparison.schedule.x_edges, scales),
+                             comparison.schedule.times, compared, finished);
+    if (finished) output.clear();
+  };
+  const auto next = [&] {
+    next_level();
+    write(false);
+  };
+  const bool reached = setup::run_levels(comparison, threads, levels, next, after_step);
+  write(reached);
+  return reached;
+}
+
+}  // namespace slipfront::run
