@@ -337,11 +337,28 @@ double Solver::unseen_push(double dt) const {
   return largest > 0 ? missed / largest : 0;
 }
 
+/// How far the dislocations have come on average in a unit of time, at most; of some of them.
+double Solver::mean_speed() const {
+  if (cells_.time == 0) return 0;
+  const std::size_t stride = std::max<std::size_t>(size() / 64, 1);
+  double x = cells_.y[2 * size()], charge = -cells_.entered_left, way = 0;
+  for (std::size_t f = 0; f < size(); ++f) {
+    if (f % stride == 0) way = std::fmax(way, std::fabs(x - first_place(charge)));
+    x += cells_.y[2 * f];
+    charge += cells_.charge[f];
+  }
+  return way / cells_.time;
+}
+
 /// Momenta are measured by the largest, or at rest by what the pressure soon makes of the densest cell: a sparse cell
-/// is pushed by its neighbours.
+/// is pushed by its neighbours. What is slower by a thousandth than the mean so far, as after a push that has ended,
+/// adds nothing to slip; and the forces of a contact profile are differences of numbers of size 1.
 void Solver::find_scale(double crossing, std::vector<double>& scale) const {
   double fastest = 8e-3 * *std::max_element(equations_->s().begin(), equations_->s().end()) /
                    (1 + equations_->largest_friction_rate() * crossing);
+  constexpr double slow = 8e-3, rounding = 1e-8;
+  fastest = std::fmax(fastest, slow * mean_speed());
+  if (problem_.contact) fastest = std::fmax(fastest, rounding / (1 + equations_->largest_friction_rate()));
   for (std::size_t i = 0; i < size(); ++i)
     if (cells_.charge[i] > 0) fastest = std::fmax(fastest, std::fabs(cells_.y[2 * i + 1] / cells_.charge[i]));
   for (std::size_t i = 0; i < size(); ++i) {

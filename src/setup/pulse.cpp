@@ -80,7 +80,10 @@ pulse::Problem pulse_problem(const scenario::Scenario& s) {
   p.right_end = end_of(s.pulse.right);
   p.periodic = s.pulse.periodic;
   p.forcing = forcing_of(s, p.left, p.right);
-  if (s.forcing_at) p.longest_step = s.end / 100;  // so that no short pulse of it is stepped over
+  if (s.forcing_at) {
+    p.longest_step = s.end / 100;  // so that no short pulse of it is stepped over
+    p.explicit_tolerance /= 5;     // and what it gives where it jumps is right to 1e-5
+  }
   p.corner = s.initial.profile == ProfileKind::step ? 0 : HUGE_VAL;
   return p;
 }

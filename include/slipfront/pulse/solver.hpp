@@ -40,7 +40,7 @@ struct Problem {
   bool periodic = false;             ///< a ring of the domain's length, stressed at both ends, which then do not count
   int cells = 400;                   ///< over the parts of the domain that are not empty, >= 4
   double tolerance = 1e-6;           ///< relative, of the implicit steps
-  double explicit_tolerance = 2e-5;  ///< of the explicit steps, which the size of the cells mostly sets
+  double explicit_tolerance = 1e-4;  ///< of the explicit steps, which the size of the cells mostly sets
   double longest_step = HUGE_VAL;    ///< a forcing may change while waves hardly move
   double cfl = 1.0;                  ///< of the explicit steps; smooth problems bear 1.4, steps of stress do not
 };
@@ -121,6 +121,7 @@ class Solver {
   std::vector<double> faces_of_cells(const Staggered& staggered) const;
   void cells_of_faces(const Staggered& staggered, const std::vector<double>& faces);
   double unseen_push(double dt) const;
+  double mean_speed() const;
   void look_for_crossing();
   double energy_in(std::size_t cell) const;
   void find_scale(double crossing, std::vector<double>& scale) const;
