@@ -357,7 +357,7 @@ void Solver::find_scale(double crossing, std::vector<double>& scale) const {
   double fastest = 8e-3 * *std::max_element(equations_->s().begin(), equations_->s().end()) /
                    (1 + equations_->largest_friction_rate() * crossing);
   constexpr double slow = 8e-3, rounding = 1e-8;
-  fastest = std::fmax(fastest, slow * mean_speed());
+  if (!cells_.face_momentum.empty()) fastest = std::fmax(fastest, slow * mean_speed());
   if (problem_.contact) fastest = std::fmax(fastest, rounding / (1 + equations_->largest_friction_rate()));
   for (std::size_t i = 0; i < size(); ++i)
     if (cells_.charge[i] > 0) fastest = std::fmax(fastest, std::fabs(cells_.y[2 * i + 1] / cells_.charge[i]));
@@ -487,7 +487,7 @@ State state_between(const State& left, const State& right, double phi, double ps
 
 }  // namespace
 
-Solver::View Solver::view() const {
+Solver::View Solver::view(bool densities) const {
   const std::size_t n = size();
   std::vector<double> rate(cells_.y.size());
   equations_->start_from(cells_.s);
@@ -520,7 +520,7 @@ Solver::View Solver::view() const {
     const State &left = v.states[f == 0 ? 0 : f - 1], &right = v.states[f == n ? n - 1 : f];
     v.face_states.push_back(edge ? State{phi, psi} : state_between(left, right, phi, psi));
   }
-  for (std::size_t f = 0; f <= n; ++f)
+  for (std::size_t f = 0; f <= n && densities; ++f)
     v.face_density.push_back(averages_of(v, v.face_states[f], v.faces[f]).k / (2 * pi));
   v.centres.resize(n);
   middles(equations_->stretches(), v.faces, v.centres);

@@ -96,7 +96,8 @@ class Solver {
     bool left_free = false, right_free = false;  ///< there is no stress beyond the first or last face
     double period = 0;                           ///< of a ring: x and x + period are one place; 0: none
   };
-  View view() const;
+  /// Without `densities`, which take as long as the rest, face_density is empty.
+  View view(bool densities = true) const;
   /// State at the centre of one cell, as in the view, without making it.
   State state_in(std::size_t cell) const;
   /// Slip at x since t = 0: 2 pi times the dislocations that have passed it, the integral of the initial stress from
