@@ -1,13 +1,33 @@
+// What the interface looks like: states at the centres and faces of the cells, and between them.
+
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "interval.hpp"
+#include "kernels.hpp"
 #include "lagrange.hpp"
+#include "semidiscrete.hpp"
+#include "slipfront/modulation/per_dislocation.hpp"
 #include "slipfront/pulse/solver.hpp"
 #include "slipfront/train/train.hpp"
+#include "staggered.hpp"
 
 namespace slipfront::pulse {
 namespace {
+
+using std::numbers::pi;
+
+/// State at a face from the reconstructed phi and psi, between the states of two cells, or of one and the train that
+/// goes on alike at an end. psi is half the difference of two invariants: where phi changes from cell to cell by as
+/// much as psi is, that is the pressure of the collision, or rounding, and the train at the face is taken from the
+/// cells.
+State state_between(const State& left, const State& right, double phi, double psi) {
+  constexpr double top = 0.02;  // of a smooth extremum, beyond both cells
+  const double least = std::fmin(left.psi, right.psi), most = std::fmax(left.psi, right.psi);
+  const bool between = psi >= (1 - top) * least && psi <= (1 + top) * most;
+  return {phi, between ? psi : std::sqrt(left.psi) * std::sqrt(right.psi)};
+}
 
 /// How often a ring must be turned back to bring x among its faces.
 double turns(const Solver::View& v, double x) { return std::floor((x - v.faces.front()) / v.period); }
@@ -46,8 +66,8 @@ bool bends_alike(const double* x, const double* f) {
 /// The polynomial through all of `size` points. Where these are not smooth, there is no value beyond the two beside x;
 /// a smooth extremum lies beyond all of them by a part of their range.
 double bounded(std::size_t size, const double* at, const double* f, double x) {
-  const std::size_t next = std::clamp<std::size_t>(
-      static_cast<std::size_t>(std::upper_bound(at, at + size, x) - at), 1, size - 1);
+  const std::size_t next =
+      std::clamp<std::size_t>(static_cast<std::size_t>(std::upper_bound(at, at + size, x) - at), 1, size - 1);
   bool smooth = true;
   for (std::size_t j = 0; j + 3 < size; ++j) smooth = smooth && bends_alike(at + j, f + j);
   const double sum = lagrange(size, at, f, x);
@@ -58,6 +78,64 @@ double bounded(std::size_t size, const double* at, const double* f, double x) {
 }
 
 }  // namespace
+
+Solver::View Solver::view(bool densities) const {
+  const std::size_t n = size();
+  std::vector<double> rate(cells_.y.size());
+  equations_->start_from(cells_.s);
+  (*equations_)(cells_.time, cells_.y.data(), rate.data());
+  View v;
+  v.faces.resize(n + 1);
+  v.charge_faces.resize(n + 1);
+  v.faces[0] = cells_.y[2 * n];
+  v.charge_faces[0] = -cells_.entered_left;
+  if (problem_.periodic) v.period = problem_.right - problem_.left;
+  for (std::size_t i = 0; i < n; ++i) {
+    v.faces[i + 1] = v.faces[i] + cells_.y[2 * i];
+    v.charge_faces[i + 1] = v.charge_faces[i] + cells_.charge[i];
+  }
+  v.states = equations_->states();
+  v.contact = problem_.contact;
+  v.shocked = equations_->shocked();
+  v.left_free = equations_->stretches().front().left == Edge::free;
+  v.right_free = equations_->stretches().back().right == Edge::free;
+  const std::vector<double>* face_phi = &equations_->face_phi();
+  if (!cells_.face_momentum.empty()) {  // where friction rules, velocities are those of the faces
+    staggered().start_from(cells_.s);
+    std::vector<double> face_rate(staggered().size());
+    staggered()(cells_.time, faces_of_cells(staggered()).data(), face_rate.data());
+    face_phi = &staggered().face_phi();
+  }
+  for (std::size_t f = 0; f <= n; ++f) {
+    const double phi = (*face_phi)[f], psi = equations_->face_psi()[f];
+    const bool edge = f == 0 ? v.left_free : f == n ? v.right_free : cells_.charge[f - 1] == 0 || cells_.charge[f] == 0;
+    const State &left = v.states[f == 0 ? 0 : f - 1], &right = v.states[f == n ? n - 1 : f];
+    v.face_states.push_back(edge ? State{phi, psi} : state_between(left, right, phi, psi));
+  }
+  for (std::size_t f = 0; f <= n && densities; ++f)
+    v.face_density.push_back(averages_of(v, v.face_states[f], v.faces[f]).k / (2 * pi));
+  v.centres.resize(n);
+  middles(equations_->stretches(), v.faces, v.centres);
+  return v;
+}
+
+State Solver::state_in(std::size_t cell) const {
+  constexpr std::size_t reach = 2, stencil = 2 * reach + 1;
+  const std::vector<double>& charge = cells_.charge;
+  if (problem_.contact) return view().states[cell];
+  if (charge[cell] == 0) return {};
+  const double psi = std::atanh(cells_.s[cell]);
+  const bool inside = cell >= reach && cell + reach < size() &&
+                      std::find(&charge[cell - reach], &charge[cell + reach] + 1, 0.0) == &charge[cell + reach] + 1;
+  if (!inside)
+    return modulation::state_of({cells_.y[2 * cell] / charge[cell], cells_.y[2 * cell + 1] / charge[cell]}, psi);
+  double width[stencil], momentum[stencil], width_at[stencil], momentum_at[stencil], charge_at[stencil];
+  split(stencil, cells_.y.data() + 2 * (cell - reach), width, momentum);
+  centre_values(stencil, width, width_at);
+  centre_values(stencil, momentum, momentum_at);
+  centre_values(stencil, &charge[cell - reach], charge_at);
+  return modulation::state_of({width_at[reach] / charge_at[reach], momentum_at[reach] / charge_at[reach]}, psi);
+}
 
 State state_at(const Solver::View& v, double place) {
   double x = place;

@@ -88,7 +88,8 @@ static int fails(const char* kind) {
   return 1;
 }
 
-/* The OpenMP runtime, libgomp or libomp, ends the program by itself where it gets no memory: not this program's doing. */
+/* The OpenMP runtime, libgomp or libomp, ends the program by itself where it gets no memory, or cannot read /proc: not
+   this program's doing. */
 static int of_openmp(const void* caller) {
   static __thread int asking;
   if (asking || state->wanted[0] == 0) return 0;
@@ -143,8 +144,8 @@ int posix_memalign(void** at, size_t alignment, size_t size) {
 
 #define REAL(name) ((__typeof__(&name))dlsym(RTLD_NEXT, #name))
 
-static int real_open(const char* name, const char* path, int flags, va_list more) {
-  if (fails("open")) {
+static int real_open(const char* name, const void* caller, const char* path, int flags, va_list more) {
+  if (!of_openmp(caller) && fails("open")) {
     errno = EMFILE;
     return -1;
   }
@@ -155,7 +156,7 @@ static int real_open(const char* name, const char* path, int flags, va_list more
 int open(const char* path, int flags, ...) {
   va_list more;
   va_start(more, flags);
-  const int file = real_open("open", path, flags, more);
+  const int file = real_open("open", __builtin_return_address(0), path, flags, more);
   va_end(more);
   return file;
 }
@@ -163,13 +164,13 @@ int open(const char* path, int flags, ...) {
 int open64(const char* path, int flags, ...) {
   va_list more;
   va_start(more, flags);
-  const int file = real_open("open64", path, flags, more);
+  const int file = real_open("open64", __builtin_return_address(0), path, flags, more);
   va_end(more);
   return file;
 }
 
 FILE* fopen(const char* path, const char* mode) {
-  if (fails("open")) {
+  if (!of_openmp(__builtin_return_address(0)) && fails("open")) {
     errno = EMFILE;
     return NULL;
   }
@@ -177,7 +178,7 @@ FILE* fopen(const char* path, const char* mode) {
 }
 
 FILE* fopen64(const char* path, const char* mode) {
-  if (fails("open")) {
+  if (!of_openmp(__builtin_return_address(0)) && fails("open")) {
     errno = EMFILE;
     return NULL;
   }

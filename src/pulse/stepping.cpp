@@ -1,0 +1,283 @@
+// Which step the solver takes, explicit or linearly implicit, and how long it is.
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <vector>
+
+#include "../digits.hpp"
+#include "semidiscrete.hpp"
+#include "slipfront/error.hpp"
+#include "slipfront/pulse/solver.hpp"
+#include "staggered.hpp"
+#include "time_step.hpp"
+
+namespace slipfront::pulse {
+namespace {
+
+using std::numbers::pi;
+
+/// Friction times in which a wave crosses a cell of average width, above which steps are implicit: there the pulse
+/// diffuses.
+constexpr double stiff_above = 1;
+/// Explicit steps are stable up to 4 or so.
+constexpr double longest_in_friction_times = 2;
+/// And below which they are explicit again.
+constexpr double stiff_below = 0.3;
+
+/// Dry friction cannot reverse a cell: one that would have is at rest, and moves on only if pushed hard enough. So is
+/// one that `friction` (that of a dislocation) holds, as it has turned it back in a stage of the step and nothing else
+/// acts as strongly: what the step would have made of its momentum is no error then, nor what its friction does in the
+/// means over the cells beside it.
+void stop_reversals(const ExplicitStep& step, double friction, const std::vector<double>& charge,
+                    const std::vector<double>& before, std::vector<double>& after, std::vector<double>& scale) {
+  for (std::size_t cell = 0; cell < charge.size(); ++cell) {
+    const std::size_t i = 2 * cell + 1;
+    const bool reversed = before[i] * after[i] < 0;
+    const bool held =
+        (reversed || step.returns_to_zero(i, before[i])) && step.largest_rate(i) <= 2 * friction * charge[cell];
+    if (!reversed && !held) continue;
+    after[i] = 0;
+    if (!held) continue;
+    for (std::size_t j = cell > 1 ? cell - 2 : 0; j <= std::min(cell + 2, charge.size() - 1); ++j)
+      scale[2 * j + 1] = HUGE_VAL;
+  }
+}
+
+/// Whether a step has changed the rapidity of some cell by about a half or more: a dense train that runs into a sparse
+/// one, or a contact as steep as a wall.
+bool thrown(const std::vector<double>& before, const std::vector<double>& after, const std::vector<double>& charge) {
+  for (std::size_t i = 0; i < charge.size(); ++i) {
+    const double was = before[2 * i + 1], is = after[2 * i + 1];
+    if (std::fabs(is - was) > 4 * charge[i] + std::fabs(was) / 2) return true;
+  }
+  return false;
+}
+
+/// The step to take where `dt` is wanted: steps end on the target exactly, and the last two share what remains, so that
+/// none is a sliver.
+double next_step(double remaining, double dt) {
+  return dt >= remaining ? remaining : dt > remaining / 2 ? remaining / 2 : dt;
+}
+
+}  // namespace
+
+bool Solver::advance_to(double time, const std::function<bool()>& interrupted) {
+  while (cells_.time < time)
+    if (!advance_until_gap_closes(time, interrupted)) break;
+  return cells_.time >= time;
+}
+
+/// What steps work with, as long as the cells stay the same.
+struct Solver::Work {
+  Rates f;
+  ExplicitStep explicit_step;
+  std::vector<double> rate, next, scale;
+  std::unique_ptr<ImplicitStep> implicit_step;  // made when friction first rules
+
+  explicit Work(Semidiscrete& equations, std::size_t cells, std::size_t size)
+      : f([&equations](double t, const double* y, double* dy) { equations(t, y, dy); }),
+        explicit_step(size),
+        rate(size),
+        next(size),
+        scale(2 * cells) {}
+};
+
+double Solver::step_explicitly(Work& work, double remaining, double crossing) {
+  if (!cells_.face_momentum.empty()) {
+    cells_.face_momentum.clear();
+    cells_.step = 0;
+  }
+  const double wanted = cells_.step > 0 ? std::fmin(crossing, cells_.step) : crossing;
+  double dt = next_step(remaining, wanted);
+  const bool dry = problem_.friction.law == modulation::FrictionLaw::coulomb;
+  const double friction = 2 * pi * problem_.friction.coefficient;
+  work.next = cells_.y;
+  // What comes up within a step may be too hard for it: shorter, then.
+  for (int tries = 0;; ++tries) {
+    double factor = 0.5;
+    try {
+      find_scale(crossing, work.scale);
+      work.explicit_step(work.f, cells_.time, dt, cells_.y, work.rate);
+      if (dry) stop_reversals(work.explicit_step, friction, cells_.charge, work.next, cells_.y, work.scale);
+      const double error =
+          std::fmax(work.explicit_step.error(dt, work.rate, work.scale, equations_->shocked()), unseen_push(dt)) /
+          problem_.explicit_tolerance;
+      const bool jumped = thrown(work.next, cells_.y, cells_.charge);
+      factor = std::clamp(0.9 * std::pow(error, -0.25), 0.2, 4.0);
+      if (error <= 1 && !jumped) {
+        cells_.step = dt * factor;
+        break;
+      }
+      if (jumped) factor = std::fmin(factor, 0.5);
+      if (tries == 80)
+        throw NumericsError("t = " + digits(cells_.time) +
+                            ": the time step failed: the forces on a cell exceed what any step can resolve");
+    } catch (const NumericsError&) {
+      if (tries == 80) throw;
+    }
+    cells_.y = work.next;
+    equations_->start_from(cells_.s);
+    dt *= factor;
+  }
+  cells_.s = equations_->s();
+  return dt;
+}
+
+/// A forcing that jumps after the last stage of a step is seen by none of them. Returns the momentum that the step has
+/// missed, in units of the largest that the forcing gives or there is; of a few cells.
+double Solver::unseen_push(double dt) const {
+  if (!problem_.forcing) return 0;
+  constexpr double last = ExplicitStep::last_stage;
+  const std::size_t stride = std::max<std::size_t>(size() / 64, 1);
+  const double before = cells_.time + (2 * last - 1) * dt, stage = cells_.time + last * dt, end = cells_.time + dt;
+  double missed = 0, largest = 0;
+  for (std::size_t i = 0; i < size(); i += stride) {
+    if (cells_.charge[i] == 0) continue;
+    const double x = left_face(i) + cells_.y[2 * i] / 2;
+    const double at_stage = problem_.forcing(x, stage), at_end = problem_.forcing(x, end);
+    const double expected = 2 * at_stage - problem_.forcing(x, before);
+    missed = std::fmax(missed, 2 * pi * (1 - last) * dt * std::fabs(at_end - expected));
+    const double pushed = 2 * pi * dt * std::fmax(std::fabs(at_stage), std::fabs(at_end));
+    largest = std::fmax(largest, std::fmax(pushed, std::fabs(cells_.y[2 * i + 1] / cells_.charge[i])));
+  }
+  return largest > 0 ? missed / largest : 0;
+}
+
+/// How far the dislocations have come on average in a unit of time, at most; of some of them.
+double Solver::mean_speed() const {
+  if (cells_.time == 0) return 0;
+  const std::size_t stride = std::max<std::size_t>(size() / 64, 1);
+  double x = cells_.y[2 * size()], charge = -cells_.entered_left, way = 0;
+  for (std::size_t f = 0; f < size(); ++f) {
+    if (f % stride == 0) way = std::fmax(way, std::fabs(x - first_place(charge)));
+    x += cells_.y[2 * f];
+    charge += cells_.charge[f];
+  }
+  return way / cells_.time;
+}
+
+/// Momenta are measured by the largest, or at rest by what the pressure soon makes of the densest cell: a sparse cell
+/// is pushed by its neighbours. What is slower by a thousandth than the mean so far, as after a push that has ended,
+/// adds nothing to slip; and the forces of a contact profile are differences of numbers of size 1.
+void Solver::find_scale(double crossing, std::vector<double>& scale) const {
+  double fastest = 8e-3 * *std::max_element(equations_->s().begin(), equations_->s().end()) /
+                   (1 + equations_->largest_friction_rate() * crossing);
+  constexpr double slow = 8e-3, rounding = 1e-8;
+  if (!cells_.face_momentum.empty()) fastest = std::fmax(fastest, slow * mean_speed());
+  if (problem_.contact) fastest = std::fmax(fastest, rounding / (1 + equations_->largest_friction_rate()));
+  for (std::size_t i = 0; i < size(); ++i)
+    if (cells_.charge[i] > 0) fastest = std::fmax(fastest, std::fabs(cells_.y[2 * i + 1] / cells_.charge[i]));
+  for (std::size_t i = 0; i < size(); ++i) {
+    scale[2 * i] = cells_.y[2 * i];
+    scale[2 * i + 1] = cells_.charge[i] > 0 ? cells_.charge[i] * fastest : 1;
+  }
+}
+
+std::vector<double> Solver::faces_of_cells(const Staggered& staggered) const {
+  const std::size_t n = size();
+  std::vector<double> faces(staggered.size()), momenta = cells_.face_momentum;
+  if (momenta.empty()) {
+    std::vector<double> in_cells(n);
+    for (std::size_t i = 0; i < n; ++i) in_cells[i] = cells_.y[2 * i + 1];
+    momenta = staggered.face_momenta(in_cells);
+  }
+  for (std::size_t f = 0; f <= n; ++f) {
+    faces[2 * f] = f == 0 ? cells_.y[2 * n] : cells_.y[2 * f - 2];
+    faces[2 * f + 1] = momenta[f];
+  }
+  for (std::size_t i = 0; i < Staggered::sums; ++i) faces[2 * n + 2 + i] = cells_.y[2 * n + 1 + i];
+  return faces;
+}
+
+void Solver::cells_of_faces(const Staggered& staggered, const std::vector<double>& faces) {
+  const std::size_t n = size();
+  cells_.face_momentum.resize(n + 1);
+  for (std::size_t f = 0; f <= n; ++f) {
+    (f == 0 ? cells_.y[2 * n] : cells_.y[2 * f - 2]) = faces[2 * f];
+    cells_.face_momentum[f] = faces[2 * f + 1];
+  }
+  const std::vector<double> momenta = staggered.cell_momenta(cells_.face_momentum);
+  for (std::size_t i = 0; i < n; ++i) cells_.y[2 * i + 1] = momenta[i];
+  for (std::size_t i = 0; i < Staggered::sums; ++i) cells_.y[2 * n + 1 + i] = faces[2 * n + 2 + i];
+}
+
+double Solver::step_implicitly(Work& work, double remaining, double crossing) {
+  Staggered& staggered = this->staggered();
+  if (!work.implicit_step)
+    work.implicit_step =
+        std::make_unique<ImplicitStep>(staggered.faces(), staggered.size(), Staggered::reach, bool(problem_.forcing));
+  if (cells_.face_momentum.empty()) cells_.step = 0;
+  const Rates f = [&staggered](double t, const double* z, double* dz) { staggered(t, z, dz); };
+  const std::vector<double> z = faces_of_cells(staggered);
+  std::vector<double> rate(z.size()), next(z.size()), scale(2 * staggered.faces());
+  find_scale(crossing, work.scale);
+  double fastest = 0;
+  for (std::size_t i = 0; i < size(); ++i)
+    if (cells_.charge[i] > 0) fastest = std::fmax(fastest, work.scale[2 * i + 1] / cells_.charge[i]);
+  for (std::size_t face = 0; face < staggered.faces(); ++face) {
+    scale[2 * face] = work.scale[face == 0 ? 0 : 2 * face - 2];
+    scale[2 * face + 1] = staggered.charge_around(face) * fastest;
+  }
+  staggered.start_from(cells_.s);
+  f(cells_.time, z.data(), rate.data());
+  work.implicit_step->linearise(f, cells_.time, z, rate, scale);
+  double dt = cells_.step > 0 ? cells_.step : std::fmin(crossing, 1 / equations_->largest_friction_rate());
+  while (true) {
+    const double wanted = dt;
+    dt = next_step(remaining, dt);
+    double error = HUGE_VAL;
+    try {
+      error = (*work.implicit_step)(f, cells_.time, dt, z, rate, scale, equations_->largest_friction_rate(),
+                                    problem_.tolerance, next);
+    } catch (const NumericsError&) {  // a stage left the range of states: as good as a large error
+    }
+    const double factor = std::clamp(0.9 * std::pow(error, -0.25), 0.2, 4.0);
+    if (error <= 1) {
+      cells_.step = dt < wanted ? std::fmax(wanted, dt * factor) : dt * factor;
+      cells_of_faces(staggered, next);
+      cells_.s = staggered.s();
+      return dt;
+    }
+    dt *= factor;
+    if (!(cells_.time + dt > cells_.time))
+      throw NumericsError("t = " + digits(cells_.time) + ": the time step fell below rounding");
+    staggered.start_from(cells_.s);
+  }
+}
+
+/// From the rates at the present time.
+void Solver::look_for_crossing() {
+  const std::size_t cell = equations_->crossing(cells_.time, cells_.y.data());
+  if (cell >= size()) return;
+  cells_.crossing_time = cells_.time;
+  cells_.crossing_position = left_face(cell) + cells_.y[2 * cell] / 2;
+}
+
+/// Returns false if interrupted.
+bool Solver::advance_until_gap_closes(double time, const std::function<bool()>& interrupted) {
+  Semidiscrete& equations = *equations_;
+  const std::size_t n = size();
+  Work work(equations, n, cells_.y.size());
+  while (cells_.time < time && &equations == equations_.get()) {  // until the cells are others
+    equations.start_from(cells_.s);  // as a resumed run does, whoever has looked at the equations since the last step
+    work.f(cells_.time, cells_.y.data(), work.rate.data());
+    if (std::isnan(cells_.crossing_time)) look_for_crossing();
+    const double remaining = std::fmin(std::fmin(time - cells_.time, problem_.longest_step), gaps_close_in(work.rate));
+    double crossing = problem_.cfl * equations.crossing_time(cells_.y.data(), work.rate.data());
+    const double friction_times = equations.largest_friction_rate() * equations.mean_crossing_time(cells_.y.data());
+    const bool stiff =
+        !problem_.periodic && friction_times > (cells_.face_momentum.empty() ? stiff_above : stiff_below);
+    if (!stiff) crossing = std::fmin(crossing, longest_in_friction_times / equations.largest_friction_rate());
+    const double dt = stiff ? step_implicitly(work, remaining, crossing) : step_explicitly(work, remaining, crossing);
+    cells_.time = dt == time - cells_.time ? time : cells_.time + dt;
+    ++cells_.steps;
+    close_gaps();
+    adjust_ends();
+    if (interrupted && interrupted()) return false;
+  }
+  return true;
+}
+
+}  // namespace slipfront::pulse
