@@ -86,16 +86,18 @@ void Run::take() {
 namespace {
 
 /// By how much the slip velocity at x may be wrong: what the curve between the centre and the face beside it adds to a
-/// straight line. Where a pulse is narrower than a cell, the cells do not resolve it.
+/// straight line, and a hundredth of what W changes by between them. Where a pulse is narrower than a cell, the cells do
+/// not resolve it.
 double unresolved_at(const Solver::View& v, double x, double W) {
   const auto right = std::upper_bound(v.faces.begin() + 1, v.faces.end() - 1, x);
   const auto cell = static_cast<std::size_t>(right - v.faces.begin() - 1);
   if (v.states[cell].empty()) return 0;
+  constexpr double interpolated = 0.01;
   const std::size_t face = x < v.centres[cell] ? cell : cell + 1;
   const double at_face = averages_of(v, v.face_states[face], v.faces[face]).W;
   const double at_centre = averages_of(v, v.states[cell], v.centres[cell]).W;
   const double share = (x - v.centres[cell]) / (v.faces[face] - v.centres[cell]);
-  return std::fabs(W - std::lerp(at_centre, at_face, share));
+  return std::fabs(W - std::lerp(at_centre, at_face, share)) + interpolated * std::fabs(at_face - at_centre);
 }
 
 }  // namespace

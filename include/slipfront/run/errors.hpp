@@ -10,10 +10,10 @@
 
 namespace slipfront::run {
 
-/// For each row of a summary its difference from the same row of a run with half the cells, which is made here and
-/// takes a quarter of the time. The scheme is of first order or better, so that the error of the finer run is no
-/// larger. NaN for what has no error of this kind, and where one of the two runs has no value or `interrupted` said to
-/// stop.
+/// For each row of a summary its difference from the same row of a run with half the cells and coarser steps, which is
+/// made here and takes a quarter of the time. The scheme is of first order or better, so that the error of the finer
+/// run is no larger. NaN for what has no error of this kind, and where one of the two runs has no value or
+/// `interrupted` said to stop.
 std::vector<double> errors_of(const std::vector<SummaryValue>& fine, const scenario::Scenario& scenario,
                               const std::function<bool()>& interrupted);
 
