@@ -86,8 +86,8 @@ void Run::take() {
 namespace {
 
 /// By how much the slip velocity at x may be wrong: what the curve between the centre and the face beside it adds to a
-/// straight line, and a hundredth of what W changes by between them. Where a pulse is narrower than a cell, the cells do
-/// not resolve it.
+/// straight line, and a hundredth of what W changes by between them. Where a pulse is narrower than a cell, the cells
+/// do not resolve it.
 double unresolved_at(const Solver::View& v, double x, double W) {
   const auto right = std::upper_bound(v.faces.begin() + 1, v.faces.end() - 1, x);
   const auto cell = static_cast<std::size_t>(right - v.faces.begin() - 1);

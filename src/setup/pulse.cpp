@@ -64,11 +64,12 @@ pulse::Problem pulse_problem(const scenario::Scenario& s) {
   // A forcing carries dislocations along; through a domain made for slow waves it would carry them without end.
   constexpr double slow = 0.01;  // waves, in units of c
   if (s.forcing_at && !(s.domain.left && s.domain.right) && std::fmax(reach.left, reach.right) < slow * s.end)
-    throw InputError({.file = s.file,
-                      .key = "domain",
-                      .problem = "left and right are needed with a forcing where waves are as slow as here: they reach " +
-                                 digits(std::fmax(reach.left, reach.right)) + ", dislocations farther",
-                      .allowed = "[domain] left = ..., right = ..."});
+    throw InputError(
+        {.file = s.file,
+         .key = "domain",
+         .problem = "left and right are needed with a forcing where waves are as slow as here: they reach " +
+                    digits(std::fmax(reach.left, reach.right)) + ", dislocations farther",
+         .allowed = "[domain] left = ..., right = ..."});
   p.left = s.domain.left.value_or(-reach.left);
   p.right = s.domain.right.value_or(reach.right);
   const auto end_of = [](scenario::PulseEnd end) {
