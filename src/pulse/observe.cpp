@@ -59,7 +59,8 @@ double leading_front(const Solver::View& v, const std::vector<double>& W, bool t
 
 /// The foot of the fan on the more stressed side: behind the first cell whose slip velocity differs from that at the
 /// stressed end by a thousandth of the largest, the places of three cells as a parabola in that difference,
-/// continued to none. Where friction has drawn the foot out into a tail, the front is where the tail is felt.
+/// continued to none. Where a smooth stress or friction has drawn the foot out into a tail, the front is where the
+/// tail is felt.
 double trailing_front(const Solver::View& v, const std::vector<double>& W, bool stressed_left) {
   constexpr double felt = 1e-3;
   constexpr std::size_t behind = 4, apart = 3;  // cells: the corner of a fan is round by one or two
@@ -78,12 +79,15 @@ double trailing_front(const Solver::View& v, const std::vector<double>& W, bool 
     x[j] = v.centres[from_stressed(i)];
     w[j] = change(i);
   }
-  const double seen = v.centres[from_stressed(first)], ahead = v.centres[from_stressed(first - 1)];
+  const double ahead = v.centres[from_stressed(first - 1)], inside = v.centres[from_stressed(first)];
+  const double before = std::fabs(change(first - 1)), after = std::fabs(change(first));
+  const double seen = std::lerp(ahead, inside, (felt * most - before) / (after - before));
   const bool rises = std::fabs(w[0]) > 0 && w[1] / w[0] > 1 && w[2] / w[1] > 1;
-  if (!rises) return seen;
+  const bool tail = w[0] * w[2] > 0.95 * w[1] * w[1];  // exponential, as of a smooth stress: it has no foot
+  if (!rises || tail) return seen;
   const auto [slope, curve] = parabola_through(w[1] - w[0], x[1] - x[0], w[2] - w[0], x[2] - x[0]);
   const double foot = x[0] - w[0] * (slope - curve * w[0]);
-  const double farthest = ahead - 2 * (seen - ahead);
+  const double farthest = ahead - 2 * (inside - ahead);
   return std::clamp(foot, std::fmin(farthest, x[0]), std::fmax(farthest, x[0]));
 }
 
@@ -285,7 +289,9 @@ Snapshot observe(const Solver& solver, const std::vector<double>& x_edges, const
   const Problem& problem = solver.problem();
   const double characteristic = free_at(v, !to_right) ? none : in_domain(problem, trailing.position());
   s.fronts.trailing_characteristic = characteristic;
-  s.fronts.trailing = s.time == 0 ? characteristic : in_domain(problem, trailing_front(v, W, to_right));
+  // At rest the front of a step is where it stands; a smooth stress has none yet.
+  const double at_rest = problem.corner < HUGE_VAL ? characteristic : none;
+  s.fronts.trailing = s.time == 0 ? at_rest : in_domain(problem, trailing_front(v, W, to_right));
   s.fronts.leading = in_domain(problem, leading_front(v, W, to_right));
   find_peak(points_of(problem, v, W), s);
   s.peak_position = in_domain(problem, s.peak_position);

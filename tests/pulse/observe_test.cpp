@@ -97,6 +97,23 @@ TEST(Observe, ShockTakesWhatTheRiemannProblemSays) {
   EXPECT_NEAR(lost, flux, 0.03 * flux);
 }
 
+/// A smooth stress has no corner where slip begins: the front is where a thousandth of the largest slip velocity is
+/// felt, whatever the cells, and none at rest.
+TEST(Observe, TrailingFrontOfASmoothStressIsWhereItIsFelt) {
+  const auto fronts = [](int cells) {
+    Problem problem = smooth(0.5, modulation::Closure::consistent);
+    problem.cells = cells;
+    pulse::Run run(problem, schedule(5));
+    run.go();
+    EXPECT_TRUE(std::isnan(run.snapshots().front().fronts.trailing));
+    return run.snapshots().back().fronts.trailing;
+  };
+  const double fine = fronts(1600);
+  EXPECT_NEAR(fronts(400), fine, 5e-3);
+  EXPECT_NEAR(fronts(800), fine, 1e-3);
+  EXPECT_LT(fine, -2);
+}
+
 /// The trailing edge moves at |V-| for every C; an observer with a threshold sees it fall behind.
 TEST(Observe, TrailingEdgeDoesNotKnowFriction) {
   for (const double C : {0.0, 0.5, 2.0}) {
