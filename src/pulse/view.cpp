@@ -144,17 +144,18 @@ State state_at(const Solver::View& v, double place) {
   const std::size_t cell = interval(v.faces, x);
   if (v.states[cell].empty()) return {};
   const Nodes nodes = nodes_around(v, cell);
-  double phi[5], psi[5], log_psi[5];
+  double phi[5] = {}, psi[5] = {};
   for (std::size_t j = 0; j < nodes.size; ++j) {
     phi[j] = nodes.state[j].phi;
     psi[j] = nodes.state[j].psi;
-    log_psi[j] = std::log(psi[j]);
   }
   const auto [least, most] = std::minmax_element(psi, psi + nodes.size);
+  const double phi_here = bounded(nodes.size, nodes.x, phi, x);
   // In a slow train psi changes by decades from cell to cell, its logarithm is what is smooth.
   const bool decades = *least > 0 && *most > 100 * *least;
-  return {bounded(nodes.size, nodes.x, phi, x), decades ? std::exp(bounded(nodes.size, nodes.x, log_psi, x))
-                                                        : std::fmax(bounded(nodes.size, nodes.x, psi, x), 0.0)};
+  if (!decades) return {phi_here, std::fmax(bounded(nodes.size, nodes.x, psi, x), 0.0)};
+  for (std::size_t j = 0; j < nodes.size; ++j) psi[j] = std::log(psi[j]);
+  return {phi_here, std::exp(bounded(nodes.size, nodes.x, psi, x))};
 }
 
 train::Averages averages_of(const Solver::View& v, const State& state, double x) {

@@ -27,9 +27,8 @@ class Run {
   const std::vector<Snapshot>& snapshots() const { return snapshots_; }
   /// Wall time that the steps have taken, without laying cells and outputs.
   double stepping_seconds() const { return stepping_seconds_; }
-  bool can_checkpoint() const {
-    return true;
-  }  ///< may be saved even after a NumericsError: a step that fails changes nothing
+  /// May be saved even after a NumericsError: a step that fails changes nothing.
+  bool can_checkpoint() const { return true; }
   bool finished() const { return snapshots_.size() == schedule_.times.size(); }
   /// What is amiss or doubtful in the results so far, a sentence each: invariants that do not hold (slip at x = 0
   /// against the integral of the slip velocity there, energy that appears from nothing, the number of dislocations) and
