@@ -1,5 +1,7 @@
 #include "stretch.hpp"
 
+#include <algorithm>
+
 namespace slipfront::pulse {
 
 std::vector<Stretch> stretches_of(const std::vector<double>& charge, Edge left, Edge right) {
@@ -20,8 +22,11 @@ void middles(const std::vector<Stretch>& stretches, const std::vector<double>& f
     for (std::size_t i = stretch.begin + 1; i + 1 < stretch.end; ++i) {
       const double* f = faces.data() + i;
       const bool inside = i >= stretch.begin + 2 && i + 2 < stretch.end;
-      centres[i] = inside ? (150 * (f[0] + f[1]) - 25 * (f[-1] + f[2]) + 3 * (f[-2] + f[3])) / 256
-                          : (9 * (f[0] + f[1]) - (f[-1] + f[2])) / 16;
+      const double smooth = inside ? (150 * (f[0] + f[1]) - 25 * (f[-1] + f[2]) + 3 * (f[-2] + f[3])) / 256
+                                   : (9 * (f[0] + f[1]) - (f[-1] + f[2])) / 16;
+      // Beside much wider cells, as at a shock, that would be outside the cell.
+      const double middle = centres[i], quarter = (f[1] - f[0]) / 4;
+      centres[i] = std::clamp(smooth, middle - quarter, middle + quarter);
     }
 }
 

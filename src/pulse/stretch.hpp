@@ -28,7 +28,7 @@ struct Stretch {
 std::vector<Stretch> stretches_of(const std::vector<double>& charge, Edge left, Edge right);
 
 /// x at the middle of each cell in s, from the faces: sixth order inside a stretch, fourth and second in its last
-/// cells.
+/// cells; within the middle half of the cell.
 void middles(const std::vector<Stretch>& stretches, const std::vector<double>& faces, std::vector<double>& centres);
 
 }  // namespace slipfront::pulse
