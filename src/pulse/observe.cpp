@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "../parabola.hpp"
+#include "interval.hpp"
 #include "slipfront/modulation/characteristics.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
 #include "slipfront/train/train.hpp"
@@ -294,6 +295,11 @@ Snapshot observe(const Solver& solver, const std::vector<double>& x_edges, const
   s.fronts.trailing = s.time == 0 ? at_rest : in_domain(problem, trailing_front(v, W, to_right));
   s.fronts.leading = in_domain(problem, leading_front(v, W, to_right));
   find_peak(points_of(problem, v, W), s);
+  const bool shock_at_origin = v.shocked[interval(v.faces, 0)] != 0;
+  if (!shock_at_origin && std::fabs(s.slip_velocity_at_origin) > std::fabs(s.peak_slip_velocity)) {
+    s.peak_slip_velocity = s.slip_velocity_at_origin;  // between nodes of few cells
+    s.peak_position = 0;
+  }
   s.peak_position = in_domain(problem, s.peak_position);
   find_observed_fronts(problem, v, W, threshold, to_right, s);
   s.energy = energy_of(solver, v);

@@ -49,6 +49,22 @@ TEST(Observe, EnergyIsAccountedFor) {
   }
 }
 
+/// Also with few cells, between whose nodes the slip velocity at x = 0 lies.
+TEST(Observe, PeakIsNotBelowTheOrigin) {
+  for (const int cells : {4, 5, 6, 7, 8})
+    for (const double end : {1e-9, 1e-3, 0.1}) {
+      Problem problem;
+      problem.stress = [](double x) { return x < 0 ? 0.855 : 0; };
+      problem.left = -6;
+      problem.right = 4;
+      problem.cells = cells;
+      pulse::Run run(problem, schedule(end));
+      run.go();
+      const Snapshot& last = run.snapshots().back();
+      EXPECT_GE(std::fabs(last.peak_slip_velocity), std::fabs(last.slip_velocity_at_origin)) << cells << " " << end;
+    }
+}
+
 TEST(Observe, CountsDislocations) {
   pulse::Run run(smooth(0.1, modulation::Closure::consistent), schedule(2 * pi));
   run.go();
