@@ -67,6 +67,8 @@ Solver::Solver(Problem problem) : problem_(std::move(problem)) {
                       .problem = "there is no stress at an end of the domain",
                       .allowed = "a ring that is stressed where its ends meet: move domain.left and domain.right"});
   cells_.charge = layout.charge;
+  const auto differs = [&](double x) { return problem_.contact(x) != problem_.contact(layout.faces.front()); };
+  contact_varies_ = problem_.contact && std::any_of(layout.faces.begin(), layout.faces.end(), differs);
   left_free_ = layout.left_free;
   right_free_ = layout.right_free;
   const std::size_t n = size();

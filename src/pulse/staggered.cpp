@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "../digits.hpp"
+#include "slipfront/elliptic/complete.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
 
@@ -16,6 +17,13 @@ using std::numbers::pi;
 
 [[noreturn]] void give_up(double t, std::size_t cell) {
   throw NumericsError("t = " + digits(t) + ", cell " + std::to_string(cell) + ": squeezed to nothing");
+}
+
+/// cosh(psi) E - 1, which is 0 for dislocations far from each other: without cancellation, as their forces are small
+/// differences of it.
+double mass_excess(double psi) {
+  const double half = std::sinh(psi / 2);
+  return std::cosh(psi) * elliptic::at_psi(psi).E_rest + 2 * half * half;
 }
 
 }  // namespace
@@ -88,8 +96,8 @@ void Staggered::find_cells(double t, const double* z) {
     const double rest = modulation::pressure(cells_.psi[i]);
     pressure_[i] = closing > 0 ? modulation::pressure(cells_.psi[i] + closing / 2) : rest;
     if (setup_.contact)  // dp = k dg
-      balance_[i] =
-          4 / pi * mass_[i] * a_[i] + a_[i] * a_[i] * (pressure_[i] - rest) * width_[i] / (2 * pi * setup_.charge[i]);
+      balance_[i] = 4 / pi * a_[i] * mass_excess(cells_.psi[i]) +
+                    a_[i] * a_[i] * (pressure_[i] - rest) * width_[i] / (2 * pi * setup_.charge[i]);
   }
 }
 
@@ -98,8 +106,9 @@ double Staggered::force_on(std::size_t f) const {
   const bool left = charge_left(f) > 0, right = charge_right(f) > 0;
   if (edge_at(f) == Edge::continued) return 0;
   if (!setup_.contact) return (left ? pressure_[f - 1] : 0) - (right ? pressure_[f] : 0);
-  const double edge = 4 / pi * setup_.contact(place_[f]);
-  const double rise = (right ? balance_[f] : edge) - (left ? balance_[f - 1] : edge);
+  const double edge = left && right ? 0 : setup_.contact(place_[f]);
+  const double contact_rise = (right ? a_[f] : edge) - (left ? a_[f - 1] : edge);
+  const double rise = (right ? balance_[f] : 0) - (left ? balance_[f - 1] : 0) + 4 / pi * contact_rise;
   const double run = ((left ? width_[f - 1] : 0) + (right ? width_[f] : 0)) / 2;
   return -2 * pi * rise / run * charge_around(f);
 }
@@ -120,7 +129,8 @@ double Staggered::loss_rate(std::size_t f, double phi) const {
     return friction.closure == modulation::Closure::consistent
                ? friction.coefficient
                : friction.coefficient * pi * pi / (4 * beside(cells_.EK, f));
-  const double rate = power_law_rate_({phi, beside(cells_.psi, f)});
+  const double moving = friction.exponent < 1 ? std::hypot(phi, creep_) : phi;
+  const double rate = power_law_rate_({moving, beside(cells_.psi, f)});
   // <|w|^n sigma> over P, w in units of a
   return setup_.contact ? rate * std::pow(setup_.contact(place_[f]), friction.exponent - 1) : rate;
 }

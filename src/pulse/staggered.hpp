@@ -41,6 +41,10 @@ class Staggered {
   void start_from(const std::vector<double>& s) { cells_.s = s; }
   const std::vector<double>& s() const { return cells_.s; }
 
+  /// Friction that is steep at rest, like powers below 1, changes to a viscous one at velocities of this size and less:
+  /// there its force is rounding of what else acts.
+  void viscous_below(double velocity) { creep_ = velocity; }
+
   /// Rapidities of the dislocations at the faces, from the last call.
   const std::vector<double>& face_phi() const { return face_phi_; }
 
@@ -61,6 +65,7 @@ class Staggered {
   double beside(const std::vector<double>& values, std::size_t face) const;
 
   Setup setup_;
+  double creep_ = 0;
   modulation::PowerLawRate power_law_rate_;
   std::vector<Stretch> stretches_;
   CellStates cells_;

@@ -168,7 +168,7 @@ void Solver::find_scale(double crossing, std::vector<double>& scale) const {
                    (1 + equations_->largest_friction_rate() * crossing);
   constexpr double slow = 8e-3, rounding = 1e-8;
   if (!cells_.face_momentum.empty()) fastest = std::fmax(fastest, slow * mean_speed());
-  if (problem_.contact) fastest = std::fmax(fastest, rounding / (1 + equations_->largest_friction_rate()));
+  if (contact_varies_) fastest = std::fmax(fastest, rounding / (1 + equations_->largest_friction_rate()));
   for (std::size_t i = 0; i < size(); ++i)
     if (cells_.charge[i] > 0) fastest = std::fmax(fastest, std::fabs(cells_.y[2 * i + 1] / cells_.charge[i]));
   for (std::size_t i = 0; i < size(); ++i) {
@@ -222,6 +222,8 @@ double Solver::step_implicitly(Work& work, double remaining, double crossing) {
     scale[2 * face] = work.scale[face == 0 ? 0 : 2 * face - 2];
     scale[2 * face + 1] = staggered.charge_around(face) * fastest;
   }
+  constexpr double creep = 1e-6;  // of the mean speed so far: adds as little to slip
+  staggered.viscous_below(creep * mean_speed());
   staggered.start_from(cells_.s);
   f(cells_.time, z.data(), rate.data());
   work.implicit_step->linearise(f, cells_.time, z, rate, scale);

@@ -146,6 +146,7 @@ class Solver {
 
   Problem problem_;
   Cells cells_;
+  bool contact_varies_ = false;
   bool left_free_, right_free_;
   View first_;
   std::shared_ptr<Semidiscrete> equations_;
