@@ -47,7 +47,7 @@ int run_pulse(ScenarioArguments a, std::optional<double> tolerance) {
   LongRun long_run(a, s, nullptr);
   const auto result = run::pulse(s, plan, long_run.options(std::move(saved), begun));
   if (const int code = long_run.end(result.finished()); code != exit_done) return code;
-  const std::vector<double> errors = run::errors_of(result.summary, s, {});
+  const std::vector<double> errors = run::errors_of(result, s, {});
   print_summary(s.title, result.summary, errors, result.metadata.warnings, a);
   return exit_done;
 }

@@ -31,7 +31,7 @@ py::dict run_pulse(const py::dict& arguments, double tolerance, bool with_errors
     if (!a.resume.empty()) options.checkpoint = run::checkpoint_of(a.resume, s);
     options.after_step = [&](double time, long steps) { return watch(time, steps); };
     result = run::pulse(s, run::plan_pulse(s), options);
-    if (result.finished() && with_errors) errors = run::errors_of(result.summary, s, interrupted);
+    if (result.finished() && with_errors) errors = run::errors_of(result, s, interrupted);
   }
   watch.finish();
   py::dict data = dataset_of(result, s);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
 #include <string>
 
 #include "../digits.hpp"
@@ -20,24 +20,33 @@ constexpr double much = 0.05;
 
 struct Run::Findings : slipfront::Findings {};
 
+double Run::SlipTwice::beyond_sampling() const {
+  return std::fmax(std::fabs(by_place - by_velocity) - sampling, 0);
+}
+
+std::optional<Run::SlipTwice> Run::slip_twice() const {
+  const Problem& problem = solver_.problem();
+  if (!(problem.left < 0 && problem.right > 0 && passed_.samples > 8)) return std::nullopt;
+  const Solver::View v = solver_.view();
+  const double now = averages_of(v, state_at(v, 0), 0).W;
+  const double rest = (solver_.cells().time - passed_.time) * (now + passed_.velocity) / 2;
+  const double sampling = std::fabs(passed_.slip - passed_.coarse_slip) + std::sqrt(passed_.spread);
+  return SlipTwice{solver_.slip_at(v, 0), passed_.slip + rest, sampling, passed_.doubt};
+}
+
 Run::Findings Run::findings() const {
   Findings found;
   if (snapshots_.empty()) return found;
   const Snapshot& last = snapshots_.back();
   const Problem& problem = solver_.problem();
 
-  if (problem.left < 0 && problem.right > 0 && passed_.samples > 8) {
-    const Solver::View v = solver_.view();
-    const double now = averages_of(v, state_at(v, 0), 0).W, slip = solver_.slip_at(v, 0);
-    const double rest = (solver_.cells().time - passed_.time) * (now + passed_.velocity) / 2;
-    const double by_velocity = passed_.slip + rest;
+  if (const std::optional<SlipTwice> slip = slip_twice()) {
     constexpr double rounding = 1e-10;
-    const double doubt =
-        3 * std::fabs(passed_.slip - passed_.coarse_slip) + 3 * std::sqrt(passed_.spread) + passed_.doubt + rounding;
-    const double beyond = std::fabs(slip - by_velocity) - doubt;
-    found.violation(beyond / std::fmax(std::fabs(slip), passed_.way),
-                    "pulse: slip at x = 0 is " + digits(slip) + ", the integral of the slip velocity there " +
-                        digits(by_velocity) + "; more pulse.cells help");
+    const double doubt = 3 * slip->sampling + slip->of_velocity + rounding;
+    const double beyond = std::fabs(slip->by_place - slip->by_velocity) - doubt;
+    found.violation(beyond / std::fmax(std::fabs(slip->by_place), passed_.way),
+                    "pulse: slip at x = 0 is " + digits(slip->by_place) + ", the integral of the slip velocity there " +
+                        digits(slip->by_velocity) + "; more pulse.cells help");
   }
 
   // Densities may be coarse where streams have piled up, while the dislocations themselves are all there.

@@ -78,11 +78,13 @@ double Solver::slip_at(const View& v, double place) const {
       if (come < width && std::fabs(aside) <= 2 * come) {
         // Nearer to a face than that has come, in a pulse that may be narrower than the cell: from the densities there
         // and, as the pulse grows, the way of the other face.
-        const double before = problem_.stress(v.faces[near] - way(near) + aside / 2);
+        const bool resolved = come >= unresolved * width;
+        // The stress before on this side of the face, or on the mean over what lies between.
+        const double before = problem_.stress(v.faces[near] - way(near) + (resolved ? 1e-6 : 0.5) * aside);
         const double slope = before > 0 ? 1 - 2 * pi * v.face_density[near] / before : 0;
         const std::size_t other = near == cell ? cell + 1 : cell;
         const double apart = v.faces[other] - v.faces[near], mean_slope = (way(other) - way(near)) / apart;
-        const double bend = come < unresolved * width ? 0 : (mean_slope - slope) / apart;
+        const double bend = resolved ? (mean_slope - slope) / apart : 0;
         moved = way(near) + aside * (slope + bend * aside);
       } else if (inside) {
         const double ways[4] = {way(cell - 1), way(cell), way(cell + 1), way(cell + 2)};

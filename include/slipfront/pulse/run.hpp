@@ -4,6 +4,7 @@
 /// to the same bits.
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,6 +35,17 @@ class Run {
   /// against the integral of the slip velocity there, energy that appears from nothing, the number of dislocations) and
   /// streams that cross. Above 1 % `go` ends with a NumericsError that says so.
   std::vector<std::string> warnings() const;
+  /// Slip at x = 0 by the two routes that should agree. Nothing where x = 0 is not within the domain or the run is too
+  /// short to tell.
+  struct SlipTwice {
+    double by_place;     ///< from where the dislocations are
+    double by_velocity;  ///< the integral of the slip velocity
+    double sampling;     ///< how far the integral may be off for the samples that it is made of
+    double of_velocity;  ///< and for what the slip velocity is in the cells around
+    /// Their difference, as far as it does not come from sampling.
+    double beyond_sampling() const;
+  };
+  std::optional<SlipTwice> slip_twice() const;
   /// The state of the solver as bytes, for a checkpoint on the same kind of machine.
   std::string saved() const;
 

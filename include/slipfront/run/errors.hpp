@@ -5,16 +5,16 @@
 #include <functional>
 #include <vector>
 
-#include "slipfront/run/summary.hpp"
+#include "slipfront/run/run.hpp"
 #include "slipfront/scenario/scenario.hpp"
 
 namespace slipfront::run {
 
-/// For each row of a summary its difference from the same row of a run with half the cells and coarser steps, which is
-/// made here and takes a quarter of the time. The scheme is of first order or better, so that the error of the finer
-/// run is no larger. NaN for what has no error of this kind, and where one of the two runs has no value or
-/// `interrupted` said to stop.
-std::vector<double> errors_of(const std::vector<SummaryValue>& fine, const scenario::Scenario& scenario,
+/// For each row of a finished run's summary its difference from the same row of a run with half the cells and coarser
+/// steps, which is made here and takes a quarter of the time. The scheme is of first order or better, so that the error
+/// of the finer run is no larger. Slip at x = 0 is known twice: its error is no less than the difference of the two.
+/// NaN for what has no error of this kind, and where one of the two runs has no value or `interrupted` said to stop.
+std::vector<double> errors_of(const Result<pulse::Run>& fine, const scenario::Scenario& scenario,
                               const std::function<bool()>& interrupted);
 
 /// The cells that a relative tolerance (> 0) of slip, slip velocity and stress at x = 0 and of the peak needs, from the
