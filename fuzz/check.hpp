@@ -4,11 +4,11 @@
 #include <cstdlib>
 #include <optional>
 
-#include "slipfront/event/estimate.hpp"
-#include "slipfront/event/observation.hpp"
+#include "slipfront/catalogue/observation.hpp"
+#include "slipfront/inference/estimate.hpp"
 
 /// Aborts if a reader let through what it should have refused, or if the theory makes of it what is no number.
-inline void check_observation(const slipfront::event::Observation& o) {
+inline void check_observation(const slipfront::catalogue::Observation& o) {
   const auto require = [](bool truth) {
     if (!truth) std::abort();
   };
@@ -20,7 +20,7 @@ inline void check_observation(const slipfront::event::Observation& o) {
   if (o.poisson_ratio) require(std::isfinite(*o.poisson_ratio));
   require(!o.name.empty());
   try {
-    const slipfront::event::Estimate e = slipfront::event::estimate(o, {});
+    const slipfront::inference::Estimate e = slipfront::inference::estimate(o, {});
     for (const auto& x : {e.rupture_velocity, e.stress, e.frictionless_slip_velocity, e.observed_slip_velocity,
                           e.slip_velocity_ratio, e.contact_ratio, e.stress_pa}) {
       if (!x) continue;

@@ -7,17 +7,22 @@
 #include "batch.hpp"
 #include "interrupts.hpp"
 #include "progress.hpp"
-#include "slipfront/event/population.hpp"
-#include "slipfront/event/saved.hpp"
+#include "slipfront/catalogue/population.hpp"
+#include "slipfront/results/quantities.hpp"
+#include "slipfront/results/serialize.hpp"
 
 using namespace slipfront;
-using namespace slipfront::event;
+using namespace slipfront::catalogue;
+using namespace slipfront::inference;
+using namespace slipfront::finite_fault;
+using namespace slipfront::results;
 
 namespace {
 
 class Catalogue {
  public:
-  Catalogue(std::vector<Entry>&& entries, const MediumDefaults& defaults, const Plan& plan, const EventKeeping& keeping)
+  Catalogue(std::vector<Entry>&& entries, const medium::Defaults& defaults, const EvaluationOptions& plan,
+            const EventKeeping& keeping)
       : entries_(std::move(entries)),
         defaults_(defaults),
         plan_(plan),
@@ -26,7 +31,7 @@ class Catalogue {
         is_done_(entries_.size()) {}
 
   void resume() {
-    std::vector<Found> found = found_in(record::read_events_done(keeping_.resume, keeping_.metadata));
+    std::vector<SavedResult> found = deserialize(record::read_events_done(keeping_.resume, keeping_.metadata));
     if (found.size() > entries_.size()) throw FileError(keeping_.resume + ": holds more events than the catalogue");
     done_ = found.size();
     for_each_parallel(done_, keeping_.threads, [&](std::size_t i) {
@@ -79,8 +84,8 @@ class Catalogue {
   std::span<const EventResult> done() const { return std::span(results_).first(done_); }
 
   std::vector<Entry> entries_;
-  const MediumDefaults& defaults_;
-  const Plan& plan_;
+  const medium::Defaults& defaults_;
+  const EvaluationOptions& plan_;
   const EventKeeping& keeping_;
   std::vector<EventResult> results_;
   std::vector<char> is_done_;  ///< a few beyond the first `done_` may be
@@ -91,8 +96,8 @@ class Catalogue {
 
 }  // namespace
 
-KeptEvents evaluate_and_keep(std::vector<Entry>&& entries, const MediumDefaults& defaults, const Plan& plan,
-                             const EventKeeping& keeping) {
+KeptEvents evaluate_and_keep(std::vector<Entry>&& entries, const medium::Defaults& defaults,
+                             const EvaluationOptions& plan, const EventKeeping& keeping) {
   const auto total = static_cast<double>(entries.size());
   Catalogue catalogue(std::move(entries), defaults, plan, keeping);
   interrupted_means(keeping.output.wanted()

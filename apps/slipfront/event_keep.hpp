@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "slipfront/event/evaluate.hpp"
 #include "slipfront/record/event_file.hpp"
 #include "slipfront/record/unfinished.hpp"
+#include "slipfront/results/evaluate.hpp"
 
 /// A catalogue that is written to a file while it is evaluated.
 struct EventKeeping {
@@ -17,13 +17,13 @@ struct EventKeeping {
 };
 
 struct KeptEvents {
-  std::vector<slipfront::event::EventResult> results;  ///< of all entries, or of the first if not `finished`
-  bool finished = false;                               ///< else Ctrl-C came first; the file holds what was done
+  std::vector<slipfront::results::EventResult> results;  ///< of all entries, or of the first if not `finished`
+  bool finished = false;                                 ///< else Ctrl-C came first; the file holds what was done
 };
 
 /// Evaluates all entries, in parallel, with a line of progress on a terminal and a checkpoint now and then. The results
 /// and the file have the same bits however often the work was stopped and resumed. \throws InputError if `resume` is
 /// another catalogue's, FileError.
-KeptEvents evaluate_and_keep(std::vector<slipfront::event::Entry>&& entries,
-                             const slipfront::event::MediumDefaults& defaults, const slipfront::event::Plan& plan,
-                             const EventKeeping& keeping);
+KeptEvents evaluate_and_keep(std::vector<slipfront::catalogue::Entry>&& entries,
+                             const slipfront::medium::Defaults& defaults,
+                             const slipfront::results::EvaluationOptions& plan, const EventKeeping& keeping);

@@ -6,19 +6,21 @@
 #include <string_view>
 #include <vector>
 
+#include "slipfront/results/quantities.hpp"
+
 namespace {
 
 using Json = nlohmann::ordered_json;
-using slipfront::event::bound_quantities;
-using slipfront::event::Estimate;
-using slipfront::event::EventResult;
-using slipfront::event::FaultPulse;
-using slipfront::event::inferred_quantities;
-using slipfront::event::joined;
-using slipfront::event::measured_quantities;
-using slipfront::event::Posterior;
-using slipfront::event::posterior_quantities;
-using slipfront::event::pulse_quantities;
+using slipfront::finite_fault::FaultPulse;
+using slipfront::inference::Estimate;
+using slipfront::inference::Posterior;
+using slipfront::results::bound_quantities;
+using slipfront::results::EventResult;
+using slipfront::results::inferred_quantities;
+using slipfront::results::joined;
+using slipfront::results::measured_quantities;
+using slipfront::results::posterior_quantities;
+using slipfront::results::pulse_quantities;
 
 /// An absent estimate reads like one in which nothing is identifiable.
 const Estimate& estimate_of(const EventResult& result) {
@@ -148,7 +150,7 @@ std::string event_csv_head(bool with_pulse) {
 
 namespace {
 
-std::string csv_cells(const std::optional<slipfront::event::Inferred>& x) {
+std::string csv_cells(const std::optional<slipfront::inference::Inferred>& x) {
   return (x ? fmt::format(",{}", x->value) : ",") +
          (x && x->interval ? fmt::format(",{},{}", x->interval->low, x->interval->high) : ",,");
 }

@@ -4,13 +4,17 @@
 #include <utility>
 
 #include "batch.hpp"
-#include "slipfront/event/sources.hpp"
+#include "slipfront/finite_fault/sources.hpp"
 #include "slipfront/record/text_file.hpp"
+#include "slipfront/results/memory.hpp"
 
-using namespace slipfront::event;
+using namespace slipfront::catalogue;
+using namespace slipfront::inference;
+using namespace slipfront::finite_fault;
+using namespace slipfront::results;
 
 /// All events are sampled if the user says how often; those of --json are looked at along the fault.
-Plan plan_of(const EventArguments& a) {
+EvaluationOptions plan_of(const EventArguments& a) {
   return {{.samples = a.samples.value_or(Sampling{}.samples),
            .seed = a.seed,
            .closure = slipfront::modulation::closure_named(a.closure),
@@ -65,8 +69,8 @@ constexpr std::size_t most_waiting = 4096;
 }  // namespace
 
 int print_events(const EventArguments& a) {
-  const MediumDefaults defaults = defaults_of(a.medium);
-  const Plan plan = plan_of(a);
+  const slipfront::medium::Defaults defaults = slipfront::medium::defaults_of(a.medium);
+  const EvaluationOptions plan = plan_of(a);
   const std::vector<EventText> texts = texts_of(a);
   Sources sources;  // read twice: whether sources of one earthquake disagree is known when all are
   std::size_t count = 0;

@@ -7,14 +7,14 @@
 
 #include "commands.hpp"
 #include "event_print.hpp"
-#include "slipfront/event/evaluate.hpp"
-#include "slipfront/event/read.hpp"
+#include "slipfront/catalogue/read.hpp"
+#include "slipfront/results/evaluate.hpp"
 
 /// How events were asked for.
 struct EventArguments {
   CommonOptions common;
   std::vector<std::string> files;
-  slipfront::event::StatedMedium medium;
+  slipfront::medium::StatedDefaults medium;
   std::optional<std::size_t> samples;
   std::uint64_t seed = 1;
   std::string closure = "consistent";
@@ -23,7 +23,7 @@ struct EventArguments {
   std::size_t draws = 0;
 };
 
-slipfront::event::Plan plan_of(const EventArguments& arguments);
+slipfront::results::EvaluationOptions plan_of(const EventArguments& arguments);
 
 /// A file of events, as text.
 struct EventText {
@@ -39,7 +39,7 @@ struct EventsRead {
   bool unreadable = false;
 };
 EventsRead read_all(const EventArguments& arguments, const std::vector<EventText>& texts,
-                    const slipfront::event::Sink& sink);
+                    const slipfront::catalogue::Sink& sink);
 
 int exit_code(const EventsRead& read, const EventPrinter& printer);
 

@@ -8,10 +8,14 @@
 #include "event_keep.hpp"
 #include "event_output.hpp"
 #include "event_run.hpp"
-#include "slipfront/event/sources.hpp"
+#include "slipfront/finite_fault/sources.hpp"
 #include "slipfront/record/text_file.hpp"
+#include "slipfront/results/memory.hpp"
 
-using namespace slipfront::event;
+using namespace slipfront::catalogue;
+using namespace slipfront::inference;
+using namespace slipfront::finite_fault;
+using namespace slipfront::results;
 
 namespace {
 
@@ -37,12 +41,12 @@ void check_names(const EventArguments& a) {
 }
 
 /// What makes the results what they are; threads do not.
-std::vector<std::pair<std::string, std::string>> settings_of(const EventArguments& a, const Plan& plan,
+std::vector<std::pair<std::string, std::string>> settings_of(const EventArguments& a, const EvaluationOptions& plan,
                                                              const std::string& inputs) {
   const auto stated = [](const std::string& text) { return text.empty() ? "default" : text; };
   return {{"seed", fmt::format("{}", plan.sampling.seed)},
           {"samples", fmt::format("{}", plan.sampling.samples)},
-          {"sampled_events", plan.all ? "all" : "those that speak of friction or errors"},
+          {"sampled_events", plan.sample_all ? "all" : "those that speak of friction or errors"},
           {"closure", a.closure},
           {"pulse", a.pulse ? "yes" : "no"},
           {"posterior_draws", fmt::format("{}", a.draws)},
@@ -68,8 +72,8 @@ void write_rows(const std::string& path, const std::vector<EventResult>& results
 
 int write_events(const EventArguments& a) {
   check_names(a);
-  const MediumDefaults defaults = defaults_of(a.medium);
-  const Plan plan = plan_of(a);
+  const slipfront::medium::Defaults defaults = slipfront::medium::defaults_of(a.medium);
+  const EvaluationOptions plan = plan_of(a);
   std::vector<Entry> entries;
   std::string inputs;
   const std::vector<EventText> texts = texts_of(a);

@@ -10,16 +10,20 @@
 #include <vector>
 
 #include "bindings.hpp"
-#include "slipfront/event/columns.hpp"
-#include "slipfront/event/read.hpp"
-#include "slipfront/event/sources.hpp"
+#include "slipfront/catalogue/read.hpp"
+#include "slipfront/finite_fault/sources.hpp"
 #include "slipfront/parallel.hpp"
 #include "slipfront/record/text_file.hpp"
+#include "slipfront/results/columns.hpp"
+#include "slipfront/results/memory.hpp"
 
 namespace {
 
 using namespace slipfront;
-using namespace slipfront::event;
+using namespace slipfront::catalogue;
+using namespace slipfront::inference;
+using namespace slipfront::finite_fault;
+using namespace slipfront::results;
 
 py::str text(const std::string& bytes) {
   return py::reinterpret_steal<py::str>(
@@ -64,12 +68,13 @@ py::tuple dimensions(Axis axis) {
 using Source = std::tuple<std::string, std::string, bool>;
 
 /// Columns of all events of all sources: texts as lists, numbers as arrays.
-py::dict evaluate_all(const std::vector<Source>& sources, const StatedMedium& medium, const Plan& plan, int threads) {
+py::dict evaluate_all(const std::vector<Source>& sources, const medium::StatedDefaults& medium,
+                      const EvaluationOptions& plan, int threads) {
   std::vector<EventResult> results;
   std::vector<std::string> ignored;
   {
     const py::gil_scoped_release others_may_run;
-    const MediumDefaults defaults = defaults_of(medium);
+    const medium::Defaults defaults = medium::defaults_of(medium);
     std::vector<Entry> entries;
     for (const auto& [content, name, is_path] : sources)
       for (std::string& title : read_events(is_path ? record::read_text(name) : content, name,
@@ -102,13 +107,13 @@ void bind_event(py::module_& m) {
         [](const std::vector<Source>& sources, const std::string& p_wave_speed, const std::string& poisson_ratio,
            const std::string& shear_modulus, std::optional<std::size_t> samples, std::uint64_t seed,
            const std::string& closure, bool pulse, std::size_t draws, int threads) {
-          const Plan plan{{.samples = samples.value_or(Sampling{}.samples),
-                           .seed = seed,
-                           .closure = modulation::closure_named(closure),
-                           .draws = draws},
-                          samples.has_value(),
-                          false,
-                          pulse};
+          const EvaluationOptions plan{{.samples = samples.value_or(Sampling{}.samples),
+                                        .seed = seed,
+                                        .closure = modulation::closure_named(closure),
+                                        .draws = draws},
+                                       samples.has_value(),
+                                       false,
+                                       pulse};
           return evaluate_all(sources, {p_wave_speed, poisson_ratio, shear_modulus}, plan, threads);
         });
 }
