@@ -12,7 +12,7 @@ inline void check_observation(const slipfront::catalogue::Observation& o) {
   const auto require = [](bool truth) {
     if (!truth) std::abort();
   };
-  for (const auto& measured : {o.rupture_velocity, o.slip_velocity, o.slip, o.rise_time, o.duration})
+  for (const auto& measured : {o.rupture_velocity_m_s, o.slip_velocity_m_s, o.slip, o.rise_time, o.duration})
     if (measured) require(measured->low > 0 && measured->low <= measured->high && std::isfinite(measured->high));
   for (const auto& constant :
        {o.shear_modulus, o.p_wave_speed, o.s_wave_speed, o.density, o.contact_ratio, o.asperity_spacing})

@@ -70,8 +70,8 @@ TEST(Locale, ChangesNoEventThatIsRead) {
       "slip_velocity = \"0.125 m/s\"\n[medium]\npoisson_ratio = 0.125\n";
   in_both([&text] {
     const catalogue::Observation o = catalogue::read_toml(text, "e.toml");
-    EXPECT_EQ(o.rupture_velocity->middle(), 2750);
-    EXPECT_EQ(o.slip_velocity->middle(), 0.125);
+    EXPECT_EQ(o.rupture_velocity_m_s->middle(), 2750);
+    EXPECT_EQ(o.slip_velocity_m_s->middle(), 0.125);
     EXPECT_EQ(o.poisson_ratio, 0.125);
     return o.name + " " + o.date;
   });

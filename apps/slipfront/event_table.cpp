@@ -95,7 +95,7 @@ std::string event_table_row(const EventResult& result) {
   const Estimate& e = *result.estimate;
   Cells cells;
   cells[0] = result.observation.name;
-  cells[1] = front_text(e.observed_rupture_velocity);
+  cells[1] = front_text(e.observed_rupture_velocity_m_s);
   cells[4] = speed_text(e.observed_slip_velocity_m_s);
   for (const Column& c : columns) {
     const auto& x = c.of(e);

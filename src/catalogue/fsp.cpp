@@ -119,8 +119,8 @@ bool is_positive(double value) { return std::isfinite(value) && value > 0; }
 
 void Reader::fill_velocities(Observation& out) const {
   constexpr double m_per_km = 1000;
-  if (const auto v = given(header_.rupture_velocity, "avVr", 99, out.warnings)) {
-    out.rupture_velocity = Measured{*v * m_per_km, *v * m_per_km};
+  if (const auto v = given(header_.rupture_velocity_km_s, "avVr", 99, out.warnings)) {
+    out.rupture_velocity_m_s = Measured{*v * m_per_km, *v * m_per_km};
   }
   std::optional<double> rise = given(header_.rise_time, "avTr", 900, out.warnings);
   if (!rise) {
@@ -145,7 +145,7 @@ void Reader::fill_velocities(Observation& out) const {
   if (!rise) {
     out.warnings.push_back("no rise time: slip velocity not given");
   } else if (const double velocity = slip / *rise; is_positive(velocity)) {
-    out.slip_velocity = Measured{velocity, velocity};
+    out.slip_velocity_m_s = Measured{velocity, velocity};
   } else {
     out.warnings.push_back("slip / rise time is out of range: slip velocity not given");
   }

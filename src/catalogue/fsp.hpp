@@ -72,7 +72,7 @@ struct Field {
 struct Header {
   std::string name, date, reference, tag;
   std::size_t event_line = 0, tag_line = 0;  ///< 0: not seen yet
-  Field rupture_velocity;                    ///< avVr, km/s
+  Field rupture_velocity_km_s;               ///< avVr, km/s
   Field rise_time;                           ///< avTr, s
   std::optional<double> depth, down_dip;     ///< of the hypocentre, km
   std::optional<std::size_t> along_strike_cells, down_dip_cells, segments;

@@ -77,7 +77,7 @@ bool Header::take(std::string_view text, const Place& place) {
   } else if (same(label, "Rupt")) {
     if (const auto value = value_of(rest, "HypZ", place)) down_dip = value->number;
     take_field(rest, "avTr", "s", place, rise_time);
-    take_field(rest, "avVr", "km/s", place, rupture_velocity);
+    take_field(rest, "avVr", "km/s", place, rupture_velocity_km_s);
   } else if (same(label, "Invs")) {
     keep(along_strike_cells, count_of(rest, "Nx", place));
     keep(down_dip_cells, count_of(rest, "Nz", place));

@@ -8,8 +8,8 @@ const std::vector<Key>& quantity_keys() {
   using medium::Dimension;
   static const std::vector<Key> keys = [] {
     std::vector<Key> all = {
-        {"rupture_velocity", Dimension::velocity, &Observation::rupture_velocity},
-        {"slip_velocity", Dimension::velocity, &Observation::slip_velocity},
+        {"rupture_velocity", Dimension::velocity, &Observation::rupture_velocity_m_s},
+        {"slip_velocity", Dimension::velocity, &Observation::slip_velocity_m_s},
         {"slip", Dimension::length, &Observation::slip},
         {"rise_time", Dimension::time, &Observation::rise_time},
         {"duration", Dimension::time, &Observation::duration},

@@ -103,13 +103,13 @@ std::vector<LocalState> along_fault(const Observation& o, const medium::Defaults
     lay_in_plane(states, from, to);
     for (std::size_t i = from; i < to; ++i) {
       LocalState& s = states[i];
-      s.rupture_velocity = speed_at(states, i, from, to);
-      if (s.subfault.rise_time && s.subfault.slip > 0) s.slip_velocity = s.subfault.slip / *s.subfault.rise_time;
-      if (!s.rupture_velocity || *s.rupture_velocity >= e.speed) continue;
-      const rupture::Relations r = rupture::from_rupture_velocity(*s.rupture_velocity / e.speed);
+      s.rupture_velocity_m_s = speed_at(states, i, from, to);
+      if (s.subfault.rise_time && s.subfault.slip > 0) s.slip_velocity_m_s = s.subfault.slip / *s.subfault.rise_time;
+      if (!s.rupture_velocity_m_s || *s.rupture_velocity_m_s >= e.speed) continue;
+      const rupture::Relations r = rupture::from_rupture_velocity(*s.rupture_velocity_m_s / e.speed);
       s.stress = r.stress;
-      if (!s.slip_velocity) continue;
-      s.contact_ratio = *s.slip_velocity / medium::slip_velocity_unit(e.speed, r.slip_velocity);
+      if (!s.slip_velocity_m_s) continue;
+      s.contact_ratio = *s.slip_velocity_m_s / medium::slip_velocity_unit(e.speed, r.slip_velocity);
       s.stress_pa = medium::stress_unit(e.shear_modulus, *s.contact_ratio) * r.stress;
     }
   }

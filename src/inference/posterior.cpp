@@ -59,8 +59,8 @@ std::string why_no_interval(double effective, double k, std::size_t samples) {
 
 void add_trade_off(Posterior& p, const Observation& o, const medium::Defaults& defaults, modulation::Closure closure) {
   const Elastic e = elastic(o, defaults);
-  const double w = o.slip_velocity ? o.slip_velocity->middle() : o.slip->middle() / o.slip_time()->middle();
-  const double V = o.rupture_velocity->middle() / e.speed;
+  const double w = o.slip_velocity_m_s ? o.slip_velocity_m_s->middle() : o.slip->middle() / o.slip_time()->middle();
+  const double V = o.rupture_velocity_m_s->middle() / e.speed;
   if (!(V < 1)) return;
   const rupture::Relations r = rupture::from_rupture_velocity(V);
   const auto range = friction_ratio::stress_range();
@@ -92,7 +92,7 @@ void add_notes(Posterior& p, const Observation& o, const Sampler& s, modulation:
     p.notes.push_back("damping_number is not identifiable without a slip velocity");
   if (!s.knows_contact() && !s.knows_slip_velocity())
     p.notes.push_back("contact_ratio and stress_pa are not identifiable without a slip velocity");
-  if (o.rupture_velocity && s.knows_slip_velocity() && !s.fixes_friction())
+  if (o.rupture_velocity_m_s && s.knows_slip_velocity() && !s.fixes_friction())
     p.notes.push_back(
         "contact_ratio and damping_number trade off: the velocities fix one of them when the other is known, and above "
         "the bounds only the prior speaks; " +
@@ -161,12 +161,12 @@ void set_quantiles(Posterior& p, const std::vector<Sample>& samples) {
   order.reserve(samples.size());
   for (const Sample& s : samples) order.push_back(&s);
   std::vector<Weighted> values(samples.size());
-  for (const StateQuantity& q : state_quantities()) {
-    if (std::isnan(samples.front().state.*q.value)) continue;
-    const auto below = [&](const Sample* a, const Sample* b) { return a->state.*q.value < b->state.*q.value; };
+  for (const Quantity& q : quantities()) {
+    if (std::isnan(samples.front().state.*q.state)) continue;
+    const auto below = [&](const Sample* a, const Sample* b) { return a->state.*q.state < b->state.*q.state; };
     if (!std::is_sorted(order.begin(), order.end(), below)) std::sort(order.begin(), order.end(), below);
-    for (std::size_t i = 0; i < order.size(); ++i) values[i] = {order[i]->state.*q.value, order[i]->weight};
-    p.*q.quantiles = quantiles(values);
+    for (std::size_t i = 0; i < order.size(); ++i) values[i] = {order[i]->state.*q.state, order[i]->weight};
+    p.*q.quantiles = weighted_quantiles(values);
   }
 }
 
@@ -199,54 +199,11 @@ void set_prior_shares(Posterior& p, const Observation& o, const medium::Defaults
 
 }  // namespace
 
-std::span<const StateQuantity> state_quantities() {
-  static constexpr StateQuantity quantities[] = {
-      {{"rupture_velocity_m_s", "rupture velocity, in m/s", "", "Eqs. 8-10"},
-       &FaultState::rupture_velocity_m_s,
-       &Posterior::rupture_velocity_m_s},
-      {{"rupture_velocity", "rupture velocity", "c", "Eqs. 8-10"},
-       &FaultState::rupture_velocity,
-       &Posterior::rupture_velocity},
-      {{"stress", "Sigma-, stress before the rupture", "mu A / pi", "Eqs. 8-10"},
-       &FaultState::stress,
-       &Posterior::stress},
-      {{"frictionless_slip_velocity", "slip velocity W(0) as if there were no friction", "c A / pi", "Eqs. 8-10"},
-       &FaultState::frictionless_slip_velocity,
-       &Posterior::frictionless_slip_velocity},
-      {{"observed_slip_velocity", "observed slip velocity", "c A / pi", "Eqs. 8-10"},
-       &FaultState::observed_slip_velocity,
-       &Posterior::observed_slip_velocity},
-      {{"slip_velocity_ratio", "observed over frictionless slip velocity", "", "Eqs. 8-10"},
-       &FaultState::slip_velocity_ratio,
-       &Posterior::slip_velocity_ratio},
-      {{"contact_ratio", "A, real to nominal contact area", "", "Eq. 1"},
-       &FaultState::contact_ratio,
-       &Posterior::contact_ratio},
-      {{"damping_number", "Gamma = C T", "", "Eq. 7"}, &FaultState::damping_number, &Posterior::damping_number},
-      {{"friction_coefficient", "C of viscous friction", "", "Eq. 7"},
-       &FaultState::friction_coefficient,
-       &Posterior::friction_coefficient},
-      {{"stress_pa", "stress before the rupture, in Pa", "", "Eqs. 8-10"},
-       &FaultState::stress_pa,
-       &Posterior::stress_pa},
-      {{"stress_bound", "least Sigma-, if friction took nothing", "mu A / pi", "Eqs. 8-10"},
-       &FaultState::stress_bound,
-       &Posterior::stress_bound},
-      {{"contact_ratio_bound", "least A, if friction took nothing", "", "Eq. 1"},
-       &FaultState::contact_ratio_bound,
-       &Posterior::contact_ratio_bound},
-      {{"stress_pa_bound", "least stress before the rupture, in Pa, if friction took nothing", "", "Eqs. 8-10"},
-       &FaultState::stress_pa_bound,
-       &Posterior::stress_pa_bound},
-  };
-  return quantities;
-}
-
 bool speaks_of_friction_or_error(const Observation& o) {
   if (o.stress_drop || o.friction_coefficient || o.contact_ratio || (o.normal_stress && o.hardness) ||
       !o.uncertain_constants.empty())
     return true;
-  for (const auto* m : {&o.rupture_velocity, &o.slip_velocity, &o.slip, &o.rise_time, &o.duration})
+  for (const auto* m : {&o.rupture_velocity_m_s, &o.slip_velocity_m_s, &o.slip, &o.rise_time, &o.duration})
     if (*m && !(*m)->is_exact()) return true;
   return false;
 }
@@ -275,7 +232,7 @@ std::optional<Posterior> posterior(const Observation& o, const medium::Defaults&
   } else {
     p.notes.push_back(why_no_interval(samples.effective, samples.pareto_k, p.samples));
   }
-  if (sampler.knows_slip_velocity() && o.rupture_velocity && !sampler.fixes_friction())
+  if (sampler.knows_slip_velocity() && o.rupture_velocity_m_s && !sampler.fixes_friction())
     add_trade_off(p, o, defaults, sampling.closure);
   add_notes(p, o, sampler, sampling.closure);
   return p;

@@ -1,7 +1,6 @@
 #include "sampler.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include "slipfront/medium/medium.hpp"
 
@@ -26,10 +25,10 @@ Sampler::Sampler(const Observation& o, const medium::Defaults& defaults, const S
       plastic_(medium::plastic_contact_ratio(elastic_.poisson_ratio)) {
   for (const UncertainConstant& c : o.uncertain_constants)
     if (c.member == &medium::Constants::contact_ratio) contact_measured_ = &c.measured;
-  contact_from_ = o.contact_ratio                       ? ContactFrom::ratio
-                  : o.stress_drop && o.rupture_velocity ? ContactFrom::drop
-                  : o.normal_stress && o.hardness       ? ContactFrom::strength
-                                                        : ContactFrom::nothing;
+  contact_from_ = o.contact_ratio                           ? ContactFrom::ratio
+                  : o.stress_drop && o.rupture_velocity_m_s ? ContactFrom::drop
+                  : o.normal_stress && o.hardness           ? ContactFrom::strength
+                                                            : ContactFrom::nothing;
 }
 
 bool Sampler::draw_constants() {
@@ -100,7 +99,7 @@ bool Sampler::draw_friction(Sample& s, double w) {
 }
 
 bool Sampler::is_uncertain() const {
-  for (const auto* m : {&o_.rupture_velocity, &o_.slip_velocity, &o_.slip, &o_.rise_time, &o_.duration,
+  for (const auto* m : {&o_.rupture_velocity_m_s, &o_.slip_velocity_m_s, &o_.slip, &o_.rise_time, &o_.duration,
                         &o_.friction_coefficient, &o_.stress_drop, &o_.normal_stress, &o_.hardness})
     if (*m && !(*m)->is_exact()) return true;
   return !o_.uncertain_constants.empty();
@@ -112,7 +111,7 @@ bool Sampler::agrees(Sample& s) const {
     if (m.is_exact()) return;  // cannot weigh: a note says that it was not used
     s.weight *= m.likelihood(value);
   };
-  if (contact_from_ == ContactFrom::ratio && o_.stress_drop && o_.rupture_velocity)
+  if (contact_from_ == ContactFrom::ratio && o_.stress_drop && o_.rupture_velocity_m_s)
     weigh(*o_.stress_drop, s.state.stress_pa);
   if (fixes_friction() && knows_contact() && knows_slip_velocity() && knows_friction())
     weigh(*o_.friction_coefficient, s.state.friction_coefficient);
@@ -121,10 +120,10 @@ bool Sampler::agrees(Sample& s) const {
 
 bool Sampler::draw_rupture_velocity(Sample& s) {
   FaultState& state = s.state;
-  state.rupture_velocity_m_s = at(*o_.rupture_velocity, 0);
+  state.rupture_velocity_m_s = at(*o_.rupture_velocity_m_s, 0);
   state.rupture_velocity = state.rupture_velocity_m_s / elastic_.speed;
   if (!(state.rupture_velocity > 0 && state.rupture_velocity < 1)) return refuse(too_fast);
-  s.weight = o_.rupture_velocity->weight_of_draw(state.rupture_velocity_m_s);
+  s.weight = o_.rupture_velocity_m_s->weight_of_draw(state.rupture_velocity_m_s);
   const rupture::Relations r = rupture::from_rupture_velocity(state.rupture_velocity);
   state.stress = r.stress;
   state.frictionless_slip_velocity = r.slip_velocity;
@@ -139,14 +138,14 @@ bool Sampler::draw_times() {
 }
 
 std::optional<double> Sampler::draw_slip_velocity(Sample& s) {
-  const Measured& slip = o_.slip_velocity ? *o_.slip_velocity : *o_.slip;
+  const Measured& slip = o_.slip_velocity_m_s ? *o_.slip_velocity_m_s : *o_.slip;
   const double drawn = at(slip, 1);
   if (!(drawn > 0)) {
     refuse(contradicted);
     return std::nullopt;
   }
   s.weight *= slip.weight_of_draw(drawn);
-  return o_.slip_velocity ? drawn : drawn / slipping_;
+  return o_.slip_velocity_m_s ? drawn : drawn / slipping_;
 }
 
 /// Gamma, and A where it is not known yet.
@@ -171,46 +170,29 @@ bool Sampler::find_friction(Sample& s, std::optional<double> w) {
 /// What must be at least, since friction only slows: A where the rupture velocity is known, Sigma- where A is.
 bool Sampler::find_bound(Sample& s, double w) {
   FaultState& state = s.state;
-  if (o_.rupture_velocity) {
+  if (o_.rupture_velocity_m_s) {
     const double W = frictionless(o_.measure(), state.stress, state.frictionless_slip_velocity);
     state.contact_ratio_bound = w / medium::slip_velocity_unit(elastic_.speed, W);
-    state.stress_pa_bound = medium::stress_unit(elastic_.shear_modulus, state.contact_ratio_bound) * state.stress;
     return state.contact_ratio_bound <= plastic_ || refuse(bad_contact);
   }
   state.stress_bound =
       rupture::from_slip_velocity(w / medium::slip_velocity_unit(elastic_.speed, state.contact_ratio)).stress;
-  state.stress_pa_bound = medium::stress_unit(elastic_.shear_modulus, state.contact_ratio) * state.stress_bound;
   return true;
 }
 
-/// What follows once A is known.
-void Sampler::derive(Sample& s, std::optional<double> w) const {
-  FaultState& state = s.state;
-  if (std::isnan(state.contact_ratio)) return;
-  if (w && knows_contact()) {
-    state.observed_slip_velocity = *w / medium::slip_velocity_unit(elastic_.speed, state.contact_ratio);
-    state.slip_velocity_ratio = state.observed_slip_velocity / state.frictionless_slip_velocity;
-  }
-  state.stress_pa = medium::stress_unit(elastic_.shear_modulus, state.contact_ratio) * state.stress;
-}
-
 Sample Sampler::draw(std::size_t i) {
-  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   point_ = i;
-  Sample s{1,
-           0,
-           {unknown, unknown, unknown, unknown, unknown, unknown, unknown, unknown, unknown, unknown, unknown, unknown,
-            unknown}};
+  Sample s{1, 0, unknown_state()};
   std::optional<double> w;
   if (!draw_constants()) {
     refuse(bad_constants);
     return {};
   }
-  if (o_.rupture_velocity && !draw_rupture_velocity(s)) return {};
+  if (o_.rupture_velocity_m_s && !draw_rupture_velocity(s)) return {};
   if (!draw_contact(s) || !draw_times()) return {};
   if (knows_slip_velocity() && !(w = draw_slip_velocity(s))) return {};
   if (fixes_friction() ? !find_friction(s, w) : w && !find_bound(s, *w)) return {};
-  derive(s, w);
+  derive(s.state, elastic_, knows_contact() ? w : std::nullopt);
   if (agrees(s)) return s;
   refuse(contradicted);
   return {};

@@ -41,9 +41,9 @@ class Sampler {
   bool knows_duration() const { return time_ != nullptr; }
   /// Two of slip velocity, A and friction tell the third.
   bool fixes_friction() const {
-    return o_.rupture_velocity && knows_slip_velocity() + knows_contact() + knows_friction() >= 2;
+    return o_.rupture_velocity_m_s && knows_slip_velocity() + knows_contact() + knows_friction() >= 2;
   }
-  bool knows_anything() const { return o_.rupture_velocity || (knows_slip_velocity() && knows_contact()); }
+  bool knows_anything() const { return o_.rupture_velocity_m_s || (knows_slip_velocity() && knows_contact()); }
   /// Whether samples differ at all.
   bool is_uncertain() const;
 
@@ -69,7 +69,6 @@ class Sampler {
   bool draw_friction(Sample& s, double w);
   bool find_friction(Sample& s, std::optional<double> w);
   bool find_bound(Sample& s, double w);
-  void derive(Sample& s, std::optional<double> w) const;
   bool agrees(Sample& s) const;
   bool refuse(Refusal why) {
     ++refused_[why];

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "slipfront/inference/posterior.hpp"
+#include "slipfront/inference/quantities.hpp"
 
 namespace slipfront::inference {
 
@@ -11,7 +11,7 @@ struct Weighted {
 };
 
 /// 5, 50 and 95 % of weighted values, at least one, ascending: linear between the middles of their steps.
-inline catalogue::Quantiles quantiles(const std::vector<Weighted>& values) {
+inline Quantiles weighted_quantiles(const std::vector<Weighted>& values) {
   double total = 0;
   for (const Weighted& v : values) total += v.weight;
   const auto at = [&](double share) {

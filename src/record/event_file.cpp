@@ -132,9 +132,8 @@ void fill(Writer& file, const EventMetadata& metadata, Results results, const st
 void write_events(const std::string& path, const EventMetadata& metadata, Results results,
                   const std::vector<Decade>& population, bool finished) {
   const std::string state = results::serialize(results);
-  const std::size_t size = state.size() +
-                           results.size() * (1700 + metadata.columns.draws * 8 * inference::state_quantities().size()) +
-                           (1 << 16);
+  const std::size_t size =
+      state.size() + results.size() * (1700 + metadata.columns.draws * 8 * inference::quantities().size()) + (1 << 16);
   write_netcdf(path, size, [&](Writer& file) { fill(file, metadata, results, population, finished, state); });
 }
 

@@ -9,10 +9,12 @@ namespace slipfront::results {
 
 using catalogue::Quantiles;
 using finite_fault::FaultPulse;
-using inference::Inferred;
+using inference::answer_quantities;
+using inference::bound_quantities;
 using inference::Interval;
-using inference::state_quantities;
-using inference::StateQuantity;
+using inference::posterior_quantities;
+using inference::quantities;
+using inference::Quantity;
 
 namespace {
 
@@ -36,15 +38,14 @@ NumberColumn column(const Description& about, Get&& get) {
   return column(about, std::string(about.name), "", Axis::none, 1, std::forward<Get>(get));
 }
 
-void add_inferred(std::vector<NumberColumn>& all, const EstimateQuantity<Inferred>& q) {
-  const auto of = [value = q.value](const EventResult& r) { return r.estimate ? (*r.estimate).*value : std::nullopt; };
-  all.push_back(column(q.about, [of](const EventResult& r, double* out) {
-    const auto x = of(r);
+void add_answer(std::vector<NumberColumn>& all, const Quantity& q) {
+  all.push_back(column(q.about, [&q](const EventResult& r, double* out) {
+    const auto x = answer_of(r, q);
     *out = x ? x->value : none;
   }));
   all.push_back(column(q.about, std::string(q.about.name) + "_interval", "5 % and 95 % of: ", Axis::bound, 2,
-                       [of](const EventResult& r, double* out) {
-                         const auto x = of(r);
+                       [&q](const EventResult& r, double* out) {
+                         const auto x = answer_of(r, q);
                          const Interval i = x && x->interval ? *x->interval : Interval{none, none};
                          out[0] = i.low;
                          out[1] = i.high;
@@ -52,21 +53,18 @@ void add_inferred(std::vector<NumberColumn>& all, const EstimateQuantity<Inferre
 }
 
 void add_estimates(std::vector<NumberColumn>& all) {
-  all.push_back(column({"c_m_s", "speed of strain waves, in m/s", "", "Eq. 3"},
-                       [](const EventResult& r, double* out) { *out = r.estimate ? r.estimate->speed : none; }));
-  for (const auto& q : measured_quantities())
-    all.push_back(column(q.about, [value = q.value](const EventResult& r, double* out) {
-      *out = r.estimate ? ((*r.estimate).*value).value_or(none) : none;
-    }));
-  for (const auto quantities : {inferred_quantities(), bound_quantities()})
-    for (const auto& q : quantities) add_inferred(all, q);
+  for (const EventNumber& number : event_numbers())
+    all.push_back(
+        column(number.about, [get = number.get](const EventResult& r, double* out) { *out = get(r).value_or(none); }));
+  for (const auto quantities : {answer_quantities(), bound_quantities()})
+    for (const Quantity& q : quantities) add_answer(all, q);
 }
 
 void add_posterior(std::vector<NumberColumn>& all) {
-  for (const auto& q : posterior_quantities())
-    all.push_back(column(q.about, "posterior_" + std::string(q.about.name), "with friction and errors: ",
-                         Axis::quantile, 3, [value = q.value](const EventResult& r, double* out) {
-                           const auto x = r.posterior ? (*r.posterior).*value : std::nullopt;
+  for (const Quantity& q : posterior_quantities())
+    all.push_back(column(q.about, "posterior_" + std::string(q.about.name),
+                         "with friction and errors: ", Axis::quantile, 3, [&q](const EventResult& r, double* out) {
+                           const auto x = r.posterior ? (*r.posterior).*q.quantiles : std::nullopt;
                            const Quantiles found = x.value_or(Quantiles{none, none, none});
                            out[0] = found.low;
                            out[1] = found.median;
@@ -87,9 +85,9 @@ void add_posterior(std::vector<NumberColumn>& all) {
 }
 
 void add_draws(std::vector<NumberColumn>& all, std::size_t draws) {
-  for (const StateQuantity& q : state_quantities())
+  for (const Quantity& q : quantities())
     all.push_back(column(q.about, "draw_" + std::string(q.about.name), "drawn from the posterior: ", Axis::draw, draws,
-                         [value = q.value, draws](const EventResult& r, double* out) {
+                         [value = q.state, draws](const EventResult& r, double* out) {
                            for (std::size_t i = 0; i < draws; ++i)
                              out[i] =
                                  r.posterior && i < r.posterior->draws.size() ? r.posterior->draws[i].*value : none;

@@ -20,6 +20,8 @@ using inference::Inferred;
 using inference::Interval;
 using inference::Posterior;
 using inference::posterior;
+using inference::quantities;
+using inference::Quantity;
 using inference::speaks_of_friction_or_error;
 using medium::Defaults;
 
@@ -42,26 +44,14 @@ void fill(Estimate& e, const Posterior& p) {
   const auto set = [](std::optional<Inferred>& to, const std::optional<Quantiles>& from) {
     if (from) to = Inferred{from->median, interval_of(*from)};
   };
-  set(e.rupture_velocity, p.rupture_velocity);
-  set(e.stress, p.stress);
-  set(e.frictionless_slip_velocity, p.frictionless_slip_velocity);
-  set(e.observed_slip_velocity, p.observed_slip_velocity);
-  set(e.slip_velocity_ratio, p.slip_velocity_ratio);
-  set(e.contact_ratio, p.contact_ratio_bound);
-  set(e.contact_ratio, p.contact_ratio);
-  set(e.stress_pa, p.stress_pa);
-  set(e.damping_number, p.damping_number);
-  set(e.friction_coefficient, p.friction_coefficient);
+  for (const Quantity& q : quantities()) set(e.*q.inferred, p.*q.quantiles);
+  // Where only a bound is known, it is the answer.
+  if (!p.contact_ratio) set(e.contact_ratio, p.contact_ratio_bound);
   set(e.stress, p.stress_bound);
-  set(e.stress_bound, p.stress_bound);
-  set(e.contact_ratio_bound, p.contact_ratio_bound);
-  set(e.stress_pa_bound, p.stress_pa_bound);
   if (p.suffices && p.friction_identified) e.contact_ratio_bound.reset(), e.stress_pa_bound.reset();
   if (p.suffices) return;
-  for (const auto& q : inferred_quantities())
-    if (e.*q.value) (e.*q.value)->interval.reset();
-  for (const auto& q : bound_quantities())
-    if (e.*q.value) (e.*q.value)->interval.reset();
+  for (const Quantity& q : quantities())
+    if (e.*q.inferred) (e.*q.inferred)->interval.reset();
 }
 
 bool is_sampled(const EvaluationOptions& options, const Observation& o) {

@@ -10,15 +10,13 @@ namespace slipfront::results {
 
 using finite_fault::FaultPulse;
 using inference::Posterior;
-using inference::state_quantities;
-using inference::StateQuantity;
 
 namespace {
 
 /// Both directions go through the same members in the same order: `walk`.
 template <class Io, class P>
 void walk_posterior(Io& io, P& p) {
-  for (const StateQuantity& q : state_quantities()) io(p.*q.quantiles);
+  for (const inference::Quantity& q : inference::quantities()) io(p.*q.quantiles);
   io(p.friction_identified), io(p.contact_ratio_prior_share), io(p.damping_number_prior_share);
   io(p.trade_off), io(p.draws), io(p.notes), io(p.suffices), io(p.effective_samples), io(p.pareto_k);
   io(p.samples), io(p.seed);

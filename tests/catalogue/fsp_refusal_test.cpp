@@ -81,7 +81,7 @@ TEST(Fsp, SumsThatOverflow) {
   EXPECT_EQ(refusal(edited(single("0.500     1.500", "0.500     1e308"), "0.500     1.000", "0.500     1e308")).key,
             "SLIP");
   const Observation o = read(edited(single("0.500     1.500", "0.500     1e300"), "avTr = 2.0", "avTr = 1e-300"));
-  EXPECT_FALSE(o.slip_velocity);
+  EXPECT_FALSE(o.slip_velocity_m_s);
   EXPECT_EQ(warnings_with(o, "out of range"), 1U);
 }
 

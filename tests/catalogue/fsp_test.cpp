@@ -13,10 +13,10 @@ TEST(Fsp, SrcmodSingleSegment) {
   EXPECT_EQ(o.citation, "Nobody and Noone (1902); EventTAG s1901NOWHERnobo");
   EXPECT_EQ(o.file, "m.fsp");
   EXPECT_EQ(o.line, 3U);
-  expect_value(o.rupture_velocity, 2500);
+  expect_value(o.rupture_velocity_m_s, 2500);
   expect_value(o.rise_time, 2);
   expect_value(o.slip, 1);
-  expect_value(o.slip_velocity, 0.5);
+  expect_value(o.slip_velocity_m_s, 0.5);
   expect_value(o.p_wave_speed, 6000);
   expect_value(o.s_wave_speed, 3000);
   expect_value(o.density, 2500);
@@ -30,9 +30,9 @@ TEST(Fsp, UsgsSingleSegment) {
   EXPECT_EQ(o.name, "FAR COAST OF UTOPIA");
   EXPECT_EQ(o.date, "2031-02-29T01:02:03");
   EXPECT_EQ(o.citation, "EventTAG 2031-02-29T01:02:03");
-  expect_value(o.rupture_velocity, 1500);
+  expect_value(o.rupture_velocity_m_s, 1500);
   expect_value(o.rise_time, 4);  // of the header, although there is a column RISE
-  expect_value(o.slip_velocity, 0.625);
+  expect_value(o.slip_velocity_m_s, 0.625);
   expect_value(o.shear_modulus, 36.75e9);
   EXPECT_TRUE(o.warnings.empty());
 }
@@ -46,7 +46,7 @@ TEST(Fsp, SegmentsAreWeightedWithTheirOwnArea) {
   EXPECT_EQ(usgs.date, "1995/02/30");
   EXPECT_EQ(usgs.citation, "Nobody (NEIC,1999); EventTAG p000000tNOBODY");
   expect_value(usgs.slip, (600 * 1.5 + 200 * 0.5) / 800);
-  expect_value(usgs.slip_velocity, 0.25);
+  expect_value(usgs.slip_velocity_m_s, 0.25);
   EXPECT_TRUE(usgs.warnings.empty());
 }
 
@@ -63,9 +63,9 @@ TEST(Fsp, SegmentsWithoutAreaFallBack) {
 TEST(Fsp, RiseTimeFromItsColumnIfTheHeaderHasNone) {
   // Rows with no slip or a placeholder for RISE do not count: (1 + 2 + 6 + 8 + 1 + 8) / (10 + 2.5).
   const Observation o = read(text_of("fsp_srcmod_segments"));
-  EXPECT_FALSE(o.rupture_velocity);
+  EXPECT_FALSE(o.rupture_velocity_m_s);
   expect_value(o.rise_time, 2.08);
-  expect_value(o.slip_velocity, 1.6 / 2.08);
+  expect_value(o.slip_velocity_m_s, 1.6 / 2.08);
   EXPECT_EQ(warnings_with(o, "avVr = 'km/s' has no number"), 1U);
   EXPECT_EQ(warnings_with(o, "avTr = 999"), 1U);
   EXPECT_EQ(warnings_with(o, "column RISE"), 1U);
@@ -74,20 +74,20 @@ TEST(Fsp, RiseTimeFromItsColumnIfTheHeaderHasNone) {
 TEST(Fsp, PlaceholdersAreNoVelocities) {
   for (const std::string value : {"0.0", "-99.0", "999.0", "99", "-1", "", "unknown"}) {
     const Observation o = read(single("avVr = 2.5 km/s", "avVr = " + value + " km/s"));
-    EXPECT_FALSE(o.rupture_velocity) << value;
+    EXPECT_FALSE(o.rupture_velocity_m_s) << value;
     EXPECT_EQ(warnings_with(o, "avVr"), 1U) << value;
-    expect_value(o.slip_velocity, 0.5);
+    expect_value(o.slip_velocity_m_s, 0.5);
   }
-  expect_value(read(single("avVr = 2.5 km/s", "avVr = 98.9 km/s")).rupture_velocity, 98900);
+  expect_value(read(single("avVr = 2.5 km/s", "avVr = 98.9 km/s")).rupture_velocity_m_s, 98900);
 }
 
 TEST(Fsp, PlaceholdersAreNoRiseTimes) {
   for (const std::string value : {"0.0", "-99.0", "999.0", "900", "", "-"}) {
     const Observation o = read(single("avTr = 2.0 s", "avTr = " + value + " s"));
     EXPECT_FALSE(o.rise_time) << value;
-    EXPECT_FALSE(o.slip_velocity) << value;
+    EXPECT_FALSE(o.slip_velocity_m_s) << value;
     EXPECT_EQ(warnings_with(o, "avTr"), 1U) << value;
-    expect_value(o.rupture_velocity, 2500);
+    expect_value(o.rupture_velocity_m_s, 2500);
     expect_value(o.slip, 1);
   }
   EXPECT_EQ(warnings_with(read(single("avTr = 2.0 s    ", "")), "no avTr"), 1U);
@@ -97,7 +97,7 @@ TEST(Fsp, BlankValueDoesNotTakeTheNextOne) {
   const Observation o = read(single("avTr = 2.0 s    avVr = 2.5 km/s", "avTr = avVr = 2.5 km/s"));
   EXPECT_FALSE(o.rise_time);
   EXPECT_EQ(warnings_with(o, "avTr = ''"), 1U);
-  expect_value(o.rupture_velocity, 2500);
+  expect_value(o.rupture_velocity_m_s, 2500);
 }
 
 TEST(Fsp, OtherUnitsAreRefused) {
@@ -111,9 +111,9 @@ TEST(Fsp, OtherUnitsAreRefused) {
 TEST(Fsp, DirtyFile) {
   const Observation o = read(text_of("fsp_dirty"));
   EXPECT_EQ(o.name, "Lost Isle");
-  expect_value(o.rupture_velocity, 3000);
+  expect_value(o.rupture_velocity_m_s, 3000);
   expect_value(o.slip, 1);
-  expect_value(o.slip_velocity, 0.5);
+  expect_value(o.slip_velocity_m_s, 0.5);
   expect_value(o.shear_modulus, 33e9);
   EXPECT_FALSE(o.p_wave_speed || o.s_wave_speed || o.density || o.poisson_ratio);
   EXPECT_EQ(warnings_with(o, "no numbers, left out: 3"), 1U);
@@ -139,7 +139,7 @@ TEST(Fsp, LineEndsAndMissingLastNewline) {
 
 TEST(Fsp, ColumnNamesWithoutCommentSign) {
   const Observation o = read(single("%   LAT       LON ", "    LAT       LON "));
-  expect_value(o.slip_velocity, 0.5);
+  expect_value(o.slip_velocity_m_s, 0.5);
   EXPECT_TRUE(o.warnings.empty());
 }
 
@@ -182,10 +182,10 @@ TEST(Fsp, MeanSlipMustBePositive) {
   // The six rows sum to -4 m, or to zero.
   for (const std::string slip : {"-8.000", "-4.000"}) {
     const Observation o = read(single("2.500     2.000", "2.500    " + slip));
-    EXPECT_FALSE(o.slip || o.slip_velocity) << slip;
+    EXPECT_FALSE(o.slip || o.slip_velocity_m_s) << slip;
     EXPECT_EQ(warnings_with(o, "not positive"), 1U) << slip;
     EXPECT_EQ(warnings_with(o, "backwards, counted as written: 1"), 1U) << slip;
-    expect_value(o.rupture_velocity, 2500);
+    expect_value(o.rupture_velocity_m_s, 2500);
     expect_value(o.rise_time, 2);
   }
 }
@@ -227,7 +227,7 @@ TEST(Fsp, UnphysicalLayersAreLeftOut) {
     const Observation o = read(single(layer, bad));
     expect_no_elastic_constants(o);
     EXPECT_EQ(o.warnings.size(), 1U) << bad;
-    expect_value(o.slip_velocity, 0.5);
+    expect_value(o.slip_velocity_m_s, 0.5);
   }
   expect_value(read(single(layer, "4.00  4.27 3.00 2.50")).s_wave_speed, 3000);
 }

@@ -34,12 +34,12 @@ TEST(Csv, ReadsUnitsFromHeaderAndCell) {
   const Observation& a = rows[0].observation;
   EXPECT_EQ(a.name, "A, the first");
   EXPECT_EQ(a.citation, "X \"et\" al.");
-  EXPECT_DOUBLE_EQ(a.rupture_velocity->middle(), 2800);
-  EXPECT_DOUBLE_EQ(a.slip_velocity->middle(), 0.1 / 86400);
+  EXPECT_DOUBLE_EQ(a.rupture_velocity_m_s->middle(), 2800);
+  EXPECT_DOUBLE_EQ(a.slip_velocity_m_s->middle(), 0.1 / 86400);
   EXPECT_DOUBLE_EQ(*a.s_wave_speed, 3300);
   EXPECT_EQ(a.line, 2u);
-  EXPECT_DOUBLE_EQ(rows[1].observation.rupture_velocity->middle(), 1e4 / 86400);
-  EXPECT_FALSE(rows[1].observation.slip_velocity);
+  EXPECT_DOUBLE_EQ(rows[1].observation.rupture_velocity_m_s->middle(), 1e4 / 86400);
+  EXPECT_FALSE(rows[1].observation.slip_velocity_m_s);
 }
 
 TEST(Toml, ReadsDistributionsAsTables) {
@@ -59,8 +59,8 @@ TEST(Toml, ReadsDistributionsAsTables) {
     EXPECT_EQ(a.shape, b.shape);
     EXPECT_DOUBLE_EQ(a.spread, b.spread);
   };
-  expect_same(*o.rupture_velocity, *same.rupture_velocity);
-  expect_same(*o.slip_velocity, *same.slip_velocity);
+  expect_same(*o.rupture_velocity_m_s, *same.rupture_velocity_m_s);
+  expect_same(*o.slip_velocity_m_s, *same.slip_velocity_m_s);
   expect_same(*o.duration, *same.duration);
   expect_same(o.uncertain_constants.at(0).measured, same.uncertain_constants.at(0).measured);
 }
@@ -95,10 +95,10 @@ TEST(Csv, ReadsPublishedColumnNames) {
   EXPECT_DOUBLE_EQ(rows[0].observation.duration->middle(), 49 * 86400.0);
   EXPECT_DOUBLE_EQ(rows[0].observation.slip->middle(), 0.038);
   EXPECT_EQ(rows[0].observation.warnings.size(), 2u);  // both velocities are computed, not observed
-  EXPECT_DOUBLE_EQ(rows[1].observation.rupture_velocity->low, 2e3 / 86400);
-  EXPECT_DOUBLE_EQ(rows[1].observation.rupture_velocity->high, 15e3 / 86400);
+  EXPECT_DOUBLE_EQ(rows[1].observation.rupture_velocity_m_s->low, 2e3 / 86400);
+  EXPECT_DOUBLE_EQ(rows[1].observation.rupture_velocity_m_s->high, 15e3 / 86400);
   EXPECT_TRUE(rows[1].observation.duration->is_range());
-  EXPECT_FALSE(rows[2].observation.rupture_velocity);
+  EXPECT_FALSE(rows[2].observation.rupture_velocity_m_s);
   EXPECT_EQ(rows[2].observation.warnings.size(), 1u);  // an upper bound is not an observation
 }
 
@@ -151,7 +151,7 @@ TEST(Toml, ReadsOneEvent) {
       "p.toml");
   EXPECT_EQ(o.name, "P");
   EXPECT_EQ(o.date, "2004-09-28");
-  EXPECT_DOUBLE_EQ(o.rupture_velocity->high, 3500);
+  EXPECT_DOUBLE_EQ(o.rupture_velocity_m_s->high, 3500);
   EXPECT_EQ(*o.poisson_ratio, 0.3);
   EXPECT_EQ(o.line, 1u);
 }

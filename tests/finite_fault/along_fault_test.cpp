@@ -32,10 +32,10 @@ TEST(AlongFault, FindsThePlaneFront) {
   ASSERT_EQ(states.size(), 72u);
   const rupture::Relations r = rupture::from_rupture_velocity(speed / 5421.047417);
   for (const LocalState& s : states) {
-    ASSERT_TRUE(s.rupture_velocity && s.stress && s.stress_pa);
-    EXPECT_NEAR(*s.rupture_velocity, speed, 1e-6 * speed);
+    ASSERT_TRUE(s.rupture_velocity_m_s && s.stress && s.stress_pa);
+    EXPECT_NEAR(*s.rupture_velocity_m_s, speed, 1e-6 * speed);
     EXPECT_NEAR(*s.stress, r.stress, 1e-6);
-    EXPECT_NEAR(*s.slip_velocity, 0.5, 1e-15);
+    EXPECT_NEAR(*s.slip_velocity_m_s, 0.5, 1e-15);
   }
   EXPECT_NEAR(std::fabs(states.back().along_strike - states.front().along_strike), 22000, 1e-6);
   EXPECT_NEAR(states.back().down_dip - states.front().down_dip, 7500, 1e-6);
@@ -45,9 +45,10 @@ TEST(AlongFault, LeavesOutWhatIsNotThere) {
   Observation o;
   o.name = "no times";
   for (int i = 0; i < 5; ++i) o.subfaults.push_back({.x = 1000.0 * i, .z = 500, .slip = 1});
-  for (const LocalState& s : along_fault(o, {})) EXPECT_FALSE(s.rupture_velocity || s.stress || s.slip_velocity);
+  for (const LocalState& s : along_fault(o, {}))
+    EXPECT_FALSE(s.rupture_velocity_m_s || s.stress || s.slip_velocity_m_s);
   for (Subfault& s : o.subfaults) s.rupture_time = 1;  // all at once
-  for (const LocalState& s : along_fault(o, {})) EXPECT_FALSE(s.rupture_velocity);
+  for (const LocalState& s : along_fault(o, {})) EXPECT_FALSE(s.rupture_velocity_m_s);
   o.subfaults.clear();
   EXPECT_TRUE(along_fault(o, {}).empty());
 }

@@ -74,9 +74,9 @@ TEST(Posterior, HoldsTheTruthInNineOfTenEventsOfKnownContact) {
     Observation o;
     o.name = "event " + std::to_string(n);
     o.slip_velocity_is = static_cast<Measure>(n % 4);
-    o.rupture_velocity = lognormal(random.lognormal(truth.V, 1.1), 1.1);
+    o.rupture_velocity_m_s = lognormal(random.lognormal(truth.V, 1.1), 1.1);
     const double w = truth.slip_velocity(o.measure(), Closure::consistent);
-    o.slip_velocity = lognormal(random.lognormal(w, 1.15), 1.15);
+    o.slip_velocity_m_s = lognormal(random.lognormal(w, 1.15), 1.15);
     o.contact_ratio = random.lognormal(truth.A, 1.2);
     o.uncertain_constants.push_back({&medium::Constants::contact_ratio, lognormal(*o.contact_ratio, 1.2)});
     Posterior p;
@@ -105,8 +105,8 @@ TEST(Posterior, HoldsTheTruthInNineOfTenEventsOfKnownFriction) {
     const double C = truth.damping * spacing / (duration * c * truth.A);
     Observation o;
     o.name = "event " + std::to_string(n);
-    o.rupture_velocity = lognormal(random.lognormal(truth.V, 1.1), 1.1);
-    o.slip_velocity = lognormal(random.lognormal(truth.slip_velocity(Measure::origin, Closure::paper), 1.15), 1.15);
+    o.rupture_velocity_m_s = lognormal(random.lognormal(truth.V, 1.1), 1.1);
+    o.slip_velocity_m_s = lognormal(random.lognormal(truth.slip_velocity(Measure::origin, Closure::paper), 1.15), 1.15);
     o.friction_coefficient = lognormal(random.lognormal(C, 2), 2);
     o.duration = exact(duration);
     o.asperity_spacing = spacing;
@@ -143,8 +143,8 @@ struct OnGrid {
 TEST(Posterior, IsThatOfAGrid) {
   Observation o;
   o.name = "grid";
-  o.rupture_velocity = Measured{3000, 3000, Shape::normal, 150};
-  o.slip_velocity = lognormal(0.5, 1.2);
+  o.rupture_velocity_m_s = Measured{3000, 3000, Shape::normal, 150};
+  o.slip_velocity_m_s = lognormal(0.5, 1.2);
   o.contact_ratio = 0.01;
   const Measured contact{0.01, 0.01, Shape::normal, 0.002};
   o.uncertain_constants.push_back({&medium::Constants::contact_ratio, contact});
@@ -158,9 +158,10 @@ TEST(Posterior, IsThatOfAGrid) {
                      A = 0.01 * std::exp((j + 0.5) / n * 2.4 - 1.6);
         const double u = (k + 0.5) / n * 8;
         const Truth state{V, A, std::expm1(u)};
-        const double weight = o.rupture_velocity->likelihood(V) * contact.likelihood(A) *
-                              o.slip_velocity->likelihood(state.slip_velocity(Measure::origin, Closure::consistent)) *
-                              o.stress_drop->likelihood(state.stress_pa());
+        const double weight =
+            o.rupture_velocity_m_s->likelihood(V) * contact.likelihood(A) *
+            o.slip_velocity_m_s->likelihood(state.slip_velocity(Measure::origin, Closure::consistent)) *
+            o.stress_drop->likelihood(state.stress_pa());
         grid.A.emplace_back(A, weight);
         grid.u.emplace_back(u, weight);
       }
@@ -180,14 +181,14 @@ TEST(Posterior, SolvesWhatIsExact) {
   const Truth truth{3000, 0.01, 12.5};
   Observation o;
   o.name = "exact";
-  o.rupture_velocity = exact(truth.V);
+  o.rupture_velocity_m_s = exact(truth.V);
   o.contact_ratio = truth.A;
   o.duration = exact(10);
   o.asperity_spacing = 0.5;
   for (const Closure closure : {Closure::consistent, Closure::paper})
     for (const Measure m : friction_ratio::all_measures) {
       o.slip_velocity_is = m;
-      o.slip_velocity = exact(truth.slip_velocity(m, closure));
+      o.slip_velocity_m_s = exact(truth.slip_velocity(m, closure));
       const Posterior p = *posterior(o, defaults, {.samples = 10, .closure = closure});
       EXPECT_NEAR(p.damping_number->median, truth.damping, 1e-8);
       EXPECT_NEAR(p.damping_number->low, p.damping_number->high, 1e-8);
@@ -199,8 +200,8 @@ TEST(Posterior, SolvesWhatIsExact) {
 TEST(Posterior, SaysWhatCannotBeKnown) {
   Observation o;
   o.name = "velocities";
-  o.rupture_velocity = Measured{3000, 3000, Shape::normal, 100};
-  o.slip_velocity = exact(0.5);
+  o.rupture_velocity_m_s = Measured{3000, 3000, Shape::normal, 100};
+  o.slip_velocity_m_s = exact(0.5);
   const Posterior p = *posterior(o, defaults, {});
   EXPECT_FALSE(p.friction_identified);
   EXPECT_GT(*p.damping_number_prior_share, 0.4);  // A cannot exceed plastic contact
@@ -211,19 +212,19 @@ TEST(Posterior, SaysWhatCannotBeKnown) {
   ASSERT_FALSE(p.notes.empty());
   EXPECT_NE(p.notes.front().find("trade off"), std::string::npos);
 
-  o.slip_velocity.reset();
+  o.slip_velocity_m_s.reset();
   const Posterior q = *posterior(o, defaults, {});
   EXPECT_FALSE(q.contact_ratio || q.damping_number || q.stress_pa);
   EXPECT_TRUE(q.stress);
-  o.rupture_velocity.reset();
+  o.rupture_velocity_m_s.reset();
   EXPECT_FALSE(posterior(o, defaults, {}));
 }
 
 TEST(Posterior, RefusesWhatExcludesItself) {
   Observation o;
   o.name = "contradiction";
-  o.rupture_velocity = exact(3000);
-  o.slip_velocity = exact(0.5);
+  o.rupture_velocity_m_s = exact(3000);
+  o.slip_velocity_m_s = exact(0.5);
   o.contact_ratio = 0.001;
   const auto complaint = [&] {
     try {
@@ -234,16 +235,16 @@ TEST(Posterior, RefusesWhatExcludesItself) {
     return std::string("accepted");
   };
   EXPECT_NE(complaint().find("above what any friction leaves"), std::string::npos) << complaint();
-  o.slip_velocity = exact(1e-12);
+  o.slip_velocity_m_s = exact(1e-12);
   EXPECT_NE(complaint().find("below what a damping number"), std::string::npos) << complaint();
-  o.rupture_velocity = exact(5420.9);
+  o.rupture_velocity_m_s = exact(5420.9);
   EXPECT_NE(complaint().find("outside the table"), std::string::npos) << complaint();
 }
 
 TEST(Posterior, SeedsAreThoseOfTheEvent) {
   Observation o;
   o.name = "a";
-  o.rupture_velocity = Measured{2000, 3000};
+  o.rupture_velocity_m_s = Measured{2000, 3000};
   const Posterior once = *posterior(o, defaults, {}), again = *posterior(o, defaults, {});
   EXPECT_EQ(once.stress->low, again.stress->low);
   EXPECT_EQ(once.seed, again.seed);

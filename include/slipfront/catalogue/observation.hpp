@@ -42,11 +42,11 @@ struct Observation : medium::Constants {
   std::string file;      ///< where it was read
   std::size_t line = 0;  ///< line of the row, table or header in that file
 
-  std::optional<Measured> rupture_velocity;  ///< m/s
-  std::optional<Measured> slip_velocity;     ///< m/s
-  std::optional<Measured> slip;              ///< m
-  std::optional<Measured> rise_time;         ///< s, time that one point slips
-  std::optional<Measured> duration;          ///< s, of the whole event
+  std::optional<Measured> rupture_velocity_m_s;
+  std::optional<Measured> slip_velocity_m_s;
+  std::optional<Measured> slip;       ///< m
+  std::optional<Measured> rise_time;  ///< s, time that one point slips
+  std::optional<Measured> duration;   ///< s, of the whole event
 
   std::optional<Measured> stress_drop;           ///< Pa, mu A Sigma- / pi: all that was stored
   std::optional<Measured> friction_coefficient;  ///< C
@@ -60,10 +60,10 @@ struct Observation : medium::Constants {
 
   /// The time that slip is divided by where no slip velocity was measured; null: none.
   const Measured* slip_time() const {
-    if (slip_velocity || !slip) return nullptr;
+    if (slip_velocity_m_s || !slip) return nullptr;
     return rise_time ? &*rise_time : duration ? &*duration : nullptr;
   }
-  bool has_slip_velocity() const { return slip_velocity || slip_time(); }
+  bool has_slip_velocity() const { return slip_velocity_m_s || slip_time(); }
   /// T of Gamma = C T; null: unknown.
   const Measured* damping_time() const { return duration ? &*duration : rise_time ? &*rise_time : nullptr; }
   /// What the slip velocity is taken for where nobody says: slip over a time is the mean over that time.

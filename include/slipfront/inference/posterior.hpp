@@ -9,8 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "slipfront/catalogue/quantiles.hpp"
-#include "slipfront/description.hpp"
 #include "slipfront/inference/estimate.hpp"
 
 namespace slipfront::inference {
@@ -32,15 +30,6 @@ inline constexpr double least_effective_samples = 200;
 /// can be is refused.
 inline constexpr std::size_t most_growth = 64, most_samples = 262144;
 
-using catalogue::Quantiles;
-
-/// One state of the fault; NaN where the observations do not identify a quantity.
-struct FaultState {
-  double rupture_velocity_m_s, rupture_velocity, stress, frictionless_slip_velocity, observed_slip_velocity;
-  double slip_velocity_ratio, contact_ratio, damping_number, friction_coefficient, stress_pa;
-  double stress_bound, contact_ratio_bound, stress_pa_bound;
-};
-
 /// One state that explains the observed velocities as well as any other.
 struct TradeOff {
   double damping_number;
@@ -49,11 +38,7 @@ struct TradeOff {
 };
 
 /// Absent quantities are not identifiable, or the samples do not suffice; `notes` say why and what would settle it.
-struct Posterior {
-  std::optional<Quantiles> rupture_velocity_m_s, rupture_velocity, stress, frictionless_slip_velocity,
-      observed_slip_velocity, slip_velocity_ratio, contact_ratio, damping_number, friction_coefficient, stress_pa;
-  /// Lower bounds, if friction took nothing: where slip velocity and rupture velocity (or A) are known, and no more.
-  std::optional<Quantiles> stress_bound, contact_ratio_bound, stress_pa_bound;
+struct Posterior : FaultQuantities<std::optional<Quantiles>> {
   bool friction_identified = false;  ///< else damping_number and contact_ratio only trade off
   /// Width of the 90 % interval (of ln A and ln(1 + Gamma)) over that of the prior: near 1, only the prior speaks.
   std::optional<double> contact_ratio_prior_share, damping_number_prior_share;
@@ -69,15 +54,6 @@ struct Posterior {
   std::size_t samples = 0;  ///< at the end
   std::uint64_t seed = 0;   ///< of this event's shift
 };
-
-/// A quantity of FaultState and its points in Posterior.
-struct StateQuantity {
-  Description about;
-  double FaultState::*value;
-  std::optional<Quantiles> Posterior::*quantiles;
-};
-/// All of them, by the names that they have everywhere.
-std::span<const StateQuantity> state_quantities();
 
 /// Whether an event says how uncertain it is, or carries anything that speaks of its friction.
 bool speaks_of_friction_or_error(const catalogue::Observation& observation);

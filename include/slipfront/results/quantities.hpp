@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Quantities of an event by their names.
+/// Numbers of an event besides the quantities of its fault's state, and what a population sums up.
 
 #include <optional>
 #include <span>
@@ -8,28 +8,24 @@
 
 #include "slipfront/catalogue/population.hpp"
 #include "slipfront/description.hpp"
+#include "slipfront/inference/quantities.hpp"
 #include "slipfront/results/evaluate.hpp"
 
 namespace slipfront::results {
 
-/// Members of Estimate by name, in the order of output.
-template <class T>
-struct EstimateQuantity {
+/// One number of an event, declared once for all outputs.
+struct EventNumber {
   Description about;
-  std::optional<T> inference::Estimate::*value;
+  bool in_population;  ///< a population sums it up
+  std::optional<double> (*get)(const EventResult&);
 };
-std::span<const EstimateQuantity<double>> measured_quantities();
-std::span<const EstimateQuantity<inference::Inferred>> inferred_quantities();
-std::span<const EstimateQuantity<inference::Inferred>> bound_quantities();  ///< lower bounds, if friction took nothing
+/// In the order of output: before the quantities of the state.
+std::span<const EventNumber> event_numbers();
 
-/// Members of Posterior by name, likewise.
-struct PosteriorQuantity {
-  Description about;
-  std::optional<catalogue::Quantiles> inference::Posterior::*value;
-};
-std::span<const PosteriorQuantity> posterior_quantities();
+/// The answers of an event, and then lower bounds: a quantity and its value, absent where there is none.
+std::optional<inference::Inferred> answer_of(const EventResult& result, const inference::Quantity& quantity);
 
-/// What a population sums up: the measured and the inferred quantities, in the order of output.
+/// What a population sums up: measured and inferred quantities, in the order of output.
 std::vector<Description> population_quantities();
 /// An event as a member of a population: its value of each of them. None of an event without a rupture velocity.
 std::optional<catalogue::Member> member_of(const EventResult& result);
