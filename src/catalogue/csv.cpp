@@ -3,6 +3,7 @@
 
 #include "../csv_records.hpp"
 #include "csv_header.hpp"
+#include "format.hpp"
 #include "slipfront/catalogue/read.hpp"
 
 namespace slipfront::catalogue {
@@ -176,5 +177,8 @@ std::vector<std::string> read_csv(std::string_view text, const std::string& file
     if (c.role == Role::ignored) ignored.push_back(c.title);
   return ignored;
 }
+
+extern const Format csv_format;
+const Format csv_format{.ending = ".csv", .looks_like = [](std::string_view) { return true; }, .read = read_csv};
 
 }  // namespace slipfront::catalogue

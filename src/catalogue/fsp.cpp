@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "../digits.hpp"
+#include "format.hpp"
 #include "slipfront/catalogue/read.hpp"
 
 namespace slipfront::catalogue {
@@ -108,7 +110,7 @@ std::optional<double> given(const fsp::Field& field, const std::string& key, dou
   if (!field.present) {
     warnings.push_back("no " + key + " in the header");
   } else if (field.number) {
-    warnings.push_back(key + " = " + fsp::shown(*field.number) + " is taken as a placeholder: not given");
+    warnings.push_back(key + " = " + shortest(*field.number) + " is taken as a placeholder: not given");
   } else {
     warnings.push_back(key + " = '" + field.text + "' has no number: not given");
   }
@@ -138,7 +140,7 @@ void Reader::fill_velocities(Observation& out) const {
                       .allowed = "slip and sizes with a finite mean"});
   }
   if (slip <= 0) {
-    out.warnings.push_back("mean slip = " + fsp::shown(slip) + " m is not positive: not given");
+    out.warnings.push_back("mean slip = " + shortest(slip) + " m is not positive: not given");
     return;
   }
   out.slip = Measured{slip, slip};
@@ -182,5 +184,14 @@ Observation read_fsp(std::string_view text, const std::string& file) {
   }
   return reader.finish();
 }
+
+extern const Format fsp_format;
+const Format fsp_format{.ending = ".fsp",
+                        .looks_like = [](std::string_view text) { return first_character(text) == '%'; },
+                        .read =
+                            [](std::string_view text, const std::string& file, const Sink& sink) {
+                              sink({read_fsp(text, file), {}});
+                              return std::vector<std::string>{};
+                            }};
 
 }  // namespace slipfront::catalogue

@@ -36,8 +36,6 @@ std::optional<std::size_t> index_of(const Words& words, std::string_view word);
 std::optional<double> number(std::string_view word);
 /// Text for a person: single blanks, no control characters, valid UTF-8 (anything else is read as Latin-1).
 std::string tidy(std::string_view text);
-/// Shortest decimal form that reads back as the same number.
-std::string shown(double value);
 
 /// What stands after `key =`.
 struct Value {

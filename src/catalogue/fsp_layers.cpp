@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "../digits.hpp"
 #include "fsp.hpp"
 
 namespace slipfront::catalogue::fsp {
@@ -109,8 +110,8 @@ void VelocityTable::fill(std::optional<double> depth, Observation& out) const {
 
   const Layer& layer = layers_[at];
   if (!is_physical(layer)) {
-    return warn("unphysical layer in the velocity table (vp = " + shown(layer.p) + " km/s, vs = " + shown(layer.s) +
-                " km/s, density = " + shown(layer.density) + " g/cm^3)");
+    return warn("unphysical layer in the velocity table (vp = " + shortest(layer.p) +
+                " km/s, vs = " + shortest(layer.s) + " km/s, density = " + shortest(layer.density) + " g/cm^3)");
   }
   const double p = 1000 * layer.p, s = 1000 * layer.s, density = 1000 * layer.density;
   out.p_wave_speed = p;

@@ -169,12 +169,6 @@ std::string tidy(std::string_view text) {
   return is_utf8(out) ? out : from_latin1(out);
 }
 
-std::string shown(double value) {
-  char text[32];
-  const auto [end, error] = std::to_chars(text, text + sizeof text, value);
-  return error == std::errc() ? std::string(text, end) : std::string();
-}
-
 std::optional<Value> value_of(std::string_view text, std::string_view key, const Place& place) {
   for (std::size_t at = text.find('='); at != std::string_view::npos; at = text.find('=', at + 1)) {
     if (same(word_before(text, at), key)) return value_at(text.substr(at + 1), key, place);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "../nearest.hpp"
+#include "../trimmed.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::catalogue {
@@ -17,29 +18,23 @@ using Shape = Measured::Shape;
 
 constexpr const char* forms = "such as 3.0 +- 0.2 km/s, 3.0 */ 1.2 km/s, 2.8..3.2 km/s, lognormal(3.0, 1.2) km/s";
 
-std::string trimmed(std::string_view text) {
-  const auto from = text.find_first_not_of(" \t\r\n");
-  if (from == std::string_view::npos) return {};
-  return std::string(text.substr(from, text.find_last_not_of(" \t\r\n") - from + 1));
-}
-
 /// What a text says, before numbers and unit are read.
 struct Parts {
-  std::string first, second, unit;
+  std::string_view first, second, unit;
   Shape shape;
 };
 
 /// Splits "b unit" behind the number b, where a blank or a unit begins and not inside of a number ("1e400").
-std::pair<std::string, std::string> number_and_unit(const std::string& text) {
+std::pair<std::string_view, std::string_view> number_and_unit(std::string_view text) {
   const std::size_t end = std::min(text.find_first_not_of("+-.0123456789eE"), text.size());
-  if (medium::number(std::string_view(text).substr(0, end))) return {text.substr(0, end), trimmed(text.substr(end))};
+  if (medium::number(text.substr(0, end))) return {text.substr(0, end), trimmed(text.substr(end))};
   return {text, {}};
 }
 
-std::optional<Parts> named(const std::string& text) {
+std::optional<Parts> named(std::string_view text) {
   const auto open = text.find('('), comma = text.find(',', open), close = text.find(')', open);
   if (open == std::string::npos) return std::nullopt;
-  const std::string name = trimmed(text.substr(0, open));
+  const std::string name(trimmed(text.substr(0, open)));
   const bool known = name == "normal" || name == "lognormal" || name == "uniform";
   if (!known || comma == std::string::npos || close == std::string::npos || close < comma)
     throw InputError(
@@ -52,26 +47,26 @@ std::optional<Parts> named(const std::string& text) {
                                      : Shape::range};
 }
 
-std::optional<Parts> with_sign(const std::string& text) {
-  static const std::pair<std::string, Shape> signs[] = {{"+-", Shape::normal},
-                                                        {"+/-", Shape::normal},
-                                                        {"\xC2\xB1", Shape::normal},
-                                                        {"*/", Shape::lognormal},
-                                                        {"..", Shape::range}};
+std::optional<Parts> with_sign(std::string_view text) {
+  static constexpr std::pair<std::string_view, Shape> signs[] = {{"+-", Shape::normal},
+                                                                 {"+/-", Shape::normal},
+                                                                 {"\xC2\xB1", Shape::normal},
+                                                                 {"*/", Shape::lognormal},
+                                                                 {"..", Shape::range}};
   for (const auto& [sign, shape] : signs) {
     const auto at = text.find(sign);
     if (at == std::string::npos) continue;
-    auto [second, unit] = number_and_unit(trimmed(text.substr(at + sign.size())));
-    return Parts{trimmed(text.substr(0, at)), std::move(second), std::move(unit), shape};
+    const auto [second, unit] = number_and_unit(trimmed(text.substr(at + sign.size())));
+    return Parts{trimmed(text.substr(0, at)), second, unit, shape};
   }
   return std::nullopt;
 }
 
-double value_of(const std::string& number, const std::string& unit, medium::Dimension dimension,
+double value_of(std::string_view number, std::string_view unit, medium::Dimension dimension,
                 std::string_view default_unit) {
   if (!medium::number(number))
-    throw InputError({.problem = "'" + number + "' is not a finite number", .allowed = forms});
-  return medium::parse_quantity(number + " " + unit, dimension, default_unit).low;
+    throw InputError({.problem = "'" + std::string(number) + "' is not a finite number", .allowed = forms});
+  return medium::parse_quantity(std::string(number) + " " + std::string(unit), dimension, default_unit).low;
 }
 
 Measured measured(const Parts& parts, medium::Dimension dimension, std::string_view default_unit) {
@@ -79,7 +74,8 @@ Measured measured(const Parts& parts, medium::Dimension dimension, std::string_v
   if (parts.shape == Shape::lognormal) {
     const auto factor = medium::number(parts.second);
     if (!factor || !(*factor > 1))
-      throw InputError({.problem = "the factor of a lognormal distribution is " + parts.second, .allowed = "> 1"});
+      throw InputError(
+          {.problem = "the factor of a lognormal distribution is " + std::string(parts.second), .allowed = "> 1"});
     return {first, first, Shape::lognormal, *factor};
   }
   const double second = value_of(parts.second, parts.unit, dimension, default_unit);
@@ -87,7 +83,7 @@ Measured measured(const Parts& parts, medium::Dimension dimension, std::string_v
     if (second < first) throw InputError({.problem = "the range runs downwards", .allowed = "low..high"});
     return {first, second};
   }
-  if (!(second > 0)) throw InputError({.problem = "the uncertainty is " + parts.second, .allowed = "> 0"});
+  if (!(second > 0)) throw InputError({.problem = "the uncertainty is " + std::string(parts.second), .allowed = "> 0"});
   return {first, first, Shape::normal, second};
 }
 
@@ -109,7 +105,7 @@ double Measured::likelihood(double x) const {
 double Measured::weight_of_draw(double x) const { return shape == Shape::lognormal || is_exact() ? 1 : 1 / x; }
 
 Measured parse_measured(std::string_view text, medium::Dimension dimension, std::string_view default_unit) {
-  const std::string whole = trimmed(text);
+  const std::string whole(trimmed(text));
   try {
     if (const auto parts = named(whole)) return measured(*parts, dimension, default_unit);
     if (const auto parts = with_sign(whole)) return measured(*parts, dimension, default_unit);

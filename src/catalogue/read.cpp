@@ -1,23 +1,24 @@
 #include "slipfront/catalogue/read.hpp"
 
+#include <iterator>
+
+#include "format.hpp"
+
 namespace slipfront::catalogue {
+
+extern const Format fsp_format, toml_format, csv_format;
+
 namespace {
 
-enum class Format { toml, csv, fsp };
+/// In the order in which a text of unknown ending is tried; the last one takes what is left.
+constexpr const Format* formats[] = {&fsp_format, &toml_format, &csv_format};
 
-bool ends_with(std::string_view text, std::string_view end) {
-  return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
-}
-
-/// By name; else an .fsp starts with '%', and of the other two only TOML has a line that starts with '['.
-Format format_of(std::string_view text, std::string_view file) {
-  if (ends_with(file, ".toml")) return Format::toml;
-  if (ends_with(file, ".csv")) return Format::csv;
-  if (ends_with(file, ".fsp")) return Format::fsp;
-  const std::size_t first = text.find_first_not_of(" \t\r\n");
-  if (first != std::string_view::npos && text[first] == '%') return Format::fsp;
-  if (first != std::string_view::npos && text[first] == '[') return Format::toml;
-  return text.find("\n[") != std::string_view::npos ? Format::toml : Format::csv;
+const Format& format_of(std::string_view text, std::string_view file) {
+  for (const Format* format : formats)
+    if (file.ends_with(format->ending)) return *format;
+  for (const Format* format : formats)
+    if (format->looks_like(text)) return *format;
+  return **std::prev(std::end(formats));
 }
 
 }  // namespace
@@ -26,16 +27,7 @@ std::vector<std::string> read_events(std::string_view text, const std::string& f
   try {
     if (text.find_first_not_of(" \t\r\n") == std::string_view::npos)
       throw InputError({.file = file, .problem = "the file is empty", .allowed = "an event in TOML, CSV or .fsp"});
-    switch (format_of(text, file)) {
-      case Format::toml:
-        sink({read_toml(text, file), {}});
-        break;
-      case Format::fsp:
-        sink({read_fsp(text, file), {}});
-        break;
-      case Format::csv:
-        return read_csv(text, file, sink);
-    }
+    return format_of(text, file).read(text, file, sink);
   } catch (const InputError& error) {
     Entry entry;
     entry.observation.name = file;

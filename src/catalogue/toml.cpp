@@ -3,6 +3,7 @@
 #include "../nearest.hpp"
 #include "../parse_toml.hpp"
 #include "../plain_stream.hpp"
+#include "format.hpp"
 #include "keys.hpp"
 #include "slipfront/catalogue/read.hpp"
 #include "toml_distribution.hpp"
@@ -133,5 +134,17 @@ Observation read_toml(std::string_view text, const std::string& file) {
     throw InputError(c);
   }
 }
+
+extern const Format toml_format;
+const Format toml_format{.ending = ".toml",
+                         .looks_like =
+                             [](std::string_view text) {
+                               return first_character(text) == '[' || text.find("\n[") != std::string_view::npos;
+                             },
+                         .read =
+                             [](std::string_view text, const std::string& file, const Sink& sink) {
+                               sink({read_toml(text, file), {}});
+                               return std::vector<std::string>{};
+                             }};
 
 }  // namespace slipfront::catalogue

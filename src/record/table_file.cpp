@@ -10,6 +10,7 @@
 
 #include "../csv_records.hpp"
 #include "../digits.hpp"
+#include "../trimmed.hpp"
 #include "netcdf_file.hpp"
 #include "seal.hpp"
 #include "slipfront/error.hpp"
@@ -20,12 +21,6 @@ namespace slipfront::record {
 namespace {
 
 using Table = std::vector<std::pair<double, double>>;
-
-std::string trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
 
 /// Where the columns stand in a CSV file.
 struct Columns {
