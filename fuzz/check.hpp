@@ -4,15 +4,15 @@
 #include <cstdlib>
 #include <optional>
 
-#include "slipfront/event/estimate.hpp"
-#include "slipfront/event/observation.hpp"
+#include "slipfront/catalogue/observation.hpp"
+#include "slipfront/inference/estimate.hpp"
 
 /// Aborts if a reader let through what it should have refused, or if the theory makes of it what is no number.
-inline void check_observation(const slipfront::event::Observation& o) {
+inline void check_observation(const slipfront::catalogue::Observation& o) {
   const auto require = [](bool truth) {
     if (!truth) std::abort();
   };
-  for (const auto& measured : {o.rupture_velocity, o.slip_velocity, o.slip, o.rise_time, o.duration})
+  for (const auto& measured : {o.rupture_velocity_m_s, o.slip_velocity_m_s, o.slip, o.rise_time, o.duration})
     if (measured) require(measured->low > 0 && measured->low <= measured->high && std::isfinite(measured->high));
   for (const auto& constant :
        {o.shear_modulus, o.p_wave_speed, o.s_wave_speed, o.density, o.contact_ratio, o.asperity_spacing})
@@ -20,7 +20,7 @@ inline void check_observation(const slipfront::event::Observation& o) {
   if (o.poisson_ratio) require(std::isfinite(*o.poisson_ratio));
   require(!o.name.empty());
   try {
-    const slipfront::event::Estimate e = slipfront::event::estimate(o, {});
+    const slipfront::inference::Estimate e = slipfront::inference::estimate(o, {});
     for (const auto& x : {e.rupture_velocity, e.stress, e.frictionless_slip_velocity, e.observed_slip_velocity,
                           e.slip_velocity_ratio, e.contact_ratio, e.stress_pa}) {
       if (!x) continue;

@@ -4,14 +4,14 @@
 #include <cstdint>
 
 #include "check.hpp"
-#include "slipfront/event/read.hpp"
+#include "slipfront/catalogue/read.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
-    slipfront::event::read_csv({reinterpret_cast<const char*>(data), size}, "fuzz.csv",
-                               [](slipfront::event::Entry&& entry) {
-                                 if (!entry.error) check_observation(entry.observation);
-                               });
+    slipfront::catalogue::read_csv({reinterpret_cast<const char*>(data), size}, "fuzz.csv",
+                                   [](slipfront::catalogue::Entry&& entry) {
+                                     if (!entry.error) check_observation(entry.observation);
+                                   });
   } catch (const slipfront::InputError&) {
   }
   return 0;

@@ -8,12 +8,12 @@
 #include <utility>
 #include <vector>
 
+#include "slipfront/catalogue/read.hpp"
 #include "slipfront/chain/run.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/event/columns.hpp"
-#include "slipfront/event/read.hpp"
-#include "slipfront/event/saved.hpp"
 #include "slipfront/pulse/run.hpp"
+#include "slipfront/results/columns.hpp"
+#include "slipfront/results/serialize.hpp"
 
 using namespace slipfront;
 
@@ -54,35 +54,35 @@ std::string saved_pulse() {
 
 std::string saved_chain() { return chain::Run(chain_problem(), schedule, chain::Execution{}).saved(); }
 
-std::vector<event::Entry> entries() {
-  std::vector<event::Entry> all;
-  event::read_events(
+std::vector<catalogue::Entry> entries() {
+  std::vector<catalogue::Entry> all;
+  catalogue::read_events(
       "name,rupture_velocity,slip_velocity,contact_ratio\n"
       "known,3.0 +- 0.2 km/s,0.5 m/s,0.01 +- 0.002\ntrades off,3.0 +- 0.2 km/s,0.5 m/s,\nfast,9 km/s,,\n",
-      "a.csv", [&](event::Entry&& entry) { all.push_back(std::move(entry)); });
+      "a.csv", [&](catalogue::Entry&& entry) { all.push_back(std::move(entry)); });
   return all;
 }
 
-constexpr event::Plan plan{.sampling = {.samples = 20}};
+constexpr results::EvaluationOptions plan{.sampling = {.samples = 20}};
 
 std::string saved_events() {
-  std::vector<event::EventResult> results;
-  for (event::Entry& entry : entries()) results.push_back(event::evaluate(std::move(entry), {}, plan));
-  return event::saved(results);
+  std::vector<results::EventResult> results;
+  for (catalogue::Entry& entry : entries()) results.push_back(results::evaluate(std::move(entry), {}, plan));
+  return results::serialize(results);
 }
 
 /// Results of what was saved, looked at as files do.
 void go_on_with_events(const std::string& state) {
-  std::vector<event::Found> found = event::found_in(state);
-  for (event::Entry& entry : entries()) {
+  std::vector<results::SavedResult> found = results::deserialize(state);
+  for (catalogue::Entry& entry : entries()) {
     if (found.empty()) return;
-    const event::EventResult result = event::evaluate(std::move(entry), {}, plan, std::move(found.back()));
+    const results::EventResult result = results::evaluate(std::move(entry), {}, plan, std::move(found.back()));
     found.pop_back();
-    for (const auto& column : event::number_columns({.pulse = true, .draws = 5})) {
+    for (const auto& column : results::number_columns({.pulse = true, .draws = 5})) {
       std::vector<double> out(column.count);
       column.get(result, out.data());
     }
-    for (const auto& column : event::text_columns(true)) column.get(result);
+    for (const auto& column : results::text_columns(true)) column.get(result);
   }
 }
 

@@ -4,11 +4,11 @@
 #include <cstdint>
 
 #include "check.hpp"
-#include "slipfront/event/read.hpp"
+#include "slipfront/catalogue/read.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
-    check_observation(slipfront::event::read_toml({reinterpret_cast<const char*>(data), size}, "fuzz.toml"));
+    check_observation(slipfront::catalogue::read_toml({reinterpret_cast<const char*>(data), size}, "fuzz.toml"));
   } catch (const slipfront::InputError&) {
   }
   return 0;

@@ -11,4 +11,10 @@ inline std::string digits(double value, int count = 6) {
   return {text, std::to_chars(text, text + sizeof text, value, std::chars_format::general, count).ptr};
 }
 
+/// The shortest decimal form that reads back as the same number.
+inline std::string shortest(double value) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
 }  // namespace slipfront

@@ -9,9 +9,9 @@
 #include <locale>
 #include <string>
 
+#include "slipfront/catalogue/read.hpp"
 #include "slipfront/elliptic/complete.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/event/read.hpp"
 #include "slipfront/machine.hpp"
 #include "slipfront/medium/medium.hpp"
 #include "slipfront/pulse/solver.hpp"
@@ -69,9 +69,9 @@ TEST(Locale, ChangesNoEventThatIsRead) {
       "[event]\nname = 2004\ndate = 2004-09-28\nrupture_velocity = { mean = \"2.75 km/s\", sd = \"1234.5 m/s\" }\n"
       "slip_velocity = \"0.125 m/s\"\n[medium]\npoisson_ratio = 0.125\n";
   in_both([&text] {
-    const event::Observation o = event::read_toml(text, "e.toml");
-    EXPECT_EQ(o.rupture_velocity->middle(), 2750);
-    EXPECT_EQ(o.slip_velocity->middle(), 0.125);
+    const catalogue::Observation o = catalogue::read_toml(text, "e.toml");
+    EXPECT_EQ(o.rupture_velocity_m_s->middle(), 2750);
+    EXPECT_EQ(o.slip_velocity_m_s->middle(), 0.125);
     EXPECT_EQ(o.poisson_ratio, 0.125);
     return o.name + " " + o.date;
   });
@@ -89,7 +89,7 @@ TEST(Locale, ChangesNoMessage) {
       return {};
     });
   };
-  message([] { event::read_toml("[event]\nslip_velocity = { low = -1234.5, high = 2004.5 }\n", "e.toml"); });
+  message([] { catalogue::read_toml("[event]\nslip_velocity = { low = -1234.5, high = 2004.5 }\n", "e.toml"); });
   EXPECT_NE(message([] { elliptic::at_psi(-1234.5); }).find("-1234.5"), std::string::npos);
   EXPECT_NE(message([] { medium::plastic_contact_ratio(1234.5); }).find("1234.5"), std::string::npos);
   EXPECT_NE(message([] {

@@ -6,25 +6,21 @@
 #include <string_view>
 #include <vector>
 
+#include "slipfront/results/quantities.hpp"
+
 namespace {
 
 using Json = nlohmann::ordered_json;
-using slipfront::event::bound_quantities;
-using slipfront::event::Estimate;
-using slipfront::event::EventResult;
-using slipfront::event::FaultPulse;
-using slipfront::event::inferred_quantities;
-using slipfront::event::joined;
-using slipfront::event::measured_quantities;
-using slipfront::event::Posterior;
-using slipfront::event::posterior_quantities;
-using slipfront::event::pulse_quantities;
-
-/// An absent estimate reads like one in which nothing is identifiable.
-const Estimate& estimate_of(const EventResult& result) {
-  static const Estimate nothing;
-  return result.estimate ? *result.estimate : nothing;
-}
+using slipfront::finite_fault::FaultPulse;
+using slipfront::inference::answer_quantities;
+using slipfront::inference::bound_quantities;
+using slipfront::inference::Posterior;
+using slipfront::inference::posterior_quantities;
+using slipfront::results::answer_of;
+using slipfront::results::event_numbers;
+using slipfront::results::EventResult;
+using slipfront::results::joined;
+using slipfront::results::pulse_quantities;
 
 /// A cell of text. A spreadsheet runs one that begins like a formula: it gets an apostrophe before it (docs/events.md).
 std::string quoted(const std::string& text) {
@@ -41,7 +37,7 @@ Json posterior_json(const EventResult& result) {
   const Posterior& p = *result.posterior;
   Json j;
   for (const auto& quantity : posterior_quantities()) {
-    const auto& q = p.*quantity.value;
+    const auto& q = p.*quantity.quantiles;
     const std::string name(quantity.about.name);
     j[name] = q ? Json(q->median) : Json();
     j[name + "_interval"] = q ? Json{q->low, q->high} : Json();
@@ -71,8 +67,8 @@ Json along_fault_json(const EventResult& result) {
                    {"down_dip_m", s.down_dip},
                    {"depth_m", s.subfault.z},
                    {"slip_m", s.subfault.slip},
-                   {"rupture_velocity_m_s", number_or_null(s.rupture_velocity)},
-                   {"slip_velocity_m_s", number_or_null(s.slip_velocity)},
+                   {"rupture_velocity_m_s", number_or_null(s.rupture_velocity_m_s)},
+                   {"slip_velocity_m_s", number_or_null(s.slip_velocity_m_s)},
                    {"stress", number_or_null(s.stress)},
                    {"contact_ratio", number_or_null(s.contact_ratio)},
                    {"stress_pa", number_or_null(s.stress_pa)}});
@@ -104,7 +100,6 @@ Json pulse_json(const FaultPulse& p) {
 }  // namespace
 
 std::string event_json(const EventResult& result) {
-  const Estimate& e = estimate_of(result);
   const auto& o = result.observation;
   Json j;
   j["name"] = o.name;
@@ -114,11 +109,10 @@ std::string event_json(const EventResult& result) {
   j["note"] = o.note;
   j["file"] = o.file;
   j["line"] = o.line;
-  j["c_m_s"] = result.estimate ? Json(e.speed) : Json();
-  for (const auto& q : measured_quantities()) j[std::string(q.about.name)] = e.*q.value ? Json(*(e.*q.value)) : Json();
-  for (const auto quantities : {inferred_quantities(), bound_quantities()})
+  for (const auto& number : event_numbers()) j[std::string(number.about.name)] = number_or_null(number.get(result));
+  for (const auto quantities : {answer_quantities(), bound_quantities()})
     for (const auto& q : quantities) {
-      const auto& x = e.*q.value;
+      const auto x = answer_of(result, q);
       const std::string name(q.about.name);
       j[name] = x ? Json(x->value) : Json();
       j[name + "_interval"] = x && x->interval ? Json{x->interval->low, x->interval->high} : Json();
@@ -132,9 +126,9 @@ std::string event_json(const EventResult& result) {
 }
 
 std::string event_csv_head(bool with_pulse) {
-  std::string head = "name,date,kind,c_m_s";
-  for (const auto& q : measured_quantities()) head += fmt::format(",{}", q.about.name);
-  for (const auto& q : inferred_quantities()) head += fmt::format(",{0},{0}_low,{0}_high", q.about.name);
+  std::string head = "name,date,kind";
+  for (const auto& number : event_numbers()) head += fmt::format(",{}", number.about.name);
+  for (const auto& q : answer_quantities()) head += fmt::format(",{0},{0}_low,{0}_high", q.about.name);
   for (const auto& q : posterior_quantities())
     head += fmt::format(",posterior_{0},posterior_{0}_low,posterior_{0}_high", q.about.name);
   head += ",friction_identified,effective_samples,seed,warnings,error,citation,note,file,line";
@@ -148,7 +142,7 @@ std::string event_csv_head(bool with_pulse) {
 
 namespace {
 
-std::string csv_cells(const std::optional<slipfront::event::Inferred>& x) {
+std::string csv_cells(const std::optional<slipfront::inference::Inferred>& x) {
   return (x ? fmt::format(",{}", x->value) : ",") +
          (x && x->interval ? fmt::format(",{},{}", x->interval->low, x->interval->high) : ",,");
 }
@@ -156,15 +150,16 @@ std::string csv_cells(const std::optional<slipfront::event::Inferred>& x) {
 }  // namespace
 
 std::string event_csv_row(const EventResult& result, bool with_pulse) {
-  const Estimate& e = estimate_of(result);
   const auto& o = result.observation;
-  std::string row = quoted(o.name) + "," + quoted(o.date) + "," + quoted(o.kind) + ",";
-  if (result.estimate) row += fmt::format("{}", e.speed);
-  for (const auto& q : measured_quantities()) row += e.*q.value ? fmt::format(",{}", *(e.*q.value)) : ",";
-  for (const auto& q : inferred_quantities()) row += csv_cells(e.*q.value);
+  std::string row = quoted(o.name) + "," + quoted(o.date) + "," + quoted(o.kind);
+  for (const auto& number : event_numbers()) {
+    const auto x = number.get(result);
+    row += x ? fmt::format(",{}", *x) : ",";
+  }
+  for (const auto& q : answer_quantities()) row += csv_cells(answer_of(result, q));
   const Posterior none;
   for (const auto& quantity : posterior_quantities()) {
-    const auto& q = (result.posterior ? *result.posterior : none).*quantity.value;
+    const auto& q = (result.posterior ? *result.posterior : none).*quantity.quantiles;
     row += q ? fmt::format(",{},{},{}", q->median, q->low, q->high) : ",,,";
   }
   if (const auto& p = result.posterior) {
@@ -182,7 +177,7 @@ std::string event_csv_row(const EventResult& result, bool with_pulse) {
     }
     row += "," + quoted(result.pulse ? result.pulse->reason : "");
   }
-  for (const auto& q : bound_quantities()) row += csv_cells(e.*q.value);
+  for (const auto& q : bound_quantities()) row += csv_cells(answer_of(result, q));
   row += result.posterior ? fmt::format(",{},{}", result.posterior->pareto_k, result.posterior->samples) : ",,";
   return row + "\n";
 }

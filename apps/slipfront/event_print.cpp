@@ -8,10 +8,14 @@
 #include "batch.hpp"
 #include "event_output.hpp"
 #include "population_output.hpp"
+#include "slipfront/results/quantities.hpp"
 
 namespace {
 
-using namespace slipfront::event;
+using namespace slipfront::catalogue;
+using namespace slipfront::inference;
+using namespace slipfront::finite_fault;
+using namespace slipfront::results;
 
 constexpr std::size_t most_errors_shown = 20;
 

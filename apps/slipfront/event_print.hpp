@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "commands.hpp"
-#include "slipfront/event/evaluate.hpp"
-#include "slipfront/event/population.hpp"
+#include "slipfront/catalogue/population.hpp"
+#include "slipfront/results/evaluate.hpp"
 
 /// What of the events is printed.
 struct EventShown {
@@ -24,11 +24,11 @@ class EventPrinter {
   struct Printed {
     std::string row, error;
     std::vector<std::string> warnings;
-    std::optional<slipfront::event::Member> member;
+    std::optional<slipfront::catalogue::Member> member;
   };
 
   EventPrinter(const CommonOptions& options, const EventShown& shown);
-  Printed printed(const slipfront::event::EventResult& result) const;
+  Printed printed(const slipfront::results::EventResult& result) const;
   void take(Printed&& printed);
 
   /// `written`: to which file, if any.
@@ -46,5 +46,5 @@ class EventPrinter {
   std::size_t count_ = 0, errors_ = 0;
   std::string table_;
   std::map<std::string, std::size_t> warnings_;
-  slipfront::event::Population population_;
+  slipfront::catalogue::Population population_;
 };

@@ -1,95 +1,143 @@
 #include "event_run.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "batch.hpp"
-#include "slipfront/event/sources.hpp"
+#include "event_output.hpp"
+#include "event_print.hpp"
+#include "interrupts.hpp"
+#include "progress.hpp"
 #include "slipfront/record/text_file.hpp"
+#include "slipfront/run/catalogue.hpp"
 
-using namespace slipfront::event;
+using slipfront::results::EventResult;
+using slipfront::run::EventText;
 
-/// All events are sampled if the user says how often; those of --json are looked at along the fault.
-Plan plan_of(const EventArguments& a) {
-  return {{.samples = a.samples.value_or(Sampling{}.samples),
-           .seed = a.seed,
-           .closure = slipfront::modulation::closure_named(a.closure),
-           .draws = a.draws},
-          a.samples.has_value(),
-          a.common.json,
-          a.pulse};
-}
+namespace {
 
+/// The texts of all files; of one that cannot be read, the reason.
 std::vector<EventText> texts_of(const EventArguments& a) {
-  if (a.files.empty()) return {{"catalogue.csv", std::string(shipped_catalogue), {}}};
+  if (a.files.empty()) return {{"catalogue.csv", std::string(shipped_catalogue)}};
   std::vector<EventText> all;
   for (const std::string& file : a.files) try {
       const bool standard_input = file == "-";
       all.push_back({standard_input ? "stdin" : file,
-                     standard_input ? slipfront::record::read_standard_input() : slipfront::record::read_text(file),
-                     {}});
+                     standard_input ? slipfront::record::read_standard_input() : slipfront::record::read_text(file)});
     } catch (const slipfront::FileError& error) {
       all.push_back({file, {}, error.what()});
     }
   return all;
 }
 
-EventsRead read_all(const EventArguments& a, const std::vector<EventText>& texts, const Sink& sink) {
-  EventsRead all;
-  auto& ignored = all.ignored_columns;
-  for (const EventText& t : texts) {
-    if (t.error.empty()) {
-      for (std::string& title : read_events(t.text, t.name, sink))
-        if (std::find(ignored.begin(), ignored.end(), title) == ignored.end()) ignored.push_back(std::move(title));
-      continue;
-    }
-    all.unreadable = true;
-    Entry entry;
-    entry.observation.name = t.name;
-    entry.observation.file = t.name;
-    entry.error = slipfront::Complaint{.problem = t.error};
-    sink(std::move(entry));
-  }
-  if (a.files.empty()) ignored.clear();  // ours, and known to be ignored
-  return all;
+/// All events are sampled if the user says how often; those of --json are looked at along the fault.
+slipfront::run::CatalogueScenario scenario_of(const EventArguments& a) {
+  std::string line = "slipfront event";
+  for (const std::string& file : a.files) line += " " + file;
+  slipfront::inference::Sampling sampling{
+      .seed = a.seed, .closure = slipfront::modulation::closure_named(a.closure), .draws = a.draws};
+  if (a.samples) sampling.samples = *a.samples;
+  return {.texts = texts_of(a),
+          .medium = a.medium,
+          .evaluation = {.sampling = sampling,
+                         .sample_all = a.samples.has_value(),
+                         .along_fault = a.common.json,
+                         .pulse = a.pulse},
+          .command_line = line};
 }
 
-int exit_code(const EventsRead& read, const EventPrinter& printer) {
-  return read.unreadable ? exit_file : printer.errors() > 0 ? exit_input : exit_done;
+/// Ends the output; columns that the shipped catalogue has besides are no news.
+int finish(EventPrinter& printer, const EventArguments& a, const slipfront::run::CatalogueColumns& columns,
+           const std::string& path) {
+  printer.finish(a.files.empty() ? std::vector<std::string>{} : columns.ignored, path);
+  return columns.unreadable ? exit_file : printer.errors() > 0 ? exit_input : exit_done;
 }
 
-namespace {
+bool is_csv(const std::string& path) { return std::string_view(path).ends_with(".csv"); }
 
-constexpr std::size_t most_waiting = 4096;
+/// \throws InputError for a file that is neither NetCDF nor CSV by its name, or that the events are read from.
+void check_names(const EventArguments& a) {
+  const auto refuse = [](const char* option, const std::string& value, const char* allowed) {
+    throw slipfront::InputError({.file = "command line",
+                                 .key = option,
+                                 .value = value,
+                                 .problem = "cannot be such a file",
+                                 .allowed = allowed});
+  };
+  const auto is_netcdf = [](const std::string& path) { return std::string_view(path).ends_with(".nc"); };
+  if (!a.output.empty() && !is_netcdf(a.output) && !is_csv(a.output)) refuse("-o", a.output, "OUT.nc or OUT.csv");
+  std::error_code not_there;
+  for (const std::string& file : a.files)
+    if (std::filesystem::equivalent(file, a.output, not_there)) refuse("-o", a.output, "another file than those read");
+  if (!a.resume.empty() && !is_netcdf(a.resume)) refuse("--resume", a.resume, "OUT.nc, as -o wrote it");
+  if (a.draws > 0 && is_csv(a.output)) refuse("-o", a.output, "OUT.nc, with --draws");
+  if (!a.resume.empty() && is_csv(a.output)) refuse("-o", a.output, "OUT.nc, with --resume");
+}
+
+void write_rows(const std::string& path, const std::vector<EventResult>& results, bool with_pulse) {
+  std::string text = event_csv_head(with_pulse);
+  for (const EventResult& r : results) text += event_csv_row(r, with_pulse);
+  slipfront::record::write_text(path, text);
+}
+
+/// Runs the catalogue with a line of progress and heed to Ctrl-C.
+slipfront::run::CatalogueResult run_watched(const EventArguments& a, slipfront::run::CataloguePlan&& plan,
+                                            const slipfront::record::Output& output) {
+  interrupted_means(output.wanted() ? "; what was written last stays: go on with " + output.how_to_resume()
+                                    : "; nothing was written: -o OUT.nc could be resumed");
+  const WatchInterrupts watch;
+  std::optional<Progress> progress;
+  const auto total = static_cast<double>(plan.entries.size());
+  return slipfront::run::catalogue(
+      std::move(plan),
+      {.output = output, .resume = a.resume, .threads = a.common.threads, .after_step = [&](std::size_t done) {
+         const auto now = static_cast<double>(done);
+         if (!progress) {
+           progress.emplace(total, !a.common.quiet, std::string(), ProgressWords{"", "events", 8});
+           progress->from(now, static_cast<long>(done));
+         }
+         progress->at(now, static_cast<long>(done));
+         return interrupted_by_user();
+       }});
+}
 
 }  // namespace
 
 int print_events(const EventArguments& a) {
-  const MediumDefaults defaults = defaults_of(a.medium);
-  const Plan plan = plan_of(a);
-  const std::vector<EventText> texts = texts_of(a);
-  Sources sources;  // read twice: whether sources of one earthquake disagree is known when all are
-  std::size_t count = 0;
-  read_all(a, texts, [&](Entry&& entry) {
-    ++count;
-    if (!entry.error) sources.add(entry.observation, defaults);
-  });
-  EventPrinter printer(a.common, {.rows = !a.population, .population = a.population, .pulse = a.pulse});
-  std::vector<Entry> waiting;
-  require_memory(plan, std::min(count, most_waiting), a.common.threads);
-  const auto flush = [&] {
-    auto printed = in_parallel<EventPrinter::Printed>(
-        waiting.size(), a.common.threads,
-        [&](std::size_t i) { return printer.printed(evaluate(std::move(waiting[i]), defaults, plan)); }, 1);
-    waiting.clear();
-    for (auto& p : printed) printer.take(std::move(p));
-  };
-  const EventsRead read = read_all(a, texts, [&](Entry&& entry) {
-    if (!entry.error) sources.warn(entry.observation);
-    waiting.push_back(std::move(entry));
-    if (waiting.size() == most_waiting) flush();
-  });
-  flush();
-  printer.finish(read.ignored_columns, {});
-  return exit_code(read, printer);
+  std::optional<EventPrinter> printer;  // once the arguments have been checked
+  const auto columns =
+      slipfront::run::stream_catalogue(scenario_of(a), a.common.threads, [&](std::vector<EventResult>&& results) {
+        if (!printer)
+          printer.emplace(a.common, EventShown{.rows = !a.population, .population = a.population, .pulse = a.pulse});
+        auto printed = in_parallel<EventPrinter::Printed>(
+            results.size(), a.common.threads, [&](std::size_t i) { return printer->printed(results[i]); }, 1);
+        for (auto& p : printed) printer->take(std::move(p));
+      });
+  return finish(*printer, a, columns, {});
+}
+
+int write_events(const EventArguments& a) {
+  check_names(a);
+  slipfront::run::CataloguePlan plan = slipfront::run::plan_catalogue(scenario_of(a), a.common.threads, true);
+  const std::string& path = a.output.empty() ? a.resume : a.output;
+  const slipfront::record::Output output(is_csv(path) ? "" : path, a.resume);
+  slipfront::record::require_disk_space(path, plan.disk);
+  const slipfront::run::CatalogueColumns columns = plan.columns;
+  const std::size_t total = plan.entries.size();
+  const slipfront::run::CatalogueResult result = run_watched(a, std::move(plan), output);
+  if (!result.finished) {
+    complain(fmt::format(
+        "interrupted after {} of {} events; {}", result.events.size(), total,
+        is_csv(path) ? "nothing was written: -o OUT.nc could be resumed" : "go on with " + output.how_to_resume()));
+    return exit_interrupted;
+  }
+  if (is_csv(path)) write_rows(path, result.events, a.pulse);
+  EventPrinter printer(a.common, {.rows = false, .population = a.population, .pulse = a.pulse});
+  for (const EventResult& event : result.events) printer.take(printer.printed(event));
+  return finish(printer, a, columns, path);
 }

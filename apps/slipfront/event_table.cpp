@@ -7,10 +7,10 @@
 
 namespace {
 
-using slipfront::event::Estimate;
-using slipfront::event::EventResult;
-using slipfront::event::FaultPulse;
-using slipfront::event::Inferred;
+using slipfront::finite_fault::FaultPulse;
+using slipfront::inference::Estimate;
+using slipfront::inference::Inferred;
+using slipfront::results::EventResult;
 
 constexpr const char* table_layout = "{} {:>12} {:>9} {:>9} {:>12} {:>12} {:>12} {:>11} {:>9} {:>9}\n";
 constexpr std::size_t name_width = 34;
@@ -56,7 +56,7 @@ constexpr std::array<Column, 7> columns = {{{2, &Estimate::rupture_velocity},
                                             {9, &Estimate::damping_number, 1, 3}}};
 
 /// One end of the intervals, below the values; nothing where there is none.
-std::string interval_line(const Estimate& e, const char* label, double slipfront::event::Interval::*end) {
+std::string interval_line(const Estimate& e, const char* label, double slipfront::inference::Interval::*end) {
   Cells cells;
   cells[0] = fmt::format("{:>{}}", label, name_width);
   bool any = false;
@@ -95,14 +95,14 @@ std::string event_table_row(const EventResult& result) {
   const Estimate& e = *result.estimate;
   Cells cells;
   cells[0] = result.observation.name;
-  cells[1] = front_text(e.observed_rupture_velocity);
+  cells[1] = front_text(e.observed_rupture_velocity_m_s);
   cells[4] = speed_text(e.observed_slip_velocity_m_s);
   for (const Column& c : columns) {
     const auto& x = c.of(e);
     cells[c.cell] = x ? fmt::format("{}{:.{}g}", c.is_bound(e) ? ">=" : "", x->value / c.unit, c.digits) : "-";
   }
-  return line_of(cells) + interval_line(e, "5 %", &slipfront::event::Interval::low) +
-         interval_line(e, "95 %", &slipfront::event::Interval::high);
+  return line_of(cells) + interval_line(e, "5 %", &slipfront::inference::Interval::low) +
+         interval_line(e, "95 %", &slipfront::inference::Interval::high);
 }
 
 std::string event_pulse_lines(const EventResult& result) {

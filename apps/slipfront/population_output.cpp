@@ -7,8 +7,12 @@
 #include <string_view>
 
 #include "event_output.hpp"
+#include "slipfront/results/quantities.hpp"
 
-using namespace slipfront::event;
+using namespace slipfront::catalogue;
+using namespace slipfront::inference;
+using namespace slipfront::finite_fault;
+using namespace slipfront::results;
 
 namespace {
 

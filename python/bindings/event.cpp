@@ -1,6 +1,5 @@
 #include <pybind11/stl.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <stdexcept>
@@ -10,16 +9,19 @@
 #include <vector>
 
 #include "bindings.hpp"
-#include "slipfront/event/columns.hpp"
-#include "slipfront/event/read.hpp"
-#include "slipfront/event/sources.hpp"
-#include "slipfront/parallel.hpp"
 #include "slipfront/record/text_file.hpp"
+#include "slipfront/record/unfinished.hpp"
+#include "slipfront/results/columns.hpp"
+#include "slipfront/run/catalogue.hpp"
+#include "watch.hpp"
 
 namespace {
 
 using namespace slipfront;
-using namespace slipfront::event;
+using namespace slipfront::catalogue;
+using namespace slipfront::inference;
+using namespace slipfront::finite_fault;
+using namespace slipfront::results;
 
 py::str text(const std::string& bytes) {
   return py::reinterpret_steal<py::str>(
@@ -63,31 +65,35 @@ py::tuple dimensions(Axis axis) {
 /// Text, name (a path if there is no text to it), whether it is a path.
 using Source = std::tuple<std::string, std::string, bool>;
 
-/// Columns of all events of all sources: texts as lists, numbers as arrays.
-py::dict evaluate_all(const std::vector<Source>& sources, const StatedMedium& medium, const Plan& plan, int threads) {
-  std::vector<EventResult> results;
-  std::vector<std::string> ignored;
-  {
-    const py::gil_scoped_release others_may_run;
-    const MediumDefaults defaults = defaults_of(medium);
-    std::vector<Entry> entries;
-    for (const auto& [content, name, is_path] : sources)
-      for (std::string& title : read_events(is_path ? record::read_text(name) : content, name,
-                                            [&](Entry&& entry) { entries.push_back(std::move(entry)); }))
-        if (std::find(ignored.begin(), ignored.end(), title) == ignored.end()) ignored.push_back(std::move(title));
-    warn_of_other_sources(entries, defaults);
-    require_memory(plan, entries.size(), threads);
-    results.resize(entries.size());
-    for_each_parallel(
-        entries.size(), threads, [&](std::size_t i) { results[i] = evaluate(std::move(entries[i]), defaults, plan); },
-        1);
+/// The events of sources, and how they are to be evaluated.
+run::CatalogueScenario scenario_of(const std::vector<Source>& sources, const py::dict& options) {
+  const auto text = [&](const char* key) { return options[key].cast<std::string>(); };
+  run::CatalogueScenario scenario;
+  scenario.command_line = "slipfront event";
+  for (const auto& [content, name, is_path] : sources) {
+    scenario.texts.push_back({name, is_path ? record::read_text(name) : content});
+    scenario.command_line += " " + name;
   }
+  scenario.medium = {text("p_wave_speed"), text("poisson_ratio"), text("shear_modulus")};
+  EvaluationOptions& evaluation = scenario.evaluation;
+  evaluation.sample_all = !options["samples"].is_none();
+  if (evaluation.sample_all) evaluation.sampling.samples = options["samples"].cast<std::size_t>();
+  evaluation.sampling.seed = options["seed"].cast<std::uint64_t>();
+  evaluation.sampling.closure = modulation::closure_named(text("closure"));
+  evaluation.sampling.draws = options["draws"].cast<std::size_t>();
+  evaluation.pulse = options["pulse"].cast<bool>();
+  return scenario;
+}
+
+/// Columns of all events: texts as lists, numbers as arrays.
+py::dict columns_of(const std::vector<EventResult>& results, const EvaluationOptions& evaluation,
+                    const std::vector<std::string>& ignored) {
   py::dict columns;
   py::list of_numbers, of_texts;
-  for (const NumberColumn& c : number_columns({.pulse = plan.pulse, .draws = plan.sampling.draws}))
+  for (const NumberColumn& c : number_columns({.pulse = evaluation.pulse, .draws = evaluation.sampling.draws}))
     of_numbers.append(py::make_tuple(c.name, dimensions(c.axis), numbers(results, c), c.long_name, c.unit,
                                      c.dimensional_unit, c.reference));
-  for (const TextColumn& c : text_columns(plan.pulse))
+  for (const TextColumn& c : text_columns(evaluation.pulse))
     of_texts.append(py::make_tuple(c.name, texts(results, c), c.long_name));
   columns["numbers"] = of_numbers;
   columns["texts"] = of_texts;
@@ -95,20 +101,36 @@ py::dict evaluate_all(const std::vector<Source>& sources, const StatedMedium& me
   return columns;
 }
 
+py::dict evaluate_all(const std::vector<Source>& sources, const py::dict& options) {
+  const run::CatalogueScenario scenario = scenario_of(sources, options);
+  const auto output = options["output"].cast<std::string>(), resume = options["resume"].cast<std::string>();
+  const int threads = options["threads"].cast<int>();
+  if (!output.empty()) record::require_netcdf_name(output, "output");
+  std::vector<std::string> ignored;
+  run::CatalogueResult result;
+  std::optional<Watch> watch;
+  {
+    const py::object progress = options["progress"];
+    const py::gil_scoped_release others_may_run;
+    const std::string& path = output.empty() ? resume : output;
+    run::CataloguePlan plan = run::plan_catalogue(scenario, threads, !path.empty());
+    const auto total = static_cast<double>(plan.entries.size());
+    {
+      const py::gil_scoped_acquire lock;
+      watch.emplace(progress, total);
+    }
+    ignored = plan.columns.ignored;
+    result = run::catalogue(std::move(plan), {.output = record::Output(path, resume),
+                                              .resume = resume,
+                                              .threads = threads,
+                                              .after_step = [&](std::size_t done) {
+                                                return (*watch)(static_cast<double>(done), static_cast<long>(done));
+                                              }});
+  }
+  watch->finish();
+  return columns_of(result.events, scenario.evaluation, ignored);
+}
+
 }  // namespace
 
-void bind_event(py::module_& m) {
-  m.def("event",
-        [](const std::vector<Source>& sources, const std::string& p_wave_speed, const std::string& poisson_ratio,
-           const std::string& shear_modulus, std::optional<std::size_t> samples, std::uint64_t seed,
-           const std::string& closure, bool pulse, std::size_t draws, int threads) {
-          const Plan plan{{.samples = samples.value_or(Sampling{}.samples),
-                           .seed = seed,
-                           .closure = modulation::closure_named(closure),
-                           .draws = draws},
-                          samples.has_value(),
-                          false,
-                          pulse};
-          return evaluate_all(sources, {p_wave_speed, poisson_ratio, shear_modulus}, plan, threads);
-        });
-}
+void bind_event(py::module_& m) { m.def("event", evaluate_all); }

@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from . import _slipfront
 from ._dataset import attributes, dataset
 from ._numbers import np, thread_count
+from ._progress import showing
 from ._scenario import is_path, path, to_toml
 from ._slipfront import InputError
 
@@ -48,7 +49,7 @@ def _default(value):
 
 
 def event(events=None, *, p_wave_speed=None, poisson_ratio=None, shear_modulus=None, samples=None, seed=1, closure="consistent",
-          pulse=False, draws=0, threads=None):
+          pulse=False, draws=0, output=None, resume=None, progress=None, threads=None):
     """Stress, contact ratio, slip velocity and friction of observed events, by the closed forms (Eqs. 8-10) and by samples.
 
     Parameters
@@ -71,6 +72,14 @@ def event(events=None, *, p_wave_speed=None, poisson_ratio=None, shear_modulus=N
         pulse_columns, pulse_columns_reached, pulse_slip_error, pulse_contact_ratio, and pulse_reason where there is none.
     draws : int, optional
         States of the posterior of each sampled event to return, alike in weight: `draw_<name>` over `draw`.
+    output : path, optional
+        NetCDF file to write, as `slipfront event -o` does: results, population, and a checkpoint now and then. A file
+        that stands there is replaced at the end alone; until then the checkpoint of `a.nc` is in `a.unfinished.nc`.
+    resume : path, optional
+        File of an interrupted catalogue, of this function or of the program, to go on from; the events and settings must be the same.
+        It is written to, unless an output is given.
+    progress : bool or callable, optional
+        True for a line on stderr; or called with (events done, all events, events done, "").
     threads : int, optional
         All cores unless given; results do not depend on it.
 
@@ -87,7 +96,7 @@ def event(events=None, *, p_wave_speed=None, poisson_ratio=None, shear_modulus=N
 
     Raises
     ------
-    InputError if all events are bad, FileError.
+    InputError if all events are bad, FileError. KeyboardInterrupt leaves a checkpoint in the output.
     """
     if events is None:
         events = _shipped
@@ -95,8 +104,12 @@ def event(events=None, *, p_wave_speed=None, poisson_ratio=None, shear_modulus=N
                else [_source(events, "events")])
     if not sources:
         raise InputError("events: none; allowed: one or more")
-    columns = _slipfront.event(sources, _default(p_wave_speed), _default(poisson_ratio), _default(shear_modulus),
-                               _whole("samples", samples), _whole("seed", seed), str(closure), bool(pulse), _whole("draws", draws), thread_count(threads))
+    with showing(progress) as call:
+        columns = _slipfront.event(sources, {
+            "p_wave_speed": _default(p_wave_speed), "poisson_ratio": _default(poisson_ratio), "shear_modulus": _default(shear_modulus),
+            "samples": _whole("samples", samples), "seed": _whole("seed", seed), "closure": str(closure), "pulse": bool(pulse),
+            "draws": _whole("draws", draws), "output": path("output", output), "resume": path("resume", resume), "progress": call,
+            "threads": thread_count(threads)})
     texts = {name: (values, long_name) for name, values, long_name in columns["texts"]}
     errors = texts["error"][0]
     if errors and all(errors):

@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "../trimmed.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::medium {
@@ -129,13 +130,6 @@ double look_up(const std::string& unit, Dimension dimension) {
   if (!(factor > 0) || !std::isfinite(factor) || offset != 0)
     throw InputError({.problem = "the unit '" + unit + "' is not that of " + wanted.name, .allowed = wanted.example});
   return factor;
-}
-
-std::string_view trimmed(std::string_view text) {
-  const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; };
-  while (!text.empty() && blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && blank(text.back())) text.remove_suffix(1);
-  return text;
 }
 
 /// The number that `text` begins with; moves `text` past it.

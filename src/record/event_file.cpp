@@ -8,16 +8,16 @@
 #include "event_layout.hpp"
 #include "fnv.hpp"
 #include "netcdf_file.hpp"
-#include "slipfront/event/columns.hpp"
-#include "slipfront/event/saved.hpp"
+#include "slipfront/results/columns.hpp"
+#include "slipfront/results/serialize.hpp"
 #include "utf8.hpp"
 
 namespace slipfront::record {
 namespace {
 
-using event::Decade;
-using event::EventResult;
+using catalogue::Decade;
 using netcdf::Writer;
+using results::EventResult;
 
 using Results = std::span<const EventResult>;
 
@@ -26,7 +26,7 @@ class Contents {
  public:
   explicit Contents(Writer& file) : file_(file) {}
 
-  int reals(const event::NumberColumn& about, const std::vector<int>& dimensions, std::vector<double> values) {
+  int reals(const results::NumberColumn& about, const std::vector<int>& dimensions, std::vector<double> values) {
     const int id = file_.reals(about.name, dimensions);
     file_.attribute(id, "long_name", about.long_name);
     file_.attribute(id, "units", about.unit);
@@ -67,22 +67,22 @@ Dimensions axes(Writer& file, Contents& contents, std::size_t events, std::size_
   const Dimensions d{file.dimension("event", events), file.dimension("bound", 2), file.dimension("quantile", 3),
                      draws > 0 ? file.dimension("draw", draws) : 0};
   contents.texts("bound", "ends of an interval", d.bound, {"5 %", "95 %"});
-  contents.reals({"quantile", "share of the values below", "1", "", "", event::Axis::none, 1, {}}, {d.quantile},
+  contents.reals({"quantile", "share of the values below", "1", "", "", results::Axis::none, 1, {}}, {d.quantile},
                  {0.05, 0.5, 0.95});
   return d;
 }
 
-void add_events(Contents& contents, const Dimensions& d, Results results, const event::ColumnChoice& choice) {
-  for (const event::NumberColumn& column : event::number_columns(choice)) {
+void add_events(Contents& contents, const Dimensions& d, Results results, const results::ColumnChoice& choice) {
+  for (const results::NumberColumn& column : results::number_columns(choice)) {
     std::vector<double> values(results.size() * column.count);
     for (std::size_t i = 0; i < results.size(); ++i) column.get(results[i], &values[i * column.count]);
     std::vector<int> dimensions = {d.event};
-    if (column.axis == event::Axis::bound) dimensions.push_back(d.bound);
-    if (column.axis == event::Axis::quantile) dimensions.push_back(d.quantile);
-    if (column.axis == event::Axis::draw) dimensions.push_back(d.draw);
+    if (column.axis == results::Axis::bound) dimensions.push_back(d.bound);
+    if (column.axis == results::Axis::quantile) dimensions.push_back(d.quantile);
+    if (column.axis == results::Axis::draw) dimensions.push_back(d.draw);
     contents.reals(column, dimensions, std::move(values));
   }
-  for (const event::TextColumn& column : event::text_columns(choice.pulse)) {
+  for (const results::TextColumn& column : results::text_columns(choice.pulse)) {
     std::vector<std::string> values;
     for (const EventResult& r : results) values.push_back(column.get(r));
     contents.texts(column.name, column.long_name, d.event, std::move(values));
@@ -131,10 +131,9 @@ void fill(Writer& file, const EventMetadata& metadata, Results results, const st
 
 void write_events(const std::string& path, const EventMetadata& metadata, Results results,
                   const std::vector<Decade>& population, bool finished) {
-  const std::string state = event::saved(results);
-  const std::size_t size = state.size() +
-                           results.size() * (1700 + metadata.columns.draws * 8 * event::state_quantities().size()) +
-                           (1 << 16);
+  const std::string state = results::serialize(results);
+  const std::size_t size =
+      state.size() + results.size() * (1700 + metadata.columns.draws * 8 * inference::quantities().size()) + (1 << 16);
   write_netcdf(path, size, [&](Writer& file) { fill(file, metadata, results, population, finished, state); });
 }
 

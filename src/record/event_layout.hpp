@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "netcdf.hpp"
-#include "slipfront/event/columns.hpp"
-#include "slipfront/event/population.hpp"
+#include "slipfront/catalogue/population.hpp"
+#include "slipfront/results/columns.hpp"
 
 namespace slipfront::record::event_layout {
 
@@ -16,14 +16,14 @@ inline constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// A variable of numbers with all that it holds; `about.get` is not used.
 struct Variable {
-  event::NumberColumn about;
+  results::NumberColumn about;
   std::vector<int> dimensions;
   std::vector<double> values;
 };
 
 /// Decades of rupture velocity with their spreads (over `quantile`, a dimension of the file), and the closed form
 /// through them over a dimension of its own.
-std::vector<Variable> population_variables(netcdf::Writer& file, const std::vector<event::Decade>& population,
+std::vector<Variable> population_variables(netcdf::Writer& file, const std::vector<catalogue::Decade>& population,
                                            int quantile);
 
 }  // namespace slipfront::record::event_layout

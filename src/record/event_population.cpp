@@ -1,13 +1,14 @@
 #include <string>
 
 #include "event_layout.hpp"
+#include "slipfront/results/quantities.hpp"
 
 namespace slipfront::record::event_layout {
 namespace {
 
-using event::Axis;
-using event::Decade;
-using event::NumberColumn;
+using catalogue::Decade;
+using results::Axis;
+using results::NumberColumn;
 
 NumberColumn said(const std::string& name, const std::string& long_name, std::string_view dimensional_unit,
                   std::string_view reference, std::string_view unit = "1") {
@@ -26,7 +27,7 @@ std::vector<double> each(const std::vector<Row>& rows, Get&& get) {
 
 std::vector<Variable> population_variables(netcdf::Writer& file, const std::vector<Decade>& population, int quantile) {
   constexpr std::string_view closed_form = "Eqs. 8-10";
-  const auto line = event::line_through(population);
+  const auto line = catalogue::line_through(population);
   const int decade = file.dimension("decade", population.size()), ends = file.dimension("ends", 2),
             point = file.dimension("line_point", line.size());
   std::vector<Variable> all;
@@ -50,15 +51,15 @@ std::vector<Variable> population_variables(netcdf::Writer& file, const std::vect
                  {decade},
                  each(population, [](const Decade& d) { return d.slip_velocity; })});
   std::size_t i = 0;
-  for (const Description& about : event::population_quantities()) {
+  for (const Description& about : results::population_quantities()) {
     const std::string name = "population_" + std::string(about.name);
     std::vector<double> values;
     for (const Decade& d : population) {
-      const event::Quantiles& q = d.spread[i].of;
+      const catalogue::Quantiles& q = d.spread[i].of;
       values.insert(values.end(), {q.low, q.median, q.high});
     }
     all.push_back({said(name, "over the events of a decade: " + std::string(about.long_name), about.dimensional_unit,
-                        about.reference, event::unit_of(about.name)),
+                        about.reference, results::unit_of(about.name)),
                    {decade, quantile},
                    values});
     all.push_back({said(name + "_events", "events in which this is known: " + std::string(about.long_name), "", ""),
@@ -66,7 +67,7 @@ std::vector<Variable> population_variables(netcdf::Writer& file, const std::vect
                    each(population, [&](const Decade& d) { return d.spread[i].events; })});
     ++i;
   }
-  using event::LinePoint;
+  using catalogue::LinePoint;
   all.push_back({said("line_rupture_velocity", "closed form: rupture velocity", "c", closed_form),
                  {point},
                  each(line, [](const LinePoint& p) { return p.rupture_velocity; })});

@@ -8,8 +8,9 @@
 #include <string_view>
 #include <system_error>
 
+#include "../csv_records.hpp"
 #include "../digits.hpp"
-#include "../event/csv_records.hpp"
+#include "../trimmed.hpp"
 #include "netcdf_file.hpp"
 #include "seal.hpp"
 #include "slipfront/error.hpp"
@@ -20,12 +21,6 @@ namespace slipfront::record {
 namespace {
 
 using Table = std::vector<std::pair<double, double>>;
-
-std::string trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
 
 /// Where the columns stand in a CSV file.
 struct Columns {
@@ -77,7 +72,7 @@ Table read_csv(std::string_view text, const std::string& path) {
   if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
   std::optional<Columns> columns;
   Table table;
-  const std::size_t open_quote = event::for_each_record(text, [&](std::vector<std::string>&& cells, std::size_t line) {
+  const std::size_t open_quote = for_each_record(text, [&](std::vector<std::string>&& cells, std::size_t line) {
     if (columns) {
       table.push_back(read_row(*columns, cells, line, path));
     } else {

@@ -2,6 +2,7 @@
 
 #include "../nearest.hpp"
 #include "../parse_toml.hpp"
+#include "../trimmed.hpp"
 #include "document.hpp"
 #include "slipfront/error.hpp"
 
@@ -9,12 +10,6 @@ namespace slipfront::scenario {
 namespace {
 
 constexpr const char* form = "table.key=value, such as friction.coefficient=0.5";
-
-std::string trimmed(std::string_view text) {
-  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
-  return std::string(text);
-}
 
 /// An override becomes a comment of the text that is kept, and so must be one line of UTF-8.
 bool may_be_comment(const std::string& text) {
@@ -86,8 +81,8 @@ Overridden apply_overrides(toml::table& root, const std::vector<std::string>& ov
     if (!may_be_comment(whole)) throw refuse("not one line of UTF-8");
     const std::size_t equals = whole.find('=');
     if (equals == std::string::npos) throw refuse("there is no '='");
-    const std::string key = trimmed(std::string_view(whole).substr(0, equals));
-    const std::string text = trimmed(std::string_view(whole).substr(equals + 1));
+    const std::string key(trimmed(std::string_view(whole).substr(0, equals)));
+    const std::string text(trimmed(std::string_view(whole).substr(equals + 1)));
     const std::size_t dot = key.find('.');
     if (key == "title") {
       put(root, key, text);

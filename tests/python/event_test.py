@@ -91,6 +91,35 @@ class Event(CommandLine):
         self.assertTrue(np.isnan(data.stress[1]))
         self.assertEqual(slipfront.event([flat, nested, frame]).sizes["event"], 4)
 
+    def test_an_interrupted_catalogue_is_resumed_to_the_same_bytes(self):
+        rows = "name,rupture_velocity,slip_velocity,contact_ratio\n" + "".join(
+            f"e{i},3.{i % 10} +- 0.2 km/s,0.5 */ 1.3 m/s,0.00{i % 7 + 4} */ 1.4\n" for i in range(600))
+        catalogue = self.file("catalogue.csv", rows)
+        folder = os.path.dirname(catalogue)
+        whole, stopped, of_program = (os.path.join(folder, name) for name in ("whole.nc", "stopped.nc", "program.nc"))
+        seen = []
+        data = slipfront.event(catalogue, output=whole, progress=lambda *done: seen.append(done[:2]))
+        self.assertTrue(all(total == 600 for _, total in seen))
+
+        def stop(*_):
+            raise KeyboardInterrupt
+
+        with self.assertRaises(KeyboardInterrupt):
+            slipfront.event(catalogue, output=stopped, progress=stop)
+        self.assertLess(slipfront.open(stopped).sizes["event"], 600)
+        with self.assertRaisesRegex(slipfront.InputError, "another seed"):
+            slipfront.event(catalogue, resume=stopped, seed=2)
+        resumed = slipfront.event(catalogue, resume=stopped)
+        self.assertTrue(resumed.identical(data))
+        with open(whole, "rb") as one, open(stopped, "rb") as other:
+            expected = one.read()
+            self.assertEqual(expected, other.read())
+        self.ok("event", catalogue, "-o", of_program)
+        with open(of_program, "rb") as file:
+            self.assertEqual(expected, file.read())
+        with self.assertRaisesRegex(slipfront.InputError, "unsupported file type"):
+            slipfront.event(catalogue, output=os.path.join(folder, "a.csv"))
+
     def test_a_bad_event_does_not_lose_the_others(self):
         data = slipfront.event([{"name": "good", "rupture_velocity": "3 km/s"}, {"name": "bad", "rupture_velocity": "9 km/s"}])
         self.assertEqual(data.error.values[0], "")

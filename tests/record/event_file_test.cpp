@@ -8,17 +8,21 @@
 
 #include "../../src/record/netcdf.hpp"
 #include "../../src/record/seal.hpp"
+#include "slipfront/catalogue/read.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/event/read.hpp"
-#include "slipfront/event/saved.hpp"
 #include "slipfront/record/pulse_file.hpp"
 #include "slipfront/record/text_file.hpp"
+#include "slipfront/results/quantities.hpp"
+#include "slipfront/results/serialize.hpp"
 #include "temporary_folder.hpp"
 
 namespace {
 
 using namespace slipfront;
-using namespace slipfront::event;
+using namespace slipfront::catalogue;
+using namespace slipfront::inference;
+using namespace slipfront::finite_fault;
+using namespace slipfront::results;
 using namespace slipfront::record;
 
 const EventMetadata metadata = {.version = "1", .command_line = "slipfront event a.csv", .settings = {{"seed", "1"}}};
@@ -53,8 +57,8 @@ class EventFile : public testing::Test {
 
 TEST_F(EventFile, HoldsWhatItTakesToGoOn) {
   write(false);
-  EXPECT_EQ(read_events_done(path, metadata), saved(all));
-  EXPECT_EQ(found_in(read_events_done(path, metadata)).size(), 3u);
+  EXPECT_EQ(read_events_done(path, metadata), serialize(all));
+  EXPECT_EQ(deserialize(read_events_done(path, metadata)).size(), 3u);
   const std::string first = read_text(path);
   write(false);
   EXPECT_EQ(read_text(path), first);

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "slipfront/event/columns.hpp"
-#include "slipfront/event/evaluate.hpp"
-#include "slipfront/event/population.hpp"
+#include "slipfront/catalogue/population.hpp"
+#include "slipfront/results/columns.hpp"
+#include "slipfront/results/evaluate.hpp"
 
 namespace slipfront::record {
 
@@ -23,16 +23,16 @@ struct EventMetadata {
   std::string command_line;  ///< the file's history
   /// Attributes that make the results what they are, such as seed and samples: names and values.
   std::vector<std::pair<std::string, std::string>> settings;
-  event::ColumnChoice columns = {};
+  results::ColumnChoice columns = {};
 };
 
 /// Writes `path` whole or not at all: the columns of `results`, their population and the closed form. Equal arguments
 /// make equal files, byte by byte. \throws FileError (one line: path and reason).
-void write_events(const std::string& path, const EventMetadata& metadata, std::span<const event::EventResult> results,
-                  const std::vector<event::Decade>& population, bool finished);
+void write_events(const std::string& path, const EventMetadata& metadata, std::span<const results::EventResult> results,
+                  const std::vector<catalogue::Decade>& population, bool finished);
 
-/// What write_events was given that event::found_in understands: of the first events of a catalogue, as many as were
-/// done. \throws FileError if the file is not there, not of a catalogue, cut short, damaged, or changed by another
+/// What write_events was given that results::deserialize understands: of the first events of a catalogue, as many as
+/// were done. \throws FileError if the file is not there, not of a catalogue, cut short, damaged, or changed by another
 /// program; InputError if its version or one of its settings is not that of `metadata`.
 std::string read_events_done(const std::string& path, const EventMetadata& metadata);
 

@@ -1,0 +1,41 @@
+#include "slipfront/catalogue/read.hpp"
+
+#include <iterator>
+
+#include "format.hpp"
+
+namespace slipfront::catalogue {
+
+extern const Format fsp_format, toml_format, csv_format;
+
+namespace {
+
+/// In the order in which a text of unknown ending is tried; the last one takes what is left.
+constexpr const Format* formats[] = {&fsp_format, &toml_format, &csv_format};
+
+const Format& format_of(std::string_view text, std::string_view file) {
+  for (const Format* format : formats)
+    if (file.ends_with(format->ending)) return *format;
+  for (const Format* format : formats)
+    if (format->looks_like(text)) return *format;
+  return **std::prev(std::end(formats));
+}
+
+}  // namespace
+
+std::vector<std::string> read_events(std::string_view text, const std::string& file, const Sink& sink) {
+  try {
+    if (text.find_first_not_of(" \t\r\n") == std::string_view::npos)
+      throw InputError({.file = file, .problem = "the file is empty", .allowed = "an event in TOML, CSV or .fsp"});
+    return format_of(text, file).read(text, file, sink);
+  } catch (const InputError& error) {
+    Entry entry;
+    entry.observation.name = file;
+    entry.observation.file = file;
+    entry.error = error.complaint();
+    sink(std::move(entry));
+  }
+  return {};
+}
+
+}  // namespace slipfront::catalogue

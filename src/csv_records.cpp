@@ -1,0 +1,83 @@
+#include "csv_records.hpp"
+
+#include <csv.h>
+
+#include <exception>
+#include <new>
+
+#include "slipfront/error.hpp"
+
+namespace slipfront {
+namespace {
+
+/// More than any table has; what looks columns up in each other takes time with their square.
+constexpr std::size_t most_columns = 10000;
+
+struct Records {
+  const std::function<void(std::vector<std::string>&&, std::size_t)>& take;
+  std::vector<std::string> fields = {};
+  std::size_t line = 0;            ///< being fed
+  std::size_t first = 0;           ///< of the record being read; 0 between records
+  std::exception_ptr thrown = {};  ///< must not pass through C
+};
+
+void on_field(void* data, std::size_t size, void* self) {
+  auto& records = *static_cast<Records*>(self);
+  if (records.thrown) return;
+  try {
+    if (records.fields.size() == most_columns)
+      throw InputError({.line = records.first > 0 ? records.first : records.line,
+                        .problem = "more than " + std::to_string(most_columns) + " columns",
+                        .allowed = "fewer"});
+    records.fields.emplace_back(data ? static_cast<const char*>(data) : "", data ? size : 0);
+  } catch (...) {
+    records.thrown = std::current_exception();
+  }
+}
+
+void on_record(int, void* self) {
+  auto& records = *static_cast<Records*>(self);
+  if (records.thrown) return;
+  try {
+    records.take(std::move(records.fields), records.first);
+  } catch (...) {
+    records.thrown = std::current_exception();
+  }
+  records.fields.clear();
+  records.first = 0;
+}
+
+struct Parser {
+  csv_parser raw{};
+  Parser() {
+    if (csv_init(&raw, 0) != 0) throw std::bad_alloc();
+  }
+  ~Parser() { csv_free(&raw); }
+  Parser(const Parser&) = delete;
+  Parser& operator=(const Parser&) = delete;
+};
+
+}  // namespace
+
+std::size_t for_each_record(std::string_view text,
+                            const std::function<void(std::vector<std::string>&&, std::size_t)>& take) {
+  Parser parser;
+  Records records{take};
+  // libcsv does not count lines; fed one line at a time, it need not.
+  while (!text.empty() && !records.thrown) {
+    const std::size_t end = text.find('\n');
+    const std::size_t size = end == std::string_view::npos ? text.size() : end + 1;
+    ++records.line;
+    if (records.first == 0) records.first = records.line;
+    if (csv_parse(&parser.raw, text.data(), size, on_field, on_record, &records) != size && !records.thrown)
+      throw std::bad_alloc();
+    if (records.fields.empty() && parser.raw.quoted == 0) records.first = 0;  // a blank line
+    text.remove_prefix(size);
+  }
+  csv_set_opts(&parser.raw, CSV_STRICT | CSV_STRICT_FINI);  // from here on a quote still open is an error
+  const bool open_quote = !records.thrown && csv_fini(&parser.raw, on_field, on_record, &records) != 0;
+  if (records.thrown) std::rethrow_exception(records.thrown);
+  return open_quote ? records.first : 0;
+}
+
+}  // namespace slipfront

@@ -1,0 +1,80 @@
+#include "fault_columns.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace slipfront::finite_fault {
+namespace {
+
+/// Of the largest slip. Published tables give times to all subfaults; where hardly anything slips they are arbitrary.
+constexpr double least_share = 0.05;
+
+bool timed(const LocalState& s, double least_slip) { return s.subfault.rupture_time && s.subfault.slip > least_slip; }
+
+double time_of(const LocalState& s) { return *s.subfault.rupture_time; }
+
+/// One column from its subfaults, [from, to). Without a time of its own it gets none: NaN.
+FaultColumn column_of(const std::vector<LocalState>& states, std::size_t from, std::size_t to, double origin,
+                      double begin, double least_slip) {
+  const double n = static_cast<double>(to - from);
+  FaultColumn c{0, 0, NAN};
+  for (std::size_t i = from; i < to; ++i) {
+    c.x += (states[i].along_strike - origin) / n;
+    c.slip += std::fmax(0, states[i].subfault.slip) / n;
+    if (timed(states[i], least_slip)) c.rupture_time = std::fmin(c.rupture_time, time_of(states[i]) - begin);
+  }
+  return c;
+}
+
+}  // namespace
+
+FaultColumns columns_of(const std::vector<LocalState>& states) {
+  if (states.empty()) return {{}, 0, "the file gives no places of subfaults"};
+  double least_slip = 0;
+  for (const LocalState& s : states) least_slip = std::fmax(least_slip, least_share * s.subfault.slip);
+  const LocalState* first = nullptr;
+  for (const LocalState& s : states)
+    if (timed(s, least_slip) && (!first || time_of(s) < time_of(*first))) first = &s;
+  if (!first) return {{}, 0, "the file gives no rupture times (TRUP)"};
+  const double begin = time_of(*first);
+
+  std::vector<LocalState> segment;
+  for (const LocalState& s : states)
+    if (s.subfault.segment == first->subfault.segment) segment.push_back(s);
+  std::sort(segment.begin(), segment.end(),
+            [](const LocalState& a, const LocalState& b) { return a.along_strike < b.along_strike; });
+
+  FaultColumns out;
+  double origin = 0, beginning = 0, latest = 0, widest = 0;
+  for (std::size_t i = 0; i < segment.size(); ++i) {
+    const LocalState& s = segment[i];
+    if (i > 0) widest = std::fmax(widest, s.along_strike - segment[i - 1].along_strike);
+    if (!timed(s, least_slip)) continue;
+    if (time_of(s) <= begin) origin += s.along_strike, ++beginning;
+    latest = std::fmax(latest, time_of(s) - begin);
+    out.end = std::fmax(out.end, time_of(s) - begin + s.subfault.rise_time.value_or(0));
+  }
+  if (!(latest > 0)) return {{}, 0, "all rupture times (TRUP) are alike"};
+  origin /= beginning;
+
+  // Within a column subfaults lie together up to rounding; between columns by one subfault's length.
+  double broadest = 0;
+  bool alike = true;
+  std::size_t rows = 0;
+  for (std::size_t from = 0, to = 0; from < segment.size(); from = to) {
+    while (++to < segment.size() && segment[to].along_strike - segment[to - 1].along_strike <= widest / 2) {
+    }
+    if (out.columns.empty()) rows = to;
+    alike = alike && to - from == rows;
+    broadest = std::fmax(broadest, segment[to - 1].along_strike - segment[from].along_strike);
+    out.columns.push_back(column_of(segment, from, to, origin, begin, least_slip));
+    // Places are given to metres: a column this near is the hypocentre's, and belongs to both sides.
+    if (std::fabs(out.columns.back().x) < 0.01 * widest) out.columns.back().x = 0;
+  }
+  if (!alike || broadest > widest / 2) return {{}, 0, "the subfaults do not stand in columns along strike"};
+  if (out.columns.size() < 3)
+    return {{}, 0, std::to_string(out.columns.size()) + " columns along strike, at least 3 are needed"};
+  return out;
+}
+
+}  // namespace slipfront::finite_fault

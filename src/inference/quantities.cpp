@@ -1,0 +1,144 @@
+#include "slipfront/inference/quantities.hpp"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "slipfront/medium/medium.hpp"
+
+namespace slipfront::inference {
+namespace {
+
+using Role = Quantity::Role;
+
+/// The same member of a state, an estimate and a posterior.
+#define MEMBER(name)                                                               \
+  &FaultQuantities<double>::name, &FaultQuantities<std::optional<Inferred>>::name, \
+      &FaultQuantities<std::optional<Quantiles>>::name
+
+// Name, long name, unit to multiply by, equation, label on an axis; long name in an answer; role; in the posterior.
+constexpr Quantity declarations[] = {
+    {{"rupture_velocity_m_s", "rupture velocity, in m/s", "", "Eqs. 8-10"},
+     "",
+     Role::sample,
+     true,
+     MEMBER(rupture_velocity_m_s)},
+    {{"rupture_velocity", "rupture velocity", "c", "Eqs. 8-10"},
+     "",
+     Role::closed_form,
+     false,
+     MEMBER(rupture_velocity)},
+    {{"stress", "Sigma-, stress before the rupture", "mu A / pi", "Eqs. 8-10"},
+     "",
+     Role::closed_form,
+     true,
+     MEMBER(stress)},
+    {{"frictionless_slip_velocity", "slip velocity W(0) as if there were no friction", "c A / pi", "Eqs. 8-10"},
+     "",
+     Role::closed_form,
+     false,
+     MEMBER(frictionless_slip_velocity)},
+    {{"observed_slip_velocity", "observed slip velocity", "c A / pi", "Eqs. 8-10"},
+     "observed slip velocity; needs a contact ratio that is given",
+     Role::closed_form,
+     false,
+     MEMBER(observed_slip_velocity)},
+    {{"slip_velocity_ratio", "observed over frictionless slip velocity", "", "Eqs. 8-10"},
+     "",
+     Role::closed_form,
+     false,
+     MEMBER(slip_velocity_ratio)},
+    {{"contact_ratio", "A, real to nominal contact area", "", "Eq. 1"},
+     "A, real to nominal contact area: given, or as if there were no friction",
+     Role::closed_form,
+     true,
+     MEMBER(contact_ratio)},
+    {{"damping_number", "Gamma = C T", "", "Eq. 7"},
+     "Gamma = C T; needs friction",
+     Role::friction,
+     true,
+     MEMBER(damping_number)},
+    {{"friction_coefficient", "C of viscous friction", "", "Eq. 7"},
+     "",
+     Role::friction,
+     true,
+     MEMBER(friction_coefficient)},
+    {{"stress_pa", "stress before the rupture, in Pa", "", "Eqs. 8-10"},
+     "stress before the rupture, in Pa; none where only a bound is known",
+     Role::closed_form,
+     true,
+     MEMBER(stress_pa)},
+    {{"stress_bound", "least Sigma-, if friction took nothing", "mu A / pi", "Eqs. 8-10"},
+     "",
+     Role::lower_bound,
+     false,
+     MEMBER(stress_bound)},
+    {{"contact_ratio_bound", "least A, if friction took nothing", "", "Eq. 1"},
+     "",
+     Role::lower_bound,
+     false,
+     MEMBER(contact_ratio_bound)},
+    {{"stress_pa_bound", "least stress before the rupture, in Pa, if friction took nothing", "", "Eqs. 8-10"},
+     "",
+     Role::lower_bound,
+     false,
+     MEMBER(stress_pa_bound)},
+};
+#undef MEMBER
+
+/// The quantities of these roles, one role after the other, with their long names in an answer.
+std::vector<Quantity> of_roles(std::initializer_list<Role> roles) {
+  std::vector<Quantity> chosen;
+  for (const Role role : roles)
+    for (Quantity q : declarations) {
+      if (q.role != role) continue;
+      if (!q.answer.empty()) q.about.long_name = q.answer;
+      chosen.push_back(q);
+    }
+  return chosen;
+}
+
+}  // namespace
+
+std::span<const Quantity> quantities() { return declarations; }
+
+std::span<const Quantity> answer_quantities() {
+  static const std::vector<Quantity> chosen = of_roles({Role::closed_form, Role::friction});
+  return chosen;
+}
+
+std::span<const Quantity> bound_quantities() {
+  static const std::vector<Quantity> chosen = of_roles({Role::lower_bound});
+  return chosen;
+}
+
+std::span<const Quantity> posterior_quantities() {
+  static const std::vector<Quantity> chosen = [] {
+    std::vector<Quantity> all;
+    for (const Quantity& q : declarations)
+      if (q.in_posterior) all.push_back(q);
+    return all;
+  }();
+  return chosen;
+}
+
+FaultState unknown_state() {
+  FaultState state;
+  for (const Quantity& q : declarations) state.*q.state = std::numeric_limits<double>::quiet_NaN();
+  return state;
+}
+
+void derive(FaultState& s, const medium::Elastic& elastic, std::optional<double> slip_velocity) {
+  if (slip_velocity && !std::isnan(s.contact_ratio)) {
+    s.observed_slip_velocity = *slip_velocity / medium::slip_velocity_unit(elastic.speed, s.contact_ratio);
+    s.slip_velocity_ratio = s.observed_slip_velocity / s.frictionless_slip_velocity;
+  }
+  if (!std::isnan(s.contact_ratio))
+    s.stress_pa = medium::stress_unit(elastic.shear_modulus, s.contact_ratio) * s.stress;
+  if (!std::isnan(s.contact_ratio_bound))
+    s.stress_pa_bound = medium::stress_unit(elastic.shear_modulus, s.contact_ratio_bound) * s.stress;
+  else if (!std::isnan(s.stress_bound))
+    s.stress_pa_bound = medium::stress_unit(elastic.shear_modulus, s.contact_ratio) * s.stress_bound;
+}
+
+}  // namespace slipfront::inference

@@ -1,0 +1,163 @@
+#include "slipfront/results/columns.hpp"
+
+#include <limits>
+#include <utility>
+
+#include "slipfront/results/quantities.hpp"
+
+namespace slipfront::results {
+
+using catalogue::Quantiles;
+using finite_fault::FaultPulse;
+using inference::answer_quantities;
+using inference::bound_quantities;
+using inference::Interval;
+using inference::posterior_quantities;
+using inference::quantities;
+using inference::Quantity;
+
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+template <class Get>
+NumberColumn column(const Description& about, std::string name, const std::string& of, Axis axis, std::size_t count,
+                    Get&& get) {
+  return {std::move(name),
+          of + std::string(about.long_name),
+          unit_of(about.name),
+          about.dimensional_unit,
+          about.reference,
+          axis,
+          count,
+          std::forward<Get>(get)};
+}
+
+template <class Get>
+NumberColumn column(const Description& about, Get&& get) {
+  return column(about, std::string(about.name), "", Axis::none, 1, std::forward<Get>(get));
+}
+
+void add_answer(std::vector<NumberColumn>& all, const Quantity& q) {
+  all.push_back(column(q.about, [&q](const EventResult& r, double* out) {
+    const auto x = answer_of(r, q);
+    *out = x ? x->value : none;
+  }));
+  all.push_back(column(q.about, std::string(q.about.name) + "_interval", "5 % and 95 % of: ", Axis::bound, 2,
+                       [&q](const EventResult& r, double* out) {
+                         const auto x = answer_of(r, q);
+                         const Interval i = x && x->interval ? *x->interval : Interval{none, none};
+                         out[0] = i.low;
+                         out[1] = i.high;
+                       }));
+}
+
+void add_estimates(std::vector<NumberColumn>& all) {
+  for (const EventNumber& number : event_numbers())
+    all.push_back(
+        column(number.about, [get = number.get](const EventResult& r, double* out) { *out = get(r).value_or(none); }));
+  for (const auto quantities : {answer_quantities(), bound_quantities()})
+    for (const Quantity& q : quantities) add_answer(all, q);
+}
+
+void add_posterior(std::vector<NumberColumn>& all) {
+  for (const Quantity& q : posterior_quantities())
+    all.push_back(column(q.about, "posterior_" + std::string(q.about.name),
+                         "with friction and errors: ", Axis::quantile, 3, [&q](const EventResult& r, double* out) {
+                           const auto x = r.posterior ? (*r.posterior).*q.quantiles : std::nullopt;
+                           const Quantiles found = x.value_or(Quantiles{none, none, none});
+                           out[0] = found.low;
+                           out[1] = found.median;
+                           out[2] = found.high;
+                         }));
+  all.push_back(
+      column({"effective_samples", "effective number of samples", "", ""},
+             [](const EventResult& r, double* out) { *out = r.posterior ? r.posterior->effective_samples : none; }));
+  all.push_back(column({"pareto_k", "shape of the tail of the weights: above 0.7 no intervals", "", ""},
+                       [](const EventResult& r, double* out) { *out = r.posterior ? r.posterior->pareto_k : none; }));
+  all.push_back(column({"samples", "samples of the state of the fault", "", ""}, [](const EventResult& r, double* out) {
+    *out = r.posterior ? static_cast<double>(r.posterior->samples) : none;
+  }));
+  all.push_back(column({"friction_identified", "1 where the data say what the friction is, else 0", "", ""},
+                       [](const EventResult& r, double* out) {
+                         *out = r.posterior ? (r.posterior->friction_identified ? 1 : 0) : none;
+                       }));
+}
+
+void add_draws(std::vector<NumberColumn>& all, std::size_t draws) {
+  for (const Quantity& q : quantities())
+    all.push_back(column(q.about, "draw_" + std::string(q.about.name), "drawn from the posterior: ", Axis::draw, draws,
+                         [value = q.state, draws](const EventResult& r, double* out) {
+                           for (std::size_t i = 0; i < draws; ++i)
+                             out[i] =
+                                 r.posterior && i < r.posterior->draws.size() ? r.posterior->draws[i].*value : none;
+                         }));
+}
+
+}  // namespace
+
+std::string_view unit_of(std::string_view name) {
+  for (const auto& [end, unit] :
+       {std::pair<std::string_view, std::string_view>{"_m_s", "m s-1"}, {"_pa", "Pa"}, {"_pa_bound", "Pa"}})
+    if (name.ends_with(end)) return unit;
+  return "1";
+}
+
+std::span<const PulseQuantity> pulse_quantities() {
+  static constexpr PulseQuantity quantities[] = {
+      {{"pulse_front_velocity_ratio", "velocity of the front, pulse over model", "", "Eqs. 6-7"},
+       [](const FaultPulse& p) { return p.front_velocity_ratio; }},
+      {{"pulse_correlation_of_slip", "correlation of slip along strike, pulse and model", "", "Eqs. 6-7"},
+       [](const FaultPulse& p) { return p.correlation_of_slip; }},
+      {{"pulse_columns", "columns of the model along strike", "", ""},
+       [](const FaultPulse& p) { return std::optional(static_cast<double>(p.x.size())); }},
+      {{"pulse_columns_reached", "of these, reached by the pulse's front", "", ""},
+       [](const FaultPulse& p) { return std::optional(static_cast<double>(p.reached)); }},
+      {{"pulse_slip_error", "largest slip ahead of the front, exactly 0, over the largest slip", "", ""},
+       [](const FaultPulse& p) { return p.slip_error; }},
+      {{"pulse_contact_ratio", "A that the size of the model's slip says", "", "Eq. 1"},
+       [](const FaultPulse& p) { return p.contact_ratio; }},
+  };
+  return quantities;
+}
+
+std::vector<NumberColumn> number_columns(const ColumnChoice& choice) {
+  std::vector<NumberColumn> all;
+  add_estimates(all);
+  add_posterior(all);
+  all.push_back(column({"line", "line of the event in its file", "", ""},
+                       [](const EventResult& r, double* out) { *out = static_cast<double>(r.observation.line); }));
+  if (choice.draws > 0) add_draws(all, choice.draws);
+  if (!choice.pulse) return all;
+  for (const PulseQuantity& q : pulse_quantities())
+    all.push_back(column(q.about, [get = q.get](const EventResult& r, double* out) {
+      *out = r.pulse && r.pulse->reason.empty() ? get(*r.pulse).value_or(none) : none;
+    }));
+  return all;
+}
+
+std::vector<TextColumn> text_columns(bool with_pulse) {
+  std::vector<TextColumn> all = {
+      {"name", "name of the event", [](const EventResult& r) { return r.observation.name; }},
+      {"date", "date as its source gives it", [](const EventResult& r) { return r.observation.date; }},
+      {"kind", "kind of event", [](const EventResult& r) { return r.observation.kind; }},
+      {"citation", "source of the observation", [](const EventResult& r) { return r.observation.citation; }},
+      {"note", "what the source says to mind", [](const EventResult& r) { return r.observation.note; }},
+      {"file", "where the event was read", [](const EventResult& r) { return r.observation.file; }},
+      {"warnings", "what was assumed, left out or not identifiable",
+       [](const EventResult& r) { return joined(r.warnings()); }},
+      {"error", "why there is no result", [](const EventResult& r) { return r.error; }},
+  };
+  if (with_pulse)
+    all.push_back({"pulse_reason", "why there is no pulse",
+                   [](const EventResult& r) { return r.pulse ? r.pulse->reason : std::string(); }});
+  return all;
+}
+
+std::string joined(const std::vector<std::string>& parts) {
+  std::string out;
+  for (const std::string& part : parts) out += (out.empty() ? "" : "; ") + part;
+  return out;
+}
+
+}  // namespace slipfront::results

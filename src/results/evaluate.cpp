@@ -1,0 +1,112 @@
+#include "slipfront/results/evaluate.hpp"
+
+#include <utility>
+
+#include "slipfront/results/quantities.hpp"
+#include "slipfront/results/serialize.hpp"
+
+namespace slipfront::results {
+
+using catalogue::Entry;
+using catalogue::Observation;
+using catalogue::Quantiles;
+using finite_fault::along_fault;
+using finite_fault::FaultPulse;
+using finite_fault::LocalState;
+using finite_fault::pulse_along_fault;
+using inference::Estimate;
+using inference::estimate;
+using inference::Inferred;
+using inference::Interval;
+using inference::Posterior;
+using inference::posterior;
+using inference::quantities;
+using inference::Quantity;
+using inference::speaks_of_friction_or_error;
+using medium::Defaults;
+
+std::vector<std::string> EventResult::warnings() const {
+  std::vector<std::string> all = estimate ? estimate->warnings : observation.warnings;
+  if (posterior) all.insert(all.end(), posterior->notes.begin(), posterior->notes.end());
+  return all;
+}
+
+namespace {
+
+/// The interval of samples; none where nothing moved.
+std::optional<Interval> interval_of(const Quantiles& q) {
+  if (!(q.low < q.high)) return {};
+  return Interval{q.low, q.high};
+}
+
+/// The posterior's answer instead of that of the closed forms.
+void fill(Estimate& e, const Posterior& p) {
+  const auto set = [](std::optional<Inferred>& to, const std::optional<Quantiles>& from) {
+    if (from) to = Inferred{from->median, interval_of(*from)};
+  };
+  for (const Quantity& q : quantities()) set(e.*q.inferred, p.*q.quantiles);
+  // Where only a bound is known, it is the answer.
+  if (!p.contact_ratio) set(e.contact_ratio, p.contact_ratio_bound);
+  set(e.stress, p.stress_bound);
+  if (p.suffices && p.friction_identified) e.contact_ratio_bound.reset(), e.stress_pa_bound.reset();
+  if (p.suffices) return;
+  for (const Quantity& q : quantities())
+    if (e.*q.inferred) (e.*q.inferred)->interval.reset();
+}
+
+bool is_sampled(const EvaluationOptions& options, const Observation& o) {
+  return options.sampling.samples > 0 && (options.sample_all || speaks_of_friction_or_error(o));
+}
+
+FaultPulse pulse_of(const EventResult& result, const medium::Defaults& defaults) {
+  FaultPulse none;
+  if (result.observation.subfaults.empty())
+    none.reason = "no finite-fault model that gives the places of its subfaults";
+  else if (!result.estimate->stress)
+    none.reason = "no rupture velocity, so no stress of the event";
+  if (!none.reason.empty()) return none;
+  const std::vector<LocalState>& known = result.along_fault;
+  return pulse_along_fault(known.empty() ? along_fault(result.observation, defaults) : known,
+                           result.estimate->stress->value, result.estimate->speed);
+}
+
+/// What takes long comes from `posterior_of` and `pulse_of`.
+template <class PosteriorOf, class PulseOf>
+EventResult evaluate(Entry&& entry, const medium::Defaults& defaults, const EvaluationOptions& options,
+                     const PosteriorOf& posterior_of, const PulseOf& pulse_of) {
+  EventResult result{std::move(entry.observation), {}, {}, {}, {}, {}};
+  try {
+    if (entry.error) throw InputError(*entry.error);
+    result.estimate = estimate(result.observation, defaults, is_sampled(options, result.observation));
+    result.posterior = posterior_of(result);
+    if (result.posterior) fill(*result.estimate, *result.posterior);
+    if (options.along_fault) result.along_fault = along_fault(result.observation, defaults);
+    result.pulse = pulse_of(result);
+  } catch (const InputError& error) {
+    result.estimate.reset();
+    result.error = error.what();
+  }
+  return result;
+}
+
+}  // namespace
+
+EventResult evaluate(Entry&& entry, const medium::Defaults& defaults, const EvaluationOptions& options) {
+  return evaluate(
+      std::move(entry), defaults, options,
+      [&](const EventResult& r) -> std::optional<Posterior> {
+        if (!is_sampled(options, r.observation)) return {};
+        return posterior(r.observation, defaults, options.sampling);
+      },
+      [&](const EventResult& r) { return options.pulse ? std::optional(pulse_of(r, defaults)) : std::nullopt; });
+}
+
+EventResult evaluate(Entry&& entry, const medium::Defaults& defaults, const EvaluationOptions& options,
+                     SavedResult&& found) {
+  if (!found.error.empty()) return {std::move(entry.observation), {}, {}, {}, {}, std::move(found.error)};
+  return evaluate(
+      std::move(entry), defaults, options, [&](const EventResult&) { return std::move(found.posterior); },
+      [&](const EventResult&) { return std::move(found.pulse); });
+}
+
+}  // namespace slipfront::results

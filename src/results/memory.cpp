@@ -1,0 +1,70 @@
+#include "slipfront/results/memory.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "../digits.hpp"
+#include "../inference/sampler.hpp"
+#include "../inference/sobol.hpp"
+#include "slipfront/error.hpp"
+#include "slipfront/machine.hpp"
+#include "slipfront/results/columns.hpp"
+
+namespace slipfront::results {
+
+using inference::FaultState;
+using inference::most_growth;
+using inference::most_samples;
+using inference::Sample;
+using inference::Sampling;
+using inference::ShiftedSobol;
+
+namespace {
+
+constexpr double result_itself = 4096;  // bytes of one result without its draws: texts, notes, quantiles
+constexpr double texts_in_file = 400;
+
+double draws_of(const EvaluationOptions& options) {
+  return static_cast<double>(options.sampling.draws * sizeof(FaultState));
+}
+
+/// Samples of one event, as many as they may become.
+double most_of(const Sampling& sampling) {
+  return static_cast<double>(std::max(sampling.samples, std::min(most_growth * sampling.samples, most_samples)));
+}
+
+}  // namespace
+
+double memory_needed(const EvaluationOptions& options, std::size_t events, int at_once) {
+  // Samples double: the vector that holds them does as well, and while it grows its old half is there too. Beside it
+  // their weights and their order. The sequences that they are drawn from stay, each twice as long as the one before.
+  const double of_sample = 3 * sizeof(Sample) + 4 * sizeof(double);
+  const double most = most_of(options.sampling);
+  const double kept = most > static_cast<double>(options.sampling.samples) ? 2 : 1;
+  const double sequences = kept * sizeof(double) * static_cast<double>(ShiftedSobol::dimensions);
+  const double together = std::min(static_cast<double>(events), static_cast<double>(at_once));
+  return most * (together * of_sample + sequences) + static_cast<double>(events) * (result_itself + draws_of(options));
+}
+
+double disk_needed(const EvaluationOptions& options, std::size_t events) {
+  double numbers = 0;
+  for (const NumberColumn& c : number_columns({.pulse = options.pulse, .draws = options.sampling.draws}))
+    numbers += static_cast<double>(c.count);
+  return static_cast<double>(events) * (sizeof(double) * numbers + texts_in_file);
+}
+
+void require_memory(const EvaluationOptions& options, std::size_t events, int at_once, bool with_file) {
+  const double need = memory_needed(options, events, at_once) + (with_file ? 2 * disk_needed(options, events) : 0);
+  const double have = usable_memory();
+  if (need <= have) return;
+  const bool by_draws = draws_of(options) * static_cast<double>(events) > need / 4;
+  throw InputError({.file = "command line",
+                    .key = by_draws ? "--draws" : "--samples",
+                    .value = std::to_string(by_draws ? options.sampling.draws : options.sampling.samples),
+                    .problem = std::to_string(events) + " events, " + std::to_string(at_once) + " at a time, need " +
+                               digits(need / 1e9, 3) + " GB of memory, this process may have " + digits(have / 1e9, 3) +
+                               " GB",
+                    .allowed = by_draws ? "fewer draws or events" : "fewer samples or threads"});
+}
+
+}  // namespace slipfront::results

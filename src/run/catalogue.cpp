@@ -1,0 +1,198 @@
+#include "slipfront/run/catalogue.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <span>
+#include <utility>
+
+#include "slipfront/catalogue/population.hpp"
+#include "slipfront/catalogue/read.hpp"
+#include "slipfront/error.hpp"
+#include "slipfront/finite_fault/sources.hpp"
+#include "slipfront/parallel.hpp"
+#include "slipfront/results/memory.hpp"
+#include "slipfront/results/quantities.hpp"
+#include "slipfront/results/serialize.hpp"
+
+namespace slipfront::run {
+namespace {
+
+using catalogue::Entry;
+using results::EvaluationOptions;
+using results::EventResult;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// The entries of all texts; of one that could not be read, an entry with the reason.
+CatalogueColumns read_all(const std::vector<EventText>& texts, const catalogue::Sink& sink) {
+  CatalogueColumns columns;
+  auto& ignored = columns.ignored;
+  for (const EventText& t : texts) {
+    if (t.error.empty()) {
+      for (std::string& title : catalogue::read_events(t.text, t.name, sink))
+        if (std::find(ignored.begin(), ignored.end(), title) == ignored.end()) ignored.push_back(std::move(title));
+      continue;
+    }
+    columns.unreadable = true;
+    Entry entry;
+    entry.observation.name = t.name;
+    entry.observation.file = t.name;
+    entry.error = Complaint{.problem = t.error};
+    sink(std::move(entry));
+  }
+  return columns;
+}
+
+/// The settings that make the results what they are; threads do not.
+std::vector<std::pair<std::string, std::string>> settings_of(const CatalogueScenario& scenario) {
+  const EvaluationOptions& e = scenario.evaluation;
+  const auto stated = [](const std::string& text) { return text.empty() ? "default" : text; };
+  std::string inputs;
+  for (const EventText& t : scenario.texts)
+    inputs = record::checksum_of_inputs(inputs, t.name, t.error.empty() ? t.text : t.error);
+  return {{"seed", std::to_string(e.sampling.seed)},
+          {"samples", std::to_string(e.sampling.samples)},
+          {"sampled_events", e.sample_all ? "all" : "those that speak of friction or errors"},
+          {"closure", name_of(e.sampling.closure)},
+          {"pulse", e.pulse ? "yes" : "no"},
+          {"posterior_draws", std::to_string(e.sampling.draws)},
+          {"p_wave_speed", stated(scenario.medium.p_wave_speed)},
+          {"poisson_ratio", stated(scenario.medium.poisson_ratio)},
+          {"shear_modulus", stated(scenario.medium.shear_modulus)},
+          {"input_checksum", inputs}};
+}
+
+/// A catalogue while it is evaluated.
+class Evaluation {
+ public:
+  Evaluation(CataloguePlan&& plan, const CatalogueOptions& options)
+      : plan_(std::move(plan)), options_(options), results_(plan_.entries.size()), is_done_(plan_.entries.size()) {}
+
+  void resume() {
+    auto saved = results::deserialize(record::read_events_done(options_.resume, plan_.metadata));
+    if (saved.size() > results_.size()) throw FileError(options_.resume + ": holds more events than the catalogue");
+    done_ = saved.size();
+    for_each_parallel(done_, options_.threads, [&](std::size_t i) {
+      results_[i] = evaluate(std::move(plan_.entries[i]), plan_.defaults, plan_.evaluation, std::move(saved[i]));
+      is_done_[i] = 1;
+    });
+  }
+
+  /// Evaluates as many of the next events as a tenth of a second allows, one at least.
+  void advance() {
+    const auto start = Clock::now();
+    const std::size_t next = std::min<std::size_t>(4096, results_.size() - done_);
+    for_each_parallel(
+        next, options_.threads,
+        [&](std::size_t j) {
+          const std::size_t i = done_ + j;
+          if (is_done_[i] || (j > 0 && seconds_since(start) > 0.1)) return;
+          results_[i] = evaluate(std::move(plan_.entries[i]), plan_.defaults, plan_.evaluation);
+          is_done_[i] = 1;
+        },
+        1);
+    while (done_ < results_.size() && is_done_[done_]) ++done_;
+  }
+
+  void write() {
+    if (!options_.output.wanted()) return;
+    const auto begun = Clock::now();
+    const auto done = std::span<const EventResult>(results_).first(done_);
+    catalogue::Population population;
+    for (const EventResult& r : done)
+      if (const auto member = results::member_of(r)) population.add(*member);
+    record::write_events(finished() ? options_.output.finished() : options_.output.unfinished(), plan_.metadata, done,
+                         population.decades(), finished());
+    if (finished()) options_.output.clear();
+    written_ = Clock::now();
+    cost_ = seconds_since(begun);
+  }
+
+  /// A checkpoint is the whole file: writing it must stay a small part of the work.
+  bool checkpoint_due() const { return seconds_since(written_) > std::max(0.2, 20 * cost_); }
+  bool finished() const { return done_ == results_.size(); }
+  std::size_t done() const { return done_; }
+
+  std::vector<EventResult> results() && {
+    results_.resize(done_);
+    return std::move(results_);
+  }
+
+ private:
+  CataloguePlan plan_;
+  const CatalogueOptions& options_;
+  std::vector<EventResult> results_;
+  std::vector<char> is_done_;  ///< a few beyond the first `done_` may be
+  std::size_t done_ = 0;
+  Clock::time_point written_ = Clock::now();
+  double cost_ = 0;
+};
+
+}  // namespace
+
+CataloguePlan plan_catalogue(const CatalogueScenario& scenario, int threads, bool with_file) {
+  CataloguePlan plan{.entries = {},
+                     .columns = {},
+                     .defaults = medium::defaults_of(scenario.medium),
+                     .evaluation = scenario.evaluation,
+                     .metadata = {.version = SLIPFRONT_VERSION,
+                                  .command_line = scenario.command_line,
+                                  .settings = settings_of(scenario),
+                                  .columns = {scenario.evaluation.pulse, scenario.evaluation.sampling.draws}}};
+  plan.columns = read_all(scenario.texts, [&](Entry&& entry) { plan.entries.push_back(std::move(entry)); });
+  finite_fault::warn_of_other_sources(plan.entries, plan.defaults);
+  results::require_memory(plan.evaluation, plan.entries.size(), threads, with_file);
+  plan.disk = results::disk_needed(plan.evaluation, plan.entries.size());
+  return plan;
+}
+
+CatalogueResult catalogue(CataloguePlan&& plan, const CatalogueOptions& options) {
+  record::require_disk_space(options.output.finished(), options.output.wanted() ? plan.disk : 0);
+  Evaluation evaluation(std::move(plan), options);
+  if (!options.resume.empty())
+    evaluation.resume();
+  else if (!options.output.replaces())
+    evaluation.write();  // a path that cannot be written is known before the work
+  const auto stopped = [&] { return options.after_step && options.after_step(evaluation.done()); };
+  bool stop = stopped();
+  while (!evaluation.finished() && !stop) {
+    evaluation.advance();
+    stop = stopped();
+    if (!evaluation.finished() && !stop && evaluation.checkpoint_due()) evaluation.write();
+  }
+  evaluation.write();
+  const bool finished = evaluation.finished();
+  return {std::move(evaluation).results(), finished};
+}
+
+CatalogueColumns stream_catalogue(const CatalogueScenario& scenario, int threads,
+                                  const std::function<void(std::vector<EventResult>&&)>& take) {
+  constexpr std::size_t most_waiting = 4096;
+  const medium::Defaults defaults = medium::defaults_of(scenario.medium);
+  finite_fault::Sources sources;  // read twice: whether sources of one earthquake disagree is known when all are
+  std::size_t count = 0;
+  read_all(scenario.texts, [&](Entry&& entry) {
+    ++count;
+    if (!entry.error) sources.add(entry.observation, defaults);
+  });
+  results::require_memory(scenario.evaluation, std::min(count, most_waiting), threads);
+  std::vector<Entry> waiting;
+  const auto flush = [&] {
+    std::vector<EventResult> results(waiting.size());
+    for_each_parallel(
+        waiting.size(), threads,
+        [&](std::size_t i) { results[i] = evaluate(std::move(waiting[i]), defaults, scenario.evaluation); }, 1);
+    waiting.clear();
+    take(std::move(results));
+  };
+  const CatalogueColumns columns = read_all(scenario.texts, [&](Entry&& entry) {
+    if (!entry.error) sources.warn(entry.observation);
+    waiting.push_back(std::move(entry));
+    if (waiting.size() == most_waiting) flush();
+  });
+  flush();
+  return columns;
+}
+
+}  // namespace slipfront::run

@@ -1,0 +1,256 @@
+#include "slipfront/inference/posterior.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include "slipfront/error.hpp"
+#include "slipfront/medium/medium.hpp"
+#include "slipfront/rupture/relations.hpp"
+
+namespace {
+
+using namespace slipfront;
+using namespace slipfront::catalogue;
+using namespace slipfront::inference;
+using modulation::Closure;
+using Shape = Measured::Shape;
+
+constexpr double shear_modulus = 30e9;
+const medium::Defaults defaults{};
+const double c = medium::speed_from_p_wave(defaults.p_wave_speed, defaults.poisson_ratio);
+const double plastic = medium::plastic_contact_ratio(defaults.poisson_ratio);
+
+Measured exact(double x) { return {x, x}; }
+Measured lognormal(double x, double factor) { return {x, x, Shape::lognormal, factor}; }
+
+/// The state of a fault, and what it makes of the slip velocity.
+struct Truth {
+  double V, A, damping;
+  double stress() const { return rupture::from_rupture_velocity(V / c).stress; }
+  double stress_pa() const { return medium::stress_unit(shear_modulus, A) * stress(); }
+  double slip_velocity(Measure measure, Closure closure) const {
+    const rupture::Relations r = rupture::from_rupture_velocity(V / c);
+    return medium::slip_velocity_unit(c, A) * r.slip_velocity *
+           friction_ratio::evaluate(measure, closure, r.stress, damping).value;
+  }
+};
+
+struct Random {
+  std::mt19937_64 bits;
+  double uniform(double a, double b) { return a + (b - a) * static_cast<double>(bits() >> 11) * 0x1p-53; }
+  double lognormal(double x, double factor) { return x * std::exp(std::log(factor) * normal()); }
+  double normal() {
+    const double u = 1 - uniform(0, 1);
+    return std::sqrt(-2 * std::log(u)) * std::cos(uniform(0, 6.283185307179586));
+  }
+};
+
+/// Drawn from the prior of the sampler.
+Truth drawn(Random& random) {
+  return {c * std::exp(random.uniform(std::log(1e-6), std::log(0.8))),
+          std::exp(random.uniform(std::log(1e-6), std::log(0.3))),
+          std::expm1(random.uniform(0, std::log1p(most_damping_number)))};
+}
+
+void expect_ninety_percent(const std::vector<std::pair<const char*, int>>& inside, int events) {
+  for (const auto& [name, count] : inside) {
+    EXPECT_GE(count, 0.87 * events) << name;
+    EXPECT_LE(count, 0.93 * events) << name;
+  }
+}
+
+bool holds(const std::optional<Quantiles>& q, double truth) { return q && q->low <= truth && truth <= q->high; }
+
+TEST(Posterior, HoldsTheTruthInNineOfTenEventsOfKnownContact) {
+  constexpr int events = 1000;
+  int stress = 0, contact = 0, damping = 0, pascal = 0;
+  for (int n = 0; n < events; ++n) {
+    Random random{std::mt19937_64(static_cast<std::uint64_t>(n))};
+    const Truth truth = drawn(random);
+    Observation o;
+    o.name = "event " + std::to_string(n);
+    o.slip_velocity_is = static_cast<Measure>(n % 4);
+    o.rupture_velocity_m_s = lognormal(random.lognormal(truth.V, 1.1), 1.1);
+    const double w = truth.slip_velocity(o.measure(), Closure::consistent);
+    o.slip_velocity_m_s = lognormal(random.lognormal(w, 1.15), 1.15);
+    o.contact_ratio = random.lognormal(truth.A, 1.2);
+    o.uncertain_constants.push_back({&medium::Constants::contact_ratio, lognormal(*o.contact_ratio, 1.2)});
+    Posterior p;
+    try {
+      p = *posterior(o, defaults, {.samples = 500});
+    } catch (const InputError&) {  // the noise has made it impossible: counted as a miss
+      continue;
+    }
+    EXPECT_TRUE(p.friction_identified);
+    stress += holds(p.stress, truth.stress());
+    contact += holds(p.contact_ratio, truth.A);
+    damping += holds(p.damping_number, truth.damping);
+    pascal += holds(p.stress_pa, truth.stress_pa());
+  }
+  expect_ninety_percent({{"stress", stress}, {"contact_ratio", contact}, {"damping", damping}, {"stress_pa", pascal}},
+                        events);
+}
+
+TEST(Posterior, HoldsTheTruthInNineOfTenEventsOfKnownFriction) {
+  constexpr int events = 1000;
+  int contact = 0, damping = 0, pascal = 0;
+  for (int n = 0; n < events; ++n) {
+    Random random{std::mt19937_64(static_cast<std::uint64_t>(n) + 100000)};
+    const Truth truth = drawn(random);
+    const double spacing = 1e-3, duration = 30;
+    const double C = truth.damping * spacing / (duration * c * truth.A);
+    Observation o;
+    o.name = "event " + std::to_string(n);
+    o.rupture_velocity_m_s = lognormal(random.lognormal(truth.V, 1.1), 1.1);
+    o.slip_velocity_m_s = lognormal(random.lognormal(truth.slip_velocity(Measure::origin, Closure::paper), 1.15), 1.15);
+    o.friction_coefficient = lognormal(random.lognormal(C, 2), 2);
+    o.duration = exact(duration);
+    o.asperity_spacing = spacing;
+    Posterior p;
+    try {
+      p = *posterior(o, defaults, {.samples = 500, .closure = Closure::paper});
+    } catch (const InputError&) {
+      continue;
+    }
+    contact += holds(p.contact_ratio, truth.A);
+    damping += holds(p.damping_number, truth.damping);
+    pascal += holds(p.stress_pa, truth.stress_pa());
+  }
+  expect_ninety_percent({{"contact_ratio", contact}, {"damping", damping}, {"stress_pa", pascal}}, events);
+}
+
+/// The same posterior by brute force: likelihood times prior on a grid over (ln V, ln A, u).
+struct OnGrid {
+  std::vector<std::pair<double, double>> A, u;
+  static Quantiles quantiles(std::vector<std::pair<double, double>> values) {
+    std::sort(values.begin(), values.end());
+    double total = 0;
+    for (const auto& v : values) total += v.second;
+    const auto at = [&](double share) {
+      double sum = 0;
+      for (const auto& v : values)
+        if ((sum += v.second) >= share * total) return v.first;
+      return values.back().first;
+    };
+    return {at(0.05), at(0.5), at(0.95)};
+  }
+};
+
+TEST(Posterior, IsThatOfAGrid) {
+  Observation o;
+  o.name = "grid";
+  o.rupture_velocity_m_s = Measured{3000, 3000, Shape::normal, 150};
+  o.slip_velocity_m_s = lognormal(0.5, 1.2);
+  o.contact_ratio = 0.01;
+  const Measured contact{0.01, 0.01, Shape::normal, 0.002};
+  o.uncertain_constants.push_back({&medium::Constants::contact_ratio, contact});
+  o.stress_drop = Measured{50e6, 120e6};
+  OnGrid grid;
+  constexpr int n = 60;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      for (int k = 0; k < n; ++k) {
+        const double V = 3000 * std::exp(0.25 * ((i + 0.5) / n * 2 - 1)),
+                     A = 0.01 * std::exp((j + 0.5) / n * 2.4 - 1.6);
+        const double u = (k + 0.5) / n * 8;
+        const Truth state{V, A, std::expm1(u)};
+        const double weight =
+            o.rupture_velocity_m_s->likelihood(V) * contact.likelihood(A) *
+            o.slip_velocity_m_s->likelihood(state.slip_velocity(Measure::origin, Closure::consistent)) *
+            o.stress_drop->likelihood(state.stress_pa());
+        grid.A.emplace_back(A, weight);
+        grid.u.emplace_back(u, weight);
+      }
+  const Posterior p = *posterior(o, defaults, {.samples = 20000});
+  const Quantiles A = OnGrid::quantiles(grid.A), u = OnGrid::quantiles(grid.u);
+  EXPECT_NEAR(p.contact_ratio->median / A.median, 1, 0.02);
+  EXPECT_NEAR(p.contact_ratio->low / A.low, 1, 0.02);
+  EXPECT_NEAR(p.contact_ratio->high / A.high, 1, 0.02);
+  EXPECT_NEAR(std::log1p(p.damping_number->median), u.median, 0.08);
+  EXPECT_NEAR(std::log1p(p.damping_number->low), u.low, 0.08);
+  EXPECT_NEAR(std::log1p(p.damping_number->high), u.high, 0.08);
+  EXPECT_GT(p.effective_samples, 3000);
+}
+
+/// Exact observations have one state of the fault.
+TEST(Posterior, SolvesWhatIsExact) {
+  const Truth truth{3000, 0.01, 12.5};
+  Observation o;
+  o.name = "exact";
+  o.rupture_velocity_m_s = exact(truth.V);
+  o.contact_ratio = truth.A;
+  o.duration = exact(10);
+  o.asperity_spacing = 0.5;
+  for (const Closure closure : {Closure::consistent, Closure::paper})
+    for (const Measure m : friction_ratio::all_measures) {
+      o.slip_velocity_is = m;
+      o.slip_velocity_m_s = exact(truth.slip_velocity(m, closure));
+      const Posterior p = *posterior(o, defaults, {.samples = 10, .closure = closure});
+      EXPECT_NEAR(p.damping_number->median, truth.damping, 1e-8);
+      EXPECT_NEAR(p.damping_number->low, p.damping_number->high, 1e-8);
+      EXPECT_NEAR(p.stress_pa->median, truth.stress_pa(), 1);
+      EXPECT_NEAR(p.friction_coefficient->median, 12.5 * 0.5 / (10 * c * 0.01), 1e-8);
+    }
+}
+
+TEST(Posterior, SaysWhatCannotBeKnown) {
+  Observation o;
+  o.name = "velocities";
+  o.rupture_velocity_m_s = Measured{3000, 3000, Shape::normal, 100};
+  o.slip_velocity_m_s = exact(0.5);
+  const Posterior p = *posterior(o, defaults, {});
+  EXPECT_FALSE(p.friction_identified);
+  EXPECT_GT(*p.damping_number_prior_share, 0.4);  // A cannot exceed plastic contact
+  ASSERT_GE(p.trade_off.size(), 4u);
+  for (const TradeOff& t : p.trade_off)
+    EXPECT_NEAR(Truth({3000, t.contact_ratio, t.damping_number}).slip_velocity(Measure::origin, Closure::consistent),
+                0.5, 1e-6);
+  ASSERT_FALSE(p.notes.empty());
+  EXPECT_NE(p.notes.front().find("trade off"), std::string::npos);
+
+  o.slip_velocity_m_s.reset();
+  const Posterior q = *posterior(o, defaults, {});
+  EXPECT_FALSE(q.contact_ratio || q.damping_number || q.stress_pa);
+  EXPECT_TRUE(q.stress);
+  o.rupture_velocity_m_s.reset();
+  EXPECT_FALSE(posterior(o, defaults, {}));
+}
+
+TEST(Posterior, RefusesWhatExcludesItself) {
+  Observation o;
+  o.name = "contradiction";
+  o.rupture_velocity_m_s = exact(3000);
+  o.slip_velocity_m_s = exact(0.5);
+  o.contact_ratio = 0.001;
+  const auto complaint = [&] {
+    try {
+      posterior(o, defaults, {});
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_NE(complaint().find("above what any friction leaves"), std::string::npos) << complaint();
+  o.slip_velocity_m_s = exact(1e-12);
+  EXPECT_NE(complaint().find("below what a damping number"), std::string::npos) << complaint();
+  o.rupture_velocity_m_s = exact(5420.9);
+  EXPECT_NE(complaint().find("outside the table"), std::string::npos) << complaint();
+}
+
+TEST(Posterior, SeedsAreThoseOfTheEvent) {
+  Observation o;
+  o.name = "a";
+  o.rupture_velocity_m_s = Measured{2000, 3000};
+  const Posterior once = *posterior(o, defaults, {}), again = *posterior(o, defaults, {});
+  EXPECT_EQ(once.stress->low, again.stress->low);
+  EXPECT_EQ(once.seed, again.seed);
+  EXPECT_NE(once.seed, posterior(o, defaults, {.seed = 2})->seed);
+  o.name = "b";
+  EXPECT_NE(once.seed, posterior(o, defaults, {})->seed);
+}
+
+}  // namespace
