@@ -8,9 +8,9 @@
 #include "columns.hpp"
 #include "slipfront/elliptic/jacobi.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/rupture/inverse.hpp"
 #include "slipfront/rupture/riemann.hpp"
 #include "slipfront/scenario/scenario.hpp"
+#include "slipfront/train/at_rest.hpp"
 
 namespace {
 
@@ -88,7 +88,7 @@ py::list spacing(const Numbers& phi, const Numbers& psi) {
 State at_rest(double stress, const char* key) {
   if (stress != 0 && !(stress >= train::smallest_stress && stress <= scenario::largest_stress))
     throw InputError({.key = key, .value = digits(stress), .problem = "out of range", .allowed = "0 or 0.0045 to 1e6"});
-  return rupture::at_rest(stress);
+  return train::at_rest(stress);
 }
 
 py::list psi_at_rest(const Numbers& stress) {

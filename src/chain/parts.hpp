@@ -9,7 +9,7 @@
 #include "scheme.hpp"
 #include "slab.hpp"
 #include "slipfront/chain/chain.hpp"
-#include "slipfront/chain/ranks.hpp"
+#include "slipfront/ranks.hpp"
 #include "work_meter.hpp"
 
 namespace slipfront::chain {

@@ -11,16 +11,16 @@
 
 #include "../bytes.hpp"
 #include "../digits.hpp"
-#include "slipfront/chain/ranks.hpp"
 #include "slipfront/chain/smooth.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/rupture/inverse.hpp"
+#include "slipfront/ranks.hpp"
+#include "slipfront/train/at_rest.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::chain {
 namespace {
 
-using pulse::Snapshot;
+using output::Snapshot;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr std::uint64_t format = 0x636861696e000004;  // "chain", version 4
 
@@ -126,7 +126,7 @@ Run::Start Run::start(const Stretched& stretched, const Execution& execution) {
   return *std::move(made);
 }
 
-Run::Run(Stretched stretched, pulse::Schedule schedule, const Execution& execution, const Start& start)
+Run::Run(Stretched stretched, output::Schedule schedule, const Execution& execution, const Start& start)
     : stretched_(std::move(stretched)),
       schedule_(std::move(schedule)),
       chain_(
@@ -134,7 +134,7 @@ Run::Run(Stretched stretched, pulse::Schedule schedule, const Execution& executi
   look_at_start();
 }
 
-Run::Run(const Stretched& stretched, pulse::Schedule schedule, const Execution& execution)
+Run::Run(const Stretched& stretched, output::Schedule schedule, const Execution& execution)
     : Run(stretched, std::move(schedule), execution, start(stretched, execution)) {}
 
 double Run::centre_of_cell(std::size_t i) const {
@@ -182,7 +182,7 @@ double Run::driving_force() const {
   double last = 0, by_stress = 0, by_forcing = 0;
   for (int i = 0; i <= samples; ++i) {
     const double x = s.left + dx * i, a = s.contact ? s.contact(x) : 1, k = s.stress(x);
-    const double J = a * train::averages(rupture::at_rest(k / a)).J;
+    const double J = a * train::averages(train::at_rest(k / a)).J;
     if (i > 0) by_stress = std::fmax(by_stress, std::fabs(J - last) / dx);
     last = J;
     if (s.forcing)
@@ -213,7 +213,7 @@ void Run::sample() {
   ++p.samples;
 }
 
-Run::Run(const Stretched& stretched, pulse::Schedule schedule, const Execution& execution, std::string_view saved,
+Run::Run(const Stretched& stretched, output::Schedule schedule, const Execution& execution, std::string_view saved,
          std::vector<Snapshot> snapshots)
     : Run(stretched, std::move(schedule), execution) {
   bytes::Reader reader(saved);
@@ -334,8 +334,8 @@ void Run::take() {
     const bool cut = x[i] - half < stretched_.left || x[i] + half > stretched_.right;
     speed.push_back(cut ? 0 : std::fabs(s.profile.W[i]));
   }
-  const pulse::Observed seen =
-      pulse::observed_fronts(x, speed, schedule_.threshold * std::fabs(s.peak_slip_velocity), x.front(), x.back());
+  const output::Observed seen =
+      output::observed_fronts(x, speed, schedule_.threshold * std::fabs(s.peak_slip_velocity), x.front(), x.back());
   s.fronts.trailing_observed = stressed_left ? seen.left : seen.right;
   s.fronts.leading_observed = stressed_left ? seen.right : seen.left;
   const Chain::Flows flows = chain_.flows();

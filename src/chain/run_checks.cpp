@@ -50,7 +50,7 @@ void Run::check_energy(Findings& found) const {
 /// Nothing is faster than c.
 void Run::check_fronts(Findings& found) const {
   const Stretched& s = stretched_;
-  const pulse::Snapshot& last = snapshots_.back();
+  const output::Snapshot& last = snapshots_.back();
   for (const auto& [name, x] : {std::pair{"leading", last.fronts.leading},
                                 {"observed", last.fronts.leading_observed},
                                 {"observed", last.fronts.trailing_observed}})
@@ -62,7 +62,7 @@ void Run::check_fronts(Findings& found) const {
   if (s.forcing || !fixed) return;
   const double site = chain_.problem().grid.spacing / s.scale;
   for (std::size_t i = 1; i < snapshots_.size(); ++i) {
-    const pulse::Snapshot &before = snapshots_[i - 1], &now = snapshots_[i];
+    const output::Snapshot &before = snapshots_[i - 1], &now = snapshots_[i];
     const double gone = std::fabs(now.fronts.leading - before.fronts.leading), time = now.time - before.time;
     if (gone > time + site)
       found.violation((gone - site) / time - 1, "chain: the leading front is faster than c, " + digits(gone / time) +
@@ -101,7 +101,7 @@ void Run::check_barrier(Findings& found) const {
 Run::Findings Run::findings() const {
   Findings found;
   if (snapshots_.empty()) return found;
-  const pulse::Snapshot& last = snapshots_.back();
+  const output::Snapshot& last = snapshots_.back();
   const Stretched& s = stretched_;
   const Balance balance = this->balance();
   check_energy(found);

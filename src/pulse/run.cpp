@@ -16,13 +16,13 @@ constexpr std::uint64_t format = 4;
 
 }  // namespace
 
-Run::Run(Problem problem, Schedule schedule)
+Run::Run(Problem problem, output::Schedule schedule)
     : schedule_(std::move(schedule)), solver_(std::move(problem)), trailing_characteristic_(solver_) {
-  const Energy energy = energy_of(solver_);
+  const output::Energy energy = energy_of(solver_);
   first_energy_ = energy.elastic + energy.kinetic;
 }
 
-Run::Run(Problem problem, Schedule schedule, std::string_view saved, std::vector<Snapshot> snapshots)
+Run::Run(Problem problem, output::Schedule schedule, std::string_view saved, std::vector<output::Snapshot> snapshots)
     : Run(std::move(problem), std::move(schedule)) {
   bytes::Reader reader(saved);
   if (reader.get<std::uint64_t>() != format || snapshots.size() > schedule_.times.size())
@@ -77,8 +77,8 @@ std::string Run::saved() const {
 }
 
 void Run::take() {
-  Snapshot s = observe(solver_, schedule_.x_edges, trailing_characteristic_, schedule_.threshold);
-  Energy& e = s.energy;
+  output::Snapshot s = observe(solver_, schedule_.x_edges, trailing_characteristic_, schedule_.threshold);
+  output::Energy& e = s.energy;
   e.shocks = first_energy_ + e.supplied + e.through_ends - e.dissipated - e.elastic - e.kinetic;
   snapshots_.push_back(std::move(s));
 }

@@ -23,7 +23,7 @@ struct Run::Findings : slipfront::Findings {};
 Run::Findings Run::findings() const {
   Findings found;
   if (snapshots_.empty()) return found;
-  const Snapshot& last = snapshots_.back();
+  const output::Snapshot& last = snapshots_.back();
   const Problem& problem = solver_.problem();
 
   if (problem.left < 0 && problem.right > 0 && passed_.samples > 8) {
@@ -46,7 +46,7 @@ Run::Findings Run::findings() const {
     found.sentences.push_back("pulse: the states of the cells hold " + digits(100 * uncounted) +
                               " % more or fewer dislocations than there are; more pulse.cells help");
 
-  const Energy& e = last.energy;
+  const output::Energy& e = last.energy;
   const double all = std::max({first_energy_, e.elastic + e.kinetic, std::fabs(e.supplied), e.dissipated});
   found.violation(-e.shocks / all, "pulse: " + digits(-100 * e.shocks / all) +
                                        " % of the energy came from nothing; more pulse.cells help");

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "slipfront/rupture/inverse.hpp"
 #include "slipfront/setup/pulse.hpp"
+#include "slipfront/train/at_rest.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::setup {
@@ -27,7 +27,7 @@ double chosen_spacing(const scenario::Scenario& s, double left, double right) {
   constexpr int samples = 1000;
   for (int i = 0; i <= samples; ++i) {
     const double x = left + (right - left) * i / samples, a = s.contact_at ? s.contact_at(x) : 1, k = s.stress(x);
-    const double packed = k / a > train::smallest_stress ? std::cosh(rupture::psi_of_stress(k / a)) : 1;
+    const double packed = k / a > train::smallest_stress ? std::cosh(train::psi_of_stress(k / a)) : 1;
     narrowest = std::fmin(narrowest, 1 / (a * (packed > 1.05 ? packed : 1)));
   }
   return chain::default_spacing * narrowest;

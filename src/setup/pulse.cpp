@@ -5,9 +5,9 @@
 
 #include "../digits.hpp"
 #include "hold.hpp"
-#include "slipfront/rupture/inverse.hpp"
 #include "slipfront/rupture/riemann.hpp"
 #include "slipfront/setup/estimate.hpp"
+#include "slipfront/train/at_rest.hpp"
 
 namespace slipfront::setup {
 namespace {
@@ -20,7 +20,7 @@ struct Reach {
 };
 Reach reach_of(const scenario::Scenario& s) {
   const rupture::Edges edges = rupture::edges_of(
-      rupture::solve_riemann(rupture::at_rest(s.initial.stress_left), rupture::at_rest(s.initial.stress_right)));
+      rupture::solve_riemann(train::at_rest(s.initial.stress_left), train::at_rest(s.initial.stress_right)));
   const double left = std::fabs(edges.left), right = std::fabs(edges.right);
   double share = 1;
   if (s.friction.law == modulation::FrictionLaw::viscous)
@@ -89,9 +89,9 @@ pulse::Problem pulse_problem(const scenario::Scenario& s) {
   return p;
 }
 
-pulse::Schedule pulse_schedule(const scenario::Scenario& s, const pulse::Problem& problem) {
+output::Schedule pulse_schedule(const scenario::Scenario& s, const pulse::Problem& problem) {
   require_memory(s, problem);
-  pulse::Schedule schedule;
+  output::Schedule schedule;
   schedule.threshold = s.pulse.threshold;
   schedule.times.push_back(0);
   for (const double t : s.output.times)

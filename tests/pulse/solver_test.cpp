@@ -7,10 +7,10 @@
 
 #include "slipfront/error.hpp"
 #include "slipfront/modulation/conservation.hpp"
-#include "slipfront/rupture/inverse.hpp"
 #include "slipfront/rupture/pulse.hpp"
 #include "slipfront/rupture/relations.hpp"
 #include "slipfront/rupture/riemann.hpp"
+#include "slipfront/train/at_rest.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace {
@@ -118,8 +118,7 @@ TEST(Pulse, DenseTrainsRunIntoSparseOnes) {
       p.right = 1.2;
       Solver s(p);
       s.advance_to(1);
-      const auto exact =
-          rupture::solve_riemann({0, rupture::psi_of_stress(left)}, {0, rupture::psi_of_stress(right)}).star;
+      const auto exact = rupture::solve_riemann({0, train::psi_of_stress(left)}, {0, train::psi_of_stress(right)}).star;
       const State at = state_at(s.view(), 0.9 * std::tanh(exact.phi));  // behind the shock
       EXPECT_NEAR(at.phi / exact.phi, 1, allowed) << left << " " << cells;
       EXPECT_NEAR(at.psi / exact.psi, 1, allowed) << left << " " << cells;

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "slipfront/chain/measure.hpp"
-#include "slipfront/pulse/snapshot.hpp"
+#include "slipfront/output/snapshot.hpp"
 
 namespace slipfront::chain {
 
@@ -38,18 +38,18 @@ Problem problem_of(const Stretched& stretched, double share_of_machine = 1);
 
 class Run {
  public:
-  Run(const Stretched& stretched, pulse::Schedule schedule, const Execution& execution);
+  Run(const Stretched& stretched, output::Schedule schedule, const Execution& execution);
   /// Continues a saved run. \throws InputError if it is of another.
-  Run(const Stretched& stretched, pulse::Schedule schedule, const Execution& execution, std::string_view saved,
-      std::vector<pulse::Snapshot> snapshots);
+  Run(const Stretched& stretched, output::Schedule schedule, const Execution& execution, std::string_view saved,
+      std::vector<output::Snapshot> snapshots);
 
   /// Goes on to the end or until `interrupted`, asked every tenth of a second or so, says so. Returns whether the end
   /// was reached.
   bool go(const std::function<bool()>& interrupted = {});
 
   const Chain& chain() const { return chain_; }
-  const pulse::Schedule& schedule() const { return schedule_; }
-  const std::vector<pulse::Snapshot>& snapshots() const { return snapshots_; }
+  const output::Schedule& schedule() const { return schedule_; }
+  const std::vector<output::Snapshot>& snapshots() const { return snapshots_; }
   bool can_checkpoint() const { return good_; }  ///< false after a NumericsError: not to be saved
   bool finished() const { return snapshots_.size() == schedule_.times.size(); }
   std::string saved() const;
@@ -84,7 +84,7 @@ class Run {
   };
   static Start start(const Stretched& stretched, double share_of_machine);
   static Start start(const Stretched& stretched, const Execution& execution);
-  Run(Stretched stretched, pulse::Schedule schedule, const Execution& execution, const Start& start);
+  Run(Stretched stretched, output::Schedule schedule, const Execution& execution, const Start& start);
   double width_of_cell(std::size_t i) const;
   double centre_of_cell(std::size_t i) const;
   void look_at_start();
@@ -99,12 +99,12 @@ class Run {
   void refuse_wrong_results() const;
 
   Stretched stretched_;
-  pulse::Schedule schedule_;
+  output::Schedule schedule_;
   Chain chain_;
   double window_ = 0, smooth_window_ = 0;
   long work_every_ = 1;
   bool good_ = true;
-  std::vector<pulse::Snapshot> snapshots_;
+  std::vector<output::Snapshot> snapshots_;
   // At t = 0.
   std::vector<double> first_u_;  ///< averages over the output cells
   double first_u_at_origin_ = 0, first_energy_ = 0, first_charge_ = 0;

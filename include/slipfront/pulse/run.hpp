@@ -8,23 +8,24 @@
 #include <string_view>
 #include <vector>
 
+#include "slipfront/output/snapshot.hpp"
 #include "slipfront/pulse/observe.hpp"
 
 namespace slipfront::pulse {
 
 class Run {
  public:
-  Run(Problem problem, Schedule schedule);
+  Run(Problem problem, output::Schedule schedule);
   /// Continues a saved run of the same problem and schedule. \throws InputError if it is of another.
-  Run(Problem problem, Schedule schedule, std::string_view saved, std::vector<Snapshot> snapshots);
+  Run(Problem problem, output::Schedule schedule, std::string_view saved, std::vector<output::Snapshot> snapshots);
 
   /// Goes on until the end or until `interrupted`, asked after every step, says so; the run may be saved from there.
   /// Returns whether the end was reached.
   bool go(const std::function<bool()>& interrupted = {});
 
   const Solver& solver() const { return solver_; }
-  const Schedule& schedule() const { return schedule_; }
-  const std::vector<Snapshot>& snapshots() const { return snapshots_; }
+  const output::Schedule& schedule() const { return schedule_; }
+  const std::vector<output::Snapshot>& snapshots() const { return snapshots_; }
   /// Wall time that the steps have taken, without laying cells and outputs.
   double stepping_seconds() const { return stepping_seconds_; }
   /// May be saved even after a NumericsError: a step that fails changes nothing.
@@ -44,7 +45,7 @@ class Run {
   Findings findings() const;
   void refuse_wrong_results() const;
 
-  Schedule schedule_;
+  output::Schedule schedule_;
   Solver solver_;
   TrailingCharacteristic trailing_characteristic_;
   double stepping_seconds_ = 0;
@@ -58,7 +59,7 @@ class Run {
     long samples = 0;
   };
   Passed passed_;
-  std::vector<Snapshot> snapshots_;
+  std::vector<output::Snapshot> snapshots_;
 };
 
 }  // namespace slipfront::pulse

@@ -6,8 +6,8 @@
 #include <functional>
 #include <string>
 
-#include "slipfront/chain/ranks.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/ranks.hpp"
 #include "slipfront/record/pulse_file.hpp"
 #include "slipfront/record/unfinished.hpp"
 
@@ -17,9 +17,9 @@ namespace slipfront::run {
 struct CheckpointOptions {
   record::Output output;
   record::PulseMetadata metadata;
-  double disk = 0;                      ///< bytes that the file will need, about
-  bool resumed = false;                 ///< what the run went on from is in a file
-  const chain::Ranks* ranks = nullptr;  ///< that share the run, if any: all of them call
+  double disk = 0;               ///< bytes that the file will need, about
+  bool resumed = false;          ///< what the run went on from is in a file
+  const Ranks* ranks = nullptr;  ///< that share the run, if any: all of them call
 };
 
 /// Carries `run` on until its end or until `after_step` says to stop, and writes it: at the start (a path that cannot
