@@ -8,6 +8,7 @@
 #include "columns.hpp"
 #include "slipfront/elliptic/jacobi.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/rupture/pulse.hpp"
 #include "slipfront/rupture/riemann.hpp"
 #include "slipfront/scenario/scenario.hpp"
 #include "slipfront/train/at_rest.hpp"
@@ -116,9 +117,8 @@ py::tuple profile(double left, double right, const Numbers& x_over_t) {
   const py::list rows = columns<4>(x_over_t.size(), [&, x](py::ssize_t i) {
     if (!std::isfinite(x[i]))
       throw InputError({.key = "x_over_t", .value = digits(x[i]), .problem = "not finite", .allowed = "a number"});
-    const State here = rupture::sample(solution, x[i]);
-    const train::Averages a = train::averages(here);
-    return std::array{here.empty() ? 0.0 : std::tanh(here.phi), a.k, a.W, a.P};
+    const rupture::ProfilePoint point = rupture::profile_point(solution, x[i]);
+    return std::array{point.U, point.Sigma, point.W, point.P};
   });
   const rupture::Edges edges = rupture::edges_of(solution);
   return py::make_tuple(rows, edges.left, edges.right);

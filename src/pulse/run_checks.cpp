@@ -6,8 +6,6 @@
 #include <string>
 
 #include "../digits.hpp"
-#include "../findings.hpp"
-#include "slipfront/error.hpp"
 #include "slipfront/pulse/run.hpp"
 
 namespace slipfront::pulse {
@@ -18,31 +16,27 @@ constexpr double much = 0.05;
 
 }  // namespace
 
-struct Run::Findings : slipfront::Findings {};
-
-Run::Findings Run::findings() const {
-  Findings found;
+output::Findings Run::findings() const {
+  output::Findings found;
   if (snapshots_.empty()) return found;
   const output::Snapshot& last = snapshots_.back();
   const Problem& problem = solver_.problem();
 
-  if (problem.left < 0 && problem.right > 0 && passed_.samples > 8) {
+  if (problem.left < 0 && problem.right > 0 && slip_.samples > 8) {
     const Solver::View v = solver_.view();
     const double now = averages_of(v, state_at(v, 0), 0).W, slip = solver_.slip_at(v, 0);
-    const double rest = (solver_.cells().time - passed_.time) * (now + passed_.velocity) / 2;
-    const double by_velocity = passed_.slip + rest;
+    const double by_velocity = slip_.up_to(solver_.cells().time, now);
     constexpr double rounding = 1e-10;
-    const double doubt =
-        3 * std::fabs(passed_.slip - passed_.coarse_slip) + 3 * std::sqrt(passed_.spread) + passed_.doubt + rounding;
+    const double doubt = slip_.doubt() + slip_doubt_ + rounding;
     const double beyond = std::fabs(slip - by_velocity) - doubt;
-    found.violation(beyond / std::fmax(std::fabs(slip), passed_.way),
+    found.violation(beyond / std::fmax(std::fabs(slip), slip_size_),
                     "pulse: slip at x = 0 is " + digits(slip) + ", the integral of the slip velocity there " +
                         digits(by_velocity) + "; more pulse.cells help");
   }
 
   // Densities may be coarse where streams have piled up, while the dislocations themselves are all there.
   const double uncounted = conservation_error(solver_);
-  if (!(uncounted <= Findings::wrong))
+  if (!(uncounted <= output::Findings::wrong))
     found.sentences.push_back("pulse: the states of the cells hold " + digits(100 * uncounted) +
                               " % more or fewer dislocations than there are; more pulse.cells help");
 
@@ -61,11 +55,8 @@ Run::Findings Run::findings() const {
   return found;
 }
 
-std::vector<std::string> Run::warnings() const { return findings().sentences; }
-
-void Run::refuse_wrong_results() const {
-  const Findings found = findings();
-  if (found.wrong_results()) throw NumericsError("t = " + digits(solver_.cells().time) + ": " + found.worst);
+std::vector<std::string> Run::warnings() const {
+  return final_findings_ ? final_findings_->sentences : findings().sentences;
 }
 
 }  // namespace slipfront::pulse

@@ -9,18 +9,6 @@
 namespace slipfront::setup {
 namespace {
 
-chain::End end_of(scenario::ChainEnd end) {
-  switch (end) {
-    case scenario::ChainEnd::free:
-      return chain::End::free;
-    case scenario::ChainEnd::absorbing:
-      return chain::End::absorbing;
-    case scenario::ChainEnd::fixed:
-      break;
-  }
-  return chain::End::fixed;
-}
-
 /// The default spacing in widths of a dislocation where they are narrowest: by the contact ratio, or packed densely.
 double chosen_spacing(const scenario::Scenario& s, double left, double right) {
   double narrowest = 1;
@@ -47,10 +35,10 @@ chain::Stretched chain_problem(const scenario::Scenario& s) {
   c.end = s.end;
   c.contact = s.contact_at;
   c.friction = s.friction;
-  c.boundary = {.left = end_of(s.chain.left), .right = end_of(s.chain.right), .periodic = s.chain.periodic};
+  c.boundary = {.left = s.chain.left, .right = s.chain.right, .periodic = s.chain.periodic};
   c.window = s.chain.window.value_or(0);
-  if (s.chain.model == scenario::ChainModel::lattice) {
-    c.model = chain::Model::lattice;
+  c.model = s.chain.model;
+  if (c.model == chain::Model::lattice) {
     const auto spacing = s.chain.spacing ? s.chain.spacing : s.medium.contact_ratio;
     if (!spacing)
       throw InputError({.file = s.file,

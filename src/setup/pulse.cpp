@@ -72,13 +72,8 @@ pulse::Problem pulse_problem(const scenario::Scenario& s) {
          .allowed = "[domain] left = ..., right = ..."});
   p.left = s.domain.left.value_or(-reach.left);
   p.right = s.domain.right.value_or(reach.right);
-  const auto end_of = [](scenario::PulseEnd end) {
-    return end == scenario::PulseEnd::fixed  ? pulse::End::fixed
-           : end == scenario::PulseEnd::free ? pulse::End::free
-                                             : pulse::End::continued;
-  };
-  p.left_end = end_of(s.pulse.left);
-  p.right_end = end_of(s.pulse.right);
+  p.left_end = s.pulse.left;
+  p.right_end = s.pulse.right;
   p.periodic = s.pulse.periodic;
   p.forcing = forcing_of(s, p.left, p.right);
   if (s.forcing_at) {

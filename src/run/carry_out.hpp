@@ -1,6 +1,4 @@
 #pragma once
-/// \file
-/// A run (of pulse or chain) carried to its end with checkpoints.
 
 #include <chrono>
 #include <functional>
@@ -12,6 +10,12 @@
 #include "slipfront/record/unfinished.hpp"
 
 namespace slipfront::run {
+
+using Clock = std::chrono::steady_clock;
+
+inline double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 /// Where a run is written to, and by whom.
 struct CheckpointOptions {
@@ -28,10 +32,6 @@ struct CheckpointOptions {
 /// NumericsError, after what was computed has been written; FileError.
 template <class Run>
 bool carry_out(Run& run, const CheckpointOptions& options, const std::function<bool()>& after_step) {
-  using Clock = std::chrono::steady_clock;
-  const auto seconds_since = [](Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-  };
   const bool first = !options.ranks || options.ranks->rank() == 0;
   const auto agreed = [&](bool mine) { return options.ranks ? options.ranks->any(mine) : mine; };
   auto written = Clock::now();
