@@ -7,11 +7,11 @@
 #include <cstdlib>
 
 #include "slipfront/chain/chain.hpp"
-#include "slipfront/chain/ranks.hpp"
+#include "slipfront/ranks.hpp"
 
 int main(int argc, char** argv) {
   using namespace slipfront::chain;
-  const Ranks ranks = Ranks::of_mpirun();
+  const slipfront::Ranks ranks = slipfront::Ranks::of_mpirun();
   const int threads = argc > 1 ? std::atoi(argv[1]) : 1;
   const std::size_t sites = argc > 2 ? std::strtoul(argv[2], nullptr, 10) : 1000000;
   const Problem p{.grid = {0, 0.5, sites},

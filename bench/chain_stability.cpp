@@ -19,7 +19,7 @@
 
 #include "slipfront/chain/run.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/rupture/inverse.hpp"
+#include "slipfront/train/at_rest.hpp"
 
 namespace {
 
@@ -54,7 +54,7 @@ Outcome run(const Kind& kind, double stress, double right, double scale, double 
   s.forcing = kind.forcing;
   s.contact = kind.contact;
   s.end = 2 * pi;
-  const double a = kind.contact ? 1.2 : 1, h = spacing / (a * std::cosh(rupture::psi_of_stress(stress / a)));
+  const double a = kind.contact ? 1.2 : 1, h = spacing / (a * std::cosh(train::psi_of_stress(stress / a)));
   s.spacing = h;
   if (mass.fixed >= 0)
     s.step = 1 / std::sqrt(1 / (h * h) + a * a / 12 + (mass.fixed * a * a + mass.crossing * a * stress) / 4);

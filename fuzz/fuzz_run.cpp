@@ -106,7 +106,7 @@ void go(Run& run) {
   static const int most = std::getenv("SLIPFRONT_COUNT") ? 60 : 20;
   int steps = most;
   run.go([&steps] { return --steps <= 0; });
-  for (const pulse::Snapshot& snapshot : run.snapshots())
+  for (const output::Snapshot& snapshot : run.snapshots())
     if (!std::isfinite(snapshot.time) ||
         std::isnan(snapshot.slip_at_origin) != std::isnan(run.snapshots().front().slip_at_origin))
       std::abort();

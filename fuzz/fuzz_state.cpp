@@ -19,7 +19,7 @@ using namespace slipfront;
 
 namespace {
 
-const pulse::Schedule schedule{.times = {0, 1}, .x_edges = {-1, -0.5, 0, 0.5}, .threshold = 1e-3};
+const output::Schedule schedule{.times = {0, 1}, .x_edges = {-1, -0.5, 0, 0.5}, .threshold = 1e-3};
 
 double stress(double x) { return x < 0 ? 0.855 : 0.0; }
 

@@ -5,7 +5,7 @@
 
 #include "batch.hpp"
 #include "long_run.hpp"
-#include "slipfront/chain/ranks.hpp"
+#include "slipfront/ranks.hpp"
 #include "slipfront/record/unfinished.hpp"
 #include "slipfront/run/run.hpp"
 

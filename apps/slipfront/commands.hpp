@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace slipfront::chain {
+namespace slipfront {
 class Ranks;
 }
 namespace CLI {
@@ -43,7 +43,7 @@ void add_python_commands(CLI::App& app);
 void become_python(int argc, char** argv);
 
 /// The processes that run this program, of which the first prints and writes.
-extern const slipfront::chain::Ranks* the_ranks;
+extern const slipfront::Ranks* the_ranks;
 
 /// What `slipfront` does when asked for nothing: `reproduce` into ./reproduction.
 int run_default();

@@ -16,7 +16,7 @@ std::string json_or_null(const std::optional<double>& value) { return value ? js
 double last(const Level& level, const Quantity& quantity) { return quantity.get(level.snapshots.back()); }
 
 std::string json_level(const Level& level, const Level* reference) {
-  const pulse::Snapshot& s = level.snapshots.back();
+  const output::Snapshot& s = level.snapshots.back();
   std::string text = fmt::format("{{\"level\": \"{}\", \"closure\": {}, \"scale\": {}", level.name,
                                  json_text(level.closure), json_or_null(level.scale));
   for (const Quantity& q : compared_quantities()) text += fmt::format(", \"{}\": {}", q.key, json_number(q.get(s)));

@@ -8,7 +8,7 @@
 #include <csignal>
 
 #include "commands.hpp"
-#include "slipfront/chain/ranks.hpp"
+#include "slipfront/ranks.hpp"
 #include "slipfront/record/text_file.hpp"
 
 namespace {

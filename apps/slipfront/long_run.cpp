@@ -114,7 +114,7 @@ void print_summary(const std::string& title, const std::vector<run::SummaryValue
   if (!output.empty() && !a.common.quiet) put("written to " + output + "\n");
 }
 
-LongRun::LongRun(const ScenarioArguments& arguments, const scenario::Scenario& scenario, const chain::Ranks* ranks)
+LongRun::LongRun(const ScenarioArguments& arguments, const scenario::Scenario& scenario, const Ranks* ranks)
     : a_(arguments), s_(scenario), ranks_(ranks), first_(the_ranks->rank() == 0) {
   const auto open = [&] { output_ = record::Output(a_.output.empty() ? a_.resume : a_.output, a_.resume); };
   ranks_ ? ranks_->together(open) : open();

@@ -9,7 +9,7 @@
 #include "commands.hpp"
 #include "interrupts.hpp"
 #include "progress.hpp"
-#include "slipfront/chain/ranks.hpp"
+#include "slipfront/ranks.hpp"
 #include "slipfront/record/table_file.hpp"
 #include "slipfront/record/text_file.hpp"
 #include "slipfront/run/run.hpp"
@@ -43,7 +43,7 @@ class LongRun {
  public:
   /// `ranks` that share the run; null: none.
   LongRun(const ScenarioArguments& arguments, const slipfront::scenario::Scenario& scenario,
-          const slipfront::chain::Ranks* ranks);
+          const slipfront::Ranks* ranks);
   /// How to carry the run out: with its output, from the checkpoint if any. `begun`: when the command was.
   slipfront::run::Options options(std::optional<slipfront::record::Checkpoint> checkpoint, Clock::time_point begun);
   /// After the run; says where it was interrupted. Returns the exit code.
@@ -52,7 +52,7 @@ class LongRun {
  private:
   const ScenarioArguments& a_;
   const slipfront::scenario::Scenario& s_;
-  const slipfront::chain::Ranks* ranks_;
+  const slipfront::Ranks* ranks_;
   bool first_;
   slipfront::record::Output output_;
   std::optional<WatchInterrupts> watch_;

@@ -11,12 +11,12 @@
 #include "batch.hpp"
 #include "commands.hpp"
 #include "interrupts.hpp"
-#include "slipfront/chain/ranks.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/machine.hpp"
 #include "slipfront/printable.hpp"
+#include "slipfront/ranks.hpp"
 
-const slipfront::chain::Ranks* the_ranks = nullptr;
+const slipfront::Ranks* the_ranks = nullptr;
 
 void complain(std::string_view line) { std::fprintf(stderr, "slipfront: %s\n", slipfront::printable(line).c_str()); }
 
@@ -87,7 +87,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   end_on_interrupts();
   try {
-    const slipfront::chain::Ranks ranks = slipfront::chain::Ranks::of_mpirun();
+    const slipfront::Ranks ranks = slipfront::Ranks::of_mpirun();
     the_ranks = &ranks;
     const auto failed = [&](int code, const char* text) { return ranks.failed(code, [text] { complain(text); }); };
     try {

@@ -1,6 +1,9 @@
 #include "slipfront/setup/pulse.hpp"
 
+#include <pybind11/stl.h>
+
 #include <chrono>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,7 +16,7 @@ namespace {
 
 using namespace slipfront;
 
-py::dict run_pulse(const py::dict& arguments, double tolerance, bool with_errors) {
+py::dict run_pulse(const py::dict& arguments, std::optional<double> tolerance, bool with_errors) {
   const auto begun = std::chrono::steady_clock::now();
   Asked a = asked(arguments);
   scenario::Scenario s = scenario_of(a);
@@ -23,8 +26,9 @@ py::dict run_pulse(const py::dict& arguments, double tolerance, bool with_errors
   {
     const py::gil_scoped_release others_may_run;
     const auto interrupted = [&] { return watch.interrupted(); };
-    if (tolerance > 0) {
-      a.set.push_back("pulse.cells=" + std::to_string(run::cells_for(tolerance, s, interrupted)));
+    if (tolerance) {
+      const int cells = run::cells_for(*tolerance, !a.resume.empty(), s, interrupted);
+      a.set.push_back("pulse.cells=" + std::to_string(cells));
       s = scenario_of(a);
     }
     run::Options options{.output = output_of(a), .begun = begun};

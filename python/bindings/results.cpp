@@ -14,7 +14,7 @@
 #include "slipfront/record/unfinished.hpp"
 
 using namespace slipfront;
-using pulse::Snapshot;
+using output::Snapshot;
 
 Asked asked(const py::dict& arguments) {
   const auto text = [&](const char* key) { return arguments[key].cast<std::string>(); };

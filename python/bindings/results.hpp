@@ -25,7 +25,7 @@ slipfront::scenario::Scenario scenario_of(const Asked& asked);
 slipfront::record::Output output_of(const Asked& asked);
 
 /// One series of snapshots a level of theory.
-using Levels = std::vector<const std::vector<slipfront::pulse::Snapshot>*>;
+using Levels = std::vector<const std::vector<slipfront::output::Snapshot>*>;
 
 /// A dict {attributes, axes, fields, scalars, warnings} for the pure-Python half; arrays have a dimension "level" in
 /// front if `by_level`.

@@ -8,9 +8,10 @@
 #include "columns.hpp"
 #include "slipfront/elliptic/jacobi.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/rupture/inverse.hpp"
+#include "slipfront/rupture/pulse.hpp"
 #include "slipfront/rupture/riemann.hpp"
 #include "slipfront/scenario/scenario.hpp"
+#include "slipfront/train/at_rest.hpp"
 
 namespace {
 
@@ -88,7 +89,7 @@ py::list spacing(const Numbers& phi, const Numbers& psi) {
 State at_rest(double stress, const char* key) {
   if (stress != 0 && !(stress >= train::smallest_stress && stress <= scenario::largest_stress))
     throw InputError({.key = key, .value = digits(stress), .problem = "out of range", .allowed = "0 or 0.0045 to 1e6"});
-  return rupture::at_rest(stress);
+  return train::at_rest(stress);
 }
 
 py::list psi_at_rest(const Numbers& stress) {
@@ -116,9 +117,8 @@ py::tuple profile(double left, double right, const Numbers& x_over_t) {
   const py::list rows = columns<4>(x_over_t.size(), [&, x](py::ssize_t i) {
     if (!std::isfinite(x[i]))
       throw InputError({.key = "x_over_t", .value = digits(x[i]), .problem = "not finite", .allowed = "a number"});
-    const State here = rupture::sample(solution, x[i]);
-    const train::Averages a = train::averages(here);
-    return std::array{here.empty() ? 0.0 : std::tanh(here.phi), a.k, a.W, a.P};
+    const rupture::ProfilePoint point = rupture::profile_point(solution, x[i]);
+    return std::array{point.U, point.Sigma, point.W, point.P};
   });
   const rupture::Edges edges = rupture::edges_of(solution);
   return py::make_tuple(rows, edges.left, edges.right);

@@ -72,13 +72,9 @@ def pulse(scenario, *, set=None, output=None, resume=None, progress=None, thread
     thread_count(threads)
     if tolerance is not None:
         tolerance = one_number("tolerance", tolerance)
-        if not 1e-9 <= tolerance <= 1:
-            raise InputError(f"tolerance = {tolerance}: out of range; allowed: 1e-9 to 1")
-        if resume is not None:
-            raise InputError("tolerance: chooses the cells of a run that has begun; allowed: tolerance without resume")
     with showing(progress) as call:
         asked = arguments(scenario, set=set, output=output, resume=resume, progress=call)
-        return _dataset(_slipfront.pulse(asked, tolerance or 0.0, bool(errors)))
+        return _dataset(_slipfront.pulse(asked, tolerance, bool(errors)))
 
 
 def chain(scenario, *, set=None, output=None, resume=None, progress=None, threads=None):

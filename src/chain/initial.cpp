@@ -9,7 +9,7 @@
 #include "../digits.hpp"
 #include "slipfront/elliptic/jacobi.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/rupture/inverse.hpp"
+#include "slipfront/train/at_rest.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::chain {
@@ -45,7 +45,7 @@ class LocalTrain {
  public:
   double operator()(double k, double theta) {
     if (k != stress_) {
-      at_ = elliptic::at_psi(rupture::psi_of_stress(k));
+      at_ = elliptic::at_psi(train::psi_of_stress(k));
       stress_ = k;
     }
     const double turn = std::nearbyint(theta / (2 * pi));  // the period by itself: exact whatever the phase

@@ -6,7 +6,7 @@
 
 #include "../digits.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/rupture/inverse.hpp"
+#include "slipfront/train/at_rest.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::chain {
@@ -46,7 +46,7 @@ Sides sides_of(const Problem& p, const Scheme& s) {
   if (p.boundary.periodic) sides = {Side::seam, Side::seam, static_cast<double>(p.boundary.charge), {}, {}};
   const auto absorbing = [&](double stress, std::size_t site, int outward) {
     const double a = p.contact ? p.contact(p.grid.x(site)) : 1;
-    const double psi0 = stress > train::smallest_stress * a ? rupture::psi_of_stress(stress / a) : 0;
+    const double psi0 = stress > train::smallest_stress * a ? train::psi_of_stress(stress / a) : 0;
     return AbsorbingEnd{psi0,    psi0 > 0 ? AbsorbingEnd::shocks_into(psi0) : nullptr, a, s.h, s.dt, s.eps,
                         outward, std::min<std::size_t>(24, p.grid.sites - 3)};
   };

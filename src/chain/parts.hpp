@@ -9,7 +9,7 @@
 #include "scheme.hpp"
 #include "slab.hpp"
 #include "slipfront/chain/chain.hpp"
-#include "slipfront/chain/ranks.hpp"
+#include "slipfront/ranks.hpp"
 #include "work_meter.hpp"
 
 namespace slipfront::chain {
@@ -56,6 +56,8 @@ struct Chain::Parts {
   Window window(std::size_t from, std::size_t to, double time) const;
 
  private:
+  struct ThreeLevels;
+  ThreeLevels three_levels(std::size_t from, std::size_t to) const;
   void exchange_with_ranks();
   void exchange_slab(std::size_t i);
   void advance_slab(std::size_t i, std::size_t count);

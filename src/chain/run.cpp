@@ -11,16 +11,16 @@
 
 #include "../bytes.hpp"
 #include "../digits.hpp"
-#include "slipfront/chain/ranks.hpp"
 #include "slipfront/chain/smooth.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/rupture/inverse.hpp"
+#include "slipfront/ranks.hpp"
+#include "slipfront/train/at_rest.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::chain {
 namespace {
 
-using pulse::Snapshot;
+using output::Snapshot;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr std::uint64_t format = 0x636861696e000004;  // "chain", version 4
 
@@ -126,7 +126,7 @@ Run::Start Run::start(const Stretched& stretched, const Execution& execution) {
   return *std::move(made);
 }
 
-Run::Run(Stretched stretched, pulse::Schedule schedule, const Execution& execution, const Start& start)
+Run::Run(Stretched stretched, output::Schedule schedule, const Execution& execution, const Start& start)
     : stretched_(std::move(stretched)),
       schedule_(std::move(schedule)),
       chain_(
@@ -134,12 +134,14 @@ Run::Run(Stretched stretched, pulse::Schedule schedule, const Execution& executi
   look_at_start();
 }
 
-Run::Run(const Stretched& stretched, pulse::Schedule schedule, const Execution& execution)
+Run::Run(const Stretched& stretched, output::Schedule schedule, const Execution& execution)
     : Run(stretched, std::move(schedule), execution, start(stretched, execution)) {}
+
+double Run::middle_of_cell(std::size_t i) const { return (schedule_.x_edges[i] + schedule_.x_edges[i + 1]) / 2; }
 
 double Run::centre_of_cell(std::size_t i) const {
   const double half = width_of_cell(i) / 2 * (1 + 1e-9);  // the window stays on the chain
-  const double centre = (schedule_.x_edges[i] + schedule_.x_edges[i + 1]) / 2;
+  const double centre = middle_of_cell(i);
   const Grid& grid = chain_.problem().grid;  // a ring's last site is a spacing before its end
   return std::clamp(centre, stretched_.left + half, grid.x(grid.sites - 1) / stretched_.scale - half);
 }
@@ -182,7 +184,7 @@ double Run::driving_force() const {
   double last = 0, by_stress = 0, by_forcing = 0;
   for (int i = 0; i <= samples; ++i) {
     const double x = s.left + dx * i, a = s.contact ? s.contact(x) : 1, k = s.stress(x);
-    const double J = a * train::averages(rupture::at_rest(k / a)).J;
+    const double J = a * train::averages(train::at_rest(k / a)).J;
     if (i > 0) by_stress = std::fmax(by_stress, std::fabs(J - last) / dx);
     last = J;
     if (s.forcing)
@@ -199,21 +201,10 @@ void Run::sample() {
     work_.sample(totals(chain_));
   if (std::isnan(first_u_at_origin_)) return;
   const double time = chain_.time(), velocity = average(chain_, 0, stretched_.scale * window_, time).velocity;
-  Passed& p = passed_;
-  const double change = (time - p.time) * (velocity - p.velocity) / 2;
-  p.spread += change * change;
-  p.slip += (time - p.time) * (velocity + p.velocity) / 2;
-  if (p.samples % 2 == 0) {
-    p.coarse_slip += (time - p.early_time) * (velocity + p.early_velocity) / 2;
-    p.early_time = time;
-    p.early_velocity = velocity;
-  }
-  p.time = time;
-  p.velocity = velocity;
-  ++p.samples;
+  slip_.add(time, velocity);
 }
 
-Run::Run(const Stretched& stretched, pulse::Schedule schedule, const Execution& execution, std::string_view saved,
+Run::Run(const Stretched& stretched, output::Schedule schedule, const Execution& execution, std::string_view saved,
          std::vector<Snapshot> snapshots)
     : Run(stretched, std::move(schedule), execution) {
   bytes::Reader reader(saved);
@@ -222,10 +213,10 @@ Run::Run(const Stretched& stretched, pulse::Schedule schedule, const Execution& 
                       .problem = "the saved state is of another version or scenario",
                       .allowed = "a file of this version and scenario, written by slipfront chain"});
   for (double* value : {&work_.supplied, &work_.dissipated, &work_.time, &work_.supplied_rate, &work_.dissipated_rate,
-                        &passed_.time, &passed_.velocity, &passed_.slip, &passed_.early_time, &passed_.early_velocity,
-                        &passed_.coarse_slip, &passed_.spread})
+                        &slip_.time, &slip_.velocity, &slip_.integral, &slip_.early_time, &slip_.early_velocity,
+                        &slip_.coarse_integral, &slip_.spread})
     *value = reader.get<double>();
-  passed_.samples = static_cast<long>(reader.get<std::int64_t>());
+  slip_.samples = static_cast<long>(reader.get<std::int64_t>()) - 1;
   const std::vector<double> flows = reader.vector();
   Levels levels;
   levels.level = static_cast<long>(reader.get<std::int64_t>());
@@ -246,11 +237,11 @@ Run::Run(const Stretched& stretched, pulse::Schedule schedule, const Execution& 
 std::string Run::saved() const {
   bytes::Writer writer;
   writer.put(format);
-  for (const double value : {work_.supplied, work_.dissipated, work_.time, work_.supplied_rate, work_.dissipated_rate,
-                             passed_.time, passed_.velocity, passed_.slip, passed_.early_time, passed_.early_velocity,
-                             passed_.coarse_slip, passed_.spread})
+  for (const double value :
+       {work_.supplied, work_.dissipated, work_.time, work_.supplied_rate, work_.dissipated_rate, slip_.time,
+        slip_.velocity, slip_.integral, slip_.early_time, slip_.early_velocity, slip_.coarse_integral, slip_.spread})
     writer.put(value);
-  writer.put(static_cast<std::int64_t>(passed_.samples));
+  writer.put(static_cast<std::int64_t>(slip_.samples + 1));
   writer.put(chain_.flow_sums());
   const Levels levels = chain_.levels();
   writer.put(static_cast<std::int64_t>(levels.level));
@@ -267,32 +258,31 @@ bool Run::go(const std::function<bool()>& interrupted) {
     const auto target = std::lround(schedule_.times[snapshots_.size()] * stretched_.scale / chain_.dt());
     while (chain_.level() < target) {
       const long level = chain_.level(), next = sample_after(level, work_every_);
-      good_ = false;
+      can_checkpoint_ = false;
       chain_.advance(std::min({target, next, level + most}) - level);
-      good_ = true;
+      can_checkpoint_ = true;
       if (chain_.level() == next) sample();
       if (interrupted && interrupted()) return false;
     }
     take();
-    if (!finished()) refuse_wrong_results();
+    if (!finished()) refuse(findings());
   }
-  refuse_wrong_results();
+  final_findings_ = findings();
+  refuse(*final_findings_);
   return true;
 }
 
-void Run::take() {
-  const double time = schedule_.times[snapshots_.size()], c = stretched_.scale;
+/// Averages over the output cells, their peak, and the energy of phonons.
+Snapshot Run::profile_at(double time) const {
+  const double c = stretched_.scale;
   Snapshot s{};
   s.time = time;
-  const std::size_t n = first_u_.size();
   std::size_t peak = 0;
-  const auto contact_at = [&](double x) { return stretched_.contact ? stretched_.contact(x) : 1.0; };
-  const auto middle = [&](std::size_t i) { return (schedule_.x_edges[i] + schedule_.x_edges[i + 1]) / 2; };
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < first_u_.size(); ++i) {
     const double u = average(chain_, c * centre_of_cell(i), c * width_of_cell(i), c * time).u;
-    const double cell = schedule_.x_edges[i + 1] - schedule_.x_edges[i];
+    const double cell = schedule_.x_edges[i + 1] - schedule_.x_edges[i], middle = middle_of_cell(i);
     const double wide = std::max(2 * cell, smooth_window_);
-    const SmoothAverage a = smooth_average(chain_, c * middle(i), c * wide, c * time);
+    const SmoothAverage a = smooth_average(chain_, c * middle, c * wide, c * time);
     s.profile.k.push_back(a.stress);
     s.profile.W.push_back(a.velocity);
     // Where others than dislocations of one sign move, waves or antidislocations too, U is none of theirs.
@@ -301,12 +291,42 @@ void Run::take() {
     s.profile.H.push_back(a.energy);
     s.profile.slip.push_back((u - first_u_[i]) / c);
     // At an end the window is cut: what it makes even there is no phonons.
-    const bool whole = middle(i) - wide / 2 >= stretched_.left && middle(i) + wide / 2 <= stretched_.right;
-    if (whole) s.energy.phonons += cell * (a.energy - energy_of_train(a.stress, a.velocity, contact_at(middle(i))));
+    const bool whole = middle - wide / 2 >= stretched_.left && middle + wide / 2 <= stretched_.right;
+    const double contact = stretched_.contact ? stretched_.contact(middle) : 1.0;
+    if (whole) s.energy.phonons += cell * (a.energy - energy_of_train(a.stress, a.velocity, contact));
     if (std::fabs(a.velocity) > std::fabs(s.profile.W[peak])) peak = i;
   }
   s.peak_slip_velocity = s.profile.W[peak];
-  s.peak_position = middle(peak);
+  s.peak_position = middle_of_cell(peak);
+  return s;
+}
+
+/// From the profile, which stands, and from the outermost dislocation where one side is empty.
+void Run::find_fronts(Snapshot& s) const {
+  s.fronts = {none, none, none, none, none};
+  const double stress_left = stretched_.stress(stretched_.left), stress_right = stretched_.stress(stretched_.right);
+  const bool stressed_left = stress_left >= stress_right;
+  if (std::fmin(stress_left, stress_right) == 0) {
+    const auto all = chain::dislocations(chain_);
+    if (!all.empty()) s.fronts.leading = (stressed_left ? all.back() : all.front()).x / stretched_.scale;
+  }
+  // At an end the window is cut, and phonons show that a whole one averages away: no front is seen there.
+  const double half = std::min(smooth_window_ / 2, (stretched_.right - stretched_.left) / 4);
+  std::vector<double> x, speed;
+  for (std::size_t i = 0; i < s.profile.W.size(); ++i) {
+    x.push_back(middle_of_cell(i));
+    const bool cut = x[i] - half < stretched_.left || x[i] + half > stretched_.right;
+    speed.push_back(cut ? 0 : std::fabs(s.profile.W[i]));
+  }
+  const output::Observed seen =
+      output::observed_fronts(x, speed, schedule_.threshold * std::fabs(s.peak_slip_velocity), x.front(), x.back());
+  s.fronts.trailing_observed = stressed_left ? seen.left : seen.right;
+  s.fronts.leading_observed = stressed_left ? seen.right : seen.left;
+}
+
+void Run::take() {
+  const double time = schedule_.times[snapshots_.size()], c = stretched_.scale;
+  Snapshot s = profile_at(time);
   s.slip_velocity_at_origin = s.stress_at_origin = s.slip_at_origin = none;
   if (!std::isnan(first_u_at_origin_)) {
     const SmoothAverage origin = smooth_average(chain_, 0, c * smooth_window_, c * time);
@@ -319,25 +339,7 @@ void Run::take() {
       most_dislocations_a_site * static_cast<double>(chain_.problem().grid.sites))
     throw NumericsError("The chain diverged: more than " + digits(most_dislocations_a_site) +
                         " dislocations per site at t = " + digits(time));
-  s.fronts = {none, none, none, none, none};
-  const double stress_left = stretched_.stress(stretched_.left), stress_right = stretched_.stress(stretched_.right);
-  const bool stressed_left = stress_left >= stress_right;
-  if (std::fmin(stress_left, stress_right) == 0) {  // the outermost dislocation
-    const auto all = chain::dislocations(chain_);
-    if (!all.empty()) s.fronts.leading = (stressed_left ? all.back() : all.front()).x / c;
-  }
-  // At an end the window is cut, and phonons show that a whole one averages away: no front is seen there.
-  const double half = std::min(smooth_window_ / 2, (stretched_.right - stretched_.left) / 4);
-  std::vector<double> x, speed;
-  for (std::size_t i = 0; i < n; ++i) {
-    x.push_back(middle(i));
-    const bool cut = x[i] - half < stretched_.left || x[i] + half > stretched_.right;
-    speed.push_back(cut ? 0 : std::fabs(s.profile.W[i]));
-  }
-  const pulse::Observed seen =
-      pulse::observed_fronts(x, speed, schedule_.threshold * std::fabs(s.peak_slip_velocity), x.front(), x.back());
-  s.fronts.trailing_observed = stressed_left ? seen.left : seen.right;
-  s.fronts.leading_observed = stressed_left ? seen.right : seen.left;
+  find_fronts(s);
   const Chain::Flows flows = chain_.flows();
   Work work = work_;
   if (work.started) work.sample(now);

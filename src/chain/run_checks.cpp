@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "../digits.hpp"
-#include "../findings.hpp"
 #include "barrier.hpp"
 #include "slipfront/chain/run.hpp"
 #include "slipfront/error.hpp"
@@ -15,11 +14,10 @@
 namespace slipfront::chain {
 namespace {
 
+using output::Findings;
 constexpr double turn = 2 * std::numbers::pi;
 
 }  // namespace
-
-struct Run::Findings : slipfront::Findings {};
 
 Run::Balance Run::balance() const {
   const Totals now = totals(chain_);
@@ -32,8 +30,7 @@ Run::Balance Run::balance() const {
   return {all > 0 ? std::fabs(missing) / all : 0, now.charge - first_charge_, now.dislocations, now.steepest};
 }
 
-void Run::check_energy(Findings& found) const {
-  const Balance balance = this->balance();
+void Run::check_energy(const Balance& balance, Findings& found) const {
   std::string sentence = "chain: energy and work differ by " + digits(balance.energy_drift) + " of the energy";
   if (stretched_.model == Model::sine_gordon) {
     const double sites = 2 / balance.steepest;  // a dislocation has the slope 2 over its width
@@ -50,7 +47,7 @@ void Run::check_energy(Findings& found) const {
 /// Nothing is faster than c.
 void Run::check_fronts(Findings& found) const {
   const Stretched& s = stretched_;
-  const pulse::Snapshot& last = snapshots_.back();
+  const output::Snapshot& last = snapshots_.back();
   for (const auto& [name, x] : {std::pair{"leading", last.fronts.leading},
                                 {"observed", last.fronts.leading_observed},
                                 {"observed", last.fronts.trailing_observed}})
@@ -62,7 +59,7 @@ void Run::check_fronts(Findings& found) const {
   if (s.forcing || !fixed) return;
   const double site = chain_.problem().grid.spacing / s.scale;
   for (std::size_t i = 1; i < snapshots_.size(); ++i) {
-    const pulse::Snapshot &before = snapshots_[i - 1], &now = snapshots_[i];
+    const output::Snapshot &before = snapshots_[i - 1], &now = snapshots_[i];
     const double gone = std::fabs(now.fronts.leading - before.fronts.leading), time = now.time - before.time;
     if (gone > time + site)
       found.violation((gone - site) / time - 1, "chain: the leading front is faster than c, " + digits(gone / time) +
@@ -98,67 +95,71 @@ void Run::check_barrier(Findings& found) const {
       " are needed. Try chain.spacing = " + digits(spacing_with_barrier_below(force / enough, spacing)));
 }
 
-Run::Findings Run::findings() const {
+/// Slip is u now less u at t = 0; the velocity at x = 0 was sampled on the way, by its own formula.
+void Run::check_slip(Findings& found) const {
+  if (std::isnan(first_u_at_origin_)) return;
+  const double scale = stretched_.scale;
+  if (slip_.samples > 7) {
+    const Average now = average(chain_, 0, scale * window_, chain_.time());
+    const double slip = now.u - first_u_at_origin_, by_velocity = slip_.up_to(chain_.time(), now.velocity);
+    const double quarter = turn / 4;  // of a dislocation
+    const double beyond = std::fabs(slip - by_velocity) - (3 * slip_.error() + quarter);
+    found.violation(beyond / std::fmax(std::fabs(slip), turn), "chain: slip at x = 0 is " + digits(slip / scale) +
+                                                                   ", the integral of the slip velocity there " +
+                                                                   digits(by_velocity / scale));
+  }
+}
+
+/// Where nothing makes antidislocations: dislocations counted where u passes pi, against those that the ends hold
+/// apart, and |W| <= k.
+void Run::check_one_sign(const Balance& balance, Findings& found) const {
+  const Stretched& s = stretched_;
+  const bool closed = s.boundary.periodic || (s.boundary.left == End::fixed && s.boundary.right == End::fixed);
+  if (!closed || s.forcing) return;
+  const auto counted = static_cast<double>(balance.dislocations);
+  const double charge = std::fabs(first_charge_ + balance.charge_error);
+  const double more = std::fabs(counted - charge) - 1.5;  // at a fixed end a part of one
+  found.violation(more / std::fmax(charge, 100),
+                  "chain: " + digits(counted) + " dislocations where the ends hold " + digits(charge));
+  const output::Profile& last = snapshots_.back().profile;
+  double k_most = 0, beyond = 0;
+  for (std::size_t i = 0; i < last.k.size(); ++i) {
+    k_most = std::fmax(k_most, std::fabs(last.k[i]));
+    beyond = std::fmax(beyond, std::fabs(last.W[i]) - std::fabs(last.k[i]));
+  }
+  // Waves alone have a mean velocity of either sign, of the size of a share of a dislocation in the window.
+  const double one = turn / (s.scale * smooth_window_);
+  found.violation((beyond - 0.1 * one) / std::fmax(k_most, one),
+                  "chain: the slip velocity is larger than the stress by " + digits(beyond));
+}
+
+output::Findings Run::findings() const {
   Findings found;
   if (snapshots_.empty()) return found;
-  const pulse::Snapshot& last = snapshots_.back();
-  const Stretched& s = stretched_;
   const Balance balance = this->balance();
-  check_energy(found);
-
-  // Slip is u now less u at t = 0; the velocity at x = 0 was sampled on the way, by its own formula.
-  const bool at_origin = !std::isnan(first_u_at_origin_);
-  if (at_origin && passed_.samples > 8) {
-    const Average now = average(chain_, 0, s.scale * window_, chain_.time());
-    const double rest = (chain_.time() - passed_.time) * (now.velocity + passed_.velocity) / 2;
-    const double slip = now.u - first_u_at_origin_, by_velocity = passed_.slip + rest;
-    // Slow errors of the sum are seen by every other sample, waves faster than the samples by their spread.
-    const double doubt = 3 * std::fabs(passed_.slip - passed_.coarse_slip) + 3 * std::sqrt(passed_.spread) +
-                         turn / 4;  // a quarter of a dislocation
-    const double beyond = std::fabs(slip - by_velocity) - doubt;
-    found.violation(beyond / std::fmax(std::fabs(slip), turn), "chain: slip at x = 0 is " + digits(slip / s.scale) +
-                                                                   ", the integral of the slip velocity there " +
-                                                                   digits(by_velocity / s.scale));
-  }
-
-  // Dislocations counted where u passes pi, against those that the ends hold apart.
-  const bool closed = s.boundary.periodic || (s.boundary.left == End::fixed && s.boundary.right == End::fixed);
-  const bool one_sign = closed && !s.forcing;
-  if (one_sign) {
-    const auto counted = static_cast<double>(balance.dislocations);
-    const double charge = std::fabs(first_charge_ + balance.charge_error);
-    const double more = std::fabs(counted - charge) - 1.5;  // at a fixed end a part of one
-    found.violation(more / std::fmax(charge, 100),
-                    "chain: " + digits(counted) + " dislocations where the ends hold " + digits(charge));
-    double k_most = 0, beyond = 0;
-    for (std::size_t i = 0; i < last.profile.k.size(); ++i) {
-      k_most = std::fmax(k_most, std::fabs(last.profile.k[i]));
-      beyond = std::fmax(beyond, std::fabs(last.profile.W[i]) - std::fabs(last.profile.k[i]));
-    }
-    // Waves alone have a mean velocity of either sign, of the size of a share of a dislocation in the window.
-    const double one = turn / (s.scale * smooth_window_);
-    found.violation((beyond - 0.1 * one) / std::fmax(k_most, one),
-                    "chain: the slip velocity is larger than the stress by " + digits(beyond));
-  }
-
+  check_energy(balance, found);
+  check_slip(found);
+  check_one_sign(balance, found);
   check_fronts(found);
   check_barrier(found);
 
-  if (at_origin && last.slip_at_origin != 0) {
-    const double step = turn / s.scale, slip = std::fabs(last.slip_at_origin);
+  const double last_slip = snapshots_.back().slip_at_origin, scale = stretched_.scale;
+  if (!std::isnan(first_u_at_origin_) && last_slip != 0) {
+    const double step = turn / scale, slip = std::fabs(last_slip);
     if (step / 4 > 0.01 * slip && slip > 1e-3 * step)
       found.sentences.push_back(
-          "chain: " + digits(static_cast<double>(first_dislocations_)) + " dislocations at scale " + digits(s.scale) +
+          "chain: " + digits(static_cast<double>(first_dislocations_)) + " dislocations at scale " + digits(scale) +
           ", of which " + digits(slip / step) + " passed x = 0; each is a slip of " + digits(step) +
           ". For 1 % try chain.scale = " + digits(std::pow(10, std::ceil(2 * std::log10(25 * turn / slip)) / 2)));
   }
   return found;
 }
 
-std::vector<std::string> Run::warnings() const { return findings().sentences; }
+std::vector<std::string> Run::warnings() const {
+  return final_findings_ ? final_findings_->sentences : findings().sentences;
+}
 
-void Run::refuse_wrong_results() const {
-  const Findings found = findings();
+void Run::refuse(const Findings& found) const {
   if (found.wrong_results()) throw NumericsError("t = " + digits(time()) + ": " + found.worst);
 }
 

@@ -6,7 +6,7 @@
 
 #include "elastic.hpp"
 #include "refuse_window.hpp"
-#include "slipfront/rupture/inverse.hpp"
+#include "slipfront/train/at_rest.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::chain {
@@ -47,7 +47,7 @@ double energy_of_train(double stress, double velocity, double contact) {
   if (!(stress > 0 && gamma2 > 0)) return 0;          // no train: all the energy is in phonons
   const double at_rest = stress * std::sqrt(gamma2);  // Eq. 4: a moving train is contracted
   if (at_rest < 2 * train::smallest_stress) return 4 / std::numbers::pi * stress / std::sqrt(gamma2);  // 8 each
-  State state = rupture::at_rest(at_rest);
+  State state = train::at_rest(at_rest);
   state.phi = std::atanh(velocity / stress);
   return train::averages(state).H;
 }

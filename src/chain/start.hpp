@@ -5,7 +5,7 @@
 #include "forces.hpp"
 #include "scheme.hpp"
 #include "slipfront/chain/chain.hpp"
-#include "slipfront/chain/ranks.hpp"
+#include "slipfront/ranks.hpp"
 
 namespace slipfront::chain {
 

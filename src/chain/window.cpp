@@ -29,20 +29,23 @@ Window Chain::window(std::size_t begin, std::size_t end, double time) const {
   return window;
 }
 
-Window Chain::Parts::window(std::size_t from, std::size_t to, double time) const {
-  const Scheme& s = scheme;
-  const double dt = s.dt, h = s.h, tau = time - static_cast<double>(level) * dt;
+/// u / 2 pi and the force of the substrate on sites from `low` on, at three levels.
+struct Chain::Parts::ThreeLevels {
+  long low;
+  std::vector<double> u_old, u_now, u_next, S_old, S_now, S_next;
+};
+
+/// Sites [from, to) with five beyond, more where an absorbing end looks at the sites beside it; the next level is
+/// computed and thrown away.
+Chain::Parts::ThreeLevels Chain::Parts::three_levels(std::size_t from, std::size_t to) const {
   const long n = static_cast<long>(problem.grid.sites);
-  // Three levels of z and u with five sites beyond; the next level is computed and thrown away.
   constexpr std::size_t beside = 5;
-  const std::size_t size = to - from;
-  // An absorbing end looks at the sites beside it.
   const bool absorbs_left = from == 0 && sides.left == Side::absorbing;
   const bool absorbs_right = static_cast<long>(to) == n && sides.right == Side::absorbing;
   const std::size_t more_left = absorbs_right ? std::min(from, sides.beyond_right.reach + 3) : 0;
   const std::size_t more_right = absorbs_left ? std::min(end - to, sides.beyond_left.reach + 3) : 0;
   const std::size_t reach = beside + more_left;
-  const std::size_t wide = reach + size + beside + more_right, room = wide + 4 * lanes;
+  const std::size_t wide = reach + (to - from) + beside + more_right, room = wide + 4 * lanes;
   const long low = static_cast<long>(from) - static_cast<long>(reach);
   std::vector<double> z(room), old(room), next(room), y(room);
   for (std::size_t j = 0; j < wide; ++j) {
@@ -60,41 +63,48 @@ Window Chain::Parts::window(std::size_t from, std::size_t to, double time) const
   }
   std::vector<double> a2;
   if (forces.a2(low) != nullptr) a2.assign(forces.a2(low), forces.a2(low) + wide);
-  std::vector<double> u_old(wide), u_now(wide), u_next(wide), S_old(wide), S_now(wide), S_next(wide);
   const PeriodicForce sine = substrate_force(0);
   const double* contact = a2.empty() ? nullptr : a2.data();
-  displacements(sine, s.eps, contact, old.data() + lanes, u_old.data(), S_old.data(), wide);
-  displacements(sine, s.eps, contact, z.data() + lanes, u_now.data(), S_now.data(), wide);
-  displacements(sine, s.eps, contact, next.data() + lanes, u_next.data(), S_next.data(), wide);
+  const auto column = [&] { return std::vector<double>(wide); };
+  ThreeLevels v{low, column(), column(), column(), column(), column(), column()};
+  displacements(sine, scheme.eps, contact, old.data() + lanes, v.u_old.data(), v.S_old.data(), wide);
+  displacements(sine, scheme.eps, contact, z.data() + lanes, v.u_now.data(), v.S_now.data(), wide);
+  displacements(sine, scheme.eps, contact, next.data() + lanes, v.u_next.data(), v.S_next.data(), wide);
+  return v;
+}
 
+Window Chain::Parts::window(std::size_t from, std::size_t to, double time) const {
+  const double dt = scheme.dt, h = scheme.h, tau = time - static_cast<double>(level) * dt;
+  const ThreeLevels v = three_levels(from, to);
+  const auto local = [&](std::size_t site) { return static_cast<std::size_t>(static_cast<long>(site) - v.low); };
   const double C = problem.friction.law == modulation::FrictionLaw::viscous ? problem.friction.coefficient : 0;
-  const auto rate = [&](std::size_t j) { return (u_next[j] - u_old[j]) / (2 * dt); };
+  const auto rate = [&](std::size_t j) { return (v.u_next[j] - v.u_old[j]) / (2 * dt); };
+  const auto stress = [&](const std::vector<double>& u, std::size_t j) {
+    if (problem.model == Model::lattice) return (u[j - 1] - u[j + 1]) / (2 * h);
+    return (45 * (u[j - 1] - u[j + 1]) - 9 * (u[j - 2] - u[j + 2]) + (u[j - 3] - u[j + 3])) / (60 * h);
+  };
   Window window;
   window.begin = from;
-  for (std::size_t j = reach; j < reach + size; ++j) {
-    const std::size_t at = from + j - reach;
-    const double acceleration = (u_next[j] - 2 * u_now[j] + u_old[j]) / (dt * dt);
+  for (std::size_t at = from; at < to; ++at) {
+    const std::size_t j = local(at);
+    const double acceleration = (v.u_next[j] - 2 * v.u_now[j] + v.u_old[j]) / (dt * dt);
     // u_ttt from the equation of motion: what the central difference needs to be of fourth order.
-    const double jerk = (rate(j + 1) - 2 * rate(j) + rate(j - 1)) / (h * h) - (S_next[j] - S_old[j]) / (2 * dt) -
+    const double jerk = (rate(j + 1) - 2 * rate(j) + rate(j - 1)) / (h * h) - (v.S_next[j] - v.S_old[j]) / (2 * dt) -
                         C * acceleration + forces.rate(static_cast<long>(at)) / turn;
     const double velocity = rate(j) - dt * dt / 6 * jerk;
-    const auto stress = [&](const std::vector<double>& u) {
-      if (problem.model == Model::lattice) return (u[j - 1] - u[j + 1]) / (2 * h);
-      return (45 * (u[j - 1] - u[j + 1]) - 9 * (u[j - 2] - u[j + 2]) + (u[j - 3] - u[j + 3])) / (60 * h);
-    };
-    const double stress_rate = (stress(u_next) - stress(u_old)) / (2 * dt);
+    const double stress_rate = (stress(v.u_next, j) - stress(v.u_old, j)) / (2 * dt);
     window.x.push_back(problem.grid.x(at));
-    window.u.push_back(turn * (u_now[j] + tau * (velocity + tau / 2 * (acceleration + tau / 3 * jerk))));
+    window.u.push_back(turn * (v.u_now[j] + tau * (velocity + tau / 2 * (acceleration + tau / 3 * jerk))));
     window.velocity.push_back(turn * (velocity + tau * (acceleration + tau / 2 * jerk)));
-    window.stress.push_back(turn * (stress(u_now) + tau * stress_rate));
+    window.stress.push_back(turn * (stress(v.u_now, j) + tau * stress_rate));
   }
   // A fixed end stays where it is held: the equation of motion above knows nothing of what holds it.
-  const auto hold = [&](std::size_t i) {
-    window.u[i] = turn * u_now[reach + i];
-    window.velocity[i] = 0;
+  const auto hold = [&](std::size_t site) {
+    window.u[site - from] = turn * v.u_now[local(site)];
+    window.velocity[site - from] = 0;
   };
   if (from == 0 && sides.left == Side::fixed) hold(0);
-  if (static_cast<long>(to) == n && sides.right == Side::fixed) hold(size - 1);
+  if (to == problem.grid.sites && sides.right == Side::fixed) hold(to - 1);
   return window;
 }
 

@@ -15,6 +15,10 @@
 namespace slipfront::pulse {
 namespace {
 
+using output::Energy;
+using output::Observed;
+using output::observed_fronts;
+using output::Snapshot;
 using std::numbers::pi;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "../bytes.hpp"
+#include "../digits.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::pulse {
@@ -16,13 +17,13 @@ constexpr std::uint64_t format = 4;
 
 }  // namespace
 
-Run::Run(Problem problem, Schedule schedule)
+Run::Run(Problem problem, output::Schedule schedule)
     : schedule_(std::move(schedule)), solver_(std::move(problem)), trailing_characteristic_(solver_) {
-  const Energy energy = energy_of(solver_);
+  const output::Energy energy = energy_of(solver_);
   first_energy_ = energy.elastic + energy.kinetic;
 }
 
-Run::Run(Problem problem, Schedule schedule, std::string_view saved, std::vector<Snapshot> snapshots)
+Run::Run(Problem problem, output::Schedule schedule, std::string_view saved, std::vector<output::Snapshot> snapshots)
     : Run(std::move(problem), std::move(schedule)) {
   bytes::Reader reader(saved);
   if (reader.get<std::uint64_t>() != format || snapshots.size() > schedule_.times.size())
@@ -42,11 +43,11 @@ Run::Run(Problem problem, Schedule schedule, std::string_view saved, std::vector
   cells.entered_right = reader.get<double>();
   cells.crossing_time = reader.get<double>();
   cells.crossing_position = reader.get<double>();
-  Passed& p = passed_;
-  for (double* value :
-       {&p.time, &p.velocity, &p.slip, &p.way, &p.early_time, &p.early_velocity, &p.coarse_slip, &p.spread, &p.doubt})
+  output::SampledIntegral& slip = slip_;
+  for (double* value : {&slip.time, &slip.velocity, &slip.integral, &slip_size_, &slip.early_time, &slip.early_velocity,
+                        &slip.coarse_integral, &slip.spread, &slip_doubt_})
     *value = reader.get<double>();
-  p.samples = static_cast<long>(reader.get<std::int64_t>());
+  slip.samples = static_cast<long>(reader.get<std::int64_t>());
   reader.end();
   solver_.restore(std::move(cells));
   snapshots_ = std::move(snapshots);
@@ -68,17 +69,17 @@ std::string Run::saved() const {
   writer.put(cells.entered_right);
   writer.put(cells.crossing_time);
   writer.put(cells.crossing_position);
-  const Passed& p = passed_;
-  for (const double value :
-       {p.time, p.velocity, p.slip, p.way, p.early_time, p.early_velocity, p.coarse_slip, p.spread, p.doubt})
+  const output::SampledIntegral& slip = slip_;
+  for (const double value : {slip.time, slip.velocity, slip.integral, slip_size_, slip.early_time, slip.early_velocity,
+                             slip.coarse_integral, slip.spread, slip_doubt_})
     writer.put(value);
-  writer.put(static_cast<std::int64_t>(p.samples));
+  writer.put(static_cast<std::int64_t>(slip.samples));
   return std::move(writer).text();
 }
 
 void Run::take() {
-  Snapshot s = observe(solver_, schedule_.x_edges, trailing_characteristic_, schedule_.threshold);
-  Energy& e = s.energy;
+  output::Snapshot s = observe(solver_, schedule_.x_edges, trailing_characteristic_, schedule_.threshold);
+  output::Energy& e = s.energy;
   e.shocks = first_energy_ + e.supplied + e.through_ends - e.dissipated - e.elastic - e.kinetic;
   snapshots_.push_back(std::move(s));
 }
@@ -105,19 +106,10 @@ double unresolved_at(const Solver::View& v, double x, double W) {
 void Run::sample() {
   const Solver::View v = solver_.view(false);
   const double time = solver_.cells().time, velocity = averages_of(v, state_at(v, 0), 0).W;
-  Passed& p = passed_;
-  const double elapsed = time - p.time, change = elapsed * (velocity - p.velocity) / 2;
-  p.slip += elapsed * (velocity + p.velocity) / 2;
-  p.way += elapsed * (std::fabs(velocity) + std::fabs(p.velocity)) / 2;
-  p.spread += change * change;
-  p.doubt += elapsed * unresolved_at(v, 0, velocity);
-  if (++p.samples % 2 == 0) {
-    p.coarse_slip += (time - p.early_time) * (velocity + p.early_velocity) / 2;
-    p.early_time = time;
-    p.early_velocity = velocity;
-  }
-  p.time = time;
-  p.velocity = velocity;
+  const double elapsed = time - slip_.time;
+  slip_size_ += elapsed * (std::fabs(velocity) + std::fabs(slip_.velocity)) / 2;
+  slip_doubt_ += elapsed * unresolved_at(v, 0, velocity);
+  slip_.add(time, velocity);
 }
 
 bool Run::go(const std::function<bool()>& interrupted) {
@@ -139,7 +131,9 @@ bool Run::go(const std::function<bool()>& interrupted) {
     if (!reached) return false;
     take();
   }
-  refuse_wrong_results();
+  final_findings_ = findings();
+  if (final_findings_->wrong_results())
+    throw NumericsError("t = " + digits(solver_.cells().time) + ": " + final_findings_->worst);
   return true;
 }
 

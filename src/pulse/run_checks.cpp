@@ -6,8 +6,6 @@
 #include <string>
 
 #include "../digits.hpp"
-#include "../findings.hpp"
-#include "slipfront/error.hpp"
 #include "slipfront/pulse/run.hpp"
 
 namespace slipfront::pulse {
@@ -18,44 +16,40 @@ constexpr double much = 0.05;
 
 }  // namespace
 
-struct Run::Findings : slipfront::Findings {};
-
 double Run::SlipTwice::beyond_sampling() const {
   return std::fmax(std::fabs(by_place - by_velocity) - sampling, 0);
 }
 
 std::optional<Run::SlipTwice> Run::slip_twice() const {
   const Problem& problem = solver_.problem();
-  if (!(problem.left < 0 && problem.right > 0 && passed_.samples > 8)) return std::nullopt;
+  if (!(problem.left < 0 && problem.right > 0 && slip_.samples > 8)) return std::nullopt;
   const Solver::View v = solver_.view();
   const double now = averages_of(v, state_at(v, 0), 0).W;
-  const double rest = (solver_.cells().time - passed_.time) * (now + passed_.velocity) / 2;
-  const double sampling = std::fabs(passed_.slip - passed_.coarse_slip) + std::sqrt(passed_.spread);
-  return SlipTwice{solver_.slip_at(v, 0), passed_.slip + rest, sampling, passed_.doubt};
+  return SlipTwice{solver_.slip_at(v, 0), slip_.up_to(solver_.cells().time, now), slip_.error(), slip_doubt_};
 }
 
-Run::Findings Run::findings() const {
-  Findings found;
+output::Findings Run::findings() const {
+  output::Findings found;
   if (snapshots_.empty()) return found;
-  const Snapshot& last = snapshots_.back();
+  const output::Snapshot& last = snapshots_.back();
   const Problem& problem = solver_.problem();
 
   if (const std::optional<SlipTwice> slip = slip_twice()) {
     constexpr double rounding = 1e-10;
     const double doubt = 3 * slip->sampling + slip->of_velocity + rounding;
     const double beyond = std::fabs(slip->by_place - slip->by_velocity) - doubt;
-    found.violation(beyond / std::fmax(std::fabs(slip->by_place), passed_.way),
+    found.violation(beyond / std::fmax(std::fabs(slip->by_place), slip_size_),
                     "pulse: slip at x = 0 is " + digits(slip->by_place) + ", the integral of the slip velocity there " +
                         digits(slip->by_velocity) + "; more pulse.cells help");
   }
 
   // Densities may be coarse where streams have piled up, while the dislocations themselves are all there.
   const double uncounted = conservation_error(solver_);
-  if (!(uncounted <= Findings::wrong))
+  if (!(uncounted <= output::Findings::wrong))
     found.sentences.push_back("pulse: the states of the cells hold " + digits(100 * uncounted) +
                               " % more or fewer dislocations than there are; more pulse.cells help");
 
-  const Energy& e = last.energy;
+  const output::Energy& e = last.energy;
   const double all = std::max({first_energy_, e.elastic + e.kinetic, std::fabs(e.supplied), e.dissipated});
   found.violation(-e.shocks / all, "pulse: " + digits(-100 * e.shocks / all) +
                                        " % of the energy came from nothing; more pulse.cells help");
@@ -70,11 +64,8 @@ Run::Findings Run::findings() const {
   return found;
 }
 
-std::vector<std::string> Run::warnings() const { return findings().sentences; }
-
-void Run::refuse_wrong_results() const {
-  const Findings found = findings();
-  if (found.wrong_results()) throw NumericsError("t = " + digits(solver_.cells().time) + ": " + found.worst);
+std::vector<std::string> Run::warnings() const {
+  return final_findings_ ? final_findings_->sentences : findings().sentences;
 }
 
 }  // namespace slipfront::pulse

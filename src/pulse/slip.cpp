@@ -57,46 +57,44 @@ double Solver::charge_between(double from, double to) const {
   return sum;
 }
 
-double Solver::slip_at(const View& v, double place) const {
+/// Within a cell: how far the dislocation at x has come.
+double Solver::way_at(const View& v, std::size_t cell, double x) const {
   constexpr double unresolved = 0.25;  // ways, in cells
-  const double x = v.period > 0 ? place - std::floor((place - v.faces.front()) / v.period) * v.period : place;
-  const std::size_t n = v.states.size();
   const auto way = [&](std::size_t f) { return v.faces[f] - first_place(v.charge_faces[f]); };
-  double start = 0;
-  if (x <= v.faces.front() || x >= v.faces.back()) {
-    start = first_place(x <= v.faces.front() ? v.charge_faces.front() : v.charge_faces.back());
-  } else {
-    const std::size_t cell = interval(v.faces, x);
-    if (cells_.charge[cell] == 0) {  // nothing lies between the edges of a gap
-      start = first_place(v.charge_faces[cell]);
-    } else {
-      const bool inside = cell > 0 && cell + 1 < n && cells_.charge[cell - 1] > 0 && cells_.charge[cell + 1] > 0;
-      double moved = 0;
-      const std::size_t near = x - v.faces[cell] < v.faces[cell + 1] - x ? cell : cell + 1;
-      const double width = v.faces[cell + 1] - v.faces[cell], aside = x - v.faces[near];
-      const double come = std::fabs(way(near));
-      if (come < width && std::fabs(aside) <= 2 * come) {
-        // Nearer to a face than that has come, in a pulse that may be narrower than the cell: from the densities there
-        // and, as the pulse grows, the way of the other face.
-        const bool resolved = come >= unresolved * width;
-        // The stress before on this side of the face, or on the mean over what lies between.
-        const double before = problem_.stress(v.faces[near] - way(near) + (resolved ? 1e-6 : 0.5) * aside);
-        const double slope = before > 0 ? 1 - 2 * pi * v.face_density[near] / before : 0;
-        const std::size_t other = near == cell ? cell + 1 : cell;
-        const double apart = v.faces[other] - v.faces[near], mean_slope = (way(other) - way(near)) / apart;
-        const double bend = resolved ? (mean_slope - slope) / apart : 0;
-        moved = way(near) + aside * (slope + bend * aside);
-      } else if (inside) {
-        const double ways[4] = {way(cell - 1), way(cell), way(cell + 1), way(cell + 2)};
-        moved = cubic(&v.faces[cell - 1], ways, x);
-      } else {
-        const double s = (x - v.faces[cell]) / width;
-        moved = std::lerp(way(cell), way(cell + 1), s);
-      }
-      start = x - moved;
-    }
+  const std::size_t near = x - v.faces[cell] < v.faces[cell + 1] - x ? cell : cell + 1;
+  const double width = v.faces[cell + 1] - v.faces[cell], aside = x - v.faces[near];
+  const double come = std::fabs(way(near));
+  if (come < width && std::fabs(aside) <= 2 * come) {
+    // Nearer to a face than that has come, in a pulse that may be narrower than the cell: from the densities there
+    // and, as the pulse grows, the way of the other face.
+    const bool resolved = come >= unresolved * width;
+    // The stress before on this side of the face, or on the mean over what lies between.
+    const double before = problem_.stress(v.faces[near] - way(near) + (resolved ? 1e-6 : 0.5) * aside);
+    const double slope = before > 0 ? 1 - 2 * pi * v.face_density[near] / before : 0;
+    const std::size_t other = near == cell ? cell + 1 : cell;
+    const double apart = v.faces[other] - v.faces[near], mean_slope = (way(other) - way(near)) / apart;
+    const double bend = resolved ? (mean_slope - slope) / apart : 0;
+    return way(near) + aside * (slope + bend * aside);
   }
-  return 2 * pi * charge_between(start, x);
+  const std::size_t n = v.states.size();
+  const bool inside = cell > 0 && cell + 1 < n && cells_.charge[cell - 1] > 0 && cells_.charge[cell + 1] > 0;
+  if (!inside) return std::lerp(way(cell), way(cell + 1), (x - v.faces[cell]) / width);
+  const double ways[4] = {way(cell - 1), way(cell), way(cell + 1), way(cell + 2)};
+  return cubic(&v.faces[cell - 1], ways, x);
+}
+
+/// Where the dislocation that is now at x began.
+double Solver::start_of(const View& v, double x) const {
+  if (x <= v.faces.front()) return first_place(v.charge_faces.front());
+  if (x >= v.faces.back()) return first_place(v.charge_faces.back());
+  const std::size_t cell = interval(v.faces, x);
+  const bool gap = cells_.charge[cell] == 0;  // nothing lies between its edges
+  return gap ? first_place(v.charge_faces[cell]) : x - way_at(v, cell, x);
+}
+
+double Solver::slip_at(const View& v, double place) const {
+  const double x = v.period > 0 ? place - std::floor((place - v.faces.front()) / v.period) * v.period : place;
+  return 2 * pi * charge_between(start_of(v, x), x);
 }
 
 }  // namespace slipfront::pulse

@@ -12,7 +12,7 @@
 #include "semidiscrete.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
-#include "slipfront/rupture/inverse.hpp"
+#include "slipfront/train/at_rest.hpp"
 #include "slipfront/train/train.hpp"
 #include "staggered.hpp"
 
@@ -84,7 +84,7 @@ Solver::Solver(Problem problem) : problem_(std::move(problem)) {
           {.key = problem_.contact ? "interface.contact" : "initial",
            .problem = "stress over contact ratio is " + digits(local) + " at x = " + digits(layout.faces[i]),
            .allowed = "at least 0.0045 where there is stress: dislocations farther apart have no psi"});
-    cells_.s[i] = std::tanh(rupture::psi_of_stress(local));
+    cells_.s[i] = std::tanh(train::psi_of_stress(local));
   }
   cells_.y[2 * n] = layout.faces.front();
   lay_equations();

@@ -22,6 +22,7 @@ using std::numbers::pi;
 /// cosh(psi) E - 1, which is 0 for dislocations far from each other: without cancellation, as their forces are small
 /// differences of it.
 double mass_excess(double psi) {
+  if (psi == 0) return 0;
   const double half = std::sinh(psi / 2);
   return std::cosh(psi) * elliptic::at_psi(psi).E_rest + 2 * half * half;
 }

@@ -13,7 +13,7 @@ namespace slipfront::record {
 namespace {
 
 using netcdf::Writer;
-using pulse::Snapshot;
+using output::Snapshot;
 using Levels = std::vector<ComparedLevel>;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();

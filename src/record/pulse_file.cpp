@@ -16,7 +16,7 @@ namespace slipfront::record {
 namespace {
 
 using netcdf::Writer;
-using pulse::Snapshot;
+using output::Snapshot;
 using Fields = std::vector<const FieldVariable*>;
 
 void require(bool truth, const char* what) {

@@ -17,11 +17,11 @@ inline constexpr const char* solver_state = "checkpoint";       ///< variable
 
 /// Checksum of what a checkpoint holds: that reading it gave what was written.
 inline std::string checksum(const std::string& scenario, const std::string& state, bool finished,
-                            const std::vector<pulse::Snapshot>& snapshots,
+                            const std::vector<output::Snapshot>& snapshots,
                             const std::vector<const FieldVariable*>& written) {
   Fnv fnv;
   fnv.text(scenario).text(state).number(finished).number(snapshots.size());
-  for (const pulse::Snapshot& snapshot : snapshots) {
+  for (const output::Snapshot& snapshot : snapshots) {
     fnv.real(snapshot.time);
     for (const ScalarVariable& scalar : scalar_variables()) fnv.real(scalar.get(snapshot));
     for (const auto field : profile_fields())

@@ -19,7 +19,7 @@ using netcdf::Reader;
 using netcdf::Variable;
 using Kind = Variable::Kind;
 using Shape = std::vector<std::size_t>;
-using pulse::Snapshot;
+using output::Snapshot;
 
 [[noreturn]] void fail(const std::string& path, const std::string& reason) {
   throw FileError(path + ": not a pulse file to resume from: " + reason);

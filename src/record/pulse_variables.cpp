@@ -7,10 +7,10 @@
 namespace slipfront::record {
 namespace {
 
-using pulse::Energy;
-using pulse::Fronts;
-using pulse::Profile;
-using pulse::Snapshot;
+using output::Energy;
+using output::Fronts;
+using output::Profile;
+using output::Snapshot;
 
 constexpr std::vector<double> Profile::*every_field[] = {&Profile::k, &Profile::U, &Profile::W, &Profile::H,
                                                          &Profile::slip};

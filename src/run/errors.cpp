@@ -96,7 +96,15 @@ std::vector<double> errors_of(const Result<pulse::Run>& fine, const scenario::Sc
   return errors;
 }
 
-int cells_for(double tolerance, const scenario::Scenario& scenario, const std::function<bool()>& interrupted) {
+int cells_for(double tolerance, bool resumed, const scenario::Scenario& scenario,
+              const std::function<bool()>& interrupted) {
+  if (!(tolerance >= 1e-9 && tolerance <= 1))
+    throw InputError(
+        {.key = "tolerance", .value = digits(tolerance), .problem = "out of range", .allowed = "1e-9 to 1"});
+  if (resumed)
+    throw InputError({.key = "tolerance",
+                      .problem = "chooses the cells of a run that has begun",
+                      .allowed = "tolerance without resume"});
   const int given = scenario.pulse.cells;
   std::vector<SummaryValue> coarse = summary_with(std::max(given / 2, fewest_cells), scenario, interrupted);
   double reached = 0;

@@ -1,16 +1,12 @@
 #include "slipfront/run/run.hpp"
 
+#include "carry_out.hpp"
 #include "slipfront/record/comparison_file.hpp"
-#include "slipfront/run/carry_out.hpp"
 #include "slipfront/setup/chain.hpp"
 #include "slipfront/setup/pulse.hpp"
 
 namespace slipfront::run {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// A run from its beginning, or from where the checkpoint left it.
 template <class Run, class... Arguments>

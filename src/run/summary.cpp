@@ -6,8 +6,8 @@
 namespace slipfront::run {
 namespace {
 
-const pulse::Snapshot& last(const PulseEnd& end) { return end.run.snapshots().back(); }
-const pulse::Snapshot& last(const ChainEnd& end) { return end.run.snapshots().back(); }
+const output::Snapshot& last(const PulseEnd& end) { return end.run.snapshots().back(); }
+const output::Snapshot& last(const ChainEnd& end) { return end.run.snapshots().back(); }
 const chain::Grid& grid(const ChainEnd& end) { return end.run.chain().problem().grid; }
 
 constexpr SummaryItem<PulseEnd> pulse_items[] = {

@@ -3,40 +3,16 @@
 #include <cmath>
 #include <numbers>
 
-#include "newton.hpp"
+#include "../newton.hpp"
 #include "slipfront/elliptic/complete.hpp"
 #include "slipfront/modulation/characteristics.hpp"
-#include "slipfront/train/train.hpp"
 
 namespace slipfront::rupture {
 namespace {
 
 using std::numbers::pi;
 
-/// d(ln K) / d(psi) = -(E/K - m1) / s.
-double log_slope_of_K(const elliptic::AtPsi& at) { return -at.above_m1 / at.s; }
-
 }  // namespace
-
-double psi_of_stress(double stress) {
-  // From a slow state K = ln(4/psi) = pi/Sigma at once; from a dense one K = pi/2 and Sigma = 2 cosh(psi).
-  if (stress > 20) {
-    const auto dense = [stress](double psi) {
-      const elliptic::AtPsi at = elliptic::at_psi(psi);
-      return Residual{std::log(pi * std::cosh(psi) / at.K / stress), psi * (std::tanh(psi) - log_slope_of_K(at))};
-    };
-    const double guess = std::log(stress);
-    if (guess > elliptic::psi_dense_above + 1) return guess;  // Sigma = 2 cosh(psi) = exp(psi), exactly to rounding
-    return newton_in_log(guess, dense, "psi of a stress");
-  }
-  const auto residual = [stress](double psi) {  // K - pi cosh(psi) / Sigma, linear in ln(psi) where psi is small
-    const elliptic::AtPsi at = elliptic::at_psi(psi);
-    return Residual{at.K - pi * std::cosh(psi) / stress,
-                    psi * (log_slope_of_K(at) * at.K - pi * std::sinh(psi) / stress)};
-  };
-  const double bare = 4 * std::exp(-pi / stress);
-  return newton_in_log(stress < 1 ? bare : std::log1p(bare), residual, "psi of a stress");
-}
 
 double psi_of_sound_speed(double V) {
   if (V > 0.5) {  // 1 - V is exact here, and 1 - c0 = m^2 / 16 carries what c0 has lost
@@ -76,7 +52,8 @@ double psi_of_origin_slip_velocity(double W) {
     const elliptic::AtPsi at = elliptic::at_psi(psi);
     const modulation::Sound c = modulation::sound(psi);
     const double value = pi * std::sinh(c.rapidity) * std::cosh(psi) / at.K;
-    return Residual{std::log(value / W), psi * (c.slope / std::tanh(c.rapidity) + std::tanh(psi) - log_slope_of_K(at))};
+    return Residual{std::log(value / W),
+                    psi * (c.slope / std::tanh(c.rapidity) + std::tanh(psi) - elliptic::log_slope_of_K(at))};
   };
   return newton_in_log(W < 1 ? W / pi : std::log(1 + 1.5 * W) / 3, residual, "psi of a slip velocity");
 }

@@ -60,10 +60,10 @@ void read_pulse(const Document& document, PulseOptions& pulse) {
   pulse.tolerance = section.number("tolerance", {.least = 1e-12, .most = 0.1}).value_or(pulse.tolerance);
   const Limits fraction{.least = 0, .most = 1, .without_least = true, .without_most = true};
   pulse.threshold = section.number("threshold", fraction).value_or(pulse.threshold);
-  const auto end = [&](const char* key, PulseEnd otherwise) {
+  const auto end = [&](const char* key, pulse::End otherwise) {
     return section
-        .choice<PulseEnd>(key,
-                          {{"continued", PulseEnd::continued}, {"fixed", PulseEnd::fixed}, {"free", PulseEnd::free}})
+        .choice<pulse::End>(
+            key, {{"continued", pulse::End::continued}, {"fixed", pulse::End::fixed}, {"free", pulse::End::free}})
         .value_or(otherwise);
   };
   pulse.left = end("left", pulse.left);
@@ -75,13 +75,14 @@ void read_chain(const Document& document, ChainOptions& chain) {
   const Section section(document, "chain", {"scale", "spacing", "model", "left", "right", "periodic", "window"});
   chain.scale = section.number("scale", positive);
   chain.spacing = section.number("spacing", positive);
-  chain.model =
-      section.choice<ChainModel>("model", {{"sine-gordon", ChainModel::sine_gordon}, {"lattice", ChainModel::lattice}})
-          .value_or(chain.model);
-  const auto end = [&](const char* key, ChainEnd otherwise) {
+  chain.model = section
+                    .choice<chain::Model>(
+                        "model", {{"sine-gordon", chain::Model::sine_gordon}, {"lattice", chain::Model::lattice}})
+                    .value_or(chain.model);
+  const auto end = [&](const char* key, chain::End otherwise) {
     return section
-        .choice<ChainEnd>(key,
-                          {{"free", ChainEnd::free}, {"fixed", ChainEnd::fixed}, {"absorbing", ChainEnd::absorbing}})
+        .choice<chain::End>(
+            key, {{"free", chain::End::free}, {"fixed", chain::End::fixed}, {"absorbing", chain::End::absorbing}})
         .value_or(otherwise);
   };
   chain.left = end("left", chain.left);

@@ -2,24 +2,12 @@
 
 #include <cmath>
 
-#include "slipfront/rupture/inverse.hpp"
 #include "slipfront/setup/pulse.hpp"
+#include "slipfront/train/at_rest.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::setup {
 namespace {
-
-chain::End end_of(scenario::ChainEnd end) {
-  switch (end) {
-    case scenario::ChainEnd::free:
-      return chain::End::free;
-    case scenario::ChainEnd::absorbing:
-      return chain::End::absorbing;
-    case scenario::ChainEnd::fixed:
-      break;
-  }
-  return chain::End::fixed;
-}
 
 /// The default spacing in widths of a dislocation where they are narrowest: by the contact ratio, or packed densely.
 double chosen_spacing(const scenario::Scenario& s, double left, double right) {
@@ -27,7 +15,7 @@ double chosen_spacing(const scenario::Scenario& s, double left, double right) {
   constexpr int samples = 1000;
   for (int i = 0; i <= samples; ++i) {
     const double x = left + (right - left) * i / samples, a = s.contact_at ? s.contact_at(x) : 1, k = s.stress(x);
-    const double packed = k / a > train::smallest_stress ? std::cosh(rupture::psi_of_stress(k / a)) : 1;
+    const double packed = k / a > train::smallest_stress ? std::cosh(train::psi_of_stress(k / a)) : 1;
     narrowest = std::fmin(narrowest, 1 / (a * (packed > 1.05 ? packed : 1)));
   }
   return chain::default_spacing * narrowest;
@@ -47,10 +35,10 @@ chain::Stretched chain_problem(const scenario::Scenario& s) {
   c.end = s.end;
   c.contact = s.contact_at;
   c.friction = s.friction;
-  c.boundary = {.left = end_of(s.chain.left), .right = end_of(s.chain.right), .periodic = s.chain.periodic};
+  c.boundary = {.left = s.chain.left, .right = s.chain.right, .periodic = s.chain.periodic};
   c.window = s.chain.window.value_or(0);
-  if (s.chain.model == scenario::ChainModel::lattice) {
-    c.model = chain::Model::lattice;
+  c.model = s.chain.model;
+  if (c.model == chain::Model::lattice) {
     const auto spacing = s.chain.spacing ? s.chain.spacing : s.medium.contact_ratio;
     if (!spacing)
       throw InputError({.file = s.file,

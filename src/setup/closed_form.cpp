@@ -1,9 +1,9 @@
 #include <cmath>
 #include <limits>
 
-#include "slipfront/rupture/inverse.hpp"
 #include "slipfront/rupture/riemann.hpp"
 #include "slipfront/setup/compare.hpp"
+#include "slipfront/train/at_rest.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::setup {
@@ -48,8 +48,8 @@ double passes(const RiemannSolution& solution, double resting, double peak, doub
   return (resting + peak) / 2;
 }
 
-pulse::Snapshot snapshot_of(const RiemannSolution& solution, const pulse::Schedule& schedule, double time) {
-  pulse::Snapshot s{};
+output::Snapshot snapshot_of(const RiemannSolution& solution, const output::Schedule& schedule, double time) {
+  output::Snapshot s{};
   s.time = time;
   const double left = train::averages(solution.left).k, right = train::averages(solution.right).k;
   // k_t + W_x = 0 and k, W of x/t alone: slip = t (W + (k0 - k) x/t), k0 the density at t = 0.
@@ -99,11 +99,11 @@ pulse::Snapshot snapshot_of(const RiemannSolution& solution, const pulse::Schedu
 
 }  // namespace
 
-std::optional<Level> closed_form(const scenario::Scenario& s, const pulse::Schedule& schedule) {
+std::optional<Level> closed_form(const scenario::Scenario& s, const output::Schedule& schedule) {
   if (s.initial.profile != scenario::ProfileKind::step || s.friction.acts() || s.forcing_at || s.contact_at) return {};
   if (s.initial.stress_left == s.initial.stress_right) return {};  // nothing moves: no wave to compare
   const RiemannSolution solution =
-      rupture::solve_riemann(rupture::at_rest(s.initial.stress_left), rupture::at_rest(s.initial.stress_right));
+      rupture::solve_riemann(train::at_rest(s.initial.stress_left), train::at_rest(s.initial.stress_right));
   const Edges edges = rupture::edges_of(solution);
   if (schedule.x_edges.front() > s.end * edges.left || schedule.x_edges.back() < s.end * edges.right) return {};
   Level level{.name = "closed-form"};

@@ -12,7 +12,7 @@ namespace slipfront::setup {
 namespace {
 
 constexpr double size = sizeof(double);
-constexpr double observed_fields = 5;   // of pulse::Profile
+constexpr double observed_fields = 5;   // of output::Profile
 constexpr double written_fields = 8;    // of a file, at most
 constexpr double scalars = 16;          // of a snapshot
 constexpr double solver_per_cell = 66;  // doubles: states, fluxes, the stages of a step and its Jacobian

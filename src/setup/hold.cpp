@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "slipfront/elliptic/complete.hpp"
-#include "slipfront/rupture/inverse.hpp"
+#include "slipfront/train/at_rest.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::setup {
@@ -18,7 +18,7 @@ double balance(const scenario::Scenario& s, double x) {
   const double a = s.contact_at ? s.contact_at(x) : 1, stress = s.stress(x);
   double rest = 0;  // cosh(psi) E - 1
   if (stress >= train::smallest_stress * a) {
-    const double psi = rupture::psi_of_stress(stress / a), half = std::sinh(psi / 2);
+    const double psi = train::psi_of_stress(stress / a), half = std::sinh(psi / 2);
     const double cosh_rest = 2 * half * half, E_rest = elliptic::at_psi(psi).E_rest;
     rest = cosh_rest + E_rest + cosh_rest * E_rest;
   }

@@ -5,9 +5,9 @@
 
 #include "../digits.hpp"
 #include "hold.hpp"
-#include "slipfront/rupture/inverse.hpp"
 #include "slipfront/rupture/riemann.hpp"
 #include "slipfront/setup/estimate.hpp"
+#include "slipfront/train/at_rest.hpp"
 
 namespace slipfront::setup {
 namespace {
@@ -20,7 +20,7 @@ struct Reach {
 };
 Reach reach_of(const scenario::Scenario& s) {
   const rupture::Edges edges = rupture::edges_of(
-      rupture::solve_riemann(rupture::at_rest(s.initial.stress_left), rupture::at_rest(s.initial.stress_right)));
+      rupture::solve_riemann(train::at_rest(s.initial.stress_left), train::at_rest(s.initial.stress_right)));
   const double left = std::fabs(edges.left), right = std::fabs(edges.right);
   double share = 1;
   if (s.friction.law == modulation::FrictionLaw::viscous)
@@ -72,13 +72,8 @@ pulse::Problem pulse_problem(const scenario::Scenario& s) {
          .allowed = "[domain] left = ..., right = ..."});
   p.left = s.domain.left.value_or(-reach.left);
   p.right = s.domain.right.value_or(reach.right);
-  const auto end_of = [](scenario::PulseEnd end) {
-    return end == scenario::PulseEnd::fixed  ? pulse::End::fixed
-           : end == scenario::PulseEnd::free ? pulse::End::free
-                                             : pulse::End::continued;
-  };
-  p.left_end = end_of(s.pulse.left);
-  p.right_end = end_of(s.pulse.right);
+  p.left_end = s.pulse.left;
+  p.right_end = s.pulse.right;
   p.periodic = s.pulse.periodic;
   p.forcing = forcing_of(s, p.left, p.right);
   if (s.forcing_at) {
@@ -89,9 +84,9 @@ pulse::Problem pulse_problem(const scenario::Scenario& s) {
   return p;
 }
 
-pulse::Schedule pulse_schedule(const scenario::Scenario& s, const pulse::Problem& problem) {
+output::Schedule pulse_schedule(const scenario::Scenario& s, const pulse::Problem& problem) {
   require_memory(s, problem);
-  pulse::Schedule schedule;
+  output::Schedule schedule;
   schedule.threshold = s.pulse.threshold;
   schedule.times.push_back(0);
   for (const double t : s.output.times)

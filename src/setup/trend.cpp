@@ -5,7 +5,7 @@
 namespace slipfront::setup {
 
 const std::vector<Quantity>& compared_quantities() {
-  using pulse::Snapshot;
+  using output::Snapshot;
   static const std::vector<Quantity> quantities = {
       {"slip_at_origin", "slip(0)", [](const Snapshot& s) { return s.slip_at_origin; }},
       {"slip_velocity_at_origin", "W(0)", [](const Snapshot& s) { return s.slip_velocity_at_origin; }},

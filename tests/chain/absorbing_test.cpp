@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "slipfront/chain/run.hpp"
-#include "slipfront/rupture/inverse.hpp"
+#include "slipfront/train/at_rest.hpp"
 
 namespace {
 
@@ -24,10 +24,10 @@ Result run_step(double left_stress, double right_stress, double left, double rig
   s.right = right;
   s.stress = [=](double x) { return x < 0 ? left_stress : right_stress; };
   s.boundary = {.left = ends, .right = ends};
-  s.spacing = default_spacing / std::cosh(rupture::psi_of_stress(left_stress));
+  s.spacing = default_spacing / std::cosh(train::psi_of_stress(left_stress));
   Run run(s, {.times = {0, end}, .x_edges = {left, 0, right}}, {});
   run.go();
-  const pulse::Snapshot &first = run.snapshots().front(), &last = run.snapshots().back();
+  const output::Snapshot &first = run.snapshots().front(), &last = run.snapshots().back();
   const double before = first.energy.elastic + first.energy.kinetic;
   return {last.slip_at_origin, run.balance().energy_drift, 1 - (last.energy.elastic + last.energy.kinetic) / before};
 }

@@ -5,7 +5,7 @@
 
 #include "slipfront/chain/run.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/rupture/inverse.hpp"
+#include "slipfront/train/at_rest.hpp"
 
 namespace {
 
@@ -23,8 +23,8 @@ Stretched uniform(double stress, double half, double scale) {
   return s;
 }
 
-pulse::Schedule until(const Stretched& s, double end, int cells = 40) {
-  pulse::Schedule when{.times = {0, end}, .x_edges = {}};
+output::Schedule until(const Stretched& s, double end, int cells = 40) {
+  output::Schedule when{.times = {0, end}, .x_edges = {}};
   for (int i = 0; i <= cells; ++i) when.x_edges.push_back(s.left + (s.right - s.left) * i / cells);
   return when;
 }
@@ -42,7 +42,7 @@ TEST(ChainChecks, WorkOfAFastForceBalances) {
     s.forcing = [](double x, double t) { return t < 30 ? 0.4 * std::cos(1.3 * t) * (1 + 0.2 * std::sin(x / 7)) : 0; };
     chain::Run run(s, until(s, 60), {});
     run.go();
-    const pulse::Energy &first = run.snapshots().front().energy, &last = run.snapshots().back().energy;
+    const output::Energy &first = run.snapshots().front().energy, &last = run.snapshots().back().energy;
     const double gained = last.elastic + last.kinetic - first.elastic - first.kinetic;
     const bool smooth = f.law == FrictionLaw::none || f.law == FrictionLaw::viscous;
     EXPECT_GT(last.supplied, 10) << f.coefficient;
@@ -67,7 +67,7 @@ TEST(ChainChecks, DislocationsAreSlowerThanC) {
   s.boundary = {.left = End::free, .right = End::fixed};
   chain::Run run(s, until(s, 6), {});
   run.go();
-  const pulse::Profile& p = run.snapshots().back().profile;
+  const output::Profile& p = run.snapshots().back().profile;
   int moving = 0;
   for (std::size_t i = 0; i < p.U.size(); ++i) {
     EXPECT_FALSE(std::fabs(p.U[i]) >= 1) << i;
@@ -127,8 +127,8 @@ TEST(ChainChecks, FrontsAreSlowerThanC) {
   for (const double stress : {0.7, 0.855, 2.0, 4.0}) {
     Stretched s = uniform(stress, 4, 200);
     s.stress = [stress](double x) { return x < 0 ? stress : 0; };
-    s.spacing = default_spacing / std::cosh(rupture::psi_of_stress(stress));
-    pulse::Schedule when = until(s, 3, 200);
+    s.spacing = default_spacing / std::cosh(train::psi_of_stress(stress));
+    output::Schedule when = until(s, 3, 200);
     when.times = {0, 0.5, 1, 2, 3};
     chain::Run run(s, when, {});
     run.go();

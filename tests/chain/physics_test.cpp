@@ -6,7 +6,7 @@
 #include "exact.hpp"
 #include "slipfront/chain/measure.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/rupture/inverse.hpp"
+#include "slipfront/train/at_rest.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace {
@@ -114,7 +114,7 @@ TEST(ChainInitial, EquilibriumOnASlopeOfContactStaysAtRest) {
   Problem p = line(0, length, 0.25);
   p.grid.sites -= 1;  // a ring
   const auto a = [length](double x) { return 1 + 0.05 * std::sin(2 * pi * x / length); };
-  const double J0 = train::averages(rupture::at_rest(1.2)).J;
+  const double J0 = train::averages(train::at_rest(1.2)).J;
   // Of each place, the stress a k(psi) of the psi with a J(psi) = J0.
   const auto stress = [&](double x) {
     double low = 1e-3, high = 3;

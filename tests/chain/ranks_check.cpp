@@ -16,8 +16,8 @@
 
 #include "cases.hpp"
 #include "slipfront/chain/measure.hpp"
-#include "slipfront/chain/ranks.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/ranks.hpp"
 
 namespace {
 

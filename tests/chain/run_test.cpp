@@ -24,8 +24,8 @@ chain::Stretched step(double scale, double C = 0) {
   return s;
 }
 
-pulse::Schedule schedule(std::vector<double> times) {
-  pulse::Schedule when{.times = std::move(times), .x_edges = {}};
+output::Schedule schedule(std::vector<double> times) {
+  output::Schedule when{.times = std::move(times), .x_edges = {}};
   for (int i = 0; i <= 40; ++i) when.x_edges.push_back(-3 + 0.1 * i);
   return when;
 }
@@ -35,7 +35,7 @@ TEST(ChainRun, FrictionlessStepTendsToTheClosedForm) {
   for (const double scale : {100.0, 400.0, 1600.0}) {
     chain::Run run(step(scale), schedule({0, 2 * pi}), {});
     EXPECT_TRUE(run.go());
-    const pulse::Snapshot& s = run.snapshots().back();
+    const output::Snapshot& s = run.snapshots().back();
     const double error = std::fabs(s.slip_at_origin / (2 * pi * exact.slip_velocity) - 1);
     EXPECT_LT(error * 2 * pi * exact.slip_velocity, 0.001 + 2 * pi / scale);  // one dislocation
     EXPECT_LT(run.balance().energy_drift, 1e-5);
@@ -73,7 +73,7 @@ TEST(ChainRun, UniformTrainInAnotherContactIsAtRest) {
 }
 
 TEST(ChainRun, SavedRunGoesOnToTheSameBits) {
-  const pulse::Schedule when = schedule({0, 0.5, 1});
+  const output::Schedule when = schedule({0, 0.5, 1});
   chain::Run whole(step(300, 0.5), when, {.threads = 2});
   whole.go();
   chain::Run cut(step(300, 0.5), when, {});

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "slipfront/error.hpp"
-#include "slipfront/rupture/inverse.hpp"
+#include "slipfront/train/at_rest.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace {
@@ -17,7 +17,7 @@ using std::numbers::pi;
 
 /// A uniform train in motion between free ends, which it does not feel yet.
 Chain moving_train(double U, double stress) {
-  const State state{std::atanh(U), rupture::psi_of_stress(stress)};
+  const State state{std::atanh(U), train::psi_of_stress(stress)};
   Problem problem;
   problem.grid = {-100, 0.25, 801};
   Motion motion;
@@ -35,7 +35,7 @@ Chain moving_train(double U, double stress) {
 TEST(ChainSmooth, AverageOfATrainIsThatOfTheoryWhereverTheWindow) {
   const double U = 0.3, stress = 0.855;
   const Chain chain = moving_train(U, stress);
-  const State state{std::atanh(U), rupture::psi_of_stress(stress)};
+  const State state{std::atanh(U), train::psi_of_stress(stress)};
   const train::Averages exact = train::averages(state);
   for (double x = 0; x < 8; x += 0.7) {
     const SmoothAverage a = smooth_average(chain, x, 60, chain.time());

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "slipfront/chain/run.hpp"
-#include "slipfront/rupture/inverse.hpp"
+#include "slipfront/train/at_rest.hpp"
 
 namespace {
 
@@ -34,7 +34,7 @@ double drift_of(const Case& c, double end = 2 * pi) {
   s.stress = [c](double x) { return x < 0 ? c.left : c.right; };
   s.boundary = {.left = c.ends, .right = c.ends, .periodic = c.periodic};
   s.model = c.model;
-  s.spacing = (c.model == Model::lattice ? 0.3 : default_spacing) / std::cosh(rupture::psi_of_stress(c.left));
+  s.spacing = (c.model == Model::lattice ? 0.3 : default_spacing) / std::cosh(train::psi_of_stress(c.left));
   Run run(s, {.times = {0, end}, .x_edges = {s.left, 0, s.right}}, {});
   run.go();
   return run.balance().energy_drift;

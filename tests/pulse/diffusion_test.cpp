@@ -10,7 +10,7 @@
 
 #include "slipfront/elliptic/complete.hpp"
 #include "slipfront/pulse/solver.hpp"
-#include "slipfront/rupture/inverse.hpp"
+#include "slipfront/train/at_rest.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace {
@@ -59,7 +59,7 @@ struct Diffusion {
 
   /// W(0) sqrt(C t): k g at x = 0.
   double slip_velocity(double stress) const {
-    const double psi = rupture::psi_of_stress(stress);
+    const double psi = train::psi_of_stress(stress);
     double slow = 1e-6, fast = 10;
     for (int i = 0; i < 100; ++i) {
       const double middle = std::sqrt(slow * fast);

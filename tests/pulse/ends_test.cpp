@@ -101,7 +101,7 @@ TEST(Ends, AtAFreeEndDislocationsLeave) {
 }
 
 TEST(Ends, ARunWhoseCellsCameInResumesToTheSameBits) {
-  const Schedule schedule{.times = {0, 10}, .x_edges = {-4, 0, 4}};
+  const output::Schedule schedule{.times = {0, 10}, .x_edges = {-4, 0, 4}};
   pulse::Run whole(loaded(20), schedule), cut(loaded(20), schedule);
   whole.go();
   int steps = 0;

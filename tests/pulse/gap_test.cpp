@@ -90,7 +90,7 @@ TEST(Gap, ProfileKnowsTheGap) {
   for (int i = -40; i <= 40; ++i) edges.push_back(i * 0.1);
   pulse::Run run(two_sides(1, 100), {.times = {0, 0.5}, .x_edges = edges});
   run.go();
-  const Profile& profile = run.snapshots().back().profile;
+  const output::Profile& profile = run.snapshots().back().profile;
   EXPECT_EQ(profile.k[40], 0);
   EXPECT_EQ(profile.W[40], 0);
   EXPECT_EQ(profile.slip[40], 0);
@@ -112,7 +112,7 @@ TEST(Gap, StreamsThatMeetAreFoundAndCostEnergy) {
     std::vector<double> edges{p.left, 0, p.right};
     pulse::Run run(p, {.times = {0, 2, 10}, .x_edges = edges});
     run.go();
-    const Energy before = run.snapshots()[1].energy, after = run.snapshots()[2].energy;
+    const output::Energy before = run.snapshots()[1].energy, after = run.snapshots()[2].energy;
     EXPECT_NEAR(before.shocks, 0, 2e-2 * (before.kinetic + before.dissipated));
     const double motion = after.kinetic + after.dissipated + after.shocks;
     const double time = run.solver().cells().crossing_time;

@@ -10,7 +10,7 @@
 #include "slipfront/modulation/friction.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
 #include "slipfront/pulse/solver.hpp"
-#include "slipfront/rupture/inverse.hpp"
+#include "slipfront/train/at_rest.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace {
@@ -41,7 +41,7 @@ struct Motion {
 
   State state(double x, double t) const {  // k = a pi cosh phi cosh psi / K
     const double k = density(x, t), U = flux(x, t) / k;
-    return {std::atanh(U), rupture::psi_of_stress(k / contact(x) * std::sqrt(1 - U * U))};
+    return {std::atanh(U), train::psi_of_stress(k / contact(x) * std::sqrt(1 - U * U))};
   }
   train::Averages at(double x, double t) const { return train::averages(state(x, t), contact(x)); }
 

@@ -8,9 +8,9 @@
 #include "slipfront/error.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
 #include "slipfront/pulse/run.hpp"
-#include "slipfront/rupture/inverse.hpp"
 #include "slipfront/rupture/relations.hpp"
 #include "slipfront/rupture/riemann.hpp"
+#include "slipfront/train/at_rest.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace {
@@ -29,8 +29,8 @@ Problem smooth(double C, modulation::Closure closure) {
           .cells = 400};
 }
 
-Schedule schedule(double end) {
-  Schedule s{.times = {0, end}, .x_edges = {}, .threshold = 1e-3};
+output::Schedule schedule(double end) {
+  output::Schedule s{.times = {0, end}, .x_edges = {}, .threshold = 1e-3};
   for (int i = 0; i <= 200; ++i) s.x_edges.push_back(-8 + 14 * i / 200.0);
   return s;
 }
@@ -42,7 +42,7 @@ TEST(Observe, EnergyIsAccountedFor) {
     problem.cells = 800;
     pulse::Run run(problem, schedule(3));
     run.go();
-    const Energy a = run.snapshots().front().energy, b = run.snapshots().back().energy;
+    const output::Energy a = run.snapshots().front().energy, b = run.snapshots().back().energy;
     EXPECT_NEAR(a.kinetic, 0, 1e-14 * a.elastic);
     EXPECT_GT(b.dissipated, 1e-4);
     EXPECT_NEAR(a.elastic, b.elastic + b.kinetic + b.dissipated, 1e-3 * b.dissipated);
@@ -60,7 +60,7 @@ TEST(Observe, PeakIsNotBelowTheOrigin) {
       problem.cells = cells;
       pulse::Run run(problem, schedule(end));
       run.go();
-      const Snapshot& last = run.snapshots().back();
+      const output::Snapshot& last = run.snapshots().back();
       EXPECT_GE(std::fabs(last.peak_slip_velocity), std::fabs(last.slip_velocity_at_origin)) << cells << " " << end;
     }
 }
@@ -87,7 +87,7 @@ TEST(Observe, EnergyThroughTheEndsIsAccountedFor) {
     p.longest_step = 0.2;
     pulse::Run run(p, {.times = {0, 20}, .x_edges = {-4, 0, 4}});
     run.go();
-    const Energy e = run.snapshots().back().energy;
+    const output::Energy e = run.snapshots().back().energy;
     EXPECT_GT(e.through_ends, 0.1);
     EXPECT_NEAR(e.shocks, 0, 1e-5 * e.supplied);
   }
@@ -101,7 +101,7 @@ TEST(Observe, ShockTakesWhatTheRiemannProblemSays) {
             .left = -8,
             .right = 8,
             .cells = 1600};
-  const auto solution = rupture::solve_riemann(rupture::at_rest(3), rupture::at_rest(0.5));
+  const auto solution = rupture::solve_riemann(train::at_rest(3), train::at_rest(0.5));
   pulse::Run run(p, {.times = {0, 2, 4}, .x_edges = {-8, 0, 8}});
   run.go();
   const train::Averages behind = train::averages(solution.star), ahead = train::averages(solution.right);
@@ -139,11 +139,11 @@ TEST(Observe, TrailingEdgeDoesNotKnowFriction) {
               .left = -3,
               .right = 1,
               .cells = 200};
-    Schedule when = schedule(2 * pi);
+    output::Schedule when = schedule(2 * pi);
     when.threshold = 0.1;
     pulse::Run run(p, when);
     run.go();
-    const Fronts f = run.snapshots().back().fronts;
+    const output::Fronts f = run.snapshots().back().fronts;
     const double characteristic = -rupture::from_stress(0.855).rupture_velocity * 2 * pi;
     EXPECT_NEAR(f.trailing_characteristic, characteristic, 1e-12);
     // Measured: within two cells of it as long as friction leaves the foot, e^(-C t / 2), above a thousandth.
@@ -166,7 +166,7 @@ TEST(Observe, AMirrorSwapsNoNames) {
     pulse::Run run(p, schedule(2)), mirror(mirrored, schedule(2));
     run.go();
     mirror.go();
-    const Fronts a = run.snapshots().back().fronts, b = mirror.snapshots().back().fronts;
+    const output::Fronts a = run.snapshots().back().fronts, b = mirror.snapshots().back().fronts;
     EXPECT_LT(a.trailing, -0.7);
     EXPECT_NEAR(a.trailing, -b.trailing, 1e-9);
     EXPECT_NEAR(a.leading, -b.leading, 1e-9);
@@ -178,13 +178,13 @@ TEST(Observe, AMirrorSwapsNoNames) {
 
 /// Fronts do not depend on how often one looks.
 TEST(Observe, FrontsDoNotDependOnOutputTimes) {
-  Schedule often = schedule(2);
+  output::Schedule often = schedule(2);
   for (double t = 1.9; t > 0.05; t -= 0.1) often.times.insert(often.times.begin() + 1, t);
   pulse::Run rarely(smooth(0.5, modulation::Closure::consistent), schedule(2)),
       closely(smooth(0.5, modulation::Closure::consistent), often);
   rarely.go();
   closely.go();
-  const Fronts a = rarely.snapshots().back().fronts, b = closely.snapshots().back().fronts;
+  const output::Fronts a = rarely.snapshots().back().fronts, b = closely.snapshots().back().fronts;
   EXPECT_NEAR(a.trailing, b.trailing, 1e-3);
   EXPECT_NEAR(a.leading, b.leading, 1e-6);
 }
@@ -209,7 +209,7 @@ TEST(Run, SavedBetweenStepsContinuesToTheSameBits) {
 }
 
 TEST(Run, RefusesStateOfAnotherRun) {
-  const Schedule when = schedule(1);
+  const output::Schedule when = schedule(1);
   pulse::Run run(smooth(0.5, modulation::Closure::consistent), when);
   run.go();
   const std::string saved = run.saved();

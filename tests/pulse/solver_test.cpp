@@ -7,10 +7,10 @@
 
 #include "slipfront/error.hpp"
 #include "slipfront/modulation/conservation.hpp"
-#include "slipfront/rupture/inverse.hpp"
 #include "slipfront/rupture/pulse.hpp"
 #include "slipfront/rupture/relations.hpp"
 #include "slipfront/rupture/riemann.hpp"
+#include "slipfront/train/at_rest.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace {
@@ -121,7 +121,7 @@ TEST(Pulse, DenseTrainsRunIntoSparseOnes) {
       Solver s(p);
       s.advance_to(1);
       const auto exact =
-          rupture::solve_riemann({0, rupture::psi_of_stress(left)}, {0, rupture::psi_of_stress(right)}).star;
+          rupture::solve_riemann({0, train::psi_of_stress(left)}, {0, train::psi_of_stress(right)}).star;
       const auto view = s.view();
       constexpr int places = 91;
       double phi = 0, psi = 0;

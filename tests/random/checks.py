@@ -132,7 +132,8 @@ def outputs_change_nothing(case):
                       ("leading_front", max(1, scale["end"]))):
         if math.isnan(a[key]) or math.isnan(b[key]) or unit == 0:
             continue
-        error = max(abs(b[key] - case.half.summary[key]), case.stated_error(key)) / unit
+        coarse = case.half.summary[key]
+        error = max(0 if math.isnan(coarse) else abs(b[key] - coarse), case.stated_error(key)) / unit
         yield (f"steps: {key}", abs(a[key] - b[key]) / unit, 1e-5 + 2 * error, f"{a[key]:.6g}, with short steps {b[key]:.6g}")
 
 

@@ -32,7 +32,7 @@ std::string end_of(pulse::Run& run, const std::function<bool()>& interrupted, bo
 bool resumes(const char* path) {
   const scenario::Scenario s = scenario::read_scenario(record::read_text(path), path, {}, record::read_profile_table);
   const pulse::Problem problem = setup::pulse_problem(s);
-  const pulse::Schedule schedule = setup::pulse_schedule(s, problem);
+  const output::Schedule schedule = setup::pulse_schedule(s, problem);
   bool finished = false;
   pulse::Run whole(problem, schedule);
   const std::string end = end_of(whole, {}, finished);

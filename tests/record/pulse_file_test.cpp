@@ -16,7 +16,7 @@ namespace {
 
 using slipfront::FileError;
 using slipfront::InputError;
-using slipfront::pulse::Snapshot;
+using slipfront::output::Snapshot;
 using slipfront::record::Checkpoint;
 using slipfront::record::PulseMetadata;
 using slipfront::record::read_checkpoint;

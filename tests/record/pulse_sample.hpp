@@ -8,12 +8,12 @@
 #include "slipfront/record/pulse_file.hpp"
 
 /// Numbers that a lossy file would not bring back: NaN, infinity, -0, subnormal, all bits of the mantissa.
-inline std::vector<slipfront::pulse::Snapshot> sample_snapshots(std::size_t times, std::size_t cells) {
+inline std::vector<slipfront::output::Snapshot> sample_snapshots(std::size_t times, std::size_t cells) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  std::vector<slipfront::pulse::Snapshot> snapshots;
+  std::vector<slipfront::output::Snapshot> snapshots;
   for (std::size_t i = 0; i < times; ++i) {
     const double t = 0.1 * static_cast<double>(i);
-    slipfront::pulse::Profile profile;
+    slipfront::output::Profile profile;
     for (std::size_t j = 0; j < cells; ++j) {
       const double x = std::sin(static_cast<double>(1 + i * cells + j));
       profile.k.push_back(x * x);

@@ -11,9 +11,9 @@
 #include "slipfront/error.hpp"
 #include "slipfront/modulation/characteristics.hpp"
 #include "slipfront/modulation/conservation.hpp"
-#include "slipfront/rupture/inverse.hpp"
 #include "slipfront/rupture/pulse.hpp"
 #include "slipfront/rupture/relations.hpp"
+#include "slipfront/train/at_rest.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace {
@@ -66,7 +66,7 @@ TEST(Riemann, GivesTheFoundingTable) {
               {1.03, 0.4, 0.0772390381, 0.1074025664, 0.8016391862, 0.0860981059, -0.2007657047, 0.2143667970}};
   for (const auto& r : rows) {
     const RiemannSolution s =
-        rupture::solve_riemann({0, rupture::psi_of_stress(r.left)}, {0, rupture::psi_of_stress(r.right)});
+        rupture::solve_riemann({0, train::psi_of_stress(r.left)}, {0, train::psi_of_stress(r.right)});
     const train::Averages a = train::averages(s.star);
     EXPECT_NEAR(s.star.psi, r.psi, 5e-11);
     EXPECT_NEAR(std::tanh(s.star.phi), r.U, 5e-11);

@@ -13,7 +13,7 @@ TEST(ScenarioOverride, AppliesInOrderBeforeChecking) {
   EXPECT_EQ(s.output.times.size(), 2u);
   EXPECT_DOUBLE_EQ(s.forcing_at(1, 2), 0.2 * std::sin(1));
   EXPECT_EQ(s.title, "two words");
-  EXPECT_EQ(s.chain.model, ChainModel::lattice);
+  EXPECT_EQ(s.chain.model, chain::Model::lattice);
   EXPECT_EQ(s.contact_at(0), 2);
   EXPECT_EQ(*s.medium.poisson_ratio, 0.25);
 }

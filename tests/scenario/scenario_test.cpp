@@ -96,7 +96,7 @@ anything = nan
   EXPECT_EQ(s.pulse.threshold, 0.01);
   EXPECT_EQ(s.chain.scale, 4.0);
   EXPECT_EQ(*s.chain.spacing, 0.05);
-  EXPECT_EQ(s.chain.model, ChainModel::lattice);
+  EXPECT_EQ(s.chain.model, chain::Model::lattice);
   EXPECT_DOUBLE_EQ(*s.medium.shear_modulus, 30e9);
   EXPECT_DOUBLE_EQ(*s.medium.poisson_ratio, 0.3);
   EXPECT_DOUBLE_EQ(*s.medium.p_wave_speed, 6000);

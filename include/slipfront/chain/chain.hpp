@@ -9,9 +9,12 @@
 
 #include "slipfront/chain/problem.hpp"
 
+namespace slipfront {
+class Ranks;
+}
+
 namespace slipfront::chain {
 
-class Ranks;
 struct Inside;
 
 /// How a run is carried out; changes no bits of it.

@@ -5,12 +5,15 @@
 /// bits.
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "slipfront/chain/measure.hpp"
-#include "slipfront/pulse/snapshot.hpp"
+#include "slipfront/output/findings.hpp"
+#include "slipfront/output/sampled_integral.hpp"
+#include "slipfront/output/snapshot.hpp"
 
 namespace slipfront::chain {
 
@@ -38,19 +41,19 @@ Problem problem_of(const Stretched& stretched, double share_of_machine = 1);
 
 class Run {
  public:
-  Run(const Stretched& stretched, pulse::Schedule schedule, const Execution& execution);
+  Run(const Stretched& stretched, output::Schedule schedule, const Execution& execution);
   /// Continues a saved run. \throws InputError if it is of another.
-  Run(const Stretched& stretched, pulse::Schedule schedule, const Execution& execution, std::string_view saved,
-      std::vector<pulse::Snapshot> snapshots);
+  Run(const Stretched& stretched, output::Schedule schedule, const Execution& execution, std::string_view saved,
+      std::vector<output::Snapshot> snapshots);
 
   /// Goes on to the end or until `interrupted`, asked every tenth of a second or so, says so. Returns whether the end
   /// was reached.
   bool go(const std::function<bool()>& interrupted = {});
 
   const Chain& chain() const { return chain_; }
-  const pulse::Schedule& schedule() const { return schedule_; }
-  const std::vector<pulse::Snapshot>& snapshots() const { return snapshots_; }
-  bool can_checkpoint() const { return good_; }  ///< false after a NumericsError: not to be saved
+  const output::Schedule& schedule() const { return schedule_; }
+  const std::vector<output::Snapshot>& snapshots() const { return snapshots_; }
+  bool can_checkpoint() const { return can_checkpoint_; }  ///< false after a NumericsError: not to be saved
   bool finished() const { return snapshots_.size() == schedule_.times.size(); }
   std::string saved() const;
 
@@ -84,41 +87,40 @@ class Run {
   };
   static Start start(const Stretched& stretched, double share_of_machine);
   static Start start(const Stretched& stretched, const Execution& execution);
-  Run(Stretched stretched, pulse::Schedule schedule, const Execution& execution, const Start& start);
+  Run(Stretched stretched, output::Schedule schedule, const Execution& execution, const Start& start);
   double width_of_cell(std::size_t i) const;
-  double centre_of_cell(std::size_t i) const;
+  double middle_of_cell(std::size_t i) const;
+  double centre_of_cell(std::size_t i) const;  ///< of the window for its slip, which stays on the chain
   void look_at_start();
   void sample();
   void take();
   double driving_force() const;
-  struct Findings;
-  Findings findings() const;
-  void check_energy(Findings& findings) const;
-  void check_fronts(Findings& findings) const;
-  void check_barrier(Findings& findings) const;
-  void refuse_wrong_results() const;
+  output::Snapshot profile_at(double time) const;
+  void find_fronts(output::Snapshot& snapshot) const;
+  output::Findings findings() const;
+  void check_energy(const Balance& balance, output::Findings& findings) const;
+  void check_slip(output::Findings& findings) const;
+  void check_one_sign(const Balance& balance, output::Findings& findings) const;
+  void check_fronts(output::Findings& findings) const;
+  void check_barrier(output::Findings& findings) const;
+  void refuse(const output::Findings& findings) const;
 
   Stretched stretched_;
-  pulse::Schedule schedule_;
+  output::Schedule schedule_;
   Chain chain_;
   double window_ = 0, smooth_window_ = 0;
   long work_every_ = 1;
-  bool good_ = true;
-  std::vector<pulse::Snapshot> snapshots_;
+  bool can_checkpoint_ = true;
+  std::vector<output::Snapshot> snapshots_;
+  std::optional<output::Findings> final_findings_;  ///< of a run that is finished
   // At t = 0.
   std::vector<double> first_u_;  ///< averages over the output cells
   double first_u_at_origin_ = 0, first_energy_ = 0, first_charge_ = 0;
   long first_dislocations_ = 0;
   double driving_force_ = 0;  ///< the largest on a dislocation, as a force F of the scenario
   Work work_;                 ///< since then, of viscous friction that the chain itself does not meter
-  /// Integral of the velocity at x = 0 over the window of the slip, by samples, and by every other of them.
-  struct Passed {
-    double time = 0, velocity = 0, slip = 0;
-    double early_time = 0, early_velocity = 0, coarse_slip = 0;
-    double spread = 0;  ///< sum of squares of what each sample leaves open: the waves between samples are not seen
-    long samples = 0;
-  };
-  Passed passed_;
+  /// Integral of the velocity at x = 0 over the window of the slip. Its first sample is that of t = 0.
+  output::SampledIntegral slip_{.samples = -1};
 };
 
 }  // namespace slipfront::chain

@@ -30,6 +30,9 @@ struct AtPsi {
 /// The fields of AtPsi for psi > 0. \throws InputError otherwise.
 AtPsi at_psi(double psi);
 
+/// d(ln K) / d(psi) = -(E/K - m1) / s.
+inline double log_slope_of_K(const AtPsi& at) { return -at.above_m1 / at.s; }
+
 /// The same at the complementary modulus s = sqrt(m1) = tanh(psi), for 0 < s <= 0.97, where 1 - s has lost nothing. No
 /// checks.
 AtPsi at_modulus(double s);

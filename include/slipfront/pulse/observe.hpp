@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "slipfront/pulse/snapshot.hpp"
+#include "slipfront/output/snapshot.hpp"
 #include "slipfront/pulse/solver.hpp"
 
 namespace slipfront::pulse {
@@ -32,12 +32,12 @@ class TrailingCharacteristic {
   double speed_ = 0;
 };
 
-/// Everything of Snapshot. `x_edges` ascend; `threshold` is the observer's, as a share of the peak slip velocity.
-Snapshot observe(const Solver& solver, const std::vector<double>& x_edges, const TrailingCharacteristic& trailing,
-                 double threshold);
+/// Everything of a snapshot. `x_edges` ascend; `threshold` is the observer's, as a share of the peak slip velocity.
+output::Snapshot observe(const Solver& solver, const std::vector<double>& x_edges,
+                         const TrailingCharacteristic& trailing, double threshold);
 
 /// Of the interface now; `shocks` is left open (NaN), as it needs the energy at t = 0.
-Energy energy_of(const Solver& solver);
+output::Energy energy_of(const Solver& solver);
 
 /// |dislocations counted - those there must be|, over the latter. Counted by Simpson's rule over the density that the
 /// states of cells and faces mean; there must be those at t = 0 and those that came in. It is the error of the states,

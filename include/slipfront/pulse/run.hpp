@@ -9,23 +9,26 @@
 #include <string_view>
 #include <vector>
 
+#include "slipfront/output/findings.hpp"
+#include "slipfront/output/sampled_integral.hpp"
+#include "slipfront/output/snapshot.hpp"
 #include "slipfront/pulse/observe.hpp"
 
 namespace slipfront::pulse {
 
 class Run {
  public:
-  Run(Problem problem, Schedule schedule);
+  Run(Problem problem, output::Schedule schedule);
   /// Continues a saved run of the same problem and schedule. \throws InputError if it is of another.
-  Run(Problem problem, Schedule schedule, std::string_view saved, std::vector<Snapshot> snapshots);
+  Run(Problem problem, output::Schedule schedule, std::string_view saved, std::vector<output::Snapshot> snapshots);
 
   /// Goes on until the end or until `interrupted`, asked after every step, says so; the run may be saved from there.
   /// Returns whether the end was reached.
   bool go(const std::function<bool()>& interrupted = {});
 
   const Solver& solver() const { return solver_; }
-  const Schedule& schedule() const { return schedule_; }
-  const std::vector<Snapshot>& snapshots() const { return snapshots_; }
+  const output::Schedule& schedule() const { return schedule_; }
+  const std::vector<output::Snapshot>& snapshots() const { return snapshots_; }
   /// Wall time that the steps have taken, without laying cells and outputs.
   double stepping_seconds() const { return stepping_seconds_; }
   /// May be saved even after a NumericsError: a step that fails changes nothing.
@@ -52,25 +55,18 @@ class Run {
  private:
   void take();
   void sample();
-  struct Findings;
-  Findings findings() const;
-  void refuse_wrong_results() const;
+  output::Findings findings() const;
 
-  Schedule schedule_;
+  output::Schedule schedule_;
   Solver solver_;
   TrailingCharacteristic trailing_characteristic_;
   double stepping_seconds_ = 0;
   double first_energy_ = 0;
-  /// Integral of the slip velocity at x = 0 over samples, and over every other of them.
-  struct Passed {
-    double time = 0, velocity = 0, slip = 0, way = 0;  ///< way: integral of its size
-    double early_time = 0, early_velocity = 0, coarse_slip = 0;
-    double spread = 0;  ///< sum of squares of what each sample leaves open
-    double doubt = 0;   ///< integral of how wrong the velocity may be, from what it is in the cells around
-    long samples = 0;
-  };
-  Passed passed_;
-  std::vector<Snapshot> snapshots_;
+  output::SampledIntegral slip_;  ///< at x = 0, by the slip velocity there
+  double slip_size_ = 0;          ///< integral of the size of that velocity
+  double slip_doubt_ = 0;         ///< integral of how wrong it may be, from what it is in the cells around
+  std::vector<output::Snapshot> snapshots_;
+  std::optional<output::Findings> final_findings_;  ///< of a run that is finished
 };
 
 }  // namespace slipfront::pulse

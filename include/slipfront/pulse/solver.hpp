@@ -14,19 +14,13 @@
 #include <vector>
 
 #include "slipfront/modulation/friction.hpp"
+#include "slipfront/pulse/end.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::pulse {
 
 class Semidiscrete;
 class Staggered;
-
-/// What an end of the domain does where the stress reaches it.
-enum class End {
-  continued,  ///< the train goes on beyond, as it is at the end: dislocations come in and leave
-  fixed,      ///< nothing passes
-  free,       ///< no stress: dislocations leave, none comes in
-};
 
 /// What to solve.
 struct Problem {
@@ -137,6 +131,8 @@ class Solver {
   /// Where at t = 0 the dislocation with `charge` to its left was, one of a face; and the slip of a place that it has
   /// come to.
   double first_place(double charge) const;
+  double way_at(const View& view, std::size_t cell, double x) const;
+  double start_of(const View& view, double x) const;
   double charge_between(double from, double to) const;
   /// What Semidiscrete or Staggered are made from.
   template <class Setup>

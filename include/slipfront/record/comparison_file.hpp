@@ -19,7 +19,7 @@ inline constexpr Description scale_variable = {"scale", "of a chain: x and t str
 struct ComparedLevel {
   std::string name;
   std::optional<double> scale;  ///< of a chain
-  std::vector<pulse::Snapshot> snapshots;
+  std::vector<output::Snapshot> snapshots;
 };
 
 /// Writes `path` whole or not at all. Every level has a snapshot at each of `times`, or this throws

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "slipfront/pulse/snapshot.hpp"
+#include "slipfront/output/snapshot.hpp"
 
 namespace slipfront::record {
 
@@ -28,8 +28,8 @@ struct PulseMetadata {
 struct Checkpoint {
   std::string scenario_text;
   std::string version;
-  std::string solver_state;                ///< opaque
-  std::vector<pulse::Snapshot> snapshots;  ///< so far. A field of the profiles that the file was not to hold is empty
+  std::string solver_state;                 ///< opaque
+  std::vector<output::Snapshot> snapshots;  ///< so far. A field of the profiles that the file was not to hold is empty
   bool finished;
 };
 
@@ -40,7 +40,7 @@ std::vector<std::string> pulse_variables();
 /// byte by byte: no date, no host. Profiles must have as many cells as `x_edges` (fields that are not asked for may be
 /// empty) and times must ascend, or this throws std::invalid_argument. No snapshots are fine. \throws FileError (one
 /// line: path and reason), InputError for an unknown variable.
-void write_pulse(const std::string& path, const PulseMetadata& metadata, const std::vector<pulse::Snapshot>& snapshots,
+void write_pulse(const std::string& path, const PulseMetadata& metadata, const std::vector<output::Snapshot>& snapshots,
                  const std::string& solver_state, bool finished);
 
 /// Reads back what write_pulse wrote, to the bit. \throws FileError if the file is not there, not of slipfront, cut

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "slipfront/description.hpp"
-#include "slipfront/pulse/snapshot.hpp"
+#include "slipfront/output/snapshot.hpp"
 #include "slipfront/record/pulse_file.hpp"
 
 namespace slipfront::record {
@@ -29,18 +29,18 @@ std::string reference_of(const Description& about);
 /// Over time and x.
 struct FieldVariable {
   Description about;
-  std::vector<double> pulse::Profile::*values;
+  std::vector<double> output::Profile::*values;
   bool drop = false;  ///< written as the first snapshot less this one
 
   /// What is written of a snapshot.
-  std::vector<double> of(const pulse::Snapshot& snapshot, const pulse::Snapshot& first) const;
+  std::vector<double> of(const output::Snapshot& snapshot, const output::Snapshot& first) const;
 };
 
 /// Over time.
 struct ScalarVariable {
   Description about;
-  double (*get)(const pulse::Snapshot&);
-  void (*set)(pulse::Snapshot&, double);
+  double (*get)(const output::Snapshot&);
+  void (*set)(output::Snapshot&, double);
   bool may_be_absent = false;  ///< NaN where there is none
 };
 
@@ -53,9 +53,9 @@ std::vector<const FieldVariable*> chosen_fields(const std::vector<std::string>& 
 
 /// The variable in `written` to read `values` from, or null.
 const FieldVariable* holder(const std::vector<const FieldVariable*>& written,
-                            std::vector<double> pulse::Profile::*values);
+                            std::vector<double> output::Profile::*values);
 
 /// Every field of a profile, once.
-std::span<std::vector<double> pulse::Profile::*const> profile_fields();
+std::span<std::vector<double> output::Profile::*const> profile_fields();
 
 }  // namespace slipfront::record

@@ -17,9 +17,10 @@ namespace slipfront::run {
 std::vector<double> errors_of(const Result<pulse::Run>& fine, const scenario::Scenario& scenario,
                               const std::function<bool()>& interrupted);
 
-/// The cells that a relative tolerance (> 0) of slip, slip velocity and stress at x = 0 and of the peak needs, from the
-/// scenario's on in doublings; those of the scenario where `interrupted` said to stop. \throws NumericsError where
-/// 25,600 do not reach it.
-int cells_for(double tolerance, const scenario::Scenario& scenario, const std::function<bool()>& interrupted);
+/// The cells that a relative tolerance (1e-9 to 1) of slip, slip velocity and stress at x = 0 and of the peak needs,
+/// from the scenario's on in doublings; those of the scenario where `interrupted` said to stop. \throws InputError for
+/// another tolerance, or one for a run that is `resumed`; NumericsError where 25,600 cells do not reach it.
+int cells_for(double tolerance, bool resumed, const scenario::Scenario& scenario,
+              const std::function<bool()>& interrupted);
 
 }  // namespace slipfront::run

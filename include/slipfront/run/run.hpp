@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "slipfront/chain/ranks.hpp"
 #include "slipfront/chain/run.hpp"
 #include "slipfront/pulse/run.hpp"
+#include "slipfront/ranks.hpp"
 #include "slipfront/record/pulse_file.hpp"
 #include "slipfront/record/unfinished.hpp"
 #include "slipfront/run/summary.hpp"
@@ -27,7 +27,7 @@ struct Options {
   record::Output output = {};                         ///< default: none
   std::optional<record::Checkpoint> checkpoint = {};  ///< to go on from, as checkpoint_of reads it
   int threads = 1;                                    ///< of a chain
-  const chain::Ranks* ranks = nullptr;                ///< processes that share a chain, if any: all of them call
+  const Ranks* ranks = nullptr;                       ///< processes that share a chain, if any: all of them call
   /// Called after each step with where the run stands; returning true stops it. Null: it goes on to its end.
   std::function<bool(double time, long steps)> after_step = {};
   std::chrono::steady_clock::time_point begun = std::chrono::steady_clock::now();  ///< wall_seconds count from here
@@ -44,12 +44,12 @@ record::PulseMetadata metadata_of(const scenario::Scenario& scenario, const std:
 /// work.
 struct PulsePlan {
   pulse::Problem problem;
-  pulse::Schedule schedule;
+  output::Schedule schedule;
   setup::Estimate need;
 };
 struct ChainPlan {
   chain::Stretched chain;
-  pulse::Schedule schedule;
+  output::Schedule schedule;
   setup::Estimate need;
 };
 

@@ -1,16 +1,14 @@
 #pragma once
 /// \file
-/// psi from what is observed: four monotone relations, solved to full relative precision over their whole range.
+/// psi from what is observed: three monotone relations, solved to full relative precision over their whole range.
 
-#include "slipfront/train/state.hpp"
+#include "slipfront/train/at_rest.hpp"
 
 namespace slipfront::rupture {
 
-/// psi with pi cosh(psi) / K = stress, stress > 0 (the state of an interface at rest).
-double psi_of_stress(double stress);
-
-/// The interface at rest under this stress, >= 0; without stress it is empty.
-inline State at_rest(double stress) { return stress > 0 ? State{0, psi_of_stress(stress)} : State{}; }
+// The fourth, of a stress, belongs to trains.
+using train::at_rest;
+using train::psi_of_stress;
 
 /// psi with c0(psi) = V, 0 < V < 1.
 double psi_of_sound_speed(double V);

@@ -11,9 +11,11 @@
 #include <utility>
 #include <vector>
 
+#include "slipfront/chain/problem.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/medium/constants.hpp"
 #include "slipfront/modulation/friction.hpp"
+#include "slipfront/pulse/end.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::scenario {
@@ -40,33 +42,21 @@ struct Domain {
   std::optional<double> left, right;
 };
 
-/// What an end of the domain does to a pulse where the stress reaches it: the train goes on beyond, nothing passes, or
-/// dislocations leave and none comes in.
-enum class PulseEnd { continued, fixed, free };
-
 /// [pulse]
 struct PulseOptions {
   int cells = 400;          ///< >= 4
   double tolerance = 1e-6;  ///< of the adaptive time steps, where the source is stiff
   double threshold = 1e-3;  ///< of the observer who sees fronts, in units of the peak slip velocity
-  PulseEnd left = PulseEnd::continued, right = PulseEnd::continued;
+  pulse::End left = pulse::End::continued, right = pulse::End::continued;
   bool periodic = false;  ///< a ring: `left` and `right` do not count
 };
-
-enum class ChainModel {
-  sine_gordon,  ///< the continuum equation, on a grid
-  lattice,      ///< every site of the Frenkel-Kontorova chain
-};
-
-/// What holds an end of the chain.
-enum class ChainEnd { free, fixed, absorbing };
 
 /// [chain]
 struct ChainOptions {
   std::optional<double> scale;    ///< > 0: x and t stretched by it, friction divided by it; 1 where none is asked for
   std::optional<double> spacing;  ///< of the grid or lattice, > 0, in the chain's own (stretched) x
-  ChainModel model = ChainModel::sine_gordon;
-  ChainEnd left = ChainEnd::fixed, right = ChainEnd::fixed;
+  chain::Model model = chain::Model::sine_gordon;
+  chain::End left = chain::End::fixed, right = chain::End::fixed;
   bool periodic = false;         ///< a ring: `left` and `right` do not count
   std::optional<double> window;  ///< of averages at x = 0, > 0, in the scenario's x
 };

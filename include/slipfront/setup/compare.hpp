@@ -22,7 +22,7 @@ struct Level {
   std::optional<double> scale = {};          ///< of a chain
   std::optional<double> window = {};         ///< of a chain: of the slip at x = 0
   std::optional<double> smooth_window = {};  ///< of a chain: of velocities and stresses
-  std::vector<pulse::Snapshot> snapshots = {};
+  std::vector<output::Snapshot> snapshots = {};
   std::vector<std::string> warnings = {};  ///< of the run, a sentence each
   double wall_seconds = 0;
 };
@@ -30,7 +30,7 @@ struct Level {
 /// What there is to run, laid out and checked.
 struct Comparison {
   pulse::Problem problem;
-  pulse::Schedule schedule;
+  output::Schedule schedule;
   std::optional<Level> exact;  ///< the closed form, where there is one
   std::vector<chain::Stretched> chains;
   std::size_t levels() const { return chains.size() + (exact ? 3 : 2); }
@@ -50,13 +50,13 @@ bool run_levels(const Comparison& comparison, int threads, std::vector<Level>& l
 /// The closed form over the same output grid: the exact Riemann problem (Eqs. 8-10 where the right side is empty).
 /// Nothing where there is none: friction, forcing, a contact profile, no step, or waves that reach an end of the
 /// domain.
-std::optional<Level> closed_form(const scenario::Scenario& scenario, const pulse::Schedule& schedule);
+std::optional<Level> closed_form(const scenario::Scenario& scenario, const output::Schedule& schedule);
 
 /// A quantity that the levels are compared by, at the end of the run.
 struct Quantity {
   const char* key;
   const char* heading;  ///< of a column
-  double (*get)(const pulse::Snapshot&);
+  double (*get)(const output::Snapshot&);
 };
 const std::vector<Quantity>& compared_quantities();
 

@@ -13,7 +13,7 @@ pulse::Problem pulse_problem(const scenario::Scenario& scenario);
 
 /// When and where to look at it: t = 0, the output times, the end. \throws InputError if what is to be looked at would
 /// not fit into the memory (estimate.hpp).
-pulse::Schedule pulse_schedule(const scenario::Scenario& scenario, const pulse::Problem& problem);
+output::Schedule pulse_schedule(const scenario::Scenario& scenario, const pulse::Problem& problem);
 
 /// Lays the cells of a problem and forgets them; of very many, some tell what is wrong. \throws InputError as
 /// pulse::Run.

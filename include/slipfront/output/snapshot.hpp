@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace slipfront::pulse {
+namespace slipfront::output {
 
 /// When and where to look at a run.
 struct Schedule {
@@ -65,4 +65,4 @@ struct Snapshot {
   double peak_position;
 };
 
-}  // namespace slipfront::pulse
+}  // namespace slipfront::output

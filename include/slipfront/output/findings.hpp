@@ -1,10 +1,12 @@
 #pragma once
+/// \file
+/// What a run finds wrong in its own results.
 
 #include <cmath>
 #include <string>
 #include <vector>
 
-namespace slipfront {
+namespace slipfront::output {
 
 /// What a run finds wrong or doubtful in its own results: sentences for the user, and the worst violation among them.
 struct Findings {
@@ -24,4 +26,4 @@ struct Findings {
   bool wrong_results() const { return size > wrong; }
 };
 
-}  // namespace slipfront
+}  // namespace slipfront::output

@@ -1,4 +1,4 @@
-#include "slipfront/chain/ranks.hpp"
+#include "slipfront/ranks.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -15,7 +15,7 @@
 #include <cstdint>
 #endif
 
-namespace slipfront::chain {
+namespace slipfront {
 namespace {
 
 /// One rank is its own neighbour around a ring.
@@ -200,4 +200,4 @@ void Ranks::exchange(std::span<const double> to_left, std::span<const double> to
 
 #endif
 
-}  // namespace slipfront::chain
+}  // namespace slipfront

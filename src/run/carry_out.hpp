@@ -1,25 +1,29 @@
 #pragma once
-/// \file
-/// A run (of pulse or chain) carried to its end with checkpoints.
 
 #include <chrono>
 #include <functional>
 #include <string>
 
-#include "slipfront/chain/ranks.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/ranks.hpp"
 #include "slipfront/record/pulse_file.hpp"
 #include "slipfront/record/unfinished.hpp"
 
 namespace slipfront::run {
 
+using Clock = std::chrono::steady_clock;
+
+inline double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
 /// Where a run is written to, and by whom.
 struct CheckpointOptions {
   record::Output output;
   record::PulseMetadata metadata;
-  double disk = 0;                      ///< bytes that the file will need, about
-  bool resumed = false;                 ///< what the run went on from is in a file
-  const chain::Ranks* ranks = nullptr;  ///< that share the run, if any: all of them call
+  double disk = 0;               ///< bytes that the file will need, about
+  bool resumed = false;          ///< what the run went on from is in a file
+  const Ranks* ranks = nullptr;  ///< that share the run, if any: all of them call
 };
 
 /// Carries `run` on until its end or until `after_step` says to stop, and writes it: at the start (a path that cannot
@@ -28,10 +32,6 @@ struct CheckpointOptions {
 /// NumericsError, after what was computed has been written; FileError.
 template <class Run>
 bool carry_out(Run& run, const CheckpointOptions& options, const std::function<bool()>& after_step) {
-  using Clock = std::chrono::steady_clock;
-  const auto seconds_since = [](Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-  };
   const bool first = !options.ranks || options.ranks->rank() == 0;
   const auto agreed = [&](bool mine) { return options.ranks ? options.ranks->any(mine) : mine; };
   auto written = Clock::now();

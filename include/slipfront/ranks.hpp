@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace slipfront::chain {
+namespace slipfront {
 
 /// One process by itself, or all that mpirun started. Calls marked (all) have to be made by all ranks in the same
 /// order. None is for several threads at a time.
@@ -62,4 +62,4 @@ class Ranks {
   mutable bool agreed_ = false;  ///< the last error was thrown by all ranks
 };
 
-}  // namespace slipfront::chain
+}  // namespace slipfront

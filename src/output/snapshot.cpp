@@ -1,10 +1,10 @@
-#include "slipfront/pulse/snapshot.hpp"
+#include "slipfront/output/snapshot.hpp"
 
 #include <cmath>
 #include <cstddef>
 #include <limits>
 
-namespace slipfront::pulse {
+namespace slipfront::output {
 
 Observed observed_fronts(const std::vector<double>& x, const std::vector<double>& speed, double level, double left,
                          double right) {
@@ -20,4 +20,4 @@ Observed observed_fronts(const std::vector<double>& x, const std::vector<double>
   return {first > 0 ? crossing(first - 1, first) : left, last < n ? crossing(last, last - 1) : right};
 }
 
-}  // namespace slipfront::pulse
+}  // namespace slipfront::output

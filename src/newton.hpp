@@ -5,7 +5,7 @@
 
 #include "slipfront/error.hpp"
 
-namespace slipfront::rupture {
+namespace slipfront {
 
 /// A residual and its derivative with respect to ln x.
 struct Residual {
@@ -27,4 +27,4 @@ double newton_in_log(double x, Function&& function, const char* what) {
   throw NumericsError(std::string("no convergence for ") + what);
 }
 
-}  // namespace slipfront::rupture
+}  // namespace slipfront
