@@ -12,6 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using slipfront::finite_fault::FaultPulse;
+using slipfront::finite_fault::pulse_quantities;
 using slipfront::inference::answer_quantities;
 using slipfront::inference::bound_quantities;
 using slipfront::inference::Posterior;
@@ -20,7 +21,6 @@ using slipfront::results::answer_of;
 using slipfront::results::event_numbers;
 using slipfront::results::EventResult;
 using slipfront::results::joined;
-using slipfront::results::pulse_quantities;
 
 /// A cell of text. A spreadsheet runs one that begins like a formula: it gets an apostrophe before it (docs/events.md).
 std::string quoted(const std::string& text) {
@@ -82,19 +82,18 @@ Json pulse_json(const FaultPulse& p) {
     for (const auto& time : all) j.push_back(number_or_null(time));
     return j;
   };
-  return {{"reason", nullptr},
-          {"x_m", p.x},
-          {"stress", p.stress},
-          {"model_rupture_time_s", times(p.model_time)},
-          {"pulse_front_time_s", times(p.front_time)},
-          {"model_slip_m", p.model_slip},
-          {"pulse_slip_m", p.pulse_slip},
-          {"end_s", p.end},
-          {"columns_reached", p.reached},
-          {"front_velocity_ratio", number_or_null(p.front_velocity_ratio)},
-          {"correlation_of_slip", number_or_null(p.correlation_of_slip)},
-          {"slip_error", number_or_null(p.slip_error)},
-          {"contact_ratio", number_or_null(p.contact_ratio)}};
+  Json j = {{"reason", nullptr},
+            {"x_m", p.x},
+            {"stress", p.stress},
+            {"model_rupture_time_s", times(p.model_time)},
+            {"pulse_front_time_s", times(p.front_time)},
+            {"model_slip_m", p.model_slip},
+            {"pulse_slip_m", p.pulse_slip},
+            {"end_s", p.end},
+            {"columns_reached", p.reached}};
+  for (const auto& q : pulse_quantities())  // without "pulse_", which the object says
+    if (!q.is_count) j[std::string(q.about.name.substr(6))] = number_or_null(q.get(p));
+  return j;
 }
 
 }  // namespace

@@ -133,4 +133,14 @@ py::dict evaluate_all(const std::vector<Source>& sources, const py::dict& option
 
 }  // namespace
 
-void bind_event(py::module_& m) { m.def("event", evaluate_all); }
+void bind_event(py::module_& m) {
+  m.def("event", evaluate_all);
+  /// (name, dimensional_unit, label) of each quantity of a fault's state.
+  m.def("event_quantities", [] {
+    py::list all;
+    for (const Quantity& q : quantities())
+      all.append(py::make_tuple(text(std::string(q.about.name)), text(std::string(q.about.dimensional_unit)),
+                                text(std::string(q.label))));
+    return all;
+  });
+}

@@ -152,4 +152,24 @@ FaultPulse pulse_along_fault(const std::vector<LocalState>& states, double stres
   return p;
 }
 
+std::span<const PulseQuantity> pulse_quantities() {
+  static constexpr PulseQuantity quantities[] = {
+      {{"pulse_front_velocity_ratio", "velocity of the front, pulse over model", "", "Eqs. 6-7"},
+       [](const FaultPulse& p) { return p.front_velocity_ratio; }},
+      {{"pulse_correlation_of_slip", "correlation of slip along strike, pulse and model", "", "Eqs. 6-7"},
+       [](const FaultPulse& p) { return p.correlation_of_slip; }},
+      {{"pulse_columns", "columns of the model along strike", "", ""},
+       [](const FaultPulse& p) { return std::optional(static_cast<double>(p.x.size())); },
+       true},
+      {{"pulse_columns_reached", "of these, reached by the pulse's front", "", ""},
+       [](const FaultPulse& p) { return std::optional(static_cast<double>(p.reached)); },
+       true},
+      {{"pulse_slip_error", "largest slip ahead of the front, exactly 0, over the largest slip", "", ""},
+       [](const FaultPulse& p) { return p.slip_error; }},
+      {{"pulse_contact_ratio", "A that the size of the model's slip says", "", "Eq. 1"},
+       [](const FaultPulse& p) { return p.contact_ratio; }},
+  };
+  return quantities;
+}
+
 }  // namespace slipfront::finite_fault

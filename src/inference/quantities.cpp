@@ -16,7 +16,7 @@ using Role = Quantity::Role;
   &FaultQuantities<double>::name, &FaultQuantities<std::optional<Inferred>>::name, \
       &FaultQuantities<std::optional<Quantiles>>::name
 
-// Name, long name, unit to multiply by, equation, label on an axis; long name in an answer; role; in the posterior.
+// Name, long name, unit to multiply by, equation; long name in an answer; role; in the posterior; members; axis label.
 constexpr Quantity declarations[] = {
     {{"rupture_velocity_m_s", "rupture velocity, in m/s", "", "Eqs. 8-10"},
      "",
@@ -27,12 +27,14 @@ constexpr Quantity declarations[] = {
      "",
      Role::closed_form,
      false,
-     MEMBER(rupture_velocity)},
+     MEMBER(rupture_velocity),
+     "rupture velocity |V−|"},
     {{"stress", "Sigma-, stress before the rupture", "mu A / pi", "Eqs. 8-10"},
      "",
      Role::closed_form,
      true,
-     MEMBER(stress)},
+     MEMBER(stress),
+     "initial stress Σ−"},
     {{"frictionless_slip_velocity", "slip velocity W(0) as if there were no friction", "c A / pi", "Eqs. 8-10"},
      "",
      Role::closed_form,
@@ -52,12 +54,14 @@ constexpr Quantity declarations[] = {
      "A, real to nominal contact area: given, or as if there were no friction",
      Role::closed_form,
      true,
-     MEMBER(contact_ratio)},
+     MEMBER(contact_ratio),
+     "contact ratio A"},
     {{"damping_number", "Gamma = C T", "", "Eq. 7"},
      "Gamma = C T; needs friction",
      Role::friction,
      true,
-     MEMBER(damping_number)},
+     MEMBER(damping_number),
+     "damping number Γ"},
     {{"friction_coefficient", "C of viscous friction", "", "Eq. 7"},
      "",
      Role::friction,

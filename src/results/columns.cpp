@@ -8,7 +8,8 @@
 namespace slipfront::results {
 
 using catalogue::Quantiles;
-using finite_fault::FaultPulse;
+using finite_fault::pulse_quantities;
+using finite_fault::PulseQuantity;
 using inference::answer_quantities;
 using inference::bound_quantities;
 using inference::Interval;
@@ -101,24 +102,6 @@ std::string_view unit_of(std::string_view name) {
        {std::pair<std::string_view, std::string_view>{"_m_s", "m s-1"}, {"_pa", "Pa"}, {"_pa_bound", "Pa"}})
     if (name.ends_with(end)) return unit;
   return "1";
-}
-
-std::span<const PulseQuantity> pulse_quantities() {
-  static constexpr PulseQuantity quantities[] = {
-      {{"pulse_front_velocity_ratio", "velocity of the front, pulse over model", "", "Eqs. 6-7"},
-       [](const FaultPulse& p) { return p.front_velocity_ratio; }},
-      {{"pulse_correlation_of_slip", "correlation of slip along strike, pulse and model", "", "Eqs. 6-7"},
-       [](const FaultPulse& p) { return p.correlation_of_slip; }},
-      {{"pulse_columns", "columns of the model along strike", "", ""},
-       [](const FaultPulse& p) { return std::optional(static_cast<double>(p.x.size())); }},
-      {{"pulse_columns_reached", "of these, reached by the pulse's front", "", ""},
-       [](const FaultPulse& p) { return std::optional(static_cast<double>(p.reached)); }},
-      {{"pulse_slip_error", "largest slip ahead of the front, exactly 0, over the largest slip", "", ""},
-       [](const FaultPulse& p) { return p.slip_error; }},
-      {{"pulse_contact_ratio", "A that the size of the model's slip says", "", "Eq. 1"},
-       [](const FaultPulse& p) { return p.contact_ratio; }},
-  };
-  return quantities;
 }
 
 std::vector<NumberColumn> number_columns(const ColumnChoice& choice) {

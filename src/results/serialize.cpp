@@ -22,13 +22,6 @@ void walk_posterior(Io& io, P& p) {
   io(p.samples), io(p.seed);
 }
 
-template <class Io, class P>
-void walk_pulse(Io& io, P& p) {
-  io(p.reason), io(p.x), io(p.stress), io(p.model_time), io(p.front_time), io(p.model_slip), io(p.pulse_slip);
-  io(p.end), io(p.reached), io(p.front_velocity_ratio), io(p.correlation_of_slip), io(p.slip_error);
-  io(p.contact_ratio);
-}
-
 class Put {
  public:
   template <class T>
@@ -38,7 +31,7 @@ class Put {
   }
   void operator()(const std::string& text) { each(text); }
   void operator()(const Posterior& p) { walk_posterior(*this, p); }
-  void operator()(const FaultPulse& p) { walk_pulse(*this, p); }
+  void operator()(const FaultPulse& p) { visit_members(*this, p); }
   template <class T>
   void operator()(const std::optional<T>& value) {
     out_.put(static_cast<char>(value.has_value()));
@@ -70,7 +63,7 @@ class Get {
   void operator()(bool& value) { value = in_.get<char>() != 0; }
   void operator()(std::string& text) { each(text); }
   void operator()(Posterior& p) { walk_posterior(*this, p); }
-  void operator()(FaultPulse& p) { walk_pulse(*this, p); }
+  void operator()(FaultPulse& p) { visit_members(*this, p); }
   template <class T>
   void operator()(std::optional<T>& value) {
     value.reset();

@@ -4,9 +4,11 @@
 /// modulation equations on it, and its front and slip beside the model's. Assumptions: docs/events.md.
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "slipfront/description.hpp"
 #include "slipfront/finite_fault/along_fault.hpp"
 
 namespace slipfront::finite_fault {
@@ -27,6 +29,22 @@ struct FaultPulse {
   std::optional<double> slip_error = {};     ///< largest |slip| ahead of the front, exactly 0, over the largest slip
   std::optional<double> contact_ratio = {};  ///< A that the factor between slips says
 };
+
+/// What such a pulse is summed up by.
+struct PulseQuantity {
+  Description about;
+  std::optional<double> (*get)(const FaultPulse&);
+  bool is_count = false;
+};
+std::span<const PulseQuantity> pulse_quantities();
+
+/// Calls `visit` with each member, always in the same order: for what writes and reads a pulse. `Pulse` may be const.
+template <class Visit, class Pulse>
+void visit_members(Visit& visit, Pulse& p) {
+  visit(p.reason), visit(p.x), visit(p.stress), visit(p.model_time), visit(p.front_time), visit(p.model_slip);
+  visit(p.pulse_slip), visit(p.end), visit(p.reached), visit(p.front_velocity_ratio), visit(p.correlation_of_slip);
+  visit(p.slip_error), visit(p.contact_ratio);
+}
 
 /// `stress` is that of the event, `speed` its c in m/s; both > 0.
 FaultPulse pulse_along_fault(const std::vector<LocalState>& states, double stress, double speed);

@@ -65,6 +65,7 @@ struct Quantity {
   double FaultState::*state;
   std::optional<Inferred> FaultQuantities<std::optional<Inferred>>::*inferred;
   std::optional<Quantiles> FaultQuantities<std::optional<Quantiles>>::*quantiles;
+  std::string_view label = {};  ///< short name on the axis of a figure; empty: the long name
 };
 
 /// All of them.

@@ -47,13 +47,6 @@ struct TextColumn {
 std::vector<NumberColumn> number_columns(const ColumnChoice& choice);
 std::vector<TextColumn> text_columns(bool with_pulse);
 
-/// What a pulse through a finite-fault model is summed up by.
-struct PulseQuantity {
-  Description about;
-  std::optional<double> (*get)(const finite_fault::FaultPulse&);
-};
-std::span<const PulseQuantity> pulse_quantities();
-
 /// SI unit of a quantity, by what its name ends with (`_m_s`, `_pa`, `_pa_bound`); "1" where it is a pure number.
 std::string_view unit_of(std::string_view name);
 

@@ -8,7 +8,7 @@ import matplotlib
 from matplotlib.figure import Figure
 
 from .._files import write_bytes
-from .._slipfront import FileError, printable
+from .._slipfront import FileError, event_quantities, printable
 
 SHEET = pathlib.Path(__file__).resolve().parent.parent / "slipfront.mplstyle"
 
@@ -22,8 +22,6 @@ NAMES = {
     "U": "dislocation velocity U",
     "slip": "slip u",
     "stress_drop": "stress drop",
-    "stress": "initial stress Σ−",
-    "rupture_velocity": "rupture velocity |V−|",
     "leading_velocity": "velocity of the leading edge V+",
     "velocity_ratio": "|V−| / V+",
     "slip_velocity": "slip velocity W at x = 0",
@@ -32,20 +30,21 @@ NAMES = {
     "stress_at_origin": "stress Σ at x = 0",
     "peak_slip_velocity": "greatest slip velocity W",
     "peak_position": "position of the greatest W",
-    "contact_ratio": "contact ratio A",
-    "damping_number": "damping number Γ",
 }
 
 #: Units of quantities whose variable does not say (rows of CSV files).
 UNITS = {
-    "stress": "mu A / pi",
     "stress_at_origin": "mu A / pi",
-    "rupture_velocity": "c",
     "leading_velocity": "c",
     "slip_velocity": "c A / pi",
-    "frictionless_slip_velocity": "c A / pi",
-    "observed_slip_velocity": "c A / pi",
 }
+
+# Those of events are declared with the quantities (src/inference/quantities.cpp).
+for _name, _unit, _label in event_quantities():
+    if _label:
+        NAMES[_name] = _label
+    if _unit:
+        UNITS[_name] = _unit
 
 
 def styled(draw):
