@@ -80,7 +80,7 @@ struct Pulse {
       const double x = (static_cast<double>(i) - 200) / 60;
       phi.push_back(0.15 / (std::cosh(x) * std::cosh(x)));
       psi.push_back(0.002 + 0.05 * (1 - std::tanh(x)));
-      const auto c = modulation::carried({phi.back(), psi.back()});
+      const auto c = modulation::lagrangian_state({phi.back(), psi.back()});
       spacing.push_back(c.spacing);
       momentum.push_back(c.momentum);
     }

@@ -39,7 +39,7 @@ BENCHMARK(pulse_tanh)->Arg(50)->Arg(75)->Arg(100)->Arg(200)->Arg(400)->Unit(benc
 
 /// Conserved to primitive, the costliest part of a cell: started from 1 % off, as from one stage to the next.
 void resolve(benchmark::State& state) {
-  const auto c = modulation::carried({0.1, 0.05});
+  const auto c = modulation::lagrangian_state({0.1, 0.05});
   for (auto _ : state) benchmark::DoNotOptimize(modulation::resolve(c, 0.0505));
   state.SetItemsProcessed(state.iterations());
 }

@@ -3,6 +3,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace slipfront {
 class Ranks;
@@ -28,13 +29,14 @@ void add_common_options(CLI::App& command, CommonOptions& options, bool with_csv
 /// One line on stderr, beginning with the program's name.
 void complain(std::string_view line);
 
-/// Adds a subcommand; what it returns runs it, once the command line has been parsed, and gives the exit code.
+/// Runs a subcommand, once the command line has been parsed, and gives the exit code.
 using Runner = std::function<int()>;
-Runner add_relations(CLI::App& app);
-Runner add_event(CLI::App& app);
-Runner add_pulse(CLI::App& app);
-Runner add_chain(CLI::App& app);
-Runner add_compare(CLI::App& app);
+struct Command {
+  const char* name;
+  Runner run;
+};
+/// Adds all that are written in C++ (commands.cpp).
+std::vector<Command> add_commands(CLI::App& app);
 
 /// Lists the subcommands that are written in Python, in the help.
 void add_python_commands(CLI::App& app);

@@ -56,8 +56,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(0, 1);
   app.failure_message(CLI::FailureMessage::simple);
   Runner chosen = run_default;
-  const Runner relations = add_relations(app), event = add_event(app), pulse = add_pulse(app), chain = add_chain(app),
-               compare = add_compare(app);
+  const std::vector<Command> commands = add_commands(app);
   add_python_commands(app);
   if (the_ranks->rank() == 0) become_python(argc, argv);
   try {
@@ -70,11 +69,8 @@ int run(int argc, char** argv) {
     if (the_ranks->rank() == 0) complain(usage_error(app, error));
     return exit_input;
   }
-  if (app.got_subcommand("relations")) chosen = relations;
-  if (app.got_subcommand("event")) chosen = event;
-  if (app.got_subcommand("pulse")) chosen = pulse;
-  if (app.got_subcommand("chain")) chosen = chain;
-  if (app.got_subcommand("compare")) chosen = compare;
+  for (const Command& command : commands)
+    if (app.got_subcommand(command.name)) chosen = command.run;
   // Only a chain is shared; of anything else the first rank does it all.
   if (the_ranks->rank() > 0 && !app.got_subcommand("chain")) return exit_done;
   const int code = chosen();

@@ -10,7 +10,7 @@ using namespace slipfront;
 
 py::dict run_chain(const py::dict& arguments, int threads) {
   const auto begun = std::chrono::steady_clock::now();
-  const Asked a = asked(arguments);
+  const RunRequest a = request_of(arguments);
   const scenario::Scenario s = scenario_of(a);
   Watch watch(a.progress, s.end);
   run::Result<chain::Run> result;
@@ -28,7 +28,7 @@ py::dict run_chain(const py::dict& arguments, int threads) {
 
 py::dict check_chain(const py::dict& arguments) {
   using namespace pybind11::literals;
-  const scenario::Scenario s = scenario_of(asked(arguments));
+  const scenario::Scenario s = scenario_of(request_of(arguments));
   const run::ChainPlan plan = run::plan_chain(s);
   const chain::Problem p = chain::problem_of(plan.chain);
   return py::dict("title"_a = s.title, "sites"_a = p.grid.sites, "spacing"_a = p.grid.spacing,

@@ -35,7 +35,7 @@ py::list level_rows(const std::vector<Level>& levels) {
 }
 
 py::dict run_compare(const py::dict& arguments, const std::vector<double>& scales, int threads) {
-  const Asked a = asked(arguments);
+  const RunRequest a = request_of(arguments);
   const scenario::Scenario s = scenario_of(a);
   Watch watch(a.progress, s.end);
   std::vector<Level> levels;
@@ -67,7 +67,7 @@ py::dict run_compare(const py::dict& arguments, const std::vector<double>& scale
 }
 
 py::dict check_compare(const py::dict& arguments, const std::vector<double>& scales) {
-  const scenario::Scenario s = scenario_of(asked(arguments));
+  const scenario::Scenario s = scenario_of(request_of(arguments));
   const setup::Comparison c = setup::comparison_of(s, scales);
   setup::check_cells(s, c.problem);
   std::vector<double> chains;

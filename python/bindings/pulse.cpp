@@ -18,7 +18,7 @@ using namespace slipfront;
 
 py::dict run_pulse(const py::dict& arguments, std::optional<double> tolerance, bool with_errors) {
   const auto begun = std::chrono::steady_clock::now();
-  Asked a = asked(arguments);
+  RunRequest a = request_of(arguments);
   scenario::Scenario s = scenario_of(a);
   Watch watch(a.progress, s.end);
   run::Result<pulse::Run> result;
@@ -45,7 +45,7 @@ py::dict run_pulse(const py::dict& arguments, std::optional<double> tolerance, b
 
 py::dict check_pulse(const py::dict& arguments) {
   using namespace pybind11::literals;
-  const scenario::Scenario s = scenario_of(asked(arguments));
+  const scenario::Scenario s = scenario_of(request_of(arguments));
   const run::PulsePlan plan = run::plan_pulse(s);
   const pulse::Problem& problem = plan.problem;
   setup::check_cells(s, problem);

@@ -16,20 +16,20 @@
 using namespace slipfront;
 using output::Snapshot;
 
-Asked asked(const py::dict& arguments) {
+RunRequest request_of(const py::dict& arguments) {
   const auto text = [&](const char* key) { return arguments[key].cast<std::string>(); };
   if (const std::string output = text("output"); !output.empty()) record::require_netcdf_name(output, "output");
   return {text("text"),   text("path"),   arguments["set"].cast<std::vector<std::string>>(),
           text("output"), text("resume"), arguments["progress"]};
 }
 
-scenario::Scenario scenario_of(const Asked& asked) {
-  const bool is_file = !asked.path.empty();
-  return scenario::read_scenario(is_file ? record::read_text(asked.path) : asked.text,
-                                 is_file ? asked.path : "scenario", asked.set, record::read_profile_table);
+scenario::Scenario scenario_of(const RunRequest& request) {
+  const bool is_file = !request.path.empty();
+  return scenario::read_scenario(is_file ? record::read_text(request.path) : request.text,
+                                 is_file ? request.path : "scenario", request.set, record::read_profile_table);
 }
 
-record::Output output_of(const Asked& a) { return {a.output.empty() ? a.resume : a.output, a.resume}; }
+record::Output output_of(const RunRequest& a) { return {a.output.empty() ? a.resume : a.output, a.resume}; }
 
 namespace {
 

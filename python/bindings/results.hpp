@@ -10,19 +10,19 @@
 #include "slipfront/run/run.hpp"
 #include "slipfront/scenario/scenario.hpp"
 
-/// How a run was asked for.
-struct Asked {
+/// A run that Python asks for.
+struct RunRequest {
   std::string text, path;        ///< of the scenario: its text, or (if there is a path) where it lies
   std::vector<std::string> set;  ///< "table.key=value"
   std::string output, resume;    ///< empty: none
   py::object progress;
 };
-Asked asked(const py::dict& arguments);
+RunRequest request_of(const py::dict& arguments);
 
-slipfront::scenario::Scenario scenario_of(const Asked& asked);
+slipfront::scenario::Scenario scenario_of(const RunRequest& request);
 
 /// Where a run writes to.
-slipfront::record::Output output_of(const Asked& asked);
+slipfront::record::Output output_of(const RunRequest& request);
 
 /// One series of snapshots a level of theory.
 using Levels = std::vector<const std::vector<slipfront::output::Snapshot>*>;

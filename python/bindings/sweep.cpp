@@ -93,7 +93,7 @@ class SharedMemory {
 /// The points of a sweep, each on one thread; nothing here needs the GIL.
 class Sweep {
  public:
-  Sweep(std::string command, const Asked& scenario, std::vector<Overrides> points, Variables variables)
+  Sweep(std::string command, const RunRequest& scenario, std::vector<Overrides> points, Variables variables)
       : command_(std::move(command)),
         text_(scenario.text),
         file_(scenario.path.empty() ? "scenario" : scenario.path),
@@ -160,7 +160,7 @@ class Sweep {
 /// or Ctrl-C, stops the sweep.
 void sweep(const std::string& command, const py::dict& arguments, std::vector<Overrides> points, Variables variables,
            int threads, const py::object& deliver) {
-  Sweep work(command, asked(arguments), std::move(points), std::move(variables));
+  Sweep work(command, request_of(arguments), std::move(points), std::move(variables));
   std::exception_ptr raised;
   /// Whether `call` came back; else the sweep stops, and ends with the first error.
   const auto comes_back = [&](const auto& call) {

@@ -14,7 +14,7 @@ class Watch {
   /// `progress`: None, or called now and then with (time, end, steps, level).
   Watch(py::object progress, double end) : progress_(std::move(progress)), end_(end) {}
 
-  /// Asked after each step, without the GIL. Whether to stop: then finish() throws.
+  /// RunRequest after each step, without the GIL. Whether to stop: then finish() throws.
   bool operator()(double time, long steps, const std::string& level = {}) {
     return look([&](Clock::time_point now) {
       if (progress_.is_none() || now < tell_) return;

@@ -3,7 +3,7 @@
 import pickle
 
 from . import _slipfront
-from ._need import need
+from ._optional import import_optional
 from ._slipfront import NumericsError
 
 _most_points_a_task = 256
@@ -12,19 +12,19 @@ _most_tasks_a_thread = 256
 _tries = 3
 
 
-def run_points(command, asked, work, variables, threads, deliver):
+def run_points(command, request, work, variables, threads, deliver):
     """Runs `work`, [(point, overrides), ...], on threads without the GIL; deliver([(point, numbers, reason), ...]) is
     called here, several times a second. Results come in any order."""
     numbers = [point for point, _ in work]
-    _slipfront.sweep(command, asked, [overrides for _, overrides in work], variables, min(threads, len(work)),
+    _slipfront.sweep(command, request, [overrides for _, overrides in work], variables, min(threads, len(work)),
                      lambda rows: deliver([(numbers[i], values, reason) for i, values, reason in rows]))
 
 
 def _task(packed):
     """Points and results travel as bytes: Dask would look into every text of them."""
-    command, asked, work, variables = pickle.loads(packed)
+    command, request, work, variables = pickle.loads(packed)
     rows = []
-    run_points(command, asked, work, variables, 1, rows.extend)
+    run_points(command, request, work, variables, 1, rows.extend)
     return pickle.dumps(rows)
 
 
@@ -38,15 +38,15 @@ def _parts(work, threads):
     return parts
 
 
-def on_cluster(client, command, asked, work, variables, deliver):
+def on_cluster(client, command, request, work, variables, deliver):
     """The same on a cluster, in tasks of many points. A task whose worker dies is tried again by Dask, then point by
     point, so that one deadly point costs none of its neighbours. Raises NumericsError if the cluster is gone."""
-    distributed = need("distributed")
+    distributed = import_optional("distributed")
     gone = (distributed.client.CancelledError, OSError, TimeoutError)
     threads = sum(client.nthreads().values()) or 1
 
     def submit(part):
-        future = client.submit(_task, pickle.dumps((command, asked, part, variables)), pure=False, retries=_tries)
+        future = client.submit(_task, pickle.dumps((command, request, part, variables)), pure=False, retries=_tries)
         parts[future.key] = part
         return future
 

@@ -1,7 +1,7 @@
 """From arrays and what is said of them to xarray."""
 
 from . import _slipfront
-from ._need import need
+from ._optional import import_optional
 
 
 def attributes(about):
@@ -12,7 +12,7 @@ def attributes(about):
 
 def dataset(variables, coordinates=None, attrs=None):
     """xarray.Dataset of {name: (dimensions, values, attributes)}."""
-    return need("xarray").Dataset(variables, coordinates, attrs)
+    return import_optional("xarray").Dataset(variables, coordinates, attrs)
 
 
 def of_columns(descriptions, columns, shape, dims, coords):

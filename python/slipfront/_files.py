@@ -5,7 +5,7 @@ import numbers as kinds
 import os
 
 from . import _slipfront
-from ._need import need
+from ._optional import import_optional
 
 
 def write_bytes(path, content):
@@ -36,7 +36,7 @@ def _values(array):
 
 def write_dataset(data, path):
     """Writes an xarray.Dataset as NetCDF, by the CF conventions as xarray has them. Raises FileError: path and reason."""
-    conventions = need("xarray.conventions")
+    conventions = import_optional("xarray.conventions")
     variables, attributes = conventions.cf_encoder(*conventions.encode_dataset_coordinates(data))
     sizes = {name: size for variable in variables.values() for name, size in zip(variable.dims, variable.shape)}
     _slipfront.write_dataset(os.fsencode(path), list(sizes.items()),
@@ -53,20 +53,20 @@ def isolated(path, make):
         try:
             os.close(reader)
             try:
-                said = b"d" + make()
+                reply = b"d" + make()
             except Exception as error:  # of any kind: the other libraries know none of ours
-                said = f"f{error or type(error).__name__}".encode("utf-8", "replace")
+                reply = f"f{error or type(error).__name__}".encode("utf-8", "replace")
             with os.fdopen(writer, "wb") as pipe:
-                pipe.write(said)
+                pipe.write(reply)
         finally:
             os._exit(0)
     os.close(writer)
     with os.fdopen(reader, "rb") as pipe:
-        said = pipe.read()
+        reply = pipe.read()
     os.waitpid(child, 0)
-    if said[:1] != b"d":
-        raise _slipfront.FileError(f"{path}: cannot be written: {' '.join(said[1:].decode().split()) or 'the library that draws it gave up'}")
-    return said[1:]
+    if reply[:1] != b"d":
+        raise _slipfront.FileError(f"{path}: cannot be written: {' '.join(reply[1:].decode().split()) or 'the library that draws it gave up'}")
+    return reply[1:]
 
 
 @contextlib.contextmanager

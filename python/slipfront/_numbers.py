@@ -3,10 +3,10 @@
 import os
 
 from . import _slipfront
-from ._need import need
+from ._optional import import_optional
 from ._slipfront import InputError
 
-np = need("numpy")
+np = import_optional("numpy")
 
 
 def numbers(name, values):

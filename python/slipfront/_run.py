@@ -5,7 +5,7 @@ import warnings
 
 from . import _slipfront
 from ._dataset import attributes, dataset
-from ._need import need
+from ._optional import import_optional
 from ._numbers import np, numbers, one_number, thread_count
 from ._progress import showing
 from ._scenario import arguments, path
@@ -73,8 +73,8 @@ def pulse(scenario, *, set=None, output=None, resume=None, progress=None, thread
     if tolerance is not None:
         tolerance = one_number("tolerance", tolerance)
     with showing(progress) as call:
-        asked = arguments(scenario, set=set, output=output, resume=resume, progress=call)
-        return _dataset(_slipfront.pulse(asked, tolerance, bool(errors)))
+        request = arguments(scenario, set=set, output=output, resume=resume, progress=call)
+        return _dataset(_slipfront.pulse(request, tolerance, bool(errors)))
 
 
 def chain(scenario, *, set=None, output=None, resume=None, progress=None, threads=None):
@@ -146,13 +146,13 @@ def check(scenario, *, set=None, command="pulse", scales=()):
     `command` is what would run: "pulse", "chain" or "compare" (with `scales`). Returns a dict that says it: cells, sites
     or levels, left and right end of the domain, end of time, ... Raises what the run would before its first step.
     """
-    asked = arguments(scenario, set=set)
+    request = arguments(scenario, set=set)
     if command == "pulse":
-        return _slipfront.check_pulse(asked)
+        return _slipfront.check_pulse(request)
     if command == "chain":
-        return _slipfront.check_chain(asked)
+        return _slipfront.check_chain(request)
     if command == "compare":
-        return _slipfront.check_compare(asked, _scales(scales))
+        return _slipfront.check_compare(request, _scales(scales))
     raise InputError(f"command = '{command}': unknown; allowed: pulse, chain, compare")
 
 
@@ -166,8 +166,8 @@ def open(file):
 
 def read(name, any_file=False):
     """The same, or the Dataset of any NetCDF file."""
-    xarray = need("xarray")
-    need("netCDF4")
+    xarray = import_optional("xarray")
+    import_optional("netCDF4")
     _slipfront.require_readable_netcdf(os.fsencode(name))  # what is damaged would crash the library, and Python with it
     try:
         with xarray.open_dataset(name, engine="netcdf4") as stored:

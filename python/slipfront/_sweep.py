@@ -108,13 +108,13 @@ def sweep(scenario, axes, *, variables=None, set=None, command="pulse", output=N
     if total * (8 * len(kept) + 1500) > _slipfront.usable_memory():
         raise InputError(f"axes: {total} points need more memory than this process may have; allowed: fewer")
     points = [dict(zip(axes, values)) for values in itertools.product(*axes.values())]
-    asked = arguments(scenario, output=output, resume=resume)
-    if asked["path"]:
-        asked["text"] = _slipfront.read_text(asked["path"])
+    request = arguments(scenario, output=output, resume=resume)
+    if request["path"]:
+        request["text"] = _slipfront.read_text(request["path"])
     settings = overrides(set)
-    about = {"format": _format, "version": __version__, "command": command, "scenario": asked["text"], "set": settings, "axes": axes,
+    about = {"format": _format, "version": __version__, "command": command, "scenario": request["text"], "set": settings, "axes": axes,
              "variables": list(kept)}
-    kept_in = asked["resume"] or asked["output"]
+    kept_in = request["resume"] or request["output"]
     if resume is not None and os.path.exists(kept_in) and not os.path.exists(kept_in + ".part"):
         return _finished(kept_in, about)
     store = Store(kept_in + ".part", about, resume is not None) if kept_in else None
@@ -143,12 +143,12 @@ def sweep(scenario, axes, *, variables=None, set=None, command="pulse", output=N
 
             work = [(int(i), settings + overrides(points[i])) for i in np.flatnonzero(left)]
             if client is not None:
-                on_cluster(client, command, asked, work, list(kept), deliver)
+                on_cluster(client, command, request, work, list(kept), deliver)
             elif work:
-                run_points(command, asked, work, list(kept), threads, deliver)
+                run_points(command, request, work, list(kept), threads, deliver)
         data = _dataset(about, axes, kept, values.reshape(-1, *shape), reasons.reshape(shape))
         if store:
-            write_dataset(data, asked["output"] or asked["resume"])
+            write_dataset(data, request["output"] or request["resume"])
     except BaseException:
         if store:
             store.close(remove=not store.rows_written and resume is None)

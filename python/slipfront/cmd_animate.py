@@ -5,7 +5,7 @@ import pathlib
 import tomllib
 
 from ._arguments import Arguments, file_name, progress, put
-from ._need import need
+from ._optional import import_optional
 
 FRAMES = 75
 
@@ -29,7 +29,7 @@ def main(argv) -> int:
     parser.add_argument("-o", "--output", metavar="PICTURE", type=file_name, required=True, help="its ending is the format: gif, webp, mp4")
     options = parser.parse_args(argv)
     for module in ("xarray", "matplotlib", "PIL"):
-        need(module)
+        import_optional(module)
     from .plots import files, movie
     from .plots.animation import Scene
 

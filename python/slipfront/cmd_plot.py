@@ -4,7 +4,7 @@ import json
 import pathlib
 
 from ._arguments import Arguments, file_name, put
-from ._need import need
+from ._optional import import_optional
 
 FORMATS = ("png", "svg", "pdf", "jpg", "webp")
 
@@ -17,8 +17,8 @@ def main(argv) -> int:
                         help="one picture, the most telling unless there is --kind; its ending is the format: " + ", ".join(FORMATS))
     parser.add_argument("--kind", help="one picture alone (default without -o: all that the file affords, as FILE-KIND.png)")
     options = parser.parse_args(argv)
-    need("xarray")
-    need("matplotlib")
+    import_optional("xarray")
+    import_optional("matplotlib")
     from .plots import choose, files, save
 
     output = pathlib.Path(options.output) if options.output else pathlib.Path(options.file).with_suffix(".png")

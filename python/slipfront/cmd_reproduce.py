@@ -6,7 +6,7 @@ import time
 import warnings
 
 from ._arguments import Arguments, file_name, progress, put
-from ._need import need
+from ._optional import import_optional
 
 
 def line(row) -> str:
@@ -20,14 +20,14 @@ def main(argv) -> int:
     parser.add_argument("-o", "--output", metavar="DIR", type=file_name, default="reproduction", help="folder to write: a new one, or an earlier reproduction, which it replaces (default: reproduction)")
     options = parser.parse_args(argv)
     for module in ("numpy", "xarray", "matplotlib", "netCDF4", "pandas"):
-        need(module)
-    from .reproduce import everything, outputs
+        import_optional(module)
+    from .reproduce import outputs, pipeline
 
     warnings.filterwarnings("ignore", "initial stress between 0 and")  # the far end of a tanh
     warnings.filterwarnings("ignore", "pulse: dislocations overtake")  # the paper's steps into a stressed side: docs/pulse.md
     started = time.monotonic()
     with outputs.whole_folder(options.output) as folder:
-        tables = everything.reproduce(folder, options.threads, lambda text: progress(options, text), lambda: time.monotonic() - started)
+        tables = pipeline.reproduce(folder, options.threads, lambda text: progress(options, text), lambda: time.monotonic() - started)
     progress(options, "")
     report = str(pathlib.Path(options.output) / "report.html")
     if options.json:

@@ -32,13 +32,13 @@ Run::Balance Run::balance() const {
 
 void Run::check_energy(const Balance& balance, Findings& found) const {
   std::string sentence = "chain: energy and work differ by " + digits(balance.energy_drift) + " of the energy";
-  if (stretched_.model == Model::sine_gordon) {
+  if (scaled_.model == Model::sine_gordon) {
     const double sites = 2 / balance.steepest;  // a dislocation has the slope 2 over its width
     if (sites < least_sites_per_width)
       sentence += ". The narrowest dislocation, made so by its speed or by others, has only " + digits(sites, 2) +
                   " sites to its width; " + digits(least_sites_per_width) + " are needed";
     // The error is of fourth order in the spacing.
-    const double finer = 0.9 * stretched_.spacing * std::pow(Findings::worth_a_warning / balance.energy_drift, 0.25);
+    const double finer = 0.9 * scaled_.spacing * std::pow(Findings::worth_a_warning / balance.energy_drift, 0.25);
     sentence += ". Try chain.spacing = " + digits(finer, 2);
   }
   found.violation(balance.energy_drift, sentence);
@@ -46,7 +46,7 @@ void Run::check_energy(const Balance& balance, Findings& found) const {
 
 /// Nothing is faster than c.
 void Run::check_fronts(Findings& found) const {
-  const Stretched& s = stretched_;
+  const ScaledProblem& s = scaled_;
   const output::Snapshot& last = snapshots_.back();
   for (const auto& [name, x] : {std::pair{"leading", last.fronts.leading},
                                 {"observed", last.fronts.leading_observed},
@@ -85,7 +85,7 @@ void Run::check_fronts(Findings& found) const {
 /// is some 0.1 % low.
 void Run::check_barrier(Findings& found) const {
   constexpr double enough = 20;
-  const Stretched& s = stretched_;
+  const ScaledProblem& s = scaled_;
   const double force = driving_force_ / s.scale, spacing = chain_.problem().grid.spacing;
   if (s.model != Model::sine_gordon || !(driving_force_ > 1e-9) || force >= enough * barrier_force(spacing)) return;
   found.sentences.push_back(
@@ -98,7 +98,7 @@ void Run::check_barrier(Findings& found) const {
 /// Slip is u now less u at t = 0; the velocity at x = 0 was sampled on the way, by its own formula.
 void Run::check_slip(Findings& found) const {
   if (std::isnan(first_u_at_origin_)) return;
-  const double scale = stretched_.scale;
+  const double scale = scaled_.scale;
   if (slip_.samples > 7) {
     const Average now = average(chain_, 0, scale * window_, chain_.time());
     const double slip = now.u - first_u_at_origin_, by_velocity = slip_.up_to(chain_.time(), now.velocity);
@@ -113,7 +113,7 @@ void Run::check_slip(Findings& found) const {
 /// Where nothing makes antidislocations: dislocations counted where u passes pi, against those that the ends hold
 /// apart, and |W| <= k.
 void Run::check_one_sign(const Balance& balance, Findings& found) const {
-  const Stretched& s = stretched_;
+  const ScaledProblem& s = scaled_;
   const bool closed = s.boundary.periodic || (s.boundary.left == End::fixed && s.boundary.right == End::fixed);
   if (!closed || s.forcing) return;
   const auto counted = static_cast<double>(balance.dislocations);
@@ -143,7 +143,7 @@ output::Findings Run::findings() const {
   check_fronts(found);
   check_barrier(found);
 
-  const double last_slip = snapshots_.back().slip_at_origin, scale = stretched_.scale;
+  const double last_slip = snapshots_.back().slip_at_origin, scale = scaled_.scale;
   if (!std::isnan(first_u_at_origin_) && last_slip != 0) {
     const double step = turn / scale, slip = std::fabs(last_slip);
     if (step / 4 > 0.01 * slip && slip > 1e-3 * step)

@@ -6,8 +6,8 @@
 #include "../parse_toml.hpp"
 #include "key_near.hpp"
 #include "overrides.hpp"
+#include "serialize.hpp"
 #include "slipfront/error.hpp"
-#include "written.hpp"
 
 namespace slipfront::scenario {
 namespace {
@@ -90,7 +90,7 @@ Document read_document(std::string_view text, const std::string& file, const std
   Document document{.file = file, .text = std::string(text), .title = {}, .tables = {}};
   convert_document(document, root, overridden);
   if (!overrides.empty()) {
-    document.text = written(root, overrides);
+    document.text = serialize(root, overrides);
     parse_toml(document.text, file);  // written in another form, it must still be readable
   }
   return document;

@@ -84,6 +84,8 @@ RawStress read_initial(const Document& document, const TableReader& tables, Init
     if (!section.has(key) && wanted == Role::required) throw section.refuse(key, "missing", profile + " needs it");
   }
   initial.hold = section.truth("hold").value_or(initial.hold);
+  initial.even_ends = initial.profile == ProfileKind::step || initial.profile == ProfileKind::tanh;
+  initial.jumps = initial.profile == ProfileKind::step;
   if (initial.profile == ProfileKind::formula) {
     initial.formula = *section.formula("formula");
     return from_formula(section, initial);
@@ -103,6 +105,7 @@ RawStress read_initial(const Document& document, const TableReader& tables, Init
     return {.at = [left, right](double x) { return x < 0 ? left : right; }, .where = where};
   const Limits widths{.least = 0, .most = farthest, .without_least = true};
   const double width = initial.width = section.number("width", widths).value_or(initial.width);
+  initial.reach = 5 * width;
   return {.at = [=](double x) { return right + (left - right) * (1 - std::tanh(x / width)) / 2; }, .where = where};
 }
 

@@ -1,8 +1,8 @@
-#include "checked.hpp"
 #include "document.hpp"
 #include "initial.hpp"
 #include "settings.hpp"
 #include "slipfront/scenario/scenario.hpp"
+#include "validate.hpp"
 
 namespace slipfront::scenario {
 namespace {

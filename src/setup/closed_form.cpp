@@ -100,7 +100,7 @@ output::Snapshot snapshot_of(const RiemannSolution& solution, const output::Sche
 }  // namespace
 
 std::optional<Level> closed_form(const scenario::Scenario& s, const output::Schedule& schedule) {
-  if (s.initial.profile != scenario::ProfileKind::step || s.friction.acts() || s.forcing_at || s.contact_at) return {};
+  if (!s.initial.jumps || s.friction.acts() || s.forcing_at || s.contact_at) return {};
   if (s.initial.stress_left == s.initial.stress_right) return {};  // nothing moves: no wave to compare
   const RiemannSolution solution =
       rupture::solve_riemann(train::at_rest(s.initial.stress_left), train::at_rest(s.initial.stress_right));

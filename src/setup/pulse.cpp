@@ -12,8 +12,6 @@
 namespace slipfront::setup {
 namespace {
 
-using scenario::ProfileKind;
-
 /// How far waves from a step reach by the end: the frictionless fronts, or the diffusion length where friction rules.
 struct Reach {
   double left, right;
@@ -25,7 +23,7 @@ Reach reach_of(const scenario::Scenario& s) {
   double share = 1;
   if (s.friction.law == modulation::FrictionLaw::viscous)
     share = std::fmin(1, 8 / std::sqrt(1 + s.friction.coefficient * s.end));
-  const double blur = s.initial.profile == ProfileKind::tanh ? 5 * s.initial.width : 0;
+  const double blur = s.initial.reach;
   return {1.15 * share * left * s.end + blur, 1.15 * share * right * s.end + blur};
 }
 
@@ -52,8 +50,7 @@ pulse::Problem pulse_problem(const scenario::Scenario& s) {
                    .friction = s.friction,
                    .cells = s.pulse.cells,
                    .tolerance = s.pulse.tolerance};
-  const bool known =
-      (s.initial.profile == ProfileKind::step || s.initial.profile == ProfileKind::tanh) && !s.contact_at;
+  const bool known = s.initial.even_ends && !s.contact_at;
   if (!known && !(s.domain.left && s.domain.right))
     throw InputError({.file = s.file,
                       .key = "domain",
@@ -80,7 +77,7 @@ pulse::Problem pulse_problem(const scenario::Scenario& s) {
     p.longest_step = s.end / 100;  // so that no short pulse of it is stepped over
     p.explicit_tolerance /= 5;     // and what it gives where it jumps is right to 1e-5
   }
-  p.corner = s.initial.profile == ProfileKind::step ? 0 : HUGE_VAL;
+  p.corner = s.initial.jumps ? 0 : HUGE_VAL;
   return p;
 }
 
@@ -104,7 +101,7 @@ void check_cells(const scenario::Scenario& s, const pulse::Problem& problem) {
   constexpr int enough = 100000;
   pulse::Problem some = problem;
   some.cells = std::min(problem.cells, enough);
-  const pulse::Run laid(some, pulse_schedule(s, some));
+  const pulse::Run trial(some, pulse_schedule(s, some));
 }
 
 }  // namespace slipfront::setup

@@ -53,8 +53,7 @@ Trend trend_of(const std::vector<Level>& levels, const Quantity& quantity) {
 
 std::vector<std::string> notes_on(const scenario::Scenario& s, const std::vector<Level>& levels) {
   std::vector<std::string> notes;
-  const bool two_sides =
-      s.initial.profile == scenario::ProfileKind::step || s.initial.profile == scenario::ProfileKind::tanh;
+  const bool two_sides = s.initial.even_ends;
   if (!s.friction.acts() && two_sides && s.initial.stress_left > 0 && s.initial.stress_right > 0 &&
       s.initial.stress_left != s.initial.stress_right)
     notes.emplace_back(

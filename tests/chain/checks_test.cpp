@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <string>
 
 #include "slipfront/chain/run.hpp"
@@ -13,8 +14,8 @@ using namespace slipfront;
 using namespace slipfront::chain;
 using modulation::FrictionLaw;
 
-Stretched uniform(double stress, double half, double scale) {
-  Stretched s;
+ScaledProblem uniform(double stress, double half, double scale) {
+  ScaledProblem s;
   s.scale = scale;
   s.left = -half;
   s.right = half;
@@ -23,7 +24,7 @@ Stretched uniform(double stress, double half, double scale) {
   return s;
 }
 
-output::Schedule until(const Stretched& s, double end, int cells = 40) {
+output::Schedule until(const ScaledProblem& s, double end, int cells = 40) {
   output::Schedule when{.times = {0, end}, .x_edges = {}};
   for (int i = 0; i <= cells; ++i) when.x_edges.push_back(s.left + (s.right - s.left) * i / cells);
   return when;
@@ -36,7 +37,7 @@ TEST(ChainChecks, WorkOfAFastForceBalances) {
                                        {FrictionLaw::viscous, 0.1},
                                        {FrictionLaw::coulomb, 0.02},
                                        {FrictionLaw::power, 0.05, 1.5}}) {
-    Stretched s = uniform(0.3, 50, 1);
+    ScaledProblem s = uniform(0.3, 50, 1);
     s.friction = f;
     s.spacing = 0.25;
     s.forcing = [](double x, double t) { return t < 30 ? 0.4 * std::cos(1.3 * t) * (1 + 0.2 * std::sin(x / 7)) : 0; };
@@ -52,7 +53,7 @@ TEST(ChainChecks, WorkOfAFastForceBalances) {
 
 /// Viscous friction alone, one dislocation in a chain: its work is taken at every level.
 TEST(ChainChecks, ViscousFrictionOfAFewDislocationsBalances) {
-  Stretched s = uniform(0, 60, 1);
+  ScaledProblem s = uniform(0, 60, 1);
   s.stress = [](double x) { return x < -20 ? 0.6 : 0; };
   s.friction = {FrictionLaw::viscous, 0.05};
   chain::Run run(s, until(s, 80), {});
@@ -62,7 +63,7 @@ TEST(ChainChecks, ViscousFrictionOfAFewDislocationsBalances) {
 
 /// U is the velocity of dislocations: below c where there are any, else no number. It was -428 ... 75.
 TEST(ChainChecks, DislocationsAreSlowerThanC) {
-  Stretched s = uniform(0.855, 3, 200);
+  ScaledProblem s = uniform(0.855, 3, 200);
   s.stress = [](double x) { return x < 0 ? 0.855 : 0; };
   s.boundary = {.left = End::free, .right = End::fixed};
   chain::Run run(s, until(s, 6), {});
@@ -82,7 +83,7 @@ TEST(ChainChecks, DislocationsAreSlowerThanC) {
 /// A scale at which the answer is a share of one dislocation says so, and what would do; a large one does not.
 TEST(ChainChecks, SaysWhereDislocationsAreTooFew) {
   for (const double scale : {1.0, 3000.0}) {
-    Stretched s = uniform(0.855, 3, scale);
+    ScaledProblem s = uniform(0.855, 3, scale);
     s.stress = [](double x) { return x < 0 ? 0.855 : 0; };
     chain::Run run(s, until(s, 6), {});
     run.go();
@@ -95,7 +96,7 @@ TEST(ChainChecks, SaysWhereDislocationsAreTooFew) {
 /// A smooth step of little stress moves slowly. A grid that holds slow dislocations says so, and what would do.
 TEST(ChainChecks, SaysWhereTheGridHoldsDislocations) {
   for (const double spacing : {default_spacing, 0.5, 0.6}) {
-    Stretched s = uniform(0, 2, 1000);
+    ScaledProblem s = uniform(0, 2, 1000);
     s.stress = [](double x) { return 0.533 + 0.148 * (1 - std::tanh(x / 0.5)) / 2; };
     s.friction = {FrictionLaw::viscous, 0.257};
     s.spacing = spacing;
@@ -109,7 +110,7 @@ TEST(ChainChecks, SaysWhereTheGridHoldsDislocations) {
 
 /// A force without friction accelerates a ring until its dislocations are too narrow: the message says that.
 TEST(ChainChecks, NarrowDislocationsAreNamed) {
-  Stretched s = uniform(0.8, 1, 50);
+  ScaledProblem s = uniform(0.8, 1, 50);
   s.boundary = {.periodic = true};
   s.forcing = [](double, double) { return 0.5; };
   s.spacing = 0.5;
@@ -125,7 +126,7 @@ TEST(ChainChecks, NarrowDislocationsAreNamed) {
 /// No front is faster than c or warned of, whatever the step.
 TEST(ChainChecks, FrontsAreSlowerThanC) {
   for (const double stress : {0.7, 0.855, 2.0, 4.0}) {
-    Stretched s = uniform(stress, 4, 200);
+    ScaledProblem s = uniform(stress, 4, 200);
     s.stress = [stress](double x) { return x < 0 ? stress : 0; };
     s.spacing = default_spacing / std::cosh(train::psi_of_stress(stress));
     output::Schedule when = until(s, 3, 200);
@@ -139,7 +140,7 @@ TEST(ChainChecks, FrontsAreSlowerThanC) {
 
 /// A grid too coarse for what runs into its mirror image: the energy drifts, and that is no result.
 TEST(ChainChecks, EnergyThatDriftsIsAnError) {
-  Stretched s = uniform(1.5, 3, 200);
+  ScaledProblem s = uniform(1.5, 3, 200);
   s.spacing = 0.6;
   s.boundary = {.left = End::free, .right = End::free};
   chain::Run run(s, until(s, 12), {});
@@ -152,6 +153,41 @@ TEST(ChainChecks, EnergyThatDriftsIsAnError) {
     EXPECT_EQ(run.snapshots().size(), 2u);
     EXPECT_THROW(run.go(), NumericsError);  // as it is after --resume
   }
+}
+
+/// The saved state of a run, in which u rises by two turns and falls again three times: six pairs of an antidislocation
+/// and a dislocation, less those that dislocations there cancel. Levels stand last: their number, then u at both, each
+/// after the number of sites (Run::saved).
+std::string with_pairs(std::string saved, std::size_t sites) {
+  const std::size_t level = (sites + 1) * sizeof(double);
+  for (const std::size_t back : {level, 2 * level}) {
+    char* const begin = saved.data() + saved.size() - back + sizeof(double);
+    for (std::size_t j = 0; j < sites; ++j) {
+      double u = 0;
+      std::memcpy(&u, begin + j * sizeof u, sizeof u);
+      const auto at = static_cast<double>(j);
+      for (const double middle : {100.0, 200.0, 300.0})
+        u += std::tanh((at - middle + 20) / 1.5) - std::tanh((at - middle - 20) / 1.5);
+      std::memcpy(begin + j * sizeof u, &u, sizeof u);
+    }
+  }
+  return saved;
+}
+
+/// Between fixed ends the charge is what it was, whatever happens between them: dislocations are counted.
+TEST(ChainChecks, PairsOutOfNothingAreCounted) {
+  const ScaledProblem s = uniform(0.855, 80, 1);
+  chain::Run cut(s, until(s, 5), {});
+  EXPECT_FALSE(cut.go([] { return true; }));
+  for (const std::string& sentence : cut.warnings()) EXPECT_EQ(sentence.find("the ends hold"), std::string::npos);
+  const std::size_t sites = cut.chain().problem().grid.sites;
+  chain::Run broken(s, until(s, 5), {}, with_pairs(cut.saved(), sites), cut.snapshots());
+  EXPECT_NEAR(broken.balance().charge_error, 0, 1e-12);
+  EXPECT_GE(broken.balance().dislocations - cut.balance().dislocations, 6);
+  std::string all;
+  for (const std::string& sentence : broken.warnings()) all += sentence + "\n";
+  EXPECT_NE(all.find("dislocations where the ends hold"), std::string::npos) << all;
+  EXPECT_THROW(broken.go(), NumericsError);
 }
 
 }  // namespace

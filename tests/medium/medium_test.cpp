@@ -19,7 +19,7 @@ const medium::Interface rock{
 const medium::Interface soft{
     .shear_modulus = 30e9, .density = 2700, .poisson_ratio = 0.3, .asperity_spacing = 1e-3, .contact_ratio = 0.05};
 
-TEST(Medium, SpeedOfThePaper) {  // docs/theory.md 5: 6 km/s and 0.3 give 5.4210 km/s
+TEST(Medium, SpeedOfThePaper) {  // of its example of Parkfield (docs/worked_examples.md)
   EXPECT_NEAR(medium::speed_from_p_wave(6000, 0.3), 5421.0, 0.05);
 }
 

@@ -74,6 +74,18 @@ TEST(Observe, CountsDislocations) {
   EXPECT_TRUE(run.warnings().empty());
 }
 
+/// The count does not telescope: where the states of cells and faces no longer fit each other, dislocations are
+/// missing.
+TEST(Observe, CountsWrongWhereCellsAreWrong) {
+  Solver solver(smooth(0.1, modulation::Closure::consistent));
+  solver.advance_to(0.5);
+  EXPECT_LT(conservation_error(solver), 1e-5);
+  Cells broken = solver.cells();
+  for (std::size_t i = 100; i < 300; i += 10) broken.y[2 * i] *= 1.3;  // widths of some cells
+  solver.restore(broken);
+  EXPECT_GT(conservation_error(solver), 5e-4);
+}
+
 /// Energy that the train beyond brings in, by its push and with its dislocations, closes the budget of a domain whose
 /// ends a train passes.
 TEST(Observe, EnergyThroughTheEndsIsAccountedFor) {
@@ -149,13 +161,15 @@ TEST(Observe, TrailingEdgeDoesNotKnowFriction) {
     // Measured: within two cells of it as long as friction leaves the foot, e^(-C t / 2), above a thousandth.
     EXPECT_NEAR(f.trailing, characteristic, 0.02) << C;
     EXPECT_GT(f.trailing_observed, f.trailing);
-    const double leading = C == 0 ? 0.63 : C == 0.5 ? 0.286 : 0.15;  // docs/theory.md 3.5
+    // Without friction the closed form; with it what a first-order scheme gave that is older than this solver.
+    const double frictionless = rupture::from_stress(0.855).leading_velocity * 2 * pi;
+    const double leading = C == 0 ? frictionless : C == 0.5 ? 0.286 : 0.15;
     EXPECT_NEAR(f.leading, leading, 0.005);
   }
 }
 
 /// What is stressed on the right is the same thing in a mirror.
-TEST(Observe, AMirrorSwapsNoNames) {
+TEST(Observe, MirroredScenarioKeepsFrontNames) {
   for (const double right : {0.0, 0.179}) {
     Problem p = smooth(0.3, modulation::Closure::consistent), mirrored = p;
     p.left = mirrored.left = -4;

@@ -19,6 +19,21 @@ from support import CommandLine, PROGRAM, SOURCE
 PAPER = os.path.join(SOURCE, "python/slipfront/reproduce/paper.toml")
 
 
+#: Relative differences of the numbers that do not agree with the paper to the digits that it prints.
+DIFFERENCES = {
+    "parkfield_stress": 0.0063,  # read off a figure
+    "parkfield_slip_velocity_0.1": -0.0300,  # the paper does not state the width of its profile
+    "parkfield_slip_velocity_0.5": -0.1114,  # the same, and one digit
+    "parkfield_contact_ratio_0.1": 0.0283,  # A and the stress follow W
+    "parkfield_contact_ratio_0.5": 0.1244,
+    "parkfield_contact_ratio_2.0": 0.0608,
+    "parkfield_stress_pa_0": -0.0173,  # of rounded A and c
+    "parkfield_stress_pa_0.1": 0.0412,
+    "parkfield_stress_pa_0.5": 0.1059,
+    "parkfield_stress_pa_2.0": 0.0434,
+}
+
+
 class Requests(HTMLParser):
     """What a page would load from elsewhere."""
 
@@ -71,12 +86,15 @@ class Reproduce(CommandLine):
 
     def test_every_number_is_computed(self):
         for number in self.paper["number"]:
-            row = self.numbers[number["key"]]
+            key, row = number["key"], self.numbers[number["key"]]
             self.assertEqual(row["printed"], number["printed"])
             self.assertTrue(math.isfinite(row["computed"]))
-            self.assertNotEqual(row["computed"], float(row["printed"]), number["key"])  # none is a copy
-            self.assertLess(abs(row["difference"]), 0.13, number["key"])
-            self.assertTrue(row["agrees"] or row["remark"], number["key"])  # a slip is remarked
+            self.assertNotEqual(row["computed"], float(row["printed"]), key)  # none is a copy
+            self.assertEqual(row["agrees"], key not in DIFFERENCES, key)
+            if not row["agrees"]:  # a remark says why, and the difference is the one that it explains
+                self.assertTrue(row["remark"], key)
+                self.assertAlmostEqual(row["difference"], DIFFERENCES[key], delta=1e-3, msg=key)
+        self.assertLessEqual(set(DIFFERENCES), set(self.numbers))
 
     def test_numbers_are_what_the_mathematics_gives(self):
         """Values that an independent derivation gives (docs/theory.md; quadrature, other schemes), not those of this code."""

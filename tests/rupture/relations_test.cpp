@@ -49,7 +49,7 @@ TEST(Relations, FromSlipVelocityMatchTheTable) {
     expect_row(from_slip_velocity(row["slip_velocity"]), row, 1);
 }
 
-/// The numbers of the paper that involve no friction, as docs/theory.md 5 computes them.
+/// The two worked examples of the paper without friction (docs/worked_examples.md), and the stress of its figures.
 TEST(Relations, GiveThePapersNumbers) {
   EXPECT_NEAR(from_rupture_velocity(0.55).stress, 1.03653, 5e-6);
   EXPECT_NEAR(from_stress(1.03).rupture_velocity, 0.54390, 5e-6);

@@ -32,6 +32,9 @@ struct Initial {
   double stress_left = 0;   ///< of step and tanh; >= 0
   double stress_right = 0;  ///< 0 is the empty interface
   double width = 1;         ///< of tanh, > 0: right + (left - right)(1 - tanh(x / width))/2
+  bool even_ends = true;    ///< goes on beyond the change around x = 0 at stress_left and stress_right
+  bool jumps = true;        ///< at x = 0
+  double reach = 0;         ///< how far from x = 0 a smooth change is felt
   std::string formula;      ///< of x
   bool hold = false;        ///< a static load keeps at rest what is not in equilibrium
   std::string file;         ///< CSV or NetCDF with columns / variables x and stress, relative to the scenario file

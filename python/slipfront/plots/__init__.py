@@ -1,11 +1,13 @@
-"""Pictures with matplotlib. Each function takes a Dataset and returns a matplotlib Figure; `save` writes one."""
+"""Pictures with matplotlib. Each function takes a Dataset and returns a matplotlib Figure; `save` writes one.
 
-from .comparison import comparison
-from .corner import corner
-from .events import events
-from .profiles import profiles
-from .relations import relations
-from .space_time import space_time
+The kinds of picture are those of `choose.KINDS`, each a function in a file of its name.
+"""
+
+import importlib
+
+from .choose import KINDS
 from .style import save
 
-__all__ = ["comparison", "corner", "events", "profiles", "relations", "save", "space_time"]
+__all__ = sorted([function for function, _ in KINDS.values()] + ["save"])
+for _function, _ in KINDS.values():
+    globals()[_function] = getattr(importlib.import_module(f".{_function}", __name__), _function)

@@ -6,7 +6,7 @@ _packages = {"xarray": "python3-xarray", "numpy": "python3-numpy", "matplotlib":
              "distributed": "python3-distributed", "pandas": "python3-pandas", "PIL": "python3-pil"}
 
 
-def need(module):
+def import_optional(module):
     """The module of this (dotted) name. Raises ImportError that names the Debian package where it is missing."""
     try:
         return importlib.import_module(module)

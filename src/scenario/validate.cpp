@@ -1,4 +1,4 @@
-#include "checked.hpp"
+#include "validate.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@ InputError refusal(Complaint where, const std::string& problem, const std::strin
 }
 
 /// 0 where the state is beyond doubles: that of dislocations so far apart, in units of their width 1 / a.
-std::function<double(double)> checked_stress(const RawStress& raw, const std::function<double(double)>& contact) {
+std::function<double(double)> validated_stress(const RawStress& raw, const std::function<double(double)>& contact) {
   return [raw, contact](double x) {
     const double stress = raw.at(x);
     if (!(stress >= 0 && stress <= largest_stress))
@@ -71,7 +71,7 @@ void make_contact(const Document& document, Scenario& scenario) {
 
 /// Where to try the functions: the domain, or what a solver may be expected to choose for it.
 std::pair<double, double> trial_range(const Scenario& scenario, const RawStress& raw) {
-  const double reach = scenario.initial.profile == ProfileKind::tanh ? 10 * scenario.initial.width : 7;
+  const double reach = scenario.initial.reach > 0 ? 2 * scenario.initial.reach : 7;
   const auto [left, right] = raw.covers.value_or(std::pair(-reach, reach));
   const Domain& domain = scenario.domain;
   if (domain.left && domain.right) return {*domain.left, *domain.right};
@@ -115,7 +115,7 @@ void try_out(const Document& document, const RawStress& raw, Scenario& scenario)
 void make_functions(const Document& document, const RawStress& raw, Scenario& scenario) {
   make_forcing(document, scenario);
   make_contact(document, scenario);
-  scenario.stress = checked_stress(raw, scenario.contact_at);
+  scenario.stress = validated_stress(raw, scenario.contact_at);
   try_out(document, raw, scenario);
 }
 

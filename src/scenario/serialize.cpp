@@ -1,4 +1,4 @@
-#include "written.hpp"
+#include "serialize.hpp"
 
 #include <type_traits>
 
@@ -27,7 +27,7 @@ std::string quoted(std::string_view text) {
   return out + "\"";
 }
 
-std::string written_key(std::string_view view) {
+std::string serialized_key(std::string_view view) {
   const std::string key(view);
   constexpr std::string_view bare = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
   return !key.empty() && key.find_first_not_of(bare) == std::string_view::npos ? key : quoted(key);
@@ -55,7 +55,7 @@ void write_inline(std::ostream& out, const toml::table& table) {
   const char* separator = "";
   out << "{ ";
   for (const auto& [key, value] : table) {
-    out << separator << written_key(key.str()) << " = ";
+    out << separator << serialized_key(key.str()) << " = ";
     write(out, value);
     separator = ", ";
   }
@@ -84,7 +84,7 @@ void write(std::ostream& out, const toml::node& node) {
 void write_entries(std::ostream& out, const toml::table& table, bool top) {
   for (const auto& [key, value] : table) {
     if (top && value.is_table()) continue;
-    out << written_key(key.str()) << " = ";
+    out << serialized_key(key.str()) << " = ";
     write(out, value);
     out << "\n";
   }
@@ -92,13 +92,13 @@ void write_entries(std::ostream& out, const toml::table& table, bool top) {
 
 }  // namespace
 
-std::string written(const toml::table& root, const std::vector<std::string>& overrides) {
+std::string serialize(const toml::table& root, const std::vector<std::string>& overrides) {
   std::ostringstream out = plain_stream();
   for (const std::string& text : overrides) out << "# --set " << text << "\n";
   write_entries(out, root, true);
   for (const auto& [key, value] : root) {
     if (!value.is_table()) continue;
-    out << "\n[" << written_key(key.str()) << "]\n";
+    out << "\n[" << serialized_key(key.str()) << "]\n";
     write_entries(out, *value.as_table(), false);
   }
   return out.str();

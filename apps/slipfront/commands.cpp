@@ -1,0 +1,21 @@
+#include "commands.hpp"
+
+#include <CLI/CLI.hpp>
+
+using AddCommand = Runner(CLI::App& app);
+
+// One line a subcommand, in the order of --help; each is defined in cmd_<name>.cpp.
+#define SLIPFRONT_COMMANDS(COMMAND) \
+  COMMAND(relations)                \
+  COMMAND(event)                    \
+  COMMAND(pulse)                    \
+  COMMAND(chain)                    \
+  COMMAND(compare)
+
+#define DECLARE(name) AddCommand add_##name;
+SLIPFRONT_COMMANDS(DECLARE)
+
+std::vector<Command> add_commands(CLI::App& app) {
+#define ADD(name) {#name, add_##name(app)},
+  return {SLIPFRONT_COMMANDS(ADD)};
+}
