@@ -67,7 +67,7 @@ Window Chain::Parts::window(std::size_t from, std::size_t to, double time) const
   displacements(sine, s.eps, contact, z.data() + lanes, u_now.data(), S_now.data(), wide);
   displacements(sine, s.eps, contact, next.data() + lanes, u_next.data(), S_next.data(), wide);
 
-  const double C = problem.friction.law == modulation::FrictionLaw::viscous ? problem.friction.coefficient : 0;
+  const double C = problem.friction.linear_coefficient().value_or(0);
   const auto rate = [&](std::size_t j) { return (u_next[j] - u_old[j]) / (2 * dt); };
   Window window;
   window.begin = from;

@@ -14,11 +14,11 @@ namespace slipfront::pulse {
 
 Semidiscrete::Semidiscrete(Setup setup)
     : setup_(std::move(setup)),
-      power_law_rate_(setup_.friction),
+      relaxation_rate_(setup_.friction.relaxation_rate()),
       stretches_(stretches_of(setup_.charge, setup_.left, setup_.right)) {
   const std::size_t n = size();
   for (auto* array : {&charge_point_, &per_charge_point_, &width_, &momentum_in_cell_, &phi_mean_, &psi_mean_, &rate_,
-                      &source_, &source_mean_, &centres_, &shocked_})
+                      &strength_, &source_, &source_mean_, &centres_, &shocked_})
     array->assign(n, 0);
   at_.resize(n);
   for (auto* array : {&invariant_plus_, &invariant_minus_}) array->assign(n + 2 * ghosts, 0);

@@ -28,7 +28,12 @@ void check(const Problem& p) {
   if (!(p.left < p.right) || !std::isfinite(p.right - p.left)) refuse("domain.left", p.left, "left < right, finite");
   if (p.cells < 4) refuse("pulse.cells", p.cells, ">= 4");
   if (!(p.tolerance > 0 && p.tolerance < 1)) refuse("pulse.tolerance", p.tolerance, "0 < tolerance < 1");
-  if (!(p.friction.coefficient >= 0)) refuse("friction.coefficient", p.friction.coefficient, ">= 0");
+  p.friction.check();
+  if (p.friction.variables() > 0)
+    throw InputError({.key = "friction.law",
+                      .value = std::string(p.friction.name()),
+                      .problem = "has variables at each place, whose average over a train is not known",
+                      .allowed = "a run of the chain, or a law without variables"});
 }
 
 /// A contact that jumps would be a wall to some cells and nothing to others: there must be a slope to climb.

@@ -30,7 +30,7 @@ double mass_excess(double psi) {
 
 Staggered::Staggered(Setup setup)
     : setup_(std::move(setup)),
-      power_law_rate_(setup_.friction),
+      relaxation_rate_(setup_.friction.relaxation_rate()),
       stretches_(stretches_of(setup_.charge, setup_.left, setup_.right)) {
   const std::size_t n = setup_.charge.size();
   cells_.resize(n);
@@ -124,15 +124,10 @@ Edge Staggered::edge_at(std::size_t f) const {
 }
 
 double Staggered::loss_rate(std::size_t f, double phi) const {
-  const modulation::Friction& friction = setup_.friction;
-  if (friction.law == modulation::FrictionLaw::viscous)
-    return friction.closure == modulation::Closure::consistent
-               ? friction.coefficient
-               : friction.coefficient * pi * pi / (4 * beside(cells_.EK, f));
-  const double moving = friction.exponent < 1 ? std::hypot(phi, creep_) : phi;
-  const double rate = power_law_rate_({moving, beside(cells_.psi, f)});
-  // <|w|^n sigma> over P, w in units of a
-  return setup_.contact ? rate * std::pow(setup_.contact(place_[f]), friction.exponent - 1) : rate;
+  if (const auto C = setup_.friction.linear_coefficient())  // with the E K that are known already
+    return setup_.friction.closure() == friction::Closure::consistent ? *C : *C * pi * pi / (4 * beside(cells_.EK, f));
+  const double moving = setup_.friction.steep_at_rest() ? std::hypot(phi, creep_) : phi;
+  return (*relaxation_rate_)({moving, beside(cells_.psi, f)}, setup_.contact ? setup_.contact(place_[f]) : 1);
 }
 
 void Staggered::operator()(double t, const double* z, double* dz) {

@@ -1,10 +1,11 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "cell_states.hpp"
-#include "slipfront/modulation/friction.hpp"
+#include "slipfront/friction/friction.hpp"
 
 namespace slipfront::pulse {
 
@@ -21,7 +22,7 @@ class Staggered {
     std::vector<double> charge;                            ///< dislocations in each cell, 0 in a gap
     Edge left = Edge::continued, right = Edge::continued;  ///< no ring
     double left_wall = 0, right_wall = 0;                  ///< x, where the edges are walls
-    modulation::Friction friction;
+    friction::Friction friction;
     std::function<double(double, double)> forcing;  ///< null: none
     std::function<double(double)> contact;          ///< a(x); null: 1
   };
@@ -66,7 +67,7 @@ class Staggered {
 
   Setup setup_;
   double creep_ = 0;
-  modulation::PowerLawRate power_law_rate_;
+  std::unique_ptr<friction::RelaxationRate> relaxation_rate_;
   std::vector<Stretch> stretches_;
   CellStates cells_;
   std::vector<double> place_, width_, pressure_, balance_, a_, face_phi_;

@@ -91,8 +91,8 @@ double Solver::step_explicitly(Work& work, double remaining, double crossing) {
   }
   const double wanted = cells_.step > 0 ? std::fmin(crossing, cells_.step) : crossing;
   double dt = next_step(remaining, wanted);
-  const bool dry = problem_.friction.law == modulation::FrictionLaw::coulomb;
-  const double friction = 2 * pi * problem_.friction.coefficient;
+  const bool dry = problem_.friction.sticks();
+  const double friction = 2 * pi * problem_.friction.strength_at_rest();
   work.next = cells_.y;
   // What comes up within a step may be too hard for it: shorter, then.
   for (int tries = 0;; ++tries) {

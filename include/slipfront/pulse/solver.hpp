@@ -13,7 +13,7 @@
 #include <memory>
 #include <vector>
 
-#include "slipfront/modulation/friction.hpp"
+#include "slipfront/friction/friction.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::pulse {
@@ -33,7 +33,7 @@ struct Problem {
   std::function<double(double)> stress;               ///< initial stress at x, >= 0; the interface is at rest
   std::function<double(double x, double t)> forcing;  ///< F; null: none
   std::function<double(double)> contact = {};         ///< relative contact ratio a(x) > 0; null: 1
-  modulation::Friction friction;
+  friction::Friction friction;
   double left = -1, right = 1;  ///< domain at t = 0
   double corner = 0;            ///< x of a step of stress: a face is laid there
   End left_end = End::continued, right_end = End::continued;
