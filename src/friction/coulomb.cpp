@@ -1,6 +1,5 @@
 #include <cmath>
 
-#include "laws.hpp"
 #include "slipfront/friction/friction.hpp"
 
 namespace slipfront::friction {

@@ -5,11 +5,13 @@
 #include <utility>
 
 #include "../digits.hpp"
-#include "laws.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::friction {
+
+const Definition& no_law();
+
 namespace {
 
 bool in_range(const Parameter& p, double value) {

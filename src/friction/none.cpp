@@ -1,4 +1,4 @@
-#include "laws.hpp"
+#include "slipfront/friction/law.hpp"
 
 namespace slipfront::friction {
 namespace {

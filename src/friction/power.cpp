@@ -2,7 +2,6 @@
 #include <cstddef>
 #include <numbers>
 
-#include "laws.hpp"
 #include "slipfront/elliptic/complete.hpp"
 #include "slipfront/friction/friction.hpp"
 #include "slipfront/train/train.hpp"

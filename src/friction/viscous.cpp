@@ -1,7 +1,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "laws.hpp"
 #include "slipfront/elliptic/complete.hpp"
 #include "slipfront/friction/friction.hpp"
 #include "slipfront/train/train.hpp"
