@@ -7,6 +7,7 @@
 #include "cell_states.hpp"
 #include "slipfront/friction/friction.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
+#include "slipfront/pulse/named_values.hpp"
 #include "slipfront/train/state.hpp"
 #include "stretch.hpp"
 
@@ -33,10 +34,8 @@ class Semidiscrete {
   std::size_t size() const { return setup_.charge.size(); }
   const std::vector<Stretch>& stretches() const { return stretches_; }
 
-  /// y: X and Y of each cell in turn, x of the left edge, energy dissipated, energy supplied, energy that came in
-  /// through the ends; dy alike. \throws NumericsError with time and place.
+  /// From the unknowns y (NamedValues) to their rates dy. \throws NumericsError with time and place.
   void operator()(double t, const double* y, double* dy);
-  static constexpr std::size_t extra = 4;
   /// Starts the next solves for s = tanh(psi) from these values: the bits of a result depend on where its solves start.
   void start_from(const std::vector<double>& s);
 

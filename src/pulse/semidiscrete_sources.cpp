@@ -31,6 +31,7 @@ double substrate(double psi) {
 /// Momentum that the contact gives to a cell, -integral of <1 - cos u> d(a^2), from both faces and the centre: fourth
 /// order, and no derivative of a is needed.
 void Semidiscrete::add_contact_force(double* dy) {
+  const Values rates(dy, size());
   const auto square = [](double a) { return a * a; };
   double left = substrate(face_psi_[0]);
   for (std::size_t i = 0; i < size(); ++i) {
@@ -40,13 +41,15 @@ void Semidiscrete::add_contact_force(double* dy) {
     if (a != b || b != c)
       contact_force_[i] =
           -(left * (4 * b - 3 * a - c) + 4 * substrate(at_.psi[i]) * (c - a) + right * (a - 4 * b + 3 * c)) / 6;
-    dy[2 * i + 1] += contact_force_[i];
+    rates.momentum(i) += contact_force_[i];
     left = right;
   }
 }
 
 void Semidiscrete::add_sources(double t, const double* y, double* dy) {
   const std::size_t n = size();
+  const ConstValues values(y, n);
+  const Values rates(dy, n);
   const friction::Friction& friction = setup_.friction;
   const bool frictional = friction.acts();
   const bool dry = friction.sticks();
@@ -55,7 +58,7 @@ void Semidiscrete::add_sources(double t, const double* y, double* dy) {
   if (!frictional && !setup_.forcing) return;
   double dissipation = 0, supply = 0;
   if (linear && !setup_.forcing) {  // the plain case, without the detour over point values
-    dy[2 * n + 1] = damp(n, *C, y, at_.velocity.data(), dy);
+    rates.dissipated() = damp(n, *C, y, at_.velocity.data(), dy);
     return;
   }
   for (std::size_t i = 0; i < n; ++i) {
@@ -75,18 +78,19 @@ void Semidiscrete::add_sources(double t, const double* y, double* dy) {
   for (const Stretch& r : stretches_)
     cell_means(r.end - r.begin, source_.data() + r.begin, source_mean_.data() + r.begin);
   for (std::size_t i = 0; i < n; ++i) {
-    dy[2 * i + 1] += source_mean_[i];
+    rates.momentum(i) += source_mean_[i];
     if (dry) {  // no detour over point values, as of a constant force there is none
-      const double force = dry_friction(y[2 * i + 1], dy[2 * i + 1], 2 * pi * strength_[i] * setup_.charge[i]);
+      const double force =
+          dry_friction(values.momentum(i), rates.momentum(i), 2 * pi * strength_[i] * setup_.charge[i]);
       dissipation -= at_.velocity[i] * force;
-      dy[2 * i + 1] += force;
+      rates.momentum(i) += force;
     } else if (frictional && linear) {
-      dy[2 * i + 1] -= *C * y[2 * i + 1];
+      rates.momentum(i) -= *C * values.momentum(i);
     }
   }
   // M = 2 pi P / k and 2 pi q_s = k x_s: the sums are over P dx = M q_s ds.
-  dy[2 * n + 1] = dissipation;
-  dy[2 * n + 2] = supply;
+  rates.dissipated() = dissipation;
+  rates.supplied() = supply;
 }
 
 void Semidiscrete::find_rates() {

@@ -6,6 +6,7 @@
 
 #include "cell_states.hpp"
 #include "slipfront/friction/friction.hpp"
+#include "slipfront/pulse/named_values.hpp"
 
 namespace slipfront::pulse {
 
@@ -28,12 +29,10 @@ class Staggered {
   };
   explicit Staggered(Setup setup);
 
-  /// Two entries a face: the width of the cell to its left (of the first face: its x) and the momentum Y around it,
-  /// from the middle of one cell to that of the next. Then energy dissipated, energy supplied, energy that came in
-  /// through the ends.
-  std::size_t size() const { return 2 * faces() + sums; }
+  /// Of its unknowns (NamedFaceValues); the momentum Y around a face is that from the middle of one cell to that of the
+  /// next.
+  std::size_t size() const { return FaceValues::size(faces()); }
   std::size_t faces() const { return setup_.charge.size() + 1; }
-  static constexpr std::size_t sums = 3;
   /// Entries to either side that a rate depends on, widths taken as places.
   static constexpr std::size_t reach = 3;
 

@@ -80,7 +80,7 @@ TEST(Gap, ResumedRunHasTheSameBits) {
     cut.advance_to(t);
     Solver resumed(p, cut.cells());
     resumed.advance_to(6);
-    EXPECT_EQ(whole.cells().y, resumed.cells().y);
+    EXPECT_EQ(whole.cells().unknowns, resumed.cells().unknowns);
   }
 }
 

@@ -87,7 +87,7 @@ Errors errors_of(const Motion& motion, const Friction& friction, int cells, doub
       P += weight[j] * motion.at(x, end).P;
     }
     e.k += std::fabs(2 * pi * s.charge()[i] / width - k) / cells;
-    e.P += std::fabs(s.cells().y[2 * i + 1] / width - P) / cells;
+    e.P += std::fabs(s.cells().momentum(i) / width - P) / cells;
   }
   return e;
 }
