@@ -71,7 +71,7 @@ Problem damped_train(std::size_t sites) {
   return {.grid = {0, 0.5, sites},
           .model = Model::sine_gordon,
           .boundary = {},
-          .friction = {modulation::FrictionLaw::viscous, 1e-4},
+          .friction = friction::viscous(1e-4),
           .forcing = {},
           .contact = {}};
 }
@@ -113,7 +113,7 @@ void chain_general(benchmark::State& state) {
   if (kind == 0) p.contact = [](double x) { return 1 + 0.1 * std::sin(x); };
   if (kind == 1 || kind == 2) p.forcing = [](double x, double t) { return 0.01 * std::sin(x - t); };
   p.steady_forcing = kind == 2;
-  if (kind == 3) p.friction = {modulation::FrictionLaw::coulomb, 0.01};
+  if (kind == 3) p.friction = friction::coulomb(0.01);
   chain::Chain run(p, rough_train(sites));
   for (auto _ : state) run.advance(10);
   state.SetItemsProcessed(state.iterations() * 10 * static_cast<long>(sites));

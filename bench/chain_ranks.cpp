@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
   const Problem p{.grid = {0, 0.5, sites},
                   .model = Model::sine_gordon,
                   .boundary = {},
-                  .friction = {slipfront::modulation::FrictionLaw::viscous, 1e-4},
+                  .friction = slipfront::friction::viscous(1e-4),
                   .forcing = {},
                   .contact = {}};
   try {

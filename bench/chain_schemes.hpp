@@ -235,7 +235,7 @@ class Library : public Scheme {
     return {.grid = {s.left, h, static_cast<std::size_t>(std::llround((s.right - s.left) / h)) + 1},
             .model = Model::sine_gordon,
             .boundary = {End::fixed, End::fixed, false, 0},
-            .friction = {slipfront::modulation::FrictionLaw::viscous, s.C},
+            .friction = slipfront::friction::viscous(s.C),
             .forcing = {},
             .contact = {}};
   }

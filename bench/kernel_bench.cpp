@@ -118,9 +118,9 @@ void kernel_stage(benchmark::State& state) {
   const Pulse p;
   pulse::Semidiscrete::Setup setup;
   setup.charge.assign(cells, 0.01);
-  setup.friction = {modulation::FrictionLaw::viscous, 0.5, 1, modulation::Closure::consistent};
+  setup.friction = friction::viscous(0.5, friction::Closure::consistent);
   pulse::Semidiscrete equations(std::move(setup));
-  std::vector<double> y(2 * cells + pulse::Semidiscrete::extra), dy(y.size()), s(cells);
+  std::vector<double> y(pulse::Values::size(cells)), dy(y.size()), s(cells);
   for (std::size_t i = 0; i < cells; ++i) {
     y[2 * i] = 0.01 * p.spacing[i];
     y[2 * i + 1] = 0.01 * p.momentum[i];

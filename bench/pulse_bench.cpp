@@ -11,10 +11,10 @@ namespace {
 
 using namespace slipfront;
 
-pulse::Problem tanh_step(int cells, modulation::Closure closure) {
+pulse::Problem tanh_step(int cells, friction::Closure closure) {
   return {.stress = [](double x) { return 0.179 + 0.676 * (1 - std::tanh(x)) / 2; },
           .forcing = {},
-          .friction = {modulation::FrictionLaw::viscous, 0.5, 1, closure},
+          .friction = friction::viscous(0.5, closure),
           .left = -7.5,
           .right = 5.5,
           .corner = HUGE_VAL,
@@ -23,7 +23,7 @@ pulse::Problem tanh_step(int cells, modulation::Closure closure) {
 
 /// The row "tanh width 1, C = 0.5" to t = 2 pi; the label tells what W(0) came out.
 void pulse_tanh(benchmark::State& state) {
-  const pulse::Problem problem = tanh_step(static_cast<int>(state.range(0)), modulation::Closure::consistent);
+  const pulse::Problem problem = tanh_step(static_cast<int>(state.range(0)), friction::Closure::consistent);
   double W = 0;
   long steps = 0;
   for (auto _ : state) {
@@ -50,7 +50,7 @@ void pulse_overdamped(benchmark::State& state) {
   const double gamma = static_cast<double>(state.range(0));
   pulse::Problem problem{.stress = [](double x) { return x < 0 ? 0.855 : 0.0; },
                          .forcing = {},
-                         .friction = {modulation::FrictionLaw::viscous, gamma / (2 * std::numbers::pi), 1, {}},
+                         .friction = friction::viscous(gamma / (2 * std::numbers::pi)),
                          .left = -20 / std::sqrt(gamma),
                          .right = 20 / std::sqrt(gamma),
                          .cells = 100};

@@ -103,7 +103,7 @@ double eulerian(int cells, bool second_order) {
 double graded(int cells) {
   pulse::Problem p{.stress = [](double x) { return x < 0 ? stress : 0.0; },
                    .forcing = {},
-                   .friction = {modulation::FrictionLaw::viscous, C, 1, modulation::Closure::consistent},
+                   .friction = friction::viscous(C, friction::Closure::consistent),
                    .left = -reach(),
                    .right = 1,
                    .cells = cells};

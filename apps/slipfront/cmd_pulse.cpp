@@ -20,8 +20,8 @@ void describe(const scenario::Scenario& s, const run::PulsePlan& plan, const std
   record::require_disk_space(output, plan.need.disk);
   put(fmt::format(
       "{}: fine. Would run {} cells over x = {:.6g} ... {:.6g} to t = {:.6g}, {} friction {} (closure {}), {}.\n",
-      s.title.empty() ? s.file : s.title, problem.cells, problem.left, problem.right, s.end, law_name(s.friction.law),
-      s.friction.coefficient, name_of(s.friction.closure), in_words(plan.need)));
+      s.title.empty() ? s.file : s.title, problem.cells, problem.left, problem.right, s.end,
+      s.friction.definition().adjective, s.friction.coefficient(), name_of(s.friction.closure()), in_words(plan.need)));
 }
 
 int run_pulse(ScenarioArguments a, std::optional<double> tolerance) {

@@ -36,7 +36,7 @@ void print_json(const scenario::Scenario& s, const std::vector<Level>& levels) {
   std::string text = fmt::format(
       "{{\"time\": {}, \"friction_coefficient\": {}, \"damping_number\": {}, \"reference\": \"pulse-consistent\", "
       "\"levels\": [",
-      json_number(s.end), json_number(s.friction.coefficient), json_number(s.friction.coefficient * s.end));
+      json_number(s.end), json_number(s.friction.coefficient()), json_number(s.friction.coefficient() * s.end));
   for (const Level& level : levels)
     text += (&level == levels.data() ? "" : ", ") + json_level(level, reference_level(levels));
   text += "], \"trend\": {";
@@ -69,7 +69,7 @@ std::string difference_cell(double difference, double theory, const Quantity& q)
 void print_table(const scenario::Scenario& s, const std::vector<Level>& levels) {
   const Level* reference = reference_level(levels);
   put(fmt::format("{}{}t = {:.6g}, C = {:.6g}, Gamma = C t = {:.6g}\n\n{:<18}", s.title, s.title.empty() ? "" : ": ",
-                  s.end, s.friction.coefficient, s.friction.coefficient * s.end, "at the end"));
+                  s.end, s.friction.coefficient(), s.friction.coefficient() * s.end, "at the end"));
   for (const Quantity& q : compared_quantities()) put(fmt::format("{:>13}", q.heading));
   put(fmt::format("{:>10}\n{:<18}", "seconds", ""));
   for (const char* unit : {"b / (2 pi)", "c A / pi", "c A / pi", "b / A", "b / A", "b / A"})

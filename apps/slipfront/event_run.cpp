@@ -40,7 +40,7 @@ slipfront::run::CatalogueScenario scenario_of(const EventArguments& a) {
   std::string line = "slipfront event";
   for (const std::string& file : a.files) line += " " + file;
   slipfront::inference::Sampling sampling{
-      .seed = a.seed, .closure = slipfront::modulation::closure_named(a.closure), .draws = a.draws};
+      .seed = a.seed, .closure = slipfront::friction::closure_named(a.closure), .draws = a.draws};
   if (a.samples) sampling.samples = *a.samples;
   return {.texts = texts_of(a),
           .medium = a.medium,

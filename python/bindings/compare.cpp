@@ -61,8 +61,8 @@ py::dict run_compare(const py::dict& arguments, const std::vector<double>& scale
   result["scale_about"] = described(record::scale_variable);
   result["trends"] = trends(levels);
   result["notes"] = setup::notes_on(s, levels);
-  result["summary"] = py::dict("time"_a = s.end, "friction_coefficient"_a = s.friction.coefficient,
-                               "damping_number"_a = s.friction.coefficient * s.end);
+  result["summary"] = py::dict("time"_a = s.end, "friction_coefficient"_a = s.friction.coefficient(),
+                               "damping_number"_a = s.friction.coefficient() * s.end);
   return result;
 }
 

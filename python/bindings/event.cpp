@@ -79,7 +79,7 @@ run::CatalogueScenario scenario_of(const std::vector<Source>& sources, const py:
   evaluation.sample_all = !options["samples"].is_none();
   if (evaluation.sample_all) evaluation.sampling.samples = options["samples"].cast<std::size_t>();
   evaluation.sampling.seed = options["seed"].cast<std::uint64_t>();
-  evaluation.sampling.closure = modulation::closure_named(text("closure"));
+  evaluation.sampling.closure = friction::closure_named(text("closure"));
   evaluation.sampling.draws = options["draws"].cast<std::size_t>();
   evaluation.pulse = options["pulse"].cast<bool>();
   return scenario;

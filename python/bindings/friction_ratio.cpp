@@ -16,7 +16,7 @@ constexpr std::array<Description, 4> friction_ratio_described = {{
 
 py::list friction_ratio_of(const Numbers& stress, const Numbers& damping, const std::string& measure,
                            const std::string& closure_name) {
-  const modulation::Closure closure = modulation::closure_named(closure_name);
+  const friction::Closure closure = friction::closure_named(closure_name);
   const friction_ratio::Measure which = friction_ratio::measure_named(measure, "measure");
   const double *s = stress.data(), *g = damping.data();
   return columns<4>(stress.size(), [=](py::ssize_t i) {

@@ -50,8 +50,8 @@ py::dict check_pulse(const py::dict& arguments) {
   const pulse::Problem& problem = plan.problem;
   setup::check_cells(s, problem);
   return py::dict("title"_a = s.title, "cells"_a = problem.cells, "left"_a = problem.left, "right"_a = problem.right,
-                  "end"_a = s.end, "friction_law"_a = setup::law_name(s.friction.law),
-                  "friction_coefficient"_a = s.friction.coefficient, "closure"_a = name_of(s.friction.closure),
+                  "end"_a = s.end, "friction_law"_a = std::string(s.friction.definition().adjective),
+                  "friction_coefficient"_a = s.friction.coefficient(), "closure"_a = name_of(s.friction.closure()),
                   "times"_a = plan.schedule.times.size(), "memory_bytes"_a = plan.need.memory_with_file(),
                   "disk_bytes"_a = plan.need.disk);
 }

@@ -37,7 +37,9 @@ LevelsOf pieces(const Levels& saved, std::size_t sites) {
   return [&saved, sites](std::size_t begin, std::size_t end) -> Levels {
     if (saved.now.size() != sites || saved.before.size() != sites)
       refuse_size("resume", saved.now.size(), sites, "scenario");
-    return {saved.level, part(saved.now, begin, end), part(saved.before, begin, end)};
+    const std::size_t variables = saved.memory.size() / sites;
+    return {saved.level, part(saved.now, begin, end), part(saved.before, begin, end),
+            part(saved.memory, variables * begin, variables * end)};
   };
 }
 
@@ -153,7 +155,10 @@ Levels Chain::levels(std::size_t begin, std::size_t end) const {
     levels.now.insert(levels.now.end(), slab.now() + at, slab.now() + at + size);
     levels.before.insert(levels.before.end(), slab.old() + at, slab.old() + at + size);
   }
-  if (parts_->ranks.size() == 1) return levels;
+  if (parts_->ranks.size() == 1) {
+    levels.memory = parts_->forces.memories(begin, end);
+    return levels;
+  }
   levels.now = parts_->ranks.joined_at_first(levels.now);
   levels.before = parts_->ranks.joined_at_first(levels.before);
   return levels;
@@ -178,6 +183,8 @@ double Chain::contact_squared(std::size_t site) const {
   return a2 == nullptr ? 1 : *a2;
 }
 double Chain::forcing(std::size_t site) const { return parts_->forces.now(static_cast<long>(site)); }
-double Chain::friction(double velocity) const { return parts_->forces.friction(velocity); }
+double Chain::friction(std::size_t site, double velocity) const {
+  return parts_->forces.friction(static_cast<long>(site), velocity);
+}
 
 }  // namespace slipfront::chain

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <utility>
 
 namespace slipfront::chain {
 namespace {
 
-using modulation::FrictionLaw;
 constexpr double turn = 2 * std::numbers::pi;
 
 /// Site j of the problem's grid, also beyond its ends.
@@ -29,8 +29,11 @@ Forces::Forces(const Problem& problem, const Scheme& scheme, long level, std::si
       level_(level),
       first_(static_cast<long>(begin) - static_cast<long>(beyond)),
       last_(static_cast<long>(end + beyond)),
-      dry_(problem.friction.coefficient > 0 &&
-           (problem.friction.law == FrictionLaw::coulomb || problem.friction.law == FrictionLaw::power)) {
+      nonlinear_(problem.friction.acts() && !problem.friction.linear_coefficient()),
+      variables_(problem.friction.variables()),
+      memory_(variables_ * problem.grid.sites) {
+  for (std::size_t j = 0; j < memory_.size(); j += variables_)
+    problem_.friction.law().start(std::span(memory_).subspan(j, variables_));
   if (problem_.contact) {
     for (long j = first_; j < last_; ++j) {
       const double a = problem_.contact(problem_.grid.x(folded(problem_, j)));
@@ -57,42 +60,31 @@ std::vector<double> Forces::forcing_at(long level) const {
   return F;
 }
 
+const double* Forces::memory_of(long j) const { return memory_.data() + variables_ * folded(problem_, j); }
+
+void Forces::age(long first, std::size_t size, const double* now, const double* next) {
+  if (variables_ == 0) return;
+  const std::span<double> all(memory_);
+  for (std::size_t j = 0; j < size; ++j)
+    problem_.friction.law().advance((next[j] - now[j]) / dt_ * turn, dt_,
+                                    all.subspan(variables_ * (static_cast<std::size_t>(first) + j), variables_));
+}
+
+std::vector<double> Forces::memories(std::size_t begin, std::size_t end) const {
+  const auto at = [&](std::size_t j) { return memory_.begin() + static_cast<std::ptrdiff_t>(variables_ * j); };
+  return {at(begin), at(end)};
+}
+
+void Forces::set_memories(std::size_t begin, const std::vector<double>& memories) {
+  std::copy(memories.begin(), memories.end(), memory_.begin() + static_cast<std::ptrdiff_t>(variables_ * begin));
+}
+
 void Forces::proceed() {
   ++level_;
   if (steady()) return;
   F_before_.swap(F_now_);
   F_now_.swap(F_next_);
   F_next_ = forcing_at(level_ + 1);
-}
-
-double Forces::friction(double velocity) const {
-  const modulation::Friction& f = problem_.friction;
-  const double sign = (velocity > 0) - (velocity < 0);
-  switch (f.law) {
-    case FrictionLaw::none:
-      return 0;
-    case FrictionLaw::viscous:
-      return f.coefficient * velocity;
-    case FrictionLaw::coulomb:
-      return f.coefficient * sign;
-    case FrictionLaw::power:
-      return f.coefficient * sign * std::pow(std::fabs(velocity), f.exponent);
-  }
-  return 0;
-}
-
-double velocity_left(const modulation::Friction& f, double weight, double free) {
-  const double size = std::fabs(free), strength = weight * f.coefficient;
-  if (size == 0 || strength == 0) return free;
-  const double n = f.exponent;
-  // v + s v^n = size, monotone. Newton in ln v from above is monotone too: v + s v^n is convex in ln v.
-  double v = std::fmin(size, std::pow(size / strength, 1 / n));
-  for (int i = 0; i < 60; ++i) {
-    const double drag = strength * std::pow(v, n), step = (v + drag - size) / (v + n * drag);
-    v *= std::exp(-step);
-    if (std::fabs(step) < 1e-8) break;  // what is left is of the order of its square
-  }
-  return std::copysign(v, free);
 }
 
 void Forces::steps_from(long j, std::size_t size, const double* before, const double* now, const double* next,
@@ -133,23 +125,24 @@ void Forces::level(const Sides& sides, long offset, std::size_t size, const doub
                          strength * scheme_.share_beside};
     add_drive(rule, F_before(first), F_now(first), F_next(first), next + from, to - from);
   }
-  if (dry_) add_friction(from, to, before, now, next);
+  if (nonlinear_) add_friction(offset, from, to, before, now, next);
 }
 
-void Forces::add_friction(std::size_t begin, std::size_t end, const double* before, const double* now,
+void Forces::add_friction(long offset, std::size_t begin, std::size_t end, const double* before, const double* now,
                           double* next) const {
-  const modulation::Friction& f = problem_.friction;
-  if (f.law == FrictionLaw::coulomb) {
-    shorten_steps(dt_ * dt_ * f.coefficient / turn, now + begin, next + begin, end - begin);
+  const friction::Friction& f = problem_.friction;
+  if (const auto strength = f.law().constant_strength()) {
+    shorten_steps(dt_ * dt_ * *strength / turn, now + begin, next + begin, end - begin);
     return;
   }
-  // Centred on the level where that is stable; powers below 1, steep at rest, act on the half step after it, like dry
-  // friction: they can stop a site but not throw it back.
-  const bool centred = f.exponent >= 1;
+  // Centred on the level where that is stable. Laws that are steep at rest act on the half step after it: they can stop
+  // a site but not throw it back.
+  const bool centred = !f.steep_at_rest();
+  const double time = centred ? 2 * dt_ : dt_, weight = dt_ * dt_ / time;
   for (std::size_t j = begin; j < end; ++j) {
-    const double from = centred ? before[j] : now[j], time = centred ? 2 * dt_ : dt_;
+    const double from = centred ? before[j] : now[j];
     const double free = (next[j] - from) / time * turn;
-    next[j] = from + time / turn * velocity_left(f, dt_ * dt_ / time, free);
+    next[j] = from + time / turn * f.velocity_after(free, weight, memory(offset + static_cast<long>(j)));
   }
 }
 

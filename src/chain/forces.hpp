@@ -17,7 +17,7 @@ class Forces {
   /// On sites [begin, end), and `beyond`: around a periodic chain, reflected at the ends of others.
   Forces(const Problem& problem, const Scheme& scheme, long level, std::size_t begin, std::size_t end);
 
-  bool none() const { return a2_.empty() && F_now_.empty() && !dry_; }
+  bool none() const { return a2_.empty() && F_now_.empty() && !nonlinear_; }
   /// a(x)^2 from site j on; null where it is 1.
   const double* a2(long j) const { return a2_.empty() ? nullptr : a2_.data() + at(j); }
   /// F at site j now, at the level before and at the next one; arrays from site j on, null where there is no forcing.
@@ -34,9 +34,14 @@ class Forces {
              double* y, Outflow& outflow) const;
   /// To the next level of the forcing.
   void proceed();
+  /// Changes the friction law's variables of `size` sites from site `first` on, over the step from `now` to `next`.
+  void age(long first, std::size_t size, const double* now, const double* next);
+  /// The same variables of sites [begin, end), site by site; none for most laws.
+  std::vector<double> memories(std::size_t begin, std::size_t end) const;
+  void set_memories(std::size_t begin, const std::vector<double>& memories);
 
-  /// The friction force at velocity u_t.
-  double friction(double velocity) const;
+  /// The friction force on site j at velocity u_t.
+  double friction(long j, double velocity) const { return problem_.friction.force(velocity, memory(j)); }
   /// u from z, both in turns, of `size` sites from site j on; `S` is room for work.
   void displacements_from(long j, std::size_t size, const double* z, double* u, double* S) const;
   /// Steps D, B (kernel's take_steps) of `size` sites from site j on, u then being that of the next level; `u_next` and
@@ -45,23 +50,28 @@ class Forces {
                   double* D, double* B, double* u_next, double* S) const;
 
  private:
+  friction::Memory memory(long j) const {
+    return variables_ == 0 ? friction::Memory{} : friction::Memory{memory_of(j), variables_};
+  }
+  const double* memory_of(long j) const;
   std::size_t at(long j) const { return static_cast<std::size_t>(j - first_); }
   std::vector<double> forcing_at(long level) const;
   bool steady() const { return F_next_.empty(); }
-  void add_friction(std::size_t begin, std::size_t end, const double* before, const double* now, double* next) const;
+  /// On sites [begin, end) of a level that begins with site `offset`.
+  void add_friction(long offset, std::size_t begin, std::size_t end, const double* before, const double* now,
+                    double* next) const;
 
   Problem problem_;
   Scheme scheme_;
   PeriodicForce sine_;
   double dt_;
   long level_;
-  long first_, last_;  ///< sites of the arrays' first element and behind their last
-  bool dry_;
+  long first_, last_;           ///< sites of the arrays' first element and behind their last
+  bool nonlinear_;              ///< there is friction other than C w, which the scheme itself has
+  std::size_t variables_;       ///< of the friction law
+  std::vector<double> memory_;  ///< their values at each site of the chain, which one rank has alone then
   std::vector<double> a2_;
   std::vector<double> F_before_, F_now_, F_next_;  ///< F_now_ alone where it does not depend on t
 };
-
-/// The velocity v that friction of a power law leaves of `free`: v + weight f(v) = free, where f opposes v.
-double velocity_left(const modulation::Friction& friction, double weight, double free);
 
 }  // namespace slipfront::chain

@@ -154,7 +154,7 @@ void add(const Chain& chain, const Window& w, std::size_t begin, std::size_t end
     t.substrate += weight * chain.contact_squared(j) * (1 - cosine);
     t.momentum += weight * velocity * w.stress[j - low];
     t.supplied_rate += weight * velocity * chain.forcing(j);
-    t.dissipated_rate += weight * velocity * chain.friction(velocity);
+    t.dissipated_rate += weight * velocity * chain.friction(j, velocity);
     t.elastic += h * elastic_energy(u, j, n, h, p.model);
     if (j + 1 >= n) continue;
     dislocations += std::fabs(std::floor(u(j + 1) / turn - 0.5) - std::floor(u(j) / turn - 0.5));

@@ -16,10 +16,6 @@ namespace {
 /// about a nanosecond a site and level more; 200 samples (Run::sample) cost as much as 13 000 such levels.
 constexpr std::size_t metered_sites = 10000;
 
-bool has_friction(const Problem& p) {
-  return p.friction.law != modulation::FrictionLaw::none && p.friction.coefficient > 0;
-}
-
 /// Cuts blocks [begin, end) of sites into pieces that stay in the innermost cache with the forces on them and their
 /// works: as many whole blocks as fit, or some sites of one that is longer.
 std::vector<std::size_t> pieces_of(const Blocks& blocks, std::size_t begin, std::size_t end) {
@@ -74,12 +70,17 @@ Chain::Parts::Parts(const Problem& p, const Execution& e, long at)
       begin(blocks.begin(first_block)),
       end(blocks.begin(end_block)),
       forces(p, scheme, at, begin, end),
-      level_by_level(!forces.none() || (has_friction(p) && p.grid.sites <= metered_sites)),
-      meter(problem, level_by_level && (p.forcing || has_friction(p)), scheme, blocks, first_block, end_block),
+      level_by_level(!forces.none() || (p.friction.acts() && p.grid.sites <= metered_sites)),
+      meter(problem, level_by_level && (p.forcing || p.friction.acts()), scheme, blocks, first_block, end_block),
       level(at) {
   if (e.threads < 1)
     throw InputError(
         {.key = "threads", .value = std::to_string(e.threads), .problem = "out of range", .allowed = ">= 1"});
+  if (ranks.size() > 1 && p.friction.variables() > 0)
+    throw InputError({.key = "ranks",
+                      .value = std::to_string(ranks.size()),
+                      .problem = "friction.law = \"" + std::string(p.friction.name()) + "\" has variables at each site",
+                      .allowed = "1 rank, with as many threads as wanted"});
   if (static_cast<std::size_t>(ranks.size()) > blocks.count)
     throw InputError({.key = "ranks",
                       .value = std::to_string(ranks.size()),
@@ -111,13 +112,15 @@ void Chain::Parts::fill(const std::function<Levels(std::size_t, std::size_t)>& s
     for (std::size_t at = 0; at < slab.size(); at += piece) {
       const std::size_t size = std::min(piece, slab.size() - at), from = slab.begin() + at;
       const Levels levels = source(from, from + size);
-      if (levels.now.size() != size || levels.before.size() != size)
+      const std::size_t memory = levels.memory.size(), all = size * problem.friction.variables();
+      if (levels.now.size() != size || levels.before.size() != size || (memory != 0 && memory != all))
         throw InputError({.key = "resume",
                           .value = std::to_string(levels.now.size()) + " sites",
                           .problem = "does not fit the scenario",
                           .allowed = std::to_string(size) + " of " + std::to_string(problem.grid.sites) + " sites"});
       std::copy_n(levels.now.data(), size, slab.now() + at);
       std::copy_n(levels.before.data(), size, slab.old() + at);
+      if (!levels.memory.empty()) forces.set_memories(from, levels.memory);
       meter.start(forces, from, size, slab.now() + at);
     }
 }
@@ -181,6 +184,7 @@ void Chain::Parts::advance_by_one_level(std::size_t i) {
     const double *now = slab.now() + at, *before = slab.old() + at;
     forces.level(here, static_cast<long>(first), size, before, now, next, y, slab.outflow);
     if (meter.active()) meter.add(forces, first, first + size, before, now, next, room.work);
+    forces.age(static_cast<long>(first), size, now, next);
     std::copy_n(next, size, slab.old() + at);
   }
   slab.swap();

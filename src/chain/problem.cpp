@@ -29,10 +29,7 @@ double largest_contact(const Problem& p) {
   return most;
 }
 
-bool plain(const Problem& p) {
-  return !p.contact && !p.forcing &&
-         (p.friction.law == modulation::FrictionLaw::none || p.friction.law == modulation::FrictionLaw::viscous);
-}
+bool plain(const Problem& p) { return !p.contact && !p.forcing && p.friction.linear_coefficient(); }
 
 /// The step at which the amplitude f of the shortest wave in x and t, (-1)^(site + level) f, obeys
 ///     f_tt - f_xx + ((a^2 - a^2 cos u) / 3 + mass^2) f = 0:
@@ -71,10 +68,7 @@ void check(const Problem& p, double share_of_machine) {
   if (!(h > 0) || !std::isfinite(h)) refuse("spacing", h, "out of range", "> 0, finite");
   if (!std::isfinite(p.grid.left)) refuse("left", p.grid.left, "out of range", "finite");
   if (p.grid.sites < 8) refuse("sites", static_cast<double>(p.grid.sites), "too few", ">= 8");
-  if (!(p.friction.coefficient >= 0) || !std::isfinite(p.friction.coefficient))
-    refuse("friction.coefficient", p.friction.coefficient, "out of range", ">= 0, finite");
-  if (p.friction.law == modulation::FrictionLaw::power && !(p.friction.exponent > 0))
-    refuse("friction.exponent", p.friction.exponent, "out of range", "> 0");
+  p.friction.check();
   const double need = memory_needed(p) * share_of_machine, have = usable_memory();
   if (need > have)
     refuse("sites", static_cast<double>(p.grid.sites),

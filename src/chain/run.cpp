@@ -57,6 +57,12 @@ double crossing_stress(const ScaledProblem& s) {
   return most;
 }
 
+[[noreturn]] void refuse_saved() {
+  throw InputError({.key = "resume",
+                    .problem = "the saved state is of another version or scenario",
+                    .allowed = "a file of this version and scenario, written by slipfront chain"});
+}
+
 /// The first level behind `level` at which rates are sampled: one somewhere in each `every` levels. A train passes x =
 /// 0 with a period of its own, and regular samples, of any pattern, can see the same phase of it again and again.
 long sample_after(long level, long every) {
@@ -92,8 +98,7 @@ Problem problem_of(const ScaledProblem& s, double share_of_machine) {
   p.grid.spacing = s.boundary.periodic ? length / intervals : s.spacing;
   p.model = s.model;
   p.boundary = s.boundary;
-  p.friction = s.friction;
-  p.friction.coefficient /= s.scale;
+  p.friction = s.friction.divided_by(s.scale);
   if (s.forcing) p.forcing = [f = s.forcing, c = s.scale](double x, double t) { return f(x / c, t / c) / c; };
   p.steady_forcing = s.steady_forcing;
   if (s.contact) p.contact = [a = s.contact, c = s.scale](double x) { return a(x / c); };
@@ -196,9 +201,7 @@ double Run::driving_force() const {
 
 /// Rates that are integrated over time. Where nothing takes energy but what the chain meters there is no need of them.
 void Run::sample() {
-  const modulation::Friction& f = chain_.problem().friction;
-  if (f.law != modulation::FrictionLaw::none && f.coefficient > 0 && !chain_.meters_friction())
-    work_.sample(totals(chain_));
+  if (chain_.problem().friction.acts() && !chain_.meters_friction()) work_.sample(totals(chain_));
   if (std::isnan(first_u_at_origin_)) return;
   const double time = chain_.time(), velocity = average(chain_, 0, scaled_.scale * window_, time).velocity;
   slip_.add(time, velocity);
@@ -208,10 +211,7 @@ Run::Run(const ScaledProblem& scaled, output::Schedule schedule, const Execution
          std::vector<Snapshot> snapshots)
     : Run(scaled, std::move(schedule), execution) {
   bytes::Reader reader(saved);
-  if (reader.get<std::uint64_t>() != format || snapshots.size() > schedule_.times.size())
-    throw InputError({.key = "resume",
-                      .problem = "the saved state is of another version or scenario",
-                      .allowed = "a file of this version and scenario, written by slipfront chain"});
+  if (reader.get<std::uint64_t>() != format || snapshots.size() > schedule_.times.size()) refuse_saved();
   for (double* value : {&work_.supplied, &work_.dissipated, &work_.time, &work_.supplied_rate, &work_.dissipated_rate,
                         &slip_.time, &slip_.velocity, &slip_.integral, &slip_.early_time, &slip_.early_velocity,
                         &slip_.coarse_integral, &slip_.spread})
@@ -222,6 +222,14 @@ Run::Run(const ScaledProblem& scaled, output::Schedule schedule, const Execution
   levels.level = static_cast<long>(reader.get<std::int64_t>());
   levels.now = reader.vector();
   levels.before = reader.vector();
+  const std::vector<friction::Variable>& variables = chain_.problem().friction.definition().variables;
+  levels.memory.resize(variables.size() * levels.now.size());
+  for (std::size_t v = 0; v < variables.size(); ++v) {
+    const bool known = reader.text() == variables[v].name;
+    const std::vector<double> values = reader.vector();
+    if (!known || values.size() != levels.now.size()) refuse_saved();
+    for (std::size_t j = 0; j < values.size(); ++j) levels.memory[variables.size() * j + v] = values[j];
+  }
   reader.end();
   const double last = schedule_.times.back() * scaled_.scale / chain_.dt();
   if (!(levels.level >= 0 && static_cast<double>(levels.level) < last + 1))
@@ -247,6 +255,13 @@ std::string Run::saved() const {
   writer.put(static_cast<std::int64_t>(levels.level));
   writer.put(levels.now);
   writer.put(levels.before);
+  const std::vector<friction::Variable>& variables = chain_.problem().friction.definition().variables;
+  for (std::size_t v = 0; v < variables.size(); ++v) {
+    std::vector<double> values;
+    for (std::size_t j = v; j < levels.memory.size(); j += variables.size()) values.push_back(levels.memory[j]);
+    writer.put_text(variables[v].name);
+    writer.put(values);
+  }
   return std::move(writer).text();
 }
 

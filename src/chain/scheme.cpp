@@ -8,7 +8,7 @@ Scheme scheme_of(const Problem& p) {
   Scheme s;
   s.h = p.grid.spacing;
   s.dt = chosen_step(p);
-  const double C = p.friction.law == modulation::FrictionLaw::viscous ? p.friction.coefficient : 0;
+  const double C = p.friction.linear_coefficient().value_or(0);
   const double g = C * s.dt / 2, grow = std::exp(g), fall = std::exp(-g), dt2 = s.dt * s.dt,
                lambda2 = dt2 / (s.h * s.h);
   s.rule.before = fall * fall;

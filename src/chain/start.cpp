@@ -124,7 +124,7 @@ Levels first_levels(const Problem& p, const Scheme& s, const Forces& forces, con
                     std::size_t end, StartCheck& check) {
   const long n = static_cast<long>(p.grid.sites), from = static_cast<long>(begin), to = static_cast<long>(end);
   const double h2 = s.h * s.h, dt = s.dt;
-  const double C = p.friction.law == modulation::FrictionLaw::viscous ? p.friction.coefficient : 0;
+  const double C = p.friction.linear_coefficient().value_or(0);
   const auto contact = [&forces](long j) { return forces.a2(j) == nullptr ? 1.0 : *forces.a2(j); };
   const auto spring = [&](const SiteField& v, long j) {
     return (p.model == Model::lattice ? v.bend(j) : v.fine_bend(j)) / h2;
@@ -148,7 +148,7 @@ Levels first_levels(const Problem& p, const Scheme& s, const Forces& forces, con
   const auto cosine = [&](long j) { return contact(j) * std::cos(u[j]); };
   const auto sine = [&](long j) { return contact(j) * std::sin(u[j]); };
   for (long j = jerk.low(); j < jerk.high(); ++j) {
-    acceleration[j] = spring(u, j) - sine(j) + forces.now(j) - forces.friction(w[j]);
+    acceleration[j] = spring(u, j) - sine(j) + forces.now(j) - forces.friction(j, w[j]);
     jerk[j] = spring(w, j) - cosine(j) * w[j] - C * acceleration[j] + forces.rate(j);
   }
   Levels levels;

@@ -77,7 +77,7 @@ Window Chain::Parts::window(std::size_t from, std::size_t to, double time) const
   const double dt = scheme.dt, h = scheme.h, tau = time - static_cast<double>(level) * dt;
   const ThreeLevels v = three_levels(from, to);
   const auto local = [&](std::size_t site) { return static_cast<std::size_t>(static_cast<long>(site) - v.low); };
-  const double C = problem.friction.law == modulation::FrictionLaw::viscous ? problem.friction.coefficient : 0;
+  const double C = problem.friction.linear_coefficient().value_or(0);
   const auto rate = [&](std::size_t j) { return (v.u_next[j] - v.u_old[j]) / (2 * dt); };
   const auto stress = [&](const std::vector<double>& u, std::size_t j) {
     if (problem.model == Model::lattice) return (u[j - 1] - u[j + 1]) / (2 * h);

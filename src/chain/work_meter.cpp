@@ -6,12 +6,6 @@
 #include "kernel.hpp"
 
 namespace slipfront::chain {
-namespace {
-
-using modulation::FrictionLaw;
-
-}  // namespace
-
 WorkMeter::WorkMeter(const Problem& p, bool active, const Scheme& s, const Blocks& blocks, std::size_t first_block,
                      std::size_t end_block)
     : sums(2 * (end_block - first_block), 0.0),
@@ -43,26 +37,21 @@ void WorkMeter::add(const Forces& forces, std::size_t begin, std::size_t end, co
       return work_of_force(F_before + at, F_now + at, F_next + at, D + at, B + at, size);
     });
   }
-  const double C = problem_->friction.coefficient;
-  if (!(C > 0)) return;
-  switch (problem_->friction.law) {
-    case FrictionLaw::none:
-      break;
-    case FrictionLaw::viscous:
-      add_to_blocks(begin, end, 1, C / dt_,
-                    [=](std::size_t at, std::size_t size) { return work_of_viscous_friction(D + at, B + at, size); });
-      break;
-    case FrictionLaw::coulomb:
-      add_to_blocks(begin, end, 1, C,
-                    [=](std::size_t at, std::size_t size) { return work_of_coulomb_friction(D + at, size); });
-      break;
-    case FrictionLaw::power:
-      add_to_blocks(begin, end, 1, 1, [&, D](std::size_t at, std::size_t size) {
-        double sum = 0;
-        for (std::size_t j = at; j < at + size; ++j) sum += std::fabs(forces.friction(D[j] / dt_) * D[j]);
-        return sum;
-      });
-      break;
+  const friction::Friction& friction = problem_->friction;
+  if (!friction.acts()) return;
+  if (const auto C = friction.linear_coefficient()) {
+    add_to_blocks(begin, end, 1, *C / dt_,
+                  [=](std::size_t at, std::size_t size) { return work_of_viscous_friction(D + at, B + at, size); });
+  } else if (const auto f = friction.law().constant_strength()) {
+    add_to_blocks(begin, end, 1, *f,
+                  [=](std::size_t at, std::size_t size) { return work_of_coulomb_friction(D + at, size); });
+  } else {
+    add_to_blocks(begin, end, 1, 1, [&, D](std::size_t at, std::size_t size) {
+      double sum = 0;
+      for (std::size_t j = at; j < at + size; ++j)
+        sum += std::fabs(forces.friction(site + static_cast<long>(j), D[j] / dt_) * D[j]);
+      return sum;
+    });
   }
 }
 

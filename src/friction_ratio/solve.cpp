@@ -61,7 +61,7 @@ pulse::Solver solver_of(const Question& question) {
   const double reach = V * std::fmin(1.02, 9 / std::sqrt(question.damping_number));
   return pulse::Solver({.stress = [stress = question.stress](double x) { return x < 0 ? stress : 0.0; },
                         .forcing = {},
-                        .friction = {modulation::FrictionLaw::viscous, question.damping_number, 1, question.closure},
+                        .friction = friction::viscous(question.damping_number, question.closure),
                         .left = -reach,
                         .right = reach,
                         .cells = question.cells});
@@ -83,7 +83,7 @@ SlipVelocities solve(const Question& question) {
   return velocities_of(solver, question.stress, 1);
 }
 
-std::vector<SlipVelocities> solve_each(double stress, modulation::Closure closure, int cells,
+std::vector<SlipVelocities> solve_each(double stress, friction::Closure closure, int cells,
                                        const std::vector<double>& damping_numbers) {
   pulse::Solver solver = solver_of({stress, damping_numbers.back(), closure, cells});
   std::vector<SlipVelocities> found;

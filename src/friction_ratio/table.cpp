@@ -35,9 +35,9 @@ Measure measure_named(std::string_view name, std::string_view key) {
                     .allowed = "origin, mean, peak, time-mean"});
 }
 
-Ratio evaluate(Measure measure, modulation::Closure closure, double stress, double damping) {
+Ratio evaluate(Measure measure, friction::Closure closure, double stress, double damping) {
   check(stress, damping);
-  const std::size_t c = closure == modulation::Closure::paper ? 1 : 0, m = static_cast<std::size_t>(measure);
+  const std::size_t c = closure == friction::Closure::paper ? 1 : 0, m = static_cast<std::size_t>(measure);
   const layout::Range y_range = layout::of_stress();
   const double t = y_range.to_unit(layout::y_of(stress));
   const auto ends = layout::ends_at(corners[c][m], t);
@@ -73,9 +73,9 @@ Ratio evaluate(Measure measure, modulation::Closure closure, double stress, doub
   return r;
 }
 
-double uncertainty(modulation::Closure closure, double damping) {
+double uncertainty(friction::Closure closure, double damping) {
   const bool unstable = damping > layout::unstable_from && damping < layout::uncertain_to;
-  return closure == modulation::Closure::paper && unstable ? 1e-2 : 1e-4;
+  return closure == friction::Closure::paper && unstable ? 1e-2 : 1e-4;
 }
 
 StressRange stress_range() { return {layout::least_stress, layout::most_stress}; }

@@ -39,7 +39,7 @@ double frictionless(Measure measure, double stress, double W_at_origin) {
   if (measure != Measure::mean) return W_at_origin;
   const auto range = friction_ratio::stress_range();
   const double tabled = std::fmin(std::fmax(stress, range.least), range.most);
-  return W_at_origin * friction_ratio::evaluate(measure, modulation::Closure::consistent, tabled, 0).value;
+  return W_at_origin * friction_ratio::evaluate(measure, friction::Closure::consistent, tabled, 0).value;
 }
 
 std::optional<Damped> damping_at(const Pulse& pulse, double W) {

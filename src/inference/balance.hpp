@@ -14,7 +14,7 @@ struct Pulse {
   double stress;        ///< Sigma-, within the table's range
   double frictionless;  ///< W(0) without friction
   catalogue::Measure measure;
-  modulation::Closure closure;
+  friction::Closure closure;
 
   /// W with friction, and its slope d ln W / d ln(1 + Gamma), <= 0.
   struct At {

@@ -57,7 +57,7 @@ std::string why_no_interval(double effective, double k, std::size_t samples) {
          " samples, above 0.7: a few samples decide";
 }
 
-void add_trade_off(Posterior& p, const Observation& o, const medium::Defaults& defaults, modulation::Closure closure) {
+void add_trade_off(Posterior& p, const Observation& o, const medium::Defaults& defaults, friction::Closure closure) {
   const Elastic e = elastic(o, defaults);
   const double w = o.slip_velocity_m_s ? o.slip_velocity_m_s->middle() : o.slip->middle() / o.slip_time()->middle();
   const double V = o.rupture_velocity_m_s->middle() / e.speed;
@@ -84,7 +84,7 @@ std::string share_in_words(const char* name, double share) {
   return text + ": the data speak (the prior's share of the interval is below 10 %)";
 }
 
-void add_notes(Posterior& p, const Observation& o, const Sampler& s, modulation::Closure closure) {
+void add_notes(Posterior& p, const Observation& o, const Sampler& s, friction::Closure closure) {
   constexpr const char* cure =
       "contact_ratio, normal_stress with hardness, stress_drop, or friction_coefficient with asperity_spacing and "
       "duration would settle it";

@@ -14,19 +14,19 @@ constexpr int most_at_once = 100000;  ///< cells that come in after one step
 }  // namespace
 
 double Solver::left_face(std::size_t cell) const {
-  double x = cells_.y[2 * size()];
-  for (std::size_t i = 0; i < cell; ++i) x += cells_.y[2 * i];
+  double x = cells_.left_edge();
+  for (std::size_t i = 0; i < cell; ++i) x += cells_.width(i);
   return x;
 }
 
 /// A train that goes on beyond the end is as it is at the end: a cell like the last one comes in.
 void Solver::fill_end(bool left) {
   const std::size_t n = size(), end = left ? 0 : n - 1;
-  const double charge = cells_.charge[end], width = cells_.y[2 * end], momentum = cells_.y[2 * end + 1],
+  const double charge = cells_.charge[end], width = cells_.width(end), momentum = cells_.momentum(end),
                s = cells_.s[end];
   const auto at = [&](std::size_t i) { return static_cast<std::ptrdiff_t>(i); };
   const std::size_t where = left ? 0 : n;
-  cells_.y.insert(cells_.y.begin() + at(2 * where), {width, momentum});
+  cells_.unknowns.insert(cells_.unknowns.begin() + at(Values::width_at(where)), {width, momentum});
   cells_.charge.insert(cells_.charge.begin() + at(where), charge);
   cells_.s.insert(cells_.s.begin() + at(where), s);
   if (!cells_.face_momentum.empty()) {  // around the face at an end there is half a cell
@@ -36,15 +36,15 @@ void Solver::fill_end(bool left) {
     cells_.face_momentum.insert(left ? cells_.face_momentum.begin() : cells_.face_momentum.end(), outer);
   }
   (left ? cells_.entered_left : cells_.entered_right) += charge;
-  if (left) cells_.y[2 * size()] -= width;
-  cells_.y[2 * size() + 3] += energy_in(left ? 0 : size() - 1);
+  if (left) cells_.left_edge() -= width;
+  cells_.values().through_ends() += energy_in(left ? 0 : size() - 1);
 }
 
 /// What is beyond the end no longer counts.
 void Solver::drop_beyond(bool left) {
   const std::size_t end = left ? 0 : size() - 1;
-  const double width = cells_.y[2 * end];
-  cells_.y[2 * size() + 3] -= energy_in(end);
+  const double width = cells_.width(end);
+  cells_.values().through_ends() -= energy_in(end);
   (left ? cells_.entered_left : cells_.entered_right) -= cells_.charge[end];
   if (!cells_.face_momentum.empty()) {
     const std::size_t next = left ? 1 : size() - 1;
@@ -53,19 +53,19 @@ void Solver::drop_beyond(bool left) {
     cells_.face_momentum.erase(left ? cells_.face_momentum.begin() : cells_.face_momentum.end() - 1);
   }
   drop_cell(end);
-  if (left) cells_.y[2 * size()] += width;
+  if (left) cells_.left_edge() += width;
 }
 
 /// A free edge that comes back to a wall stops there.
 void Solver::stop_at_walls() {
-  double& x = cells_.y[2 * size()];
+  double& x = cells_.left_edge();
   const double near = 1e-6;  // of a cell, as where a gap closes
-  if (problem_.left_end == End::fixed && x < problem_.left + near * cells_.y[0]) {
-    cells_.y[0] -= problem_.left - x;
+  if (problem_.left_end == End::fixed && x < problem_.left + near * cells_.width(0)) {
+    cells_.width(0) -= problem_.left - x;
     x = problem_.left;
   }
   if (problem_.right_end != End::fixed) return;
-  double& last = cells_.y[2 * size() - 2];
+  double& last = cells_.width(size() - 1);
   const double beyond = left_face(size()) - problem_.right;
   if (beyond > -near * last) last -= beyond;
 }
@@ -78,22 +78,22 @@ void Solver::adjust_ends() {
     if (end == End::fixed) continue;
     const bool continued = end == End::continued;
     if (continued && (left ? left_free_ : right_free_)) continue;  // the stress ends inside the domain
-    const double edge = left ? cells_.y[2 * size()] : left_face(size());
+    const double edge = left ? cells_.left_edge() : left_face(size());
     // A train at rest moves by rounding: a sliver is no place that has to be filled.
-    const double sliver = continued ? 1e-3 * cells_.y[left ? 0 : 2 * size() - 2] : 0;
+    const double sliver = continued ? 1e-3 * cells_.width(left ? 0 : size() - 1) : 0;
     double inside = (left ? edge - problem_.left : problem_.right - edge) - sliver;
     for (int i = 0; continued && inside > 0 && i < most_at_once; ++i) {
       fill_end(left);
       changed = true;
-      inside -= cells_.y[left ? 0 : 2 * size() - 2];
+      inside -= cells_.width(left ? 0 : size() - 1);
     }
     const std::size_t margin = continued ? reach : 0;
     while (size() > fewest + margin) {
       double first = 0;  // width of the cells that must lie beyond
-      for (std::size_t i = 0; i <= margin; ++i) first += cells_.y[2 * (left ? i : size() - 1 - i)];
+      for (std::size_t i = 0; i <= margin; ++i) first += cells_.width(left ? i : size() - 1 - i);
       const bool alone = cells_.charge[left ? 1 : size() - 2] == 0;
       if (inside + first > 0 || alone) break;
-      inside += cells_.y[2 * (left ? 0 : size() - 1)];
+      inside += cells_.width(left ? 0 : size() - 1);
       drop_beyond(left);
       changed = true;
     }

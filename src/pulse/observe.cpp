@@ -256,9 +256,10 @@ void TrailingCharacteristic::advance(const Solver& now, double dt) {
     position_ += dt * speed_;
     return;
   }
-  const std::vector<double>& y = now.cells().y;
+  const Cells& cells = now.cells();
   std::size_t cell = 0;
-  for (double right = y[2 * now.size()] + y[0]; cell + 1 < now.size() && right <= position_; right += y[2 * cell])
+  for (double right = cells.left_edge() + cells.width(0); cell + 1 < now.size() && right <= position_;
+       right += cells.width(cell))
     ++cell;
   // Ahead of it by more than a reconstruction reaches, so that the front itself is not seen.
   const std::size_t ahead = stressed_left_ ? (cell > 6 ? cell - 6 : 0) : std::min(cell + 6, now.size() - 1);

@@ -13,7 +13,82 @@
 namespace slipfront::pulse {
 namespace {
 
-constexpr std::uint64_t format = 4;
+constexpr std::uint64_t format = 5;
+
+[[noreturn]] void refuse_saved() {
+  throw InputError({.key = "resume",
+                    .problem = "the saved state is of another version or scenario",
+                    .allowed = "a file of this version and scenario"});
+}
+
+/// What a saved run holds, in its order.
+void put(bytes::Writer& writer, std::string_view name, const std::vector<double>& values) {
+  writer.put_text(name);
+  writer.put(values);
+}
+std::vector<double> get(bytes::Reader& reader, std::string_view name) {
+  if (reader.text() != name) refuse_saved();
+  return reader.vector();
+}
+double get_number(bytes::Reader& reader, std::string_view name) {
+  const std::vector<double> values = get(reader, name);
+  if (values.size() != 1) refuse_saved();
+  return values[0];
+}
+
+void save(const Cells& cells, bytes::Writer& writer) {
+  const ConstValues values = cells.values();
+  std::vector<double> width, momentum;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    width.push_back(values.width(i));
+    momentum.push_back(values.momentum(i));
+  }
+  put(writer, "time", {cells.time});
+  put(writer, "steps", {static_cast<double>(cells.steps)});
+  put(writer, "step", {cells.step});
+  put(writer, "charge", cells.charge);
+  put(writer, "width", width);
+  put(writer, "momentum", momentum);
+  put(writer, "left_edge", {values.left_edge()});
+  put(writer, "dissipated", {values.dissipated()});
+  put(writer, "supplied", {values.supplied()});
+  put(writer, "through_ends", {values.through_ends()});
+  put(writer, "tanh_psi", cells.s);
+  put(writer, "face_momentum", cells.face_momentum);
+  put(writer, "entered_left", {cells.entered_left});
+  put(writer, "entered_right", {cells.entered_right});
+  put(writer, "crossing_time", {cells.crossing_time});
+  put(writer, "crossing_position", {cells.crossing_position});
+}
+
+Cells saved_cells(bytes::Reader& reader) {
+  Cells cells;
+  cells.time = get_number(reader, "time");
+  const double steps = get_number(reader, "steps");
+  if (!(steps >= 0 && steps < 9e15)) refuse_saved();
+  cells.steps = static_cast<long>(steps);
+  cells.step = get_number(reader, "step");
+  cells.charge = get(reader, "charge");
+  const std::vector<double> width = get(reader, "width"), momentum = get(reader, "momentum");
+  if (width.size() != cells.size() || momentum.size() != cells.size()) refuse_saved();
+  cells.unknowns.resize(Values::size(cells.size()));
+  const Values values = cells.values();
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    values.width(i) = width[i];
+    values.momentum(i) = momentum[i];
+  }
+  values.left_edge() = get_number(reader, "left_edge");
+  values.dissipated() = get_number(reader, "dissipated");
+  values.supplied() = get_number(reader, "supplied");
+  values.through_ends() = get_number(reader, "through_ends");
+  cells.s = get(reader, "tanh_psi");
+  cells.face_momentum = get(reader, "face_momentum");
+  cells.entered_left = get_number(reader, "entered_left");
+  cells.entered_right = get_number(reader, "entered_right");
+  cells.crossing_time = get_number(reader, "crossing_time");
+  cells.crossing_position = get_number(reader, "crossing_position");
+  return cells;
+}
 
 }  // namespace
 
@@ -26,25 +101,12 @@ Run::Run(Problem problem, output::Schedule schedule)
 Run::Run(Problem problem, output::Schedule schedule, std::string_view saved, std::vector<output::Snapshot> snapshots)
     : Run(std::move(problem), std::move(schedule)) {
   bytes::Reader reader(saved);
-  if (reader.get<std::uint64_t>() != format || snapshots.size() > schedule_.times.size())
-    throw InputError({.key = "resume",
-                      .problem = "the saved state is of another version or scenario",
-                      .allowed = "a file of this version and scenario"});
-  Cells cells;
-  cells.time = reader.get<double>();
-  cells.steps = static_cast<long>(reader.get<std::int64_t>());
-  cells.step = reader.get<double>();
-  trailing_characteristic_.restore(reader.get<double>());
-  cells.y = reader.vector();
-  cells.s = reader.vector();
-  cells.charge = reader.vector();
-  cells.face_momentum = reader.vector();
-  cells.entered_left = reader.get<double>();
-  cells.entered_right = reader.get<double>();
-  cells.crossing_time = reader.get<double>();
-  cells.crossing_position = reader.get<double>();
+  if (reader.get<std::uint64_t>() != format || snapshots.size() > schedule_.times.size()) refuse_saved();
+  Cells cells = saved_cells(reader);
+  trailing_characteristic_.restore(get_number(reader, "trailing_characteristic"));
   output::SampledIntegral& slip = slip_;
-  for (double* value : {&slip.time, &slip.velocity, &slip.integral, &slip_size_, &slip.early_time, &slip.early_velocity,
+  for (double* value :
+       {&slip.time, &slip.velocity, &slip.integral, &slip_size_, &slip.early_time, &slip.early_velocity,
                         &slip.coarse_integral, &slip.spread, &slip_doubt_})
     *value = reader.get<double>();
   slip.samples = static_cast<long>(reader.get<std::int64_t>());
@@ -55,22 +117,12 @@ Run::Run(Problem problem, output::Schedule schedule, std::string_view saved, std
 
 std::string Run::saved() const {
   bytes::Writer writer;
-  const Cells& cells = solver_.cells();
   writer.put(format);
-  writer.put(cells.time);
-  writer.put(static_cast<std::int64_t>(cells.steps));
-  writer.put(cells.step);
-  writer.put(trailing_characteristic_.position());
-  writer.put(cells.y);
-  writer.put(cells.s);
-  writer.put(cells.charge);
-  writer.put(cells.face_momentum);
-  writer.put(cells.entered_left);
-  writer.put(cells.entered_right);
-  writer.put(cells.crossing_time);
-  writer.put(cells.crossing_position);
+  save(solver_.cells(), writer);
+  put(writer, "trailing_characteristic", {trailing_characteristic_.position()});
   const output::SampledIntegral& slip = slip_;
-  for (const double value : {slip.time, slip.velocity, slip.integral, slip_size_, slip.early_time, slip.early_velocity,
+  for (const double value :
+       {slip.time, slip.velocity, slip.integral, slip_size_, slip.early_time, slip.early_velocity,
                              slip.coarse_integral, slip.spread, slip_doubt_})
     writer.put(value);
   writer.put(static_cast<std::int64_t>(slip.samples));

@@ -14,11 +14,11 @@ namespace slipfront::pulse {
 
 Semidiscrete::Semidiscrete(Setup setup)
     : setup_(std::move(setup)),
-      power_law_rate_(setup_.friction),
+      relaxation_rate_(setup_.friction.relaxation_rate()),
       stretches_(stretches_of(setup_.charge, setup_.left, setup_.right)) {
   const std::size_t n = size();
   for (auto* array : {&charge_point_, &per_charge_point_, &width_, &momentum_in_cell_, &phi_mean_, &psi_mean_, &rate_,
-                      &source_, &source_mean_, &centres_, &shocked_})
+                      &strength_, &source_, &source_mean_, &centres_, &shocked_})
     array->assign(n, 0);
   at_.resize(n);
   for (auto* array : {&invariant_plus_, &invariant_minus_}) array->assign(n + 2 * ghosts, 0);
@@ -68,10 +68,11 @@ void Semidiscrete::find_states(double t, const double* y) {
 
 void Semidiscrete::find_places(double t, const double* y) {
   const std::size_t n = size();
-  faces_[0] = y[2 * n];
+  const ConstValues values(y, n);
+  faces_[0] = values.left_edge();
   for (std::size_t i = 0; i < n; ++i) {
-    faces_[i + 1] = faces_[i] + y[2 * i];
-    if (!(y[2 * i] > 0) && !gap(i))
+    faces_[i + 1] = faces_[i] + values.width(i);
+    if (!(values.width(i) > 0) && !gap(i))
       throw NumericsError("t = " + digits(t) + ", cell " + std::to_string(i) + ": squeezed to nothing");
   }
   middles(stretches_, faces_, centres_);
@@ -82,6 +83,7 @@ void Semidiscrete::find_places(double t, const double* y) {
 
 void Semidiscrete::operator()(double t, const double* y, double* dy) {
   const std::size_t n = size();
+  const Values rates(dy, n);
   if (setup_.forcing || setup_.contact) find_places(t, y);
   find_states(t, y);
   find_rates();
@@ -89,33 +91,35 @@ void Semidiscrete::operator()(double t, const double* y, double* dy) {
   find_faces();
   face_fluxes(n + 1, face_phi_.data(), face_psi_.data(), face_U_.data(), face_p_.data());
   for (std::size_t f = 0; f < face_contact_.size(); ++f) face_p_[f] *= face_contact_[f] * face_contact_[f];
-  dy[2 * n] = face_U_[0];
-  dy[2 * n + 1] = dy[2 * n + 2] = 0;
-  dy[2 * n + 3] = face_p_[0] * face_U_[0] - face_p_[n] * face_U_[n];
+  rates.left_edge() = face_U_[0];
+  rates.dissipated() = rates.supplied() = 0;
+  rates.through_ends() = face_p_[0] * face_U_[0] - face_p_[n] * face_U_[n];
   differences(n, face_U_.data(), face_p_.data(), dy);
   if (setup_.contact) add_contact_force(dy);
   add_sources(t, y, dy);
 }
 
 double Semidiscrete::crossing_time(const double* y, const double* dy) const {
+  const ConstValues values(y, size());
   double least = HUGE_VAL;
   for (const Stretch& r : stretches_) {
     const std::size_t i = r.begin;
-    least =
-        std::fmin(least, least_crossing_time(r.end - i, y + 2 * i, dy + 2 * i, &at_.velocity[i], &at_.sound_speed[i]));
+    least = std::fmin(least, least_crossing_time(r.end - i, values.from(i), ConstValues(dy, size()).from(i),
+                                                 &at_.velocity[i], &at_.sound_speed[i]));
   }
   if (setup_.contact)  // which may not throw a cell, of mass 8 a dislocation, farther than a part of its width
     for (std::size_t i = 0; i < size(); ++i)
       if (contact_force_[i] != 0)
-        least = std::fmin(least, std::sqrt(4 * setup_.charge[i] * y[2 * i] / std::fabs(contact_force_[i])));
+        least = std::fmin(least, std::sqrt(4 * setup_.charge[i] * values.width(i) / std::fabs(contact_force_[i])));
   return least;
 }
 
 double Semidiscrete::mean_crossing_time(const double* y) const {
+  const ConstValues values(y, size());
   double width = 0, fastest = 0;
   for (std::size_t i = 0; i < size(); ++i) {
     if (gap(i)) continue;
-    width += y[2 * i];
+    width += values.width(i);
     fastest = std::max(fastest, at_.sound_speed[i]);
   }
   return fastest > 0 ? width / static_cast<double>(size()) / fastest : HUGE_VAL;

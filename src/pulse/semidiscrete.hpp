@@ -1,11 +1,13 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "cell_states.hpp"
-#include "slipfront/modulation/friction.hpp"
+#include "slipfront/friction/friction.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
+#include "slipfront/pulse/named_values.hpp"
 #include "slipfront/train/state.hpp"
 #include "stretch.hpp"
 
@@ -23,7 +25,7 @@ class Semidiscrete {
     std::vector<double> charge;  ///< dislocations in each cell, 0 in a gap
     Edge left = Edge::continued, right = Edge::continued;
     double left_wall = 0, right_wall = 0;  ///< x, where the edges are walls
-    modulation::Friction friction;
+    friction::Friction friction;
     std::function<double(double, double)> forcing;  ///< null: none
     std::function<double(double)> contact;          ///< a(x); null: 1
   };
@@ -32,10 +34,8 @@ class Semidiscrete {
   std::size_t size() const { return setup_.charge.size(); }
   const std::vector<Stretch>& stretches() const { return stretches_; }
 
-  /// y: X and Y of each cell in turn, x of the left edge, energy dissipated, energy supplied, energy that came in
-  /// through the ends; dy alike. \throws NumericsError with time and place.
+  /// From the unknowns y (NamedValues) to their rates dy. \throws NumericsError with time and place.
   void operator()(double t, const double* y, double* dy);
-  static constexpr std::size_t extra = 4;
   /// Starts the next solves for s = tanh(psi) from these values: the bits of a result depend on where its solves start.
   void start_from(const std::vector<double>& s);
 
@@ -74,13 +74,14 @@ class Semidiscrete {
   bool gap(std::size_t i) const { return setup_.charge[i] == 0; }
 
   Setup setup_;
-  modulation::PowerLawRate power_law_rate_;
+  std::unique_ptr<friction::RelaxationRate> relaxation_rate_;
   std::vector<Stretch> stretches_;
   std::vector<double> charge_point_;  ///< q_s at the centres
   std::vector<double> per_charge_point_;
   // At the cell centres.
   CellStates at_;
-  std::vector<double> width_, momentum_in_cell_, phi_mean_, psi_mean_, rate_, source_, source_mean_, centres_;
+  std::vector<double> width_, momentum_in_cell_, phi_mean_, psi_mean_, rate_, strength_, source_, source_mean_,
+      centres_;
   std::vector<double> invariant_plus_, invariant_minus_;  ///< cell averages of one stretch, with ghosts
   std::vector<double> face_phi_, face_psi_, face_U_, face_p_;
   std::vector<double> faces_, contact_, face_contact_, contact_force_;  ///< x of the faces; a(x) at centres and faces

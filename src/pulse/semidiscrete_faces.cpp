@@ -22,11 +22,13 @@ void Semidiscrete::find_faces() {
 /// A train that has left a wall ends in a free edge.
 void Semidiscrete::find_edges(const double* y) {
   const std::size_t n = size();
-  if (setup_.left == Edge::wall) stretches_.front().left = edge_at_wall(y[2 * n], setup_.left_wall, y[0]);
+  const ConstValues values(y, n);
+  if (setup_.left == Edge::wall)
+    stretches_.front().left = edge_at_wall(values.left_edge(), setup_.left_wall, values.width(0));
   if (setup_.right != Edge::wall) return;
-  double x = y[2 * n];
-  for (std::size_t i = 0; i < n; ++i) x += y[2 * i];
-  stretches_.back().right = edge_at_wall(x, setup_.right_wall, y[2 * n - 2]);
+  double x = values.left_edge();
+  for (std::size_t i = 0; i < n; ++i) x += values.width(i);
+  stretches_.back().right = edge_at_wall(x, setup_.right_wall, values.width(size() - 1));
 }
 
 /// What lies beyond the ends of a stretch, for the faces near them: beyond a free edge psi = 0, and the edge moves at
@@ -132,6 +134,7 @@ void Semidiscrete::flatten_shocks(const Stretch& stretch, const double* plus, co
 /// than has passed, and psi has risen to the size of the fall.
 std::size_t Semidiscrete::crossing(double t, const double* y) const {
   constexpr double met = 0.1, faint = 0.05;
+  const ConstValues values(y, size());
   if (!collides_) return size();
   double fastest = 0;
   for (const double phi : at_.phi) fastest = std::fmax(fastest, std::fabs(phi));
@@ -142,7 +145,7 @@ std::size_t Semidiscrete::crossing(double t, const double* y) const {
       const double fall = at_.phi[i - 1] - at_.phi[i + 1];
       const double highest = std::fmax(at_.psi[i], std::fmax(at_.psi[i - 1], at_.psi[i + 1]));
       if (!(fall > most && fall > at_.psi[i - 1] + at_.psi[i + 1] && highest > met * fall)) continue;
-      const double apart = y[2 * i] + (y[2 * i - 2] + y[2 * i + 2]) / 2;
+      const double apart = values.width(i) + (values.width(i - 1) + values.width(i + 1)) / 2;
       if (apart > t * (at_.velocity[i - 1] - at_.velocity[i + 1])) continue;
       most = fall;
       hardest = i;

@@ -13,8 +13,8 @@ namespace {
 
 using std::numbers::pi;
 
-/// Coulomb friction on one cell that is pushed by `push`: opposes motion with `most`, or holds a cell that is at rest.
-double coulomb(double momentum, double push, double most) {
+/// Dry friction on one cell that is pushed by `push`: opposes motion with `most`, or holds a cell that is at rest.
+double dry_friction(double momentum, double push, double most) {
   if (momentum != 0) return -std::copysign(most, momentum);
   return -std::copysign(std::fmin(std::fabs(push), most), push);
 }
@@ -31,6 +31,7 @@ double substrate(double psi) {
 /// Momentum that the contact gives to a cell, -integral of <1 - cos u> d(a^2), from both faces and the centre: fourth
 /// order, and no derivative of a is needed.
 void Semidiscrete::add_contact_force(double* dy) {
+  const Values rates(dy, size());
   const auto square = [](double a) { return a * a; };
   double left = substrate(face_psi_[0]);
   for (std::size_t i = 0; i < size(); ++i) {
@@ -40,22 +41,24 @@ void Semidiscrete::add_contact_force(double* dy) {
     if (a != b || b != c)
       contact_force_[i] =
           -(left * (4 * b - 3 * a - c) + 4 * substrate(at_.psi[i]) * (c - a) + right * (a - 4 * b + 3 * c)) / 6;
-    dy[2 * i + 1] += contact_force_[i];
+    rates.momentum(i) += contact_force_[i];
     left = right;
   }
 }
 
 void Semidiscrete::add_sources(double t, const double* y, double* dy) {
   const std::size_t n = size();
-  const modulation::Friction& friction = setup_.friction;
+  const ConstValues values(y, n);
+  const Values rates(dy, n);
+  const friction::Friction& friction = setup_.friction;
   const bool frictional = friction.acts();
-  const bool dry = frictional && friction.law == modulation::FrictionLaw::coulomb;
-  const bool linear =
-      friction.law == modulation::FrictionLaw::viscous && friction.closure == modulation::Closure::consistent;
+  const bool dry = friction.sticks();
+  const std::optional<double> C = friction.linear_coefficient();
+  const bool linear = C && friction.closure() == friction::Closure::consistent;
   if (!frictional && !setup_.forcing) return;
   double dissipation = 0, supply = 0;
   if (linear && !setup_.forcing) {  // the plain case, without the detour over point values
-    dy[2 * n + 1] = damp(n, friction.coefficient, y, at_.velocity.data(), dy);
+    rates.dissipated() = damp(n, *C, y, at_.velocity.data(), dy);
     return;
   }
   for (std::size_t i = 0; i < n; ++i) {
@@ -75,38 +78,44 @@ void Semidiscrete::add_sources(double t, const double* y, double* dy) {
   for (const Stretch& r : stretches_)
     cell_means(r.end - r.begin, source_.data() + r.begin, source_mean_.data() + r.begin);
   for (std::size_t i = 0; i < n; ++i) {
-    dy[2 * i + 1] += source_mean_[i];
-    if (dry) {  // the same for each dislocation: no detour over point values
-      const double force = coulomb(y[2 * i + 1], dy[2 * i + 1], 2 * pi * friction.coefficient * setup_.charge[i]);
+    rates.momentum(i) += source_mean_[i];
+    if (dry) {  // no detour over point values, as of a constant force there is none
+      const double force =
+          dry_friction(values.momentum(i), rates.momentum(i), 2 * pi * strength_[i] * setup_.charge[i]);
       dissipation -= at_.velocity[i] * force;
-      dy[2 * i + 1] += force;
+      rates.momentum(i) += force;
     } else if (frictional && linear) {
-      dy[2 * i + 1] -= friction.coefficient * y[2 * i + 1];
+      rates.momentum(i) -= *C * values.momentum(i);
     }
   }
   // M = 2 pi P / k and 2 pi q_s = k x_s: the sums are over P dx = M q_s ds.
-  dy[2 * n + 1] = dissipation;
-  dy[2 * n + 2] = supply;
+  rates.dissipated() = dissipation;
+  rates.supplied() = supply;
 }
 
 void Semidiscrete::find_rates() {
-  const modulation::Friction& f = setup_.friction;
-  if (f.law == modulation::FrictionLaw::viscous) {  // as relaxation_rate, with the E K that are known already
-    if (f.closure == modulation::Closure::consistent) {
-      std::fill(rate_.begin(), rate_.end(), f.coefficient);
-      largest_rate_ = f.coefficient;
-    } else {
-      largest_rate_ = paper_rates(size(), f.coefficient, at_.EK.data(), rate_.data());
+  const friction::Friction& f = setup_.friction;
+  largest_rate_ = 0;
+  if (!f.acts()) return;
+  if (const auto C = f.linear_coefficient()) {
+    if (f.closure() == friction::Closure::consistent) {
+      std::fill(rate_.begin(), rate_.end(), *C);
+      largest_rate_ = *C;
+    } else {  // with the E K that are known already
+      largest_rate_ = paper_rates(size(), *C, at_.EK.data(), rate_.data());
     }
     return;
   }
-  largest_rate_ = 0;
-  if (f.law != modulation::FrictionLaw::power) return;
   for (std::size_t i = 0; i < size(); ++i) {
     if (gap(i)) continue;
-    rate_[i] = power_law_rate_({at_.phi[i], at_.psi[i]});
-    if (setup_.contact) rate_[i] *= std::pow(contact_[i], f.exponent - 1);  // <|w|^n sigma> over P, w in units of a
-    largest_rate_ = std::max(largest_rate_, rate_[i]);
+    const State state{at_.phi[i], at_.psi[i]};
+    const double a = setup_.contact ? contact_[i] : 1;
+    if (f.sticks()) {  // such friction relaxes nothing, but stops it
+      strength_[i] = f.mean_strength(state, a);
+    } else {
+      rate_[i] = (*relaxation_rate_)(state, a);
+      largest_rate_ = std::max(largest_rate_, rate_[i]);
+    }
   }
 }
 

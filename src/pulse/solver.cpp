@@ -28,7 +28,12 @@ void check(const Problem& p) {
   if (!(p.left < p.right) || !std::isfinite(p.right - p.left)) refuse("domain.left", p.left, "left < right, finite");
   if (p.cells < 4) refuse("pulse.cells", p.cells, ">= 4");
   if (!(p.tolerance > 0 && p.tolerance < 1)) refuse("pulse.tolerance", p.tolerance, "0 < tolerance < 1");
-  if (!(p.friction.coefficient >= 0)) refuse("friction.coefficient", p.friction.coefficient, ">= 0");
+  p.friction.check();
+  if (p.friction.variables() > 0)
+    throw InputError({.key = "friction.law",
+                      .value = std::string(p.friction.name()),
+                      .problem = "has variables at each place, whose average over a train is not known",
+                      .allowed = "a run of the chain, or a law without variables"});
 }
 
 /// A contact that jumps would be a wall to some cells and nothing to others: there must be a slope to climb.
@@ -72,13 +77,13 @@ Solver::Solver(Problem problem) : problem_(std::move(problem)) {
   left_free_ = layout.left_free;
   right_free_ = layout.right_free;
   const std::size_t n = size();
-  cells_.y.assign(2 * n + Semidiscrete::extra, 0.0);
+  cells_.unknowns.assign(Values::size(n), 0.0);
   cells_.s.assign(n, 0.0);
   for (std::size_t i = 0; i < n; ++i) {
-    cells_.y[2 * i] = layout.faces[i + 1] - layout.faces[i];
+    cells_.width(i) = layout.faces[i + 1] - layout.faces[i];
     if (cells_.charge[i] == 0) continue;
     const double a = problem_.contact ? problem_.contact((layout.faces[i] + layout.faces[i + 1]) / 2) : 1;
-    const double local = 2 * pi * cells_.charge[i] / (a * cells_.y[2 * i]);
+    const double local = 2 * pi * cells_.charge[i] / (a * cells_.width(i));
     if (!(local >= train::smallest_stress))
       throw InputError(
           {.key = problem_.contact ? "interface.contact" : "initial",
@@ -86,7 +91,7 @@ Solver::Solver(Problem problem) : problem_(std::move(problem)) {
            .allowed = "at least 0.0045 where there is stress: dislocations farther apart have no psi"});
     cells_.s[i] = std::tanh(train::psi_of_stress(local));
   }
-  cells_.y[2 * n] = layout.faces.front();
+  cells_.left_edge() = layout.faces.front();
   lay_equations();
   first_ = view();
 }
@@ -136,7 +141,8 @@ void Solver::restore(Cells cells) {
   const double all = faces.back();
   double left = -cells.entered_left;
   bool fits = std::isfinite(left) && std::isfinite(cells.entered_right) && n > 0 && cells.s.size() == n &&
-              cells.y.size() == 2 * n + Semidiscrete::extra && cells.charge[0] > 0 && cells.charge[n - 1] > 0;
+              (cells.face_momentum.empty() || cells.face_momentum.size() == n + 1) &&
+              cells.unknowns.size() == Values::size(n) && cells.charge[0] > 0 && cells.charge[n - 1] > 0;
   for (std::size_t i = 0; i < n && fits; ++i) {
     left += cells.charge[i];
     const auto near = std::lower_bound(faces.begin(), faces.end(), left - 1e-9 * all);
@@ -154,32 +160,31 @@ void Solver::restore(Cells cells) {
 }
 
 /// Time until the edges of a gap meet, or a train that has left a wall is back at it.
-double Solver::gaps_close_in(const std::vector<double>& rate) const {
+double Solver::gaps_close_in(const std::vector<double>& rates) const {
+  const ConstValues rate(rates.data(), size());
   double least = HUGE_VAL;
-  const std::size_t last = 2 * size();
-  if (problem_.left_end == End::fixed && rate[last] < 0)
-    least = std::fmax((problem_.left - cells_.y[last]) / rate[last], 0.0);
+  if (problem_.left_end == End::fixed && rate.left_edge() < 0)
+    least = std::fmax((problem_.left - cells_.left_edge()) / rate.left_edge(), 0.0);
   if (problem_.right_end == End::fixed) {
-    double speed = rate[last];
-    for (std::size_t i = 0; i < size(); ++i) speed += rate[2 * i];
+    double speed = rate.left_edge();
+    for (std::size_t i = 0; i < size(); ++i) speed += rate.width(i);
     if (speed > 0) least = std::fmin(least, std::fmax((problem_.right - left_face(size())) / speed, 0.0));
   }
   if (least == 0) least = HUGE_VAL;  // at the wall
   for (std::size_t i = 0; i < size(); ++i)
-    if (cells_.charge[i] == 0 && rate[2 * i] < 0) least = std::fmin(least, -cells_.y[2 * i] / rate[2 * i]);
+    if (cells_.charge[i] == 0 && rate.width(i) < 0) least = std::fmin(least, -cells_.width(i) / rate.width(i));
   return least;
 }
 
 /// Where the edges of a gap have met, to a millionth of the cells beside it, these become neighbours. Cells are small
 /// at free edges; in the dense state that grows where two have met they would only shorten the steps, and are joined.
 void Solver::close_gaps() {
-  std::vector<double>& y = cells_.y;
   bool closed = false;
   for (std::size_t i = size(); i-- > 0;) {
-    if (cells_.charge[i] != 0 || y[2 * i] > 1e-6 * std::fmin(y[2 * i - 2], y[2 * i + 2])) continue;
-    y[2 * i - 2] += y[2 * i] / 2;
-    y[2 * i + 2] += y[2 * i] / 2;
-    y[2 * i] = 0;
+    if (cells_.charge[i] != 0 || cells_.width(i) > 1e-6 * std::fmin(cells_.width(i - 1), cells_.width(i + 1))) continue;
+    cells_.width(i - 1) += cells_.width(i) / 2;
+    cells_.width(i + 1) += cells_.width(i) / 2;
+    cells_.width(i) = 0;
     drop_cell(i);
     std::vector<double> sorted = cells_.charge;
     const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
@@ -201,23 +206,24 @@ void Solver::close_gaps() {
 void Solver::join(std::size_t cell, std::size_t into) {
   if (cells_.charge[cell] > cells_.charge[into]) cells_.s[into] = cells_.s[cell];
   cells_.charge[into] += cells_.charge[cell];
-  cells_.y[2 * into] += cells_.y[2 * cell];
-  cells_.y[2 * into + 1] += cells_.y[2 * cell + 1];
+  cells_.width(into) += cells_.width(cell);
+  cells_.momentum(into) += cells_.momentum(cell);
   drop_cell(cell);
 }
 
 void Solver::drop_cell(std::size_t i) {
   const auto at = static_cast<std::ptrdiff_t>(i);
-  cells_.y.erase(cells_.y.begin() + 2 * at, cells_.y.begin() + 2 * at + 2);
+  const auto first = cells_.unknowns.begin() + static_cast<std::ptrdiff_t>(Values::width_at(i));
+  cells_.unknowns.erase(first, first + 2);
   cells_.s.erase(cells_.s.begin() + at);
   cells_.charge.erase(cells_.charge.begin() + at);
 }
 
 double Solver::energy_in(std::size_t cell) const {
-  const double x = left_face(cell) + cells_.y[2 * cell] / 2;
-  const double q = cells_.charge[cell], width = cells_.y[2 * cell], a = problem_.contact ? problem_.contact(x) : 1;
+  const double x = left_face(cell) + cells_.width(cell) / 2;
+  const double q = cells_.charge[cell], width = cells_.width(cell), a = problem_.contact ? problem_.contact(x) : 1;
   const State state =
-      modulation::state_of({a * width / q, cells_.y[2 * cell + 1] / (a * q)}, std::atanh(cells_.s[cell]));
+      modulation::state_of({a * width / q, cells_.momentum(cell) / (a * q)}, std::atanh(cells_.s[cell]));
   return train::averages(state, a).H * width;
 }
 

@@ -31,7 +31,7 @@ double mass_excess(double psi) {
 
 Staggered::Staggered(Setup setup)
     : setup_(std::move(setup)),
-      power_law_rate_(setup_.friction),
+      relaxation_rate_(setup_.friction.relaxation_rate()),
       stretches_(stretches_of(setup_.charge, setup_.left, setup_.right)) {
   const std::size_t n = setup_.charge.size();
   cells_.resize(n);
@@ -73,16 +73,18 @@ double Staggered::beside(const std::vector<double>& values, std::size_t face) co
 
 void Staggered::find_cells(double t, const double* z) {
   const std::size_t n = setup_.charge.size();
-  place_[0] = z[0];
+  const ConstFaceValues values(z, faces());
+  place_[0] = values.left_edge();
   for (std::size_t i = 0; i < n; ++i) {
-    width_[i] = z[2 * i + 2];
+    width_[i] = values.width(i);
     place_[i + 1] = place_[i] + width_[i];
     if (!(width_[i] > 0 || setup_.charge[i] == 0)) give_up(t, i);
     const double q = setup_.charge[i];
     if (q == 0) continue;
     const double a = a_[i] = setup_.contact ? setup_.contact((place_[i] + place_[i + 1]) / 2) : 1;
     cells_.spacing[i] = a * width_[i] / q;
-    cells_.momentum[i] = (z[2 * i + 1] / charge_around(i) + z[2 * i + 3] / charge_around(i + 1)) / (2 * a);
+    cells_.momentum[i] =
+        (values.momentum(i) / charge_around(i) + values.momentum(i + 1) / charge_around(i + 1)) / (2 * a);
   }
   cells_.resolve(stretches_, t);
   for (std::size_t i = 0; i < n; ++i) {
@@ -92,8 +94,8 @@ void Staggered::find_cells(double t, const double* z) {
     // Trains that run into each other are stopped by the pressure of the two-fan solution between them, as everywhere
     // else; where they part, or move alike, nothing is added.
     const double per_mass = 1 / (8 * a_[i] * mass_[i]);
-    const double closing = std::asinh(z[2 * i + 1] / charge_around(i) * per_mass) -
-                           std::asinh(z[2 * i + 3] / charge_around(i + 1) * per_mass);
+    const double closing = std::asinh(values.momentum(i) / charge_around(i) * per_mass) -
+                           std::asinh(values.momentum(i + 1) / charge_around(i + 1) * per_mass);
     const double rest = modulation::pressure(cells_.psi[i]);
     pressure_[i] = closing > 0 ? modulation::pressure(cells_.psi[i] + closing / 2) : rest;
     if (setup_.contact)  // dp = k dg
@@ -125,22 +127,19 @@ Edge Staggered::edge_at(std::size_t f) const {
 }
 
 double Staggered::loss_rate(std::size_t f, double phi) const {
-  const modulation::Friction& friction = setup_.friction;
-  if (friction.law == modulation::FrictionLaw::viscous)
-    return friction.closure == modulation::Closure::consistent
-               ? friction.coefficient
-               : friction.coefficient * pi * pi / (4 * beside(cells_.EK, f));
-  const double moving = friction.exponent < 1 ? std::hypot(phi, creep_) : phi;
-  const double rate = power_law_rate_({moving, beside(cells_.psi, f)});
-  // <|w|^n sigma> over P, w in units of a
-  return setup_.contact ? rate * std::pow(setup_.contact(place_[f]), friction.exponent - 1) : rate;
+  if (const auto C = setup_.friction.linear_coefficient())  // with the E K that are known already
+    return setup_.friction.closure() == friction::Closure::consistent ? *C : *C * pi * pi / (4 * beside(cells_.EK, f));
+  const double moving = setup_.friction.steep_at_rest() ? std::hypot(phi, creep_) : phi;
+  return (*relaxation_rate_)({moving, beside(cells_.psi, f)}, setup_.contact ? setup_.contact(place_[f]) : 1);
 }
 
 void Staggered::operator()(double t, const double* z, double* dz) {
+  const ConstFaceValues values(z, faces());
+  const FaceValues rates(dz, faces());
   find_cells(t, z);
   double before = 0, dissipation = 0, supply = 0, through_ends = 0;
   for (std::size_t f = 0; f < faces(); ++f) {
-    const double q = charge_around(f), momentum = z[2 * f + 1];
+    const double q = charge_around(f), momentum = values.momentum(f);
     const bool edge = charge_left(f) == 0 || charge_right(f) == 0;
     const Edge end = edge_at(f);
     const double a = setup_.contact ? setup_.contact(place_[f]) : 1;
@@ -150,10 +149,10 @@ void Staggered::operator()(double t, const double* z, double* dz) {
     const double loss = loss_rate(f, phi) * momentum;
     const double push = setup_.forcing ? 2 * pi * q * setup_.forcing(place_[f], t) : 0;
     const double force = setup_.contact ? force_on(f) / std::cosh(phi) : force_on(f);
-    dz[2 * f] = U - before;
-    dz[2 * f + 1] = force + push - loss;
+    rates.width_left_of(f) = U - before;
+    rates.momentum(f) = force + push - loss;
     if (end == Edge::wall)  // which holds what presses against it
-      dz[2 * f + 1] = f == 0 ? std::fmax(dz[2 * f + 1], 0) : std::fmin(dz[2 * f + 1], 0);
+      rates.momentum(f) = f == 0 ? std::fmax(rates.momentum(f), 0) : std::fmin(rates.momentum(f), 0);
     if (edge && end == Edge::continued) {
       const std::size_t cell = f == 0 ? 0 : f - 1;
       const double work = a_[cell] * a_[cell] * pressure_[cell] * U;
@@ -163,9 +162,9 @@ void Staggered::operator()(double t, const double* z, double* dz) {
     supply += U * push;
     before = U;
   }
-  dz[2 * faces()] = dissipation;
-  dz[2 * faces() + 1] = supply;
-  dz[2 * faces() + 2] = through_ends;
+  rates.dissipated() = dissipation;
+  rates.supplied() = supply;
+  rates.through_ends() = through_ends;
 }
 
 }  // namespace slipfront::pulse

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "cell_states.hpp"
-#include "slipfront/modulation/friction.hpp"
+#include "slipfront/friction/friction.hpp"
+#include "slipfront/pulse/named_values.hpp"
 
 namespace slipfront::pulse {
 
@@ -21,18 +23,16 @@ class Staggered {
     std::vector<double> charge;                            ///< dislocations in each cell, 0 in a gap
     Edge left = Edge::continued, right = Edge::continued;  ///< no ring
     double left_wall = 0, right_wall = 0;                  ///< x, where the edges are walls
-    modulation::Friction friction;
+    friction::Friction friction;
     std::function<double(double, double)> forcing;  ///< null: none
     std::function<double(double)> contact;          ///< a(x); null: 1
   };
   explicit Staggered(Setup setup);
 
-  /// Two entries a face: the width of the cell to its left (of the first face: its x) and the momentum Y around it,
-  /// from the middle of one cell to that of the next. Then energy dissipated, energy supplied, energy that came in
-  /// through the ends.
-  std::size_t size() const { return 2 * faces() + sums; }
+  /// Of its unknowns (NamedFaceValues); the momentum Y around a face is that from the middle of one cell to that of the
+  /// next.
+  std::size_t size() const { return FaceValues::size(faces()); }
   std::size_t faces() const { return setup_.charge.size() + 1; }
-  static constexpr std::size_t sums = 3;
   /// Entries to either side that a rate depends on, widths taken as places.
   static constexpr std::size_t reach = 3;
 
@@ -66,7 +66,7 @@ class Staggered {
 
   Setup setup_;
   double creep_ = 0;
-  modulation::PowerLawRate power_law_rate_;
+  std::unique_ptr<friction::RelaxationRate> relaxation_rate_;
   std::vector<Stretch> stretches_;
   CellStates cells_;
   std::vector<double> place_, width_, pressure_, balance_, a_, face_phi_;

@@ -33,7 +33,7 @@ constexpr double stiff_below = 0.3;
 void stop_reversals(const ExplicitStep& step, double friction, const std::vector<double>& charge,
                     const std::vector<double>& before, std::vector<double>& after, std::vector<double>& scale) {
   for (std::size_t cell = 0; cell < charge.size(); ++cell) {
-    const std::size_t i = 2 * cell + 1;
+    const std::size_t i = Values::momentum_at(cell);
     const bool reversed = before[i] * after[i] < 0;
     const bool held =
         (reversed || step.returns_to_zero(i, before[i])) && step.largest_rate(i) <= 2 * friction * charge[cell];
@@ -41,7 +41,7 @@ void stop_reversals(const ExplicitStep& step, double friction, const std::vector
     after[i] = 0;
     if (!held) continue;
     for (std::size_t j = cell > 1 ? cell - 2 : 0; j <= std::min(cell + 2, charge.size() - 1); ++j)
-      scale[2 * j + 1] = HUGE_VAL;
+      scale[Values::momentum_at(j)] = HUGE_VAL;
   }
 }
 
@@ -49,7 +49,7 @@ void stop_reversals(const ExplicitStep& step, double friction, const std::vector
 /// one, or a contact as steep as a wall.
 bool thrown(const std::vector<double>& before, const std::vector<double>& after, const std::vector<double>& charge) {
   for (std::size_t i = 0; i < charge.size(); ++i) {
-    const double was = before[2 * i + 1], is = after[2 * i + 1];
+    const double was = before[Values::momentum_at(i)], is = after[Values::momentum_at(i)];
     if (std::fabs(is - was) > 4 * charge[i] + std::fabs(was) / 2) return true;
   }
   return false;
@@ -91,20 +91,20 @@ double Solver::step_explicitly(Work& work, double remaining, double crossing) {
   }
   const double wanted = cells_.step > 0 ? std::fmin(crossing, cells_.step) : crossing;
   double dt = next_step(remaining, wanted);
-  const bool dry = problem_.friction.law == modulation::FrictionLaw::coulomb;
-  const double friction = 2 * pi * problem_.friction.coefficient;
-  work.next = cells_.y;
+  const bool dry = problem_.friction.sticks();
+  const double friction = 2 * pi * problem_.friction.strength_at_rest();
+  work.next = cells_.unknowns;
   // What comes up within a step may be too hard for it: shorter, then.
   for (int tries = 0;; ++tries) {
     double factor = 0.5;
     try {
       find_scale(crossing, work.scale);
-      work.explicit_step(work.f, cells_.time, dt, cells_.y, work.rate);
-      if (dry) stop_reversals(work.explicit_step, friction, cells_.charge, work.next, cells_.y, work.scale);
+      work.explicit_step(work.f, cells_.time, dt, cells_.unknowns, work.rate);
+      if (dry) stop_reversals(work.explicit_step, friction, cells_.charge, work.next, cells_.unknowns, work.scale);
       const double error =
           std::fmax(work.explicit_step.error(dt, work.rate, work.scale, equations_->shocked()), unseen_push(dt)) /
           problem_.explicit_tolerance;
-      const bool jumped = thrown(work.next, cells_.y, cells_.charge);
+      const bool jumped = thrown(work.next, cells_.unknowns, cells_.charge);
       factor = std::clamp(0.9 * std::pow(error, -0.25), 0.2, 4.0);
       if (error <= 1 && !jumped) {
         cells_.step = dt * factor;
@@ -117,7 +117,7 @@ double Solver::step_explicitly(Work& work, double remaining, double crossing) {
     } catch (const NumericsError&) {
       if (tries == 80) throw;
     }
-    cells_.y = work.next;
+    cells_.unknowns = work.next;
     equations_->start_from(cells_.s);
     dt *= factor;
   }
@@ -132,17 +132,17 @@ double Solver::unseen_push(double dt) const {
   constexpr double last = ExplicitStep::last_stage;
   const std::size_t stride = std::max<std::size_t>(size() / 64, 1);
   const double before = cells_.time + (2 * last - 1) * dt, stage = cells_.time + last * dt, end = cells_.time + dt;
-  double missed = 0, largest = 0, left = cells_.y[2 * size()];  // the face left of cell `counted`
+  double missed = 0, largest = 0, left = cells_.left_edge();  // the face left of cell `counted`
   std::size_t counted = 0;
   for (std::size_t i = 0; i < size(); i += stride) {
     if (cells_.charge[i] == 0) continue;
-    for (; counted < i; ++counted) left += cells_.y[2 * counted];
-    const double x = left + cells_.y[2 * i] / 2;
+    for (; counted < i; ++counted) left += cells_.width(counted);
+    const double x = left + cells_.width(i) / 2;
     const double at_stage = problem_.forcing(x, stage), at_end = problem_.forcing(x, end);
     const double expected = 2 * at_stage - problem_.forcing(x, before);
     missed = std::fmax(missed, 2 * pi * (1 - last) * dt * std::fabs(at_end - expected));
     const double pushed = 2 * pi * dt * std::fmax(std::fabs(at_stage), std::fabs(at_end));
-    largest = std::fmax(largest, std::fmax(pushed, std::fabs(cells_.y[2 * i + 1] / cells_.charge[i])));
+    largest = std::fmax(largest, std::fmax(pushed, std::fabs(cells_.momentum(i) / cells_.charge[i])));
   }
   return largest > 0 ? missed / largest : 0;
 }
@@ -151,10 +151,10 @@ double Solver::unseen_push(double dt) const {
 double Solver::mean_speed() const {
   if (cells_.time == 0) return 0;
   const std::size_t stride = std::max<std::size_t>(size() / 64, 1);
-  double x = cells_.y[2 * size()], charge = -cells_.entered_left, way = 0;
+  double x = cells_.left_edge(), charge = -cells_.entered_left, way = 0;
   for (std::size_t f = 0; f < size(); ++f) {
     if (f % stride == 0) way = std::fmax(way, std::fabs(x - first_place(charge)));
-    x += cells_.y[2 * f];
+    x += cells_.width(f);
     charge += cells_.charge[f];
   }
   return way / cells_.time;
@@ -170,39 +170,45 @@ void Solver::find_scale(double crossing, std::vector<double>& scale) const {
   if (!cells_.face_momentum.empty()) fastest = std::fmax(fastest, slow * mean_speed());
   if (contact_varies_) fastest = std::fmax(fastest, rounding / (1 + equations_->largest_friction_rate()));
   for (std::size_t i = 0; i < size(); ++i)
-    if (cells_.charge[i] > 0) fastest = std::fmax(fastest, std::fabs(cells_.y[2 * i + 1] / cells_.charge[i]));
+    if (cells_.charge[i] > 0) fastest = std::fmax(fastest, std::fabs(cells_.momentum(i) / cells_.charge[i]));
   for (std::size_t i = 0; i < size(); ++i) {
-    scale[2 * i] = cells_.y[2 * i];
-    scale[2 * i + 1] = cells_.charge[i] > 0 ? cells_.charge[i] * fastest : 1;
+    scale[Values::width_at(i)] = cells_.width(i);
+    scale[Values::momentum_at(i)] = cells_.charge[i] > 0 ? cells_.charge[i] * fastest : 1;
   }
 }
 
 std::vector<double> Solver::faces_of_cells(const Staggered& staggered) const {
   const std::size_t n = size();
-  std::vector<double> faces(staggered.size()), momenta = cells_.face_momentum;
+  std::vector<double> unknowns(staggered.size()), momenta = cells_.face_momentum;
   if (momenta.empty()) {
     std::vector<double> in_cells(n);
-    for (std::size_t i = 0; i < n; ++i) in_cells[i] = cells_.y[2 * i + 1];
+    for (std::size_t i = 0; i < n; ++i) in_cells[i] = cells_.momentum(i);
     momenta = staggered.face_momenta(in_cells);
   }
-  for (std::size_t f = 0; f <= n; ++f) {
-    faces[2 * f] = f == 0 ? cells_.y[2 * n] : cells_.y[2 * f - 2];
-    faces[2 * f + 1] = momenta[f];
-  }
-  for (std::size_t i = 0; i < Staggered::sums; ++i) faces[2 * n + 2 + i] = cells_.y[2 * n + 1 + i];
-  return faces;
+  const FaceValues faces(unknowns.data(), n + 1);
+  faces.left_edge() = cells_.left_edge();
+  for (std::size_t i = 0; i < n; ++i) faces.width(i) = cells_.width(i);
+  for (std::size_t f = 0; f <= n; ++f) faces.momentum(f) = momenta[f];
+  const ConstValues cells = cells_.values();
+  faces.dissipated() = cells.dissipated();
+  faces.supplied() = cells.supplied();
+  faces.through_ends() = cells.through_ends();
+  return unknowns;
 }
 
-void Solver::cells_of_faces(const Staggered& staggered, const std::vector<double>& faces) {
+void Solver::cells_of_faces(const Staggered& staggered, const std::vector<double>& unknowns) {
   const std::size_t n = size();
+  const ConstFaceValues faces(unknowns.data(), n + 1);
+  const Values cells = cells_.values();
   cells_.face_momentum.resize(n + 1);
-  for (std::size_t f = 0; f <= n; ++f) {
-    (f == 0 ? cells_.y[2 * n] : cells_.y[2 * f - 2]) = faces[2 * f];
-    cells_.face_momentum[f] = faces[2 * f + 1];
-  }
+  cells.left_edge() = faces.left_edge();
+  for (std::size_t i = 0; i < n; ++i) cells.width(i) = faces.width(i);
+  for (std::size_t f = 0; f <= n; ++f) cells_.face_momentum[f] = faces.momentum(f);
   const std::vector<double> momenta = staggered.cell_momenta(cells_.face_momentum);
-  for (std::size_t i = 0; i < n; ++i) cells_.y[2 * i + 1] = momenta[i];
-  for (std::size_t i = 0; i < Staggered::sums; ++i) cells_.y[2 * n + 1 + i] = faces[2 * n + 2 + i];
+  for (std::size_t i = 0; i < n; ++i) cells.momentum(i) = momenta[i];
+  cells.dissipated() = faces.dissipated();
+  cells.supplied() = faces.supplied();
+  cells.through_ends() = faces.through_ends();
 }
 
 double Solver::step_implicitly(Work& work, double remaining, double crossing) {
@@ -217,10 +223,11 @@ double Solver::step_implicitly(Work& work, double remaining, double crossing) {
   find_scale(crossing, work.scale);
   double fastest = 0;
   for (std::size_t i = 0; i < size(); ++i)
-    if (cells_.charge[i] > 0) fastest = std::fmax(fastest, work.scale[2 * i + 1] / cells_.charge[i]);
+    if (cells_.charge[i] > 0) fastest = std::fmax(fastest, work.scale[Values::momentum_at(i)] / cells_.charge[i]);
   for (std::size_t face = 0; face < staggered.faces(); ++face) {
-    scale[2 * face] = work.scale[face == 0 ? 0 : 2 * face - 2];
-    scale[2 * face + 1] = staggered.charge_around(face) * fastest;
+    const FaceValues at(scale.data(), staggered.faces());
+    at.width_left_of(face) = work.scale[Values::width_at(face == 0 ? 0 : face - 1)];
+    at.momentum(face) = staggered.charge_around(face) * fastest;
   }
   constexpr double creep = 1e-6;  // of the mean speed so far: adds as little to slip
   staggered.viscous_below(creep * mean_speed());
@@ -253,24 +260,25 @@ double Solver::step_implicitly(Work& work, double remaining, double crossing) {
 
 /// From the rates at the present time.
 void Solver::look_for_crossing() {
-  const std::size_t cell = equations_->crossing(cells_.time, cells_.y.data());
+  const std::size_t cell = equations_->crossing(cells_.time, cells_.unknowns.data());
   if (cell >= size()) return;
   cells_.crossing_time = cells_.time;
-  cells_.crossing_position = left_face(cell) + cells_.y[2 * cell] / 2;
+  cells_.crossing_position = left_face(cell) + cells_.width(cell) / 2;
 }
 
 /// Returns false if interrupted.
 bool Solver::advance_until_gap_closes(double time, const std::function<bool()>& interrupted) {
   Semidiscrete& equations = *equations_;
   const std::size_t n = size();
-  Work work(equations, n, cells_.y.size());
+  Work work(equations, n, cells_.unknowns.size());
   while (cells_.time < time && &equations == equations_.get()) {  // until the cells are others
     equations.start_from(cells_.s);  // as a resumed run does, whoever has looked at the equations since the last step
-    work.f(cells_.time, cells_.y.data(), work.rate.data());
+    work.f(cells_.time, cells_.unknowns.data(), work.rate.data());
     if (std::isnan(cells_.crossing_time)) look_for_crossing();
     const double remaining = std::fmin(std::fmin(time - cells_.time, problem_.longest_step), gaps_close_in(work.rate));
-    double crossing = problem_.cfl * equations.crossing_time(cells_.y.data(), work.rate.data());
-    const double friction_times = equations.largest_friction_rate() * equations.mean_crossing_time(cells_.y.data());
+    double crossing = problem_.cfl * equations.crossing_time(cells_.unknowns.data(), work.rate.data());
+    const double friction_times =
+        equations.largest_friction_rate() * equations.mean_crossing_time(cells_.unknowns.data());
     const bool stiff =
         !problem_.periodic && friction_times > (cells_.face_momentum.empty() ? stiff_above : stiff_below);
     if (!stiff) crossing = std::fmin(crossing, longest_in_friction_times / equations.largest_friction_rate());

@@ -81,17 +81,17 @@ double bounded(std::size_t size, const double* at, const double* f, double x) {
 
 Solver::View Solver::view(bool densities) const {
   const std::size_t n = size();
-  std::vector<double> rate(cells_.y.size());
+  std::vector<double> rate(cells_.unknowns.size());
   equations_->start_from(cells_.s);
-  (*equations_)(cells_.time, cells_.y.data(), rate.data());
+  (*equations_)(cells_.time, cells_.unknowns.data(), rate.data());
   View v;
   v.faces.resize(n + 1);
   v.charge_faces.resize(n + 1);
-  v.faces[0] = cells_.y[2 * n];
+  v.faces[0] = cells_.left_edge();
   v.charge_faces[0] = -cells_.entered_left;
   if (problem_.periodic) v.period = problem_.right - problem_.left;
   for (std::size_t i = 0; i < n; ++i) {
-    v.faces[i + 1] = v.faces[i] + cells_.y[2 * i];
+    v.faces[i + 1] = v.faces[i] + cells_.width(i);
     v.charge_faces[i + 1] = v.charge_faces[i] + cells_.charge[i];
   }
   v.states = equations_->states();
@@ -128,9 +128,9 @@ State Solver::state_in(std::size_t cell) const {
   const bool inside = cell >= reach && cell + reach < size() &&
                       std::find(&charge[cell - reach], &charge[cell + reach] + 1, 0.0) == &charge[cell + reach] + 1;
   if (!inside)
-    return modulation::state_of({cells_.y[2 * cell] / charge[cell], cells_.y[2 * cell + 1] / charge[cell]}, psi);
+    return modulation::state_of({cells_.width(cell) / charge[cell], cells_.momentum(cell) / charge[cell]}, psi);
   double width[stencil], momentum[stencil], width_at[stencil], momentum_at[stencil], charge_at[stencil];
-  split(stencil, cells_.y.data() + 2 * (cell - reach), width, momentum);
+  split(stencil, cells_.values().from(cell - reach), width, momentum);
   centre_values(stencil, width, width_at);
   centre_values(stencil, momentum, momentum_at);
   centre_values(stencil, &charge[cell - reach], charge_at);

@@ -11,10 +11,10 @@ const output::Snapshot& last(const ChainEnd& end) { return end.run.snapshots().b
 const chain::Grid& grid(const ChainEnd& end) { return end.run.chain().problem().grid; }
 
 constexpr SummaryItem<PulseEnd> pulse_items[] = {
-    {"closure", [](const PulseEnd& e) -> Value { return name_of(e.scenario.friction.closure); },
+    {"closure", [](const PulseEnd& e) -> Value { return name_of(e.scenario.friction.closure()); },
      "how friction is averaged"},
-    {"friction_coefficient", [](const PulseEnd& e) -> Value { return e.scenario.friction.coefficient; }, "C"},
-    {"damping_number", [](const PulseEnd& e) -> Value { return e.scenario.friction.coefficient * last(e).time; },
+    {"friction_coefficient", [](const PulseEnd& e) -> Value { return e.scenario.friction.coefficient(); }, "C"},
+    {"damping_number", [](const PulseEnd& e) -> Value { return e.scenario.friction.coefficient() * last(e).time; },
      "Gamma = C t"},
     {"time", [](const PulseEnd& e) -> Value { return last(e).time; }, "in b / (c A)"},
     {"slip_velocity_at_origin", [](const PulseEnd& e) -> Value { return last(e).slip_velocity_at_origin; },

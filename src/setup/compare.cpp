@@ -63,12 +63,12 @@ Comparison comparison_of(scenario::Scenario scenario, std::vector<double> scales
 bool run_levels(const Comparison& c, int threads, std::vector<Level>& levels, const std::function<void()>& next,
                 const std::function<bool(const std::string& level, double time, long steps)>& after_step) {
   if (c.exact) levels.push_back(*c.exact);
-  for (const modulation::Closure closure : {modulation::Closure::consistent, modulation::Closure::paper}) {
+  for (const friction::Closure closure : {friction::Closure::consistent, friction::Closure::paper}) {
     next();
     const char* name = name_of(closure);
     Level level{.name = std::string("pulse-") + name, .closure = name};
     pulse::Problem problem = c.problem;
-    problem.friction.closure = closure;
+    problem.friction = problem.friction.with(closure);
     pulse::Run run(std::move(problem), c.schedule);
     const auto after = [&] { return after_step(level.name, run.solver().cells().time, run.solver().cells().steps); };
     if (!carry(run, level, after)) return false;

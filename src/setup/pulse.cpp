@@ -20,28 +20,13 @@ Reach reach_of(const scenario::Scenario& s) {
   const rupture::Edges edges = rupture::edges_of(
       rupture::solve_riemann(train::at_rest(s.initial.stress_left), train::at_rest(s.initial.stress_right)));
   const double left = std::fabs(edges.left), right = std::fabs(edges.right);
-  double share = 1;
-  if (s.friction.law == modulation::FrictionLaw::viscous)
-    share = std::fmin(1, 8 / std::sqrt(1 + s.friction.coefficient * s.end));
+  const double damping_number = s.friction.linear_coefficient().value_or(0) * s.end;
+  const double share = std::fmin(1, 8 / std::sqrt(1 + damping_number));
   const double blur = s.initial.reach;
   return {1.15 * share * left * s.end + blur, 1.15 * share * right * s.end + blur};
 }
 
 }  // namespace
-
-const char* law_name(modulation::FrictionLaw law) {
-  switch (law) {
-    case modulation::FrictionLaw::viscous:
-      return "viscous";
-    case modulation::FrictionLaw::coulomb:
-      return "coulomb";
-    case modulation::FrictionLaw::power:
-      return "power";
-    case modulation::FrictionLaw::none:
-      break;
-  }
-  return "no";
-}
 
 pulse::Problem pulse_problem(const scenario::Scenario& s) {
   pulse::Problem p{.stress = s.stress,

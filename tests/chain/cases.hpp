@@ -12,7 +12,6 @@ inline constexpr int kinds = 6;
 
 inline slipfront::chain::Problem problem(std::size_t sites, int kind) {
   using namespace slipfront::chain;
-  using slipfront::modulation::FrictionLaw;
   Problem p{.grid = {-10, 0.4, sites},
             .model = Model::sine_gordon,
             .boundary = {End::free, End::absorbing, false, 0},
@@ -21,23 +20,23 @@ inline slipfront::chain::Problem problem(std::size_t sites, int kind) {
             .contact = {}};
   if (kind == 1) p.boundary = {.periodic = true, .charge = sites < 20 ? 1 : 3};
   if (kind == 2) p.boundary = {End::fixed, End::free, false, 0};
-  if (kind == 2 || kind == 1) p.friction = {FrictionLaw::viscous, 0.3};
+  if (kind == 2 || kind == 1) p.friction = slipfront::friction::viscous(0.3);
   if (kind == 3 || kind == 5) {
     p.forcing = [](double x, double t) { return 0.1 * std::sin(0.1 * x + t); };
     p.contact = [](double x) { return 1 + 0.2 * std::cos(0.3 * x); };
   }
   if (kind == 3) {
     p.boundary = {.periodic = true, .charge = sites < 20 ? 1 : 2};
-    p.friction = {FrictionLaw::power, 0.2, 1.5};
+    p.friction = slipfront::friction::power(0.2, 1.5);
   }
   if (kind == 4) {
     p.model = Model::lattice;
     p.boundary = {End::fixed, End::absorbing, false, 0};
-    p.friction = {FrictionLaw::coulomb, 0.02};
+    p.friction = slipfront::friction::coulomb(0.02);
   }
   if (kind == 5) {
     p.boundary = {End::absorbing, End::free, false, 0};
-    p.friction = {FrictionLaw::viscous, 0.1};
+    p.friction = slipfront::friction::viscous(0.1);
   }
   return p;
 }

@@ -13,7 +13,6 @@ namespace {
 
 using namespace slipfront;
 using namespace slipfront::chain;
-using modulation::FrictionLaw;
 constexpr double pi = std::numbers::pi;
 
 Problem line(double left, double right, double h) {
@@ -148,7 +147,7 @@ TEST(ChainPhysics, GridHoldsADislocationBelowItsBarrier) {
   const double h = 0.6, barrier = 40 * pi / (h * h) * std::exp(-pi * pi / h);
   const auto moved = [&](double share) {
     Problem p = line(-24, 24, h);
-    p.friction = {FrictionLaw::viscous, 0.02};
+    p.friction = friction::viscous(0.02);
     p.forcing = [=](double, double t) { return share * barrier * std::fmin(t / 1000, 1.0); };  // slowly, from rest
     p.boundary = {End::fixed, End::fixed, false, 0};
     chain::Chain run(p, exact::motion_of(exact::kink(0), p.grid, 0));
@@ -165,7 +164,7 @@ TEST(ChainPhysics, LatticePinsDislocations) {
   const auto moved = [](double A, double F, Model model) {
     Problem p = line(-24, 24, A);
     p.model = model;
-    p.friction = {FrictionLaw::viscous, 0.3};
+    p.friction = friction::viscous(0.3);
     p.forcing = [F](double, double t) { return F * std::fmin(t / 40, 1.0); };  // slowly, from rest
     chain::Chain run(p,
                      exact::motion_of([](double x, double) { return 4 * std::atan(std::exp(-x - 0.5)); }, p.grid, 0));
@@ -184,7 +183,7 @@ TEST(ChainPhysics, LatticePinsDislocations) {
 /// Coulomb friction holds a chain that is pushed less than it can bear, and slows uniform slip at the rate f.
 TEST(ChainPhysics, CoulombFrictionSticksAndSlows) {
   Problem p = line(-20, 20, 0.4);
-  p.friction = {FrictionLaw::coulomb, 0.05};
+  p.friction = friction::coulomb(0.05);
   Motion rest;
   rest.u.assign(p.grid.sites, 0.03);  // sin u < f
   chain::Chain stuck(p, rest);
@@ -193,8 +192,8 @@ TEST(ChainPhysics, CoulombFrictionSticksAndSlows) {
 
   // Viscous and power laws with exponent 1 are the same law.
   Problem viscous = line(-20, 20, 0.1), power = viscous;
-  viscous.friction = {FrictionLaw::viscous, 0.2};
-  power.friction = {FrictionLaw::power, 0.2, 1};
+  viscous.friction = friction::viscous(0.2);
+  power.friction = friction::power(0.2, 1);
   const Motion kink = exact::motion_of(exact::kink(0.5), viscous.grid, 0);
   chain::Chain a(viscous, kink), b(power, kink);
   a.advance_to(10);
@@ -281,7 +280,7 @@ TEST(ChainRefuses, BadInputInOneLine) {
   refused(p, kink, "does not fit the grid");
   refused(good, exact::motion_of([](double x, double) { return -6 * x; }, good.grid, 0), "too coarse");
   p = good;
-  p.friction = {FrictionLaw::viscous, -1};
+  p.friction = friction::viscous(-1);
   refused(p, kink, "friction");
   EXPECT_THROW(average(chain::Chain(good, kink), 19, 4, 0), InputError);
   EXPECT_THROW(chain::Chain(good, Levels{0, {1, 2}, {1, 2}}), InputError);

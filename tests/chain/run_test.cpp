@@ -19,7 +19,7 @@ chain::ScaledProblem step(double scale, double C = 0) {
   s.left = -3;
   s.right = 1;
   s.stress = [](double x) { return x < 0 ? 0.855 : 0.0; };
-  s.friction = {C > 0 ? modulation::FrictionLaw::viscous : modulation::FrictionLaw::none, C, 1, {}};
+  s.friction = friction::viscous(C);
   s.boundary = {.left = chain::End::fixed, .right = chain::End::fixed};
   return s;
 }

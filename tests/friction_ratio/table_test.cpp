@@ -13,7 +13,7 @@ namespace {
 
 using namespace slipfront;
 using namespace slipfront::friction_ratio;
-using modulation::Closure;
+using friction::Closure;
 
 constexpr Closure closures[] = {Closure::consistent, Closure::paper};
 constexpr auto& measures = all_measures;

@@ -16,7 +16,7 @@ namespace {
 using namespace slipfront;
 using namespace slipfront::catalogue;
 using namespace slipfront::inference;
-using modulation::Closure;
+using friction::Closure;
 using Shape = Measured::Shape;
 
 constexpr double shear_modulus = 30e9;

@@ -15,8 +15,7 @@ namespace {
 
 using namespace slipfront;
 using namespace slipfront::pulse;
-using modulation::Friction;
-using modulation::FrictionLaw;
+using friction::Friction;
 using std::numbers::pi;
 
 /// Energy of a dislocation in a train at rest under contact 1, over that of one alone: cosh psi E.
@@ -47,7 +46,7 @@ Problem equilibrium(double C, int cells) {
               },
           .forcing = {},
           .contact = contact,
-          .friction = {C > 0 ? FrictionLaw::viscous : FrictionLaw::none, C, 1, {}},
+          .friction = friction::viscous(C),
           .left = -5,
           .right = 5,
           .corner = HUGE_VAL,
@@ -85,7 +84,7 @@ TEST(Contact, BarrierArrestsThePulse) {
     Solver s({.stress = [](double x) { return x < 0 ? 0.855 : 0.0; },
               .forcing = {},
               .contact = contact,
-              .friction = {FrictionLaw::viscous, C, 1, {}},
+              .friction = friction::viscous(C),
               .left = -3,
               .right = 2,
               .cells = 100});

@@ -17,8 +17,7 @@ namespace {
 
 using namespace slipfront;
 using namespace slipfront::pulse;
-using modulation::Closure;
-using modulation::FrictionLaw;
+using friction::Closure;
 using std::numbers::pi;
 
 /// With zeta = q sqrt(C / t) and U = g / sqrt(C t), M = 8 U cosh psi E = -p_q / C and l_t = U_q become
@@ -85,7 +84,7 @@ Computed computed(double gamma, Closure closure, int cells) {
   const double reach = 20 / std::sqrt(gamma);
   Solver s({.stress = [](double x) { return x < 0 ? 0.855 : 0.0; },
             .forcing = {},
-            .friction = {FrictionLaw::viscous, gamma / (2 * pi), 1, closure},
+            .friction = friction::viscous(gamma / (2 * pi), closure),
             .left = -reach,
             .right = reach,
             .cells = cells});
@@ -124,7 +123,7 @@ TEST(Diffusion, ASmoothedStepIntoTheEmptySideTendsToTheStep) {
                     return k < train::smallest_stress ? 0 : k;
                   },
               .forcing = {},
-              .friction = {FrictionLaw::viscous, C, 1, {}},
+              .friction = friction::viscous(C),
               .left = -reach,
               .right = reach,
               .corner = width > 0 ? HUGE_VAL : 0,

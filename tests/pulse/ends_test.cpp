@@ -13,13 +13,12 @@ namespace {
 
 using namespace slipfront;
 using namespace slipfront::pulse;
-using modulation::FrictionLaw;
 using std::numbers::pi;
 
 Problem loaded(double C) {
   return {.stress = [](double) { return 0.8; },
           .forcing = [](double, double) { return 0.05; },
-          .friction = {C > 0 ? FrictionLaw::viscous : FrictionLaw::none, C, 1, {}},
+          .friction = friction::viscous(C),
           .left = -4,
           .right = 4,
           .corner = HUGE_VAL,

@@ -13,13 +13,12 @@ namespace {
 
 using namespace slipfront;
 using namespace slipfront::pulse;
-using modulation::FrictionLaw;
 using std::numbers::pi;
 
 Problem two_sides(double gap, int cells, double C = 0) {
   return {.stress = [=](double x) { return std::fabs(x) > gap / 2 ? 0.855 : 0.0; },
           .forcing = {},
-          .friction = {C > 0 ? FrictionLaw::viscous : FrictionLaw::none, C, 1, {}},
+          .friction = friction::viscous(C),
           .left = -4,
           .right = 4,
           .corner = HUGE_VAL,
@@ -81,7 +80,7 @@ TEST(Gap, ResumedRunHasTheSameBits) {
     cut.advance_to(t);
     Solver resumed(p, cut.cells());
     resumed.advance_to(6);
-    EXPECT_EQ(whole.cells().y, resumed.cells().y);
+    EXPECT_EQ(whole.cells().unknowns, resumed.cells().unknowns);
   }
 }
 
@@ -108,7 +107,7 @@ TEST(Gap, ProfileKnowsTheGap) {
 TEST(Gap, StreamsThatMeetAreFoundAndCostEnergy) {
   for (const double C : {0.0, 0.3}) {
     Problem p = two_sides(0.6, 200);
-    if (C > 0) p.friction = {modulation::FrictionLaw::viscous, C, 1, {}};
+    if (C > 0) p.friction = friction::viscous(C);
     std::vector<double> edges{p.left, 0, p.right};
     pulse::Run run(p, {.times = {0, 2, 10}, .x_edges = edges});
     run.go();

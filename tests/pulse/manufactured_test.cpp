@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "slipfront/modulation/friction.hpp"
+#include "slipfront/friction/friction.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
 #include "slipfront/pulse/solver.hpp"
 #include "slipfront/train/at_rest.hpp"
@@ -17,9 +17,8 @@ namespace {
 
 using namespace slipfront;
 using namespace slipfront::pulse;
-using modulation::Closure;
-using modulation::Friction;
-using modulation::FrictionLaw;
+using friction::Closure;
+using friction::Friction;
 using std::numbers::pi;
 
 /// 2 pi N(x, t) = k0 y + lump exp(-y^2) + moved g(t) y exp(-y^2), y = x - pushed g(t), g = 1 - cos(t / 2): a uniform
@@ -54,10 +53,8 @@ struct Motion {
       Q_x += weight[j - 1] * (at(x + j * h, t).Q - at(x - j * h, t).Q) / h;
       a2_x += weight[j - 1] * (std::pow(contact(x + j * h), 2) - std::pow(contact(x - j * h), 2)) / h;
     }
-    // Friction of what is about to go forward, at t = 0 too; viscous and power laws in the units of the interface.
-    const double loss = friction.law == FrictionLaw::coulomb ? friction.coefficient * density(x, t)
-                                                             : modulation::momentum_loss(state(x, t), friction) *
-                                                                   std::pow(contact(x), friction.exponent + 1);
+    // Friction of what is about to go forward, at t = 0 too.
+    const double loss = density(x, t) * friction.mean_strength(state(x, t), contact(x));
     return (P_t + Q_x + at(x, t).one_minus_cos * a2_x + loss) / density(x, t);
   }
 };
@@ -90,7 +87,7 @@ Errors errors_of(const Motion& motion, const Friction& friction, int cells, doub
       P += weight[j] * motion.at(x, end).P;
     }
     e.k += std::fabs(2 * pi * s.charge()[i] / width - k) / cells;
-    e.P += std::fabs(s.cells().y[2 * i + 1] / width - P) / cells;
+    e.P += std::fabs(s.cells().momentum(i) / width - P) / cells;
   }
   return e;
 }
@@ -113,16 +110,16 @@ TEST(Manufactured, FourthOrderWithoutFriction) { expect_fourth_order({}, {}); }
 
 TEST(Manufactured, FourthOrderWithEveryLawAndClosure) {
   for (const Closure closure : {Closure::consistent, Closure::paper}) {
-    expect_fourth_order({}, {FrictionLaw::viscous, 0.4, 1, closure});
-    expect_fourth_order({}, {FrictionLaw::coulomb, 0.4, 1, closure});
-    expect_fourth_order({}, {FrictionLaw::power, 0.4, 2, closure});
+    expect_fourth_order({}, friction::viscous(0.4, closure));
+    expect_fourth_order({}, friction::coulomb(0.4, closure));
+    expect_fourth_order({}, friction::power(0.4, 2, closure));
   }
 }
 
 TEST(Manufactured, FourthOrderWithAContactProfile) {
   expect_fourth_order({.rough = true}, {});
-  expect_fourth_order({.rough = true}, {FrictionLaw::viscous, 0.4, 1, Closure::consistent});
-  expect_fourth_order({.rough = true}, {FrictionLaw::viscous, 0.4, 1, Closure::paper});
+  expect_fourth_order({.rough = true}, friction::viscous(0.4, Closure::consistent));
+  expect_fourth_order({.rough = true}, friction::viscous(0.4, Closure::paper));
 }
 
 }  // namespace

@@ -19,10 +19,10 @@ using namespace slipfront;
 using namespace slipfront::pulse;
 using std::numbers::pi;
 
-Problem smooth(double C, modulation::Closure closure) {
+Problem smooth(double C, friction::Closure closure) {
   return {.stress = [](double x) { return 0.179 + 0.676 * (1 - std::tanh(x)) / 2; },
           .forcing = {},
-          .friction = {modulation::FrictionLaw::viscous, C, 1, closure},
+          .friction = friction::viscous(C, closure),
           .left = -8,
           .right = 6,
           .corner = HUGE_VAL,
@@ -37,7 +37,7 @@ output::Schedule schedule(double end) {
 
 /// Before a shock forms, what friction takes is what H loses; the imbalance is small against what it takes.
 TEST(Observe, EnergyIsAccountedFor) {
-  for (const modulation::Closure closure : {modulation::Closure::consistent, modulation::Closure::paper}) {
+  for (const friction::Closure closure : {friction::Closure::consistent, friction::Closure::paper}) {
     Problem problem = smooth(0.5, closure);
     problem.cells = 800;
     pulse::Run run(problem, schedule(3));
@@ -66,7 +66,7 @@ TEST(Observe, PeakIsNotBelowTheOrigin) {
 }
 
 TEST(Observe, CountsDislocations) {
-  pulse::Run run(smooth(0.1, modulation::Closure::consistent), schedule(2 * pi));
+  pulse::Run run(smooth(0.1, friction::Closure::consistent), schedule(2 * pi));
   run.go();
   const double error = conservation_error(run.solver());  // of the states: not zero
   EXPECT_GT(error, 1e-12);
@@ -77,11 +77,11 @@ TEST(Observe, CountsDislocations) {
 /// The count does not telescope: where the states of cells and faces no longer fit each other, dislocations are
 /// missing.
 TEST(Observe, CountsWrongWhereCellsAreWrong) {
-  Solver solver(smooth(0.1, modulation::Closure::consistent));
+  Solver solver(smooth(0.1, friction::Closure::consistent));
   solver.advance_to(0.5);
   EXPECT_LT(conservation_error(solver), 1e-5);
   Cells broken = solver.cells();
-  for (std::size_t i = 100; i < 300; i += 10) broken.y[2 * i] *= 1.3;  // widths of some cells
+  for (std::size_t i = 100; i < 300; i += 10) broken.values().width(i) *= 1.3;  // widths of some cells
   solver.restore(broken);
   EXPECT_GT(conservation_error(solver), 5e-4);
 }
@@ -92,7 +92,7 @@ TEST(Observe, EnergyThroughTheEndsIsAccountedFor) {
   for (const double C : {0.0, 2.0}) {
     Problem p{.stress = [](double) { return 0.8; },
               .forcing = [](double, double) { return 0.05; },
-              .friction = {C > 0 ? modulation::FrictionLaw::viscous : modulation::FrictionLaw::none, C, 1, {}},
+              .friction = friction::viscous(C),
               .left = -4,
               .right = 4,
               .cells = 200};
@@ -129,7 +129,7 @@ TEST(Observe, ShockTakesWhatTheRiemannProblemSays) {
 /// felt, whatever the cells, and none at rest.
 TEST(Observe, TrailingFrontOfASmoothStressIsWhereItIsFelt) {
   const auto fronts = [](int cells) {
-    Problem problem = smooth(0.5, modulation::Closure::consistent);
+    Problem problem = smooth(0.5, friction::Closure::consistent);
     problem.cells = cells;
     pulse::Run run(problem, schedule(5));
     run.go();
@@ -147,7 +147,7 @@ TEST(Observe, TrailingEdgeDoesNotKnowFriction) {
   for (const double C : {0.0, 0.5, 2.0}) {
     Problem p{.stress = [](double x) { return x < 0 ? 0.855 : 0.0; },
               .forcing = {},
-              .friction = {C > 0 ? modulation::FrictionLaw::viscous : modulation::FrictionLaw::none, C, 1, {}},
+              .friction = friction::viscous(C),
               .left = -3,
               .right = 1,
               .cells = 200};
@@ -171,7 +171,7 @@ TEST(Observe, TrailingEdgeDoesNotKnowFriction) {
 /// What is stressed on the right is the same thing in a mirror.
 TEST(Observe, MirroredScenarioKeepsFrontNames) {
   for (const double right : {0.0, 0.179}) {
-    Problem p = smooth(0.3, modulation::Closure::consistent), mirrored = p;
+    Problem p = smooth(0.3, friction::Closure::consistent), mirrored = p;
     p.left = mirrored.left = -4;
     p.right = mirrored.right = 4;
     p.cells = mirrored.cells = 200;
@@ -194,8 +194,8 @@ TEST(Observe, MirroredScenarioKeepsFrontNames) {
 TEST(Observe, FrontsDoNotDependOnOutputTimes) {
   output::Schedule often = schedule(2);
   for (double t = 1.9; t > 0.05; t -= 0.1) often.times.insert(often.times.begin() + 1, t);
-  pulse::Run rarely(smooth(0.5, modulation::Closure::consistent), schedule(2)),
-      closely(smooth(0.5, modulation::Closure::consistent), often);
+  pulse::Run rarely(smooth(0.5, friction::Closure::consistent), schedule(2)),
+      closely(smooth(0.5, friction::Closure::consistent), often);
   rarely.go();
   closely.go();
   const output::Fronts a = rarely.snapshots().back().fronts, b = closely.snapshots().back().fronts;
@@ -207,7 +207,7 @@ TEST(Observe, FrontsDoNotDependOnOutputTimes) {
 /// the solves.
 TEST(Run, SavedBetweenStepsContinuesToTheSameBits) {
   for (const double C : {0.3, 1e4}) {
-    Problem problem = smooth(C, modulation::Closure::consistent);
+    Problem problem = smooth(C, friction::Closure::consistent);
     problem.cells = 60;
     pulse::Run whole(problem, schedule(2));
     whole.go();
@@ -224,15 +224,15 @@ TEST(Run, SavedBetweenStepsContinuesToTheSameBits) {
 
 TEST(Run, RefusesStateOfAnotherRun) {
   const output::Schedule when = schedule(1);
-  pulse::Run run(smooth(0.5, modulation::Closure::consistent), when);
+  pulse::Run run(smooth(0.5, friction::Closure::consistent), when);
   run.go();
   const std::string saved = run.saved();
-  Problem other = smooth(0.5, modulation::Closure::consistent);
+  Problem other = smooth(0.5, friction::Closure::consistent);
   other.cells = 300;
   EXPECT_THROW(pulse::Run(other, when, saved, {}), InputError);
   EXPECT_THROW(pulse::Run(smooth(0.5, {}), when, saved.substr(0, saved.size() / 2), {}), InputError);
   EXPECT_THROW(pulse::Run(smooth(0.5, {}), when, "", {}), InputError);
-  const pulse::Run again(smooth(0.5, modulation::Closure::consistent), when, saved, run.snapshots());
+  const pulse::Run again(smooth(0.5, friction::Closure::consistent), when, saved, run.snapshots());
   EXPECT_TRUE(again.finished());
 }
 

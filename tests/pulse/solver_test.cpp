@@ -17,16 +17,15 @@ namespace {
 
 using namespace slipfront;
 using namespace slipfront::pulse;
-using modulation::Closure;
-using modulation::Friction;
-using modulation::FrictionLaw;
+using friction::Closure;
+using friction::Friction;
 using std::numbers::pi;
 
 Problem step(double left, double right, double C, Closure closure, int cells, double time = 2 * pi) {
   const double reach = rupture::from_stress(left).rupture_velocity * time;
   return {.stress = [=](double x) { return x < 0 ? left : right; },
           .forcing = {},
-          .friction = {C > 0 ? FrictionLaw::viscous : FrictionLaw::none, C, 1, closure},
+          .friction = friction::viscous(C, closure),
           .left = -1.15 * reach,
           .right = 0.8 * reach,
           .cells = cells};
@@ -180,7 +179,7 @@ TEST(Pulse, UniformTrainReachesItsTerminalVelocity) {
     Problem p;
     p.stress = [](double) { return 0.0457; };  // psi of about 5e-30: dislocations far apart
     p.forcing = [F](double, double) { return F; };
-    p.friction = {FrictionLaw::viscous, 0.1, 1, Closure::consistent};
+    p.friction = friction::viscous(0.1, Closure::consistent);
     p.cells = 8;
     p.corner = HUGE_VAL;
     Solver s(p);
@@ -209,16 +208,16 @@ TEST(Pulse, SlowIsLikeFast) {  // Sigma- = 0.05, V ~ 1e-26
 
 TEST(Pulse, CoulombFrictionSticksAndStops) {
   Problem p = step(0.855, 0.5, 0, Closure::consistent, 100);
-  p.friction = {FrictionLaw::coulomb, 10, 1, Closure::consistent};
+  p.friction = friction::coulomb(10, Closure::consistent);
   Solver held(p);
   held.advance_to(1);
   for (const State& s : held.view().states) EXPECT_EQ(s.phi, 0);
-  p.friction.coefficient = 0.002;
+  p.friction = friction::coulomb(0.002);
   Solver moving(p);
   moving.advance_to(2 * pi);
   const double W = origin_of(moving).W;
   EXPECT_GT(W, 0);
-  p.friction.coefficient = 0;
+  p.friction = friction::coulomb(0);
   Solver free(p);
   free.advance_to(2 * pi);
   EXPECT_LT(W, origin_of(free).W);
@@ -250,7 +249,7 @@ TEST(Pulse, ContinuesToTheSameBits) {
     first.advance_to(1);
     Solver second(p, first.cells());
     second.advance_to(2);
-    EXPECT_EQ(whole.cells().y, second.cells().y);
+    EXPECT_EQ(whole.cells().unknowns, second.cells().unknowns);
     EXPECT_EQ(whole.cells().steps, second.cells().steps);
   }
 }
@@ -264,7 +263,7 @@ TEST(Pulse, InterruptedBetweenStepsContinuesToTheSameBits) {
   EXPECT_FALSE(cut.advance_to(2, [&] { return --remaining == 0; }));
   Solver resumed(p, cut.cells());
   EXPECT_TRUE(resumed.advance_to(2));
-  EXPECT_EQ(whole.cells().y, resumed.cells().y);
+  EXPECT_EQ(whole.cells().unknowns, resumed.cells().unknowns);
 }
 
 TEST(Pulse, RefusesWhatIsNoProblem) {

@@ -11,8 +11,7 @@ namespace {
 
 using namespace slipfront;
 using namespace slipfront::pulse;
-using modulation::Friction;
-using modulation::FrictionLaw;
+using friction::Friction;
 using std::numbers::pi;
 
 double slip_at_origin(const Solver& s) { return s.slip_at(s.view(), 0); }
@@ -20,7 +19,7 @@ double slip_at_origin(const Solver& s) { return s.slip_at(s.view(), 0); }
 Problem forced(double stress, double C, double reach, std::function<double(double, double)> forcing) {
   return {.stress = [=](double) { return stress; },
           .forcing = std::move(forcing),
-          .friction = {C > 0 ? FrictionLaw::viscous : FrictionLaw::none, C, 1, {}},
+          .friction = friction::viscous(C),
           .left = -reach,
           .right = reach,
           .corner = HUGE_VAL};
@@ -45,7 +44,7 @@ TEST(UnderLoad, SmoothSlowStressBeforeItsMomentumHasRelaxed) {
   const auto slip = [](int cells) {
     Solver s({.stress = [](double x) { return 0.2 + 0.1 * (1 - std::tanh(x)) / 2; },
               .forcing = {},
-              .friction = {FrictionLaw::viscous, 0.16, 1, {}},
+              .friction = friction::viscous(0.16),
               .left = -8,
               .right = 7,
               .corner = HUGE_VAL,
@@ -94,7 +93,7 @@ TEST(UnderLoad, BothWaysOfSteppingAgree) {
   for (const int i : {0, 1}) {
     Solver s({.stress = [](double x) { return 0.3 + 0.3 * (1 - std::tanh(x)) / 2; },
               .forcing = [](double x, double t) { return 0.01 * std::exp(-x * x) * std::sin(t); },
-              .friction = {FrictionLaw::viscous, 3, 1, {}},
+              .friction = friction::viscous(3),
               .left = -8,
               .right = 8,
               .corner = HUGE_VAL,
@@ -112,7 +111,7 @@ TEST(UnderLoad, DryFrictionHoldsCellsThatStopTogether) {
   Problem p;
   p.stress = [](double x) { return 0.303 + 0.041 * (1 - std::tanh(x / 1.23)) / 2; };
   p.forcing = [](double, double t) { return t < 0.314 ? -0.0543 : 0.0; };
-  p.friction = {modulation::FrictionLaw::coulomb, 0.00448, 1, modulation::Closure::paper};
+  p.friction = friction::coulomb(0.00448, friction::Closure::paper);
   p.left = -6.07;
   p.right = 5.23;
   p.corner = HUGE_VAL;

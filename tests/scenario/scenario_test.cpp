@@ -22,8 +22,8 @@ TEST(ScenarioFile, DefaultsNeedOnlyInitial) {
   EXPECT_EQ(s.title, "");
   EXPECT_EQ(s.file, "dir/s.toml");
   EXPECT_EQ(s.text, step);
-  EXPECT_EQ(s.friction.law, modulation::FrictionLaw::none);
-  EXPECT_EQ(s.friction.closure, modulation::Closure::consistent);
+  EXPECT_EQ(s.friction.name(), "none");
+  EXPECT_EQ(s.friction.closure(), friction::Closure::consistent);
   EXPECT_FALSE(s.forcing_at);
   EXPECT_FALSE(s.contact_at);
   EXPECT_FALSE(s.domain.left || s.domain.right || s.chain.spacing || s.output.every || s.medium.density);
@@ -80,10 +80,10 @@ anything = nan
   EXPECT_EQ(s.initial.stress_left, 1.5);
   EXPECT_EQ(s.initial.stress_right, 0.5);
   EXPECT_EQ(s.initial.width, 2);
-  EXPECT_EQ(s.friction.law, modulation::FrictionLaw::power);
-  EXPECT_EQ(s.friction.coefficient, 1);
-  EXPECT_EQ(s.friction.exponent, 0.5);
-  EXPECT_EQ(s.friction.closure, modulation::Closure::paper);
+  EXPECT_EQ(s.friction.name(), "power");
+  EXPECT_EQ(s.friction.coefficient(), 1);
+  EXPECT_EQ(s.friction.parameter("exponent"), 0.5);
+  EXPECT_EQ(s.friction.closure(), friction::Closure::paper);
   EXPECT_EQ(s.forcing, "0.1*x + t");
   EXPECT_DOUBLE_EQ(s.forcing_at(2, 3), 3.2);
   EXPECT_EQ(s.contact, "1 + x^2");
@@ -175,7 +175,7 @@ TEST(ScenarioFile, RefusesValuesOutOfRangeWithLineAndKey) {
 TEST(ScenarioFile, TakesTheEndsOfRanges) {
   EXPECT_EQ(read(step + "[pulse]\ncells = 4\ntolerance = 0.1\n").pulse.cells, 4);
   EXPECT_EQ(read(step + "[pulse]\ncells = 10000000\ntolerance = 1e-12\n").pulse.tolerance, 1e-12);
-  EXPECT_EQ(read(step + "[friction]\nlaw = \"coulomb\"\ncoefficient = 0\n").friction.coefficient, 0);
+  EXPECT_EQ(read(step + "[friction]\nlaw = \"coulomb\"\ncoefficient = 0\n").friction.coefficient(), 0);
   EXPECT_EQ(read("[initial]\nstress_left = 0.0045\nstress_right = 1e6\n").stress(-1), 0.0045);
 }
 

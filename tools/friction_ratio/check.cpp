@@ -13,7 +13,7 @@ namespace slipfront::friction_ratio {
 
 namespace {
 
-using modulation::Closure;
+using friction::Closure;
 
 /// Largest relative difference from the solver, where the table is certified and where it is not.
 struct Worst {

@@ -12,7 +12,7 @@ namespace slipfront::friction_ratio {
 
 namespace {
 
-using modulation::Closure;
+using friction::Closure;
 
 Logarithms logarithms(const Question& question) {
   const SlipVelocities w = solve(question);

@@ -9,12 +9,12 @@
 
 namespace slipfront::friction_ratio {
 
-inline constexpr modulation::Closure closures[layout::closures] = {modulation::Closure::consistent,
-                                                                   modulation::Closure::paper};
+inline constexpr friction::Closure closures[layout::closures] = {friction::Closure::consistent,
+                                                                 friction::Closure::paper};
 
 using Logarithms = std::array<double, layout::measures>;  ///< ln of W over the frictionless W(0)
 
 /// \throws InputError, NumericsError as the solver does.
-Logarithms computed(modulation::Closure closure, double stress, double damping);
+Logarithms computed(friction::Closure closure, double stress, double damping);
 
 }  // namespace slipfront::friction_ratio

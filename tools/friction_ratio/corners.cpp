@@ -49,7 +49,7 @@ CornersAt corners_at(double stress) {
   constexpr int count = 338;  // up to 1.498
   std::vector<double> dampings, origin, peak;
   for (int n = 0; n < count; ++n) dampings.push_back(std::expm1(first + step * n));
-  for (const SlipVelocities& w : solve_each(stress, modulation::Closure::consistent, 3200, dampings)) {
+  for (const SlipVelocities& w : solve_each(stress, friction::Closure::consistent, 3200, dampings)) {
     origin.push_back(std::log(w.origin));
     peak.push_back(std::log(w.peak));
   }

@@ -18,7 +18,7 @@ namespace {
 
 /// Where the solver is to be run.
 struct Node {
-  modulation::Closure closure;
+  friction::Closure closure;
   double stress, damping;
   auto operator<=>(const Node&) const = default;
 };

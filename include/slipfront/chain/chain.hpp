@@ -25,10 +25,12 @@ struct Execution {
   const Ranks* ranks = nullptr;
 };
 
-/// All that a chain needs to go on, to the same bits: two levels of z / 2 pi (docs/chain.md).
+/// All that a chain needs to go on, to the same bits: two levels of z / 2 pi (docs/chain.md), and what the places
+/// remember if friction depends on that.
 struct Levels {
   long level = 0;  ///< steps done
   std::vector<double> now, before;
+  std::vector<double> memory = {};  ///< the friction law's variables, site by site; empty at a start
 };
 
 /// The motion, or the levels, of sites [begin, end): for chains that nobody holds whole. Asked for some 65 536 sites at
@@ -96,9 +98,9 @@ class Chain {
   Window window(std::size_t begin, std::size_t end) const { return window(begin, end, time()); }
 
   /// Forces on a site of this rank as they stand in the equation of motion, for inspection.
-  double contact_squared(std::size_t site) const;  ///< a^2
-  double forcing(std::size_t site) const;          ///< F now
-  double friction(double velocity) const;          ///< f
+  double contact_squared(std::size_t site) const;            ///< a^2
+  double forcing(std::size_t site) const;                    ///< F now
+  double friction(std::size_t site, double velocity) const;  ///< f
 
  private:
   friend struct Inside;

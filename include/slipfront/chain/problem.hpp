@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "slipfront/chain/initial.hpp"
-#include "slipfront/modulation/friction.hpp"
+#include "slipfront/friction/friction.hpp"
 
 namespace slipfront::chain {
 
@@ -33,7 +33,7 @@ struct Problem {
   Grid grid;
   Model model = Model::sine_gordon;
   Boundary boundary;
-  modulation::Friction friction;                      ///< the closure does not matter here
+  friction::Friction friction;                        ///< the closure does not matter here
   std::function<double(double x, double t)> forcing;  ///< F, t >= 0; null: none. Called from one thread only
   bool steady_forcing = false;                        ///< F does not depend on t: it is asked for at t = 0 only
   std::function<double(double x)> contact;            ///< a > 0; null: 1. Called from one thread only

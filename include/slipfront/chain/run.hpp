@@ -26,7 +26,7 @@ struct ScaledProblem {
   bool steady_forcing = false;                        ///< F does not depend on t
   double end = 0;                                     ///< how long F is looked at for the step; 0: F may be strong
   std::function<double(double)> contact;              ///< a(x); null: 1
-  modulation::Friction friction;                      ///< of the scenario; the closure does not matter
+  friction::Friction friction;                        ///< of the scenario; the closure does not matter
   Boundary boundary;
   Model model = Model::sine_gordon;
   double spacing = default_spacing;  ///< of the grid or lattice, in the chain's own (stretched) x

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "slipfront/modulation/friction.hpp"
+#include "slipfront/friction/friction.hpp"
 
 namespace slipfront::friction_ratio {
 
@@ -20,7 +20,7 @@ struct SlipVelocities {
 struct Question {
   double stress = 0;          ///< Sigma-, in mu A / pi
   double damping_number = 0;  ///< Gamma = C T, f = C w
-  modulation::Closure closure = modulation::Closure::consistent;
+  friction::Closure closure = friction::Closure::consistent;
   int cells = 400;
 };
 
@@ -28,7 +28,7 @@ struct Question {
 SlipVelocities solve(const Question& question);
 
 /// The same at each of `damping_numbers`, ascending and > 0, in one run to the last of them.
-std::vector<SlipVelocities> solve_each(double stress, modulation::Closure closure, int cells,
+std::vector<SlipVelocities> solve_each(double stress, friction::Closure closure, int cells,
                                        const std::vector<double>& damping_numbers);
 
 }  // namespace slipfront::friction_ratio

@@ -6,7 +6,7 @@
 
 #include <string_view>
 
-#include "slipfront/modulation/friction.hpp"
+#include "slipfront/friction/friction.hpp"
 
 namespace slipfront::friction_ratio {
 
@@ -31,11 +31,11 @@ struct Ratio {
 
 /// `stress` = Sigma- in 0.05 ... 3, `damping_number` >= 0; above 1e8 the diffusion limit, falling as Gamma^(-1/2).
 /// Relative error: see `uncertainty`. \throws InputError.
-Ratio evaluate(Measure measure, modulation::Closure closure, double stress, double damping_number);
+Ratio evaluate(Measure measure, friction::Closure closure, double stress, double damping_number);
 
 /// Relative error to allow for: 1e-4; closure "paper" 1e-2 for 3 < Gamma < 1e5. It is unstable where dislocations
 /// outrun their own sound (docs/friction_ratio.md): there no number of cells settles its slip velocities.
-double uncertainty(modulation::Closure closure, double damping_number);
+double uncertainty(friction::Closure closure, double damping_number);
 
 /// Sigma- for which there is a table.
 struct StressRange {

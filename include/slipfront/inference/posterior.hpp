@@ -20,7 +20,7 @@ inline constexpr double least_contact_ratio = 1e-8, most_damping_number = 1e8;
 struct Sampling {
   std::size_t samples = 1000;  ///< points of the Sobol sequence to begin with, >= 1
   std::uint64_t seed = 1;      ///< of its shift, which differs from event to event
-  modulation::Closure closure = modulation::Closure::consistent;
+  friction::Closure closure = friction::Closure::consistent;
   std::size_t draws = 0;  ///< states to keep, alike in weight
 };
 

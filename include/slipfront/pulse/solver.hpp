@@ -13,8 +13,9 @@
 #include <memory>
 #include <vector>
 
-#include "slipfront/modulation/friction.hpp"
+#include "slipfront/friction/friction.hpp"
 #include "slipfront/pulse/end.hpp"
+#include "slipfront/pulse/named_values.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::pulse {
@@ -27,7 +28,7 @@ struct Problem {
   std::function<double(double)> stress;               ///< initial stress at x, >= 0; the interface is at rest
   std::function<double(double x, double t)> forcing;  ///< F; null: none
   std::function<double(double)> contact = {};         ///< relative contact ratio a(x) > 0; null: 1
-  modulation::Friction friction;
+  friction::Friction friction;
   double left = -1, right = 1;  ///< domain at t = 0
   double corner = 0;            ///< x of a step of stress: a face is laid there
   End left_end = End::continued, right_end = End::continued;
@@ -44,16 +45,25 @@ struct Problem {
 struct Cells {
   double time = 0;
   long steps = 0;
-  double step = 0;        ///< longest that the error of the last step allows, 0 before the first
-  std::vector<double> y;  ///< width and momentum of each cell in turn, x of the left edge, then energies: dissipated,
-                          ///< supplied, come in through the ends
-  std::vector<double> s;  ///< tanh(psi) at the cell centres, where the next solve starts
-  std::vector<double> charge;  ///< dislocations in each cell, constant; 0 in a gap
-  double entered_left = 0;     ///< dislocations that have come in (less those that have left) through the left end
-  double entered_right = 0;    ///< and through the right one
+  double step = 0;               ///< longest that the error of the last step allows, 0 before the first
+  std::vector<double> unknowns;  ///< what time steps advance, with the names below
+  std::vector<double> s;         ///< tanh(psi) at the cell centres, where the next solve starts
+  std::vector<double> charge;    ///< dislocations in each cell, constant; 0 in a gap
+  double entered_left = 0;       ///< dislocations that have come in (less those that have left) through the left end
+  double entered_right = 0;      ///< and through the right one
   double crossing_time = std::numeric_limits<double>::quiet_NaN();      ///< of the first crossing; NaN: none so far
   double crossing_position = std::numeric_limits<double>::quiet_NaN();  ///< and its x
-  std::vector<double> face_momentum;  ///< where friction rules: momenta live at the faces, y has means; else empty
+  std::vector<double> face_momentum;  ///< where friction rules: momenta live at the faces, cells have means; else empty
+
+  std::size_t size() const { return charge.size(); }
+  Values values() { return {unknowns.data(), size()}; }
+  ConstValues values() const { return {unknowns.data(), size()}; }
+  double& width(std::size_t cell) { return values().width(cell); }
+  double width(std::size_t cell) const { return values().width(cell); }
+  double& momentum(std::size_t cell) { return values().momentum(cell); }
+  double momentum(std::size_t cell) const { return values().momentum(cell); }
+  double& left_edge() { return values().left_edge(); }  ///< x
+  double left_edge() const { return values().left_edge(); }
 };
 
 class Solver {
@@ -98,11 +108,11 @@ class Solver {
   /// where the dislocation now at x began. No difference of sums, so that a small slip has small errors.
   double slip_at(const View& view, double x) const;
 
-  double dissipated() const { return cells_.y[2 * size() + 1]; }
-  double supplied() const { return cells_.y[2 * size() + 2]; }
+  double dissipated() const { return cells_.values().dissipated(); }
+  double supplied() const { return cells_.values().supplied(); }
   /// Energy that came in through the ends of the domain, less what went out: with the dislocations, and by the push of
   /// the train beyond.
-  double through_ends() const { return cells_.y[2 * size() + 3]; }
+  double through_ends() const { return cells_.values().through_ends(); }
 
  private:
   void lay_equations();
@@ -114,13 +124,13 @@ class Solver {
   double step_explicitly(Work& work, double remaining, double crossing);
   double step_implicitly(Work& work, double remaining, double crossing);
   std::vector<double> faces_of_cells(const Staggered& staggered) const;
-  void cells_of_faces(const Staggered& staggered, const std::vector<double>& faces);
+  void cells_of_faces(const Staggered& staggered, const std::vector<double>& unknowns);
   double unseen_push(double dt) const;
   double mean_speed() const;
   void look_for_crossing();
   double energy_in(std::size_t cell) const;
   void find_scale(double crossing, std::vector<double>& scale) const;
-  double gaps_close_in(const std::vector<double>& rate) const;
+  double gaps_close_in(const std::vector<double>& rates) const;
   void close_gaps();
   void adjust_ends();
   void fill_end(bool left);

@@ -13,8 +13,8 @@
 
 #include "slipfront/chain/problem.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/friction/friction.hpp"
 #include "slipfront/medium/constants.hpp"
-#include "slipfront/modulation/friction.hpp"
 #include "slipfront/pulse/end.hpp"
 #include "slipfront/train/train.hpp"
 
@@ -76,7 +76,7 @@ struct Scenario {
   std::string file;   ///< as named by the user
   std::string text;   ///< the TOML that was read; with overrides, the TOML they make of it. Reads back as this scenario
   Initial initial;
-  modulation::Friction friction;
+  friction::Friction friction;
   std::string forcing;  ///< formula F(x, t); empty: none
   std::string contact;  ///< formula a(x); empty: 1
   Domain domain;

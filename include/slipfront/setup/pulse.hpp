@@ -19,7 +19,4 @@ output::Schedule pulse_schedule(const scenario::Scenario& scenario, const pulse:
 /// pulse::Run.
 void check_cells(const scenario::Scenario& scenario, const pulse::Problem& problem);
 
-/// "viscous", "coulomb", "power"; "no" without friction.
-const char* law_name(modulation::FrictionLaw law);
-
 }  // namespace slipfront::setup

@@ -1,0 +1,104 @@
+#pragma once
+/// \file
+/// A friction law: the force that opposes slip at one place, and its averages over a uniform train
+/// (docs/theory.md 3.3). To add a law, write one file in src/friction/ and add its line to src/friction/laws.cpp. The
+/// file must give the name, the parameters and the force; averages and implicit solves follow by quadrature and
+/// bisection unless the law knows closed forms.
+
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "slipfront/train/state.hpp"
+
+namespace slipfront::friction {
+
+/// How f enters the momentum law P_t + Q_x = F k - loss.
+enum class Closure {
+  consistent,  ///< loss = <f(w) sigma>, the exact average
+  paper,       ///< loss = k <f(w)>, as the paper's Eqs. (7) have it; understates friction
+};
+
+/// "consistent" or "paper", and back. \throws InputError (key "closure") for any other word.
+const char* name_of(Closure closure);
+Closure closure_named(std::string_view name);
+
+/// A number that a law takes, and the key of table [friction] that gives it.
+struct Parameter {
+  std::string_view name, symbol, unit;
+  double value = 0;  ///< if none is given
+  double least = 0, most = std::numeric_limits<double>::infinity();
+  bool without_least = false;
+  bool is_force = false;             ///< in the unit of F, so that a chain stretched by a scale divides it
+  std::string_view if_missing = {};  ///< a warning that says what its absence means
+};
+
+/// A quantity that each place remembers, such as the age of its contacts.
+struct Variable {
+  std::string_view name, symbol, unit;
+};
+
+/// Values of a law's variables at one place, in the order of its definition; none for most laws.
+using Memory = std::span<const double>;
+
+/// Rate at which friction relaxes the momentum of uniform trains, loss / P, with its limit at rest. The train lies in a
+/// contact ratio a; its state is that in the local units a x, a t. An object may keep tables that fill as they are
+/// used: it serves one thread.
+class RelaxationRate {
+ public:
+  virtual ~RelaxationRate() = default;
+  virtual double operator()(const State& state, double contact) const = 0;
+};
+
+/// A law with its numbers.
+class Law {
+ public:
+  virtual ~Law() = default;
+
+  /// f at the slip velocity |w| = `speed` >= 0. Its limit at 0 is the largest force that holds a place at rest.
+  virtual double strength(double speed, Memory memory) const = 0;
+
+  /// C where f = C w. Such friction is built into the time steps of pulse and chain.
+  virtual std::optional<double> linear_coefficient() const { return std::nullopt; }
+  /// f_0 where f = f_0 sign(w), the same at every speed.
+  virtual std::optional<double> constant_strength() const { return std::nullopt; }
+  /// Whether f rises so steeply from rest, without a jump, that a step which is centred on it would reverse the slip.
+  virtual bool steep_at_rest() const { return false; }
+
+  /// The speed v >= 0 that friction leaves of `free` >= 0 in a time step: v + weight f(v) = free; 0 where friction
+  /// holds the place.
+  virtual double speed_after(double free, double weight, Memory memory) const;
+
+  /// Mean of f over a uniform train, >= 0; the loss of momentum is k times this. The mean is over slip (consistent) or
+  /// over length (paper).
+  virtual double mean_strength(const State& state, double contact, Closure closure) const;
+  virtual std::unique_ptr<RelaxationRate> relaxation_rate(Closure closure) const;
+
+  /// Sets a place's variables at t = 0, where nothing has slipped.
+  virtual void start(std::span<double> memory) const;
+  /// Changes them over a time in which the place slips at a constant velocity.
+  virtual void advance(double velocity, double time, std::span<double> memory) const;
+};
+
+/// What is known of a law before its numbers are.
+struct Definition {
+  std::string_view name;       ///< of friction.law in a scenario
+  std::string_view adjective;  ///< stands before "friction" in a sentence
+  std::string_view equation;
+  std::string_view source;
+  std::vector<Parameter> parameters = {};
+  std::vector<Variable> variables = {};
+  /// From the parameters' values, in their order.
+  std::shared_ptr<const Law> (*make)(const std::vector<double>& values);
+
+  /// Null if the law has no such parameter.
+  const Parameter* find(std::string_view parameter) const;
+};
+
+/// All laws that a scenario can name.
+const std::vector<const Definition*>& laws();
+
+}  // namespace slipfront::friction

@@ -1,0 +1,80 @@
+#include "slipfront/friction/friction.hpp"
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "../digits.hpp"
+#include "slipfront/error.hpp"
+#include "slipfront/train/train.hpp"
+
+namespace slipfront::friction {
+
+const Definition& no_law();
+
+namespace {
+
+bool in_range(const Parameter& p, double value) {
+  return std::isfinite(value) && (p.without_least ? value > p.least : value >= p.least) && value <= p.most;
+}
+
+std::string range_of(const Parameter& p) {
+  const std::string most = std::isfinite(p.most) ? " and <= " + digits(p.most) : ", finite";
+  return (p.without_least ? "> " : ">= ") + digits(p.least) + most;
+}
+
+}  // namespace
+
+Friction::Friction() : Friction(no_law(), {}) {}
+
+Friction::Friction(const Definition& definition, std::vector<double> values, Closure closure)
+    : definition_(&definition), values_(std::move(values)), closure_(closure), law_(definition.make(values_)) {
+  for (std::size_t i = 0; i < values_.size(); ++i)
+    acts_ = acts_ || (definition.parameters[i].is_force && values_[i] > 0);
+  linear_ = law_->linear_coefficient();
+  std::vector<double> memory(variables());
+  law_->start(memory);
+  at_rest_ = law_->strength(0, memory);
+}
+
+Friction Friction::with(Closure closure) const { return {*definition_, values_, closure}; }
+
+double Friction::parameter(std::string_view name) const {
+  for (std::size_t i = 0; i < values_.size(); ++i)
+    if (definition_->parameters[i].name == name) return values_[i];
+  return 0;
+}
+
+Friction Friction::divided_by(double scale) const {
+  std::vector<double> values = values_;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (definition_->parameters[i].is_force) values[i] /= scale;
+  return {*definition_, std::move(values), closure_};
+}
+
+void Friction::check() const {
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    const Parameter& p = definition_->parameters[i];
+    if (!in_range(p, values_[i]))
+      throw InputError({.key = "friction." + std::string(p.name),
+                        .value = digits(values_[i]),
+                        .problem = "out of range",
+                        .allowed = range_of(p)});
+  }
+}
+
+double Friction::force(double velocity, Memory memory) const {
+  return velocity == 0 ? 0 : std::copysign(law_->strength(std::fabs(velocity), memory), velocity);
+}
+
+double Friction::velocity_after(double free, double weight, Memory memory) const {
+  return std::copysign(law_->speed_after(std::fabs(free), weight, memory), free);
+}
+
+double Friction::momentum_loss(const State& state, double contact) const {
+  if (!acts_ || state.empty() || state.phi == 0) return 0;
+  const double k = train::averages(state).k * contact;
+  return std::copysign(k * mean_strength(state, contact), state.phi);
+}
+
+}  // namespace slipfront::friction

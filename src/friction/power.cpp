@@ -1,0 +1,141 @@
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include "slipfront/elliptic/complete.hpp"
+#include "slipfront/friction/friction.hpp"
+#include "slipfront/train/train.hpp"
+
+namespace slipfront::friction {
+namespace {
+
+using std::numbers::pi;
+
+/// <sigma^n> over a period: (2 beta)^n / K times the integral of dn^(n-1) over the amplitude from 0 to pi/2. Periodic
+/// and smooth in it, so the trapezoidal rule would do for dense trains; towards the empty limit dn^(n-1) becomes
+/// cos^(n-1), and the substitution amplitude = gd(y) turns both ends into decaying tails.
+double integral_of_power(const elliptic::AtPsi& at, double n) {
+  // amplitude = gd(y): cos = sech y, d(amplitude) = sech y dy, dn^2 = sech^2 y + m1 tanh^2 y
+  constexpr double end = 40, h = 1.0 / 16;
+  double sum = 0;
+  for (int i = 0; i * h <= end; ++i) {
+    const double y = i * h, sech = 1 / std::cosh(y), tanh = std::tanh(y);
+    const double term = sech * std::pow(sech * sech + at.s * at.s * tanh * tanh, (n - 1) / 2);
+    sum += i == 0 ? term / 2 : term;
+  }
+  return sum * h;
+}
+
+/// <sigma^n>.
+double mean_power(const State& state, double n) {
+  const elliptic::AtPsi at = elliptic::at_psi(state.psi);
+  const double two_beta = 2 * std::cosh(state.phi) * std::cosh(state.psi);
+  return std::pow(two_beta, n) / at.K * integral_of_power(at, n);
+}
+
+/// loss / P with P = U <sigma^2> = U 4 beta^2 E / K and k = pi beta / K is C (2 sinh |phi| cosh psi)^(n - 1) g(psi). It
+/// looks g up in a table of ln psi that fills as it is used, to 1e-10.
+class PowerRate final : public RelaxationRate {
+ public:
+  PowerRate(double coefficient, double exponent, Closure closure) : C_(coefficient), n_(exponent), closure_(closure) {}
+
+  double operator()(const State& state, double contact) const override {
+    if (C_ == 0 || state.empty() || state.phi == 0) return 0;
+    const double fastest = 2 * std::sinh(std::fabs(state.phi)) * std::cosh(state.psi);
+    const double rate = C_ * std::pow(fastest, n_ - 1) * shape(state.psi);
+    return contact == 1 ? rate : rate * std::pow(contact, n_ - 1);  // <|w|^n sigma> over P, w in units of a
+  }
+
+ private:
+  static constexpr double per_unit = 32, least_log = -700, most_psi = 20;  // nodes per unit of ln psi
+
+  double node(std::size_t i) const {
+    double& value = nodes_[i];
+    if (std::isnan(value)) {
+      const elliptic::AtPsi at = elliptic::at_psi(std::exp(least_log + static_cast<double>(i) / per_unit));
+      value = closure_ == Closure::consistent ? integral_of_power(at, n_ + 1) / at.E
+                                              : pi / 2 * integral_of_power(at, n_) / (at.E * at.K);
+    }
+    return value;
+  }
+
+  /// Lagrange's polynomial through six nodes. Dense trains have sigma = <sigma>, and g = 1.
+  double shape(double psi) const {
+    if (psi >= most_psi) return 1;
+    if (nodes_.empty())
+      nodes_.assign(static_cast<std::size_t>((std::log(most_psi) - least_log) * per_unit) + 8, std::nan(""));
+    const double position = (std::log(psi) - least_log) * per_unit;
+    const double begin = std::fmax(std::floor(position) - 2, 0.0), s = position - begin;
+    const auto first = static_cast<std::size_t>(begin);
+    double sum = 0;
+    for (std::size_t j = 0; j < 6; ++j) {
+      double weight = 1;
+      for (std::size_t k = 0; k < 6; ++k)
+        if (k != j) weight *= (s - static_cast<double>(k)) / (static_cast<double>(j) - static_cast<double>(k));
+      sum += weight * node(first + j);
+    }
+    return sum;
+  }
+
+  double C_, n_;
+  Closure closure_;
+  mutable std::vector<double> nodes_;  ///< g, NaN where not yet known
+};
+
+class Power final : public Law {
+ public:
+  Power(double coefficient, double exponent) : C_(coefficient), n_(exponent) {}
+  double strength(double speed, Memory) const override { return C_ * std::pow(speed, n_); }
+  bool steep_at_rest() const override { return n_ < 1; }
+
+  /// v + s v^n = free is monotone. Newton in ln v from above is monotone too: v + s v^n is convex in ln v.
+  double speed_after(double free, double weight, Memory) const override {
+    const double s = weight * C_;
+    if (free == 0 || s == 0) return free;
+    double v = std::fmin(free, std::pow(free / s, 1 / n_));
+    for (int i = 0; i < 60; ++i) {
+      const double drag = s * std::pow(v, n_), step = (v + drag - free) / (v + n_ * drag);
+      v *= std::exp(-step);
+      if (std::fabs(step) < 1e-8) break;  // what is left is of the order of its square
+    }
+    return v;
+  }
+
+  double mean_strength(const State& state, double contact, Closure closure) const override {
+    const double speed = std::pow(contact * std::fabs(std::tanh(state.phi)), n_);
+    if (closure == Closure::paper) return C_ * speed * mean_power(state, n_);
+    return C_ * speed * mean_power(state, n_ + 1) / train::averages(state).k;
+  }
+  std::unique_ptr<RelaxationRate> relaxation_rate(Closure closure) const override {
+    return std::make_unique<PowerRate>(C_, n_, closure);
+  }
+
+ private:
+  double C_, n_;
+};
+
+}  // namespace
+
+const Definition& power_law() {
+  static const Definition definition{
+      .name = "power",
+      .adjective = "power",
+      .equation = "f = C |w|^(n-1) w",
+      .source = "docs/theory.md 3.3",
+      .parameters = {{.name = "coefficient",
+                      .symbol = "C",
+                      .unit = "mu A / 2 pi over the unit of w to the power n",
+                      .is_force = true,
+                      .if_missing = "counts as 0: there is no friction"},
+                     {.name = "exponent", .symbol = "n", .unit = "1", .value = 1, .most = 20, .without_least = true}},
+      .make = [](const std::vector<double>& values) -> std::shared_ptr<const Law> {
+        return std::make_shared<Power>(values[0], values[1]);
+      }};
+  return definition;
+}
+
+Friction power(double coefficient, double exponent, Closure closure) {
+  return {power_law(), {coefficient, exponent}, closure};
+}
+
+}  // namespace slipfront::friction

@@ -1,0 +1,173 @@
+#include "slipfront/friction/friction.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "slipfront/error.hpp"
+#include "slipfront/train/train.hpp"
+
+namespace {
+
+using namespace slipfront;
+using namespace slipfront::friction;
+
+/// <f(w) sigma> and <f(w)> by quadrature of the fields themselves.
+TEST(Friction, IsTheAverageOfTheFields) {
+  const State states[] = {{0.3, 0.2}, {-0.7, 0.9}, {1.1, 0.02}, {0.05, 2.5}};
+  for (const State& s : states)
+    for (const double n : {0.5, 1.0, 2.0, 3.3}) {
+      const double length = train::spacing(s);
+      constexpr int points = 4000;
+      double f_sigma = 0, f = 0, k = 0;
+      for (int i = 0; i < points; ++i) {
+        const train::Fields at = train::fields(s, length * i / points);
+        const double force = 0.7 * std::copysign(std::pow(std::fabs(at.w), n), at.w);
+        f_sigma += force * at.sigma / points;
+        f += force / points;
+        k += at.sigma / points;
+      }
+      const auto law = [n](Closure c) { return n == 1 ? viscous(0.7, c) : power(0.7, n, c); };
+      EXPECT_NEAR(law(Closure::consistent).momentum_loss(s) / f_sigma, 1, 1e-10) << n << " " << s.psi;
+      EXPECT_NEAR(law(Closure::paper).momentum_loss(s) / (k * f), 1, 1e-10) << n << " " << s.psi;
+      EXPECT_NEAR(coulomb(0.7).momentum_loss(s), std::copysign(0.7 * k, s.phi), 1e-10 * k);
+    }
+}
+
+TEST(Friction, PowersOneAndTwoAreTheClosedForms) {
+  for (const double psi : {1e-200, 1e-9, 0.01, 0.5, 4.0}) {
+    const State s{0.4, psi};
+    for (const Closure closure : {Closure::consistent, Closure::paper}) {
+      const double linear = viscous(1, closure).momentum_loss(s);
+      EXPECT_NEAR(power(1, 1, closure).momentum_loss(s) / linear, 1, 1e-13) << psi;
+    }
+    const train::Averages a = train::averages(s);
+    const double U = std::tanh(0.4);
+    EXPECT_NEAR(power(1, 2, Closure::consistent).momentum_loss(s) / (U * U * a.sigma3), 1, 1e-13) << psi;
+  }
+}
+
+TEST(Friction, OpposesAndVanishesAtRest) {
+  for (const Friction& friction : {viscous(2), coulomb(2), power(2, 2)}) {
+    EXPECT_EQ(friction.momentum_loss({0, 0.3}), 0);
+    EXPECT_EQ(friction.momentum_loss({1, 0}), 0);
+    EXPECT_EQ(friction.momentum_loss({-0.3, 0.3}), -friction.momentum_loss({0.3, 0.3}));
+    EXPECT_EQ(friction.force(-0.3), -friction.force(0.3));
+    EXPECT_EQ(friction.force(0), 0);
+  }
+}
+
+/// docs/theory.md 3.3: the ratio of the closures, I / W = 4 E K / pi^2.
+TEST(Friction, PaperClosureUnderstates) {
+  const State s{0.2, 1e-3};
+  const train::Averages a = train::averages(s);
+  EXPECT_NEAR(viscous(1, Closure::consistent).momentum_loss(s) / viscous(1, Closure::paper).momentum_loss(s), a.I / a.W,
+              1e-14);
+}
+
+/// From the mean force, P / k = 8 sinh phi cosh psi E / 2 pi.
+double rate_of(const Friction& f, const State& s, double contact) {
+  return f.momentum_loss(s, contact) / train::averages(s, contact).P;
+}
+
+TEST(Friction, PowerLawHasItsRelaxationRateFromATable) {
+  for (const double n : {0.3, 0.7, 1.0, 1.5, 2.0, 5.0})
+    for (const Closure closure : {Closure::consistent, Closure::paper}) {
+      const Friction friction = power(0.7, n, closure);
+      const auto rate = friction.relaxation_rate();
+      for (const double psi : {1e-250, 1e-20, 1e-6, 1e-3, 0.011, 0.3, 0.97, 1.7, 4.3, 12.0, 25.0})
+        for (const double phi : {-2.0, 1e-3, 0.4})
+          for (const double a : {1.0, 0.4})
+            EXPECT_NEAR((*rate)({phi, psi}, a) / rate_of(friction, {phi, psi}, a), 1, 1e-9)
+                << n << " " << psi << " " << phi;
+    }
+}
+
+/// A law that says nothing but its force: f = C |w|^n.
+class Bare : public Law {
+ public:
+  Bare(double C, double n) : C_(C), n_(n) {}
+  double strength(double speed, Memory) const override { return C_ * std::pow(speed, n_); }
+
+ private:
+  double C_, n_;
+};
+
+const Definition& bare_law() {
+  static const Definition definition{
+      .name = "bare",
+      .adjective = "bare",
+      .equation = "f = C |w|^n",
+      .source = "",
+      .parameters = {{.name = "coefficient", .symbol = "C", .unit = "", .is_force = true},
+                     {.name = "exponent", .symbol = "n", .unit = ""}},
+      .make = [](const std::vector<double>& v) -> std::shared_ptr<const Law> {
+        return std::make_shared<Bare>(v[0], v[1]);
+      }};
+  return definition;
+}
+
+TEST(Friction, AveragesOfAnyLawAreThoseOfClosedForms) {
+  for (const Closure closure : {Closure::consistent, Closure::paper})
+    for (const double n : {0.0, 0.5, 1.0, 2.0, 3.3}) {
+      const Friction any(bare_law(), {0.7, n}, closure);
+      const Friction known = n == 0 ? coulomb(0.7, closure) : n == 1 ? viscous(0.7, closure) : power(0.7, n, closure);
+      EXPECT_EQ(any.sticks(), n == 0);
+      // The closed form cuts off the tails of powers below 1.
+      const double tolerance = n > 0 && n < 1 ? 1e-8 : 1e-12;
+      const auto rate = any.relaxation_rate();
+      for (const double psi : {1e-250, 1e-20, 1e-6, 0.011, 0.97, 4.3, 25.0, 30.0})
+        for (const double phi : {1e-12, 0.4, 2.0})
+          for (const double a : {1.0, 0.4}) {
+            const State s{phi, psi};
+            EXPECT_NEAR(any.mean_strength(s, a) / known.mean_strength(s, a), 1, tolerance)
+                << n << " " << psi << " " << phi;
+            EXPECT_NEAR((*rate)(s, a) / rate_of(known, s, a), 1, tolerance) << n << " " << psi << " " << phi;
+          }
+    }
+  const Friction linear(bare_law(), {0.7, 1});
+  EXPECT_NEAR((*linear.relaxation_rate())({0, 1e-9}, 1), 0.7, 1e-12);  // the limit at rest
+}
+
+TEST(Friction, ImplicitSolveOfAnyLawIsThatOfClosedForms) {
+  for (const double n : {0.0, 0.5, 1.0, 2.0, 3.3})
+    for (const double weight : {1e-6, 0.1, 30.0})
+      for (const double free : {-2.0, 0.0, 1e-9, 0.04, 7.0}) {
+        const Friction any(bare_law(), {0.7, n});
+        const Friction known = n == 0 ? coulomb(0.7) : n == 1 ? viscous(0.7) : power(0.7, n);
+        const double want = known.velocity_after(free, weight);
+        EXPECT_NEAR(any.velocity_after(free, weight), want, 4e-16 * std::fabs(free) + 1e-15 * std::fabs(want))
+            << n << " " << weight << " " << free;
+      }
+}
+
+TEST(Friction, DividesForcesAndRefusesNumbersOutOfRange) {
+  const Friction scaled = power(3, 1.5, Closure::paper).divided_by(2);
+  EXPECT_EQ(scaled.coefficient(), 1.5);
+  EXPECT_EQ(scaled.parameter("exponent"), 1.5);
+  EXPECT_EQ(scaled.closure(), Closure::paper);
+  EXPECT_THROW(viscous(-1).check(), InputError);
+  EXPECT_THROW(power(1, 0).check(), InputError);
+  EXPECT_THROW(coulomb(std::nan("")).check(), InputError);
+  EXPECT_NO_THROW(Friction().check());
+  EXPECT_FALSE(Friction().acts());
+  EXPECT_FALSE(viscous(0).acts());
+}
+
+TEST(Friction, LawsSayWhatTheyAre) {
+  for (const Definition* law : laws()) {
+    EXPECT_FALSE(law->name.empty());
+    EXPECT_FALSE(law->equation.empty()) << law->name;
+    std::vector<double> values;
+    for (const Parameter& p : law->parameters) {
+      EXPECT_FALSE(p.unit.empty()) << law->name << " " << p.name;
+      values.push_back(p.is_force ? 1 : p.value);
+    }
+    const Friction friction(*law, values);
+    EXPECT_NO_THROW(friction.check()) << law->name;
+    EXPECT_EQ(friction.acts(), !values.empty());
+  }
+}
+
+}  // namespace
