@@ -165,8 +165,8 @@ TEST(Pulse, TanhWithFriction) {
     p.corner = HUGE_VAL;
     Solver s(p);
     s.advance_to(2 * pi);
-    // Between the slow solver's limits for an error of first and of second order, 0.0093395 and 0.0093221 with closure
-    // consistent, 0.0152544 and 0.0152502 with closure paper.
+    // Between the slow solver's limits for an error of first and of second order, 0.0093396 and 0.0093221 with closure
+    // consistent, 0.0152543 and 0.0152502 with closure paper.
     const bool paper = closure == Closure::paper;
     EXPECT_NEAR(origin_of(s).W, paper ? 0.015250 : 0.009331, paper ? 6e-6 : 2e-5);
   }
