@@ -10,8 +10,8 @@ using catalogue::Decade;
 using results::Axis;
 using results::NumberColumn;
 
-NumberColumn said(const std::string& name, const std::string& long_name, std::string_view dimensional_unit,
-                  std::string_view reference, std::string_view unit = "1") {
+NumberColumn described(const std::string& name, const std::string& long_name, std::string_view dimensional_unit,
+                       std::string_view reference, std::string_view unit = "1") {
   return {name, long_name, unit, dimensional_unit, reference, Axis::none, 1, {}};
 }
 
@@ -31,23 +31,23 @@ std::vector<Variable> population_variables(netcdf::Writer& file, const std::vect
   const int decade = file.dimension("decade", population.size()), ends = file.dimension("ends", 2),
             point = file.dimension("line_point", line.size());
   std::vector<Variable> all;
-  all.push_back({said("decade", "rupture velocity in the middle of a decade", "c", closed_form),
+  all.push_back({described("decade", "rupture velocity in the middle of a decade", "c", closed_form),
                  {decade},
                  each(population, [](const Decade& d) { return d.middle; })});
   std::vector<double> bounds;
   for (const Decade& d : population) bounds.insert(bounds.end(), {d.low, d.high});
-  all.push_back({said("decade_bounds", "ends of a decade; the upper one is not in it", "c", closed_form),
+  all.push_back({described("decade_bounds", "ends of a decade; the upper one is not in it", "c", closed_form),
                  {decade, ends},
                  bounds});
-  all.push_back({said("population_events", "events with a rupture velocity in this decade", "", ""),
+  all.push_back({described("population_events", "events with a rupture velocity in this decade", "", ""),
                  {decade},
                  each(population, [](const Decade& d) { return d.events; })});
-  all.push_back({said("population_closed_form_stress", "stress of the closed form in the middle of the decade",
-                      "mu A / pi", closed_form),
+  all.push_back({described("population_closed_form_stress", "stress of the closed form in the middle of the decade",
+                           "mu A / pi", closed_form),
                  {decade},
                  each(population, [](const Decade& d) { return d.stress; })});
-  all.push_back({said("population_closed_form_slip_velocity", "W(0) of the closed form in the middle of the decade",
-                      "c A / pi", closed_form),
+  all.push_back({described("population_closed_form_slip_velocity",
+                           "W(0) of the closed form in the middle of the decade", "c A / pi", closed_form),
                  {decade},
                  each(population, [](const Decade& d) { return d.slip_velocity; })});
   std::size_t i = 0;
@@ -58,23 +58,24 @@ std::vector<Variable> population_variables(netcdf::Writer& file, const std::vect
       const catalogue::Quantiles& q = d.spread[i].of;
       values.insert(values.end(), {q.low, q.median, q.high});
     }
-    all.push_back({said(name, "over the events of a decade: " + std::string(about.long_name), about.dimensional_unit,
-                        about.reference, results::unit_of(about.name)),
+    all.push_back({described(name, "over the events of a decade: " + std::string(about.long_name),
+                             about.dimensional_unit, about.reference, results::unit_of(about.name)),
                    {decade, quantile},
                    values});
-    all.push_back({said(name + "_events", "events in which this is known: " + std::string(about.long_name), "", ""),
-                   {decade},
-                   each(population, [&](const Decade& d) { return d.spread[i].events; })});
+    all.push_back(
+        {described(name + "_events", "events in which this is known: " + std::string(about.long_name), "", ""),
+         {decade},
+         each(population, [&](const Decade& d) { return d.spread[i].events; })});
     ++i;
   }
   using catalogue::LinePoint;
-  all.push_back({said("line_rupture_velocity", "closed form: rupture velocity", "c", closed_form),
+  all.push_back({described("line_rupture_velocity", "closed form: rupture velocity", "c", closed_form),
                  {point},
                  each(line, [](const LinePoint& p) { return p.rupture_velocity; })});
-  all.push_back({said("line_stress", "closed form: stress", "mu A / pi", closed_form),
+  all.push_back({described("line_stress", "closed form: stress", "mu A / pi", closed_form),
                  {point},
                  each(line, [](const LinePoint& p) { return p.stress; })});
-  all.push_back({said("line_slip_velocity", "closed form: slip velocity W(0)", "c A / pi", closed_form),
+  all.push_back({described("line_slip_velocity", "closed form: slip velocity W(0)", "c A / pi", closed_form),
                  {point},
                  each(line, [](const LinePoint& p) { return p.slip_velocity; })});
   return all;
