@@ -45,7 +45,7 @@ struct Outcome {
 };
 
 Outcome run(const Kind& kind, double stress, double right, double scale, double spacing, Mass mass) {
-  Stretched s;
+  ScaledProblem s;
   s.scale = scale;
   s.left = -pi;
   s.right = pi;

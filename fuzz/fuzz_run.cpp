@@ -138,7 +138,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
       go(run);
     });
     attempt([&] {
-      const chain::Stretched stretched = setup::chain_problem(s);
+      const chain::ScaledProblem stretched = setup::chain_problem(s);
       if (chain::problem_of(stretched).grid.sites > 20000) return;
       chain::Run run(stretched, setup::pulse_schedule(s, setup::pulse_problem(s)), chain::Execution{});
       ++chains;

@@ -37,8 +37,8 @@ pulse::Problem pulse_problem() {
   return p;
 }
 
-chain::Stretched chain_problem() {
-  chain::Stretched small;
+chain::ScaledProblem chain_problem() {
+  chain::ScaledProblem small;
   small.stress = stress;
   small.left = -1;
   small.right = 0.5;

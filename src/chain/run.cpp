@@ -28,7 +28,7 @@ constexpr std::uint64_t format = 0x636861696e000004;  // "chain", version 4
 constexpr double dislocations_in_window = 8;
 
 /// The train's spacing just left of x = 0, or anywhere if it is empty there.
-double spacing_of_train(const Stretched& s) {
+double spacing_of_train(const ScaledProblem& s) {
   for (const double x : {-1e-9 * (s.right - s.left), s.left, s.right})
     if (const double k = s.stress(x); k > 0) return 2 * std::numbers::pi / k / s.scale;
   return (s.right - s.left) / 16;
@@ -36,7 +36,7 @@ double spacing_of_train(const Stretched& s) {
 
 /// Whether the forcing is too weak to make pairs of dislocations and antidislocations: for that it has to lift u out of
 /// a well, |F| >= 1 in the chain's units.
-bool weak_forcing(const Stretched& s) {
+bool weak_forcing(const ScaledProblem& s) {
   constexpr int places = 256, times = 16;
   if (!(s.end > 0)) return false;
   double most = 0;
@@ -48,7 +48,7 @@ bool weak_forcing(const Stretched& s) {
 
 /// Antidislocations come in at free ends and are made by a strong force; a slope of a(x) drives one stream through
 /// another.
-double crossing_stress(const Stretched& s) {
+double crossing_stress(const ScaledProblem& s) {
   const bool free = !s.boundary.periodic && (s.boundary.left != End::fixed || s.boundary.right != End::fixed);
   if (!free && !s.contact && (!s.forcing || weak_forcing(s))) return 0;
   constexpr int samples = 4096;
@@ -81,7 +81,7 @@ constexpr double most_dislocations_a_site = 8;
 
 }  // namespace
 
-Problem problem_of(const Stretched& s, double share_of_machine) {
+Problem problem_of(const ScaledProblem& s, double share_of_machine) {
   if (!(s.scale > 0) || !std::isfinite(s.scale))
     throw InputError({.key = "chain.scale", .value = digits(s.scale), .problem = "out of range", .allowed = "> 0"});
   const double length = s.scale * (s.right - s.left);
@@ -110,7 +110,7 @@ Problem problem_of(const Stretched& s, double share_of_machine) {
   return p;
 }
 
-Run::Start Run::start(const Stretched& s, double share_of_machine) {
+Run::Start Run::start(const ScaledProblem& s, double share_of_machine) {
   Problem problem = problem_of(s, share_of_machine);
   StaticTrain train([s](double x) { return s.stress(std::clamp(x / s.scale, s.left, s.right)); }, problem.grid,
                     s.boundary.periodic, problem.contact);
@@ -124,50 +124,50 @@ Run::Start Run::start(const Stretched& s, double share_of_machine) {
 }
 
 /// All ranks throw the same error together.
-Run::Start Run::start(const Stretched& stretched, const Execution& execution) {
-  if (!execution.ranks) return start(stretched, 1.0);
+Run::Start Run::start(const ScaledProblem& scaled, const Execution& execution) {
+  if (!execution.ranks) return start(scaled, 1.0);
   std::optional<Start> made;
-  execution.ranks->together([&] { made = start(stretched, execution.ranks->share_of_machine()); });
+  execution.ranks->together([&] { made = start(scaled, execution.ranks->share_of_machine()); });
   return *std::move(made);
 }
 
-Run::Run(Stretched stretched, pulse::Schedule schedule, const Execution& execution, const Start& start)
-    : stretched_(std::move(stretched)),
+Run::Run(ScaledProblem scaled, pulse::Schedule schedule, const Execution& execution, const Start& start)
+    : scaled_(std::move(scaled)),
       schedule_(std::move(schedule)),
       chain_(
           start.problem, [&](std::size_t begin, std::size_t end) { return start.train(begin, end); }, execution) {
   look_at_start();
 }
 
-Run::Run(const Stretched& stretched, pulse::Schedule schedule, const Execution& execution)
-    : Run(stretched, std::move(schedule), execution, start(stretched, execution)) {}
+Run::Run(const ScaledProblem& scaled, pulse::Schedule schedule, const Execution& execution)
+    : Run(scaled, std::move(schedule), execution, start(scaled, execution)) {}
 
 double Run::centre_of_cell(std::size_t i) const {
   const double half = width_of_cell(i) / 2 * (1 + 1e-9);  // the window stays on the chain
   const double centre = (schedule_.x_edges[i] + schedule_.x_edges[i + 1]) / 2;
   const Grid& grid = chain_.problem().grid;  // a ring's last site is a spacing before its end
-  return std::clamp(centre, stretched_.left + half, grid.x(grid.sites - 1) / stretched_.scale - half);
+  return std::clamp(centre, scaled_.left + half, grid.x(grid.sites - 1) / scaled_.scale - half);
 }
 
 double Run::width_of_cell(std::size_t i) const {
   const double cell = schedule_.x_edges[i + 1] - schedule_.x_edges[i];
-  return std::min(std::max(cell, spacing_of_train(stretched_)), (stretched_.right - stretched_.left) * (1 - 1e-6));
+  return std::min(std::max(cell, spacing_of_train(scaled_)), (scaled_.right - scaled_.left) * (1 - 1e-6));
 }
 
 void Run::look_at_start() {
-  const double length = stretched_.right - stretched_.left;
-  window_ = stretched_.window > 0 ? stretched_.window : std::min(spacing_of_train(stretched_), length / 4);
-  smooth_window_ = stretched_.window > 0 ? stretched_.window
-                                         : std::min(dislocations_in_window * spacing_of_train(stretched_), length / 4);
-  const double levels = schedule_.times.back() * stretched_.scale / chain_.dt();
+  const double length = scaled_.right - scaled_.left;
+  window_ = scaled_.window > 0 ? scaled_.window : std::min(spacing_of_train(scaled_), length / 4);
+  smooth_window_ =
+      scaled_.window > 0 ? scaled_.window : std::min(dislocations_in_window * spacing_of_train(scaled_), length / 4);
+  const double levels = schedule_.times.back() * scaled_.scale / chain_.dt();
   work_every_ = std::max(32L, 32 * std::lround(levels / 200 / 32));
   // The slip velocity at x = 0 of so few sites can be followed even where one dislocation passes.
   if (chain_.problem().grid.sites < 5000) work_every_ = std::clamp(work_every_ / 16, 2L, 32L);
-  const double c = stretched_.scale;
+  const double c = scaled_.scale;
   for (std::size_t i = 0; i + 1 < schedule_.x_edges.size(); ++i)
     first_u_.push_back(average(chain_, c * centre_of_cell(i), c * width_of_cell(i), 0).u);
   const Grid& grid = chain_.problem().grid;
-  if (stretched_.left + window_ / 2 <= 0 && grid.x(grid.sites - 1) / stretched_.scale - window_ / 2 >= 0)
+  if (scaled_.left + window_ / 2 <= 0 && grid.x(grid.sites - 1) / scaled_.scale - window_ / 2 >= 0)
     first_u_at_origin_ = average(chain_, 0, c * window_, 0).u;
   else
     first_u_at_origin_ = none;
@@ -181,7 +181,7 @@ void Run::look_at_start() {
 
 /// A dislocation in a train at rest feels the force dJ/dx (docs/theory.md 6) and F.
 double Run::driving_force() const {
-  const Stretched& s = stretched_;
+  const ScaledProblem& s = scaled_;
   constexpr int samples = 2000;
   const double dx = (s.right - s.left) / samples;
   double last = 0, by_stress = 0, by_forcing = 0;
@@ -201,7 +201,7 @@ double Run::driving_force() const {
 void Run::sample() {
   if (chain_.problem().friction.acts() && !chain_.meters_friction()) work_.sample(totals(chain_));
   if (std::isnan(first_u_at_origin_)) return;
-  const double time = chain_.time(), velocity = average(chain_, 0, stretched_.scale * window_, time).velocity;
+  const double time = chain_.time(), velocity = average(chain_, 0, scaled_.scale * window_, time).velocity;
   Passed& p = passed_;
   const double change = (time - p.time) * (velocity - p.velocity) / 2;
   p.spread += change * change;
@@ -216,9 +216,9 @@ void Run::sample() {
   ++p.samples;
 }
 
-Run::Run(const Stretched& stretched, pulse::Schedule schedule, const Execution& execution, std::string_view saved,
+Run::Run(const ScaledProblem& scaled, pulse::Schedule schedule, const Execution& execution, std::string_view saved,
          std::vector<Snapshot> snapshots)
-    : Run(stretched, std::move(schedule), execution) {
+    : Run(scaled, std::move(schedule), execution) {
   bytes::Reader reader(saved);
   if (reader.get<std::uint64_t>() != format || snapshots.size() > schedule_.times.size()) refuse_saved();
   for (double* value : {&work_.supplied, &work_.dissipated, &work_.time, &work_.supplied_rate, &work_.dissipated_rate,
@@ -240,7 +240,7 @@ Run::Run(const Stretched& stretched, pulse::Schedule schedule, const Execution& 
     for (std::size_t j = 0; j < values.size(); ++j) levels.memory[variables.size() * j + v] = values[j];
   }
   reader.end();
-  const double last = schedule_.times.back() * stretched_.scale / chain_.dt();
+  const double last = schedule_.times.back() * scaled_.scale / chain_.dt();
   if (!(levels.level >= 0 && static_cast<double>(levels.level) < last + 1))
     throw InputError({.key = "resume",
                       .value = std::to_string(levels.level) + " steps",
@@ -279,7 +279,7 @@ bool Run::go(const std::function<bool()>& interrupted) {
   const auto sites = static_cast<double>(chain_.problem().grid.sites);
   const long most = 32 * std::max(1L, std::lround(2e8 / 32 / sites));
   while (!finished()) {
-    const auto target = std::lround(schedule_.times[snapshots_.size()] * stretched_.scale / chain_.dt());
+    const auto target = std::lround(schedule_.times[snapshots_.size()] * scaled_.scale / chain_.dt());
     while (chain_.level() < target) {
       const long level = chain_.level(), next = sample_after(level, work_every_);
       good_ = false;
@@ -296,12 +296,12 @@ bool Run::go(const std::function<bool()>& interrupted) {
 }
 
 void Run::take() {
-  const double time = schedule_.times[snapshots_.size()], c = stretched_.scale;
+  const double time = schedule_.times[snapshots_.size()], c = scaled_.scale;
   Snapshot s{};
   s.time = time;
   const std::size_t n = first_u_.size();
   std::size_t peak = 0;
-  const auto contact_at = [&](double x) { return stretched_.contact ? stretched_.contact(x) : 1.0; };
+  const auto contact_at = [&](double x) { return scaled_.contact ? scaled_.contact(x) : 1.0; };
   const auto middle = [&](std::size_t i) { return (schedule_.x_edges[i] + schedule_.x_edges[i + 1]) / 2; };
   for (std::size_t i = 0; i < n; ++i) {
     const double u = average(chain_, c * centre_of_cell(i), c * width_of_cell(i), c * time).u;
@@ -316,7 +316,7 @@ void Run::take() {
     s.profile.H.push_back(a.energy);
     s.profile.slip.push_back((u - first_u_[i]) / c);
     // At an end the window is cut: what it makes even there is no phonons.
-    const bool whole = middle(i) - wide / 2 >= stretched_.left && middle(i) + wide / 2 <= stretched_.right;
+    const bool whole = middle(i) - wide / 2 >= scaled_.left && middle(i) + wide / 2 <= scaled_.right;
     if (whole) s.energy.phonons += cell * (a.energy - energy_of_train(a.stress, a.velocity, contact_at(middle(i))));
     if (std::fabs(a.velocity) > std::fabs(s.profile.W[peak])) peak = i;
   }
@@ -335,18 +335,18 @@ void Run::take() {
     throw NumericsError("The chain diverged: more than " + digits(most_dislocations_a_site) +
                         " dislocations per site at t = " + digits(time));
   s.fronts = {none, none, none, none, none};
-  const double stress_left = stretched_.stress(stretched_.left), stress_right = stretched_.stress(stretched_.right);
+  const double stress_left = scaled_.stress(scaled_.left), stress_right = scaled_.stress(scaled_.right);
   const bool stressed_left = stress_left >= stress_right;
   if (std::fmin(stress_left, stress_right) == 0) {  // the outermost dislocation
     const auto all = chain::dislocations(chain_);
     if (!all.empty()) s.fronts.leading = (stressed_left ? all.back() : all.front()).x / c;
   }
   // At an end the window is cut, and phonons show that a whole one averages away: no front is seen there.
-  const double half = std::min(smooth_window_ / 2, (stretched_.right - stretched_.left) / 4);
+  const double half = std::min(smooth_window_ / 2, (scaled_.right - scaled_.left) / 4);
   std::vector<double> x, speed;
   for (std::size_t i = 0; i < n; ++i) {
     x.push_back(middle(i));
-    const bool cut = x[i] - half < stretched_.left || x[i] + half > stretched_.right;
+    const bool cut = x[i] - half < scaled_.left || x[i] + half > scaled_.right;
     speed.push_back(cut ? 0 : std::fabs(s.profile.W[i]));
   }
   const pulse::Observed seen =

@@ -35,13 +35,13 @@ Run::Balance Run::balance() const {
 void Run::check_energy(Findings& found) const {
   const Balance balance = this->balance();
   std::string sentence = "chain: energy and work differ by " + digits(balance.energy_drift) + " of the energy";
-  if (stretched_.model == Model::sine_gordon) {
+  if (scaled_.model == Model::sine_gordon) {
     const double sites = 2 / balance.steepest;  // a dislocation has the slope 2 over its width
     if (sites < least_sites_per_width)
       sentence += ". The narrowest dislocation, made so by its speed or by others, has only " + digits(sites, 2) +
                   " sites to its width; " + digits(least_sites_per_width) + " are needed";
     // The error is of fourth order in the spacing.
-    const double finer = 0.9 * stretched_.spacing * std::pow(Findings::worth_a_warning / balance.energy_drift, 0.25);
+    const double finer = 0.9 * scaled_.spacing * std::pow(Findings::worth_a_warning / balance.energy_drift, 0.25);
     sentence += ". Try chain.spacing = " + digits(finer, 2);
   }
   found.violation(balance.energy_drift, sentence);
@@ -49,7 +49,7 @@ void Run::check_energy(Findings& found) const {
 
 /// Nothing is faster than c.
 void Run::check_fronts(Findings& found) const {
-  const Stretched& s = stretched_;
+  const ScaledProblem& s = scaled_;
   const pulse::Snapshot& last = snapshots_.back();
   for (const auto& [name, x] : {std::pair{"leading", last.fronts.leading},
                                 {"observed", last.fronts.leading_observed},
@@ -88,7 +88,7 @@ void Run::check_fronts(Findings& found) const {
 /// is some 0.1 % low.
 void Run::check_barrier(Findings& found) const {
   constexpr double enough = 20;
-  const Stretched& s = stretched_;
+  const ScaledProblem& s = scaled_;
   const double force = driving_force_ / s.scale, spacing = chain_.problem().grid.spacing;
   if (s.model != Model::sine_gordon || !(driving_force_ > 1e-9) || force >= enough * barrier_force(spacing)) return;
   found.sentences.push_back(
@@ -102,7 +102,7 @@ Run::Findings Run::findings() const {
   Findings found;
   if (snapshots_.empty()) return found;
   const pulse::Snapshot& last = snapshots_.back();
-  const Stretched& s = stretched_;
+  const ScaledProblem& s = scaled_;
   const Balance balance = this->balance();
   check_energy(found);
 

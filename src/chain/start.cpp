@@ -16,9 +16,9 @@ constexpr double turn = 2 * std::numbers::pi;
 
 /// A quantity on sites [low, high) of a chain. Around a periodic one they may lie beyond its ends; what is kept there
 /// are the values of the sites themselves, so that no site's bits depend on the stretch that it is computed with.
-class Stretch {
+class SiteValues {
  public:
-  Stretch(const Problem& p, long begin, long end, long more, double jump)
+  SiteValues(const Problem& p, long begin, long end, long more, double jump)
       : boundary_(p.boundary),
         sites_(static_cast<long>(p.grid.sites)),
         low_(p.boundary.periodic ? begin - more : std::max(0L, begin - more)),
@@ -126,10 +126,10 @@ Levels first_levels(const Problem& p, const Scheme& s, const Forces& forces, con
   const double h2 = s.h * s.h, dt = s.dt;
   const double C = p.friction.linear_coefficient().value_or(0);
   const auto contact = [&forces](long j) { return forces.a2(j) == nullptr ? 1.0 : *forces.a2(j); };
-  const auto spring = [&](const Stretch& v, long j) {
+  const auto spring = [&](const SiteValues& v, long j) {
     return (p.model == Model::lattice ? v.bend(j) : v.fine_bend(j)) / h2;
   };
-  Stretch u(p, from, to, 3, turn * static_cast<double>(p.boundary.charge)), w(p, from, to, 3, 0);
+  SiteValues u(p, from, to, 3, turn * static_cast<double>(p.boundary.charge)), w(p, from, to, 3, 0);
   const auto fill = [&](long low, long high, long where) {  // sites [low, high), kept from `where` on
     if (low >= high) return;
     const Motion m = part_of(p, start, low, high);
@@ -144,7 +144,7 @@ Levels first_levels(const Problem& p, const Scheme& s, const Forces& forces, con
   if (u.low() < 0) fill(n + u.low(), n, u.low());
   if (u.high() > n) fill(0, u.high() - n, n);
 
-  Stretch acceleration(p, from, to, 1, 0), jerk(p, from, to, 1, 0);
+  SiteValues acceleration(p, from, to, 1, 0), jerk(p, from, to, 1, 0);
   const auto cosine = [&](long j) { return contact(j) * std::cos(u[j]); };
   const auto sine = [&](long j) { return contact(j) * std::sin(u[j]); };
   for (long j = jerk.low(); j < jerk.high(); ++j) {

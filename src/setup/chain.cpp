@@ -35,9 +35,9 @@ double chosen_spacing(const scenario::Scenario& s, double left, double right) {
 
 }  // namespace
 
-chain::Stretched chain_problem(const scenario::Scenario& s) {
+chain::ScaledProblem chain_problem(const scenario::Scenario& s) {
   const pulse::Problem pulse = pulse_problem(s);
-  chain::Stretched c;
+  chain::ScaledProblem c;
   c.scale = s.chain.scale.value_or(1);
   c.left = pulse.left;
   c.right = pulse.right;

@@ -74,10 +74,10 @@ bool run_levels(const Comparison& c, int threads, std::vector<Level>& levels, co
     if (!carry(run, level, after)) return false;
     levels.push_back(std::move(level));
   }
-  for (const chain::Stretched& stretched : c.chains) {
+  for (const chain::ScaledProblem& scaled : c.chains) {
     next();
-    Level level{.name = "chain-" + digits(stretched.scale), .scale = stretched.scale};
-    chain::Run run(stretched, c.schedule, {.threads = threads});
+    Level level{.name = "chain-" + digits(scaled.scale), .scale = scaled.scale};
+    chain::Run run(scaled, c.schedule, {.threads = threads});
     level.window = run.window();
     level.smooth_window = run.smooth_window();
     if (!carry(run, level, [&] { return after_step(level.name, run.time(), run.chain().level()); })) return false;

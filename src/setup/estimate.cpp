@@ -30,9 +30,9 @@ Estimate observed(const scenario::Scenario& s) {
           size * (outputs * (cells * variables + scalars) + 2 * cells)};
 }
 
-double sites_of(const chain::Stretched& c) { return c.scale * (c.right - c.left) / c.spacing + 1; }
+double sites_of(const chain::ScaledProblem& c) { return c.scale * (c.right - c.left) / c.spacing + 1; }
 
-double memory_of(const chain::Stretched& c) {
+double memory_of(const chain::ScaledProblem& c) {
   chain::Problem p;  // as far as its memory depends on it
   p.friction = c.friction;
   p.forcing = c.forcing;
@@ -63,7 +63,7 @@ Estimate estimate_of(const scenario::Scenario& s, const pulse::Problem& problem)
   return need;
 }
 
-Estimate estimate_of(const scenario::Scenario& s, const chain::Stretched& chain) {
+Estimate estimate_of(const scenario::Scenario& s, const chain::ScaledProblem& chain) {
   Estimate need = observed(s);
   need.memory += memory_of(chain);
   need.disk += size * state_per_site * sites_of(chain);
@@ -74,7 +74,7 @@ Estimate estimate_of(const scenario::Scenario& s, const Comparison& comparison) 
   const Estimate one = observed(s);
   const double levels = 3 + static_cast<double>(comparison.chains.size());  // the closed form, if any, comes later
   double largest = size * solver_per_cell * s.pulse.cells;
-  for (const chain::Stretched& chain : comparison.chains) largest = std::max(largest, memory_of(chain));
+  for (const chain::ScaledProblem& chain : comparison.chains) largest = std::max(largest, memory_of(chain));
   // A level in progress hands what it observed to the comparison as a copy.
   return {one.outputs, (levels + 1) * one.memory + largest, levels * one.disk};
 }
@@ -88,7 +88,7 @@ void require_memory(const scenario::Scenario& s, const pulse::Problem& problem) 
   require(s, estimate_of(s, problem), "pulse.cells", "", "fewer cells or outputs");
 }
 
-void require_memory(const scenario::Scenario& s, const chain::Stretched& chain, double share_of_machine) {
+void require_memory(const scenario::Scenario& s, const chain::ScaledProblem& chain, double share_of_machine) {
   Estimate need = estimate_of(s, chain);
   need.memory -= (1 - share_of_machine) * memory_of(chain);
   require(s, need, s.chain.spacing ? "chain.spacing" : "chain.scale", " and " + digits(sites_of(chain), 4) + " sites",

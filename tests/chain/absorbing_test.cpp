@@ -18,7 +18,7 @@ struct Result {
 
 Result run_step(double left_stress, double right_stress, double left, double right, End ends, double scale,
                 double end = 2 * pi) {
-  Stretched s;
+  ScaledProblem s;
   s.scale = scale;
   s.left = left;
   s.right = right;

@@ -12,8 +12,8 @@ namespace {
 using namespace slipfront;
 using namespace slipfront::chain;
 
-Stretched uniform(double stress, double half, double scale) {
-  Stretched s;
+ScaledProblem uniform(double stress, double half, double scale) {
+  ScaledProblem s;
   s.scale = scale;
   s.left = -half;
   s.right = half;
@@ -22,7 +22,7 @@ Stretched uniform(double stress, double half, double scale) {
   return s;
 }
 
-pulse::Schedule until(const Stretched& s, double end, int cells = 40) {
+pulse::Schedule until(const ScaledProblem& s, double end, int cells = 40) {
   pulse::Schedule when{.times = {0, end}, .x_edges = {}};
   for (int i = 0; i <= cells; ++i) when.x_edges.push_back(s.left + (s.right - s.left) * i / cells);
   return when;
@@ -33,7 +33,7 @@ pulse::Schedule until(const Stretched& s, double end, int cells = 40) {
 TEST(ChainChecks, WorkOfAFastForceBalances) {
   for (const friction::Friction& f :
        {friction::Friction{}, friction::viscous(0.1), friction::coulomb(0.02), friction::power(0.05, 1.5)}) {
-    Stretched s = uniform(0.3, 50, 1);
+    ScaledProblem s = uniform(0.3, 50, 1);
     s.friction = f;
     s.spacing = 0.25;
     s.forcing = [](double x, double t) { return t < 30 ? 0.4 * std::cos(1.3 * t) * (1 + 0.2 * std::sin(x / 7)) : 0; };
@@ -49,7 +49,7 @@ TEST(ChainChecks, WorkOfAFastForceBalances) {
 
 /// Viscous friction alone, one dislocation in a chain: its work is taken at every level.
 TEST(ChainChecks, ViscousFrictionOfAFewDislocationsBalances) {
-  Stretched s = uniform(0, 60, 1);
+  ScaledProblem s = uniform(0, 60, 1);
   s.stress = [](double x) { return x < -20 ? 0.6 : 0; };
   s.friction = friction::viscous(0.05);
   chain::Run run(s, until(s, 80), {});
@@ -59,7 +59,7 @@ TEST(ChainChecks, ViscousFrictionOfAFewDislocationsBalances) {
 
 /// U is the velocity of dislocations: below c where there are any, else no number. It was -428 ... 75.
 TEST(ChainChecks, DislocationsAreSlowerThanC) {
-  Stretched s = uniform(0.855, 3, 200);
+  ScaledProblem s = uniform(0.855, 3, 200);
   s.stress = [](double x) { return x < 0 ? 0.855 : 0; };
   s.boundary = {.left = End::free, .right = End::fixed};
   chain::Run run(s, until(s, 6), {});
@@ -79,7 +79,7 @@ TEST(ChainChecks, DislocationsAreSlowerThanC) {
 /// A scale at which the answer is a share of one dislocation says so, and what would do; a large one does not.
 TEST(ChainChecks, SaysWhereDislocationsAreTooFew) {
   for (const double scale : {1.0, 3000.0}) {
-    Stretched s = uniform(0.855, 3, scale);
+    ScaledProblem s = uniform(0.855, 3, scale);
     s.stress = [](double x) { return x < 0 ? 0.855 : 0; };
     chain::Run run(s, until(s, 6), {});
     run.go();
@@ -92,7 +92,7 @@ TEST(ChainChecks, SaysWhereDislocationsAreTooFew) {
 /// A smooth step of little stress moves slowly. A grid that holds slow dislocations says so, and what would do.
 TEST(ChainChecks, SaysWhereTheGridHoldsDislocations) {
   for (const double spacing : {default_spacing, 0.5, 0.6}) {
-    Stretched s = uniform(0, 2, 1000);
+    ScaledProblem s = uniform(0, 2, 1000);
     s.stress = [](double x) { return 0.533 + 0.148 * (1 - std::tanh(x / 0.5)) / 2; };
     s.friction = friction::viscous(0.257);
     s.spacing = spacing;
@@ -106,7 +106,7 @@ TEST(ChainChecks, SaysWhereTheGridHoldsDislocations) {
 
 /// A force without friction accelerates a ring until its dislocations are too narrow: the message says that.
 TEST(ChainChecks, NarrowDislocationsAreNamed) {
-  Stretched s = uniform(0.8, 1, 50);
+  ScaledProblem s = uniform(0.8, 1, 50);
   s.boundary = {.periodic = true};
   s.forcing = [](double, double) { return 0.5; };
   s.spacing = 0.5;
@@ -122,7 +122,7 @@ TEST(ChainChecks, NarrowDislocationsAreNamed) {
 /// No front is faster than c or warned of, whatever the step.
 TEST(ChainChecks, FrontsAreSlowerThanC) {
   for (const double stress : {0.7, 0.855, 2.0, 4.0}) {
-    Stretched s = uniform(stress, 4, 200);
+    ScaledProblem s = uniform(stress, 4, 200);
     s.stress = [stress](double x) { return x < 0 ? stress : 0; };
     s.spacing = default_spacing / std::cosh(rupture::psi_of_stress(stress));
     pulse::Schedule when = until(s, 3, 200);
@@ -136,7 +136,7 @@ TEST(ChainChecks, FrontsAreSlowerThanC) {
 
 /// A grid too coarse for what runs into its mirror image: the energy drifts, and that is no result.
 TEST(ChainChecks, EnergyThatDriftsIsAnError) {
-  Stretched s = uniform(1.5, 3, 200);
+  ScaledProblem s = uniform(1.5, 3, 200);
   s.spacing = 0.6;
   s.boundary = {.left = End::free, .right = End::free};
   chain::Run run(s, until(s, 12), {});

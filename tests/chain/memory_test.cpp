@@ -44,8 +44,8 @@ const friction::Definition& weakening_law() {
   return definition;
 }
 
-chain::Stretched step() {
-  chain::Stretched s;
+chain::ScaledProblem step() {
+  chain::ScaledProblem s;
   s.scale = 60;
   s.left = -6;
   s.right = 2;
@@ -72,7 +72,7 @@ TEST(ChainMemory, PlacesRememberTheirSlip) {
   // z = u + eps sin u differs from u by little; waves go to and fro.
   for (std::size_t j = 0; j < slip.size(); ++j) EXPECT_GE(slip[j], after.u[j] - before.u[j] - 0.05) << j;
   EXPECT_LT(run.balance().energy_drift, 2e-4);
-  chain::Stretched strong = step();
+  chain::ScaledProblem strong = step();
   strong.friction = friction::coulomb(0.04);
   chain::Run without(strong, until(2), {});
   ASSERT_TRUE(without.go());

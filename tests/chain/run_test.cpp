@@ -13,8 +13,8 @@ namespace {
 using namespace slipfront;
 using std::numbers::pi;
 
-chain::Stretched step(double scale, double C = 0) {
-  chain::Stretched s;
+chain::ScaledProblem step(double scale, double C = 0) {
+  chain::ScaledProblem s;
   s.scale = scale;
   s.left = -3;
   s.right = 1;
@@ -59,7 +59,7 @@ TEST(ChainRun, ScaleChangesTheNumberOfDislocationsOnly) {
 
 /// The train of a scenario is laid with its contact ratio: nothing moves (it was psi of k: energy grew 1300 times).
 TEST(ChainRun, UniformTrainInAnotherContactIsAtRest) {
-  chain::Stretched s = step(300);
+  chain::ScaledProblem s = step(300);
   s.stress = [](double) { return 0.8; };
   s.contact = [](double) { return 1.3; };
   s.spacing = chain::default_spacing / 1.3;

@@ -27,7 +27,7 @@ std::string name_of(const Case& c) {
 
 /// The drift of the energy of a step of stress, ends so near that what leaves the step meets them.
 double drift_of(const Case& c, double end = 2 * pi) {
-  Stretched s;
+  ScaledProblem s;
   s.scale = c.scale;
   s.left = -end / 2;
   s.right = end / 2;

@@ -19,7 +19,7 @@ RC_GTEST_PROP(PerDislocation, RoundTrips, ()) {
   const double psi = std::pow(10.0, *rc::gen::inRange(-299000, 699) / 1000.0);
   const double relative = *rc::gen::inRange(-3000, 3000) / 1000.0;
   const double phi = *rc::gen::arbitrary<bool>() ? relative * std::fmin(psi, 1.0) : relative * 6;
-  const State back = state_of(carried({phi, psi}), psi * (1 + *rc::gen::inRange(-900, 900) / 1000.0));
+  const State back = state_of(lagrangian_state({phi, psi}), psi * (1 + *rc::gen::inRange(-900, 900) / 1000.0));
   // A spacing of 2 ln(4 / psi) carries eps ln(4 / psi) in ln psi; a momentum of size cosh phi hides psi behind phi.
   const double condition = (1 + std::fabs(std::log(4 / psi))) * (1 + std::fabs(phi));
   RC_ASSERT(error_in_eps(back.psi, psi) <= 32 * condition);
@@ -31,7 +31,7 @@ TEST(PerDislocation, FindsSoundAndClosureToo) {
   for (const double psi : {1e-295, 1e-20, 1e-3, 0.124, 0.126, 0.5, 1.4, 1.5, 3.0, 30.0})
     for (const double off : {0.5, 0.99, 1.01, 3.0}) {
       const State s{0.3, psi};
-      const Resolved r = resolve(carried(s), psi * off);
+      const SolvedState r = solve_state(lagrangian_state(s), psi * off);
       const double condition = 1 + std::fabs(std::log(4 / psi));
       EXPECT_LE(error_in_eps(r.sound_speed, sound(r.state.psi).c0), 32) << psi;
       const elliptic::AtPsi at = elliptic::at_psi(r.state.psi);
@@ -43,7 +43,7 @@ TEST(PerDislocation, FindsSoundAndClosureToo) {
 TEST(PerDislocation, ConvergesFromAnyStart) {
   for (const double psi : {1e-300, 2e-174, 1e-9, 0.3, 5.0, 40.0})
     for (const double guess : {1e-300, 1e-175, 1e-5, 0.5, 3.0, 50.0, 600.0, 0.0})
-      EXPECT_NEAR(state_of(carried({0.1, psi}), guess).psi / psi, 1, 1e-11) << psi << " from " << guess;
+      EXPECT_NEAR(state_of(lagrangian_state({0.1, psi}), guess).psi / psi, 1, 1e-11) << psi << " from " << guess;
 }
 
 TEST(PerDislocation, GoesToTheEmptyStateAndRefusesNonsense) {

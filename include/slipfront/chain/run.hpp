@@ -15,7 +15,7 @@
 namespace slipfront::chain {
 
 /// A problem in the scenario's units.
-struct Stretched {
+struct ScaledProblem {
   double scale = 1;                                   ///< x and t are stretched by it
   double left = -1, right = 1;                        ///< of the scenario
   std::function<double(double)> stress;               ///< initial stress at x; everything at rest
@@ -34,13 +34,13 @@ struct Stretched {
 
 /// The same problem in the chain's own units. `share_of_machine` of it runs on this one. \throws InputError as check
 /// does.
-Problem problem_of(const Stretched& stretched, double share_of_machine = 1);
+Problem problem_of(const ScaledProblem& scaled, double share_of_machine = 1);
 
 class Run {
  public:
-  Run(const Stretched& stretched, pulse::Schedule schedule, const Execution& execution);
+  Run(const ScaledProblem& scaled, pulse::Schedule schedule, const Execution& execution);
   /// Continues a saved run. \throws InputError if it is of another.
-  Run(const Stretched& stretched, pulse::Schedule schedule, const Execution& execution, std::string_view saved,
+  Run(const ScaledProblem& scaled, pulse::Schedule schedule, const Execution& execution, std::string_view saved,
       std::vector<pulse::Snapshot> snapshots);
 
   /// Goes on to the end or until `interrupted`, asked every tenth of a second or so, says so. Returns whether the end
@@ -54,8 +54,8 @@ class Run {
   bool finished() const { return snapshots_.size() == schedule_.times.size(); }
   std::string saved() const;
 
-  double time() const { return chain_.time() / stretched_.scale; }  ///< of the scenario
-  double scale() const { return stretched_.scale; }
+  double time() const { return chain_.time() / scaled_.scale; }  ///< of the scenario
+  double scale() const { return scaled_.scale; }
   /// Windows at x = 0, in the scenario's x: of the slip (a box), and of velocity and stress (smooth_average), which the
   /// profiles share unless two output cells are wider.
   double window() const { return window_; }
@@ -82,9 +82,9 @@ class Run {
     Problem problem;
     StaticTrain train;
   };
-  static Start start(const Stretched& stretched, double share_of_machine);
-  static Start start(const Stretched& stretched, const Execution& execution);
-  Run(Stretched stretched, pulse::Schedule schedule, const Execution& execution, const Start& start);
+  static Start start(const ScaledProblem& scaled, double share_of_machine);
+  static Start start(const ScaledProblem& scaled, const Execution& execution);
+  Run(ScaledProblem scaled, pulse::Schedule schedule, const Execution& execution, const Start& start);
   double width_of_cell(std::size_t i) const;
   double centre_of_cell(std::size_t i) const;
   void look_at_start();
@@ -98,7 +98,7 @@ class Run {
   void check_barrier(Findings& findings) const;
   void refuse_wrong_results() const;
 
-  Stretched stretched_;
+  ScaledProblem scaled_;
   pulse::Schedule schedule_;
   Chain chain_;
   double window_ = 0, smooth_window_ = 0;

@@ -48,7 +48,7 @@ struct PulsePlan {
   setup::Estimate need;
 };
 struct ChainPlan {
-  chain::Stretched chain;
+  chain::ScaledProblem chain;
   pulse::Schedule schedule;
   setup::Estimate need;
 };

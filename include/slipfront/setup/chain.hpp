@@ -8,6 +8,6 @@
 namespace slipfront::setup {
 
 /// The chain that a scenario asks for, over the same domain as its pulse. \throws InputError where that is none.
-chain::Stretched chain_problem(const scenario::Scenario& scenario);
+chain::ScaledProblem chain_problem(const scenario::Scenario& scenario);
 
 }  // namespace slipfront::setup

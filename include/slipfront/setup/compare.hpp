@@ -32,7 +32,7 @@ struct Comparison {
   pulse::Problem problem;
   pulse::Schedule schedule;
   std::optional<Level> exact;  ///< the closed form, where there is one
-  std::vector<chain::Stretched> chains;
+  std::vector<chain::ScaledProblem> chains;
   std::size_t levels() const { return chains.size() + (exact ? 3 : 2); }
 };
 

@@ -21,7 +21,7 @@ struct Estimate {
 };
 
 Estimate estimate_of(const scenario::Scenario& scenario, const pulse::Problem& problem);
-Estimate estimate_of(const scenario::Scenario& scenario, const chain::Stretched& chain);
+Estimate estimate_of(const scenario::Scenario& scenario, const chain::ScaledProblem& chain);
 /// Levels run one after the other; what each observed is kept until the end.
 Estimate estimate_of(const scenario::Scenario& scenario, const Comparison& comparison);
 
@@ -31,7 +31,7 @@ std::string in_words(const Estimate& estimate);
 /// \throws InputError, which says both, if a run needs more memory than this process may have. Of a chain that several
 /// processes share, `share_of_machine` is on this machine.
 void require_memory(const scenario::Scenario& scenario, const pulse::Problem& problem);
-void require_memory(const scenario::Scenario& scenario, const chain::Stretched& chain, double share_of_machine = 1);
+void require_memory(const scenario::Scenario& scenario, const chain::ScaledProblem& chain, double share_of_machine = 1);
 void require_memory(const scenario::Scenario& scenario, const Comparison& comparison);
 
 }  // namespace slipfront::setup
