@@ -38,12 +38,12 @@ void pulse_tanh(benchmark::State& state) {
 BENCHMARK(pulse_tanh)->Arg(50)->Arg(75)->Arg(100)->Arg(200)->Arg(400)->Unit(benchmark::kMillisecond);
 
 /// Conserved to primitive, the costliest part of a cell: started from 1 % off, as from one stage to the next.
-void resolve(benchmark::State& state) {
+void solve_state(benchmark::State& state) {
   const auto c = modulation::lagrangian_state({0.1, 0.05});
-  for (auto _ : state) benchmark::DoNotOptimize(modulation::resolve(c, 0.0505));
+  for (auto _ : state) benchmark::DoNotOptimize(modulation::solve_state(c, 0.0505));
   state.SetItemsProcessed(state.iterations());
 }
-BENCHMARK(resolve);
+BENCHMARK(solve_state);
 
 /// Friction so strong that the pulse diffuses; steps are implicit.
 void pulse_overdamped(benchmark::State& state) {

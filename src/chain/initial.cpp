@@ -83,25 +83,25 @@ StaticTrain::StaticTrain(Stress stress, const Grid& grid, bool whole, std::funct
     }
     last_stress = k;
     const bool empty = k == 0;
-    if (j > 0 && stretches_.back().empty == empty) continue;
+    if (j > 0 && segments_.back().empty == empty) continue;
     if (j > 0) {
-      stretches_.back().end = j;
-      stretches_.back().to = charge.sum;
+      segments_.back().end = j;
+      segments_.back().to = charge.sum;
     }
-    stretches_.push_back({.begin = j, .empty = empty, .from = before});
+    segments_.push_back({.begin = j, .empty = empty, .from = before});
   }
   if (n == 0) return;
   // Around a periodic chain there is one more interval, from the last site to the first.
-  stretches_.back().end = n;
-  stretches_.back().to = whole_ ? charge.sum + integral(stress_, grid_.x(n - 1), grid_.x(n)) / (2 * pi) : charge.sum;
+  segments_.back().end = n;
+  segments_.back().to = whole_ ? charge.sum + integral(stress_, grid_.x(n - 1), grid_.x(n)) / (2 * pi) : charge.sum;
   double wells = 0;
-  for (auto s = stretches_.rbegin(); s != stretches_.rend(); ++s) {
+  for (auto s = segments_.rbegin(); s != segments_.rend(); ++s) {
     s->wells = wells;
     if (!s->empty) wells += std::nearbyint(s->to - s->from);
   }
 }
 
-double StaticTrain::u(const Stretch& s, std::size_t site, double charge, LocalTrain& train) const {
+double StaticTrain::u(const Segment& s, std::size_t site, double charge, LocalTrain& train) const {
   const bool closed = (s.begin > 0 && s.end < grid_.sites) || whole_;
   const double charge_of_it = s.to - s.from, count = closed ? std::nearbyint(charge_of_it) : charge_of_it;
   if (s.empty || (closed && count == 0)) return 2 * pi * s.wells;
@@ -119,8 +119,8 @@ double StaticTrain::u(const Stretch& s, std::size_t site, double charge, LocalTr
 Motion StaticTrain::operator()(std::size_t begin, std::size_t end) const {
   Motion motion;
   LocalTrain train;
-  auto stretch = std::upper_bound(stretches_.begin(), stretches_.end(), begin,
-                                  [](std::size_t j, const Stretch& s) { return j < s.end; });
+  auto segment = std::upper_bound(segments_.begin(), segments_.end(), begin,
+                                  [](std::size_t j, const Segment& s) { return j < s.end; });
   Charge charge;
   for (std::size_t j = begin / piece * piece; j < end; ++j) {
     if (j % piece == 0)
@@ -128,8 +128,8 @@ Motion StaticTrain::operator()(std::size_t begin, std::size_t end) const {
     else
       charge.add(integral(stress_, grid_.x(j - 1), grid_.x(j)) / (2 * pi));
     if (j < begin) continue;
-    if (j == stretch->end) ++stretch;
-    motion.u.push_back(u(*stretch, j, charge.sum, train));
+    if (j == segment->end) ++segment;
+    motion.u.push_back(u(*segment, j, charge.sum, train));
   }
   return motion;
 }

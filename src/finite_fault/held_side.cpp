@@ -8,6 +8,7 @@
 #include "slipfront/modulation/characteristics.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
 #include "slipfront/rupture/inverse.hpp"
+#include "slipfront/train/at_rest.hpp"
 
 namespace slipfront::finite_fault {
 namespace {
@@ -28,12 +29,12 @@ double SideStress::at(double d) const {
 HeldSide::HeldSide(SideStress stress, double end) : stress_(std::move(stress)) {
   const auto speed_at = [](const State& s) { return s.empty() ? 0 : modulation::sound(s.psi).c0; };
   // Nothing that the pulse meets may come back from the end of the grid.
-  const double beyond = 1.2 * end * speed_at(rupture::at_rest(stress_.stress.back()));
+  const double beyond = 1.2 * end * speed_at(train::at_rest(stress_.stress.back()));
   length_ = stress_.distance.back() + beyond;
   node_ = length_ / static_cast<double>(nodes);
   double time = 0, slowness = 0;
   for (std::size_t i = 0; i <= nodes; ++i) {
-    const State s = rupture::at_rest(stress_.at(node_ * static_cast<double>(i)));
+    const State s = train::at_rest(stress_.at(node_ * static_cast<double>(i)));
     const double next = s.empty() ? std::numeric_limits<double>::infinity() : 1 / speed_at(s);
     if (i > 0) time += node_ * (slowness + next) / 2;
     slowness = next;

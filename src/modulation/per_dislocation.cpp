@@ -29,7 +29,7 @@ LagrangianState lagrangian_state(const State& state) {
 namespace {
 
 /// Newton in ln psi, for any density.
-Resolved resolve_in_psi(const LagrangianState& c, double psi) {
+SolvedState solve_in_psi(const LagrangianState& c, double psi) {
   const double half = c.spacing / 2;
   for (int iteration = 0; iteration < 80; ++iteration) {
     const elliptic::AtPsi at = elliptic::at_psi(psi);
@@ -66,7 +66,7 @@ Resolved resolve_in_psi(const LagrangianState& c, double psi) {
 
 }  // namespace
 
-Resolved resolve(const LagrangianState& c, double psi_guess) {
+SolvedState solve_state(const LagrangianState& c, double psi_guess) {
   if (!(c.spacing > 0) || !std::isfinite(c.spacing) || !std::isfinite(c.momentum)) give_up(c);
   const double psi = psi_guess > 0 && std::isfinite(psi_guess) ? psi_guess : 1;
   // The same in ln s, s = tanh psi, where cosh^2 psi = 1 / (1 - s^2) needs no hyperbolic function: half the cost.
@@ -89,10 +89,10 @@ Resolved resolve(const LagrangianState& c, double psi_guess) {
           {std::asinh(c.momentum * std::sqrt(1 - s * s) / (8 * E)), std::atanh(s)}, sound, E * (at.K + slope_K * step)};
     }
   }
-  return resolve_in_psi(c, psi);
+  return solve_in_psi(c, psi);
 }
 
-State state_of(const LagrangianState& carried, double psi_guess) { return resolve(carried, psi_guess).state; }
+State state_of(const LagrangianState& train, double psi_guess) { return solve_state(train, psi_guess).state; }
 
 double pressure(double psi) {
   const double sinh_psi = std::sinh(psi);

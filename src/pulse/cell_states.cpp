@@ -16,16 +16,16 @@ void CellStates::resize(std::size_t size) {
     array->assign(size, 0);
 }
 
-void CellStates::resolve(const std::vector<Stretch>& stretches, double time) {
-  for (const Stretch& r : stretches) {
+void CellStates::solve(const std::vector<Block>& blocks, double time) {
+  for (const Block& r : blocks) {
     const std::size_t b = r.begin;
-    resolve_all({r.end - b, &spacing[b], &momentum[b], &s[b], &phi[b], &psi[b], &sound_speed[b], &EK[b], &velocity[b],
-                 &good_[b]});
+    solve_states({r.end - b, &spacing[b], &momentum[b], &s[b], &phi[b], &psi[b], &sound_speed[b], &EK[b], &velocity[b],
+                  &good_[b]});
     for (std::size_t i = b; i < r.end; ++i) {  // those that the vector code has left
       if (good_[i] != 0) continue;
       try {
         const double guess = std::atanh(std::fmin(std::fmax(s[i], 0.0), 1 - 1e-16));
-        const modulation::Resolved at = modulation::resolve({spacing[i], momentum[i]}, guess);
+        const modulation::SolvedState at = modulation::solve_state({spacing[i], momentum[i]}, guess);
         phi[i] = at.state.phi;
         psi[i] = at.state.psi;
         s[i] = std::tanh(at.state.psi);

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "stretch.hpp"
+#include "block.hpp"
 
 namespace slipfront::pulse {
 
@@ -10,13 +10,13 @@ namespace slipfront::pulse {
 /// contact ratio a(x) is not 1, all are in the local units a x, a t.
 struct CellStates {
   std::vector<double> spacing, momentum;
-  std::vector<double> s;  ///< tanh(psi); on entry to `resolve`, where its solves start
+  std::vector<double> s;  ///< tanh(psi); on entry to `solve`, where its solves start
   std::vector<double> phi, psi, sound_speed, EK, velocity;
 
   void resize(std::size_t size);
   /// Finds everything from spacing and momentum; gaps are left as they are. \throws NumericsError with time and cell
   /// where no state exists.
-  void resolve(const std::vector<Stretch>& stretches, double time);
+  void solve(const std::vector<Block>& blocks, double time);
 
  private:
   std::vector<double> good_;

@@ -7,9 +7,10 @@
 /// or plain).
 namespace slipfront::pulse {
 
-/// modulation::resolve for many cells. `s` = tanh(psi) comes in as the guess and goes out as the result. Cells that are
-/// out of the ordinary (s outside 1e-290 ... 0.9, or a guess too far off) are left with good = 0 for the scalar route.
-struct ResolveArrays {
+/// modulation::solve_state for many cells. `s` = tanh(psi) comes in as the guess and goes out as the result. Cells that
+/// are out of the ordinary (s outside 1e-290 ... 0.9, or a guess too far off) are left with good = 0 for the scalar
+/// route.
+struct StateArrays {
   std::size_t size;
   const double* spacing;
   const double* momentum;
@@ -21,7 +22,7 @@ struct ResolveArrays {
   double* velocity;  ///< tanh(phi)
   double* good;      ///< 1 or 0
 };
-void resolve_all(const ResolveArrays& a);
+void solve_states(const StateArrays& a);
 
 /// Values at the cell centres from cell averages, and back, by second and fourth differences: sixth order. Left out
 /// where the fourth difference is not small beside the second (there f is not smooth on the grid, and average and

@@ -105,8 +105,7 @@ Run::Run(Problem problem, output::Schedule schedule, std::string_view saved, std
   Cells cells = saved_cells(reader);
   trailing_characteristic_.restore(get_number(reader, "trailing_characteristic"));
   output::SampledIntegral& slip = slip_;
-  for (double* value :
-       {&slip.time, &slip.velocity, &slip.integral, &slip_size_, &slip.early_time, &slip.early_velocity,
+  for (double* value : {&slip.time, &slip.velocity, &slip.integral, &slip_size_, &slip.early_time, &slip.early_velocity,
                         &slip.coarse_integral, &slip.spread, &slip_doubt_})
     *value = reader.get<double>();
   slip.samples = static_cast<long>(reader.get<std::int64_t>());
@@ -121,8 +120,7 @@ std::string Run::saved() const {
   save(solver_.cells(), writer);
   put(writer, "trailing_characteristic", {trailing_characteristic_.position()});
   const output::SampledIntegral& slip = slip_;
-  for (const double value :
-       {slip.time, slip.velocity, slip.integral, slip_size_, slip.early_time, slip.early_velocity,
+  for (const double value : {slip.time, slip.velocity, slip.integral, slip_size_, slip.early_time, slip.early_velocity,
                              slip.coarse_integral, slip.spread, slip_doubt_})
     writer.put(value);
   writer.put(static_cast<std::int64_t>(slip.samples));

@@ -16,9 +16,7 @@ constexpr double much = 0.05;
 
 }  // namespace
 
-double Run::SlipTwice::beyond_sampling() const {
-  return std::fmax(std::fabs(by_place - by_velocity) - sampling, 0);
-}
+double Run::SlipTwice::beyond_sampling() const { return std::fmax(std::fabs(by_place - by_velocity) - sampling, 0); }
 
 std::optional<Run::SlipTwice> Run::slip_twice() const {
   const Problem& problem = solver_.problem();

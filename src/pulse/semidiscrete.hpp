@@ -4,16 +4,18 @@
 #include <memory>
 #include <vector>
 
+#include "block.hpp"
 #include "cell_states.hpp"
 #include "slipfront/friction/friction.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
 #include "slipfront/pulse/named_values.hpp"
 #include "slipfront/train/state.hpp"
-#include "stretch.hpp"
 
 namespace slipfront::pulse {
 
-/// The equations in space: time derivatives of the cells' widths X and momenta Y. Knows nothing of time steps.
+/// The equations in space, docs/theory.md 3.4: time derivatives of the cells' widths X and momenta Y, from the states
+/// in the cells (here), at their faces (reconstruction.cpp), the fluxes there (kernels, face_fluxes) and the sources
+/// (sources.cpp). Knows nothing of time steps.
 ///     X_t = [U] over the faces,   Y_t = -[p] + q_s (2 pi F - friction - l <1 - cos u> d(a^2)/dx)
 /// Where the contact ratio a(x) is not 1, phi and psi are those in the local units a x, a t.
 /// Cell averages in the coordinate s (one cell a unit); point values by deconvolution, fourth order; faces by
@@ -32,7 +34,7 @@ class Semidiscrete {
   explicit Semidiscrete(Setup setup);
 
   std::size_t size() const { return setup_.charge.size(); }
-  const std::vector<Stretch>& stretches() const { return stretches_; }
+  const std::vector<Block>& blocks() const { return blocks_; }
 
   /// From the unknowns y (NamedValues) to their rates dy. \throws NumericsError with time and place.
   void operator()(double t, const double* y, double* dy);
@@ -42,18 +44,18 @@ class Semidiscrete {
   /// From the last call: states at the cell centres, rapidities and psi at the faces, friction rates (loss over
   /// momentum).
   std::vector<State> states() const;
-  const std::vector<double>& s() const { return at_.s; }
-  const std::vector<double>& face_phi() const { return face_phi_; }
-  const std::vector<double>& face_psi() const { return face_psi_; }
+  const std::vector<double>& s() const { return centres_.train.s; }
+  const std::vector<double>& face_phi() const { return faces_.phi; }
+  const std::vector<double>& face_psi() const { return faces_.psi; }
   /// 1 in the cells near a shock, 0 elsewhere: there the error of a step is that of the cells' size.
-  const std::vector<double>& shocked() const { return shocked_; }
-  double largest_friction_rate() const { return largest_rate_; }
+  const std::vector<double>& shocked() const { return reconstruction_.shocked; }
+  double largest_friction_rate() const { return sources_.largest_friction_rate; }
   /// From the last call: the cell in the middle of the hardest collision between streams of dislocations that run into
   /// each other faster than the pressure between them could stop over two cells; none: size(). Arguments as of the
   /// call.
   std::size_t crossing(double t, const double* y) const;
   /// Least time in which a wave crosses a cell, or a cell that is being compressed loses three tenths of its width:
-  /// what runs into a nearly empty stretch compresses cells faster than waves cross them.
+  /// what runs into a nearly empty block compresses cells faster than waves cross them.
   double crossing_time(const double* y, const double* dy) const;
   /// That of a cell of average width, at the fastest sound speed.
   double mean_crossing_time(const double* y) const;
@@ -62,32 +64,59 @@ class Semidiscrete {
   static constexpr std::size_t ghosts = 3;  ///< cells that a face sees to either side
   void find_states(double t, const double* y);
   void find_places(double t, const double* y);
+
+  // Reconstruction (reconstruction.cpp).
   void find_edges(const double* y);
   void find_faces();
-  void fill_ghosts(const Stretch& stretch, double* plus, double* minus) const;
-  void find_faces(const Stretch& stretch);
-  void flatten_shocks(const Stretch& stretch, const double* plus, const double* minus, double scale);
+  void fill_ghosts(const Block& block, double* plus, double* minus) const;
+  void find_faces(const Block& block);
+  void flatten_shocks(const Block& block, const double* plus, const double* minus, double scale);
+
+  // Sources (sources.cpp).
   void find_rates();
   void add_sources(double t, const double* y, double* dy);
   void add_contact_force(double* dy);
 
   bool gap(std::size_t i) const { return setup_.charge[i] == 0; }
 
+  /// Averages over the cells.
+  struct Means {
+    std::vector<double> width, momentum, phi, psi;
+    std::vector<double> source;  ///< force on the cell
+  };
+  /// Values at the cell centres.
+  struct Centres {
+    CellStates train;
+    std::vector<double> charge, per_charge;  ///< dislocations in a unit of s, and its inverse
+    std::vector<double> x, contact;          ///< place, a(x)
+  };
+  struct Faces {
+    std::vector<double> phi, psi, velocity, pressure;
+    std::vector<double> x, contact;
+  };
+  /// What WENO sees of one block, and where it falls back on plain values.
+  struct Reconstruction {
+    std::vector<double> plus, minus;  ///< Riemann invariants, averages over the cells, with ghosts
+    std::vector<double> shocked;      ///< 1 in the cells near a shock, 0 elsewhere
+    bool collides = false;            ///< some cell is near a shock
+  };
+  /// What changes momentum beside the pressure, of each cell.
+  struct Sources {
+    std::vector<double> friction_rate;      ///< loss over momentum
+    std::vector<double> friction_strength;  ///< mean of f over the train, where places stick
+    std::vector<double> force;              ///< in a unit of s, at the centre
+    std::vector<double> contact_force;
+    double largest_friction_rate = 0;
+  };
+
   Setup setup_;
   std::unique_ptr<friction::RelaxationRate> relaxation_rate_;
-  std::vector<Stretch> stretches_;
-  std::vector<double> charge_point_;  ///< q_s at the centres
-  std::vector<double> per_charge_point_;
-  // At the cell centres.
-  CellStates at_;
-  std::vector<double> width_, momentum_in_cell_, phi_mean_, psi_mean_, rate_, strength_, source_, source_mean_,
-      centres_;
-  std::vector<double> invariant_plus_, invariant_minus_;  ///< cell averages of one stretch, with ghosts
-  std::vector<double> face_phi_, face_psi_, face_U_, face_p_;
-  std::vector<double> faces_, contact_, face_contact_, contact_force_;  ///< x of the faces; a(x) at centres and faces
-  std::vector<double> shocked_;
-  double largest_rate_ = 0;
-  bool collides_ = false;  ///< some cell is near a shock
+  std::vector<Block> blocks_;
+  Means means_;
+  Centres centres_;
+  Faces faces_;
+  Reconstruction reconstruction_;
+  Sources sources_;
 };
 
 }  // namespace slipfront::pulse

@@ -32,7 +32,7 @@ double mass_excess(double psi) {
 Staggered::Staggered(Setup setup)
     : setup_(std::move(setup)),
       relaxation_rate_(setup_.friction.relaxation_rate()),
-      stretches_(stretches_of(setup_.charge, setup_.left, setup_.right)) {
+      blocks_(blocks_of(setup_.charge, setup_.left, setup_.right)) {
   const std::size_t n = setup_.charge.size();
   cells_.resize(n);
   for (auto* array : {&width_, &pressure_, &mass_, &balance_, &a_}) array->assign(n, 0);
@@ -51,14 +51,14 @@ std::vector<double> Staggered::face_momenta(const std::vector<double>& cell_mome
   return momenta;
 }
 
-/// Means over the cells of the cubic through four faces, and of the line through two in the last cells of a stretch.
+/// Means over the cells of the cubic through four faces, and of the line through two in the last cells of a block.
 std::vector<double> Staggered::cell_momenta(const std::vector<double>& face_momenta) const {
   std::vector<double> momenta(setup_.charge.size());
   const auto of_one = [&](std::size_t f) { return face_momenta[f] / charge_around(f); };
-  for (const Stretch& stretch : stretches_)
-    for (std::size_t i = stretch.begin; i < stretch.end; ++i) {
+  for (const Block& block : blocks_)
+    for (std::size_t i = block.begin; i < block.end; ++i) {
       const double beside = of_one(i) + of_one(i + 1);
-      const bool inside = i > stretch.begin && i + 1 < stretch.end;
+      const bool inside = i > block.begin && i + 1 < block.end;
       const double mean = inside ? (13 * beside - of_one(i - 1) - of_one(i + 2)) / 24 : beside / 2;
       momenta[i] = setup_.charge[i] * mean;
     }
@@ -86,7 +86,7 @@ void Staggered::find_cells(double t, const double* z) {
     cells_.momentum[i] =
         (values.momentum(i) / charge_around(i) + values.momentum(i + 1) / charge_around(i + 1)) / (2 * a);
   }
-  cells_.resolve(stretches_, t);
+  cells_.solve(blocks_, t);
   for (std::size_t i = 0; i < n; ++i) {
     if (setup_.charge[i] == 0) continue;
     // EK and l = 2 K / (cosh phi cosh psi) are known.

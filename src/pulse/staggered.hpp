@@ -67,7 +67,7 @@ class Staggered {
   Setup setup_;
   double creep_ = 0;
   std::unique_ptr<friction::RelaxationRate> relaxation_rate_;
-  std::vector<Stretch> stretches_;
+  std::vector<Block> blocks_;
   CellStates cells_;
   std::vector<double> place_, width_, pressure_, balance_, a_, face_phi_;
   std::vector<double> mass_;  ///< cosh(psi) E, an eighth of M / sinh(phi)

@@ -44,7 +44,7 @@ struct Nodes {
   }
 };
 
-/// The centre of the cell, its faces, and the centres of its neighbours in the same stretch. A step of stress, or a
+/// The centre of the cell, its faces, and the centres of its neighbours in the same block. A step of stress, or a
 /// pulse that is still narrower than a cell, is known at a face long before the cells feel it.
 Nodes nodes_around(const Solver::View& v, std::size_t cell) {
   Nodes nodes;
@@ -97,8 +97,8 @@ Solver::View Solver::view(bool densities) const {
   v.states = equations_->states();
   v.contact = problem_.contact;
   v.shocked = equations_->shocked();
-  v.left_free = equations_->stretches().front().left == Edge::free;
-  v.right_free = equations_->stretches().back().right == Edge::free;
+  v.left_free = equations_->blocks().front().left == Edge::free;
+  v.right_free = equations_->blocks().back().right == Edge::free;
   const std::vector<double>* face_phi = &equations_->face_phi();
   if (!cells_.face_momentum.empty()) {  // where friction rules, velocities are those of the faces
     staggered().start_from(cells_.s);
@@ -115,7 +115,7 @@ Solver::View Solver::view(bool densities) const {
   for (std::size_t f = 0; f <= n && densities; ++f)
     v.face_density.push_back(averages_of(v, v.face_states[f], v.faces[f]).k / (2 * pi));
   v.centres.resize(n);
-  middles(equations_->stretches(), v.faces, v.centres);
+  middles(equations_->blocks(), v.faces, v.centres);
   return v;
 }
 

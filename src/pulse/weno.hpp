@@ -8,7 +8,7 @@ namespace slipfront::pulse {
 
 /// Value at the right face of the middle cell from five cell averages, the face nearest to d and e: fifth order where
 /// smooth, no new extrema at jumps (WENO-Z: Jiang & Shu 1996; Borges et al. 2008). Pass the averages backwards for the
-/// left face. Scale invariant: `tiny` only keeps a constant stretch from dividing by zero. The value is above / below:
+/// left face. Scale invariant: `tiny` only keeps a constant block from dividing by zero. The value is above / below:
 /// the caller divides, and may divide for two faces at once.
 struct Weno5 {
   double above, below;

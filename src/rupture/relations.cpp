@@ -10,6 +10,7 @@
 #include "slipfront/error.hpp"
 #include "slipfront/modulation/characteristics.hpp"
 #include "slipfront/rupture/inverse.hpp"
+#include "slipfront/train/at_rest.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::rupture {
@@ -62,7 +63,7 @@ Relations assemble(double psi, double psi_at_origin) {
 
 Relations from_stress(double stress) {
   check(stress, {"stress", least_stress, most_stress, "0.00447 <= stress <= 1e308 (in mu A / pi)"});
-  const double psi = psi_of_stress(stress);
+  const double psi = train::psi_of_stress(stress);
   Relations r = assemble(psi, psi_of_fan(psi));
   r.stress = stress;
   return r;

@@ -31,7 +31,7 @@ TEST(PerDislocation, FindsSoundAndClosureToo) {
   for (const double psi : {1e-295, 1e-20, 1e-3, 0.124, 0.126, 0.5, 1.4, 1.5, 3.0, 30.0})
     for (const double off : {0.5, 0.99, 1.01, 3.0}) {
       const State s{0.3, psi};
-      const Resolved r = resolve(lagrangian_state(s), psi * off);
+      const SolvedState r = solve_state(lagrangian_state(s), psi * off);
       const double condition = 1 + std::fabs(std::log(4 / psi));
       EXPECT_LE(error_in_eps(r.sound_speed, sound(r.state.psi).c0), 32) << psi;
       const elliptic::AtPsi at = elliptic::at_psi(r.state.psi);

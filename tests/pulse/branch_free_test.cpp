@@ -64,8 +64,8 @@ TEST(Kernels, ResolveAllIsResolve) {
     for (double psi = 1e-292; psi < 3; psi *= psi < 1e-3 ? 7.3 : 1.03) {
       const auto c = slipfront::modulation::lagrangian_state({phi, psi});
       double s = std::tanh(psi) * 1.002, got_phi = 0, got_psi = 0, sound = 0, EK = 0, velocity = 0, good = 0;
-      resolve_all({1, &c.spacing, &c.momentum, &s, &got_phi, &got_psi, &sound, &EK, &velocity, &good});
-      const auto want = slipfront::modulation::resolve(c, psi);
+      solve_states({1, &c.spacing, &c.momentum, &s, &got_phi, &got_psi, &sound, &EK, &velocity, &good});
+      const auto want = slipfront::modulation::solve_state(c, psi);
       if (psi > 1e-289 && psi < 1.3 && std::fabs(phi) < 2) {
         EXPECT_EQ(good, 1) << phi << " " << psi;
       }
@@ -94,7 +94,7 @@ TEST(Kernels, ResolveAllRefusesNonsense) {
     for (const double momentum : {0.0, double{NAN}, HUGE_VAL, -1e200}) {
       if (spacing == 2 && momentum == 0) continue;
       double s = 0.5, phi = 0, psi = 0, sound = 0, EK = 0, velocity = 0, good = 0;
-      resolve_all({1, &spacing, &momentum, &s, &phi, &psi, &sound, &EK, &velocity, &good});
+      solve_states({1, &spacing, &momentum, &s, &phi, &psi, &sound, &EK, &velocity, &good});
       EXPECT_EQ(good, 0) << spacing << " " << momentum;
       EXPECT_EQ(s, 0.5);
     }

@@ -1,4 +1,4 @@
-// Empty gaps between stressed stretches: free edges that meet.
+// Empty gaps between stressed blocks: free edges that meet.
 
 #include <gtest/gtest.h>
 

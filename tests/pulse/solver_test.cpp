@@ -122,8 +122,7 @@ TEST(Pulse, DenseTrainsRunIntoSparseOnes) {
       p.right = 1.2;
       Solver s(p);
       s.advance_to(1);
-      const auto exact =
-          rupture::solve_riemann({0, train::psi_of_stress(left)}, {0, train::psi_of_stress(right)}).star;
+      const auto exact = rupture::solve_riemann({0, train::psi_of_stress(left)}, {0, train::psi_of_stress(right)}).star;
       const auto view = s.view();
       constexpr int places = 91;
       double phi = 0, psi = 0;

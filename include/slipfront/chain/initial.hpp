@@ -32,7 +32,7 @@ struct Motion {
 class LocalTrain;
 
 /// The train at rest with <-u_x> = stress(x) >= 0; u falls with x. Where there is no stress u stays in a well, a
-/// multiple of 2 pi, 0 at the right end. A stretch with no stress at either end holds a whole number of dislocations:
+/// multiple of 2 pi, 0 at the right end. A segment with no stress at either end holds a whole number of dislocations:
 /// its stress is changed by the less than half a dislocation that this takes. Where all is stressed and the stress
 /// jumps, the jump lies midway between two dislocations: u is smooth there. With `whole` the entire chain does: what a
 /// periodic chain needs. With `contact`, a(x), a place has psi of stress / a: the substrate is a^2 as strong, and the
@@ -56,7 +56,7 @@ class StaticTrain {
     void add(double more);
   };
   /// Consecutive sites with stress, or without.
-  struct Stretch {
+  struct Segment {
     std::size_t begin = 0, end = 0;
     bool empty = false;
     double from = 0, to = 0;  ///< charge at its edges
@@ -64,14 +64,14 @@ class StaticTrain {
   };
   static constexpr std::size_t piece = 4096;  ///< the charge is kept at every so many sites
 
-  double u(const Stretch& stretch, std::size_t site, double charge, LocalTrain& train) const;
+  double u(const Segment& segment, std::size_t site, double charge, LocalTrain& train) const;
 
   std::function<double(double)> stress_, contact_;
   Grid grid_;
   bool whole_;
   std::optional<double> jump_at_;  ///< dislocations left of the hardest jump from one stress to another
   std::vector<Charge> charges_;
-  std::vector<Stretch> stretches_;
+  std::vector<Segment> segments_;
 };
 
 /// All sites of StaticTrain.

@@ -21,15 +21,15 @@ LagrangianState lagrangian_state(const State& state);
 /// l sqrt(cosh^2 psi + (M / 8 E)^2) = 2 K. `psi_guess` > 0 saves iterations when it is near. Spacings beyond what a
 /// double's psi can express (l > 1400) give the empty state at the momentum's velocity. \throws NumericsError outside
 /// psi < 700.
-State state_of(const LagrangianState& carried, double psi_guess);
+State state_of(const LagrangianState& train, double psi_guess);
 
 /// The same with what else the solve has found.
-struct Resolved {
+struct SolvedState {
   State state;
   double sound_speed;  ///< c0, 0 if empty
   double EK;           ///< E K, which tells the closures of viscous friction apart
 };
-Resolved resolve(const LagrangianState& carried, double psi_guess);
+SolvedState solve_state(const LagrangianState& train, double psi_guess);
 
 /// Pressure of a train, 2 sinh^2 psi.
 double pressure(double psi);

@@ -1,14 +1,9 @@
 #pragma once
 /// \file
-/// psi from what is observed: three monotone relations, solved to full relative precision over their whole range.
-
-#include "slipfront/train/at_rest.hpp"
+/// psi from what is observed: three monotone relations, solved to full relative precision over their whole range. The
+/// fourth, psi of a stress at rest, is train::psi_of_stress.
 
 namespace slipfront::rupture {
-
-// The fourth, of a stress, belongs to trains.
-using train::at_rest;
-using train::psi_of_stress;
 
 /// psi with c0(psi) = V, 0 < V < 1.
 double psi_of_sound_speed(double V);

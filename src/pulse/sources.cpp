@@ -33,15 +33,16 @@ double substrate(double psi) {
 void Semidiscrete::add_contact_force(double* dy) {
   const Values rates(dy, size());
   const auto square = [](double a) { return a * a; };
-  double left = substrate(face_psi_[0]);
+  double left = substrate(faces_.psi[0]);
   for (std::size_t i = 0; i < size(); ++i) {
-    const double right = substrate(face_psi_[i + 1]);
-    const double a = square(face_contact_[i]), b = square(contact_[i]), c = square(face_contact_[i + 1]);
-    contact_force_[i] = 0;
+    const double right = substrate(faces_.psi[i + 1]);
+    const double a = square(faces_.contact[i]), b = square(centres_.contact[i]), c = square(faces_.contact[i + 1]);
+    sources_.contact_force[i] = 0;
     if (a != b || b != c)
-      contact_force_[i] =
-          -(left * (4 * b - 3 * a - c) + 4 * substrate(at_.psi[i]) * (c - a) + right * (a - 4 * b + 3 * c)) / 6;
-    rates.momentum(i) += contact_force_[i];
+      sources_.contact_force[i] =
+          -(left * (4 * b - 3 * a - c) + 4 * substrate(centres_.train.psi[i]) * (c - a) + right * (a - 4 * b + 3 * c)) /
+          6;
+    rates.momentum(i) += sources_.contact_force[i];
     left = right;
   }
 }
@@ -58,31 +59,31 @@ void Semidiscrete::add_sources(double t, const double* y, double* dy) {
   if (!frictional && !setup_.forcing) return;
   double dissipation = 0, supply = 0;
   if (linear && !setup_.forcing) {  // the plain case, without the detour over point values
-    rates.dissipated() = damp(n, *C, y, at_.velocity.data(), dy);
+    rates.dissipated() = damp(n, *C, y, centres_.train.velocity.data(), dy);
     return;
   }
   for (std::size_t i = 0; i < n; ++i) {
-    const double U = at_.velocity[i];
-    source_[i] = 0;
+    const double U = centres_.train.velocity[i];
+    sources_.force[i] = 0;
     if (setup_.forcing) {
-      const double push = 2 * pi * setup_.forcing(centres_[i], t) * charge_point_[i];
+      const double push = 2 * pi * setup_.forcing(centres_.x[i], t) * centres_.charge[i];
       supply += U * push;
-      source_[i] += push;
+      sources_.force[i] += push;
     }
     if (frictional && !dry) {
-      const double loss = rate_[i] * at_.momentum[i] * charge_point_[i];
+      const double loss = sources_.friction_rate[i] * centres_.train.momentum[i] * centres_.charge[i];
       dissipation += U * loss;
-      if (!linear) source_[i] -= loss;
+      if (!linear) sources_.force[i] -= loss;
     }
   }
-  for (const Stretch& r : stretches_)
-    cell_means(r.end - r.begin, source_.data() + r.begin, source_mean_.data() + r.begin);
+  for (const Block& r : blocks_)
+    cell_means(r.end - r.begin, sources_.force.data() + r.begin, means_.source.data() + r.begin);
   for (std::size_t i = 0; i < n; ++i) {
-    rates.momentum(i) += source_mean_[i];
+    rates.momentum(i) += means_.source[i];
     if (dry) {  // no detour over point values, as of a constant force there is none
-      const double force =
-          dry_friction(values.momentum(i), rates.momentum(i), 2 * pi * strength_[i] * setup_.charge[i]);
-      dissipation -= at_.velocity[i] * force;
+      const double force = dry_friction(values.momentum(i), rates.momentum(i),
+                                        2 * pi * sources_.friction_strength[i] * setup_.charge[i]);
+      dissipation -= centres_.train.velocity[i] * force;
       rates.momentum(i) += force;
     } else if (frictional && linear) {
       rates.momentum(i) -= *C * values.momentum(i);
@@ -95,26 +96,26 @@ void Semidiscrete::add_sources(double t, const double* y, double* dy) {
 
 void Semidiscrete::find_rates() {
   const friction::Friction& f = setup_.friction;
-  largest_rate_ = 0;
+  sources_.largest_friction_rate = 0;
   if (!f.acts()) return;
   if (const auto C = f.linear_coefficient()) {
     if (f.closure() == friction::Closure::consistent) {
-      std::fill(rate_.begin(), rate_.end(), *C);
-      largest_rate_ = *C;
+      std::fill(sources_.friction_rate.begin(), sources_.friction_rate.end(), *C);
+      sources_.largest_friction_rate = *C;
     } else {  // with the E K that are known already
-      largest_rate_ = paper_rates(size(), *C, at_.EK.data(), rate_.data());
+      sources_.largest_friction_rate = paper_rates(size(), *C, centres_.train.EK.data(), sources_.friction_rate.data());
     }
     return;
   }
   for (std::size_t i = 0; i < size(); ++i) {
     if (gap(i)) continue;
-    const State state{at_.phi[i], at_.psi[i]};
-    const double a = setup_.contact ? contact_[i] : 1;
+    const State state{centres_.train.phi[i], centres_.train.psi[i]};
+    const double a = setup_.contact ? centres_.contact[i] : 1;
     if (f.sticks()) {  // such friction relaxes nothing, but stops it
-      strength_[i] = f.mean_strength(state, a);
+      sources_.friction_strength[i] = f.mean_strength(state, a);
     } else {
-      rate_[i] = (*relaxation_rate_)(state, a);
-      largest_rate_ = std::max(largest_rate_, rate_[i]);
+      sources_.friction_rate[i] = (*relaxation_rate_)(state, a);
+      sources_.largest_friction_rate = std::max(sources_.largest_friction_rate, sources_.friction_rate[i]);
     }
   }
 }

@@ -19,16 +19,16 @@ inline Edge edge_at_wall(double x, double wall, double width) {
   return std::fabs(x - wall) <= 1e-13 * std::fabs(wall) + 1e-6 * width ? Edge::wall : Edge::free;
 }
 
-/// Cells in a row with dislocations in them; between two stretches lies a gap, a cell without any, whose faces are free
+/// Cells in a row with dislocations in them; between two blocks lies a gap, a cell without any, whose faces are free
 /// edges.
-struct Stretch {
+struct Block {
   std::size_t begin, end;  ///< cells
   Edge left, right;
 };
-std::vector<Stretch> stretches_of(const std::vector<double>& charge, Edge left, Edge right);
+std::vector<Block> blocks_of(const std::vector<double>& charge, Edge left, Edge right);
 
-/// x at the middle of each cell in s, from the faces: sixth order inside a stretch, fourth and second in its last
+/// x at the middle of each cell in s, from the faces: sixth order inside a block, fourth and second in its last
 /// cells; within the middle half of the cell.
-void middles(const std::vector<Stretch>& stretches, const std::vector<double>& faces, std::vector<double>& centres);
+void middles(const std::vector<Block>& blocks, const std::vector<double>& faces, std::vector<double>& centres);
 
 }  // namespace slipfront::pulse

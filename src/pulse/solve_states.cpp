@@ -67,7 +67,7 @@ inline double clamp(double x, double low, double high) { return x > low ? (x < h
 
 }  // namespace
 
-SLIPFRONT_CLONES void resolve_all(const ResolveArrays& a) {
+SLIPFRONT_CLONES void solve_states(const StateArrays& a) {
   const std::size_t n = a.size;
   const double *spacing = a.spacing, *momentum = a.momentum;
   double *s_out = a.s, *phi = a.phi, *psi = a.psi, *sound = a.sound_speed, *EK = a.EK, *U = a.velocity, *good = a.good;
