@@ -26,7 +26,7 @@ const Definition& coulomb_law() {
                                      .source = "Coulomb (1785)",
                                      .parameters = {{.name = "coefficient",
                                                      .symbol = "C",
-                                                     .unit = "mu A / 2 pi",
+                                                     .unit = "mu A^2 / (pi (1 - nu))",
                                                      .is_force = true,
                                                      .if_missing = "counts as 0: there is no friction"}},
                                      .make = [](const std::vector<double>& values) -> std::shared_ptr<const Law> {

@@ -124,7 +124,7 @@ const Definition& power_law() {
       .source = "docs/theory.md 3.3",
       .parameters = {{.name = "coefficient",
                       .symbol = "C",
-                      .unit = "mu A / 2 pi over the unit of w to the power n",
+                      .unit = "mu A^2 / (pi (1 - nu)) over the unit of w to the power n",
                       .is_force = true,
                       .if_missing = "counts as 0: there is no friction"},
                      {.name = "exponent", .symbol = "n", .unit = "1", .value = 1, .most = 20, .without_least = true}},

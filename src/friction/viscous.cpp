@@ -54,7 +54,7 @@ const Definition& viscous_law() {
                                      .source = "Gershenzon, Bambakidis & Skinner (2015), Eqs. (7)",
                                      .parameters = {{.name = "coefficient",
                                                      .symbol = "C",
-                                                     .unit = "mu A / 2 pi over the unit of w",
+                                                     .unit = "mu A^2 / (pi (1 - nu)) over the unit of w",
                                                      .is_force = true,
                                                      .if_missing = "counts as 0: there is no friction"}},
                                      .make = [](const std::vector<double>& values) -> std::shared_ptr<const Law> {
