@@ -41,7 +41,7 @@ struct Problem {
 };
 
 /// The state of a run. Plain numbers: saved and restored, a run continues to the same bits. A gap between two stressed
-/// stretches is a cell without dislocations; when its edges meet, it goes.
+/// blocks of cells is a cell without dislocations; when its edges meet, it goes.
 struct Cells {
   double time = 0;
   long steps = 0;
