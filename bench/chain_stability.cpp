@@ -72,6 +72,34 @@ Outcome run(const Kind& kind, double stress, double right, double scale, double 
   return {drift, chain.chain().level()};
 }
 
+/// The largest drift of the energy for each stress (rows) and kind of chain (columns).
+void print_table(const std::vector<Kind>& kinds, const std::vector<double>& stresses, const std::vector<double>& scales,
+                 double spacing, const Mass& mass) {
+  std::printf("\nh = %g\n\n| stress |", spacing);
+  for (const Kind& kind : kinds) std::printf(" %s |", kind.name);
+  std::printf("\n|---|");
+  for (std::size_t i = 0; i < kinds.size(); ++i) std::printf("---|");
+  std::printf("\n");
+  long steps = 0;
+  for (const double stress : stresses) {
+    std::printf("| %g |", stress);
+    for (const Kind& kind : kinds) {
+      double worst = 0;
+      for (const double scale : scales)
+        for (const double share : {0.0, 1.0 / 3, 1.0}) {
+          // Of a train that falls into nothing around a ring both steps are hard; of one that is even nothing moves.
+          const Outcome one = run(kind, stress, share * stress, scale, spacing, mass);
+          worst = std::fmax(worst, one.drift);
+          steps += one.steps;
+        }
+      std::printf(worst >= 1e-2 ? " **%.0e** |" : " %.0e |", worst);
+      std::fflush(stdout);
+    }
+    std::printf("\n");
+  }
+  std::printf("\nsteps: %ld\n", steps);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -112,28 +140,6 @@ int main(int argc, char** argv) {
                           {"fixed, a", End::fixed, false, {}, wave}};
   if (only != nullptr) std::erase_if(kinds, [&](const Kind& kind) { return std::strcmp(kind.name, only) != 0; });
   for (const double spacing : spacings) {
-    std::printf("\nh = %g\n\n| stress |", spacing);
-    for (const Kind& kind : kinds) std::printf(" %s |", kind.name);
-    std::printf("\n|---|");
-    for (std::size_t i = 0; i < kinds.size(); ++i) std::printf("---|");
-    std::printf("\n");
-    long steps = 0;
-    for (const double stress : stresses) {
-      std::printf("| %g |", stress);
-      for (const Kind& kind : kinds) {
-        double worst = 0;
-        for (const double scale : scales)
-          for (const double share : {0.0, 1.0 / 3, 1.0}) {
-            // Of a train that falls into nothing around a ring both steps are hard; of one that is even nothing moves.
-            const Outcome one = run(kind, stress, share * stress, scale, spacing, mass);
-            worst = std::fmax(worst, one.drift);
-            steps += one.steps;
-          }
-        std::printf(worst >= 1e-2 ? " **%.0e** |" : " %.0e |", worst);
-        std::fflush(stdout);
-      }
-      std::printf("\n");
-    }
-    std::printf("\nsteps: %ld\n", steps);
+    print_table(kinds, stresses, scales, spacing, mass);
   }
 }

@@ -29,6 +29,22 @@ constexpr double stress = 0.855, C = 0.5, end = 2 * pi, exact = 0.1696217;
 
 double reach() { return 1.15 * rupture::from_stress(stress).rupture_velocity * end; }
 
+/// Harten, Lax & van Leer's flux between two states, not both empty.
+modulation::Pair hll_flux(const State& l, const State& r) {
+  const auto sl = modulation::characteristic_speeds(l), sr = modulation::characteristic_speeds(r);
+  // Towards an empty side the fastest wave is the edge, tanh(phi +- psi).
+  const double low = l.empty() ? std::tanh(r.phi - r.psi) : r.empty() ? sl.minus : std::fmin(sl.minus, sr.minus);
+  const double high = r.empty() ? std::tanh(l.phi + l.psi) : l.empty() ? sr.plus : std::fmax(sl.plus, sr.plus);
+  const auto fl = modulation::flux(l), fr = modulation::flux(r), ul = modulation::density(l),
+             ur = modulation::density(r);
+  const auto hll = [&](double flux_l, double flux_r, double u_l, double u_r) {
+    if (low >= 0) return flux_l;
+    if (high <= 0) return flux_r;
+    return (high * flux_l - low * flux_r + low * high * (u_r - u_l)) / (high - low);
+  };
+  return {hll(fl.number, fr.number, ul.number, ur.number), hll(fl.momentum, fr.momentum, ul.momentum, ur.momentum)};
+}
+
 /// Conservative finite volumes on a fixed grid in x: (k, P), minmod slopes, HLL flux, two-stage steps, friction exactly
 /// by exp(-C dt). Empty cells are those whose spacing a double's psi cannot express.
 double eulerian(int cells, bool second_order) {
@@ -58,19 +74,7 @@ double eulerian(int cells, bool second_order) {
       const State l{s[a].phi + (f == 0 ? 0 : slope(a, &State::phi)), s[a].psi + (f == 0 ? 0 : slope(a, &State::psi))};
       const State r{s[b].phi - (f == n ? 0 : slope(b, &State::phi)), s[b].psi - (f == n ? 0 : slope(b, &State::psi))};
       if (l.empty() && r.empty()) continue;
-      const auto sl = modulation::characteristic_speeds(l), sr = modulation::characteristic_speeds(r);
-      // Towards an empty side the fastest wave is the edge, tanh(phi +- psi).
-      const double low = l.empty() ? std::tanh(r.phi - r.psi) : r.empty() ? sl.minus : std::fmin(sl.minus, sr.minus);
-      const double high = r.empty() ? std::tanh(l.phi + l.psi) : l.empty() ? sr.plus : std::fmax(sl.plus, sr.plus);
-      const auto fl = modulation::flux(l), fr = modulation::flux(r), ul = modulation::density(l),
-                 ur = modulation::density(r);
-      const auto hll = [&](double flux_l, double flux_r, double u_l, double u_r) {
-        if (low >= 0) return flux_l;
-        if (high <= 0) return flux_r;
-        return (high * flux_l - low * flux_r + low * high * (u_r - u_l)) / (high - low);
-      };
-      flux[f] = {hll(fl.number, fr.number, ul.number, ur.number),
-                 hll(fl.momentum, fr.momentum, ul.momentum, ur.momentum)};
+      flux[f] = hll_flux(l, r);
     }
     for (std::size_t i = 0; i < n; ++i) {
       dk[i] = (flux[i].number - flux[i + 1].number) / dx;

@@ -6,6 +6,21 @@
 #include "event_run.hpp"
 #include "slipfront/error.hpp"
 
+namespace {
+
+int run_event(const EventArguments& a) {
+  const bool to_file = !a.output.empty() || !a.resume.empty();
+  if (a.draws > 0 && !to_file)
+    throw slipfront::InputError({.file = "command line",
+                                 .key = "--draws",
+                                 .value = std::to_string(a.draws),
+                                 .problem = "nowhere to write the draws",
+                                 .allowed = "with -o OUT.nc"});
+  return to_file ? write_events(a) : print_events(a);
+}
+
+}  // namespace
+
 Runner add_event(CLI::App& app) {
   auto arguments = std::make_shared<EventArguments>();
   CLI::App* command =
@@ -48,13 +63,5 @@ Runner add_event(CLI::App& app) {
   command->add_option("--resume", arguments->resume, "Go on from an unfinished file of these events, and write to it")
       ->type_name("OUT.nc");
   add_common_options(*command, arguments->common);
-  return [arguments] {
-    if (arguments->draws > 0 && arguments->output.empty() && arguments->resume.empty())
-      throw slipfront::InputError({.file = "command line",
-                                   .key = "--draws",
-                                   .value = std::to_string(arguments->draws),
-                                   .problem = "nowhere to write the draws",
-                                   .allowed = "with -o OUT.nc"});
-    return arguments->output.empty() && arguments->resume.empty() ? print_events(*arguments) : write_events(*arguments);
-  };
+  return [arguments] { return run_event(*arguments); };
 }

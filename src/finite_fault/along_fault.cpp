@@ -12,7 +12,6 @@ namespace slipfront::finite_fault {
 
 using catalogue::Observation;
 using catalogue::Subfault;
-using medium::Defaults;
 using medium::Elastic;
 using medium::elastic;
 

@@ -11,7 +11,6 @@ using catalogue::Entry;
 using catalogue::Observation;
 using inference::Estimate;
 using inference::estimate;
-using medium::Defaults;
 
 namespace {
 

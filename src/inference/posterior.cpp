@@ -14,7 +14,6 @@
 namespace slipfront::inference {
 
 using catalogue::Observation;
-using medium::Defaults;
 using medium::Elastic;
 using medium::elastic;
 

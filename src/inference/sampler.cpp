@@ -9,7 +9,6 @@ namespace slipfront::inference {
 using catalogue::Measured;
 using catalogue::Observation;
 using catalogue::UncertainConstant;
-using medium::Defaults;
 using medium::elastic;
 
 Sampler::Sampler(const Observation& o, const medium::Defaults& defaults, const Sampling& sampling)

@@ -12,7 +12,7 @@
 namespace slipfront::pulse {
 
 void CellStates::resize(std::size_t size) {
-  for (auto* array : {&spacing, &momentum, &s, &phi, &psi, &sound_speed, &EK, &velocity, &good_})
+  for (auto* array : {&spacing, &momentum, &s, &phi, &psi, &sound_speed, &EK, &velocity, &solved_})
     array->assign(size, 0);
 }
 
@@ -20,9 +20,9 @@ void CellStates::solve(const std::vector<Block>& blocks, double time) {
   for (const Block& r : blocks) {
     const std::size_t b = r.begin;
     solve_states({r.end - b, &spacing[b], &momentum[b], &s[b], &phi[b], &psi[b], &sound_speed[b], &EK[b], &velocity[b],
-                  &good_[b]});
+                  &solved_[b]});
     for (std::size_t i = b; i < r.end; ++i) {  // those that the vector code has left
-      if (good_[i] != 0) continue;
+      if (solved_[i] != 0) continue;
       try {
         const double guess = std::atanh(std::fmin(std::fmax(s[i], 0.0), 1 - 1e-16));
         const modulation::SolvedState at = modulation::solve_state({spacing[i], momentum[i]}, guess);

@@ -19,7 +19,7 @@ struct CellStates {
   void solve(const std::vector<Block>& blocks, double time);
 
  private:
-  std::vector<double> good_;
+  std::vector<double> solved_;
 };
 
 }  // namespace slipfront::pulse

@@ -154,7 +154,7 @@ void Solver::restore(Cells cells) {
     throw InputError({.key = "resume",
                       .value = std::to_string(n) + " cells",
                       .problem = "does not fit the scenario",
-                      .allowed = "cells as laid for it, " + std::to_string(faces.size() - 1) + " at first"});
+                      .allowed = "cells of this scenario, " + std::to_string(faces.size() - 1) + " at first"});
   cells_ = std::move(cells);
   lay_equations();
 }

@@ -23,6 +23,28 @@ std::vector<double> each(const std::vector<Row>& rows, Get&& get) {
   return values;
 }
 
+/// Of each quantity its quantiles over the events of a decade, and in how many of them it is known.
+void add_quantities(const std::vector<Decade>& population, int decade, int quantile, std::vector<Variable>& all) {
+  std::size_t i = 0;
+  for (const Description& about : results::population_quantities()) {
+    const std::string name = "population_" + std::string(about.name);
+    std::vector<double> values;
+    for (const Decade& d : population) {
+      const catalogue::Quantiles& q = d.spread[i].of;
+      values.insert(values.end(), {q.low, q.median, q.high});
+    }
+    all.push_back({described(name, "over the events of a decade: " + std::string(about.long_name),
+                             about.dimensional_unit, about.reference, results::unit_of(about.name)),
+                   {decade, quantile},
+                   values});
+    all.push_back(
+        {described(name + "_events", "events in which this is known: " + std::string(about.long_name), "", ""),
+         {decade},
+         each(population, [&](const Decade& d) { return d.spread[i].events; })});
+    ++i;
+  }
+}
+
 }  // namespace
 
 std::vector<Variable> population_variables(netcdf::Writer& file, const std::vector<Decade>& population, int quantile) {
@@ -50,24 +72,7 @@ std::vector<Variable> population_variables(netcdf::Writer& file, const std::vect
                            "W(0) of the closed form in the middle of the decade", "c A / pi", closed_form),
                  {decade},
                  each(population, [](const Decade& d) { return d.slip_velocity; })});
-  std::size_t i = 0;
-  for (const Description& about : results::population_quantities()) {
-    const std::string name = "population_" + std::string(about.name);
-    std::vector<double> values;
-    for (const Decade& d : population) {
-      const catalogue::Quantiles& q = d.spread[i].of;
-      values.insert(values.end(), {q.low, q.median, q.high});
-    }
-    all.push_back({described(name, "over the events of a decade: " + std::string(about.long_name),
-                             about.dimensional_unit, about.reference, results::unit_of(about.name)),
-                   {decade, quantile},
-                   values});
-    all.push_back(
-        {described(name + "_events", "events in which this is known: " + std::string(about.long_name), "", ""),
-         {decade},
-         each(population, [&](const Decade& d) { return d.spread[i].events; })});
-    ++i;
-  }
+  add_quantities(population, decade, quantile, all);
   using catalogue::LinePoint;
   all.push_back({described("line_rupture_velocity", "closed form: rupture velocity", "c", closed_form),
                  {point},

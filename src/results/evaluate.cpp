@@ -23,7 +23,6 @@ using inference::posterior;
 using inference::quantities;
 using inference::Quantity;
 using inference::speaks_of_friction_or_error;
-using medium::Defaults;
 
 std::vector<std::string> EventResult::warnings() const {
   std::vector<std::string> all = estimate ? estimate->warnings : observation.warnings;

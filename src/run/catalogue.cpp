@@ -186,7 +186,7 @@ CatalogueColumns stream_catalogue(const CatalogueScenario& scenario, int threads
     waiting.clear();
     take(std::move(results));
   };
-  const CatalogueColumns columns = read_all(scenario.texts, [&](Entry&& entry) {
+  CatalogueColumns columns = read_all(scenario.texts, [&](Entry&& entry) {
     if (!entry.error) sources.warn(entry.observation);
     waiting.push_back(std::move(entry));
     if (waiting.size() == most_waiting) flush();
