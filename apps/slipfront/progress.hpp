@@ -3,17 +3,16 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <cstdio>
 #include <string>
 #include <utility>
 
+#include "slipfront/clock.hpp"
+
 /// What long work shows: a line of progress.
 
-using Clock = std::chrono::steady_clock;
-inline double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
+using slipfront::Clock;
+using slipfront::seconds_since;
 
 /// How a line of progress speaks of what is done.
 struct ProgressWords {

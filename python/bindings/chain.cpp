@@ -1,5 +1,3 @@
-#include <chrono>
-
 #include "results.hpp"
 #include "slipfront/run/run.hpp"
 #include "watch.hpp"
@@ -9,7 +7,7 @@ namespace {
 using namespace slipfront;
 
 py::dict run_chain(const py::dict& arguments, int threads) {
-  const auto begun = std::chrono::steady_clock::now();
+  const auto begun = Clock::now();
   const RunRequest a = request_of(arguments);
   const scenario::Scenario s = scenario_of(a);
   Watch watch(a.progress, s.end);

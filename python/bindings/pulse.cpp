@@ -2,7 +2,6 @@
 
 #include <pybind11/stl.h>
 
-#include <chrono>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,7 +16,7 @@ namespace {
 using namespace slipfront;
 
 py::dict run_pulse(const py::dict& arguments, std::optional<double> tolerance, bool with_errors) {
-  const auto begun = std::chrono::steady_clock::now();
+  const auto begun = Clock::now();
   RunRequest a = request_of(arguments);
   scenario::Scenario s = scenario_of(a);
   Watch watch(a.progress, s.end);

@@ -1,13 +1,13 @@
 #include "slipfront/pulse/run.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <utility>
 
 #include "../bytes.hpp"
 #include "../digits.hpp"
+#include "slipfront/clock.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::pulse {
@@ -175,9 +175,9 @@ bool Run::go(const std::function<bool()>& interrupted) {
       if (cells.steps % (is_explicit ? begins ? 4 : 16 : begins ? 1 : 2) == 0) sample();
       return interrupted && interrupted();
     };
-    const auto begun = std::chrono::steady_clock::now();
+    const auto begun = Clock::now();
     const bool reached = solver_.advance_to(target, after_step);
-    stepping_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+    stepping_seconds_ += seconds_since(begun);
     if (!reached) return false;
     take();
   }

@@ -1,21 +1,15 @@
 #pragma once
 
-#include <chrono>
 #include <functional>
 #include <string>
 
+#include "slipfront/clock.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/ranks.hpp"
 #include "slipfront/record/pulse_file.hpp"
 #include "slipfront/record/unfinished.hpp"
 
 namespace slipfront::run {
-
-using Clock = std::chrono::steady_clock;
-
-inline double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// Where a run is written to, and by whom.
 struct CheckpointOptions {

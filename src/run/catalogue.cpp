@@ -1,12 +1,12 @@
 #include "slipfront/run/catalogue.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <span>
 #include <utility>
 
 #include "slipfront/catalogue/population.hpp"
 #include "slipfront/catalogue/read.hpp"
+#include "slipfront/clock.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/finite_fault/sources.hpp"
 #include "slipfront/parallel.hpp"
@@ -20,9 +20,6 @@ namespace {
 using catalogue::Entry;
 using results::EvaluationOptions;
 using results::EventResult;
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// The entries of all texts; of one that could not be read, an entry with the reason.
 CatalogueColumns read_all(const std::vector<EventText>& texts, const catalogue::Sink& sink) {

@@ -1,11 +1,11 @@
 #include "slipfront/setup/compare.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
 #include "../digits.hpp"
+#include "slipfront/clock.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/setup/chain.hpp"
 #include "slipfront/setup/estimate.hpp"
@@ -31,14 +31,14 @@ std::vector<double> checked(std::vector<double> scales, const scenario::Scenario
 /// Runs one level to its end; false if stopped.
 template <class Run>
 bool carry(Run& run, Level& level, const std::function<bool()>& after_step) {
-  const auto begun = std::chrono::steady_clock::now();
+  const auto begun = Clock::now();
   bool reached = false;
   try {
     reached = run.go(after_step);
   } catch (const NumericsError& error) {
     throw NumericsError(level.name + ": " + error.what());
   }
-  level.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  level.wall_seconds = seconds_since(begun);
   level.snapshots = run.snapshots();
   level.warnings = run.warnings();
   return reached;

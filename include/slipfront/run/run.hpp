@@ -3,7 +3,6 @@
 /// The one way from a scenario to a result, for the program, the Python package and sweeps: plan, run or resume, sum
 /// up.
 
-#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "slipfront/chain/run.hpp"
+#include "slipfront/clock.hpp"
 #include "slipfront/pulse/run.hpp"
 #include "slipfront/ranks.hpp"
 #include "slipfront/record/pulse_file.hpp"
@@ -30,7 +30,7 @@ struct Options {
   const Ranks* ranks = nullptr;                       ///< processes that share a chain, if any: all of them call
   /// Called after each step with where the run stands; returning true stops it. Null: it goes on to its end.
   std::function<bool(double time, long steps)> after_step = {};
-  std::chrono::steady_clock::time_point begun = std::chrono::steady_clock::now();  ///< wall_seconds count from here
+  Clock::time_point begun = Clock::now();  ///< wall_seconds count from here
 };
 
 /// The state of an unfinished run in a file. \throws FileError, InputError if another scenario or version wrote it.

@@ -1,0 +1,15 @@
+#pragma once
+/// \file
+/// Wall time.
+
+#include <chrono>
+
+namespace slipfront {
+
+using Clock = std::chrono::steady_clock;
+
+inline double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+}  // namespace slipfront
