@@ -12,9 +12,6 @@
 
 namespace {
 
-using namespace slipfront::catalogue;
-using namespace slipfront::inference;
-using namespace slipfront::finite_fault;
 using namespace slipfront::results;
 
 constexpr std::size_t most_errors_shown = 20;

@@ -126,7 +126,7 @@ int write_events(const EventArguments& a) {
   slipfront::run::CataloguePlan plan = slipfront::run::plan_catalogue(scenario_of(a), a.common.threads, true);
   const std::string& path = a.output.empty() ? a.resume : a.output;
   const slipfront::record::Output output(is_csv(path) ? "" : path, a.resume);
-  slipfront::record::require_disk_space(path, plan.disk);
+  if (is_csv(path)) slipfront::record::require_disk_space(path, plan.disk);  // of NetCDF, run::catalogue does
   const slipfront::run::CatalogueColumns columns = plan.columns;
   const std::size_t total = plan.entries.size();
   const slipfront::run::CatalogueResult result = run_watched(a, std::move(plan), output);

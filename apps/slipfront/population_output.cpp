@@ -10,8 +10,6 @@
 #include "slipfront/results/quantities.hpp"
 
 using namespace slipfront::catalogue;
-using namespace slipfront::inference;
-using namespace slipfront::finite_fault;
 using namespace slipfront::results;
 
 namespace {

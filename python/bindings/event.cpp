@@ -18,9 +18,7 @@
 namespace {
 
 using namespace slipfront;
-using namespace slipfront::catalogue;
 using namespace slipfront::inference;
-using namespace slipfront::finite_fault;
 using namespace slipfront::results;
 
 py::str text(const std::string& bytes) {

@@ -24,11 +24,7 @@ const Definition& coulomb_law() {
                                      .adjective = "coulomb",
                                      .equation = "f = C sign(w); places stick while the force on them is smaller",
                                      .source = "Coulomb (1785)",
-                                     .parameters = {{.name = "coefficient",
-                                                     .symbol = "C",
-                                                     .unit = "mu A^2 / (pi (1 - nu))",
-                                                     .is_force = true,
-                                                     .if_missing = "counts as 0: there is no friction"}},
+                                     .parameters = {coefficient_in("mu A^2 / (pi (1 - nu))")},
                                      .make = [](const std::vector<double>& values) -> std::shared_ptr<const Law> {
                                        return std::make_shared<Coulomb>(values[0]);
                                      }};

@@ -89,6 +89,14 @@ double Law::speed_after(double free, double weight, Memory memory) const {
   return v;
 }
 
+Parameter coefficient_in(std::string_view unit) {
+  return {.name = "coefficient",
+          .symbol = "C",
+          .unit = unit,
+          .is_force = true,
+          .if_missing = "counts as 0: there is no friction"};
+}
+
 const Parameter* Definition::find(std::string_view parameter) const {
   for (const Parameter& p : parameters)
     if (p.name == parameter) return &p;

@@ -122,11 +122,7 @@ const Definition& power_law() {
       .adjective = "power",
       .equation = "f = C |w|^(n-1) w",
       .source = "docs/theory.md 3.3",
-      .parameters = {{.name = "coefficient",
-                      .symbol = "C",
-                      .unit = "mu A^2 / (pi (1 - nu)) over the unit of w to the power n",
-                      .is_force = true,
-                      .if_missing = "counts as 0: there is no friction"},
+      .parameters = {coefficient_in("mu A^2 / (pi (1 - nu)) over the unit of w to the power n"),
                      {.name = "exponent", .symbol = "n", .unit = "1", .value = 1, .most = 20, .without_least = true}},
       .make = [](const std::vector<double>& values) -> std::shared_ptr<const Law> {
         return std::make_shared<Power>(values[0], values[1]);

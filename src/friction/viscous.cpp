@@ -52,11 +52,7 @@ const Definition& viscous_law() {
                                      .adjective = "viscous",
                                      .equation = "f = C w",
                                      .source = "Gershenzon, Bambakidis & Skinner (2015), Eqs. (7)",
-                                     .parameters = {{.name = "coefficient",
-                                                     .symbol = "C",
-                                                     .unit = "mu A^2 / (pi (1 - nu)) over the unit of w",
-                                                     .is_force = true,
-                                                     .if_missing = "counts as 0: there is no friction"}},
+                                     .parameters = {coefficient_in("mu A^2 / (pi (1 - nu)) over the unit of w")},
                                      .make = [](const std::vector<double>& values) -> std::shared_ptr<const Law> {
                                        return std::make_shared<Viscous>(values[0]);
                                      }};

@@ -10,7 +10,6 @@ namespace {
 
 using namespace slipfront;
 using namespace slipfront::catalogue;
-using namespace slipfront::inference;
 using namespace slipfront::finite_fault;
 
 /// A fault that strikes north-east and dips 40 degrees, ruptured by a plane front.

@@ -10,8 +10,6 @@
 namespace {
 
 using namespace slipfront;
-using namespace slipfront::catalogue;
-using namespace slipfront::inference;
 using namespace slipfront::finite_fault;
 
 constexpr double speed = 5000;  // c

@@ -20,8 +20,6 @@ namespace {
 
 using namespace slipfront;
 using namespace slipfront::catalogue;
-using namespace slipfront::inference;
-using namespace slipfront::finite_fault;
 using namespace slipfront::results;
 using namespace slipfront::record;
 

@@ -12,7 +12,6 @@ namespace {
 
 using namespace slipfront;
 using namespace slipfront::catalogue;
-using namespace slipfront::inference;
 using namespace slipfront::finite_fault;
 using namespace slipfront::results;
 

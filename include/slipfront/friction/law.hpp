@@ -36,6 +36,9 @@ struct Parameter {
   std::string_view if_missing = {};  ///< a warning that says what its absence means
 };
 
+/// C of a law whose force is proportional to it. `unit` is that of F, over what C stands before.
+Parameter coefficient_in(std::string_view unit);
+
 /// A quantity that each place remembers, such as the age of its contacts.
 struct Variable {
   std::string_view name, symbol, unit;

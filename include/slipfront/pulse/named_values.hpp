@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Names for the numbers that time steps advance. A step sees a vector; what its entries are is said here alone.
+/// Names for the numbers that time steps advance. A step sees a vector; this file alone knows what its entries mean.
 
 #include <cstddef>
 
