@@ -68,8 +68,7 @@ scenario::Scenario read_scenario_of(const ScenarioArguments& a) {
                       .allowed = "one file"});
   std::vector<std::string> set = a.set;
   set.insert(set.end(), a.more_set.begin(), a.more_set.end());
-  scenario::Scenario s =
-      scenario::read_scenario(record::read_text(a.scenario), a.scenario, set, record::read_profile_table);
+  scenario::Scenario s = scenario::read_scenario(record::read_text(a.scenario), a.scenario, set, record::read_table);
   if (!a.common.quiet)
     for (const std::string& warning : s.warnings) complain("warning: " + warning);
   return s;

@@ -26,7 +26,7 @@ RunRequest request_of(const py::dict& arguments) {
 scenario::Scenario scenario_of(const RunRequest& request) {
   const bool is_file = !request.path.empty();
   return scenario::read_scenario(is_file ? record::read_text(request.path) : request.text,
-                                 is_file ? request.path : "scenario", request.set, record::read_profile_table);
+                                 is_file ? request.path : "scenario", request.set, record::read_table);
 }
 
 record::Output output_of(const RunRequest& a) { return {a.output.empty() ? a.resume : a.output, a.resume}; }
@@ -108,13 +108,13 @@ py::dict dataset_of(const record::PulseMetadata& metadata, const std::string& fo
 
 py::dict summary_of(const std::vector<run::SummaryValue>& summary) {
   py::dict result;
-  for (const auto& row : summary) result[row.key] = py::cast(row.value);
+  for (const auto& row : summary) result[py::str(row.key)] = py::cast(row.value);
   return result;
 }
 
 py::dict errors_of(const std::vector<run::SummaryValue>& summary, const std::vector<double>& errors) {
   py::dict known;
   for (std::size_t i = 0; i < errors.size(); ++i)
-    if (std::isfinite(errors[i])) known[summary[i].key] = errors[i];
+    if (std::isfinite(errors[i])) known[py::str(summary[i].key)] = errors[i];
   return known;
 }

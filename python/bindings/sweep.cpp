@@ -132,7 +132,7 @@ class Sweep {
 
  private:
   std::vector<double> run(std::size_t point) {
-    const scenario::Scenario s = scenario::read_scenario(text_, file_, points_[point], record::read_profile_table);
+    const scenario::Scenario s = scenario::read_scenario(text_, file_, points_[point], record::read_table);
     const run::Options options{.after_step = [this](double, long) { return stopped_.load(); }};
     if (command_ == "chain") {
       const run::ChainPlan plan = run::plan_chain(s);

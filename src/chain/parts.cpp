@@ -199,10 +199,19 @@ void Chain::Parts::advance(std::size_t count) {
       for (int i = 0; i < number; ++i) each(static_cast<std::size_t>(i));
       return;
     }
+    std::vector<std::exception_ptr> thrown(slabs.size());  // by friction whose curve the user gave
 #ifdef _OPENMP
 #pragma omp parallel for num_threads(number) schedule(static, 1)
 #endif
-    for (int i = 0; i < number; ++i) each(static_cast<std::size_t>(i));
+    for (int i = 0; i < number; ++i) {
+      try {
+        each(static_cast<std::size_t>(i));
+      } catch (...) {
+        thrown[static_cast<std::size_t>(i)] = std::current_exception();
+      }
+    }
+    for (const std::exception_ptr& e : thrown)
+      if (e) std::rethrow_exception(e);
   };
   if (ranks.size() > 1) exchange_with_ranks();
   for_slabs([&](std::size_t i) { exchange_slab(i); });

@@ -13,6 +13,7 @@
 #include "../digits.hpp"
 #include "slipfront/chain/smooth.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/output/further_scalars.hpp"
 #include "slipfront/ranks.hpp"
 #include "slipfront/train/at_rest.hpp"
 #include "slipfront/train/train.hpp"
@@ -98,7 +99,7 @@ Problem problem_of(const ScaledProblem& s, double share_of_machine) {
   p.grid.spacing = s.boundary.periodic ? length / intervals : s.spacing;
   p.model = s.model;
   p.boundary = s.boundary;
-  p.friction = s.friction.divided_by(s.scale);
+  p.friction = s.friction.stretched_by(s.scale);
   if (s.forcing) p.forcing = [f = s.forcing, c = s.scale](double x, double t) { return f(x / c, t / c) / c; };
   p.steady_forcing = s.steady_forcing;
   if (s.contact) p.contact = [a = s.contact, c = s.scale](double x) { return a(x / c); };
@@ -312,6 +313,7 @@ Snapshot Run::profile_at(double time) const {
     if (std::fabs(a.velocity) > std::fabs(s.profile.W[peak])) peak = i;
   }
   s.peak_slip_velocity = s.profile.W[peak];
+  s.further["potency"] = output::integral(s.profile.slip, schedule_.x_edges);
   s.peak_position = middle_of_cell(peak);
   return s;
 }

@@ -27,17 +27,21 @@ std::string range_of(const Parameter& p) {
 
 Friction::Friction() : Friction(no_law(), {}) {}
 
-Friction::Friction(const Definition& definition, std::vector<double> values, Closure closure)
-    : definition_(&definition), values_(std::move(values)), closure_(closure), law_(definition.make(values_)) {
+Friction::Friction(const Definition& definition, std::vector<double> values, Closure closure, Curve curve)
+    : definition_(&definition),
+      values_(std::move(values)),
+      curve_(std::move(curve)),
+      closure_(closure),
+      law_(definition.make(values_, curve_)) {
   for (std::size_t i = 0; i < values_.size(); ++i)
-    acts_ = acts_ || (definition.parameters[i].is_force && values_[i] > 0);
+    acts_ = acts_ || (definition.parameters[i].stretch == Stretch::force && values_[i] > 0);
   linear_ = law_->linear_coefficient();
   std::vector<double> memory(variables());
   law_->start(memory);
   at_rest_ = law_->strength(0, memory);
 }
 
-Friction Friction::with(Closure closure) const { return {*definition_, values_, closure}; }
+Friction Friction::with(Closure closure) const { return {*definition_, values_, closure, curve_}; }
 
 double Friction::parameter(std::string_view name) const {
   for (std::size_t i = 0; i < values_.size(); ++i)
@@ -45,11 +49,14 @@ double Friction::parameter(std::string_view name) const {
   return 0;
 }
 
-Friction Friction::divided_by(double scale) const {
+Friction Friction::stretched_by(double scale) const {
   std::vector<double> values = values_;
-  for (std::size_t i = 0; i < values.size(); ++i)
-    if (definition_->parameters[i].is_force) values[i] /= scale;
-  return {*definition_, std::move(values), closure_};
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const Stretch stretch = definition_->parameters[i].stretch;
+    if (stretch == Stretch::force) values[i] /= scale;
+    if (stretch == Stretch::slip || stretch == Stretch::time) values[i] *= scale;
+  }
+  return {*definition_, std::move(values), closure_, curve_};
 }
 
 void Friction::check() const {
@@ -71,10 +78,10 @@ double Friction::velocity_after(double free, double weight, Memory memory) const
   return std::copysign(law_->speed_after(std::fabs(free), weight, memory), free);
 }
 
-double Friction::momentum_loss(const State& state, double contact) const {
+double Friction::momentum_loss(const State& state, double contact, Memory memory) const {
   if (!acts_ || state.empty() || state.phi == 0) return 0;
   const double k = train::averages(state).k * contact;
-  return std::copysign(k * mean_strength(state, contact), state.phi);
+  return std::copysign(k * mean_strength(state, contact, memory), state.phi);
 }
 
 }  // namespace slipfront::friction

@@ -18,7 +18,7 @@ using std::numbers::pi;
 ///     w = 2 a sinh |phi| sqrt(sinh^2 psi + sin^2(u / 2)).
 /// With pi / 2 - u / 2 = gd(y), the scale psi at u = 0 becomes a decaying tail, and the trapezoidal rule converges
 /// exponentially for smooth laws. In y, du goes as sech y dy and dx as du / w.
-double mean_of_force(const Law& law, const State& state, double contact, Closure closure) {
+double mean_of_force(const Law& law, const State& state, double contact, Closure closure, Memory memory) {
   constexpr double tail = 40, h = 1.0 / 8;
   const double s = std::tanh(state.psi), decay = std::exp(-h);
   const double fastest = 2 * contact * std::sinh(std::fabs(state.phi)) * std::cosh(state.psi);
@@ -28,7 +28,7 @@ double mean_of_force(const Law& law, const State& state, double contact, Closure
     const double sech = 2 * e / (1 + e * e), tanh = (1 - e * e) / (1 + e * e);
     const double relative = std::hypot(sech, s * tanh);  // w over the fastest w
     const double weight = (i == 0 ? 0.5 : 1) * (closure == Closure::consistent ? sech : sech / relative);
-    sum += weight * law.strength(fastest * relative, {});
+    sum += weight * law.strength(fastest * relative, memory);
     weights += weight;
   }
   return sum / weights;
@@ -38,11 +38,11 @@ double mean_of_force(const Law& law, const State& state, double contact, Closure
 class RateByQuadrature final : public RelaxationRate {
  public:
   RateByQuadrature(const Law& law, Closure closure) : law_(law), closure_(closure) {}
-  double operator()(const State& state, double contact) const override {
+  double operator()(const State& state, double contact, Memory memory) const override {
     if (state.empty()) return 0;
     const double phi = state.phi == 0 ? 1e-8 * std::fmin(state.psi, 1.0) : std::fabs(state.phi);  // the limit at rest
     const double momentum = 8 * contact * std::sinh(phi) * std::cosh(state.psi) * elliptic::at_psi(state.psi).E;
-    return 2 * pi * law_.mean_strength({phi, state.psi}, contact, closure_) / momentum;
+    return 2 * pi * law_.mean_strength({phi, state.psi}, contact, closure_, memory) / momentum;
   }
 
  private:
@@ -93,7 +93,7 @@ Parameter coefficient_in(std::string_view unit) {
   return {.name = "coefficient",
           .symbol = "C",
           .unit = unit,
-          .is_force = true,
+          .stretch = Stretch::force,
           .if_missing = "counts as 0: there is no friction"};
 }
 
@@ -103,8 +103,8 @@ const Parameter* Definition::find(std::string_view parameter) const {
   return nullptr;
 }
 
-double Law::mean_strength(const State& state, double contact, Closure closure) const {
-  return mean_of_force(*this, state, contact, closure);
+double Law::mean_strength(const State& state, double contact, Closure closure, Memory memory) const {
+  return mean_of_force(*this, state, contact, closure, memory);
 }
 
 std::unique_ptr<RelaxationRate> Law::relaxation_rate(Closure closure) const {

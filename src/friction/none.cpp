@@ -7,7 +7,7 @@ class None final : public Law {
  public:
   double strength(double, Memory) const override { return 0; }
   std::optional<double> linear_coefficient() const override { return 0; }
-  double mean_strength(const State&, double, Closure) const override { return 0; }
+  double mean_strength(const State&, double, Closure, Memory) const override { return 0; }
 };
 
 }  // namespace
@@ -18,7 +18,9 @@ const Definition& no_law() {
       .adjective = "no",
       .equation = "f = 0",
       .source = "",
-      .make = [](const std::vector<double>&) -> std::shared_ptr<const Law> { return std::make_shared<None>(); }};
+      .make = [](const std::vector<double>&, const Curve&) -> std::shared_ptr<const Law> {
+        return std::make_shared<None>();
+      }};
   return definition;
 }
 

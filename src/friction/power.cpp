@@ -39,7 +39,7 @@ class PowerRate final : public RelaxationRate {
  public:
   PowerRate(double coefficient, double exponent, Closure closure) : C_(coefficient), n_(exponent), closure_(closure) {}
 
-  double operator()(const State& state, double contact) const override {
+  double operator()(const State& state, double contact, Memory) const override {
     if (C_ == 0 || state.empty() || state.phi == 0) return 0;
     const double fastest = 2 * std::sinh(std::fabs(state.phi)) * std::cosh(state.psi);
     const double rate = C_ * std::pow(fastest, n_ - 1) * shape(state.psi);
@@ -101,7 +101,7 @@ class Power final : public Law {
     return v;
   }
 
-  double mean_strength(const State& state, double contact, Closure closure) const override {
+  double mean_strength(const State& state, double contact, Closure closure, Memory) const override {
     const double speed = std::pow(contact * std::fabs(std::tanh(state.phi)), n_);
     if (closure == Closure::paper) return C_ * speed * mean_power(state, n_);
     return C_ * speed * mean_power(state, n_ + 1) / train::averages(state).k;
@@ -124,7 +124,7 @@ const Definition& power_law() {
       .source = "docs/theory.md 3.3",
       .parameters = {coefficient_in("mu A^2 / (pi (1 - nu)) over the unit of w to the power n"),
                      {.name = "exponent", .symbol = "n", .unit = "1", .value = 1, .most = 20, .without_least = true}},
-      .make = [](const std::vector<double>& values) -> std::shared_ptr<const Law> {
+      .make = [](const std::vector<double>& values, const Curve&) -> std::shared_ptr<const Law> {
         return std::make_shared<Power>(values[0], values[1]);
       }};
   return definition;

@@ -14,7 +14,7 @@ using std::numbers::pi;
 class ViscousRate final : public RelaxationRate {
  public:
   ViscousRate(double coefficient, Closure closure) : C_(coefficient), closure_(closure) {}
-  double operator()(const State& state, double) const override {
+  double operator()(const State& state, double, Memory) const override {
     if (C_ == 0 || state.empty()) return 0;
     if (closure_ == Closure::consistent) return C_;
     const elliptic::AtPsi at = elliptic::at_psi(state.psi);
@@ -33,7 +33,7 @@ class Viscous final : public Law {
   std::optional<double> linear_coefficient() const override { return C_; }
   double speed_after(double free, double weight, Memory) const override { return free / (1 + weight * C_); }
   /// <w sigma> / k or <w>.
-  double mean_strength(const State& state, double contact, Closure closure) const override {
+  double mean_strength(const State& state, double contact, Closure closure, Memory) const override {
     const train::Averages a = train::averages(state);
     return C_ * contact * std::fabs(closure == Closure::consistent ? a.I : a.W);
   }
@@ -48,14 +48,15 @@ class Viscous final : public Law {
 }  // namespace
 
 const Definition& viscous_law() {
-  static const Definition definition{.name = "viscous",
-                                     .adjective = "viscous",
-                                     .equation = "f = C w",
-                                     .source = "Gershenzon, Bambakidis & Skinner (2015), Eqs. (7)",
-                                     .parameters = {coefficient_in("mu A^2 / (pi (1 - nu)) over the unit of w")},
-                                     .make = [](const std::vector<double>& values) -> std::shared_ptr<const Law> {
-                                       return std::make_shared<Viscous>(values[0]);
-                                     }};
+  static const Definition definition{
+      .name = "viscous",
+      .adjective = "viscous",
+      .equation = "f = C w",
+      .source = "Gershenzon, Bambakidis & Skinner (2015), Eqs. (7)",
+      .parameters = {coefficient_in("mu A^2 / (pi (1 - nu)) over the unit of w")},
+      .make = [](const std::vector<double>& values, const Curve&) -> std::shared_ptr<const Law> {
+        return std::make_shared<Viscous>(values[0]);
+      }};
   return definition;
 }
 

@@ -13,7 +13,7 @@
 namespace slipfront::pulse {
 namespace {
 
-constexpr std::uint64_t format = 5;
+constexpr std::uint64_t format = 6;
 
 [[noreturn]] void refuse_saved() {
   throw InputError({.key = "resume",
@@ -36,7 +36,14 @@ double get_number(bytes::Reader& reader, std::string_view name) {
   return values[0];
 }
 
-void save(const Cells& cells, bytes::Writer& writer) {
+/// The names of what places remember, in their order.
+std::string memory_name(const friction::Friction& friction) {
+  std::string names = "memory:";
+  for (const friction::Variable& variable : friction.definition().variables) names += " " + std::string(variable.name);
+  return names;
+}
+
+void save(const Cells& cells, const friction::Friction& friction, bytes::Writer& writer) {
   const ConstValues values = cells.values();
   std::vector<double> width, momentum;
   for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -59,9 +66,10 @@ void save(const Cells& cells, bytes::Writer& writer) {
   put(writer, "entered_right", {cells.entered_right});
   put(writer, "crossing_time", {cells.crossing_time});
   put(writer, "crossing_position", {cells.crossing_position});
+  put(writer, memory_name(friction), cells.memory);
 }
 
-Cells saved_cells(bytes::Reader& reader) {
+Cells saved_cells(const friction::Friction& friction, bytes::Reader& reader) {
   Cells cells;
   cells.time = get_number(reader, "time");
   const double steps = get_number(reader, "steps");
@@ -87,6 +95,7 @@ Cells saved_cells(bytes::Reader& reader) {
   cells.entered_right = get_number(reader, "entered_right");
   cells.crossing_time = get_number(reader, "crossing_time");
   cells.crossing_position = get_number(reader, "crossing_position");
+  cells.memory = get(reader, memory_name(friction));
   return cells;
 }
 
@@ -102,7 +111,7 @@ Run::Run(Problem problem, output::Schedule schedule, std::string_view saved, std
     : Run(std::move(problem), std::move(schedule)) {
   bytes::Reader reader(saved);
   if (reader.get<std::uint64_t>() != format || snapshots.size() > schedule_.times.size()) refuse_saved();
-  Cells cells = saved_cells(reader);
+  Cells cells = saved_cells(solver_.problem().friction, reader);
   trailing_characteristic_.restore(get_number(reader, "trailing_characteristic"));
   output::SampledIntegral& slip = slip_;
   for (double* value : {&slip.time, &slip.velocity, &slip.integral, &slip_size_, &slip.early_time, &slip.early_velocity,
@@ -117,7 +126,7 @@ Run::Run(Problem problem, output::Schedule schedule, std::string_view saved, std
 std::string Run::saved() const {
   bytes::Writer writer;
   writer.put(format);
-  save(solver_.cells(), writer);
+  save(solver_.cells(), solver_.problem().friction, writer);
   put(writer, "trailing_characteristic", {trailing_characteristic_.position()});
   const output::SampledIntegral& slip = slip_;
   for (const double value : {slip.time, slip.velocity, slip.integral, slip_size_, slip.early_time, slip.early_velocity,

@@ -9,6 +9,7 @@
 #include "../digits.hpp"
 #include "kernels.hpp"
 #include "layout.hpp"
+#include "places.hpp"
 #include "semidiscrete.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
@@ -29,11 +30,16 @@ void check(const Problem& p) {
   if (p.cells < 4) refuse("pulse.cells", p.cells, ">= 4");
   if (!(p.tolerance > 0 && p.tolerance < 1)) refuse("pulse.tolerance", p.tolerance, "0 < tolerance < 1");
   p.friction.check();
-  if (p.friction.variables() > 0)
-    throw InputError({.key = "friction.law",
-                      .value = std::string(p.friction.name()),
-                      .problem = "has variables at each place, whose average over a train is not known",
-                      .allowed = "a run of the chain, or a law without variables"});
+  if (!p.friction.defined_by(p.friction.closure()))
+    throw InputError({.key = "friction.closure",
+                      .value = "paper",
+                      .problem = "is not defined for a law that remembers, such as " + std::string(p.friction.name()),
+                      .allowed = "consistent"});
+  if (p.friction.variables() > 0 && p.periodic)
+    throw InputError({.key = "pulse.periodic",
+                      .value = "true",
+                      .problem = "a ring of places that remember is not among what pulse can do",
+                      .allowed = "false, or a run of the chain"});
 }
 
 /// A contact that jumps would be a wall to some cells and nothing to others: there must be a slope to climb.
@@ -92,6 +98,7 @@ Solver::Solver(Problem problem) : problem_(std::move(problem)) {
     cells_.s[i] = std::tanh(train::psi_of_stress(local));
   }
   cells_.left_edge() = layout.faces.front();
+  if (problem_.friction.variables() > 0) cells_.memory = places().values();
   lay_equations();
   first_ = view();
 }
@@ -110,7 +117,7 @@ Setup Solver::setup() const {
   s.right = edge(problem_.right_end, right_free_);
   s.left_wall = problem_.left;
   s.right_wall = problem_.right;
-  s.friction = problem_.friction;
+  if (problem_.friction.variables() == 0) s.friction = problem_.friction;  // else SplitStep has it
   s.forcing = problem_.forcing;
   s.contact = problem_.contact;
   if (problem_.periodic) {
@@ -142,7 +149,8 @@ void Solver::restore(Cells cells) {
   double left = -cells.entered_left;
   bool fits = std::isfinite(left) && std::isfinite(cells.entered_right) && n > 0 && cells.s.size() == n &&
               (cells.face_momentum.empty() || cells.face_momentum.size() == n + 1) &&
-              cells.unknowns.size() == Values::size(n) && cells.charge[0] > 0 && cells.charge[n - 1] > 0;
+              cells.unknowns.size() == Values::size(n) && cells.memory.size() == cells_.memory.size() &&
+              cells.charge[0] > 0 && cells.charge[n - 1] > 0;
   for (std::size_t i = 0; i < n && fits; ++i) {
     left += cells.charge[i];
     const auto near = std::lower_bound(faces.begin(), faces.end(), left - 1e-9 * all);

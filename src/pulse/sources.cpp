@@ -114,7 +114,7 @@ void Semidiscrete::find_rates() {
     if (f.sticks()) {  // such friction relaxes nothing, but stops it
       sources_.friction_strength[i] = f.mean_strength(state, a);
     } else {
-      sources_.friction_rate[i] = (*relaxation_rate_)(state, a);
+      sources_.friction_rate[i] = (*relaxation_rate_)(state, a, {});
       sources_.largest_friction_rate = std::max(sources_.largest_friction_rate, sources_.friction_rate[i]);
     }
   }

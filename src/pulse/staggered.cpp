@@ -130,7 +130,7 @@ double Staggered::loss_rate(std::size_t f, double phi) const {
   if (const auto C = setup_.friction.linear_coefficient())  // with the E K that are known already
     return setup_.friction.closure() == friction::Closure::consistent ? *C : *C * pi * pi / (4 * beside(cells_.EK, f));
   const double moving = setup_.friction.steep_at_rest() ? std::hypot(phi, creep_) : phi;
-  return (*relaxation_rate_)({moving, beside(cells_.psi, f)}, setup_.contact ? setup_.contact(place_[f]) : 1);
+  return (*relaxation_rate_)({moving, beside(cells_.psi, f)}, setup_.contact ? setup_.contact(place_[f]) : 1, {});
 }
 
 void Staggered::operator()(double t, const double* z, double* dz) {

@@ -56,12 +56,6 @@ bool rapidity_jumps(const std::vector<double>& before, const std::vector<double>
   return false;
 }
 
-/// The step to take where `dt` is wanted: steps end on the target exactly, and the last two share what remains, so that
-/// none is a sliver.
-double next_step(double remaining, double dt) {
-  return dt >= remaining ? remaining : dt > remaining / 2 ? remaining / 2 : dt;
-}
-
 }  // namespace
 
 bool Solver::advance_to(double time, const std::function<bool()>& interrupted) {
@@ -283,7 +277,9 @@ bool Solver::advance_until_gap_closes(double time, const std::function<bool()>& 
     const bool stiff =
         !problem_.periodic && friction_times > (cells_.face_momentum.empty() ? stiff_above : stiff_below);
     if (!stiff) crossing = std::fmin(crossing, longest_in_friction_times / equations.largest_friction_rate());
-    const double dt = stiff ? step_implicitly(work, remaining, crossing) : step_explicitly(work, remaining, crossing);
+    const double dt = problem_.friction.variables() > 0 ? step_with_memory(work.rate, remaining, crossing)
+                      : stiff                           ? step_implicitly(work, remaining, crossing)
+                                                        : step_explicitly(work, remaining, crossing);
     cells_.time = dt == time - cells_.time ? time : cells_.time + dt;
     ++cells_.steps;
     close_gaps();

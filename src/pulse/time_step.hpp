@@ -11,6 +11,12 @@ namespace slipfront::pulse {
 /// y' = f(t, y).
 using Rates = std::function<void(double t, const double* y, double* dy)>;
 
+/// The step to take where `dt` is wanted: steps end on the target exactly, and the last two share what remains, so that
+/// none is a sliver.
+inline double next_step(double remaining, double dt) {
+  return dt >= remaining ? remaining : dt > remaining / 2 ? remaining / 2 : dt;
+}
+
 /// One step of SSPRK(5,4): explicit, fourth order, strong stability preserving up to 1.5 Euler steps (Spiteri & Ruuth
 /// 2002), with a third-order solution beside it for the error.
 class ExplicitStep {

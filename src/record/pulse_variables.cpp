@@ -1,8 +1,10 @@
 #include "slipfront/record/pulse_variables.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "slipfront/error.hpp"
+#include "slipfront/output/further_scalars.hpp"
 
 namespace slipfront::record {
 namespace {
@@ -48,7 +50,7 @@ constexpr ScalarVariable absentable(Description about) {
 /// From docs/theory.md 1: F_d b / (2 pi) an asperity, 1 / A asperities in the unit of x, a chain of width b.
 constexpr std::string_view energy = "mu b^2 A / (2 pi^2 (1 - nu))";
 
-constexpr ScalarVariable scalars[] = {
+constexpr ScalarVariable members[] = {
     absentable<&Snapshot::fronts, &Fronts::trailing>(
         {"trailing_front", "position of the fast front, the foot of the slip velocity on the stressed side", "b / A",
          "Eqs. 8-10"}),
@@ -92,7 +94,26 @@ std::vector<double> FieldVariable::of(const Snapshot& snapshot, const Snapshot& 
 }
 
 std::span<const FieldVariable> field_variables() { return fields; }
-std::span<const ScalarVariable> scalar_variables() { return scalars; }
+
+double ScalarVariable::get(const Snapshot& snapshot) const {
+  return member ? member(snapshot) : output::further_scalar(snapshot, about.name);
+}
+
+void ScalarVariable::set(Snapshot& snapshot, double value) const {
+  if (member)
+    set_member(snapshot, value);
+  else
+    snapshot.further[std::string(about.name)] = value;
+}
+
+std::span<const ScalarVariable> scalar_variables() {
+  static const std::vector<ScalarVariable> all = [] {
+    std::vector<ScalarVariable> scalars(std::begin(members), std::end(members));
+    for (const Description& about : output::further_scalars()) scalars.push_back({about, nullptr, nullptr, true});
+    return scalars;
+  }();
+  return all;
+}
 std::span<std::vector<double> Profile::*const> profile_fields() { return every_field; }
 
 std::vector<const FieldVariable*> chosen_fields(const std::vector<std::string>& names) {

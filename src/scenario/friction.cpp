@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "friction_curve.hpp"
 #include "section.hpp"
 #include "settings.hpp"
 
@@ -51,16 +52,21 @@ void refuse_keys_of_others(const Section& section, const Definition& law) {
 }
 
 double read_parameter(const Section& section, const Parameter& p) {
+  if (!p.words.empty()) {
+    std::vector<std::pair<std::string_view, double>> words;
+    for (const std::string_view word : p.words) words.emplace_back(word, static_cast<double>(words.size()));
+    return section.choice<double>(p.name, words).value_or(p.value);
+  }
   return section.number(p.name, {.least = p.least, .most = p.most, .without_least = p.without_least}).value_or(p.value);
 }
 
 }  // namespace
 
-void read_friction(const Document& document, Scenario& scenario) {
+void read_friction(const Document& document, const TableReader& tables, Scenario& scenario) {
   const std::vector<const Parameter*> parameters = all_parameters();
   std::vector<std::string_view> keys = {"law"};
   for (const Parameter* p : parameters) keys.push_back(p->name);
-  keys.push_back("closure");
+  keys.insert(keys.end(), {"formula", "file", "closure"});
   const Section section(document, "friction", keys);
   std::vector<std::pair<std::string_view, const Definition*>> names;
   for (const Definition* law : friction::laws()) names.emplace_back(law->name, law);
@@ -80,7 +86,7 @@ void read_friction(const Document& document, Scenario& scenario) {
   for (const Parameter& p : law.parameters)
     if (!p.if_missing.empty() && !section.has(p.name))
       scenario.warnings.push_back("friction." + std::string(p.name) + " is not given and " + std::string(p.if_missing));
-  scenario.friction = friction::Friction(law, std::move(values), closure);
+  scenario.friction = friction::Friction(law, std::move(values), closure, read_curve(section, tables, law.curve));
 }
 
 }  // namespace slipfront::scenario

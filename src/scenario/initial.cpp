@@ -1,11 +1,11 @@
 #include "initial.hpp"
 
 #include <cmath>
-#include <filesystem>
 #include <memory>
 
 #include "formula.hpp"
 #include "monotone.hpp"
+#include "table.hpp"
 
 namespace slipfront::scenario {
 namespace {
@@ -44,8 +44,10 @@ double read_stress(const Section& section, std::string_view key) {
   return stress;
 }
 
-RawStress from_table(const Section& section, const TableReader& tables, const std::string& path) {
-  const auto curve = std::make_shared<const MonotoneCurve>(read_rows(section, path, tables));
+RawStress from_table(const Section& section, const TableReader& tables) {
+  const Column place{"x", position, "x within -1e9 and 1e9"};
+  const Column stress{"stress", {.least = 0, .most = largest_stress}, "a finite stress >= 0, at most 1e6"};
+  const auto curve = std::make_shared<const MonotoneCurve>(read_rows(section, tables, place, stress));
   const Complaint where = section.where("file");
   const auto at = [curve, where](double x) {
     if (x >= curve->first() && x <= curve->last()) return (*curve)(x);
@@ -92,9 +94,7 @@ RawStress read_initial(const Document& document, const TableReader& tables, Init
   }
   if (initial.profile == ProfileKind::table) {
     initial.file = *section.text("file");
-    // Relative to the scenario, wherever the program was started; an absolute path stays what it is.
-    const auto path = std::filesystem::path(document.file).parent_path() / initial.file;
-    return from_table(section, tables, path.string());
+    return from_table(section, tables);
   }
   const double left = initial.stress_left = read_stress(section, "stress_left");
   const double right = initial.stress_right = read_stress(section, "stress_right");
@@ -107,29 +107,6 @@ RawStress read_initial(const Document& document, const TableReader& tables, Init
   const double width = initial.width = section.number("width", widths).value_or(initial.width);
   initial.reach = 5 * width;
   return {.at = [=](double x) { return right + (left - right) * (1 - std::tanh(x / width)) / 2; }, .where = where};
-}
-
-std::vector<std::pair<double, double>> read_rows(const Section& section, const std::string& path,
-                                                 const TableReader& tables) {
-  const auto refuse = [&](const std::string& problem, const char* allowed) {
-    return section.refuse("file", problem, allowed);
-  };
-  if (section.find("file")->text.empty() || path.find('\0') != std::string::npos) throw refuse("not a path", "a file");
-  if (!tables) throw refuse("a table cannot be read here", "another initial.profile");
-  std::vector<std::pair<double, double>> rows = tables(path);
-  if (rows.size() < 2) throw refuse("a table of " + std::to_string(rows.size()) + " rows", "two rows or more");
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const auto [x, stress] = rows[i];
-    const std::string row = "row " + std::to_string(i + 1) + ": ";
-    if (!position.hold(x)) throw refuse(row + "x = " + shortest(x), "x within -1e9 and 1e9");
-    if (!(stress >= 0 && stress <= largest_stress))
-      throw refuse(row + "stress = " + shortest(stress), "a finite stress >= 0, at most 1e6");
-    if (i > 0 && !(x > rows[i - 1].first))
-      throw refuse(row + "x = " + shortest(x) + " does not increase", "x strictly increasing");
-    if (i > 0 && !(x - rows[i - 1].first > 1e-90))  // the slope between two rows must be a number
-      throw refuse(row + "x = " + shortest(x) + " is too close to the row before", "x strictly increasing");
-  }
-  return rows;
 }
 
 }  // namespace slipfront::scenario

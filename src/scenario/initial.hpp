@@ -20,8 +20,4 @@ struct RawStress {
 /// Reads [initial]. \throws InputError for keys that do not fit the profile; what `tables` throws.
 RawStress read_initial(const Document& document, const TableReader& tables, Initial& initial);
 
-/// The rows of the table file that `section` names, checked.
-std::vector<std::pair<double, double>> read_rows(const Section& section, const std::string& path,
-                                                 const TableReader& tables);
-
 }  // namespace slipfront::scenario

@@ -28,7 +28,7 @@ Scenario read(std::string_view text, const std::string& file, const std::vector<
   scenario.text = document.text;
   scenario.overrides = overrides;
   const RawStress raw = read_initial(document, tables, scenario.initial);
-  read_friction(document, scenario);
+  read_friction(document, tables, scenario);
   read_domain(document, scenario.domain);
   scenario.end = read_end(document, scenario.end);
   read_pulse(document, scenario.pulse);

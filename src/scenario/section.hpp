@@ -39,6 +39,7 @@ class Section {
   Section(const Document& document, std::string_view name, const std::vector<std::string_view>& keys);
 
   bool has(std::string_view key) const { return find(key) != nullptr; }
+  const std::string& file() const { return document_.file; }
   const Value* find(std::string_view key) const;
 
   std::optional<double> number(std::string_view key, const Limits& limits) const;

@@ -7,7 +7,7 @@ namespace slipfront::scenario {
 
 // Each reads its table, checks it, and leaves the defaults where the table says nothing. \throws InputError.
 
-void read_friction(const Document& document, Scenario& scenario);
+void read_friction(const Document& document, const TableReader& tables, Scenario& scenario);
 void read_medium(const Document& document, medium::Constants& medium);
 void read_domain(const Document& document, Domain& domain);
 void read_pulse(const Document& document, PulseOptions& pulse);

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <limits>
 
+#include "slipfront/output/further_scalars.hpp"
 #include "slipfront/rupture/riemann.hpp"
 #include "slipfront/setup/compare.hpp"
 #include "slipfront/train/at_rest.hpp"
@@ -86,6 +87,7 @@ output::Snapshot snapshot_of(const RiemannSolution& solution, const output::Sche
   s.slip_velocity_at_origin = origin.W;
   s.stress_at_origin = origin.k;
   s.slip_at_origin = slip(origin, 0);
+  s.further["potency"] = output::integral(s.profile.slip, schedule.x_edges);
   s.peak_position = none;
   if (time > 0) {
     const double peak = peak_of(solution, edges), most = speed(solution, peak);

@@ -64,6 +64,7 @@ bool run_levels(const Comparison& c, int threads, std::vector<Level>& levels, co
                 const std::function<bool(const std::string& level, double time, long steps)>& after_step) {
   if (c.exact) levels.push_back(*c.exact);
   for (const friction::Closure closure : {friction::Closure::consistent, friction::Closure::paper}) {
+    if (!c.problem.friction.defined_by(closure)) continue;
     next();
     const char* name = name_of(closure);
     Level level{.name = std::string("pulse-") + name, .closure = name};

@@ -7,8 +7,6 @@
 #include "exact.hpp"
 #include "slipfront/chain/measure.hpp"
 #include "slipfront/chain/run.hpp"
-#include "slipfront/error.hpp"
-#include "slipfront/pulse/solver.hpp"
 
 namespace {
 
@@ -35,10 +33,10 @@ const friction::Definition& weakening_law() {
       .adjective = "weakening",
       .equation = "f = C sign(w) (1 - min(slip / L, 1) / 2)",
       .source = "this test",
-      .parameters = {{.name = "coefficient", .symbol = "C", .unit = "mu A / 2 pi", .is_force = true},
+      .parameters = {{.name = "coefficient", .symbol = "C", .unit = "mu A / 2 pi", .stretch = friction::Stretch::force},
                      {.name = "length", .symbol = "L", .unit = "b / 2 pi"}},
       .variables = {{.name = "slip", .symbol = "s", .unit = "b / 2 pi"}},
-      .make = [](const std::vector<double>& v) -> std::shared_ptr<const friction::Law> {
+      .make = [](const std::vector<double>& v, const friction::Curve&) -> std::shared_ptr<const friction::Law> {
         return std::make_shared<Weakening>(v[0], v[1]);
       }};
   return definition;
@@ -92,15 +90,6 @@ TEST(ChainMemory, ThreadsAndStopsChangeNoBits) {
   ASSERT_TRUE(resumed.go());
   EXPECT_EQ(alone.saved(), resumed.saved());
   EXPECT_NE(alone.saved().find("slip"), std::string::npos);
-}
-
-TEST(ChainMemory, ThePulseRefusesIt) {
-  pulse::Problem p;
-  p.stress = [](double x) { return x < 0 ? 0.855 : 0.0; };
-  p.left = -3;
-  p.right = 1;
-  p.friction = step().friction;
-  EXPECT_THROW(pulse::Solver{p}, InputError);
 }
 
 }  // namespace

@@ -4,7 +4,10 @@
 
 #include <cmath>
 #include <memory>
+#include <stdexcept>
+#include <string>
 
+#include "reference_table.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/train/train.hpp"
 
@@ -79,7 +82,7 @@ TEST(Friction, PowerLawHasItsRelaxationRateFromATable) {
       for (const double psi : {1e-250, 1e-20, 1e-6, 1e-3, 0.011, 0.3, 0.97, 1.7, 4.3, 12.0, 25.0})
         for (const double phi : {-2.0, 1e-3, 0.4})
           for (const double a : {1.0, 0.4})
-            EXPECT_NEAR((*rate)({phi, psi}, a) / rate_of(friction, {phi, psi}, a), 1, 1e-9)
+            EXPECT_NEAR((*rate)({phi, psi}, a, {}) / rate_of(friction, {phi, psi}, a), 1, 1e-9)
                 << n << " " << psi << " " << phi;
     }
 }
@@ -100,9 +103,9 @@ const Definition& bare_law() {
       .adjective = "bare",
       .equation = "f = C |w|^n",
       .source = "",
-      .parameters = {{.name = "coefficient", .symbol = "C", .unit = "", .is_force = true},
+      .parameters = {{.name = "coefficient", .symbol = "C", .unit = "", .stretch = friction::Stretch::force},
                      {.name = "exponent", .symbol = "n", .unit = ""}},
-      .make = [](const std::vector<double>& v) -> std::shared_ptr<const Law> {
+      .make = [](const std::vector<double>& v, const friction::Curve&) -> std::shared_ptr<const Law> {
         return std::make_shared<Bare>(v[0], v[1]);
       }};
   return definition;
@@ -123,11 +126,11 @@ TEST(Friction, AveragesOfAnyLawAreThoseOfClosedForms) {
             const State s{phi, psi};
             EXPECT_NEAR(any.mean_strength(s, a) / known.mean_strength(s, a), 1, tolerance)
                 << n << " " << psi << " " << phi;
-            EXPECT_NEAR((*rate)(s, a) / rate_of(known, s, a), 1, tolerance) << n << " " << psi << " " << phi;
+            EXPECT_NEAR((*rate)(s, a, {}) / rate_of(known, s, a), 1, tolerance) << n << " " << psi << " " << phi;
           }
     }
   const Friction linear(bare_law(), {0.7, 1});
-  EXPECT_NEAR((*linear.relaxation_rate())({0, 1e-9}, 1), 0.7, 1e-12);  // the limit at rest
+  EXPECT_NEAR((*linear.relaxation_rate())({0, 1e-9}, 1, {}), 0.7, 1e-12);  // the limit at rest
 }
 
 TEST(Friction, ImplicitSolveOfAnyLawIsThatOfClosedForms) {
@@ -143,7 +146,7 @@ TEST(Friction, ImplicitSolveOfAnyLawIsThatOfClosedForms) {
 }
 
 TEST(Friction, DividesForcesAndRefusesNumbersOutOfRange) {
-  const Friction scaled = power(3, 1.5, Closure::paper).divided_by(2);
+  const Friction scaled = power(3, 1.5, Closure::paper).stretched_by(2);
   EXPECT_EQ(scaled.coefficient(), 1.5);
   EXPECT_EQ(scaled.parameter("exponent"), 1.5);
   EXPECT_EQ(scaled.closure(), Closure::paper);
@@ -155,6 +158,93 @@ TEST(Friction, DividesForcesAndRefusesNumbersOutOfRange) {
   EXPECT_FALSE(viscous(0).acts());
 }
 
+const Definition& law_named(const std::string& name) {
+  for (const Definition* law : laws())
+    if (law->name == name) return *law;
+  throw std::runtime_error("no law " + name);
+}
+
+/// Means over slip by mpmath, of random laws in random trains.
+TEST(Friction, MeansAreThoseOfHighPrecision) {
+  for (const auto& row : reference_table("friction.csv")) {
+    const Definition& law = law_named(row.text("law"));
+    std::vector<double> values;
+    for (const Parameter& p : law.parameters)
+      values.push_back(values.size() < 5 ? row["v" + std::to_string(values.size())] : p.value);
+    const Friction friction(law, values);
+    const double theta[] = {row["theta"]};
+    const Memory memory = friction.variables() > 0 ? Memory(theta) : Memory();
+    EXPECT_NEAR(friction.mean_strength({row["phi"], row["psi"]}, 1, memory) / row["mean"], 1, 1e-10)
+        << row.text("law") << " phi " << row["phi"] << " psi " << row["psi"];
+  }
+}
+
+/// f = a asinh((w / 2 w_0) exp((f_0 + b ln(theta w_0 / D_c)) / a)).
+Friction rate_and_state(double f0, double a, double b, double D, double w0, bool slip_law = false) {
+  return {law_named("rate-and-state"), {f0, a, b, D, w0, 0, slip_law ? 1.0 : 0.0}};
+}
+
+/// The law is a logarithm where w is not small, and <ln w>_u = ln sinh phi + psi.
+TEST(Friction, RateAndStateAveragesToTheLawAtOneSpeed) {
+  const Friction friction = rate_and_state(0.6, 0.01, 0.015, 0.1, 0.05);
+  const double theta[] = {3.0};
+  for (const double psi : {0.01, 0.3, 2.0})
+    for (const double phi : {0.01, 0.5, 2.0})
+      EXPECT_NEAR(friction.mean_strength({phi, psi}, 1, theta) / friction.force(std::sinh(phi) * std::exp(psi), theta),
+                  1, 1e-14);
+}
+
+TEST(Friction, StateAgesAtRestAndTendsToItsSteadyValue) {
+  double theta[] = {0.2};
+  const Friction ageing = rate_and_state(0.05, 0.01, 0.015, 0.1, 0.05);
+  ageing.law().advance(0, 3, theta);
+  EXPECT_DOUBLE_EQ(theta[0], 3.2);
+  for (const bool slip_law : {false, true}) {
+    const Friction friction = rate_and_state(0.05, 0.01, 0.015, 0.1, 0.05, slip_law);
+    double once[] = {0.7}, twice[] = {0.7};
+    friction.law().advance(-0.3, 0.5, once);  // exact, so that two steps are one
+    friction.law().advance(-0.3, 0.2, twice);
+    friction.law().advance(-0.3, 0.3, twice);
+    EXPECT_NEAR(once[0] / twice[0], 1, 1e-14);
+    friction.law().advance(0.3, 100, once);
+    EXPECT_NEAR(once[0] / (0.1 / 0.3), 1, 1e-13);
+    double still[] = {0.7};
+    friction.law().advance(0, 5, still);
+    EXPECT_EQ(still[0], slip_law ? 0.7 : 5.7);
+  }
+}
+
+TEST(Friction, RateAndStateSolvesForTheSpeedAfterAStep) {
+  const Friction friction = rate_and_state(0.5, 0.01, 0.015, 0.1, 0.05);
+  const double theta[] = {2.0};
+  for (const double weight : {1e-6, 0.1, 30.0})
+    for (const double free : {-2.0, 1e-9, 0.04, 7.0}) {
+      const double v = friction.velocity_after(free, weight, theta);
+      EXPECT_NEAR(v + weight * friction.force(v, theta), free, 1e-9 * std::fabs(free)) << weight << " " << free;
+      EXPECT_GE(v / free, 0);
+    }
+}
+
+TEST(Friction, SlipWeakensWhatHolds) {
+  const Friction friction(law_named("slip-weakening"), {0.4, 0.1, 2});
+  double slip[] = {0};
+  friction.law().start(slip);
+  EXPECT_TRUE(friction.sticks());
+  EXPECT_EQ(friction.force(1, slip), 0.4);
+  friction.law().advance(-0.5, 2, slip);
+  EXPECT_DOUBLE_EQ(friction.force(1, slip), 0.25);
+  friction.law().advance(0.5, 20, slip);
+  EXPECT_DOUBLE_EQ(friction.force(1, slip), 0.1);
+}
+
+TEST(Friction, StretchesForcesSlipsAndTimes) {
+  const Friction stretched = Friction(law_named("rate-and-state"), {8, 4, 2, 1, 3, 5, 0}).stretched_by(2);
+  const double want[] = {4, 2, 1, 2, 3, 10, 0};
+  std::size_t i = 0;
+  for (const Parameter& p : stretched.definition().parameters)
+    EXPECT_EQ(stretched.parameter(p.name), want[i++]) << p.name;
+}
+
 TEST(Friction, LawsSayWhatTheyAre) {
   for (const Definition* law : laws()) {
     EXPECT_FALSE(law->name.empty());
@@ -162,7 +252,7 @@ TEST(Friction, LawsSayWhatTheyAre) {
     std::vector<double> values;
     for (const Parameter& p : law->parameters) {
       EXPECT_FALSE(p.unit.empty()) << law->name << " " << p.name;
-      values.push_back(p.is_force ? 1 : p.value);
+      values.push_back(p.stretch == Stretch::force ? 1 : p.value);
     }
     const Friction friction(*law, values);
     EXPECT_NO_THROW(friction.check()) << law->name;

@@ -30,7 +30,7 @@ std::string end_of(pulse::Run& run, const std::function<bool()>& interrupted, bo
 }
 
 bool resumes(const char* path) {
-  const scenario::Scenario s = scenario::read_scenario(record::read_text(path), path, {}, record::read_profile_table);
+  const scenario::Scenario s = scenario::read_scenario(record::read_text(path), path, {}, record::read_table);
   const pulse::Problem problem = setup::pulse_problem(s);
   const output::Schedule schedule = setup::pulse_schedule(s, problem);
   bool finished = false;

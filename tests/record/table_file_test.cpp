@@ -15,14 +15,14 @@ namespace {
 
 using slipfront::FileError;
 using slipfront::InputError;
-using slipfront::record::read_profile_table;
+using slipfront::record::read_table;
 using slipfront::record::netcdf::Writer;
 using Table = std::vector<std::pair<double, double>>;
 
 Table read(const std::string& name, const std::string& content) {
   const TemporaryFolder folder;
   write_bytes(folder / name, content);
-  return read_profile_table(folder / name);
+  return read_table(folder / name, "x", "stress");
 }
 
 slipfront::Complaint complaint(const std::string& name, const std::string& content) {
@@ -98,8 +98,8 @@ TEST(TableFile, BadNetcdfNamesTheVariable) {
 
 TEST(TableFile, WhatCannotBeReadIsAFileError) {
   const TemporaryFolder folder;
-  EXPECT_THROW(read_profile_table(folder / "none.csv"), FileError);
-  EXPECT_THROW(read_profile_table(folder / "none.nc"), FileError);
+  EXPECT_THROW(read_table(folder / "none.csv", "x", "stress"), FileError);
+  EXPECT_THROW(read_table(folder / "none.nc", "x", "stress"), FileError);
   EXPECT_THROW(read("a.nc", ""), FileError);
   EXPECT_THROW(read("a.nc", "x,stress\n0,1\n"), FileError);
   const std::string good = netcdf({0, 1}, {0, 1});

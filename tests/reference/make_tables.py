@@ -8,9 +8,10 @@ checked against a second route, where there is one, as it is made: a failed chec
 import argparse
 import math
 import pathlib
+import random
 import sys
 sys.dont_write_bytecode = True  # the tables' folder holds sources and tables only
-from mpmath import atanh, cos, ellipe, ellipk, log, mp, mpf, nstr, pi, sin, sqrt, tanh
+from mpmath import (asinh, atanh, cos, ellipe, ellipk, exp, log, mp, mpf, nstr, pi, quad, sech, sin, sinh, sqrt, tanh)
 from oracle import (DIGITS, amplitude, averages_by_formula, averages_by_quadrature, carlson_rf, complete, psi_of,
                     psi_of_stress, pulse, rapidity, riemann, slip_velocity, twice)
 
@@ -163,6 +164,41 @@ def table_riemann():
         both += [row] if mirror[:4] == row[:4] else [row, mirror]
     return ("phi_left,psi_left,phi_right,psi_right,phi_star,psi_star,k_star,W_star,left_kind,left_head,left_tail,"
             "right_tail,right_head,right_kind"), both
+
+
+FORCES = {  # law of a scenario: f(w, its parameters, memory), and how its parameters are drawn
+    "n-shaped": (lambda w, v, _: v[0] * (w / v[1]) / (1 + (w / v[1])**2), [(.01, 3), (.01, 3)]),
+    "flash-heating": (lambda w, v, _: v[1] + (v[0] - v[1]) / (1 + w / v[2]), [(.01, 3), (.01, 3), (.01, 3)]),
+    "power": (lambda w, v, _: v[0] * w**v[1], [(.01, 3), (.5, 4)]),
+    "rate-and-state": (lambda w, v, theta: v[1] * asinh(
+        w / (2 * v[4]) * exp((v[0] + v[2] * log(theta * v[4] / v[3])) / v[1])),
+                       [(.01, 1), (.002, .1), (.002, .1), (.001, 1), (.01, 1)]),
+}
+
+
+def table_friction():
+    """Mean of the force over slip, <f>_u, of random laws in random trains, as doubles; checked by u / 2 = pi / 2 - gd(y)."""
+    draw = random.Random(15)
+    log_uniform = lambda low, high: math.exp(draw.uniform(math.log(low), math.log(high)))
+    rows = []
+    for i in range(200):
+        name = list(FORCES)[i % len(FORCES)]
+        force, ranges = FORCES[name]
+        values = [log_uniform(*r) for r in ranges]
+        phi, psi, theta = log_uniform(1e-4, 3), log_uniform(1e-3, 3), log_uniform(.01, 100)
+
+        def mean():
+            speed = lambda v: 2 * sinh(mpf(phi)) * sqrt(sinh(mpf(psi))**2 + sin(v)**2)
+            f = lambda v: force(speed(v), list(map(mpf, values)), mpf(theta))
+            inner = [psi / 3, psi, 3 * psi, 10 * psi, .3, 1] if psi < .03 else [psi / 3, psi] if psi < 1.5 else [pi / 4]
+            return [2 / pi * quad(f, [0, *inner, pi / 2])]
+        with mp.workdps(25):
+            result = mean()
+            other = 2 / pi * quad(lambda y: sech(y) * force(2 * sinh(mpf(phi)) * sqrt(sinh(mpf(psi))**2 + sech(y)**2),
+                                                            list(map(mpf, values)), mpf(theta)), [0, 1, 3, 6, 12, 60])
+            assert abs(result[0] / other - 1) < mpf(10)**-14, (name, values, phi, psi, result, other)
+        rows.append([name, *(values + [0.0] * (5 - len(values))), theta, phi, psi, float(result[0])])
+    return "law,v0,v1,v2,v3,v4,theta,phi,psi,mean", rows
 
 
 # --- output ---------------------------------------------------------------------------------------------------------

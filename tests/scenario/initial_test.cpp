@@ -166,18 +166,20 @@ TEST(ScenarioTable, RefusesWhatIsNoTable) {
 TEST(ScenarioTable, LiesBesideTheScenario) {
   const auto path = [](const std::string& scenario, const std::string& table) {
     std::string asked;
-    read_scenario("[initial]\nprofile = \"table\"\n", scenario, {"initial.file=" + table}, [&](const std::string& p) {
-      asked = p;
-      return Rows{{0, 1}, {1, 1}};
-    });
+    read_scenario("[initial]\nprofile = \"table\"\n", scenario, {"initial.file=" + table},
+                  [&](const std::string& p, const std::string&, const std::string&) {
+                    asked = p;
+                    return Rows{{0, 1}, {1, 1}};
+                  });
     return asked;
   };
   EXPECT_EQ(path("a/b.toml", "t.csv"), "a/t.csv");
   EXPECT_EQ(path("b.toml", "t.csv"), "t.csv");
   EXPECT_EQ(path("a/b.toml", "/c/t.csv"), "/c/t.csv");
-  EXPECT_THROW(read_scenario("[initial]\nprofile = \"table\"\nfile = \"t\"\n", "s.toml", {},
-                             [](const std::string& p) -> Rows { throw FileError(p); }),
-               FileError);
+  EXPECT_THROW(
+      read_scenario("[initial]\nprofile = \"table\"\nfile = \"t\"\n", "s.toml", {},
+                    [](const std::string& p, const std::string&, const std::string&) -> Rows { throw FileError(p); }),
+      FileError);
 }
 
 }  // namespace

@@ -15,20 +15,23 @@ class Friction {
  public:
   /// No friction.
   Friction();
-  /// `values` are those of the definition's parameters, in their order.
-  Friction(const Definition& definition, std::vector<double> values, Closure closure = Closure::consistent);
+  /// `values` are those of the definition's parameters, in their order; `curve` is for laws that take one.
+  Friction(const Definition& definition, std::vector<double> values, Closure closure = Closure::consistent,
+           Curve curve = {});
 
   const Definition& definition() const { return *definition_; }
   std::string_view name() const { return definition_->name; }
   const Law& law() const { return *law_; }
   Closure closure() const { return closure_; }
   Friction with(Closure closure) const;
+  /// Whether an average by this closure is defined: that of the paper knows no memory.
+  bool defined_by(Closure closure) const { return closure == Closure::consistent || variables() == 0; }
 
   /// The value of a parameter; 0 if the law has none of that name.
   double parameter(std::string_view name) const;
   double coefficient() const { return parameter("coefficient"); }
-  /// The same friction with all forces divided by `scale`, as on a chain that is stretched by it.
-  Friction divided_by(double scale) const;
+  /// The same friction on a chain whose x and t are stretched by `scale`.
+  Friction stretched_by(double scale) const;
   /// \throws InputError for a parameter out of its range.
   void check() const;
 
@@ -50,15 +53,16 @@ class Friction {
   double velocity_after(double free, double weight, Memory memory = {}) const;
 
   /// Loss of momentum per unit length, with the sign of U. Zero for the empty state.
-  double momentum_loss(const State& state, double contact = 1) const;
-  double mean_strength(const State& state, double contact) const {
-    return law_->mean_strength(state, contact, closure_);
+  double momentum_loss(const State& state, double contact = 1, Memory memory = {}) const;
+  double mean_strength(const State& state, double contact, Memory memory = {}) const {
+    return law_->mean_strength(state, contact, closure_, memory);
   }
   std::unique_ptr<RelaxationRate> relaxation_rate() const { return law_->relaxation_rate(closure_); }
 
  private:
   const Definition* definition_;
   std::vector<double> values_;
+  Curve curve_;
   Closure closure_ = Closure::consistent;
   std::shared_ptr<const Law> law_;
   bool acts_ = false;

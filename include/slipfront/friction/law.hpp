@@ -5,6 +5,7 @@
 /// file must give the name, the parameters and the force; averages and implicit solves follow by quadrature and
 /// bisection unless the law knows closed forms.
 
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -26,18 +27,29 @@ enum class Closure {
 const char* name_of(Closure closure);
 Closure closure_named(std::string_view name);
 
+/// What becomes of a parameter on a chain whose x and t are stretched by a scale: forces are divided by it, slips and
+/// times are multiplied.
+enum class Stretch { none, force, slip, time };
+
 /// A number that a law takes, and the key of table [friction] that gives it.
 struct Parameter {
   std::string_view name, symbol, unit;
   double value = 0;  ///< if none is given
   double least = 0, most = std::numeric_limits<double>::infinity();
   bool without_least = false;
-  bool is_force = false;             ///< in the unit of F, so that a chain stretched by a scale divides it
-  std::string_view if_missing = {};  ///< a warning that says what its absence means
+  Stretch stretch = Stretch::none;
+  std::vector<std::string_view> words = {};  ///< what may be given instead of a number; the value is the word's place
+  std::string_view if_missing = {};          ///< a warning that says what its absence means
 };
 
 /// C of a law whose force is proportional to it. `unit` is that of F, over what C stands before.
 Parameter coefficient_in(std::string_view unit);
+
+/// f as a curve that the user draws: the force >= 0 at the speed |w| >= 0. May be called by several threads at once.
+using Curve = std::function<double(double speed)>;
+
+/// How a scenario gives a law its curve: not at all, by the key "formula", or by a table in the file that "file" names.
+enum class CurveSource { none, formula, table };
 
 /// A quantity that each place remembers, such as the age of its contacts.
 struct Variable {
@@ -53,7 +65,7 @@ using Memory = std::span<const double>;
 class RelaxationRate {
  public:
   virtual ~RelaxationRate() = default;
-  virtual double operator()(const State& state, double contact) const = 0;
+  virtual double operator()(const State& state, double contact, Memory memory) const = 0;
 };
 
 /// A law with its numbers.
@@ -76,8 +88,8 @@ class Law {
   virtual double speed_after(double free, double weight, Memory memory) const;
 
   /// Mean of f over a uniform train, >= 0; the loss of momentum is k times this. The mean is over slip (consistent) or
-  /// over length (paper).
-  virtual double mean_strength(const State& state, double contact, Closure closure) const;
+  /// over length (paper). The places that a dislocation spans have the same memory.
+  virtual double mean_strength(const State& state, double contact, Closure closure, Memory memory) const;
   virtual std::unique_ptr<RelaxationRate> relaxation_rate(Closure closure) const;
 
   /// Sets a place's variables at t = 0, where nothing has slipped.
@@ -94,8 +106,9 @@ struct Definition {
   std::string_view source;
   std::vector<Parameter> parameters = {};
   std::vector<Variable> variables = {};
-  /// From the parameters' values, in their order.
-  std::shared_ptr<const Law> (*make)(const std::vector<double>& values);
+  CurveSource curve = CurveSource::none;
+  /// From the parameters' values, in their order, and the curve if the law takes one.
+  std::shared_ptr<const Law> (*make)(const std::vector<double>& values, const Curve& curve);
 
   /// Null if the law has no such parameter.
   const Parameter* find(std::string_view parameter) const;

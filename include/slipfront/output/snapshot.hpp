@@ -2,6 +2,9 @@
 /// \file
 /// What a pulse run yields at one output time.
 
+#include <functional>
+#include <map>
+#include <string>
 #include <vector>
 
 namespace slipfront::output {
@@ -63,6 +66,7 @@ struct Snapshot {
   double slip_at_origin;
   double peak_slip_velocity;
   double peak_position;
+  std::map<std::string, double, std::less<>> further = {};  ///< by the names of further_scalars()
 };
 
 }  // namespace slipfront::output

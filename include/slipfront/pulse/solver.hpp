@@ -20,6 +20,7 @@
 
 namespace slipfront::pulse {
 
+class Places;
 class Semidiscrete;
 class Staggered;
 
@@ -54,6 +55,8 @@ struct Cells {
   double crossing_time = std::numeric_limits<double>::quiet_NaN();      ///< of the first crossing; NaN: none so far
   double crossing_position = std::numeric_limits<double>::quiet_NaN();  ///< and its x
   std::vector<double> face_momentum;  ///< where friction rules: momenta live at the faces, cells have means; else empty
+
+  std::vector<double> memory;  ///< the friction law's variables at places that do not move with the cells; empty: none
 
   std::size_t size() const { return charge.size(); }
   Values values() { return {unknowns.data(), size()}; }
@@ -123,6 +126,9 @@ class Solver {
   /// wave crosses a cell.
   double step_explicitly(Work& work, double remaining, double crossing);
   double step_implicitly(Work& work, double remaining, double crossing);
+  /// For friction that remembers (memory_step.cpp); `rate` are the rates at the present time.
+  double step_with_memory(const std::vector<double>& rate, double remaining, double crossing);
+  Places places() const;
   std::vector<double> faces_of_cells(const Staggered& staggered) const;
   void cells_of_faces(const Staggered& staggered, const std::vector<double>& unknowns);
   double unseen_push(double dt) const;

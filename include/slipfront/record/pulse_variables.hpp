@@ -39,9 +39,12 @@ struct FieldVariable {
 /// Over time.
 struct ScalarVariable {
   Description about;
-  double (*get)(const output::Snapshot&);
-  void (*set)(output::Snapshot&, double);
+  double (*member)(const output::Snapshot&);  ///< null: one of output::further_scalars()
+  void (*set_member)(output::Snapshot&, double);
   bool may_be_absent = false;  ///< NaN where there is none
+
+  double get(const output::Snapshot& snapshot) const;
+  void set(output::Snapshot& snapshot, double value) const;
 };
 
 std::span<const FieldVariable> field_variables();

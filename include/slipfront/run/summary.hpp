@@ -2,6 +2,7 @@
 /// \file
 /// What a finished run is summed up by: the keys that `--json` prints and that Python attaches to a result.
 
+#include <functional>
 #include <span>
 #include <string>
 #include <variant>
@@ -19,9 +20,9 @@ using Value = std::variant<double, long, std::string>;
 /// A key, how it is got from a finished run, and what it means.
 template <class End>
 struct SummaryItem {
-  const char* key;
-  Value (*get)(const End&);
-  const char* meaning;
+  std::string key;
+  std::function<Value(const End&)> get;
+  std::string meaning;
 };
 
 /// A pulse that has reached its end.
@@ -43,9 +44,9 @@ struct ChainEnd {
 std::span<const SummaryItem<ChainEnd>> chain_summary();
 
 struct SummaryValue {
-  const char* key;
+  std::string key;
   Value value;
-  const char* meaning;
+  std::string meaning;
 };
 template <class End>
 std::vector<SummaryValue> summary(std::span<const SummaryItem<End>> items, const End& end) {

@@ -96,8 +96,9 @@ struct Scenario {
   std::function<double(double)> contact_at;              ///< finite, > 0; null: 1 everywhere
 };
 
-/// Gives the content of a table file named in a scenario (record/ knows files; this room does not).
-using TableReader = std::function<std::vector<std::pair<double, double>>(const std::string& path)>;
+/// Gives two columns of a table file named in a scenario (record/ knows files; this room does not).
+using TableReader = std::function<std::vector<std::pair<double, double>>(const std::string& path, const std::string& x,
+                                                                         const std::string& y)>;
 
 /// Reads a scenario and applies `overrides` ("table.key=value", in order; a value that is no TOML is taken as a text).
 /// Unknown keys, tables and values are errors that name the nearest known one. An [event] table is not looked at.

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "slipfront/friction/friction.hpp"
+
+namespace slipfront::pulse {
+
+/// A train in a contact ratio, of which friction takes momentum while its spacing stays. Momenta are those of one
+/// dislocation.
+struct SlowedTrain {
+  const friction::Friction& friction;
+  double spacing;
+  double contact;
+  friction::Memory memory;  ///< of the places that it lies over
+  double psi_guess;         ///< near that of the train
+  bool at_rest;             ///< so far; only tells what to try first
+
+  struct Left {
+    double momentum, velocity;
+  };
+  /// What friction leaves of the momentum `free` in a time, implicitly: M + time 2 pi <f>(M) = free. 0 where friction
+  /// holds the train. For laws whose force does not fall with the slip velocity at constant memory.
+  Left after(double free, double time) const;
+};
+
+}  // namespace slipfront::pulse

@@ -1,0 +1,79 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "support.hpp"
+
+namespace slipfront::scenario {
+namespace {
+
+std::string friction(const std::string& rest) { return step + "[friction]\n" + rest; }
+std::string formula(const std::string& text) { return friction("law = \"formula\"\nformula = \"" + text + "\"\n"); }
+Complaint refused_text(const std::string& text, const Rows& rows = {}) {
+  return refused([&] { read(text, {}, rows); });
+}
+
+TEST(FrictionCurve, IsTheFormula) {
+  const Scenario s = read(formula("0.1*w/(1 + w^2)") + "coefficient = 2\n");
+  for (const double w : {1e-9, 0.3, 4.0}) EXPECT_DOUBLE_EQ(s.friction.force(-w), -0.2 * w / (1 + w * w));
+  EXPECT_FALSE(s.friction.sticks());
+  EXPECT_TRUE(read(formula("0.1 + 0.2*w")).friction.sticks());
+  EXPECT_TRUE(read(formula("0.1*sqrt(w)")).friction.steep_at_rest());
+  EXPECT_FALSE(read(formula("0.1*w")).friction.steep_at_rest());
+}
+
+TEST(FrictionCurve, IsTheMonotoneCurveThroughTheTable) {
+  const Rows rows = {{0, 0.1}, {0.5, 0.3}, {2, 0.2}};
+  const Scenario s = read(friction("law = \"table\"\nfile = \"f.csv\"\n"), {}, rows);
+  EXPECT_TRUE(s.friction.sticks());
+  for (const auto& [w, f] : rows) EXPECT_EQ(s.friction.law().strength(w, {}), f);
+  EXPECT_GT(s.friction.force(0.2), 0.1);
+  EXPECT_LT(s.friction.force(0.2), 0.3);
+  const Complaint beyond = refused([&] { s.friction.force(2.1); });
+  EXPECT_EQ(beyond.key, "friction.file");
+  EXPECT_TRUE(contains(beyond.problem, "2.1")) << beyond.problem;
+}
+
+TEST(FrictionCurve, RefusesWhatIsNoForce) {
+  EXPECT_TRUE(contains(refused_text(formula("1/w")).problem, "inf at the slip velocity w = 0"));
+  EXPECT_TRUE(contains(refused_text(formula("w - 0.1")).problem, "-0.1"));
+  EXPECT_TRUE(contains(refused_text(formula("w > 0 ? 0.1 : 0")).allowed, "coulomb"));
+  EXPECT_TRUE(contains(refused_text(formula("0.1*v")).problem, "v"));
+  EXPECT_EQ(refused_text(friction("law = \"formula\"\n")).key, "friction.formula");
+  EXPECT_EQ(refused_text(friction("law = \"viscous\"\ncoefficient = 1\nformula = \"w\"\n")).key, "friction.formula");
+  const std::string table = friction("law = \"table\"\nfile = \"f.csv\"\n");
+  EXPECT_TRUE(contains(refused_text(table, {{0.1, 1}, {1, 1}}).problem, "begins at w = 0.1"));
+  EXPECT_TRUE(contains(refused_text(table, {{0, 1}, {1, 1}, {1, 2}}).problem, "does not increase"));
+  EXPECT_TRUE(contains(refused_text(table, {{0, 1}, {1, -1}}).problem, "f = -1"));
+}
+
+/// A formula's parser is not to be called by two threads; the curve is.
+TEST(FrictionCurve, MayBeCalledByThreads) {
+  const friction::Friction f = read(formula("0.1*w/(1 + w^2)")).friction;
+  std::vector<std::thread> threads;
+  std::vector<int> wrong(4);
+  for (std::size_t t = 0; t < wrong.size(); ++t)
+    threads.emplace_back([&, t] {
+      for (int i = 1; i < 2000; ++i) {
+        const double w = 1e-3 * i * static_cast<double>(t + 1), want = 0.1 * w / (1 + w * w);
+        wrong[t] += std::fabs(f.force(w) - want) > 1e-15;
+      }
+    });
+  for (std::thread& thread : threads) thread.join();
+  for (const int count : wrong) EXPECT_EQ(count, 0);
+}
+
+TEST(FrictionCurve, WordsStandForNumbers) {
+  const std::string text = friction("law = \"rate-and-state\"\ncoefficient = 0.5\nevolution_effect = 0.02\n");
+  EXPECT_EQ(read(text).friction.parameter("state"), 0);
+  EXPECT_EQ(read(text + "state = \"slip\"\n").friction.parameter("state"), 1);
+  EXPECT_TRUE(contains(refused_text(text + "state = \"slipp\"\n").allowed, "slip"));
+  EXPECT_EQ(refused_text(text + "direct_effect = 0\n").key, "friction.direct_effect");
+  EXPECT_EQ(refused_text(text + "slip_distance = -1\n").key, "friction.slip_distance");
+}
+
+}  // namespace
+}  // namespace slipfront::scenario
