@@ -5,13 +5,16 @@ import matplotlib
 
 from .style import plain
 
-#: The fronts of a file, with the lines and names that they get.
+#: The fronts of a file, with the lines, names and symbols that they get.
 FRONTS = {
-    "trailing_front": ("-", "trailing edge"),
-    "leading_front": ("--", "leading edge"),
-    "trailing_front_observed": (":", "the same, as observed"),
-    "leading_front_observed": (":", None),
+    "trailing_front": ("-", "trailing edge, fast (V−)", "V−"),
+    "leading_front": ("--", "leading edge, slow (V+)", "V+"),
+    "trailing_front_observed": (":", "as an observer with a threshold sees them", None),
+    "leading_front_observed": (":", None, None),
 }
+
+#: A value this many times larger than any other is taken for a bad cell, which sets no scale.
+OUTLIER = 4
 
 
 def title_of(dataset) -> str:
@@ -25,14 +28,29 @@ def finite(dataset):
 
 
 def fronts_of(dataset) -> list:
-    """(variable, line, name) of the fronts that are there at some time."""
-    return [(dataset[front], line, name) for front, (line, name) in FRONTS.items() if front in dataset and bool(dataset[front].notnull().any())]
+    """(variable, line, name, symbol) of the fronts that are there at some time."""
+    return [(dataset[front], *look) for front, look in FRONTS.items() if front in dataset and bool(dataset[front].notnull().any())]
+
+
+def extent(values) -> tuple:
+    """The least and the largest finite value, without a single bad cell: one that is OUTLIER times larger than every other. (0, 0) of none."""
+    values = values[numpy.isfinite(values)]
+    magnitudes = numpy.sort(numpy.abs(values))
+    if magnitudes.size > 1 and magnitudes[-1] > OUTLIER * magnitudes[-2] > 0:
+        values = values[numpy.abs(values) < magnitudes[-1]]
+    return (float(values.min()), float(values.max())) if values.size else (0.0, 0.0)
+
+
+def backward(dataset, name) -> str:
+    """What a picture says of a slip or slip velocity that goes below zero by more than the ripples of a chain; else empty."""
+    lowest, highest = extent(dataset[name].values)
+    return "below 0: slips backward, where stress rises with x" if name in ("slip", "W") and lowest < -0.02 * highest else ""
 
 
 def window(dataset) -> tuple:
     """The stretch of x to show: what the fronts cross and a fifth more on either side, within the domain."""
     ends = dataset["x_bounds"].values if "x_bounds" in dataset else dataset["x"].values
-    reached = [float(extreme) for front, _, _ in fronts_of(dataset) for extreme in (front.min(), front.max())]
+    reached = [float(extreme) for front, *_ in fronts_of(dataset) for extreme in (front.min(), front.max())]
     left, right = float(ends.min()), float(ends.max())
     if not reached or max(reached) <= min(reached):
         return left, right
