@@ -30,6 +30,8 @@ NAMES = {
     "stress_at_origin": "stress Σ at x = 0",
     "peak_slip_velocity": "greatest slip velocity W",
     "peak_position": "position of the greatest W",
+    "stress_pa": "initial stress",
+    "friction_coefficient": "friction coefficient C",
 }
 
 #: Units of quantities whose variable does not say (rows of CSV files).
@@ -37,6 +39,7 @@ UNITS = {
     "stress_at_origin": "mu A / pi",
     "leading_velocity": "c",
     "slip_velocity": "c A / pi",
+    "stress_pa": "Pa",
 }
 
 # Those of events are declared with the quantities (src/inference/quantities.cpp).
@@ -79,7 +82,8 @@ def plain(text) -> str:
 
 def unit(variable) -> str:
     """The unit of a DataArray, as it is printed on an axis; empty for a pure number."""
-    text = plain(variable.attrs.get("dimensional_unit", UNITS.get(variable.name, "")))
+    si = variable.attrs.get("units", "")
+    text = plain(variable.attrs.get("dimensional_unit") or (si if si != "1" else "") or UNITS.get(variable.name, ""))
     for written, printed in ((" ", ""), ("mu", "μ"), ("nu", "ν"), ("pi", "π"), ("^2", "²")):
         text = text.replace(written, printed)
     return "" if text == "1" else text
