@@ -1,0 +1,75 @@
+"""What a drawn figure tells the page's script: where its axes are, and the values drawn in them."""
+
+import math
+import re
+
+import numpy
+from matplotlib.collections import QuadMesh
+
+#: Points of a line, and cells of a map across and up, that go into the page.
+POINTS = 240
+CELLS = 60
+
+
+def rounded(values) -> list:
+    """Numbers to five digits, None for what is not finite."""
+    return [float(f"{value:.5g}") if math.isfinite(value) else None for value in numpy.ravel(values).astype(float)]
+
+
+def thinned(count: int, most: int) -> numpy.ndarray:
+    """Indices of at most `most` of `count` points, evenly, the first and the last among them."""
+    return numpy.unique(numpy.linspace(0, count - 1, min(count, most)).round().astype(int))
+
+
+def line(drawn) -> dict | None:
+    """Name and points of a line; None for one that shows no data (a rule across the axes, an empty line)."""
+    x, y = (numpy.asarray(values, float) for values in drawn.get_data(orig=False))
+    if drawn.get_transform() != drawn.axes.transData or x.size < 2:
+        return None
+    chosen = thinned(x.size, POINTS)
+    name = str(drawn.get_label())
+    return {"name": "" if name.startswith("_") else plain(name), "x": rounded(x[chosen]), "y": rounded(y[chosen])}
+
+
+def mesh(drawn) -> dict | None:
+    """Values of a map on straight rows and columns, thinned: x and y of the cells' middles, and the values row by row. None for any other map."""
+    corners, values = drawn.get_coordinates(), drawn.get_array()
+    across, up = corners[0, :, 0], corners[:, 0, 1]
+    if values is None or not (numpy.allclose(corners[..., 0], across) and numpy.allclose(corners[..., 1], up[:, None])):
+        return None
+    values = numpy.ma.filled(numpy.ma.asarray(values, float), numpy.nan).reshape(len(up) - 1, len(across) - 1)
+    rows, columns = thinned(len(up) - 1, CELLS), thinned(len(across) - 1, CELLS)
+    middles = [(edges[1:] + edges[:-1]) / 2 for edges in (across, up)]
+    return {"x": rounded(middles[0][columns]), "y": rounded(middles[1][rows]), "z": rounded(values[numpy.ix_(rows, columns)])}
+
+
+def plain(text) -> str:
+    """A label without the marks of matplotlib's mathematics."""
+    return re.sub(r"[${}\\]", "", str(text)).replace("\n", " ")
+
+
+def axes_of(figure) -> list:
+    """The flat axes of a figure with what is drawn in them.
+
+    box: left, top, width, height as shares of the figure, from its upper left corner. x, y: {"name", "ends", "log"}. lines: of `line`. map: of `mesh`, or None.
+    """
+    found = []
+    for axes in figure.axes:
+        if axes.name != "rectilinear" or axes.get_label() == "<colorbar>" or {axes.get_xscale(), axes.get_yscale()} - {"linear", "log"}:
+            continue
+        lines = [told for told in map(line, axes.lines) if told]
+        maps = [told for told in (mesh(drawn) for drawn in axes.collections if isinstance(drawn, QuadMesh)) if told]
+        if not lines and not maps:
+            continue
+        box = axes.get_position()
+        ends = {name: {"name": plain(label_of(axes, name)), "ends": [float(end) for end in getattr(axes, f"get_{name}lim")()],
+                       "log": getattr(axes, f"get_{name}scale")() == "log"} for name in "xy"}
+        found.append({"box": rounded([box.x0, 1 - box.y1, box.width, box.height]), **ends, "lines": lines, "map": maps[0] if maps else None})
+    return found
+
+
+def label_of(axes, name) -> str:
+    """Label of an axis, or that of the axes which share it."""
+    label = getattr(axes, f"get_{name}label")()
+    shared = getattr(axes, f"get_shared_{name}_axes")().get_siblings(axes)
+    return label or next((text for text in (getattr(other, f"get_{name}label")() for other in shared) if text), name)
