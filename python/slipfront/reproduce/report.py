@@ -33,10 +33,9 @@ def figure(folder, picture) -> str:
 
 def numbers_table(rows) -> str:
     """The table of the paper's numbers."""
-    heading = ["what", "unit", "printed", "computed", "difference", "same to the digits printed", "remark"]
-    cells = [(r["what"], r["unit"], r["printed"], number(r["computed"]), f"{100 * r['difference']:+.1f} %", "yes" if r["agrees"] else "no", r["remark"])
-             for r in rows]
-    return table(heading, cells, numeric=(2, 3, 4))
+    heading = ["what", "where", "unit", "printed", "computed", "to the digits printed", "verdict", "remark"]
+    cells = [(r["what"], r["where"], r["unit"], r["printed"], number(r["computed"]), r["printed_digits"], r["verdict"], r["remark"]) for r in rows]
+    return table(heading, cells, numeric=(3, 4, 5))
 
 
 def page(folder, pictures, tables, about) -> str:
@@ -45,7 +44,7 @@ def page(folder, pictures, tables, about) -> str:
     folder: where the pictures are. tables: {"numbers", "formulas", "statements"}, rows of each. about: {"version", "seconds", "pulses"}.
     """
     numbers, formulas, statements = (tables[name] for name in ("numbers", "formulas", "statements"))
-    agree = sum(row["agrees"] for row in numbers)
+    agree = sum(row["verdict"] == "same" for row in numbers)
     parts = [
         "<!DOCTYPE html>\n<html lang=en><head><meta charset=utf-8><meta name=viewport content='width=device-width, initial-scale=1'>",
         f"<title>The paper, reproduced</title><link rel=icon href='data:,'><style>\n{STYLE.read_text(encoding='utf-8')}</style></head><body><main>\n",
@@ -61,7 +60,7 @@ def page(folder, pictures, tables, about) -> str:
         table(("where", "printed", "meant", "what tells", "by the printed", "by the meant"),
               [(r["where"], r["printed"], r["mended"], r["check"], number(r["by_printed"]), number(r["by_mended"])) for r in formulas], (4, 5)),
         "<h2>Statements</h2>\n",
-        table(("the paper says", "found here", "holds"), [(r["statement"], r["found"], "yes" if r["holds"] else "no") for r in statements]),
+        table(("the paper says", "where", "verdict", "found", "range", "command"), [tuple(r[key] for key in ("statement", "where", "verdict", "found", "range", "command")) for r in statements]),
         "<h2>Figures</h2>\n", *(figure(folder, picture) for picture in pictures), "</main></body></html>\n",
     ]
     return "".join(parts)
