@@ -9,7 +9,7 @@ from .report_figures import figure, heading_of, number, table
 HERE = pathlib.Path(__file__).parent
 DOI = "https://doi.org/10.3390/lubricants3020311"
 SECTIONS = (("result", "The main result"), ("symbols", "Symbols and words"), ("numbers", "Numbers"), ("statements", "Statements"),
-            ("formulas", "Formulas that are misprinted"), ("figures", "Figures"))
+            ("formulas", "Formulas that are misprinted"), ("inputs", "Numbers that the paper puts in"), ("figures", "Figures"))
 
 
 def contents(pictures) -> str:
@@ -63,11 +63,12 @@ def formulas_section(rows) -> str:
 def page(folder, pictures, tables, about) -> str:
     """The page.
 
-    folder: where the pictures are. tables: {"numbers", "formulas", "statements"}, rows of each.
-    about: {"version", "seconds", "pulses", "levels"}, the last of levels.py.
+    folder: where the pictures are. tables: {"numbers", "formulas", "statements", "inputs"}, rows of each.
+    about: {"version", "seconds", "pulses", "levels"}, the last from levels.py.
     """
     parts = {"result": main_result(about["levels"]), "symbols": glossary(), "numbers": numbers_section(tables["numbers"]),
              "statements": statements_section(tables["statements"]), "formulas": formulas_section(tables["formulas"]),
+             "inputs": table(("what", "where", "printed"), [(row["what"], row["where"], row["printed"]) for row in tables["inputs"]], (2,)),
              "figures": "<p class=screen>Point at a figure to read its values.</p>\n" + "".join(figure(folder, picture) for picture in pictures)}
     style, script = ((HERE / name).read_text(encoding="utf-8") for name in ("report.css", "report.js"))
     return "".join([

@@ -10,8 +10,8 @@ from . import report_hover
 #: A table of values larger than this stays in its file alone; smaller ones travel in the page.
 MOST_BYTES = 150_000
 
-#: How verdicts in favour of the paper begin.
-GOOD = ("same", "confirmed", "exact")
+#: How verdicts for and against the paper begin; all others are open.
+VERDICTS = {"good": ("same", "confirmed", "exact"), "bad": ("refuted", "the paper is wrong")}
 
 
 def number(value) -> str:
@@ -22,12 +22,12 @@ def number(value) -> str:
 def table(heading, rows, numeric=(), verdict=None) -> str:
     """An HTML table; on a narrow page each row becomes a card (report.css), so cells carry their heading.
 
-    numeric: columns of numbers. verdict: the column of verdicts, coloured by whether they are GOOD.
+    numeric: columns of numbers. verdict: the column of verdicts, coloured as VERDICTS has them.
     """
     head = "".join(f'<th scope="col">{html.escape(text)}</th>' for text in heading)
 
     def cell(i, content):
-        kind = "n" if i in numeric else "" if i != verdict else "good" if content.lower().startswith(GOOD) else "bad"
+        kind = "n" if i in numeric else "" if i != verdict else next((name for name, begins in VERDICTS.items() if content.lower().startswith(begins)), "open")
         return f'<td{f" class={kind}" if kind else ""} data-name="{html.escape(heading[i])}">{html.escape(str(content))}</td>'
 
     body = "".join("<tr>" + "".join(cell(i, content) for i, content in enumerate(row)) + "</tr>\n" for row in rows)
