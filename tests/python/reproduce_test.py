@@ -10,10 +10,10 @@ import tempfile
 import time
 import tomllib
 import unittest
-from html.parser import HTMLParser
 
 import slipfront
 import xarray as xr
+from page import Page
 from support import CommandLine, PROGRAM, SOURCE
 
 PAPER = os.path.join(SOURCE, "python/slipfront/reproduce/paper.toml")
@@ -32,22 +32,6 @@ DIFFERENCES = {
     "parkfield_stress_pa_0.5": 0.1059,
     "parkfield_stress_pa_2.0": 0.0434,
 }
-
-
-class Requests(HTMLParser):
-    """What a page would load from elsewhere."""
-
-    def __init__(self):
-        super().__init__()
-        self.loads, self.pictures, self.links = [], 0, []
-
-    def handle_starttag(self, tag, attrs):
-        attrs = dict(attrs)
-        self.pictures += tag == "img"
-        if tag == "a":
-            self.links.append(attrs["href"])
-        self.loads += [(tag, name, value) for name, value in attrs.items() if tag != "a" and name in ("src", "href", "srcset") and not value.startswith("data:")]
-        self.loads += [(tag, "", "")] if tag in ("script", "iframe", "object", "embed") else []
 
 
 class Reproduce(CommandLine):
@@ -123,14 +107,12 @@ class Reproduce(CommandLine):
     def test_page_needs_nothing_else(self):
         with open(os.path.join(self.folder, "report.html"), encoding="utf-8") as file:
             page = file.read()
-        found = Requests()
-        found.feed(page)
-        self.assertEqual(found.loads, [])
-        self.assertEqual(found.pictures, 13)
-        self.assertNotIn("@import", page)
-        self.assertNotIn("url(", page)
-        for link in found.links:
-            self.assertTrue(os.path.exists(os.path.join(self.folder, link)), link)
+        found = Page(page)
+        self.assertEqual((found.loads, found.errors), ([], []))
+        self.assertEqual(len(found.figures), 13)
+        for name, commands in found.figures.items():
+            self.assertEqual(len(commands), 1, name)
+            self.assertIn("slipfront", commands[0], name)
         with open(os.path.join(self.folder, "numbers.csv"), encoding="utf-8", newline="") as file:
             self.assertEqual(len(list(csv.DictReader(file))), len(self.paper["number"]))
 

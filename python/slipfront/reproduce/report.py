@@ -9,7 +9,7 @@ from .report_figures import figure, heading_of, number, table
 HERE = pathlib.Path(__file__).parent
 DOI = "https://doi.org/10.3390/lubricants3020311"
 SECTIONS = (("result", "The main result"), ("symbols", "Symbols and words"), ("numbers", "Numbers"), ("statements", "Statements"),
-            ("formulas", "Formulas that are misprinted"), ("inputs", "Numbers that the paper puts in"), ("figures", "Figures"))
+            ("figures", "Figures"), ("formulas", "Formulas that are misprinted"), ("inputs", "Numbers that the paper puts in"))
 
 
 def contents(pictures) -> str:

@@ -31,7 +31,8 @@ def table(heading, rows, numeric=(), verdict=None) -> str:
         return f'<td{f" class={kind}" if kind else ""} data-name="{html.escape(heading[i])}">{html.escape(str(content))}</td>'
 
     body = "".join("<tr>" + "".join(cell(i, content) for i, content in enumerate(row)) + "</tr>\n" for row in rows)
-    return f"<table><thead><tr>{head}</tr></thead>\n<tbody>\n{body}</tbody></table>\n"
+    small = ' class="small"' if len(heading) < 4 else ""  # stays a table on a narrow page
+    return f"<table{small}><thead><tr>{head}</tr></thead>\n<tbody>\n{body}</tbody></table>\n"
 
 
 def heading_of(picture) -> str:
@@ -63,10 +64,10 @@ def files(folder, picture) -> str:
 def figure(folder, picture) -> str:
     """A figure of the page. picture: whose SVG is in `folder`."""
     title = heading_of(picture)
-    svg = inline((folder / f"{picture.name}.svg").read_text(encoding="utf-8"), picture.name, title)
-    told = json.dumps(report_hover.axes_of(picture.figure), separators=(",", ":"), ensure_ascii=False).replace("</", "<\\/")
+    svg = (folder / f"{picture.name}.svg").read_text(encoding="utf-8")
+    told = json.dumps(report_hover.axes_of(picture.figure, svg), separators=(",", ":"), ensure_ascii=False).replace("</", "<\\/")
     beside = table(("read off it by the paper", "printed", "computed"), [(what, printed, number(value)) for what, printed, value in picture.printed], (1, 2))
     return (f'<figure id="{picture.name}"><h3>{html.escape(title)}</h3>\n<button type=button>larger</button>\n'
-            f'<div class=wide><div class=picture>{svg}</div></div>\n<script type="application/json">{told}</script>\n'
+            f'<div class=wide><div class=picture>{inline(svg, picture.name, title)}</div></div>\n<script type="application/json">{told}</script>\n'
             f"<figcaption><p>{html.escape(picture.caption)}</p>\n{beside if picture.printed else ''}"
             f"<p>Draw it again:</p>\n<pre>{html.escape(picture.command)}</pre>\n{files(folder, picture)}</figcaption></figure>\n")

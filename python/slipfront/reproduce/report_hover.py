@@ -48,23 +48,31 @@ def plain(text) -> str:
     return re.sub(r"[${}\\]", "", str(text)).replace("\n", " ")
 
 
-def axes_of(figure) -> list:
-    """The flat axes of a figure with what is drawn in them.
+def frames(svg) -> list:
+    """The rectangles of all axes in a figure's SVG: left, top, width, height as shares of the figure, from its upper left corner."""
+    wide, high = (float(number) for number in re.search(r'viewBox="0 0 ([\d.]+) ([\d.]+)"', svg).groups())
+    corners = re.findall(r'<g id="axes_\d+">\s*<g id="patch_\d+">\s*<path d="M ([\d.]+) ([\d.]+) \nL ([\d.]+) [\d.]+ \nL [\d.]+ ([\d.]+) ', svg)
+    return [(x0 / wide, y0 / high, (x1 - x0) / wide, (y1 - y0) / high) for x0, y1, x1, y0 in (map(float, found) for found in corners)]
 
-    box: left, top, width, height as shares of the figure, from its upper left corner. x, y: {"name", "ends", "log"}. lines: of `line`. map: of `mesh`, or None.
+
+def axes_of(figure, svg) -> list:
+    """The flat axes of a figure with what is drawn in them; where they are is read from its SVG, as another format lays them out a little differently.
+
+    box: of `frames`. x, y: {"name", "ends", "log"}. lines: of `line`. map: of `mesh`, or None.
     """
-    found = []
+    found, boxes = [], frames(svg)
     for axes in figure.axes:
         if axes.name != "rectilinear" or axes.get_label() == "<colorbar>" or {axes.get_xscale(), axes.get_yscale()} - {"linear", "log"}:
             continue
         lines = [told for told in map(line, axes.lines) if told]
         maps = [told for told in (mesh(drawn) for drawn in axes.collections if isinstance(drawn, QuadMesh)) if told]
-        if not lines and not maps:
+        if not boxes or not lines and not maps:
             continue
-        box = axes.get_position()
+        about = axes.get_position()
+        box = min(boxes, key=lambda box: abs(box[0] - about.x0) + abs(box[1] - (1 - about.y1)) + abs(box[2] - about.width) + abs(box[3] - about.height))
         ends = {name: {"name": plain(label_of(axes, name)), "ends": [float(end) for end in getattr(axes, f"get_{name}lim")()],
                        "log": getattr(axes, f"get_{name}scale")() == "log"} for name in "xy"}
-        found.append({"box": rounded([box.x0, 1 - box.y1, box.width, box.height]), **ends, "lines": lines, "map": maps[0] if maps else None})
+        found.append({"box": rounded(box), **ends, "lines": lines, "map": maps[0] if maps else None})
     return found
 
 
