@@ -81,7 +81,7 @@ class Report(unittest.TestCase):
 
     def test_says_what_was_printed_and_what_is_computed(self):
         self.assertTrue(re.search(r"slope</td><td[^>]*>2\.1</td><td[^>]*>2</td>", self.text))
-        self.assertTrue("Of 2 printed numbers: 1 same; 1 the paper is wrong" in self.text)
+        self.assertTrue("2 printed numbers. Same: 1; the paper is wrong: 1." in self.text)
         self.assertTrue('class=bad data-name="verdict">Refuted' in self.text)
         self.assertTrue("u &lt; 1 &amp; more" in self.text)
 

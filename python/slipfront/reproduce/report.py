@@ -41,11 +41,14 @@ def glossary() -> str:
 def numbers_section(rows) -> str:
     """The paper's numbers: how many have which verdict, and the table."""
     verdicts = list(dict.fromkeys(row["verdict"] for row in rows))
-    counts = "; ".join(f"{sum(row['verdict'] == verdict for row in rows)} {verdict}" for verdict in sorted(verdicts, key=lambda text: text != "same"))
+    counts = "; ".join(f"{verdict}: {sum(row['verdict'] == verdict for row in rows)}" for verdict in sorted(verdicts, key=lambda text: text != "same"))
     heading = ("what", "where", "unit", "printed", "computed, to the digits printed", "computed", "difference", "verdict", "remark")
-    cells = [(row["what"], row["where"], row["unit"], row["printed"], row["printed_digits"], number(row["computed"]), f"{100 * row['difference']:+.1f} %",
+    def difference(row):  # a printed bound is met or not, and by how much says nothing
+        return f"{100 * row['difference']:+.1f} %" if row["printed"][:1].isdigit() else ""
+
+    cells = [(row["what"], row["where"], "" if row["unit"] == "1" else row["unit"], row["printed"], row["printed_digits"], number(row["computed"]), difference(row),
               row["verdict"], row["remark"]) for row in rows]
-    return f"<p>Of {len(rows)} printed numbers: {html.escape(counts)}.</p>\n" + table(heading, cells, (3, 4, 5, 6), verdict=7)
+    return f"<p>{len(rows)} printed numbers. {html.escape(counts.capitalize())}.</p>\n" + table(heading, cells, (3, 4, 5, 6), verdict=7)
 
 
 def statements_section(rows) -> str:
