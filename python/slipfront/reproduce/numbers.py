@@ -109,12 +109,8 @@ def read_friction(curve, ratio) -> float:
 def friction_of_event(share) -> dict:
     """C at the Σ− of the ETS event for its ratio at t = 2π, with both closures."""
     stress = event("ets.toml", "stress")
-    damping = numpy.geomspace(1e-2, 1e3, 4001)
-    found = {}
-    for closure in ("paper", "consistent"):
-        ratio = slipfront.friction_ratio(stress, damping, closure=closure)["ratio"].values
-        found[f"ets_friction_{closure}"] = float(numpy.exp(numpy.interp(-share, -ratio, numpy.log(damping)))) / (2 * math.pi)
-    return found
+    return {f"ets_friction_{closure}": float(slipfront.damping_number(stress, share, closure=closure)["damping_number"]) / (2 * math.pi)
+            for closure in ("paper", "consistent")}
 
 
 def computed(paper, factors, width, ratio, curves) -> dict:
