@@ -43,6 +43,11 @@ def ratio(values) -> Picture:
     return picture("fig-04", draw_ratio(data, events), data, least=least, most=most)
 
 
+def short(value, digits=3) -> str:
+    """A number for a legend: 2.14e-5, not 2.14e-05."""
+    return f"{value:.{digits}g}".replace("e-0", "e-")
+
+
 @styled
 def draw_against_stress(data, name, text, read_offs) -> Figure:
     """A velocity against stress: earthquakes above, slow events below, with dashed read-offs.
@@ -77,7 +82,7 @@ def rupture(values, given) -> Picture:
     for key, name in EVENTS.items():
         velocity, paper = given[f"{key}_rupture_velocity"], given[f"{key}_stress"]
         found = relation("stress", rupture_velocity=velocity)
-        read_offs[key] = [(paper, velocity, f"|V−| = {velocity:g}, printed: Σ− = {paper:g}", "--"), (found, velocity, f"computed: Σ− = {found:.4g}", ":")]
+        read_offs[key] = [(paper, velocity, f"read by the paper: Σ− = {paper:g} at |V−| = {short(velocity)} c", "--"), (found, velocity, f"computed: Σ− = {found:.4g} there", ":")]
         printed.append((f"Σ− at |V−| = {velocity:g} c ({name}), μA/π", f"{paper:g}", found))
     figure = draw_against_stress(data, "rupture_velocity", "rupture velocity |V−|, c", read_offs)
     return picture("fig-05", figure, data, printed, orders=values["orders_of_velocity"], decade=values["decade_from"])
@@ -90,8 +95,8 @@ def slip(values, given) -> Picture:
     for key, name in EVENTS.items():
         stress, paper = given[f"{key}_stress"], given[f"{key}_slip_velocity"]
         found = relation("slip_velocity", stress=stress)
-        read_offs[key] = [(stress, found, f"Σ− = {stress:g}: computed W = {found:.3g}", ":"),
-                          (relation("stress", slip_velocity=paper), paper, f"printed W = {paper:g}: Σ− = {relation('stress', slip_velocity=paper):.4g}", "--")]
+        read_offs[key] = [(stress, found, f"computed: W = {short(found)} at Σ− = {stress:g}", ":"),
+                          (relation("stress", slip_velocity=paper), paper, f"printed: W = {short(paper)}, which has Σ− = {relation('stress', slip_velocity=paper):.4g}", "--")]
         printed.append((f"W(0) at Σ− = {stress:g} ({name}), cA/π", f"{paper:g}", found))
     caption = given["ets_stress_caption"]
     printed.append((f"Σ− at W(0) = {given['ets_slip_velocity']:g} (ETS event, caption), μA/π", f"{caption:g}", values["ets_stress_caption"]))

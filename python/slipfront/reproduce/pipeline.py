@@ -34,7 +34,7 @@ def reproduce(folder, threads, tell, seconds) -> dict:
     runs = Runs(threads, tell)
     found = computed(runs, paper)
     pictures = pictures_of(runs, paper, found)
-    tables = {"numbers": numbers.table(paper, found["values"]), "formulas": formulas.table(paper), "statements": statements.table(runs, found, pictures),
+    tables = {"numbers": numbers.table(paper, found["values"]), "formulas": formulas.table(paper), "statements": statements.table(runs, found, paper, next(picture.data for picture in pictures if picture.name == "fig-09")),
               "inputs": [{"what": row["what"], "where": row["where"], "printed": row["printed"]} for row in paper["input"]]}
     for picture in pictures:
         tell(f"writing {picture.name}")

@@ -35,7 +35,7 @@ def edges() -> tuple:
 
 def chain_points(axes, data, times, c, words):
     """Every so many averages of the chain, as dots."""
-    one = data.sel(closure="chain", friction_coefficient=c).sel(x=slice(*SPAN)).isel(x=slice(None, None, 9))
+    one = data.sel(closure="chain", friction_coefficient=c).sel(x=slice(*SPAN)).isel(x=slice(None, None, 13))
     axes.plot(one["x"], times * one, **look.CHAIN, label=words)
 
 
