@@ -2,9 +2,8 @@
 
 import numpy
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, LogFormatter
 
-from .style import plain, styled
+from .style import plain, plain_numbers, styled
 
 #: Marks of the kinds of event in the shipped catalogue; any other gets the next.
 MARKS = "osD^vP*X"
@@ -81,12 +80,6 @@ def contact_lines(axes, line, low, high):
         axes.plot(rising[0], rising[1] * 10.0**exponent / 1e6, color="0.55", linestyle=":", linewidth=0.9, zorder=1,
                   label="closed form for A = 10$^n$, μ = 30 GPa" if i == 0 else None)
         axes.annotate(f"$10^{{{exponent}}}$", (rising[0][0], rising[1][0] * 10.0**exponent / 1e6), color="0.45", fontsize=7, va="bottom")
-
-
-def plain_numbers(axis) -> None:
-    """Numbers such as 0.1 and 100 in place of powers of ten on a logarithmic axis; between the decades only where few of these are seen."""
-    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    axis.set_minor_formatter(LogFormatter(labelOnlyBase=False, minor_thresholds=(1.2, 0.5)))
 
 
 def known(events, name) -> bool:

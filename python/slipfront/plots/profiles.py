@@ -3,7 +3,7 @@
 import numpy
 from matplotlib.figure import Figure
 
-from .pulse_parts import backward, extent, finite, fronts_of, shades, title_of, window
+from .pulse_parts import backward, extent, finite, mark_fronts, shades, title_of, window
 from .style import label, styled, unit
 
 
@@ -11,15 +11,6 @@ def room(lowest, highest, below) -> tuple:
     """Limits of an axis around a range of values, with room below (a share of the range) and a little above."""
     height = highest - lowest or abs(highest) or 1
     return lowest - below * height, highest + 0.06 * height
-
-
-def name_fronts(axes, pulse) -> None:
-    """Marks where the fronts are at the last time, at the foot of a panel."""
-    for front, _, _, symbol in fronts_of(pulse):
-        if symbol and numpy.isfinite(front[-1]):
-            side = 1 if symbol == "V+" else -1
-            axes.annotate(symbol, (float(front[-1]), 0), xytext=(15 * side, 12), textcoords="offset points", ha="center", color="C0", fontweight="bold",
-                          arrowprops={"arrowstyle": "->", "color": "C0"}, annotation_clip=True)
 
 
 @styled
@@ -47,7 +38,7 @@ def profiles(pulse, fields=("W", "Sigma", "slip"), times: int = 5) -> Figure:
         remark = backward(pulse, name)
         axes.set(ylabel=label(pulse[name]), xlim=window(pulse), ylim=room(*extent(pulse[name].values[rows]), 0.2 if remark else 0.06))
         axes.text(0.01, 0.03, remark, transform=axes.transAxes, color="0.3", fontsize="small")
-    name_fronts(panels[0], pulse)
+    mark_fronts(panels[0], pulse)
     panels[0].set_title(title_of(pulse))
     panels[0].legend(title=f"t, {unit(pulse['time'])}", loc="upper left", bbox_to_anchor=(1.0, 1.0))
     panels[-1].set_xlabel(label(pulse["x"]))

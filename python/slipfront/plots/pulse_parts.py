@@ -61,3 +61,12 @@ def window(dataset) -> tuple:
 def shades(count: int) -> list:
     """Colours of a sequence (times, scales) from light to dark; told apart in grey too."""
     return [matplotlib.colormaps["viridis_r"](share) for share in numpy.linspace(0.1, 1, count)]
+
+
+def mark_fronts(axes, pulse) -> None:
+    """Marks where the fronts are at the last time, at the foot of a panel."""
+    for front, _, _, symbol in fronts_of(pulse):
+        if symbol and numpy.isfinite(front[-1]):
+            side = 1 if symbol == "V+" else -1
+            axes.annotate(symbol, (float(front[-1]), 0), xytext=(15 * side, 12), textcoords="offset points", ha="center", color="C0", fontweight="bold",
+                          arrowprops={"arrowstyle": "->", "color": "C0"}, annotation_clip=True)

@@ -6,6 +6,7 @@ import pathlib
 
 import matplotlib
 from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter, LogFormatter
 
 from .._files import write_bytes
 from .._slipfront import FileError, event_quantities, printable
@@ -93,3 +94,9 @@ def label(variable, name: str = "") -> str:
     """Name (the quantity's own unless given) and unit of a DataArray."""
     name = name or NAMES.get(variable.name) or plain(variable.attrs.get("long_name") or str(variable.name).replace("_", " "))
     return f"{name}, {unit(variable)}" if unit(variable) else name
+
+
+def plain_numbers(axis) -> None:
+    """Numbers such as 0.1 and 100 in place of powers of ten on a logarithmic axis; between the decades only where few of these are seen."""
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axis.set_minor_formatter(LogFormatter(labelOnlyBase=False, minor_thresholds=(1.2, 0.5)))
