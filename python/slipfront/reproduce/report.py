@@ -42,19 +42,19 @@ def numbers_section(rows) -> str:
     """The paper's numbers: how many have which verdict, and the table."""
     verdicts = list(dict.fromkeys(row["verdict"] for row in rows))
     counts = "; ".join(f"{verdict}: {sum(row['verdict'] == verdict for row in rows)}" for verdict in sorted(verdicts, key=lambda text: text != "same"))
-    heading = ("what", "where", "unit", "printed", "computed, to the digits printed", "computed", "difference", "verdict", "remark")
+    heading = ("what", "where", "printed", "rounded as printed", "computed", "difference", "verdict", "remark")
     def difference(row):  # a printed bound is met or not, and by how much says nothing
         return f"{100 * row['difference']:+.1f} %" if row["printed"][:1].isdigit() else ""
 
-    cells = [(row["what"], row["where"], "" if row["unit"] == "1" else row["unit"], row["printed"], row["printed_digits"], number(row["computed"]), difference(row),
+    cells = [(row["what"] + ("" if row["unit"] == "1" or row["unit"] in row["what"] else f", {row['unit']}"), row["where"], row["printed"], row["printed_digits"], number(row["computed"]), difference(row),
               row["verdict"], row["remark"]) for row in rows]
-    return f"<p>{len(rows)} printed numbers. {html.escape(counts.capitalize())}.</p>\n" + table(heading, cells, (3, 4, 5, 6), verdict=7)
+    return f"<p>{len(rows)} printed numbers. {html.escape(counts.capitalize())}.</p>\n" + table(heading, cells, (2, 3, 4, 5), verdict=6, name="numbers")
 
 
 def statements_section(rows) -> str:
     """What the paper says in words, the verdict first."""
-    cells = [(row["verdict"], row["statement"], row["where"], row["found"], row["range"], row["command"]) for row in rows]
-    return table(("verdict", "the paper says", "where", "found here", "tried for", "command"), cells, verdict=0)
+    cells = [(row["verdict"], row["statement"], row["where"], (row["found"], row["command"]), row["range"]) for row in rows]
+    return table(("verdict", "the paper says", "where", "found here", "tried for"), cells, verdict=0, name="statements")
 
 
 def formulas_section(rows) -> str:

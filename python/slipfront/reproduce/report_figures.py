@@ -19,20 +19,23 @@ def number(value) -> str:
     return "–" if value is None or value == "" else value if isinstance(value, str) else f"{value:.4g}"
 
 
-def table(heading, rows, numeric=(), verdict=None) -> str:
+def table(heading, rows, numeric=(), verdict=None, name="") -> str:
     """An HTML table; on a narrow page each row becomes a card (report.css), so cells carry their heading.
 
-    numeric: columns of numbers. verdict: the column of verdicts, coloured as VERDICTS has them.
+    rows: of texts, or (text, command) for a text with a command below. numeric: columns of numbers. verdict: the column of verdicts, coloured as
+    VERDICTS has them. name: the class that gives columns their widths.
     """
     head = "".join(f'<th scope="col">{html.escape(text)}</th>' for text in heading)
 
     def cell(i, content):
+        content, command = content if isinstance(content, tuple) else (content, "")
+        below = f"<code>{html.escape(command)}</code>" if command.strip("-") else ""
         kind = "n" if i in numeric else "" if i != verdict else next((name for name, begins in VERDICTS.items() if content.lower().startswith(begins)), "open")
-        return f'<td{f" class={kind}" if kind else ""} data-name="{html.escape(heading[i])}">{html.escape(str(content))}</td>'
+        return f'<td{f" class={kind}" if kind else ""} data-name="{html.escape(heading[i])}">{html.escape(str(content))}{below}</td>'
 
     body = "".join("<tr>" + "".join(cell(i, content) for i, content in enumerate(row)) + "</tr>\n" for row in rows)
-    small = ' class="small"' if len(heading) < 4 else ""  # stays a table on a narrow page
-    return f"<table{small}><thead><tr>{head}</tr></thead>\n<tbody>\n{body}</tbody></table>\n"
+    name = name or ("small" if len(heading) < 4 else "")  # small stays a table on a narrow page
+    return f"<table{f' class={name}' if name else ''}><thead><tr>{head}</tr></thead>\n<tbody>\n{body}</tbody></table>\n"
 
 
 def heading_of(picture) -> str:
