@@ -48,5 +48,7 @@ def comparison(levels, fields=("W", "Sigma", "slip")) -> Figure:
         panels[1, 1].set(xlabel=label(levels["slip_at_origin"]))
         panels[1, 1].invert_yaxis()
     panels[0, 1].legend()
+    if "pulse-consistent" in names:
+        mark_fronts(panels[0, 0], levels.isel(level=names.index("pulse-consistent")))
     figure.suptitle(f"{title_of(levels)}, t = {float(levels['time'][-1]):.4g} b/(cA)")
     return figure

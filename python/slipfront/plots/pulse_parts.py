@@ -2,6 +2,7 @@
 
 import numpy
 import matplotlib
+from matplotlib.patheffects import withStroke
 
 from .style import plain
 
@@ -69,4 +70,4 @@ def mark_fronts(axes, pulse) -> None:
         if symbol and numpy.isfinite(front[-1]):
             side = 1 if symbol == "V+" else -1
             axes.annotate(symbol, (float(front[-1]), 0), xytext=(15 * side, 12), textcoords="offset points", ha="center", color="C0", fontweight="bold",
-                          arrowprops={"arrowstyle": "->", "color": "C0"}, annotation_clip=True)
+                          arrowprops={"arrowstyle": "->", "color": "C0"}, annotation_clip=True, path_effects=[withStroke(linewidth=2.5, foreground="white")])
