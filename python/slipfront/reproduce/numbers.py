@@ -33,7 +33,7 @@ def texts(paper) -> dict:
 
 def taken(paper) -> dict:
     """The same as numbers, where they are plain numbers."""
-    return {key: float(text) for key, text in texts(paper).items() if "π" not in text}
+    return {key: float(text) for key, text in texts(paper).items() if key not in ("range_of_forces", "time")}
 
 
 def event(name, key) -> float:
@@ -59,6 +59,7 @@ def closed_forms(paper) -> dict:
     parkfield = event("parkfield-2004.toml", "rupture_velocity")
     return {
         "neighbours": 2.0**3, "dislocation_stress": peak_stress(), "orders_of_range": math.log10(parkfield / SLOWEST),
+        "orders_of_events": math.log10(parkfield / event("ets.toml", "rupture_velocity")),
         "orders_of_velocity": orders("rupture_velocity", decade), "orders_of_velocity_caption": orders("rupture_velocity", decade),
         "orders_of_slip_velocity": orders("slip_velocity", decade), "decade_from": decade,
         "orders_low": orders("rupture_velocity", 0.1), "orders_high": orders("rupture_velocity", 0.3),

@@ -5,7 +5,7 @@ import numpy
 import slipfront
 
 from .derived import relation
-from .numbers import FRICTION
+from .numbers import FRICTION, orders
 from .rows import EXACT, REFUTED, close, judged, row
 from .runs import at_origin
 
@@ -110,7 +110,7 @@ def larger() -> list:
                 "Σ− = 0.05 to 50, no friction, Σ+ = 0", command),
             row("The ratio is large at small velocities: slow pulses grow to one side", "3.1, Fig. 4", judged(slow > 5 and bool((numpy.diff(ratio) < 0).all())), f"{slow:.1f} at |V−| = 1e-7 c, {fast:.2f} at 0.55 c.", "|V−| = 1e-7 to 0.55 c",
                 "slipfront relations --rupture-velocity 1e-7 --rupture-velocity 0.55"),
-            row("With falling stress V+ falls faster than |V−|", "3.1, Fig. 4", judged(bool((numpy.diff(ratio) < 0).all())), "Their ratio rises at every step towards smaller stress.", "Σ− = 0.05 to 50", command)]
+            row("With falling stress V+ falls faster than |V−|", "3.1, Fig. 4", judged(bool((numpy.diff(ratio) < 0).all())), f"Their ratio rises at every step towards smaller stress; from Σ− = 1 to 0.1 |V−| falls by {orders('rupture_velocity', 0.1):.1f} orders of magnitude and V+ by {orders('leading_velocity', 0.1):.1f}.", "Σ− = 0.05 to 50", command)]
 
 
 def dislocations() -> dict:

@@ -12,7 +12,7 @@ def pictures_of(runs, paper, found) -> list:
     values, given = found["values"], numbers.taken(paper)
     factors = {c: given[f"fig_8_factor_{c}"] for c in numbers.FRICTION[1:]}
     return [schematics.contact(), schematics.sliding(), schematics.initial(runs), closed_form.ratio(values), closed_form.rupture(values, given),
-            closed_form.slip(values, given), surfaces.with_friction(runs), profiles.scaled(runs, found["width"]), widths.pictured(found["factors"], factors, found["width"]),
+            closed_form.slip(values, given), surfaces.with_friction(runs), profiles.scaled(runs, found["width"], found["ratio"].attrs["width"]), widths.pictured(found["factors"], factors, found["width"]),
             profiles.stress(runs), sweeps.friction(found["curves"], found["ratio"]), surfaces.with_right_stress(runs), sweeps.against_drop(found["drops"])]
 
 

@@ -33,9 +33,9 @@ def edges() -> tuple:
     return 2 * numpy.pi * exact.attrs["left_edge"], 2 * numpy.pi * exact.attrs["right_edge"]
 
 
-def chain_points(axes, data, times, c, words):
-    """Every so many averages of the chain, as dots."""
-    one = data.sel(closure="chain", friction_coefficient=c).sel(x=slice(*SPAN)).isel(x=slice(None, None, 13))
+def chain_points(axes, data, times, c, words, until=SPAN[1]):
+    """Every so many averages of the chain, as dots. Ahead of the pulse they are small waves, not slip."""
+    one = data.sel(closure="chain", friction_coefficient=c).sel(x=slice(SPAN[0], until)).isel(x=slice(None, None, 13))
     axes.plot(one["x"], times * one, **look.CHAIN, label=words)
 
 
@@ -47,7 +47,7 @@ def draw_column(upper, lower, data, closure, factor):
         for axes in (upper, lower):
             axes.plot(data["x"], times * data["W"].sel(closure=closure, friction_coefficient=c), color=colour, linestyle=line, label=words)
             if closure == "consistent":
-                chain_points(axes, data["W"], times, c, f"chain, scale {data.attrs['scale']}" if c == FRICTION[-1] else None)
+                chain_points(axes, data["W"], times, c, f"chain, scale {data.attrs['scale']}" if c == FRICTION[-1] else None, 1.0)
     top = float(data["W"].sel(closure=closure, friction_coefficient=FRICTION[0]).max())
     for axes, tip, tail in ((upper, 0.02 * top, 0.16 * top), (lower, 2.2e-7, 1.2e-6)):
         for edge in edges():
@@ -71,7 +71,7 @@ def draw_scaled(data, factor) -> Figure:
     return figure
 
 
-def scaled(runs, width) -> Picture:
+def scaled(runs, width, ratio_width) -> Picture:
     """Fig. 8."""
     data = profiles(runs, "fig-08.toml", width)[["W"]].assign_attrs(width=width, scale=SCALE)
     peak = data["W"].max("x")
@@ -79,7 +79,7 @@ def scaled(runs, width) -> Picture:
     by_paper = data["factor"].sel(closure="paper").values
     printed = [("factor at C = 0.5", "1.8", float(by_paper[1])), ("factor at C = 2", "5.2", float(by_paper[2]))]
     consistent = data["factor"].sel(closure="consistent").values
-    return picture("fig-08", draw_scaled(data, data["factor"]), data, printed, width=width, weak=float(consistent[1]), strong=float(consistent[2]))
+    return picture("fig-08", draw_scaled(data, data["factor"]), data, printed, width=width, ratio_width=ratio_width, weak=float(consistent[1]), strong=float(consistent[2]))
 
 
 @styled
