@@ -5,6 +5,7 @@ import unittest
 
 import numpy as np
 import xarray as xr
+from matplotlib.figure import Figure
 
 import slipfront
 from slipfront import plots
@@ -153,6 +154,14 @@ class Figures(CommandLine):
         pulse = slipfront.pulse(CASE)
         self.assertEqual(label(pulse["slip"]), "slip u, b/(2π)")
         self.assertEqual(label(pulse["time"]), "time t, b/(cA)")
+
+    def test_saving_leaves_a_layout_alone(self):
+        figure = Figure(layout="none")
+        axes = figure.add_axes((0.2, 0.3, 0.4, 0.5))
+        for ending in ("svg", "png"):
+            plots.save(figure, os.path.join(os.path.dirname(self.file("x", "")), f"a.{ending}"))
+            np.testing.assert_allclose(axes.get_position().bounds, (0.2, 0.3, 0.4, 0.5))
+        self.assertIsNone(figure.get_layout_engine())
 
     def test_style_stays_inside(self):
         import matplotlib

@@ -43,6 +43,17 @@ def drawn(name) -> Picture:
     return Picture(name, "A & B", "caption of " + name, figure, xr.Dataset({"y": ("x", [1.0, 2.0])}), command=f"slipfront draw {name}", printed=[("slope", "2.1", 2.0)])
 
 
+@styled
+def solid(name) -> Picture:
+    """A figure with the surface x t in space."""
+    figure = Figure(figsize=(4, 4), layout="none")
+    axes = figure.add_subplot(projection="3d")
+    x, t = np.meshgrid(np.linspace(0, 1, 12), np.linspace(0, 2, 12))
+    axes.plot_surface(x, t, x * t, rcount=12, ccount=12)
+    axes.set(xlabel="x", ylabel="t")
+    return Picture(name, "A solid", "caption", figure, xr.Dataset({"y": ("x", [1.0, 2.0])}), command="slipfront draw")
+
+
 class Report(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -84,6 +95,17 @@ class Report(unittest.TestCase):
         self.assertTrue("2 printed numbers. Same: 1; the paper is wrong: 1." in self.text)
         self.assertTrue('class=bad data-name="verdict">Refuted' in self.text)
         self.assertTrue("u &lt; 1 &amp; more" in self.text)
+
+    def test_surfaces_in_space_are_read_too(self):
+        picture = solid("fig-07")
+        outputs.write_picture(self.folder, picture)
+        (axes,) = self.told(picture)
+        surface = axes["surface"]
+        np.testing.assert_allclose(surface["z"], np.array(surface["x"]) * surface["y"], atol=1e-4)
+        self.assertEqual([axes[name]["name"] for name in "xyz"], ["x", "t", "value"])
+        highest, lowest = np.argmax(surface["z"]), np.argmin(surface["z"])
+        self.assertLess(surface["top"][highest], surface["top"][lowest])  # seen higher up
+        self.assertTrue(all(0 < share < 1 for side in ("left", "top") for share in surface[side]))
 
     def test_values_under_the_cursor_are_those_drawn(self):
         lines, map_ = self.told(self.pictures[0])

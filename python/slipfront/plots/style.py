@@ -69,7 +69,8 @@ def save(figure: Figure, path, **options) -> None:
     """
     kind, picture = pathlib.Path(path).suffix.lower().lstrip("."), io.BytesIO()
     try:
-        with matplotlib.rc_context(fname=SHEET):
+        # matplotlib 3.6 lays a figure out anew while it saves, by these settings, if it has no layout of its own.
+        with matplotlib.rc_context(fname=SHEET), matplotlib.rc_context({"figure.constrained_layout.use": False}):
             figure.savefig(picture, format=kind, metadata={"Date": None} if kind == "svg" else None, **options)
     except (OSError, RuntimeError) as error:  # its fonts and encoders
         raise FileError(f"{path}: cannot be drawn: {' '.join(str(error).split())}") from error

@@ -40,18 +40,34 @@
     return {text, shares: [across, up]};
   }
 
+  // The point of a surface that is seen nearest to the pointer.
+  function onSurface(axes, x, y, frame) {
+    const {left, top} = axes.surface;
+    const distance = i => Math.hypot((left[i] - x) * frame.width, (top[i] - y) * frame.height);
+    const i = left.reduce((best, _, j) => distance(j) < distance(best) ? j : best, 0);
+    if (distance(i) > 24) return null;
+    return {text: ["x", "y", "z"].map(name => `${axes[name].name}: ${short(axes.surface[name][i])}`).join("\n"), left: left[i], top: top[i]};
+  }
+
+  // What a place of flat axes says, and where its mark stands.
+  function onPlane(axes, x, y, frame) {
+    const [left, top, width, height] = axes.box;
+    const across = (x - left) / width, up = 1 - (y - top) / height;
+    if (across < 0 || across > 1 || up < 0 || up > 1) return null;
+    const {text, shares} = describe(axes, across, up, width * frame.width, height * frame.height);
+    return {text, left: left + shares[0] * width, top: top + (1 - shares[1]) * height};
+  }
+
   function answer(event, picture, all, mark) {
     const frame = picture.getBoundingClientRect();
     const x = (event.clientX - frame.left) / frame.width, y = (event.clientY - frame.top) / frame.height;
     for (const axes of all) {
-      const [left, top, width, height] = axes.box;
-      const across = (x - left) / width, up = 1 - (y - top) / height;
-      if (across < 0 || across > 1 || up < 0 || up > 1) continue;
-      const {text, shares} = describe(axes, across, up, width * frame.width, height * frame.height);
+      const found = (axes.surface ? onSurface : onPlane)(axes, x, y, frame);
+      if (!found) continue;
       mark.hidden = say.hidden = false;
-      mark.style.left = `${100 * (left + shares[0] * width)}%`;
-      mark.style.top = `${100 * (top + (1 - shares[1]) * height)}%`;
-      say.textContent = text;
+      mark.style.left = `${100 * found.left}%`;
+      mark.style.top = `${100 * found.top}%`;
+      say.textContent = found.text;
       const right = event.clientX + 16 + say.offsetWidth < innerWidth;
       say.style.left = `${Math.max(4, right ? event.clientX + 16 : event.clientX - 16 - say.offsetWidth)}px`;
       say.style.top = `${Math.max(4, Math.min(event.clientY + 16, innerHeight - say.offsetHeight - 4))}px`;

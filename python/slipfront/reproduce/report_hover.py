@@ -5,10 +5,13 @@ import re
 
 import numpy
 from matplotlib.collections import QuadMesh
+from mpl_toolkits.mplot3d import proj3d
+from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
-#: Points of a line, and cells of a map across and up, that go into the page.
+#: Points of a line, cells of a map across and up, and points of a surface that go into the page.
 POINTS = 240
 CELLS = 60
+SURFACE = 1200
 
 
 def rounded(values) -> list:
@@ -43,6 +46,23 @@ def mesh(drawn) -> dict | None:
     return {"x": rounded(middles[0][columns]), "y": rounded(middles[1][rows]), "z": rounded(values[numpy.ix_(rows, columns)])}
 
 
+def surface(drawn, figure) -> dict:
+    """Points of a surface in space: where each is seen, as shares of the figure from its upper left corner, and its three coordinates."""
+    corners = numpy.asarray(drawn._vec)[:3, ::4]  # one of each facet; matplotlib offers no other way to them
+    corners = corners[:, thinned(corners.shape[1], SURFACE)]
+    flat = drawn.axes.transData.transform(numpy.transpose(proj3d.proj_transform(*corners, drawn.axes.get_proj())[:2]))
+    seen = flat / [figure.bbox.width, figure.bbox.height]
+    return {"left": rounded(seen[:, 0]), "top": rounded(1 - seen[:, 1]), **{name: rounded(values) for name, values in zip("xyz", corners)}}
+
+
+def in_space(axes, figure) -> list:
+    """The surfaces of axes in space, each as an entry of `axes_of` with "surface" in place of lines and map."""
+    names = {name: {"name": plain(getattr(axes, f"get_{name}label")()) or {"z": "value"}.get(name, name)} for name in "xyz"}
+    about = axes.get_position()
+    return [{"box": rounded([about.x0, 1 - about.y1, about.width, about.height]), **names, "surface": surface(drawn, figure)}
+            for drawn in axes.collections if isinstance(drawn, Poly3DCollection)]
+
+
 def plain(text) -> str:
     """A label without the marks of matplotlib's mathematics."""
     return re.sub(r"[${}\\]", "", str(text)).replace("\n", " ")
@@ -56,12 +76,15 @@ def frames(svg) -> list:
 
 
 def axes_of(figure, svg) -> list:
-    """The flat axes of a figure with what is drawn in them; where they are is read from its SVG, as another format lays them out a little differently.
+    """The axes of a figure with what is drawn in them; where flat ones are is read from its SVG, as another format lays them out a little differently.
 
     box: of `frames`. x, y: {"name", "ends", "log"}. lines: of `line`. map: of `mesh`, or None.
+    Surfaces in space are those of `in_space`.
     """
     found, boxes = [], frames(svg)
     for axes in figure.axes:
+        if axes.name == "3d":
+            found += in_space(axes, figure)
         if axes.name != "rectilinear" or axes.get_label() == "<colorbar>" or {axes.get_xscale(), axes.get_yscale()} - {"linear", "log"}:
             continue
         lines = [told for told in map(line, axes.lines) if told]

@@ -46,7 +46,8 @@ def draw_one(axes, W, top, title):
     axes.set_ylabel("t, b/(cA)", fontsize=8, labelpad=-7)
     axes.zaxis.set_major_locator(MaxNLocator(3, prune="lower"))
     axes.view_init(elev=28, azim=-60)
-    axes.set_box_aspect((1.3, 1, 0.9), zoom=1.12)
+    axes.set_box_aspect((1.3, 1, 0.9), zoom=0.98)
+    axes.patch.set_visible(False)  # it would hide the numbers of the axes to its left
 
 
 @styled
@@ -60,7 +61,7 @@ def draw(data, dimension, words, one_scale) -> Figure:
             axes = figure.add_subplot(2, len(values), row * len(values) + column + 1, projection="3d")
             draw_one(axes, W, float((data["W"] if one_scale else data["W"].isel({dimension: column})).max()), words(value))
         figure.text(0.005, 0.955 - 0.49 * row, look.TITLES[closure] + (": slip velocity W, cA/π (vertical)" if row == 0 else ""), fontsize=9, va="bottom")
-    figure.subplots_adjust(left=0.0, right=0.955, bottom=0.02, top=0.93, wspace=0.1, hspace=0.12)
+    figure.subplots_adjust(left=0.0, right=0.94, bottom=0.01, top=0.96, wspace=0.1, hspace=0.04)
     return figure
 
 
