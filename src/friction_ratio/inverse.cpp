@@ -25,8 +25,8 @@ double inside(Measure measure, friction::Closure closure, double stress, double 
 
 Reading damping_number(Measure measure, friction::Closure closure, double stress, double ratio) {
   const double most = evaluate(measure, closure, stress, 0).value;
-  // The table is 1 at Gamma = 0 to its last digits.
-  if (!(ratio > 0 && ratio <= most * (1 + 1e-12)))
+  // Without friction the table is 1 only to its error.
+  if (!(ratio > 0 && ratio <= most * (1 + uncertainty(closure, 0))))
     throw InputError({.key = "slip_velocity_ratio",
                       .value = digits(ratio),
                       .problem = "out of range",

@@ -4,7 +4,6 @@ import math
 import pathlib
 import tomllib
 
-import numpy
 
 import slipfront
 
@@ -92,26 +91,21 @@ def figure_10(ratio, curves, without) -> dict:
     at = {"closure": "paper", "friction_coefficient": list(FRICTION)}
     smooth = ratio["smooth"].sel(at)
     values = {f"parkfield_slip_velocity_{c}": without * float(smooth.sel(friction_coefficient=c)) for c in FRICTION}
-    solid, dotted = (curves["slip_velocity_ratio"].sel(closure="paper", stress=stress) for stress in (0.855, 0.419))
+    solid = curves["slip_velocity_ratio"].sel(closure="paper", stress=0.855)
     return values | {"ratio_width": float(ratio.attrs["width"]), "ratios_at_parkfield": list_of(ratio["at_parkfield"].sel(at)),
                      "ratios_step": list_of(solid.sel(friction_coefficient=list(FRICTION))), "ratios_step_stressed": list_of(ratio["step_stressed"].sel(at)),
                      "ratios_consistent": list_of(ratio["smooth"].sel(at | {"closure": "consistent"})),
-                     "ets_friction": read_friction(solid, 0.2), "ets_friction_nearest": read_friction(dotted, 0.2)}
+                     "ets_friction": read_friction(0.855, 0.2), "ets_friction_nearest": read_friction(0.419, 0.2)}
 
 
-def read_friction(curve, ratio) -> float:
-    """C where a curve of Fig. 10 falls to a ratio; NaN if it does not."""
-    values = curve.values
-    if values.min() > ratio:
-        return math.nan
-    return float(numpy.interp(-ratio, -values, curve["friction_coefficient"].values))
+def read_friction(stress, ratio, closure="paper") -> float:
+    """C at which a curve of Fig. 10, from a true step, has a ratio: at t = 2π."""
+    return float(slipfront.damping_number(stress, ratio, closure=closure)["damping_number"]) / (2 * math.pi)
 
 
 def friction_of_event(share) -> dict:
     """C at the Σ− of the ETS event for its ratio at t = 2π, with both closures."""
-    stress = event("ets.toml", "stress")
-    return {f"ets_friction_{closure}": float(slipfront.damping_number(stress, share, closure=closure)["damping_number"]) / (2 * math.pi)
-            for closure in ("paper", "consistent")}
+    return {f"ets_friction_{closure}": read_friction(event("ets.toml", "stress"), share, closure) for closure in ("paper", "consistent")}
 
 
 def computed(paper, factors, width, ratio, curves) -> dict:

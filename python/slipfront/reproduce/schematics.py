@@ -95,9 +95,9 @@ def contact() -> Picture:
 
 
 def arrows(axes, x, w, W):
-    """Slip velocity as arrows to the right, at two heights of the upper plate; an arrow of W is 0.28 of their distance in each panel."""
+    """Slip velocity as arrows to the right, at two heights of the upper plate; an arrow of W is 0.3 of their distance in each panel."""
     for height in (1.0, 1.6):
-        axes.quiver(x, numpy.full_like(x, height), w / W, numpy.zeros_like(w), angles="xy", scale_units="xy", scale=1 / (0.28 * (x[1] - x[0])), color="C0", width=0.007, headwidth=3.2,
+        axes.quiver(x, numpy.full_like(x, height), w / W, numpy.zeros_like(w), angles="xy", scale_units="xy", scale=1 / (0.3 * (x[1] - x[0])), color="C0", width=0.009, headwidth=3.2,
                     headlength=3.6, headaxislength=3.4, minlength=0.1)
 
 
@@ -108,20 +108,20 @@ def draw_sliding(data) -> Figure:
     panels = figure.subplots(2, 2).ravel()
     W, spacing, a = data.attrs["mean"], data.attrs["spacing"], data.attrs["contact_ratio"]
     x, w = data["x"].values, data["w"].values
-    far = numpy.linspace(-9, 9, 10)
-    arrows(panels[0], far, numpy.full(10, W), W)
-    panels[0].set(title="(a) large scale: uniform, W", xlim=(-10, 10), xlabel="position x, 100 spacings of dislocations")
+    far = numpy.linspace(-8, 8, 5)
+    arrows(panels[0], far, numpy.full(5, W), W)
+    panels[0].set(title="(a) large scale: uniform, W", xlim=(-10.4, 12), xticks=[-8, -4, 0, 4, 8], xlabel="position x, 100 spacings of dislocations")
     panels[1].plot(x, w / W, color="C0")
     panels[1].axhline(1, color="0.5", linestyle="--", linewidth=0.9)
-    panels[1].text(x[0], 1.08, "W", color="0.35")
+    panels[1].text(0.52 * spacing, 1.06, "W", color="0.35", ha="center")
     panels[1].set(title="(b) scale of dislocations: w(x)", xlabel="position x, b/A", xlim=(x[0], x[-1]))
     for axes, place, title in ((panels[2], 0.0, "(c) asperities at a dislocation's centre"), (panels[3], spacing / 2, "(d) asperities between two")):
-        sites = numpy.arange(-4, 5)
+        sites = numpy.arange(-2, 3)
         arrows(axes, sites.astype(float), numpy.interp(place + a * sites, x, w), W)
-        axes.plot(sites, numpy.full(9, 0.55), "o", color="0.35", markersize=6, linestyle="none")
-        axes.set(title=title, xlabel="position, asperities", xlim=(-5.6, 5.6))
+        axes.plot(sites, numpy.full(5, 0.55), "o", color="0.35", markersize=6, linestyle="none")
+        axes.set(title=title, xlabel="position, asperities", xlim=(-2.6, 3))
         speed = float(numpy.interp(place, x, w)) / W
-        axes.text(0.02, 0.9, f"w = {speed:.2g} W" + (": arrows too short to see" if speed < 0.15 else ""), transform=axes.transAxes)
+        axes.text(0.02, 0.9, f"w = {speed:.2g} W" + (": arrows a tenth of those in (a)" if speed < 0.15 else ""), transform=axes.transAxes)
     for axes in (panels[0], panels[2], panels[3]):
         axes.set(ylim=(0.2, 2.2), yticks=[])
         axes.grid(False)

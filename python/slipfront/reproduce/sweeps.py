@@ -110,4 +110,5 @@ def against_drop(data) -> Picture:
     """Fig. 12."""
     share = data["slip_velocity_at_origin"].sel(stress=0.855) / data["slip_velocity_at_origin"].sel(stress=0.855, stress_drop=1.0)
     at = {closure: 100 * float(share.sel(stress_drop=0.35, closure=closure)) for closure in CLOSURES}
-    return picture("fig-12", draw_drops(data), data, c=data.attrs["friction_coefficient"], paper=at["paper"], consistent=at["consistent"])
+    printed = [("W(0) at a drop of 35 % over that at 100 %, Σ− = 0.855", "1", at["paper"] / 100)]
+    return picture("fig-12", draw_drops(data), data, printed, c=data.attrs["friction_coefficient"], paper=at["paper"], consistent=at["consistent"])
