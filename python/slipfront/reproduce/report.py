@@ -72,7 +72,7 @@ def page(folder, pictures, tables, about) -> str:
     parts = {"result": main_result(about["levels"]), "symbols": glossary(), "numbers": numbers_section(tables["numbers"]),
              "statements": statements_section(tables["statements"]), "formulas": formulas_section(tables["formulas"]),
              "inputs": table(("what", "where", "printed"), [(row["what"], row["where"], row["printed"]) for row in tables["inputs"]], (2,)),
-             "figures": "<p class=screen>Point at a curve or a map to read its values; the button enlarges a figure.</p>\n" + "".join(figure(folder, picture) for picture in pictures)}
+             "figures": "<p class=screen>Point at a figure to read its values; the button enlarges it.</p>\n" + "".join(figure(folder, picture) for picture in pictures)}
     style, script = ((HERE / name).read_text(encoding="utf-8") for name in ("report.css", "report.js"))
     return "".join([
         '<!DOCTYPE html>\n<html lang=en><head><meta charset=utf-8><meta name=viewport content="width=device-width, initial-scale=1">',
