@@ -97,7 +97,7 @@ def into_stress() -> list:
             row("For (Σ− − Σ+)/Σ− ≪ 1, |V−| is practically equal to V+ and the pulse almost symmetric", "3.3, 5, Fig. 11", judged(abs(ratio[-1] - 1) < 0.02),
                 f"|V−|/V+ is {ratio[-2]:.3f} at a drop of {100 * (1 - rights[-2] / 0.855):.1f} % and {ratio[-1]:.4f} at {100 * (1 - rights[-1] / 0.855):.1f} %.", tried, command),
             row("Shape and velocity of the pulse do not change significantly unless Σ+ ≈ Σ−", "3.3, Fig. 11", judged(leading[2] / leading[0] < 1.1),
-                f"From Σ+ = 0.05 to 0.427, a drop of 50 %, V+ rises by {100 * (leading[2] / leading[0] - 1):.0f} %; |V−| stays.", tried, command)]
+                f"From Σ+ = 0.05 to 0.427, a drop of 50 %, V+ rises by {100 * (leading[2] / leading[0] - 1):.0f} %; |V−| stays.", tried + "; less than 10 % is taken as hardly", command)]
 
 
 def larger() -> list:

@@ -33,7 +33,7 @@ def stress_dependence(found) -> list:
     free = relation("slip_velocity", stress=0.855) / relation("slip_velocity", stress=0.419)
     command = "slipfront relations --stress 0.419 --stress 0.855 --friction-coefficient 0.5"
     return [row("The reduction of slip velocity depends weakly on Σ−", "3.2, Fig. 10", judged(max(change.values()) < 0.3),
-                f"At C = 0.5 the ratio changes by {100 * change['consistent']:.0f} % (consistent closure) and {100 * change['paper']:.0f} % (paper's) while W(0) itself changes {free:.0f} times.", "Σ− = 0.419 to 0.855, C = 0.5, t = 2π", command),
+                f"At C = 0.5 the ratio changes by {100 * change['consistent']:.0f} % (consistent closure) and {100 * change['paper']:.0f} % (paper's) while W(0) itself changes {free:.0f} times.", "Σ− = 0.419 to 0.855, C = 0.5, t = 2π; less than 30 % is taken as weak", command),
             row("The effect of friction is slightly larger at larger Σ−", "5, Fig. 10", judged(high["consistent"] < low["consistent"]),
                 f"The ratio at C = 0.5 rises from {low['consistent']:.3f} to {high['consistent']:.3f} with the consistent closure, which the chain follows: friction takes less. With the paper's closure it falls, {low['paper']:.2f} to {high['paper']:.2f}, as stated.",
                 "Σ− = 0.419 to 0.855, C = 0.5, t = 2π", command)]
@@ -46,7 +46,7 @@ def against_drop(found) -> list:
     at = {drop: [100 * float(one) for one in (exact.sel(stress_drop=drop), share.sel(stress_drop=drop, closure="paper"), share.sel(stress_drop=drop, closure="consistent"))] for drop in (0.35, 0.4, 0.05)}
     none = float(abs(W.sel(stress_drop=0.0)).max())
     return [row(f"W(0) does not depend on Σ+ for stress drops of {text}", where, judged(min(at[drop]) > 95), f"At {100 * drop:.0f} % W(0) is {at[drop][0]:.0f} % of that at 100 % without friction (exact), {at[drop][1]:.0f} % at C = 0.1 with "
-                f"the paper's closure, {at[drop][2]:.0f} % with the consistent one.", "Σ− = 0.855, true step, t = 2π", FIG_12)
+                f"the paper's closure, {at[drop][2]:.0f} % with the consistent one.", "Σ− = 0.855, true step, t = 2π; less than 5 % is taken as none", FIG_12)
             for drop, text, where in ((0.35, "35 to 100 %", "3.3, Fig. 12"), (0.4, "more than 40 %", "5"))] + [
         row("As the stress drop goes to 0, so does W(0)", "3.3, 5, Fig. 12", judged(none < 1e-12 and max(at[0.05]) < 25), f"At a drop of 5 % W(0) is {at[0.05][0]:.0f} % of that at 100 % without friction; without a drop it is {none:.0e} cA/π.",
             "Σ− = 0.855, drops of 0 to 100 %", FIG_12),

@@ -67,7 +67,7 @@ def friction(data, ratio) -> Picture:
     """Fig. 10. ratio: of ratios.py."""
     values = data["slip_velocity_ratio"].sel(closure="paper", stress=0.855)
     printed = [(f"ratio at C = {c:g}, Σ− = 0.855", f"{read:g}", float(values.sel(friction_coefficient=c))) for c, read in zip(FRICTION, READ)]
-    kept = data.assign(slip_velocity_ratio_smooth=ratio["smooth"])
+    kept = data.assign(slip_velocity_ratio_smooth=ratio["smooth"].assign_attrs(width=ratio.attrs["width"], stress=0.855, stress_right=0.179))
     shares = [float(data["slip_velocity_ratio"].sel(closure=closure, stress=stress, friction_coefficient=0.5)) for closure in CLOSURES for stress in (0.419, 0.855)]
     return picture("fig-10", draw_ratios(data, ratio["smooth"].assign_attrs(width=ratio.attrs["width"])), kept, printed, width=ratio.attrs["width"],
                    paper_low=shares[0], paper_high=shares[1], consistent_low=shares[2], consistent_high=shares[3])
