@@ -6,6 +6,7 @@
 
 #include "batch.hpp"
 #include "commands.hpp"
+#include "relations_friction.hpp"
 #include "slipfront/rupture/relations.hpp"
 #include "state_values.hpp"
 
@@ -74,9 +75,13 @@ void print_one(const Relations& r) {
   }
 }
 
-int print(const std::vector<State>& states, const CommonOptions& options) {
+int print(const std::vector<State>& states, const FrictionOptions& friction, const CommonOptions& options) {
   const auto results =
       in_parallel<Relations>(states.size(), options.threads, [&](std::size_t i) { return solve(states[i]); });
+  if (friction.wanted()) {
+    print_friction(results, friction, options);
+    return exit_done;
+  }
   if (options.json) {
     put("{\"relations\": [");
     const auto rows =
@@ -109,6 +114,7 @@ int print(const std::vector<State>& states, const CommonOptions& options) {
 Runner add_relations(CLI::App& app) {
   struct Arguments {
     CommonOptions common;
+    FrictionOptions friction;
     std::array<Given, 3> given = {{{"--stress", slipfront::rupture::from_stress, {}},
                                    {"--rupture-velocity", slipfront::rupture::from_rupture_velocity, {}},
                                    {"--slip-velocity", slipfront::rupture::from_slip_velocity, {}}}};
@@ -116,7 +122,8 @@ Runner add_relations(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand(
       "relations",
-      "Stress, rupture velocity and slip velocity of a frictionless slip pulse, each from any other (Eqs. 8-10)");
+      "Stress, rupture velocity and slip velocity of a frictionless slip pulse, each from any other (Eqs. 8-10); what "
+      "friction leaves of the slip velocity, and the friction coefficient from that (Fig. 10)");
   const std::array<const char*, 3> help = {"Stress before the rupture, in mu A / pi",
                                            "Velocity of the fast front, in c", "Slip velocity at x = 0, in c A / pi"};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -127,6 +134,7 @@ Runner add_relations(CLI::App& app) {
                        ->allow_extra_args(false)
                        ->type_name("VALUE");
   }
+  add_friction_options(*command, arguments->friction);
   add_common_options(*command, arguments->common);
   return [arguments, command] {
     std::vector<State> states;
@@ -151,6 +159,6 @@ Runner add_relations(CLI::App& app) {
           {.file = "command line",
            .problem = "relations: nothing was asked for",
            .allowed = "--stress S, --rupture-velocity V or --slip-velocity W; see slipfront relations --help"});
-    return print(states, arguments->common);
+    return print(states, arguments->friction, arguments->common);
   };
 }

@@ -1,6 +1,7 @@
 #include <string>
 
 #include "columns.hpp"
+#include "slipfront/friction_ratio/inverse.hpp"
 #include "slipfront/friction_ratio/table.hpp"
 
 namespace {
@@ -25,9 +26,27 @@ py::list friction_ratio_of(const Numbers& stress, const Numbers& damping, const 
   });
 }
 
+constexpr std::array<Description, 2> damping_number_described = {{
+    {"damping_number", "damping number C T at which friction leaves this ratio", "", "Fig. 10"},
+    {"damping_number_error", "its largest error, from that of the table", "", "Fig. 10"},
+}};
+
+py::list damping_number_of(const Numbers& stress, const Numbers& ratio, const std::string& measure,
+                           const std::string& closure_name) {
+  const friction::Closure closure = friction::closure_named(closure_name);
+  const friction_ratio::Measure which = friction_ratio::measure_named(measure, "measure");
+  const double *s = stress.data(), *r = ratio.data();
+  return columns<2>(stress.size(), [=](py::ssize_t i) {
+    const friction_ratio::Reading reading = friction_ratio::damping_number(which, closure, s[i], r[i]);
+    return std::array{reading.damping_number, reading.error};
+  });
+}
+
 }  // namespace
 
 void bind_friction_ratio(py::module_& m) {
   m.def("friction_ratio", friction_ratio_of);
   m.attr("friction_ratio_described") = all(friction_ratio_described);
+  m.def("damping_number", damping_number_of);
+  m.attr("damping_number_described") = all(damping_number_described);
 }

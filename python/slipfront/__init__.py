@@ -7,6 +7,8 @@ paper (Gershenzon, Bambakidis and Skinner 2015, doi 10.3390/lubricants3020311).
     relations   stress, rupture velocity and slip velocity of a frictionless pulse, each from any other (Eqs. 8-10)
     friction_ratio
                 what friction leaves of the slip velocity (Fig. 10)
+    damping_number
+                the damping number from that: Fig. 10, read the other way
     train       the uniform train of dislocations (Eqs. 4-5) and the closed-form profile of a pulse
     medium      constants of rock and interface (Eqs. 1-3)
     pulse       the modulation equations with friction (Eqs. 7), on a scenario
@@ -22,7 +24,7 @@ import pathlib
 
 from . import medium, train
 from ._event import event
-from ._friction_ratio import friction_ratio
+from ._friction_ratio import damping_number, friction_ratio
 from ._relations import relations
 from ._run import chain, check, compare, open, pulse
 from ._sweep import sweep
@@ -30,5 +32,5 @@ from ._slipfront import FileError, InputError, NumericsError, __version__
 
 cases = pathlib.Path(__file__).parent / "cases"
 
-__all__ = ["FileError", "InputError", "NumericsError", "__version__", "cases", "chain", "check", "compare", "event", "friction_ratio", "medium", "open",
+__all__ = ["FileError", "InputError", "NumericsError", "__version__", "cases", "chain", "check", "compare", "damping_number", "event", "friction_ratio", "medium", "open",
            "pulse", "relations", "sweep", "train"]

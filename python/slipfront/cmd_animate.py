@@ -1,4 +1,4 @@
-"""slipfront animate: a slip pulse as a moving picture."""
+"""slipfront animate: slip pulses as moving pictures."""
 
 import json
 import pathlib
@@ -8,6 +8,9 @@ from ._arguments import Arguments, file_name, progress, put
 from ._optional import import_optional
 
 FRAMES = 75
+
+#: The rock of the SI scales: P-wave speed in m/s, Poisson's ratio, shear modulus in Pa; the paper's.
+ROCK = {"p_wave_speed": 6000.0, "poisson_ratio": 0.3, "shear_modulus": 30e9}
 
 
 def run(scenario):
@@ -19,29 +22,60 @@ def run(scenario):
             own = "times" in tomllib.load(file).get("output", {})
     except (OSError, tomllib.TOMLDecodeError, AttributeError, UnicodeDecodeError):
         own = False  # what is wrong with it, the reader of scenarios says
-    return slipfront.pulse(scenario, set={} if own else {"output.every": slipfront.check(scenario)["end"] / (FRAMES - 1)})
+    plan = slipfront.check(scenario)
+    pulse = slipfront.pulse(scenario, set={} if own else {"output.every": plan["end"] / (FRAMES - 1)})
+    return pulse.assign_attrs(title=plan["title"])  # the output times are ours: the title does not name them
+
+
+def pulse_of(source):
+    """The pulse of a scenario, which is run, or of a file."""
+    from .plots import files
+
+    pulse = run(source) if source.lower().endswith(".toml") else files.read(source)
+    if not {"W", "Sigma", "k", "x_bounds"} <= set(pulse.variables) or set(pulse["k"].dims) != {"time", "x"} or pulse.sizes["time"] < 2:
+        raise ValueError(f"{source}: no pulse over two or more times in it; allowed: a file of pulse or chain, or a scenario")
+    return pulse
+
+
+def si_units(options):
+    """SI values of the units, from --contact-ratio and --asperity-spacing; None without."""
+    from . import medium
+
+    if (options.contact_ratio is None) != (options.asperity_spacing is None):
+        raise ValueError("--contact-ratio and --asperity-spacing: one is missing; the scales in m, s, m/s and MPa need both")
+    if options.contact_ratio is None:
+        return None
+    speed = float(medium.speed_from_p_wave(ROCK["p_wave_speed"], ROCK["poisson_ratio"]))
+    return medium.units(ROCK["shear_modulus"], speed, options.contact_ratio, options.asperity_spacing)
+
+
+def arguments(argv):
+    """The options of the command line."""
+    parser = Arguments("animate", "Slip pulses as moving pictures: the averaged slip velocity and stress, and the dislocations that carry them.")
+    parser.add_argument("sources", metavar="FILE", nargs="+",
+                        help="NetCDF of pulse or chain (a frame for each output time), or a scenario (TOML) to run; several are drawn side by side")
+    parser.add_argument("-o", "--output", metavar="PICTURE", type=file_name, required=True, help="its ending is the format: gif, webp, mp4")
+    parser.add_argument("--contact-ratio", metavar="A", type=float, help="contact ratio, for scales in SI units beside the dimensionless ones")
+    parser.add_argument("--asperity-spacing", metavar="METRES", type=float,
+                        help="asperity spacing b in m, for the same; the rock is the paper's: P waves of 6 km/s, Poisson's ratio 0.3, 30 GPa")
+    return parser.parse_args(argv)
 
 
 def main(argv) -> int:
     """Writes the animation. Returns the exit code; raises ValueError (bad input), OSError (files), ImportError (a library)."""
-    parser = Arguments("animate", "A slip pulse as a moving picture: the averaged slip velocity and stress, and the dislocations that carry them.")
-    parser.add_argument("source", metavar="FILE", help="NetCDF of pulse or chain (a frame for each output time), or a scenario (TOML) to run")
-    parser.add_argument("-o", "--output", metavar="PICTURE", type=file_name, required=True, help="its ending is the format: gif, webp, mp4")
-    options = parser.parse_args(argv)
+    options = arguments(argv)
     for module in ("xarray", "matplotlib", "PIL"):
         import_optional(module)
-    from .plots import files, movie
+    from .plots import movie
     from .plots.animation import Scene
 
     output = pathlib.Path(options.output)
     if output.suffix.lower().lstrip(".") not in movie.FORMATS:
         raise ValueError(f"-o {output}: '{output.suffix}' is no moving picture; allowed endings: {', '.join(movie.FORMATS)}")
-    pulse = run(options.source) if options.source.lower().endswith(".toml") else files.read(options.source)
-    if not {"W", "Sigma", "k", "x_bounds"} <= set(pulse.variables) or set(pulse["k"].dims) != {"time", "x"} or pulse.sizes["time"] < 2:
-        raise ValueError(f"{options.source}: no pulse over two or more times in it; allowed: a file of pulse or chain, or a scenario")
-    scene, frames = Scene(pulse), []
-    for row in range(pulse.sizes["time"]):
-        progress(options, f"frame {row + 1} of {pulse.sizes['time']}")
+    si = si_units(options)
+    scene, frames = Scene([pulse_of(source) for source in options.sources], si), []
+    for row in range(scene.times.size):
+        progress(options, f"frame {row + 1} of {scene.times.size}")
         frames.append(scene.show(row))
     movie.write(frames, output)
     progress(options, "")

@@ -4,9 +4,10 @@ import csv
 import io
 import json
 import math
+import os
 import unittest
 
-from support import CommandLine
+from support import SOURCE, CommandLine
 
 RELATIONS = ["stress", "rupture_velocity", "leading_velocity", "velocity_ratio", "slip_velocity", "stress_at_origin",
              "dislocation_velocity_at_origin", "psi", "psi_at_origin"]
@@ -65,6 +66,40 @@ class Relations(CommandLine):
         self.refused(2, "relations", "--stress", "-", stdin="1\n-2\n", says=["stdin:2", "stress = '-2'"])
         self.refused(2, "relations", "--stress", "-", stdin="", says=["stdin"])
         self.refused(2, "relations", "--stress", "-", "--stress", "-", stdin="1\n")
+
+    def test_friction_coefficient_from_a_ratio_and_back(self):
+        forward = json.loads(self.ok("relations", "--stress", "0.855", "--stress", "0.3", "--friction-coefficient", "0.5", "--json"))
+        self.assertEqual([(row["stress"], row["closure"]) for row in forward["friction"]],
+                         [(0.855, "consistent"), (0.855, "paper"), (0.3, "consistent"), (0.3, "paper")])
+        for row in forward["friction"]:
+            back = json.loads(self.ok("relations", "--stress", str(row["stress"]), "--slip-velocity-ratio", repr(row["slip_velocity_ratio"]), "--json"))
+            found = next(other for other in back["friction"] if other["closure"] == row["closure"])
+            self.assertAlmostEqual(found["friction_coefficient"], 0.5, 9)
+            self.assertLess(found["friction_coefficient_error"], 0.02)
+            self.assertAlmostEqual(found["slip_velocity"], row["slip_velocity"], 12)
+
+    def test_friction_is_that_of_the_pulse_solver(self):
+        rows = json.loads(self.ok("relations", "--stress", "0.855", "--friction-coefficient", "0.1", "--friction-coefficient", "0.5", "--json"))["friction"]
+        for row in rows:
+            run = self.pulse(os.path.join(SOURCE, "cases", "step.toml"), "--set", "friction.law=viscous", "--set", f"friction.coefficient={row['friction_coefficient']}",
+                             "--set", f"friction.closure={row['closure']}")
+            self.assertLess(abs(row["slip_velocity"] / run["slip_velocity_at_origin"] - 1), max(1e-4, row["slip_velocity_ratio_error"] / row["slip_velocity_ratio"]))
+
+    def test_only_the_damping_number_counts(self):
+        rows = [json.loads(self.ok("relations", "--rupture-velocity", "0.55", "--friction-coefficient", c, "--time", t, "--json"))["friction"] for c, t in (("0.5", "4"), ("2", "1"))]
+        for one, other in zip(*rows):
+            self.assertEqual(one["slip_velocity"], other["slip_velocity"])
+        table = self.ok("relations", "--stress", "0.855", "--slip-velocity-ratio", "0.2", "--measure", "time-mean")
+        self.assertIn("time-mean", table)
+        self.assertEqual(len(list(csv.DictReader(io.StringIO(self.ok("relations", "--stress", "0.855", "--slip-velocity-ratio", "0.2", "--csv"))))), 2)
+
+    def test_friction_refuses(self):
+        for arguments, says in [(("--slip-velocity-ratio", "1.5"), "at most 1"), (("--slip-velocity-ratio", "0"), "above 0"), (("--slip-velocity-ratio", "nan"), "above 0"),
+                                (("--friction-coefficient", "-1"), ">= 0"), (("--friction-coefficient", "inf"), "finite"), (("--friction-coefficient", "1", "--time", "0"), "--time"),
+                                (("--friction-coefficient", "1", "--measure", "top"), "time-mean")]:
+            self.refused(2, "relations", "--stress", "0.855", *arguments, says=["command line", says])
+        self.refused(2, "relations", "--stress", "5", "--friction-coefficient", "1", says=["0.05 ... 3"])
+        self.refused(2, "relations", "--friction-coefficient", "1", says=["--stress"])
 
 
 if __name__ == "__main__":

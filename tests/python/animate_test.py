@@ -9,6 +9,7 @@ import numpy as np
 from PIL import Image
 
 import slipfront
+from slipfront.plots.animation import Scene
 from slipfront.plots.dislocations import positions
 from support import CommandLine, SOURCE
 
@@ -53,11 +54,31 @@ class Animate(CommandLine):
                 self.assertEqual(file.read(12)[4:8], b"ftyp")
         self.assertEqual([name for name in os.listdir(folder) if name.startswith(".")], [])
 
+    def test_side_by_side_with_scales_in_si(self):
+        pulses = [slipfront.pulse(STEP, set={"output.every": 1.5, "friction.law": "viscous", "friction.coefficient": c}) for c in (0, 0.5)]
+        si = slipfront.medium.units(30e9, 5421.0, 0.003, 0.01)
+        scene = Scene(pulses, si)
+        scene.show(2)
+        without, with_friction = scene.columns
+        heights = [column.lines[0].get_ydata().max() for column in (without, with_friction)]
+        self.assertLess(heights[1], 0.8 * heights[0])
+        for column, pulse in zip(scene.columns, pulses):
+            names = {text.get_text().strip(): text.get_position()[0] for _, _, _, text in column.fronts}
+            self.assertEqual(names, {"V−": float(pulse["trailing_front"][2]), "V+": float(pulse["leading_front"][2])})
+        right = scene.panels[0, 1].child_axes[0]
+        self.assertEqual(right.get_ylabel(), "m/s")
+        scene.figure.canvas.draw()
+        self.assertAlmostEqual(right.get_ylim()[1], scene.panels[0, 1].get_ylim()[1] * 5421 * 0.003 / np.pi, delta=1e-6)
+        self.assertIn("1.84 ms", scene.clock.get_text())  # 3 b / (c A) of b / (c A) = 0.01 m / (5421 m/s 0.003)
+        with self.assertRaisesRegex(ValueError, "different output times"):
+            Scene([pulses[0], slipfront.pulse(STEP, set={"output.every": 1})])
+
     def test_refuses(self):
         table = self.file("r.csv", self.ok("relations", "--stress", "1", "--csv"))
         out = os.path.join(os.path.dirname(table), "a.gif")
         self.refused(2, "animate", table, "-o", out, says=["no pulse"])
         self.refused(2, "animate", STEP, says=["-o"])
+        self.refused(2, "animate", STEP, "-o", out, "--contact-ratio", "0.003", says=["--asperity-spacing", "both"])
         self.refused(2, "animate", STEP, "-o", "a.png", says=["'.png'", "gif, webp, mp4"])
         self.refused(3, "animate", "/nowhere.toml", "-o", out, says=["nowhere.toml"])
         self.refused(2, "animate", self.file("bad.toml", "title = 3"), "-o", out, says=["title"])

@@ -5,10 +5,12 @@ import unittest
 
 import numpy as np
 import xarray as xr
+from matplotlib.figure import Figure
 
 import slipfront
 from slipfront import plots
 from slipfront.plots import choose, files
+from slipfront.plots.between import between
 from slipfront.plots.style import label
 from support import CommandLine, SOURCE
 
@@ -40,8 +42,40 @@ class Figures(CommandLine):
         np.testing.assert_array_equal(figure.axes[0].lines[-1].get_ydata(), pulse["W"][-1])
         figure = plots.space_time(pulse)
         lines = {line.get_label(): line for line in figure.axes[0].lines}
-        np.testing.assert_array_equal(lines["trailing edge"].get_xdata(), pulse["trailing_front"])
-        np.testing.assert_array_equal(lines["trailing edge"].get_ydata(), pulse["time"])
+        np.testing.assert_array_equal(lines["trailing edge, fast (V−)"].get_xdata(), pulse["trailing_front"])
+        np.testing.assert_array_equal(lines["trailing edge, fast (V−)"].get_ydata(), pulse["time"])
+        for axes in figure.axes[:2]:
+            self.assertEqual({text.get_text() for text in axes.texts}, {"V−", "V+"})
+
+    def test_a_map_follows_the_fronts_between_outputs(self):
+        """Without friction the fields depend on x / t alone: what lies between two outputs is known."""
+        pulse = slipfront.pulse(STEP, set={"output.every": 1.5})
+        times, places = np.array([2.25, 3.75, 5.0]), np.linspace(-1.5, 0.4, 40)
+        values = between(pulse, "W", times, places)
+        last = pulse.isel(time=-1)
+        for time, row in zip(times, values):
+            exact = np.interp(places * float(last["time"]) / time, last["x"], last["W"])
+            self.assertLess(np.abs(row - exact).max(), 0.03 * float(last["W"].max()))
+        np.testing.assert_allclose(between(pulse, "W", pulse["time"].values, pulse["x"].values)[:-1], pulse["W"][:-1], atol=1e-12)
+
+    def test_a_bad_cell_spoils_itself_alone(self):
+        pulse = slipfront.pulse(CASE)
+        whole = pulse.copy(deep=True)
+        pulse["W"][8, 200], pulse["W"][4, 220] = np.nan, 1e9
+        highest = float(whole["W"].max())
+        mesh = plots.space_time(pulse).axes[0].collections[0]
+        self.assertLessEqual(mesh.get_clim()[1], highest)
+        image, sound = (plots.space_time(data).axes[0].collections[0].get_array() for data in (pulse, whole))
+        self.assertLess(np.ma.count_masked(image) / image.size, 5e-3)
+        self.assertGreater(np.ma.count_masked(image), 0)
+        self.assertLess((np.abs(np.ma.filled(image, np.inf) - sound) > 1e-9).mean(), 0.01)
+        self.assertLess(plots.profiles(pulse).axes[0].get_ylim()[1], 1.2 * highest)
+
+    def test_slip_backward_is_explained(self):
+        hill = {"initial": {"profile": "formula", "formula": "0.3 + 0.5*exp(-x^2)"}, "domain": {"left": -6, "right": 6}, "time": {"end": 2}}
+        backward = "below 0: slips backward, where stress rises with x"
+        self.assertIn(backward, [text.get_text() for text in plots.profiles(slipfront.pulse(hill)).axes[0].texts])
+        self.assertNotIn(backward, [text.get_text() for text in plots.profiles(slipfront.pulse(STEP)).axes[0].texts])
 
     def test_relations_are_drawn_in_order(self):
         states = slipfront.relations(stress=[1.0, 0.2, 0.5])
@@ -68,6 +102,10 @@ class Figures(CommandLine):
         at = np.interp(np.log(events["rupture_velocity"].dropna("event")), np.log(line["rupture_velocity"]), line["stress"])
         np.testing.assert_allclose(at, events["stress"].dropna("event"), rtol=2e-3)
         self.assertEqual(figure.axes[0].get_xscale(), "log")
+        stress, bound = figure.axes
+        self.assertIn("by construction", stress.get_title(loc="left"))
+        arrows = [text for text in bound.texts if getattr(text, "arrow_patch", None)]
+        self.assertEqual(len(arrows), int(events["stress_pa_bound"].notnull().sum()))
 
     def test_events_with_their_population(self):
         rows = "".join(f"E{i},{10 ** (-3 + 6 * i / 500)} m/s,{10 ** (-7 + 6 * i / 500)} m/s\n" for i in range(501))
@@ -93,15 +131,37 @@ class Figures(CommandLine):
         figure = plots.corner(samples())
         self.assertEqual(sum(axes.axison for axes in figure.axes), 3)
         self.assertEqual(figure.axes[3].get_xscale(), "log")  # spreads over decades
+        titles = [axes.get_title(loc="left").split("\n")[0] for axes in figure.axes]
+        self.assertEqual([titles[0], titles[3]], ["initial stress Σ−, μA/π", "damping number Γ"])
         with self.assertRaisesRegex(ValueError, "too few"):
             plots.corner(samples(10))
         with self.assertRaisesRegex(ValueError, "in every sample"):
             plots.corner(samples().assign(stress=("sample", np.ones(200))))
 
+    def test_corner_of_the_draws_of_an_event(self):
+        case = self.file("event.toml", "[event]\nname = 'mine'\nrupture_velocity = '3.0 +- 0.2 km/s'\nslip_velocity = '0.5 */ 1.3 m/s'\nstress_drop = '40 */ 1.4 MPa'\n"
+                                       "duration = '1 s'\n")
+        path = os.path.join(os.path.dirname(case), "event.nc")
+        self.ok("event", case, "--draws", "500", "-o", path)
+        data = files.read(path)
+        self.assertEqual(choose.kinds_of(data)[0], "corner")
+        figure = choose.draw(data, "corner")
+        self.assertEqual([axes.get_xlabel() for axes in figure.axes[-4:]], ["initial stress Σ−, μA/π", "contact ratio A", "initial stress, MPa", "damping number Γ"])
+        middle = float(figure.axes[10].get_title(loc="left").split("\n")[1].split()[0])
+        self.assertLess(abs(middle / (float(data["draw_stress_pa"].median()) / 1e6) - 1), 0.01)
+
     def test_units(self):
         pulse = slipfront.pulse(CASE)
         self.assertEqual(label(pulse["slip"]), "slip u, b/(2π)")
         self.assertEqual(label(pulse["time"]), "time t, b/(cA)")
+
+    def test_saving_leaves_a_layout_alone(self):
+        figure = Figure(layout="none")
+        axes = figure.add_axes((0.2, 0.3, 0.4, 0.5))
+        for ending in ("svg", "png"):
+            plots.save(figure, os.path.join(os.path.dirname(self.file("x", "")), f"a.{ending}"))
+            np.testing.assert_allclose(axes.get_position().bounds, (0.2, 0.3, 0.4, 0.5))
+        self.assertIsNone(figure.get_layout_engine())
 
     def test_style_stays_inside(self):
         import matplotlib

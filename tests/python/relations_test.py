@@ -150,6 +150,17 @@ class FrictionRatio(unittest.TestCase):
                 slipfront.friction_ratio(*arguments, **named)
         self.assertGreater(float(slipfront.friction_ratio(1.0, 100.0, closure="paper").uncertainty), 1e-3)
 
+    def test_damping_number_is_the_other_way_round(self):
+        damping = np.array([0.2, 3.0, 40.0])
+        for closure in ("consistent", "paper"):
+            ratio = slipfront.friction_ratio(0.7, damping, closure=closure).ratio
+            back = slipfront.damping_number(0.7, ratio, closure=closure)
+            np.testing.assert_allclose(back.damping_number, damping, rtol=1e-9)
+            self.assertTrue(bool((back.damping_number_error > 0).all()))
+        self.assertTrue(np.isnan(slipfront.damping_number(0.7, [0.5, np.nan]).damping_number[1]))
+        with self.assertRaisesRegex(slipfront.InputError, "at most 1"):
+            slipfront.damping_number(0.7, 1.2)
+
 
 if __name__ == "__main__":
     unittest.main()

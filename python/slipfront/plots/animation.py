@@ -1,52 +1,116 @@
-"""A slip pulse as a moving picture: the averaged fields, and the dislocations under them."""
+"""Slip pulses as moving pictures: the averaged fields, their fronts, and the dislocations under them."""
 
 import numpy
+import xarray
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from .dislocations import positions
-from .pulse_parts import finite, title_of, window
+from .pulse_parts import extent, finite, fronts_of, title_of, window
 from .style import label, styled
 
-SHOWN = 40  #: dislocations in the picture at the first time, about
+SHOWN = 30  #: dislocations in the picture at the first time, about
+FIELDS = (("W", "C1"), ("Sigma", "C0"))
+
+
+def metres(value: float) -> str:
+    """A length or time with a prefix of SI, as '3.3 m' or '0.61 ms' needs it: number and prefix."""
+    for power, prefix in ((0, ""), (-3, "m"), (-6, "μ"), (-9, "n")):
+        if abs(value) >= 10.0**power:
+            return f"{value / 10.0**power:.3g} {prefix}"
+    return f"{value:.3g} "
+
+
+def scale_of(pulse, left, right) -> float:
+    """How many times as dense the dislocations are drawn, so that about SHOWN lie between two places at the first time."""
+    seen = pulse.isel(time=0)["k"].where((pulse["x"] > left) & (pulse["x"] < right))
+    count = float((seen * (pulse["x_bounds"][:, 1] - pulse["x_bounds"][:, 0])).sum()) / (2 * numpy.pi)
+    return SHOWN / count if count > 0 else 1.0
+
+
+class Column:
+    """One pulse of a scene: its lines in three panels, W, stress and dislocations."""
+
+    def __init__(self, panels, pulse, scale):
+        self.pulse, self.places = pulse, positions(pulse, scale)
+        panels[0].set_title(title_of(pulse), fontsize="small")
+        panels[1].plot(pulse["x"], pulse["Sigma"][0], color="0.7", linestyle="-", linewidth=1)
+        self.lines = [axes.plot(pulse["x"], pulse[name][0], color=colour, linestyle="-")[0] for axes, (name, colour) in zip(panels, FIELDS)]
+        self.marks = panels[2].plot([], [], marker="$⊥$", color="black", markersize=5, linestyle="none")[0]
+        self.fronts = []
+        for front, line, _, symbol in fronts_of(pulse):
+            if symbol:
+                lines = [axes.axvline(0, color="0.35", linestyle=line, linewidth=0.8) for axes in panels[:2]]
+                text = panels[0].text(0, 0.97, f" {symbol} ", transform=panels[0].get_xaxis_transform(), va="top", fontweight="bold", clip_on=True)
+                self.fronts.append((front.values, lines, symbol, text))
+
+    def show(self, row) -> None:
+        """Moves the lines to one time; a front that is not there then is hidden."""
+        now = self.pulse.isel(time=row)
+        for line, (name, _) in zip(self.lines, FIELDS):
+            line.set_ydata(now[name])
+        self.marks.set_data(self.places[row], numpy.zeros(self.places.shape[1]))
+        for places, lines, symbol, text in self.fronts:
+            there = bool(numpy.isfinite(places[row]))
+            for artist in (*lines, text):
+                artist.set_visible(there)
+            if there:
+                text.set_x(places[row])
+                left, right = text.axes.get_xlim()  # a name at the right end stands left of its line
+                text.set_horizontalalignment("left" if symbol == "V+" and places[row] < right - (right - left) / 10 else "right")
+                for line in lines:
+                    line.set_xdata([places[row]] * 2)
 
 
 class Scene:
-    """A figure whose lines are moved from time to time of a pulse."""
+    """A figure of one pulse, or of several side by side, that moves from time to time.
+
+    pulses: Dataset, or a list of them with the same output times. si: SI values of the units of length, time, stress and slip_velocity
+    (`slipfront.medium.units`), for a second scale; none without.
+    """
 
     @styled
-    def __init__(self, pulse):
-        pulse = self.pulse = finite(pulse)
-        self.figure = Figure(figsize=(7.2, 4.2), dpi=100)
+    def __init__(self, pulses, si=None):
+        pulses = [finite(pulse) for pulse in ([pulses] if isinstance(pulses, xarray.Dataset) else pulses)]
+        self.times, self.si = pulses[0]["time"].values, si
+        if any(pulse.sizes["time"] != self.times.size or not numpy.allclose(pulse["time"], self.times) for pulse in pulses):
+            raise ValueError("pulses side by side have different output times; allowed: the same [output] and [time] in each")
+        self.figure = Figure(figsize=(7.2, 4.4 if si is None else 4.8), dpi=100)
         FigureCanvasAgg(self.figure)
-        self.panels = self.figure.subplots(3, 1, sharex=True, gridspec_kw={"height_ratios": (3, 3, 1)})
-        left, right = window(pulse)
-        seen = pulse.isel(time=0)["k"].where((pulse["x"] > left) & (pulse["x"] < right))
-        count = float((seen * (pulse["x_bounds"][:, 1] - pulse["x_bounds"][:, 0])).sum()) / (2 * numpy.pi)
-        self.scale = SHOWN / count if count > 0 else 1.0
-        self.places = positions(pulse, self.scale)
-        for axes, name in zip(self.panels, ("W", "Sigma")):
-            values = pulse[name].values[numpy.isfinite(pulse[name].values)]
-            low, high = min(0.0, values.min(initial=0.0)), values.max(initial=0.0)
-            axes.set(ylabel=label(pulse[name]).replace(", ", ",\n"), ylim=(low, 1.08 * high if high > 0 else 1))
-        self.panels[1].plot(pulse["x"], pulse["Sigma"][0], color="0.7", linestyle="-", linewidth=1)
-        self.lines = [axes.plot(pulse["x"], pulse[name][0], color=colour, linestyle="-")[0]
-                      for axes, name, colour in zip(self.panels, ("W", "Sigma"), ("C1", "C0"))]
-        self.marks = self.panels[2].plot([], [], marker="$⊥$", color="black", markersize=6, linestyle="none")[0]
-        self.panels[2].set(ylim=(-1, 1), yticks=[], ylabel="dislo-\ncations", xlabel=label(pulse["x"]), xlim=(left, right))
-        self.panels[2].grid(False)
-        self.clock = self.panels[0].set_title(" ")
+        self.panels = self.figure.subplots(3, len(pulses), sharex=True, sharey="row", squeeze=False, gridspec_kw={"height_ratios": (3, 3, 1)})
+        windows = [window(pulse) for pulse in pulses]
+        left, right = min(ends[0] for ends in windows), max(ends[1] for ends in windows)
+        self.scale = scale_of(pulses[0], left, right)
+        self.columns = [Column(self.panels[:, i], pulse, self.scale) for i, pulse in enumerate(pulses)]
+        for axes, (name, _) in zip(self.panels, FIELDS):
+            ends = [end for pulse in pulses for end in extent(pulse[name].values)]
+            axes[0].set(ylabel=label(pulses[0][name]).replace(", ", ",\n"), ylim=(min(0.0, *ends), 1.2 * max(ends) if max(ends) > 0 else 1))
+        for axes in self.panels[2]:
+            axes.set(ylim=(-1, 1), yticks=[], xlabel=label(pulses[0]["x"]), xlim=(left, right))
+            axes.grid(False)
+        self.panels[2, 0].set_ylabel("dislo-\ncations")
+        if si:
+            self.add_si()
+        self.clock = self.figure.suptitle(" ")
         self.show(0)
         self.figure.canvas.draw()
         self.figure.set_layout_engine("none")  # else the axes would move with the clock's width
 
+    def add_si(self) -> None:
+        """Scales in SI units: slip velocity and stress on the right, position above."""
+        for axes, unit, text in ((self.panels[0, -1], self.si["slip_velocity"], "m/s"), (self.panels[1, -1], self.si["stress"] / 1e6, "MPa")):
+            axes.secondary_yaxis("right", functions=(lambda y, unit=unit: y * unit, lambda y, unit=unit: y / unit)).set_ylabel(text)
+        for axes in self.panels[0]:
+            above = axes.secondary_xaxis("top", functions=(lambda x: x * self.si["length"], lambda x: x / self.si["length"]))
+            above.set_xlabel("m", fontsize="small", labelpad=2)
+            above.tick_params(labelsize="small")
+
     @styled
     def show(self, row) -> numpy.ndarray:
         """Draws one time. Returns the picture, height by width by red, green, blue (0 to 255)."""
-        now = self.pulse.isel(time=row)
-        for line, name in zip(self.lines, ("W", "Sigma")):
-            line.set_ydata(now[name])
-        self.marks.set_data(self.places[row], numpy.zeros(self.places.shape[1]))
-        self.clock.set_text(f"{title_of(self.pulse)}    t = {float(now['time']):.2f} b/(cA)")
+        time = float(self.times[row])
+        for column in self.columns:
+            column.show(row)
+        self.clock.set_text(f"t = {time:.2f} b/(cA)" + (f" = {metres(time * self.si['time'])}s" if self.si else ""))
         self.figure.canvas.draw()
         return numpy.asarray(self.figure.canvas.buffer_rgba())[..., :3].copy()

@@ -17,6 +17,8 @@ def kinds_of(dataset) -> list:
     """Kinds of picture that the Dataset has all variables for, the most telling first. A comparison is drawn as such alone."""
     there = set(dataset.variables) | set(dataset.dims)
     kinds = [kind for kind, (_, wanted) in KINDS.items() if wanted <= there]
+    if {"draw", "draw_rupture_velocity"} <= there and dataset.sizes["event"] == 1:
+        kinds.insert(0, "corner")
     if "space-time" in kinds and dataset.sizes["time"] < 2:
         kinds.remove("space-time")
     return kinds[:1] if "level" in dataset.dims else kinds

@@ -2,7 +2,7 @@
 
 from matplotlib.figure import Figure
 
-from .pulse_parts import shades, title_of, window
+from .pulse_parts import mark_fronts, shades, title_of, window
 from .style import label, plain, styled
 
 #: Lines of the levels that are no chains; chains are shaded by their scale.
@@ -24,7 +24,7 @@ def comparison(levels, fields=("W", "Sigma", "slip")) -> Figure:
     fields : sequence of str
         Three variables over level, time and x.
     """
-    figure = Figure(figsize=(9.2, 5.8))
+    figure = Figure(figsize=(7.6, 5.6))
     panels = figure.subplots(2, 2)
     grows = levels.sizes["time"] > 4  # else there is no course of time to draw
     names = [plain(name) for name in levels["name"].values]
@@ -48,5 +48,7 @@ def comparison(levels, fields=("W", "Sigma", "slip")) -> Figure:
         panels[1, 1].set(xlabel=label(levels["slip_at_origin"]))
         panels[1, 1].invert_yaxis()
     panels[0, 1].legend()
+    if "pulse-consistent" in names:
+        mark_fronts(panels[0, 0], levels.isel(level=names.index("pulse-consistent")))
     figure.suptitle(f"{title_of(levels)}, t = {float(levels['time'][-1]):.4g} b/(cA)")
     return figure

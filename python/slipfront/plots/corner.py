@@ -1,9 +1,14 @@
 """Corner plots of samples: every quantity alone, and every pair."""
 
 import numpy
+import xarray
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 
-from .style import label, styled
+from .style import label, plain, styled, unit
+
+#: Which draws of an event state the fault, in the order of the plot.
+STATES = ("stress", "contact_ratio", "stress_pa", "damping_number", "friction_coefficient")
 
 
 def levels_of(counts, shares=(0.9, 0.5)) -> list:
@@ -24,6 +29,61 @@ def bins_of(values, count):
     return spread(values.min(), values.max(), count + 1)
 
 
+def drawn(dataset):
+    """The draws of the one event of a file that `slipfront event --draws` wrote, as samples: what states the fault, where it varies.
+
+    Raises ValueError where the file holds draws of several events.
+    """
+    with_draws = [i for i in range(dataset.sizes["event"]) if bool(dataset["draw_rupture_velocity"][i].notnull().any())]
+    if len(with_draws) != 1:
+        raise ValueError(f"draws of {len(with_draws)} events: a corner plot shows one; allowed: a file of one event, or .isel(event=[row])")
+    chosen = {name: dataset[f"draw_{name}"][with_draws[0]].rename(name) for name in STATES if f"draw_{name}" in dataset}
+    varied = {name: values for name, values in chosen.items() if bool(values.notnull().all()) and float(values.max()) > float(values.min()) * (1 + 1e-9)}
+    return xarray.Dataset({name: values.assign_attrs(long_name="") for name, values in varied.items()})
+
+
+def in_megapascal(variable):
+    """A stress in Pa in MPa; any other quantity as it is."""
+    return (variable / 1e6).assign_attrs(units="MPa").rename(variable.name) if unit(variable) == "Pa" else variable
+
+
+def smoothed(counts):
+    """Counts of a histogram averaged with their neighbours (weights 1, 2, 1 each way), so that lines through them are no lace."""
+    for axis in (0, 1):
+        padded = numpy.pad(counts, [(1, 1) if a == axis else (0, 0) for a in (0, 1)], mode="edge")
+        n = counts.shape[axis]
+        counts = sum(weight * numpy.take(padded, range(start, start + n), axis) for start, weight in ((0, 0.25), (1, 0.5), (2, 0.25)))
+    return counts
+
+
+def alone(axes, values, edges, name) -> None:
+    """The histogram of one quantity, with its median and 5-95 % as lines and above."""
+    axes.hist(values, edges, color="C0", alpha=0.6)
+    low, middle, high = numpy.percentile(values, (5, 50, 95))
+    for value, line in ((low, ":"), (middle, "-"), (high, ":")):
+        axes.axvline(value, color="black", linestyle=line, linewidth=0.9)
+    axes.set_yticks([])
+    axes.set_title(f"{name}\n{middle:.3g}  [{low:.3g}, {high:.3g}]", fontsize="small")
+
+
+def pair(axes, across, up) -> None:
+    """The density of a pair of quantities with the regions that hold half and nine tenths of it. across, up: (values, edges)."""
+    counts, *edges = numpy.histogram2d(across[0], up[0], (across[1], up[1]))
+    axes.pcolormesh(*edges, counts.T, cmap="Blues", rasterized=True)
+    counts = smoothed(counts)
+    axes.contour(*((e[1:] + e[:-1]) / 2 for e in edges), counts.T, levels_of(counts), colors="black", linewidths=0.8)
+    axes.set(yscale=scale_of(up[0]), ylim=(up[1][0], up[1][-1]))
+
+
+def ticks(axis, scale) -> None:
+    """Few numbers on an axis, so that they do not run into each other."""
+    if scale == "linear":
+        axis.set_major_locator(MaxNLocator(4))
+    else:
+        axis.set_major_locator(LogLocator(numticks=5))
+        axis.set_minor_formatter(NullFormatter())
+
+
 @styled
 def corner(samples, names=None, bins: int = 30) -> Figure:
     """Histograms of each quantity with median and the interval from 5 % to 95 %, and of each pair with the regions that hold 50 % and 90 %.
@@ -31,7 +91,8 @@ def corner(samples, names=None, bins: int = 30) -> Figure:
     Parameters
     ----------
     samples : xarray.Dataset
-        Variables over one common dimension (more are taken as one), 20 samples or more. Those not finite in all variables chosen are left out.
+        Variables over one common dimension (more are taken as one), 20 samples or more; or the draws of one event (`slipfront event --draws`).
+        Samples not finite in all variables chosen are left out.
     names : sequence of str, optional
         Which variables, in which order; default all that are numbers.
     bins : int
@@ -41,45 +102,45 @@ def corner(samples, names=None, bins: int = 30) -> Figure:
     ------
     ValueError where too few samples are left or a quantity has but one value.
     """
+    title = f"{plain(samples['name'].values.ravel()[0])}, posterior\n" if "draw" in samples.dims and "name" in samples else ""
+    samples = drawn(samples) if "draw" in samples.dims else samples
     names = list(names or (name for name in samples.data_vars if samples[name].dtype.kind in "fiu"))
-    table = numpy.array([samples[name].values.astype(float).ravel() for name in names])
+    variables = [in_megapascal(samples[name]) for name in names]
+    table = numpy.array([variable.values.astype(float).ravel() for variable in variables])
     table = table[:, numpy.isfinite(table).all(axis=0)] if names else table
     if table.size == 0 or table.shape[1] < 20:
         raise ValueError(f"samples = {table.shape[-1]}: too few for a corner plot; allowed: 20 or more that are finite")
     for name, values in zip(names, table):
         if values.min() == values.max():
             raise ValueError(f"{name} = {values[0]:g} in every sample; allowed: quantities that vary")
-    n = len(names)
-    edges = [bins_of(values, bins) for values in table]
-    figure = Figure(figsize=(1.2 + 1.9 * n, 1.0 + 1.8 * n))
-    panels = figure.subplots(n, n, squeeze=False)
-    for row in range(n):
-        for column in range(n):
-            axes = panels[row, column]
-            if column > row:
-                axes.set_axis_off()
-                continue
-            axes.grid(False)
-            if row == column:
-                axes.hist(table[row], edges[row], color="C0", alpha=0.6)
-                low, middle, high = numpy.percentile(table[row], (5, 50, 95))
-                for value, line in ((low, ":"), (middle, "-"), (high, ":")):
-                    axes.axvline(value, color="black", linestyle=line, linewidth=0.9)
-                axes.set_yticks([])
-                axes.set_title(f"{middle:.3g}  [{low:.3g}, {high:.3g}]", fontsize="small")
-            else:
-                counts, across, up = numpy.histogram2d(table[column], table[row], (edges[column], edges[row]))
-                axes.pcolormesh(across, up, counts.T, cmap="Blues", rasterized=True)
-                axes.contour(*((e[1:] + e[:-1]) / 2 for e in (across, up)), counts.T, levels_of(counts), colors="black", linewidths=0.8)
-                axes.set(yscale=scale_of(table[row]), ylim=(up[0], up[-1]))
-            axes.set(xscale=scale_of(table[column]), xlim=(edges[column][0], edges[column][-1]))
-            if row == n - 1:
-                axes.set_xlabel(label(samples[names[column]]))
-                axes.tick_params(axis="x", rotation=30)
-            else:
-                axes.tick_params(axis="x", which="both", labelbottom=False)
-            if column == 0 and row > 0:
-                axes.set_ylabel(label(samples[names[row]]))
-            elif column > 0 and row != column:
-                axes.tick_params(axis="y", which="both", labelleft=False)
+    labels = [label(variable) for variable in variables]
+    figure = Figure(figsize=(1.4 + 2.0 * len(names), 1.2 + 1.9 * len(names)))
+    fill(figure.subplots(len(names), len(names), squeeze=False), table, labels, bins)
+    figure.suptitle(title + "median [5 %, 95 %]; lines enclose 50 and 90 %", fontsize="small" if len(names) < 3 else "medium")
     return figure
+
+
+def fill(panels, table, labels, bins) -> None:
+    """Draws all panels. table: samples by quantity; labels: name and unit of each, on the outer axes and over each histogram."""
+    edges = [bins_of(values, bins) for values in table]
+    for (row, column), axes in numpy.ndenumerate(panels):
+        if column > row:
+            axes.set_axis_off()
+            continue
+        axes.grid(False)
+        if row == column:
+            alone(axes, table[row], edges[row], labels[row])
+        else:
+            pair(axes, (table[column], edges[column]), (table[row], edges[row]))
+            ticks(axes.yaxis, scale_of(table[row]))
+        axes.set(xscale=scale_of(table[column]), xlim=(edges[column][0], edges[column][-1]))
+        ticks(axes.xaxis, scale_of(table[column]))
+        if row == len(table) - 1:
+            axes.set_xlabel(labels[column])
+            axes.tick_params(axis="x", rotation=30)
+        else:
+            axes.tick_params(axis="x", which="both", labelbottom=False)
+        if column == 0 and row > 0:
+            axes.set_ylabel(labels[row])
+        elif column > 0 and row != column:
+            axes.tick_params(axis="y", which="both", labelleft=False)

@@ -3,7 +3,7 @@
 import numpy
 from matplotlib.figure import Figure
 
-from .style import plain, styled
+from .style import plain, plain_numbers, styled
 
 #: Marks of the kinds of event in the shipped catalogue; any other gets the next.
 MARKS = "osD^vP*X"
@@ -47,8 +47,16 @@ def panel(axes, events, name, kinds, scale=1.0):
         if events["stress"].size > MANY:
             axes.plot(x, y, linestyle="none", marker=".", markersize=2, markeredgewidth=0, color=f"C{i}", alpha=0.4, label=label, rasterized=True)
             continue
+        if name.endswith("_bound"):
+            arrows(axes, x, y, f"C{i}")
         axes.errorbar(x, y, fmt=MARKS[i % len(MARKS)], color=f"C{i}", xerr=None if across is None else across[:, chosen],
                       yerr=None if up is None else scale * up[:, chosen], label=label, alpha=0.85, linewidth=0.8, linestyle="none", markeredgewidth=0.8)
+
+
+def arrows(axes, x, y, colour) -> None:
+    """An arrow up from each of a few lower bounds."""
+    for place in zip(x, y):
+        axes.annotate("", place, xytext=(0, 15), textcoords="offset points", arrowprops={"arrowstyle": "<-", "color": colour, "linewidth": 0.7, "alpha": 0.7})
 
 
 def decades(axes, events, name, scale=1.0):
@@ -93,7 +101,7 @@ def events(events, line) -> Figure:
     """
     kinds = sorted(set(texts(events["kind"]))) if "kind" in events else [""]
     shown = ["stress"] + [name for name in ("stress_pa", "stress_pa_bound", "observed_slip_velocity") if known(events, name)]
-    figure = Figure(figsize=((5.4, 8.6, 12.2, 15.8)[len(shown) - 1], 3.9))
+    figure = Figure(figsize=((5.0, 7.6, 10.8, 14.0)[len(shown) - 1], 4.2))
     panels = dict(zip(shown, figure.subplots(1, len(shown), squeeze=False)[0]))
     for name, axes in panels.items():
         scale = 1e-6 if name.startswith("stress_pa") else 1.0
@@ -101,17 +109,18 @@ def events(events, line) -> Figure:
         decades(axes, events, name, scale)
         axes.set(xscale="log", xlabel="rupture velocity |V−|, c")
     panels["stress"].plot(line["rupture_velocity"], line["stress"], color="0.35", linestyle="-", label="closed form", zorder=3)
-    panels["stress"].set(ylabel="initial stress Σ−, μA/π", title="Stress that the rupture velocity means")
-    for name, label, title in (("stress_pa", "initial stress, MPa", "The same with the contact ratio A"),
-                               ("stress_pa_bound", "least initial stress, MPa", "Lower bound, if friction took nothing")):
+    panels["stress"].set(ylabel="initial stress Σ−, μA/π", title="Stress inferred from the rupture velocity:\non the closed form by construction")
+    for name, label, title in (("stress_pa", "initial stress, MPa", "The same in MPa, with the contact ratio A\nfrom friction or as given"),
+                               ("stress_pa_bound", "least initial stress, MPa", "Lower bound (arrows): A from the slip velocity\nas if friction took nothing")):
         if name in panels:
             values = events[name].values
             panels[name].set(yscale="log", ylabel=label, title=title)
+            plain_numbers(panels[name].yaxis)
             contact_lines(panels[name], line, numpy.nanmin(values), numpy.nanmax(values))
     if "observed_slip_velocity" in panels:
         axes = panels["observed_slip_velocity"]
         axes.plot(line["rupture_velocity"], line["slip_velocity"], color="0.35", linestyle="-", label="closed form, no friction", zorder=3)
-        axes.set(yscale="log", ylabel="slip velocity W, cA/π", title="Slip velocity: observed, and without friction")
+        axes.set(yscale="log", ylabel="slip velocity W, cA/π", title="Slip velocity observed,\nand the closed form without friction")
     for name, axes in panels.items():
         if name == "stress":
             axes.legend(markerscale=4 if events["stress"].size > MANY else 1)

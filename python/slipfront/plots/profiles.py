@@ -3,8 +3,14 @@
 import numpy
 from matplotlib.figure import Figure
 
-from .pulse_parts import finite, shades, title_of, window
+from .pulse_parts import backward, extent, finite, mark_fronts, shades, title_of, window
 from .style import label, styled, unit
+
+
+def room(lowest, highest, below) -> tuple:
+    """Limits of an axis around a range of values, with room below (a share of the range) and a little above."""
+    height = highest - lowest or abs(highest) or 1
+    return lowest - below * height, highest + 0.06 * height
 
 
 @styled
@@ -29,7 +35,10 @@ def profiles(pulse, fields=("W", "Sigma", "slip"), times: int = 5) -> Figure:
         for colour, row in zip(shades(len(rows)), rows):
             now = pulse.isel(time=row)
             axes.plot(now["x"], now[name], color=colour, linestyle="-", label=f"{float(now['time']):.3g}")
-        axes.set(ylabel=label(pulse[name]), xlim=window(pulse))
+        remark = backward(pulse, name)
+        axes.set(ylabel=label(pulse[name]), xlim=window(pulse), ylim=room(*extent(pulse[name].values[rows]), 0.2 if remark else 0.06))
+        axes.text(0.01, 0.03, remark, transform=axes.transAxes, color="0.3", fontsize="small")
+    mark_fronts(panels[0], pulse)
     panels[0].set_title(title_of(pulse))
     panels[0].legend(title=f"t, {unit(pulse['time'])}", loc="upper left", bbox_to_anchor=(1.0, 1.0))
     panels[-1].set_xlabel(label(pulse["x"]))

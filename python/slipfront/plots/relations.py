@@ -3,7 +3,7 @@
 import numpy
 from matplotlib.figure import Figure
 
-from .style import label, styled
+from .style import label, plain_numbers, styled
 
 
 @styled
@@ -32,6 +32,8 @@ def relations(states) -> Figure:
     axes[1, 0].set(ylabel=label(states["slip_velocity"]))
     for lower in axes[1]:
         lower.set_xlabel(label(states["stress"]))
+        if lower.get_xscale() == "log":
+            plain_numbers(lower.xaxis)
     return figure
 
 

@@ -2,23 +2,42 @@
 
 import numpy
 from matplotlib.figure import Figure
+from matplotlib.patheffects import withStroke
 from matplotlib.ticker import MaxNLocator
 
-from .pulse_parts import finite, fronts_of, title_of, window
+from .between import between
+from .pulse_parts import backward, extent, finite, fronts_of, title_of, window
 from .style import label, styled
+
+#: Points of a map across and upwards.
+POINTS = (600, 400)
 
 
 def colours(values) -> dict:
-    """Colours of a map: white at zero where the field goes both ways, the style sheet's where it goes one."""
-    if numpy.isnan(values).all():
-        return {}
-    highest = float(numpy.nanmax(numpy.abs(values)))
-    return {"cmap": "PuOr_r", "vmin": -highest, "vmax": highest} if numpy.nanmin(values) < -0.05 * highest else {}
+    """Colours of a map: white at zero where the field goes both ways, the style sheet's from its least value where it goes one."""
+    lowest, highest = extent(values)
+    largest = max(-lowest, highest)
+    if lowest < -0.05 * largest:
+        return {"cmap": "PuOr_r", "vmin": -largest, "vmax": largest}
+    return {"vmin": lowest if lowest > highest / 2 else min(lowest, 0), "vmax": highest} if largest > 0 else {}
+
+
+def name_fronts(axes, pulse) -> None:
+    """Draws the fronts of a pulse as lines and writes their symbols beside those that have one, where the line is most often inside the window."""
+    for front, line, text, symbol in fronts_of(pulse):
+        axes.plot(front, pulse["time"], color="C6", linestyle=line, label=text, linewidth=1.3)
+        inside = numpy.flatnonzero(front.notnull().values & (pulse["time"].values > 0))
+        if symbol and inside.size:
+            row = inside[int(0.6 * (inside.size - 1))]
+            right = symbol == "V+"
+            axes.annotate(symbol, (float(front[row]), float(pulse["time"][row])), xytext=(5 if right else -5, 0), textcoords="offset points",
+                          ha="left" if right else "right", va="center", color="#005f8f", fontweight="bold", clip_on=True, annotation_clip=True,
+                          path_effects=[withStroke(linewidth=2, foreground="white")])
 
 
 @styled
 def space_time(pulse, fields=("W", "Sigma")) -> Figure:
-    """Maps of fields over position (across) and time (upwards), with the lines of the fronts.
+    """Maps of fields over position (across) and time (upwards), with the lines of the fronts. Cells that are not finite are grey.
 
     Parameters
     ----------
@@ -31,20 +50,23 @@ def space_time(pulse, fields=("W", "Sigma")) -> Figure:
     fields = [name for name in fields if name in pulse]
     figure = Figure(figsize=(3.7 * len(fields), 4.2))
     panels = figure.subplots(1, len(fields), sharey=True, squeeze=False)[0]
-    bounds = pulse["x_bounds"].values
+    (left, right), outputs = window(pulse), pulse["time"].values
+    # Corners of the map's points; values belong to their middles.
+    across, up = numpy.linspace(left, right, POINTS[0] + 1), numpy.linspace(outputs[0], outputs[-1], POINTS[1] + 1)
     for axes, name in zip(panels, fields):
-        values = pulse[name].transpose("time", "x").values
-        # A band of colour lies between two outputs and is their mean.
-        image = axes.pcolormesh(numpy.append(bounds[:, 0], bounds[-1, 1]), pulse["time"].values, (values[1:] + values[:-1]) / 2, rasterized=True,
-                                **colours(values))
-        figure.colorbar(image, ax=axes, location="top", label=label(pulse[name]), aspect=30, ticks=MaxNLocator(6))
-        for front, line, text in fronts_of(pulse):
-            axes.plot(front, pulse["time"], color="C6", linestyle=line, label=text, linewidth=1.3)
-        axes.set(xlabel=label(pulse["x"]), xlim=window(pulse), ylim=(float(pulse["time"][0]), float(pulse["time"][-1])))
+        scale = colours(pulse[name].values)
+        values = between(pulse, name, (up[1:] + up[:-1]) / 2, (across[1:] + across[:-1]) / 2)
+        image = axes.pcolormesh(across, up, numpy.ma.masked_invalid(values), rasterized=True, **scale)
+        axes.set_facecolor("0.75")
+        over = bool(scale) and numpy.nanmax(numpy.abs(pulse[name].values)) > scale["vmax"]
+        figure.colorbar(image, ax=axes, location="top", label="\n".join(filter(None, (label(pulse[name]), backward(pulse, name)))), aspect=30, ticks=MaxNLocator(6),
+                        extend="max" if over else "neither")
+        name_fronts(axes, pulse)
+        axes.set(xlabel=label(pulse["x"]), xlim=(left, right), ylim=(float(outputs[0]), float(outputs[-1])))
         axes.grid(False)
     panels[0].set_ylabel(label(pulse["time"]))
     if fronts_of(pulse):
-        figure.legend(*panels[0].get_legend_handles_labels(), loc="lower center", ncol=3)
-        figure.get_layout_engine().set(rect=(0, 0.07, 1, 0.93))
+        figure.legend(*panels[0].get_legend_handles_labels(), loc="lower center", ncol=2)
+        figure.get_layout_engine().set(rect=(0, 0.11, 1, 0.89))
     figure.suptitle(title_of(pulse))
     return figure

@@ -6,6 +6,7 @@ import pathlib
 
 import matplotlib
 from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter, LogFormatter
 
 from .._files import write_bytes
 from .._slipfront import FileError, event_quantities, printable
@@ -30,6 +31,8 @@ NAMES = {
     "stress_at_origin": "stress Σ at x = 0",
     "peak_slip_velocity": "greatest slip velocity W",
     "peak_position": "position of the greatest W",
+    "stress_pa": "initial stress",
+    "friction_coefficient": "friction coefficient C",
 }
 
 #: Units of quantities whose variable does not say (rows of CSV files).
@@ -37,6 +40,7 @@ UNITS = {
     "stress_at_origin": "mu A / pi",
     "leading_velocity": "c",
     "slip_velocity": "c A / pi",
+    "stress_pa": "Pa",
 }
 
 # Those of events are declared with the quantities (src/inference/quantities.cpp).
@@ -65,7 +69,8 @@ def save(figure: Figure, path, **options) -> None:
     """
     kind, picture = pathlib.Path(path).suffix.lower().lstrip("."), io.BytesIO()
     try:
-        with matplotlib.rc_context(fname=SHEET):
+        # matplotlib 3.6 lays a figure out anew while it saves, by these settings, if it has no layout of its own.
+        with matplotlib.rc_context(fname=SHEET), matplotlib.rc_context({"figure.constrained_layout.use": False}):
             figure.savefig(picture, format=kind, metadata={"Date": None} if kind == "svg" else None, **options)
     except (OSError, RuntimeError) as error:  # its fonts and encoders
         raise FileError(f"{path}: cannot be drawn: {' '.join(str(error).split())}") from error
@@ -79,7 +84,8 @@ def plain(text) -> str:
 
 def unit(variable) -> str:
     """The unit of a DataArray, as it is printed on an axis; empty for a pure number."""
-    text = plain(variable.attrs.get("dimensional_unit", UNITS.get(variable.name, "")))
+    si = variable.attrs.get("units", "")
+    text = plain(variable.attrs.get("dimensional_unit") or (si if si != "1" else "") or UNITS.get(variable.name, ""))
     for written, printed in ((" ", ""), ("mu", "μ"), ("nu", "ν"), ("pi", "π"), ("^2", "²")):
         text = text.replace(written, printed)
     return "" if text == "1" else text
@@ -89,3 +95,9 @@ def label(variable, name: str = "") -> str:
     """Name (the quantity's own unless given) and unit of a DataArray."""
     name = name or NAMES.get(variable.name) or plain(variable.attrs.get("long_name") or str(variable.name).replace("_", " "))
     return f"{name}, {unit(variable)}" if unit(variable) else name
+
+
+def plain_numbers(axis) -> None:
+    """Numbers such as 0.1 and 100 in place of powers of ten on a logarithmic axis; between the decades only where few of these are seen."""
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axis.set_minor_formatter(LogFormatter(labelOnlyBase=False, minor_thresholds=(1.2, 0.5)))

@@ -5,19 +5,20 @@ import math
 import numpy
 
 from .. import medium
-from .numbers import relation
+from .derived import relation
+from .numbers import taken
 
 
 def unit_of_force(paper) -> tuple:
     """Traction of F = 1 in MPa, at the contact ratio that the paper finds for Parkfield without friction."""
-    contact_ratio = float(next(n["printed"] for n in paper["number"] if n["key"] == "parkfield_contact_ratio_0"))
-    modulus, nu = paper["inputs"]["shear_modulus_pa"], paper["inputs"]["poisson_ratio"]
+    given = taken(paper)
+    contact_ratio, modulus, nu = given["parkfield_contact_ratio_0"], 1e9 * given["shear_modulus_gpa"], given["poisson_ratio"]
     return medium.printed_traction_unit(modulus, contact_ratio) / 1e6, medium.traction_unit(modulus, nu, contact_ratio) / 1e6
 
 
 def table(paper) -> list:
     """Rows: where, printed, mended (formulas), check, by_printed, by_mended (numbers, or None where there is none to give)."""
-    stress = paper["inputs"]["stress"]
+    stress = taken(paper)["parkfield_stress"]
     velocity, density = (relation(key, stress=stress) for key in ("dislocation_velocity_at_origin", "stress_at_origin"))
     per_length = density / (2 * math.pi)  # N
     cn = numpy.array([1.0, -1.0])  # from one side of a dislocation to the other, half a period of cn

@@ -1,15 +1,22 @@
-"""Every number that the paper prints, computed."""
+"""Every number that the paper prints, computed, and a verdict on each."""
 
-import decimal
 import math
 import pathlib
 import tomllib
 
+
 import slipfront
 
-from .runs import CASES, at_origin
+from . import derived, verdicts
+from .derived import relation
 
 PAPER = pathlib.Path(__file__).with_name("paper.toml")
+
+#: C of the paper's figures, by which its numbers are named.
+FRICTION = (0.1, 0.5, 2.0)
+
+#: The slowest rupture that the paper names, in c: where its range of velocities begins.
+SLOWEST = 1e-7
 
 
 def printed() -> dict:
@@ -17,57 +24,130 @@ def printed() -> dict:
     return tomllib.loads(PAPER.read_text(encoding="utf-8"))
 
 
+def texts(paper) -> dict:
+    """key -> digits printed, of inputs and numbers. The Σ− of the stresses in MPa is that of Fig. 5."""
+    found = {row["key"]: row["printed"] for row in paper["input"] + paper["number"] if "key" in row}
+    return found | {"parkfield_stress_used": found["parkfield_stress"]}
+
+
+def taken(paper) -> dict:
+    """The same as numbers, where they are plain numbers."""
+    return {key: float(text) for key, text in texts(paper).items() if key not in ("range_of_forces", "time")}
+
+
 def event(name, key) -> float:
     """A quantity of the one event in a case file."""
-    return float(slipfront.event(str(CASES / name))[key].values.ravel()[0])
+    return float(slipfront.event(str(slipfront.cases / name))[key].values.ravel()[0])
 
 
-def relation(wanted, **given) -> float:
-    """One quantity of the closed form."""
-    return float(slipfront.relations(**{key: [value] for key, value in given.items()})[wanted].values[0])
+def orders(key, stress) -> float:
+    """Orders of magnitude of a velocity over the decade of stress that begins at `stress`."""
+    return math.log10(relation(key, stress=10 * stress) / relation(key, stress=stress))
 
 
-def computed(runs, paper, factors, width) -> dict:
-    """key of paper.toml -> value, and the facts that its remarks quote.
+def peak_stress(stress=1e-1) -> float:
+    """Greatest stress of one dislocation of a train at rest whose neighbours are far (Eq. 4)."""
+    psi = float(slipfront.train.psi_at_rest(stress))
+    return float(slipfront.train.fields(0.0, psi, [0.0])["sigma"].max())
 
-    factors, width: of widths.py.
-    """
-    inputs = paper["inputs"]
-    c = event("parkfield-2004.toml", "c_m_s")
-    values = {"c": c / 1000, "parkfield_rupture_velocity": event("parkfield-2004.toml", "rupture_velocity"),
-              "parkfield_stress": relation("stress", rupture_velocity=inputs["rupture_velocity"]),
-              "velocity_at_printed_stress": relation("rupture_velocity", stress=inputs["stress"])}
-    slip_velocities = {"0": relation("slip_velocity", stress=inputs["stress"])}
-    values["parkfield_slip_velocity"] = slip_velocities["0"]
-    for coefficient in inputs["friction"]:
-        run = runs.pulse("fig-10.toml", {"friction.coefficient": coefficient})
-        slip_velocities[str(coefficient)] = values[f"parkfield_slip_velocity_{coefficient}"] = at_origin(run)
-    without = at_origin(runs.pulse("fig-10.toml", {"friction.coefficient": 0}))
-    values["scaled"] = ", ".join(f"{slip_velocities[str(coefficient)] / without * slip_velocities['0']:.4f}" for coefficient in inputs["friction"])
-    for key, slip_velocity in slip_velocities.items():
-        contact_ratio = math.pi * inputs["slip_velocity_m_s"] / (c * slip_velocity)  # the unit of W is c A / pi
-        values[f"parkfield_contact_ratio_{key}"] = contact_ratio
-        values[f"parkfield_stress_pa_{key}"] = inputs["shear_modulus_pa"] * contact_ratio * inputs["stress"] / math.pi / 1e6
-    values |= {"ets_rupture_velocity": event("ets.toml", "rupture_velocity"), "ets_stress": event("ets.toml", "stress"),
-               "ets_velocity_rounded": event("ets.toml", "rupture_velocity") * c / (1000 * inputs["c_km_s"]),
-               "ets_slip_velocity": relation("slip_velocity", stress=inputs["ets_stress"]),
-               "ets_slip_velocity_exact": event("ets.toml", "frictionless_slip_velocity"),
-               "ets_observed_slip_velocity": event("ets.toml", "observed_slip_velocity")}
+
+def closed_forms(paper) -> dict:
+    """Numbers that need no friction. Readings take the place on the axis that the paper names."""
+    given = taken(paper)
+    decade = relation("stress", rupture_velocity=SLOWEST)
+    parkfield = event("parkfield-2004.toml", "rupture_velocity")
+    return {
+        "neighbours": 2.0**3, "dislocation_stress": peak_stress(), "orders_of_range": math.log10(parkfield / SLOWEST),
+        "orders_of_events": math.log10(parkfield / event("ets.toml", "rupture_velocity")),
+        "orders_of_velocity": orders("rupture_velocity", decade), "orders_of_velocity_caption": orders("rupture_velocity", decade),
+        "orders_of_slip_velocity": orders("slip_velocity", decade), "decade_from": decade,
+        "orders_low": orders("rupture_velocity", 0.1), "orders_high": orders("rupture_velocity", 0.3),
+        "c": event("parkfield-2004.toml", "c_m_s") / 1000,
+        "parkfield_stress": relation("stress", rupture_velocity=given["parkfield_rupture_velocity"]),
+        "velocity_at_printed_stress": relation("rupture_velocity", stress=given["parkfield_stress"]),
+        "parkfield_slip_velocity": relation("slip_velocity", stress=given["parkfield_stress"]),
+        "ets_stress": event("ets.toml", "stress"), "ets_slip_velocity": relation("slip_velocity", stress=given["ets_stress"]),
+        "ets_slip_velocity_exact": event("ets.toml", "frictionless_slip_velocity"),
+        "ets_stress_caption": relation("stress", slip_velocity=given["ets_slip_velocity"]),
+    }
+
+
+def figure_8(factors, width) -> dict:
+    """Factors of Fig. 8 at the nearest width, and what its range of widths gives. factors: of widths.py."""
     by_width = factors["factor"].sel(closure="paper")
-    for coefficient in inputs["friction"][1:]:
-        values[f"fig_8_factor_{coefficient}"] = float(by_width.sel(coefficient=coefficient, width=width))
-    strongest = by_width.sel(coefficient=inputs["friction"][-1])
-    return values | {"width": width, "factor_narrow": float(strongest[0]), "factor_wide": float(strongest[-1]),
-                     "width_narrow": float(strongest["width"][0]), "width_wide": float(strongest["width"][-1])}
+    strongest = by_width.sel(coefficient=FRICTION[-1])
+    values = {f"fig_8_factor_{c}": float(by_width.sel(coefficient=c, width=width)) for c in FRICTION[1:]}
+    return values | {"fall_of_amplitude": values[f"fig_8_factor_{FRICTION[-1]}"], "width": width, "factor_narrow": float(strongest[0]),
+                     "factor_wide": float(strongest[-1]), "width_narrow": float(strongest["width"][0]), "width_wide": float(strongest["width"][-1])}
+
+
+def list_of(values) -> str:
+    """Three ratios in a remark."""
+    return ", ".join(f"{float(value):.3f}" for value in values)
+
+
+def figure_10(ratio, curves, without) -> dict:
+    """What is read off Fig. 10, with friction. ratio: of ratios.py, curves: of sweeps.ratios, without: W(0) of Parkfield at C = 0."""
+    at = {"closure": "paper", "friction_coefficient": list(FRICTION)}
+    smooth = ratio["smooth"].sel(at)
+    values = {f"parkfield_slip_velocity_{c}": without * float(smooth.sel(friction_coefficient=c)) for c in FRICTION}
+    solid = curves["slip_velocity_ratio"].sel(closure="paper", stress=0.855)
+    return values | {"ratio_width": float(ratio.attrs["width"]), "ratios_at_parkfield": list_of(ratio["at_parkfield"].sel(at)),
+                     "ratios_step": list_of(solid.sel(friction_coefficient=list(FRICTION))), "ratios_step_stressed": list_of(ratio["step_stressed"].sel(at)),
+                     "ratios_consistent": list_of(ratio["smooth"].sel(at | {"closure": "consistent"})),
+                     "ets_friction": read_friction(0.855, 0.2), "ets_friction_nearest": read_friction(0.419, 0.2)}
+
+
+def read_friction(stress, ratio, closure="paper") -> float:
+    """C at which a curve of Fig. 10, from a true step, has a ratio: at t = 2π."""
+    return float(slipfront.damping_number(stress, ratio, closure=closure)["damping_number"]) / (2 * math.pi)
+
+
+def friction_of_event(share) -> dict:
+    """C at the Σ− of the ETS event for its ratio at t = 2π, with both closures."""
+    return {f"ets_friction_{closure}": read_friction(event("ets.toml", "stress"), share, closure) for closure in ("paper", "consistent")}
+
+
+def computed(paper, factors, width, ratio, curves) -> dict:
+    """key of paper.toml -> value, and the facts that its remarks quote."""
+    values = taken(paper) | closed_forms(paper)
+    values |= figure_8(factors, width)
+    values |= figure_10(ratio, curves, values["parkfield_slip_velocity"])
+    for key, rules in derived.rules().items():
+        if key not in ("ets_slip_velocity",):  # a reading, done above
+            values[key] = derived.apply(rules[0], values)
+    return values | friction_of_event(values["ets_share"])
+
+
+def by_printed(key, paper) -> list:
+    """(value, remark) of each way that leads from printed numbers to this one."""
+    given, digits = taken(paper), texts(paper)
+    found = []
+    for rule in derived.rules().get(key, ()):
+        value = derived.apply(rule, given)
+        found.append((value, f"From the printed {derived.quoted(rule, digits)} it is {value:.4g}."))
+    return found
+
+
+def row_of(number, value, paper, facts) -> dict:
+    """A row of the table: what, where, unit, printed (text), computed, printed_digits (the computed value rounded as the printed one),
+    difference (relative), verdict, remark."""
+    how = verdicts.Printed(number["printed"], number.get("bound", ""), tuple(number.get("axis", ())), number.get("log", False))
+    ways = by_printed(number["key"], paper)
+    verdict = verdicts.verdict(value, how, [other for other, _ in ways])
+    words = [number.get("reason", ""), number.get("remark", "").format(**facts)]
+    if verdict != verdicts.SAME:
+        words[:0] = [text for _, text in ways]
+    return {"what": number["what"], "where": number["where"], "unit": number["unit"], "printed": f"{how.bound} {how.text}".strip(), "computed": value,
+            "printed_digits": verdicts.rounded(value, how.text), "difference": value / float(how.text) - 1, "verdict": verdict,
+            "remark": " ".join(word for word in words if word)}
 
 
 def table(paper, values) -> list:
-    """Rows of the table: what, unit, printed (as text), computed, difference (relative), agrees to the printed digits, remark."""
-    rows = []
-    for number in paper["number"]:
-        value, text = values[number["key"]], number["printed"]
-        last_digit = decimal.Decimal(text).as_tuple().exponent
-        agrees = abs(value - float(text)) <= 0.5 * 10.0**last_digit * (1 + 1e-9)
-        rows.append({"what": number["what"], "unit": number["unit"], "printed": text, "computed": value, "difference": value / float(text) - 1,
-                     "agrees": agrees, "remark": number.get("remark", "").format(**values)})
-    return rows
+    """The rows of all numbers."""
+    return [row_of(number, values[number["key"]], paper, values) for number in paper["number"]]
+
+
+def counts(rows) -> dict:
+    """Verdict -> number of rows."""
+    return {verdict: sum(row["verdict"] == verdict for row in rows) for verdict in (verdicts.SAME, verdicts.FOLLOWS, verdicts.READING, verdicts.WRONG)}

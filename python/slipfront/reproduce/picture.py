@@ -20,15 +20,17 @@ class Picture:
     caption: str
     figure: Figure
     data: xarray.Dataset
+    command: str = ""  #: what computes it again
+    printed: list = dataclasses.field(default_factory=list)  #: (what, printed, computed) that the paper reads off it
 
 
 @functools.cache
 def captions() -> dict:
-    """Name of a picture -> {"title", "text"}, with braces where facts go."""
+    """Name of a picture -> {"title", "text", "command"}, with braces in the text where facts go."""
     return tomllib.loads(CAPTIONS.read_text(encoding="utf-8"))
 
 
-def picture(name, figure, data, **facts) -> Picture:
-    """A figure with its words. facts: what the words quote."""
+def picture(name, figure, data, printed=(), **facts) -> Picture:
+    """A figure with its words. printed: what the paper reads off it. facts: what the words quote."""
     words = captions()[name]
-    return Picture(name, words["title"].format(**facts), words["text"].format(**facts), figure, data)
+    return Picture(name, words["title"].format(**facts), words["text"].format(**facts), figure, data, words["command"].format(**facts), list(printed))

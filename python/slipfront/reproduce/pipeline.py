@@ -1,39 +1,48 @@
 """All of the reproduction, in order."""
 
-import numpy
-
 import slipfront
 
 from .._files import write_text
-from . import formulas, laws, numbers, outputs, pulses, report, statements, states, sweeps, widths
+from . import closed_form, formulas, levels, numbers, outputs, profiles, ratios, report, schematics, statements, surfaces, sweeps, widths
 from .runs import Runs
 
 
+def pictures_of(runs, paper, found) -> list:
+    """Every figure. found: what `computed` has gathered on the way."""
+    values, given = found["values"], numbers.taken(paper)
+    factors = {c: given[f"fig_8_factor_{c}"] for c in numbers.FRICTION[1:]}
+    return [schematics.contact(), schematics.sliding(), schematics.initial(runs), closed_form.ratio(values), closed_form.rupture(values, given),
+            closed_form.slip(values, given), surfaces.with_friction(runs), profiles.scaled(runs, found["width"], found["ratio"].attrs["width"]), widths.pictured(found["factors"], factors, found["width"]),
+            profiles.stress(runs), sweeps.friction(found["curves"], found["ratio"]), surfaces.with_right_stress(runs), sweeps.against_drop(found["drops"])]
+
+
+def computed(runs, paper) -> dict:
+    """What tables and figures share: values of the numbers, sweeps, the nearest widths."""
+    given = numbers.taken(paper)
+    found = {"factors": widths.factors(runs), "curves": sweeps.ratios(runs), "ratio": ratios.ratios(runs, sweeps.READ), "drops": sweeps.drops(runs)}
+    found["width"] = widths.nearest(found["factors"], {c: given[f"fig_8_factor_{c}"] for c in numbers.FRICTION[1:]})
+    found["values"] = numbers.computed(paper, found["factors"], found["width"], found["ratio"], found["curves"])
+    return found
+
+
 def reproduce(folder, threads, tell, seconds) -> dict:
-    """Computes all and writes it into a folder that is there. Returns the tables: numbers, formulas, statements.
+    """Computes all and writes it into a folder that is there. Returns the tables: numbers, formulas, statements, inputs.
 
     tell: called with a text as the work goes on. seconds: called for the time spent so far.
     """
     paper = numbers.printed()
     runs = Runs(threads, tell)
-    printed = {c: float(next(n["printed"] for n in paper["number"] if n["key"] == f"fig_8_factor_{c}")) for c in paper["inputs"]["friction"][1:]}
-    factors = widths.factors(runs, paper)
-    width = widths.nearest(factors, printed)
-    values = numbers.computed(runs, paper, factors, width)
-    slip, (small_drop, drops) = sweeps.slip(runs, paper), pulses.small_drop(runs)
-    fronts = sweeps.fronts(runs, paper, laws.laws())
-    weak, middle, strong = paper["inputs"]["friction"]
-    seventh, ninth = pulses.weak_and_strong(runs, weak, strong)
-    pictures = [states.contact(), states.dislocation(), states.initial(runs), laws.pulse(), laws.rupture(values), laws.slip(values),
-                seventh, pulses.scaled(runs, [weak, middle, strong], width), widths.pictured(factors, printed, width), ninth, slip, small_drop, fronts]
-    tables = {"numbers": numbers.table(paper, values), "formulas": formulas.table(paper),
-              "statements": statements.table(slip.data, fronts.data, drops, slipfront.relations(stress=numpy.asarray(fronts.data["stress"])))}
+    found = computed(runs, paper)
+    pictures = pictures_of(runs, paper, found)
+    tables = {"numbers": numbers.table(paper, found["values"]), "formulas": formulas.table(paper), "statements": statements.table(runs, found, paper, next(picture.data for picture in pictures if picture.name == "fig-09")),
+              "inputs": [{"what": row["what"], "where": row["where"], "printed": row["printed"]} for row in paper["input"]]}
     for picture in pictures:
         tell(f"writing {picture.name}")
         outputs.write_picture(folder, picture)
     for name, rows in tables.items():
         outputs.write_rows(folder / f"{name}.csv", rows)
-    about = {"version": slipfront.__version__, "seconds": seconds(), "pulses": len(runs.done) + runs.swept}
+    tell("closed form, pulse and chain")
+    about = {"levels": levels.table(threads), "version": slipfront.__version__, "seconds": seconds(), "pulses": len(runs.done) + runs.swept}
     page = report.page(folder, pictures, tables, about)
     write_text(folder / "report.html", page)
     return tables

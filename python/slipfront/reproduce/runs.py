@@ -1,4 +1,4 @@
-"""Pulses that the reproduction needs: each is run once, side by side on all cores."""
+"""Pulses and chains that the reproduction needs: each is run once, side by side on all cores."""
 
 import concurrent.futures
 import math
@@ -8,14 +8,27 @@ import slipfront
 CASES = slipfront.cases
 CLOSURES = ("paper", "consistent")
 
+#: Scale of the chains: so many times the dislocations, which takes half a second each.
+SCALE = 400
+
 
 def frozen(case, changes):
     """The key of a run."""
     return case, tuple(sorted(changes.items()))
 
 
+def pulse_of(case, changes):
+    """A run of the pulse solver."""
+    return slipfront.pulse(str(CASES / case), set=changes, errors=False)
+
+
+def chain_of(case, changes):
+    """A run that follows every dislocation, on one core."""
+    return slipfront.chain(str(CASES / case), set={"chain.scale": SCALE} | changes, threads=1)
+
+
 class Runs:
-    """Runs of the pulse solver by case file and changes, kept.
+    """Runs by case file and changes, kept.
 
     threads: how many at the same time. tell: called with a text before each group of runs.
     """
@@ -28,14 +41,20 @@ class Runs:
         return self.many("", [(case, changes or {})])[0]
 
     def many(self, what, wanted):
-        """Runs, in the order of `wanted`: (case, changes) each."""
-        missing = {frozen(*run): run for run in wanted if frozen(*run) not in self.done}
+        """Runs of the pulse solver, in the order of `wanted`: (case, changes) each."""
+        return self._each(what, "pulses", pulse_of, wanted)
+
+    def chains(self, what, wanted):
+        """Runs of the chain, in the order of `wanted`. Its friction knows no closure."""
+        return self._each(what, "chains", chain_of, wanted)
+
+    def _each(self, what, kind, solve, wanted):
+        missing = {(kind, *frozen(*run)): run for run in wanted if (kind, *frozen(*run)) not in self.done}
         if missing:
-            self.tell(f"{what}: {len(missing)} pulses" if what else f"{len(missing)} pulses")
+            self.tell(f"{what}: {len(missing)} {kind}" if what else f"{len(missing)} {kind}")
             with concurrent.futures.ThreadPoolExecutor(self.threads) as workers:
-                results = workers.map(lambda run: slipfront.pulse(str(CASES / run[0]), set=run[1]), missing.values())
-                self.done.update(zip(missing, results))
-        return [self.done[frozen(*run)] for run in wanted]
+                self.done.update(zip(missing, workers.map(lambda run: solve(*run), missing.values())))
+        return [self.done[(kind, *frozen(*run))] for run in wanted]
 
     def sweep(self, what, case, axes, changes, variables):
         """Numbers at the end of the runs of a grid, {"table.key": values}. Raises NumericsError if one failed: the paper is reproduced whole."""

@@ -5,15 +5,16 @@ import xarray
 from matplotlib.figure import Figure
 
 from ..plots.style import styled
+from .numbers import FRICTION
 from .picture import Picture, picture
 from .runs import CLOSURES
 
 WIDTHS = numpy.round(numpy.concatenate((numpy.arange(0.2, 1.0, 0.1), numpy.arange(1.0, 3.05, 0.1))), 3)
 
 
-def factors(runs, paper) -> xarray.Dataset:
+def factors(runs) -> xarray.Dataset:
     """Peak of the slip velocity at C = 0.1 over that at the other C, at t = 2 pi, over closure, friction coefficient and width."""
-    coefficients = paper["inputs"]["friction"]
+    coefficients = list(FRICTION)
     wanted = [("fig-08.toml", {"friction.closure": closure, "friction.coefficient": c, "initial.width": float(width)})
               for closure in CLOSURES for c in coefficients for width in WIDTHS]
     peaks = numpy.array([float(pulse["peak_slip_velocity"][-1]) for pulse in runs.many("Fig. 8, widths", wanted)])

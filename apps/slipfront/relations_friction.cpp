@@ -1,0 +1,157 @@
+#include "relations_friction.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cmath>
+
+#include "batch.hpp"
+#include "slipfront/friction_ratio/inverse.hpp"
+
+namespace {
+
+using slipfront::InputError;
+using slipfront::friction::Closure;
+using slipfront::rupture::Relations;
+namespace friction_ratio = slipfront::friction_ratio;
+
+struct Row {
+  double stress, rupture_velocity;
+  const char* closure;
+  double ratio, ratio_error, damping_number, coefficient, coefficient_error, slip_velocity;
+};
+
+/// The numbers of a row, under the names that JSON and CSV give them; the closure stands before them.
+struct Column {
+  const char* name;
+  double Row::*value;
+};
+constexpr std::array<Column, 8> columns = {{{"stress", &Row::stress},
+                                            {"rupture_velocity", &Row::rupture_velocity},
+                                            {"slip_velocity_ratio", &Row::ratio},
+                                            {"slip_velocity_ratio_error", &Row::ratio_error},
+                                            {"damping_number", &Row::damping_number},
+                                            {"friction_coefficient", &Row::coefficient},
+                                            {"friction_coefficient_error", &Row::coefficient_error},
+                                            {"slip_velocity", &Row::slip_velocity}}};
+
+Row from_ratio(const Relations& r, Closure closure, const char* name, friction_ratio::Measure measure, double ratio,
+               double time) {
+  const friction_ratio::Reading reading = friction_ratio::damping_number(measure, closure, r.stress, ratio);
+  return {r.stress,
+          r.rupture_velocity,
+          name,
+          ratio,
+          0,
+          reading.damping_number,
+          reading.damping_number / time,
+          reading.error / time,
+          ratio * r.slip_velocity};
+}
+
+Row from_coefficient(const Relations& r, Closure closure, const char* name, friction_ratio::Measure measure,
+                     double coefficient, double time) {
+  const double damping = coefficient * time, ratio = evaluate(measure, closure, r.stress, damping).value;
+  const double error = ratio * friction_ratio::uncertainty(closure, damping);
+  return {r.stress, r.rupture_velocity, name, ratio, error, damping, coefficient, 0, ratio * r.slip_velocity};
+}
+
+std::vector<Row> rows_of(const std::vector<Relations>& states, const FrictionOptions& friction) {
+  const friction_ratio::Measure measure = friction_ratio::measure_named(friction.measure, "--measure");
+  std::vector<Row> rows;
+  for (const Relations& r : states)
+    for (const auto& [closure, name] : {std::pair{Closure::consistent, "consistent"}, {Closure::paper, "paper"}}) {
+      for (const double ratio : friction.ratios)
+        rows.push_back(from_ratio(r, closure, name, measure, ratio, friction.time));
+      for (const double c : friction.coefficients)
+        rows.push_back(from_coefficient(r, closure, name, measure, c, friction.time));
+    }
+  return rows;
+}
+
+void print_json(const std::vector<Row>& rows, const FrictionOptions& friction) {
+  put(fmt::format("{{\"measure\": \"{}\", \"time\": {}, \"friction\": [", friction.measure, friction.time));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    std::string text = fmt::format("{}{{\"closure\": \"{}\"", i == 0 ? "\n" : ",\n", rows[i].closure);
+    for (const Column& column : columns) text += fmt::format(", \"{}\": {}", column.name, rows[i].*column.value);
+    put(text + "}");
+  }
+  put("\n]}\n");
+}
+
+void print_csv(const std::vector<Row>& rows) {
+  std::string head = "closure";
+  for (const Column& column : columns) head += std::string(",") + column.name;
+  put(head + "\n");
+  for (const Row& row : rows) {
+    std::string text = row.closure;
+    for (const Column& column : columns) text += fmt::format(",{}", row.*column.value);
+    put(text + "\n");
+  }
+}
+
+void print_table(const std::vector<Row>& rows, const FrictionOptions& friction) {
+  put("      stress  rupture vel  closure         W / W(C=0)          C T            C   +- in C     slip vel\n"
+      "   mu A / pi            c                                                                    c A / pi\n");
+  for (const Row& r : rows)
+    put(fmt::format("{:>12.6g} {:>12.6g}  {:<12} {:>12.6g} {:>12.6g} {:>12.6g} {:>9.2g} {:>12.6g}\n", r.stress,
+                    r.rupture_velocity, r.closure, r.ratio, r.damping_number, r.coefficient, r.coefficient_error,
+                    r.slip_velocity));
+  put(
+      fmt::format("measure {}, T = {:.6g} b / (c A); a step of stress into an empty interface: "
+                  "docs/friction_ratio.md\n",
+                  friction.measure, friction.time));
+}
+
+/// Names the command line where a number is out of range.
+template <class Make>
+auto of_command_line(Make&& make) {
+  try {
+    return make();
+  } catch (const InputError& error) {
+    slipfront::Complaint complaint = error.complaint();
+    complaint.file = "command line";
+    throw InputError(complaint);
+  }
+}
+
+void check(const char* option, double value, bool zero_too) {
+  if (!(value > 0 || (zero_too && value == 0)) || std::isinf(value))
+    throw InputError({.file = "command line",
+                      .key = option,
+                      .value = fmt::format("{}", value),
+                      .problem = "out of range",
+                      .allowed = zero_too ? ">= 0, finite" : "> 0, finite"});
+}
+
+}  // namespace
+
+void add_friction_options(CLI::App& command, FrictionOptions& options) {
+  const auto one_each = [](CLI::Option* option) { option->allow_extra_args(false)->type_name("VALUE"); };
+  one_each(command.add_option("--slip-velocity-ratio", options.ratios,
+                              "Slip velocity with viscous friction over the frictionless one: gives the friction "
+                              "coefficient C, by both closures; repeatable"));
+  one_each(command.add_option("--friction-coefficient", options.coefficients,
+                              "C of viscous friction f = C w: gives that ratio; repeatable"));
+  command
+      .add_option("--time", options.time, "T since the rupture began, in b / (c A): only C T matters (default: 2 pi)")
+      ->type_name("T");
+  command
+      .add_option("--measure", options.measure,
+                  "Which slip velocity: origin (x = 0 at T; default), mean, peak or time-mean (slip over duration)")
+      ->type_name("NAME");
+}
+
+void print_friction(const std::vector<Relations>& states, const FrictionOptions& friction,
+                    const CommonOptions& options) {
+  check("--time", friction.time, false);
+  for (const double c : friction.coefficients) check("--friction-coefficient", c, true);
+  const std::vector<Row> rows = of_command_line([&] { return rows_of(states, friction); });
+  if (options.json)
+    print_json(rows, friction);
+  else if (options.csv)
+    print_csv(rows);
+  else
+    print_table(rows, friction);
+}

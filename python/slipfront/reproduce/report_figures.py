@@ -1,0 +1,76 @@
+"""A figure of report.html: picture, words, what the paper reads off it beside what is computed, command, data."""
+
+import base64
+import html
+import json
+import re
+
+from . import report_hover
+
+#: A table of values larger than this stays in its file alone; smaller ones travel in the page.
+MOST_BYTES = 150_000
+
+#: How verdicts for and against the paper begin; all others are open.
+VERDICTS = {"good": ("same", "confirmed", "exact"), "bad": ("refuted", "the paper is wrong")}
+
+
+def number(value) -> str:
+    """A computed number, to four digits; a text as it is."""
+    return "–" if value is None or value == "" else value if isinstance(value, str) else f"{value:.4g}"
+
+
+def table(heading, rows, numeric=(), verdict=None, name="") -> str:
+    """An HTML table; on a narrow page each row becomes a card (report.css), so cells carry their heading.
+
+    rows: of texts, or (text, command) for a text with a command below. numeric: columns of numbers. verdict: the column of verdicts, coloured as
+    VERDICTS has them. name: the class that gives columns their widths.
+    """
+    head = "".join(f'<th scope="col">{html.escape(text)}</th>' for text in heading)
+
+    def cell(i, content):
+        content, command = content if isinstance(content, tuple) else (content, "")
+        below = f"<code>{html.escape(command)}</code>" if command.strip("-") else ""
+        kind = "n" if i in numeric else "" if i != verdict else next((name for name, begins in VERDICTS.items() if content.lower().startswith(begins)), "open")
+        return f'<td{f" class={kind}" if kind else ""} data-name="{html.escape(heading[i])}">{html.escape(str(content))}{below}</td>'
+
+    body = "".join("<tr>" + "".join(cell(i, content) for i, content in enumerate(row)) + "</tr>\n" for row in rows)
+    name = name or ("small" if len(heading) < 4 else "")  # small stays a table on a narrow page
+    return f"<table{f' class={name}' if name else ''}><thead><tr>{head}</tr></thead>\n<tbody>\n{body}</tbody></table>\n"
+
+
+def heading_of(picture) -> str:
+    """'Fig. 4. Title' for the paper's figures, the title for others."""
+    number_ = picture.name.replace("fig-0", "Fig. ").replace("fig-", "Fig. ")
+    return f"{number_}. {picture.title}" if picture.name.startswith("fig-") else picture.title
+
+
+def inline(svg, name, title) -> str:
+    """An SVG file as an element of the page: names in it begin with the figure's, so that no two figures share one."""
+    svg = svg[svg.index("<svg") :]
+    svg = re.sub(r'\bid="', f'id="{name}-', svg)
+    svg = re.sub(r'((?:xlink:)?href="#|url\(#)', rf"\g<1>{name}-", svg)
+    svg = re.sub(r"<metadata>.*?</metadata>", "", svg, flags=re.DOTALL)
+    return re.sub(r"<svg ", f'<svg role="img" aria-label="{html.escape(title)}" ', svg, count=1)
+
+
+def files(folder, picture) -> str:
+    """Where the values are: beside the page, and where they are few in the page itself."""
+    csv = folder / f"{picture.name}.csv"
+    names = ", ".join(f"{picture.name}.{ending}" for ending in ("nc", "csv", "svg", "png"))
+    text = f"In the folder of this page: {names}."
+    if csv.is_file() and csv.stat().st_size <= MOST_BYTES:
+        link = f"data:text/csv;base64,{base64.b64encode(csv.read_bytes()).decode()}"
+        text += f' <a class=screen download="{csv.name}" href="{link}">Save the values as CSV</a>.'
+    return f"<p class=files>{text}</p>"
+
+
+def figure(folder, picture) -> str:
+    """A figure of the page. picture: whose SVG is in `folder`."""
+    title = heading_of(picture)
+    svg = (folder / f"{picture.name}.svg").read_text(encoding="utf-8")
+    told = json.dumps(report_hover.axes_of(picture.figure, svg), separators=(",", ":"), ensure_ascii=False).replace("</", "<\\/")
+    beside = table(("read off it by the paper", "printed", "computed"), [(what, printed, number(value)) for what, printed, value in picture.printed], (1, 2))
+    return (f'<figure id="{picture.name}"><h3>{html.escape(title)}</h3>\n<button type=button>larger</button>\n'
+            f'<div class=wide><div class=picture>{inline(svg, picture.name, title)}</div></div>\n<script type="application/json">{told}</script>\n'
+            f"<figcaption><p>{html.escape(picture.caption)}</p>\n{beside if picture.printed else ''}"
+            f"<p>Draw it again:</p>\n<pre>{html.escape(picture.command)}</pre>\n{files(folder, picture)}</figcaption></figure>\n")

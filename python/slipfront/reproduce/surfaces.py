@@ -1,0 +1,82 @@
+"""Figs. 7 and 11: slip velocity over x and t, a surface for each state."""
+
+import numpy
+import xarray
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+
+from ..plots.style import styled
+from . import look
+from .numbers import FRICTION
+from .picture import Picture, picture
+from .runs import CLOSURES
+
+#: Where the surfaces of Figs. 7 and 11 are drawn, in b / A.
+PLACES = numpy.linspace(-4.5, 2.5, 141)
+WIDER = numpy.linspace(-5.5, 4.5, 141)
+
+#: Sigma+ of Fig. 11; the last one is close to Sigma- = 0.855.
+RIGHT = (0.05, 0.427, 0.8)
+
+
+def surface(pulse, places) -> xarray.DataArray:
+    """W of a run over time and places."""
+    return pulse["W"].interp(x=places).assign_coords(x=("x", places, pulse["x"].attrs))
+
+
+def surfaces(runs, what, case, key, values, places, dimension) -> xarray.Dataset:
+    """W over closure, `dimension`, time and x: a run for each value of the scenario's `key`."""
+    wanted = [(case, {"friction.closure": closure, key: value}) for closure in CLOSURES for value in values]
+    found = [surface(run, places) for run in runs.many(what, wanted)]
+    rows = [xarray.concat(found[i:i + len(values)], xarray.DataArray(list(values), dims=dimension.dims, name=dimension.name, attrs=dimension.attrs))
+            for i in range(0, len(found), len(values))]
+    return xarray.Dataset({"W": xarray.concat(rows, xarray.DataArray(list(CLOSURES), dims="closure", name="closure"))})
+
+
+def draw_one(axes, W, top, title):
+    """One surface."""
+    x, t = numpy.meshgrid(W["x"].values, W["time"].values)
+    axes.plot_surface(x, t, W.values, cmap="viridis", vmin=-0.25 * top, vmax=top, rcount=W.sizes["time"], ccount=W.sizes["x"] // 2, linewidth=0.15, edgecolor=(0, 0, 0, 0.35), rasterized=True)
+    axes.set(zlim=(0, top), xlim=(x.min(), x.max()), ylim=(0, 2 * numpy.pi), xticks=[-4, -2, 0, 2], yticks=[0, numpy.pi, 2 * numpy.pi])
+    axes.set_yticklabels(["0", "π", "2π"])
+    axes.set_title(title, fontsize=9, loc="center", y=0.97)
+    axes.tick_params(labelsize=7, pad=-3)
+    axes.tick_params(axis="z", pad=0)
+    axes.set_xlabel("x, b/A", fontsize=8, labelpad=-7)
+    axes.set_ylabel("t, b/(cA)", fontsize=8, labelpad=-7)
+    axes.zaxis.set_major_locator(MaxNLocator(3, prune="lower"))
+    axes.view_init(elev=28, azim=-60)
+    axes.set_box_aspect((1.3, 1, 0.9), zoom=0.98)
+    axes.patch.set_visible(False)  # it would hide the numbers of the axes to its left
+
+
+@styled
+def draw(data, dimension, words, one_scale) -> Figure:
+    """Surfaces: a row a closure, a column a value of `dimension`. words: formats a value. one_scale: whether all share the vertical axis."""
+    values = data[dimension].values
+    figure = Figure(figsize=(7.2, 5.6), layout="none")
+    for row, closure in enumerate(CLOSURES):
+        for column, value in enumerate(values):
+            W = data["W"].sel(closure=closure).isel({dimension: column})
+            axes = figure.add_subplot(2, len(values), row * len(values) + column + 1, projection="3d")
+            draw_one(axes, W, float((data["W"] if one_scale else data["W"].isel({dimension: column})).max()), words(value))
+        figure.text(0.005, 0.955 - 0.49 * row, look.TITLES[closure] + (": slip velocity W, cA/π (vertical)" if row == 0 else ""), fontsize=9, va="bottom")
+    figure.subplots_adjust(left=0.0, right=0.94, bottom=0.01, top=0.96, wspace=0.1, hspace=0.04)
+    return figure
+
+
+def with_friction(runs) -> Picture:
+    """Fig. 7."""
+    axis = xarray.DataArray([0.0], dims="friction_coefficient", name="friction_coefficient", attrs=look.FRICTION)
+    data = surfaces(runs, "Fig. 7", "fig-07.toml", "friction.coefficient", FRICTION, PLACES, axis)
+    top = data["W"].isel(time=-1).max("x")
+    fall = {closure: float(top.sel(closure=closure)[0] / top.sel(closure=closure)[-1]) for closure in CLOSURES}
+    return picture("fig-07", draw(data, "friction_coefficient", lambda c: f"C = {c:g}", True), data, fall=fall["paper"], fall_consistent=fall["consistent"])
+
+
+def with_right_stress(runs) -> Picture:
+    """Fig. 11."""
+    axis = xarray.DataArray([0.0], dims="stress_right", name="stress_right", attrs=look.STRESS_RIGHT)
+    data = surfaces(runs, "Fig. 11", "fig-11.toml", "initial.stress_right", RIGHT, WIDER, axis)
+    words = {right: f"Σ+ = {right:g}, drop {100 * (1 - right / 0.855):.0f} %" for right in RIGHT}
+    return picture("fig-11", draw(data, "stress_right", lambda right: words[float(right)], False), data)

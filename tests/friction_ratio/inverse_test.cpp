@@ -1,0 +1,48 @@
+#include "slipfront/friction_ratio/inverse.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "slipfront/error.hpp"
+
+namespace {
+
+using namespace slipfront;
+using namespace slipfront::friction_ratio;
+using friction::Closure;
+
+TEST(DampingNumber, ReadsTheTableBack) {
+  for (const Closure closure : {Closure::consistent, Closure::paper})
+    for (const double stress : {0.05, 0.21, 0.855, 3.0})
+      for (const double damping : {1e-3, 0.63, 3.14, 12.6, 4e3, 1e6, 1e10})
+        for (const Measure measure : {Measure::origin, Measure::time_mean}) {
+          const Ratio at = evaluate(measure, closure, stress, damping);
+          EXPECT_NEAR(damping_number(measure, closure, stress, at.value).damping_number / damping, 1, 1e-9)
+              << stress << " " << damping << " " << name_of(measure);
+        }
+}
+
+/// The error is what the table's own uncertainty moves the damping number by.
+TEST(DampingNumber, ErrorCoversTheTable) {
+  for (const Closure closure : {Closure::consistent, Closure::paper})
+    for (const double damping : {0.5, 5.0, 2e5}) {
+      const Ratio at = evaluate(Measure::origin, closure, 0.855, damping);
+      const double share = uncertainty(closure, damping);
+      const Reading reading = damping_number(Measure::origin, closure, 0.855, at.value);
+      const double moved = damping_number(Measure::origin, closure, 0.855, at.value * (1 - share)).damping_number;
+      EXPECT_NEAR((moved - damping) / reading.error, 1, 0.05);
+    }
+}
+
+TEST(DampingNumber, RefusesRatiosThatFrictionDoesNotLeave) {
+  for (const double ratio : {0.0, -0.1, 1.001, 1e-200, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_THROW(damping_number(Measure::origin, Closure::consistent, 0.855, ratio), InputError) << ratio;
+  EXPECT_EQ(damping_number(Measure::origin, Closure::consistent, 0.855, 1).damping_number, 0);
+  const double most = evaluate(Measure::mean, Closure::consistent, 0.855, 0).value;
+  EXPECT_THROW(damping_number(Measure::mean, Closure::consistent, 0.855, most * 1.01), InputError);
+  EXPECT_THROW(damping_number(Measure::origin, Closure::consistent, 4, 0.5), InputError);
+}
+
+}  // namespace
