@@ -159,6 +159,9 @@ Points points_of(const Problem& problem, const Solver::View& v, const std::vecto
 void find_peak(const Points& p, Snapshot& s) {
   const auto size = [&](std::size_t i) { return std::fabs(p.W[i]); };
   const std::size_t n = p.W.size();
+  s.peak_slip_velocity = 0;
+  s.peak_position = none;
+  if (n == 0) return;  // all dislocations have left the domain
   const bool calm = std::find(p.shocked.begin(), p.shocked.end(), false) != p.shocked.end();
   std::size_t peak = n;
   for (std::size_t i = 0; i < n; ++i) {

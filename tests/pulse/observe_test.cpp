@@ -236,4 +236,22 @@ TEST(Run, RefusesStateOfAnotherRun) {
   EXPECT_TRUE(again.finished());
 }
 
+/// Pushed out of the domain, a train leaves nothing to measure.
+TEST(Observe, NothingIsLeftInTheDomain) {
+  Problem p;
+  p.stress = [](double x) { return std::fabs(x) < 0.5 ? 0.8 : 0.0; };
+  p.forcing = [](double, double) { return 0.5; };
+  p.left = -2;
+  p.right = 2;
+  p.cells = 30;
+  pulse::Run run(p, {.times = {0, 12}, .x_edges = {-2, 0, 2}});
+  ASSERT_TRUE(run.go());
+  ASSERT_GT(run.solver().cells().left_edge(), 2);
+  const output::Snapshot& s = run.snapshots().back();
+  EXPECT_EQ(s.peak_slip_velocity, 0);
+  EXPECT_TRUE(std::isnan(s.peak_position));
+  EXPECT_TRUE(std::isnan(s.fronts.trailing_observed));
+  EXPECT_TRUE(std::isnan(s.fronts.leading_observed));
+}
+
 }  // namespace
