@@ -89,12 +89,12 @@ struct Pulse {
 
 void kernel_solve_states(benchmark::State& state) {
   const Pulse p;
-  std::vector<double> guess(cells), s(cells), phi(cells), psi(cells), sound(cells), EK(cells), U(cells), good(cells);
+  std::vector<double> guess(cells), s(cells), phi(cells), psi(cells), sound(cells), EK(cells), U(cells), solved(cells);
   for (std::size_t i = 0; i < cells; ++i) guess[i] = std::tanh(p.psi[i]) * 1.002;
   measure(state, 342, 4, 15, [&] {
     s = guess;
     pulse::solve_states({cells, p.spacing.data(), p.momentum.data(), s.data(), phi.data(), psi.data(), sound.data(),
-                         EK.data(), U.data(), good.data()});
+                         EK.data(), U.data(), solved.data()});
   });
 }
 BENCHMARK(kernel_solve_states);

@@ -16,14 +16,14 @@ constexpr std::size_t most_columns = 10000;
 struct Records {
   const std::function<void(std::vector<std::string>&&, std::size_t)>& take;
   std::vector<std::string> fields = {};
-  std::size_t line = 0;            ///< being fed
-  std::size_t first = 0;           ///< of the record being read; 0 between records
-  std::exception_ptr thrown = {};  ///< must not pass through C
+  std::size_t line = 0;               ///< being fed
+  std::size_t first = 0;              ///< of the record being read; 0 between records
+  std::exception_ptr exception = {};  ///< must not pass through C
 };
 
 void on_field(void* data, std::size_t size, void* self) {
   auto& records = *static_cast<Records*>(self);
-  if (records.thrown) return;
+  if (records.exception) return;
   try {
     if (records.fields.size() == most_columns)
       throw InputError({.line = records.first > 0 ? records.first : records.line,
@@ -31,17 +31,17 @@ void on_field(void* data, std::size_t size, void* self) {
                         .allowed = "fewer"});
     records.fields.emplace_back(data ? static_cast<const char*>(data) : "", data ? size : 0);
   } catch (...) {
-    records.thrown = std::current_exception();
+    records.exception = std::current_exception();
   }
 }
 
 void on_record(int, void* self) {
   auto& records = *static_cast<Records*>(self);
-  if (records.thrown) return;
+  if (records.exception) return;
   try {
     records.take(std::move(records.fields), records.first);
   } catch (...) {
-    records.thrown = std::current_exception();
+    records.exception = std::current_exception();
   }
   records.fields.clear();
   records.first = 0;
@@ -64,19 +64,19 @@ std::size_t for_each_record(std::string_view text,
   Parser parser;
   Records records{take};
   // libcsv does not count lines; fed one line at a time, it need not.
-  while (!text.empty() && !records.thrown) {
+  while (!text.empty() && !records.exception) {
     const std::size_t end = text.find('\n');
     const std::size_t size = end == std::string_view::npos ? text.size() : end + 1;
     ++records.line;
     if (records.first == 0) records.first = records.line;
-    if (csv_parse(&parser.raw, text.data(), size, on_field, on_record, &records) != size && !records.thrown)
+    if (csv_parse(&parser.raw, text.data(), size, on_field, on_record, &records) != size && !records.exception)
       throw std::bad_alloc();
     if (records.fields.empty() && parser.raw.quoted == 0) records.first = 0;  // a blank line
     text.remove_prefix(size);
   }
   csv_set_opts(&parser.raw, CSV_STRICT | CSV_STRICT_FINI);  // from here on a quote still open is an error
-  const bool open_quote = !records.thrown && csv_fini(&parser.raw, on_field, on_record, &records) != 0;
-  if (records.thrown) std::rethrow_exception(records.thrown);
+  const bool open_quote = !records.exception && csv_fini(&parser.raw, on_field, on_record, &records) != 0;
+  if (records.exception) std::rethrow_exception(records.exception);
   return open_quote ? records.first : 0;
 }
 

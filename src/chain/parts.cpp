@@ -199,7 +199,7 @@ void Chain::Parts::advance(std::size_t count) {
       for (int i = 0; i < number; ++i) each(static_cast<std::size_t>(i));
       return;
     }
-    std::vector<std::exception_ptr> thrown(slabs.size());  // by friction whose curve the user gave
+    std::vector<std::exception_ptr> exceptions(slabs.size());  // by friction whose curve the user gave
 #ifdef _OPENMP
 #pragma omp parallel for num_threads(number) schedule(static, 1)
 #endif
@@ -207,10 +207,10 @@ void Chain::Parts::advance(std::size_t count) {
       try {
         each(static_cast<std::size_t>(i));
       } catch (...) {
-        thrown[static_cast<std::size_t>(i)] = std::current_exception();
+        exceptions[static_cast<std::size_t>(i)] = std::current_exception();
       }
     }
-    for (const std::exception_ptr& e : thrown)
+    for (const std::exception_ptr& e : exceptions)
       if (e) std::rethrow_exception(e);
   };
   if (ranks.size() > 1) exchange_with_ranks();

@@ -99,7 +99,7 @@ Problem problem_of(const ScaledProblem& s, double share_of_machine) {
   p.grid.spacing = s.boundary.periodic ? length / intervals : s.spacing;
   p.model = s.model;
   p.boundary = s.boundary;
-  p.friction = s.friction.stretched_by(s.scale);
+  p.friction = s.friction.scaled_by(s.scale);
   if (s.forcing) p.forcing = [f = s.forcing, c = s.scale](double x, double t) { return f(x / c, t / c) / c; };
   p.steady_forcing = s.steady_forcing;
   if (s.contact) p.contact = [a = s.contact, c = s.scale](double x) { return a(x / c); };
@@ -313,7 +313,6 @@ Snapshot Run::profile_at(double time) const {
     if (std::fabs(a.velocity) > std::fabs(s.profile.W[peak])) peak = i;
   }
   s.peak_slip_velocity = s.profile.W[peak];
-  s.further["potency"] = output::integral(s.profile.slip, schedule_.x_edges);
   s.peak_position = middle_of_cell(peak);
   return s;
 }
@@ -367,6 +366,7 @@ void Run::take() {
               .through_ends = none,
               .shocks = none,
               .phonons = s.energy.phonons};
+  output::add_further_scalars(s, schedule_);
   snapshots_.push_back(std::move(s));
 }
 

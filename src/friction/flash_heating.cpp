@@ -20,9 +20,10 @@ const Definition& flash_heating_law() {
       .adjective = "flash-heating",
       .equation = "f = f_w + (f_0 - f_w) / (1 + w / w_w), with the sign of w; places stick below f_0",
       .source = "after Rice (2006), J. Geophys. Res. 111:B05311, with a smooth onset",
-      .parameters = {coefficient_in("mu A^2 / (pi (1 - nu))"),
-                     {.name = "weakened", .symbol = "f_w", .unit = "mu A^2 / (pi (1 - nu))", .stretch = Stretch::force},
-                     {.name = "velocity", .symbol = "w_w", .unit = "c A / pi", .value = 1, .without_least = true}},
+      .parameters =
+          {coefficient_in("mu A^2 / (pi (1 - nu))"),
+           {.name = "weakened", .symbol = "f_w", .unit = "mu A^2 / (pi (1 - nu))", .dimension = Dimension::force},
+           {.name = "velocity", .symbol = "w_w", .unit = "c A / pi", .value = 1, .without_least = true}},
       .make = [](const std::vector<double>& values, const Curve&) -> std::shared_ptr<const Law> {
         return std::make_shared<FlashHeating>(values[0], values[1], values[2]);
       }};

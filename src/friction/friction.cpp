@@ -34,7 +34,7 @@ Friction::Friction(const Definition& definition, std::vector<double> values, Clo
       closure_(closure),
       law_(definition.make(values_, curve_)) {
   for (std::size_t i = 0; i < values_.size(); ++i)
-    acts_ = acts_ || (definition.parameters[i].stretch == Stretch::force && values_[i] > 0);
+    acts_ = acts_ || (definition.parameters[i].dimension == Dimension::force && values_[i] > 0);
   linear_ = law_->linear_coefficient();
   std::vector<double> memory(variables());
   law_->start(memory);
@@ -49,12 +49,12 @@ double Friction::parameter(std::string_view name) const {
   return 0;
 }
 
-Friction Friction::stretched_by(double scale) const {
+Friction Friction::scaled_by(double scale) const {
   std::vector<double> values = values_;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const Stretch stretch = definition_->parameters[i].stretch;
-    if (stretch == Stretch::force) values[i] /= scale;
-    if (stretch == Stretch::slip || stretch == Stretch::time) values[i] *= scale;
+    const Dimension dimension = definition_->parameters[i].dimension;
+    if (dimension == Dimension::force) values[i] /= scale;
+    if (dimension == Dimension::slip || dimension == Dimension::time) values[i] *= scale;
   }
   return {*definition_, std::move(values), closure_, curve_};
 }

@@ -93,7 +93,7 @@ Parameter coefficient_in(std::string_view unit) {
   return {.name = "coefficient",
           .symbol = "C",
           .unit = unit,
-          .stretch = Stretch::force,
+          .dimension = Dimension::force,
           .if_missing = "counts as 0: there is no friction"};
 }
 

@@ -121,8 +121,11 @@ class RateAndState final : public Law {
 
 const Definition& rate_and_state_law() {
   static const auto force = [](std::string_view name, std::string_view symbol, double value) {
-    return Parameter{
-        .name = name, .symbol = symbol, .unit = "mu A^2 / (pi (1 - nu))", .value = value, .stretch = Stretch::force};
+    return Parameter{.name = name,
+                     .symbol = symbol,
+                     .unit = "mu A^2 / (pi (1 - nu))",
+                     .value = value,
+                     .dimension = Dimension::force};
   };
   static const Definition definition{
       .name = "rate-and-state",
@@ -145,9 +148,9 @@ const Definition& rate_and_state_law() {
                       .unit = "b / (2 pi)",
                       .value = 1,
                       .without_least = true,
-                      .stretch = Stretch::slip},
+                      .dimension = Dimension::slip},
                      {.name = "velocity", .symbol = "w_0", .unit = "c A / pi", .value = 1, .without_least = true},
-                     {.name = "initial_age", .symbol = "theta_0", .unit = "b / (c A)", .stretch = Stretch::time},
+                     {.name = "initial_age", .symbol = "theta_0", .unit = "b / (c A)", .dimension = Dimension::time},
                      {.name = "state", .symbol = "", .unit = "1", .most = 1, .words = {"ageing", "slip"}}},
       .variables = {{.name = "theta", .symbol = "theta", .unit = "b / (c A)"}},
       .make = [](const std::vector<double>& values, const Curve&) -> std::shared_ptr<const Law> {

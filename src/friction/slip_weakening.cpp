@@ -31,14 +31,15 @@ const Definition& slip_weakening_law() {
       .adjective = "slip-weakening",
       .equation = "f = f_d + (f_s - f_d) max(0, 1 - slip / D_c), with the sign of w; places stick below it",
       .source = "Andrews (1976), J. Geophys. Res. 81:5679",
-      .parameters = {coefficient_in("mu A^2 / (pi (1 - nu))"),
-                     {.name = "residual", .symbol = "f_d", .unit = "mu A^2 / (pi (1 - nu))", .stretch = Stretch::force},
-                     {.name = "slip_distance",
-                      .symbol = "D_c",
-                      .unit = "b / (2 pi)",
-                      .value = 1,
-                      .without_least = true,
-                      .stretch = Stretch::slip}},
+      .parameters =
+          {coefficient_in("mu A^2 / (pi (1 - nu))"),
+           {.name = "residual", .symbol = "f_d", .unit = "mu A^2 / (pi (1 - nu))", .dimension = Dimension::force},
+           {.name = "slip_distance",
+            .symbol = "D_c",
+            .unit = "b / (2 pi)",
+            .value = 1,
+            .without_least = true,
+            .dimension = Dimension::slip}},
       .variables = {{.name = "slipped", .symbol = "s", .unit = "b / (2 pi)"}},
       .make = [](const std::vector<double>& values, const Curve&) -> std::shared_ptr<const Law> {
         return std::make_shared<SlipWeakening>(values[0], values[1], values[2]);

@@ -19,10 +19,10 @@ double further_scalar(const Snapshot& snapshot, std::string_view name) {
   return found == snapshot.further.end() ? std::numeric_limits<double>::quiet_NaN() : found->second;
 }
 
-double integral(const std::vector<double>& values, const std::vector<double>& x_edges) {
-  double sum = 0;
-  for (std::size_t i = 0; i < values.size(); ++i) sum += values[i] * (x_edges[i + 1] - x_edges[i]);
-  return sum;
+void add_further_scalars(Snapshot& snapshot, const Schedule& schedule) {
+  double& potency = snapshot.further["potency"] = 0;
+  const std::vector<double>&slip = snapshot.profile.slip, &x = schedule.x_edges;
+  for (std::size_t i = 0; i < slip.size(); ++i) potency += slip[i] * (x[i + 1] - x[i]);
 }
 
 }  // namespace slipfront::output

@@ -8,7 +8,7 @@
 namespace slipfront::pulse {
 
 /// modulation::solve_state for many cells. `s` = tanh(psi) comes in as the guess and goes out as the result. Cells that
-/// are out of the ordinary (s outside 1e-290 ... 0.9, or a guess too far off) are left with good = 0 for the scalar
+/// are out of the ordinary (s outside 1e-290 ... 0.9, or a guess too far off) are left with solved = 0 for the scalar
 /// route.
 struct StateArrays {
   std::size_t size;
@@ -20,7 +20,7 @@ struct StateArrays {
   double* sound_speed;
   double* EK;
   double* velocity;  ///< tanh(phi)
-  double* good;      ///< 1 or 0
+  double* solved;    ///< 1 or 0
 };
 void solve_states(const StateArrays& a);
 

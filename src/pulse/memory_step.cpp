@@ -6,7 +6,6 @@
 #include <numbers>
 #include <vector>
 
-#include "../digits.hpp"
 #include "friction_solve.hpp"
 #include "places.hpp"
 #include "semidiscrete.hpp"
@@ -38,6 +37,75 @@ std::vector<double> slip_velocities(const Cells& cells, const std::vector<double
   return W;
 }
 
+/// Friction on the cells over a step, from the memory of the places in its middle.
+class CellFriction {
+ public:
+  CellFriction(const Problem& problem, const Cells& cells, const std::vector<State>& states)
+      : problem_(problem), cells_(cells), x_(centres_of(cells)), memory_(cells.size() * variables()) {
+    for (const State& state : states) start_.push_back(std::tanh(state.phi));
+    velocity_ = start_;
+  }
+
+  const std::vector<double>& x() const { return x_; }
+  /// Of the dislocations in the cells, as last found.
+  const std::vector<double>& velocity() const { return velocity_; }
+
+  /// Where the cells are in the middle of a step of `dt`.
+  void take_memory(const Places& places, double dt) {
+    for (std::size_t i = 0; i < x_.size(); ++i)
+      places.look_up(x_[i] + start_[i] * dt / 2, memory_.data() + i * variables());
+  }
+
+  SplitStep::Left left(std::size_t cell, double width, double free, double time) {
+    const double q = cells_.charge[cell];
+    if (q == 0) return {free, 0};
+    const SlowedTrain train{problem_.friction,          width / q,        contact(cell), memory(cell),
+                            std::atanh(cells_.s[cell]), start_[cell] == 0};
+    const SlowedTrain::Left of_one = train.after(free / q, time);
+    velocity_[cell] = of_one.velocity;
+    return {of_one.momentum * q, of_one.velocity};
+  }
+
+  /// Momentum that friction takes from each cell in a time, if it is in this state.
+  std::vector<double> taken(const std::vector<State>& states, double time) const {
+    std::vector<double> all(states.size());
+    for (std::size_t i = 0; i < states.size(); ++i)
+      if (!states[i].empty() && states[i].phi != 0)
+        all[i] = 2 * pi * time * cells_.charge[i] * problem_.friction.mean_strength(states[i], contact(i), memory(i));
+    return all;
+  }
+
+ private:
+  std::size_t variables() const { return problem_.friction.variables(); }
+  double contact(std::size_t cell) const { return problem_.contact ? problem_.contact(x_[cell]) : 1; }
+  friction::Memory memory(std::size_t cell) const {
+    return friction::Memory(memory_).subspan(cell * variables(), variables());
+  }
+
+  const Problem& problem_;
+  const Cells cells_;  ///< at the start of the step
+  std::vector<double> x_, memory_, start_, velocity_;
+};
+
+/// `share` of the way from one slip velocity to another, place by place.
+std::vector<double> between(const std::vector<double>& from, const std::vector<double>& to, double share) {
+  std::vector<double> mixed(from.size());
+  for (std::size_t i = 0; i < from.size(); ++i) mixed[i] = std::lerp(from[i], to[i], share);
+  return mixed;
+}
+
+/// What the step has got wrong by taking the memory in its middle as the slip velocity of its start foretold it: in
+/// units of `scale`, root mean square over the cells.
+double memory_error(const std::vector<double>& foretold, const std::vector<double>& found,
+                    const std::vector<double>& scale) {
+  double sum = 0;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const double off = (found[i] - foretold[i]) / scale[Values::momentum_at(i)];
+    sum += off * off;
+  }
+  return std::sqrt(sum / static_cast<double>(found.size()));
+}
+
 }  // namespace
 
 Places Solver::places() const {
@@ -47,52 +115,37 @@ Places Solver::places() const {
 }
 
 double Solver::step_with_memory(const std::vector<double>& rate, double remaining, double crossing) {
-  const friction::Friction& friction = problem_.friction;
-  const std::size_t n = size();
+  const friction::Law& law = problem_.friction.law();
   const Rates f = [this](double t, const double* y, double* dy) { (*equations_)(t, y, dy); };
-  SplitStep step(n, cells_.unknowns.size());
-  std::vector<double> velocity(n), memory(n * friction.variables()), scale(2 * n);
-  const std::vector<State> states = equations_->states();
-  for (std::size_t i = 0; i < n; ++i) velocity[i] = std::tanh(states[i].phi);
-  const std::vector<double> x = centres_of(cells_), before = cells_.unknowns, start = velocity;
+  SplitStep step(size(), cells_.unknowns.size());
+  CellFriction friction(problem_, cells_, equations_->states());
+  const auto left = [&](std::size_t cell, double width, double free, double time) {
+    return friction.left(cell, width, free, time);
+  };
+  const std::vector<double> before = cells_.unknowns;
   const Places now = places();
-  const std::vector<double> W = now.velocity_from(x, slip_velocities(cells_, start));
+  const std::vector<double> W = now.velocity_from(friction.x(), slip_velocities(cells_, friction.velocity()));
+  std::vector<double> scale(2 * size());
   find_scale(crossing, scale);
   const double longest = SplitStep::longest_in_crossing_times * crossing;
   double dt = next_step(remaining, cells_.step > 0 ? std::fmin(longest, cells_.step) : longest);
   for (int tries = 0;; ++tries) {
-    Places half = now;
-    half.advance(friction.law(), W, dt / 2);
-    for (std::size_t i = 0; i < n; ++i)
-      half.look_up(x[i] + start[i] * dt / 2, memory.data() + i * friction.variables());
-    const auto contact_of = [&](std::size_t i) { return problem_.contact ? problem_.contact(x[i]) : 1.0; };
-    const auto left_by_friction = [&](std::size_t i, double width, double free, double time) -> SplitStep::Left {
-      const double q = cells_.charge[i];
-      if (q == 0) return {free, 0};
-      const SlowedTrain train{friction,
-                              width / q,
-                              contact_of(i),
-                              friction::Memory(memory).subspan(i * friction.variables(), friction.variables()),
-                              std::atanh(cells_.s[i]),
-                              start[i] == 0};
-      const SlowedTrain::Left left = train.after(free / q, time);
-      velocity[i] = left.velocity;
-      return {left.momentum * q, left.velocity};
-    };
     double factor = 0.5;
     try {
-      step(f, left_by_friction, cells_.time, dt, cells_.unknowns, rate);
-      Places after = now, middle = now;
-      const std::vector<double> W_after = now.velocity_from(centres_of(cells_), slip_velocities(cells_, velocity));
-      std::vector<double> mean(W.size()), early(W.size());
-      for (std::size_t j = 0; j < W.size(); ++j) {
-        mean[j] = (W[j] + W_after[j]) / 2;
-        early[j] = (3 * W[j] + W_after[j]) / 4;
-      }
-      after.advance(friction.law(), mean, dt);
-      middle.advance(friction.law(), early, dt / 2);
-      const double error = std::fmax(step.error(cells_.unknowns, scale, equations_->shocked()), unseen_push(dt)) /
-                           problem_.explicit_tolerance;
+      Places half = now, better = now, after = now;
+      half.advance(law, W, dt / 2);
+      friction.take_memory(half, dt);
+      step(f, left, cells_.time, dt, cells_.unknowns, rate);
+      const std::vector<double> foretold = friction.taken(equations_->states(), dt);
+      const std::vector<double> W_after =
+          now.velocity_from(centres_of(cells_), slip_velocities(cells_, friction.velocity()));
+      better.advance(law, between(W, W_after, 0.25), dt / 2);
+      after.advance(law, between(W, W_after, 0.5), dt);
+      friction.take_memory(better, dt);
+      const double of_memory = memory_error(foretold, friction.taken(equations_->states(), dt), scale);
+      const double error =
+          std::max({step.error(cells_.unknowns, scale, equations_->shocked()), of_memory, unseen_push(dt)}) /
+          problem_.explicit_tolerance;
       factor = std::clamp(0.9 * std::pow(error, -1.0 / 3), 0.2, 4.0);
       if (error <= 1) {
         cells_.step = dt * factor;
@@ -102,9 +155,7 @@ double Solver::step_with_memory(const std::vector<double>& rate, double remainin
     } catch (const NumericsError&) {
       if (tries == 80) throw;
     }
-    if (tries == 80)
-      throw NumericsError("t = " + digits(cells_.time) +
-                          ": the time step failed: the forces on a cell exceed what any step can resolve");
+    if (tries == 80) throw too_strong_forces(cells_.time);
     cells_.unknowns = before;
     equations_->start_from(cells_.s);
     dt *= factor;

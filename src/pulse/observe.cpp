@@ -10,7 +10,6 @@
 #include "interval.hpp"
 #include "slipfront/modulation/characteristics.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
-#include "slipfront/output/further_scalars.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::pulse {
@@ -312,7 +311,6 @@ Snapshot observe(const Solver& solver, const std::vector<double>& x_edges, const
   s.peak_position = in_domain(problem, s.peak_position);
   find_observed_fronts(problem, v, W, threshold, to_right, s);
   s.energy = energy_of(solver, v);
-  s.further["potency"] = output::integral(s.profile.slip, x_edges);
   return s;
 }
 

@@ -9,6 +9,7 @@
 #include "../digits.hpp"
 #include "slipfront/clock.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/output/further_scalars.hpp"
 
 namespace slipfront::pulse {
 namespace {
@@ -140,6 +141,7 @@ void Run::take() {
   output::Snapshot s = observe(solver_, schedule_.x_edges, trailing_characteristic_, schedule_.threshold);
   output::Energy& e = s.energy;
   e.shocks = first_energy_ + e.supplied + e.through_ends - e.dissipated - e.elastic - e.kinetic;
+  output::add_further_scalars(s, schedule_);
   snapshots_.push_back(std::move(s));
 }
 

@@ -70,7 +70,8 @@ inline double clamp(double x, double low, double high) { return x > low ? (x < h
 SLIPFRONT_CLONES void solve_states(const StateArrays& a) {
   const std::size_t n = a.size;
   const double *spacing = a.spacing, *momentum = a.momentum;
-  double *s_out = a.s, *phi = a.phi, *psi = a.psi, *sound = a.sound_speed, *EK = a.EK, *U = a.velocity, *good = a.good;
+  double *s_out = a.s, *phi = a.phi, *psi = a.psi, *sound = a.sound_speed, *EK = a.EK, *U = a.velocity,
+         *solved = a.solved;
   constexpr double least = 1e-290, most = fit::largest_s;
   // The guess is brought near in single precision: twice as many lanes. ln s waits in `psi`.
   SLIPFRONT_INDEPENDENT
@@ -110,7 +111,7 @@ SLIPFRONT_CLONES void solve_states(const StateArrays& a) {
     // Single precision comes this near; what third order leaves is then a few ulp.
     const bool near = std::fabs(step) * (halley.slope + std::fabs(halley.curve)) < (4e-6 + 5e-7 * K) * halley.slope;
     const bool fine = near && half > 0 && s > least && s < most;
-    good[i] = fine ? 1.0 : 0.0;
+    solved[i] = fine ? 1.0 : 0.0;
     s_out[i] = fine ? s : s_out[i];
   }
 }

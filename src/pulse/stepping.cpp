@@ -106,9 +106,7 @@ double Solver::step_explicitly(Work& work, double remaining, double crossing) {
         break;
       }
       if (jumped) factor = std::fmin(factor, 0.5);
-      if (tries == 80)
-        throw NumericsError("t = " + digits(cells_.time) +
-                            ": the time step failed: the forces on a cell exceed what any step can resolve");
+      if (tries == 80) throw too_strong_forces(cells_.time);
     } catch (const NumericsError&) {
       if (tries == 80) throw;
     }

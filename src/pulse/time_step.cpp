@@ -3,9 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../digits.hpp"
 #include "kernels.hpp"
 
 namespace slipfront::pulse {
+
+NumericsError too_strong_forces(double time) {
+  return NumericsError("t = " + digits(time) +
+                       ": the time step failed: the forces on a cell exceed what any step can resolve");
+}
 
 ExplicitStep::ExplicitStep(std::size_t size) {
   for (auto* array : {&u1_, &u2_, &u3_, &u4_, &rate1_, &rate2_, &rate3_, &rate4_}) array->resize(size);

@@ -6,6 +6,8 @@
 #include <functional>
 #include <vector>
 
+#include "slipfront/error.hpp"
+
 namespace slipfront::pulse {
 
 /// y' = f(t, y).
@@ -16,6 +18,9 @@ using Rates = std::function<void(double t, const double* y, double* dy)>;
 inline double next_step(double remaining, double dt) {
   return dt >= remaining ? remaining : dt > remaining / 2 ? remaining / 2 : dt;
 }
+
+/// A step that fails however short it is.
+NumericsError too_strong_forces(double time);
 
 /// One step of SSPRK(5,4): explicit, fourth order, strong stability preserving up to 1.5 Euler steps (Spiteri & Ruuth
 /// 2002), with a third-order solution beside it for the error.

@@ -22,7 +22,7 @@ std::string done_in(const netcdf::Reader& file, const std::string& path, const E
     if (!written) fail("attribute " + name + " is missing");
     if (*written == clean_text(wanted, netcdf::longest_text)) return;
     throw InputError({.file = path,
-                      .key = "--resume",
+                      .key = "resume",
                       .value = *written,
                       .problem = name == "input_checksum" ? "was written from other files or contents"
                                                           : "was written with another " + name,

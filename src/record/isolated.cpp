@@ -160,7 +160,7 @@ std::string isolated(const std::string& name, const std::string& failed, const s
     return work();
   }
   std::string text;
-  std::exception_ptr thrown;
+  std::exception_ptr exception;
   try {
     char buffer[1 << 16];
     for (;;) {
@@ -170,13 +170,13 @@ std::string isolated(const std::string& name, const std::string& failed, const s
       text.append(buffer, static_cast<std::size_t>(size));
     }
   } catch (const std::bad_alloc&) {
-    thrown = std::current_exception();
+    exception = std::current_exception();
   }
   close(ends[0]);
   int status = 0;
   while (waitpid(copy, &status, 0) < 0 && errno == EINTR) {
   }
-  if (thrown) std::rethrow_exception(thrown);
+  if (exception) std::rethrow_exception(exception);
   return result_of(text, name, failed, status);
 }
 

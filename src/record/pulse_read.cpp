@@ -168,7 +168,7 @@ Checkpoint read_checkpoint_of(const std::string& path, const std::string& scenar
   Checkpoint saved = read_checkpoint(path);
   const auto refuse = [&](const char* what, const std::string& wanted) {
     throw InputError(
-        {.file = path, .key = "--resume", .problem = std::string("was written by another ") + what, .allowed = wanted});
+        {.file = path, .key = "resume", .problem = std::string("was written by another ") + what, .allowed = wanted});
   };
   if (saved.scenario_text != scenario_text) refuse("scenario", "the scenario that began it, with the same --set");
   if (saved.version != version) refuse("version", "version " + version);

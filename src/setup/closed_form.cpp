@@ -87,7 +87,7 @@ output::Snapshot snapshot_of(const RiemannSolution& solution, const output::Sche
   s.slip_velocity_at_origin = origin.W;
   s.stress_at_origin = origin.k;
   s.slip_at_origin = slip(origin, 0);
-  s.further["potency"] = output::integral(s.profile.slip, schedule.x_edges);
+  output::add_further_scalars(s, schedule);
   s.peak_position = none;
   if (time > 0) {
     const double peak = peak_of(solution, edges), most = speed(solution, peak);

@@ -33,8 +33,9 @@ const friction::Definition& weakening_law() {
       .adjective = "weakening",
       .equation = "f = C sign(w) (1 - min(slip / L, 1) / 2)",
       .source = "this test",
-      .parameters = {{.name = "coefficient", .symbol = "C", .unit = "mu A / 2 pi", .stretch = friction::Stretch::force},
-                     {.name = "length", .symbol = "L", .unit = "b / 2 pi"}},
+      .parameters =
+          {{.name = "coefficient", .symbol = "C", .unit = "mu A / 2 pi", .dimension = friction::Dimension::force},
+           {.name = "length", .symbol = "L", .unit = "b / 2 pi"}},
       .variables = {{.name = "slip", .symbol = "s", .unit = "b / 2 pi"}},
       .make = [](const std::vector<double>& v, const friction::Curve&) -> std::shared_ptr<const friction::Law> {
         return std::make_shared<Weakening>(v[0], v[1]);

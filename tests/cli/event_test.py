@@ -223,7 +223,7 @@ class Event(CommandLine):
         for changed, says in ((["--seed", "2"], "another seed"), (["--samples", "50"], "another samples"), (["--samples", "1000"], "another sampled_events"),
                               (["--closure", "paper"], "another closure"), (["--pulse"], "another pulse"),
                               (["--poisson-ratio", "0.25"], "another poisson_ratio"), ([case], "other files or contents")):
-            self.refused(2, "event", case, *changed, "--resume", path, says=[path, "--resume", says])
+            self.refused(2, "event", case, *changed, "--resume", path, says=[path, "resume", says])
         with open(case, "a", encoding="utf-8") as file:
             file.write("C,1 km/s\n")
         self.refused(2, "event", case, "--resume", path, says=["other files or contents"])

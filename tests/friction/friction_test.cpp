@@ -103,7 +103,7 @@ const Definition& bare_law() {
       .adjective = "bare",
       .equation = "f = C |w|^n",
       .source = "",
-      .parameters = {{.name = "coefficient", .symbol = "C", .unit = "", .stretch = friction::Stretch::force},
+      .parameters = {{.name = "coefficient", .symbol = "C", .unit = "", .dimension = friction::Dimension::force},
                      {.name = "exponent", .symbol = "n", .unit = ""}},
       .make = [](const std::vector<double>& v, const friction::Curve&) -> std::shared_ptr<const Law> {
         return std::make_shared<Bare>(v[0], v[1]);
@@ -146,7 +146,7 @@ TEST(Friction, ImplicitSolveOfAnyLawIsThatOfClosedForms) {
 }
 
 TEST(Friction, DividesForcesAndRefusesNumbersOutOfRange) {
-  const Friction scaled = power(3, 1.5, Closure::paper).stretched_by(2);
+  const Friction scaled = power(3, 1.5, Closure::paper).scaled_by(2);
   EXPECT_EQ(scaled.coefficient(), 1.5);
   EXPECT_EQ(scaled.parameter("exponent"), 1.5);
   EXPECT_EQ(scaled.closure(), Closure::paper);
@@ -237,12 +237,11 @@ TEST(Friction, SlipWeakensWhatHolds) {
   EXPECT_DOUBLE_EQ(friction.force(1, slip), 0.1);
 }
 
-TEST(Friction, StretchesForcesSlipsAndTimes) {
-  const Friction stretched = Friction(law_named("rate-and-state"), {8, 4, 2, 1, 3, 5, 0}).stretched_by(2);
+TEST(Friction, ScalesForcesSlipsAndTimes) {
+  const Friction scaled = Friction(law_named("rate-and-state"), {8, 4, 2, 1, 3, 5, 0}).scaled_by(2);
   const double want[] = {4, 2, 1, 2, 3, 10, 0};
   std::size_t i = 0;
-  for (const Parameter& p : stretched.definition().parameters)
-    EXPECT_EQ(stretched.parameter(p.name), want[i++]) << p.name;
+  for (const Parameter& p : scaled.definition().parameters) EXPECT_EQ(scaled.parameter(p.name), want[i++]) << p.name;
 }
 
 TEST(Friction, LawsSayWhatTheyAre) {
@@ -252,7 +251,7 @@ TEST(Friction, LawsSayWhatTheyAre) {
     std::vector<double> values;
     for (const Parameter& p : law->parameters) {
       EXPECT_FALSE(p.unit.empty()) << law->name << " " << p.name;
-      values.push_back(p.stretch == Stretch::force ? 1 : p.value);
+      values.push_back(p.dimension == Dimension::force ? 1 : p.value);
     }
     const Friction friction(*law, values);
     EXPECT_NO_THROW(friction.check()) << law->name;

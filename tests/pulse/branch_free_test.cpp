@@ -63,16 +63,16 @@ TEST(Kernels, ResolveAllIsResolve) {
   for (const double phi : {-6.0, -1.5, -0.3, 0.0, 1e-200, 1e-7, 0.02, 0.4, 3.0, 12.0})
     for (double psi = 1e-292; psi < 3; psi *= psi < 1e-3 ? 7.3 : 1.03) {
       const auto c = slipfront::modulation::lagrangian_state({phi, psi});
-      double s = std::tanh(psi) * 1.002, got_phi = 0, got_psi = 0, sound = 0, EK = 0, velocity = 0, good = 0;
-      solve_states({1, &c.spacing, &c.momentum, &s, &got_phi, &got_psi, &sound, &EK, &velocity, &good});
+      double s = std::tanh(psi) * 1.002, got_phi = 0, got_psi = 0, sound = 0, EK = 0, velocity = 0, solved = 0;
+      solve_states({1, &c.spacing, &c.momentum, &s, &got_phi, &got_psi, &sound, &EK, &velocity, &solved});
       const auto want = slipfront::modulation::solve_state(c, psi);
       if (psi > 1e-289 && psi < 1.3 && std::fabs(phi) < 2) {
-        EXPECT_EQ(good, 1) << phi << " " << psi;
+        EXPECT_EQ(solved, 1) << phi << " " << psi;
       }
       if (psi < 0.9e-290 || psi > 1.5) {
-        EXPECT_EQ(good, 0) << phi << " " << psi;
+        EXPECT_EQ(solved, 0) << phi << " " << psi;
       }
-      if (good == 0 || psi > 1.3) continue;  // beyond that the problem itself magnifies rounding
+      if (solved == 0 || psi > 1.3) continue;  // beyond that the problem itself magnifies rounding
       const double K = 1.4 + std::fabs(std::log(psi));
       const auto check = [&](const char* what, double got, double wanted, double condition) {
         const double error = error_in_eps(got, wanted) / condition;
@@ -93,9 +93,9 @@ TEST(Kernels, ResolveAllRefusesNonsense) {
   for (const double spacing : {-2.0, 0.0, double{NAN}, HUGE_VAL, 2.0})
     for (const double momentum : {0.0, double{NAN}, HUGE_VAL, -1e200}) {
       if (spacing == 2 && momentum == 0) continue;
-      double s = 0.5, phi = 0, psi = 0, sound = 0, EK = 0, velocity = 0, good = 0;
-      solve_states({1, &spacing, &momentum, &s, &phi, &psi, &sound, &EK, &velocity, &good});
-      EXPECT_EQ(good, 0) << spacing << " " << momentum;
+      double s = 0.5, phi = 0, psi = 0, sound = 0, EK = 0, velocity = 0, solved = 0;
+      solve_states({1, &spacing, &momentum, &s, &phi, &psi, &sound, &EK, &velocity, &solved});
+      EXPECT_EQ(solved, 0) << spacing << " " << momentum;
       EXPECT_EQ(s, 0.5);
     }
 }

@@ -30,8 +30,8 @@ class Friction {
   /// The value of a parameter; 0 if the law has none of that name.
   double parameter(std::string_view name) const;
   double coefficient() const { return parameter("coefficient"); }
-  /// The same friction on a chain whose x and t are stretched by `scale`.
-  Friction stretched_by(double scale) const;
+  /// The same friction on a chain whose x and t are scaled up by `scale`.
+  Friction scaled_by(double scale) const;
   /// \throws InputError for a parameter out of its range.
   void check() const;
 

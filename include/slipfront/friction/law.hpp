@@ -27,9 +27,9 @@ enum class Closure {
 const char* name_of(Closure closure);
 Closure closure_named(std::string_view name);
 
-/// What becomes of a parameter on a chain whose x and t are stretched by a scale: forces are divided by it, slips and
-/// times are multiplied.
-enum class Stretch { none, force, slip, time };
+/// What a parameter is. On a chain whose x and t are scaled up, forces are divided by the scale, slips and times
+/// multiplied by it.
+enum class Dimension { number, force, slip, time };
 
 /// A number that a law takes, and the key of table [friction] that gives it.
 struct Parameter {
@@ -37,7 +37,7 @@ struct Parameter {
   double value = 0;  ///< if none is given
   double least = 0, most = std::numeric_limits<double>::infinity();
   bool without_least = false;
-  Stretch stretch = Stretch::none;
+  Dimension dimension = Dimension::number;
   std::vector<std::string_view> words = {};  ///< what may be given instead of a number; the value is the word's place
   std::string_view if_missing = {};          ///< a warning that says what its absence means
 };

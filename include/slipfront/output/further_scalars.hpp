@@ -1,7 +1,8 @@
 #pragma once
 /// \file
 /// Numbers of a snapshot without a member of their own: declared once for files, tables, JSON and Python. To add one,
-/// add its line to further_scalars.cpp and set it, by its name, where a snapshot is made.
+/// add its line to further_scalars.cpp. There it is computed too if it follows from the rest of a snapshot, at any
+/// level; else it is set, by its name, where a run is observed (pulse/observe.cpp, chain/run.cpp).
 
 #include <span>
 #include <string_view>
@@ -16,7 +17,7 @@ std::span<const Description> further_scalars();
 /// The value in a snapshot; NaN if it has none.
 double further_scalar(const Snapshot& snapshot, std::string_view name);
 
-/// Integral of a field over the output grid, one value a cell.
-double integral(const std::vector<double>& values, const std::vector<double>& x_edges);
+/// Adds those that follow from the rest of the snapshot.
+void add_further_scalars(Snapshot& snapshot, const Schedule& schedule);
 
 }  // namespace slipfront::output
