@@ -14,7 +14,7 @@ void require(bool truth) {
   if (!truth) std::abort();
 }
 
-std::vector<std::pair<double, double>> small_table(const std::string&) {
+std::vector<std::pair<double, double>> small_table(const std::string&, const std::string&, const std::string&) {
   return {{-2, 1}, {0, 0.5}, {0.25, 0}, {3, 0}};
 }
 

@@ -93,6 +93,7 @@ class Power final : public Law {
     const double s = weight * C_;
     if (free == 0 || s == 0) return free;
     double v = std::fmin(free, std::pow(free / s, 1 / n_));
+    if (v == 0) return 0;  // below what a double holds
     for (int i = 0; i < 60; ++i) {
       const double drag = s * std::pow(v, n_), step = (v + drag - free) / (v + n_ * drag);
       v *= std::exp(-step);

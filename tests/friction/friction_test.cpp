@@ -237,6 +237,15 @@ TEST(Friction, SlipWeakensWhatHolds) {
   EXPECT_DOUBLE_EQ(friction.force(1, slip), 0.1);
 }
 
+/// v = (free / C)^2 is no double there; the tails of dislocations are that slow.
+TEST(Friction, PowerBelowOneTakesAllOfTheSlowest) {
+  for (const double free : {1e-300, 1e-170, 1e-160}) {
+    const double v = power(0.1, 0.5).velocity_after(free, 1, {});
+    EXPECT_GE(v, 0) << free;
+    EXPECT_LT(v, free);
+  }
+}
+
 TEST(Friction, ScalesForcesSlipsAndTimes) {
   const Friction scaled = Friction(law_named("rate-and-state"), {8, 4, 2, 1, 3, 5, 0}).scaled_by(2);
   const double want[] = {4, 2, 1, 2, 3, 10, 0};
