@@ -109,6 +109,33 @@ int print(const std::vector<State>& states, const FrictionOptions& friction, con
   return exit_done;
 }
 
+/// The states of all options, in the order of the command line.
+std::vector<State> states_asked_for(const CLI::App& command, std::array<Given, 3>& all) {
+  std::vector<State> states;
+  bool stdin_taken = false;
+  for (CLI::Option* const option : command.parse_order()) {
+    for (Given& given : all) {
+      if (given.parsed != option) continue;
+      const std::string& text = given.texts.at(given.used++);
+      const bool from_stdin = text == "-";
+      if (from_stdin && stdin_taken)
+        throw InputError({.file = "command line",
+                          .key = given.option,
+                          .value = "-",
+                          .problem = "stdin was already read",
+                          .allowed = "one - in all"});
+      stdin_taken = stdin_taken || from_stdin;
+      for (const StateValue& at : state_values(text, given.option)) states.push_back({&given, at});
+    }
+  }
+  if (states.empty())
+    throw InputError(
+        {.file = "command line",
+         .problem = "relations: nothing was asked for",
+         .allowed = "--stress S, --rupture-velocity V or --slip-velocity W; see slipfront relations --help"});
+  return states;
+}
+
 }  // namespace
 
 Runner add_relations(CLI::App& app) {
@@ -137,28 +164,7 @@ Runner add_relations(CLI::App& app) {
   add_friction_options(*command, arguments->friction);
   add_common_options(*command, arguments->common);
   return [arguments, command] {
-    std::vector<State> states;
-    bool stdin_taken = false;
-    for (CLI::Option* const option : command->parse_order()) {
-      for (Given& given : arguments->given) {
-        if (given.parsed != option) continue;
-        const std::string& text = given.texts.at(given.used++);
-        const bool from_stdin = text == "-";
-        if (from_stdin && stdin_taken)
-          throw InputError({.file = "command line",
-                            .key = given.option,
-                            .value = "-",
-                            .problem = "stdin was already read",
-                            .allowed = "one - in all"});
-        stdin_taken = stdin_taken || from_stdin;
-        for (const StateValue& at : state_values(text, given.option)) states.push_back({&given, at});
-      }
-    }
-    if (states.empty())
-      throw InputError(
-          {.file = "command line",
-           .problem = "relations: nothing was asked for",
-           .allowed = "--stress S, --rupture-velocity V or --slip-velocity W; see slipfront relations --help"});
+    const std::vector<State> states = states_asked_for(*command, arguments->given);
     return print(states, arguments->friction, arguments->common);
   };
 }

@@ -4,6 +4,7 @@ cmd_NAME.py with `main(argv) -> int`, argv without the name; what it raises beco
 import contextlib
 import importlib
 import os
+import shutil
 import signal
 import sys
 
@@ -31,6 +32,11 @@ def interrupted(_signal, _frame):
 
 
 def end_now(*_):
+    """The second after an interruption is over, or it was lost in a place that cannot raise it: what has no name yet goes."""
+    from ._files import UNFINISHED
+
+    for folder in list(UNFINISHED):
+        shutil.rmtree(folder, ignore_errors=True)
     os.write(2, b"slipfront: interrupted\n")
     os._exit(INTERRUPTED)
 

@@ -7,6 +7,9 @@ import os
 from . import _slipfront
 from ._optional import import_optional
 
+#: Folders that are being written beside their names; they go where a program has to end at once.
+UNFINISHED = set()
+
 
 def write_bytes(path, content):
     """Writes a file of these bytes. Raises FileError: path and reason."""

@@ -51,10 +51,8 @@ bool carry_out(Run& run, const CheckpointOptions& options, const std::function<b
     written = Clock::now();
   };
   if (options.output.wanted()) {
-    const auto require_space = [&] {
-      if (first) record::require_disk_space(options.output.finished(), options.disk);
-    };
-    options.ranks ? options.ranks->together(require_space) : require_space();
+    const auto space = [&] { first ? record::require_disk_space(options.output.finished(), options.disk) : void(); };
+    options.ranks ? options.ranks->together(space) : space();
   }
   if (!options.resumed && !options.output.replaces()) write();
   bool reached = false;

@@ -7,9 +7,9 @@
 namespace slipfront::run {
 namespace {
 
-const output::Snapshot& last(const PulseEnd& end) { return end.run.snapshots().back(); }
-const output::Snapshot& last(const ChainEnd& end) { return end.run.snapshots().back(); }
-const chain::Grid& grid(const ChainEnd& end) { return end.run.chain().problem().grid; }
+const output::Snapshot& last(const FinishedPulse& end) { return end.run.snapshots().back(); }
+const output::Snapshot& last(const FinishedChain& end) { return end.run.snapshots().back(); }
+const chain::Grid& grid(const FinishedChain& end) { return end.run.chain().problem().grid; }
 
 /// With what the last snapshot has beside its members.
 template <class End>
@@ -23,110 +23,114 @@ std::vector<SummaryItem<End>> with_further(std::vector<SummaryItem<End>> items) 
   return items;
 }
 
-std::vector<SummaryItem<PulseEnd>> pulse_items() {
+std::vector<SummaryItem<FinishedPulse>> pulse_items() {
   return {
-      {"closure", [](const PulseEnd& e) -> Value { return name_of(e.scenario.friction.closure()); },
+      {"closure", [](const FinishedPulse& e) -> Value { return name_of(e.scenario.friction.closure()); },
        "how friction is averaged"},
-      {"friction_coefficient", [](const PulseEnd& e) -> Value { return e.scenario.friction.coefficient(); }, "C"},
-      {"damping_number", [](const PulseEnd& e) -> Value { return e.scenario.friction.coefficient() * last(e).time; },
-       "Gamma = C t"},
-      {"time", [](const PulseEnd& e) -> Value { return last(e).time; }, "in b / (c A)"},
-      {"slip_velocity_at_origin", [](const PulseEnd& e) -> Value { return last(e).slip_velocity_at_origin; },
+      {"friction_coefficient", [](const FinishedPulse& e) -> Value { return e.scenario.friction.coefficient(); }, "C"},
+      {"damping_number",
+       [](const FinishedPulse& e) -> Value { return e.scenario.friction.coefficient() * last(e).time; }, "Gamma = C t"},
+      {"time", [](const FinishedPulse& e) -> Value { return last(e).time; }, "in b / (c A)"},
+      {"slip_velocity_at_origin", [](const FinishedPulse& e) -> Value { return last(e).slip_velocity_at_origin; },
        "W at x = 0, in c A / pi"},
-      {"stress_at_origin", [](const PulseEnd& e) -> Value { return last(e).stress_at_origin; },
+      {"stress_at_origin", [](const FinishedPulse& e) -> Value { return last(e).stress_at_origin; },
        "Sigma at x = 0, in mu A / pi"},
-      {"slip_at_origin", [](const PulseEnd& e) -> Value { return last(e).slip_at_origin; },
+      {"slip_at_origin", [](const FinishedPulse& e) -> Value { return last(e).slip_at_origin; },
        "u at x = 0 since t = 0, in b / (2 pi)"},
-      {"peak_slip_velocity", [](const PulseEnd& e) -> Value { return last(e).peak_slip_velocity; },
+      {"peak_slip_velocity", [](const FinishedPulse& e) -> Value { return last(e).peak_slip_velocity; },
        "largest W, in c A / pi"},
-      {"peak_position", [](const PulseEnd& e) -> Value { return last(e).peak_position; }, "its x, in b / A"},
-      {"trailing_front", [](const PulseEnd& e) -> Value { return last(e).fronts.trailing; },
+      {"peak_position", [](const FinishedPulse& e) -> Value { return last(e).peak_position; }, "its x, in b / A"},
+      {"trailing_front", [](const FinishedPulse& e) -> Value { return last(e).fronts.trailing; },
        "x of the fast front, the foot of the slip velocity, in b / A"},
-      {"trailing_characteristic", [](const PulseEnd& e) -> Value { return last(e).fronts.trailing_characteristic; },
+      {"trailing_characteristic",
+       [](const FinishedPulse& e) -> Value { return last(e).fronts.trailing_characteristic; },
        "x of the fast front as a characteristic: its place without friction"},
-      {"leading_front", [](const PulseEnd& e) -> Value { return last(e).fronts.leading; },
+      {"leading_front", [](const FinishedPulse& e) -> Value { return last(e).fronts.leading; },
        "x of the slow front, in b / A"},
-      {"trailing_front_observed", [](const PulseEnd& e) -> Value { return last(e).fronts.trailing_observed; },
+      {"trailing_front_observed", [](const FinishedPulse& e) -> Value { return last(e).fronts.trailing_observed; },
        "as an observer with a threshold sees it"},
-      {"leading_front_observed", [](const PulseEnd& e) -> Value { return last(e).fronts.leading_observed; },
+      {"leading_front_observed", [](const FinishedPulse& e) -> Value { return last(e).fronts.leading_observed; },
        "as an observer with a threshold sees it"},
-      {"energy_elastic", [](const PulseEnd& e) -> Value { return last(e).energy.elastic; }, "of the state at rest"},
-      {"energy_kinetic", [](const PulseEnd& e) -> Value { return last(e).energy.kinetic; }, "the rest of H"},
-      {"energy_dissipated", [](const PulseEnd& e) -> Value { return last(e).energy.dissipated; },
+      {"energy_elastic", [](const FinishedPulse& e) -> Value { return last(e).energy.elastic; },
+       "of the state at rest"},
+      {"energy_kinetic", [](const FinishedPulse& e) -> Value { return last(e).energy.kinetic; }, "the rest of H"},
+      {"energy_dissipated", [](const FinishedPulse& e) -> Value { return last(e).energy.dissipated; },
        "by friction since t = 0"},
-      {"energy_supplied", [](const PulseEnd& e) -> Value { return last(e).energy.supplied; }, "by F since t = 0"},
-      {"energy_through_ends", [](const PulseEnd& e) -> Value { return last(e).energy.through_ends; },
+      {"energy_supplied", [](const FinishedPulse& e) -> Value { return last(e).energy.supplied; }, "by F since t = 0"},
+      {"energy_through_ends", [](const FinishedPulse& e) -> Value { return last(e).energy.through_ends; },
        "come in through the ends of the domain"},
-      {"energy_shocks", [](const PulseEnd& e) -> Value { return last(e).energy.shocks; },
+      {"energy_shocks", [](const FinishedPulse& e) -> Value { return last(e).energy.shocks; },
        "lost where trains run into each other"},
-      {"first_crossing_time", [](const PulseEnd& e) -> Value { return e.run.solver().cells().crossing_time; },
+      {"first_crossing_time", [](const FinishedPulse& e) -> Value { return e.run.solver().cells().crossing_time; },
        "when dislocations first overtake each other"},
-      {"first_crossing_position", [](const PulseEnd& e) -> Value { return e.run.solver().cells().crossing_position; },
+      {"first_crossing_position",
+       [](const FinishedPulse& e) -> Value { return e.run.solver().cells().crossing_position; },
        "and where; the averages are an approximation behind it"},
-      {"conservation_error", [](const PulseEnd& e) -> Value { return pulse::conservation_error(e.run.solver()); },
+      {"conservation_error", [](const FinishedPulse& e) -> Value { return pulse::conservation_error(e.run.solver()); },
        "of the dislocation number, relative"},
-      {"cells", [](const PulseEnd& e) -> Value { return static_cast<long>(e.run.solver().problem().cells); },
+      {"cells", [](const FinishedPulse& e) -> Value { return static_cast<long>(e.run.solver().problem().cells); },
        "over the domain at t = 0; others come in and leave through its ends"},
-      {"steps", [](const PulseEnd& e) -> Value { return e.run.solver().cells().steps; }, ""},
-      {"solve_seconds", [](const PulseEnd& e) -> Value { return e.run.stepping_seconds(); }, "of the time steps alone"},
-      {"wall_seconds", [](const PulseEnd& e) -> Value { return e.wall; }, "of the whole command"},
+      {"steps", [](const FinishedPulse& e) -> Value { return e.run.solver().cells().steps; }, ""},
+      {"solve_seconds", [](const FinishedPulse& e) -> Value { return e.run.stepping_seconds(); },
+       "of the time steps alone"},
+      {"wall_seconds", [](const FinishedPulse& e) -> Value { return e.wall; }, "of the whole command"},
   };
 }
 
-double site_updates_per_second(const ChainEnd& end) {
+double site_updates_per_second(const FinishedChain& end) {
   const double updates = static_cast<double>(grid(end).sites) * static_cast<double>(end.steps);
   return end.stepping > 0 ? updates / end.stepping : 0;
 }
 
-std::vector<SummaryItem<ChainEnd>> chain_items() {
+std::vector<SummaryItem<FinishedChain>> chain_items() {
   return {
-      {"time", [](const ChainEnd& e) -> Value { return last(e).time; }, "in b / (c A)"},
-      {"scale", [](const ChainEnd& e) -> Value { return e.run.scale(); },
+      {"time", [](const FinishedChain& e) -> Value { return last(e).time; }, "in b / (c A)"},
+      {"scale", [](const FinishedChain& e) -> Value { return e.run.scale(); },
        "x and t are stretched by it, friction divided"},
-      {"slip_at_origin", [](const ChainEnd& e) -> Value { return last(e).slip_at_origin; },
+      {"slip_at_origin", [](const FinishedChain& e) -> Value { return last(e).slip_at_origin; },
        "u at x = 0 since t = 0 over the scale, in b / (2 pi)"},
-      {"slip_velocity_at_origin", [](const ChainEnd& e) -> Value { return last(e).slip_velocity_at_origin; },
+      {"slip_velocity_at_origin", [](const FinishedChain& e) -> Value { return last(e).slip_velocity_at_origin; },
        "weighted mean of u_t, in c A / pi"},
-      {"stress_at_origin", [](const ChainEnd& e) -> Value { return last(e).stress_at_origin; },
+      {"stress_at_origin", [](const FinishedChain& e) -> Value { return last(e).stress_at_origin; },
        "weighted mean of -u_x, in mu A / pi"},
-      {"window", [](const ChainEnd& e) -> Value { return e.run.window(); }, "of the slip at x = 0, in b / A"},
-      {"smooth_window", [](const ChainEnd& e) -> Value { return e.run.smooth_window(); },
+      {"window", [](const FinishedChain& e) -> Value { return e.run.window(); }, "of the slip at x = 0, in b / A"},
+      {"smooth_window", [](const FinishedChain& e) -> Value { return e.run.smooth_window(); },
        "of velocities and stresses, in b / A"},
-      {"peak_slip_velocity", [](const ChainEnd& e) -> Value { return last(e).peak_slip_velocity; },
+      {"peak_slip_velocity", [](const FinishedChain& e) -> Value { return last(e).peak_slip_velocity; },
        "largest of the profile, in c A / pi"},
-      {"peak_position", [](const ChainEnd& e) -> Value { return last(e).peak_position; }, "its x, in b / A"},
-      {"leading_front", [](const ChainEnd& e) -> Value { return last(e).fronts.leading; },
+      {"peak_position", [](const FinishedChain& e) -> Value { return last(e).peak_position; }, "its x, in b / A"},
+      {"leading_front", [](const FinishedChain& e) -> Value { return last(e).fronts.leading; },
        "x of the last dislocation, in b / A"},
-      {"trailing_front_observed", [](const ChainEnd& e) -> Value { return last(e).fronts.trailing_observed; },
+      {"trailing_front_observed", [](const FinishedChain& e) -> Value { return last(e).fronts.trailing_observed; },
        "as an observer with a threshold sees it"},
-      {"leading_front_observed", [](const ChainEnd& e) -> Value { return last(e).fronts.leading_observed; },
+      {"leading_front_observed", [](const FinishedChain& e) -> Value { return last(e).fronts.leading_observed; },
        "as an observer with a threshold sees it"},
-      {"dislocations", [](const ChainEnd& e) -> Value { return e.balance.dislocations; }, "at the end"},
-      {"energy_phonons", [](const ChainEnd& e) -> Value { return last(e).energy.phonons; },
+      {"dislocations", [](const FinishedChain& e) -> Value { return e.balance.dislocations; }, "at the end"},
+      {"energy_phonons", [](const FinishedChain& e) -> Value { return last(e).energy.phonons; },
        "energy that uniform trains of the same averages lack"},
-      {"energy_drift", [](const ChainEnd& e) -> Value { return e.balance.energy_drift; },
+      {"energy_drift", [](const FinishedChain& e) -> Value { return e.balance.energy_drift; },
        "energy and work since t = 0, relative"},
-      {"charge_error", [](const ChainEnd& e) -> Value { return e.balance.charge_error; },
+      {"charge_error", [](const FinishedChain& e) -> Value { return e.balance.charge_error; },
        "dislocations that left through the ends; none can where they are held or joined"},
-      {"sites", [](const ChainEnd& e) -> Value { return static_cast<long>(grid(e).sites); }, ""},
-      {"spacing", [](const ChainEnd& e) -> Value { return grid(e).spacing; }, "of the sites, on the chain"},
-      {"steps", [](const ChainEnd& e) -> Value { return e.run.chain().level(); }, ""},
-      {"ranks", [](const ChainEnd& e) -> Value { return static_cast<long>(e.ranks); }, ""},
-      {"threads", [](const ChainEnd& e) -> Value { return static_cast<long>(e.threads); }, "of each rank"},
-      {"site_updates_per_second", [](const ChainEnd& e) -> Value { return site_updates_per_second(e); },
+      {"sites", [](const FinishedChain& e) -> Value { return static_cast<long>(grid(e).sites); }, ""},
+      {"spacing", [](const FinishedChain& e) -> Value { return grid(e).spacing; }, "of the sites, on the chain"},
+      {"steps", [](const FinishedChain& e) -> Value { return e.run.chain().level(); }, ""},
+      {"ranks", [](const FinishedChain& e) -> Value { return static_cast<long>(e.ranks); }, ""},
+      {"threads", [](const FinishedChain& e) -> Value { return static_cast<long>(e.threads); }, "of each rank"},
+      {"site_updates_per_second", [](const FinishedChain& e) -> Value { return site_updates_per_second(e); },
        "output included"},
-      {"wall_seconds", [](const ChainEnd& e) -> Value { return e.wall; }, "of the whole command"},
+      {"wall_seconds", [](const FinishedChain& e) -> Value { return e.wall; }, "of the whole command"},
   };
 }
 
 }  // namespace
 
-std::span<const SummaryItem<PulseEnd>> pulse_summary() {
-  static const std::vector<SummaryItem<PulseEnd>> items = with_further(pulse_items());
+std::span<const SummaryItem<FinishedPulse>> pulse_summary() {
+  static const std::vector<SummaryItem<FinishedPulse>> items = with_further(pulse_items());
   return items;
 }
-std::span<const SummaryItem<ChainEnd>> chain_summary() {
-  static const std::vector<SummaryItem<ChainEnd>> items = with_further(chain_items());
+std::span<const SummaryItem<FinishedChain>> chain_summary() {
+  static const std::vector<SummaryItem<FinishedChain>> items = with_further(chain_items());
   return items;
 }
 

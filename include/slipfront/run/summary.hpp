@@ -26,22 +26,22 @@ struct SummaryItem {
 };
 
 /// A pulse that has reached its end.
-struct PulseEnd {
+struct FinishedPulse {
   const scenario::Scenario& scenario;
   const pulse::Run& run;
   double wall;  ///< seconds, set-up and output included
 };
-std::span<const SummaryItem<PulseEnd>> pulse_summary();
+std::span<const SummaryItem<FinishedPulse>> pulse_summary();
 
 /// A chain that has reached its end, and how it was run.
-struct ChainEnd {
+struct FinishedChain {
   const chain::Run& run;
   chain::Run::Balance balance;  ///< run.balance(), which all ranks take part in
   double stepping, wall;        ///< seconds: of the run alone, of everything
   long steps;                   ///< of these seconds
   int ranks, threads;
 };
-std::span<const SummaryItem<ChainEnd>> chain_summary();
+std::span<const SummaryItem<FinishedChain>> chain_summary();
 
 struct SummaryValue {
   std::string key;

@@ -9,7 +9,7 @@ import pathlib
 import re
 import shutil
 
-from .._files import told_of, write_dataset, write_text
+from .._files import UNFINISHED, told_of, write_dataset, write_text
 from ..plots.style import save
 
 
@@ -61,6 +61,7 @@ def whole_folder(path):
     with told_of(path), contextlib.ExitStack() as locks:
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
+            UNFINISHED.add(beside)
             beside.mkdir()
             locks.enter_context(locked(beside))
             yield beside
@@ -74,6 +75,7 @@ def whole_folder(path):
             for folder in (beside, old, old):  # once more, where something failed on the way
                 with contextlib.suppress(OSError):
                     shutil.rmtree(folder, ignore_errors=True)
+            UNFINISHED.discard(beside)
 
 
 def write_picture(folder, picture) -> None:
