@@ -113,5 +113,8 @@ std::unique_ptr<RelaxationRate> Law::relaxation_rate(Closure closure) const {
 
 void Law::start(std::span<double>) const {}
 void Law::advance(double, double, std::span<double>) const {}
+void Law::advance_in_train(double mean, double, double time, std::span<double> memory) const {
+  advance(mean, time, memory);  // right for laws that are linear in the velocity
+}
 
 }  // namespace slipfront::friction

@@ -99,17 +99,33 @@ class RateAndState final : public Law {
 
   /// Exact at a constant velocity. Ageing: theta_t = 1 - |w| theta / D_c. Slip: theta_t = -x ln x, x = |w| theta / D_c.
   void advance(double velocity, double time, std::span<double> theta) const override {
-    const double speed = std::fabs(velocity), passed = speed * time / D_;
-    if (slip_law_) {
-      if (speed > 0) theta[0] *= std::exp(std::log(speed * theta[0] / D_) * std::expm1(-passed));
-      return;
-    }
-    const double gained = passed > 1e-12 ? -std::expm1(-passed) / passed : 1 - passed / 2;
-    theta[0] = theta[0] * std::exp(-passed) + time * gained;
+    const double speed = std::fabs(velocity);
+    if (slip_law_)
+      evolve_by_slip(speed, speed, time, theta);
+    else
+      evolve_by_ageing(speed, time, theta);
+  }
+  /// The ageing law is linear in w. Of the slip law the mean over time is -(W theta / D_c) (<ln w>_u + ln(theta /
+  /// D_c)), as W dt is du.
+  void advance_in_train(double mean, double typical, double time, std::span<double> theta) const override {
+    if (slip_law_)
+      evolve_by_slip(std::fabs(mean), typical, time, theta);
+    else
+      evolve_by_ageing(std::fabs(mean), time, theta);
   }
 
  private:
   static constexpr double large = 18;  // beyond it asinh(e^x / 2) is x to 1e-16
+
+  void evolve_by_slip(double speed, double typical, double time, std::span<double> theta) const {
+    if (speed > 0 && typical > 0)
+      theta[0] *= std::exp(std::log(typical * theta[0] / D_) * std::expm1(-speed * time / D_));
+  }
+  void evolve_by_ageing(double speed, double time, std::span<double> theta) const {
+    const double passed = speed * time / D_;
+    const double gained = passed > 1e-12 ? -std::expm1(-passed) / passed : 1 - passed / 2;
+    theta[0] = theta[0] * std::exp(-passed) + time * gained;
+  }
 
   double exponent(Memory theta) const { return (f0_ + b_ * std::log(theta[0] * v0_ / D_)) / a_; }
 

@@ -2,14 +2,16 @@
 
 #include <cmath>
 
+#include "../digits.hpp"
+#include "slipfront/error.hpp"
 #include "slipfront/pulse/solver.hpp"
 
 namespace slipfront::pulse {
 namespace {
 
-constexpr std::size_t fewest = 8;     ///< cells that are kept, wherever they are
-constexpr std::size_t reach = 3;      ///< cells beyond a continued end, for the faces inside
-constexpr int most_at_once = 100000;  ///< cells that come in after one step
+constexpr std::size_t fewest = 8;   ///< cells that are kept, wherever they are
+constexpr std::size_t reach = 3;    ///< cells beyond a continued end, for the faces inside
+constexpr int most_at_once = 5000;  ///< cells that come in after one step; more is no step that waves allow
 
 }  // namespace
 
@@ -82,7 +84,10 @@ void Solver::adjust_ends() {
     // A train at rest moves by rounding: a sliver is no place that has to be filled.
     const double sliver = continued ? 1e-3 * cells_.width(left ? 0 : size() - 1) : 0;
     double inside = (left ? edge - problem_.left : problem_.right - edge) - sliver;
-    for (int i = 0; continued && inside > 0 && i < most_at_once; ++i) {
+    for (int i = 0; continued && inside > 0; ++i) {
+      if (i == most_at_once)
+        throw NumericsError("t = " + digits(cells_.time) + ": the train has left an end of the domain by " +
+                            digits(inside) + " in a step; more pulse.cells or a larger domain help");
       fill_end(left);
       changed = true;
       inside -= cells_.width(left ? 0 : size() - 1);

@@ -40,19 +40,23 @@ double root_between(double low, double high, double at_low, double at_high, doub
 
 }  // namespace
 
+double typical_speed(const State& state, double contact) {
+  return contact * std::sinh(std::fabs(state.phi)) * std::exp(state.psi);
+}
+
 SlowedTrain::Left SlowedTrain::after(double free, double time) const {
   const double size = std::fabs(free), weight = 2 * std::numbers::pi * time;
-  if (size == 0) return {0, 0};
-  double velocity = 0;
+  if (size == 0) return {0, 0, 0};
+  State state{};
   const auto excess = [&](double momentum) {
-    const State state = modulation::state_of({contact * spacing, momentum / contact}, psi_guess);
-    velocity = std::tanh(state.phi);
+    state = modulation::state_of({contact * spacing, momentum / contact}, psi_guess);
     return momentum + weight * friction.mean_strength(state, contact, memory) - size;
   };
   const auto with_sign = [&](double momentum) {
-    return Left{std::copysign(momentum, free), std::copysign(velocity, free)};
+    return Left{std::copysign(momentum, free), std::copysign(std::tanh(state.phi), free),
+                typical_speed(state, contact)};
   };
-  if (at_rest && excess(at_rest_below * size) >= 0) return {0, 0};
+  if (at_rest && excess(at_rest_below * size) >= 0) return {0, 0, 0};
   // Where friction takes little, by secants from above.
   double high = size, at_high = excess(high);
   const double first = at_high;
@@ -66,7 +70,7 @@ SlowedTrain::Left SlowedTrain::after(double free, double time) const {
     at_high = at;
     momentum -= at / std::fmax(slope, 0.5);
   }
-  if (!at_rest && excess(at_rest_below * size) >= 0) return {0, 0};
+  if (!at_rest && excess(at_rest_below * size) >= 0) return {0, 0, 0};
   momentum =
       size * std::exp(root_between(std::log(at_rest_below), 0, excess(at_rest_below * size), first, size, excess));
   return with_sign(momentum);

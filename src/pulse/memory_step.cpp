@@ -42,13 +42,16 @@ class CellFriction {
  public:
   CellFriction(const Problem& problem, const Cells& cells, const std::vector<State>& states)
       : problem_(problem), cells_(cells), x_(centres_of(cells)), memory_(cells.size() * variables()) {
-    for (const State& state : states) start_.push_back(std::tanh(state.phi));
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      start_.push_back(std::tanh(states[i].phi));
+      typical_.push_back(states[i].empty() ? 0 : typical_speed(states[i], contact(i)));
+    }
     velocity_ = start_;
   }
 
   const std::vector<double>& x() const { return x_; }
-  /// Of the dislocations in the cells, as last found.
-  const std::vector<double>& velocity() const { return velocity_; }
+  /// What passes over the places that these cells lie over, with the velocities as last found.
+  Places::Passing passing(const Cells& cells) const { return {slip_velocities(cells, velocity_), typical_}; }
 
   /// Where the cells are in the middle of a step of `dt`.
   void take_memory(const Places& places, double dt) {
@@ -63,6 +66,7 @@ class CellFriction {
                             std::atanh(cells_.s[cell]), start_[cell] == 0};
     const SlowedTrain::Left of_one = train.after(free / q, time);
     velocity_[cell] = of_one.velocity;
+    typical_[cell] = of_one.typical_speed;
     return {of_one.momentum * q, of_one.velocity};
   }
 
@@ -84,13 +88,16 @@ class CellFriction {
 
   const Problem& problem_;
   const Cells cells_;  ///< at the start of the step
-  std::vector<double> x_, memory_, start_, velocity_;
+  std::vector<double> x_, memory_, start_, velocity_, typical_;
 };
 
-/// `share` of the way from one slip velocity to another, place by place.
-std::vector<double> between(const std::vector<double>& from, const std::vector<double>& to, double share) {
-  std::vector<double> mixed(from.size());
-  for (std::size_t i = 0; i < from.size(); ++i) mixed[i] = std::lerp(from[i], to[i], share);
+/// `share` of the way from what passes at one time to what passes at another, place by place.
+Places::Passing between(const Places::Passing& from, const Places::Passing& to, double share) {
+  Places::Passing mixed = from;
+  for (std::size_t i = 0; i < mixed.mean.size(); ++i) {
+    mixed.mean[i] = std::lerp(from.mean[i], to.mean[i], share);
+    mixed.typical[i] = std::lerp(from.typical[i], to.typical[i], share);
+  }
   return mixed;
 }
 
@@ -124,7 +131,7 @@ double Solver::step_with_memory(const std::vector<double>& rate, double remainin
   };
   const std::vector<double> before = cells_.unknowns;
   const Places now = places();
-  const std::vector<double> W = now.velocity_from(friction.x(), slip_velocities(cells_, friction.velocity()));
+  const Places::Passing at_start = now.passing(friction.x(), friction.passing(cells_));
   std::vector<double> scale(2 * size());
   find_scale(crossing, scale);
   const double longest = SplitStep::longest_in_crossing_times * crossing;
@@ -133,14 +140,13 @@ double Solver::step_with_memory(const std::vector<double>& rate, double remainin
     double factor = 0.5;
     try {
       Places half = now, better = now, after = now;
-      half.advance(law, W, dt / 2);
+      half.advance(law, at_start, dt / 2);
       friction.take_memory(half, dt);
       step(f, left, cells_.time, dt, cells_.unknowns, rate);
       const std::vector<double> foretold = friction.taken(equations_->states(), dt);
-      const std::vector<double> W_after =
-          now.velocity_from(centres_of(cells_), slip_velocities(cells_, friction.velocity()));
-      better.advance(law, between(W, W_after, 0.25), dt / 2);
-      after.advance(law, between(W, W_after, 0.5), dt);
+      const Places::Passing at_end = now.passing(centres_of(cells_), friction.passing(cells_));
+      better.advance(law, between(at_start, at_end, 0.25), dt / 2);
+      after.advance(law, between(at_start, at_end, 0.5), dt);
       friction.take_memory(better, dt);
       const double of_memory = memory_error(foretold, friction.taken(equations_->states(), dt), scale);
       const double error =

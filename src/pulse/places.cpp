@@ -15,21 +15,25 @@ Places::Places(const friction::Friction& friction, double left, double right, st
     friction.law().start(std::span(values_).subspan(j, variables_));
 }
 
-std::vector<double> Places::velocity_from(const std::vector<double>& x, const std::vector<double>& velocity) const {
-  std::vector<double> at(values_.size() / variables_);
+Places::Passing Places::passing(const std::vector<double>& x, const Passing& there) const {
+  const std::size_t count = values_.size() / variables_;
+  Passing here{std::vector<double>(count), std::vector<double>(count)};
   std::size_t i = 0;
-  for (std::size_t j = 0; j < at.size(); ++j) {
+  for (std::size_t j = 0; j < count; ++j) {
     const double place = left_ + (static_cast<double>(j) + 0.5) * spacing_;
     while (i < x.size() && x[i] <= place) ++i;
     if (i == 0 || i == x.size()) continue;
-    at[j] = std::lerp(velocity[i - 1], velocity[i], (place - x[i - 1]) / (x[i] - x[i - 1]));
+    const double share = (place - x[i - 1]) / (x[i] - x[i - 1]);
+    here.mean[j] = std::lerp(there.mean[i - 1], there.mean[i], share);
+    here.typical[j] = std::lerp(there.typical[i - 1], there.typical[i], share);
   }
-  return at;
+  return here;
 }
 
-void Places::advance(const friction::Law& law, const std::vector<double>& velocity, double time) {
-  for (std::size_t j = 0; j < velocity.size(); ++j)
-    law.advance(velocity[j], time, std::span(values_).subspan(j * variables_, variables_));
+void Places::advance(const friction::Law& law, const Passing& passing, double time) {
+  for (std::size_t j = 0; j < passing.mean.size(); ++j)
+    law.advance_in_train(passing.mean[j], passing.typical[j], time,
+                         std::span(values_).subspan(j * variables_, variables_));
 }
 
 void Places::look_up(double x, double* memory) const {

@@ -18,10 +18,14 @@ class Places {
   std::vector<double>& values() { return values_; }
   const std::vector<double>& values() const { return values_; }
 
-  /// The slip velocity at the places where it is `velocity[i]` at x[i], which rise; 0 outside.
-  std::vector<double> velocity_from(const std::vector<double>& x, const std::vector<double>& velocity) const;
-  /// Changes the memory over a time in which each place slips at a constant velocity.
-  void advance(const friction::Law& law, const std::vector<double>& velocity, double time);
+  /// What passes over each place: the mean slip velocity, and the one whose logarithm is the mean over slip.
+  struct Passing {
+    std::vector<double> mean, typical;
+  };
+  /// From what passes at x[i], which rise; nothing outside.
+  Passing passing(const std::vector<double>& x, const Passing& there) const;
+  /// Changes the memory over a time in which the same passes all along.
+  void advance(const friction::Law& law, const Passing& passing, double time);
   /// The memory at x, between two places; that of the last one outside.
   void look_up(double x, double* memory) const;
 

@@ -214,6 +214,25 @@ TEST(Friction, StateAgesAtRestAndTendsToItsSteadyValue) {
   }
 }
 
+/// One dislocation after the other: D_c is that of many, so that theta hardly changes while one passes.
+TEST(Friction, StateInATrainIsTheMeanOverItsDislocations) {
+  const State train{0.4, 0.3};
+  const double D = 500, typical = std::sinh(train.phi) * std::exp(train.psi), W = train::averages(train).W;
+  const double length = train::spacing(train), passage = length / std::tanh(train.phi);
+  for (const bool slip_law : {false, true}) {
+    const Friction friction = rate_and_state(0.05, 0.01, 0.015, D, 0.05, slip_law);
+    double every[] = {200}, mean[] = {200};
+    constexpr int steps = 400, passages = 40;
+    for (int i = 0; i < steps * passages; ++i) {
+      const double w = train::fields(train, length * (i % steps + 0.5) / steps).w;
+      friction.law().advance(w, passage / steps, every);
+    }
+    friction.law().advance_in_train(W, typical, passage * passages, mean);
+    EXPECT_GT(std::fabs(every[0] / 200 - 1), 0.05) << slip_law;
+    EXPECT_NEAR(every[0] / mean[0], 1, 1e-3) << slip_law;
+  }
+}
+
 TEST(Friction, RateAndStateSolvesForTheSpeedAfterAStep) {
   const Friction friction = rate_and_state(0.5, 0.01, 0.015, 0.1, 0.05);
   const double theta[] = {2.0};

@@ -19,6 +19,7 @@ friction::Friction law(const std::string& name, std::vector<double> values) {
 
 /// f_0, a, b, D_c, w_0, age, state.
 friction::Friction rate_and_state() { return law("rate-and-state", {0.05, 0.01, 0.015, 0.05, 0.05, 0, 0}); }
+friction::Friction slip_law() { return law("rate-and-state", {0.05, 0.01, 0.015, 0.05, 0.05, 0, 1}); }
 friction::Friction slip_weakening() { return law("slip-weakening", {0.08, 0.02, 0.1}); }
 
 pulse::Problem step(const friction::Friction& friction, int cells) {
@@ -58,7 +59,7 @@ double chain_slip(const friction::Friction& friction, double scale, double end) 
 
 /// The average is the limit of many dislocations: the difference falls with the scale.
 TEST(PulseMemory, IsThatOfTheChain) {
-  for (const auto& friction : {rate_and_state(), slip_weakening()}) {
+  for (const auto& friction : {rate_and_state(), slip_law(), slip_weakening()}) {
     const double average = slip(friction, 200, 2);
     const double few = chain_slip(friction, 100, 2), many = chain_slip(friction, 400, 2);
     EXPECT_NEAR(average / many, 1, 0.06) << friction.name();

@@ -96,6 +96,9 @@ class Law {
   virtual void start(std::span<double> memory) const;
   /// Changes them over a time in which the place slips at a constant velocity.
   virtual void advance(double velocity, double time, std::span<double> memory) const;
+  /// The same over a time in which many dislocations of a train pass, of the given mean velocity; the logarithm of
+  /// their velocity has over slip the mean ln `typical` (which is a sinh |phi| e^psi).
+  virtual void advance_in_train(double mean, double typical, double time, std::span<double> memory) const;
 };
 
 /// What is known of a law before its numbers are.
