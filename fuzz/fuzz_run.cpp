@@ -159,7 +159,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
     });
     attempt([&] {
       const chain::ScaledProblem stretched = setup::chain_problem(s);
-      if (!((stretched.right - stretched.left) * stretched.scale / stretched.spacing < 20000)) return;
+      if (!((stretched.right - stretched.left) * stretched.scale / stretched.spacing < 4000)) return;
       chain::Run run(stretched, setup::pulse_schedule(s, setup::pulse_problem(s)), chain::Execution{});
       ++chains;
       go(run);
