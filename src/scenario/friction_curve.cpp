@@ -53,10 +53,12 @@ class FormulaForThreads {
 void try_out(const Section& section, const friction::Curve& curve, double fastest) {
   const double at_rest = curve(0);
   double greatest = 0;
-  for (double w = 1e-12; w <= fastest; w *= 1.1) greatest = std::fmax(greatest, curve(w));
-  curve(fastest);
-  if (std::fabs(curve(1e-12) - at_rest) > 1e-3 * greatest)
-    throw section.refuse("formula", "f jumps from " + shortest(at_rest) + " at w = 0 to " + shortest(curve(1e-12)),
+  constexpr int samples = 320;
+  constexpr double slowest = 1e-12;
+  for (int i = 0; i <= samples; ++i)
+    greatest = std::fmax(greatest, curve(slowest * std::pow(fastest / slowest, static_cast<double>(i) / samples)));
+  if (std::fabs(curve(slowest) - at_rest) > 1e-3 * greatest)
+    throw section.refuse("formula", "f jumps from " + shortest(at_rest) + " at w = 0 to " + shortest(curve(slowest)),
                          "f(0) is the force that a place at rest withstands; for a constant force: law = \"coulomb\"");
 }
 
