@@ -56,7 +56,9 @@ SlowedTrain::Left SlowedTrain::after(double free, double time) const {
     return Left{std::copysign(momentum, free), std::copysign(std::tanh(state.phi), free),
                 typical_speed(state, contact)};
   };
-  if (at_rest && excess(at_rest_below * size) >= 0) return {0, 0, 0};
+  const double slowest = at_rest_below * size;
+  double at_slowest = 0;
+  if (at_rest && (at_slowest = excess(slowest)) >= 0) return {0, 0, 0};
   // Where friction takes little, by secants from above.
   double high = size, at_high = excess(high);
   const double first = at_high;
@@ -70,9 +72,8 @@ SlowedTrain::Left SlowedTrain::after(double free, double time) const {
     at_high = at;
     momentum -= at / std::fmax(slope, 0.5);
   }
-  if (!at_rest && excess(at_rest_below * size) >= 0) return {0, 0, 0};
-  momentum =
-      size * std::exp(root_between(std::log(at_rest_below), 0, excess(at_rest_below * size), first, size, excess));
+  if (!at_rest && (at_slowest = excess(slowest)) >= 0) return {0, 0, 0};
+  momentum = size * std::exp(root_between(std::log(at_rest_below), 0, at_slowest, first, size, excess));
   return with_sign(momentum);
 }
 

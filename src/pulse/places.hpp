@@ -13,7 +13,6 @@ class Places {
   /// As many as `count` between `left` and `right`, as they are at t = 0.
   Places(const friction::Friction& friction, double left, double right, std::size_t count);
 
-  std::size_t variables() const { return variables_; }
   /// The law's variables, place by place. All places together: what is saved.
   std::vector<double>& values() { return values_; }
   const std::vector<double>& values() const { return values_; }

@@ -33,7 +33,7 @@ class SplitStep {
 
  private:
   std::size_t cells_;
-  std::vector<std::vector<double>> rates_;     ///< of each stage that is asked for, but friction
+  std::vector<std::vector<double>> rates_;     ///< at the start and at each stage but the last, without friction
   std::vector<std::vector<double>> friction_;  ///< of each stage: loss of momentum by cell, then of energy
   std::vector<double> before_, stage_, midpoint_;
 };

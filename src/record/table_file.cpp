@@ -22,7 +22,7 @@ namespace {
 
 using Table = std::vector<std::pair<double, double>>;
 
-/// The columns that are asked for.
+/// The names of the two columns to read.
 struct Names {
   std::string x, y;
   std::string both() const { return x + " and " + y; }
