@@ -5,10 +5,13 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "chain/kernel.hpp"
 #include "slipfront/chain/chain.hpp"
+#include "slipfront/chain/run.hpp"
+#include "slipfront/setup/chain.hpp"
 #include "vector_code.hpp"
 
 namespace {
@@ -103,10 +106,22 @@ BENCHMARK(chain_sites)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 
-/// Level by level: contact, forcing (that changes with time, or not), dry friction, and viscous friction of a chain so
-/// short that its work is metered.
+/// Ageing contacts under which a train as rough as the one above goes on moving.
+friction::Friction weak_rate_and_state() {
+  for (const friction::Definition* law : friction::laws())
+    if (law->name == "rate-and-state") return {*law, {1e-4, 2e-5, 3e-5, 50, 0.05, 0, 0}};
+  return {};
+}
+
+/// Level by level: contact, forcing (that changes with time, or not), dry friction, viscous friction of a chain so
+/// short that its work is metered, and friction with state.
 void chain_general(benchmark::State& state) {
-  const char* const kinds[] = {"contact", "forcing", "steady forcing", "Coulomb friction", "metered viscous friction"};
+  const char* const kinds[] = {"contact",
+                               "forcing",
+                               "steady forcing",
+                               "Coulomb friction",
+                               "metered viscous friction",
+                               "rate-and-state friction"};
   const auto kind = static_cast<std::size_t>(state.range(0));
   const std::size_t sites = kind == 4 ? 9000 : 100000;
   Problem p = damped_train(sites);
@@ -114,11 +129,36 @@ void chain_general(benchmark::State& state) {
   if (kind == 1 || kind == 2) p.forcing = [](double x, double t) { return 0.01 * std::sin(x - t); };
   p.steady_forcing = kind == 2;
   if (kind == 3) p.friction = friction::coulomb(0.01);
+  if (kind == 5) p.friction = weak_rate_and_state();
   chain::Chain run(p, rough_train(sites));
   for (auto _ : state) run.advance(10);
   state.SetItemsProcessed(state.iterations() * 10 * static_cast<long>(sites));
   state.SetLabel(kinds[kind]);
 }
-BENCHMARK(chain_general)->DenseRange(0, 4)->Unit(benchmark::kMillisecond);
+BENCHMARK(chain_general)->DenseRange(0, 5)->Unit(benchmark::kMillisecond);
+
+/// The step of stress of docs/friction.md to t = 2 pi at scale 300, under rate-and-state friction; many sites rest.
+void chain_rate_and_state(benchmark::State& state) {
+  const scenario::Scenario scenario = scenario::read_scenario(
+      "[initial]\nprofile = 'step'\nstress_left = 0.855\nstress_right = 0\n", "step",
+      {"chain.scale=300", "friction.law=rate-and-state", "friction.strength=0.05", "friction.direct_effect=0.01",
+       "friction.evolution_effect=0.015", "friction.reference_velocity=0.05", "friction.characteristic_slip=0.05"},
+      {});
+  const chain::ScaledProblem problem = setup::chain_problem(scenario);
+  output::Schedule schedule;
+  schedule.times = {0, scenario.end};
+  schedule.x_edges = {problem.left, problem.right};
+  long updates = 0;
+  double slip = 0;
+  for (auto _ : state) {
+    chain::Run run(problem, schedule, {});
+    run.go();
+    updates += run.chain().level() * static_cast<long>(run.chain().problem().grid.sites);
+    slip = run.snapshots().back().slip_at_origin;
+  }
+  state.SetItemsProcessed(updates);
+  state.SetLabel("slip(0) = " + std::to_string(slip));
+}
+BENCHMARK(chain_rate_and_state)->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -2,9 +2,13 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "slipfront/modulation/per_dislocation.hpp"
 #include "slipfront/pulse/solver.hpp"
+#include "slipfront/scenario/scenario.hpp"
+#include "slipfront/setup/pulse.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace {
@@ -63,5 +67,54 @@ void pulse_overdamped(benchmark::State& state) {
   state.SetLabel(std::to_string(steps) + " steps");
 }
 BENCHMARK(pulse_overdamped)->Arg(1000)->Arg(1000000)->Arg(100000000)->Unit(benchmark::kMillisecond);
+
+constexpr const char* step_of_stress = "[initial]\nprofile = 'step'\nstress_left = 0.855\nstress_right = 0\n";
+
+struct LawCase {
+  const char* name;
+  std::vector<std::string> friction;  ///< keys and values
+};
+const std::vector<LawCase>& law_cases() {
+  static const std::vector<std::string> places{
+      "strength=0.05",      "reference_velocity=0.05", "characteristic_slip=0.05",
+      "direct_effect=0.01", "evolution_effect=0.015",  "law=rate-and-state"};
+  static const std::vector<LawCase> cases = [] {
+    std::vector<std::string> by_slip = places;
+    by_slip.emplace_back("state=slip");
+    return std::vector<LawCase>{
+        {"viscous", {"law=viscous", "coefficient=0.1"}},
+        {"rate-and-state", places},
+        {"rate-and-state, slip law", by_slip},
+        {"slip-weakening", {"law=slip-weakening", "strength=0.08", "residual=0.02", "characteristic_slip=0.1"}},
+        {"slip-weakening, weak", {"law=slip-weakening", "strength=0.04", "residual=0", "characteristic_slip=0.05"}},
+        {"formula", {"law=formula", "formula=0.5*w/(1+w)"}},
+        {"formula, steep", {"law=formula", "formula=0.1*sqrt(w)"}},
+        {"formula, n-shaped", {"law=formula", "formula=0.1*(w/0.05)/(1+(w/0.05)^2)"}},
+        {"n-shaped", {"law=n-shaped", "coefficient=0.1", "velocity=0.05"}},
+        {"coulomb", {"law=coulomb", "coefficient=0.03"}},
+        {"power", {"law=power", "coefficient=0.1", "exponent=0.5"}}};
+  }();
+  return cases;
+}
+
+/// A step of stress with 400 cells to t = 2 pi under each kind of friction.
+void pulse_laws(benchmark::State& state) {
+  const LawCase& law = law_cases()[static_cast<std::size_t>(state.range(0))];
+  std::vector<std::string> settings{"pulse.cells=400"};
+  for (const std::string& setting : law.friction) settings.push_back("friction." + setting);
+  const scenario::Scenario scenario = scenario::read_scenario(step_of_stress, "step", settings, {});
+  const pulse::Problem problem = setup::pulse_problem(scenario);
+  double slip = 0;
+  long steps = 0;
+  for (auto _ : state) {
+    pulse::Solver solver(problem);
+    solver.advance_to(scenario.end);
+    slip = solver.slip_at(solver.view(), 0);
+    steps = solver.cells().steps;
+  }
+  state.SetLabel(std::string(law.name) + ": slip(0) = " + std::to_string(slip) + ", " + std::to_string(steps) +
+                 " steps");
+}
+BENCHMARK(pulse_laws)->DenseRange(0, 10)->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -72,15 +72,18 @@ std::string friction(FuzzedDataProvider& data) {
                                            "flash-heating", "slip-weakening", "rate-and-state"});
   std::string text = "[friction]\nlaw = '" + law + "'\n";
   const auto add = [&](const std::string& key) { text += key + " = " + positive(data) + "\n"; };
-  text += "coefficient = " + mostly<7>(data, {"0.1", "0.5", "3", "100", "1e5", "1e-3", "0"}) + "\n";
+  const bool strength = law == "flash-heating" || law == "slip-weakening" || law == "rate-and-state";
+  text += std::string(strength ? "strength" : "coefficient") + " = " +
+          mostly<7>(data, {"0.1", "0.5", "3", "100", "1e5", "1e-3", "0"}) + "\n";
   if (law == "power") add("exponent");
   if (law == "formula")
     text += "formula = '" + one_of<6>(data, {"w", "0.1*sqrt(w)", "0.1+w^2", "1/w", "w/(1+w^3)", "1e9*w^0.1"}) + "'\n";
-  if (law == "n-shaped" || law == "flash-heating" || law == "rate-and-state") add("velocity");
+  if (law == "n-shaped" || law == "flash-heating") add("velocity");
   if (law == "flash-heating") add("weakened");
   if (law == "slip-weakening") add("residual");
-  if (law == "slip-weakening" || law == "rate-and-state") add("slip_distance");
+  if (law == "slip-weakening" || law == "rate-and-state") add("characteristic_slip");
   if (law == "rate-and-state") {
+    add("reference_velocity");
     add("direct_effect");
     add("evolution_effect");
     text += "state = '" + one_of<2>(data, {"ageing", "slip"}) + "'\n";
@@ -160,7 +163,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
     attempt([&] {
       const chain::ScaledProblem stretched = setup::chain_problem(s);
       if (!((stretched.right - stretched.left) * stretched.scale / stretched.spacing < 4000)) return;
-      chain::Run run(stretched, setup::pulse_schedule(s, setup::pulse_problem(s)), chain::Execution{});
+      chain::Run run(stretched, setup::pulse_schedule(s, setup::stated_problem(s)), chain::Execution{});
       ++chains;
       go(run);
     });

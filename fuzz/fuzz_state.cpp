@@ -52,7 +52,22 @@ std::string saved_pulse() {
   return run.saved();
 }
 
-std::string saved_chain() { return chain::Run(chain_problem(), schedule, chain::Execution{}).saved(); }
+/// With contacts that age and pores that dilate, which a state knows too.
+chain::ScaledProblem contacts_problem(bool implicit) {
+  chain::ScaledProblem small = chain_problem();
+  for (const friction::Definition* law : friction::laws())
+    if (law->name == "rate-and-state")
+      small.friction = {*law, {0.05, 0.01, 0.015, 0.05, 0.05, 0, 0, 0.1, 0.2, 0.02, 1, 0.1}};
+  small.contact = [a = small.friction.contact_at_start()](double) { return a; };
+  small.implicit = implicit;
+  return small;
+}
+
+std::string saved(const chain::ScaledProblem& problem) {
+  chain::Run run(problem, schedule, chain::Execution{});
+  go(run, 1);
+  return run.saved();
+}
 
 std::vector<catalogue::Entry> entries() {
   std::vector<catalogue::Entry> all;
@@ -100,16 +115,20 @@ std::string changed(std::string state, const std::uint8_t* bytes, std::size_t si
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
-  static const std::string pulse_state = saved_pulse(), chain_state = saved_chain(), event_state = saved_events();
+  static const std::string pulse_state = saved_pulse(), event_state = saved_events();
+  static const chain::ScaledProblem chains[] = {chain_problem(), contacts_problem(false), contacts_problem(true)};
+  static const std::string chain_states[] = {saved(chains[0]), saved(chains[1]), saved(chains[2])};
   if (size == 0) return 0;
   try {
-    if (bytes[0] % 3 == 2) {
+    const std::size_t which = bytes[0] % 5;
+    if (which == 4) {
       go_on_with_events(changed(event_state, bytes + 1, size - 1));
-    } else if (bytes[0] % 3 == 0) {
+    } else if (which == 3) {
       pulse::Run run(pulse_problem(), schedule, changed(pulse_state, bytes + 1, size - 1), {});
       go(run, 3);
     } else {
-      chain::Run run(chain_problem(), schedule, chain::Execution{}, changed(chain_state, bytes + 1, size - 1), {});
+      chain::Run run(chains[which], schedule, chain::Execution{}, changed(chain_states[which], bytes + 1, size - 1),
+                     {});
       go(run, 1);
     }
   } catch (const InputError&) {

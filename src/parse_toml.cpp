@@ -1,6 +1,7 @@
 #include "parse_toml.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "slipfront/error.hpp"
 
@@ -63,14 +64,12 @@ toml::table parse_toml(std::string_view text, const std::string& file) {
                       .problem = text.substr(0, 4) == "\x89HDF" ? "a NetCDF file" : "not a text: it holds a zero byte",
                       .allowed = "TOML 1.0"});
   refuse_deep_nesting(text, file);
-  try {
-    return toml::parse(text, file);
-  } catch (const toml::parse_error& error) {
-    throw InputError({.file = file,
-                      .line = error.source().begin.line,
-                      .problem = std::string(error.description()),
-                      .allowed = "TOML 1.0"});
-  }
+  toml::parse_result result = toml::parse(text);  // without a name, which the reader would keep where it must not throw
+  if (result) return std::move(result).table();
+  throw InputError({.file = file,
+                    .line = result.error().source().begin.line,
+                    .problem = std::string(result.error().description()),
+                    .allowed = "TOML 1.0"});
 }
 
 }  // namespace slipfront

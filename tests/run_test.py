@@ -46,8 +46,8 @@ class Run(unittest.TestCase):
         (self.tools / name).write_text(text)
         (self.tools / name).chmod(0o755)
 
-    def run_in(self, checkout, *arguments):
-        environment = {"PATH": str(self.tools), "HOME": str(self.folder / "home"), "CALLS": str(self.calls)}
+    def run_in(self, checkout, *arguments, **variables):
+        environment = {"PATH": str(self.tools), "HOME": str(self.folder / "home"), "CALLS": str(self.calls), **variables}
         return subprocess.run([checkout / "run", *arguments], env=environment, capture_output=True, text=True, timeout=60)
 
     def test_builds_and_runs(self):
@@ -62,6 +62,28 @@ class Run(unittest.TestCase):
         done = self.run_in(self.checkout)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertIn(f"of {self.folder}/home/.cache/slipfront/", done.stdout)
+
+    def test_where_others_may_write_nothing_is_built(self):
+        self.tool("dpkg-query", ALL_INSTALLED)
+        (self.checkout / "build").write_text("in the way")
+        done = self.run_in(self.checkout, XDG_CACHE_HOME="relative")
+        self.assertIn(f"of {self.folder}/home/.cache/slipfront/", done.stdout)
+        folder = pathlib.Path(done.stdout.split(" of ")[1].strip())
+        shutil.rmtree(self.folder / "home")
+        (self.folder / "home").write_text("no folder")
+        done = self.run_in(self.checkout)
+        self.assertEqual((done.returncode, done.stdout), (3, ""))
+        self.assertEqual(done.stderr, f"slipfront: neither {self.checkout}/build nor {folder} can be written\n")
+
+    @unittest.skipUnless(os.geteuid() == 0, "only root can give a folder away")
+    def test_a_folder_of_another_user_is_not_used(self):
+        self.tool("dpkg-query", ALL_INSTALLED)
+        (self.checkout / "build").write_text("in the way")
+        folder = pathlib.Path(self.run_in(self.checkout).stdout.split(" of ")[1].strip())
+        os.chown(folder, 65534, 65534)
+        done = self.run_in(self.checkout)
+        self.assertEqual((done.returncode, done.stdout), (3, ""))
+        self.assertEqual(done.stderr, f"slipfront: {folder} belongs to another user\n")
 
     def test_a_copy_builds_its_own_sources(self):
         self.tool("dpkg-query", ALL_INSTALLED)

@@ -17,6 +17,13 @@ using namespace slipfront::setup;
 void describe(const scenario::Scenario& s, const run::ChainPlan& plan, const std::string& output) {
   const chain::Problem p = chain::problem_of(plan.chain);
   record::require_disk_space(output, plan.need.disk);
+  if (p.implicit) {
+    put(fmt::format(
+        "{}: fine. Would run {} sites, {:.6g} apart, at scale {:.6g} by implicit steps of tolerance {:.6g}, {}.\n",
+        s.title.empty() ? s.file : s.title, p.grid.sites, p.grid.spacing, plan.chain.scale, p.tolerance,
+        in_words(plan.need)));
+    return;
+  }
   put(fmt::format("{}: fine. Would run {} sites, {:.6g} apart, at scale {:.6g} for {:.0f} steps, {}.\n",
                   s.title.empty() ? s.file : s.title, p.grid.sites, p.grid.spacing, plan.chain.scale,
                   s.end * plan.chain.scale / chain::chosen_step(p), in_words(plan.need)));
@@ -41,7 +48,9 @@ int run_chain(const ScenarioArguments& a) {
   LongRun long_run(a, s, the_ranks->size() > 1 ? the_ranks : nullptr);
   const auto result = run::chain(s, plan, long_run.options(std::move(saved), begun));
   if (const int code = long_run.end(result.finished()); code != exit_done) return code;
-  if (the_ranks->rank() == 0) print_summary(s.title, result.summary, {}, result.metadata.warnings, a);
+  if (the_ranks->rank() == 0)
+    print_summary(s.title, result.summary, {}, result.metadata.warnings, a,
+                  s.loading.acts() ? &result.metadata.events : nullptr);
   return exit_done;
 }
 

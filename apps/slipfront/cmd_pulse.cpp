@@ -1,7 +1,9 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "batch.hpp"
 #include "long_run.hpp"
@@ -42,8 +44,10 @@ int run_pulse(ScenarioArguments a, std::optional<double> tolerance) {
   LongRun long_run(a, s, nullptr);
   const auto result = run::pulse(s, plan, long_run.options(std::move(saved), begun));
   if (const int code = long_run.end(result.finished()); code != exit_done) return code;
-  const std::vector<double> errors = run::errors_of(result, s, {});
-  print_summary(s.title, result.summary, errors, result.metadata.warnings, a);
+  const run::Errors errors = run::errors_of(result, s, {});
+  std::vector<std::string> warnings = result.metadata.warnings;
+  warnings.insert(warnings.end(), errors.warnings.begin(), errors.warnings.end());
+  print_summary(s.title, result.summary, errors.of, warnings, a);
   return exit_done;
 }
 

@@ -10,7 +10,8 @@ using AddCommand = Runner(CLI::App& app);
   COMMAND(event)                    \
   COMMAND(pulse)                    \
   COMMAND(chain)                    \
-  COMMAND(compare)
+  COMMAND(compare)                  \
+  COMMAND(explore)
 
 #define DECLARE(name) AddCommand add_##name;
 SLIPFRONT_COMMANDS(DECLARE)

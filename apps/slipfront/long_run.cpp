@@ -76,9 +76,35 @@ scenario::Scenario read_scenario_of(const ScenarioArguments& a) {
 
 std::string json_number(double value) { return std::isfinite(value) ? fmt::format("{}", value) : "null"; }
 
+namespace {
+
+/// The events as a table, or as the value of a key of JSON.
+std::string table_of(const std::vector<output::SlipEvent>& events) {
+  std::string text = fmt::format("{} events\n", events.size());
+  if (events.empty()) return text;
+  for (const auto& column : output::slip_event_columns()) text += fmt::format("{:>17}", column.about.name);
+  for (const output::SlipEvent& event : events) {
+    text += '\n';
+    for (const auto& column : output::slip_event_columns()) text += fmt::format("{:>17.8g}", event.*column.value);
+  }
+  return text + '\n';
+}
+std::string json_of(const std::vector<output::SlipEvent>& events) {
+  std::string text;
+  for (const output::SlipEvent& event : events) {
+    std::string row;
+    for (const auto& column : output::slip_event_columns())
+      row += fmt::format("{}\"{}\": {}", row.empty() ? "" : ", ", column.about.name, json_number(event.*column.value));
+    text += (text.empty() ? "{" : ", {") + row + "}";
+  }
+  return "[" + text + "]";
+}
+
+}  // namespace
+
 void print_summary(const std::string& title, const std::vector<run::SummaryValue>& summary,
                    const std::vector<double>& errors, const std::vector<std::string>& warnings,
-                   const ScenarioArguments& a) {
+                   const ScenarioArguments& a, const std::vector<output::SlipEvent>* events) {
   struct AsJson {
     std::string operator()(double value) const { return json_number(value); }
     std::string operator()(long value) const { return fmt::format("{}", value); }
@@ -95,6 +121,7 @@ void print_summary(const std::string& title, const std::vector<run::SummaryValue
       if (std::isfinite(errors[i]))
         known += fmt::format("{}\"{}\": {:.3g}", known.empty() ? "" : ", ", summary[i].key, errors[i]);
     if (!errors.empty()) text += ", \"errors\": {" + known + "}";
+    if (events) text += ", \"events\": " + json_of(*events);
     text += ", \"warnings\": [";
     for (const std::string& warning : warnings)
       text += fmt::format("{}\"{}\"", &warning == warnings.data() ? "" : ", ", warning);
@@ -109,6 +136,7 @@ void print_summary(const std::string& title, const std::vector<run::SummaryValue
                     errors.empty() ? "" : fmt::format("{:<12} ", known ? fmt::format("+- {:.2g}", errors[i]) : ""),
                     row.meaning));
   }
+  if (events) put(table_of(*events));
   const std::string& output = a.output.empty() ? a.resume : a.output;
   if (!output.empty() && !a.common.quiet) put("written to " + output + "\n");
 }

@@ -33,10 +33,12 @@ slipfront::scenario::Scenario read_scenario_of(const ScenarioArguments& argument
 /// A number as JSON, null where there is none.
 std::string json_number(double value);
 /// What a run is summed up by, as a table or one JSON object on stdout; its warnings, a sentence each, on stderr and in
-/// the JSON. `errors`: of each row, NaN where there is none; empty: none at all.
+/// the JSON. `errors`: of each row, NaN where there is none; empty: none at all. `events`: of a loaded chain; else
+/// null.
 void print_summary(const std::string& title, const std::vector<slipfront::run::SummaryValue>& summary,
                    const std::vector<double>& errors, const std::vector<std::string>& warnings,
-                   const ScenarioArguments& arguments);
+                   const ScenarioArguments& arguments,
+                   const std::vector<slipfront::output::SlipEvent>* events = nullptr);
 
 /// A run (of pulse or chain) of the program: its progress, its output, and heed to Ctrl-C while this lives.
 class LongRun {

@@ -21,7 +21,7 @@ py::dict run_pulse(const py::dict& arguments, std::optional<double> tolerance, b
   scenario::Scenario s = scenario_of(a);
   Watch watch(a.progress, s.end);
   run::Result<pulse::Run> result;
-  std::vector<double> errors;
+  run::Errors errors;
   {
     const py::gil_scoped_release others_may_run;
     const auto interrupted = [&] { return watch.interrupted(); };
@@ -37,8 +37,9 @@ py::dict run_pulse(const py::dict& arguments, std::optional<double> tolerance, b
     if (result.finished() && with_errors) errors = run::errors_of(result, s, interrupted);
   }
   watch.finish();
+  result.metadata.warnings.insert(result.metadata.warnings.end(), errors.warnings.begin(), errors.warnings.end());
   py::dict data = dataset_of(result, s);
-  data["errors"] = errors_of(result.summary, errors);
+  data["errors"] = errors_of(result.summary, errors.of);
   return data;
 }
 

@@ -103,6 +103,13 @@ py::dict dataset_of(const record::PulseMetadata& metadata, const std::string& fo
   std::vector<std::string> warnings = scenario.warnings;
   warnings.insert(warnings.end(), metadata.warnings.begin(), metadata.warnings.end());
   result["warnings"] = py::cast(warnings);
+  py::list events;
+  for (const output::SlipEventColumn& column : output::slip_event_columns()) {
+    std::vector<double> values;
+    for (const output::SlipEvent& event : metadata.events) values.push_back(event.*column.value);
+    events.append(py::make_tuple("event_" + std::string(column.about.name), described(column.about), array(values)));
+  }
+  if (!metadata.events.empty()) result["events"] = events;
   return result;
 }
 

@@ -3,10 +3,13 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <exception>
 #include <limits>
 #include <mutex>
+#include <new>
 #include <span>
 #include <string_view>
+#include <system_error>
 #include <thread>
 #include <tuple>
 #include <utility>
@@ -101,7 +104,32 @@ class Sweep {
         variables_(std::move(variables)) {}
 
   /// Runs points until none is left or stop() was called. For any number of threads at once.
-  void work() {
+  void work() noexcept {
+    try {
+      run_points();
+    } catch (...) {  // no memory to note what a point gave
+      const std::lock_guard lock(mutex_);
+      failure_ = std::current_exception();
+      stopped_ = true;
+    }
+    const std::lock_guard lock(mutex_);
+    ++at_rest_;
+    changed_.notify_all();
+  }
+  void stop() { stopped_ = true; }
+
+  /// What ended the work, if anything did; once the workers rest.
+  std::exception_ptr failure() const { return failure_; }
+
+  /// What has finished since the last call; waits a while for `threads` workers to come to rest, and says if they have.
+  std::pair<std::vector<Outcome>, bool> collect(std::size_t threads) {
+    std::unique_lock lock(mutex_);
+    const bool all = changed_.wait_for(lock, std::chrono::milliseconds(50), [&] { return at_rest_ >= threads; });
+    return {std::exchange(finished_, {}), all};
+  }
+
+ private:
+  void run_points() {
     while (!stopped_) {
       const std::size_t point = next_++;
       if (point >= points_.size()) break;
@@ -117,20 +145,8 @@ class Sweep {
       const std::lock_guard lock(mutex_);
       finished_.push_back(std::move(outcome));
     }
-    const std::lock_guard lock(mutex_);
-    ++at_rest_;
-    changed_.notify_all();
-  }
-  void stop() { stopped_ = true; }
-
-  /// What has finished since the last call; waits a while for `threads` workers to come to rest, and says if they have.
-  std::pair<std::vector<Outcome>, bool> collect(int threads) {
-    std::unique_lock lock(mutex_);
-    const bool all = changed_.wait_for(lock, std::chrono::milliseconds(50), [&] { return at_rest_ >= threads; });
-    return {std::exchange(finished_, {}), all};
   }
 
- private:
   std::vector<double> run(std::size_t point) {
     const scenario::Scenario s = scenario::read_scenario(text_, file_, points_[point], record::read_table);
     const run::Options options{.after_step = [this](double, long) { return stopped_.load(); }};
@@ -153,7 +169,8 @@ class Sweep {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<Outcome> finished_;
-  int at_rest_ = 0;
+  std::size_t at_rest_ = 0;
+  std::exception_ptr failure_;
 };
 
 /// Calls deliver([(point, values, reason), ...]) now and then, with all that has finished meanwhile. What it raises,
@@ -175,11 +192,16 @@ void sweep(const std::string& command, const py::dict& arguments, std::vector<Ov
   };
   {
     const py::gil_scoped_release others_may_run;
-    std::vector<std::jthread> workers(static_cast<std::size_t>(threads));
-    for (std::jthread& worker : workers) worker = std::jthread([&] { work.work(); });
+    std::vector<std::jthread> workers;
+    try {  // where the machine gives no more threads, those that are there do it all
+      for (int i = 0; i < threads; ++i) workers.emplace_back([&] { work.work(); });
+    } catch (const std::system_error&) {
+    } catch (const std::bad_alloc&) {
+    }
+    if (workers.empty()) work.work();
     for (bool all = false, delivers = true; !all;) {
       std::vector<Outcome> outcomes;
-      std::tie(outcomes, all) = work.collect(threads);
+      std::tie(outcomes, all) = work.collect(workers.size());
       const py::gil_scoped_acquire lock;
       if (delivers && !outcomes.empty())
         delivers = comes_back([&] {
@@ -193,6 +215,7 @@ void sweep(const std::string& command, const py::dict& arguments, std::vector<Ov
     }
   }
   if (raised) std::rethrow_exception(raised);
+  if (work.failure()) std::rethrow_exception(work.failure());
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 import contextlib
 import numbers as kinds
 import os
+import signal
 
 from . import _slipfront
 from ._optional import import_optional
@@ -50,26 +51,44 @@ def write_dataset(data, path):
 
 def isolated(path, make):
     """The bytes that make() gives, made in a fork of this process: for libraries that crash where memory ends. Raises FileError."""
+    with told_of(path):
+        return _of_fork(path, make)
+
+
+def _of_fork(path, make):
     reader, writer = os.pipe()
     child = os.fork()
     if child == 0:
-        try:
-            os.close(reader)
-            try:
-                reply = b"d" + make()
-            except Exception as error:  # of any kind: the other libraries know none of ours
-                reply = f"f{error or type(error).__name__}".encode("utf-8", "replace")
-            with os.fdopen(writer, "wb") as pipe:
-                pipe.write(reply)
-        finally:
-            os._exit(0)
-    os.close(writer)
-    with os.fdopen(reader, "rb") as pipe:
-        reply = pipe.read()
-    os.waitpid(child, 0)
-    if reply[:1] != b"d":
-        raise _slipfront.FileError(f"{path}: cannot be written: {' '.join(reply[1:].decode().split()) or 'the library that draws it gave up'}")
+        _live_as_fork(reader, writer, make)
+    try:
+        os.close(writer)
+        reply = b"".join(iter(lambda: os.read(reader, 1 << 20), b""))
+    except BaseException:  # Ctrl-C too: nobody reads what it still sends
+        os.kill(child, signal.SIGKILL)
+        raise
+    finally:
+        status = os.waitpid(child, 0)[1]
+        os.close(reader)
+    if status or reply[:1] != b"d":
+        reason = "" if status else " ".join(reply[1:].decode().split())
+        raise _slipfront.FileError(f"{path}: cannot be written: {reason or 'the library that draws it gave up'}")
     return reply[1:]
+
+
+def _live_as_fork(reader, writer, make):
+    """Sends what make() gives, or why it gives nothing; the exit status is 0 only where all was sent."""
+    unsent = 1
+    try:
+        os.close(reader)
+        try:
+            reply = b"d" + make()
+        except Exception as error:  # of any kind: the other libraries know none of ours
+            reply = f"f{error or type(error).__name__}".encode("utf-8", "replace")
+        with os.fdopen(writer, "wb") as pipe:
+            pipe.write(reply)
+        unsent = 0
+    finally:
+        os._exit(unsent)
 
 
 @contextlib.contextmanager

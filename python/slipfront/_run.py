@@ -31,6 +31,8 @@ def _dataset(result, front=()):
         variables[about[0]] = (front + ("time", "x"), values, attributes(about))
     for about, values in result["scalars"]:
         variables[about[0]] = (front + ("time",), values, attributes(about))
+    for name, about, values in result.get("events", ()):
+        variables[name] = ("event", values, attributes(about))
     errors = {f"{key}_error": error for key, error in result.get("errors", {}).items()}
     return dataset(variables, coordinates, {**result["attributes"], **result["summary"], **errors})
 
@@ -56,7 +58,7 @@ def pulse(scenario, *, set=None, output=None, resume=None, progress=None, thread
         Relative error, 1e-9 to 1, of slip, slip velocity and stress at x = 0 and of the peak: `pulse.cells` doubles from
         the scenario's until it is reached. Not with `resume`.
     errors : bool, optional
-        Whether to estimate the errors, by a run with half the cells that takes a quarter of the time.
+        Whether to estimate the errors, by runs with half and a quarter of the cells that take a third of the time.
 
     Returns
     -------
@@ -82,7 +84,7 @@ def chain(scenario, *, set=None, output=None, resume=None, progress=None, thread
 
     Parameters, exceptions and the Dataset are those of `pulse`; `threads` (all cores unless given) share the sites and
     change no bits. Attributes time, scale, ..., dislocations, energy_drift, charge_error, wall_seconds are those of
-    `slipfront chain --json`.
+    `slipfront chain --json`. With [loading], slip events have variables event_onset, event_duration, ... over `event`.
     """
     with showing(progress) as call:
         return _dataset(_slipfront.chain(arguments(scenario, set=set, output=output, resume=resume, progress=call),

@@ -56,7 +56,11 @@ Chain::Chain(const Problem& problem, const MotionOf& start, const Execution& exe
     });
   });
   look.finish(problem, ranks);
-  ranks.together([&] { check_charge(problem, start); });
+  ranks.together([&] {
+    check_charge(problem, start);
+    if (problem.implicit)
+      parts_->implicit = std::make_unique<ImplicitSteps>(problem, start(0, problem.grid.sites), execution.threads);
+  });
 }
 
 Chain::Chain(const Problem& problem, long level, const LevelsOf& saved, const Execution& execution) {
@@ -75,6 +79,17 @@ Chain::Chain(const Problem& problem, const Motion& start, const Execution& execu
     : Chain(problem, pieces(start, problem.grid.sites), execution) {}
 Chain::Chain(const Problem& problem, const Levels& saved, const Execution& execution)
     : Chain(problem, saved.level, pieces(saved, problem.grid.sites), execution) {}
+
+bool Chain::implicit() const { return parts_->implicit != nullptr; }
+bool Chain::proceed(double until, long most) {
+  parts_->implicit->advance(until, most);
+  return time() >= until;
+}
+std::vector<double> Chain::implicit_state() const { return parts_->implicit->saved(); }
+void Chain::continue_implicit(const std::vector<double>& state) { parts_->implicit->resume(state); }
+std::vector<Event> Chain::events() const {
+  return parts_->implicit ? parts_->implicit->events() : std::vector<Event>{};
+}
 
 Chain::~Chain() = default;
 Chain::Chain(Chain&&) noexcept = default;
@@ -117,30 +132,34 @@ std::vector<double> Chain::flow_sums() const {
 
 void Chain::continue_flows(const std::vector<double>& sums) {
   std::vector<double>& mine = parts_->meter.sums;
-  if (sums.size() != 2 * parts_->blocks.count + 2)
-    refuse_size("resume", sums.size(), 2 * parts_->blocks.count + 2, "scenario");
-  std::copy_n(sums.begin() + static_cast<std::ptrdiff_t>(2 * parts_->first_block), mine.size(), mine.begin());
+  const std::size_t kinds = WorkMeter::kinds(problem());
+  if (sums.size() != kinds * parts_->blocks.count + 2)
+    refuse_size("resume", sums.size(), kinds * parts_->blocks.count + 2, "scenario");
+  std::copy_n(sums.begin() + static_cast<std::ptrdiff_t>(kinds * parts_->first_block), mine.size(), mine.begin());
   if (parts_->begin == 0) parts_->slabs.front().outflow.left = sums[sums.size() - 2];
   if (parts_->end == problem().grid.sites) parts_->slabs.back().outflow.right = sums.back();
 }
 
 Chain::Flows Chain::flows() const {
   Flows flows;
+  if (const auto& steps = parts_->implicit) return {steps->supplied(), steps->dissipated(), 0, steps->by_contacts()};
   const std::vector<double> all = flow_sums();
-  for (std::size_t i = 0; i + 2 < all.size(); i += 2) {
+  const std::size_t kinds = WorkMeter::kinds(problem());
+  for (std::size_t i = 0; i + 2 < all.size(); i += kinds) {
     flows.supplied += all[i];
     flows.dissipated += all[i + 1];
+    if (kinds > 2) flows.by_contacts += all[i + 2];
   }
   flows.outflow = all[all.size() - 2] + all.back();
   return flows;
 }
 
-bool Chain::meters_friction() const { return parts_->level_by_level; }
+bool Chain::meters_friction() const { return implicit() || parts_->level_by_level; }
 
 const Problem& Chain::problem() const { return parts_->problem; }
-long Chain::level() const { return parts_->level; }
+long Chain::level() const { return implicit() ? parts_->implicit->steps() : parts_->level; }
 double Chain::dt() const { return parts_->scheme.dt; }
-double Chain::time() const { return static_cast<double>(level()) * dt(); }
+double Chain::time() const { return implicit() ? parts_->implicit->time() : static_cast<double>(level()) * dt(); }
 
 std::size_t Chain::first_site() const { return parts_->begin; }
 std::size_t Chain::end_site() const { return parts_->end; }
@@ -179,11 +198,21 @@ Levels Chain::levels() const {
 }
 
 double Chain::contact_squared(std::size_t site) const {
+  if (implicit()) return parts_->implicit->contact_squared(site);
   const double* a2 = parts_->forces.a2(static_cast<long>(site));
   return a2 == nullptr ? 1 : *a2;
 }
-double Chain::forcing(std::size_t site) const { return parts_->forces.now(static_cast<long>(site)); }
+double Chain::forcing(std::size_t site) const {
+  if (implicit()) return parts_->implicit->forcing(site);
+  return parts_->forces.now(static_cast<long>(site));
+}
+double Chain::effective_stress(std::size_t site) const {
+  if (implicit()) return parts_->implicit->effective_stress(site);
+  const ContactField& contacts = parts_->forces.contacts();
+  return contacts.acts() ? *contacts.share(static_cast<long>(site)) : 1;
+}
 double Chain::friction(std::size_t site, double velocity) const {
+  if (implicit()) return parts_->implicit->friction(site, velocity);
   return parts_->forces.friction(static_cast<long>(site), velocity);
 }
 

@@ -10,13 +10,18 @@ namespace slipfront::chain {
 namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
+constexpr std::size_t together = 64;  ///< sites that friction's loops take at once: those at rest cost little
 
-/// Site j of the problem's grid, also beyond its ends.
-std::size_t folded(const Problem& p, long j) {
-  const long n = static_cast<long>(p.grid.sites);
-  if (p.boundary.periodic) return static_cast<std::size_t>((j % n + n) % n);
-  while (j < 0 || j >= n) j = j < 0 ? -j : 2 * (n - 1) - j;
-  return static_cast<std::size_t>(j);
+/// a(x)^2 on sites [first, last); none where it is 1.
+std::vector<double> a2_of(const Problem& p, long first, long last) {
+  std::vector<double> a2;
+  const bool changes = p.friction.contacts().act();
+  if (!p.contact && !changes) return a2;
+  for (long j = first; j < last; ++j) {
+    const double a = p.contact ? p.contact(p.grid.x(folded(p, j))) : 1;
+    a2.push_back(a * a);
+  }
+  return a2;
 }
 
 }  // namespace
@@ -31,15 +36,11 @@ Forces::Forces(const Problem& problem, const Scheme& scheme, long level, std::si
       last_(static_cast<long>(end + beyond)),
       nonlinear_(problem.friction.acts() && !problem.friction.linear_coefficient()),
       variables_(problem.friction.variables()),
-      memory_(variables_ * problem.grid.sites) {
+      memory_(variables_ * problem.grid.sites),
+      a2_(a2_of(problem_, first_, last_)),
+      contacts_(problem_, first_, a2_) {
   for (std::size_t j = 0; j < memory_.size(); j += variables_)
     problem_.friction.law().start(std::span(memory_).subspan(j, variables_));
-  if (problem_.contact) {
-    for (long j = first_; j < last_; ++j) {
-      const double a = problem_.contact(problem_.grid.x(folded(problem_, j)));
-      a2_.push_back(a * a);
-    }
-  }
   if (problem_.forcing) {
     F_now_ = forcing_at(problem_.steady_forcing ? 0 : level_);
     if (problem_.steady_forcing) return;
@@ -64,23 +65,50 @@ const double* Forces::memory_of(long j) const { return memory_.data() + variable
 
 void Forces::age(long first, std::size_t size, const double* now, const double* next) {
   if (variables_ == 0) return;
-  const std::span<double> all(memory_);
-  for (std::size_t j = 0; j < size; ++j)
-    problem_.friction.law().advance((next[j] - now[j]) / dt_ * turn, dt_,
-                                    all.subspan(variables_ * (static_cast<std::size_t>(first) + j), variables_));
+  double velocity[together];
+  for (std::size_t j = 0; j < size; j += together) {
+    const std::size_t some = std::min(together, size - j);
+    velocities(turn / dt_, now + j, next + j, velocity, some);
+    if (contacts_.acts()) {
+      age_contacts(first + static_cast<long>(j), some, velocity);
+      continue;
+    }
+    problem_.friction.law().advance_all(some, velocity, dt_, variables_,
+                                        memory_.data() + variables_ * (static_cast<std::size_t>(first) + j));
+  }
+}
+
+void Forces::age_contacts(long first, std::size_t size, const double* velocity) {
+  double before[together];
+  double* const theta = memory_.data() + static_cast<std::size_t>(first);
+  std::copy_n(theta, size, before);
+  problem_.friction.law().advance_all(size, velocity, dt_, variables_, theta);
+  contacts_.advance(first, dt_, {before, size}, {theta, size});
 }
 
 std::vector<double> Forces::memories(std::size_t begin, std::size_t end) const {
   const auto at = [&](std::size_t j) { return memory_.begin() + static_cast<std::ptrdiff_t>(variables_ * j); };
-  return {at(begin), at(end)};
+  if (!contacts_.acts()) return {at(begin), at(end)};
+  std::vector<double> all(remembered() * (end - begin));
+  for (std::size_t j = begin; j < end; ++j) {
+    double* const to = all.data() + remembered() * (j - begin);
+    std::copy_n(at(j), variables_, to);
+    contacts_.save(j, to + variables_);
+  }
+  return all;
 }
 
 void Forces::set_memories(std::size_t begin, const std::vector<double>& memories) {
-  std::copy(memories.begin(), memories.end(), memory_.begin() + static_cast<std::ptrdiff_t>(variables_ * begin));
+  for (std::size_t i = 0; i < memories.size(); i += remembered()) {
+    const std::size_t site = begin + i / remembered();
+    std::copy_n(memories.data() + i, variables_, memory_.data() + variables_ * site);
+    if (contacts_.acts()) contacts_.resume(site, memories[i], memories.data() + i + variables_);
+  }
 }
 
 void Forces::proceed() {
   ++level_;
+  if (contacts_.acts()) contacts_.proceed();
   if (steady()) return;
   F_before_.swap(F_now_);
   F_now_.swap(F_next_);
@@ -93,7 +121,7 @@ void Forces::steps_from(long j, std::size_t size, const double* before, const do
     take_steps(scheme_.rule.f, scheme_.eps, before, now, next, u, D, B, size);
     return;
   }
-  displacements(sine_, scheme_.eps, a2(j), next, u_next, S, size);
+  displacements(sine_, scheme_.eps, contacts_.acts() ? contacts_.next(j) : a2(j), next, u_next, S, size);
   take_steps(before, now, next, u_next, u, D, B, size);
 }
 
@@ -105,7 +133,7 @@ void Forces::displacements_from(long j, std::size_t size, const double* z, doubl
 }
 
 void Forces::level(const Sides& sides, long offset, std::size_t size, const double* before, const double* now,
-                   double* next, double* y, Outflow& outflow) const {
+                   double* next, double* y, Outflow& outflow, double* applied) const {
   if (!a2_.empty()) {
     const double* a2 = this->a2(offset - 1);
     local_part_with_contact(scheme_.rule, sine_, scheme_.eps, a2, now - 1, before - 1, next - 1, y - 1, 0, size + 2);
@@ -125,11 +153,13 @@ void Forces::level(const Sides& sides, long offset, std::size_t size, const doub
                          strength * scheme_.share_beside};
     add_drive(rule, F_before(first), F_now(first), F_next(first), next + from, to - from);
   }
-  if (nonlinear_) add_friction(offset, from, to, before, now, next);
+  if (!nonlinear_) return;
+  if (applied != nullptr) applied[0] = applied[size - 1] = 0;
+  add_friction(offset, from, to, before, now, next, applied);
 }
 
 void Forces::add_friction(long offset, std::size_t begin, std::size_t end, const double* before, const double* now,
-                          double* next) const {
+                          double* next, double* applied) const {
   const friction::Friction& f = problem_.friction;
   if (const auto strength = f.law().constant_strength()) {
     shorten_steps(dt_ * dt_ * *strength / turn, now + begin, next + begin, end - begin);
@@ -139,11 +169,52 @@ void Forces::add_friction(long offset, std::size_t begin, std::size_t end, const
   // a site but not throw it back.
   const bool centred = !f.steep_at_rest();
   const double time = centred ? 2 * dt_ : dt_, weight = dt_ * dt_ / time;
-  for (std::size_t j = begin; j < end; ++j) {
-    const double from = centred ? before[j] : now[j];
-    const double free = (next[j] - from) / time * turn;
-    next[j] = from + time / turn * f.velocity_after(free, weight, memory(offset + static_cast<long>(j)));
+  double free[together], speed[together];
+  std::vector<double> room;
+  for (std::size_t j = begin; j < end; j += together) {
+    const std::size_t some = std::min(together, end - j);
+    const double* from = (centred ? before : now) + j;
+    double* force = applied == nullptr ? nullptr : applied + j;
+    if (!free_speeds(turn / time, from, next + j, free, some)) {
+      if (force != nullptr) std::fill_n(force, some, 0.0);
+      std::copy_n(from, some, next + j);
+      continue;
+    }
+    const long site = offset + static_cast<long>(j);
+    const friction::Memories memory = memory_from(site, some, room);
+    if (contacts_.have_pressure())
+      f.law().speeds_after_under(some, contacts_.share(site), free, weight, memory, speed);
+    else
+      f.law().speeds_after(some, free, weight, memory, speed);
+    take_speeds(turn / time, 1 / weight, from, free, speed, next + j, force, some);
   }
+}
+
+friction::Memories Forces::memory_from(long j, std::size_t size, std::vector<double>& room) const {
+  if (variables_ == 0) return {};
+  const long end = j + static_cast<long>(size);
+  if (j >= 0 && end <= static_cast<long>(problem_.grid.sites))
+    return {memory_.data() + variables_ * static_cast<std::size_t>(j), variables_};
+  room.clear();
+  for (; j < end; ++j) room.insert(room.end(), memory_of(j), memory_of(j) + variables_);
+  return {room.data(), variables_};
+}
+
+double Forces::work_of_friction(long j, std::size_t size, const double* D, const double* applied) const {
+  if (problem_.friction.steep_at_rest()) return sum_of_products(applied, D, size);
+  double speed[together], force[together], sum = 0;
+  std::vector<double> room;
+  for (std::size_t at = 0; at < size; at += together) {
+    const std::size_t some = std::min(together, size - at);
+    for (std::size_t i = 0; i < some; ++i) speed[i] = std::fabs(D[at + i]) / dt_;
+    problem_.friction.law().strengths(some, speed, memory_from(j + static_cast<long>(at), some, room), force);
+    sum += dt_ * sum_of_products(force, speed, some);
+  }
+  return sum;
+}
+
+double Forces::energy_of_contacts(long j, std::size_t size, const double* u, const double* D) const {
+  return chain::energy_of_contacts(sine_, contacts_.now(j), contacts_.next(j), u, D, size);
 }
 
 }  // namespace slipfront::chain

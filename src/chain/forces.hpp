@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "contact_field.hpp"
 #include "scheme.hpp"
 #include "slab.hpp"
 
@@ -19,7 +20,11 @@ class Forces {
 
   bool none() const { return a2_.empty() && F_now_.empty() && !nonlinear_; }
   /// a(x)^2 from site j on; null where it is 1.
-  const double* a2(long j) const { return a2_.empty() ? nullptr : a2_.data() + at(j); }
+  const double* a2(long j) const {
+    return contacts_.acts() ? contacts_.now(j) : a2_.empty() ? nullptr : a2_.data() + at(j);
+  }
+  /// Contacts that change with the state of friction.
+  const ContactField& contacts() const { return contacts_; }
   /// F at site j now, at the level before and at the next one; arrays from site j on, null where there is no forcing.
   const double* F_now(long j) const { return F_now_.empty() ? nullptr : F_now_.data() + at(j); }
   const double* F_before(long j) const { return steady() ? F_now(j) : F_before_.data() + at(j); }
@@ -29,9 +34,15 @@ class Forces {
   double rate(long j) const { return steady() ? 0.0 : (F_next_[at(j)] - F_before_[at(j)]) / (2 * dt_); }
 
   /// One level of `size` sites, the first of which is site `offset` of the chain; arrays count from it. `now` and
-  /// `before` have two neighbours on the left and ten on the right; `next` and `y` have room for them.
+  /// `before` have two neighbours on the left and ten on the right; `next` and `y` have room for them. `applied`,
+  /// unless null, gets the force by which friction that is neither linear nor constant has slowed each site.
   void level(const Sides& sides, long offset, std::size_t size, const double* before, const double* now, double* next,
-             double* y, Outflow& outflow) const;
+             double* y, Outflow& outflow, double* applied = nullptr) const;
+  /// The work of such friction on `size` sites from site j on in a step D, in radians: by the forces that were applied
+  /// if those act over the step, otherwise by those at its velocity.
+  double work_of_friction(long j, std::size_t size, const double* D, const double* applied) const;
+  /// Energy per spacing that contacts give to the substrate at `size` sites from site j on in a step D to u.
+  double energy_of_contacts(long j, std::size_t size, const double* u, const double* D) const;
   /// To the next level of the forcing.
   void proceed();
   /// Changes the friction law's variables of `size` sites from site `first` on, over the step from `now` to `next`.
@@ -39,13 +50,21 @@ class Forces {
   /// The same variables of sites [begin, end), site by site; none for most laws.
   std::vector<double> memories(std::size_t begin, std::size_t end) const;
   void set_memories(std::size_t begin, const std::vector<double>& memories);
+  /// Numbers that a site remembers.
+  std::size_t remembered() const { return variables_ + (contacts_.acts() ? ContactField::columns : 0); }
+  /// To be called when the memories of all sites are set.
+  void resumed() {
+    if (contacts_.acts()) contacts_.resumed();
+  }
 
   /// The friction force on site j at velocity u_t.
-  double friction(long j, double velocity) const { return problem_.friction.force(velocity, memory(j)); }
+  double friction(long j, double velocity) const {
+    return (contacts_.acts() ? *contacts_.share(j) : 1.0) * problem_.friction.force(velocity, memory(j));
+  }
   /// u from z, both in turns, of `size` sites from site j on; `S` is room for work.
   void displacements_from(long j, std::size_t size, const double* z, double* u, double* S) const;
-  /// Steps D, B (kernel's take_steps) of `size` sites from site j on, u then being that of the next level; `u_next` and
-  /// `S` are room for work.
+  /// Steps D, B (kernel's take_steps) of `size` sites from site j on, u then being that of the next level, to which
+  /// `age` has taken contacts that change; `u_next` and `S` are room for work.
   void steps_from(long j, std::size_t size, const double* before, const double* now, const double* next, double* u,
                   double* D, double* B, double* u_next, double* S) const;
 
@@ -59,7 +78,10 @@ class Forces {
   bool steady() const { return F_next_.empty(); }
   /// On sites [begin, end) of a level that begins with site `offset`.
   void add_friction(long offset, std::size_t begin, std::size_t end, const double* before, const double* now,
-                    double* next) const;
+                    double* next, double* applied) const;
+  void age_contacts(long first, std::size_t size, const double* velocity);
+  /// The memory of `size` sites from site j on; of those beyond an end in `room`.
+  friction::Memories memory_from(long j, std::size_t size, std::vector<double>& room) const;
 
   Problem problem_;
   Scheme scheme_;
@@ -70,7 +92,8 @@ class Forces {
   bool nonlinear_;              ///< there is friction other than C w, which the scheme itself has
   std::size_t variables_;       ///< of the friction law
   std::vector<double> memory_;  ///< their values at each site of the chain, which one rank has alone then
-  std::vector<double> a2_;
+  std::vector<double> a2_;      ///< at t = 0 if it changes
+  ContactField contacts_;
   std::vector<double> F_before_, F_now_, F_next_;  ///< F_now_ alone where it does not depend on t
 };
 

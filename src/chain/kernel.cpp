@@ -97,6 +97,43 @@ SLIPFRONT_CLONES void shorten_steps(double most, const double* now, double* next
   }
 }
 
+SLIPFRONT_CLONES bool free_speeds(double per_step, const double* from, const double* next, double* free,
+                                  std::size_t size) {
+  std::size_t moving = 0;
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t j = 0; j < size; ++j) {
+    const double step = std::fabs(next[j] - from[j]), scale = std::fabs(from[j]);
+    free[j] = step <= 8 * 2.2e-16 * (scale > 1e-3 ? scale : 1e-3) ? 0.0 : step * per_step;
+    moving += free[j] == 0 ? 0u : 1u;
+  }
+  return moving != 0;
+}
+
+SLIPFRONT_CLONES void take_speeds(double per_step, double per_weight, const double* from, const double* free,
+                                  const double* speed, double* next, double* force, std::size_t size) {
+  const double step_per_speed = 1 / per_step;
+  if (force != nullptr) {
+    SLIPFRONT_INDEPENDENT
+    for (std::size_t j = 0; j < size; ++j) {
+      const double step = next[j] - from[j];
+      force[j] = std::copysign((free[j] - speed[j]) * per_weight, step);
+      next[j] = from[j] + (std::copysign(speed[j] * step_per_speed, step) + 0 * step);
+    }
+    return;
+  }
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t j = 0; j < size; ++j) {
+    const double step = next[j] - from[j];
+    next[j] = from[j] + (std::copysign(speed[j] * step_per_speed, step) + 0 * step);
+  }
+}
+
+SLIPFRONT_CLONES void velocities(double per_step, const double* now, const double* next, double* velocity,
+                                 std::size_t size) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t j = 0; j < size; ++j) velocity[j] = (next[j] - now[j]) * per_step;
+}
+
 SLIPFRONT_CLONES void take_steps(const double* before, const double* now, const double* next, const double* u_next,
                                  double* u, double* D, double* B, std::size_t size) {
   SLIPFRONT_INDEPENDENT
@@ -140,6 +177,15 @@ SLIPFRONT_CLONES double work_of_force(const double* F_before, const double* F_no
   return total(part);
 }
 
+SLIPFRONT_CLONES double sum_of_products(const double* a, const double* b, std::size_t size) {
+  double part[lanes] = {};
+  const std::size_t whole = size / lanes * lanes;
+  for (std::size_t j = 0; j < whole; j += lanes)
+    for (std::size_t k = 0; k < lanes; ++k) part[k] += a[j + k] * b[j + k];
+  for (std::size_t k = 0; k < size - whole; ++k) part[k] += a[whole + k] * b[whole + k];
+  return total(part);
+}
+
 SLIPFRONT_CLONES double work_of_viscous_friction(const double* D, const double* B, std::size_t size) {
   double part[lanes] = {};
   const std::size_t whole = size / lanes * lanes;
@@ -147,6 +193,21 @@ SLIPFRONT_CLONES double work_of_viscous_friction(const double* D, const double* 
     for (std::size_t k = 0; k < lanes; ++k) part[k] += D[j + k] * D[j + k] + B[j + k] * B[j + k] * (1.0 / 12);
   for (std::size_t k = 0; k < size - whole; ++k)
     part[k] += D[whole + k] * D[whole + k] + B[whole + k] * B[whole + k] * (1.0 / 12);
+  return total(part);
+}
+
+SLIPFRONT_CLONES double energy_of_contacts(const PeriodicForce& sine, const double* a2, const double* a2_next,
+                                           const double* u, const double* D, std::size_t size) {
+  const PeriodicForce f = sine;
+  double part[lanes] = {};
+  const std::size_t whole = size / lanes * lanes;
+  const auto energy = [=](std::size_t j) {
+    const double cosines = f(u[j] + 0.25) + f(u[j] - D[j] * (1 / turn) + 0.25);  // over 2 pi
+    return (a2_next[j] - a2[j]) * (1 - turn / 2 * cosines);
+  };
+  for (std::size_t j = 0; j < whole; j += lanes)
+    for (std::size_t k = 0; k < lanes; ++k) part[k] += energy(j + k);
+  for (std::size_t k = 0; k < size - whole; ++k) part[k] += energy(whole + k);
   return total(part);
 }
 

@@ -44,6 +44,18 @@ void add_drive(const DriveRule& rule, const double* F_before, const double* F_no
 /// but does not throw it back. NaN stays NaN.
 void shorten_steps(double most, const double* now, double* next, std::size_t size);
 
+/// |next - from| times `per_step` as `free`, 0 for steps that are roundings of z (or of a thousandth of a turn, ahead
+/// of fronts where z is smaller); returns whether any is not 0.
+bool free_speeds(double per_step, const double* from, const double* next, double* free, std::size_t size);
+/// Puts next where friction leaves `speed` of the free speeds; `force`, unless null, gets what it took of them times
+/// `per_weight`, with the sign of the step. NaN stays NaN.
+void take_speeds(double per_step, double per_weight, const double* from, const double* free, const double* speed,
+                 double* next, double* force, std::size_t size);
+/// (next - now) times `per_step`.
+void velocities(double per_step, const double* now, const double* next, double* velocity, std::size_t size);
+/// Sum of products, in an order that depends on `size` alone.
+double sum_of_products(const double* a, const double* b, std::size_t size);
+
 /// Steps of the displacement in radians, D = u_next - u and B the second difference of z over levels; u becomes u_next,
 /// which is given, or z - eps f(z) at the next level.
 void take_steps(const double* before, const double* now, const double* next, const double* u_next, double* u, double* D,
@@ -55,6 +67,9 @@ void take_steps(const PeriodicForce& f, double eps, const double* before, const 
 double work_of_force(const double* F_before, const double* F_now, const double* F_next, const double* D,
                      const double* B, std::size_t size);
 double work_of_viscous_friction(const double* D, const double* B, std::size_t size);
+/// Energy that contacts give to the substrate as a^2 goes from a2 to a2_next, where u (in turns) comes to `u` by D.
+double energy_of_contacts(const PeriodicForce& sine, const double* a2, const double* a2_next, const double* u,
+                          const double* D, std::size_t size);
 double work_of_coulomb_friction(const double* D, std::size_t size);
 
 /// Whether all |z| are small enough for the range reduction (false for NaN).

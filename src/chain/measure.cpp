@@ -185,10 +185,14 @@ Totals totals(const Chain& chain) {
   for (std::size_t i = 0; i < blocks.size(); ++i) *summed(t, all_found)[i % sums] += blocks[i];
   const double first = chain.window(0, 1).u[0], last = chain.window(n - 1, n).u[0];
   t.time = chain.time();
+  if (const auto& steps = Inside::of(chain).implicit) {  // the energy that its steps keep
+    t.elastic = steps->elastic_energy();
+    t.loading = steps->loading_energy();
+  }
   t.charge = (first - last) / turn;
   if (p.boundary.periodic) {
     const double rise = first - turn * static_cast<double>(p.boundary.charge) - last;
-    t.elastic += rise * rise / (2 * p.grid.spacing);
+    if (!Inside::of(chain).implicit) t.elastic += rise * rise / (2 * p.grid.spacing);
     t.steepest = std::fmax(t.steepest, std::fabs(rise));
     all_found += std::fabs(std::floor((last + rise) / turn - 0.5) - std::floor(last / turn - 0.5));
     t.charge = static_cast<double>(p.boundary.charge);

@@ -81,6 +81,11 @@ Chain::Parts::Parts(const Problem& p, const Execution& e, long at)
                       .value = std::to_string(ranks.size()),
                       .problem = "friction.law = \"" + std::string(p.friction.name()) + "\" has variables at each site",
                       .allowed = "1 rank, with as many threads as wanted"});
+  if (ranks.size() > 1 && p.implicit)
+    throw InputError({.key = "ranks",
+                      .value = std::to_string(ranks.size()),
+                      .problem = "[loading] and implicit steps are for one process",
+                      .allowed = "1 rank, with as many threads as wanted"});
   if (static_cast<std::size_t>(ranks.size()) > blocks.count)
     throw InputError({.key = "ranks",
                       .value = std::to_string(ranks.size()),
@@ -112,7 +117,7 @@ void Chain::Parts::fill(const std::function<Levels(std::size_t, std::size_t)>& s
     for (std::size_t at = 0; at < slab.size(); at += piece) {
       const std::size_t size = std::min(piece, slab.size() - at), from = slab.begin() + at;
       const Levels levels = source(from, from + size);
-      const std::size_t memory = levels.memory.size(), all = size * problem.friction.variables();
+      const std::size_t memory = levels.memory.size(), all = size * forces.remembered();
       if (levels.now.size() != size || levels.before.size() != size || (memory != 0 && memory != all))
         throw InputError({.key = "resume",
                           .value = std::to_string(levels.now.size()) + " sites",
@@ -123,6 +128,7 @@ void Chain::Parts::fill(const std::function<Levels(std::size_t, std::size_t)>& s
       if (!levels.memory.empty()) forces.set_memories(from, levels.memory);
       meter.start(forces, from, size, slab.now() + at);
     }
+  forces.resumed();
 }
 
 void Chain::Parts::exchange_with_ranks() {
@@ -182,9 +188,13 @@ void Chain::Parts::advance_by_one_level(std::size_t i) {
     if (piece > 0) here.left = Side::joined;
     if (piece + 2 < room.cuts.size()) here.right = Side::joined;
     const double *now = slab.now() + at, *before = slab.old() + at;
-    forces.level(here, static_cast<long>(first), size, before, now, next, y, slab.outflow);
+    forces.level(here, static_cast<long>(first), size, before, now, next, y, slab.outflow,
+                 meter.active() ? room.work.friction.data() : nullptr);
+    // Contacts that change are those of the next level in its displacements; friction has acted.
+    const bool changes = forces.contacts().acts();
+    if (changes) forces.age(static_cast<long>(first), size, now, next);
     if (meter.active()) meter.add(forces, first, first + size, before, now, next, room.work);
-    forces.age(static_cast<long>(first), size, now, next);
+    if (!changes) forces.age(static_cast<long>(first), size, now, next);
     std::copy_n(next, size, slab.old() + at);
   }
   slab.swap();
@@ -221,6 +231,7 @@ void Chain::Parts::advance(std::size_t count) {
 }
 
 void Chain::Parts::check_numbers() const {
+  if (forces.contacts().acts()) forces.contacts().check(static_cast<double>(level) * scheme.dt);
   for (const Slab& slab : slabs) {
     if (bounded(slab.now(), slab.size())) continue;
     std::size_t j = 0;

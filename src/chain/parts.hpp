@@ -1,11 +1,13 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <utility>
 #include <vector>
 
 #include "blocks.hpp"
 #include "forces.hpp"
+#include "implicit.hpp"
 #include "scheme.hpp"
 #include "slab.hpp"
 #include "slipfront/chain/chain.hpp"
@@ -29,6 +31,7 @@ struct Chain::Parts {
   WorkMeter meter;
   std::vector<Slab> slabs;
   long level = 0;
+  std::unique_ptr<ImplicitSteps> implicit;  ///< has the motion instead of the slabs, where steps are implicit
   /// What a slab needs to advance by one level, piece by piece: where pieces begin and end, arrays for one piece.
   struct ByLevel {
     std::vector<std::size_t> cuts;

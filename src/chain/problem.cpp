@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "../digits.hpp"
 #include "slipfront/error.hpp"
@@ -26,7 +27,19 @@ double largest_contact(const Problem& p) {
       most = std::fmax(most, a);
     }
   }
-  return most;
+  return p.substrate ? most * p.friction.contact_growth(p.longest) : most;
+}
+
+/// What lies beyond an absorbing end is a train that nothing changes.
+void check_ends(const Problem& p) {
+  const Boundary& ends = p.boundary;
+  if (!p.friction.contacts().act() || ends.periodic) return;
+  for (const auto& [end, key] : {std::pair{ends.left, "chain.left"}, {ends.right, "chain.right"}})
+    if (end == End::absorbing)
+      throw InputError({.key = key,
+                        .value = "absorbing",
+                        .problem = "what lies beyond an absorbing end has contacts that do not change",
+                        .allowed = "free or fixed, or no friction.contact_ageing and no friction.dilatancy"});
 }
 
 bool plain(const Problem& p) { return !p.contact && !p.forcing && p.friction.linear_coefficient(); }
@@ -59,8 +72,8 @@ double largest_step(const Problem& p) { return largest(p, largest_contact(p)); }
 
 double memory_needed(const Problem& p) {
   // Two levels, and a displacement to start from; where not plain also contact, three levels of forcing and the
-  // displacement at the last level.
-  return static_cast<double>(p.grid.sites) * 8 * (plain(p) ? 3 : 8);
+  // displacement at the last level; where contacts change theta, pressure and five numbers of the contact.
+  return static_cast<double>(p.grid.sites) * 8 * (plain(p) ? 3 : p.friction.contacts().act() ? 15 : 8);
 }
 
 void check(const Problem& p, double share_of_machine) {
@@ -69,6 +82,7 @@ void check(const Problem& p, double share_of_machine) {
   if (!std::isfinite(p.grid.left)) refuse("left", p.grid.left, "out of range", "finite");
   if (p.grid.sites < 8) refuse("sites", static_cast<double>(p.grid.sites), "too few", ">= 8");
   p.friction.check();
+  check_ends(p);
   const double need = memory_needed(p) * share_of_machine, have = usable_memory();
   if (need > have)
     refuse("sites", static_cast<double>(p.grid.sites),

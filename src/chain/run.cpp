@@ -11,6 +11,7 @@
 
 #include "../bytes.hpp"
 #include "../digits.hpp"
+#include "contact_field.hpp"
 #include "slipfront/chain/smooth.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/output/further_scalars.hpp"
@@ -23,7 +24,7 @@ namespace {
 
 using output::Snapshot;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-constexpr std::uint64_t format = 0x636861696e000004;  // "chain", version 4
+constexpr std::uint64_t format = 0x636861696e000005;  // "chain", version 5
 
 /// In the window of velocities and stresses (smooth_average): their ripple is some 0.1 % then.
 constexpr double dislocations_in_window = 8;
@@ -105,6 +106,12 @@ Problem problem_of(const ScaledProblem& s, double share_of_machine) {
   if (s.contact) p.contact = [a = s.contact, c = s.scale](double x) { return a(x / c); };
   p.crossing_stress = crossing_stress(s);
   p.step = s.step;
+  p.loading = s.loading;
+  p.loading.stiffness /= s.loading.where == Pulled::everywhere ? s.scale * s.scale : s.scale;
+  p.substrate = s.substrate;
+  p.implicit = s.implicit || s.loading.acts();
+  p.tolerance = s.tolerance;
+  p.longest = s.scale * s.end;
   p.boundary.left_stress = s.stress(s.left);
   p.boundary.right_stress = s.stress(s.right);
   check(p, share_of_machine);
@@ -182,24 +189,6 @@ void Run::look_at_start() {
   sample();
 }
 
-/// A dislocation in a train at rest feels the force dJ/dx (docs/theory.md 6) and F.
-double Run::driving_force() const {
-  const ScaledProblem& s = scaled_;
-  constexpr int samples = 2000;
-  const double dx = (s.right - s.left) / samples;
-  double last = 0, by_stress = 0, by_forcing = 0;
-  for (int i = 0; i <= samples; ++i) {
-    const double x = s.left + dx * i, a = s.contact ? s.contact(x) : 1, k = s.stress(x);
-    const double J = a * train::averages(train::at_rest(k / a)).J;
-    if (i > 0) by_stress = std::fmax(by_stress, std::fabs(J - last) / dx);
-    last = J;
-    if (s.forcing)
-      for (const double share : {0.0, 0.5, 1.0})
-        by_forcing = std::fmax(by_forcing, std::fabs(s.forcing(x, share * schedule_.times.back())));
-  }
-  return by_stress + by_forcing;
-}
-
 /// Rates that are integrated over time. Where nothing takes energy but what the chain meters there is no need of them.
 void Run::sample() {
   if (chain_.problem().friction.acts() && !chain_.meters_friction()) work_.sample(totals(chain_));
@@ -218,15 +207,21 @@ Run::Run(const ScaledProblem& scaled, output::Schedule schedule, const Execution
                         &slip_.coarse_integral, &slip_.spread})
     *value = reader.get<double>();
   slip_.samples = static_cast<long>(reader.get<std::int64_t>()) - 1;
+  if (chain_.implicit()) {
+    chain_.continue_implicit(reader.vector());
+    reader.end();
+    snapshots_ = std::move(snapshots);
+    return;
+  }
   const std::vector<double> flows = reader.vector();
   Levels levels;
   levels.level = static_cast<long>(reader.get<std::int64_t>());
   levels.now = reader.vector();
   levels.before = reader.vector();
-  const std::vector<friction::Variable>& variables = chain_.problem().friction.definition().variables;
+  const std::vector<std::string_view> variables = remembered(chain_.problem());
   levels.memory.resize(variables.size() * levels.now.size());
   for (std::size_t v = 0; v < variables.size(); ++v) {
-    const bool known = reader.text() == variables[v].name;
+    const bool known = reader.text() == variables[v];
     const std::vector<double> values = reader.vector();
     if (!known || values.size() != levels.now.size()) refuse_saved();
     for (std::size_t j = 0; j < values.size(); ++j) levels.memory[variables.size() * j + v] = values[j];
@@ -251,35 +246,44 @@ std::string Run::saved() const {
         slip_.velocity, slip_.integral, slip_.early_time, slip_.early_velocity, slip_.coarse_integral, slip_.spread})
     writer.put(value);
   writer.put(static_cast<std::int64_t>(slip_.samples + 1));
+  if (chain_.implicit()) {
+    writer.put(chain_.implicit_state());
+    return std::move(writer).text();
+  }
   writer.put(chain_.flow_sums());
   const Levels levels = chain_.levels();
   writer.put(static_cast<std::int64_t>(levels.level));
   writer.put(levels.now);
   writer.put(levels.before);
-  const std::vector<friction::Variable>& variables = chain_.problem().friction.definition().variables;
+  const std::vector<std::string_view> variables = remembered(chain_.problem());
   for (std::size_t v = 0; v < variables.size(); ++v) {
     std::vector<double> values;
     for (std::size_t j = v; j < levels.memory.size(); j += variables.size()) values.push_back(levels.memory[j]);
-    writer.put_text(variables[v].name);
+    writer.put_text(variables[v]);
     writer.put(values);
   }
   return std::move(writer).text();
 }
 
-bool Run::go(const std::function<bool()>& interrupted) {
+bool Run::advance(const std::function<bool()>& interrupted) {
   // Work for a tenth of a second or so; where a run stops in between changes no bits.
   const auto sites = static_cast<double>(chain_.problem().grid.sites);
   const long most = 32 * std::max(1L, std::lround(2e8 / 32 / sites));
+  const auto target = std::lround(schedule_.times[snapshots_.size()] * scaled_.scale / chain_.dt());
+  while (chain_.level() < target) {
+    const long level = chain_.level(), next = sample_after(level, work_every_);
+    can_checkpoint_ = false;
+    chain_.advance(std::min({target, next, level + most}) - level);
+    can_checkpoint_ = true;
+    if (chain_.level() == next) sample();
+    if (interrupted && interrupted()) return false;
+  }
+  return true;
+}
+
+bool Run::go(const std::function<bool()>& interrupted) {
   while (!finished()) {
-    const auto target = std::lround(schedule_.times[snapshots_.size()] * scaled_.scale / chain_.dt());
-    while (chain_.level() < target) {
-      const long level = chain_.level(), next = sample_after(level, work_every_);
-      can_checkpoint_ = false;
-      chain_.advance(std::min({target, next, level + most}) - level);
-      can_checkpoint_ = true;
-      if (chain_.level() == next) sample();
-      if (interrupted && interrupted()) return false;
-    }
+    if (!(chain_.implicit() ? proceed(interrupted) : advance(interrupted))) return false;
     take();
     if (!finished()) refuse(findings());
   }
@@ -308,7 +312,7 @@ Snapshot Run::profile_at(double time) const {
     s.profile.slip.push_back((u - first_u_[i]) / c);
     // At an end the window is cut: what it makes even there is no phonons.
     const bool whole = middle - wide / 2 >= scaled_.left && middle + wide / 2 <= scaled_.right;
-    const double contact = scaled_.contact ? scaled_.contact(middle) : 1.0;
+    const double contact = contact_at(middle);
     if (whole) s.energy.phonons += cell * (a.energy - energy_of_train(a.stress, a.velocity, contact));
     if (std::fabs(a.velocity) > std::fabs(s.profile.W[peak])) peak = i;
   }
@@ -366,6 +370,11 @@ void Run::take() {
               .through_ends = none,
               .shocks = none,
               .phonons = s.energy.phonons};
+  if (scaled_.loading.acts()) s.further["energy_loading"] = now.loading / c;
+  if (chain_.problem().friction.contacts().act()) {
+    s.further["energy_contacts"] = flows.by_contacts / c;
+    s.further["pore_pressure_at_origin"] = pore_pressure_at_origin();
+  }
   output::add_further_scalars(s, schedule_);
   snapshots_.push_back(std::move(s));
 }

@@ -10,6 +10,8 @@
 #include "barrier.hpp"
 #include "slipfront/chain/run.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/train/at_rest.hpp"
+#include "slipfront/train/train.hpp"
 
 namespace slipfront::chain {
 namespace {
@@ -25,8 +27,9 @@ Run::Balance Run::balance() const {
   Work work = work_;
   if (work.started) work.sample(now);
   const double gone = work.dissipated + flows.dissipated + flows.outflow;
-  const double all = std::max({first_energy_, now.energy(), std::fabs(flows.supplied), std::fabs(gone)});
-  const double missing = now.energy() + gone - flows.supplied - first_energy_;
+  const double all =
+      std::max({first_energy_, now.energy(), std::fabs(flows.supplied), std::fabs(gone), std::fabs(flows.by_contacts)});
+  const double missing = now.energy() + gone - flows.supplied - flows.by_contacts - first_energy_;
   return {all > 0 ? std::fabs(missing) / all : 0, now.charge - first_charge_, now.dislocations, now.steepest};
 }
 
@@ -56,7 +59,7 @@ void Run::check_fronts(Findings& found) const {
 
   // A force makes dislocations anywhere, a free end lets others in, and around a ring they come back.
   const bool fixed = !s.boundary.periodic && s.boundary.left == End::fixed && s.boundary.right == End::fixed;
-  if (s.forcing || !fixed) return;
+  if (s.forcing || s.loading.acts() || !fixed) return;
   const double site = chain_.problem().grid.spacing / s.scale;
   for (std::size_t i = 1; i < snapshots_.size(); ++i) {
     const output::Snapshot &before = snapshots_[i - 1], &now = snapshots_[i];
@@ -81,13 +84,33 @@ void Run::check_fronts(Findings& found) const {
                                 " of the peak slip velocity");
 }
 
+/// A dislocation in a train at rest feels the force dJ/dx (docs/theory.md 6) and F.
+double Run::driving_force() const {
+  const ScaledProblem& s = scaled_;
+  constexpr int samples = 2000;
+  const double dx = (s.right - s.left) / samples;
+  double last = 0, by_stress = 0, by_forcing = 0;
+  for (int i = 0; i <= samples; ++i) {
+    const double x = s.left + dx * i, a = s.contact ? s.contact(x) : 1, k = s.stress(x);
+    const double J = a * train::averages(train::at_rest(k / a)).J;
+    if (i > 0) by_stress = std::fmax(by_stress, std::fabs(J - last) / dx);
+    last = J;
+    if (s.forcing)
+      for (const double share : {0.0, 0.5, 1.0})
+        by_forcing = std::fmax(by_forcing, std::fabs(s.forcing(x, share * schedule_.times.back())));
+  }
+  return by_stress + by_forcing;
+}
+
 /// A grid holds a dislocation that is pushed too little. Where the push is 20 times what the grid holds, the velocity
 /// is some 0.1 % low.
 void Run::check_barrier(Findings& found) const {
   constexpr double enough = 20;
   const ScaledProblem& s = scaled_;
   const double force = driving_force_ / s.scale, spacing = chain_.problem().grid.spacing;
-  if (s.model != Model::sine_gordon || !(driving_force_ > 1e-9) || force >= enough * barrier_force(spacing)) return;
+  if (s.model != Model::sine_gordon || s.loading.acts() || !s.substrate || !(driving_force_ > 1e-9) ||
+      force >= enough * barrier_force(spacing))
+    return;
   found.sentences.push_back(
       "chain: the grid holds slow dislocations. The largest force on one, " + digits(driving_force_, 2) + ", is " +
       digits(force / barrier_force(spacing), 2) + " times the barrier of the grid at spacing " + digits(spacing, 3) +
@@ -115,7 +138,7 @@ void Run::check_slip(Findings& found) const {
 void Run::check_one_sign(const Balance& balance, Findings& found) const {
   const ScaledProblem& s = scaled_;
   const bool closed = s.boundary.periodic || (s.boundary.left == End::fixed && s.boundary.right == End::fixed);
-  if (!closed || s.forcing) return;
+  if (!closed || s.forcing || s.loading.acts()) return;
   const auto counted = static_cast<double>(balance.dislocations);
   const double charge = std::fabs(first_charge_ + balance.charge_error);
   const double more = std::fabs(counted - charge) - 1.5;  // at a fixed end a part of one

@@ -15,6 +15,9 @@ constexpr double turn = 2 * std::numbers::pi;
 
 Window Chain::window(std::size_t begin, std::size_t end, double time) const {
   Parts& parts = *parts_;
+  if (parts.implicit && begin < end && end <= parts.problem.grid.sites &&
+      std::fabs(time - this->time()) <= 1e-9 * (1 + time))
+    return parts.implicit->window(begin, end);
   if (!(begin < end) || end > parts.problem.grid.sites || !(std::fabs(time - this->time()) <= 1.0001 * dt()))
     throw InputError(
         {.key = "window", .problem = "outside the chain or its present step", .allowed = "sites of the chain, now"});
@@ -61,19 +64,20 @@ Chain::Parts::ThreeLevels Chain::Parts::three_levels(std::size_t from, std::size
     if (absorbs_left) next[at(0)] = sides.beyond_left.step(&z[at(0)], &next[at(0)]).next;
     if (absorbs_right) next[at(n - 1)] = sides.beyond_right.step(&z[at(n - 1)], &next[at(n - 1)]).next;
   }
-  std::vector<double> a2;
-  if (forces.a2(low) != nullptr) a2.assign(forces.a2(low), forces.a2(low) + wide);
+  const ContactField& changing = forces.contacts();
+  const double *a2 = forces.a2(low), *a2_old = changing.acts() ? changing.before(low) : a2,
+               *a2_next = changing.acts() ? changing.next(low) : a2;
   const PeriodicForce sine = substrate_force(0);
-  const double* contact = a2.empty() ? nullptr : a2.data();
   const auto column = [&] { return std::vector<double>(wide); };
   ThreeLevels v{low, column(), column(), column(), column(), column(), column()};
-  displacements(sine, scheme.eps, contact, old.data() + lanes, v.u_old.data(), v.S_old.data(), wide);
-  displacements(sine, scheme.eps, contact, z.data() + lanes, v.u_now.data(), v.S_now.data(), wide);
-  displacements(sine, scheme.eps, contact, next.data() + lanes, v.u_next.data(), v.S_next.data(), wide);
+  displacements(sine, scheme.eps, a2_old, old.data() + lanes, v.u_old.data(), v.S_old.data(), wide);
+  displacements(sine, scheme.eps, a2, z.data() + lanes, v.u_now.data(), v.S_now.data(), wide);
+  displacements(sine, scheme.eps, a2_next, next.data() + lanes, v.u_next.data(), v.S_next.data(), wide);
   return v;
 }
 
 Window Chain::Parts::window(std::size_t from, std::size_t to, double time) const {
+  if (implicit) return implicit->window(from, to);
   const double dt = scheme.dt, h = scheme.h, tau = time - static_cast<double>(level) * dt;
   const ThreeLevels v = three_levels(from, to);
   const auto local = [&](std::size_t site) { return static_cast<std::size_t>(static_cast<long>(site) - v.low); };

@@ -8,7 +8,7 @@
 namespace slipfront::chain {
 WorkMeter::WorkMeter(const Problem& p, bool active, const Scheme& s, const Blocks& blocks, std::size_t first_block,
                      std::size_t end_block)
-    : sums(2 * (end_block - first_block), 0.0),
+    : sums(kinds(p) * (end_block - first_block), 0.0),
       problem_(&p),
       dt_(s.dt),
       blocks_(blocks),
@@ -37,6 +37,10 @@ void WorkMeter::add(const Forces& forces, std::size_t begin, std::size_t end, co
       return work_of_force(F_before + at, F_now + at, F_next + at, D + at, B + at, size);
     });
   }
+  if (forces.contacts().acts())
+    add_to_blocks(begin, end, 2, 1, [&, D](std::size_t at, std::size_t size) {
+      return forces.energy_of_contacts(site + static_cast<long>(at), size, &u_[begin - begin_] + at, D + at);
+    });
   const friction::Friction& friction = problem_->friction;
   if (!friction.acts()) return;
   if (const auto C = friction.linear_coefficient()) {
@@ -46,11 +50,9 @@ void WorkMeter::add(const Forces& forces, std::size_t begin, std::size_t end, co
     add_to_blocks(begin, end, 1, *f,
                   [=](std::size_t at, std::size_t size) { return work_of_coulomb_friction(D + at, size); });
   } else {
-    add_to_blocks(begin, end, 1, 1, [&, D](std::size_t at, std::size_t size) {
-      double sum = 0;
-      for (std::size_t j = at; j < at + size; ++j)
-        sum += std::fabs(forces.friction(site + static_cast<long>(j), D[j] / dt_) * D[j]);
-      return sum;
+    const double* applied = room.friction.data();
+    add_to_blocks(begin, end, 1, 1, [&, D, applied](std::size_t at, std::size_t size) {
+      return forces.work_of_friction(site + static_cast<long>(at), size, D + at, applied + at);
     });
   }
 }
@@ -65,7 +67,7 @@ void WorkMeter::add_to_blocks(std::size_t begin, std::size_t end, std::size_t wh
     // Half a spacing belongs to the last site at an end.
     if (ends && from == 0) sum -= work(0, 1) / 2;
     if (ends && to == problem_->grid.sites) sum -= work(to - 1 - begin, 1) / 2;
-    sums[2 * b + which] += strength * problem_->grid.spacing * sum;
+    sums[kinds(*problem_) * b + which] += strength * problem_->grid.spacing * sum;
   }
 }
 

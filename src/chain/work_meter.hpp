@@ -24,8 +24,9 @@ class WorkMeter {
   void start(const Forces& forces, std::size_t begin, std::size_t size, const double* z);
   /// Arrays for the work on one piece of the chain: one for each thread.
   struct Room {
-    explicit Room(std::size_t size) : u(size), S(size), D(size), B(size) {}
+    explicit Room(std::size_t size) : u(size), S(size), D(size), B(size), friction(size) {}
     Aligned u, S, D, B;
+    Aligned friction;  ///< the forces that it applied
   };
   /// Meters a step of sites [begin, end) from level `now`, that of the forces, to `next`. The arrays hold z from site
   /// `begin` on. Pieces end where blocks do, or a multiple of `piece` sites behind the beginning of their block.
@@ -33,12 +34,15 @@ class WorkMeter {
            const double* next, Room& room);
   static constexpr std::size_t piece = 1024;  ///< sites that fit the innermost cache with all that belongs to them
 
-  /// Supplied and dissipated energy of each block of this rank, one after the other.
+  /// Kinds of energy that are metered: supplied by the forcing, dissipated by friction, and where contacts change what
+  /// they give to the substrate.
+  static std::size_t kinds(const Problem& problem) { return problem.friction.contacts().act() ? 3 : 2; }
+  /// That of each block of this rank, one after the other.
   std::vector<double> sums;
 
  private:
-  /// Adds to supplied (0) or dissipated energy (1) of each block `strength` times the work on its sites of [begin,
-  /// end), where work(at, size) is the sum over `size` sites from begin + at on.
+  /// Adds to supplied (0), dissipated (1) or the contacts' energy (2) of each block `strength` times the work on its
+  /// sites of [begin, end), where work(at, size) is the sum over `size` sites from begin + at on.
   template <class Work>
   void add_to_blocks(std::size_t begin, std::size_t end, std::size_t which, double strength, const Work& work);
 

@@ -25,7 +25,7 @@ const Definition& coulomb_law() {
       .adjective = "coulomb",
       .equation = "f = C sign(w); places stick while the force on them is smaller",
       .source = "Coulomb (1785)",
-      .parameters = {coefficient_in("mu A^2 / (pi (1 - nu))")},
+      .parameters = {coefficient_in(force_unit)},
       .make = [](const std::vector<double>& values, const Curve&) -> std::shared_ptr<const Law> {
         return std::make_shared<Coulomb>(values[0]);
       }};

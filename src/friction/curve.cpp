@@ -1,9 +1,12 @@
 // Friction that the user draws: a formula of the slip velocity, or a table.
 
 #include <cmath>
+#include <memory>
+#include <mutex>
 #include <utility>
 
 #include "slipfront/friction/friction.hpp"
+#include "tabulated_curve.hpp"
 
 namespace slipfront::friction {
 namespace {
@@ -16,12 +19,20 @@ class DrawnCurve final : public Law {
     steep_ = near > 0 && std::log(far / near) < 0.9 * std::log(100.0);
   }
   double strength(double speed, Memory) const override { return curve_ ? C_ * curve_(speed) : 0; }
+  void strengths(std::size_t size, const double* speed, Memories, double* force) const override {
+    std::call_once(once_, [this] {
+      table_ = std::make_unique<const TabulatedCurve>([this](double w) { return strength(w, {}); });
+    });
+    table_->values(size, speed, force);
+  }
   bool steep_at_rest() const override { return steep_; }
 
  private:
   double C_;
   Curve curve_;
   bool steep_;
+  mutable std::once_flag once_;
+  mutable std::unique_ptr<const TabulatedCurve> table_;
 };
 
 std::shared_ptr<const Law> drawn(const std::vector<double>& values, const Curve& curve) {
@@ -30,7 +41,7 @@ std::shared_ptr<const Law> drawn(const std::vector<double>& values, const Curve&
 
 /// What multiplies the curve: 1 leaves it as it is.
 Parameter factor() {
-  Parameter parameter = coefficient_in("mu A^2 / (pi (1 - nu))");
+  Parameter parameter = coefficient_in(force_unit);
   parameter.value = 1;
   parameter.if_missing = {};
   return parameter;

@@ -35,6 +35,11 @@ Friction::Friction(const Definition& definition, std::vector<double> values, Clo
       law_(definition.make(values_, curve_)) {
   for (std::size_t i = 0; i < values_.size(); ++i)
     acts_ = acts_ || (definition.parameters[i].dimension == Dimension::force && values_[i] > 0);
+  contacts_ = {.ageing = parameter("contact_ageing"),
+               .age = parameter("contact_time"),
+               .dilatancy = parameter("dilatancy"),
+               .drainage = parameter("drainage_time"),
+               .ambient = parameter("pore_pressure")};
   linear_ = law_->linear_coefficient();
   std::vector<double> memory(variables());
   law_->start(memory);
@@ -68,6 +73,31 @@ void Friction::check() const {
                         .problem = "out of range",
                         .allowed = range_of(p)});
   }
+}
+
+double Friction::contact_at_start() const {
+  if (!contacts_.act()) return 1;
+  std::vector<double> theta(variables());
+  law_->start(theta);
+  return std::sqrt(contacts_.strength(theta[0], 0));
+}
+
+/// The oldest contacts are those that rest; a slip that renews them sucks at the pores, most where they do not drain.
+double Friction::contact_growth(double time) const {
+  if (!contacts_.act()) return 1;
+  constexpr double fastest = 10;
+  constexpr int samples = 200;
+  std::vector<double> theta(variables());
+  law_->start(theta);
+  const double oldest = theta[0] + std::fmax(time, 0);
+  const double youngest = std::fmin(theta[0], parameter("characteristic_slip") / fastest);
+  double most = 1;
+  for (int i = 0; i <= samples; ++i) {
+    const double at = youngest * std::pow(oldest / youngest, static_cast<double>(i) / samples);
+    const double excess = -contacts_.dilatancy * std::log(oldest / at);
+    most = std::fmax(most, std::sqrt(contacts_.strength(at, excess)) / contact_at_start());
+  }
+  return most;
 }
 
 double Friction::force(double velocity, Memory memory) const {

@@ -2,12 +2,15 @@
 
 #include "slipfront/friction/law.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
 
+#include "../vector_code.hpp"
 #include "slipfront/elliptic/complete.hpp"
 #include "slipfront/error.hpp"
+#include "train_means.hpp"
 
 namespace slipfront::friction {
 namespace {
@@ -49,6 +52,45 @@ class RateByQuadrature final : public RelaxationRate {
   const Law& law_;
   Closure closure_;
 };
+
+/// Many solves of v + weight f(v) = free at once, by secants. `before` and `excess` are the last place and what the
+/// left side was too large by there; `open` is 1 until v is found to rounding.
+struct Secants {
+  static constexpr std::size_t most = 64;
+  double v[most], before[most], excess[most], open[most];
+};
+
+/// Starts at v = free, where the force is `force`; `at_rest` is what holds a place at rest.
+SLIPFRONT_CLONES void start_secants(std::size_t size, const double* free, double weight, const double* at_rest,
+                                    const double* force, Secants& s) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) {
+    const double slowed = free[i] - weight * force[i];
+    const bool held = weight * at_rest[i] >= free[i], found = held || slowed == free[i];
+    s.before[i] = free[i];
+    s.excess[i] = weight * force[i];
+    s.v[i] = held ? 0 : slowed > 0 ? slowed : free[i] / 2;
+    s.open[i] = found ? 0.0 : 1.0;
+  }
+}
+
+/// One step of each from the force at v. The error of a secant is that of its two places multiplied.
+SLIPFRONT_CLONES void take_secants(std::size_t size, const double* free, double weight, const double* force,
+                                   Secants& s) {
+  constexpr double rounding = 4e-16;
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) {
+    const double v = s.v[i], excess = v + weight * force[i] - free[i];
+    const double way = v - s.before[i], next = v - excess * (way / (excess - s.excess[i])), step = next - v;
+    const double error = excess > 0 ? excess : -excess, left = step / v * (way / v);
+    const bool there = error <= rounding * free[i], inside = next > 0 && next < free[i];
+    const bool open = s.open[i] != 0, moves = open && !there && inside;
+    s.open[i] = open && !there && !(inside && left <= rounding && left >= -rounding) ? 1.0 : 0.0;
+    s.before[i] = v;
+    s.excess[i] = excess;
+    s.v[i] = moves ? next : v;
+  }
+}
 
 }  // namespace
 
@@ -97,6 +139,14 @@ Parameter coefficient_in(std::string_view unit) {
           .if_missing = "counts as 0: there is no friction"};
 }
 
+Parameter strength_in(std::string_view unit, std::string_view symbol) {
+  Parameter strength = coefficient_in(unit);
+  strength.name = "strength";
+  strength.symbol = symbol;
+  strength.if_missing = "counts as 0";
+  return strength;
+}
+
 const Parameter* Definition::find(std::string_view parameter) const {
   for (const Parameter& p : parameters)
     if (p.name == parameter) return &p;
@@ -115,6 +165,70 @@ void Law::start(std::span<double>) const {}
 void Law::advance(double, double, std::span<double>) const {}
 void Law::advance_in_train(double mean, double, double time, std::span<double> memory) const {
   advance(mean, time, memory);  // right for laws that are linear in the velocity
+}
+
+void Law::strengths(std::size_t size, const double* speed, Memories memory, double* force) const {
+  for (std::size_t i = 0; i < size; ++i) force[i] = strength(speed[i], memory.of(i));
+}
+
+void Law::speeds_after(std::size_t size, const double* free, double weight, Memories memory, double* speed) const {
+  constexpr int most_steps = 6;
+  Secants s;
+  double at_rest[Secants::most], force[Secants::most];
+  for (std::size_t begin = 0; begin < size; begin += Secants::most) {
+    const std::size_t some = std::min(Secants::most, size - begin);
+    const Memories theirs = memory.from(begin);
+    std::fill_n(s.v, some, 0.0);
+    strengths(some, s.v, theirs, at_rest);
+    strengths(some, free + begin, theirs, force);
+    start_secants(some, free + begin, weight, at_rest, force, s);
+    for (int step = 0; step < most_steps && std::find(s.open, s.open + some, 1.0) != s.open + some; ++step) {
+      strengths(some, s.v, theirs, force);
+      take_secants(some, free + begin, weight, force, s);
+    }
+    for (std::size_t i = 0; i < some; ++i)
+      speed[begin + i] = s.open[i] == 0 ? s.v[i] : speed_after(free[begin + i], weight, theirs.of(i));
+  }
+}
+
+void Law::speeds_after_under(std::size_t size, const double* share, const double* free, double weight, Memories memory,
+                             double* speed) const {
+  for (std::size_t i = 0; i < size; ++i) speed[i] = speed_after(free[i], weight * share[i], memory.of(i));
+}
+
+void Law::mean_strengths(const Trains& trains, Closure closure, double* mean, double* slope) const {
+  if (const auto constant = constant_strength()) {
+    std::fill_n(mean, trains.size, *constant);
+    if (slope != nullptr) std::fill_n(slope, trains.size, 0.0);
+    return;
+  }
+  constexpr double least_s = 1e-6;  // the mean over length of emptier trains takes many more phases
+  double most_empty = 1;
+  for (std::size_t i = 0; i < trains.size; ++i) most_empty = std::fmin(most_empty, trains.s[i]);
+  if (closure == Closure::consistent || most_empty > least_s) {
+    means_by_phase(*this, trains, closure, mean);
+  } else {
+    for (std::size_t i = 0; i < trains.size; ++i) {
+      const double psi = std::atanh(std::fmin(trains.s[i], 1 - 1e-16));
+      mean[i] =
+          mean_strength({std::asinh(trains.fastest[i] / (2 * std::cosh(psi))), psi}, 1, closure, trains.memory.of(i));
+    }
+  }
+  if (slope == nullptr) return;
+  constexpr double step = 1e-6;
+  std::vector<double> faster(trains.size);
+  for (std::size_t i = 0; i < trains.size; ++i) faster[i] = trains.fastest[i] * std::exp(step);
+  mean_strengths({trains.size, faster.data(), trains.s, trains.memory}, closure, slope, nullptr);
+  for (std::size_t i = 0; i < trains.size; ++i) slope[i] = (slope[i] - mean[i]) / step;
+}
+
+void Law::advance_all(std::size_t size, const double* velocity, double time, std::size_t each, double* memory) const {
+  for (std::size_t i = 0; i < size; ++i) advance(velocity[i], time, {memory + i * each, each});
+}
+
+void Law::advance_in_trains(std::size_t size, const double* mean, const double* typical, double time, std::size_t each,
+                            double* memory) const {
+  for (std::size_t i = 0; i < size; ++i) advance_in_train(mean[i], typical[i], time, {memory + i * each, each});
 }
 
 }  // namespace slipfront::friction

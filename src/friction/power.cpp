@@ -2,6 +2,8 @@
 #include <cstddef>
 #include <numbers>
 
+#include "../elementary.hpp"
+#include "../vector_code.hpp"
 #include "slipfront/elliptic/complete.hpp"
 #include "slipfront/friction/friction.hpp"
 #include "slipfront/train/train.hpp"
@@ -82,10 +84,27 @@ class PowerRate final : public RelaxationRate {
   mutable std::vector<double> nodes_;  ///< g, NaN where not yet known
 };
 
+/// C w^n; NaN where that is beyond the range of exp. w = 0 gives 0.
+SLIPFRONT_CLONES void forces(double C, double n, std::size_t size, const double* speed, double* force) {
+  constexpr double least = 1e-300, range = 690;
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) {
+    const double w = speed[i] > least ? speed[i] : 1.0, log = n * log_branch_free(w);
+    const bool within = log < range && log > -range && (speed[i] > least || speed[i] == 0);
+    const double power = C * exp_branch_free(within ? log : 0.0);
+    force[i] = !within ? NAN : speed[i] == 0 ? 0.0 : power;
+  }
+}
+
 class Power final : public Law {
  public:
   Power(double coefficient, double exponent) : C_(coefficient), n_(exponent) {}
   double strength(double speed, Memory) const override { return C_ * std::pow(speed, n_); }
+  void strengths(std::size_t size, const double* speed, Memories memory, double* force) const override {
+    forces(C_, n_, size, speed, force);
+    for (std::size_t i = 0; i < size; ++i)
+      if (std::isnan(force[i])) force[i] = strength(speed[i], memory.of(i));
+  }
   bool steep_at_rest() const override { return n_ < 1; }
 
   /// v + s v^n = free is monotone. Newton in ln v from above is monotone too: v + s v^n is convex in ln v.
@@ -110,6 +129,7 @@ class Power final : public Law {
   std::unique_ptr<RelaxationRate> relaxation_rate(Closure closure) const override {
     return std::make_unique<PowerRate>(C_, n_, closure);
   }
+  bool tabulates_rate() const override { return true; }
 
  private:
   double C_, n_;

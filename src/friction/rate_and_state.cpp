@@ -1,7 +1,11 @@
 // Rate-and-state friction with its average over a train. Each place has a state theta, the age of its contacts.
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
+#include "../elementary.hpp"
+#include "rate_and_state_loops.hpp"
 #include "slipfront/friction/friction.hpp"
 
 namespace slipfront::friction {
@@ -55,7 +59,8 @@ class RateAndState final : public Law {
         D_(v[distance]),
         v0_(v[velocity]),
         age_(v[age] > 0 ? v[age] : D_ / v0_),
-        slip_law_(v[state_law] != 0) {}
+        slip_law_(v[state_law] != 0),
+        rule_{a_, (f0_ + b_ * std::log(v0_ / D_)) / a_ - std::log(2 * v0_), b_ / a_, D_} {}
 
   /// a asinh((w / 2 w_0) exp(E)), E = (f_0 + b ln(theta w_0 / D_c)) / a, without overflow.
   double strength(double speed, Memory theta) const override {
@@ -95,6 +100,47 @@ class RateAndState final : public Law {
     return a_ * mean_of_asinh(log_sinh + std::log(std::cosh(state.psi)), std::tanh(state.psi));
   }
 
+  void strengths(std::size_t size, const double* speed, Memories theta, double* force) const override {
+    if (forces(rule_, size, speed, theta.values, force)) return;
+    for (std::size_t i = 0; i < size; ++i)
+      if (!within_exponents(rule_, theta.values[i])) force[i] = strength(speed[i], theta.of(i));
+  }
+  void speeds_after(std::size_t size, const double* free, double weight, Memories theta, double* speed) const override {
+    constexpr std::size_t most = 64;
+    double done[most];
+    for (std::size_t begin = 0; begin < size; begin += most) {
+      const std::size_t n = std::min(most, size - begin);
+      if (friction::speeds_after(rule_, n, free + begin, weight, theta.values + begin, speed + begin, done)) continue;
+      for (std::size_t i = 0; i < n; ++i)
+        if (done[i] == 0) speed[begin + i] = speed_after(free[begin + i], weight, theta.of(begin + i));
+    }
+  }
+  void mean_strengths(const Trains& trains, Closure closure, double* mean, double* slope) const override {
+    if (closure == Closure::consistent)
+      mean_forces(rule_, trains.size, trains.fastest, trains.s, trains.memory.values, mean, slope);
+    else
+      Law::mean_strengths(trains, closure, mean, slope);
+  }
+
+  /// Under a share s, v = s v' obeys v' + weight a asinh(G s v') = free / s, and b ln(theta) has s G as well: theta
+  /// s^(a / b) in place of theta.
+  void speeds_after_under(std::size_t size, const double* share, const double* free, double weight, Memories theta,
+                          double* speed) const override {
+    constexpr std::size_t most = 64;
+    constexpr double most_power = 20;
+    if (!(a_ < most_power * b_)) return Law::speeds_after_under(size, share, free, weight, theta, speed);
+    double freed[most], aged[most];
+    for (std::size_t begin = 0; begin < size; begin += most) {
+      const std::size_t n = std::min(most, size - begin);
+      for (std::size_t i = 0; i < n; ++i) {
+        freed[i] = free[begin + i] / share[begin + i];
+        aged[i] = theta.values[begin + i] * exp_branch_free(a_ / b_ * log_branch_free(share[begin + i]));
+      }
+      speeds_after(n, freed, weight, {aged, 1}, speed + begin);
+      for (std::size_t i = 0; i < n; ++i) speed[begin + i] *= share[begin + i];
+    }
+  }
+
   void start(std::span<double> theta) const override { theta[0] = age_; }
 
   /// Exact at a constant velocity. Ageing: theta_t = 1 - |w| theta / D_c. Slip: theta_t = -x ln x, x = |w| theta / D_c.
@@ -112,6 +158,16 @@ class RateAndState final : public Law {
       evolve_by_slip(std::fabs(mean), typical, time, theta);
     else
       evolve_by_ageing(std::fabs(mean), time, theta);
+  }
+  void advance_all(std::size_t size, const double* velocity, double time, std::size_t, double* theta) const override {
+    advance_in_trains(size, velocity, velocity, time, 1, theta);
+  }
+  void advance_in_trains(std::size_t size, const double* mean, const double* typical, double time, std::size_t,
+                         double* theta) const override {
+    if (slip_law_)
+      advance_by_slip(rule_, size, mean, typical, time, theta);
+    else
+      advance_ageing(rule_, size, mean, time, theta);
   }
 
  private:
@@ -131,17 +187,14 @@ class RateAndState final : public Law {
 
   double f0_, a_, b_, D_, v0_, age_;
   bool slip_law_;
+  RateAndStateRule rule_;
 };
 
 }  // namespace
 
 const Definition& rate_and_state_law() {
   static const auto force = [](std::string_view name, std::string_view symbol, double value) {
-    return Parameter{.name = name,
-                     .symbol = symbol,
-                     .unit = "mu A^2 / (pi (1 - nu))",
-                     .value = value,
-                     .dimension = Dimension::force};
+    return Parameter{.name = name, .symbol = symbol, .unit = force_unit, .value = value, .dimension = Dimension::force};
   };
   static const Definition definition{
       .name = "rate-and-state",
@@ -152,22 +205,49 @@ const Definition& rate_and_state_law() {
       .source =
           "Dieterich (1979), J. Geophys. Res. 84:2161; Ruina (1983), J. Geophys. Res. 88:10359; regularised as by "
           "Rice & Ben-Zion (1996), Proc. Natl. Acad. Sci. 93:3811",
-      .parameters = {coefficient_in("mu A^2 / (pi (1 - nu))"),
+      .parameters = {strength_in(force_unit, "f_0"),
                      [] {
                        Parameter a = force("direct_effect", "a", 0.01);
                        a.without_least = true;
                        return a;
                      }(),
                      force("evolution_effect", "b", 0),
-                     {.name = "slip_distance",
+                     {.name = "characteristic_slip",
                       .symbol = "D_c",
                       .unit = "b / (2 pi)",
                       .value = 1,
                       .without_least = true,
                       .dimension = Dimension::slip},
-                     {.name = "velocity", .symbol = "w_0", .unit = "c A / pi", .value = 1, .without_least = true},
-                     {.name = "initial_age", .symbol = "theta_0", .unit = "b / (c A)", .dimension = Dimension::time},
-                     {.name = "state", .symbol = "", .unit = "1", .most = 1, .words = {"ageing", "slip"}}},
+                     {.name = "reference_velocity",
+                      .symbol = "w_0",
+                      .unit = "c A / pi",
+                      .value = 1,
+                      .without_least = true,
+                      .dimension = Dimension::velocity},
+                     {.name = "initial_state", .symbol = "theta_0", .unit = "b / (c A)", .dimension = Dimension::time},
+                     {.name = "state", .symbol = "", .unit = "1", .most = 1, .words = {"ageing", "slip"}},
+                     {.name = "contact_ageing", .symbol = "beta", .unit = "1", .on_chain_alone = true},
+                     {.name = "contact_time",
+                      .symbol = "theta_c",
+                      .unit = "b / (c A)",
+                      .dimension = Dimension::time,
+                      .on_chain_alone = true},
+                     {.name = "dilatancy",
+                      .symbol = "epsilon / b_p",
+                      .unit = "normal stress",
+                      .dimension = Dimension::pressure,
+                      .on_chain_alone = true},
+                     {.name = "drainage_time",
+                      .symbol = "t_p",
+                      .unit = "b / (c A)",
+                      .dimension = Dimension::time,
+                      .on_chain_alone = true},
+                     {.name = "pore_pressure",
+                      .symbol = "p_0",
+                      .unit = "normal stress",
+                      .most = 1,
+                      .dimension = Dimension::pressure,
+                      .on_chain_alone = true}},
       .variables = {{.name = "theta", .symbol = "theta", .unit = "b / (c A)"}},
       .make = [](const std::vector<double>& values, const Curve&) -> std::shared_ptr<const Law> {
         return std::make_shared<RateAndState>(values);

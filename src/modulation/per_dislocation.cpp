@@ -38,7 +38,9 @@ SolvedState solve_in_psi(const LagrangianState& c, double psi) {
     const double length = wide * std::sqrt(1 + rapid_square);
     // K - length is linear in ln psi where psi is small, ln(K / length) in psi where it is large.
     const double slope_K = -at.above_m1 / at.s * at.K;
-    const double slope_length = wide * (wide / length) * at.s * (1 - rapid_square * (1 / at.ratio - 1));
+    double slope_length = wide * (wide / length) * at.s * (1 - rapid_square * (1 / at.ratio - 1));
+    // K - length falls wherever it may be 0. Where it rises, far from there, K alone says which way to go.
+    if (psi < 1 && slope_length < slope_K) slope_length = 0;
     const double step = psi < 1 ? (at.K - length) / (psi * (slope_length - slope_K))
                                 : std::log(at.K / length) / (psi * (slope_length / length - slope_K / at.K));
     if (!std::isfinite(step)) give_up(c);

@@ -17,8 +17,15 @@ struct CellStates {
   /// Finds everything from spacing and momentum; gaps are left as they are. \throws NumericsError with time and cell
   /// where no state exists.
   void solve(const std::vector<Block>& blocks, double time);
+  /// Only s, velocity and the largest slip velocities 2 sinh |phi| cosh psi, of the first `size` trains. Where no state
+  /// exists, a train stays without one.
+  void solve_slip(std::size_t size, double* fastest);
+  bool solved(std::size_t i) const { return solved_[i] != 0; }
 
  private:
+  /// The same by vector code alone, which leaves some trains without a solution.
+  void solve_vector(std::size_t begin, std::size_t end);
+  void solve_one(std::size_t i);
   std::vector<double> solved_;
 };
 

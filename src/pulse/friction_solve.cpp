@@ -1,16 +1,18 @@
 #include "friction_solve.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "kernels.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
 
 namespace slipfront::pulse {
 namespace {
 
+constexpr std::size_t lanes = 8;
 constexpr double precision = 1e-12;  ///< of the momentum, or of the force where friction takes nearly all
-/// What friction leaves less of than this part of what would be there without it, is at rest.
-constexpr double at_rest_below = 1e-12;
+constexpr double at_rest_below = SlowedTrains::at_rest_below;
 
 /// The root of excess(size e^x), over which the force of a regularised law changes evenly: secants that keep the
 /// bracket; one that moves the same end twice gives the other half its weight (the Illinois rule).
@@ -40,10 +42,6 @@ double root_between(double low, double high, double at_low, double at_high, doub
 
 }  // namespace
 
-double typical_speed(const State& state, double contact) {
-  return contact * std::sinh(std::fabs(state.phi)) * std::exp(state.psi);
-}
-
 SlowedTrain::Left SlowedTrain::after(double free, double time) const {
   const double size = std::fabs(free), weight = 2 * std::numbers::pi * time;
   if (size == 0) return {0, 0, 0};
@@ -54,27 +52,91 @@ SlowedTrain::Left SlowedTrain::after(double free, double time) const {
   };
   const auto with_sign = [&](double momentum) {
     return Left{std::copysign(momentum, free), std::copysign(std::tanh(state.phi), free),
-                typical_speed(state, contact)};
+                contact * std::sinh(std::fabs(state.phi)) * std::exp(state.psi)};
   };
-  const double slowest = at_rest_below * size;
-  double at_slowest = 0;
-  if (at_rest && (at_slowest = excess(slowest)) >= 0) return {0, 0, 0};
-  // Where friction takes little, by secants from above.
-  double high = size, at_high = excess(high);
-  const double first = at_high;
-  if (at_high <= precision * size) return with_sign(high);
-  double momentum = high - at_high;
-  for (int i = 0; i < 12 && momentum > size / 2; ++i) {
-    const double at = excess(momentum);
-    if (std::fabs(at) <= precision * size) return with_sign(momentum);
-    const double slope = (at_high - at) / (high - momentum);
-    high = momentum;
-    at_high = at;
-    momentum -= at / std::fmax(slope, 0.5);
+  const double at_slowest = excess(at_rest_below * size);
+  if (at_slowest >= 0) return {0, 0, 0};
+  const double at_size = excess(size);
+  if (at_size <= precision * size) return with_sign(size);
+  return with_sign(size * std::exp(root_between(std::log(at_rest_below), 0, at_slowest, at_size, size, excess)));
+}
+
+SlowedTrains::SlowedTrains(const friction::Friction& friction, std::size_t most)
+    : friction_(friction), variables_(friction.variables()), memory_((most + lanes) * friction.variables()) {
+  states_.resize(most + lanes);  // room for whole vectors
+  cell_.resize(most + lanes);
+  for (auto* array : {&contact_, &free_, &momentum_, &fastest_, &force_, &slope_, &next_, &velocity_, &typical_,
+                      &next_force_, &last_})
+    array->resize(most + lanes);
+}
+
+void SlowedTrains::copy(std::size_t from, std::size_t to) {
+  cell_[to] = cell_[from];
+  contact_[to] = contact_[from];
+  free_[to] = free_[from];
+  momentum_[to] = momentum_[from];
+  states_.spacing[to] = states_.spacing[from];
+  states_.s[to] = states_.s[from];
+  for (std::size_t v = 0; v < variables_; ++v) memory_[to * variables_ + v] = memory_[from * variables_ + v];
+}
+
+/// States, mean forces and their slopes of the trains at their momenta.
+void SlowedTrains::evaluate() {
+  std::size_t size = count_;
+  for (; size % lanes != 0; ++size) copy(size - 1, size);
+  for (std::size_t i = 0; i < size; ++i) states_.momentum[i] = momentum_[i] / contact_[i];
+  states_.solve_slip(size, fastest_.data());
+  for (std::size_t i = 0; i < size; ++i) fastest_[i] = states_.solved(i) ? contact_[i] * fastest_[i] : 1;
+  friction_.law().mean_strengths({size, fastest_.data(), states_.s.data(), {memory_.data(), variables_}},
+                                 friction::Closure::consistent, force_.data(), slope_.data());
+}
+
+SlowedTrain::Left SlowedTrains::solve_alone(std::size_t i, double time) const {
+  const SlowedTrain train{friction_,
+                          states_.spacing[i] / contact_[i],
+                          contact_[i],
+                          {memory_.data() + i * variables_, variables_},
+                          std::atanh(std::fmin(std::fmax(states_.s[i], 0.0), 1 - 1e-16))};
+  return train.after(free_[i], time);
+}
+
+void SlowedTrains::solve(double time, const Results& results) {
+  constexpr int most_steps = 60;
+  constexpr double last_step = 3e-5;  // of ln M: what is left is of the order of its square
+  const double weight = 2 * std::numbers::pi * time;
+  const auto finish = [&](std::size_t i, const SlowedTrain::Left& as, double force) {
+    const std::size_t cell = cell_[i];
+    results.momentum[cell] = as.momentum;
+    results.velocity[cell] = as.velocity;
+    results.typical_speed[cell] = as.typical_speed;
+    results.force[cell] = force;
+    results.slope[cell] = slope_[i];
+    results.s[cell] = states_.s[i];
+  };
+  for (int tries = 0; count_ > 0; ++tries) {
+    evaluate();
+    const NewtonArrays arrays{count_, momentum_.data(), free_.data(), force_.data(), slope_.data(), next_.data()};
+    take_newton_steps(arrays, weight, at_rest_below);
+    find_after_newton(arrays, weight, last_step, precision,
+                      {states_.s.data(), states_.velocity.data(), fastest_.data(), velocity_.data(), typical_.data(),
+                       next_force_.data(), last_.data()});
+    std::size_t rest = 0;
+    for (std::size_t i = 0; i < count_; ++i) {
+      const double free = free_[i], M = momentum_[i];
+      if (!states_.solved(i) || tries == most_steps) {
+        const SlowedTrain::Left as = solve_alone(i, time);
+        finish(i, as, (free - as.momentum) / weight);
+      } else if (M <= at_rest_below * free && M + weight * force_[i] >= free) {
+        finish(i, {0, 0, 0}, free / weight);
+      } else if (last_[i] != 0) {
+        finish(i, {next_[i], velocity_[i], typical_[i]}, next_force_[i]);
+      } else {
+        momentum_[i] = next_[i];
+        copy(i, rest++);
+      }
+    }
+    count_ = rest;
   }
-  if (!at_rest && (at_slowest = excess(slowest)) >= 0) return {0, 0, 0};
-  momentum = size * std::exp(root_between(std::log(at_rest_below), 0, at_slowest, first, size, excess));
-  return with_sign(momentum);
 }
 
 }  // namespace slipfront::pulse

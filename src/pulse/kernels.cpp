@@ -141,12 +141,81 @@ SLIPFRONT_CLONES void differences(std::size_t size, const double* U, const doubl
   }
 }
 
+SLIPFRONT_CLONES void fastest_slip(std::size_t size, const double* phi, const double* psi, double* fastest) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) {
+    const double up = expm1_branch_free(std::fabs(phi[i])), tall = exp_branch_free(psi[i]);
+    const double wide = 1 + up, inverse = 1 / (wide * tall);
+    fastest[i] = (up + up * tall * inverse) * (tall + wide * inverse) / 2;  // (up + up / wide) (tall + 1 / tall) / 2
+  }
+}
+
+SLIPFRONT_CLONES void free_momenta(const FreeArrays& a, double time) {
+  constexpr double least = 1e-280, rounding = 16 * 2.2e-16;
+  const double *charge = a.charge, *contact = a.contact, *y = a.y, *free = a.free, *s = a.s, *at_rest = a.at_rest,
+               *last = a.last;
+  double *momentum = a.momentum, *start = a.start, *moves = a.moves, *spacing = a.spacing;
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < a.size; ++i) {
+    const double q = charge[i], per_charge = 1 / (q > 0 ? q : 1.0), all = std::fabs(free[i]), M = all * per_charge;
+    const double s2 = s[i] * s[i], pressure = 2 * s2 / (1 - s2);  // 2 sinh^2 psi
+    const bool moving = (q > 0) & (M > least) & (all > rounding * pressure * time) & (M > at_rest[i]);
+    moves[i] = moving ? 1.0 : 0.0;
+    momentum[i] = M;
+    start[i] = last[i] > 0 ? last[i] : M;
+    spacing[i] = contact[i] * y[2 * i] * per_charge;
+  }
+}
+
+SLIPFRONT_CLONES void take_newton_steps(const NewtonArrays& a, double weight, double least) {
+  const double *momentum = a.momentum, *free = a.free, *force = a.force, *slope = a.slope;
+  double* next = a.next;
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < a.size; ++i) {
+    const double M = momentum[i], excess = M + weight * force[i] - free[i];
+    const double part = weight * slope[i], down = excess / (M + part);
+    const bool linear = (part < 0.1 * M) | (slope[i] > 0.7 * force[i]);
+    const double limited = down < 8 ? (down > -2 ? down : -2.0) : 8.0;
+    const bool stays_linear = linear & (down < 0.9);
+    const double share = stays_linear ? 1 - down : exp_branch_free(-limited);
+    const double to = slope[i] == 0 ? M - excess : M * share, most = free[i], low = least * free[i];
+    next[i] = to > low ? (to < most ? to : most) : low;
+  }
+}
+
+SLIPFRONT_CLONES void find_after_newton(const NewtonArrays& a, double weight, double last_step, double precision,
+                                        const AfterNewton& after) {
+  const double *momentum = a.momentum, *free = a.free, *force = a.force, *slope = a.slope, *next = a.next, *s = after.s,
+               *U = after.U, *fastest = after.fastest;
+  double *velocity = after.velocity, *typical = after.typical, *new_force = after.force, *last = after.last;
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < a.size; ++i) {
+    const double M = momentum[i], step = next[i] / M - 1, excess = M + weight * force[i] - free[i];
+    const bool there = (std::fabs(step) <= last_step) | (std::fabs(excess) <= precision * free[i]);
+    last[i] = there ? 1.0 : 0.0;
+    velocity[i] = U[i] + (1 - U[i] * U[i]) * U[i] * step;  // sinh phi goes as M
+    typical[i] = fastest[i] * (1 + step) / 2 * (1 + s[i]);
+    new_force[i] = force[i] + step * slope[i];
+  }
+}
+
 SLIPFRONT_CLONES double damp(std::size_t size, double rate, const double* y, const double* U, double* dy) {
   SLIPFRONT_INDEPENDENT
   for (std::size_t i = 0; i < size; ++i) dy[2 * i + 1] -= rate * y[2 * i + 1];
   return rate *
          reduce(
              size, 0, [=](std::size_t i) { return U[i] * y[2 * i + 1]; }, [](double a, double b) { return a + b; });
+}
+
+SLIPFRONT_CLONES double take_friction(std::size_t size, const double* free, const double* momentum,
+                                      const double* velocity, double per_time, double* friction, double* y) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) {
+    friction[i] = (free[i] - momentum[i]) * per_time;
+    y[2 * i + 1] = momentum[i];
+  }
+  return reduce(
+      size, 0, [=](std::size_t i) { return friction[i] * velocity[i]; }, [](double a, double b) { return a + b; });
 }
 
 SLIPFRONT_CLONES double paper_rates(std::size_t size, double coefficient, const double* EK, double* rate) {

@@ -23,6 +23,9 @@ struct StateArrays {
   double* solved;    ///< 1 or 0
 };
 void solve_states(const StateArrays& a);
+/// Without rapidities, sound speeds and EK, and with the largest slip velocities in local units instead, 2 sinh |phi|
+/// cosh psi: all that friction asks for.
+void solve_slip(const StateArrays& a, double* fastest);
 
 /// Values at the cell centres from cell averages, and back, by second and fourth differences: sixth order. Left out
 /// where the fourth difference is not small beside the second (there f is not smooth on the grid, and average and
@@ -54,6 +57,46 @@ double invariants(std::size_t size, const double* phi, const double* psi, double
 
 /// dy of the conservation laws from the fluxes at the faces.
 void differences(std::size_t size, const double* U, const double* p, double* dy);
+
+/// Largest slip velocities 2 sinh |phi| cosh psi of trains, in local units.
+void fastest_slip(std::size_t size, const double* phi, const double* psi, double* fastest);
+
+/// Momenta of a dislocation in cells of which friction is about to take for a time: their size, where to start the
+/// search for what friction leaves (the last one, if there is one), and whether there is anything (1, else 0). Less
+/// than rounding of the pressure is nothing, and so is what cannot overcome `at_rest`, the momentum that friction takes
+/// of what rests. Also the spacings of dislocations, in local units, in cells of width y[2 i].
+struct FreeArrays {
+  std::size_t size;
+  const double *charge, *contact, *y, *free, *s, *at_rest, *last;
+  double *momentum, *start, *moves, *spacing;
+};
+void free_momenta(const FreeArrays& a, double time);
+
+/// A step of Newton's method for M + weight f(M) = free from M > 0, in many cells. In M where f is all but proportional
+/// to it or changes little, else in ln M: over that the excess is convex, so that steps from above do not pass the
+/// root.
+struct NewtonArrays {
+  std::size_t size;
+  const double *momentum, *free;
+  const double *force, *slope;  ///< f at `momentum`, and what it changes by with ln M
+  double* next;                 ///< between least times `free` and `free`
+};
+void take_newton_steps(const NewtonArrays& a, double weight, double least);
+
+/// What such a step makes of the trains at `momentum`: velocity, a sinh |phi| e^psi and f at `next`, by derivatives.
+/// And whether it was the last (1, else 0): one of at most `last_step` in ln M, or from where the left side was more
+/// than `free` by at most this part of it.
+struct AfterNewton {
+  const double *s, *U, *fastest;  ///< at `momentum`
+  double *velocity, *typical, *force, *last;
+};
+void find_after_newton(const NewtonArrays& a, double weight, double last_step, double precision,
+                       const AfterNewton& after);
+
+/// What friction takes in a unit of time of which it leaves `momentum` of `free`; gives the cells these momenta,
+/// y[2 i + 1], and returns the power that it takes.
+double take_friction(std::size_t size, const double* free, const double* momentum, const double* velocity,
+                     double per_time, double* friction, double* y);
 
 /// Friction at one rate for all on the momenta y[2 i + 1]; returns the power that it takes.
 double damp(std::size_t size, double rate, const double* y, const double* U, double* dy);

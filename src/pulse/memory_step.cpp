@@ -1,17 +1,15 @@
 // Steps with friction that remembers: the memory of the places and the motion of the cells, each with the other's
 // values in the middle of the step.
 
+#include "memory_step.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <vector>
+#include <utility>
 
-#include "friction_solve.hpp"
-#include "places.hpp"
-#include "semidiscrete.hpp"
+#include "kernels.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/pulse/solver.hpp"
-#include "split_step.hpp"
 
 namespace slipfront::pulse {
 namespace {
@@ -19,101 +17,147 @@ namespace {
 using std::numbers::pi;
 
 /// Centres of the cells.
-std::vector<double> centres_of(const Cells& cells) {
-  std::vector<double> x(cells.size());
+void find_centres(const Cells& cells, std::vector<double>& x) {
   double face = cells.left_edge();
   for (std::size_t i = 0; i < cells.size(); ++i) {
     x[i] = face + cells.width(i) / 2;
     face += cells.width(i);
   }
-  return x;
 }
-
-/// W = k U; 0 in a gap.
-std::vector<double> slip_velocities(const Cells& cells, const std::vector<double>& dislocation_velocities) {
-  std::vector<double> W(cells.size());
-  for (std::size_t i = 0; i < cells.size(); ++i)
-    W[i] = dislocation_velocities[i] * 2 * pi * cells.charge[i] / cells.width(i);
-  return W;
-}
-
-/// Friction on the cells over a step, from the memory of the places in its middle.
-class CellFriction {
- public:
-  CellFriction(const Problem& problem, const Cells& cells, const std::vector<State>& states)
-      : problem_(problem), cells_(cells), x_(centres_of(cells)), memory_(cells.size() * variables()) {
-    for (std::size_t i = 0; i < states.size(); ++i) {
-      start_.push_back(std::tanh(states[i].phi));
-      typical_.push_back(states[i].empty() ? 0 : typical_speed(states[i], contact(i)));
-    }
-    velocity_ = start_;
-  }
-
-  const std::vector<double>& x() const { return x_; }
-  /// What passes over the places that these cells lie over, with the velocities as last found.
-  Places::Passing passing(const Cells& cells) const { return {slip_velocities(cells, velocity_), typical_}; }
-
-  /// Where the cells are in the middle of a step of `dt`.
-  void take_memory(const Places& places, double dt) {
-    for (std::size_t i = 0; i < x_.size(); ++i)
-      places.look_up(x_[i] + start_[i] * dt / 2, memory_.data() + i * variables());
-  }
-
-  SplitStep::Left left(std::size_t cell, double width, double free, double time) {
-    const double q = cells_.charge[cell];
-    if (q == 0) return {free, 0};
-    const SlowedTrain train{problem_.friction,          width / q,        contact(cell), memory(cell),
-                            std::atanh(cells_.s[cell]), start_[cell] == 0};
-    const SlowedTrain::Left of_one = train.after(free / q, time);
-    velocity_[cell] = of_one.velocity;
-    typical_[cell] = of_one.typical_speed;
-    return {of_one.momentum * q, of_one.velocity};
-  }
-
-  /// Momentum that friction takes from each cell in a time, if it is in this state.
-  std::vector<double> taken(const std::vector<State>& states, double time) const {
-    std::vector<double> all(states.size());
-    for (std::size_t i = 0; i < states.size(); ++i)
-      if (!states[i].empty() && states[i].phi != 0)
-        all[i] = 2 * pi * time * cells_.charge[i] * problem_.friction.mean_strength(states[i], contact(i), memory(i));
-    return all;
-  }
-
- private:
-  std::size_t variables() const { return problem_.friction.variables(); }
-  double contact(std::size_t cell) const { return problem_.contact ? problem_.contact(x_[cell]) : 1; }
-  friction::Memory memory(std::size_t cell) const {
-    return friction::Memory(memory_).subspan(cell * variables(), variables());
-  }
-
-  const Problem& problem_;
-  const Cells cells_;  ///< at the start of the step
-  std::vector<double> x_, memory_, start_, velocity_, typical_;
-};
 
 /// `share` of the way from what passes at one time to what passes at another, place by place.
 Places::Passing between(const Places::Passing& from, const Places::Passing& to, double share) {
   Places::Passing mixed = from;
   for (std::size_t i = 0; i < mixed.mean.size(); ++i) {
-    mixed.mean[i] = std::lerp(from.mean[i], to.mean[i], share);
-    mixed.typical[i] = std::lerp(from.typical[i], to.typical[i], share);
+    mixed.mean[i] += share * (to.mean[i] - from.mean[i]);
+    mixed.typical[i] += share * (to.typical[i] - from.typical[i]);
   }
   return mixed;
 }
 
-/// What the step has got wrong by taking the memory in its middle as the slip velocity of its start foretold it: in
-/// units of `scale`, root mean square over the cells.
-double memory_error(const std::vector<double>& foretold, const std::vector<double>& found,
-                    const std::vector<double>& scale) {
-  double sum = 0;
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    const double off = (found[i] - foretold[i]) / scale[Values::momentum_at(i)];
-    sum += off * off;
-  }
-  return std::sqrt(sum / static_cast<double>(found.size()));
+}  // namespace
+
+CellFriction::CellFriction(const Problem& problem, std::size_t cells)
+    : problem_(problem), solve_(problem.friction, cells), memory_(cells * problem.friction.variables()) {
+  for (auto* array : {&charge_, &x_, &contact_, &start_, &start_s_, &start_typical_, &start_momentum_, &start_force_,
+                      &s_, &momentum_, &velocity_, &typical_, &force_, &slope_, &start_slope_})
+    array->resize(cells);
+  for (auto* array : {&strength_at_rest_, &held_, &free_, &guess_, &moves_, &spacing_, &middle_, &fastest_,
+                      &slipping_fastest_, &slipping_s_, &slipping_force_, &slipping_slope_})
+    array->resize(cells);
+  slipping_.resize(cells);
+  slipping_memory_.resize(memory_.size());
 }
 
-}  // namespace
+void CellFriction::start(const Cells& cells, const CellStates& trains, const Places& places) {
+  charge_ = cells.charge;
+  find_centres(cells, x_);
+  start_ = trains.velocity;
+  start_s_ = cells.s;
+  for (std::size_t i = 0; i < x_.size(); ++i) {
+    const bool gap = charge_[i] == 0;
+    contact_[i] = contact(i);
+    start_momentum_[i] = gap ? 0 : std::fabs(cells.momentum(i)) / charge_[i];
+    if (gap) start_[i] = 0;
+  }
+  take_memory(places, 0);
+  fastest_slip(x_.size(), trains.phi.data(), trains.psi.data(), fastest_.data());
+  for (std::size_t i = 0; i < x_.size(); ++i) fastest_[i] = charge_[i] == 0 ? 0 : contact_[i] * fastest_[i];
+  find_forces(trains.s);
+  start_force_ = force_;
+  start_slope_ = slope_;
+  for (std::size_t i = 0; i < x_.size(); ++i) start_typical_[i] = fastest_[i] / 2 * (1 + trains.s[i]);
+  restart();
+}
+
+void CellFriction::restart() {
+  s_ = start_s_;
+  momentum_ = start_momentum_;
+  velocity_ = start_;
+  typical_ = start_typical_;
+  force_ = start_force_;
+  slope_ = start_slope_;
+}
+
+Places::Passing CellFriction::passing(const Cells& cells) const {
+  Places::Passing passing{std::vector<double>(x_.size()), typical_};
+  for (std::size_t i = 0; i < x_.size(); ++i)  // W = k U
+    passing.mean[i] = velocity_[i] * 2 * pi * charge_[i] / cells.width(i);
+  return passing;
+}
+
+void CellFriction::take_memory(const Places& places, double dt) {
+  const friction::Law& law = problem_.friction.law();
+  for (std::size_t i = 0; i < x_.size(); ++i) middle_[i] = x_[i] + start_[i] * dt / 2;
+  places.look_up(middle_, memory_.data());
+  std::fill(held_.begin(), held_.end(), 0.0);
+  if (problem_.friction.sticks())
+    law.strengths(x_.size(), held_.data(), {memory_.data(), variables()}, strength_at_rest_.data());
+}
+
+void CellFriction::operator()(const double* y, const double* free, double time, double* momentum, double* velocity) {
+  const double weight = 2 * pi * time;
+  const std::size_t each = variables();
+  for (std::size_t i = 0; i < x_.size(); ++i) held_[i] = weight * strength_at_rest_[i];
+  free_momenta({x_.size(), charge_.data(), contact_.data(), y, free, s_.data(), held_.data(), momentum_.data(),
+                free_.data(), guess_.data(), moves_.data(), spacing_.data()},
+               time);
+  // From the momentum, the force and its slope as last found.
+  take_newton_steps({x_.size(), guess_.data(), free_.data(), force_.data(), slope_.data(), guess_.data()}, weight,
+                    SlowedTrains::at_rest_below);
+  for (std::size_t i = 0; i < x_.size(); ++i) {
+    if (moves_[i] != 0) {
+      solve_.add({i, spacing_[i], contact_[i], memory_.data() + i * each, free_[i], guess_[i], s_[i]});
+    } else {
+      momentum_[i] = std::isnan(free_[i]) ? free_[i] : 0;
+      velocity_[i] = typical_[i] = force_[i] = slope_[i] = 0;
+    }
+  }
+  solve_.solve(time, {momentum_.data(), velocity_.data(), typical_.data(), force_.data(), slope_.data(), s_.data()});
+  for (std::size_t i = 0; i < x_.size(); ++i) {
+    momentum[i] = charge_[i] == 0 ? free[i] : std::copysign(momentum_[i], free[i]) * charge_[i];
+    velocity_[i] = std::copysign(velocity_[i], free[i]);
+    velocity[i] = velocity_[i];
+  }
+}
+
+/// Mean forces, and their slopes, of the cells that slip, or of one in `stride`, from their largest slip velocities and
+/// s.
+void CellFriction::find_forces(const std::vector<double>& s, std::size_t stride) {
+  const std::size_t each = variables();
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < x_.size(); i += stride) {
+    force_[i] = slope_[i] = 0;
+    if (!(fastest_[i] > 0)) continue;
+    slipping_[count] = i;
+    slipping_fastest_[count] = fastest_[i];
+    slipping_s_[count] = s[i];
+    std::copy_n(memory_.data() + i * each, each, slipping_memory_.data() + count * each);
+    ++count;
+  }
+  problem_.friction.law().mean_strengths(
+      {count, slipping_fastest_.data(), slipping_s_.data(), {slipping_memory_.data(), each}},
+      friction::Closure::consistent, slipping_force_.data(), slipping_slope_.data());
+  for (std::size_t j = 0; j < count; ++j) {
+    force_[slipping_[j]] = slipping_force_[j];
+    slope_[slipping_[j]] = slipping_slope_[j];
+  }
+}
+
+void CellFriction::foretell(std::vector<double>& force) const { force = force_; }
+
+double CellFriction::memory_error(const std::vector<double>& foretold, double time, const std::vector<double>& scale) {
+  const std::size_t stride = std::max<std::size_t>(x_.size() / 64, 1);
+  for (std::size_t i = 0; i < x_.size(); ++i) fastest_[i] = velocity_[i] == 0 ? 0 : 2 * typical_[i] / (1 + s_[i]);
+  find_forces(s_, stride);
+  double sum = 0;
+  for (std::size_t i = 0; i < x_.size(); i += stride) {
+    if (!(fastest_[i] > 0)) continue;
+    const double off = 2 * pi * time * charge_[i] * (force_[i] - foretold[i]) / scale[Values::momentum_at(i)];
+    sum += off * off;
+  }
+  return std::sqrt(sum * static_cast<double>(stride) / static_cast<double>(x_.size()));
+}
 
 Places Solver::places() const {
   Places all(problem_.friction, problem_.left, problem_.right, static_cast<std::size_t>(problem_.cells));
@@ -121,19 +165,19 @@ Places Solver::places() const {
   return all;
 }
 
-double Solver::step_with_memory(const std::vector<double>& rate, double remaining, double crossing) {
+double Solver::step_with_memory(MemoryStep& work, const std::vector<double>& rate, double remaining, double crossing) {
   const friction::Law& law = problem_.friction.law();
   const Rates f = [this](double t, const double* y, double* dy) { (*equations_)(t, y, dy); };
-  SplitStep step(size(), cells_.unknowns.size());
-  CellFriction friction(problem_, cells_, equations_->states());
-  const auto left = [&](std::size_t cell, double width, double free, double time) {
-    return friction.left(cell, width, free, time);
+  CellFriction& friction = work.friction;
+  const auto slow = [&friction](const double* y, const double* free, double time, double* momentum, double* velocity) {
+    friction(y, free, time, momentum, velocity);
   };
-  const std::vector<double> before = cells_.unknowns;
+  work.before = cells_.unknowns;
   const Places now = places();
+  friction.start(cells_, equations_->trains(), now);
   const Places::Passing at_start = now.passing(friction.x(), friction.passing(cells_));
-  std::vector<double> scale(2 * size());
-  find_scale(crossing, scale);
+  std::vector<double> x(size());
+  find_scale(crossing, work.scale);
   const double longest = SplitStep::longest_in_crossing_times * crossing;
   double dt = next_step(remaining, cells_.step > 0 ? std::fmin(longest, cells_.step) : longest);
   for (int tries = 0;; ++tries) {
@@ -142,15 +186,16 @@ double Solver::step_with_memory(const std::vector<double>& rate, double remainin
       Places half = now, better = now, after = now;
       half.advance(law, at_start, dt / 2);
       friction.take_memory(half, dt);
-      step(f, left, cells_.time, dt, cells_.unknowns, rate);
-      const std::vector<double> foretold = friction.taken(equations_->states(), dt);
-      const Places::Passing at_end = now.passing(centres_of(cells_), friction.passing(cells_));
+      work.split(f, slow, cells_.time, dt, cells_.unknowns, rate);
+      find_centres(cells_, x);
+      const Places::Passing at_end = now.passing(x, friction.passing(cells_));
+      friction.foretell(work.foretold);
       better.advance(law, between(at_start, at_end, 0.25), dt / 2);
       after.advance(law, between(at_start, at_end, 0.5), dt);
       friction.take_memory(better, dt);
-      const double of_memory = memory_error(foretold, friction.taken(equations_->states(), dt), scale);
+      const double of_memory = friction.memory_error(work.foretold, dt, work.scale);
       const double error =
-          std::max({step.error(cells_.unknowns, scale, equations_->shocked()), of_memory, unseen_push(dt)}) /
+          std::max({work.split.error(cells_.unknowns, work.scale, equations_->shocked()), of_memory, unseen_push(dt)}) /
           problem_.explicit_tolerance;
       factor = std::clamp(0.9 * std::pow(error, -1.0 / 3), 0.2, 4.0);
       if (error <= 1) {
@@ -162,8 +207,9 @@ double Solver::step_with_memory(const std::vector<double>& rate, double remainin
       if (tries == 80) throw;
     }
     if (tries == 80) throw too_strong_forces(cells_.time);
-    cells_.unknowns = before;
+    cells_.unknowns = work.before;
     equations_->start_from(cells_.s);
+    friction.restart();
     dt *= factor;
   }
   cells_.s = equations_->s();

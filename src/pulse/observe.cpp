@@ -62,37 +62,64 @@ double leading_front(const Solver::View& v, const std::vector<double>& W, bool t
   return none;
 }
 
+/// Slip velocities seen from the more stressed end inwards: how far each differs from that at the end.
+struct Inwards {
+  const Solver::View& v;
+  const std::vector<double>& W;
+  bool stressed_left;
+
+  std::size_t index(std::size_t i) const { return stressed_left ? i : W.size() - 1 - i; }
+  double x(std::size_t i) const { return v.centres[index(i)]; }
+  double change(std::size_t i) const { return W[index(i)] - W[index(0)]; }
+  /// Where the size of the change passes `level` between the cells i - 1 and i.
+  double place(std::size_t i, double level) const {
+    const double before = std::fabs(change(i - 1)), after = std::fabs(change(i));
+    return std::lerp(x(i - 1), x(i), (level - before) / (after - before));
+  }
+};
+
+/// The foot of a fan that rises within a few cells from `first` on to `top`: its quarter and three quarters, which the
+/// rounding of its corners moves least, on a straight line.
+double foot_of_narrow_fan(const Inwards& in, std::size_t first, double top) {
+  std::size_t i = first;
+  const auto place_of = [&](double level) {
+    while (std::fabs(in.change(i)) < level) ++i;
+    return in.place(i, level);
+  };
+  const double quarter = place_of(0.25 * top), three_quarters = place_of(0.75 * top);
+  return quarter - (three_quarters - quarter) / 2;
+}
+
 /// The foot of the fan on the more stressed side: behind the first cell whose slip velocity differs from that at the
 /// stressed end by a thousandth of the largest, the places of three cells as a parabola in that difference,
 /// continued to none. Where a smooth stress or friction has drawn the foot out into a tail, the front is where the
 /// tail is felt.
 double trailing_front(const Solver::View& v, const std::vector<double>& W, bool stressed_left) {
   constexpr double felt = 1e-3;
-  constexpr std::size_t behind = 4, apart = 3;  // cells: the corner of a fan is round by one or two
+  constexpr std::size_t behind = 4, apart = 3, last = behind + 2 * apart;  // cells: a fan's corner is round by two
   const std::size_t n = W.size();
   if (free_at(v, !stressed_left)) return none;
-  const auto from_stressed = [&](std::size_t i) { return stressed_left ? i : n - 1 - i; };
-  const auto change = [&](std::size_t i) { return W[from_stressed(i)] - W[from_stressed(0)]; };
+  const Inwards in{v, W, stressed_left};
   double most = 0;
   for (const double w : W) most = std::fmax(most, std::fabs(w));
   std::size_t first = 0;
-  while (first < n && !(std::fabs(change(first)) > felt * most)) ++first;
-  if (first <= 1 || first + behind + 2 * apart >= n) return none;  // it has reached the end, or nothing moves
+  while (first < n && !(std::fabs(in.change(first)) > felt * most)) ++first;
+  if (first <= 1 || first + last + behind >= n) return none;  // it has reached the end, or nothing moves
+  double top = 0;
+  for (std::size_t i = first; i <= first + last + behind; ++i) top = std::fmax(top, std::fabs(in.change(i)));
   double x[3], w[3];
   for (std::size_t j = 0; j < 3; ++j) {
-    const std::size_t i = first + behind + apart * j;
-    x[j] = v.centres[from_stressed(i)];
-    w[j] = change(i);
+    x[j] = in.x(first + behind + apart * j);
+    w[j] = in.change(first + behind + apart * j);
   }
-  const double ahead = v.centres[from_stressed(first - 1)], inside = v.centres[from_stressed(first)];
-  const double before = std::fabs(change(first - 1)), after = std::fabs(change(first));
-  const double seen = std::lerp(ahead, inside, (felt * most - before) / (after - before));
-  const bool rises = std::fabs(w[0]) > 0 && w[1] / w[0] > 1 && w[2] / w[1] > 1;
+  const bool narrow = std::fabs(w[2]) > 0.85 * top && top > 10 * felt * most;
+  if (narrow) return foot_of_narrow_fan(in, first, top);
+  const bool rises = std::fabs(w[0]) > 0 && w[1] / w[0] > 1.2 && w[2] / w[1] > 1.1;
   const bool tail = w[0] * w[2] > 0.95 * w[1] * w[1];  // exponential, as of a smooth stress: it has no foot
-  if (!rises || tail) return seen;
+  if (!rises || tail) return in.place(first, felt * most);
   const auto [slope, curve] = parabola_through(w[1] - w[0], x[1] - x[0], w[2] - w[0], x[2] - x[0]);
   const double foot = x[0] - w[0] * (slope - curve * w[0]);
-  const double farthest = ahead - 2 * (inside - ahead);
+  const double ahead = in.x(first - 1), farthest = ahead - 2 * (in.x(first) - ahead);
   return std::clamp(foot, std::fmin(farthest, x[0]), std::fmax(farthest, x[0]));
 }
 
@@ -155,18 +182,21 @@ Points points_of(const Problem& problem, const Solver::View& v, const std::vecto
   return points;
 }
 
+/// Cells beside a shock exceed both sides by some per cent, a pulse by more.
+constexpr double overshoot = 1.2;
+
 void find_peak(const Points& p, Snapshot& s) {
   const auto size = [&](std::size_t i) { return std::fabs(p.W[i]); };
   const std::size_t n = p.W.size();
   s.peak_slip_velocity = 0;
   s.peak_position = none;
   if (n == 0) return;  // all dislocations have left the domain
-  const bool calm = std::find(p.shocked.begin(), p.shocked.end(), false) != p.shocked.end();
-  std::size_t peak = n;
+  std::size_t peak = n, calm = n;
   for (std::size_t i = 0; i < n; ++i) {
-    if (calm && p.shocked[i]) continue;  // cells beside a shock exceed both sides by some per cent
     if (peak == n || size(i) > size(peak)) peak = i;
+    if (!p.shocked[i] && (calm == n || size(i) > size(calm))) calm = i;
   }
+  if (calm < n && size(peak) < overshoot * size(calm)) peak = calm;
   s.peak_slip_velocity = p.W[peak];
   s.peak_position = p.x[peak];
   // Top of the parabola through three points; beside a shock there is none.
@@ -303,8 +333,8 @@ Snapshot observe(const Solver& solver, const std::vector<double>& x_edges, const
   s.fronts.trailing = s.time == 0 ? at_rest : in_domain(problem, trailing_front(v, W, to_right));
   s.fronts.leading = in_domain(problem, leading_front(v, W, to_right));
   find_peak(points_of(problem, v, W), s);
-  const bool shock_at_origin = v.shocked[interval(v.faces, 0)] != 0;
-  if (!shock_at_origin && std::fabs(s.slip_velocity_at_origin) > std::fabs(s.peak_slip_velocity)) {
+  const double beyond = v.shocked[interval(v.faces, 0)] != 0 ? overshoot : 1;
+  if (std::fabs(s.slip_velocity_at_origin) > beyond * std::fabs(s.peak_slip_velocity)) {
     s.peak_slip_velocity = s.slip_velocity_at_origin;  // between nodes of few cells
     s.peak_position = 0;
   }

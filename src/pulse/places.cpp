@@ -24,25 +24,28 @@ Places::Passing Places::passing(const std::vector<double>& x, const Passing& the
     while (i < x.size() && x[i] <= place) ++i;
     if (i == 0 || i == x.size()) continue;
     const double share = (place - x[i - 1]) / (x[i] - x[i - 1]);
-    here.mean[j] = std::lerp(there.mean[i - 1], there.mean[i], share);
-    here.typical[j] = std::lerp(there.typical[i - 1], there.typical[i], share);
+    here.mean[j] = there.mean[i - 1] + share * (there.mean[i] - there.mean[i - 1]);
+    here.typical[j] = there.typical[i - 1] + share * (there.typical[i] - there.typical[i - 1]);
   }
   return here;
 }
 
 void Places::advance(const friction::Law& law, const Passing& passing, double time) {
-  for (std::size_t j = 0; j < passing.mean.size(); ++j)
-    law.advance_in_train(passing.mean[j], passing.typical[j], time,
-                         std::span(values_).subspan(j * variables_, variables_));
+  law.advance_in_trains(passing.mean.size(), passing.mean.data(), passing.typical.data(), time, variables_,
+                        values_.data());
 }
 
-void Places::look_up(double x, double* memory) const {
+void Places::look_up(const std::vector<double>& x, double* memory) const {
   const std::size_t count = values_.size() / variables_;
-  const double position = std::clamp((x - left_) / spacing_ - 0.5, 0.0, static_cast<double>(count - 1));
-  const std::size_t j = std::min(static_cast<std::size_t>(position), count - 2);
-  for (std::size_t v = 0; v < variables_; ++v)
-    memory[v] =
-        std::lerp(values_[j * variables_ + v], values_[(j + 1) * variables_ + v], position - static_cast<double>(j));
+  const double last = static_cast<double>(count - 1), per_spacing = 1 / spacing_;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double at = (x[i] - left_) * per_spacing - 0.5, position = at > 0 ? std::fmin(at, last) : 0.0;
+    const int j = std::min(static_cast<int>(position), static_cast<int>(count) - 2);
+    const double share = position - j;
+    const double* from = values_.data() + static_cast<std::size_t>(j) * variables_;
+    for (std::size_t v = 0; v < variables_; ++v)
+      memory[i * variables_ + v] = from[v] + share * (from[variables_ + v] - from[v]);
+  }
 }
 
 }  // namespace slipfront::pulse

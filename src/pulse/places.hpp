@@ -25,8 +25,8 @@ class Places {
   Passing passing(const std::vector<double>& x, const Passing& there) const;
   /// Changes the memory over a time in which the same passes all along.
   void advance(const friction::Law& law, const Passing& passing, double time);
-  /// The memory at x, between two places; that of the last one outside.
-  void look_up(double x, double* memory) const;
+  /// The memory at each x, between two places; that of the last one outside.
+  void look_up(const std::vector<double>& x, double* memory) const;
 
  private:
   double left_, spacing_;

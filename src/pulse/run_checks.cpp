@@ -16,7 +16,10 @@ constexpr double much = 0.05;
 
 }  // namespace
 
-double Run::SlipTwice::beyond_sampling() const { return std::fmax(std::fabs(by_place - by_velocity) - sampling, 0); }
+double Run::SlipTwice::error() const {
+  const double apart = std::fabs(by_place - by_velocity);
+  return std::fmax(apart - sampling, std::fmin(apart, of_velocity));
+}
 
 std::optional<Run::SlipTwice> Run::slip_twice() const {
   const Problem& problem = solver_.problem();

@@ -17,16 +17,21 @@ Semidiscrete::Semidiscrete(Setup setup)
       relaxation_rate_(setup_.friction.relaxation_rate()),
       blocks_(blocks_of(setup_.charge, setup_.left, setup_.right)) {
   const std::size_t n = size();
-  for (auto* array : {&centres_.charge, &centres_.per_charge, &means_.width, &means_.momentum, &means_.phi, &means_.psi,
-                      &sources_.friction_rate, &sources_.friction_strength, &sources_.force, &means_.source,
-                      &centres_.x, &reconstruction_.shocked})
+  for (auto* array :
+       {&centres_.charge, &centres_.per_charge, &means_.width, &means_.momentum, &means_.phi, &means_.psi,
+        &sources_.friction_rate, &sources_.friction_strength, &sources_.force, &means_.source, &sources_.fastest,
+        &sources_.shape, &sources_.mean, &sources_.shown_momentum, &centres_.x, &reconstruction_.shocked})
     array->assign(n, 0);
+  sources_.cell.assign(n, 0);
+  sources_.resting_s.assign(n, -1);
   centres_.train.resize(n);
   for (auto* array : {&reconstruction_.plus, &reconstruction_.minus}) array->assign(n + 2 * ghosts, 0);
   for (auto* array : {&faces_.phi, &faces_.psi, &faces_.velocity, &faces_.pressure, &faces_.x}) array->assign(n + 1, 0);
   if (setup_.contact) {
     centres_.contact.assign(n, 1);
     sources_.contact_force.assign(n, 0);
+    sources_.substrate.assign(n, 0);
+    sources_.substrate_at_faces.assign(n + 1, 0);
     faces_.contact.assign(n + 1, 1);
   }
   for (const Block& r : blocks_)

@@ -44,6 +44,7 @@ class Semidiscrete {
   /// From the last call: states at the cell centres, rapidities and psi at the faces, friction rates (loss over
   /// momentum).
   std::vector<State> states() const;
+  const CellStates& trains() const { return centres_.train; }
   const std::vector<double>& s() const { return centres_.train.s; }
   const std::vector<double>& face_phi() const { return faces_.phi; }
   const std::vector<double>& face_psi() const { return faces_.psi; }
@@ -74,6 +75,7 @@ class Semidiscrete {
 
   // Sources (sources.cpp).
   void find_rates();
+  void find_strengths();
   void add_sources(double t, const double* y, double* dy);
   void add_contact_force(double* dy);
 
@@ -102,10 +104,15 @@ class Semidiscrete {
   };
   /// What changes momentum beside the pressure, of each cell.
   struct Sources {
-    std::vector<double> friction_rate;      ///< loss over momentum
-    std::vector<double> friction_strength;  ///< mean of f over the train, where places stick
-    std::vector<double> force;              ///< in a unit of s, at the centre
+    std::vector<double> friction_rate;         ///< loss over momentum
+    std::vector<double> friction_strength;     ///< mean of f over the train
+    std::vector<double> shown_momentum;        ///< of one dislocation, which friction takes from
+    std::vector<double> resting_s;             ///< s of a cell at rest that the two were found for; else negative
+    std::vector<double> fastest, shape, mean;  ///< of some cells: largest slip velocity, least over it, mean of f
+    std::vector<std::size_t> cell;             ///< which
+    std::vector<double> force;                 ///< in a unit of s, at the centre
     std::vector<double> contact_force;
+    std::vector<double> substrate, substrate_at_faces;  ///< <1 - cos u>
     double largest_friction_rate = 0;
   };
 

@@ -24,6 +24,12 @@ double cubic(const double* x, const double* f, double at) {
   return at > x[1] && at < x[2] ? line : std::clamp(sum, std::min(f[0], f[3]), std::max(f[0], f[3]));
 }
 
+/// k half way from a face to a place near it. Where a train ends at one that hardly pushes, k at the face is neither's.
+double density_between(const Solver::View& v, double face, double x) {
+  const double middle = (face + x) / 2;
+  return averages_of(v, state_at(v, middle), middle).k;
+}
+
 }  // namespace
 
 double Solver::first_place(double charge) const {
@@ -67,10 +73,12 @@ double Solver::way_at(const View& v, std::size_t cell, double x) const {
   if (come < width && std::fabs(aside) <= 2 * come) {
     // Nearer to a face than that has come, in a pulse that may be narrower than the cell: from the densities there
     // and, as the pulse grows, the way of the other face.
-    const bool resolved = come >= unresolved * width;
+    const double at_face = 2 * pi * v.face_density[near], beside = density_between(v, v.faces[near], x);
+    const bool jump = std::fmax(at_face, beside) > 2 * std::fmin(at_face, beside);
+    const bool resolved = come >= unresolved * width && !jump;
     // The stress before on this side of the face, or on the mean over what lies between.
     const double before = problem_.stress(v.faces[near] - way(near) + (resolved ? 1e-6 : 0.5) * aside);
-    const double slope = before > 0 ? 1 - 2 * pi * v.face_density[near] / before : 0;
+    const double slope = before > 0 ? 1 - (jump ? beside : at_face) / before : 0;
     const std::size_t other = near == cell ? cell + 1 : cell;
     const double apart = v.faces[other] - v.faces[near], mean_slope = (way(other) - way(near)) / apart;
     const double bend = resolved ? (mean_slope - slope) / apart : 0;

@@ -65,13 +65,11 @@ inline float log_float(double s) {
 
 inline double clamp(double x, double low, double high) { return x > low ? (x < high ? x : high) : low; }
 
-}  // namespace
-
-SLIPFRONT_CLONES void solve_states(const StateArrays& a) {
+/// s, and in the arrays of sound speed, EK and velocity K, E and once more s, as found even where they are not fine.
+SLIPFRONT_CLONES void solve(const StateArrays& a) {
   const std::size_t n = a.size;
   const double *spacing = a.spacing, *momentum = a.momentum;
-  double *s_out = a.s, *phi = a.phi, *psi = a.psi, *sound = a.sound_speed, *EK = a.EK, *U = a.velocity,
-         *solved = a.solved;
+  double *s_out = a.s, *psi = a.psi, *sound = a.sound_speed, *EK = a.EK, *U = a.velocity, *solved = a.solved;
   constexpr double least = 1e-290, most = fit::largest_s;
   // The guess is brought near in single precision: twice as many lanes. ln s waits in `psi`.
   SLIPFRONT_INDEPENDENT
@@ -85,15 +83,39 @@ SLIPFRONT_CLONES void solve_states(const StateArrays& a) {
   }
   SLIPFRONT_INDEPENDENT
   for (std::size_t i = 0; i < n; ++i) {
-    const double half = spacing[i] / 2, eighth = momentum[i] / 8;
-    const double log_s = clamp(psi[i], -668.0, -0.105), from = exp_branch_free(log_s), from_square = from * from;
-    const KandE at(from_square, -2 * log_s);
-    const HalleyStep<double> halley(at.K, at.E, from_square, half, eighth);
+    const double log_s = clamp(psi[i], -668.0, -0.105), from = exp_branch_free(log_s);
+    const KandE at(from * from, -2 * log_s);
+    sound[i] = at.K;
+    EK[i] = at.E;
+    U[i] = from;
+  }
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < n; ++i) {
+    const double half = spacing[i] / 2, eighth = momentum[i] / 8, K_from = sound[i], E_from = EK[i], from = U[i];
+    const HalleyStep<double> halley(K_from, E_from, from * from, half, eighth);
     const double step = halley.step;
     // All to this step by derivatives; what is left is of the order of its third power.
-    const double K = at.K + step * (halley.slope_K + step / 2 * halley.curve_K);
-    const double E = at.E + step * (halley.slope_E + step / 2 * halley.curve_E);
+    const double K = K_from + step * (halley.slope_K + step / 2 * halley.curve_K);
+    const double E = E_from + step * (halley.slope_E + step / 2 * halley.curve_E);
     const double s = from + from * (step * (1 + step * (0.5 + step * (1.0 / 6))));
+    // Single precision comes this near; what third order leaves is then a few ulp.
+    const bool near = std::fabs(step) * (halley.slope + std::fabs(halley.curve)) < (4e-6 + 5e-7 * K) * halley.slope;
+    const bool fine = near && half > 0 && s > least && s < most;
+    sound[i] = K;
+    EK[i] = E;
+    U[i] = s;
+    solved[i] = fine ? 1.0 : 0.0;
+    s_out[i] = fine ? s : s_out[i];
+  }
+}
+
+SLIPFRONT_CLONES void find_rapidities(const StateArrays& a) {
+  const std::size_t n = a.size;
+  const double *spacing = a.spacing, *momentum = a.momentum;
+  double *phi = a.phi, *psi = a.psi, *sound = a.sound_speed, *EK = a.EK, *U = a.velocity;
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < n; ++i) {
+    const double half = spacing[i] / 2, eighth = momentum[i] / 8, K = sound[i], E = EK[i], s = U[i];
     const double m = 1 - s * s, push = half * eighth, forth = std::fabs(push), both = E * K;
     // psi = ln((1 + s) / (1 - s)) / 2; tanh phi = push / E K, and so phi = ln(m (EK + forth)^2 / (E half)^2) / 2, as
     // m ((EK)^2 - push^2) = (E half)^2.
@@ -108,12 +130,32 @@ SLIPFRONT_CLONES void solve_states(const StateArrays& a) {
     U[i] = push * per_both;
     psi[i] = for_psi.half_log(per_psi);
     phi[i] = std::copysign(for_phi.half_log(per_phi), eighth);
-    // Single precision comes this near; what third order leaves is then a few ulp.
-    const bool near = std::fabs(step) * (halley.slope + std::fabs(halley.curve)) < (4e-6 + 5e-7 * K) * halley.slope;
-    const bool fine = near && half > 0 && s > least && s < most;
-    solved[i] = fine ? 1.0 : 0.0;
-    s_out[i] = fine ? s : s_out[i];
   }
+}
+
+SLIPFRONT_CLONES void find_slip(const StateArrays& a, double* fastest) {
+  const std::size_t n = a.size;
+  const double *spacing = a.spacing, *momentum = a.momentum, *K = a.sound_speed, *E = a.EK;
+  double* U = a.velocity;
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < n; ++i) {
+    const double push = spacing[i] * momentum[i] / 16, per_both = 1 / (E[i] * K[i]);
+    U[i] = push * per_both;
+    fastest[i] = std::fabs(momentum[i]) * (K[i] * per_both) / 4;  // the momentum is 8 sinh phi cosh psi E
+  }
+}
+
+}  // namespace
+
+// In several loops: one that did all would be too long for a processor to have some turns of it under way at once.
+void solve_states(const StateArrays& a) {
+  solve(a);
+  find_rapidities(a);
+}
+
+void solve_slip(const StateArrays& a, double* fastest) {
+  solve(a);
+  find_slip(a, fastest);
 }
 
 }  // namespace slipfront::pulse

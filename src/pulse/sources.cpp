@@ -26,25 +26,51 @@ double substrate(double psi) {
   return 2 * cosh_psi * cosh_psi * elliptic::at_psi(psi).above_m1;
 }
 
+/// Values at the n + 1 faces of a block from those at its centres; fourth order inside, third where nothing is known
+/// beyond an end.
+void between_centres(const Block& block, const double* centre, double* face) {
+  const auto n = static_cast<std::ptrdiff_t>(block.end - block.begin);
+  const auto beyond = [&](Edge edge, std::ptrdiff_t first, std::ptrdiff_t step, std::ptrdiff_t distance) {
+    const auto inside = [&](std::ptrdiff_t i) { return centre[first + step * std::min(i, n - 1)]; };
+    if (edge == Edge::ring) return inside(n - distance);
+    if (edge == Edge::wall) return inside(distance - 1);
+    return distance == 1 ? 3 * (inside(0) - inside(1)) + inside(2) : 6 * inside(0) - 8 * inside(1) + 3 * inside(2);
+  };
+  const auto at = [&](std::ptrdiff_t i) {
+    return i < 0 ? beyond(block.left, 0, 1, -i) : i < n ? centre[i] : beyond(block.right, n - 1, -1, i - n + 1);
+  };
+  for (std::ptrdiff_t f = 0; f <= n; ++f)
+    face[f] = std::fmax((9 * (at(f - 1) + at(f)) - (at(f - 2) + at(f + 1))) / 16, 0.0);
+}
+
 }  // namespace
 
 /// Momentum that the contact gives to a cell, -integral of <1 - cos u> d(a^2), from both faces and the centre: fourth
-/// order, and no derivative of a is needed.
+/// order, and no derivative of a is needed. In a dilute train <1 - cos u> goes as 1 / ln psi, and a psi that the
+/// invariants leave at a face, much smaller than phi, has no digits: faces take it from the centres around them. Beside
+/// a free edge, where the density falls to nothing within a cell, what is smooth is the energy of one dislocation.
 void Semidiscrete::add_contact_force(double* dy) {
   const Values rates(dy, size());
   const auto square = [](double a) { return a * a; };
-  double left = substrate(faces_.psi[0]);
+  std::vector<double>&centre = sources_.substrate, &face = sources_.substrate_at_faces;
+  for (std::size_t i = 0; i < size(); ++i) centre[i] = substrate(centres_.train.psi[i]);
+  for (const Block& r : blocks_) between_centres(r, &centre[r.begin], &face[r.begin]);
   for (std::size_t i = 0; i < size(); ++i) {
-    const double right = substrate(faces_.psi[i + 1]);
     const double a = square(faces_.contact[i]), b = square(centres_.contact[i]), c = square(faces_.contact[i + 1]);
     sources_.contact_force[i] = 0;
     if (a != b || b != c)
       sources_.contact_force[i] =
-          -(left * (4 * b - 3 * a - c) + 4 * substrate(centres_.train.psi[i]) * (c - a) + right * (a - 4 * b + 3 * c)) /
-          6;
-    rates.momentum(i) += sources_.contact_force[i];
-    left = right;
+          -(face[i] * (4 * b - 3 * a - c) + 4 * centre[i] * (c - a) + face[i + 1] * (a - 4 * b + 3 * c)) / 6;
   }
+  for (const Block& r : blocks_) {
+    const auto of_one = [&](std::size_t i) {  // energy of a dislocation times their number, evenly over the cell
+      const double number = setup_.charge[i] * centres_.train.spacing[i] / (centres_.contact[i] * means_.width[i]);
+      sources_.contact_force[i] = -centre[i] * number * (square(faces_.contact[i + 1]) - square(faces_.contact[i]));
+    };
+    if (r.left == Edge::free) of_one(r.begin);
+    if (r.right == Edge::free) of_one(r.end - 1);
+  }
+  for (std::size_t i = 0; i < size(); ++i) rates.momentum(i) += sources_.contact_force[i];
 }
 
 void Semidiscrete::add_sources(double t, const double* y, double* dy) {
@@ -107,17 +133,58 @@ void Semidiscrete::find_rates() {
     }
     return;
   }
-  for (std::size_t i = 0; i < size(); ++i) {
-    if (gap(i)) continue;
-    const State state{centres_.train.phi[i], centres_.train.psi[i]};
-    const double a = setup_.contact ? centres_.contact[i] : 1;
-    if (f.sticks()) {  // such friction relaxes nothing, but stops it
-      sources_.friction_strength[i] = f.mean_strength(state, a);
-    } else {
-      sources_.friction_rate[i] = (*relaxation_rate_)(state, a, {});
+  if (f.law().tabulates_rate()) {
+    for (std::size_t i = 0; i < size(); ++i) {
+      if (gap(i)) continue;
+      const State state{centres_.train.phi[i], centres_.train.psi[i]};
+      sources_.friction_rate[i] = (*relaxation_rate_)(state, setup_.contact ? centres_.contact[i] : 1, {});
       sources_.largest_friction_rate = std::max(sources_.largest_friction_rate, sources_.friction_rate[i]);
     }
+    return;
   }
+  find_strengths();
+  if (f.sticks()) return;  // such friction relaxes nothing, but stops it
+  for (std::size_t i = 0; i < size(); ++i) {
+    if (gap(i)) continue;
+    sources_.friction_rate[i] = 2 * pi * sources_.friction_strength[i] / sources_.shown_momentum[i];
+    sources_.largest_friction_rate = std::max(sources_.largest_friction_rate, sources_.friction_rate[i]);
+  }
+}
+
+/// Mean of f over the train in each cell that has one; and its momentum, but for a cell at rest of a law that does not
+/// stick those of a slow train, whose ratio is the limit. A cell that stays at rest as it is keeps them. Trains that
+/// only rounding moves have the force at one speed.
+void Semidiscrete::find_strengths() {
+  const friction::Friction& f = setup_.friction;
+  const CellStates& train = centres_.train;
+  Sources& o = sources_;
+  constexpr double rounding = 1e-14;
+  fastest_slip(size(), train.phi.data(), train.psi.data(), o.fastest.data());
+  std::size_t count = 0, rounded = size();  // those from the front of the arrays, these from their end
+  for (std::size_t i = 0; i < size(); ++i) {
+    const double a = setup_.contact ? centres_.contact[i] : 1, s = train.s[i], M = std::fabs(train.momentum[i]);
+    const bool rests = M == 0;
+    if (gap(i) || (rests && o.resting_s[i] == s && !setup_.contact)) continue;
+    o.resting_s[i] = rests ? s : -1;
+    o.shown_momentum[i] = M;
+    o.fastest[count] = a * o.fastest[i];
+    if (rests && !f.sticks()) {
+      const double K = train.spacing[i] / (2 * std::sqrt((1 - s) * (1 + s)));
+      o.fastest[count] = 1e-8 * s;
+      o.shown_momentum[i] = 4 * o.fastest[count] * train.EK[i] / K;  // 8 a sinh phi cosh psi E
+    }
+    if (!rests && o.fastest[count] < rounding * a * s) {
+      o.shape[--rounded] = o.fastest[count];
+      o.cell[rounded] = i;
+      continue;
+    }
+    o.shape[count] = s;
+    o.cell[count++] = i;
+  }
+  f.law().mean_strengths({count, o.fastest.data(), o.shape.data()}, f.closure(), o.mean.data(), nullptr);
+  f.law().strengths(size() - rounded, o.shape.data() + rounded, {}, o.mean.data() + rounded);
+  for (std::size_t j = 0; j < count; ++j) o.friction_strength[o.cell[j]] = o.mean[j];
+  for (std::size_t j = rounded; j < size(); ++j) o.friction_strength[o.cell[j]] = o.mean[j];
 }
 
 }  // namespace slipfront::pulse

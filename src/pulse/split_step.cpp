@@ -1,7 +1,9 @@
 #include "split_step.hpp"
 
+#include <array>
 #include <cmath>
 
+#include "kernels.hpp"
 #include "slipfront/pulse/named_values.hpp"
 
 namespace slipfront::pulse {
@@ -22,35 +24,45 @@ SplitStep::SplitStep(std::size_t cells, std::size_t size)
     : cells_(cells),
       rates_(stages, std::vector<double>(size)),
       friction_(stages, std::vector<double>(cells + 1)),
-      midpoint_(size) {}
+      stage_(size),
+      midpoint_(size),
+      width_(cells),
+      free_(cells),
+      momentum_(cells),
+      velocity_(cells) {}
 
 void SplitStep::operator()(const Rates& f, const Friction& friction, double t, double dt, std::vector<double>& y,
                            const std::vector<double>& rate_at_start) {
   before_ = y;
   rates_[0] = rate_at_start;
+  std::array<const double*, 1 + stages> y_and_rates, y_and_friction;  // as far as they are known; with weight 0 else
+  y_and_rates.fill(before_.data());
+  y_and_friction.fill(free_.data());
   for (std::size_t k = 0; k < stages; ++k) {
-    stage_ = before_;
-    for (std::size_t j = 0; j <= k; ++j)
-      for (std::size_t i = 0; i < stage_.size(); ++i) stage_[i] += dt * by_rates[k][j] * rates_[j][i];
+    std::array<double, 1 + stages> by_stage{1}, taken{1};
+    for (std::size_t j = 0; j <= k; ++j) by_stage[1 + j] = dt * by_rates[k][j];
+    for (std::size_t j = 0; j < k; ++j) taken[1 + j] = -dt * by_friction[k][j];
+    y_and_rates[1 + k] = rates_[k].data();
+    combine5(stage_.size(), by_stage, y_and_rates, stage_.data());
     const Values values(stage_.data(), cells_);
     const double time = dt * by_friction[k][k];
-    double& dissipated = friction_[k][cells_];
-    dissipated = 0;
-    for (std::size_t cell = 0; cell < cells_; ++cell) {
-      double free = values.momentum(cell);
-      for (std::size_t j = 0; j < k; ++j) free -= dt * by_friction[k][j] * friction_[j][cell];
-      const Left left = friction(cell, values.width(cell), free, time);
-      friction_[k][cell] = (free - left.momentum) / time;
-      dissipated += friction_[k][cell] * left.velocity;
-      values.momentum(cell) = left.momentum;
-    }
+    split(cells_, stage_.data(), width_.data(), free_.data());
+    combine5(cells_, taken, y_and_friction, free_.data());
+    friction(stage_.data(), free_.data(), time, momentum_.data(), velocity_.data());
+    friction_[k][cells_] = take_friction(cells_, free_.data(), momentum_.data(), velocity_.data(), 1 / time,
+                                         friction_[k].data(), stage_.data());
+    y_and_friction[1 + k] = friction_[k].data();
     for (std::size_t j = 0; j <= k; ++j) values.dissipated() += dt * by_friction[k][j] * friction_[j][cells_];
     if (k + 1 < stages) f(t + at[k] * dt, stage_.data(), rates_[k + 1].data());
   }
-  midpoint_ = before_;
-  for (std::size_t i = 0; i < midpoint_.size(); ++i) midpoint_[i] += dt * rates_[1][i];
+  combine3(midpoint_.size(), {1, dt, 0}, {before_.data(), rates_[1].data(), before_.data()}, midpoint_.data());
   const Values values(midpoint_.data(), cells_);
-  for (std::size_t cell = 0; cell < cells_; ++cell) values.momentum(cell) -= dt * friction_[0][cell];
+  for (std::size_t cell = 0; cell < cells_; ++cell) {
+    values.momentum(cell) -= dt * friction_[0][cell];
+    // Friction stops a cell but does not throw it back, as the midpoint rule has it where a cell comes to rest.
+    if (momentum_[cell] == 0 || std::signbit(values.momentum(cell)) != std::signbit(momentum_[cell]))
+      values.momentum(cell) = 0;
+  }
   y = stage_;
 }
 

@@ -133,6 +133,27 @@ double Staggered::loss_rate(std::size_t f, double phi) const {
   return (*relaxation_rate_)({moving, beside(cells_.psi, f)}, setup_.contact ? setup_.contact(place_[f]) : 1, {});
 }
 
+Staggered::Terminal Staggered::terminal(const double* rates) const {
+  const ConstFaceValues of(rates, faces());
+  std::size_t face = 0;
+  double force = 0;
+  for (std::size_t f = 0; f < faces(); ++f) {
+    const double on_one = std::fabs(of.momentum(f)) / charge_around(f);
+    if (!(on_one > force)) continue;
+    force = on_one;
+    face = f;
+  }
+  const double mass = beside(mass_, face) * (setup_.contact ? setup_.contact(place_[face]) : 1);
+  const auto momentum = [&](double phi) { return 8 * mass * std::sinh(phi); };
+  double low = -690, high = 3;  // ln phi
+  for (int i = 0; i < 40; ++i) {
+    const double middle = (low + high) / 2, phi = std::exp(middle);
+    (loss_rate(face, phi) * momentum(phi) < force ? low : high) = middle;
+  }
+  const double phi = std::exp(low);
+  return force > 0 ? Terminal{momentum(phi), std::tanh(phi)} : Terminal{0, 0};
+}
+
 void Staggered::operator()(double t, const double* z, double* dz) {
   const ConstFaceValues values(z, faces());
   const FaceValues rates(dz, faces());

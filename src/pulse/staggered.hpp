@@ -45,6 +45,12 @@ class Staggered {
   /// there its force is rounding of what else acts.
   void viscous_below(double velocity) { creep_ = velocity; }
 
+  /// What a dislocation moves at where friction takes all of the largest force on one, of those in `rates` from rest.
+  struct Terminal {
+    double momentum, velocity;
+  };
+  Terminal terminal(const double* rates) const;
+
   /// Rapidities of the dislocations at the faces, from the last call.
   const std::vector<double>& face_phi() const { return face_phi_; }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "../digits.hpp"
+#include "memory_step.hpp"
 #include "semidiscrete.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/pulse/solver.hpp"
@@ -72,6 +73,7 @@ struct Solver::Work {
   ExplicitStep explicit_step;
   std::vector<double> rate, next, scale;
   std::unique_ptr<ImplicitStep> implicit_step;  // made when friction first rules
+  std::unique_ptr<MemoryStep> memory_step;      // if friction remembers
 
   explicit Work(Semidiscrete& equations, std::size_t cells, std::size_t size)
       : f([&equations](double t, const double* y, double* dy) { equations(t, y, dy); }),
@@ -172,6 +174,15 @@ void Solver::find_scale(double crossing, std::vector<double>& scale) const {
   }
 }
 
+/// Whether friction damps what hardly moves at any rate, but does not hold it.
+bool Solver::steep() const {
+  const friction::Friction& f = problem_.friction;
+  return f.acts() && f.steep_at_rest() && !f.sticks();
+}
+
+/// And all is at rest, from the last rates.
+bool Solver::steep_from_rest() const { return steep() && equations_->largest_friction_rate() == 0; }
+
 std::vector<double> Solver::faces_of_cells(const Staggered& staggered) const {
   const std::size_t n = size();
   std::vector<double> unknowns(staggered.size()), momenta = cells_.face_momentum;
@@ -219,16 +230,24 @@ double Solver::step_implicitly(Work& work, double remaining, double crossing) {
   double fastest = 0;
   for (std::size_t i = 0; i < size(); ++i)
     if (cells_.charge[i] > 0) fastest = std::fmax(fastest, work.scale[Values::momentum_at(i)] / cells_.charge[i]);
+  constexpr double creep = 1e-6;  // of the mean speed so far: adds as little to slip
+  staggered.viscous_below(creep * mean_speed());
+  staggered.start_from(cells_.s);
+  f(cells_.time, z.data(), rate.data());
+  if (steep_from_rest()) {
+    const Staggered::Terminal terminal = staggered.terminal(rate.data());
+    if (terminal.velocity > 0) {
+      fastest = terminal.momentum;
+      staggered.viscous_below(creep * terminal.velocity);
+    }
+  }
   for (std::size_t face = 0; face < staggered.faces(); ++face) {
     const FaceValues at(scale.data(), staggered.faces());
     at.width_left_of(face) = work.scale[Values::width_at(face == 0 ? 0 : face - 1)];
     at.momentum(face) = staggered.charge_around(face) * fastest;
   }
-  constexpr double creep = 1e-6;  // of the mean speed so far: adds as little to slip
-  staggered.viscous_below(creep * mean_speed());
-  staggered.start_from(cells_.s);
-  f(cells_.time, z.data(), rate.data());
-  work.implicit_step->linearise(f, cells_.time, z, rate, scale);
+  constexpr double slow = 1e-4;
+  work.implicit_step->linearise(f, cells_.time, z, rate, scale, steep() ? slow : 0);
   double dt = cells_.step > 0 ? cells_.step : std::fmin(crossing, 1 / equations_->largest_friction_rate());
   while (true) {
     const double wanted = dt;
@@ -266,6 +285,8 @@ bool Solver::advance_until_gap_closes(double time, const std::function<bool()>& 
   Semidiscrete& equations = *equations_;
   const std::size_t n = size();
   Work work(equations, n, cells_.unknowns.size());
+  const bool remembers = problem_.friction.variables() > 0;
+  if (remembers) work.memory_step = std::make_unique<MemoryStep>(problem_, n, cells_.unknowns.size());
   while (cells_.time < time && &equations == equations_.get()) {  // until the cells are others
     equations.start_from(cells_.s);  // as a resumed run does, whoever has looked at the equations since the last step
     work.f(cells_.time, cells_.unknowns.data(), work.rate.data());
@@ -275,11 +296,12 @@ bool Solver::advance_until_gap_closes(double time, const std::function<bool()>& 
     const double friction_times =
         equations.largest_friction_rate() * equations.mean_crossing_time(cells_.unknowns.data());
     const bool stiff =
-        !problem_.periodic && friction_times > (cells_.face_momentum.empty() ? stiff_above : stiff_below);
+        !problem_.periodic &&
+        (steep_from_rest() || friction_times > (cells_.face_momentum.empty() ? stiff_above : stiff_below));
     if (!stiff) crossing = std::fmin(crossing, longest_in_friction_times / equations.largest_friction_rate());
-    const double dt = problem_.friction.variables() > 0 ? step_with_memory(work.rate, remaining, crossing)
-                      : stiff                           ? step_implicitly(work, remaining, crossing)
-                                                        : step_explicitly(work, remaining, crossing);
+    const double dt = remembers ? step_with_memory(*work.memory_step, work.rate, remaining, crossing)
+                      : stiff   ? step_implicitly(work, remaining, crossing)
+                                : step_explicitly(work, remaining, crossing);
     cells_.time = dt == time - cells_.time ? time : cells_.time + dt;
     ++cells_.steps;
     close_gaps();

@@ -106,13 +106,18 @@ void ImplicitStep::to_widths(std::vector<double>& y) const {
 }
 
 void ImplicitStep::linearise(const Rates& f, double t, const std::vector<double>& y, const std::vector<double>& rate,
-                             const std::vector<double>& scale) {
+                             const std::vector<double>& scale, double slow) {
   std::fill(jacobian_.begin(), jacobian_.end(), 0.0);
   to_places(rate);
   places_before_ = places_;
   constexpr double small = 1e-7;
   const std::size_t last = unknowns_ - 2;  // the last place
   const auto nudge = [&](std::size_t j) {
+    if (j % 2 == 1 && slow > 0) {
+      const double size = std::fabs(y[j]), tangent = small * std::fmax(size, slow * scale[j]);
+      const bool to_rest = size < slow * scale[j] && size > tangent;
+      return to_rest ? -y[j] : std::copysign(tangent, y[j]);  // to the other side in a mirror
+    }
     if (j % 2 == 1) return small * scale[j];
     return small * (j == last ? scale[j] : std::fmin(scale[j], scale[j + 2]));
   };

@@ -66,9 +66,11 @@ class ImplicitStep {
   double operator()(const Rates& f, double t, double dt, const std::vector<double>& y,
                     const std::vector<double>& rate_at_start, const std::vector<double>& scale, double friction_rate,
                     double tolerance, std::vector<double>& next);
-  /// Evaluates the Jacobian at (t, y); valid for any number of tries from there.
+  /// Evaluates the Jacobian at (t, y); valid for any number of tries from there. Momenta below the share `slow` of
+  /// their scale have the slope from rest instead of that at y: friction that is steep at rest, like w^(1/2), is less
+  /// steep at y, and a step by that slope would throw what creeps farther to the other side than it was.
   void linearise(const Rates& f, double t, const std::vector<double>& y, const std::vector<double>& rate,
-                 const std::vector<double>& scale);
+                 const std::vector<double>& scale, double slow);
 
  private:
   void factorise(double diagonal);

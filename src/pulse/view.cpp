@@ -18,15 +18,25 @@ namespace {
 
 using std::numbers::pi;
 
-/// State at a face from the reconstructed phi and psi, between the states of two cells, or of one and the train that
-/// goes on alike at an end. psi is half the difference of two invariants: where phi changes from cell to cell by as
-/// much as psi is, that is the pressure of the collision, or rounding, and the train at the face is taken from the
-/// cells.
-State state_between(const State& left, const State& right, double phi, double psi) {
-  constexpr double top = 0.02;  // of a smooth extremum, beyond both cells
-  const double least = std::fmin(left.psi, right.psi), most = std::fmax(left.psi, right.psi);
-  const bool between = psi >= (1 - top) * least && psi <= (1 + top) * most;
-  return {phi, between ? psi : std::sqrt(left.psi) * std::sqrt(right.psi)};
+/// State at face f, inside a block or where the train goes on alike at an end, from the reconstructed phi and psi:
+/// between the states of the cells beside it, or beyond both as a smooth extremum is, by at most twice the eighth of
+/// what these differ by from the next cells. psi is half the difference of two invariants: where phi changes from cell
+/// to cell by as much as psi is, that is the pressure of the collision, or rounding, and the train at the face is taken
+/// from the cells.
+State state_between(const std::vector<State>& cells, std::size_t f, double phi, double psi) {
+  const std::size_t n = cells.size(), left = f == 0 ? 0 : f - 1, right = f == n ? n - 1 : f;
+  const double least = std::fmin(cells[left].psi, cells[right].psi),
+               most = std::fmax(cells[left].psi, cells[right].psi);
+  double below = 0, above = 0;
+  if (left > 0 && right + 1 < n && !cells[left - 1].empty() && !cells[right + 1].empty()) {
+    const double before = cells[left - 1].psi, behind = cells[right + 1].psi;
+    below = std::fmax(std::fmin(before, behind) - least, 0) / 4;
+    above = std::fmax(most - std::fmax(before, behind), 0) / 4;
+  }
+  constexpr double small = 0.02;
+  const double within = std::clamp(psi, least - below, most + above);
+  if (std::fabs(psi - within) <= small * within) return {phi, within};
+  return {phi, std::sqrt(cells[left].psi) * std::sqrt(cells[right].psi)};
 }
 
 /// How often a ring must be turned back to bring x among its faces.
@@ -109,8 +119,7 @@ Solver::View Solver::view(bool densities) const {
   for (std::size_t f = 0; f <= n; ++f) {
     const double phi = (*face_phi)[f], psi = equations_->face_psi()[f];
     const bool edge = f == 0 ? v.left_free : f == n ? v.right_free : cells_.charge[f - 1] == 0 || cells_.charge[f] == 0;
-    const State &left = v.states[f == 0 ? 0 : f - 1], &right = v.states[f == n ? n - 1 : f];
-    v.face_states.push_back(edge ? State{phi, psi} : state_between(left, right, phi, psi));
+    v.face_states.push_back(edge ? State{phi, psi} : state_between(v.states, f, phi, psi));
   }
   for (std::size_t f = 0; f <= n && densities; ++f)
     v.face_density.push_back(averages_of(v, v.face_states[f], v.faces[f]).k / (2 * pi));
@@ -151,10 +160,17 @@ State state_at(const Solver::View& v, double place) {
   }
   const auto [least, most] = std::minmax_element(psi, psi + nodes.size);
   const double phi_here = bounded(nodes.size, nodes.x, phi, x);
-  // In a slow train psi changes by decades from cell to cell, its logarithm is what is smooth.
   const bool decades = *least > 0 && *most > 100 * *least;
   if (!decades) return {phi_here, std::fmax(bounded(nodes.size, nodes.x, psi, x), 0.0)};
-  for (std::size_t j = 0; j < nodes.size; ++j) psi[j] = std::log(psi[j]);
+  // Where psi changes by decades from cell to cell, either phi changes by as much, as in a fan, or the train is slow
+  // and the logarithm of psi is what is smooth.
+  const std::size_t j = interval(nodes.x, nodes.size, x);
+  const double ratio = std::fabs(phi[j + 1] - phi[j]) / std::fabs(psi[j + 1] - psi[j]);
+  if (ratio > 0.5 && ratio < 2) {
+    const double share = std::clamp((x - nodes.x[j]) / (nodes.x[j + 1] - nodes.x[j]), 0.0, 1.0);
+    return {phi_here, std::lerp(psi[j], psi[j + 1], share)};
+  }
+  for (std::size_t i = 0; i < nodes.size; ++i) psi[i] = std::log(psi[i]);
   return {phi_here, std::exp(bounded(nodes.size, nodes.x, psi, x))};
 }
 

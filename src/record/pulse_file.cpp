@@ -63,6 +63,29 @@ void write_scalar(Writer& file, int variable, const ScalarVariable& scalar, cons
   file.write(variable, values);
 }
 
+/// Variables of the slip events, named event_onset and so on; none where there are no events.
+std::vector<int> define_events(Writer& file, const PulseMetadata& metadata) {
+  std::vector<int> ids;
+  if (metadata.events.empty()) return ids;
+  const int event = file.dimension("event", metadata.events.size());
+  for (const output::SlipEventColumn& column : output::slip_event_columns()) {
+    const std::string name = "event_" + std::string(column.about.name);
+    Description about = column.about;
+    about.name = name;
+    ids.push_back(cf::reals(file, about, {event}));
+  }
+  return ids;
+}
+
+void write_events(Writer& file, const std::vector<int>& ids, const PulseMetadata& metadata) {
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    std::vector<double> values;
+    for (const output::SlipEvent& event : metadata.events)
+      values.push_back(event.*output::slip_event_columns()[i].value);
+    file.write(ids[i], values);
+  }
+}
+
 /// All of the file.
 void fill(Writer& file, const PulseMetadata& metadata, const std::vector<Snapshot>& snapshots,
           const std::string& solver_state, bool finished, const Fields& fields) {
@@ -77,6 +100,7 @@ void fill(Writer& file, const PulseMetadata& metadata, const std::vector<Snapsho
     scalar_ids.push_back(cf::reals(file, scalar.about, {axes.time}));
     if (scalar.may_be_absent) file.fill_value(scalar_ids.back(), std::numeric_limits<double>::quiet_NaN());
   }
+  const std::vector<int> event_ids = define_events(file, metadata);
   const int state = opaque(file, layout::solver_state, "state of the solver, to resume the run", solver_state.size());
   const int scenario = scenario_in_attribute ? -1
                                              : opaque(file, layout::scenario_bytes, "the scenario, byte by byte",
@@ -90,6 +114,7 @@ void fill(Writer& file, const PulseMetadata& metadata, const std::vector<Snapsho
   for (std::size_t i = 0; i < fields.size(); ++i) write_field(file, field_ids[i], *fields[i], snapshots);
   for (std::size_t i = 0; i < scalar_ids.size(); ++i)
     write_scalar(file, scalar_ids[i], scalar_variables()[i], snapshots);
+  write_events(file, event_ids, metadata);
   file.write(state, solver_state);
   if (!scenario_in_attribute) file.write(scenario, metadata.scenario_text);
 }

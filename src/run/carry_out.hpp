@@ -35,6 +35,7 @@ bool carry_out(Run& run, const CheckpointOptions& options, const std::function<b
     const auto begun = Clock::now();
     const std::string state = run.saved();  // ranks send their parts to the first
     record::PulseMetadata metadata = options.metadata;
+    if constexpr (requires { run.events(); }) metadata.events = run.events();
     if (run.finished()) metadata.warnings = run.warnings();  // which asks all ranks
     const auto put_down = [&] {
       if (!first) return;

@@ -21,12 +21,16 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 /// Given, or of the computation and not of the physics.
 constexpr std::array<std::string_view, 6> without_error{"friction_coefficient", "damping_number", "time",
                                                         "conservation_error",   "solve_seconds",  "wall_seconds"};
-constexpr double coarser = 4;  ///< tolerance of the steps of a run with half the cells, for their error is one too
+constexpr double safety = 1.25;  ///< Roache's factor for estimates by three grids
 constexpr int fewest_cells = 4, most_cells = 25600;
 
 /// Rows that a tolerance holds for.
 constexpr std::array<std::string_view, 4> held_to_tolerance{"slip_velocity_at_origin", "stress_at_origin",
                                                             "slip_at_origin", "peak_slip_velocity"};
+
+/// Measured where a number of cells show them.
+constexpr std::array<std::string_view, 4> fronts{"trailing_front", "leading_front", "trailing_front_observed",
+                                                 "leading_front_observed"};
 
 template <class Keys>
 bool among(const Keys& keys, std::string_view key) {
@@ -38,10 +42,10 @@ double real(const Value& value) {
   return number ? *number : none;
 }
 
-/// The summary of a run of `cells` cells to the end, with coarser steps and no outputs on the way; empty if
-/// `interrupted` said so.
+/// The summary of a run of `cells` cells to the end, with steps so many times coarser and no outputs on the way; empty
+/// if `interrupted` said so.
 std::vector<SummaryValue> summary_with(int cells, const scenario::Scenario& scenario,
-                                       const std::function<bool()>& interrupted) {
+                                       const std::function<bool()>& interrupted, double coarser = 4) {
   scenario::Scenario other = scenario;
   other.pulse.cells = cells;
   other.output.times.clear();
@@ -49,7 +53,7 @@ std::vector<SummaryValue> summary_with(int cells, const scenario::Scenario& scen
   pulse::Problem problem = setup::pulse_problem(other);
   problem.tolerance = std::fmin(coarser * problem.tolerance, 0.1);
   problem.explicit_tolerance *= coarser;
-  problem.longest_step *= 2;
+  problem.longest_step *= std::sqrt(coarser);
   pulse::Run run(problem, setup::pulse_schedule(other, problem));
   try {
     if (!run.go(interrupted)) return {};
@@ -66,6 +70,22 @@ std::vector<double> differences(const std::vector<SummaryValue>& fine, const std
   return errors;
 }
 
+/// The errors of the finest of three runs, from what each doubling of the cells changed.
+std::vector<double> estimated(const std::vector<SummaryValue>& fine, const std::vector<SummaryValue>& half,
+                              const std::vector<SummaryValue>& quarter) {
+  std::vector<double> errors = differences(fine, half);
+  const std::vector<double> before = differences(half, quarter);
+  for (std::size_t i = 0; i < errors.size(); ++i)
+    errors[i] = safety * (i < before.size() && before[i] / 2 > errors[i] ? before[i] / 2 : errors[i]);
+  return errors;
+}
+
+/// Whether each doubling of the cells more than doubles a value: it is that of a pulse narrower than a cell.
+bool grows(double fine, double half, double quarter) {
+  constexpr double rounding = 1e-14;
+  return std::fabs(quarter) > rounding && half / quarter > 2 && fine / half > 2;
+}
+
 /// The largest of `errors` over the size of what it belongs to. Sizes are at least a thousandth of the stress at x = 0.
 double largest_relative(const std::vector<SummaryValue>& fine, const std::vector<double>& errors) {
   double stress = 0, largest = 0;
@@ -79,21 +99,43 @@ double largest_relative(const std::vector<SummaryValue>& fine, const std::vector
 
 }  // namespace
 
-std::vector<double> errors_of(const Result<pulse::Run>& fine, const scenario::Scenario& scenario,
-                              const std::function<bool()>& interrupted) {
-  std::vector<SummaryValue> coarse;
-  try {
-    const int half = scenario.pulse.cells / 2;
-    if (half >= fewest_cells) coarse = summary_with(half, scenario, interrupted);
-  } catch (const InputError&) {
-  } catch (const NumericsError&) {  // then the errors are not known
-  }
-  std::vector<double> errors = differences(fine.summary, coarse);
+Errors errors_of(const Result<pulse::Run>& fine, const scenario::Scenario& scenario,
+                 const std::function<bool()>& interrupted) {
+  // With a part of the cells; empty where that is no run, so that its share of the errors is not known.
+  const auto coarse = [&](int part, double coarser) -> std::vector<SummaryValue> {
+    const int cells = scenario.pulse.cells / part;
+    if (cells < fewest_cells) return {};
+    try {
+      return summary_with(cells, scenario, interrupted, coarser);
+    } catch (const InputError&) {
+      return {};
+    } catch (const NumericsError&) {
+      return {};
+    }
+  };
+  const std::vector<SummaryValue> half = coarse(2, 4);
+  const std::vector<SummaryValue> quarter = half.empty() ? half : coarse(4, 16);  // without a half no error is known
+  std::vector<double> errors = estimated(fine.summary, half, quarter);
+  std::vector<std::string> warnings;
+  const pulse::Problem& problem = fine.run->solver().problem();
+  const double cell_of_half = 2 * (problem.right - problem.left) / scenario.pulse.cells;
+  for (std::size_t i = 0; i < half.size(); ++i)
+    if (among(fronts, fine.summary[i].key) && std::isfinite(real(fine.summary[i].value)) && std::isnan(errors[i]))
+      errors[i] = cell_of_half;
   if (const auto slip = fine.run->slip_twice())
     for (std::size_t i = 0; i < errors.size(); ++i)
-      if (std::string_view(fine.summary[i].key) == "slip_at_origin")
-        errors[i] = std::fmax(errors[i], slip->beyond_sampling());
-  return errors;
+      if (std::string_view(fine.summary[i].key) == "slip_at_origin") errors[i] = std::fmax(errors[i], slip->error());
+  for (std::size_t i = 0; i < quarter.size(); ++i) {
+    const double values[] = {real(quarter[i].value), real(half[i].value), real(fine.summary[i].value)};
+    if (!among(held_to_tolerance, fine.summary[i].key) || !grows(values[2], values[1], values[0])) continue;
+    errors[i] = none;
+    const int cells = scenario.pulse.cells;
+    warnings.push_back("pulse: " + std::string(fine.summary[i].key) + " grows with the cells: " + digits(values[0], 3) +
+                       ", " + digits(values[1], 3) + ", " + digits(values[2], 3) + " with " +
+                       std::to_string(cells / 4) + ", " + std::to_string(cells / 2) + ", " + std::to_string(cells) +
+                       "; what moves is narrower than a cell, more pulse.cells help");
+  }
+  return {std::move(errors), std::move(warnings)};
 }
 
 int cells_for(double tolerance, bool resumed, const scenario::Scenario& scenario,
@@ -106,16 +148,18 @@ int cells_for(double tolerance, bool resumed, const scenario::Scenario& scenario
                       .problem = "chooses the cells of a run that has begun",
                       .allowed = "tolerance without resume"});
   const int given = scenario.pulse.cells;
-  std::vector<SummaryValue> coarse = summary_with(std::max(given / 2, fewest_cells), scenario, interrupted);
+  std::vector<SummaryValue> quarter = summary_with(std::max(given / 4, fewest_cells), scenario, interrupted, 16),
+                            half = summary_with(std::max(given / 2, fewest_cells), scenario, interrupted);
   double reached = 0;
-  for (int cells = given; cells <= most_cells && !coarse.empty(); cells *= 2) {
+  for (int cells = given; cells <= most_cells && !quarter.empty() && !half.empty(); cells *= 2) {
     std::vector<SummaryValue> fine = summary_with(cells, scenario, interrupted);
     if (fine.empty()) return given;
-    reached = largest_relative(fine, differences(fine, coarse));
+    reached = largest_relative(fine, estimated(fine, half, quarter));
     if (reached <= tolerance) return cells;
-    coarse = std::move(fine);
+    quarter = std::move(half);
+    half = std::move(fine);
   }
-  if (coarse.empty()) return given;
+  if (quarter.empty() || half.empty()) return given;
   throw NumericsError("tolerance " + digits(tolerance, 3) + " is not reached with " + std::to_string(most_cells) +
                       " cells: " + digits(reached, 3) + " is");
 }

@@ -38,7 +38,7 @@ PulsePlan plan_pulse(const scenario::Scenario& scenario) {
 
 ChainPlan plan_chain(const scenario::Scenario& scenario, double share_of_machine) {
   ChainPlan plan{.chain = setup::chain_problem(scenario),
-                 .schedule = setup::pulse_schedule(scenario, setup::pulse_problem(scenario)),
+                 .schedule = setup::pulse_schedule(scenario, setup::stated_problem(scenario)),
                  .need = {}};
   setup::require_memory(scenario, plan.chain, share_of_machine);
   plan.need = setup::estimate_of(scenario, plan.chain);
@@ -79,6 +79,7 @@ Result<chain::Run> chain(const scenario::Scenario& scenario, const ChainPlan& pl
                  .resumed = options.checkpoint.has_value(),
                  .ranks = options.ranks},
                 [&] { return options.after_step && options.after_step(run.time(), run.chain().level()); });
+  result.metadata.events = run.events();
   if (!reached) return result;
   const double stepping = seconds_since(begun);
   result.metadata.warnings = run.warnings();  // asks all ranks

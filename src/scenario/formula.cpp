@@ -3,35 +3,20 @@
 #include <muParser.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numbers>
+#include <system_error>
 
+#include "formula_functions.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::scenario {
 namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-
-struct Function {
-  std::string_view name;
-  double (*call)(double);
-};
-
-/// All our own: the parser's min, max and sign turn NaN into a number, and so would hide a formula that fails.
-constexpr Function functions[] = {
-    {"sin", [](double v) { return std::sin(v); }},     {"cos", [](double v) { return std::cos(v); }},
-    {"tan", [](double v) { return std::tan(v); }},     {"asin", [](double v) { return std::asin(v); }},
-    {"acos", [](double v) { return std::acos(v); }},   {"atan", [](double v) { return std::atan(v); }},
-    {"sinh", [](double v) { return std::sinh(v); }},   {"cosh", [](double v) { return std::cosh(v); }},
-    {"tanh", [](double v) { return std::tanh(v); }},   {"asinh", [](double v) { return std::asinh(v); }},
-    {"acosh", [](double v) { return std::acosh(v); }}, {"atanh", [](double v) { return std::atanh(v); }},
-    {"exp", [](double v) { return std::exp(v); }},     {"log", [](double v) { return std::log(v); }},
-    {"ln", [](double v) { return std::log(v); }},      {"log10", [](double v) { return std::log10(v); }},
-    {"log2", [](double v) { return std::log2(v); }},   {"sqrt", [](double v) { return std::sqrt(v); }},
-    {"abs", [](double v) { return std::fabs(v); }},    {"sign", [](double v) { return v > 0 ? 1 : v < 0 ? -1 : v; }},
-};
 
 double least(const double* values, int count) {
   double result = count > 0 ? values[0] : not_a_number;
@@ -43,6 +28,16 @@ double greatest(const double* values, int count) {
   double result = count > 0 ? values[0] : not_a_number;
   for (int i = 1; i < count; ++i) result = values[i] > result || std::isnan(values[i]) ? values[i] : result;
   return result;
+}
+
+/// Reads the number that `text` begins with. muParser's own way is a stream, which without memory calls a good number
+/// none.
+int take_number(const char* text, int* position, double* value) {
+  if (*text != '.' && (*text < '0' || *text > '9')) return 0;
+  const auto [end, error] = std::from_chars(text, text + std::strlen(text), *value);
+  if (error != std::errc{}) return 0;
+  *position += static_cast<int>(end - text);
+  return 1;
 }
 
 InputError refusal(const mu::Parser::exception_type& error) {
@@ -71,9 +66,11 @@ Formula::Formula(const std::string& text, const std::vector<std::string_view>& v
   scan_formula(text, variables);
   mu::Parser& parser = compiled_->parser;
   try {
+    parser.AddValIdent(take_number);
     parser.ClearFun();
     parser.ClearConst();
-    for (const Function& function : functions) parser.DefineFun(std::string(function.name), function.call);
+    for (const FormulaFunction& function : functions_of_one)
+      parser.DefineFun(std::string(function.name), function.call);
     parser.DefineFun("min", least);
     parser.DefineFun("max", greatest);
     parser.DefineConst("pi", std::numbers::pi);
@@ -106,7 +103,7 @@ bool Formula::has(std::string_view variable) const {
 const std::vector<std::string_view>& formula_functions() {
   static const std::vector<std::string_view> names = [] {
     std::vector<std::string_view> all;
-    for (const Function& function : functions) all.push_back(function.name);
+    for (const FormulaFunction& function : functions_of_one) all.push_back(function.name);
     all.insert(all.end(), {"min", "max"});
     return all;
   }();

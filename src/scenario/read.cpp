@@ -28,12 +28,14 @@ Scenario read(std::string_view text, const std::string& file, const std::vector<
   scenario.text = document.text;
   scenario.overrides = overrides;
   const RawStress raw = read_initial(document, tables, scenario.initial);
+  read_medium(document, scenario.medium);
   read_friction(document, tables, scenario);
   read_domain(document, scenario.domain);
   scenario.end = read_end(document, scenario.end);
   read_pulse(document, scenario.pulse);
   read_chain(document, scenario.chain);
-  read_medium(document, scenario.medium);
+  read_loading(document, scenario.loading);
+  if (scenario.loading.acts()) scenario.chain.implicit = true;
   scenario.output = read_output(document, scenario.end);
   make_functions(document, raw, scenario);
   return scenario;

@@ -8,7 +8,7 @@
 namespace slipfront::scenario {
 namespace {
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   constexpr std::string_view digits = "0123456789ABCDEF";
   std::string out = "\"";
   for (const char c : text) {
@@ -30,7 +30,7 @@ std::string quoted(std::string_view text) {
 std::string serialized_key(std::string_view view) {
   const std::string key(view);
   constexpr std::string_view bare = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
-  return !key.empty() && key.find_first_not_of(bare) == std::string_view::npos ? key : quoted(key);
+  return !key.empty() && key.find_first_not_of(bare) == std::string_view::npos ? key : in_quotes(key);
 }
 
 std::string number(double value) {
@@ -70,7 +70,7 @@ void write(std::ostream& out, const toml::node& node) {
     } else if constexpr (std::is_same_v<Type, toml::array>) {
       write_array(out, typed);
     } else if constexpr (std::is_same_v<Type, toml::value<std::string>>) {
-      out << quoted(typed.get());
+      out << in_quotes(typed.get());
     } else if constexpr (std::is_same_v<Type, toml::value<double>>) {
       out << number(typed.get());
     } else if constexpr (std::is_same_v<Type, toml::value<bool>>) {

@@ -72,7 +72,8 @@ void read_pulse(const Document& document, PulseOptions& pulse) {
 }
 
 void read_chain(const Document& document, ChainOptions& chain) {
-  const Section section(document, "chain", {"scale", "spacing", "model", "left", "right", "periodic", "window"});
+  const Section section(document, "chain",
+                        {"scale", "spacing", "model", "left", "right", "periodic", "window", "steps", "tolerance"});
   chain.scale = section.number("scale", positive);
   chain.spacing = section.number("spacing", positive);
   chain.model = section
@@ -89,6 +90,10 @@ void read_chain(const Document& document, ChainOptions& chain) {
   chain.right = end("right", chain.right);
   chain.periodic = section.truth("periodic").value_or(chain.periodic);
   chain.window = section.number("window", positive);
+  chain.implicit = section.choice<bool>("steps", {{"explicit", false}, {"implicit", true}}).value_or(chain.implicit);
+  if (section.has("tolerance") && section.has("steps") && !chain.implicit)
+    throw section.refuse("tolerance", "is of implicit steps", "with chain.steps = \"implicit\" or [loading]");
+  chain.tolerance = section.number("tolerance", {.least = 1e-12, .most = 0.1}).value_or(chain.tolerance);
 }
 
 Output read_output(const Document& document, double end) {

@@ -12,6 +12,7 @@ void read_medium(const Document& document, medium::Constants& medium);
 void read_domain(const Document& document, Domain& domain);
 void read_pulse(const Document& document, PulseOptions& pulse);
 void read_chain(const Document& document, ChainOptions& chain);
+void read_loading(const Document& document, chain::Loading& loading);
 double read_end(const Document& document, double otherwise);
 Output read_output(const Document& document, double end);
 

@@ -60,12 +60,25 @@ void make_contact(const Document& document, Scenario& scenario) {
   const auto text = section.formula("contact");
   if (!text) return;
   scenario.contact = *text;
+  if (*text == "0") {
+    scenario.substrate = false;
+    return;
+  }
   scenario.contact_at = [read = read_formula(section, "contact", *text, {"x"})](double x) {
     const double contact = read.first(x);
     if (!(contact > 0 && std::isfinite(contact)))
       throw refusal(read.second, "the contact ratio is " + shortest(contact) + " at x = " + shortest(x),
                     "a finite number > 0");
     return contact;
+  };
+}
+
+/// Contacts that age, and pores under pressure, have another contact ratio at t = 0 than [interface] says.
+void add_contacts_at_start(Scenario& scenario) {
+  if (!scenario.friction.contacts().act() || !scenario.substrate) return;
+  const double at_start = scenario.friction.contact_at_start();
+  scenario.contact_at = [at_start, given = scenario.contact_at](double x) {
+    return at_start * (given ? given(x) : 1.0);
   };
 }
 
@@ -115,6 +128,13 @@ void try_out(const Document& document, const RawStress& raw, Scenario& scenario)
 void make_functions(const Document& document, const RawStress& raw, Scenario& scenario) {
   make_forcing(document, scenario);
   make_contact(document, scenario);
+  add_contacts_at_start(scenario);
+  if (!scenario.substrate &&
+      (scenario.initial.profile == ProfileKind::formula || scenario.initial.profile == ProfileKind::table ||
+       scenario.initial.stress_left > 0 || scenario.initial.stress_right > 0))
+    throw refusal(Section(document, "interface", {"contact"}).where("contact"),
+                  "without a substrate there are no dislocations, and so no initial stress",
+                  "with initial.stress_left = 0 and stress_right = 0, or a contact > 0");
   scenario.stress = validated_stress(raw, scenario.contact_at);
   try_out(document, raw, scenario);
 }

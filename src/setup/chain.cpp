@@ -12,11 +12,12 @@ namespace {
 /// The default spacing in widths of a dislocation where they are narrowest: by the contact ratio, or packed densely.
 double chosen_spacing(const scenario::Scenario& s, double left, double right) {
   double narrowest = 1;
+  const double growth = s.friction.contact_growth(s.end);
   constexpr int samples = 1000;
   for (int i = 0; i <= samples; ++i) {
     const double x = left + (right - left) * i / samples, a = s.contact_at ? s.contact_at(x) : 1, k = s.stress(x);
     const double packed = k / a > train::smallest_stress ? std::cosh(train::psi_of_stress(k / a)) : 1;
-    narrowest = std::fmin(narrowest, 1 / (a * (packed > 1.05 ? packed : 1)));
+    narrowest = std::fmin(narrowest, 1 / (a * growth * (packed > 1.05 ? packed : 1)));
   }
   return chain::default_spacing * narrowest;
 }
@@ -24,7 +25,12 @@ double chosen_spacing(const scenario::Scenario& s, double left, double right) {
 }  // namespace
 
 chain::ScaledProblem chain_problem(const scenario::Scenario& s) {
-  const pulse::Problem pulse = pulse_problem(s);
+  if (s.loading.acts() && !(s.domain.left && s.domain.right))
+    throw InputError({.file = s.file,
+                      .key = "domain",
+                      .problem = "left and right are needed with [loading]",
+                      .allowed = "[domain] left = ..., right = ..."});
+  const pulse::Problem pulse = stated_problem(s);
   chain::ScaledProblem c;
   c.scale = s.chain.scale.value_or(1);
   c.left = pulse.left;
@@ -38,6 +44,16 @@ chain::ScaledProblem chain_problem(const scenario::Scenario& s) {
   c.boundary = {.left = s.chain.left, .right = s.chain.right, .periodic = s.chain.periodic};
   c.window = s.chain.window.value_or(0);
   c.model = s.chain.model;
+  c.loading = s.loading;
+  c.substrate = s.substrate;
+  c.implicit = s.chain.implicit;
+  c.tolerance = s.chain.tolerance;
+  if (!c.substrate && !c.implicit)
+    throw InputError({.file = s.file,
+                      .key = "interface.contact",
+                      .value = s.contact,
+                      .problem = "explicit steps are those of a substrate",
+                      .allowed = "chain.steps = \"implicit\", [loading], or a contact > 0"});
   if (c.model == chain::Model::lattice) {
     const auto spacing = s.chain.spacing ? s.chain.spacing : s.medium.contact_ratio;
     if (!spacing)

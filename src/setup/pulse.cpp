@@ -26,9 +26,30 @@ Reach reach_of(const scenario::Scenario& s) {
   return {1.15 * share * left * s.end + blur, 1.15 * share * right * s.end + blur};
 }
 
+void require_averages(const scenario::Scenario& s) {
+  const auto refuse = [&](std::string key, std::string value, const char* problem, const char* allowed) {
+    throw InputError(
+        {.file = s.file, .key = std::move(key), .value = std::move(value), .problem = problem, .allowed = allowed});
+  };
+  if (s.loading.acts())
+    refuse("loading.stiffness", "",
+           "the averages have no rule for where loading gives birth to dislocations, which their equations conserve",
+           "slipfront chain, where dislocations are born by themselves");
+  for (const friction::Parameter& p : s.friction.definition().parameters)
+    if (p.on_chain_alone && s.friction.parameter(p.name) != 0)
+      refuse(
+          "friction." + std::string(p.name), digits(s.friction.parameter(p.name)),
+          "the averages have a contact a(x) that stays: the pressure of a train whose contacts or pores follow theta "
+          "is not among them (docs/friction.md)",
+          "slipfront chain, which has both exactly");
+  if (!s.substrate)
+    refuse("interface.contact", "0", "without a substrate there are no dislocations to average over",
+           "slipfront chain, or a contact > 0");
+}
+
 }  // namespace
 
-pulse::Problem pulse_problem(const scenario::Scenario& s) {
+pulse::Problem stated_problem(const scenario::Scenario& s) {
   pulse::Problem p{.stress = s.stress,
                    .forcing = {},
                    .contact = s.contact_at,
@@ -39,8 +60,9 @@ pulse::Problem pulse_problem(const scenario::Scenario& s) {
   if (!known && !(s.domain.left && s.domain.right))
     throw InputError({.file = s.file,
                       .key = "domain",
-                      .problem = s.contact_at ? "left and right are needed with a contact profile"
-                                              : "left and right are needed for this profile",
+                      .problem = s.friction.contacts().act() ? "left and right are needed where contacts change"
+                                 : s.contact_at              ? "left and right are needed with a contact profile"
+                                                             : "left and right are needed for this profile",
                       .allowed = "[domain] left = ..., right = ..."});
   const Reach reach = known ? reach_of(s) : Reach{0, 0};
   // A forcing carries dislocations along; through a domain made for slow waves it would carry them without end.
@@ -64,6 +86,11 @@ pulse::Problem pulse_problem(const scenario::Scenario& s) {
   }
   p.corner = s.initial.jumps ? 0 : HUGE_VAL;
   return p;
+}
+
+pulse::Problem pulse_problem(const scenario::Scenario& s) {
+  require_averages(s);
+  return stated_problem(s);
 }
 
 output::Schedule pulse_schedule(const scenario::Scenario& s, const pulse::Problem& problem) {

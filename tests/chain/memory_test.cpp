@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "chain_cases.hpp"
 #include "exact.hpp"
 #include "slipfront/chain/measure.hpp"
 #include "slipfront/chain/run.hpp"
@@ -44,20 +45,9 @@ const friction::Definition& weakening_law() {
 }
 
 chain::ScaledProblem step() {
-  chain::ScaledProblem s;
-  s.scale = 60;
-  s.left = -6;
-  s.right = 2;
-  s.stress = [](double x) { return x < 0 ? 0.855 : 0.0; };
+  chain::ScaledProblem s = small_step();
   s.friction = {weakening_law(), {0.04, 3}};
   return s;
-}
-
-output::Schedule until(double end) {
-  output::Schedule schedule;
-  schedule.times = {0, end / 2, end};
-  for (int i = 0; i <= 16; ++i) schedule.x_edges.push_back(-6 + i * 0.5);
-  return schedule;
 }
 
 TEST(ChainMemory, PlacesRememberTheirSlip) {

@@ -7,7 +7,7 @@ import shutil
 import subprocess
 import unittest
 
-from support import CommandLine, PROGRAM, SOURCE
+from support import CommandLine, PROGRAM, SOURCE, run
 
 CHAIN = ["time", "scale", "slip_at_origin", "dislocations", "sites", "steps", "site_updates_per_second", "energy_drift", "charge_error",
          "wall_seconds"]
@@ -55,6 +55,55 @@ class Chain(CommandLine):
         # The pulse has a stress of 0.8 where 13 dislocations make 0.817.
         self.assertLess(abs(fine["slip_at_origin"] * 0.8 / 0.8168 / self.pulse(case)["slip_at_origin"] - 1), 0.01)
 
+    def slider(self, *settings):
+        """A block pulled through springs; tests/reference/spring_slider.py has the same numbers."""
+        text = ("[initial]\nstress_left = 0\nstress_right = 0\n[interface]\ncontact = 0\n[domain]\nleft = -2\nright = 2\n"
+                "[friction]\nlaw = 'rate-and-state'\nstrength = 0.05\ndirect_effect = 0.01\nevolution_effect = 0.015\n"
+                "reference_velocity = 0.01\ncharacteristic_slip = 1\n[loading]\nstiffness = 0.0025\nvelocity = 0.001\n"
+                "[chain]\nleft = 'free'\nright = 'free'\n[pulse]\ncells = 4\n[time]\nend = 200000\n[output]\nevery = 50000\n")
+        return self.file("slider.toml", text), [word for setting in settings for word in ("--set", setting)]
+
+    def test_loading_has_events_and_resumes_to_the_same_bits(self):
+        case, _ = self.slider()
+        out = case + ".nc"
+        whole = self.chain(case, "-o", out)
+        events = whole["events"]
+        self.assertEqual(len(events), 4)
+        self.assertLess(abs((events[3]["onset"] - events[2]["onset"]) / 51684.606 - 1), 2e-3)
+        self.assertIsNone(events[3]["rupture_velocity"])
+        self.assertLess(whole["energy_drift"], 1e-10)
+        # Left alone and interrupted: the same file.
+        longer = ["--set", "time.end=2e7", "--set", "output.every=2e6"]
+        cut, left_alone = case + ".cut.nc", case + ".alone.nc"
+        self.interrupted(cut, "chain", case, *longer)
+        self.ok("chain", case, *longer, "--resume", cut)
+        self.ok("chain", case, *longer, "-o", left_alone)
+        with open(cut, "rb") as one, open(left_alone, "rb") as other:
+            self.assertEqual(one.read(), other.read())
+        self.assertIn("4 events", self.ok("chain", case))
+        self.assertIn("implicit", self.ok("chain", case, "--check"))
+        # A finer one has the scale in its units alone: kappa / s^2, f / s, slip and time times s.
+        scaled = self.chain(case, "--set", "chain.scale=3")["events"]
+        for key in ("onset", "slip", "stress_drop", "peak_velocity", "duration"):
+            self.assertLess(abs(scaled[2][key] / events[2][key] - 1), 5e-3, key)
+
+    def test_loading_refuses(self):
+        case, _ = self.slider()
+        for setting, said in (("loading.stiffness=0", "loading.stiffness"), ("loading.stiffness=-1", "> 0"), ("loading.velocity=nan", "not finite"),
+                              ("loading.velocity=inf", "not finite"), ("loading.stifness=1", "'stiffness'"), ("loading.where=top", "where"),
+                              ("loading.where=left chain.left=fixed", "chain.left"), ("friction.law=coulomb", "friction."),
+                              ("chain.left=absorbing", "absorbing"), ("chain.tolerance=0", "chain.tolerance"),
+                              ("interface.contact=1 initial.stress_left=-1", "stress")):
+            _, settings = self.slider(*setting.split())
+            done = run("chain", case, *settings)
+            self.assertEqual(done.returncode, 2, setting)
+            self.assertIn(said, done.stderr, setting)
+            self.assertEqual(done.stderr.count("\n"), 1, setting)
+        for command in ("pulse", "compare"):
+            done = run(command, case)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn("slipfront chain", done.stderr)
+
     def test_phonons_hold_what_a_shock_loses(self):
         case = os.path.join(SOURCE, "cases/shock.toml")
         lost = 3.925e-4  # elastic and kinetic energy of `slipfront pulse` at the start less that at the end
@@ -70,7 +119,7 @@ class Chain(CommandLine):
 
         def mpirun(ranks, *arguments):
             return subprocess.run(["mpirun", "-n", str(ranks), PROGRAM, "chain", case, "--set", "chain.scale=500", *arguments],
-                                  env=environment, capture_output=True, text=True, timeout=120)
+                                  env=environment, capture_output=True, text=True, timeout=400)
 
         alone, shared = os.path.join(folder, "alone.nc"), os.path.join(folder, "shared.nc")
         self.ok("chain", case, "--set", "chain.scale=500", "-o", alone)

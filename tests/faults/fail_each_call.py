@@ -1,9 +1,9 @@
 """The n-th call fails, n = 1, 2, ... until a run succeeds: the output is the old file or the new one, nothing else is left,
-and the run says one line with the contract's exit code. Usage: fail_each_call.py [--places | --all] [COMMAND...]
+and the run says one line with the contract's exit code. Usage: fail_each_call.py [--places [--one-of=K] | --all] [COMMAND...]
 
 Without an option only allocations of 16 kB or more are failed; with --all, every one (hours); with --places, those of every
-place in the code (a stack of functions): the first, second, fourth ... and last that comes from it. Environment: SLIPFRONT (the
-program), SLIPFRONT_SOURCE, FAILING_CALLS (the library of failing_calls.c)."""
+place in the code (a stack of functions): the first, second, fourth ... and last that comes from it; with --one-of=K beside it,
+every K-th of those. Environment: SLIPFRONT (the program), SLIPFRONT_SOURCE, FAILING_CALLS (the library of failing_calls.c)."""
 
 import concurrent.futures
 import itertools
@@ -16,7 +16,8 @@ import tempfile
 
 PROGRAM, SOURCE, SHIM = os.environ["SLIPFRONT"], pathlib.Path(os.environ["SLIPFRONT_SOURCE"]), os.environ["FAILING_CALLS"]
 KINDS = ("open", "write", "fsync", "rename", "close", "malloc")
-SMALL = ["--set", "pulse.cells=16", "--set", "chain.scale=20", "--set", "time.end=0.5"]
+#: A word without quotes, as here the law, is first tried as TOML.
+SMALL = ["--set", "pulse.cells=16", "--set", "chain.scale=20", "--set", "time.end=0.5", "--set", "friction.law=none"]
 STEP = str(SOURCE / "cases/step.toml")
 EVENT = "name,rupture_velocity,slip_velocity\na,3 km/s,0.5 m/s\n"
 #: Command -> arguments without the output. "TABLE", "EVENTS" and "UNFINISHED" stand for files of the folder.
@@ -37,7 +38,12 @@ def by_places(trace):
     for line in trace.read_text().splitlines():
         n, place = line.split()
         places.setdefault(place, []).append(int(n))
-    return sorted({numbers[i] for numbers in places.values() for i in [*(2**k - 1 for k in range(len(numbers).bit_length())), -1]})
+    chosen = sorted({numbers[i] for numbers in places.values() for i in [*(2**k - 1 for k in range(len(numbers).bit_length())), -1]})
+    return chosen if len(chosen) < 100 else chosen[:: one_of(sys.argv)]
+
+
+def one_of(arguments):
+    return next((int(word.partition("=")[2]) for word in arguments if word.startswith("--one-of=")), 1)
 
 
 class Job:
@@ -86,9 +92,10 @@ class Job:
         done = self.run({"LD_PRELOAD": SHIM, "FAIL_CALL": kind, "FAIL_AT": str(n), "FAIL_LEAST": str(least), "FAIL_REPORT": str(report)})
         failed = not report.exists() or "failed" in report.read_text()
         wrong = []
-        if done.returncode not in ((0, 2, 3, 4) if failed else (0,)):
+        # 2 says that the input is wrong, which no want of memory is.
+        if done.returncode not in ((0, 3, 4) if failed and kind == "malloc" else (0, 2, 3, 4) if failed else (0,)):
             wrong.append(f"exit code {done.returncode}")
-        lines = done.stderr.splitlines()
+        lines = [line for line in done.stderr.splitlines() if not line.startswith("slipfront: warning: ")]
         if done.returncode and (len(lines) != 1 or not lines[0].startswith("slipfront: ")):
             wrong.append(f"said {done.stderr[-300:]!r}")
         # A catalogue that cannot be read is written with the reason in its place, and the exit code says so.
@@ -112,9 +119,9 @@ def fail_all(command, kinds, least, by_place):
         for n in job.places(kind) if by_place else itertools.count(1):
             failed, more = job.fail(kind, n, least)
             wrong += more
-            if not failed:
+            if not failed and not by_place:  # threads come to their calls in another order: by place, some runs have fewer
                 break
-            count += 1
+            count += failed
     shutil.rmtree(job.folder)
     job.folder.with_suffix(".report").unlink(missing_ok=True)
     return count, wrong

@@ -3,7 +3,8 @@
    FAIL_CALL   malloc (calloc, realloc and the aligned ones too), open, write, fsync, rename, close
    FAIL_AT     which of them, from 1; FAIL_ON=1: and all behind it, as on a disk that stays full
    FAIL_LEAST  of malloc: smaller ones are neither counted nor failed (bytes)
-   FAIL_TRACE  a file that gets a line for each call: its number, and one for the places (functions) that it came from
+   FAIL_TRACE  a file that gets a line for each call while none is to fail: its number, and one for the places (functions)
+               that it came from
    FAIL_REPORT a file that gets the number of calls that were seen, and "failed" if one was failed
    A program may call fail_calls(kind, n) itself, to count from there. Calls on standard input, output and error count
    like others, where they come by these functions: stdio's own do not. */
@@ -32,6 +33,7 @@ struct state {
   long fail_at, seen, failed;
 };
 static struct state before_mapping, *state = &before_mapping;
+static int counted; /* this process, and those that it forks: not the one that waits for them */
 static int fail_on;
 size_t least; /* of malloc */
 static int trace = -1;
@@ -41,6 +43,7 @@ void fail_calls(const char* kind, long n) {
   state->fail_at = n;
   state->seen = state->failed = 0;
   strncpy(state->wanted, kind, sizeof state->wanted - 1);
+  counted = kind[0] != 0;
 }
 
 long calls_failed(void) { return state->failed; }
@@ -80,28 +83,36 @@ static void note_place(long n) {
 }
 
 static int fails(const char* kind) {
-  if (tracing || strcmp(state->wanted, kind) != 0) return 0;
+  if (!counted || tracing || strcmp(state->wanted, kind) != 0) return 0;
   const long n = __atomic_add_fetch(&state->seen, 1, __ATOMIC_RELAXED);
-  if (trace >= 0) note_place(n);
+  if (trace >= 0 && state->fail_at == 0) note_place(n);
   if (n != state->fail_at && !(fail_on && state->fail_at > 0 && n > state->fail_at)) return 0;
   state->failed = 1;
   return 1;
 }
 
-/* The OpenMP runtime, libgomp or libomp, ends the program by itself where it gets no memory, or cannot read /proc: not
-   this program's doing. */
-static int of_openmp(const void* caller) {
+/* The OpenMP runtime, libgomp or libomp, ends the program by itself where it gets no memory, or cannot read /proc, and the
+   dynamic loader where it gets none for what a thread has of its own: not this program's doing. To look a caller up takes
+   longer than most programs need between two calls: answers are kept. */
+static int ends_the_program(const void* caller) {
+  static unsigned long answers[4096]; /* the caller, and in the lowest bit the answer */
   static __thread int asking;
   if (asking || state->wanted[0] == 0) return 0;
+  const unsigned long address = (unsigned long)caller << 1;
+  unsigned long* place = &answers[(address >> 1 ^ address >> 13) % 4096];
+  const unsigned long answer = __atomic_load_n(place, __ATOMIC_RELAXED);
+  if ((answer & ~1ul) == address && answer != 0) return (int)(answer & 1);
   asking = 1;
   Dl_info from;
-  const int found = dladdr(caller, &from) != 0 && from.dli_fname != NULL && strstr(from.dli_fname, "omp.so") != NULL;
+  const int found = dladdr(caller, &from) != 0 && from.dli_fname != NULL &&
+                    (strstr(from.dli_fname, "omp.so") != NULL || strstr(from.dli_fname, "/ld-linux") != NULL);
   asking = 0;
+  __atomic_store_n(place, address | (unsigned long)found, __ATOMIC_RELAXED);
   return found;
 }
 
 static int memory_fails(size_t size, const void* caller) {
-  return size >= least && strcmp(state->wanted, "malloc") == 0 && !of_openmp(caller) && fails("malloc");
+  return size >= least && strcmp(state->wanted, "malloc") == 0 && !ends_the_program(caller) && fails("malloc");
 }
 
 void* malloc(size_t size) {
@@ -145,7 +156,7 @@ int posix_memalign(void** at, size_t alignment, size_t size) {
 #define REAL(name) ((__typeof__(&name))dlsym(RTLD_NEXT, #name))
 
 static int real_open(const char* name, const void* caller, const char* path, int flags, va_list more) {
-  if (!of_openmp(caller) && fails("open")) {
+  if (!ends_the_program(caller) && fails("open")) {
     errno = EMFILE;
     return -1;
   }
@@ -170,7 +181,7 @@ int open64(const char* path, int flags, ...) {
 }
 
 FILE* fopen(const char* path, const char* mode) {
-  if (!of_openmp(__builtin_return_address(0)) && fails("open")) {
+  if (!ends_the_program(__builtin_return_address(0)) && fails("open")) {
     errno = EMFILE;
     return NULL;
   }
@@ -178,7 +189,7 @@ FILE* fopen(const char* path, const char* mode) {
 }
 
 FILE* fopen64(const char* path, const char* mode) {
-  if (!of_openmp(__builtin_return_address(0)) && fails("open")) {
+  if (!ends_the_program(__builtin_return_address(0)) && fails("open")) {
     errno = EMFILE;
     return NULL;
   }

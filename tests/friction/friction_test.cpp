@@ -266,8 +266,9 @@ TEST(Friction, PowerBelowOneTakesAllOfTheSlowest) {
 }
 
 TEST(Friction, ScalesForcesSlipsAndTimes) {
-  const Friction scaled = Friction(law_named("rate-and-state"), {8, 4, 2, 1, 3, 5, 0}).scaled_by(2);
-  const double want[] = {4, 2, 1, 2, 3, 10, 0};
+  const Friction scaled =
+      Friction(law_named("rate-and-state"), {8, 4, 2, 1, 3, 5, 0, 0.1, 6, 0.2, 8, 0.3}).scaled_by(2);
+  const double want[] = {4, 2, 1, 2, 3, 10, 0, 0.1, 12, 0.2, 16, 0.3};
   std::size_t i = 0;
   for (const Parameter& p : scaled.definition().parameters) EXPECT_EQ(scaled.parameter(p.name), want[i++]) << p.name;
 }

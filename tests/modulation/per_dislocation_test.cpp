@@ -46,6 +46,22 @@ TEST(PerDislocation, ConvergesFromAnyStart) {
       EXPECT_NEAR(state_of(lagrangian_state({0.1, psi}), guess).psi / psi, 1, 1e-11) << psi << " from " << guess;
 }
 
+/// Fast and far apart, K less the length is not monotone: Newton's method went to and fro between two states.
+TEST(PerDislocation, ConvergesFromAnyStartWhereDislocationsAreFastAndFarApart) {
+  for (const double spacing : {500.0, 800.0, 1036.68, 1200.0})
+    for (const double momentum : {-12.2072, 3.0, 50.0, 1000.0}) {
+      const double spacing_at_rest = spacing * std::cosh(std::asinh(momentum / 8));
+      for (double log_guess = -305; log_guess < 1.3; log_guess += 0.37) {
+        const State found = state_of({spacing, momentum}, std::pow(10, log_guess));
+        EXPECT_NEAR(found.phi / std::asinh(momentum / 8), 1, 1e-12);
+        if (spacing_at_rest > 1420)
+          EXPECT_EQ(found.psi, 0);
+        else
+          EXPECT_NEAR(std::log(found.psi) / (std::log(4) - spacing_at_rest / 2), 1, 1e-12);
+      }
+    }
+}
+
 TEST(PerDislocation, GoesToTheEmptyStateAndRefusesNonsense) {
   EXPECT_TRUE(state_of({2000, 0.1}, 1).empty());
   EXPECT_NEAR(state_of({2000, 8 * std::sinh(0.3)}, 1).phi, 0.3, 1e-15);

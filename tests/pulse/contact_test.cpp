@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "slipfront/elliptic/complete.hpp"
@@ -74,6 +75,92 @@ TEST(Contact, EquilibriumStaysAtRestUnderStrongFriction) {
     EXPECT_LT(fastest(s), last / 3.5) << cells;
     last = fastest(s);
   }
+}
+
+/// Where the place of a dislocation that starts at rest is after a time, if it is alone: H = ((8 a)^2 + p^2)^(1/2).
+double place_after(double x, double time, const std::function<double(double)>& contact) {
+  constexpr int steps = 2000;
+  constexpr double h = 1e-5;
+  double p = 0;
+  const double dt = time / steps;
+  for (int i = 0; i < steps; ++i) {  // kick, drift, kick
+    const auto kick = [&] {
+      const double a = contact(x), slope = (contact(x + h) - contact(x - h)) / (2 * h);
+      p -= dt / 2 * 64 * a * slope / std::hypot(8 * a, p);
+    };
+    kick();
+    x += dt * p / std::hypot(8 * contact(x), p);
+    kick();
+  }
+  return x;
+}
+
+/// Dislocations far from each other slide down a contact ratio as if each were alone, also where the stress changes
+/// and phi is much larger than psi.
+TEST(Contact, DiluteTrainSlidesLikeSingleDislocations) {
+  const auto contact = [](double x) { return 1 + 0.139 * std::exp(-std::pow((x - 0.724) / 0.824, 2)); };
+  const auto stress = [](double x) { return 0.261 + 0.434 / (1 + std::exp(2 * x / 0.58)); };
+  constexpr double end = 0.5;
+  Solver solver({.stress = stress,
+                 .forcing = {},
+                 .contact = contact,
+                 .friction = Friction(),
+                 .left = -5.12,
+                 .right = 5.12,
+                 .corner = HUGE_VAL,
+                 .cells = 400});
+  solver.advance_to(end);
+  for (const double from : {1.1, 1.2, 1.3, 1.5, 1.7}) {
+    const double x = place_after(from, end, contact);
+    double passed = 0;  // slip at x: 2 pi for each dislocation that started between
+    for (int i = 0; i < 100; ++i) passed += stress(from + (i + 0.5) / 100 * (x - from)) * (x - from) / 100;
+    EXPECT_NEAR(solver.slip_at(solver.view(), x), passed, 2e-3 * passed) << x;
+  }
+}
+
+/// So does the last of them, where the stress falls to nothing.
+TEST(Contact, EdgeOfADiluteTrainSlidesLikeOneDislocation) {
+  const auto contact = [](double x) { return 1 + 0.566 * std::tanh((x + 0.6) / 1.54); };
+  for (const int cells : {100, 200}) {
+    Solver solver({.stress =
+                       [&](double x) {
+                         const double stress = 0.276 / (1 + std::exp((x + 1.09) / 0.232));
+                         return stress < 0.005 * contact(x) ? 0 : stress;
+                       },
+                   .forcing = {},
+                   .contact = contact,
+                   .friction = Friction(),
+                   .left = -2.81,
+                   .right = 2.61,
+                   .corner = HUGE_VAL,
+                   .cells = cells});
+    const double edge = solver.view().faces.back();
+    solver.advance_to(0.524);
+    EXPECT_NEAR(solver.view().faces.back(), place_after(edge, 0.524, contact), 1e-3) << cells;
+    const auto view = solver.view();
+    for (std::size_t i = solver.size() - 10; i < solver.size(); ++i)
+      EXPECT_LE(std::fabs(view.states[i].phi - view.states[i - 1].phi), 0.01) << cells << " cells, cell " << i;
+  }
+}
+
+/// A pulse whose free edge runs over a slope of the contact: slip(0) of chains at scale 1000 and 4000 is 0.07926 and
+/// 0.07954.
+TEST(Contact, FreeEdgeOnASlopeConverges) {
+  double slip[3];
+  int i = 0;
+  for (const int cells : {100, 200, 400}) {
+    Solver s({.stress = [](double x) { return x < 0 ? 0.855 : 0.0; },
+              .forcing = {},
+              .contact = [](double x) { return 1 + 0.2 * std::tanh(x - 1); },
+              .friction = Friction(),
+              .left = -7,
+              .right = 7,
+              .cells = cells});
+    s.advance_to(2 * pi);
+    slip[i++] = s.slip_at(s.view(), 0);
+  }
+  EXPECT_LT(std::fabs(slip[2] - slip[1]), std::fabs(slip[1] - slip[0]) / 3);
+  EXPECT_NEAR(slip[2], 0.07963, 2e-5);
 }
 
 /// At the end all is at rest in equilibrium near the barrier, and the edge of the empty side stands where a dislocation

@@ -70,6 +70,24 @@ TEST(Gap, ClosesUnderStrongFrictionToo) {
   EXPECT_NEAR(after(100), after(400), 2e-3);
 }
 
+/// The train beside a free edge is no denser than in the cells beside it, also where rounding chooses which of two
+/// cells that is: a mirror shows the same peak.
+TEST(Gap, PeakBesideTheEdgesIsTheSameInAMirror) {
+  const auto peak = [](double sign) {
+    Problem p{.stress = [=](double x) { return std::fabs(sign * x - 0.113) < 1.11 ? 0 : 0.159; },
+              .forcing = [=](double, double) { return sign * 0.0359; },
+              .friction = friction::viscous(0.0211),
+              .left = sign > 0 ? -2.04 : -1.75,
+              .right = sign > 0 ? 1.75 : 2.04,
+              .corner = HUGE_VAL,
+              .cells = 100};
+    pulse::Run run(p, {.times = {0, 0.549}, .x_edges = {p.left, 0, p.right}});
+    run.go();
+    return sign * run.snapshots().back().peak_slip_velocity;
+  };
+  EXPECT_NEAR(peak(-1) / peak(1), 1, 2e-5);
+}
+
 TEST(Gap, ResumedRunHasTheSameBits) {
   const Problem p = two_sides(0.4, 60, 0.3);
   for (const double t : {0.5, 4.0}) {  // before and after the edges have met

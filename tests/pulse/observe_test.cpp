@@ -65,6 +65,24 @@ TEST(Observe, PeakIsNotBelowTheOrigin) {
     }
 }
 
+/// Also of a hump narrower than a cell, beside which every cell counts as one of a shock.
+TEST(Observe, PeakOfANarrowPulse) {
+  Problem problem{.stress = [](double x) { return 0.107 + 0.154 * std::exp(-std::pow((x + 0.834) / 0.242, 2)); },
+                  .forcing = [](double, double) { return 0.00129; },
+                  .friction = friction::viscous(0.184, friction::Closure::paper),
+                  .left = -15.1,
+                  .right = 17.8,
+                  .corner = HUGE_VAL,
+                  .cells = 100};
+  pulse::Run run(problem, schedule(14.7));
+  run.go();
+  const Solver::View view = run.solver().view();
+  double largest = 0;
+  for (std::size_t i = 0; i < view.states.size(); ++i)
+    largest = std::fmax(largest, std::fabs(averages_of(view, view.states[i], view.centres[i]).W));
+  EXPECT_GT(std::fabs(run.snapshots().back().peak_slip_velocity), 0.8 * largest);
+}
+
 TEST(Observe, CountsDislocations) {
   pulse::Run run(smooth(0.1, friction::Closure::consistent), schedule(2 * pi));
   run.go();
@@ -140,6 +158,32 @@ TEST(Observe, TrailingFrontOfASmoothStressIsWhereItIsFelt) {
   EXPECT_NEAR(fronts(400), fine, 5e-3);
   EXPECT_NEAR(fronts(800), fine, 1e-3);
   EXPECT_LT(fine, -2);
+}
+
+/// From the first cells that a fan fills to the many that it fills later, its foot stays beside the characteristic.
+TEST(Observe, TrailingFrontOfANarrowFan) {
+  const double stresses[][2] = {{0.973, 1.94}, {0.703, 0.502}, {0.655, 1.06}, {0.4, 0.3}};
+  for (const auto& both : stresses)
+    for (const double C : {0.0, 0.3}) {
+      const double left = both[0], right = both[1], sign = left > right ? -1 : 1, end = 1;
+      Problem p{.stress = [left, right](double x) { return x < 0 ? left : right; },
+                .forcing = {},
+                .friction = friction::viscous(C),
+                .left = -1.2,
+                .right = 1.2,
+                .cells = 100};
+      output::Schedule when = schedule(end);
+      for (double t = 0.15; t < end; t += 0.05) when.times.insert(when.times.end() - 1, t);
+      pulse::Run run(p, when);
+      run.go();
+      const double cell = (p.right - p.left) / p.cells;
+      for (const output::Snapshot& s : run.snapshots()) {
+        if (s.time == 0) continue;
+        const double ahead = sign * (s.fronts.trailing - s.fronts.trailing_characteristic);
+        EXPECT_LT(ahead, 2 * cell) << left << " " << right << " " << C << " " << s.time;
+        EXPECT_GT(ahead, -2 * cell) << left << " " << right << " " << C << " " << s.time;
+      }
+    }
 }
 
 /// The trailing edge moves at |V-| for every C; an observer with a threshold sees it fall behind.

@@ -187,6 +187,26 @@ TEST(Pulse, UniformTrainReachesItsTerminalVelocity) {
   }
 }
 
+/// A push that makes dislocations a thousand times narrower leaves them so far apart for their width that a double does
+/// not hold psi, in a stage of the first step. The average over such a train had no end.
+TEST(Pulse, StepsEndWhereNoDoubleHoldsTheDistanceOfDislocations) {
+  Problem p;
+  p.stress = [](double) { return 0.8; };
+  p.forcing = [](double x, double) { return 1e5 * std::sin(40 * x); };
+  p.contact = [](double x) { return 1 + 0.2 * std::sin(x); };
+  for (const friction::Definition* law : friction::laws())
+    if (law->name == "n-shaped") p.friction = {*law, {4, 2}, Closure::paper};
+  ASSERT_TRUE(p.friction.acts());
+  p.left = -1;
+  p.right = 0;
+  p.cells = 4;
+  Solver s(p);
+  int steps = 20;
+  s.advance_to(0.04, [&steps] { return --steps == 0; });
+  EXPECT_LT(steps, 20);
+  for (const State& state : s.view().states) EXPECT_TRUE(std::isfinite(state.phi) && state.psi > 0);
+}
+
 TEST(Pulse, SlowIsLikeFast) {  // Sigma- = 0.05, V ~ 1e-26
   const auto exact = rupture::from_stress(0.05);
   EXPECT_LT(exact.rupture_velocity, 1e-24);

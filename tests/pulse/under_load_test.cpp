@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "slipfront/pulse/run.hpp"
 #include "slipfront/pulse/solver.hpp"
 
 namespace {
@@ -103,6 +104,52 @@ TEST(UnderLoad, BothWaysOfSteppingAgree) {
     slip[i] = slip_at_origin(s);
   }
   EXPECT_NEAR(slip[0] / slip[1], 1, 2e-3);
+}
+
+/// A law like w^(1/2) damps what hardly moves at any rate, so that no explicit step from rest is short enough, and what
+/// creeps is thrown to and fro by the slope of the law where it is now. It once took 200,000 steps.
+TEST(UnderLoad, FrictionSteepAtRestTakesFewSteps) {
+  Problem p{.stress =
+                [](double x) {
+                  const double stress = 0.512 * std::exp(-std::pow((x - 0.0354) / 0.275, 2));
+                  return stress < 0.0045 ? 0 : stress;
+                },
+            .forcing = [](double, double t) { return t < 1.52 ? 0.00142 : 0; },
+            .friction = friction::power(16.2, 0.5),
+            .left = -6.5,
+            .right = 4.72,
+            .corner = HUGE_VAL,
+            .cells = 200};
+  pulse::Run run(p, {.times = {0, 8.8}, .x_edges = {p.left, 0, p.right}});
+  EXPECT_TRUE(run.go([&] { return run.solver().cells().steps > 2000; }));
+}
+
+/// A dense train under a load that turns round: the slope of friction is found by differences that pressure's rounding
+/// does not reach. It once took 16,000 steps to t = 0.1, where the load is 0.
+TEST(UnderLoad, FrictionSteepAtRestFollowsALoadThatTurns) {
+  Problem p = forced(1.5, 0, 10, [](double, double t) { return 0.0375 * std::cos(15.1 * t); });
+  p.friction = friction::power(53, 0.5);
+  p.cells = 50;
+  pulse::Run run(p, {.times = {0, 0.15}, .x_edges = {p.left, 0, p.right}});
+  EXPECT_TRUE(run.go([&] { return run.solver().cells().steps > 1500; }));
+}
+
+TEST(UnderLoad, FrictionSteepAtRestConverges) {
+  const auto slip = [](int cells, friction::Closure closure) {
+    Problem p{.stress = [](double x) { return x < 0 ? 0.855 : 0; },
+              .forcing = {},
+              .friction = friction::power(5.74, 0.5, closure),
+              .left = -4.25,
+              .right = 5.07,
+              .cells = cells};
+    pulse::Run run(p, {.times = {0, 2.83}, .x_edges = {p.left, 0, p.right}});
+    run.go();
+    const auto twice = run.slip_twice().value();
+    EXPECT_LE(twice.error(), 1e-2 * std::fabs(twice.by_place)) << cells;
+    return twice.by_place;
+  };
+  for (const friction::Closure closure : {friction::Closure::consistent, friction::Closure::paper})
+    EXPECT_NEAR(slip(200, closure) / slip(400, closure), 1, 2e-3);
 }
 
 /// After a push all cells slow down together and stop within a moment of each other; each is held then, instead of

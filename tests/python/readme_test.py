@@ -12,8 +12,8 @@ from support import PROGRAM, SOURCE
 
 README = pathlib.Path(SOURCE, "README.md")
 
-#: Commands that other tests run: reproduce_test, and ctest itself.
-ELSEWHERE = ("./run", "./test")
+#: Commands that other tests run: reproduce_test, ctest itself, and tests/explorer.
+ELSEWHERE = ("./run", "./test", "./run explore")
 
 #: A line of the README may be this wide.
 WIDEST = 100

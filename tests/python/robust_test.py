@@ -3,8 +3,10 @@
 import os
 import pathlib
 import shutil
+import signal
 import subprocess
 import sys
+import time
 import unittest
 
 import numpy as np
@@ -135,6 +137,42 @@ class Files(CommandLine):
             done = subprocess.run([sys.executable, "-c", code], cwd=self.folder, capture_output=True, text=True)
             self.assertEqual((done.returncode, done.stdout), (0, f"{output}: cannot be written: File too large\n"), done.stderr)
             self.assertEqual(set(os.listdir(self.folder)) - {"unused", "s.nc.part"}, set())
+
+    def test_what_a_fork_did_not_send_whole_is_no_file(self):
+        def half():
+            def send(descriptor, mode):
+                os.write(descriptor, b"dhalf")
+                os.kill(os.getpid(), signal.SIGKILL)
+
+            os.fdopen = send  # in the fork
+            return b"half of it"
+
+        def crash():
+            os.kill(os.getpid(), signal.SIGSEGV)
+
+        self.assertEqual(_files.isolated("name", lambda: b"all"), b"all")
+        for make, says in ((half, "gave up"), (crash, "gave up"), (lambda: 1 / 0, "division by zero")):
+            with self.assertRaisesRegex(slipfront.FileError, f"^name: cannot be written: .*{says}"):
+                _files.isolated("name", make)
+
+    def test_an_interruption_waits_for_no_fork(self):
+        def interrupt(*_):
+            raise KeyboardInterrupt
+
+        self.addCleanup(signal.signal, signal.SIGALRM, signal.signal(signal.SIGALRM, interrupt))
+        signal.setitimer(signal.ITIMER_REAL, 0.3)  # of this process alone
+        begun = time.monotonic()
+        with self.assertRaises(KeyboardInterrupt):
+            _files.isolated("name", lambda: time.sleep(60))
+        self.assertLess(time.monotonic() - begun, 10)
+        with self.assertRaises(ChildProcessError):  # none is left
+            os.waitpid(-1, os.WNOHANG)
+
+    def test_pictures_have_formats(self):
+        figure = plots.relations(slipfront.relations(stress=[1.0, 2.0]))
+        for name in ("a.nc", "a"):
+            with self.assertRaisesRegex(ValueError, f"^{name}: .*allowed: .*png"):
+                plots.save(figure, name)
 
     def test_what_a_killed_reproduction_left(self):
         for name in (".r.new-17", ".r.old-17", ".r.new-18", ".r.new-x", ".other.new-17"):

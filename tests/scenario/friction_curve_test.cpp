@@ -67,12 +67,51 @@ TEST(FrictionCurve, MayBeCalledByThreads) {
 }
 
 TEST(FrictionCurve, WordsStandForNumbers) {
-  const std::string text = friction("law = \"rate-and-state\"\ncoefficient = 0.5\nevolution_effect = 0.02\n");
+  const std::string text = friction("law = \"rate-and-state\"\nstrength = 0.5\nevolution_effect = 0.02\n");
   EXPECT_EQ(read(text).friction.parameter("state"), 0);
   EXPECT_EQ(read(text + "state = \"slip\"\n").friction.parameter("state"), 1);
   EXPECT_TRUE(contains(refused_text(text + "state = \"slipp\"\n").allowed, "slip"));
   EXPECT_EQ(refused_text(text + "direct_effect = 0\n").key, "friction.direct_effect");
-  EXPECT_EQ(refused_text(text + "slip_distance = -1\n").key, "friction.slip_distance");
+  EXPECT_EQ(refused_text(text + "characteristic_slip = -1\n").key, "friction.characteristic_slip");
+}
+
+// Rock and interface of the worked examples: the units of the model, by hand.
+TEST(FrictionUnits, AreThoseOfTheMedium) {
+  const std::string rock =
+      "[medium]\nshear_modulus = \"30 GPa\"\np_wave_speed = \"6 km/s\"\npoisson_ratio = 0.3\ncontact_ratio = "
+      "0.01\nasperity_spacing = \"1 mm\"\n";
+  const Scenario s = read(friction("law = \"rate-and-state\"\nnormal_stress = \"50 MPa\"\nstrength = 0.6\n"
+                                   "direct_effect = 0.01\nevolution_effect = \"0.75 MPa\"\ncharacteristic_slip = \"10 "
+                                   "um\"\nreference_velocity = \"1 um/s\"\ninitial_state = \"2 s\"\n") +
+                          rock);
+  const double pi = std::acos(-1), A = 0.01, b = 1e-3, c = 6000 * std::sqrt(1 - 0.6) / 0.7;
+  const double traction = 30e9 * A * A / (pi * 0.7);
+  const auto is = [&](const char* name, double value) {
+    EXPECT_NEAR(s.friction.parameter(name), value, 1e-12 * value) << name;
+  };
+  is("strength", 0.6 * 50e6 / traction);
+  is("direct_effect", 0.01 * 50e6 / traction);
+  is("evolution_effect", 0.75e6 / traction);
+  is("characteristic_slip", 10e-6 / (b / pi));
+  is("reference_velocity", 1e-6 / (c * A / pi));
+  is("initial_state", 2 / (b / (c * A)));
+  // V / D_c is a rate: the units of slip, velocity and time belong together.
+  const double rate = s.friction.parameter("reference_velocity") / s.friction.parameter("characteristic_slip");
+  EXPECT_NEAR(rate / (b / (c * A)), 1e-6 / 10e-6, 1e-13);
+}
+
+TEST(FrictionUnits, NeedWhatTheyAreMadeOf) {
+  const std::string law = "law = \"slip-weakening\"\nstrength = ";
+  EXPECT_TRUE(contains(refused_text(friction(law + "\"30 MPa\"\n")).problem, "medium.contact_ratio"));
+  const std::string rock = "[medium]\ncontact_ratio = 0.01\n";
+  EXPECT_EQ(read(friction(law + "\"30 MPa\"\n") + rock).warnings.size(), 1u);  // the constants it took
+  EXPECT_TRUE(contains(refused_text(friction(law + "0.1\ncharacteristic_slip = \"1 mm\"\n") + rock).problem,
+                       "medium.asperity_spacing"));
+  EXPECT_TRUE(contains(refused_text(friction(law + "\"3 km\"\n") + rock).problem, "km"));
+  EXPECT_EQ(refused_text(friction(law + "0.6\nnormal_stress = \"-5 MPa\"\n") + rock).key, "friction.normal_stress");
+  EXPECT_EQ(refused_text(friction("law = \"none\"\nnormal_stress = \"5 MPa\"\n") + rock).key, "friction.normal_stress");
+  EXPECT_TRUE(
+      contains(refused_text(friction("law = \"viscous\"\ncoefficient = \"5 MPa\"\n") + rock).problem, "no SI unit"));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "slipfront/chain/events.hpp"
 #include "slipfront/chain/problem.hpp"
 
 namespace slipfront {
@@ -30,7 +31,9 @@ struct Execution {
 struct Levels {
   long level = 0;  ///< steps done
   std::vector<double> now, before;
-  std::vector<double> memory = {};  ///< the friction law's variables, site by site; empty at a start
+  /// The friction law's variables, site by site, and those of contacts that change (chain/contact_field.hpp); empty at
+  /// a start.
+  std::vector<double> memory = {};
 };
 
 /// The motion, or the levels, of sites [begin, end): for chains that nobody holds whole. Asked for some 65 536 sites at
@@ -68,11 +71,23 @@ class Chain {
   /// Returns whether `time` was reached.
   bool advance_to(double time, const std::function<bool()>& interrupted = {});
 
+  /// Whether steps are implicit (Problem::implicit); then `advance` and `levels` are not for it.
+  bool implicit() const;
+  /// At most `most` implicit steps, to `until` and no farther; returns whether it was reached. \throws NumericsError
+  /// with time and place where no step is short enough.
+  bool proceed(double until, long most);
+  /// All that implicit steps need to go on, to the same bits.
+  std::vector<double> implicit_state() const;
+  void continue_implicit(const std::vector<double>& state);
+  /// Slip events of a loaded chain so far, in its own units.
+  std::vector<Event> events() const;
+
   /// Energy that has come in and gone since the start, in units of Eq. 3. A chain of more than 10 000 sites with
   /// viscous friction by itself takes 32 levels at a time and does not meter it: its rate is in Totals.
   struct Flows {
     double supplied = 0, dissipated = 0;  ///< by the forcing, by friction
     double outflow = 0;                   ///< through absorbing ends
+    double by_contacts = 0;               ///< given to the substrate by contacts whose strength changes
   };
   Flows flows() const;
   /// The same block by block, to continue with.
@@ -101,6 +116,8 @@ class Chain {
   double contact_squared(std::size_t site) const;            ///< a^2
   double forcing(std::size_t site) const;                    ///< F now
   double friction(std::size_t site, double velocity) const;  ///< f
+  /// 1 - p, the effective normal stress over the normal stress; 1 where pores do not count.
+  double effective_stress(std::size_t site) const;
 
  private:
   friend struct Inside;

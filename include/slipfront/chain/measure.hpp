@@ -37,12 +37,13 @@ struct Totals {
   long dislocations = 0;       ///< of either sign
   double kinetic = 0;          ///< sum of u_t^2 / 2
   double elastic = 0;          ///< of u_x^2 / 2
-  double substrate = 0;        ///< of a^2 (1 - cos u)
+  double substrate = 0;        ///< of a^2 (1 - cos u), a^2 as it is now
+  double loading = 0;          ///< in the springs that pull (Loading)
   double momentum = 0;         ///< of -u_t u_x
   double supplied_rate = 0;    ///< power of F, sum of F u_t
   double dissipated_rate = 0;  ///< of friction, sum of f(u_t) u_t
   double steepest = 0;         ///< largest difference of u between neighbours
-  double energy() const { return kinetic + elastic + substrate; }
+  double energy() const { return kinetic + elastic + substrate + loading; }
 };
 
 /// At the present level; sums in the same order whatever the threads and ranks.

@@ -29,6 +29,19 @@ struct Boundary {
   double left_stress = 0, right_stress = 0;  ///< of the trains beyond absorbing ends
 };
 
+/// Which places springs pull.
+enum class Pulled { everywhere, left, right };
+
+/// Springs whose far ends move at a constant velocity: F = stiffness (velocity t - slip), slip = u less u at t = 0.
+struct Loading {
+  double stiffness = 0;  ///< > 0: force over slip; of a pulled end, stress over slip. 0: no springs
+  double velocity = 0;   ///< in c A / 2 pi
+  Pulled where = Pulled::everywhere;
+  double event_velocity = 0;  ///< above which a place takes part in an event; 0: none are looked for
+
+  bool acts() const { return stiffness > 0; }
+};
+
 struct Problem {
   Grid grid;
   Model model = Model::sine_gordon;
@@ -36,11 +49,16 @@ struct Problem {
   friction::Friction friction;                        ///< the closure does not matter here
   std::function<double(double x, double t)> forcing;  ///< F, t >= 0; null: none. Called from one thread only
   bool steady_forcing = false;                        ///< F does not depend on t: it is asked for at t = 0 only
-  std::function<double(double x)> contact;            ///< a > 0; null: 1. Called from one thread only
+  std::function<double(double x)> contact;            ///< a > 0 at t = 0; null: 1. Called from one thread only
+  double longest = 0;  ///< time for which contacts may grow stronger, if they change with the state of friction
   /// Largest stress of trains of dislocations that may run into trains of antidislocations, or through each other: the
   /// chosen step is shorter for it. 0: none will.
   double crossing_stress = 0;
   double step = 0;  ///< dt; 0: chosen. The fourth order of sine_gordon holds for the chosen one only
+  Loading loading = {};
+  bool substrate = true;    ///< false: a = 0, sites on a smooth surface; implicit steps only
+  bool implicit = false;    ///< implicit steps of any length (docs/loading.md); `step` does not count then
+  double tolerance = 1e-4;  ///< of an implicit step: error of u in radians, of u_t in c A / 2 pi, of ln(theta)
 };
 
 /// The coarsest grid that is accepted: sites in a width (b / A over a, Lorentz contraction apart) of a dislocation.

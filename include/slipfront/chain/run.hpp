@@ -24,12 +24,16 @@ struct ScaledProblem {
   std::function<double(double)> stress;               ///< initial stress at x; everything at rest
   std::function<double(double x, double t)> forcing;  ///< F; null: none
   bool steady_forcing = false;                        ///< F does not depend on t
-  double end = 0;                                     ///< how long F is looked at for the step; 0: F may be strong
-  std::function<double(double)> contact;              ///< a(x); null: 1
-  friction::Friction friction;                        ///< of the scenario; the closure does not matter
+  double end = 0;  ///< how long F is looked at, and contacts age, for the step; 0: F may be strong
+  std::function<double(double)> contact;  ///< a(x) at t = 0; null: 1
+  friction::Friction friction;            ///< of the scenario; the closure does not matter
   Boundary boundary;
   Model model = Model::sine_gordon;
   double spacing = default_spacing;  ///< of the grid or lattice, in the chain's own (stretched) x
+  Loading loading = {};              ///< in the scenario's units: force over slip, or stress over slip at a pulled end
+  bool substrate = true;             ///< false: none
+  bool implicit = false;             ///< steps; docs/loading.md
+  double tolerance = 1e-4;           ///< of implicit steps
   double step = 0;                   ///< of time, in the chain's own t; 0: chosen (chosen_step)
   double window = 0;  ///< of averages at x = 0, in the scenario's x; 0: spacings of the train left of it, one for the
                       ///< slip, eight for velocity and stress
@@ -65,14 +69,18 @@ class Run {
   double smooth_window() const { return smooth_window_; }
   /// What should not have changed since t = 0, and what there is. Looks at every site.
   struct Balance {
-    /// |energy + dissipated + outflow - supplied - that at t = 0|, over the largest of them. Works are integrated level
-    /// by level, but that of viscous friction alone over 200 samples or more.
+    /// |energy + dissipated + outflow - supplied - by contacts - that at t = 0|, over the largest of them. Works are
+    /// integrated level by level, but that of viscous friction alone over 200 samples or more.
     double energy_drift;
     double charge_error;  ///< charge less that at t = 0
     long dislocations;    ///< of either sign
     double steepest;      ///< largest difference of u between neighbouring sites
   };
   Balance balance() const;
+
+  /// Slip events of a loaded chain so far, in the scenario's units. The stress drop is of the force F on a place, or of
+  /// the stress at a pulled end.
+  std::vector<Event> events() const;
 
   /// A sentence for each thing that is wrong or doubtful in the results so far: invariants that do not hold (energy,
   /// slip at x = 0 against the integral of the velocity there, dislocations that none of the ends explains, |W| <= k,
@@ -91,11 +99,15 @@ class Run {
   double width_of_cell(std::size_t i) const;
   double middle_of_cell(std::size_t i) const;
   double centre_of_cell(std::size_t i) const;  ///< of the window for its slip, which stays on the chain
+  bool proceed(const std::function<bool()>& interrupted);
+  bool advance(const std::function<bool()>& interrupted);
   void look_at_start();
   void sample();
   void take();
   double driving_force() const;
   output::Snapshot profile_at(double time) const;
+  double contact_at(double x) const;
+  double pore_pressure_at_origin() const;
   void find_fronts(output::Snapshot& snapshot) const;
   output::Findings findings() const;
   void check_energy(const Balance& balance, output::Findings& findings) const;

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "slipfront/friction/contacts.hpp"
 #include "slipfront/friction/law.hpp"
 
 namespace slipfront::friction {
@@ -29,7 +30,8 @@ class Friction {
 
   /// The value of a parameter; 0 if the law has none of that name.
   double parameter(std::string_view name) const;
-  double coefficient() const { return parameter("coefficient"); }
+  /// C, or of a law that has none its strength.
+  double coefficient() const { return parameter("coefficient") + parameter("strength"); }
   /// The same friction on a chain whose x and t are scaled up by `scale`.
   Friction scaled_by(double scale) const;
   /// \throws InputError for a parameter out of its range.
@@ -46,6 +48,13 @@ class Friction {
   /// Whether f jumps or rises so steeply from rest that a step must end, not pass through, rest.
   bool steep_at_rest() const { return sticks() || law_->steep_at_rest(); }
   std::size_t variables() const { return definition_->variables.size(); }
+
+  /// What the law's state does to contacts and pores; `act()` is false for most friction.
+  const Contacts& contacts() const { return contacts_; }
+  /// The contact ratio at t = 0 over that of contacts without age and pores without pressure. 1 for most friction.
+  double contact_at_start() const;
+  /// The largest factor by which a contact ratio may rise within a time, at slip velocities up to 10 c A / pi.
+  double contact_growth(double time) const;
 
   /// f at the slip velocity w = `velocity`, with the sign of w.
   double force(double velocity, Memory memory = {}) const;
@@ -65,6 +74,7 @@ class Friction {
   Curve curve_;
   Closure closure_ = Closure::consistent;
   std::shared_ptr<const Law> law_;
+  Contacts contacts_;
   bool acts_ = false;
   std::optional<double> linear_;
   double at_rest_ = 0;

@@ -27,9 +27,12 @@ enum class Closure {
 const char* name_of(Closure closure);
 Closure closure_named(std::string_view name);
 
+/// The unit of F and f, as text.
+inline constexpr std::string_view force_unit = "mu A^2 / (pi (1 - nu))";
+
 /// What a parameter is. On a chain whose x and t are scaled up, forces are divided by the scale, slips and times
 /// multiplied by it.
-enum class Dimension { number, force, slip, time };
+enum class Dimension { number, force, slip, time, velocity, pressure };  // pressure: over the normal stress
 
 /// A number that a law takes, and the key of table [friction] that gives it.
 struct Parameter {
@@ -40,10 +43,13 @@ struct Parameter {
   Dimension dimension = Dimension::number;
   std::vector<std::string_view> words = {};  ///< what may be given instead of a number; the value is the word's place
   std::string_view if_missing = {};          ///< a warning that says what its absence means
+  bool on_chain_alone = false;               ///< averages over a train do not know it
 };
 
 /// C of a law whose force is proportional to it. `unit` is that of F, over what C stands before.
 Parameter coefficient_in(std::string_view unit);
+/// "strength": the friction at rest, or at the reference velocity.
+Parameter strength_in(std::string_view unit, std::string_view symbol);
 
 /// f as a curve that the user draws: the force >= 0 at the speed |w| >= 0. May be called by several threads at once.
 using Curve = std::function<double(double speed)>;
@@ -58,6 +64,22 @@ struct Variable {
 
 /// Values of a law's variables at one place, in the order of its definition; none for most laws.
 using Memory = std::span<const double>;
+
+/// Values of a law's variables at many places, one place after the other: `each` numbers a place.
+struct Memories {
+  const double* values = nullptr;
+  std::size_t each = 0;
+  Memory of(std::size_t i) const { return {values + i * each, each}; }
+  Memories from(std::size_t i) const { return {values + i * each, each}; }
+};
+
+/// Many uniform trains at once, an entry of each array for each.
+struct Trains {
+  std::size_t size = 0;
+  const double* fastest = nullptr;  ///< the largest slip velocity in it, 2 a sinh |phi| cosh psi
+  const double* s = nullptr;        ///< the least slip velocity over the largest, tanh psi, 0 < s < 1
+  Memories memory = {};
+};
 
 /// Rate at which friction relaxes the momentum of uniform trains, loss / P, with its limit at rest. The train lies in a
 /// contact ratio a; its state is that in the local units a x, a t. An object may keep tables that fill as they are
@@ -91,6 +113,27 @@ class Law {
   /// over length (paper). The places that a dislocation spans have the same memory.
   virtual double mean_strength(const State& state, double contact, Closure closure, Memory memory) const;
   virtual std::unique_ptr<RelaxationRate> relaxation_rate(Closure closure) const;
+  /// Whether that has a table, or a closed form.
+  virtual bool tabulates_rate() const { return false; }
+
+  // The same for many places or trains at once. A law that can, has vector loops for them.
+
+  /// `strength` at each speed.
+  virtual void strengths(std::size_t size, const double* speed, Memories memory, double* force) const;
+  /// `speed_after` of each speed.
+  virtual void speeds_after(std::size_t size, const double* free, double weight, Memories memory, double* speed) const;
+  /// The same where the normal stress on each place is a share > 0 of what the law's numbers are for: v + weight
+  /// share f(v) = free.
+  virtual void speeds_after_under(std::size_t size, const double* share, const double* free, double weight,
+                                  Memories memory, double* speed) const;
+  /// `mean_strength` of each train, to 3e-10 of itself where it is smooth in ln w; and, unless `slope` is null, what it
+  /// changes by with ln(fastest).
+  virtual void mean_strengths(const Trains& trains, Closure closure, double* mean, double* slope) const;
+  /// `advance` and `advance_in_train` of `size` places of `each` variables.
+  virtual void advance_all(std::size_t size, const double* velocity, double time, std::size_t each,
+                           double* memory) const;
+  virtual void advance_in_trains(std::size_t size, const double* mean, const double* typical, double time,
+                                 std::size_t each, double* memory) const;
 
   /// Sets a place's variables at t = 0, where nothing has slipped.
   virtual void start(std::span<double> memory) const;

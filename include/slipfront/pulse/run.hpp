@@ -45,8 +45,8 @@ class Run {
     double by_velocity;  ///< the integral of the slip velocity
     double sampling;     ///< how far the integral may be off for the samples that it is made of
     double of_velocity;  ///< and for what the slip velocity is in the cells around
-    /// Their difference, as far as it does not come from sampling.
-    double beyond_sampling() const;
+    /// Their difference, as far as it does not come from sampling or is no more than the cells around leave open.
+    double error() const;
   };
   std::optional<SlipTwice> slip_twice() const;
   /// The state of the solver as bytes, for a checkpoint on the same kind of machine.

@@ -20,6 +20,7 @@
 
 namespace slipfront::pulse {
 
+struct MemoryStep;
 class Places;
 class Semidiscrete;
 class Staggered;
@@ -127,7 +128,7 @@ class Solver {
   double step_explicitly(Work& work, double remaining, double crossing);
   double step_implicitly(Work& work, double remaining, double crossing);
   /// For friction that remembers (memory_step.cpp); `rate` are the rates at the present time.
-  double step_with_memory(const std::vector<double>& rate, double remaining, double crossing);
+  double step_with_memory(MemoryStep& work, const std::vector<double>& rate, double remaining, double crossing);
   Places places() const;
   std::vector<double> faces_of_cells(const Staggered& staggered) const;
   void cells_of_faces(const Staggered& staggered, const std::vector<double>& unknowns);
@@ -136,6 +137,8 @@ class Solver {
   void look_for_crossing();
   double energy_in(std::size_t cell) const;
   void find_scale(double crossing, std::vector<double>& scale) const;
+  bool steep() const;
+  bool steep_from_rest() const;
   double gaps_close_in(const std::vector<double>& rates) const;
   void close_gaps();
   void adjust_ends();

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "slipfront/output/slip_event.hpp"
 #include "slipfront/output/snapshot.hpp"
 
 namespace slipfront::record {
@@ -16,12 +17,13 @@ inline constexpr const char* pulse_format = "pulse 1";
 /// What a pulse file says besides the snapshots.
 struct PulseMetadata {
   std::string title;
-  std::string scenario_text;               ///< any bytes; comes back as it was
-  std::string version;                     ///< of slipfront
-  std::string command_line;                ///< the file's history
-  std::vector<double> x_edges;             ///< of the cells, ascending: one more than there are cells
-  std::vector<std::string> variables;      ///< names of pulse_variables(); empty: all
-  std::vector<std::string> warnings = {};  ///< of the finished run, a sentence each
+  std::string scenario_text;                   ///< any bytes; comes back as it was
+  std::string version;                         ///< of slipfront
+  std::string command_line;                    ///< the file's history
+  std::vector<double> x_edges;                 ///< of the cells, ascending: one more than there are cells
+  std::vector<std::string> variables;          ///< names of pulse_variables(); empty: all
+  std::vector<std::string> warnings = {};      ///< of the finished run, a sentence each
+  std::vector<output::SlipEvent> events = {};  ///< of a loaded chain so far: variables event_... over dimension event
 };
 
 /// A run in progress, or a finished one.

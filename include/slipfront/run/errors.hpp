@@ -3,6 +3,7 @@
 /// How far the scalars of a pulse may be from those of infinitely many cells.
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "slipfront/run/run.hpp"
@@ -10,12 +11,22 @@
 
 namespace slipfront::run {
 
-/// For each row of a finished run's summary its difference from the same row of a run with half the cells and coarser
-/// steps, which is made here and takes a quarter of the time. The scheme is of first order or better, so that the error
-/// of the finer run is no larger. Slip at x = 0 is known twice: its error is no less than the difference of the two.
-/// NaN for what has no error of this kind, and where one of the two runs has no value or `interrupted` said to stop.
-std::vector<double> errors_of(const Result<pulse::Run>& fine, const scenario::Scenario& scenario,
-                              const std::function<bool()>& interrupted);
+/// How far the rows of a summary may be from those of infinitely many cells.
+struct Errors {
+  std::vector<double> of;             ///< each row; NaN where no error is known
+  std::vector<std::string> warnings;  ///< a sentence for each row that the cells do not resolve
+};
+
+/// For each row of a finished run's summary an estimate of its error, from runs with half and a quarter of the cells
+/// and coarser steps, which are made here and take a third of the time: what the last doubling of the cells changed, or
+/// half of what the doubling before did if that is more, as for a scheme of first order, times the 1.25 that Roache
+/// (1997, Annu. Rev. Fluid Mech. 29:123) gives to estimates by three grids. Slip at x = 0 is known twice: its error is
+/// no less than what the difference of the two says of the cells there. A front that half the cells do not show is
+/// known to one of their cells. NaN for what has no error of this kind, for what each doubling of the cells more than
+/// doubles, with a warning, and where the run or the one with half the cells has no value or `interrupted` said to
+/// stop.
+Errors errors_of(const Result<pulse::Run>& fine, const scenario::Scenario& scenario,
+                 const std::function<bool()>& interrupted);
 
 /// The cells that a relative tolerance (1e-9 to 1) of slip, slip velocity and stress at x = 0 and of the peak needs,
 /// from the scenario's on in doublings; those of the scenario where `interrupted` said to stop. \throws InputError for

@@ -61,6 +61,8 @@ struct ChainOptions {
   chain::Model model = chain::Model::sine_gordon;
   chain::End left = chain::End::fixed, right = chain::End::fixed;
   bool periodic = false;         ///< a ring: `left` and `right` do not count
+  bool implicit = false;         ///< steps of any length; with [loading] they always are
+  double tolerance = 1e-4;       ///< of implicit steps, 1e-12 to 0.1
   std::optional<double> window;  ///< of averages at x = 0, > 0, in the scenario's x
 };
 
@@ -78,7 +80,9 @@ struct Scenario {
   Initial initial;
   friction::Friction friction;
   std::string forcing;  ///< formula F(x, t); empty: none
-  std::string contact;  ///< formula a(x); empty: 1
+  chain::Loading loading = {};
+  std::string contact;    ///< formula a(x); empty: 1
+  bool substrate = true;  ///< false where [interface] contact is 0: nothing but friction, forces and springs
   Domain domain;
   double end = 2 * std::numbers::pi;
   PulseOptions pulse;
@@ -93,7 +97,7 @@ struct Scenario {
   std::function<double(double)> stress;                  ///< initial stress at x: 0, or smallest to largest_stress
   std::function<double(double x, double t)> forcing_at;  ///< finite; null: no forcing
   bool steady_forcing = true;                            ///< forcing_at, if any, does not depend on t
-  std::function<double(double)> contact_at;              ///< finite, > 0; null: 1 everywhere
+  std::function<double(double)> contact_at;              ///< at t = 0; finite, > 0; null: 1 everywhere
 };
 
 /// Gives two columns of a table file named in a scenario (record/ knows files; this room does not).

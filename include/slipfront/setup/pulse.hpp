@@ -7,8 +7,13 @@
 
 namespace slipfront::setup {
 
-/// The problem that a scenario poses: its domain, where the scenario leaves it open, holds everything that moves until
-/// the end. \throws InputError where that takes a domain which is not given.
+/// The problem that a scenario poses to pulse and chain alike: its domain, where the scenario leaves it open, holds
+/// everything that moves until the end. \throws InputError where that takes a domain which is not given.
+pulse::Problem stated_problem(const scenario::Scenario& scenario);
+
+/// The same for the pulse. \throws InputError also for what the averages over a train do not have and the chain does:
+/// springs that load every place, for nothing says where and when dislocations are born under them, and a surface
+/// without a substrate.
 pulse::Problem pulse_problem(const scenario::Scenario& scenario);
 
 /// When and where to look at it: t = 0, the output times, the end. \throws InputError if what is to be looked at would

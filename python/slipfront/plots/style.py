@@ -8,8 +8,8 @@ import matplotlib
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogFormatter
 
-from .._files import write_bytes
-from .._slipfront import FileError, event_quantities, printable
+from .._files import isolated, write_bytes
+from .._slipfront import event_quantities, printable
 
 SHEET = pathlib.Path(__file__).resolve().parent.parent / "slipfront.mplstyle"
 
@@ -65,16 +65,21 @@ def styled(draw):
 def save(figure: Figure, path, **options) -> None:
     """Writes a picture; its format is the name's ending. The file is whole or not there.
 
-    Raises FileError where it cannot be written, ValueError for an ending that matplotlib does not write.
+    It is drawn in a fork of this process, because matplotlib and NumPy crash where memory ends.
+    Raises FileError where it cannot be drawn or written, ValueError for an ending that matplotlib does not write.
     """
-    kind, picture = pathlib.Path(path).suffix.lower().lstrip("."), io.BytesIO()
-    try:
+    kind, formats = pathlib.Path(path).suffix.lower().lstrip("."), figure.canvas.get_supported_filetypes()
+    if kind not in formats:
+        raise ValueError(f"{path}: a picture cannot be '.{kind}'; allowed: {', '.join(sorted(formats))}")
+
+    def drawn():
+        picture = io.BytesIO()
         # matplotlib 3.6 lays a figure out anew while it saves, by these settings, if it has no layout of its own.
         with matplotlib.rc_context(fname=SHEET), matplotlib.rc_context({"figure.constrained_layout.use": False}):
             figure.savefig(picture, format=kind, metadata={"Date": None} if kind == "svg" else None, **options)
-    except (OSError, RuntimeError) as error:  # its fonts and encoders
-        raise FileError(f"{path}: cannot be drawn: {' '.join(str(error).split())}") from error
-    write_bytes(path, picture.getvalue())
+        return picture.getvalue()
+
+    write_bytes(path, isolated(path, drawn))
 
 
 def plain(text) -> str:

@@ -1,0 +1,73 @@
+/** The worker: the numerics, off the thread that draws. Runs go on in pieces, so that a newer question gets through. */
+
+import make from '@wasm/slipfront.mjs';
+import { buffersOf, call, type Answer, type Module } from './binding';
+
+type Question =
+  | { type: 'start'; wasm: WebAssembly.Module }
+  | { type: 'call'; id: number; name: string; args: (number | string | Float64Array)[] }
+  | { type: 'pulse'; id: number; slot: number; toml: string; table: [number[], number[]] | null; frames: number; look: number; closure: number }
+  | { type: 'cancel'; id: number };
+
+const milliseconds = 12;
+let begin!: (made: Promise<Module>) => void;
+/** Questions may arrive before the module does: they wait for it. */
+const module = new Promise<Module>((resolve) => (begin = resolve));
+const cancelled = new Set<number>();
+const latest = new Map<number, number>();
+
+const say = (id: number, answer: Answer, done: boolean) =>
+  postMessage({ id, answer, done }, { transfer: buffersOf(answer) });
+
+/** Lets messages in. */
+const breathe = () =>
+  new Promise<void>((resolve) => {
+    const channel = new MessageChannel();
+    channel.port1.onmessage = () => (channel.port1.close(), resolve());
+    channel.port2.postMessage(0);
+  });
+
+function setTable(m: Module, table: [number[], number[]] | null) {
+  const [x, y] = table ?? [[], []];
+  call(m, 'set_table', [Float64Array.from(x), Float64Array.from(y), x.length]);
+}
+
+async function pulse(q: Question & { type: 'pulse' }) {
+  const m = await module;
+  latest.set(q.slot, q.id);
+  await breathe();
+  const stopped = () => cancelled.has(q.id) || latest.get(q.slot) !== q.id;
+  if (stopped()) return say(q.id, { superseded: true }, true);
+  setTable(m, q.table);
+  const begun = call(m, 'pulse_begin', [q.slot, q.toml, q.frames, q.look, q.closure]);
+  if (begun.error) return say(q.id, begun, true);
+  say(q.id, { begun }, false);
+  let taken = 0;
+  while (true) {
+    const more = call(m, 'pulse_go', [q.slot, milliseconds, taken]);
+    const over = Boolean(more.error || more.finished || more.gave_up);
+    taken += more.time?.length ?? 0;
+    say(q.id, { more }, over);
+    if (over) return;
+    await breathe();
+    if (stopped()) return say(q.id, { superseded: true }, true);
+  }
+}
+
+onmessage = async ({ data }: MessageEvent<Question>) => {
+  if (data.type === 'start') {
+    const compiled = data.wasm;
+    begin(make({
+      instantiateWasm(imports: WebAssembly.Imports, receive: (instance: WebAssembly.Instance) => void) {
+        WebAssembly.instantiate(compiled, imports).then(receive);
+        return {};
+      },
+    }));
+  } else if (data.type === 'cancel') {
+    cancelled.add(data.id);
+  } else if (data.type === 'pulse') {
+    await pulse(data);
+  } else {
+    say(data.id, call(await module, data.name, data.args), true);
+  }
+};

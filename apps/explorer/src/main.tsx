@@ -1,0 +1,105 @@
+/** The page: its head, its routes, and what is said aloud. */
+
+import './style.css';
+import { render, type ComponentType } from 'preact';
+import { useEffect, useState } from 'preact/hooks';
+import { signal } from '@preact/signals';
+import { addressOf, route, setParams } from './state/route';
+import { refreshUnits, stated, wantsUnits } from './state/units';
+import { said } from './ui/announce';
+import { setTheme, theme } from './ui/colors';
+import { UnitsForm } from './ui/units_form';
+import { HomePanel } from './panels/home';
+import { TourBar } from './panels/tour_bar';
+
+/** A panel whose code is fetched when it is first shown. */
+function lazily(load: () => Promise<ComponentType>): ComponentType {
+  let known: ComponentType | null = null;
+  return () => {
+    const [View, setView] = useState<ComponentType | null>(() => known);
+    useEffect(() => {
+      if (!known) load().then((view) => { known = view; setView(() => view); });
+    }, []);
+    return View ? <View /> : <p class="busy">Loading …</p>;
+  };
+}
+
+interface Page {
+  name: string;
+  heading: string;
+  about: string;
+  view: ComponentType;
+}
+const pages: Record<string, Page> = {
+  pulse: {
+    name: 'Pulse', heading: 'A slip pulse', view: lazily(async () => (await import('./panels/pulse')).PulsePanel),
+    about: 'Stress is stored on one side. A pulse of slip opens between two fronts: a fast one that eats into the stressed side, and a slow one ahead. Change the stress, change the friction, and press play.',
+  },
+  dislocations: {
+    name: 'Dislocations', heading: 'Every dislocation', view: lazily(async () => (await import('./panels/dislocations')).DislocationsPanel),
+    about: 'The same scenario without any average. Each bead is one dislocation: where it passes, the interface slips by one spacing of its asperities.',
+  },
+  stress: {
+    name: 'Stress and velocity', heading: 'What velocities say about stress', view: lazily(async () => (await import('./panels/stress')).StressPanel),
+    about: 'Without friction, the stress before a rupture fixes how fast it spreads and how fast it slips. Read backwards, observed velocities give the stress. Six decades of velocity are less than one decade of stress.',
+  },
+  riemann: {
+    name: 'Riemann', heading: 'Two trains meet', view: lazily(async () => (await import('./panels/riemann')).RiemannPanel),
+    about: 'Left and right of one point lie two uniform trains of dislocations. What happens next depends on x/t alone: fans, where they spread, and shocks, where they run into each other.',
+  },
+  paper: {
+    name: 'The paper', heading: 'The figures of the paper, live', view: lazily(async () => (await import('./panels/paper')).PaperPanel),
+    about: 'Gershenzon, Bambakidis & Skinner (Lubricants, 2015) drew these figures for a few numbers. Here each has sliders.',
+  },
+};
+
+const unitsOpen = signal(false);
+
+function Top() {
+  const here = route.value.panel;
+  const dark = theme.value >= 0 && getComputedStyle(document.documentElement).colorScheme === 'dark';
+  return (
+    <header class="top">
+      <a class="brand" href="#/">slipfront</a>
+      <nav aria-label="Panels">
+        {Object.entries(pages).map(([key, page]) => (
+          <a href={addressOf({ panel: key, params: {} })} aria-current={key === here ? 'page' : undefined}>{page.name}</a>
+        ))}
+      </nav>
+      <div class="tools">
+        <button type="button" aria-expanded={unitsOpen.value} onClick={() => (unitsOpen.value = !unitsOpen.value)}>Units{wantsUnits.value ? ': SI' : ''}</button>
+        <button type="button" onClick={() => setTheme(dark ? 'light' : 'dark')}>{dark ? 'Light' : 'Dark'}</button>
+      </div>
+    </header>
+  );
+}
+
+function App() {
+  const page = pages[route.value.panel];
+  useEffect(() => {
+    if (wantsUnits.value) refreshUnits();
+  }, [wantsUnits.value, stated.value.join()]);
+  useEffect(() => {
+    document.title = page ? `${page.heading} – slipfront explorer` : 'slipfront explorer';
+    document.querySelector('main')?.focus({ preventScroll: true });
+    scrollTo(0, 0);
+  }, [page]);
+  const unknown = !page && route.value.panel !== '';
+  return (
+    <>
+      <a class="skip" href="#main" onClick={(e) => { e.preventDefault(); document.querySelector('main')?.focus(); }}>To the content</a>
+      <Top />
+      <main id="main" tabIndex={-1}>
+        {unitsOpen.value && <UnitsForm onClose={() => (unitsOpen.value = false)} onToggle={(on) => setParams({ si: on ? '1' : null })} />}
+        <TourBar />
+        {page && <div class="intro"><h1>{page.heading}</h1><p>{page.about}</p></div>}
+        {unknown && <p class="busy" role="status">There is no panel “{route.value.panel.slice(0, 60)}”. Allowed: {Object.keys(pages).join(', ')}.</p>}
+        {page ? <page.view key={route.value.panel} /> : <HomePanel />}
+      </main>
+      <p class="said" role="status" aria-live="polite">{said.value}</p>
+    </>
+  );
+}
+
+render(<App />, document.getElementById('app')!.appendChild(document.createElement('div')));
+document.querySelector('#app > p')?.remove();

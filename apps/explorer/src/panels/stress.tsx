@@ -1,0 +1,202 @@
+/** Panel "Stress and velocity": the closed form over 300 decades, with observed events. */
+
+import { useEffect, useMemo, useState } from 'preact/hooks';
+import catalogue from '@events';
+import type { Answer, Complaint } from '../engine/binding';
+import { call } from '../engine/client';
+import { route, setParams } from '../state/route';
+import { Equations } from '../ui/equations';
+import { NumberField, Segments, SelectField, sentence, TextField } from '../ui/fields';
+import { inUnits, short } from '../ui/format';
+import { Plot } from '../ui/plot';
+import { copy } from '../ui/save';
+import type { Point, Spec } from '../ui/spec';
+import { wantsUnits } from '../state/units';
+
+type Event = Record<string, any>;
+const events = (catalogue.events as Event[]).filter((event) => !event.error && event.stress !== null && event.rupture_velocity !== null);
+
+const ranges: Record<string, { label: string; from: number; to: number; log: boolean }> = {
+  all: { label: 'All 300 decades', from: 1e-300, to: 0.999, log: true },
+  observed: { label: 'What is observed', from: 1e-9, to: 0.98, log: true },
+  fast: { label: 'Earthquakes', from: 0.05, to: 0.98, log: false },
+};
+const givens = [
+  { key: 'stress', label: 'Stress Σ−, in μA/π', least: 0.005, most: 3, log: false },
+  { key: 'rupture_velocity', label: 'Rupture velocity |V−|, in c', least: 1e-12, most: 0.99, log: true },
+  { key: 'slip_velocity', label: 'Slip velocity W(0), in cA/π', least: 1e-14, most: 1, log: true },
+];
+const names: [string, string, string][] = [
+  ['stress', 'Stress before, Σ−', 'μA/π'],
+  ['rupture_velocity', 'Fast front, |V−|', 'c'],
+  ['leading_velocity', 'Slow front, V+', 'c'],
+  ['velocity_ratio', '|V− / V+|', ''],
+  ['slip_velocity', 'Slip velocity at x = 0, W', 'cA/π'],
+  ['stress_at_origin', 'Stress at x = 0', 'μA/π'],
+  ['dislocation_velocity_at_origin', 'Velocity of dislocations there', 'c'],
+];
+
+const isSlow = (event: Event) => event.rupture_velocity < 0.01;
+
+function useAnswer(name: string, ...args: (number | string)[]): Answer | null {
+  const [answer, setAnswer] = useState<Answer | null>(null);
+  useEffect(() => {
+    let alive = true;
+    call(name, ...args).then((got) => alive && setAnswer(got));
+    return () => void (alive = false);
+  }, [name, ...args]);
+  return answer;
+}
+
+const interval = (event: Event, key: string, show: (value: number) => string) => {
+  const [low, high] = event[`${key}_interval`] ?? [event[`${key}_low`], event[`${key}_high`]];
+  return low !== null && low !== undefined ? ` (${show(low)} to ${show(high)})` : '';
+};
+
+function EventCard({ event }: { event: Event }) {
+  const pa = (value: number) => inUnits('stress', value);
+  const rows: [string, string][] = [
+    ['Rupture velocity', `${inUnits('velocity', event.rupture_velocity_m_s)}, ${short(event.rupture_velocity)} c${interval(event, 'rupture_velocity', short)}`],
+    ['Stress before, Σ−', `${short(event.stress)} μA/π${interval(event, 'stress', short)}`],
+    ['Slip velocity, observed', event.slip_velocity_m_s === null ? 'not known' : inUnits('velocity', event.slip_velocity_m_s)],
+    ['Slip velocity without friction', `${short(event.frictionless_slip_velocity)} cA/π`],
+    event.stress_pa !== null
+      ? ['Stress in SI', pa(event.stress_pa) + interval(event, 'stress_pa', pa)]
+      : ['Stress in SI', event.stress_pa_bound !== null ? `at least ${pa(event.stress_pa_bound)}${interval(event, 'stress_pa_bound', pa)}, if friction took nothing` : 'cannot be known: no slip velocity and no contact ratio'],
+    ['Contact ratio A', event.contact_ratio === null ? 'cannot be known' : `${event.contact_ratio_bound !== null ? 'at least ' : ''}${short(event.contact_ratio)}${interval(event, 'contact_ratio', short)}`],
+    ['Damping number Γ', event.damping_number === null ? 'cannot be known from velocities alone' : `${short(event.damping_number)}${interval(event, 'damping_number', short)}`],
+  ];
+  return (
+    <section class="card event" aria-label="Chosen event" aria-live="polite">
+      <h2>{event.name || 'Your event'}</h2>
+      <table><tbody>{rows.map(([name, value]) => <tr><th scope="row">{name}</th><td>{value}</td></tr>)}</tbody></table>
+      {event.citation && <p class="hint">{event.citation}{event.note ? `. ${event.note}` : ''}</p>}
+      {event.warnings?.length > 0 && <ul>{event.warnings.map((w: string) => <li>{w}</li>)}</ul>}
+    </section>
+  );
+}
+
+const typedKeys = [
+  { key: 'rupture_velocity', label: 'Rupture velocity', example: '3.0 +- 0.2 km/s', table: 'event' },
+  { key: 'slip_velocity', label: 'Slip velocity', example: '0.5 */ 1.3 m/s', table: 'event' },
+  { key: 'stress_drop', label: 'Stress drop', example: '30 MPa', table: 'event' },
+  { key: 'contact_ratio', label: 'Contact ratio A', example: '0.003', table: 'medium' },
+];
+
+const tomlOfTyped = (params: Record<string, string>) =>
+  ['event', 'medium']
+    .map((table) => {
+      const given = typedKeys.filter((one) => one.table === table && params[`my.${one.key}`]);
+      return given.length ? `[${table}]\n${given.map((one) => `${one.key} = ${JSON.stringify(params[`my.${one.key}`])}`).join('\n')}\n` : '';
+    })
+    .join('');
+
+function useTyped(): { event: Event | null; error?: Complaint; toml: string } {
+  const params = route.value.params;
+  const toml = tomlOfTyped(params);
+  const [state, setState] = useState<{ event: Event | null; error?: Complaint }>({ event: null });
+  useEffect(() => {
+    if (!toml) return setState({ event: null });
+    let alive = true;
+    const timer = setTimeout(() => {
+      const text = toml.startsWith('[event]') ? `[event]\nname = "Your event"\n${toml.slice(8)}` : `[event]\nname = "Your event"\n${toml}`;
+      call('event', text, 400).then((answer) => alive && setState(answer.error ? { event: null, error: answer.error } : { event: answer }));
+    }, 150);
+    return () => {
+      alive = false;
+      clearTimeout(timer);
+    };
+  }, [toml]);
+  return { ...state, toml };
+}
+
+function TypedForm({ error, toml }: { error?: Complaint; toml: string }) {
+  const params = route.value.params;
+  const of = (key: string) => error && (error.key ?? '').split('.').pop() === key;
+  return (
+    <>
+      <h2>Your own event</h2>
+      <p class="hint">With units and, if known, errors: 3.0 +- 0.2 km/s, 0.5 */ 1.3 m/s, 2..15 km/day.</p>
+      {typedKeys.map(({ key, label, example }) => (
+        <TextField key={key} label={label} value={params[`my.${key}`] ?? ''} placeholder={example} error={of(key) ? sentence(error) : ''} onInput={(text) => setParams({ [`my.${key}`]: text || null, event: null })} />
+      ))}
+      {error && !typedKeys.some(({ key }) => of(key)) && <p class="error" role="alert">{sentence(error)}</p>}
+      {toml && <p class="buttons"><button type="button" onClick={() => copy(toml, 'event as TOML')}>Copy as TOML</button></p>}
+    </>
+  );
+}
+
+function curveSpec(curve: Answer, range: (typeof ranges)[string], keys: [string, string, string][], title: string, yLabel: string, points: Point[], chosen: Answer | null, pointKey: string): Spec {
+  const spec: Spec = {
+    name: title.toLowerCase().replace(/\W+/g, '-'), title, x: curve.stress, xLabel: 'stress before, Σ−, in μA/π', yLabel, yLog: range.log,
+    series: keys.map(([key, label, color]) => ({ label, y: curve[key], color })), points,
+    xRange: [0, curve.stress[curve.stress.length - 1]],
+  };
+  if (chosen && !chosen.error) spec.points = [...points, { x: chosen.stress, y: chosen[pointKey], label: 'slider', color: 'chosen', chosen: true }];
+  return spec;
+}
+
+export function StressPanel() {
+  const params = route.value.params;
+  const range = ranges[params.range] ?? ranges.observed;
+  const given = givens.find((one) => one.key === params.given) ?? givens[0];
+  const value = params.value ?? (given.key === 'stress' ? '1.03' : given.key === 'rupture_velocity' ? '0.55' : '0.1');
+  const number = value.trim() === '' ? NaN : Number(value);
+  const curve = useAnswer('relations_curve', 1, range.from, range.to, 500, range.log ? 1 : 0);
+  const chosen = useAnswer('relations', givens.indexOf(given), number);
+  const typed = useTyped();
+  const index = params.event === undefined ? -1 : events.findIndex((event) => event.name === params.event);
+  const event = index >= 0 ? events[index] : typed.event;
+  const points = (key: string): Point[] => [
+    ...events.filter((e) => e[key] !== null).map((e) => ({
+      x: e.stress, y: e[key], label: e.name, color: isSlow(e) ? 'slowslip' : 'earthquake', chosen: e.name === params.event,
+    })),
+    ...(typed.event && typed.event.stress !== null && typed.event[key] !== null ? [{ x: typed.event.stress, y: typed.event[key], label: 'Your event', color: 'chosen', chosen: true, xInterval: typed.event.stress_low !== null ? ([typed.event.stress_low, typed.event.stress_high] as [number, number]) : undefined }] : []),
+  ];
+  const pick = (i: number) => {
+    if (i < events.length) setParams({ event: events[i].name });
+  };
+  const specs = useMemo(() => curve && [
+    curveSpec(curve, range, [['rupture_velocity', 'fast front, |V−|', 'fast'], ['leading_velocity', 'slow front, V+', 'slow']], 'Rupture velocity', 'velocity, in c', points('rupture_velocity'), chosen, 'rupture_velocity'),
+    curveSpec(curve, range, [['slip_velocity', 'W(0)', 'slip']], 'Slip velocity without friction', 'W(0), in cA/π', points('frictionless_slip_velocity'), chosen, 'slip_velocity'),
+  ], [curve, chosen, params.event, typed.event]);
+  const complaint = !Number.isFinite(number) ? 'Not a number. Allowed: a number such as 1.03 or 1e-9.' : sentence(chosen?.error);
+  return (
+    <div class="panel">
+      <aside class="controls" aria-label="Question">
+        <h2>From any one, all others</h2>
+        <SelectField label="Given" value={given.key} choices={givens.map((one) => ({ value: one.key, label: one.label }))} onInput={(key) => setParams({ given: key, value: null })} />
+        <NumberField label="Value" value={value} least={given.least} most={given.most} log={given.log} onInput={(text) => setParams({ value: text })} error={complaint} />
+        {chosen && !chosen.error && !complaint && (
+          <table class="numbers"><tbody>{names.map(([key, name, unit]) => <tr><th scope="row">{name}</th><td>{short(chosen[key], 6)} {unit}</td></tr>)}</tbody></table>
+        )}
+        <TypedForm error={typed.error} toml={typed.toml} />
+      </aside>
+      <section class="pictures" aria-label="Curves and events">
+        <Segments label="Range" value={Object.keys(ranges).find((key) => ranges[key] === range)!} choices={Object.entries(ranges).map(([key, one]) => ({ value: key, label: one.label }))} onInput={(key) => setParams({ range: key })} />
+        {specs && (
+          <div class="two">
+            <Plot spec={specs[0]} height={330} onPick={pick} />
+            <Plot spec={specs[1]} height={330} onPick={pick} />
+          </div>
+        )}
+        <p class="legend dots"><span><i style={{ background: 'var(--earthquake)' }} /> earthquakes</span><span><i style={{ background: 'var(--slowslip)' }} /> slow slip</span><span><i style={{ background: 'var(--chosen)' }} /> slider, or your event</span></p>
+        <div class="two">
+          <div>
+            <h2>{events.length} published events</h2>
+            <div class="list">
+              {events.map((one) => (
+                <button type="button" aria-pressed={one.name === params.event} onClick={() => setParams({ event: one.name === params.event ? null : one.name })}>
+                  <span>{one.name}</span><span>{inUnits('velocity', one.rupture_velocity_m_s)}</span>
+                </button>
+              ))}
+            </div>
+          </div>
+          <div>{event ? <EventCard event={event} /> : <p class="hint">Choose an event in the list or in a plot, or type your own.</p>}</div>
+        </div>
+        {wantsUnits.value && <p class="hint">Stress in Pa and the contact ratio stand with each event; the curves stay dimensionless, because A differs from event to event.</p>}
+        <Equations names={['fronts', 'train']} />
+      </section>
+    </div>
+  );
+}

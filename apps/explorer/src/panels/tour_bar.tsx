@@ -1,0 +1,24 @@
+/** The tour, above the panel that it is about. */
+
+import { go, route } from '../state/route';
+import { stops } from './tour';
+
+export const goToStop = (index: number) => go(stops[index].panel, { tour: String(index + 1), ...stops[index].params });
+
+export function TourBar() {
+  const number = Number(route.value.params.tour);
+  if (!Number.isInteger(number) || number < 1 || number > stops.length) return null;
+  const { title, text } = stops[number - 1];
+  return (
+    <section class="card tour" aria-label="Tour" aria-live="polite">
+      <h2>{number}. {title}</h2>
+      <p>{text}</p>
+      <nav aria-label="Steps of the tour">
+        <button type="button" disabled={number === 1} onClick={() => goToStop(number - 2)}>Back</button>
+        {number < stops.length ? <button type="button" class="primary" onClick={() => goToStop(number)}>Next</button> : <button type="button" class="primary" onClick={() => go('', {})}>Done</button>}
+        <button type="button" onClick={() => go(route.value.panel, Object.fromEntries(Object.entries(route.value.params).filter(([key]) => key !== 'tour')))}>Leave the tour</button>
+        <span class="count">step {number} of {stops.length}</span>
+      </nav>
+    </section>
+  );
+}

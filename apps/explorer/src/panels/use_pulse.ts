@@ -1,0 +1,95 @@
+/** The run of the scenario in the address: a quick look while a control moves, all of it when it rests. */
+
+import { useEffect, useRef, useState } from 'preact/hooks';
+import type { Complaint } from '../engine/binding';
+import { runPulse, type PulseRun } from '../engine/client';
+
+export interface Shown {
+  run: PulseRun | null;
+  error?: Complaint;
+  /** Snapshots of the present scenario, t = 0 and one time, while the run is being made. */
+  look: PulseRun | null;
+  busy: boolean;
+  /** Seconds that the run has taken so far, of those that it will take. */
+  elapsed: number;
+  share: number;
+  stop: () => void;
+  milliseconds: number;
+}
+
+const rest = 160;
+
+export function usePulse(toml: string, table: [number[], number[]] | null, slot: number, look: () => number, closure = 0, on = true, frames = 121): Shown {
+  const [shown, setShown] = useState<Shown>({ run: null, look: null, busy: true, elapsed: 0, share: 0, stop: () => undefined, milliseconds: 0 });
+  const first = useRef(true);
+  const key = `${toml}|${table?.join('|') ?? ''}|${closure}|${on}`;
+  useEffect(() => {
+    if (!on) return;
+    const asked = performance.now();
+    let alive = true;
+    const stops: (() => void)[] = [];
+    const update = (changes: Partial<Shown>) => alive && setShown((before) => ({ ...before, ...changes }));
+    const whole = () => {
+      if (!alive) return;
+      const began = performance.now();
+      stops.push(
+        runPulse({ toml, table, frames, closure, slot }, (run, error) => {
+          const elapsed = (performance.now() - began) / 1000;
+          const share = run && run.end > 0 ? Math.min(1, run.now / run.end) : 0;
+          // Where there is nothing new to show, the picture before stays.
+          if (error) update({ error, look: null, busy: false, ...(run && run.count > 1 ? { run } : {}) });
+          else if (run?.finished) update({ run, look: null, error: undefined, busy: false, elapsed, share: 1 });
+          else update({ elapsed, share, busy: true });
+        }),
+      );
+    };
+    const stop = () => {
+      stops.forEach((one) => one());
+      update({ busy: false });
+    };
+    update({ busy: true, elapsed: 0, share: 0, stop });
+    let timer: number | undefined;
+    if (first.current) whole();
+    else {
+      stops.push(
+        runPulse({ toml, table, frames: 0, look: look(), closure, slot }, (run, error) => {
+          if (error) update({ error, busy: false });
+          else if (run?.finished) update({ look: run, error: undefined, milliseconds: performance.now() - asked });
+        }),
+      );
+      timer = window.setTimeout(whole, rest);
+    }
+    first.current = false;
+    return () => {
+      alive = false;
+      clearTimeout(timer);
+      stops.forEach((one) => one());
+    };
+  }, [key]);
+  return shown;
+}
+
+/** A field of a run at a time, between its snapshots. */
+export function fieldAt(run: PulseRun, name: string, time: number): Float64Array {
+  const n = run.x.length;
+  const times = run.series.time;
+  const last = times.length - 1;
+  let i = 0;
+  while (i < last - 1 && times[i + 1] <= time) ++i;
+  const field = run.fields[name];
+  const share = last === 0 ? 0 : Math.min(1, Math.max(0, (time - times[i]) / (times[i + 1] - times[i])));
+  const values = new Float64Array(n);
+  for (let k = 0; k < n; ++k) values[k] = field[i * n + k] * (1 - share) + (last === 0 ? 0 : field[(i + 1) * n + k] * share);
+  return values;
+}
+
+export function seriesAt(run: PulseRun, name: string, time: number): number {
+  const times = run.series.time;
+  const values = run.series[name];
+  const last = times.length - 1;
+  if (last < 1) return values?.[0] ?? NaN;
+  let i = 0;
+  while (i < last - 1 && times[i + 1] <= time) ++i;
+  const share = Math.min(1, Math.max(0, (time - times[i]) / (times[i + 1] - times[i])));
+  return share === 1 ? values[i + 1] : share === 0 ? values[i] : values[i] * (1 - share) + values[i + 1] * share;
+}

@@ -1,0 +1,58 @@
+/** The address of the page: `#/panel?key=value&...`. All that a picture depends on stands there. */
+
+import { signal } from '@preact/signals';
+
+export type Params = Record<string, string>;
+export interface Route {
+  panel: string;
+  params: Params;
+}
+
+export const panels = ['', 'pulse', 'dislocations', 'stress', 'riemann', 'paper', 'tour'] as const;
+
+function readable(text: string): string {
+  try {
+    return decodeURIComponent(text.replace(/\+/g, ' '));
+  } catch {
+    return text;
+  }
+}
+
+export function parse(hash: string): Route {
+  const [path, query = ''] = hash.replace(/^#\/?/, '').split(/\?(.*)/s);
+  const params: Params = {};
+  for (const pair of query.split('&')) {
+    if (!pair) continue;
+    const [key, value = ''] = pair.split(/=(.*)/s);
+    params[readable(key)] = readable(value);
+  }
+  return { panel: readable(path).replace(/\/$/, ''), params };
+}
+
+const plain = (text: string) => encodeURIComponent(text).replace(/%2C/g, ',').replace(/%3A/g, ':').replace(/%20/g, '+');
+
+export function addressOf(route: Route): string {
+  const query = Object.entries(route.params)
+    .map(([key, value]) => `${plain(key)}=${plain(value)}`)
+    .join('&');
+  return `#/${route.panel}${query ? `?${query}` : ''}`;
+}
+
+export const route = signal<Route>(parse(location.hash));
+addEventListener('hashchange', () => (route.value = parse(location.hash)));
+
+let pending: number | undefined;
+/** Changes parameters of the present panel; null takes one out. Many changes in a row make one step in the history. */
+export function setParams(changes: Record<string, string | null>) {
+  const params = { ...route.value.params };
+  for (const [key, value] of Object.entries(changes))
+    if (value === null) delete params[key];
+    else params[key] = value;
+  route.value = { ...route.value, params };
+  clearTimeout(pending);
+  pending = window.setTimeout(() => history.replaceState(null, '', addressOf(route.value)), 120);
+}
+
+export function go(panel: string, params: Params = {}) {
+  location.hash = addressOf({ panel, params });
+}

@@ -1,0 +1,167 @@
+/** A field over place and time as a picture, with the fronts on it. */
+
+import { useEffect, useRef, useState } from 'preact/hooks';
+import { color, ramp, theme } from './colors';
+import { Data } from './data';
+import { short } from './format';
+import { announce } from './announce';
+import { save } from './save';
+import { ticks } from './spec';
+
+export interface Field {
+  title: string;
+  name: string;
+  x: ArrayLike<number>;
+  t: ArrayLike<number>;
+  /** One row of x after the other. */
+  values: ArrayLike<number>;
+  xLabel: string;
+  tLabel: string;
+  label: string;
+  xFactor: number;
+  tFactor: number;
+  factor: number;
+  lines: { x: ArrayLike<number>; color: string; label: string; dash?: number[] }[];
+  now?: number;
+}
+
+const margin = { left: 58, right: 14, top: 6, bottom: 44 };
+
+/** The field alone, a pixel for each value: made once, however often lines move over it. */
+interface Picture {
+  of?: ArrayLike<number>;
+  theme?: number;
+  canvas: OffscreenCanvas;
+}
+
+function pictureOf(picture: Picture, f: Field): OffscreenCanvas {
+  if (picture.of === f.values && picture.theme === theme.value) return picture.canvas;
+  const [nx, nt] = [f.x.length, f.t.length];
+  let most = 0;
+  for (let i = 0; i < f.values.length; ++i) if (f.values[i] > most) most = f.values[i];
+  const data = new ImageData(nx, nt);
+  const colour = ramp([color('map-0'), color('map-1'), color('map-2'), color('map-3')]);
+  for (let j = 0; j < nt; ++j)
+    for (let i = 0; i < nx; ++i) {
+      const value = f.values[j * nx + i];
+      const [r, g, b] = colour(most > 0 && Number.isFinite(value) ? (value / most) ** 0.6 : 0);
+      data.data.set([r, g, b, 255], 4 * ((nt - 1 - j) * nx + i));
+    }
+  picture.canvas = new OffscreenCanvas(nx, nt);
+  picture.canvas.getContext('2d')!.putImageData(data, 0, 0);
+  Object.assign(picture, { of: f.values, theme: theme.value });
+  return picture.canvas;
+}
+
+function paint(canvas: HTMLCanvasElement, picture: Picture, f: Field, height: number) {
+  const ratio = devicePixelRatio;
+  const width = canvas.clientWidth;
+  canvas.width = width * ratio;
+  canvas.height = height * ratio;
+  const ctx = canvas.getContext('2d')!;
+  ctx.scale(ratio, ratio);
+  const [nx, nt] = [f.x.length, f.t.length];
+  if (nt < 2 || nx < 2 || !width) return;
+  const [w, h] = [width - margin.left - margin.right, height - margin.top - margin.bottom];
+  ctx.drawImage(pictureOf(picture, f), margin.left, margin.top, w, h);
+  const half = (f.x[1] - f.x[0]) / 2;
+  const [x0, x1, t1] = [f.x[0] - half, f.x[nx - 1] + half, f.t[nt - 1]];
+  const at = (x: number, t: number): [number, number] => [margin.left + ((x - x0) / (x1 - x0)) * w, margin.top + h - (t / t1) * h];
+  for (const line of f.lines) {
+    ctx.strokeStyle = color(line.color);
+    ctx.lineWidth = 1.6;
+    ctx.setLineDash(line.dash ?? []);
+    ctx.beginPath();
+    for (let j = 0; j < nt; ++j) if (Number.isFinite(line.x[j])) ctx.lineTo(...at(line.x[j], f.t[j]));
+    ctx.stroke();
+  }
+  ctx.setLineDash([]);
+  if (f.now !== undefined) {
+    ctx.strokeStyle = color('ink');
+    ctx.lineWidth = 1;
+    ctx.beginPath();
+    ctx.moveTo(...at(x0, f.now));
+    ctx.lineTo(...at(x1, f.now));
+    ctx.stroke();
+  }
+  ctx.fillStyle = color('quiet');
+  ctx.font = '12px system-ui, sans-serif';
+  ctx.textAlign = 'center';
+  for (const tick of ticks([x0 * f.xFactor, x1 * f.xFactor], w / 75)) ctx.fillText(short(tick), at(tick / f.xFactor, 0)[0], height - margin.bottom + 17);
+  ctx.fillText(f.xLabel, margin.left + w / 2, height - 8);
+  ctx.textAlign = 'right';
+  for (const tick of ticks([0, t1 * f.tFactor], h / 40)) ctx.fillText(short(tick), margin.left - 7, at(0, tick / f.tFactor)[1] + 4);
+  ctx.save();
+  ctx.translate(13, margin.top + h / 2);
+  ctx.rotate(-Math.PI / 2);
+  ctx.textAlign = 'center';
+  ctx.fillText(f.tLabel, 0, 0);
+  ctx.restore();
+}
+
+export function SpaceTime({ field, height = 260, onPick }: { field: Field; height?: number; onPick?: (t: number) => void }) {
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const [cell, setCell] = useState<[number, number] | null>(null);
+  const picture = useRef<Picture>({ canvas: new OffscreenCanvas(1, 1) });
+  const shown = useRef(field);
+  shown.current = field;
+  useEffect(() => paint(canvas.current!, picture.current, field, height), [field, height, theme.value]);
+  useEffect(() => {
+    const watch = new ResizeObserver(() => canvas.current && paint(canvas.current, picture.current, shown.current, height));
+    watch.observe(canvas.current!);
+    return () => watch.disconnect();
+  }, [height]);
+  const [nx, nt] = [field.x.length, field.t.length];
+  const move = (di: number, dj: number) => {
+    const [i, j] = cell ?? [nx >> 1, nt - 1];
+    const next: [number, number] = [Math.min(nx - 1, Math.max(0, i + di)), Math.min(nt - 1, Math.max(0, j + dj))];
+    setCell(next);
+    announce(`x ${short(field.x[next[0]] * field.xFactor)}, t ${short(field.t[next[1]] * field.tFactor)}: ${short(field.values[next[1] * nx + next[0]] * field.factor)}`);
+    if (dj) onPick?.(field.t[next[1]]);
+  };
+  const keys: Record<string, [number, number]> = { ArrowLeft: [-2, 0], ArrowRight: [2, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+  return (
+    <figure class="plot map">
+      <figcaption>{field.title}
+        <span class="legend">{field.lines.map((line) => <span><svg width="20" height="8" aria-hidden="true"><path d="M0 4h20" style={{ stroke: `var(--${line.color})` }} stroke-width="2" stroke-dasharray={line.dash?.join(' ')} /></svg> {line.label}</span>)}</span>
+      </figcaption>
+      <canvas ref={canvas} style={{ height: `${height}px` }} tabIndex={0} role="img" aria-label={`${field.title}. ${field.label} over ${field.xLabel} and ${field.tLabel}. Arrow keys read it.`}
+        onKeyDown={(e) => { const way = keys[e.key]; if (way) { e.preventDefault(); move(...way); } }}
+        onPointerDown={(e) => {
+          const box = e.currentTarget.getBoundingClientRect();
+          const share = 1 - (e.clientY - box.top - margin.top) / (height - margin.top - margin.bottom);
+          onPick?.(Math.min(1, Math.max(0, share)) * field.t[nt - 1]);
+        }} />
+      <MapData field={field} canvas={() => canvas.current} />
+    </figure>
+  );
+}
+
+function csvOf(f: Field): string {
+  const rows = [['t \\ x', ...Array.from(f.x, (x) => x * f.xFactor)].join(',')];
+  for (let j = 0; j < f.t.length; ++j) rows.push([f.t[j] * f.tFactor, ...Array.from({ length: f.x.length }, (_, i) => f.values[j * f.x.length + i] * f.factor)].join(','));
+  return rows.join('\n') + '\n';
+}
+
+function MapData({ field: f, canvas }: { field: Field; canvas: () => HTMLCanvasElement | null }) {
+  const columns = Array.from({ length: 9 }, (_, k) => Math.round((k / 8) * (f.x.length - 1)));
+  const rows = Array.from({ length: 13 }, (_, k) => Math.round((k / 12) * (f.t.length - 1)));
+  return (
+    <Data
+      of={f.title}
+      buttons={() => (
+        <>
+          <button type="button" onClick={() => canvas()?.toBlob((blob) => blob && save(`${f.name}.png`, blob))}>PNG</button>
+          <button type="button" onClick={() => save(`${f.name}.csv`, csvOf(f), 'text/csv')}>CSV</button>
+        </>
+      )}
+      table={() => (
+        <>
+          <caption>{f.title}, some rows and columns (all are in the CSV)</caption>
+          <thead><tr><th scope="col">{f.tLabel}</th>{columns.map((i) => <th scope="col">x = {short(f.x[i] * f.xFactor, 3)}</th>)}</tr></thead>
+          <tbody>{rows.map((j) => <tr><th scope="row">{short(f.t[j] * f.tFactor, 3)}</th>{columns.map((i) => <td>{short(f.values[j * f.x.length + i] * f.factor, 3)}</td>)}</tr>)}</tbody>
+        </>
+      )}
+    />
+  );
+}

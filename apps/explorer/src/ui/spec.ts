@@ -1,0 +1,119 @@
+/** What a plot shows, apart from how it is drawn: on the screen, as SVG, as CSV and as a table. */
+
+import { short } from './format';
+
+export interface Series {
+  label: string;
+  y: ArrayLike<number>;
+  /** The name of a colour of the style sheet, without its dashes. */
+  color: string;
+  dash?: number[];
+  width?: number;
+  fill?: boolean;
+}
+export interface Path {
+  label?: string;
+  x: ArrayLike<number>;
+  y: ArrayLike<number>;
+  color: string;
+  dash?: number[];
+  width?: number;
+}
+export interface Point {
+  x: number;
+  y: number;
+  label: string;
+  color: string;
+  chosen?: boolean;
+  /** Half-width of an interval, from and to. */
+  xInterval?: [number, number];
+}
+export interface Vertical {
+  x: number;
+  label: string;
+  color: string;
+}
+export interface Spec {
+  /** For files: "slip-velocity". */
+  name: string;
+  title: string;
+  x: ArrayLike<number>;
+  xLabel: string;
+  yLabel: string;
+  series: Series[];
+  paths?: Path[];
+  points?: Point[];
+  verticals?: Vertical[];
+  xRange?: [number, number];
+  yRange?: [number, number];
+  xLog?: boolean;
+  yLog?: boolean;
+}
+
+const finite = (value: number) => Number.isFinite(value);
+
+export const on = (value: number, log?: boolean) => (log ? (value > 0 ? Math.log10(value) : NaN) : value);
+export const off = (value: number, log?: boolean) => (log ? 10 ** value : value);
+
+/** The range of an axis in its own coordinate, a logarithm where it is logarithmic. */
+export function rangeOf(spec: Spec, axis: 'x' | 'y'): [number, number] {
+  const log = axis === 'x' ? spec.xLog : spec.yLog;
+  const given = axis === 'x' ? spec.xRange : spec.yRange;
+  if (given) return [on(given[0], log), on(given[1], log)];
+  let least = Infinity;
+  let most = -Infinity;
+  const see = (values: ArrayLike<number>) => {
+    for (let i = 0; i < values.length; ++i) {
+      const value = on(values[i], log);
+      if (!finite(value)) continue;
+      if (value < least) least = value;
+      if (value > most) most = value;
+    }
+  };
+  if (axis === 'x') see(spec.x);
+  else spec.series.forEach((series) => see(series.y));
+  spec.paths?.forEach((path) => see(path[axis]));
+  spec.points?.forEach((point) => see([point[axis]]));
+  if (!finite(least)) return [0, 1];
+  if (least === most) return [least - (Math.abs(least) || 1) * 0.1, most + (Math.abs(most) || 1) * 0.1];
+  if (axis === 'x') return [least, most];
+  if (log) return [least - 0.05 * (most - least), most + 0.05 * (most - least)];
+  const room = 0.08 * (most - least);
+  return [least >= 0 && least < 0.3 * most ? 0 : least - room, most + room];
+}
+
+/** Even ticks at 1, 2 or 5 times a power of ten; whole decades on a logarithmic axis that spans enough of them. */
+export function ticks([least, most]: [number, number], about: number, log?: boolean): number[] {
+  const rough = (most - least) / Math.max(1, about);
+  const power = 10 ** Math.floor(Math.log10(rough));
+  let step = [1, 2, 5, 10].map((m) => m * power).find((s) => s >= rough) ?? rough;
+  if (log && most - least > 2) step = Math.max(1, Math.round(step));
+  const all: number[] = [];
+  for (let tick = Math.ceil(least / step - 1e-9); tick * step <= most + 1e-9 * step; ++tick) all.push(+(tick * step).toPrecision(12));
+  return all;
+}
+
+export const tickText = (tick: number, log?: boolean) => (log ? short(10 ** tick, 3).replace(/^1·/, '') : short(tick, 6));
+
+/** Columns of the table and of the CSV. */
+export function columns(spec: Spec): { head: string[]; rows: (number | string)[][] } {
+  const head = [spec.xLabel, ...spec.series.map((series) => series.label)];
+  const rows: (number | string)[][] = [];
+  for (let i = 0; i < spec.x.length; ++i) rows.push([spec.x[i], ...spec.series.map((series) => series.y[i])]);
+  if (rows.length === 0) {
+    head.splice(0, head.length, 'curve', spec.xLabel, spec.yLabel);
+    spec.paths?.forEach((path, k) => {
+      for (let i = 0; i < path.x.length; ++i) rows.push([path.label ?? `curve ${k + 1}`, path.x[i], path.y[i]]);
+    });
+    spec.points?.forEach((point) => rows.push([point.label, point.x, point.y]));
+  }
+  return { head, rows };
+}
+
+const csvCell = (cell: number | string) =>
+  typeof cell === 'number' ? (finite(cell) ? String(cell) : '') : /[",\n]/.test(cell) ? `"${cell.replace(/"/g, '""')}"` : cell;
+
+export function csvOf(spec: Spec): string {
+  const { head, rows } = columns(spec);
+  return [head, ...rows].map((row) => row.map(csvCell).join(',')).join('\n') + '\n';
+}

@@ -1,0 +1,43 @@
+#pragma once
+/// \file
+/// How this module answers the page: a JSON object, whose arrays of numbers lie beside it as doubles.
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// What the page may call. Every function returns the address of a JSON text that is good until the next call.
+#define SLIPFRONT_EXPORT extern "C" __attribute__((used, visibility("default")))
+
+namespace slipfront::explorer {
+
+/// A JSON object. Numbers that are none become null; arrays of numbers become {"$": [offset, count]}, a place in
+/// `numbers()` of this call.
+class Object {
+ public:
+  Object& put(std::string_view key, double value);
+  Object& put(std::string_view key, const std::optional<double>& value);
+  Object& put(std::string_view key, int value) { return put(key, static_cast<double>(value)); }
+  Object& put(std::string_view key, long value) { return put(key, static_cast<double>(value)); }
+  Object& put(std::string_view key, std::string_view value);
+  Object& put(std::string_view key, const std::string& value) { return put(key, std::string_view(value)); }
+  Object& put(std::string_view key, const char* value) { return put(key, std::string_view(value)); }
+  Object& put(std::string_view key, bool value);
+  Object& put(std::string_view key, const Object& value);
+  Object& put(std::string_view key, const std::vector<Object>& values);
+  Object& put(std::string_view key, const std::vector<std::string>& values);
+  Object& numbers(std::string_view key, std::span<const double> values);
+  std::string text() const { return "{" + text_ + "}"; }
+
+ private:
+  void key(std::string_view name);
+  std::string text_;
+};
+
+/// Calls `body` and gives its answer as text; what it throws becomes {"error": {...}} with the parts of the complaint.
+const char* answer(const std::function<Object()>& body);
+
+}  // namespace slipfront::explorer

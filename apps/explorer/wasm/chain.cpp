@@ -1,0 +1,132 @@
+/// \file
+/// Panel "Dislocations": every dislocation of a scenario, live.
+
+#include "slipfront/setup/chain.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "scenario.hpp"
+#include "slipfront/chain/measure.hpp"
+#include "slipfront/chain/run.hpp"
+#include "slipfront/chain/smooth.hpp"
+#include "slipfront/clock.hpp"
+#include "slipfront/error.hpp"
+
+namespace slipfront::explorer {
+namespace {
+
+constexpr std::size_t most_sites = 200000;
+constexpr int average_points = 200;
+
+/// The chain that the panel shows, in the scenario's units.
+struct Live {
+  double scale = 1, left = 0, right = 0, end = 0, window = 0;
+  std::unique_ptr<chain::Chain> chain;
+};
+
+Live& live() {
+  static Live now;
+  return now;
+}
+
+std::unique_ptr<chain::Chain> started(const chain::ScaledProblem& s) {
+  chain::Problem problem = chain::problem_of(s);
+  if (problem.grid.sites > most_sites)
+    throw InputError({.key = "chain.scale",
+                      .problem = "too many sites for a page: " + std::to_string(problem.grid.sites),
+                      .allowed = "a smaller scale; slipfront chain runs larger ones"});
+  const chain::StaticTrain train([s](double x) { return s.stress(std::clamp(x / s.scale, s.left, s.right)); },
+                                 problem.grid, s.boundary.periodic, problem.contact);
+  const chain::Motion motion = train(0, problem.grid.sites);
+  if (s.boundary.periodic) {
+    const double share = static_cast<double>(problem.grid.sites) / static_cast<double>(problem.grid.sites - 1);
+    problem.boundary.charge = std::lround((motion.u.front() - motion.u.back()) * share / (2 * std::numbers::pi));
+  }
+  return std::make_unique<chain::Chain>(problem, motion);
+}
+
+}  // namespace
+
+/// Lays the chain of a scenario so that about `dislocations` lie in its domain, by the scale; 0: the scenario's own
+/// scale. `window` dislocations make an average.
+SLIPFRONT_EXPORT const char* chain_begin(const char* toml, int dislocations, double window) {
+  return answer([=] {
+    const scenario::Scenario s = scenario_of(toml);
+    chain::ScaledProblem problem = setup::chain_problem(s);
+    constexpr int samples = 2000;
+    double number = 0;  // of dislocations at scale 1
+    for (int i = 0; i < samples; ++i)
+      number += s.stress(problem.left + (problem.right - problem.left) * (i + 0.5) / samples) / samples;
+    number *= (problem.right - problem.left) / (2 * std::numbers::pi);
+    if (dislocations > 0) problem.scale = dislocations / number;
+    Live& now = live();
+    now = {problem.scale, problem.left, problem.right, s.end, 0, nullptr};
+    now.window = std::min(window, number * problem.scale) / (number * problem.scale) * (problem.right - problem.left);
+    now.chain = started(problem);
+    const chain::Grid& grid = now.chain->problem().grid;
+    return Object()
+        .put("scale", now.scale)
+        .put("left", now.left)
+        .put("right", now.right)
+        .put("end", now.end)
+        .put("sites", static_cast<long>(grid.sites))
+        .put("spacing", grid.spacing)
+        .put("warnings", s.warnings)
+        .put("dislocations", static_cast<long>(chain::dislocations(*now.chain).size()));
+  });
+}
+
+/// Goes on to a time of the scenario, for at most so many milliseconds: where the dislocations are, and their averages
+/// if asked for.
+SLIPFRONT_EXPORT const char* chain_go(double time, double milliseconds, int averages) {
+  return answer([=] {
+    Live& now = live();
+    if (!now.chain) throw InputError({.key = "chain", .problem = "there is none"});
+    chain::Chain& c = *now.chain;
+    const auto begun = Clock::now();
+    const bool reached = c.advance_to(time * now.scale, [&] { return 1e3 * seconds_since(begun) > milliseconds; });
+    std::vector<double> place, sign;
+    for (const chain::Dislocation& d : chain::dislocations(c)) {
+      place.push_back(d.x / now.scale);
+      sign.push_back(d.sign);
+    }
+    const chain::Totals totals = chain::totals(c);
+    Object object;
+    object.put("reached", reached).put("time", c.time() / now.scale).put("steps", c.level());
+    object.put("energy", totals.energy() / now.scale).put("momentum", totals.momentum / now.scale);
+    object.numbers("x", place).numbers("sign", sign);
+    if (averages) {
+      std::vector<double> x, W, Sigma;
+      for (int i = 0; i < average_points; ++i) {
+        x.push_back(now.left + (now.right - now.left) * (i + 0.5) / average_points);
+        const auto mean = chain::smooth_average(c, now.scale * x.back(), now.scale * now.window, c.time());
+        W.push_back(mean.velocity);
+        Sigma.push_back(mean.stress);
+      }
+      object.numbers("average_x", x).numbers("W", W).numbers("Sigma", Sigma);
+    }
+    return object;
+  });
+}
+
+/// What single sites do between two places of the scenario: displacement (in dislocations), stress and slip velocity.
+SLIPFRONT_EXPORT const char* chain_window(double from, double to) {
+  return answer([=] {
+    Live& now = live();
+    if (!now.chain) throw InputError({.key = "chain", .problem = "there is none"});
+    const chain::Grid& grid = now.chain->problem().grid;
+    const auto site = [&](double x) {
+      const double j = (x * now.scale - grid.left) / grid.spacing;
+      return static_cast<std::size_t>(std::clamp(j, 0.0, static_cast<double>(grid.sites - 1)));
+    };
+    const chain::Window w = now.chain->window(site(from), std::min(grid.sites, site(to) + 1));
+    std::vector<double> x = w.x;
+    for (double& place : x) place /= now.scale;
+    return Object().numbers("x", x).numbers("u", w.u).numbers("velocity", w.velocity).numbers("stress", w.stress);
+  });
+}
+
+}  // namespace slipfront::explorer

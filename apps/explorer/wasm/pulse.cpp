@@ -1,0 +1,161 @@
+/// \file
+/// Panel "Pulse" and the live figures of the paper: runs of the modulation equations that go on piece by piece, so that
+/// the page can stop them and show what there is.
+
+#include "slipfront/setup/pulse.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+
+#include "../../../src/digits.hpp"
+#include "scenario.hpp"
+#include "slipfront/clock.hpp"
+#include "slipfront/error.hpp"
+#include "slipfront/output/further_scalars.hpp"
+#include "slipfront/pulse/run.hpp"
+
+namespace slipfront::explorer {
+namespace {
+
+struct Session {
+  std::unique_ptr<pulse::Run> run;
+  std::vector<std::string> warnings;  ///< of the scenario
+  double coefficient = 0;
+};
+
+std::map<int, Session>& sessions() {
+  static std::map<int, Session> all;
+  return all;
+}
+
+Session& session(int handle) {
+  const auto found = sessions().find(handle);
+  if (found == sessions().end()) throw InputError({.key = "handle", .problem = "no such run"});
+  return found->second;
+}
+
+constexpr int most_frames = 2000;
+
+/// One number of each snapshot from `first` on.
+template <class Get>
+std::vector<double> series(const std::vector<output::Snapshot>& all, std::size_t first, const Get& get) {
+  std::vector<double> values;
+  for (std::size_t i = first; i < all.size(); ++i) values.push_back(get(all[i]));
+  return values;
+}
+
+/// A field of each snapshot, one after the other.
+void put_field(Object& object, const char* name, const std::vector<output::Snapshot>& all, std::size_t first,
+               std::vector<double> output::Profile::*field) {
+  std::vector<double> values;
+  for (std::size_t i = first; i < all.size(); ++i)
+    values.insert(values.end(), (all[i].profile.*field).begin(), (all[i].profile.*field).end());
+  object.numbers(name, values);
+}
+
+void put_series(Object& object, const std::vector<output::Snapshot>& all, std::size_t first) {
+  using S = const output::Snapshot&;
+  const auto put = [&](const char* name, const auto& get) { object.numbers(name, series(all, first, get)); };
+  put("time", [](S s) { return s.time; });
+  put("trailing_front", [](S s) { return s.fronts.trailing; });
+  put("leading_front", [](S s) { return s.fronts.leading; });
+  put("trailing_characteristic", [](S s) { return s.fronts.trailing_characteristic; });
+  put("trailing_front_observed", [](S s) { return s.fronts.trailing_observed; });
+  put("leading_front_observed", [](S s) { return s.fronts.leading_observed; });
+  put("slip_velocity_at_origin", [](S s) { return s.slip_velocity_at_origin; });
+  put("stress_at_origin", [](S s) { return s.stress_at_origin; });
+  put("slip_at_origin", [](S s) { return s.slip_at_origin; });
+  put("peak_slip_velocity", [](S s) { return s.peak_slip_velocity; });
+  put("peak_position", [](S s) { return s.peak_position; });
+  put("energy_elastic", [](S s) { return s.energy.elastic; });
+  put("energy_kinetic", [](S s) { return s.energy.kinetic; });
+  put("energy_dissipated", [](S s) { return s.energy.dissipated; });
+  put("energy_supplied", [](S s) { return s.energy.supplied; });
+  put("potency", [](S s) { return output::further_scalar(s, "potency"); });
+}
+
+}  // namespace
+
+/// Begins a run under a number. `frames` > 0: that many snapshots at even times instead of those of the scenario.
+/// `look` > 0: t = 0 and that time alone, to answer a slider at once. `closure`: 0 the scenario's, 1 consistent, 2
+/// paper.
+SLIPFRONT_EXPORT const char* pulse_begin(int handle, const char* toml, int frames, double look, int closure) {
+  return answer([=] {
+    const scenario::Scenario s = scenario_of(toml);
+    pulse::Problem problem = setup::pulse_problem(s);
+    if (closure > 0)
+      problem.friction = problem.friction.with(closure == 1 ? friction::Closure::consistent : friction::Closure::paper);
+    if (!problem.friction.defined_by(problem.friction.closure()))
+      throw InputError({.key = "friction.closure",
+                        .value = "paper",
+                        .problem = "the paper's closure knows no memory",
+                        .allowed = "consistent"});
+    output::Schedule schedule = setup::pulse_schedule(s, problem);
+    if (look > 0) {
+      schedule.times = {0, std::min(look, s.end)};
+    } else if (frames > 1) {
+      schedule.times.clear();
+      for (int i = 0; i < std::min(frames, most_frames); ++i) schedule.times.push_back(s.end * i / (frames - 1));
+    }
+    Object object;
+    std::vector<double> x;
+    for (std::size_t i = 0; i + 1 < schedule.x_edges.size(); ++i)
+      x.push_back((schedule.x_edges[i] + schedule.x_edges[i + 1]) / 2);
+    object.numbers("x", x).put("end", s.end).put("frames", static_cast<long>(schedule.times.size()));
+    object.put("closure", name_of(problem.friction.closure())).put("warnings", s.warnings);
+    const double coefficient = s.friction.coefficient();
+    sessions()[handle] = {std::make_unique<pulse::Run>(std::move(problem), std::move(schedule)), s.warnings,
+                          coefficient};
+    return object;
+  });
+}
+
+/// Goes on for about so many milliseconds, and gives the snapshots from number `first` on. An error after some
+/// snapshots comes with them.
+SLIPFRONT_EXPORT const char* pulse_go(int handle, double milliseconds, int first) {
+  return answer([=] {
+    Session& s = session(handle);
+    const auto begun = Clock::now();
+    std::string gave_up;
+    try {
+      if (!s.run->finished()) s.run->go([&] { return 1e3 * seconds_since(begun) > milliseconds; });
+    } catch (const NumericsError& error) {
+      gave_up = error.what();
+    }
+    const pulse::Solver& solver = s.run->solver();
+    const pulse::Cells& cells = solver.cells();
+    Object object;
+    object.put("finished", s.run->finished()).put("now", cells.time).put("steps", cells.steps);
+    if (!gave_up.empty()) object.put("gave_up", gave_up);
+    const std::vector<output::Snapshot>& all = s.run->snapshots();
+    const std::size_t from = std::min(all.size(), static_cast<std::size_t>(std::max(first, 0)));
+    put_series(object, all, from);
+    put_field(object, "W", all, from, &output::Profile::W);
+    put_field(object, "Sigma", all, from, &output::Profile::k);
+    put_field(object, "U", all, from, &output::Profile::U);
+    put_field(object, "slip", all, from, &output::Profile::slip);
+    if (s.run->finished()) {
+      std::vector<std::string> warnings = s.warnings;
+      for (const std::string& w : s.run->warnings()) warnings.push_back(w);
+      object.put("warnings", warnings)
+          .put("friction_coefficient", s.coefficient)
+          .put("damping_number", s.coefficient * all.back().time)
+          .put("conservation_error", pulse::conservation_error(solver))
+          .put("first_crossing_time", cells.crossing_time)
+          .put("first_crossing_position", cells.crossing_position)
+          .put("cells", solver.problem().cells);
+    }
+    return object;
+  });
+}
+
+SLIPFRONT_EXPORT const char* pulse_end(int handle) {
+  return answer([=] {
+    sessions().erase(handle);
+    return Object();
+  });
+}
+
+}  // namespace slipfront::explorer

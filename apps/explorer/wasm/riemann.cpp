@@ -1,0 +1,103 @@
+/// \file
+/// Panel "Riemann": two uniform trains meet at x = 0.
+
+#include "slipfront/rupture/riemann.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "../../../src/digits.hpp"
+#include "answer.hpp"
+#include "slipfront/error.hpp"
+#include "slipfront/train/at_rest.hpp"
+#include "slipfront/train/train.hpp"
+
+namespace slipfront::explorer {
+namespace {
+
+using rupture::RiemannSolution;
+using rupture::Wave;
+
+/// The train of this stress and velocity of the dislocations: k = cosh phi times the stress at rest of its psi (Eq. 5).
+State state_of(const char* side, double stress, double velocity) {
+  const std::string key = side;
+  if (!(std::fabs(velocity) <= 0.999999))
+    throw InputError({.key = key + "_velocity",
+                      .value = digits(velocity),
+                      .problem = "out of range",
+                      .allowed = "-0.999999 ... 0.999999, in c"});
+  const double phi = std::atanh(velocity), rest = stress / std::cosh(phi);
+  if (stress == 0) return {phi, 0};
+  if (!(rest >= train::smallest_stress) || !(stress <= 1e6))
+    throw InputError(
+        {.key = key + "_stress",
+         .value = digits(stress),
+         .problem = "out of range",
+         .allowed = "0, or " + digits(train::smallest_stress * std::cosh(phi), 4) + " ... 1e6, in mu A / pi"});
+  return {phi, train::psi_of_stress(rest)};
+}
+
+Object described(const State& state) {
+  const train::Averages a = train::averages(state);
+  return Object()
+      .put("phi", state.phi)
+      .put("psi", state.psi)
+      .put("U", std::tanh(state.phi))
+      .put("Sigma", a.k)
+      .put("W", a.W)
+      .put("P", a.P)
+      .put("H", a.H);
+}
+
+Object described(const Wave& wave) {
+  const char* kind = wave.kind == Wave::Kind::fan ? "fan" : wave.kind == Wave::Kind::shock ? "shock" : "none";
+  return Object().put("kind", kind).put("outer", wave.outer).put("inner", wave.inner);
+}
+
+/// The states that a wave passes through, from the outer to the inner side.
+void put_path(Object& object, const std::string& name, const RiemannSolution& solution, const Wave& wave) {
+  std::vector<double> phi, psi, x;
+  if (wave.kind == Wave::Kind::fan) {
+    constexpr int points = 60;
+    for (int i = 0; i <= points; ++i) {
+      x.push_back(wave.outer + (wave.inner - wave.outer) * i / points);
+      const State state = rupture::sample(solution, x.back());
+      phi.push_back(state.phi);
+      psi.push_back(state.psi);
+    }
+  }
+  object.put(name, Object().numbers("phi", phi).numbers("psi", psi).numbers("x_over_t", x));
+}
+
+}  // namespace
+
+SLIPFRONT_EXPORT const char* riemann(double left_stress, double left_velocity, double right_stress,
+                                     double right_velocity, int points) {
+  return answer([=] {
+    const State left = state_of("left", left_stress, left_velocity);
+    const State right = state_of("right", right_stress, right_velocity);
+    if (left.empty() && right.empty())
+      throw InputError({.key = "left_stress", .problem = "both sides are empty", .allowed = "a stress on one side"});
+    const RiemannSolution s = rupture::solve_riemann(left, right);
+    const rupture::Edges edges = rupture::edges_of(s);
+    Object object;
+    object.put("left", described(s.left)).put("right", described(s.right)).put("star", described(s.star));
+    object.put("left_wave", described(s.left_wave)).put("right_wave", described(s.right_wave));
+    object.put("left_edge", edges.left).put("right_edge", edges.right);
+    put_path(object, "left_path", s, s.left_wave);
+    put_path(object, "right_path", s, s.right_wave);
+    const double width = std::max(edges.right - edges.left, 1e-12);
+    std::vector<double> x, Sigma, W, U;
+    for (int i = 0; i < std::clamp(points, 2, 20000); ++i) {
+      x.push_back(edges.left - 0.25 * width + 1.5 * width * i / (std::clamp(points, 2, 20000) - 1));
+      const State state = rupture::sample(s, x.back());
+      const train::Averages a = train::averages(state);
+      Sigma.push_back(a.k);
+      W.push_back(a.W);
+      U.push_back(state.empty() ? 0 : std::tanh(state.phi));
+    }
+    return object.numbers("x_over_t", x).numbers("Sigma", Sigma).numbers("W", W).numbers("U", U);
+  });
+}
+
+}  // namespace slipfront::explorer

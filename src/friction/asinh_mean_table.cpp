@@ -1,0 +1,150 @@
+#include "asinh_mean_table.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "../elementary.hpp"
+#include "../vector_code.hpp"
+#include "chebyshev.hpp"
+#include "train_means.hpp"
+
+namespace slipfront::friction {
+namespace {
+
+/// Adds the asinh at one node of phase to the sums over nodes, for many A.
+SLIPFRONT_CLONES void add_asinh(std::size_t size, const double* A, double r, double weight, double* sum) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) {
+    const double x = A[i] * r;
+    sum[i] += weight * asinh_branch_free(x, std::sqrt(1 + x * x));
+  }
+}
+
+constexpr std::size_t terms = AsinhMeanTable::terms;
+
+}  // namespace
+
+const AsinhMeanTable& AsinhMeanTable::get() {
+  static const AsinhMeanTable table;
+  return table;
+}
+
+AsinhMeanTable::AsinhMeanTable() {
+  using Fit = ChebyshevFit<terms>;
+  const Fit through;
+  const double first_s = std::log(least_s);
+  columns_ = patches_in(std::log(largest_s) - first_s);
+  const std::size_t rows = patches_in(std::log(largest_As / least_s) - least_log_A);
+  patches_.assign(rows * columns_, {});
+  const auto exp_of_node = [](double first, std::size_t patch, std::size_t k) {
+    return std::exp(first + (static_cast<double>(patch) + (1 + Fit::extremum(k)) / 2) * side);
+  };
+  std::vector<double> A(rows * terms), sums[terms];
+  for (std::size_t at = 0; at < A.size(); ++at) A[at] = exp_of_node(least_log_A, at / terms, at % terms);
+  for (std::size_t column = 0; column < columns_; ++column) {
+    double r[terms], weight[terms], s[terms], weights[terms] = {};
+    for (std::size_t k = 0; k < terms; ++k) s[k] = exp_of_node(first_s, column, k);  // < 1
+    const PhaseNodes phases(terms, s);
+    // Beyond these the mean is logarithmic.
+    const std::size_t needed = std::min(rows, patches_in(std::log(largest_As / s[terms - 1]) - least_log_A));
+    for (std::vector<double>& sum : sums) sum.assign(needed * terms, 0);
+    for (std::size_t p = 0; p < phases.count(); ++p) {
+      phases.node(p, Closure::consistent, r, weight);
+      for (std::size_t k = 0; k < terms; ++k) {
+        weights[k] += weight[k];
+        add_asinh(needed * terms, A.data(), r[k], weight[k], sums[k].data());
+      }
+    }
+    for (std::size_t k = 0; k < terms; ++k)  // the difference, times the weights
+      add_asinh(needed * terms, A.data(), (1 + s[k]) / 2, -weights[k], sums[k].data());
+    for (std::size_t row = 0; row < needed; ++row) {
+      double over_s[terms][terms], values[terms], c[terms];
+      for (std::size_t j = 0; j < terms; ++j) {
+        for (std::size_t k = 0; k < terms; ++k) values[k] = sums[k][row * terms + j] / weights[k];
+        through(values, over_s[j]);
+      }
+      Patch& patch = patches_[row * columns_ + column];
+      for (std::size_t k = 0; k < terms; ++k) {
+        for (std::size_t j = 0; j < terms; ++j) values[j] = over_s[j][k];
+        through(values, c);
+        for (std::size_t j = 0; j < terms; ++j) patch.c[j][k] = c[j];
+      }
+    }
+  }
+}
+
+namespace {
+
+/// Places in the table of at most `most` trains.
+struct PlacesInTable {
+  static constexpr std::size_t most = 64;
+  double x_A[most], x_s[most];  ///< -1 to 1 within the patch
+  int patch[most];
+  double difference[most], by_A[most];  ///< what the table has there, and its slope
+};
+
+SLIPFRONT_CLONES void find_places(std::size_t size, std::size_t columns, double first_s, double first_A, double side,
+                                  const double* log_A, const double* s, PlacesInTable& at) {
+  const double per_side = 1 / side;
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) {
+    const double from = log_A[i] > first_A ? log_A[i] : first_A;
+    const double row = (from - first_A) * per_side, column = (log_branch_free(s[i]) - first_s) * per_side;
+    const int at_row = static_cast<int>(row), at_column = static_cast<int>(column);
+    at.x_A[i] = 2 * (row - at_row) - 1;
+    at.x_s[i] = 2 * (column - at_column) - 1;
+    at.patch[i] = at_row * static_cast<int>(columns) + at_column;
+  }
+}
+
+/// The coefficients of eight powers of x_s as one value: compilers make vector code of it that they do not make of
+/// loops over eight.
+using Row = double __attribute__((vector_size(terms * sizeof(double))));
+
+/// Train by train: gathering coefficients for many trains would take longer.
+SLIPFRONT_CLONES void interpolate_all(std::size_t size, const AsinhMeanTable::Patch* patches, PlacesInTable& at) {
+  for (std::size_t i = 0; i < size; ++i) {
+    const double x = at.x_A[i], y = at.x_s[i], y2 = y * y, y4 = y2 * y2;
+    Row row, value = {}, by_A = {};
+    for (std::size_t j = terms; j-- > 0;) {
+      std::memcpy(&row, patches[at.patch[i]].c[j], sizeof row);
+      by_A = by_A * x + value;
+      value = value * x + row;
+    }
+    // Both sums over powers of x_s, half of them by half.
+    const Row low = __builtin_shufflevector(value, by_A, 0, 1, 2, 3, 8, 9, 10, 11),
+              high = __builtin_shufflevector(value, by_A, 4, 5, 6, 7, 12, 13, 14, 15), four = low + y4 * high,
+              two = four + y2 * __builtin_shufflevector(four, four, 2, 3, 2, 3, 6, 7, 6, 7);
+    at.difference[i] = two[0] + y * two[1];
+    at.by_A[i] = two[4] + y * two[5];
+  }
+}
+
+SLIPFRONT_CLONES void add_to_asinh(std::size_t size, double first_A, double side, const double* A, const double* s,
+                                   const PlacesInTable& at, double* mean, double* slope) {
+  const double per_first = 1 / first_A, per_unit = 2 / side;
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) {
+    const double x = A[i] * (1 + s[i]) / 2, root = std::sqrt(1 + x * x), value = at.difference[i];
+    const bool slow = A[i] < first_A;
+    const double share = slow ? A[i] * per_first : 1.0, by_A = at.by_A[i] * per_unit;
+    mean[i] = asinh_branch_free(x, root) + share * value;
+    slope[i] = x / root + share * (slow ? value : by_A);
+  }
+}
+
+}  // namespace
+
+void AsinhMeanTable::look_up(std::size_t size, const double* log_A, const double* A, const double* s, double* mean,
+                             double* slope) const {
+  constexpr std::size_t most = PlacesInTable::most;
+  PlacesInTable at;
+  for (std::size_t begin = 0; begin < size; begin += most) {
+    const std::size_t some = std::min(most, size - begin);
+    find_places(some, columns_, std::log(least_s), least_log_A, side, log_A + begin, s + begin, at);
+    interpolate_all(some, patches_.data(), at);
+    add_to_asinh(some, std::exp(least_log_A), side, A + begin, s + begin, at, mean + begin, slope + begin);
+  }
+}
+
+}  // namespace slipfront::friction

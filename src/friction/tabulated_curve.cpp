@@ -1,0 +1,75 @@
+#include "tabulated_curve.hpp"
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+#include "../elementary.hpp"
+#include "../vector_code.hpp"
+#include "chebyshev.hpp"
+#include "slipfront/error.hpp"
+
+namespace slipfront::friction {
+namespace {
+
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+constexpr int bits_of_place = 48;  ///< the 4 bits of a double above them, and the exponent, are the piece
+constexpr double slowest = 0x1p-84, fastest = 0x1p6;  // what rounding moves is not far below 1e-20
+
+std::uint64_t piece_of(double speed) { return std::bit_cast<std::uint64_t>(speed) >> bits_of_place; }
+double start_of(std::uint64_t piece) { return std::bit_cast<double>(piece << bits_of_place); }
+
+/// Coefficients of the piece that begins at `from`; not a number where they would not do.
+template <std::size_t n>
+void fit(const ChebyshevFit<n>& through, const Curve& curve, double from, double to, double (&c)[n]) {
+  constexpr double precision = 1e-12;
+  const auto speed_at = [=](double t) { return (from + to) / 2 + (to - from) / 2 * t; };
+  bool fits = true;
+  try {
+    double f[n];
+    for (std::size_t i = 0; i < n; ++i) f[i] = curve(speed_at(ChebyshevFit<n>::extremum(i)));
+    through(f, c);
+    for (std::size_t i = 0; i + 1 < n && fits; ++i) {  // between the points
+      const double t = std::cos(std::numbers::pi * (static_cast<double>(i) + 0.5) / (n - 1)),
+                   value = curve(speed_at(t));
+      fits = std::fabs(polynomial_by_pairs(c, t) - value) <= precision * std::fabs(value);
+    }
+  } catch (const InputError&) {  // the curve's own word on speeds that may never come
+    fits = false;
+  }
+  if (!fits) c[0] = no_number;
+}
+
+// Not as vector code: gathering coefficients would take longer than the polynomials.
+SLIPFRONT_CLONES std::size_t evaluate(std::size_t size, const double* speed, const TabulatedCurve::Piece* pieces,
+                                      std::uint64_t first, std::uint64_t count, double* value) {
+  std::size_t others = 0;
+  for (std::size_t i = 0; i < size; ++i) {
+    const std::uint64_t bits = std::bit_cast<std::uint64_t>(speed[i]), piece = (bits >> bits_of_place) - first;
+    const double t =
+        2 * std::bit_cast<double>((bits << (52 - bits_of_place) & 0x000fffffffffffffu) | 0x3ff0000000000000u) - 3;
+    value[i] = polynomial_by_pairs(pieces[piece < count ? piece : count].c, t);
+    others += std::isnan(value[i]) ? 1u : 0u;
+  }
+  return others;
+}
+
+}  // namespace
+
+TabulatedCurve::TabulatedCurve(Curve curve) : curve_(std::move(curve)), at_rest_(curve_(0)) {
+  const ChebyshevFit<Piece::terms> through;
+  for (std::uint64_t piece = piece_of(slowest); piece < piece_of(fastest); ++piece)
+    fit(through, curve_, start_of(piece), start_of(piece + 1), pieces_.emplace_back().c);
+  pieces_.push_back({{no_number}});
+}
+
+void TabulatedCurve::values(std::size_t size, const double* speed, double* value) const {
+  const std::uint64_t count = pieces_.size() - 1;
+  if (evaluate(size, speed, pieces_.data(), piece_of(slowest), count, value) == 0) return;
+  for (std::size_t i = 0; i < size; ++i)
+    if (std::isnan(value[i])) value[i] = speed[i] == 0 ? at_rest_ : curve_(speed[i]);
+}
+
+}  // namespace slipfront::friction

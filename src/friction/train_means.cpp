@@ -1,0 +1,98 @@
+#include "train_means.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "../vector_code.hpp"
+
+namespace slipfront::friction {
+namespace {
+
+double mean_of(double a, double b) {  // arithmetic-geometric
+  for (int i = 0; i < 12 && std::fabs(a - b) > 1e-9 * a; ++i) {
+    const double next = (a + b) / 2;
+    b = std::sqrt(a * b);
+    a = next;
+  }
+  return a;
+}
+
+/// n with exp(-2 pi n K' / K) below 1e-12: the error of a mean over slip is up to a hundred times that, as for f = w.
+std::size_t steps_for(double s) {
+  const double K_over_K1 = mean_of(1, std::sqrt((1 - s) * (1 + s))) / mean_of(1, s);
+  return std::max<std::size_t>(3, static_cast<std::size_t>(std::ceil(4.5 * K_over_K1)));
+}
+
+// One transformation takes the modulus k to k1 = (1 - k') / (1 + k'), with k1' = 2 k'^(1/2) / (1 + k') nearer to 1, and
+// dn = (dn1^2 - (1 - k1)) / (1 + k1 - dn1^2). With S = sin^2 of the last angle, and common factors taken out:
+//     D3 = 1 + k3 S,  d2 = D3^2 + c2 S,  r = (d2^2 - c1 S D3^2) / (d2^2 + c1 S D3^2).
+SLIPFRONT_CLONES void coefficients(std::size_t size, const double* s, double* k3, double* c2, double* c1) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) {
+    const double s0 = s[i] > PhaseNodes::least_s ? s[i] : PhaseNodes::least_s;
+    const double s1 = 2 * std::sqrt(s0) / (1 + s0), s2 = 2 * std::sqrt(s1) / (1 + s1);
+    const double root1 = (1 - std::sqrt(s0)) / (1 + std::sqrt(s0)), root2 = (1 - std::sqrt(s1)) / (1 + std::sqrt(s1));
+    const double k1 = (1 - s0) / (1 + s0), k2 = root1 * root1;  // (1 - s1) / (1 + s1) without cancellation
+    const double w1 = 1 / ((1 + s1) * (1 + s1)), w2 = 1 / ((1 + s2) * (1 + s2));
+    k3[i] = root2 * root2;
+    c2[i] = 4 * k2 * w2;
+    c1[i] = 16 * k1 * w1 * w2;
+  }
+}
+
+SLIPFRONT_CLONES void nodes(std::size_t size, double S, const double* k3, const double* c2, const double* c1,
+                            bool over_slip, double share, double* r, double* weight) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) {
+    const double D = 1 + k3[i] * S, q = D * D, d = q + c2[i] * S, d2 = d * d, e = c1[i] * S * q;
+    const double root = std::sqrt(1 - k3[i] * k3[i] * S), below = d2 + e, inverse = 1 / (below * root);  // one for two
+    const double ratio = (d2 - e) * (root * inverse);
+    r[i] = ratio;
+    weight[i] = share * (over_slip ? ratio : 1.0) * (below * inverse);
+  }
+}
+
+SLIPFRONT_CLONES void add(std::size_t size, const double* weight, const double* f, double* sum, double* weights) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) {
+    sum[i] += weight[i] * f[i];
+    weights[i] += weight[i];
+  }
+}
+
+}  // namespace
+
+PhaseNodes::PhaseNodes(std::size_t size, const double* s) : size_(size), steps_(3) {
+  double least = 1;
+  for (std::size_t i = 0; i < size; ++i) least = std::fmin(least, s[i]);
+  steps_ = steps_for(std::fmax(least, least_s));
+  coefficients(size, s, third_, second_, first_);
+}
+
+void PhaseNodes::node(std::size_t k, Closure closure, double* r, double* weight) const {
+  const double sine = std::sin(std::numbers::pi / 2 * static_cast<double>(k) / static_cast<double>(steps_));
+  nodes(size_, sine * sine, third_, second_, first_, closure == Closure::consistent, k == 0 || k == steps_ ? 0.5 : 1.0,
+        r, weight);
+}
+
+void means_by_phase(const Law& law, const Trains& trains, Closure closure, double* mean) {
+  constexpr std::size_t most = PhaseNodes::most;
+  double r[most], weight[most], speed[most], force[most], weights[most];
+  for (std::size_t begin = 0; begin < trains.size; begin += most) {
+    const std::size_t size = std::min(most, trains.size - begin);
+    const Memories memory = trains.memory.from(begin);
+    const PhaseNodes nodes(size, trains.s + begin);
+    std::fill_n(mean + begin, size, 0.0);
+    std::fill_n(weights, size, 0.0);
+    for (std::size_t k = 0; k < nodes.count(); ++k) {
+      nodes.node(k, closure, r, weight);
+      for (std::size_t i = 0; i < size; ++i) speed[i] = trains.fastest[begin + i] * r[i];
+      law.strengths(size, speed, memory, force);
+      add(size, weight, force, mean + begin, weights);
+    }
+    for (std::size_t i = 0; i < size; ++i) mean[begin + i] /= weights[i];
+  }
+}
+
+}  // namespace slipfront::friction

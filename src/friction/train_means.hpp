@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+
+#include "slipfront/friction/law.hpp"
+
+namespace slipfront::friction {
+
+/// Where to take a law's force for its mean over a train: equal steps of phase from one dislocation to half way to the
+/// next. The slip velocity there, over the fastest, is r = dn, which is periodic and smooth in phase, so that the sum
+/// converges exponentially, as exp(-2 pi n K' / K) with n steps. dn is found by three descending Landen
+/// transformations, each a rational function of the next, the last of which leaves the angle equal to its phase.
+class PhaseNodes {
+ public:
+  static constexpr std::size_t most = 64;  ///< trains at once
+  static constexpr double least_s = 1e-12;
+  /// `size` <= most trains of these s = tanh psi; smaller ones count as least_s.
+  PhaseNodes(std::size_t size, const double* s);
+  std::size_t count() const { return steps_ + 1; }
+  /// r of node k < count() in each train, and its weight in the mean over slip or over length.
+  void node(std::size_t k, Closure closure, double* r, double* weight) const;
+
+ private:
+  std::size_t size_, steps_;
+  double third_[most], second_[most], first_[most];  ///< coefficients of the three transformations
+};
+
+/// Means by the law's `strengths`, to 1e-10 where it is smooth in ln w.
+void means_by_phase(const Law& law, const Trains& trains, Closure closure, double* mean);
+
+}  // namespace slipfront::friction

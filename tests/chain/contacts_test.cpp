@@ -1,0 +1,314 @@
+// Contacts that age and pores that dilate, beside another method (tests/reference/contacts.py), exact limits, budgets.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "chain_cases.hpp"
+#include "slipfront/chain/measure.hpp"
+#include "slipfront/chain/run.hpp"
+#include "slipfront/error.hpp"
+
+namespace {
+
+using namespace slipfront;
+using chain::Chain;
+using chain::Motion;
+using chain::Problem;
+
+/// Of contacts: beta, theta_c, E, t_p, p_0.
+friction::Friction rate_and_state(std::vector<double> law, const std::vector<double>& contacts, double theta = 0) {
+  law.insert(law.end(), {theta, 0});
+  law.insert(law.end(), contacts.begin(), contacts.end());
+  for (const friction::Definition* known : friction::laws())
+    if (known->name == "rate-and-state") return {*known, law};
+  throw std::logic_error("no such law");
+}
+
+Problem with_contacts(const friction::Friction& friction) {
+  Problem p;
+  p.friction = friction;
+  p.longest = 100;
+  p.contact = [a = friction.contact_at_start()](double) { return a; };
+  return p;
+}
+
+double budget(const Chain& chain, double first) {
+  const Chain::Flows flows = chain.flows();
+  const double energy = chain::totals(chain).energy(), work = flows.supplied + flows.by_contacts - flows.dissipated;
+  return std::fabs(energy - first - work) / std::max({std::fabs(energy), std::fabs(flows.supplied), first});
+}
+
+struct At {
+  double t, u, velocity, theta, p;
+};
+struct Block {
+  std::vector<double> contacts;
+  At at[3];
+};
+/// Of tests/reference/contacts.py.
+const Block blocks[] = {
+    {{0, 0, 0, 0, 0},
+     {{10, 19.0755396844, 2.45183542676, 7.9805683737, 0},
+      {30, 62.3383930814, 2.83828431169, 2.54218542464, 0},
+      {60, 149.825855387, 3.55860052919, 1.82525375895, 0}}},  // plain
+    {{0.1, 5, 0, 0, 0},
+     {{10, 16.0642366538, 1.13794046783, 11.8205276388, 0},
+      {30, 54.63529493, 2.14172392746, 2.91359561438, 0},
+      {60, 135.538685818, 2.87246664412, 1.95957756631, 0}}},  // ages
+    {{0, 0, 0.05, 30, 0.1},
+     {{10, 20.6246641749, 2.02665855038, 6.60558958659, -0.0218905386127},
+      {30, 65.8812485971, 2.18476087116, 2.42376342727, 0.00633460392339},
+      {60, 156.085934229, 3.63068202123, 1.76793496917, 0.0559365702311}}},  // dilates
+    {{0.1, 5, 0.05, 30, 0.1},
+     {{10, 18.4522143633, 2.46332687047, 8.66514101489, -0.0103386723104},
+      {30, 60.4616335024, 2.11612333716, 2.67391116649, 0.00732796920145},
+      {60, 145.946396319, 3.36849654546, 1.81958624921, 0.0540773366387}}},  // both
+};
+
+/// A block that F = 0.06 pushes over its substrate, from u = 0 at a velocity of 2.5: every site the same.
+Chain moving_block(const Block& block, double spacing, bool implicit, double tolerance) {
+  Problem p = with_contacts(rate_and_state({0.05, 0.01, 0.015, 6, 0.05}, block.contacts));
+  p.grid = {0, spacing, 8};
+  p.forcing = [](double, double) { return 0.06; };
+  p.steady_forcing = true;
+  p.implicit = implicit;
+  p.tolerance = tolerance;
+  return {p, {std::vector<double>(8, 0.0), std::vector<double>(8, 2.5)}};
+}
+
+TEST(Contacts, BlockByExplicitStepsIsThatOfAnotherMethod) {
+  for (const Block& block : blocks) {
+    double last = 0;
+    for (const double h : {0.05, 0.025}) {
+      Chain chain = moving_block(block, h, false, 0);
+      double most = 0;
+      for (const At& at : block.at) {
+        chain.advance_to(at.t);
+        const chain::Window now = chain.window(3, 4, at.t);
+        most = std::max({most, std::fabs(now.u[0] - at.u), std::fabs(now.velocity[0] - at.velocity)});
+        EXPECT_NEAR(1 - chain.effective_stress(3), at.p, 0.003 * h);
+      }
+      EXPECT_LT(most, 0.2 * h);
+      if (last > 0) {
+        EXPECT_GT(last / most, 1.7);  // friction is of first order in the step
+      }
+      last = most;
+    }
+  }
+}
+
+TEST(Contacts, BlockByImplicitStepsIsThatOfAnotherMethod) {
+  for (const Block& block : blocks) {
+    Chain chain = moving_block(block, 0.5, true, 1e-7);
+    const double first = chain::totals(chain).energy();
+    for (const At& at : block.at) {
+      chain.proceed(at.t, 1 << 30);
+      const chain::Window now = chain.window(3, 4);
+      EXPECT_NEAR(now.u[0], at.u, 2e-3) << at.t;
+      EXPECT_NEAR(now.velocity[0], at.velocity, 2e-3) << at.t;
+      EXPECT_NEAR(1 - chain.effective_stress(3), at.p, 1e-5) << at.t;
+    }
+    EXPECT_LT(budget(chain, first), 1e-10);
+    if (block.contacts[0] + block.contacts[2] > 0) {
+      EXPECT_GT(std::fabs(chain.flows().by_contacts), 1e-3);
+    }
+  }
+}
+
+/// A smooth block on a spring: growth of a small disturbance of steady sliding.
+double growth(double stiffness, const std::vector<double>& contacts) {
+  const double f0 = 0.05, a = 0.01, b = 0.015, D = 1, w0 = 0.01, v = 0.001;
+  Problem p;
+  p.grid = {0, 0.5, 8};
+  p.implicit = true;
+  p.substrate = false;
+  p.friction = rate_and_state({f0, a, b, D, w0}, contacts, D / v);
+  p.loading = {.stiffness = stiffness, .velocity = v};
+  const double steady = a * std::asinh(v / (2 * w0) * std::exp((f0 + b * std::log(w0 / v)) / a)) * (1 - contacts[4]);
+  p.forcing = [steady](double, double) { return steady; };
+  p.tolerance = 2e-9 * v;
+  Chain chain(p, {std::vector<double>(8, 0.0), std::vector<double>(8, 1.01 * v)});
+  // The first two peaks are those of the start and of inertia.
+  return growth_of_peaks(chain, v, 10 * 2 * std::numbers::pi * D / v, 2);
+}
+
+/// Dilatancy stabilises: between ((1 - p_0)(b - a) - E f) / D where pores do not drain and (1 - p_0)(b - a) / D where
+/// they do (Segall & Rice 1995); in between by the eigenvalues of tests/reference/contacts.py.
+TEST(Contacts, CriticalStiffnessWithDilatancyIsThatOfTheEigenvalues) {
+  const struct {
+    double E, drainage, p0, critical;
+  } cases[] = {{0.03, 0, 0, 0.0031548807}, {0.03, 1000, 0, 0.0044774273}, {0.03, 1000, 0.4, 0.0025290860}};
+  for (const auto& c : cases) {
+    const std::vector<double> contacts = {0, 0, c.E, c.drainage, c.p0};
+    const double low = growth(0.99 * c.critical, contacts), high = growth(1.01 * c.critical, contacts);
+    EXPECT_GT(low, 0) << c.drainage;
+    EXPECT_LT(high, 0) << c.drainage;
+    EXPECT_NEAR(0.99 + 0.02 * low / (low - high), 1, 1e-3) << c.drainage << ' ' << c.p0;
+  }
+}
+
+/// Against the numbers that tests/reference/contacts.py prints.
+TEST(Contacts, LimitCycleWithDilatancyIsThatOfAHighOrderIntegration) {
+  const struct { double drainage, period, peak; } cases[] = {{1e3, 119814.01, 1.9352069}, {1e5, 117955.84, 1.8858962}};
+  for (const auto& c : cases) {
+    Problem p;
+    p.grid = {0, 0.5, 8};
+    p.implicit = true;
+    p.substrate = false;
+    p.friction = rate_and_state({0.05, 0.01, 0.015, 1, 0.01}, {0, 0, 0.02, c.drainage, 0});
+    p.loading = {.stiffness = 0.0012, .velocity = 0.001, .event_velocity = 0.01};
+    p.tolerance = 3e-6;
+    Chain chain(p, {std::vector<double>(8, 0.0), {}});
+    chain.proceed(8.5 * c.period, 1 << 30);
+    const auto events = chain.events();
+    ASSERT_GE(events.size(), 8u);
+    EXPECT_NEAR((events[7].onset - events[6].onset) / c.period, 1, 1e-3);
+    EXPECT_NEAR(events[7].peak_velocity / c.peak, 1, 1e-3);
+    EXPECT_LT(budget(chain, 0), 1e-10);
+  }
+}
+
+chain::ScaledProblem step(const std::vector<double>& contacts) {
+  chain::ScaledProblem s = small_step();
+  s.end = 2;
+  s.spacing = 0.3;
+  s.friction = rate_and_state({0.05, 0.01, 0.015, 0.05, 0.05}, contacts);
+  s.contact = [a = s.friction.contact_at_start()](double) { return a; };
+  return s;
+}
+
+TEST(Contacts, PoresThatNeverDrainFollowTheLogarithmOfTheta) {
+  chain::Run run(step({0, 0, 0.02, 0, 0.3}), until(2), {});
+  const std::vector<double> first = run.chain().levels().memory;
+  ASSERT_TRUE(run.go());
+  const std::vector<double> last = run.chain().levels().memory;
+  double most = 0;
+  for (std::size_t i = 0; i < last.size(); i += 3) {
+    EXPECT_NEAR(last[i + 1], 0.02 * std::log(last[i] / first[i]), 1e-12);
+    most = std::fmax(most, std::fabs(last[i + 1]));
+  }
+  EXPECT_GT(most, 0.02);
+}
+
+TEST(Contacts, PoresThatDrainAtOnceKeepTheirPressure) {
+  chain::Run drained(step({0, 0, 0.02, 1e-7, 0.3}), until(2), {});
+  ASSERT_TRUE(drained.go());
+  for (std::size_t j = 0; j < drained.chain().problem().grid.sites; ++j)
+    EXPECT_NEAR(drained.chain().effective_stress(j), 0.7, 1e-5);
+  // A pressure that stays is weaker friction on weaker contacts.
+  chain::ScaledProblem weak = step({0, 0, 0, 0, 0});
+  weak.friction = rate_and_state({0.035, 0.007, 0.0105, 0.05, 0.05}, {});
+  weak.contact = [](double) { return 0.7; };
+  chain::Run without(weak, until(2), {});
+  ASSERT_TRUE(without.go());
+  const double slip = without.snapshots().back().slip_at_origin;
+  EXPECT_GT(slip, 0.01);
+  EXPECT_NEAR(drained.snapshots().back().slip_at_origin / slip, 1, 1e-3);
+}
+
+TEST(Contacts, EnergyThatContactsGiveClosesTheBudget) {
+  for (const std::vector<double>& contacts :
+       {std::vector<double>{0.1, 0.2, 0, 0, 0}, {0, 0, 0.02, 0.5, 0.1}, {0.1, 0.2, 0.02, 0.5, 0.1}}) {
+    chain::Run run(step(contacts), until(2), {});
+    ASSERT_TRUE(run.go());
+    const chain::Run::Balance balance = run.balance();
+    EXPECT_LT(balance.energy_drift, 5e-4);
+    const double given = run.snapshots().back().further.at("energy_contacts") * 60,
+                 all = chain::totals(run.chain()).energy();
+    EXPECT_GT(std::fabs(given) / all, 10 * balance.energy_drift);  // the budget would miss it
+  }
+}
+
+TEST(Contacts, ThreadsAndStopsChangeNoBits) {
+  const chain::ScaledProblem s = step({0.1, 0.2, 0.02, 0.5, 0.1});
+  chain::Run alone(s, until(1), {}), threads(s, until(1), {.threads = 3}), stopped(s, until(1), {});
+  ASSERT_TRUE(alone.go() && threads.go());
+  EXPECT_EQ(alone.chain().levels().now, threads.chain().levels().now);
+  EXPECT_EQ(alone.chain().levels().memory, threads.chain().levels().memory);
+  stopped.go([] { return true; });
+  ASSERT_FALSE(stopped.finished());
+  ASSERT_GT(stopped.chain().level(), 0);
+  chain::Run resumed(s, until(1), {}, stopped.saved(), stopped.snapshots());
+  ASSERT_TRUE(resumed.go());
+  EXPECT_EQ(alone.saved(), resumed.saved());
+  for (std::size_t i = 0; i < alone.snapshots().size(); ++i)
+    EXPECT_EQ(alone.snapshots()[i].profile.W, resumed.snapshots()[i].profile.W);
+}
+
+/// A train under a pulled end, by implicit steps.
+TEST(Contacts, ImplicitStepsKeepEnergyAndBits) {
+  Problem p = with_contacts(rate_and_state({0.05, 0.01, 0.015, 3, 0.05}, {0.1, 10, 0.02, 30, 0.1}));
+  p.grid = {0, 0.3, 401};
+  p.boundary = {.left = chain::End::free, .right = chain::End::fixed};
+  p.implicit = true;
+  p.loading = {.stiffness = 1e-3, .velocity = 0.1, .event_velocity = 1};
+  const Motion start = chain::static_train([](double x) { return x < 60 ? 0.8 : 0.0; }, p.grid, false, p.contact);
+  Chain one(p, start), stopped(p, start);
+  const double first = chain::totals(one).energy();
+  one.proceed(40, 1 << 30);
+  EXPECT_LT(budget(one, first), 1e-12);
+  EXPECT_GT(std::fabs(one.flows().by_contacts) / first, 1e-4);
+  stopped.proceed(40, 30);
+  const std::vector<double> saved = stopped.implicit_state();
+  Chain resumed(p, start);
+  resumed.continue_implicit(saved);
+  EXPECT_EQ(resumed.contact_squared(7), stopped.contact_squared(7));
+  resumed.proceed(40, 1 << 30);
+  ASSERT_LT(30, resumed.level());
+  EXPECT_EQ(one.flows().by_contacts, resumed.flows().by_contacts);
+  EXPECT_EQ(one.window(0, 401).u, resumed.window(0, 401).u);
+  EXPECT_EQ(one.window(0, 401).velocity, resumed.window(0, 401).velocity);
+}
+
+/// Contacts at rest heal as ln(1 + t / theta), and with them rises the pressure of pores that do not drain.
+TEST(Contacts, SaysWhereThePorePressureReachesTheNormalStress) {
+  for (const bool implicit : {false, true}) {
+    Problem p = with_contacts(rate_and_state({0.05, 0.01, 0.015, 1, 1}, {0, 0, 0.2, 0, 0.5}));
+    p.grid = {0, 0.25, 64};
+    p.implicit = implicit;
+    p.longest = 1000;
+    Chain chain(p, {std::vector<double>(64, 0.0), {}});
+    try {
+      if (implicit)
+        chain.proceed(1000, 1 << 30);
+      else
+        chain.advance_to(1000);
+      FAIL();
+    } catch (const NumericsError& error) {
+      const std::string said = error.what();
+      EXPECT_NE(said.find("effective normal stress is -"), std::string::npos) << said;
+      EXPECT_NE(said.find("x = 0"), std::string::npos) << said;
+      EXPECT_NEAR(chain.time(), std::exp(2.5) - 1, 0.2 * std::exp(2.5)) << said;
+    }
+  }
+}
+
+TEST(Contacts, RefusesWhatContactsCannotHave) {
+  const auto refuses = [](const Problem& p, const std::string& key) {
+    try {
+      Chain(p, {std::vector<double>(p.grid.sites, 0.0), {}});
+      FAIL() << key;
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.complaint().key, key);
+    }
+  };
+  Problem p = with_contacts(rate_and_state({0.05, 0.01, 0.015, 1, 1}, {0.1, 1, 0, 0, 0}));
+  p.grid = {0, 0.3, 64};
+  p.boundary.right = chain::End::absorbing;
+  refuses(p, "chain.right");
+  p.boundary.right = chain::End::free;
+  p.implicit = true;
+  p.substrate = false;
+  refuses(p, "friction.contact_ageing");
+  p.implicit = false;
+  p.substrate = true;
+  p.grid.spacing = 0.62;  // enough for a = 1, too coarse for what it may grow to
+  refuses(p, "spacing");
+}
+
+}  // namespace

@@ -1,0 +1,199 @@
+// The page as its users have it: every panel, links, scenarios, bad input, the keyboard, a screen reader's rules.
+
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { axe, browser, factOf, open, ready, type, url } from './browser.mjs';
+
+const calm = { reducedMotion: 'reduce' };
+const routes = ['#/', '#/pulse', '#/pulse?compare=1&si=1', '#/dislocations?beads=20', '#/stress?event=Parkfield+2004', '#/riemann', '#/tour-is-none',
+  ...[2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12].map((fig) => `#/paper?fig=${fig}`)];
+
+async function violations(page) {
+  await page.addScriptTag({ path: axe });
+  const found = await page.evaluate(async () => (await window.axe.run(document, { resultTypes: ['violations'] })).violations.map((v) => `${v.id}: ${v.nodes[0].html.slice(0, 150)}`));
+  return found;
+}
+
+for (const hash of routes)
+  test(`${hash}: shows its pictures, complains of nothing, breaks no rule of access`, async () => {
+    for (const look of [{ colorScheme: 'light' }, { colorScheme: 'dark', viewport: { width: 360, height: 740 } }]) {
+      const page = await open(hash, { ...calm, ...look, bypassCSP: true });
+      if (hash !== '#/tour-is-none') await ready(page);
+      assert.deepEqual(await violations(page), [], JSON.stringify(look));
+      const text = await page.locator('body').innerText();
+      assert.doesNotMatch(text, /\bNaN\b|undefined|Infinity/);
+      const wide = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
+      assert.ok(wide <= 1, `wider than the window by ${wide}`);
+      assert.deepEqual(page.complaints, []);
+      await page.context().close();
+    }
+  });
+
+test('a link shows the same', async () => {
+  const page = await open('#/pulse', calm);
+  await ready(page);
+  await type(page, 'Left, Σ−', '0.7');
+  await page.getByText('Smooth', { exact: true }).click();
+  await type(page, 'Width', '0.4');
+  await page.getByLabel('Time', { exact: true }).fill('600');
+  await page.waitForTimeout(800);
+  await ready(page);
+  const [link, velocity, slip] = [page.url(), await factOf(page, 'Slip velocity at x = 0'), await factOf(page, 'Slip at x = 0')];
+  assert.match(link, /initial\.stress_left=0\.7/);
+  const other = await open(link.slice(url.length), calm);
+  await ready(other);
+  assert.equal(await factOf(other, 'Slip velocity at x = 0'), velocity);
+  assert.equal(await factOf(other, 'Slip at x = 0'), slip);
+});
+
+test('a scenario goes out as TOML and comes back', async () => {
+  const page = await open('#/pulse?initial.profile=tanh&initial.stress_left=0.9&initial.stress_right=0.2&initial.width=0.7&friction.law=power&friction.coefficient=0.2&friction.exponent=2&time.end=3', calm);
+  await ready(page);
+  await page.getByText('Scenario file and command').click();
+  const toml = await page.locator('textarea').inputValue();
+  assert.match(toml, /\[friction\]\nlaw = "power"/);
+  const velocity = await factOf(page, 'Slip velocity at x = 0');
+  const other = await open('#/pulse', calm);
+  await ready(other);
+  await other.getByText('Scenario file and command').click();
+  await other.locator('textarea').fill(toml);
+  await other.getByRole('button', { name: 'Use this text' }).click();
+  await other.waitForTimeout(800);
+  await ready(other);
+  assert.equal(await factOf(other, 'Slip velocity at x = 0'), velocity);
+  assert.equal(await other.locator('textarea').inputValue(), toml);
+});
+
+test('files of the program can be opened', async () => {
+  const page = await open('#/pulse', calm);
+  await ready(page);
+  await page.getByText('Scenario file and command').click();
+  await page.locator('input[type=file]').setInputFiles([`${process.env.SLIPFRONT_SOURCE}/cases/barrier.toml`]);
+  await page.waitForTimeout(500);
+  assert.match(page.url(), /interface\.contact=/);
+  await page.locator('input[type=file]').setInputFiles([`${process.env.SLIPFRONT_SOURCE}/cases/catalogue.csv`]);
+  await page.locator('.exchange .error').waitFor();
+  assert.match(await page.locator('.exchange .error').innerText(), /Allowed: columns x and stress/);
+});
+
+test('bad input: a sentence beside the field, and the picture stays', async () => {
+  const page = await open('#/pulse', calm);
+  await ready(page);
+  for (const [label, text] of [['Left, Σ−', '-1'], ['Left, Σ−', 'abc'], ['Left, Σ−', ''], ['Left, Σ−', '1e9'], ['Right, Σ+', '0.001'], ['coefficient C', '-2'], ['coefficient C', '1e400'], ['Until t', '0']]) {
+    const before = await page.getByLabel(label, { exact: true }).first().inputValue();
+    await type(page, label, text);
+    if (text !== '') {
+      await page.locator('.field .error').first().waitFor({ timeout: 5000 });
+      assert.match(await page.locator('.field .error').first().innerText(), /Allowed/, `${label} = ${text}`);
+    }
+    assert.ok((await page.locator('.plot canvas').count()) > 0);
+    await type(page, label, before);
+    await page.waitForTimeout(500);
+  }
+  assert.deepEqual(page.complaints, []);
+});
+
+test('any address: never a blank page', async () => {
+  for (const hash of ['#/pulse?initial.stress_left=%00%ff&friction.law=%3Cscript%3E', '#/pulse?time.end=1e99', '#/pulse?drawn=a:b,,&initial.profile=table', '#/riemann?left_stress=NaN', '#/stress?value=%E0%A4%A&range=x&given=y&event=z',
+    '#/paper?fig=99&left=-1', '#/paper?fig=2&stress=0', '#/dislocations?beads=1e9', '#/dislocations?beads=x', '#/x/y?z', '#/pulse?pulse.cells=1e8', '#/stress?my.rupture_velocity=9+km/s', '#/?tour=99', '#/pulse?si=1&medium.contact_ratio=9']) {
+    const page = await open(hash, calm);
+    await page.waitForFunction(() => document.querySelector('main')?.innerText.length > 100);
+    await page.waitForTimeout(700);
+    const text = await page.locator('main').innerText();
+    assert.ok(text.length > 100, hash);
+    assert.doesNotMatch(text, /\bNaN (cA|b|c|μA)|undefined/, hash);
+    assert.deepEqual(page.complaints.filter((c) => !/favicon/.test(c)), [], hash);
+    await page.context().close();
+  }
+});
+
+test('a module that comes late: the questions wait for it', async () => {
+  for (const hash of ['#/pulse', '#/stress', '#/riemann', '#/dislocations?beads=20']) {
+    const page = await open('#/nothing', calm);
+    await page.route('**/*.wasm', async (route) => {
+      await new Promise((resolve) => setTimeout(resolve, 1500));
+      await route.continue();
+    });
+    await page.reload();
+    await page.goto(url + hash);
+    await ready(page);
+    assert.deepEqual(page.complaints, [], hash);
+    await page.context().close();
+  }
+});
+
+test('all by keyboard: every control can be reached, plots are read by arrows', async () => {
+  const page = await open('#/pulse', calm);
+  await ready(page);
+  const wanted = await page.evaluate(() => [...document.querySelectorAll('main a, main button, main select, main summary, main [tabindex="0"], main input:not([type=radio])')].filter((e) => e.checkVisibility() && !e.disabled).length);
+  await page.evaluate(() => document.querySelector('.brand').focus());
+  const seen = new Set();
+  for (let i = 0; i < wanted + 40; ++i) {
+    await page.keyboard.press('Tab');
+    const name = await page.evaluate(() => {
+      const e = document.activeElement;
+      window.ids ??= new Map();
+      if (!window.ids.has(e)) window.ids.set(e, window.ids.size);
+      return e.closest('main') && !e.matches('main, [type=radio]') ? window.ids.get(e) : -1;
+    });
+    if (name >= 0) seen.add(name);
+  }
+  assert.ok(seen.size >= wanted, `${seen.size} of ${wanted}`);
+  await page.locator('.canvas').first().focus();
+  await page.keyboard.press('Home');
+  const first = await page.locator('.readout').first().innerText();
+  await page.keyboard.press('PageUp');
+  const second = await page.locator('.readout').first().innerText();
+  assert.match(first, /x, in b\/A.*slip|x, in b\/A: −/i);
+  assert.notEqual(first, second);
+  assert.equal(await page.locator('.readout').first().getAttribute('aria-live'), 'polite');
+});
+
+test('every plot has its table and its exports', async () => {
+  const page = await open('#/pulse', calm);
+  await ready(page);
+  const plots = await page.locator('figure.plot').count();
+  const summaries = page.locator('figure.plot .data summary');
+  assert.equal(await summaries.count(), plots);
+  for (let i = 0; i < plots; ++i) await summaries.nth(i).click();
+  await page.waitForFunction((n) => document.querySelectorAll('figure.plot table').length === n, plots, { timeout: 5000 });
+  for (const kind of ['PNG', 'SVG', 'CSV']) {
+    const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: kind }).first().click()]);
+    assert.match(download.suggestedFilename(), new RegExp(`slip-velocity\\.${kind.toLowerCase()}`));
+  }
+});
+
+test('the tour goes through all its steps', async () => {
+  const page = await open('#/', calm);
+  await page.getByRole('link', { name: 'Take the tour' }).click();
+  const titles = new Set();
+  for (let i = 1; ; ++i) {
+    await page.locator('.tour').waitFor();
+    await ready(page);
+    titles.add(await page.locator('.tour h2').innerText());
+    const next = page.getByRole('button', { name: 'Next' });
+    if (!(await next.count())) break;
+    await next.click();
+    await page.waitForFunction((n) => document.querySelector('.tour .count')?.textContent.includes(`step ${n} `), i + 1);
+    assert.deepEqual(page.complaints, []);
+  }
+  assert.equal(titles.size, 10);
+});
+
+test('Parkfield, typed, has the numbers of the program', async () => {
+  const page = await open('#/stress?my.rupture_velocity=3.0+km/s&my.slip_velocity=0.5+m/s', calm);
+  await page.locator('.event').waitFor();
+  await page.waitForFunction(() => document.querySelector('.event')?.textContent.includes('27.8 MPa'));
+});
+
+test('a long run says so and can be stopped', async () => {
+  const page = await open('#/pulse?pulse.cells=2000&friction.coefficient=0.1', calm);
+  const stop = page.getByRole('button', { name: 'Stop' });
+  await stop.waitFor({ timeout: 20000 });
+  assert.match(await page.locator('.busy').first().innerText(), /longer than a second/);
+  await stop.click();
+  await stop.waitFor({ state: 'detached', timeout: 5000 });
+  await page.goto(`${url}#/pulse?pulse.cells=60&time.end=1`);
+  await ready(page);
+  assert.equal(browser.isConnected(), true);
+});

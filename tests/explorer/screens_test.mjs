@@ -1,0 +1,49 @@
+// What the panels look like, loosely: the mean light of 24 by 16 fields of a screenshot, beside that of pictures which a person has looked at.
+// SLIPFRONT_SCREENS=new writes them anew, and the pictures into $SLIPFRONT_SCREENS_FOLDER.
+
+import assert from 'node:assert/strict';
+import { existsSync, readFileSync, writeFileSync } from 'node:fs';
+import { test } from 'node:test';
+import { fileURLToPath } from 'node:url';
+import { open, ready } from './browser.mjs';
+
+const store = fileURLToPath(new URL('./screens.json', import.meta.url));
+const known = existsSync(store) ? JSON.parse(readFileSync(store, 'utf8')) : {};
+const renew = process.env.SLIPFRONT_SCREENS === 'new';
+const screens = {
+  pulse: ['#/pulse?t=0.6', {}], pulse_dark: ['#/pulse?t=0.6&compare=1', { colorScheme: 'dark' }], pulse_narrow: ['#/pulse?t=0.6', { viewport: { width: 360, height: 740 } }],
+  stress: ['#/stress?event=Kobe+1995', {}], riemann: ['#/riemann', {}], paper_7: ['#/paper?fig=7', {}], paper_10: ['#/paper?fig=10', {}], dislocations: ['#/dislocations?beads=30', {}],
+};
+
+/** Mean light, 0 to 100, of fields of a picture; decoded by the browser itself. */
+const fieldsOf = (page, png) => page.evaluate(async (data) => {
+  const image = new Image();
+  image.src = `data:image/png;base64,${data}`;
+  await image.decode();
+  const canvas = new OffscreenCanvas(24, 16);
+  const ctx = canvas.getContext('2d');
+  ctx.imageSmoothingQuality = 'high';
+  ctx.drawImage(image, 0, 0, 24, 16);
+  const { data: pixels } = ctx.getImageData(0, 0, 24, 16);
+  return Array.from({ length: 24 * 16 }, (_, i) => Math.round((pixels[4 * i] + pixels[4 * i + 1] + pixels[4 * i + 2]) / 7.65));
+}, png.toString('base64'));
+
+for (const [name, [hash, look]] of Object.entries(screens))
+  test(`the screen ${name} is as it was`, async () => {
+    const page = await open(hash, { reducedMotion: 'reduce', ...look });
+    await ready(page);
+    await page.waitForTimeout(600);
+    const png = await page.screenshot();
+    if (renew && process.env.SLIPFRONT_SCREENS_FOLDER) writeFileSync(`${process.env.SLIPFRONT_SCREENS_FOLDER}/${name}.png`, png);
+    const decoder = await open('#/none', { bypassCSP: true });
+    const fields = await fieldsOf(decoder, png);
+    if (renew) {
+      known[name] = fields;
+      writeFileSync(store, `${JSON.stringify(known).replaceAll('],', '],\n')}\n`);
+      return;
+    }
+    const difference = fields.reduce((sum, light, i) => sum + Math.abs(light - known[name][i]), 0) / fields.length;
+    console.log(`# ${name}: mean difference ${difference.toFixed(2)} of 100`);
+    // Another font moves lines by more than rounding; an empty plot, another theme or a lost panel moves far more.
+    assert.ok(difference < 4, `${difference}`);
+  });

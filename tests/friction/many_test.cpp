@@ -1,0 +1,179 @@
+// Laws for many places and trains at once, as vector code, beside the same for one.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "slipfront/error.hpp"
+#include "slipfront/friction/friction.hpp"
+
+namespace {
+
+using namespace slipfront;
+using namespace slipfront::friction;
+
+std::vector<Friction> some_of_each(Closure closure = Closure::consistent) {
+  std::vector<Friction> all;
+  const auto add = [&](const std::string& name, std::vector<double> values, const Curve& curve = {}) {
+    for (const Definition* law : laws())
+      if (law->name == name) all.push_back({*law, std::move(values), closure, curve});
+  };
+  add("formula", {0.5}, [](double w) { return w / (1 + w); });
+  add("formula", {0.1}, [](double w) { return std::sqrt(w); });
+  add("formula", {0.1}, [](double w) { return (w / 0.05) / (1 + (w / 0.05) * (w / 0.05)); });
+  add("viscous", {0.3});
+  add("coulomb", {0.03});
+  add("power", {0.2, 1.7});
+  add("power", {0.1, 0.5});
+  add("n-shaped", {0.1, 0.05});
+  add("flash-heating", {0.05, 0.01, 0.1});
+  if (closure == Closure::paper) return all;
+  add("slip-weakening", {0.08, 0.02, 0.1});
+  add("rate-and-state", {0.05, 0.01, 0.015, 0.05, 0.05, 0, 0});
+  add("rate-and-state", {0.05, 0.015, 0.01, 0.05, 0.05, 0, 1});
+  add("rate-and-state", {0.6, 0.01, 0.015, 0.05, 1e-6, 0, 0});
+  add("rate-and-state", {6, 0.01, 0.015, 0.05, 1e-6, 0, 0});  // exp(600): beyond the range of the vector code
+  return all;
+}
+
+/// Under another normal stress on each place.
+TEST(FrictionOfMany, SpeedsUnderShareOfNormalStressAreThoseOfOne) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> u(0, 1);
+  std::vector<Friction> all;
+  for (const Definition* law : laws())
+    if (law->name == "rate-and-state")
+      for (const double b : {0.015, 1e-5, 0.0}) all.push_back({*law, {0.05, 0.01, b, 0.05, 0.05, 0, 0}});
+  for (const Friction& f : all) {
+    constexpr std::size_t size = 200;
+    std::vector<double> share(size), free(size), theta(size), speed(size);
+    for (std::size_t i = 0; i < size; ++i) {
+      share[i] = 2 * u(random) + 1e-3;
+      free[i] = std::pow(10.0, 4 * u(random) - 4);
+      theta[i] = std::pow(10.0, 6 * u(random) - 3);
+    }
+    for (const double weight : {0.1, 2.0}) {
+      f.law().speeds_after_under(size, share.data(), free.data(), weight, {theta.data(), 1}, speed.data());
+      for (std::size_t i = 0; i < size; ++i) {
+        const double one = f.law().speed_after(free[i], weight * share[i], {&theta[i], 1});
+        EXPECT_NEAR(speed[i], one, 1e-12 * free[i] + 1e-9 * one) << share[i] << ' ' << free[i] << ' ' << theta[i];
+      }
+    }
+  }
+}
+
+TEST(FrictionOfMany, MeansAreThoseOfOne) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> u(0, 1);
+  for (const Closure closure : {Closure::consistent, Closure::paper})
+    for (const Friction& friction : some_of_each(closure)) {
+      constexpr std::size_t count = 300;
+      std::vector<double> phi(count), psi(count), fastest(count), s(count), theta(count), mean(count), slope(count);
+      for (std::size_t i = 0; i < count; ++i) {
+        psi[i] = std::exp(i % 5 == 0 ? -40 * u(random) : -9 + 11 * u(random));
+        phi[i] = std::exp(-20 + 21 * u(random));
+        fastest[i] = 2 * std::sinh(phi[i]) * std::cosh(psi[i]);
+        s[i] = std::tanh(psi[i]);
+        theta[i] = std::exp(4 * u(random) - 2);
+      }
+      const std::size_t each = friction.variables();
+      friction.law().mean_strengths({count, fastest.data(), s.data(), {theta.data(), each}}, closure, mean.data(),
+                                    slope.data());
+      for (std::size_t i = 0; i < count; ++i) {
+        const auto of_one = [&](double faster) {
+          const double at = std::asinh(std::sinh(phi[i]) * faster);
+          return friction.law().mean_strength({at, psi[i]}, 1, closure, Memory(&theta[i], each));
+        };
+        EXPECT_NEAR(mean[i] / of_one(1), 1, 3e-10) << friction.name() << " phi " << phi[i] << " psi " << psi[i];
+        const double h = 1e-4, want = (of_one(std::exp(h)) - of_one(std::exp(-h))) / (2 * h);
+        EXPECT_NEAR(slope[i], want, 1e-5 * of_one(1)) << friction.name() << " phi " << phi[i] << " psi " << psi[i];
+      }
+    }
+}
+
+TEST(FrictionOfMany, ForcesAndSolvesAreThoseOfOne) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> u(0, 1);
+  for (const Friction& friction : some_of_each())
+    for (const double weight : {1e-7, 1e-3, 0.1, 30.0}) {
+      constexpr std::size_t count = 203;
+      std::vector<double> free(count), theta(count), speed(count), force(count);
+      for (std::size_t i = 0; i < count; ++i) {
+        free[i] = i % 7 == 0 ? 0 : std::pow(10, i % 5 == 0 ? -300 * u(random) : -12 + 13 * u(random));
+        theta[i] = std::exp(8 * u(random) - 4);
+      }
+      const Memories memory{theta.data(), friction.variables()};
+      friction.law().strengths(count, free.data(), memory, force.data());
+      friction.law().speeds_after(count, free.data(), weight, memory, speed.data());
+      for (std::size_t i = 0; i < count; ++i) {
+        const double f = friction.law().strength(free[i], memory.of(i));
+        EXPECT_NEAR(force[i], f, 1e-12 * f) << friction.name() << " " << free[i];
+        const double v = friction.law().speed_after(free[i], weight, memory.of(i));
+        EXPECT_NEAR(speed[i], v, 2e-12 * v + 1e-14 * free[i]) << friction.name() << " " << weight << " " << free[i];
+        // What it is does not depend on what is beside it.
+        double alone = -1;
+        friction.law().speeds_after(1, &free[i], weight, {memory.of(i).data(), memory.each}, &alone);
+        EXPECT_EQ(alone, speed[i]) << friction.name() << " " << weight << " " << free[i];
+      }
+    }
+}
+
+TEST(FrictionOfMany, MemoriesAreThoseOfOne) {
+  for (const Friction& friction : some_of_each()) {
+    if (friction.variables() == 0) continue;
+    for (const double time : {1e-3, 1.0, 1e3}) {
+      std::vector<double> velocity, typical, all, in_train;
+      for (int i = 0; i < 150; ++i) {
+        velocity.push_back(i % 9 == 0 ? 0 : std::pow(10, -12 + 0.1 * i) * (i % 2 == 0 ? 1 : -1));
+        typical.push_back(std::fabs(0.7 * velocity.back()));
+        all.push_back(std::exp(4 * std::sin(1.7 * i)));
+      }
+      in_train = all;
+      const std::vector<double> before = all;
+      friction.law().advance_all(all.size(), velocity.data(), time, 1, all.data());
+      friction.law().advance_in_trains(all.size(), velocity.data(), typical.data(), time, 1, in_train.data());
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        double one[] = {before[i]}, train[] = {before[i]}, alone = before[i];
+        friction.law().advance(velocity[i], time, one);
+        friction.law().advance_in_train(velocity[i], typical[i], time, train);
+        friction.law().advance_all(1, &velocity[i], time, 1, &alone);
+        EXPECT_NEAR(all[i] / one[0], 1, 1e-12) << friction.name() << " " << velocity[i] << " " << time;
+        EXPECT_NEAR(in_train[i] / train[0], 1, 1e-12) << friction.name() << " " << velocity[i] << " " << time;
+        EXPECT_EQ(all[i], alone) << friction.name() << " " << velocity[i] << " " << time;
+      }
+    }
+  }
+}
+
+/// Rest, kinks, jumps, speeds beyond all others, and a curve that ends.
+TEST(FrictionOfMany, ForcesOfACurveAreItsOwnWhereItIsNotSmooth) {
+  const Curve curves[] = {[](double w) { return 0.2 + std::fmin(w, 0.1); }, [](double w) { return std::fabs(w - 0.3); },
+                          [](double w) { return w < 0.2 ? w : 0.5 * w; }, [](double w) { return 1 - std::exp(-w); },
+                          [](double w) {
+                            if (w > 0.7) throw InputError({.problem = "ends"});
+                            return w * w;
+                          }};
+  const Definition* formula = nullptr;
+  for (const Definition* law : laws())
+    if (law->name == "formula") formula = law;
+  for (const Curve& curve : curves) {
+    const Friction friction(*formula, {3}, Closure::consistent, curve);
+    std::vector<double> speed{0, 1e-300, 0.1, 0.2, 0.3}, force(2005);
+    for (int i = 0; i < 2000; ++i) speed.push_back(0.7 * std::pow(10, -0.015 * i));
+    friction.law().strengths(speed.size(), speed.data(), {}, force.data());
+    for (std::size_t i = 0; i < speed.size(); ++i)
+      EXPECT_NEAR(force[i], 3 * curve(speed[i]), 1e-12 * force[i]) << speed[i];
+  }
+  const Friction ends(*formula, {3}, Closure::consistent, curves[4]),
+      goes_on(*formula, {3}, Closure::consistent, curves[0]);
+  const double fast = 0.71, fastest = 1e5;
+  double force = 0;
+  EXPECT_THROW(ends.law().strengths(1, &fast, {}, &force), InputError);
+  goes_on.law().strengths(1, &fastest, {}, &force);
+  EXPECT_DOUBLE_EQ(force, 0.9);
+}
+
+}  // namespace
