@@ -40,6 +40,12 @@ void check(const Problem& p) {
                       .value = "true",
                       .problem = "a ring of places that remember is not among what pulse can do",
                       .allowed = "false, or a run of the chain"});
+  if (p.periodic && p.friction.acts() && p.friction.steep_at_rest() && !p.friction.sticks())
+    throw InputError({.key = "pulse.periodic",
+                      .value = "true",
+                      .problem = "friction whose slope is infinite at rest, as of exponents below 1, leaves no time step "
+                                 "short enough on a ring",
+                      .allowed = "false, or a run of the chain"});
 }
 
 /// A contact that jumps would be a wall to some cells and nothing to others: there must be a slope to climb.

@@ -66,8 +66,13 @@ TEST(Ends, ARingIsATrainWithoutEnds) {
   three.advance_to(6);
   for (const double x : {-3.0, 0.0, 2.0})
     EXPECT_NEAR(round.slip_at(round.view(), x), three.slip_at(three.view(), x), 1e-5);
-  p.stress = [](double x) { return x < 0 ? 0.8 : 0.0; };
   p.periodic = true;
+  p.friction = friction::power(0.3, 0.5);  // its steps would have to be implicit
+  EXPECT_THROW(Solver{p}, InputError);
+  p.friction = friction::coulomb(0.3);
+  EXPECT_NO_THROW(Solver{p});
+  p.friction = friction::Friction();
+  p.stress = [](double x) { return x < 0 ? 0.8 : 0.0; };
   EXPECT_THROW(Solver{p}, InputError);
 }
 
