@@ -54,15 +54,33 @@ struct Nodes {
   }
 };
 
+/// Whether the train in a cell ends at a face of it where another begins that is so much denser that this one pushes
+/// nothing back, and no fan of that one reaches into it: it is as it is up to the face.
+bool ends_at(const Solver::View& v, std::size_t cell, std::size_t face) {
+  constexpr double denser = 100, fan = 0.1, apart = 0.5;
+  const State &here = v.states[cell], &beyond = v.states[face == cell ? face - 1 : face];
+  if (beyond.empty() || !(beyond.psi > denser * here.psi)) return false;
+  return std::fabs(v.face_states[face].phi - (here.phi + beyond.phi) / 2) < fan * beyond.psi &&
+         std::fabs(beyond.phi - here.phi) < apart * beyond.psi;
+}
+
 /// The centre of the cell, its faces, and the centres of its neighbours in the same block. A step of stress, or a
-/// pulse that is still narrower than a cell, is known at a face long before the cells feel it.
-Nodes nodes_around(const Solver::View& v, std::size_t cell) {
+/// pulse that is still narrower than a cell, is known at a face long before the cells feel it. At the face itself, to
+/// rounding, neither side's state counts for more than the other's.
+Nodes nodes_around(const Solver::View& v, std::size_t cell, double x) {
   Nodes nodes;
-  if (cell > 0 && !v.states[cell - 1].empty()) nodes.add(v.centres[cell - 1], v.states[cell - 1]);
-  nodes.add(v.faces[cell], v.face_states[cell]);
+  const std::size_t n = v.states.size();
+  const double rounding = 1e-9 * (v.faces[cell + 1] - v.faces[cell]);
+  const bool left_ends = cell > 0 && x > v.faces[cell] + rounding && ends_at(v, cell, cell);
+  const bool right_ends = cell + 1 < n && x < v.faces[cell + 1] - rounding && ends_at(v, cell, cell + 1);
+  const auto at_face = [&](std::size_t f, bool ends) {
+    nodes.add(v.faces[f], ends ? State{v.face_states[f].phi, v.states[cell].psi} : v.face_states[f]);
+  };
+  if (cell > 0 && !left_ends && !v.states[cell - 1].empty()) nodes.add(v.centres[cell - 1], v.states[cell - 1]);
+  at_face(cell, left_ends);
   nodes.add(v.centres[cell], v.states[cell]);
-  nodes.add(v.faces[cell + 1], v.face_states[cell + 1]);
-  if (cell + 1 < v.states.size() && !v.states[cell + 1].empty()) nodes.add(v.centres[cell + 1], v.states[cell + 1]);
+  at_face(cell + 1, right_ends);
+  if (cell + 1 < n && !right_ends && !v.states[cell + 1].empty()) nodes.add(v.centres[cell + 1], v.states[cell + 1]);
   return nodes;
 }
 
@@ -152,7 +170,7 @@ State state_at(const Solver::View& v, double place) {
   if (x < v.faces.front() || x > v.faces.back()) return {};
   const std::size_t cell = interval(v.faces, x);
   if (v.states[cell].empty()) return {};
-  const Nodes nodes = nodes_around(v, cell);
+  const Nodes nodes = nodes_around(v, cell, x);
   double phi[5] = {}, psi[5] = {};
   for (std::size_t j = 0; j < nodes.size; ++j) {
     phi[j] = nodes.state[j].phi;

@@ -143,6 +143,24 @@ TEST(Contact, EdgeOfADiluteTrainSlidesLikeOneDislocation) {
   }
 }
 
+/// Under strong friction a dense train and a sparse one beside it, which pushes nothing back, creep down a slope of the
+/// contact: what has come to x = 0 is the sparse one, long before a cell shows it. 12,800 cells have -7.674e-5.
+TEST(Contact, SparseTrainThatCreepsBesideADenseOne) {
+  for (const int cells : {50, 100, 200}) {
+    Solver s({.stress = [](double x) { return x < 0 ? 0.255 : 0.0463; },
+              .forcing = {},
+              .contact = [](double x) { return 1 + 0.212 * std::tanh((x - 1.97) / 1.29); },
+              .friction = friction::viscous(181),
+              .left = -12.3,
+              .right = 8.96,
+              .cells = cells});
+    s.advance_to(8.56);
+    const auto view = s.view();
+    EXPECT_NEAR(s.slip_at(view, 0), -7.674e-5, 4e-7) << cells;
+    EXPECT_NEAR(averages_of(view, state_at(view, 0), 0).k, 0.0463, 3e-4) << cells;
+  }
+}
+
 /// A pulse whose free edge runs over a slope of the contact: slip(0) of chains at scale 1000 and 4000 is 0.07926 and
 /// 0.07954.
 TEST(Contact, FreeEdgeOnASlopeConverges) {
