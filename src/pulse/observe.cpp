@@ -258,25 +258,37 @@ Energy energy_of(const Solver& solver, const Solver::View& v) {
 TrailingCharacteristic::TrailingCharacteristic(const Solver& start) {
   const Solver::View v = start.view();
   const std::size_t n = v.states.size();
+  constexpr double rounding = 1e-9;  // the left end of two that are stressed alike, whatever the cells
   // Cells stop at a free edge: there it is the face that is empty.
-  stressed_left_ = v.right_free || (!v.left_free && v.states.front().psi >= v.states.back().psi);
+  stressed_left_ = v.right_free || (!v.left_free && v.states.front().psi >= (1 - rounding) * v.states.back().psi);
   const auto from_stressed = [&](std::size_t i) { return stressed_left_ ? i : n - 1 - i; };
-  const State stressed = v.states[from_stressed(0)];
-  double low = stressed.psi, high = low;
-  for (const State& s : v.states) {
-    low = std::fmin(low, s.psi);
-    high = std::fmax(high, s.psi);
+  const auto stress = [&](double x) { return start.problem().stress(x) / (v.contact ? v.contact(x) : 1); };
+  const double stressed = stress(v.centres[from_stressed(0)]);
+  double low = stressed, high = stressed;
+  for (const double x : v.centres) {
+    low = std::fmin(low, stress(x));
+    high = std::fmax(high, stress(x));
   }
   const bool uniform = high - low <= 1e-12 * high;  // up to a free edge: the front starts there
-  const auto departs = [&](double share) {
+  const auto departs = [&](double x, double share) {
+    return !uniform && std::fabs(stress(x) - stressed) > share * (high - low);
+  };
+  const auto first = [&](double share) {
     std::size_t i = 0;
-    while (i < n && (uniform || std::fabs(v.states[from_stressed(i)].psi - stressed.psi) <= share * (high - low))) ++i;
+    while (i < n && !departs(v.centres[from_stressed(i)], share)) ++i;
     return i;
   };
-  const std::size_t i = departs(0.01);
-  position_ = v.faces[stressed_left_ ? i : n - i];
-  steady_ = departs(1e-12) == i && !start.problem().forcing;
-  speed_ = speed_into(stressed);
+  constexpr double felt = 0.01;
+  const std::size_t i = first(felt);
+  position_ = i < n ? v.centres[from_stressed(i)] : v.faces[stressed_left_ ? n : 0];
+  double still = i < n ? v.centres[from_stressed(i - 1)] : position_;
+  while (true) {
+    const double middle = still + (position_ - still) / 2;
+    if (middle == still || middle == position_) break;
+    (departs(middle, felt) ? position_ : still) = middle;
+  }
+  steady_ = first(1e-12) == i && !start.problem().forcing;
+  speed_ = speed_into(v.states[from_stressed(0)]);
 }
 
 double TrailingCharacteristic::speed_into(const State& ahead) const {

@@ -58,7 +58,7 @@ void Semidiscrete::add_contact_force(double* dy) {
   for (std::size_t i = 0; i < size(); ++i) {
     const double a = square(faces_.contact[i]), b = square(centres_.contact[i]), c = square(faces_.contact[i + 1]);
     sources_.contact_force[i] = 0;
-    if (a != b || b != c)
+    if (!gap(i) && (a != b || b != c))
       sources_.contact_force[i] =
           -(face[i] * (4 * b - 3 * a - c) + 4 * centre[i] * (c - a) + face[i + 1] * (a - 4 * b + 3 * c)) / 6;
   }

@@ -40,6 +40,20 @@ TEST(Gap, SidesAreAloneUntilTheyMeet) {
   }
 }
 
+/// The contact has nothing to act on in a gap; a slope of it moves both edges as it moves that of a single side.
+TEST(Gap, SidesOnASlopeOfTheContactAreAlone) {
+  Problem both = two_sides(1, 200);
+  both.contact = [](double x) { return 1 + 0.1 * std::tanh(x); };
+  Problem left = both;
+  left.stress = [](double x) { return x < -0.5 ? 0.855 : 0.0; };
+  left.cells = 100;
+  Solver with(both), without(left);
+  with.advance_to(1);
+  without.advance_to(1);
+  EXPECT_LT(with.cells().steps, 200);
+  EXPECT_NEAR(with.slip_at(with.view(), -0.5), without.slip_at(without.view(), -0.5), 1e-4);
+}
+
 TEST(Gap, ClosesAndTheCollisionIsSymmetric) {
   const auto after = [](int cells) {
     Solver s(two_sides(0.4, cells));
