@@ -155,7 +155,7 @@ def sweep(scenario, axes, *, variables=None, set=None, command="pulse", output=N
         raise
     if store:
         store.close(remove=True)
-    failed = int((reasons != "").sum())
+    failed = sum(reason != "" for reason in reasons)  # NumPy's != gives one False for all where it gets no memory
     if failed:
         first = next(reason for reason in reasons if reason)
         warnings.warn(f"{failed} of {len(points)} points failed (see `failure`), the first: {first}", stacklevel=2)
