@@ -37,7 +37,7 @@ Staggered::Staggered(Setup setup)
   cells_.resize(n);
   for (auto* array : {&width_, &pressure_, &mass_, &balance_, &a_}) array->assign(n, 0);
   place_.assign(n + 1, 0);
-  face_phi_.assign(n + 1, 0);
+  for (auto* array : {&face_phi_, &loss_rate_, &fastest_, &shape_, &mean_}) array->assign(n + 1, 0);
 }
 
 std::vector<double> Staggered::face_momenta(const std::vector<double>& cell_momenta) const {
@@ -126,11 +126,32 @@ Edge Staggered::edge_at(std::size_t f) const {
   return edge_at_wall(place_[f], wall, width);
 }
 
+double Staggered::creeping(double phi) const { return setup_.friction.steep_at_rest() ? std::hypot(phi, creep_) : phi; }
+
+/// What friction takes of the momentum at a face, a unit of time.
 double Staggered::loss_rate(std::size_t f, double phi) const {
   if (const auto C = setup_.friction.linear_coefficient())  // with the E K that are known already
     return setup_.friction.closure() == friction::Closure::consistent ? *C : *C * pi * pi / (4 * beside(cells_.EK, f));
-  const double moving = setup_.friction.steep_at_rest() ? std::hypot(phi, creep_) : phi;
-  return (*relaxation_rate_)({moving, beside(cells_.psi, f)}, setup_.contact ? setup_.contact(place_[f]) : 1, {});
+  return (*relaxation_rate_)({creeping(phi), beside(cells_.psi, f)}, contact_at(f), {});
+}
+
+/// The same at all faces, of which a law without a table for it takes the means together.
+void Staggered::find_loss_rates() {
+  const friction::Friction& friction = setup_.friction;
+  if (friction.linear_coefficient() || friction.law().tabulates_rate()) {
+    for (std::size_t f = 0; f < faces(); ++f) loss_rate_[f] = loss_rate(f, face_phi_[f]);
+    return;
+  }
+  for (std::size_t f = 0; f < faces(); ++f) {
+    const double psi = beside(cells_.psi, f), moving = std::fabs(creeping(face_phi_[f]));
+    const double slip = std::sinh(moving > 0 ? moving : 1e-8 * std::fmin(psi, 1.0)) * std::cosh(psi);
+    const double a = contact_at(f);
+    fastest_[f] = 2 * a * slip;
+    shape_[f] = std::tanh(psi);
+    loss_rate_[f] = psi > 0 ? 2 * pi / (8 * a * slip * elliptic::at_psi(psi).E) : 0;
+  }
+  friction.law().mean_strengths({faces(), fastest_.data(), shape_.data()}, friction.closure(), mean_.data(), nullptr);
+  for (std::size_t f = 0; f < faces(); ++f) loss_rate_[f] *= mean_[f];
 }
 
 Staggered::Terminal Staggered::terminal(const double* rates) const {
@@ -143,7 +164,7 @@ Staggered::Terminal Staggered::terminal(const double* rates) const {
     force = on_one;
     face = f;
   }
-  const double mass = beside(mass_, face) * (setup_.contact ? setup_.contact(place_[face]) : 1);
+  const double mass = beside(mass_, face) * contact_at(face);
   const auto momentum = [&](double phi) { return 8 * mass * std::sinh(phi); };
   double low = -690, high = 3;  // ln phi
   for (int i = 0; i < 40; ++i) {
@@ -158,23 +179,24 @@ void Staggered::operator()(double t, const double* z, double* dz) {
   const ConstFaceValues values(z, faces());
   const FaceValues rates(dz, faces());
   find_cells(t, z);
+  const auto is_edge = [&](std::size_t f) { return charge_left(f) == 0 || charge_right(f) == 0; };
+  for (std::size_t f = 0; f < faces(); ++f) {
+    const double mass = is_edge(f) && edge_at(f) == Edge::free ? 1 : beside(mass_, f);
+    face_phi_[f] = std::asinh(values.momentum(f) / (8 * charge_around(f) * contact_at(f) * mass));
+  }
+  find_loss_rates();
   double before = 0, dissipation = 0, supply = 0, through_ends = 0;
   for (std::size_t f = 0; f < faces(); ++f) {
-    const double q = charge_around(f), momentum = values.momentum(f);
-    const bool edge = charge_left(f) == 0 || charge_right(f) == 0;
     const Edge end = edge_at(f);
-    const double a = setup_.contact ? setup_.contact(place_[f]) : 1;
-    const double mass = edge && end == Edge::free ? 1 : beside(mass_, f);
-    const double phi = std::asinh(momentum / (8 * q * a * mass)), U = std::tanh(phi);
-    face_phi_[f] = phi;
-    const double loss = loss_rate(f, phi) * momentum;
-    const double push = setup_.forcing ? 2 * pi * q * setup_.forcing(place_[f], t) : 0;
+    const double phi = face_phi_[f], U = std::tanh(phi);
+    const double loss = loss_rate_[f] * values.momentum(f);
+    const double push = setup_.forcing ? 2 * pi * charge_around(f) * setup_.forcing(place_[f], t) : 0;
     const double force = setup_.contact ? force_on(f) / std::cosh(phi) : force_on(f);
     rates.width_left_of(f) = U - before;
     rates.momentum(f) = force + push - loss;
     if (end == Edge::wall)  // which holds what presses against it
       rates.momentum(f) = f == 0 ? std::fmax(rates.momentum(f), 0) : std::fmin(rates.momentum(f), 0);
-    if (edge && end == Edge::continued) {
+    if (is_edge(f) && end == Edge::continued) {
       const std::size_t cell = f == 0 ? 0 : f - 1;
       const double work = a_[cell] * a_[cell] * pressure_[cell] * U;
       through_ends += f == 0 ? work : -work;

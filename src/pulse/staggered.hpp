@@ -67,6 +67,9 @@ class Staggered {
   double force_on(std::size_t face) const;
   Edge edge_at(std::size_t face) const;
   double loss_rate(std::size_t face, double phi) const;
+  void find_loss_rates();
+  double creeping(double phi) const;
+  double contact_at(std::size_t face) const { return setup_.contact ? setup_.contact(place_[face]) : 1; }
   /// Mean over the cells beside a face that hold dislocations.
   double beside(const std::vector<double>& values, std::size_t face) const;
 
@@ -76,7 +79,8 @@ class Staggered {
   std::vector<Block> blocks_;
   CellStates cells_;
   std::vector<double> place_, width_, pressure_, balance_, a_, face_phi_;
-  std::vector<double> mass_;  ///< cosh(psi) E, an eighth of M / sinh(phi)
+  std::vector<double> loss_rate_, fastest_, shape_, mean_;  ///< at the faces; of the trains there
+  std::vector<double> mass_;                                ///< cosh(psi) E, an eighth of M / sinh(phi)
 };
 
 }  // namespace slipfront::pulse
