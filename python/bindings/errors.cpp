@@ -1,3 +1,6 @@
+#include <exception>
+#include <string_view>
+
 #include "bindings.hpp"
 #include "slipfront/error.hpp"
 
@@ -18,4 +21,13 @@ void bind_errors(py::module_& m) {
   bind<slipfront::FileError>(m, "FileError", PyExc_OSError, "A file could not be read or written.");
   bind<slipfront::NumericsError>(m, "NumericsError", PyExc_RuntimeError,
                                  "The numerics gave up; one line says what, where and at what time.");
+  // What these bindings give to Python can be converted, but where memory ends: pybind11 says RuntimeError there.
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const py::cast_error& error) {
+      if (!std::string_view(error.what()).starts_with("Unable to convert call argument")) throw;
+      PyErr_NoMemory();
+    }
+  });
 }
