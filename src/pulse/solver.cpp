@@ -43,8 +43,9 @@ void check(const Problem& p) {
   if (p.periodic && p.friction.acts() && p.friction.steep_at_rest() && !p.friction.sticks())
     throw InputError({.key = "pulse.periodic",
                       .value = "true",
-                      .problem = "friction whose slope is infinite at rest, as of exponents below 1, leaves no time step "
-                                 "short enough on a ring",
+                      .problem =
+                          "friction whose slope is infinite at rest, as of exponents below 1, leaves no time step "
+                          "short enough on a ring",
                       .allowed = "false, or a run of the chain"});
 }
 
