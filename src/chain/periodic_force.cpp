@@ -1,5 +1,6 @@
 #include "periodic_force.hpp"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>

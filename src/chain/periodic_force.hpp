@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <functional>
 
 /// A force on a site that is odd and has the period of the substrate, as one polynomial after range reduction. Slip is
@@ -9,17 +8,18 @@ namespace slipfront::chain {
 
 struct PeriodicForce {
   static constexpr int terms = 8;
-  std::array<double, terms> c{};  ///< of r, r^3, ... with r = the turn less the nearest whole number
+  double c[terms] = {};  ///< of r, r^3, ... with r = the turn less the nearest whole number
 
-  /// Branch-free; |turns| < 2^51. Loops over it become vector code.
-  double operator()(double turns) const {
+  /// Branch-free; |turns| < 2^51. Loops over it become vector code, for which it must not stay a call (as it does where
+  /// code is to be small).
+  [[gnu::always_inline]] double operator()(double turns) const {
     constexpr double magic = 6755399441055744.0;  // adding it rounds to a whole number
     const double r = turns - ((turns + magic) - magic), z = r * r;
     double p = c[terms - 1];
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC unroll 16
 #endif
-    for (int k = terms - 2; k >= 0; --k) p = p * z + c[static_cast<std::size_t>(k)];
+    for (int k = terms - 2; k >= 0; --k) p = p * z + c[k];
     return r * p;
   }
 };

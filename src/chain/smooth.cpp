@@ -11,22 +11,39 @@
 
 namespace slipfront::chain {
 
-SmoothAverage smooth_average(const Chain& chain, double x, double width, double time) {
-  const Grid& grid = chain.problem().grid;
+namespace {
+
+struct Sites {
+  std::size_t begin, end;  ///< with weight
+  std::size_t low, high;   ///< two more on either side, for the elastic energy
+};
+
+Sites around(const Grid& grid, double x, double width) {
   const double last = static_cast<double>(grid.sites - 1);
   const double from = std::fmax(0, std::ceil((x - width / 2 - grid.left) / grid.spacing));
   const double to = std::fmin(last, std::floor((x + width / 2 - grid.left) / grid.spacing));
   if (!(width > 0) || !(from <= to)) refuse_window(grid, x, width);
   const auto begin = static_cast<std::size_t>(from), end = static_cast<std::size_t>(to) + 1;
-  // Two more on either side, for the elastic energy.
-  const std::size_t low = begin < 2 ? 0 : begin - 2, high = std::min(end + 2, grid.sites);
-  const Window w = chain.window(low, high, time);
-  const auto u = [&](std::size_t j) { return w.u[j - low]; };
+  return {begin, end, begin < 2 ? 0 : begin - 2, std::min(end + 2, grid.sites)};
+}
+
+}  // namespace
+
+SmoothAverage smooth_average(const Chain& chain, double x, double width, double time) {
+  const Sites sites = around(chain.problem().grid, x, width);
+  return smooth_average(chain, chain.window(sites.low, sites.high, time), x, width);
+}
+
+SmoothAverage smooth_average(const Chain& chain, const Window& w, double x, double width) {
+  const Grid& grid = chain.problem().grid;
+  const Sites sites = around(grid, x, width);
+  if (sites.low < w.begin || sites.high > w.begin + w.x.size()) refuse_window(grid, x, width);
+  const auto u = [&](std::size_t j) { return w.u[j - w.begin]; };
   // The weight and its slope vanish at the ends: the sum over sites is as good as the integral.
   SmoothAverage a{};
   double sum = 0;
-  for (std::size_t j = begin; j < end; ++j) {
-    const std::size_t i = j - low;
+  for (std::size_t j = sites.begin; j < sites.end; ++j) {
+    const std::size_t i = j - w.begin;
     const double weight = 1 + std::cos(2 * std::numbers::pi * (w.x[i] - x) / width);
     sum += weight;
     a.velocity += weight * w.velocity[i];

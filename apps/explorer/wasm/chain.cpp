@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <span>
 
 #include "scenario.hpp"
 #include "slipfront/chain/measure.hpp"
@@ -79,9 +80,9 @@ SLIPFRONT_EXPORT const char* chain_begin(const char* toml, int dislocations, dou
   });
 }
 
-/// Goes on to a time of the scenario, for at most so many milliseconds: where the dislocations are, and their averages
-/// if asked for.
-SLIPFRONT_EXPORT const char* chain_go(double time, double milliseconds, int averages) {
+/// Goes on to a time of the scenario, for at most so many milliseconds: where the dislocations are. Where `half` is
+/// above 0 also their averages, and what the single sites within `half` of x = 0 do: displacement, stress and velocity.
+SLIPFRONT_EXPORT const char* chain_go(double time, double milliseconds, double half) {
   return answer([=] {
     Live& now = live();
     if (!now.chain) throw InputError({.key = "chain", .problem = "there is none"});
@@ -93,39 +94,31 @@ SLIPFRONT_EXPORT const char* chain_go(double time, double milliseconds, int aver
       place.push_back(d.x / now.scale);
       sign.push_back(d.sign);
     }
-    const chain::Totals totals = chain::totals(c);
     Object object;
     object.put("reached", reached).put("time", c.time() / now.scale).put("steps", c.level());
-    object.put("energy", totals.energy() / now.scale).put("momentum", totals.momentum / now.scale);
     object.numbers("x", place).numbers("sign", sign);
-    if (averages) {
-      std::vector<double> x, W, Sigma;
-      for (int i = 0; i < average_points; ++i) {
-        x.push_back(now.left + (now.right - now.left) * (i + 0.5) / average_points);
-        const auto mean = chain::smooth_average(c, now.scale * x.back(), now.scale * now.window, c.time());
-        W.push_back(mean.velocity);
-        Sigma.push_back(mean.stress);
-      }
-      object.numbers("average_x", x).numbers("W", W).numbers("Sigma", Sigma);
+    if (!(half > 0)) return object;
+    const chain::Grid& grid = c.problem().grid;
+    const chain::Window all = c.window(0, grid.sites);
+    std::vector<double> x, W, Sigma;
+    for (int i = 0; i < average_points; ++i) {
+      x.push_back(now.left + (now.right - now.left) * (i + 0.5) / average_points);
+      const auto mean = chain::smooth_average(c, all, now.scale * x.back(), now.scale * now.window);
+      W.push_back(mean.velocity);
+      Sigma.push_back(mean.stress);
     }
-    return object;
-  });
-}
-
-/// What single sites do between two places of the scenario: displacement (in dislocations), stress and slip velocity.
-SLIPFRONT_EXPORT const char* chain_window(double from, double to) {
-  return answer([=] {
-    Live& now = live();
-    if (!now.chain) throw InputError({.key = "chain", .problem = "there is none"});
-    const chain::Grid& grid = now.chain->problem().grid;
-    const auto site = [&](double x) {
-      const double j = (x * now.scale - grid.left) / grid.spacing;
+    object.numbers("average_x", x).numbers("W", W).numbers("Sigma", Sigma);
+    const auto site = [&](double at) {
+      const double j = (at * now.scale - grid.left) / grid.spacing;
       return static_cast<std::size_t>(std::clamp(j, 0.0, static_cast<double>(grid.sites - 1)));
     };
-    const chain::Window w = now.chain->window(site(from), std::min(grid.sites, site(to) + 1));
-    std::vector<double> x = w.x;
-    for (double& place : x) place /= now.scale;
-    return Object().numbers("x", x).numbers("u", w.u).numbers("velocity", w.velocity).numbers("stress", w.stress);
+    const std::size_t from = site(-half), count = site(half) + 1 - from;
+    const auto near = [&](const std::vector<double>& values) { return std::span(values).subspan(from, count); };
+    std::vector<double> near_x(near(all.x).begin(), near(all.x).end());
+    for (double& at : near_x) at /= now.scale;
+    return object.numbers("near_x", near_x)
+        .numbers("near_velocity", near(all.velocity))
+        .numbers("near_stress", near(all.stress));
   });
 }
 

@@ -17,6 +17,9 @@ struct SmoothAverage {
 /// scales; with this weight what is left of the train's ripple falls as the cube of the dislocations in the window.
 /// \throws InputError for a window of no width or none of it on the chain.
 SmoothAverage smooth_average(const Chain& chain, double x, double width, double time);
+/// The same of sites that have been looked at already, for many averages at once; two more on either side are needed.
+/// \throws InputError where `sites` do not hold those.
+SmoothAverage smooth_average(const Chain& chain, const Window& sites, double x, double width);
 
 /// Energy density of the uniform train of this stress and slip velocity: what H of an average exceeds it by is in
 /// phonons (or, in a window with a front in it, in what the window makes even).

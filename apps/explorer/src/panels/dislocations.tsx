@@ -26,9 +26,9 @@ interface Frame {
 interface Chain {
   begun: Answer;
   frames: Frame[];
-  average: Answer | null;
-  close: Answer | null;
-  first: Answer | null;
+  /** The last answer with averages, and the first. */
+  average: Answer;
+  first: Answer;
 }
 
 const most = 400;
@@ -122,11 +122,10 @@ function useChain(toml: string, table: [number[], number[]] | null, count: numbe
     const begun = await call('chain_begin', toml, count, 8);
     if (mine !== live.current) return;
     if (begun.error) return setError(begun.error);
-    const start = await call('chain_go', 0, 5, 1);
+    const start = await call('chain_go', 0, 5, 0.12 * (begun.right - begun.left));
     if (mine !== live.current || start.error) return setError(start.error);
     setError(undefined);
-    const close = await call('chain_window', -0.12 * (begun.right - begun.left), 0.12 * (begun.right - begun.left));
-    held.current = { begun, frames: [{ time: 0, x: start.x, sign: start.sign }], average: start, first: start, close: close.error ? null : close };
+    held.current = { begun, frames: [{ time: 0, x: start.x, sign: start.sign }], average: start, first: start };
     setChain(held.current);
     if (run) setPlaying(true);
   };
@@ -139,25 +138,28 @@ function useChain(toml: string, table: [number[], number[]] | null, count: numbe
     let alive = true;
     let shown = 0;
     let since = performance.now();
+    /** The next picture is computed while this one is drawn. */
+    const ask = (frame: Frame, count: number) => {
+      const { left, right } = held.current!.begun;
+      return call('chain_go', Math.min(end, frame.time + end / 480), 14, count % 3 === 0 || frame.time >= end * (1 - 2 / 480) ? 0.12 * (right - left) : 0);
+    };
+    const first = held.current.frames;
+    let coming = ask(first[first.length - 1], first.length);
     const step = async () => {
-      const now = held.current!;
-      const last = now.frames[now.frames.length - 1].time;
-      const target = Math.min(end, last + end / 480);
-      const everyOther = now.frames.length % 3 === 0 || target >= end;
-      const more = await call('chain_go', target, 14, everyOther ? 1 : 0);
+      const more = await coming;
       if (!alive) return;
       if (more.error) { setError(more.error); return setPlaying(false); }
-      const half = 0.12 * (now.begun.right - now.begun.left);
-      const close = everyOther ? await call('chain_window', -half, half) : null;
-      if (!alive) return;
-      held.current = { ...now, frames: [...now.frames, { time: more.time, x: more.x, sign: more.sign }], average: everyOther ? more : now.average, close: close && !close.error ? close : now.close };
+      const now = held.current!;
+      const over = more.time >= end - 1e-9;
+      if (!over) coming = ask(more as Frame, now.frames.length + 1);
+      held.current = { ...now, frames: [...now.frames, { time: more.time, x: more.x, sign: more.sign }], average: more.W ? more : now.average };
       setChain(held.current);
       if (++shown === 20) {
         setRate((1000 * shown) / (performance.now() - since));
         shown = 0;
         since = performance.now();
       }
-      if (more.time >= end - 1e-9) setPlaying(false);
+      if (over) setPlaying(false);
       else requestAnimationFrame(step);
     };
     requestAnimationFrame(step);
@@ -192,11 +194,11 @@ export function DislocationsPanel() {
   const over = now && now.time >= end - 1e-9;
   const [t, x] = [scaleOf('t', end), scaleOf('x', chain?.begun.right - chain?.begun.left || 1)];
   const si = `${scaleOf('stress', 1).factor}|${x.factor}|${x.unit}`;
-  const averages = useMemo(() => chain?.average && [
+  const averages = useMemo(() => chain && [
     averageSpec(chain, 'W', 'Slip velocity, averaged over eight dislocations', 'slip', 'slipVelocity', 0.05, x),
     averageSpec(chain, 'Sigma', 'Stress, averaged over eight dislocations', 'stress', 'stress', 1, x),
   ], [chain?.average, si]);
-  const close = useMemo(() => chain?.close && closeSpec(chain, x), [chain?.close, si]);
+  const close = useMemo(() => chain && closeSpec(chain, x), [chain?.average, si]);
   return (
     <div class="panel">
       <aside class="controls" aria-label="Scenario">
@@ -247,21 +249,21 @@ const times = (values: Float64Array, factor: number) => values.map((v) => v * fa
 function averageSpec(chain: Chain, key: 'W' | 'Sigma', title: string, tint: string, quantity: Quantity, typical: number, x: Scale): Spec {
   const { unit, factor } = scaleOf(quantity, typical);
   const yLabel = `${key === 'W' ? 'W' : 'Σ'}, in ${unit}`;
-  const series = [{ label: 'now', y: times(chain.average![key], factor), color: tint, fill: key === 'W' }];
+  const series = [{ label: 'now', y: times(chain.average[key], factor), color: tint, fill: key === 'W' }];
   return {
-    name: `average-${key}`, title, x: times(chain.average!.average_x, x.factor), xLabel: `x, in ${x.unit}`, yLabel,
-    series: key === 'Sigma' ? [{ label: 'before', y: times(chain.first![key], factor), color: 'before', fill: false }, ...series] : series,
-    yRange: key === 'Sigma' ? [0, Math.max(...chain.first![key]) * factor * 1.2] : undefined,
+    name: `average-${key}`, title, x: times(chain.average.average_x, x.factor), xLabel: `x, in ${x.unit}`, yLabel,
+    series: key === 'Sigma' ? [{ label: 'before', y: times(chain.first[key], factor), color: 'before', fill: false }, ...series] : series,
+    yRange: key === 'Sigma' ? [0, Math.max(...chain.first[key]) * factor * 1.2] : undefined,
   };
 }
 
 function closeSpec(chain: Chain, x: Scale): Spec {
   const stress = scaleOf('stress', 2);
   return {
-    name: 'single-dislocations', title: 'Near x = 0, not averaged: each dislocation is a peak of stress', x: times(chain.close!.x, x.factor), xLabel: `x, in ${x.unit}`, yLabel: `σ and w`,
+    name: 'single-dislocations', title: 'Near x = 0, not averaged: each dislocation is a peak of stress', x: times(chain.average.near_x, x.factor), xLabel: `x, in ${x.unit}`, yLabel: `σ and w`,
     series: [
-      { label: 'stress', y: times(chain.close!.stress, stress.factor), color: 'stress', width: 1.5 },
-      { label: 'slip velocity', y: times(chain.close!.velocity, scaleOf('slipVelocity', 2).factor), color: 'slip', width: 1.5 },
+      { label: 'stress', y: times(chain.average.near_stress, stress.factor), color: 'stress', width: 1.5 },
+      { label: 'slip velocity', y: times(chain.average.near_velocity, scaleOf('slipVelocity', 2).factor), color: 'slip', width: 1.5 },
     ],
   };
 }
