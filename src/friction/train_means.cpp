@@ -21,7 +21,7 @@ double mean_of(double a, double b) {  // arithmetic-geometric
 /// n with exp(-2 pi n K' / K) below 1e-12: the error of a mean over slip is up to a hundred times that, as for f = w.
 std::size_t steps_for(double s) {
   const double K_over_K1 = mean_of(1, std::sqrt((1 - s) * (1 + s))) / mean_of(1, s);
-  return std::max<std::size_t>(3, static_cast<std::size_t>(std::ceil(4.5 * K_over_K1)));
+  return std::clamp<std::size_t>(static_cast<std::size_t>(std::ceil(4.5 * K_over_K1)), 3, PhaseNodes::most_steps);
 }
 
 // One transformation takes the modulus k to k1 = (1 - k') / (1 + k'), with k1' = 2 k'^(1/2) / (1 + k') nearer to 1, and
@@ -65,15 +65,22 @@ SLIPFRONT_CLONES void add(std::size_t size, const double* weight, const double* 
 
 PhaseNodes::PhaseNodes(std::size_t size, const double* s) : size_(size), steps_(3) {
   double least = 1;
-  for (std::size_t i = 0; i < size; ++i) least = std::fmin(least, s[i]);
+  for (std::size_t i = 0; i < size; ++i) least = s[i] < least ? s[i] : least;
   steps_ = steps_for(std::fmax(least, least_s));
+  const double angle = std::numbers::pi / 2 / static_cast<double>(steps_), c = std::cos(angle), d = std::sin(angle);
+  double sine = 0, cosine = 1;
+  for (std::size_t k = 0; k <= steps_; ++k) {
+    squared_sine_[k] = sine * sine;
+    const double turned = cosine * c - sine * d;
+    sine = sine * c + cosine * d;
+    cosine = turned;
+  }
   coefficients(size, s, third_, second_, first_);
 }
 
 void PhaseNodes::node(std::size_t k, Closure closure, double* r, double* weight) const {
-  const double sine = std::sin(std::numbers::pi / 2 * static_cast<double>(k) / static_cast<double>(steps_));
-  nodes(size_, sine * sine, third_, second_, first_, closure == Closure::consistent, k == 0 || k == steps_ ? 0.5 : 1.0,
-        r, weight);
+  nodes(size_, squared_sine_[k], third_, second_, first_, closure == Closure::consistent,
+        k == 0 || k == steps_ ? 0.5 : 1.0, r, weight);
 }
 
 void means_by_phase(const Law& law, const Trains& trains, Closure closure, double* mean) {

@@ -14,6 +14,7 @@ class PhaseNodes {
  public:
   static constexpr std::size_t most = 64;  ///< trains at once
   static constexpr double least_s = 1e-12;
+  static constexpr std::size_t most_steps = 84;  ///< at least_s
   /// `size` <= most trains of these s = tanh psi; smaller ones count as least_s.
   PhaseNodes(std::size_t size, const double* s);
   std::size_t count() const { return steps_ + 1; }
@@ -22,6 +23,7 @@ class PhaseNodes {
 
  private:
   std::size_t size_, steps_;
+  double squared_sine_[most_steps + 1];              ///< of the angle after the last transformation
   double third_[most], second_[most], first_[most];  ///< coefficients of the three transformations
 };
 
