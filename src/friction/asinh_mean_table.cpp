@@ -1,11 +1,9 @@
 #include "asinh_mean_table.hpp"
 
 #include <algorithm>
-#include <cstring>
 
 #include "../elementary.hpp"
 #include "../vector_code.hpp"
-#include "chebyshev.hpp"
 #include "train_means.hpp"
 
 namespace slipfront::friction {
@@ -20,7 +18,7 @@ SLIPFRONT_CLONES void add_asinh(std::size_t size, const double* A, double r, dou
   }
 }
 
-constexpr std::size_t terms = AsinhMeanTable::terms;
+constexpr std::size_t terms = ChebyshevPatch::terms;
 
 }  // namespace
 
@@ -30,7 +28,7 @@ const AsinhMeanTable& AsinhMeanTable::get() {
 }
 
 AsinhMeanTable::AsinhMeanTable() {
-  using Fit = ChebyshevFit<terms>;
+  using Fit = ChebyshevPatch::Fit;
   const Fit through;
   const double first_s = std::log(least_s);
   columns_ = patches_in(std::log(largest_s) - first_s);
@@ -58,17 +56,10 @@ AsinhMeanTable::AsinhMeanTable() {
     for (std::size_t k = 0; k < terms; ++k)  // the difference, times the weights
       add_asinh(needed * terms, A.data(), (1 + s[k]) / 2, -weights[k], sums[k].data());
     for (std::size_t row = 0; row < needed; ++row) {
-      double over_s[terms][terms], values[terms], c[terms];
-      for (std::size_t j = 0; j < terms; ++j) {
-        for (std::size_t k = 0; k < terms; ++k) values[k] = sums[k][row * terms + j] / weights[k];
-        through(values, over_s[j]);
-      }
-      Patch& patch = patches_[row * columns_ + column];
-      for (std::size_t k = 0; k < terms; ++k) {
-        for (std::size_t j = 0; j < terms; ++j) values[j] = over_s[j][k];
-        through(values, c);
-        for (std::size_t j = 0; j < terms; ++j) patch.c[j][k] = c[j];
-      }
+      ChebyshevPatch::Values values;
+      for (std::size_t j = 0; j < terms; ++j)
+        for (std::size_t k = 0; k < terms; ++k) values[j][k] = sums[k][row * terms + j] / weights[k];
+      patches_[row * columns_ + column].fit(through, values);
     }
   }
 }
@@ -97,26 +88,12 @@ SLIPFRONT_CLONES void find_places(std::size_t size, std::size_t columns, double 
   }
 }
 
-/// The coefficients of eight powers of x_s as one value: compilers make vector code of it that they do not make of
-/// loops over eight.
-using Row = double __attribute__((vector_size(terms * sizeof(double))));
-
 /// Train by train: gathering coefficients for many trains would take longer.
-SLIPFRONT_CLONES void interpolate_all(std::size_t size, const AsinhMeanTable::Patch* patches, PlacesInTable& at) {
+SLIPFRONT_CLONES void interpolate_all(std::size_t size, const ChebyshevPatch* patches, PlacesInTable& at) {
   for (std::size_t i = 0; i < size; ++i) {
-    const double x = at.x_A[i], y = at.x_s[i], y2 = y * y, y4 = y2 * y2;
-    Row row, value = {}, by_A = {};
-    for (std::size_t j = terms; j-- > 0;) {
-      std::memcpy(&row, patches[at.patch[i]].c[j], sizeof row);
-      by_A = by_A * x + value;
-      value = value * x + row;
-    }
-    // Both sums over powers of x_s, half of them by half.
-    const Row low = __builtin_shufflevector(value, by_A, 0, 1, 2, 3, 8, 9, 10, 11),
-              high = __builtin_shufflevector(value, by_A, 4, 5, 6, 7, 12, 13, 14, 15), four = low + y4 * high,
-              two = four + y2 * __builtin_shufflevector(four, four, 2, 3, 2, 3, 6, 7, 6, 7);
-    at.difference[i] = two[0] + y * two[1];
-    at.by_A[i] = two[4] + y * two[5];
+    const ValueAndSlope found = interpolate(patches[at.patch[i]], at.x_A[i], at.x_s[i]);
+    at.difference[i] = found.value;
+    at.by_A[i] = found.by_x;
   }
 }
 

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "chebyshev_patch.hpp"
+
 namespace slipfront::friction {
 
 /// The mean of asinh(A r) over slip where it is neither logarithmic (A s large) nor in trains that are too dense or too
@@ -21,17 +23,12 @@ class AsinhMeanTable {
   void look_up(std::size_t size, const double* log_A, const double* A, const double* s, double* mean,
                double* slope) const;
 
-  static constexpr std::size_t terms = 8;
-  struct Patch {
-    double c[terms][terms];  ///< powers of ln A by powers of ln s, each from -1 to 1 over the patch
-  };
-
  private:
   AsinhMeanTable();
   static constexpr double side = 0.46;  ///< of a patch
   static std::size_t patches_in(double range) { return static_cast<std::size_t>(std::ceil(range / side + 1e-9)); }
   std::size_t columns_;
-  std::vector<Patch> patches_;
+  std::vector<ChebyshevPatch> patches_;  ///< of ln A and ln s
 };
 
 }  // namespace slipfront::friction

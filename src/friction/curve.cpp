@@ -5,6 +5,7 @@
 #include <mutex>
 #include <utility>
 
+#include "mean_table.hpp"
 #include "slipfront/friction/friction.hpp"
 #include "tabulated_curve.hpp"
 
@@ -25,6 +26,12 @@ class DrawnCurve final : public Law {
     });
     table_->values(size, speed, force);
   }
+  void mean_strengths(const Trains& trains, Closure closure, double* mean, double* slope) const override {
+    if (closure == Closure::consistent)
+      means_.look_up(trains, mean, slope);
+    else
+      Law::mean_strengths(trains, closure, mean, slope);
+  }
   bool steep_at_rest() const override { return steep_; }
 
  private:
@@ -33,6 +40,7 @@ class DrawnCurve final : public Law {
   bool steep_;
   mutable std::once_flag once_;
   mutable std::unique_ptr<const TabulatedCurve> table_;
+  MeanTable means_{*this};
 };
 
 std::shared_ptr<const Law> drawn(const std::vector<double>& values, const Curve& curve) {

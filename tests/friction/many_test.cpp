@@ -94,6 +94,42 @@ TEST(FrictionOfMany, MeansAreThoseOfOne) {
     }
 }
 
+/// A curve with a kink, which also ends: tables of its means may reach neither over the kink nor beyond the end.
+TEST(FrictionOfMany, MeansOfACurveThatBendsAndEnds) {
+  constexpr double kink = 0.05, end = 0.1;
+  const auto curve = [](double w) {
+    if (w > end) throw InputError({.key = "w", .problem = "beyond the end"});
+    return w < kink ? w : kink;
+  };
+  std::vector<Friction> both;
+  for (const Definition* law : laws()) {
+    if (law->name == "formula") both.push_back({*law, {1}, Closure::consistent, curve});
+    if (law->name == "viscous") both.insert(both.begin(), {*law, {1}, Closure::consistent, {}});
+  }
+  const auto means = [&](const Friction& friction, double fastest) {
+    std::vector<double> speeds, s, mean(100);
+    for (int i = 0; i < 100; ++i) {
+      speeds.push_back(fastest);
+      s.push_back(0.005 + 0.0099 * i);
+    }
+    friction.law().mean_strengths({100, speeds.data(), s.data(), {}}, Closure::consistent, mean.data(), nullptr);
+    return mean;
+  };
+  for (double fastest = 1e-3; fastest < end; fastest *= 1.02) {
+    const std::vector<double> linear = means(both[0], fastest), bent = means(both[1], fastest);
+    for (std::size_t i = 0; i < bent.size(); ++i) {
+      EXPECT_LE(bent[i], std::fmin(linear[i], kink) * (1 + 1e-9)) << fastest;
+      if (fastest < kink) {
+        EXPECT_NEAR(bent[i] / linear[i], 1, 3e-10) << fastest;
+      }
+      if (fastest * (0.005 + 0.0099 * static_cast<double>(i)) > kink) {  // faster than the kink all the time
+        EXPECT_NEAR(bent[i], kink, 1e-12);
+      }
+    }
+  }
+  EXPECT_THROW(means(both[1], 1.01 * end), InputError);
+}
+
 TEST(FrictionOfMany, ForcesAndSolvesAreThoseOfOne) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> u(0, 1);
