@@ -161,6 +161,11 @@ std::unique_ptr<RelaxationRate> Law::relaxation_rate(Closure closure) const {
   return std::make_unique<RateByQuadrature>(*this, closure);
 }
 
+void RelaxationRate::rates(std::size_t size, const double* fastest, const double* psi, double* rate) const {
+  for (std::size_t i = 0; i < size; ++i)
+    rate[i] = (*this)({std::asinh(fastest[i] / (2 * std::cosh(psi[i]))), psi[i]}, 1, {});
+}
+
 void Law::start(std::span<double>) const {}
 void Law::advance(double, double, std::span<double>) const {}
 void Law::advance_in_train(double mean, double, double time, std::span<double> memory) const {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -18,7 +19,8 @@ using std::numbers::pi;
 /// cos^(n-1), and the substitution amplitude = gd(y) turns both ends into decaying tails.
 double integral_of_power(const elliptic::AtPsi& at, double n) {
   // amplitude = gd(y): cos = sech y, d(amplitude) = sech y dy, dn^2 = sech^2 y + m1 tanh^2 y
-  constexpr double end = 40, h = 1.0 / 16;
+  // The integrand has no singularity within pi / 2 of the real axis: the error is some exp(-pi^2 / h).
+  constexpr double end = 40, h = 0.25;
   double sum = 0;
   for (int i = 0; i * h <= end; ++i) {
     const double y = i * h, sech = 1 / std::cosh(y), tanh = std::tanh(y);
@@ -44,9 +46,10 @@ class PowerRate final : public RelaxationRate {
   double operator()(const State& state, double contact, Memory) const override {
     if (C_ == 0 || state.empty() || state.phi == 0) return 0;
     const double fastest = 2 * std::sinh(std::fabs(state.phi)) * std::cosh(state.psi);
-    const double rate = C_ * std::pow(fastest, n_ - 1) * shape(state.psi);
+    const double rate = C_ * std::pow(fastest, n_ - 1) * shape(state.psi, std::log(state.psi));
     return contact == 1 ? rate : rate * std::pow(contact, n_ - 1);  // <|w|^n sigma> over P, w in units of a
   }
+  void rates(std::size_t size, const double* fastest, const double* psi, double* rate) const override;
 
  private:
   static constexpr double per_unit = 32, least_log = -700, most_psi = 20;  // nodes per unit of ln psi
@@ -62,19 +65,21 @@ class PowerRate final : public RelaxationRate {
   }
 
   /// Lagrange's polynomial through six nodes. Dense trains have sigma = <sigma>, and g = 1.
-  double shape(double psi) const {
+  double shape(double psi, double log_psi) const {
     if (psi >= most_psi) return 1;
     if (nodes_.empty())
       nodes_.assign(static_cast<std::size_t>((std::log(most_psi) - least_log) * per_unit) + 8, std::nan(""));
-    const double position = (std::log(psi) - least_log) * per_unit;
+    const double position = (log_psi - least_log) * per_unit;
     const double begin = std::fmax(std::floor(position) - 2, 0.0), s = position - begin;
     const auto first = static_cast<std::size_t>(begin);
-    double sum = 0;
-    for (std::size_t j = 0; j < 6; ++j) {
-      double weight = 1;
-      for (std::size_t k = 0; k < 6; ++k)
-        if (k != j) weight *= (s - static_cast<double>(k)) / (static_cast<double>(j) - static_cast<double>(k));
-      sum += weight * node(first + j);
+    constexpr std::size_t points = 6;
+    // One over the product of each one's distances from the others.
+    constexpr double weight[points] = {-1.0 / 120, 1.0 / 24, -1.0 / 12, 1.0 / 12, -1.0 / 24, 1.0 / 120};
+    double from_left[points] = {1}, from_right = 1, sum = 0;
+    for (std::size_t j = 1; j < points; ++j) from_left[j] = from_left[j - 1] * (s - static_cast<double>(j - 1));
+    for (std::size_t j = points; j-- > 0;) {
+      sum += from_left[j] * from_right * weight[j] * node(first + j);
+      from_right *= s - static_cast<double>(j);
     }
     return sum;
   }
@@ -93,6 +98,26 @@ SLIPFRONT_CLONES void forces(double C, double n, std::size_t size, const double*
     const bool within = log < range && log > -range && (speed[i] > least || speed[i] == 0);
     const double power = C * exp_branch_free(within ? log : 0.0);
     force[i] = !within ? NAN : speed[i] == 0 ? 0.0 : power;
+  }
+}
+
+SLIPFRONT_CLONES void logarithms(std::size_t size, const double* psi, double* log_psi) {
+  constexpr double least = 1e-300;
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) log_psi[i] = log_branch_free(psi[i] > least ? psi[i] : least);
+}
+
+void PowerRate::rates(std::size_t size, const double* fastest, const double* psi, double* rate) const {
+  constexpr std::size_t most = 64;
+  double log_psi[most];
+  for (std::size_t begin = 0; begin < size; begin += most) {
+    const std::size_t some = std::min(most, size - begin);
+    forces(C_, n_ - 1, some, fastest + begin, rate + begin);
+    logarithms(some, psi + begin, log_psi);
+    for (std::size_t i = begin; i < begin + some; ++i) {
+      if (std::isnan(rate[i])) rate[i] = C_ * std::pow(fastest[i], n_ - 1);
+      rate[i] = C_ == 0 || psi[i] == 0 || fastest[i] == 0 ? 0 : rate[i] * shape(psi[i], log_psi[i - begin]);
+    }
   }
 }
 

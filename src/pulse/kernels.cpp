@@ -5,6 +5,7 @@
 
 #include "../vector_code.hpp"
 #include "branch_free.hpp"
+#include "elliptic_fit.hpp"
 #include "weno.hpp"
 
 namespace slipfront::pulse {
@@ -248,6 +249,60 @@ SLIPFRONT_CLONES void combine5(std::size_t size, std::array<double, 5> c, std::a
   SLIPFRONT_INDEPENDENT
   for (std::size_t i = 0; i < size; ++i)
     sum[i] = c[0] * x0[i] + c[1] * x1[i] + c[2] * x2[i] + c[3] * x3[i] + c[4] * x4[i];
+}
+
+SLIPFRONT_CLONES void masses_and_pressures(const StaggeredCells& a) {
+  const double *spacing = a.spacing, *phi = a.phi, *psi = a.psi, *EK = a.EK, *contact = a.contact, *left = a.on_one,
+               *right = a.on_one + 1;
+  double *mass = a.mass, *pressure = a.pressure;
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < a.size; ++i) {
+    const double e = exp_branch_free(std::fabs(phi[i]));
+    mass[i] = 4 * EK[i] / (spacing[i] * (e + 1 / e));  // l = 2 K / (cosh phi cosh psi)
+  }
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < a.size; ++i) {
+    const double per_mass = 1 / (8 * contact[i] * mass[i]), x1 = left[i] * per_mass, x2 = right[i] * per_mass;
+    const double root1 = std::sqrt(1 + x1 * x1), root2 = std::sqrt(1 + x2 * x2), crossed = x1 * root2,
+                 other = x2 * root1;
+    // sinh of what their rapidities close by, without cancellation.
+    const double apart = (x1 - x2) * (x1 + x2) / (x1 * x2 > 0 ? crossed + other : 1.0);
+    const double sinh = x1 * x2 > 0 ? apart : crossed - other, closing = sinh > 0 ? sinh : 0.0;
+    const double more = closing + closing * closing / (1 + std::sqrt(1 + closing * closing));
+    const double up = expm1_branch_free(2 * psi[i]), all = up + more + up * more;  // e^(2 psi + closing) - 1
+    pressure[i] = all / (1 + all) * (all / 2);
+  }
+}
+
+SLIPFRONT_CLONES void face_velocities(std::size_t faces, const double* on_one, const double* mass, double* sinh_phi,
+                                      double* cosh_phi, double* U) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t f = 0; f < faces; ++f) {
+    const double x = on_one[f] / mass[f], root = std::sqrt(1 + x * x);
+    sinh_phi[f] = x;
+    cosh_phi[f] = root;
+    U[f] = x / root;
+  }
+}
+
+SLIPFRONT_CLONES void find_trains(const TrainsAtFaces& a, double creep) {
+  const double *sinh_phi = a.sinh_phi, *psi = a.psi, *contact = a.contact;
+  double *fastest = a.fastest, *s_out = a.s, *per_momentum = a.per_momentum;
+  constexpr double least = 1e-290, at_rest = 1e-8, turn = 6.283185307179586;
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < a.size; ++i) {
+    const double size = std::fabs(sinh_phi[i]), large = size > creep ? size : creep,
+                 small = size > creep ? creep : size;
+    const double ratio = large > 0 ? small / large : 0.0, limit = at_rest * (psi[i] < 1 ? psi[i] : 1.0);
+    const double x = large > 0 ? large * std::sqrt(1 + ratio * ratio) : limit;
+    const double up = expm1_branch_free(2 * psi[i]), s = up / (2 + up), some = s > least ? s : least, m1 = some * some;
+    const double E = 1 + m1 * (polynomial(fit::E, m1) - 2 * log_branch_free(some) * polynomial(fit::E_log, m1));
+    const double slip = contact[i] * x * (2 + up) / (2 * std::sqrt(1 + up));  // times cosh psi
+    fastest[i] = 2 * slip;
+    s_out[i] = s;
+    const double per = turn / (8 * slip * E);
+    per_momentum[i] = psi[i] > 0 ? (s < fit::largest_s ? per : NAN) : 0.0;
+  }
 }
 
 }  // namespace slipfront::pulse

@@ -112,4 +112,26 @@ double least_crossing_time(std::size_t size, const double* y, const double* dy, 
 void combine3(std::size_t size, std::array<double, 3> c, std::array<const double*, 3> x, double* sum);
 void combine5(std::size_t size, std::array<double, 5> c, std::array<const double*, 5> x, double* sum);
 
+/// Of implicit steps. Trains in cells with momenta `on_one` of a dislocation at the faces on either side: their mass
+/// cosh(psi) E, an eighth of M / sinh(phi), and their pressure 2 sinh^2 psi. Trains that run into each other are
+/// stopped by the pressure of the two-fan solution between them; where they part, or move alike, nothing is added.
+struct StaggeredCells {
+  std::size_t size;
+  const double *spacing, *phi, *psi, *EK, *contact;
+  const double* on_one;  ///< size + 1 of them
+  double *mass, *pressure;
+};
+void masses_and_pressures(const StaggeredCells& a);
+/// sinh, cosh and tanh of phi at faces, from the momentum of a dislocation there and M / sinh(phi).
+void face_velocities(std::size_t faces, const double* on_one, const double* mass, double* sinh_phi, double* cosh_phi,
+                     double* U);
+/// Trains at faces: their largest slip velocity, that of a train at rest being its limit, and s = tanh psi; and 2 pi
+/// over M, by which a mean force slows them, NaN where s is above 0.9. `creep`: sinh(phi) counts as no less.
+struct TrainsAtFaces {
+  std::size_t size;
+  const double *sinh_phi, *psi, *contact;
+  double *fastest, *s, *per_momentum;
+};
+void find_trains(const TrainsAtFaces& a, double creep);
+
 }  // namespace slipfront::pulse

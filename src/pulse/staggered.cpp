@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "../digits.hpp"
+#include "kernels.hpp"
 #include "slipfront/elliptic/complete.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
@@ -35,9 +36,13 @@ Staggered::Staggered(Setup setup)
       blocks_(blocks_of(setup_.charge, setup_.left, setup_.right)) {
   const std::size_t n = setup_.charge.size();
   cells_.resize(n);
-  for (auto* array : {&width_, &pressure_, &mass_, &balance_, &a_}) array->assign(n, 0);
-  place_.assign(n + 1, 0);
-  for (auto* array : {&face_phi_, &loss_rate_, &fastest_, &shape_, &mean_}) array->assign(n + 1, 0);
+  for (auto* array : {&width_, &pressure_, &mass_, &balance_}) array->assign(n, 0);
+  a_.assign(n, 1);
+  for (auto* array : {&place_, &on_one_, &face_mass_, &sinh_phi_, &cosh_phi_, &U_, &face_phi_, &psi_, &loss_rate_,
+                      &fastest_, &s_, &mean_, &per_momentum_})
+    array->assign(n + 1, 0);
+  face_a_.assign(n + 1, 1);
+  for (std::size_t f = 0; f <= n; ++f) charge_.push_back((charge_left(f) + charge_right(f)) / 2);
 }
 
 std::vector<double> Staggered::face_momenta(const std::vector<double>& cell_momenta) const {
@@ -74,6 +79,7 @@ double Staggered::beside(const std::vector<double>& values, std::size_t face) co
 void Staggered::find_cells(double t, const double* z) {
   const std::size_t n = setup_.charge.size();
   const ConstFaceValues values(z, faces());
+  for (std::size_t f = 0; f <= n; ++f) on_one_[f] = values.momentum(f) / charge_around(f);
   place_[0] = values.left_edge();
   for (std::size_t i = 0; i < n; ++i) {
     width_[i] = values.width(i);
@@ -83,24 +89,17 @@ void Staggered::find_cells(double t, const double* z) {
     if (q == 0) continue;
     const double a = a_[i] = setup_.contact ? setup_.contact((place_[i] + place_[i + 1]) / 2) : 1;
     cells_.spacing[i] = a * width_[i] / q;
-    cells_.momentum[i] =
-        (values.momentum(i) / charge_around(i) + values.momentum(i + 1) / charge_around(i + 1)) / (2 * a);
+    cells_.momentum[i] = (on_one_[i] + on_one_[i + 1]) / (2 * a);
   }
   cells_.solve(blocks_, t);
+  masses_and_pressures({n, cells_.spacing.data(), cells_.phi.data(), cells_.psi.data(), cells_.EK.data(), a_.data(),
+                        on_one_.data(), mass_.data(), pressure_.data()});
+  if (!setup_.contact) return;
   for (std::size_t i = 0; i < n; ++i) {
     if (setup_.charge[i] == 0) continue;
-    // EK and l = 2 K / (cosh phi cosh psi) are known.
-    mass_[i] = 2 * cells_.EK[i] / (cells_.spacing[i] * std::cosh(cells_.phi[i]));
-    // Trains that run into each other are stopped by the pressure of the two-fan solution between them, as everywhere
-    // else; where they part, or move alike, nothing is added.
-    const double per_mass = 1 / (8 * a_[i] * mass_[i]);
-    const double closing = std::asinh(values.momentum(i) / charge_around(i) * per_mass) -
-                           std::asinh(values.momentum(i + 1) / charge_around(i + 1) * per_mass);
-    const double rest = modulation::pressure(cells_.psi[i]);
-    pressure_[i] = closing > 0 ? modulation::pressure(cells_.psi[i] + closing / 2) : rest;
-    if (setup_.contact)  // dp = k dg
-      balance_[i] = 4 / pi * a_[i] * mass_excess(cells_.psi[i]) +
-                    a_[i] * a_[i] * (pressure_[i] - rest) * width_[i] / (2 * pi * setup_.charge[i]);
+    balance_[i] =  // dp = k dg
+        4 / pi * a_[i] * mass_excess(cells_.psi[i]) +
+        a_[i] * a_[i] * (pressure_[i] - modulation::pressure(cells_.psi[i])) * width_[i] / (2 * pi * setup_.charge[i]);
   }
 }
 
@@ -126,32 +125,40 @@ Edge Staggered::edge_at(std::size_t f) const {
   return edge_at_wall(place_[f], wall, width);
 }
 
-double Staggered::creeping(double phi) const { return setup_.friction.steep_at_rest() ? std::hypot(phi, creep_) : phi; }
+const std::vector<double>& Staggered::face_phi() {
+  for (std::size_t f = 0; f < faces(); ++f) face_phi_[f] = std::asinh(sinh_phi_[f]);
+  return face_phi_;
+}
+
+double Staggered::creep() const { return setup_.friction.steep_at_rest() ? creep_ : 0; }
 
 /// What friction takes of the momentum at a face, a unit of time.
 double Staggered::loss_rate(std::size_t f, double phi) const {
   if (const auto C = setup_.friction.linear_coefficient())  // with the E K that are known already
     return setup_.friction.closure() == friction::Closure::consistent ? *C : *C * pi * pi / (4 * beside(cells_.EK, f));
-  return (*relaxation_rate_)({creeping(phi), beside(cells_.psi, f)}, contact_at(f), {});
+  return (*relaxation_rate_)({std::hypot(phi, creep()), beside(cells_.psi, f)}, contact_at(f), {});
 }
 
-/// The same at all faces, of which a law without a table for it takes the means together.
+/// The same at all faces.
 void Staggered::find_loss_rates() {
   const friction::Friction& friction = setup_.friction;
-  if (friction.linear_coefficient() || friction.law().tabulates_rate()) {
-    for (std::size_t f = 0; f < faces(); ++f) loss_rate_[f] = loss_rate(f, face_phi_[f]);
+  if (friction.linear_coefficient()) {
+    for (std::size_t f = 0; f < faces(); ++f) loss_rate_[f] = loss_rate(f, 0);
     return;
   }
-  for (std::size_t f = 0; f < faces(); ++f) {
-    const double psi = beside(cells_.psi, f), moving = std::fabs(creeping(face_phi_[f]));
-    const double slip = std::sinh(moving > 0 ? moving : 1e-8 * std::fmin(psi, 1.0)) * std::cosh(psi);
-    const double a = contact_at(f);
-    fastest_[f] = 2 * a * slip;
-    shape_[f] = std::tanh(psi);
-    loss_rate_[f] = psi > 0 ? 2 * pi / (8 * a * slip * elliptic::at_psi(psi).E) : 0;
+  for (std::size_t f = 0; f < faces(); ++f) psi_[f] = beside(cells_.psi, f);
+  find_trains(
+      {faces(), sinh_phi_.data(), psi_.data(), face_a_.data(), fastest_.data(), s_.data(), per_momentum_.data()},
+      creep());
+  if (friction.law().tabulates_rate()) {
+    relaxation_rate_->rates(faces(), fastest_.data(), psi_.data(), loss_rate_.data());
+    return;
   }
-  friction.law().mean_strengths({faces(), fastest_.data(), shape_.data()}, friction.closure(), mean_.data(), nullptr);
-  for (std::size_t f = 0; f < faces(); ++f) loss_rate_[f] *= mean_[f];
+  friction.law().mean_strengths({faces(), fastest_.data(), s_.data()}, friction.closure(), mean_.data(), nullptr);
+  for (std::size_t f = 0; f < faces(); ++f) {
+    if (std::isnan(per_momentum_[f])) per_momentum_[f] = pi / (2 * fastest_[f] * elliptic::at_psi(psi_[f]).E);
+    loss_rate_[f] = per_momentum_[f] * mean_[f];
+  }
 }
 
 Staggered::Terminal Staggered::terminal(const double* rates) const {
@@ -181,17 +188,17 @@ void Staggered::operator()(double t, const double* z, double* dz) {
   find_cells(t, z);
   const auto is_edge = [&](std::size_t f) { return charge_left(f) == 0 || charge_right(f) == 0; };
   for (std::size_t f = 0; f < faces(); ++f) {
-    const double mass = is_edge(f) && edge_at(f) == Edge::free ? 1 : beside(mass_, f);
-    face_phi_[f] = std::asinh(values.momentum(f) / (8 * charge_around(f) * contact_at(f) * mass));
+    if (setup_.contact) face_a_[f] = contact_at(f);
+    face_mass_[f] = 8 * face_a_[f] * (is_edge(f) && edge_at(f) == Edge::free ? 1 : beside(mass_, f));
   }
+  face_velocities(faces(), on_one_.data(), face_mass_.data(), sinh_phi_.data(), cosh_phi_.data(), U_.data());
   find_loss_rates();
   double before = 0, dissipation = 0, supply = 0, through_ends = 0;
   for (std::size_t f = 0; f < faces(); ++f) {
     const Edge end = edge_at(f);
-    const double phi = face_phi_[f], U = std::tanh(phi);
-    const double loss = loss_rate_[f] * values.momentum(f);
+    const double U = U_[f], loss = loss_rate_[f] * values.momentum(f);
     const double push = setup_.forcing ? 2 * pi * charge_around(f) * setup_.forcing(place_[f], t) : 0;
-    const double force = setup_.contact ? force_on(f) / std::cosh(phi) : force_on(f);
+    const double force = setup_.contact ? force_on(f) / cosh_phi_[f] : force_on(f);
     rates.width_left_of(f) = U - before;
     rates.momentum(f) = force + push - loss;
     if (end == Edge::wall)  // which holds what presses against it

@@ -52,13 +52,13 @@ class Staggered {
   Terminal terminal(const double* rates) const;
 
   /// Rapidities of the dislocations at the faces, from the last call.
-  const std::vector<double>& face_phi() const { return face_phi_; }
+  const std::vector<double>& face_phi();
 
   /// Momenta at the faces from those in the cells, and back.
   std::vector<double> face_momenta(const std::vector<double>& cell_momenta) const;
   std::vector<double> cell_momenta(const std::vector<double>& face_momenta) const;
   /// Dislocations around a face.
-  double charge_around(std::size_t face) const { return (charge_left(face) + charge_right(face)) / 2; }
+  double charge_around(std::size_t face) const { return charge_[face]; }
 
  private:
   double charge_left(std::size_t face) const { return face > 0 ? setup_.charge[face - 1] : 0; }
@@ -68,7 +68,8 @@ class Staggered {
   Edge edge_at(std::size_t face) const;
   double loss_rate(std::size_t face, double phi) const;
   void find_loss_rates();
-  double creeping(double phi) const;
+  /// Below this velocity friction that is steep at rest is viscous; 0 for others.
+  double creep() const;
   double contact_at(std::size_t face) const { return setup_.contact ? setup_.contact(place_[face]) : 1; }
   /// Mean over the cells beside a face that hold dislocations.
   double beside(const std::vector<double>& values, std::size_t face) const;
@@ -78,9 +79,13 @@ class Staggered {
   std::unique_ptr<friction::RelaxationRate> relaxation_rate_;
   std::vector<Block> blocks_;
   CellStates cells_;
-  std::vector<double> place_, width_, pressure_, balance_, a_, face_phi_;
-  std::vector<double> loss_rate_, fastest_, shape_, mean_;  ///< at the faces; of the trains there
-  std::vector<double> mass_;                                ///< cosh(psi) E, an eighth of M / sinh(phi)
+  std::vector<double> width_, pressure_, balance_, a_;  ///< of the cells, where gaps have no pressure
+  std::vector<double> mass_;                            ///< cosh(psi) E, an eighth of M / sinh(phi)
+  // At the faces.
+  std::vector<double> charge_, place_, face_a_;
+  std::vector<double> on_one_, face_mass_, sinh_phi_, cosh_phi_, U_,
+      face_phi_;                                                             ///< momentum of a dislocation, M / sinh
+  std::vector<double> psi_, fastest_, s_, per_momentum_, mean_, loss_rate_;  ///< of the trains there
 };
 
 }  // namespace slipfront::pulse

@@ -88,6 +88,8 @@ class RelaxationRate {
  public:
   virtual ~RelaxationRate() = default;
   virtual double operator()(const State& state, double contact, Memory memory) const = 0;
+  /// The same in many trains, of these largest slip velocities 2 a sinh |phi| cosh psi, without memory.
+  virtual void rates(std::size_t size, const double* fastest, const double* psi, double* rate) const;
 };
 
 /// A law with its numbers.
