@@ -87,7 +87,8 @@ MeanTable::Patch MeanTable::made(std::size_t row, std::size_t column) const {
   // Between the nodes, along both diagonals.
   constexpr std::size_t between = 2 * (terms - 1);
   const auto node = [](std::size_t i) {
-    const double x = std::cos(std::numbers::pi * (static_cast<double>(i / 2) + 0.5) / (terms - 1));
+    const std::size_t pair = i / 2;
+    const double x = std::cos(std::numbers::pi * (static_cast<double>(pair) + 0.5) / (terms - 1));
     return Node{x, i % 2 == 0 ? x : -x};
   };
   double mean[between];
