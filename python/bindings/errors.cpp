@@ -24,7 +24,7 @@ void bind_errors(py::module_& m) {
   // What these bindings give to Python can be converted, but where memory ends: pybind11 says RuntimeError there.
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
-      if (thrown) std::rethrow_exception(thrown);
+      if (thrown) std::rethrow_exception(std::move(thrown));
     } catch (const py::cast_error& error) {
       if (!std::string_view(error.what()).starts_with("Unable to convert call argument")) throw;
       PyErr_NoMemory();

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "folders.hpp"
 #include "slipfront/catalogue/read.hpp"
 #include "slipfront/error.hpp"
 
@@ -22,7 +23,7 @@ inline constexpr const char* all_files[] = {"fsp_srcmod_single", "fsp_srcmod_seg
                                             "fsp_usgs_segments", "fsp_dirty"};
 
 inline std::string text_of(const std::string& name) {
-  std::ifstream file(std::string(SLIPFRONT_TEST_DATA) + "/" + name + ".fsp", std::ios::binary);
+  std::ifstream file(std::string(data_folder) + "/" + name + ".fsp", std::ios::binary);
   EXPECT_TRUE(file) << name;
   return {std::istreambuf_iterator<char>(file), {}};
 }

@@ -9,7 +9,7 @@ import subprocess
 import time
 import unittest
 
-from support import CommandLine, PROGRAM, run, SOURCE
+from support import CommandLine, PROGRAM, SANITIZED, SOURCE, run
 
 EVENT = ["name", "c_m_s", "rupture_velocity", "stress", "frictionless_slip_velocity", "observed_slip_velocity",
          "contact_ratio", "stress_pa", "damping_number", "warnings"]
@@ -118,9 +118,10 @@ class Event(CommandLine):
         self.assertEqual([e["stress"] is None for e in json.loads(done.stdout)["events"]], [True, False])
 
     def test_from_stdin_with_a_million_rows(self):
-        stdin = "name,rupture_velocity_km_s,slip_velocity_m_s\n" + "E,2.8,0.5\n" * 1000000
+        rows = 100000 if SANITIZED else 1000000
+        stdin = "name,rupture_velocity_km_s,slip_velocity_m_s\n" + "E,2.8,0.5\n" * rows
         out = self.ok("event", "-", "--csv", "--quiet", stdin=stdin)
-        self.assertEqual(out.count("\n"), 1000001)
+        self.assertEqual(out.count("\n"), rows + 1)
 
     def test_reads_the_fsp_dialects(self):
         for name in ("fsp_srcmod_single.fsp", "fsp_dirty.fsp", "fsp_usgs_single.fsp", "fsp_usgs_segments.fsp"):
@@ -138,6 +139,7 @@ class Event(CommandLine):
                 for j in range(2) for i in range(9)]
         return self.file("fault.fsp", text + "\n" + "\n".join(rows) + "\n")
 
+    @unittest.skipIf(SANITIZED, "test_pulse_in_csv runs the same")
     def test_pulse_through_a_finite_fault_model(self):
         path = self.fault(lambda i: 1.0)
         event, = json.loads(self.ok("event", path, "--pulse", "--json"))["events"]

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "folders.hpp"
 #include "slipfront/catalogue/read.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/rupture/relations.hpp"
@@ -19,7 +20,7 @@ using namespace slipfront::inference;
 using std::numbers::pi;
 
 Observation from_case(const std::string& name) {
-  std::ifstream file(std::string(SLIPFRONT_CASES) + "/" + name);
+  std::ifstream file(std::string(cases_folder) + "/" + name);
   std::ostringstream text;
   text << file.rdbuf();
   return read_toml(text.str(), name);

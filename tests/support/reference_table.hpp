@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "folders.hpp"
+
 /// One row of a table in tests/reference: column name -> text.
 class ReferenceRow {
  public:
@@ -20,7 +22,7 @@ class ReferenceRow {
 };
 
 inline std::vector<ReferenceRow> reference_table(const std::string& name) {
-  std::ifstream file(std::string(SLIPFRONT_TEST_REFERENCE) + "/" + name);
+  std::ifstream file(std::string(reference_folder) + "/" + name);
   if (!file) throw std::runtime_error("no reference table " + name);
   const auto split = [](const std::string& line) {
     std::vector<std::string> cells;
