@@ -109,7 +109,7 @@ void kernel_faces(benchmark::State& state) {
   }
   measure(state, 281, 2, 8, [&] {
     pulse::weno_faces(cells, plus.data() + 3, minus.data() + 3, 1, phi.data(), psi.data());
-    pulse::face_fluxes(cells, phi.data(), psi.data(), U.data(), pressure.data());
+    pulse::face_fluxes(cells, phi.data(), psi.data(), 0, U.data(), pressure.data());
   });
 }
 BENCHMARK(kernel_faces);

@@ -19,6 +19,12 @@ inline Edge edge_at_wall(double x, double wall, double width) {
   return std::fabs(x - wall) <= 1e-13 * std::fabs(wall) + 1e-6 * width ? Edge::wall : Edge::free;
 }
 
+/// Neighbouring cells or faces, without `end`.
+struct Stretch {
+  std::size_t begin, end;
+  bool empty() const { return begin >= end; }
+};
+
 /// Cells in a row with dislocations in them; between two blocks lies a gap, a cell without any, whose faces are free
 /// edges.
 struct Block {

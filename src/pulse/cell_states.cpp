@@ -54,10 +54,12 @@ void CellStates::solve_one(std::size_t i) {
   solved_[i] = 1;
 }
 
-void CellStates::solve(const std::vector<Block>& blocks, double time) {
+void CellStates::solve(const std::vector<Block>& blocks, Stretch awake, double time) {
   for (const Block& r : blocks) {
-    solve_vector(r.begin, r.end);
-    for (std::size_t i = r.begin; i < r.end; ++i) {
+    const Stretch part{std::max(r.begin, awake.begin), std::min(r.end, awake.end)};
+    if (part.empty()) continue;
+    solve_vector(part.begin, part.end);
+    for (std::size_t i = part.begin; i < part.end; ++i) {
       if (solved_[i] != 0) continue;
       try {
         solve_one(i);

@@ -1,5 +1,6 @@
 #include "kernels.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 
@@ -24,25 +25,35 @@ struct Differences {
   }
 };
 
+/// Those of `part` that have two neighbours among `size` on either side.
+inline Stretch inside(std::size_t size, Stretch part) {
+  const std::size_t begin = std::min(std::max<std::size_t>(part.begin, 2), part.end);
+  return {begin, std::max(begin, std::min(part.end, size > 2 ? size - 2 : 0))};
+}
+
 }  // namespace
 
 // mean = value + d2 / 24 - 17 d4 / 5760, value = mean - d2 / 24 + 3 d4 / 640: sixth order.
-SLIPFRONT_CLONES void centre_values(std::size_t size, const double* averages, double* values) {
+SLIPFRONT_CLONES void centre_values(std::size_t size, Stretch part, const double* averages, double* values) {
+  const Stretch inner = inside(size, part);
   SLIPFRONT_INDEPENDENT
-  for (std::size_t i = 2; i < size - 2; ++i) {
+  for (std::size_t i = inner.begin; i < inner.end; ++i) {
     const Differences d(averages + i);
     values[i] = averages[i] - d.second * (1.0 / 24) + d.fourth * (3.0 / 640);
   }
-  for (const std::size_t i : {std::size_t{0}, std::size_t{1}, size - 2, size - 1}) values[i] = averages[i];
+  for (std::size_t i = part.begin; i < inner.begin; ++i) values[i] = averages[i];
+  for (std::size_t i = inner.end; i < part.end; ++i) values[i] = averages[i];
 }
 
-SLIPFRONT_CLONES void cell_means(std::size_t size, const double* values, double* averages) {
+SLIPFRONT_CLONES void cell_means(std::size_t size, Stretch part, const double* values, double* averages) {
+  const Stretch inner = inside(size, part);
   SLIPFRONT_INDEPENDENT
-  for (std::size_t i = 2; i < size - 2; ++i) {
+  for (std::size_t i = inner.begin; i < inner.end; ++i) {
     const Differences d(values + i);
     averages[i] = values[i] + d.second * (1.0 / 24) - d.fourth * (17.0 / 5760);
   }
-  for (const std::size_t i : {std::size_t{0}, std::size_t{1}, size - 2, size - 1}) averages[i] = values[i];
+  for (std::size_t i = part.begin; i < inner.begin; ++i) averages[i] = values[i];
+  for (std::size_t i = inner.end; i < part.end; ++i) averages[i] = values[i];
 }
 
 SLIPFRONT_CLONES void weno_faces(std::size_t faces, const double* plus, const double* minus, double scale, double* phi,
@@ -60,13 +71,14 @@ SLIPFRONT_CLONES void weno_faces(std::size_t faces, const double* plus, const do
   }
 }
 
-SLIPFRONT_CLONES void face_fluxes(std::size_t faces, const double* phi, const double* psi, double* U, double* p) {
+SLIPFRONT_CLONES void face_fluxes(std::size_t faces, const double* phi, const double* psi, double rounding, double* U,
+                                  double* p) {
   SLIPFRONT_INDEPENDENT
   for (std::size_t f = 0; f < faces; ++f) {
     // tanh phi = -down / (2 + down), 2 sinh^2 psi = cosh 2 psi - 1 = up^2 / (2 (1 + up)), by one division.
     const double down = expm1_branch_free(-2 * std::fabs(phi[f])), up = expm1_branch_free(2 * psi[f]);
     const double wide = 2 + down, tall = 1 + up, inverse = 1 / (wide * tall);
-    U[f] = std::copysign(down * tall * inverse, phi[f]);
+    U[f] = std::fabs(phi[f]) > rounding * psi[f] ? std::copysign(down * tall * inverse, phi[f]) : 0.0;
     p[f] = (up * inverse) * wide * (up / 2);
   }
 }
@@ -134,11 +146,12 @@ SLIPFRONT_CLONES double hardest_collision(std::size_t size, const double* plus, 
       larger);
 }
 
-SLIPFRONT_CLONES void differences(std::size_t size, const double* U, const double* p, double* dy) {
+SLIPFRONT_CLONES void differences(std::size_t size, const double* U, const double* p, double rounding, double* dy) {
   SLIPFRONT_INDEPENDENT
   for (std::size_t i = 0; i < size; ++i) {
+    const double push = p[i] - p[i + 1];
     dy[2 * i] = U[i + 1] - U[i];
-    dy[2 * i + 1] = p[i] - p[i + 1];
+    dy[2 * i + 1] = std::fabs(push) > rounding * 0.5 * (p[i] + p[i + 1]) ? push : 0.0;
   }
 }
 

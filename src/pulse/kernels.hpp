@@ -3,6 +3,8 @@
 #include <array>
 #include <cstddef>
 
+#include "block.hpp"
+
 /// The loops over cells and faces where a pulse run spends its time, as vector code chosen at run time (AVX-512, AVX2
 /// or plain).
 namespace slipfront::pulse {
@@ -29,16 +31,18 @@ void solve_slip(const StateArrays& a, double* fastest);
 
 /// Values at the cell centres from cell averages, and back, by second and fourth differences: sixth order. Left out
 /// where the fourth difference is not small beside the second (there f is not smooth on the grid, and average and
-/// centre value are the same to the order that is left), and in the two cells at each end.
-void centre_values(std::size_t size, const double* averages, double* values);
-void cell_means(std::size_t size, const double* values, double* averages);
+/// centre value are the same to the order that is left), and in the two cells at each end. Of `part` of the `size`
+/// cells.
+void centre_values(std::size_t size, Stretch part, const double* averages, double* values);
+void cell_means(std::size_t size, Stretch part, const double* values, double* averages);
 
 /// Face values of the Riemann invariants by WENO: `plus` from the left, `minus` from the right; p[f - 1] and p[f] are
 /// the cells beside face f, with three ghosts at each end. phi = (plus + minus) / 2, psi = max((plus - minus) / 2, 0).
 void weno_faces(std::size_t faces, const double* plus, const double* minus, double scale, double* phi, double* psi);
 
-/// U = tanh(phi), p = 2 sinh^2 psi. Returns nothing else: |phi| < 350, psi < 350 as everywhere in a run.
-void face_fluxes(std::size_t faces, const double* phi, const double* psi, double* U, double* p);
+/// U = tanh(phi), 0 where |phi| is at most `rounding` of psi; p = 2 sinh^2 psi. |phi| < 350, psi < 350 as everywhere in
+/// a run.
+void face_fluxes(std::size_t faces, const double* phi, const double* psi, double rounding, double* U, double* p);
 
 /// first, second = pairs[2 i], pairs[2 i + 1].
 void split(std::size_t size, const double* pairs, double* first, double* second);
@@ -55,8 +59,8 @@ double hardest_collision(std::size_t size, const double* plus, const double* min
 /// plus, minus = phi +- psi over the largest of them, which is returned: the squares of 1e-300 would underflow.
 double invariants(std::size_t size, const double* phi, const double* psi, double* plus, double* minus);
 
-/// dy of the conservation laws from the fluxes at the faces.
-void differences(std::size_t size, const double* U, const double* p, double* dy);
+/// dy of the conservation laws from the fluxes at the faces. Pressures that differ by `rounding` of them push nothing.
+void differences(std::size_t size, const double* U, const double* p, double rounding, double* dy);
 
 /// Largest slip velocities 2 sinh |phi| cosh psi of trains, in local units.
 void fastest_slip(std::size_t size, const double* phi, const double* psi, double* fastest);

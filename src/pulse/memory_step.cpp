@@ -49,7 +49,8 @@ CellFriction::CellFriction(const Problem& problem, std::size_t cells)
   slipping_memory_.resize(memory_.size());
 }
 
-void CellFriction::start(const Cells& cells, const CellStates& trains, const Places& places) {
+void CellFriction::start(const Cells& cells, const CellStates& trains, Stretch awake, const Places& places) {
+  awake_ = awake;
   charge_ = cells.charge;
   find_centres(cells, x_);
   start_ = trains.velocity;
@@ -88,24 +89,28 @@ Places::Passing CellFriction::passing(const Cells& cells) const {
 
 void CellFriction::take_memory(const Places& places, double dt) {
   const friction::Law& law = problem_.friction.law();
-  for (std::size_t i = 0; i < x_.size(); ++i) middle_[i] = x_[i] + start_[i] * dt / 2;
-  places.look_up(middle_, memory_.data());
+  const std::size_t first = awake_.begin, count = awake_.end - first;
+  for (std::size_t i = first; i < awake_.end; ++i) middle_[i] = x_[i] + start_[i] * dt / 2;
+  double* memory = memory_.data() + first * variables();
+  places.look_up(count, middle_.data() + first, memory);
   std::fill(held_.begin(), held_.end(), 0.0);
   if (problem_.friction.sticks())
-    law.strengths(x_.size(), held_.data(), {memory_.data(), variables()}, strength_at_rest_.data());
+    law.strengths(count, held_.data(), {memory, variables()}, strength_at_rest_.data() + first);
 }
 
 void CellFriction::operator()(const double* y, const double* free, double time, double* momentum, double* velocity) {
   const double weight = 2 * pi * time;
   const std::size_t each = variables();
-  for (std::size_t i = 0; i < x_.size(); ++i) held_[i] = weight * strength_at_rest_[i];
-  free_momenta({x_.size(), charge_.data(), contact_.data(), y, free, s_.data(), held_.data(), momentum_.data(),
-                free_.data(), guess_.data(), moves_.data(), spacing_.data()},
+  const std::size_t first = awake_.begin, count = awake_.end - first;
+  for (std::size_t i = first; i < awake_.end; ++i) held_[i] = weight * strength_at_rest_[i];
+  const auto part = [first](std::vector<double>& array) { return array.data() + first; };
+  free_momenta({count, part(charge_), part(contact_), ConstValues(y, x_.size()).from(first), free + first, part(s_),
+                part(held_), part(momentum_), part(free_), part(guess_), part(moves_), part(spacing_)},
                time);
   // From the momentum, the force and its slope as last found.
-  take_newton_steps({x_.size(), guess_.data(), free_.data(), force_.data(), slope_.data(), guess_.data()}, weight,
+  take_newton_steps({count, part(guess_), part(free_), part(force_), part(slope_), part(guess_)}, weight,
                     SlowedTrains::at_rest_below);
-  for (std::size_t i = 0; i < x_.size(); ++i) {
+  for (std::size_t i = first; i < awake_.end; ++i) {
     if (moves_[i] != 0) {
       solve_.add({i, spacing_[i], contact_[i], memory_.data() + i * each, free_[i], guess_[i], s_[i]});
     } else {
@@ -114,7 +119,10 @@ void CellFriction::operator()(const double* y, const double* free, double time, 
     }
   }
   solve_.solve(time, {momentum_.data(), velocity_.data(), typical_.data(), force_.data(), slope_.data(), s_.data()});
-  for (std::size_t i = 0; i < x_.size(); ++i) {
+  std::copy_n(free, first, momentum);  // a gap's, or nothing
+  std::copy(free + awake_.end, free + x_.size(), momentum + awake_.end);
+  std::fill_n(velocity, x_.size(), 0.0);
+  for (std::size_t i = first; i < awake_.end; ++i) {
     momentum[i] = charge_[i] == 0 ? free[i] : std::copysign(momentum_[i], free[i]) * charge_[i];
     velocity_[i] = std::copysign(velocity_[i], free[i]);
     velocity[i] = velocity_[i];
@@ -174,7 +182,7 @@ double Solver::step_with_memory(MemoryStep& work, const std::vector<double>& rat
   };
   work.before = cells_.unknowns;
   const Places now = places();
-  friction.start(cells_, equations_->trains(), now);
+  friction.start(cells_, equations_->trains(), equations_->awake(), now);
   const Places::Passing at_start = now.passing(friction.x(), friction.passing(cells_));
   std::vector<double> x(size());
   find_scale(crossing, work.scale);

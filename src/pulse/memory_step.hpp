@@ -15,8 +15,8 @@ namespace slipfront::pulse {
 class CellFriction {
  public:
   CellFriction(const Problem& problem, std::size_t cells);
-  /// Before a step from these cells, whose states `trains` has.
-  void start(const Cells& cells, const CellStates& trains, const Places& places);
+  /// Before a step from these cells, whose states `trains` has. Those beyond `awake` rest throughout it.
+  void start(const Cells& cells, const CellStates& trains, Stretch awake, const Places& places);
 
   const std::vector<double>& x() const { return x_; }  ///< centres
   /// What passes over the places that cells of these widths lie over, with the velocities as last found.
@@ -40,6 +40,7 @@ class CellFriction {
 
   const Problem& problem_;
   SlowedTrains solve_;
+  Stretch awake_{0, 0};
   std::vector<double> charge_, x_, contact_, memory_;
   // Of one dislocation: at the start of the step, and as last found.
   std::vector<double> start_, start_s_, start_typical_, start_momentum_, start_force_, start_slope_;

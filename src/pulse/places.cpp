@@ -35,10 +35,10 @@ void Places::advance(const friction::Law& law, const Passing& passing, double ti
                         values_.data());
 }
 
-void Places::look_up(const std::vector<double>& x, double* memory) const {
+void Places::look_up(std::size_t size, const double* x, double* memory) const {
   const std::size_t count = values_.size() / variables_;
   const double last = static_cast<double>(count - 1), per_spacing = 1 / spacing_;
-  for (std::size_t i = 0; i < x.size(); ++i) {
+  for (std::size_t i = 0; i < size; ++i) {
     const double at = (x[i] - left_) * per_spacing - 0.5, position = at > 0 ? std::fmin(at, last) : 0.0;
     const int j = std::min(static_cast<int>(position), static_cast<int>(count) - 2);
     const double share = position - j;

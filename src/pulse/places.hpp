@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "slipfront/friction/friction.hpp"
@@ -25,8 +26,8 @@ class Places {
   Passing passing(const std::vector<double>& x, const Passing& there) const;
   /// Changes the memory over a time in which the same passes all along.
   void advance(const friction::Law& law, const Passing& passing, double time);
-  /// The memory at each x, between two places; that of the last one outside.
-  void look_up(const std::vector<double>& x, double* memory) const;
+  /// The memory at each of `size` x, between two places; that of the last one outside.
+  void look_up(std::size_t size, const double* x, double* memory) const;
 
  private:
   double left_, spacing_;

@@ -13,8 +13,8 @@ void Semidiscrete::find_faces() {
   if (reconstruction_.collides) std::fill(reconstruction_.shocked.begin(), reconstruction_.shocked.end(), 0.0);
   reconstruction_.collides = false;
   for (const Block& r : blocks_) {
-    cell_means(r.end - r.begin, centres_.train.phi.data() + r.begin, means_.phi.data() + r.begin);
-    cell_means(r.end - r.begin, centres_.train.psi.data() + r.begin, means_.psi.data() + r.begin);
+    cell_means(r.end - r.begin, awake_in(r), centres_.train.phi.data() + r.begin, means_.phi.data() + r.begin);
+    cell_means(r.end - r.begin, awake_in(r), centres_.train.psi.data() + r.begin, means_.psi.data() + r.begin);
   }
   for (const Block& r : blocks_) find_faces(r);
 }
@@ -76,7 +76,10 @@ void Semidiscrete::find_faces(const Block& block) {
   fill_ghosts(block, plus, minus);
   double* face_phi = faces_.phi.data() + block.begin;
   double* face_psi = faces_.psi.data() + block.begin;
-  weno_faces(n + 1, plus, minus, scale, face_phi, face_psi);
+  const Stretch awake = awake_in(block);
+  if (awake.empty()) return;
+  weno_faces(awake.end - awake.begin + 1, plus + awake.begin, minus + awake.begin, scale, face_phi + awake.begin,
+             face_psi + awake.begin);
   flatten_shocks(block, plus, minus, scale);
   // At a free edge psi = 0; phi + psi (or phi - psi) is the invariant that reaches it. A train that moves away from a
   // wall leaves it.

@@ -17,6 +17,7 @@ Semidiscrete::Semidiscrete(Setup setup)
       relaxation_rate_(setup_.friction.relaxation_rate()),
       blocks_(blocks_of(setup_.charge, setup_.left, setup_.right)) {
   const std::size_t n = size();
+  wake();
   for (auto* array :
        {&centres_.charge, &centres_.per_charge, &means_.width, &means_.momentum, &means_.phi, &means_.psi,
         &sources_.friction_rate, &sources_.friction_strength, &sources_.force, &means_.source, &sources_.fastest,
@@ -35,7 +36,7 @@ Semidiscrete::Semidiscrete(Setup setup)
     faces_.contact.assign(n + 1, 1);
   }
   for (const Block& r : blocks_)
-    centre_values(r.end - r.begin, setup_.charge.data() + r.begin, centres_.charge.data() + r.begin);
+    centre_values(r.end - r.begin, awake_in(r), setup_.charge.data() + r.begin, centres_.charge.data() + r.begin);
   for (std::size_t i = 0; i < n; ++i) {
     if (gap(i)) {
       centres_.train.EK[i] = HUGE_VAL;  // no friction there
@@ -57,18 +58,22 @@ void Semidiscrete::find_states(double t, const double* y) {
   const std::size_t n = size();
   split(n, y, means_.width.data(), means_.momentum.data());
   for (const Block& r : blocks_) {
-    centre_values(r.end - r.begin, means_.width.data() + r.begin, centres_.train.spacing.data() + r.begin);
-    centre_values(r.end - r.begin, means_.momentum.data() + r.begin, centres_.train.momentum.data() + r.begin);
+    const Stretch awake = awake_in(r);
+    if (awake.empty()) continue;
+    double *spacing = centres_.train.spacing.data() + r.begin, *momentum = centres_.train.momentum.data() + r.begin;
+    centre_values(r.end - r.begin, awake, means_.width.data() + r.begin, spacing);
+    centre_values(r.end - r.begin, awake, means_.momentum.data() + r.begin, momentum);
+    const std::size_t first = r.begin + awake.begin;
+    per_dislocation(awake.end - awake.begin, &centres_.per_charge[first], &means_.width[first], spacing + awake.begin,
+                    momentum + awake.begin);
   }
-  per_dislocation(n, centres_.per_charge.data(), means_.width.data(), centres_.train.spacing.data(),
-                  centres_.train.momentum.data());
   if (setup_.contact) {
     for (std::size_t i = 0; i < n; ++i) {
       centres_.train.spacing[i] *= centres_.contact[i];
       centres_.train.momentum[i] /= centres_.contact[i];
     }
   }
-  centres_.train.solve(blocks_, t);
+  centres_.train.solve(blocks_, awake_, t);
   if (setup_.contact)
     for (std::size_t i = 0; i < n; ++i) centres_.train.momentum[i] *= centres_.contact[i];
 }
@@ -91,19 +96,38 @@ void Semidiscrete::find_places(double t, const double* y) {
 void Semidiscrete::operator()(double t, const double* y, double* dy) {
   const std::size_t n = size();
   const Values rates(dy, n);
+  // What only rounding moves stays at rest, unless something else might move it as little.
+  const double rounding = setup_.forcing || setup_.contact ? 0 : 64 * 2.2e-16;
   if (setup_.forcing || setup_.contact) find_places(t, y);
   find_states(t, y);
   find_rates();
   find_edges(y);
   find_faces();
-  face_fluxes(n + 1, faces_.phi.data(), faces_.psi.data(), faces_.velocity.data(), faces_.pressure.data());
+  const std::size_t awake = awake_.begin, count = awake_.end - awake;
+  face_fluxes(count + 1, &faces_.phi[awake], &faces_.psi[awake], rounding, &faces_.velocity[awake],
+              &faces_.pressure[awake]);
   for (std::size_t f = 0; f < faces_.contact.size(); ++f) faces_.pressure[f] *= faces_.contact[f] * faces_.contact[f];
   rates.left_edge() = faces_.velocity[0];
   rates.dissipated() = rates.supplied() = 0;
   rates.through_ends() = faces_.pressure[0] * faces_.velocity[0] - faces_.pressure[n] * faces_.velocity[n];
-  differences(n, faces_.velocity.data(), faces_.pressure.data(), dy);
+  std::fill_n(rates.from(0), 2 * n, 0.0);
+  differences(count, &faces_.velocity[awake], &faces_.pressure[awake], rounding, rates.from(awake));
   if (setup_.contact) add_contact_force(dy);
   add_sources(t, y, dy);
+}
+
+void Semidiscrete::let_rest(const double* y, const double* dy) {
+  const bool ring = !blocks_.empty() && blocks_.front().left == Edge::ring;
+  if (setup_.forcing || setup_.contact || ring) return;
+  constexpr std::size_t far = 16;  // cells, more than a wave crosses in a step
+  const ConstValues values(y, size()), rates(dy, size());
+  const auto rests = [&](std::size_t i) {
+    return values.momentum(i) == 0 && rates.momentum(i) == 0 && rates.width(i) == 0;
+  };
+  Stretch moving{0, size()};
+  while (!moving.empty() && rests(moving.begin)) ++moving.begin;
+  while (!moving.empty() && rests(moving.end - 1)) --moving.end;
+  awake_ = {moving.begin > far ? moving.begin - far : 0, std::min(moving.end + far, size())};
 }
 
 double Semidiscrete::crossing_time(const double* y, const double* dy) const {

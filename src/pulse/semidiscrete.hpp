@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -38,6 +39,11 @@ class Semidiscrete {
 
   /// From the unknowns y (NamedValues) to their rates dy. \throws NumericsError with time and place.
   void operator()(double t, const double* y, double* dy);
+  /// Leaves the cells alone, in the calls to come, that are at rest and far from all that move, until `wake`. From the
+  /// arguments of the last call.
+  void let_rest(const double* y, const double* dy);
+  void wake() { awake_ = {0, size()}; }
+  const Stretch& awake() const { return awake_; }
   /// Starts the next solves for s = tanh(psi) from these values: the bits of a result depend on where its solves start.
   void start_from(const std::vector<double>& s);
 
@@ -63,6 +69,11 @@ class Semidiscrete {
 
  private:
   static constexpr std::size_t ghosts = 3;  ///< cells that a face sees to either side
+  /// The cells of a block that are awake, counted from its first.
+  Stretch awake_in(const Block& block) const {
+    return {std::max(awake_.begin, block.begin) - block.begin,
+            std::max(std::min(awake_.end, block.end), block.begin) - block.begin};
+  }
   void find_states(double t, const double* y);
   void find_places(double t, const double* y);
 
@@ -119,6 +130,7 @@ class Semidiscrete {
   Setup setup_;
   std::unique_ptr<friction::RelaxationRate> relaxation_rate_;
   std::vector<Block> blocks_;
+  Stretch awake_{0, 0};
   Means means_;
   Centres centres_;
   Faces faces_;

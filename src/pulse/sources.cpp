@@ -103,7 +103,7 @@ void Semidiscrete::add_sources(double t, const double* y, double* dy) {
     }
   }
   for (const Block& r : blocks_)
-    cell_means(r.end - r.begin, sources_.force.data() + r.begin, means_.source.data() + r.begin);
+    cell_means(r.end - r.begin, {0, r.end - r.begin}, sources_.force.data() + r.begin, means_.source.data() + r.begin);
   for (std::size_t i = 0; i < n; ++i) {
     rates.momentum(i) += means_.source[i];
     if (dry) {  // no detour over point values, as of a constant force there is none

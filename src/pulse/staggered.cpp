@@ -91,7 +91,7 @@ void Staggered::find_cells(double t, const double* z) {
     cells_.spacing[i] = a * width_[i] / q;
     cells_.momentum[i] = (on_one_[i] + on_one_[i + 1]) / (2 * a);
   }
-  cells_.solve(blocks_, t);
+  cells_.solve(blocks_, {0, n}, t);
   masses_and_pressures({n, cells_.spacing.data(), cells_.phi.data(), cells_.psi.data(), cells_.EK.data(), a_.data(),
                         on_one_.data(), mass_.data(), pressure_.data()});
   if (!setup_.contact) return;

@@ -46,6 +46,13 @@ void stop_reversals(const ExplicitStep& step, double friction, const std::vector
   }
 }
 
+/// Cells that were left alone in a step keep their bits: its sums of a width with itself are rounded.
+void keep_others(Stretch awake, const std::vector<double>& before, std::vector<double>& after, std::size_t cells) {
+  const auto at = [](std::size_t cell) { return static_cast<std::ptrdiff_t>(Values::width_at(cell)); };
+  std::copy_n(before.begin(), at(awake.begin), after.begin());
+  std::copy(before.begin() + at(awake.end), before.begin() + at(cells), after.begin() + at(awake.end));
+}
+
 /// Whether a step has changed the rapidity of some cell by about a half or more, or has squeezed a cell to a tenth: a
 /// dense train that runs into a sparse one, or a contact as steep as a wall. The error does not tell, as it leaves out
 /// the cells near a shock.
@@ -99,6 +106,7 @@ double Solver::step_explicitly(Work& work, double remaining, double crossing) {
     try {
       find_scale(crossing, work.scale);
       work.explicit_step(work.f, cells_.time, dt, cells_.unknowns, work.rate);
+      keep_others(equations_->awake(), work.next, cells_.unknowns, size());
       if (dry) stop_reversals(work.explicit_step, friction, cells_.charge, work.next, cells_.unknowns, work.scale);
       const double error =
           std::fmax(work.explicit_step.error(dt, work.rate, work.scale, equations_->shocked()), unseen_push(dt)) /
@@ -288,6 +296,7 @@ bool Solver::advance_until_gap_closes(double time, const std::function<bool()>& 
   const bool remembers = problem_.friction.variables() > 0;
   if (remembers) work.memory_step = std::make_unique<MemoryStep>(problem_, n, cells_.unknowns.size());
   while (cells_.time < time && &equations == equations_.get()) {  // until the cells are others
+    equations.wake();
     equations.start_from(cells_.s);  // as a resumed run does, whoever has looked at the equations since the last step
     work.f(cells_.time, cells_.unknowns.data(), work.rate.data());
     if (std::isnan(cells_.crossing_time)) look_for_crossing();
@@ -299,9 +308,11 @@ bool Solver::advance_until_gap_closes(double time, const std::function<bool()>& 
         !problem_.periodic &&
         (steep_from_rest() || friction_times > (cells_.face_momentum.empty() ? stiff_above : stiff_below));
     if (!stiff) crossing = std::fmin(crossing, longest_in_friction_times / equations.largest_friction_rate());
+    equations.let_rest(cells_.unknowns.data(), work.rate.data());
     const double dt = remembers ? step_with_memory(*work.memory_step, work.rate, remaining, crossing)
                       : stiff   ? step_implicitly(work, remaining, crossing)
                                 : step_explicitly(work, remaining, crossing);
+    equations.wake();
     cells_.time = dt == time - cells_.time ? time : cells_.time + dt;
     ++cells_.steps;
     close_gaps();

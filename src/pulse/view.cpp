@@ -158,9 +158,9 @@ State Solver::state_in(std::size_t cell) const {
     return modulation::state_of({cells_.width(cell) / charge[cell], cells_.momentum(cell) / charge[cell]}, psi);
   double width[stencil], momentum[stencil], width_at[stencil], momentum_at[stencil], charge_at[stencil];
   split(stencil, cells_.values().from(cell - reach), width, momentum);
-  centre_values(stencil, width, width_at);
-  centre_values(stencil, momentum, momentum_at);
-  centre_values(stencil, &charge[cell - reach], charge_at);
+  centre_values(stencil, {0, stencil}, width, width_at);
+  centre_values(stencil, {0, stencil}, momentum, momentum_at);
+  centre_values(stencil, {0, stencil}, &charge[cell - reach], charge_at);
   return modulation::state_of({width_at[reach] / charge_at[reach], momentum_at[reach] / charge_at[reach]}, psi);
 }
 

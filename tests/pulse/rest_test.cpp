@@ -1,0 +1,68 @@
+// Cells that nothing has reached yet.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "../../src/pulse/semidiscrete.hpp"
+#include "slipfront/pulse/solver.hpp"
+
+namespace {
+
+using namespace slipfront;
+using namespace slipfront::pulse;
+
+Problem step(const friction::Friction& friction) {
+  return {.stress = [](double x) { return x < 0 ? 0.855 : 0.0; },
+          .forcing = {},
+          .friction = friction,
+          .left = -3,
+          .right = 1,
+          .cells = 200};
+}
+
+/// Rounding moves no cell ahead of the wave: widths keep their bits. Without the limit on pressure differences each
+/// cell had a momentum after a few steps.
+TEST(CellsAtRest, StayAsTheyAre) {
+  Solver solver(step(friction::coulomb(0.03)));
+  const Cells start = solver.cells();
+  solver.advance_to(1);
+  std::size_t resting = 0;
+  while (solver.cells().momentum(resting) == 0 && solver.cells().width(resting) == start.width(resting)) ++resting;
+  EXPECT_GT(resting, 80u);
+  EXPECT_LT(resting, 180u);
+  // And only those that the wave cannot have reached: it goes as fast as the characteristic, at most 1.
+  EXPECT_GT(solver.view().faces[resting], -1.0);
+}
+
+/// Cells that are left alone for a step have the rates that they have if looked at, to the bit.
+TEST(CellsAtRest, NeedNoLooking) {
+  Solver solver(step(friction::viscous(0.1)));
+  for (const double time : {0.0, 1e-3, 0.1, 2.0}) {
+    if (time > 0) solver.advance_to(time);
+    const Cells& cells = solver.cells();
+    Semidiscrete equations({.charge = cells.charge,
+                            .left = Edge::continued,
+                            .right = Edge::free,
+                            .friction = friction::viscous(0.1),
+                            .forcing = {},
+                            .contact = {}});
+    const std::size_t size = cells.unknowns.size();
+    std::vector<double> rates(size), stage(size), whole(size), part(size);
+    equations.start_from(cells.s);
+    equations(time, cells.unknowns.data(), rates.data());
+    const std::vector<double> s = equations.s();
+    const double dt = equations.crossing_time(cells.unknowns.data(), rates.data());
+    for (std::size_t i = 0; i < size; ++i) stage[i] = cells.unknowns[i] + dt * rates[i];
+    equations(time + dt, stage.data(), whole.data());
+    equations.start_from(s);
+    equations(time, cells.unknowns.data(), rates.data());
+    equations.let_rest(cells.unknowns.data(), rates.data());
+    equations.start_from(s);
+    equations(time + dt, stage.data(), part.data());
+    EXPECT_EQ(whole, part) << time;
+  }
+}
+
+}  // namespace
