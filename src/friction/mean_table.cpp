@@ -13,10 +13,10 @@ namespace slipfront::friction {
 namespace {
 
 constexpr std::size_t terms = ChebyshevPatch::terms;
-constexpr double side = 0.25;                            ///< of a patch, in either logarithm
-constexpr double first_row = -41.5, first_column = -14;  ///< where the patches begin
-constexpr std::size_t rows = 183, columns = 56;          ///< to ln(fastest) = 4.25 and s = 1
-constexpr double slowest = 1e-18, fastest_of_all = 64, least_s = 1e-6, largest_s = 0.9999999;  ///< within them
+constexpr double side = 0.25;                             ///< of a patch, in either logarithm
+constexpr double first_row = -138.5, first_column = -14;  ///< where the patches begin
+constexpr std::size_t rows = 571, columns = 56;           ///< to ln(fastest) = 4.25 and s = 1
+constexpr double slowest = 1e-60, fastest_of_all = 64, least_s = 1e-6, largest_s = 0.9999999;  ///< within them
 constexpr double precision = 2e-11;                                                            ///< of a mean
 
 /// Places in the table of at most `most` trains.
@@ -70,8 +70,6 @@ struct Node {
 
 }  // namespace
 
-MeanTable::MeanTable(const Law& law) : law_(law), patches_(rows * columns) {}
-
 MeanTable::Patch MeanTable::made(std::size_t row, std::size_t column) const {
   using Fit = ChebyshevPatch::Fit;
   static const Fit through;
@@ -119,6 +117,7 @@ const ChebyshevPatch* MeanTable::good_patch(std::size_t row, std::size_t column)
 
 void MeanTable::look_up(const Trains& trains, double* mean, double* slope) const {
   static constexpr ChebyshevPatch none{};
+  std::call_once(laid_, [this] { patches_ = std::vector<std::atomic<const Patch*>>(rows * columns); });
   Places at;
   std::vector<std::size_t> others;
   for (std::size_t begin = 0; begin < trains.size; begin += Places::most) {

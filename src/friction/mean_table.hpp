@@ -16,7 +16,7 @@ namespace slipfront::friction {
 class MeanTable {
  public:
   /// The law outlives it.
-  explicit MeanTable(const Law& law);
+  explicit MeanTable(const Law& law) : law_(law) {}
   /// Means, and unless null what they change by with ln(fastest). May be called by threads.
   void look_up(const Trains& trains, double* mean, double* slope) const;
 
@@ -30,6 +30,7 @@ class MeanTable {
   Patch made(std::size_t row, std::size_t column) const;
 
   const Law& law_;
+  mutable std::once_flag laid_;
   mutable std::vector<std::atomic<const Patch*>> patches_;  ///< null until it is made
   mutable std::deque<Patch> all_;
   mutable std::mutex making_;

@@ -5,6 +5,7 @@
 
 #include "../elementary.hpp"
 #include "../vector_code.hpp"
+#include "mean_table.hpp"
 #include "slipfront/elliptic/complete.hpp"
 #include "slipfront/friction/friction.hpp"
 #include "slipfront/train/train.hpp"
@@ -151,6 +152,12 @@ class Power final : public Law {
     if (closure == Closure::paper) return C_ * speed * mean_power(state, n_);
     return C_ * speed * mean_power(state, n_ + 1) / train::averages(state).k;
   }
+  void mean_strengths(const Trains& trains, Closure closure, double* mean, double* slope) const override {
+    if (closure == Closure::consistent)
+      means_.look_up(trains, mean, slope);
+    else
+      Law::mean_strengths(trains, closure, mean, slope);
+  }
   std::unique_ptr<RelaxationRate> relaxation_rate(Closure closure) const override {
     return std::make_unique<PowerRate>(C_, n_, closure);
   }
@@ -158,6 +165,7 @@ class Power final : public Law {
 
  private:
   double C_, n_;
+  MeanTable means_{*this};
 };
 
 }  // namespace

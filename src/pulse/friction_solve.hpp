@@ -61,6 +61,8 @@ class SlowedTrains {
     for (std::size_t v = 0; v < variables_; ++v) memory_[i * variables_ + v] = train.memory[v];
   }
   void solve(double time, const Results& results);
+  /// Forgets what was added: a solve that has thrown leaves the trains that it had not come to.
+  void clear() { count_ = 0; }
 
  private:
   void evaluate();

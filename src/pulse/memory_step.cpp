@@ -101,6 +101,7 @@ void CellFriction::take_memory(const Places& places, double dt) {
 void CellFriction::operator()(const double* y, const double* free, double time, double* momentum, double* velocity) {
   const double weight = 2 * pi * time;
   const std::size_t each = variables();
+  solve_.clear();
   const std::size_t first = awake_.begin, count = awake_.end - first;
   for (std::size_t i = first; i < awake_.end; ++i) held_[i] = weight * strength_at_rest_[i];
   const auto part = [first](std::vector<double>& array) { return array.data() + first; };
@@ -173,8 +174,13 @@ Places Solver::places() const {
   return all;
 }
 
-double Solver::step_with_memory(MemoryStep& work, const std::vector<double>& rate, double remaining, double crossing) {
+double Solver::step_by_parts(MemoryStep& work, const std::vector<double>& rate, double remaining, double crossing) {
   const friction::Law& law = problem_.friction.law();
+  const bool remembers = problem_.friction.variables() > 0;
+  if (!cells_.face_momentum.empty()) {
+    cells_.face_momentum.clear();
+    cells_.step = 0;
+  }
   const Rates f = [this](double t, const double* y, double* dy) { (*equations_)(t, y, dy); };
   CellFriction& friction = work.friction;
   const auto slow = [&friction](const double* y, const double* free, double time, double* momentum, double* velocity) {
@@ -183,7 +189,8 @@ double Solver::step_with_memory(MemoryStep& work, const std::vector<double>& rat
   work.before = cells_.unknowns;
   const Places now = places();
   friction.start(cells_, equations_->trains(), equations_->awake(), now);
-  const Places::Passing at_start = now.passing(friction.x(), friction.passing(cells_));
+  Places::Passing at_start;
+  if (remembers) at_start = now.passing(friction.x(), friction.passing(cells_));
   std::vector<double> x(size());
   find_scale(crossing, work.scale);
   const double longest = SplitStep::longest_in_crossing_times * crossing;
@@ -192,23 +199,27 @@ double Solver::step_with_memory(MemoryStep& work, const std::vector<double>& rat
     double factor = 0.5;
     try {
       Places half = now, better = now, after = now;
-      half.advance(law, at_start, dt / 2);
+      if (remembers) half.advance(law, at_start, dt / 2);
       friction.take_memory(half, dt);
       work.split(f, slow, cells_.time, dt, cells_.unknowns, rate);
-      find_centres(cells_, x);
-      const Places::Passing at_end = now.passing(x, friction.passing(cells_));
-      friction.foretell(work.foretold);
-      better.advance(law, between(at_start, at_end, 0.25), dt / 2);
-      after.advance(law, between(at_start, at_end, 0.5), dt);
-      friction.take_memory(better, dt);
-      const double of_memory = friction.memory_error(work.foretold, dt, work.scale);
+      double of_memory = 0;
+      if (remembers) {
+        find_centres(cells_, x);
+        const Places::Passing at_end = now.passing(x, friction.passing(cells_));
+        friction.foretell(work.foretold);
+        better.advance(law, between(at_start, at_end, 0.25), dt / 2);
+        after.advance(law, between(at_start, at_end, 0.5), dt);
+        friction.take_memory(better, dt);
+        of_memory = friction.memory_error(work.foretold, dt, work.scale);
+      }
       const double error =
           std::max({work.split.error(cells_.unknowns, work.scale, equations_->shocked()), of_memory, unseen_push(dt)}) /
           problem_.explicit_tolerance;
-      factor = std::clamp(0.9 * std::pow(error, -1.0 / 3), 0.2, 4.0);
-      if (error <= 1) {
+      const bool jumped = cells_jump(work.before, cells_.unknowns, cells_.charge);
+      factor = std::clamp(0.9 * std::pow(error, -1.0 / 3), 0.2, jumped ? 0.5 : 4.0);
+      if (error <= 1 && !jumped) {
         cells_.step = dt * factor;
-        cells_.memory = after.values();
+        if (remembers) cells_.memory = after.values();
         break;
       }
     } catch (const NumericsError&) {

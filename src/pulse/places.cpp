@@ -36,6 +36,7 @@ void Places::advance(const friction::Law& law, const Passing& passing, double ti
 }
 
 void Places::look_up(std::size_t size, const double* x, double* memory) const {
+  if (variables_ == 0) return;
   const std::size_t count = values_.size() / variables_;
   const double last = static_cast<double>(count - 1), per_spacing = 1 / spacing_;
   for (std::size_t i = 0; i < size; ++i) {

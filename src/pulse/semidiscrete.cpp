@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -11,6 +12,8 @@
 #include "slipfront/modulation/per_dislocation.hpp"
 
 namespace slipfront::pulse {
+
+using std::numbers::pi;
 
 Semidiscrete::Semidiscrete(Setup setup)
     : setup_(std::move(setup)),
@@ -100,7 +103,10 @@ void Semidiscrete::operator()(double t, const double* y, double* dy) {
   const double rounding = setup_.forcing || setup_.contact ? 0 : 64 * 2.2e-16;
   if (setup_.forcing || setup_.contact) find_places(t, y);
   find_states(t, y);
-  find_rates();
+  if (setup_.friction_apart)
+    sources_.largest_friction_rate = 0;
+  else
+    find_rates();
   find_edges(y);
   find_faces();
   const std::size_t awake = awake_.begin, count = awake_.end - awake;
@@ -144,6 +150,21 @@ double Semidiscrete::crossing_time(const double* y, const double* dy) const {
         least =
             std::fmin(least, std::sqrt(4 * setup_.charge[i] * values.width(i) / std::fabs(sources_.contact_force[i])));
   return least;
+}
+
+double Semidiscrete::friction_rate_of_fastest() const {
+  if (!setup_.friction.acts()) return 0;
+  const std::vector<double>& momentum = centres_.train.momentum;
+  std::size_t fastest = 0;
+  for (std::size_t i = 0; i < size(); ++i)
+    if (!gap(i) && std::fabs(momentum[i]) > std::fabs(momentum[fastest])) fastest = i;
+  if (momentum[fastest] == 0) return 0;
+  const double a = setup_.contact ? centres_.contact[fastest] : 1, psi = centres_.train.psi[fastest];
+  const double slip = 2 * a * std::sinh(std::fabs(centres_.train.phi[fastest])) * std::cosh(psi);
+  double force = 0;
+  setup_.friction.law().mean_strengths({1, &slip, &centres_.train.s[fastest]}, setup_.friction.closure(), &force,
+                                       nullptr);
+  return 2 * pi * force / std::fabs(momentum[fastest]);
 }
 
 double Semidiscrete::mean_crossing_time(const double* y) const {

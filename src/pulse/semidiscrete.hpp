@@ -31,6 +31,7 @@ class Semidiscrete {
     friction::Friction friction;
     std::function<double(double, double)> forcing;  ///< null: none
     std::function<double(double)> contact;          ///< a(x); null: 1
+    bool friction_apart = false;                    ///< the rates dy are those without friction
   };
   explicit Semidiscrete(Setup setup);
 
@@ -57,6 +58,10 @@ class Semidiscrete {
   /// 1 in the cells near a shock, 0 elsewhere: there the error of a step is that of the cells' size.
   const std::vector<double>& shocked() const { return reconstruction_.shocked; }
   double largest_friction_rate() const { return sources_.largest_friction_rate; }
+  /// That of the cell with the most momentum a dislocation; 0 where all rest.
+  double friction_rate_of_fastest() const;
+  /// From the last call, where friction is apart: finds the largest rate, which the call itself does else.
+  void find_friction_rates() { find_rates(); }
   /// From the last call: the cell in the middle of the hardest collision between streams of dislocations that run into
   /// each other faster than the pressure between them could stop over two cells; none: size(). Arguments as of the
   /// call.

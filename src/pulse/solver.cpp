@@ -124,7 +124,8 @@ Setup Solver::setup() const {
   s.right = edge(problem_.right_end, right_free_);
   s.left_wall = problem_.left;
   s.right_wall = problem_.right;
-  if (problem_.friction.variables() == 0) s.friction = problem_.friction;  // else SplitStep has it
+  if (problem_.friction.variables() == 0) s.friction = problem_.friction;  // else CellFriction has it
+  if constexpr (requires { s.friction_apart; }) s.friction_apart = steps_by_parts();
   s.forcing = problem_.forcing;
   s.contact = problem_.contact;
   if (problem_.periodic) {

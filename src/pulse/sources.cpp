@@ -78,10 +78,10 @@ void Semidiscrete::add_sources(double t, const double* y, double* dy) {
   const ConstValues values(y, n);
   const Values rates(dy, n);
   const friction::Friction& friction = setup_.friction;
-  const bool frictional = friction.acts();
-  const bool dry = friction.sticks();
+  const bool frictional = friction.acts() && !setup_.friction_apart;
+  const bool dry = frictional && friction.sticks();
   const std::optional<double> C = friction.linear_coefficient();
-  const bool linear = C && friction.closure() == friction::Closure::consistent;
+  const bool linear = frictional && C && friction.closure() == friction::Closure::consistent;
   if (!frictional && !setup_.forcing) return;
   double dissipation = 0, supply = 0;
   if (linear && !setup_.forcing) {  // the plain case, without the detour over point values

@@ -179,7 +179,7 @@ Staggered::Terminal Staggered::terminal(const double* rates) const {
     (loss_rate(face, phi) * momentum(phi) < force ? low : high) = middle;
   }
   const double phi = std::exp(low);
-  return force > 0 ? Terminal{momentum(phi), std::tanh(phi)} : Terminal{0, 0};
+  return force > 0 ? Terminal{momentum(phi), std::tanh(phi), loss_rate(face, phi)} : Terminal{0, 0, 0};
 }
 
 void Staggered::operator()(double t, const double* z, double* dz) {

@@ -48,6 +48,7 @@ class Staggered {
   /// What a dislocation moves at where friction takes all of the largest force on one, of those in `rates` from rest.
   struct Terminal {
     double momentum, velocity;
+    double rate;  ///< at which friction takes such a momentum
   };
   Terminal terminal(const double* rates) const;
 

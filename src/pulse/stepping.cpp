@@ -53,19 +53,6 @@ void keep_others(Stretch awake, const std::vector<double>& before, std::vector<d
   std::copy(before.begin() + at(awake.end), before.begin() + at(cells), after.begin() + at(awake.end));
 }
 
-/// Whether a step has changed the rapidity of some cell by about a half or more, or has squeezed a cell to a tenth: a
-/// dense train that runs into a sparse one, or a contact as steep as a wall. The error does not tell, as it leaves out
-/// the cells near a shock.
-bool cells_jump(const std::vector<double>& before, const std::vector<double>& after,
-                const std::vector<double>& charge) {
-  for (std::size_t i = 0; i < charge.size(); ++i) {
-    const double was = before[Values::momentum_at(i)], is = after[Values::momentum_at(i)];
-    if (std::fabs(is - was) > 4 * charge[i] + std::fabs(was) / 2) return true;
-    if (charge[i] > 0 && !(after[Values::width_at(i)] > before[Values::width_at(i)] / 10)) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 bool Solver::advance_to(double time, const std::function<bool()>& interrupted) {
@@ -188,6 +175,27 @@ bool Solver::steep() const {
   return f.acts() && f.steep_at_rest() && !f.sticks();
 }
 
+/// Whether steps take friction cell by cell: where it remembers, or is steep at rest.
+bool Solver::steps_by_parts() const {
+  const friction::Friction& f = problem_.friction;
+  return f.variables() > 0 || (steep() && !problem_.periodic && f.closure() == friction::Closure::consistent);
+}
+
+/// Of the dislocations that count, at which friction takes their momentum: those that are fastest, or all but at rest
+/// those on which most force acts, at the velocity that friction allows them.
+double Solver::friction_rate_by_parts() const {
+  if (problem_.friction.variables() > 0) return 0;  // steps by parts are all there are
+  const double rate = equations_->friction_rate_of_fastest();
+  if (rate > 0) return rate;
+  Staggered& staggered = this->staggered();
+  const std::vector<double> z = faces_of_cells(staggered);
+  std::vector<double> rates(z.size());
+  staggered.viscous_below(0);
+  staggered.start_from(cells_.s);
+  staggered(cells_.time, z.data(), rates.data());
+  return staggered.terminal(rates.data()).rate;
+}
+
 /// And all is at rest, from the last rates.
 bool Solver::steep_from_rest() const { return steep() && equations_->largest_friction_rate() == 0; }
 
@@ -293,8 +301,8 @@ bool Solver::advance_until_gap_closes(double time, const std::function<bool()>& 
   Semidiscrete& equations = *equations_;
   const std::size_t n = size();
   Work work(equations, n, cells_.unknowns.size());
-  const bool remembers = problem_.friction.variables() > 0;
-  if (remembers) work.memory_step = std::make_unique<MemoryStep>(problem_, n, cells_.unknowns.size());
+  const bool by_parts = steps_by_parts();
+  if (by_parts) work.memory_step = std::make_unique<MemoryStep>(problem_, n, cells_.unknowns.size());
   while (cells_.time < time && &equations == equations_.get()) {  // until the cells are others
     equations.wake();
     equations.start_from(cells_.s);  // as a resumed run does, whoever has looked at the equations since the last step
@@ -302,16 +310,18 @@ bool Solver::advance_until_gap_closes(double time, const std::function<bool()>& 
     if (std::isnan(cells_.crossing_time)) look_for_crossing();
     const double remaining = std::fmin(std::fmin(time - cells_.time, problem_.longest_step), gaps_close_in(work.rate));
     double crossing = problem_.cfl * equations.crossing_time(cells_.unknowns.data(), work.rate.data());
-    const double friction_times =
-        equations.largest_friction_rate() * equations.mean_crossing_time(cells_.unknowns.data());
+    const double rate = by_parts ? friction_rate_by_parts() : equations.largest_friction_rate();
+    const double friction_times = rate * equations.mean_crossing_time(cells_.unknowns.data());
     const bool stiff =
-        !problem_.periodic &&
-        (steep_from_rest() || friction_times > (cells_.face_momentum.empty() ? stiff_above : stiff_below));
-    if (!stiff) crossing = std::fmin(crossing, longest_in_friction_times / equations.largest_friction_rate());
+        !problem_.periodic && ((!by_parts && steep_from_rest()) ||
+                               friction_times > (cells_.face_momentum.empty() ? stiff_above : stiff_below));
+    if (!stiff && !by_parts)
+      crossing = std::fmin(crossing, longest_in_friction_times / equations.largest_friction_rate());
+    if (stiff && by_parts) equations.find_friction_rates();
     equations.let_rest(cells_.unknowns.data(), work.rate.data());
-    const double dt = remembers ? step_with_memory(*work.memory_step, work.rate, remaining, crossing)
-                      : stiff   ? step_implicitly(work, remaining, crossing)
-                                : step_explicitly(work, remaining, crossing);
+    const double dt = stiff      ? step_implicitly(work, remaining, crossing)
+                      : by_parts ? step_by_parts(*work.memory_step, work.rate, remaining, crossing)
+                                 : step_explicitly(work, remaining, crossing);
     equations.wake();
     cells_.time = dt == time - cells_.time ? time : cells_.time + dt;
     ++cells_.steps;

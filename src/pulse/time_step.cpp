@@ -5,12 +5,23 @@
 
 #include "../digits.hpp"
 #include "kernels.hpp"
+#include "slipfront/pulse/named_values.hpp"
 
 namespace slipfront::pulse {
 
 NumericsError too_strong_forces(double time) {
   return NumericsError("t = " + digits(time) +
                        ": the time step failed: the forces on a cell exceed what any step can resolve");
+}
+
+bool cells_jump(const std::vector<double>& before, const std::vector<double>& after,
+                const std::vector<double>& charge) {
+  for (std::size_t i = 0; i < charge.size(); ++i) {
+    const double was = before[Values::momentum_at(i)], is = after[Values::momentum_at(i)];
+    if (std::fabs(is - was) > 4 * charge[i] + std::fabs(was) / 2) return true;
+    if (charge[i] > 0 && !(after[Values::width_at(i)] > before[Values::width_at(i)] / 10)) return true;
+  }
+  return false;
 }
 
 ExplicitStep::ExplicitStep(std::size_t size) {

@@ -22,6 +22,11 @@ inline double next_step(double remaining, double dt) {
 /// A step that fails however short it is.
 NumericsError too_strong_forces(double time);
 
+/// Whether a step has changed the rapidity of some cell by about a half or more, or has squeezed a cell to a tenth: a
+/// dense train that runs into a sparse one, or a contact as steep as a wall. The error does not tell, as it leaves out
+/// the cells near a shock.
+bool cells_jump(const std::vector<double>& before, const std::vector<double>& after, const std::vector<double>& charge);
+
 /// One step of SSPRK(5,4): explicit, fourth order, strong stability preserving up to 1.5 Euler steps (Spiteri & Ruuth
 /// 2002), with a third-order solution beside it for the error.
 class ExplicitStep {

@@ -93,6 +93,22 @@ TEST(PulseMemory, StopsChangeNoBits) {
   EXPECT_NE(alone.saved().find("memory: theta"), std::string::npos);
 }
 
+/// A step that squeezes cells of the sparse train is tried again, shorter: it was taken, and the next one crashed.
+TEST(PulseMemory, DenseTrainsRunIntoSparseOnes) {
+  for (const auto& friction :
+       {law("rate-and-state", {0.0125, 0.003, 0, 1, 0.05, 0, 0}), friction::power(0.0125, 0.7)}) {
+    pulse::Problem p = step(friction, 200);
+    p.stress = [](double x) { return x < 0 ? 0.517 : 0.00833; };
+    p.left = -3.27;
+    p.right = 3.26;
+    pulse::Solver solver(p);
+    EXPECT_TRUE(solver.advance_to(0.483));
+    const double slip = solver.slip_at(solver.view(), 0);
+    EXPECT_GT(slip, 0);
+    EXPECT_LT(slip, 4e-3);  // without friction 1.3e-3, of which 200 cells have 0.7e-3
+  }
+}
+
 TEST(PulseMemory, RefusesWhatItHasNoAverageFor) {
   EXPECT_THROW(pulse::Solver(step(rate_and_state().with(friction::Closure::paper), 40)), InputError);
 }

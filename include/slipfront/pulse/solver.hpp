@@ -128,7 +128,7 @@ class Solver {
   double step_explicitly(Work& work, double remaining, double crossing);
   double step_implicitly(Work& work, double remaining, double crossing);
   /// For friction that remembers (memory_step.cpp); `rate` are the rates at the present time.
-  double step_with_memory(MemoryStep& work, const std::vector<double>& rate, double remaining, double crossing);
+  double step_by_parts(MemoryStep& work, const std::vector<double>& rate, double remaining, double crossing);
   Places places() const;
   std::vector<double> faces_of_cells(const Staggered& staggered) const;
   void cells_of_faces(const Staggered& staggered, const std::vector<double>& unknowns);
@@ -139,6 +139,8 @@ class Solver {
   void find_scale(double crossing, std::vector<double>& scale) const;
   bool steep() const;
   bool steep_from_rest() const;
+  bool steps_by_parts() const;
+  double friction_rate_by_parts() const;
   double gaps_close_in(const std::vector<double>& rates) const;
   void close_gaps();
   void adjust_ends();
