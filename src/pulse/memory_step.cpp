@@ -1,5 +1,5 @@
-// Steps with friction that remembers: the memory of the places and the motion of the cells, each with the other's
-// values in the middle of the step.
+// Steps that take friction cell by cell, where it remembers or is steep at rest: the memory of the places and the
+// motion of the cells, each with the other's values in the middle of the step.
 
 #include "memory_step.hpp"
 

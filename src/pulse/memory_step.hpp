@@ -52,7 +52,7 @@ class CellFriction {
   std::vector<double> slipping_fastest_, slipping_s_, slipping_memory_, slipping_force_, slipping_slope_;
 };
 
-/// What a step with memory works with, as long as the cells stay the same.
+/// What a step that takes friction cell by cell works with, as long as the cells stay the same.
 struct MemoryStep {
   MemoryStep(const Problem& problem, std::size_t cells, std::size_t unknowns)
       : split(cells, unknowns), friction(problem, cells), scale(2 * cells), foretold(cells) {}

@@ -127,7 +127,7 @@ class Solver {
   /// wave crosses a cell.
   double step_explicitly(Work& work, double remaining, double crossing);
   double step_implicitly(Work& work, double remaining, double crossing);
-  /// For friction that remembers (memory_step.cpp); `rate` are the rates at the present time.
+  /// For friction that remembers or is steep at rest (memory_step.cpp); `rate` are the rates at the present time.
   double step_by_parts(MemoryStep& work, const std::vector<double>& rate, double remaining, double crossing);
   Places places() const;
   std::vector<double> faces_of_cells(const Staggered& staggered) const;
