@@ -1,5 +1,6 @@
 #include <exception>
 #include <string_view>
+#include <utility>
 
 #include "bindings.hpp"
 #include "slipfront/error.hpp"

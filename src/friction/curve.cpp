@@ -27,10 +27,7 @@ class DrawnCurve final : public Law {
     table_->values(size, speed, force);
   }
   void mean_strengths(const Trains& trains, Closure closure, double* mean, double* slope) const override {
-    if (closure == Closure::consistent)
-      means_.look_up(trains, mean, slope);
-    else
-      Law::mean_strengths(trains, closure, mean, slope);
+    means_.look_up(trains, closure, mean, slope);
   }
   bool steep_at_rest() const override { return steep_; }
 

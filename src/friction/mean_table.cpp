@@ -115,7 +115,8 @@ const ChebyshevPatch* MeanTable::good_patch(std::size_t row, std::size_t column)
   return if_good(place.load(std::memory_order_relaxed));
 }
 
-void MeanTable::look_up(const Trains& trains, double* mean, double* slope) const {
+void MeanTable::look_up(const Trains& trains, Closure closure, double* mean, double* slope) const {
+  if (closure != Closure::consistent) return law_.Law::mean_strengths(trains, closure, mean, slope);
   static constexpr ChebyshevPatch none{};
   std::call_once(laid_, [this] { patches_ = std::vector<std::atomic<const Patch*>>(rows * columns); });
   Places at;

@@ -12,13 +12,14 @@ namespace slipfront::friction {
 
 /// The mean over slip of a law without memory, as polynomials in the logarithms of the fastest slip velocity and of
 /// s = tanh psi. A patch is made when a train first lies in it, from 64 means, and is kept only if it is as good as
-/// those between its nodes too: where the law has a kink, and beyond the patches, each mean is found by itself.
+/// those between its nodes too: where the law has a kink, beyond the patches, and with closure "paper" each mean is
+/// found by itself.
 class MeanTable {
  public:
   /// The law outlives it.
   explicit MeanTable(const Law& law) : law_(law) {}
   /// Means, and unless null what they change by with ln(fastest). May be called by threads.
-  void look_up(const Trains& trains, double* mean, double* slope) const;
+  void look_up(const Trains& trains, Closure closure, double* mean, double* slope) const;
 
  private:
   struct Patch {

@@ -153,10 +153,7 @@ class Power final : public Law {
     return C_ * speed * mean_power(state, n_ + 1) / train::averages(state).k;
   }
   void mean_strengths(const Trains& trains, Closure closure, double* mean, double* slope) const override {
-    if (closure == Closure::consistent)
-      means_.look_up(trains, mean, slope);
-    else
-      Law::mean_strengths(trains, closure, mean, slope);
+    means_.look_up(trains, closure, mean, slope);
   }
   std::unique_ptr<RelaxationRate> relaxation_rate(Closure closure) const override {
     return std::make_unique<PowerRate>(C_, n_, closure);

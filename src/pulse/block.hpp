@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -31,6 +32,11 @@ struct Block {
   std::size_t begin, end;  ///< cells
   Edge left, right;
 };
+/// What a block and a stretch have in common.
+inline Stretch common(const Block& block, Stretch stretch) {
+  const std::size_t begin = std::max(block.begin, stretch.begin);
+  return {begin, std::max(begin, std::min(block.end, stretch.end))};
+}
 std::vector<Block> blocks_of(const std::vector<double>& charge, Edge left, Edge right);
 
 /// x at the middle of each cell in s, from the faces: sixth order inside a block, fourth and second in its last

@@ -56,7 +56,7 @@ void CellStates::solve_one(std::size_t i) {
 
 void CellStates::solve(const std::vector<Block>& blocks, Stretch awake, double time) {
   for (const Block& r : blocks) {
-    const Stretch part{std::max(r.begin, awake.begin), std::min(r.end, awake.end)};
+    const Stretch part = common(r, awake);
     if (part.empty()) continue;
     solve_vector(part.begin, part.end);
     for (std::size_t i = part.begin; i < part.end; ++i) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 
 #include "../vector_code.hpp"
 #include "branch_free.hpp"

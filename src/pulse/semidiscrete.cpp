@@ -159,9 +159,9 @@ double Semidiscrete::friction_rate_of_fastest() const {
   for (std::size_t i = 0; i < size(); ++i)
     if (!gap(i) && std::fabs(momentum[i]) > std::fabs(momentum[fastest])) fastest = i;
   if (momentum[fastest] == 0) return 0;
-  const double a = setup_.contact ? centres_.contact[fastest] : 1, psi = centres_.train.psi[fastest];
-  const double slip = 2 * a * std::sinh(std::fabs(centres_.train.phi[fastest])) * std::cosh(psi);
-  double force = 0;
+  double slip = 0, force = 0;
+  fastest_slip(1, &centres_.train.phi[fastest], &centres_.train.psi[fastest], &slip);
+  if (setup_.contact) slip *= centres_.contact[fastest];
   setup_.friction.law().mean_strengths({1, &slip, &centres_.train.s[fastest]}, setup_.friction.closure(), &force,
                                        nullptr);
   return 2 * pi * force / std::fabs(momentum[fastest]);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -76,8 +75,8 @@ class Semidiscrete {
   static constexpr std::size_t ghosts = 3;  ///< cells that a face sees to either side
   /// The cells of a block that are awake, counted from its first.
   Stretch awake_in(const Block& block) const {
-    return {std::max(awake_.begin, block.begin) - block.begin,
-            std::max(std::min(awake_.end, block.end), block.begin) - block.begin};
+    const Stretch part = common(block, awake_);
+    return {part.begin - block.begin, part.end - block.begin};
   }
   void find_states(double t, const double* y);
   void find_places(double t, const double* y);
