@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -62,37 +63,48 @@ ImplicitSteps::ImplicitSteps(const Problem& p, const Motion& start, int threads)
       all_contact_(p.substrate ? 1 : 0),
       contacts_(p.friction.contacts()),
       first_u_(start.u),
-      u_(start.u),
-      v_(start.velocity.empty() ? std::vector<double>(n_, 0.0) : start.velocity),
-      memory_(variables_ * n_),
-      slope_(n_, 0.0),
-      acceleration_(n_, 0.0),
-      earlier_(n_, 0.0),
-      next_step_(1e-3 * std::fmin(1, p.grid.spacing)),
       matrix_(n_),
-      places_(number_of_places(p, start.u)),
-      log_(p.loading.event_velocity) {
-  for (auto* column : {&trial_.w, &trial_.last_w, &trial_.force, &trial_.slope, &trial_.theta, &trial_.shift,
-                       &trial_.friction, &trial_.friction_slope, &trial_.forcing, &trial_.right})
+      places_(number_of_places(p, start.u)) {
+  for (auto* column : {&trial_.w, &trial_.force, &trial_.slope, &trial_.theta, &trial_.shift, &trial_.friction,
+                       &trial_.friction_slope, &trial_.forcing, &trial_.right, &trial_.middle})
     column->resize(n_);
-  if ((p.contact || contacts_.act()) && p.substrate)
-    for (std::size_t j = 0; j < n_; ++j) {
-      const double a = p.contact ? p.contact(p.grid.x(j)) : 1;
-      a2_.push_back(a * a);
-    }
-  if (contacts_.act()) {
-    const double a = p.friction.contact_at_start();
-    for (const double a2 : a2_) base_.push_back(a2 / (a * a));
-    excess_.assign(n_, 0);
-  }
-  for (std::size_t j = 0; j < memory_.size(); j += variables_)
-    p.friction.law().start(std::span(memory_).subspan(j, variables_));
+  const bool has_velocity = !start.velocity.empty();
+  now_.u = start.u;
+  now_.v = has_velocity ? start.velocity : std::vector<double>(n_, 0.0);
+  for (auto* column : {&now_.w, &now_.slope, &now_.acceleration, &now_.earlier}) column->assign(n_, 0.0);
+  now_.memory.resize(variables_ * n_);
+  now_.next_step = 1e-3 * std::fmin(1, p.grid.spacing);
+  now_.log = EventLog(p.loading.event_velocity);
+  for (std::size_t j = 0; j < now_.memory.size(); j += variables_)
+    p.friction.law().start(std::span(now_.memory).subspan(j, variables_));
+  start_contacts();
   for (std::size_t j = 0; j < n_; ++j) {
-    if (springs_.held(j)) v_[j] = 0;
+    if (springs_.held(j)) now_.v[j] = 0;
+    now_.w[j] = now_.v[j];
     if (!rubs_) continue;
-    const double step = std::fmax(1e-6 * std::fabs(v_[j]), 1e-30);
-    slope_[j] = (friction(j, v_[j] + step) - friction(j, v_[j])) / step;
+    const double step = std::fmax(1e-6 * std::fabs(now_.v[j]), smallest_velocity);
+    now_.slope[j] = (friction(j, now_.v[j] + step) - friction(j, now_.v[j])) / step;
   }
+}
+
+void ImplicitSteps::start_contacts() {
+  const Problem& p = problem_;
+  if (contacts_.act()) now_.excess.assign(n_, 0);
+  if (!(p.contact || contacts_.act()) || !p.substrate) return;
+  for (std::size_t j = 0; j < n_; ++j) {
+    const double a = p.contact ? p.contact(p.grid.x(j)) : 1;
+    now_.a2.push_back(a * a);
+  }
+  if (!contacts_.act()) return;
+  const double a = p.friction.contact_at_start();
+  for (double& a2 : now_.a2) base_.push_back(a2 / (a * a));
+  strengthen_contacts();
+}
+
+/// a^2 from the states of the sites. It is always computed in this way, so a resumed run has the same bits.
+void ImplicitSteps::strengthen_contacts() {
+  for (std::size_t j = 0; j < base_.size(); ++j)
+    now_.a2[j] = base_[j] * contacts_.strength(now_.memory[j], now_.excess[j]);
 }
 
 double ImplicitSteps::pull(std::size_t site) const {
@@ -102,12 +114,13 @@ double ImplicitSteps::pull(std::size_t site) const {
 }
 
 double ImplicitSteps::forcing(std::size_t j) const {
-  const double given = problem_.forcing ? problem_.forcing(problem_.grid.x(j), time_) : 0;
-  return given + pull(j) * (problem_.loading.velocity * time_ - (u_[j] - first_u_[j]));
+  const double given = problem_.forcing ? problem_.forcing(problem_.grid.x(j), now_.time) : 0;
+  return given + pull(j) * (problem_.loading.velocity * now_.time - (now_.u[j] - first_u_[j]));
 }
 
 double ImplicitSteps::friction(std::size_t j, double velocity) const {
-  const double force = problem_.friction.force(velocity, friction::Memory(memory_).subspan(variables_ * j, variables_));
+  const double force =
+      problem_.friction.force(velocity, friction::Memory(now_.memory).subspan(variables_ * j, variables_));
   return contacts_.act() ? effective_stress(j) * force : force;
 }
 
@@ -115,7 +128,7 @@ double ImplicitSteps::loading_energy() const {
   double sum = 0;
   if (!problem_.loading.acts()) return 0;
   for (std::size_t j = 0; j < n_; ++j) {
-    const double stretch = problem_.loading.velocity * time_ - (u_[j] - first_u_[j]);
+    const double stretch = problem_.loading.velocity * now_.time - (now_.u[j] - first_u_[j]);
     sum += springs_.weight(j) * pull(j) * stretch * stretch / 2;
   }
   return sum;
@@ -125,7 +138,7 @@ Window ImplicitSteps::window(std::size_t from, std::size_t to) const {
   const double h = springs_.spacing(), charge = turn * static_cast<double>(problem_.boundary.charge);
   const long n = static_cast<long>(n_);
   const auto at = [&](long j) {  // also beyond the ends
-    const auto site = [&](long i) { return u_[static_cast<std::size_t>(std::clamp(i, 0L, n - 1))]; };
+    const auto site = [&](long i) { return now_.u[static_cast<std::size_t>(std::clamp(i, 0L, n - 1))]; };
     if (j >= 0 && j < n) return site(j);
     if (problem_.boundary.periodic) return j < 0 ? site(j + n) + charge : site(j - n) - charge;
     const long last = j < 0 ? 0 : n - 1;
@@ -137,8 +150,8 @@ Window ImplicitSteps::window(std::size_t from, std::size_t to) const {
   for (std::size_t i = from; i < to; ++i) {
     const long j = static_cast<long>(i);
     window.x.push_back(problem_.grid.x(i));
-    window.u.push_back(u_[i]);
-    window.velocity.push_back(v_[i]);
+    window.u.push_back(now_.u[i]);
+    window.velocity.push_back(now_.v[i]);
     window.stress.push_back(problem_.model == Model::lattice
                                 ? (at(j - 1) - at(j + 1)) / (2 * h)
                                 : (45 * (at(j - 1) - at(j + 1)) - 9 * (at(j - 2) - at(j + 2)) + at(j - 3) - at(j + 3)) /
@@ -160,57 +173,65 @@ void ImplicitSteps::look() {
     const std::size_t from = n_ * i / places_, to = n_ * (i + 1) / places_;
     double u = 0, p = 0;
     for (std::size_t j = from; j < to; ++j) {
-      u += u_[j];
-      p += springs_.held(j) ? 0 : trial_.w[j];
+      u += now_.u[j];
+      p += springs_.held(j) ? 0 : now_.w[j];
     }
     const double count = static_cast<double>(to - from);
     places.x.push_back((problem_.grid.x(from) + problem_.grid.x(to - 1)) / 2);
     places.u.push_back(u / count);
     places.velocity.push_back(p / count);
   }
-  log_.look(time_, load, places);
+  now_.log.look(now_.time, load, places);
 }
 
+/// Of a step that has passed the present time, the start is saved; `resume` takes it again.
 std::vector<double> ImplicitSteps::saved() const {
+  const Moment& m = passed_ ? before_ : now_;
   std::vector<double> all{static_cast<double>(n_),
-                          time_,
-                          static_cast<double>(steps_),
-                          last_step_,
-                          earlier_step_,
-                          next_step_,
-                          supplied_,
-                          dissipated_};
-  for (const auto* column : {&u_, &v_, &memory_, &slope_, &acceleration_, &earlier_, &excess_})
+                          now_.time,
+                          m.time,
+                          static_cast<double>(m.steps),
+                          m.last_step,
+                          m.earlier_step,
+                          m.next_step,
+                          m.supplied,
+                          m.dissipated,
+                          m.by_contacts,
+                          m.window_start};
+  for (const auto* column : {&m.u, &m.v, &m.memory, &m.w, &m.slope, &m.acceleration, &m.earlier, &m.excess})
     all.insert(all.end(), column->begin(), column->end());
-  if (contacts_.act()) all.push_back(by_contacts_);
-  const std::vector<double> log = log_.saved();
+  const std::vector<double> log = m.log.saved();
   all.insert(all.end(), log.begin(), log.end());
   return all;
 }
 
 void ImplicitSteps::resume(const std::vector<double>& saved) {
-  constexpr std::size_t head = 8;
-  const std::size_t whole = head + (5 + variables_) * n_ + (contacts_.act() ? n_ + 1 : 0);
+  constexpr std::size_t head = 11;
+  const std::size_t whole = head + (6 + variables_) * n_ + now_.excess.size();
   constexpr double most_steps = 9007199254740992;  // whole numbers that a double holds
-  if (saved.size() < whole || saved[0] != static_cast<double>(n_) || !(saved[2] >= 0 && saved[2] <= most_steps) ||
+  if (saved.size() < whole || saved[0] != static_cast<double>(n_) || !(saved[3] >= 0 && saved[3] <= most_steps) ||
       !std::all_of(saved.begin(), saved.begin() + head, [](double value) { return std::isfinite(value); }))
     throw InputError({.key = "resume", .problem = "does not fit the scenario", .allowed = "a file of this scenario"});
-  time_ = saved[1];
-  steps_ = static_cast<long>(saved[2]);
-  last_step_ = saved[3];
-  earlier_step_ = saved[4];
-  next_step_ = saved[5];
-  supplied_ = saved[6];
-  dissipated_ = saved[7];
+  const double shown = saved[1];
+  now_.time = saved[2];
+  now_.steps = static_cast<long>(saved[3]);
+  now_.last_step = saved[4];
+  now_.earlier_step = saved[5];
+  now_.next_step = saved[6];
+  now_.supplied = saved[7];
+  now_.dissipated = saved[8];
+  now_.by_contacts = saved[9];
+  now_.window_start = saved[10];
   auto from = saved.begin() + head;
-  for (auto* column : {&u_, &v_, &memory_, &slope_, &acceleration_, &earlier_, &excess_}) {
+  for (auto* column :
+       {&now_.u, &now_.v, &now_.memory, &now_.w, &now_.slope, &now_.acceleration, &now_.earlier, &now_.excess}) {
     std::copy_n(from, column->size(), column->begin());
     from += static_cast<std::ptrdiff_t>(column->size());
   }
-  if (contacts_.act()) by_contacts_ = *from++;
-  for (std::size_t j = 0; j < base_.size(); ++j)
-    if (!springs_.held(j)) a2_[j] = base_[j] * contacts_.strength(memory_[j], excess_[j]);
-  log_.resume({from, saved.end()});
+  strengthen_contacts();
+  now_.log.resume({from, saved.end()});
+  passed_ = false;
+  advance(shown, std::numeric_limits<long>::max());
 }
 
 }  // namespace slipfront::chain

@@ -24,7 +24,7 @@ namespace {
 
 using output::Snapshot;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-constexpr std::uint64_t format = 0x636861696e000005;  // "chain", version 5
+constexpr std::uint64_t format = 0x636861696e000006;  // "chain", version 6
 
 /// In the window of velocities and stresses (smooth_average): their ripple is some 0.1 % then.
 constexpr double dislocations_in_window = 8;

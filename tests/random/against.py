@@ -7,6 +7,7 @@ import sys
 
 import numpy as np
 
+import loaded_block
 import scenarios
 from program import Failed, run
 
@@ -158,7 +159,8 @@ def with_more_cells(s, most=3200):
 
 
 COMPARISONS = {"slow": (scenarios.make, [with_slow_pulse]), "chain": (scenarios.make_for_chain, [with_chain]),
-               "slow-chain": (scenarios.make_for_chain, [with_slow_chain]), "cells": (scenarios.make, [with_more_cells])}
+               "slow-chain": (scenarios.make_for_chain, [with_slow_chain]), "cells": (scenarios.make, [with_more_cells]),
+               "radau": (loaded_block.make, [loaded_block.with_radau, loaded_block.with_other_outputs])}
 
 
 def results_of(s, *comparisons):

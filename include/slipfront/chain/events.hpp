@@ -13,7 +13,7 @@ using Event = output::SlipEvent;  ///< in the units of the chain that reports it
 
 /// The places: equal parts of a chain, whose mean slip velocity is looked at. `x` are their middles.
 struct Places {
-  std::vector<double> x, u, velocity;  ///< u at the end of a step, velocity its mean over the step
+  std::vector<double> x, u, velocity;  ///< u at the end of a step, the velocity that friction felt in it
   double length = 0;                   ///< of one
 };
 
