@@ -33,6 +33,14 @@ ContactField::ContactField(const Problem& p, long first, const std::vector<doubl
   }
   excess_.assign(p.grid.sites, 0);
   share_.assign(a2.size(), 1 - contacts_.ambient);
+  // The contacts at t = 0 follow from the state by the same operations as later ones: a run that resumes from there has
+  // nothing else to compute them from.
+  std::vector<double> theta(p.grid.sites);
+  for (double& age : theta) p.friction.law().start({&age, 1});
+  advance(0, 0, theta, theta);
+  std::copy_n(next_.begin() - first_, sites_, now_.begin() - first_);
+  before_ = now_;
+  look_ahead();
 }
 
 void ContactField::advance(long first, double time, std::span<const double> theta_before,

@@ -240,6 +240,21 @@ TEST(Contacts, ThreadsAndStopsChangeNoBits) {
     EXPECT_EQ(alone.snapshots()[i].profile.W, resumed.snapshots()[i].profile.W);
 }
 
+/// A run that is stopped before its first step, as by a signal right after the first checkpoint.
+TEST(Contacts, ResumeFromTheStartToTheSameBits) {
+  for (const std::vector<double>& contacts : {std::vector<double>{0.1, 0.2, 0, 0, 0},
+                                              {0.05, 0.1, 0, 0, 0},
+                                              {0, 0, 0.02, 0.5, 0.1},
+                                              {0.3, 7, 0.02, 0.5, 0.1}}) {
+    const chain::ScaledProblem s = step(contacts);
+    chain::Run whole(s, until(0.3), {});
+    const chain::Run begun(s, until(0.3), {});
+    chain::Run resumed(s, until(0.3), {}, begun.saved(), begun.snapshots());
+    ASSERT_TRUE(whole.go() && resumed.go());
+    EXPECT_EQ(whole.saved(), resumed.saved());
+  }
+}
+
 /// A train under a pulled end, by implicit steps.
 TEST(Contacts, ImplicitStepsKeepEnergyAndBits) {
   Problem p = with_contacts(rate_and_state({0.05, 0.01, 0.015, 3, 0.05}, {0.1, 10, 0.02, 30, 0.1}));
