@@ -73,7 +73,10 @@ double largest_step(const Problem& p) { return largest(p, largest_contact(p)); }
 double memory_needed(const Problem& p) {
   // Two levels, and a displacement to start from; where not plain also contact, three levels of forcing and the
   // displacement at the last level; where contacts change theta, pressure and five numbers of the contact.
-  return static_cast<double>(p.grid.sites) * 8 * (plain(p) ? 3 : p.friction.contacts().act() ? 15 : 8);
+  const double columns = plain(p) ? 3 : p.friction.contacts().act() ? 15 : 8;
+  // Implicit steps hold the motion at three times, a step that is tried, and a matrix.
+  const double by_implicit = p.implicit ? 40 + 3 * static_cast<double>(p.friction.variables()) : 0;
+  return static_cast<double>(p.grid.sites) * 8 * (columns + by_implicit);
 }
 
 void check(const Problem& p, double share_of_machine) {

@@ -298,6 +298,28 @@ TEST(ImplicitSteps, BalanceEnergyUnderLaboratoryFrictionOnASubstrate) {
   }
 }
 
+/// A force passes the strength of laboratory friction, f0 / a = 60, while the contacts vary around a ring: implicit
+/// steps of any length against the explicit scheme, until ten dislocations have passed.
+TEST(ImplicitSteps, FollowAnEventAsExplicitStepsDo) {
+  Problem p;
+  p.grid = {0, 0.5, 50};
+  p.boundary.periodic = true;
+  p.boundary.charge = 8;
+  p.contact = [](double x) { return 1 + 0.05 * std::cos(turn / 25 * x); };
+  p.friction = rate_and_state(6e-3, 1e-4, 1.5e-4, 1, 1e-3, 1e4);
+  p.forcing = [](double, double t) { return 6.3e-3 + 2e-7 * t - 6e-3 * std::exp(-t / 50); };
+  p.tolerance = 1e-4;
+  const Motion train = chain::static_train([](double) { return turn * 8 / 25; }, p.grid, true, p.contact);
+  const auto slip = [&](const Chain& chain) { return chain.window(20, 21).u[0] - train.u[20]; };
+  Chain by_explicit(p, train);
+  by_explicit.advance_to(1200);
+  p.implicit = true;
+  Chain by_implicit(p, train);
+  by_implicit.proceed(by_explicit.time(), 1 << 30);
+  EXPECT_GT(slip(by_explicit), 9 * turn);
+  EXPECT_NEAR(slip(by_implicit) / slip(by_explicit), 1, 0.01);
+}
+
 /// The static force that a free end withstands is 2: -u_x = 2 sech(x_0) of a dislocation outside it.
 TEST(Birth, AtAPulledEndWhereTheStressPassesTwo) {
   Problem p;
