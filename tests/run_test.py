@@ -48,7 +48,7 @@ class Run(unittest.TestCase):
 
     def run_in(self, checkout, *arguments, **variables):
         environment = {"PATH": str(self.tools), "HOME": str(self.folder / "home"), "CALLS": str(self.calls), **variables}
-        return subprocess.run([checkout / "run", *arguments], env=environment, capture_output=True, text=True, timeout=60)
+        return subprocess.run([checkout / "run", *arguments], env=environment, capture_output=True, text=True, timeout=1200)
 
     def test_builds_and_runs(self):
         self.tool("dpkg-query", ALL_INSTALLED)

@@ -12,9 +12,7 @@ import unittest
 import urllib.error
 import urllib.request
 
-from support import PROGRAM, SANITIZED, CommandLine
-
-PATIENCE = 600  # seconds; longer than any machine needs
+from support import PATIENCE, PROGRAM, SANITIZED, CommandLine
 
 
 class Explore(CommandLine):

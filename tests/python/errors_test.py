@@ -11,13 +11,13 @@ import warnings
 import numpy as np
 
 import slipfront
-from support import CommandLine, PROGRAM, SOURCE
+from support import PATIENCE, CommandLine, PROGRAM, SOURCE
 
 STEP = os.path.join(SOURCE, "cases/step.toml")
 
 
 def python(code, **environment):
-    return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120, env={**os.environ, **environment})
+    return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=PATIENCE, env={**os.environ, **environment})
 
 
 class Errors(CommandLine):
@@ -113,7 +113,7 @@ class Errors(CommandLine):
             process = subprocess.Popen([sys.executable, "-c", code], stderr=subprocess.PIPE, text=True)
             self.wait_for(cut, process)
             process.send_signal(2)
-            _, errors = process.communicate(timeout=60)
+            _, errors = process.communicate(timeout=PATIENCE)
             self.assertIn("KeyboardInterrupt", errors)
             self.assertEqual(slipfront.open(cut).attrs["finished"], 0)
             getattr(slipfront, command)(case, set={key: int(value)}, resume=cut, threads=1)

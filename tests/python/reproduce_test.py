@@ -10,7 +10,7 @@ import unittest
 
 import xarray as xr
 from page import Page
-from support import PROGRAM, CommandLine
+from support import PATIENCE, PROGRAM, CommandLine
 
 TABLES = ("numbers", "formulas", "statements", "inputs")
 
@@ -21,7 +21,7 @@ class Reproduce(CommandLine):
         cls.temporary = tempfile.TemporaryDirectory()
         cls.folder = os.path.join(cls.temporary.name, "reproduction")
         # Without arguments: this is the main job.
-        done = subprocess.run([PROGRAM], capture_output=True, text=True, timeout=280, cwd=cls.temporary.name)
+        done = subprocess.run([PROGRAM], capture_output=True, text=True, timeout=PATIENCE, cwd=cls.temporary.name)
         assert done.returncode == 0, done.stderr
         cls.printed, cls.errors = done.stdout, done.stderr
 
