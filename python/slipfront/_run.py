@@ -172,7 +172,8 @@ def read(name, any_file=False):
     import_optional("netCDF4")
     _slipfront.require_readable_netcdf(os.fsencode(name))  # what is damaged would crash the library, and Python with it
     try:
-        with xarray.open_dataset(name, engine="netcdf4") as stored:
+        # The library is not made for threads, and a process that is started while a thread is in it waits for ever.
+        with _slipfront.NetcdfLock(), xarray.open_dataset(name, engine="netcdf4") as stored:
             if not (any_file or "slipfront_format" in stored.attrs):
                 raise FileError(f"{name}: not a file of slipfront")
             data = stored.drop_vars(["checkpoint", "scenario_text", "done"], errors="ignore").load()

@@ -238,6 +238,14 @@ class Inputs(CommandLine):
             self.assertIn(done.returncode, (0, 2, 3), (at, done.stderr))
             self.assertEqual(done.stderr.count("\n"), int(done.returncode != 0), (at, done.stderr))
 
+    def test_a_table_that_is_read_without_an_end_is_refused(self):
+        """Damage makes HDF5 go round in a circle. The limit is that of this process, which has less than the program allows."""
+        case = self.file("case.toml", f"[initial]\nprofile = 'table'\nfile = '{SOURCE}/tests/data/stress_endless.nc'\n[domain]\nleft = -1\nright = 1\n"
+                         "[pulse]\ncells = 16\n[time]\nend = 0.1\n")
+        done = subprocess.run(["prlimit", "--cpu=2", PROGRAM, "pulse", case], capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stderr.count("\n")), (3, 1), done.stderr)
+        self.assertIn("stress_endless.nc: cannot be read: the NetCDF library did not end within 1 s of processor time", done.stderr)
+
     def test_a_bad_medium_is_said_once(self):
         for option, value in (("--poisson-ratio", "0.7"), ("--shear-modulus", "-3 GPa"), ("--p-wave-speed", "0 km/s")):
             self.refused(2, "event", f"{option}={value}", says=[option, "out of range"])

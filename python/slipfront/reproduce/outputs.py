@@ -25,6 +25,8 @@ def locked(folder):
             free = False
         yield free
     finally:
+        with contextlib.suppress(OSError):
+            fcntl.flock(descriptor, fcntl.LOCK_UN)  # a process that was started meanwhile has the descriptor too
         os.close(descriptor)
 
 
