@@ -159,6 +159,12 @@ class Signals(CommandLine):
         errors = self.ended_by(signal.SIGINT, ["chain", STEP, "--set", "chain.scale=1e6"], lambda process: until_it_has_worked(process, 0.5))
         self.assertIn("interrupted", errors)
 
+    def test_only_a_file_that_exists_can_be_resumed(self):
+        """A large chain has written nothing when it has worked for a second."""
+        out = os.path.join(os.path.dirname(self.file("x", "")), "out.nc")
+        errors = self.ended_by(signal.SIGINT, ["chain", STEP, "--set", "chain.scale=1e6", "-o", out], lambda process: until_it_has_worked(process, 0.5))
+        self.assertEqual("--resume" in errors, os.path.exists(out), errors)
+
     def test_one_event_of_many_samples(self):
         events = self.file("e.csv", "name,rupture_velocity,slip_velocity\na,3 +- 0.1 km/s,0.5 m/s\n")
         out = os.path.join(os.path.dirname(events), "out.nc")

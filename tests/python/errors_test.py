@@ -128,6 +128,32 @@ class Errors(CommandLine):
         self.assertEqual([str(w.message) for w in seen], [])
 
 
+def nested(kind, depth):
+    value = 1.0
+    for _ in range(depth):
+        value = {"a": value} if kind is dict else [value]
+    return value
+
+
+class Nested(unittest.TestCase):
+    """Values that hold values that hold values ..., deeper than Python can follow, are bad input like any other."""
+
+    def test_are_refused_everywhere(self):
+        endless = {}
+        endless["a"] = endless
+        step = {"initial": {"profile": "step", "stress_left": 0.855, "stress_right": 0}}
+        for value in (nested(dict, 5000), nested(list, 5000), nested(dict, 150), endless):
+            for call in (lambda v: slipfront.pulse(v), lambda v: slipfront.pulse({**step, "time": v}), lambda v: slipfront.pulse({**step, "time": {"end": v}}),
+                         lambda v: slipfront.pulse(step, set=v), lambda v: slipfront.pulse(step, set={"time.end": v}), lambda v: slipfront.pulse(step, output=v),
+                         lambda v: slipfront.pulse(step, progress=v), lambda v: slipfront.chain(step, threads=v), lambda v: slipfront.compare(step, scales=v),
+                         lambda v: slipfront.sweep(step, v), lambda v: slipfront.sweep(step, {"time.end": v}), lambda v: slipfront.sweep(step, {"time.end": [1.0]}, variables=v),
+                         lambda v: slipfront.event(v), lambda v: slipfront.event({"name": "a", "rupture_velocity": v}), lambda v: slipfront.relations(stress=v),
+                         lambda v: slipfront.open(v), lambda v: slipfront.check(step, command=v)):
+                with self.assertRaises(slipfront.InputError) as caught:
+                    call(value)
+                self.assertLess(len(str(caught.exception)), 1000)
+
+
 class Commands(CommandLine):
     def test_python_subcommands_are_handed_over(self):
         help = self.ok("--help")
