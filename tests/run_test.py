@@ -30,7 +30,7 @@ class Run(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
         self.tools, self.calls = self.folder / "tools", self.folder / "calls"
         self.tools.mkdir()
-        for tool in ("bash", "env", "dirname", "flock", "grep", "cat", "cksum", "cut", "mkdir", "find", "rm", "id", "mktemp", "tail", "touch", "chmod"):
+        for tool in ("bash", "env", "dirname", "flock", "grep", "cat", "cksum", "cut", "mkdir", "find", "rm", "id", "mktemp", "tail", "touch", "chmod", "readlink"):
             (self.tools / tool).symlink_to(shutil.which(tool))
         self.tool("cmake", CMAKE)
         self.checkout = self.copy(SOURCE, "checkout")
@@ -48,13 +48,40 @@ class Run(unittest.TestCase):
 
     def run_in(self, checkout, *arguments, **variables):
         environment = {"PATH": str(self.tools), "HOME": str(self.folder / "home"), "CALLS": str(self.calls), **variables}
-        return subprocess.run([checkout / "run", *arguments], env=environment, capture_output=True, text=True, timeout=60)
+        return subprocess.run([checkout / "run", *arguments], env=environment, capture_output=True, text=True, timeout=1200)
 
     def test_builds_and_runs(self):
         self.tool("dpkg-query", ALL_INSTALLED)
         done = self.run_in(self.checkout, "pulse", "x.toml")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertEqual(done.stdout, f"slipfront pulse x.toml of {self.checkout}/build/release\n")
+
+    def test_through_a_link_and_with_a_search_path_of_cd(self):
+        self.tool("dpkg-query", ALL_INSTALLED)
+        elsewhere = self.folder / "elsewhere"
+        (elsewhere / "checkout").mkdir(parents=True)
+        (elsewhere / "run").symlink_to("../checkout/run")
+        for start in (elsewhere / "run", "checkout/run"):
+            environment = {"PATH": str(self.tools), "HOME": str(self.folder / "home"), "CALLS": str(self.calls), "CDPATH": str(elsewhere)}
+            done = subprocess.run([start], env=environment, cwd=self.folder, capture_output=True, text=True, timeout=1200)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            self.assertEqual(done.stdout, f"slipfront  of {self.checkout}/build/release\n")
+        self.assertEqual(sorted(os.listdir(elsewhere)), ["checkout", "run"])
+
+    def test_tests_through_a_link_and_with_a_search_path_of_cd(self):
+        self.tool("dpkg-query", ALL_INSTALLED)
+        self.tool("ctest", "#!/bin/bash\necho \"$2\"\n")
+        self.tool("nproc", "#!/bin/bash\necho 1\n")
+        shutil.copy(SOURCE / "test", self.checkout / "test")
+        elsewhere = self.folder / "elsewhere"
+        (elsewhere / "checkout").mkdir(parents=True)
+        (elsewhere / "test").symlink_to("../checkout/test")
+        for start in (elsewhere / "test", "checkout/test"):
+            environment = {"PATH": str(self.tools), "CALLS": str(self.calls), "CDPATH": str(elsewhere)}
+            done = subprocess.run([start], env=environment, cwd=self.folder, capture_output=True, text=True, timeout=1200)
+            self.assertEqual((done.returncode, done.stdout.splitlines()[-1:], done.stderr), (0, ["build/dev"], ""))
+            self.assertTrue((self.checkout / "build/dev/bin").is_dir())
+        self.assertEqual(sorted(os.listdir(elsewhere)), ["checkout", "test"])
 
     def test_read_only_checkout_builds_elsewhere(self):
         self.tool("dpkg-query", ALL_INSTALLED)

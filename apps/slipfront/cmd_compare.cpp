@@ -43,7 +43,8 @@ int run_compare(const Arguments& a) {
   }
   const record::Output output(a.output, "");
   record::require_disk_space(a.output, estimate_of(s, comparison).disk);
-  if (output.wanted()) interrupted_means("; the levels that were done are in " + output.unfinished());
+  if (output.wanted())
+    interrupted_means("; the levels that were done are in " + output.unfinished(), output.unfinished());
   const WatchInterrupts watch;
   std::vector<Level> levels;
   std::optional<Progress> progress;

@@ -1,6 +1,5 @@
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <httplib.h>
 #include <spawn.h>
 #include <unistd.h>
 
@@ -10,10 +9,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "batch.hpp"
 #include "commands.hpp"
 #include "interrupts.hpp"
+#include "page_server.hpp"
 #include "slipfront/error.hpp"
 
 /// The page that shows the theory, served to the browser of this machine.
@@ -24,7 +25,6 @@ using slipfront::FileError;
 using slipfront::InputError;
 
 constexpr int usual_port = 8757;
-constexpr std::size_t connections = 32;  ///< a browser keeps six open a window, and each holds a thread
 
 struct Arguments {
   CommonOptions common;
@@ -33,11 +33,7 @@ struct Arguments {
   bool no_open = false, anyone = false;
 };
 
-bool is_loopback(const std::string& address) {
-  return address == "localhost" || address == "::1" || address.rfind("127.", 0) == 0;
-}
-
-/// The page beside this program, in the build tree or installed.
+/// The page next to this program, in the build tree or installed.
 std::filesystem::path shipped_page() {
   std::error_code error;
   const auto here = std::filesystem::read_symlink("/proc/self/exe", error).parent_path().parent_path();
@@ -47,7 +43,7 @@ std::filesystem::path shipped_page() {
 std::filesystem::path page(const Arguments& a) {
   std::filesystem::path folder = a.folder.empty() ? shipped_page() : std::filesystem::path(a.folder);
   std::error_code error;
-  if (std::filesystem::is_regular_file(folder / "index.html", error)) return folder;
+  if (std::filesystem::is_regular_file(std::filesystem::symlink_status(folder / "index.html", error))) return folder;
   if (!a.folder.empty()) throw FileError(a.folder + ": no page is there (index.html is missing)");
   throw FileError("the page has not been built; ./run explore builds it and serves it");
 }
@@ -59,24 +55,6 @@ void check(const Arguments& a) {
                       .value = std::to_string(a.port),
                       .problem = "out of range",
                       .allowed = "1 to 65535, or 0 for any that is free"});
-  if (!is_loopback(a.address) && !a.anyone)
-    throw InputError({.file = "command line",
-                      .key = "--address",
-                      .value = a.address,
-                      .problem = "other machines could read the page there",
-                      .allowed = "127.0.0.1, or --anyone to let them"});
-}
-
-/// Binds to the port that was asked for, else to the usual one or any that is free.
-int bind(httplib::Server& server, const Arguments& a, bool asked) {
-  if (asked && a.port > 0) {
-    if (server.bind_to_port(a.address, a.port)) return a.port;
-    throw FileError(fmt::format("{}:{} cannot be served (is the port taken?)", a.address, a.port));
-  }
-  if (!asked && server.bind_to_port(a.address, usual_port)) return usual_port;
-  const int port = server.bind_to_any_port(a.address);
-  if (port > 0) return port;
-  throw FileError(a.address + " cannot be served");
 }
 
 /// Opens the browser of the desktop, if there is one. Its own messages are not ours.
@@ -96,20 +74,10 @@ void open_browser(const std::string& url) {
 int serve(const Arguments& a, bool asked_port) {
   check(a);
   const std::filesystem::path folder = page(a);
-  httplib::Server server;
-  // Not the library's own, which share a port that is taken.
-  server.set_socket_options([](socket_t socket) {
-    const int yes = 1;
-    setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-  });
-  server.new_task_queue = [] { return new httplib::ThreadPool(connections); };
-  server.set_mount_point("/", folder.string());
-  server.set_file_extension_and_mimetype_mapping("wasm", "application/wasm");
-  server.set_file_extension_and_mimetype_mapping("js", "text/javascript");
-  server.set_default_headers({{"X-Content-Type-Options", "nosniff"}, {"Cache-Control", "no-cache"}});
-  const int port = bind(server, a, asked_port);
+  const std::vector<int> ports = asked_port ? std::vector{a.port} : std::vector{usual_port, 0};
+  PageServer server(folder.string(), {.address = a.address, .ports = ports, .anyone = a.anyone});
   const std::string host = a.address.find(':') == std::string::npos ? a.address : "[" + a.address + "]";
-  const std::string url = fmt::format("http://{}:{}/", host, port);
+  const std::string url = fmt::format("http://{}:{}/", host, server.port());
   interrupted_means("; the page is no longer served");
   if (a.common.json)
     put(nlohmann::ordered_json({{"url", url}, {"folder", folder.string()}}).dump() + "\n");
@@ -117,8 +85,7 @@ int serve(const Arguments& a, bool asked_port) {
     put(fmt::format("The explorer is at {}  (Ctrl-C ends it)\n", url));
   std::fflush(stdout);
   if (!a.no_open) open_browser(url);
-  if (!server.listen_after_bind()) throw FileError(url + " can no longer be served");
-  return exit_done;
+  server.serve();
 }
 
 }  // namespace
@@ -131,8 +98,8 @@ Runner add_explore(CLI::App& app) {
                                           fmt::format("Port (default: {}, or any that is free)", usual_port));
   command->add_flag("--no-open", arguments->no_open, "Do not open a browser");
   command->add_option("--folder", arguments->folder,
-                      "Serve the page in this folder (default: the one beside the program)");
-  command->add_option("--address", arguments->address, "Address to serve on (default: 127.0.0.1, this machine alone)");
+                      "Serve the page in this folder (default: the one next to the program)");
+  command->add_option("--address", arguments->address, "Address to serve on (default: 127.0.0.1, this machine only)");
   command->add_flag("--anyone", arguments->anyone, "Allow an address that other machines reach");
   add_common_options(*command, arguments->common, false);
   return [arguments, port] { return serve(*arguments, port->count() > 0); };

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -37,16 +38,27 @@ std::filesystem::path package_folder() {
   return {};
 }
 
-/// What Python is given to run: the subcommand, and an answer to Ctrl-C from the first moment.
+/// The program that Python runs. Signals that ask it to end are blocked until it can answer them.
 constexpr const char* launch =
-    "import sys\n"
-    "try:\n"
-    "    from slipfront.__main__ import main\n"
-    "    code = main()\n"
-    "except KeyboardInterrupt:\n"
-    "    print('slipfront: interrupted', file=sys.stderr)\n"
-    "    code = 130\n"
-    "sys.exit(code)\n";
+    "import os, signal, sys\n"
+    "ending = {signal.SIGINT, signal.SIGTERM, signal.SIGHUP}\n"
+    "def interrupted(*_):\n"
+    "    os.write(2, b'slipfront: interrupted\\n')\n"
+    "    os._exit(130)\n"
+    "for number in ending:\n"
+    "    if signal.getsignal(number) != signal.SIG_IGN:\n"
+    "        signal.signal(number, interrupted)\n"
+    "signal.pthread_sigmask(signal.SIG_UNBLOCK, ending)\n"
+    "from slipfront.__main__ import end, main\n"
+    "end(main())\n";
+
+/// Python answers signals only some time after it has started. The mask passes through exec.
+void block_interrupts() {
+  sigset_t ending;
+  sigemptyset(&ending);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&ending, number);
+  sigprocmask(SIG_BLOCK, &ending, nullptr);
+}
 
 /// Becomes the Python interpreter that runs a subcommand with these arguments. Does not return.
 [[noreturn]] void hand_over(std::string name, char** first, char** last) {
@@ -63,6 +75,7 @@ constexpr const char* launch =
   std::vector<char*> arguments = {interpreter.data(), option.data(), code.data(), name.data()};
   arguments.insert(arguments.end(), first, last);
   arguments.push_back(nullptr);
+  block_interrupts();
   execv(interpreter.c_str(), arguments.data());
   throw slipfront::FileError(interpreter + ": " + std::strerror(errno) + "; install the Debian package python3");
 }

@@ -89,7 +89,8 @@ void write_rows(const std::string& path, const std::vector<EventResult>& results
 slipfront::run::CatalogueResult run_watched(const EventArguments& a, slipfront::run::CataloguePlan&& plan,
                                             const slipfront::record::Output& output) {
   interrupted_means(output.wanted() ? "; what was written last stays: go on with " + output.how_to_resume()
-                                    : "; nothing was written: -o OUT.nc could be resumed");
+                                    : "; nothing was written: -o OUT.nc could be resumed",
+                    output.wanted() ? output.unfinished() : "");
   const WatchInterrupts watch;
   std::optional<Progress> progress;
   const auto total = static_cast<double>(plan.entries.size());

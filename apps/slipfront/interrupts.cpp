@@ -1,5 +1,6 @@
 #include "interrupts.hpp"
 
+#include <limits.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -16,16 +17,25 @@ namespace {
 std::atomic<bool> seen = false;
 std::atomic<int> watching = 0;
 std::atomic<bool> is_patient = false;
-/// Two texts, so that a signal finds one whole while the other is written.
-std::array<std::array<char, 512>, 2> lines = {};
-std::array<std::size_t, 2> sizes = {};
+/// A line for stderr, and another one for as long as a file does not exist.
+struct Meaning {
+  using Text = std::array<char, 512>;
+  Text line = {}, line_without_file = {};
+  std::size_t size = 0, size_without_file = 0;
+  std::array<char, PATH_MAX> file = {};  ///< empty: none
+};
+/// Two of them, so that a signal finds one whole while the other is written.
+std::array<Meaning, 2> meanings = {};
 std::atomic<std::size_t> current = 0;
 
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 
 [[noreturn]] void end_now() {
-  const std::size_t line = current;
-  if ((!the_ranks || the_ranks->rank() == 0) && ::write(STDERR_FILENO, lines[line].data(), sizes[line]) < 0) {
+  const Meaning& meaning = meanings[current];
+  const bool has_file = meaning.file[0] == '\0' || access(meaning.file.data(), F_OK) == 0;
+  const char* line = has_file ? meaning.line.data() : meaning.line_without_file.data();
+  const std::size_t size = has_file ? meaning.size : meaning.size_without_file;
+  if ((!the_ranks || the_ranks->rank() == 0) && ::write(STDERR_FILENO, line, size) < 0) {
     // nobody reads it
   }
   _exit(exit_interrupted);
@@ -43,17 +53,25 @@ extern "C" void on_alarm(int) {
   alarm(1);
 }
 
-}  // namespace
-
-void interrupted_means(std::string_view text) {
+/// Returns how many bytes the line has.
+std::size_t fill(Meaning::Text& line, std::string_view text) {
   constexpr std::string_view begin = "slipfront: interrupted";
-  const std::size_t other = 1 - current;
-  auto& line = lines[other];
   text = text.substr(0, 400);
   auto end = std::copy(begin.begin(), begin.end(), line.begin());
   end = std::copy(text.begin(), text.end(), end);
   *end++ = '\n';
-  sizes[other] = static_cast<std::size_t>(end - line.begin());
+  return static_cast<std::size_t>(end - line.begin());
+}
+
+}  // namespace
+
+void interrupted_means(std::string_view text, const std::string& file) {
+  const std::size_t other = 1 - current;
+  Meaning& meaning = meanings[other];
+  meaning.size = fill(meaning.line, text);
+  meaning.size_without_file = fill(meaning.line_without_file, "; nothing has been written yet");
+  meaning.file = {};
+  if (file.size() < meaning.file.size()) std::copy(file.begin(), file.end(), meaning.file.begin());
   current = other;
 }
 

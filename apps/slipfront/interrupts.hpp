@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 
 /// Ctrl-C (SIGINT), SIGTERM and SIGHUP.
@@ -8,8 +9,9 @@
 /// interrupted_means says.
 void end_on_interrupts();
 
-/// What an interruption means from now on, such as "; nothing was written". At most 400 bytes are kept.
-void interrupted_means(std::string_view text);
+/// Sets what an interruption means from now on, such as "; nothing was written". At most 400 bytes are kept. A text
+/// that speaks of a file is replaced by "; nothing has been written yet" while `file` does not exist.
+void interrupted_means(std::string_view text, const std::string& file = {});
 
 /// While it lives the first signal is seen by interrupted_by_user(), and the work has a second to come to its end:
 /// then, unless a file is being written, or at a second signal, the program ends like above, leaving what was written

@@ -145,7 +145,8 @@ LongRun::LongRun(const ScenarioArguments& arguments, const scenario::Scenario& s
     : a_(arguments), s_(scenario), ranks_(ranks), first_(the_ranks->rank() == 0) {
   const auto open = [&] { output_ = record::Output(a_.output.empty() ? a_.resume : a_.output, a_.resume); };
   ranks_ ? ranks_->together(open) : open();
-  if (output_.wanted()) interrupted_means("; what was written last stays: go on with " + output_.how_to_resume());
+  if (output_.wanted())
+    interrupted_means("; what was written last stays: go on with " + output_.how_to_resume(), output_.unfinished());
   watch_.emplace(!first_);
 }
 

@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 
 #include <cstdint>
+#include <mutex>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -49,6 +50,20 @@ void write_dataset(const std::string& path, std::vector<std::pair<std::string, s
   record::write_dataset(path, dataset);
 }
 
+/// Held in a `with` block by Python code that calls the NetCDF library. The GIL is free while it waits: who holds the
+/// lock may need it.
+class NetcdfLock {
+ public:
+  void enter() {
+    const py::gil_scoped_release others_may_run;
+    lock_ = record::lock_netcdf();
+  }
+  void leave(const py::args&) { lock_.unlock(); }
+
+ private:
+  std::unique_lock<std::recursive_mutex> lock_;
+};
+
 }  // namespace
 
 void bind_files(py::module_& m) {
@@ -58,5 +73,9 @@ void bind_files(py::module_& m) {
   m.def("read_text", record::read_text);
   m.def("write_file", record::write_text, py::call_guard<py::gil_scoped_release>());
   m.def("write_dataset", write_dataset);
+  py::class_<NetcdfLock>(m, "NetcdfLock")
+      .def(py::init<>())
+      .def("__enter__", &NetcdfLock::enter)
+      .def("__exit__", &NetcdfLock::leave);
   m.def("require_readable_netcdf", record::require_readable_netcdf, py::call_guard<py::gil_scoped_release>());
 }

@@ -23,10 +23,21 @@ RunRequest request_of(const py::dict& arguments) {
           text("output"), text("resume"), arguments["progress"]};
 }
 
+namespace {
+
+/// Reads a table without the GIL: it may wait for a thread that reads NetCDF in Python.
+std::vector<std::pair<double, double>> read_table(const std::string& path, const std::string& x, const std::string& y) {
+  if (!PyGILState_Check()) return record::read_table(path, x, y);
+  const py::gil_scoped_release others_may_run;
+  return record::read_table(path, x, y);
+}
+
+}  // namespace
+
 scenario::Scenario scenario_of(const RunRequest& request) {
   const bool is_file = !request.path.empty();
   return scenario::read_scenario(is_file ? record::read_text(request.path) : request.text,
-                                 is_file ? request.path : "scenario", request.set, record::read_table);
+                                 is_file ? request.path : "scenario", request.set, read_table);
 }
 
 record::Output output_of(const RunRequest& a) { return {a.output.empty() ? a.resume : a.output, a.resume}; }

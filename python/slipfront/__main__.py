@@ -1,10 +1,10 @@
 """`python3 -m slipfront NAME ARGS...`: the subcommands of the command line that are written in Python. Each is a module
 cmd_NAME.py with `main(argv) -> int`, argv without the name; what it raises becomes one line and an exit code."""
 
+import atexit
 import contextlib
 import importlib
 import os
-import shutil
 import signal
 import sys
 
@@ -22,8 +22,15 @@ def complain(error):
         print(f"slipfront: {text}", file=sys.stderr)
 
 
+class Interruption:
+    """Whether the user has asked the program to end. Libraries may turn the KeyboardInterrupt into another error."""
+
+    seen = False
+
+
 def interrupted(_signal, _frame):
-    """Ctrl-C, and what else asks a program to end: the work is left where it can be, a second time at once."""
+    """Answers Ctrl-C and other requests to end: the work is left where it can be; a second request ends the program at once."""
+    Interruption.seen = True
     for number in ENDING:
         signal.signal(number, lambda *_: os._exit(INTERRUPTED))
     signal.signal(signal.SIGALRM, end_now)
@@ -32,13 +39,30 @@ def interrupted(_signal, _frame):
 
 
 def end_now(*_):
-    """The second after an interruption is over, or it was lost in a place that cannot raise it: what has no name yet goes."""
-    from ._files import UNFINISHED
-
-    for folder in list(UNFINISHED):
-        shutil.rmtree(folder, ignore_errors=True)
+    """Ends a second after an interruption: something waits, or the exception was lost in a place that cannot raise it."""
+    undo_unfinished()
     os.write(2, b"slipfront: interrupted\n")
     os._exit(INTERRUPTED)
+
+
+def undo_unfinished():
+    """Removes what has been written in part."""
+    from ._files import UNFINISHED
+
+    for undo in list(UNFINISHED):
+        undo()
+
+
+def end(code):
+    """Ends the program. From here on a signal changes nothing: while the interpreter ends, Python would let it kill the process."""
+    signal.alarm(0)
+    for number in ENDING:
+        signal.signal(number, signal.SIG_IGN)
+    if code == INTERRUPTED:  # threads may still compute, and the interpreter would wait for them
+        atexit._run_exitfuncs()
+        sys.stderr.flush()
+        os._exit(code)
+    sys.exit(code)
 
 
 ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
@@ -51,23 +75,43 @@ def heed_signals():
 
 
 def run(name, argv):
-    """Runs a subcommand. Returns its exit code; errors are said in one line."""
+    """Runs a subcommand. Returns its exit code; prints an error as one line."""
+    try:
+        return _run(name, argv)
+    except BaseException:
+        if not Interruption.seen:
+            raise
+    signal.alarm(0)
+    undo_unfinished()
+    complain("interrupted")
+    return INTERRUPTED
+
+
+def _run(name, argv):
     try:
         from ._slipfront import NumericsError
     except ImportError as error:
+        if Interruption.seen:
+            raise
         complain(error)
         return FILE
     try:
         code = importlib.import_module(f".cmd_{name}", __package__).main(argv)
         sys.stdout.flush()
         return code
-    except SystemExit as end:  # --help
-        return end.code or DONE
-    except KeyboardInterrupt:
-        complain("interrupted")
-        signal.signal(signal.SIGALRM, lambda *_: os._exit(INTERRUPTED))
-        return INTERRUPTED
-    except (NumericsError, MemoryError) as error:
+    except SystemExit as exit:  # --help
+        return exit.code or DONE
+    except BaseException as error:
+        if Interruption.seen:
+            raise
+        return _code_of(error, name, NumericsError)
+
+
+def _code_of(error, name, numerics_error):
+    """Prints an error as one line. Returns its exit code."""
+    try:
+        raise error
+    except (numerics_error, MemoryError) as error:
         complain(error if str(error) else "out of memory")
         return NUMERICS
     except ValueError as error:
@@ -99,4 +143,4 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    end(main())

@@ -10,6 +10,7 @@ from ._dataset import attributes, dataset
 from ._numbers import np, thread_count
 from ._progress import showing
 from ._scenario import is_path, path, to_toml
+from ._shown import shown
 from ._slipfront import InputError
 
 _shipped = pathlib.Path(__file__).parent / "cases" / "catalogue.csv"
@@ -20,7 +21,10 @@ def _row(event):
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(event)
-    writer.writerow(["" if value is None or value != value else value for value in event.values()])
+    try:
+        writer.writerow(["" if value is None or value != value else value for value in event.values()])
+    except RecursionError:
+        raise InputError("events: a value that is nested too deeply; allowed: numbers and texts") from None
     return out.getvalue()
 
 
@@ -41,7 +45,7 @@ def _source(event, name):
 def _whole(name, value):
     if value is None or (isinstance(value, int) and not isinstance(value, bool) and 0 <= value < 2**63):
         return value
-    raise InputError(f"{name} = '{value}': not a whole number; allowed: >= 0")
+    raise InputError(f"{name} = '{shown(value)}': not a whole number; allowed: >= 0")
 
 
 def _default(value):

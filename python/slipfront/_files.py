@@ -8,7 +8,7 @@ import signal
 from . import _slipfront
 from ._optional import import_optional
 
-#: Folders that are being written beside their names; they go where a program has to end at once.
+#: Functions that undo what has been written in part. They may be called twice; a program that has to end at once calls them.
 UNFINISHED = set()
 
 

@@ -4,6 +4,7 @@ import os
 
 from . import _slipfront
 from ._optional import import_optional
+from ._shown import shown
 from ._slipfront import InputError
 
 np = import_optional("numpy")
@@ -71,5 +72,5 @@ def thread_count(threads):
     if threads is None:
         return len(os.sched_getaffinity(0))
     if isinstance(threads, bool) or not isinstance(threads, (int, np.integer)) or not 1 <= threads <= 4096:
-        raise InputError(f"threads = '{threads}': out of range; allowed: a whole number from 1 to 4096")
+        raise InputError(f"threads = '{shown(threads)}': out of range; allowed: a whole number from 1 to 4096")
     return _slipfront.sensible_threads(int(threads))

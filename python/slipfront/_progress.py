@@ -3,6 +3,7 @@
 import sys
 import time
 
+from ._shown import shown
 from ._slipfront import InputError
 
 
@@ -15,7 +16,7 @@ def watcher(progress):
         return Line()
     if callable(progress):
         return progress
-    raise InputError(f"progress = '{progress}': neither a callable nor a bool; allowed: True, or a function of (done, total, steps, level)")
+    raise InputError(f"progress = '{shown(progress)}': neither a callable nor a bool; allowed: True, or a function of (done, total, steps, level)")
 
 
 class Line:

@@ -9,6 +9,7 @@ from ._optional import import_optional
 from ._numbers import np, numbers, one_number, thread_count
 from ._progress import showing
 from ._scenario import arguments, path
+from ._shown import shown
 from ._slipfront import FileError, InputError
 
 nan = float("nan")
@@ -92,7 +93,7 @@ def chain(scenario, *, set=None, output=None, resume=None, progress=None, thread
 
 
 def _scales(scales):
-    return numbers("scales", scales).reshape(-1).tolist() if np.size(scales) else []
+    return numbers("scales", scales).reshape(-1).tolist()
 
 
 def compare(scenario, *, scales=(), set=None, output=None, progress=None, threads=None):
@@ -155,7 +156,7 @@ def check(scenario, *, set=None, command="pulse", scales=()):
         return _slipfront.check_chain(request)
     if command == "compare":
         return _slipfront.check_compare(request, _scales(scales))
-    raise InputError(f"command = '{command}': unknown; allowed: pulse, chain, compare")
+    raise InputError(f"command = '{shown(command)}': unknown; allowed: pulse, chain, compare")
 
 
 def open(file):
@@ -172,7 +173,8 @@ def read(name, any_file=False):
     import_optional("netCDF4")
     _slipfront.require_readable_netcdf(os.fsencode(name))  # what is damaged would crash the library, and Python with it
     try:
-        with xarray.open_dataset(name, engine="netcdf4") as stored:
+        # The library is not made for threads, and a process that is started while a thread is in it waits for ever.
+        with _slipfront.NetcdfLock(), xarray.open_dataset(name, engine="netcdf4") as stored:
             if not (any_file or "slipfront_format" in stored.attrs):
                 raise FileError(f"{name}: not a file of slipfront")
             data = stored.drop_vars(["checkpoint", "scenario_text", "done"], errors="ignore").load()

@@ -6,11 +6,18 @@ import re
 from collections.abc import Mapping
 
 from ._numbers import np
+from ._shown import shown
 from ._slipfront import InputError
 
 
-def _value(key, value):
+#: Tables and lists within each other; a scenario needs three.
+_most_nested = 100
+
+
+def _value(key, value, depth=0):
     """A value as TOML. Raises InputError for what TOML does not have."""
+    if depth > _most_nested:
+        raise InputError(f"{shown(key)}: tables or lists that are nested {_most_nested} deep or hold themselves; allowed: a number, a text, a list or a dict of them")
     if isinstance(value, (np.generic, np.ndarray)):
         value = value.tolist()
     if isinstance(value, bool):
@@ -22,10 +29,10 @@ def _value(key, value):
     if isinstance(value, str):
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
     if isinstance(value, (list, tuple)):
-        return "[" + ", ".join(_value(key, item) for item in value) + "]"
+        return "[" + ", ".join(_value(key, item, depth + 1) for item in value) + "]"
     if isinstance(value, Mapping):
-        return "{ " + ", ".join(f"{_name(name)} = {_value(f'{key}.{name}', item)}" for name, item in value.items()) + " }"
-    raise InputError(f"{key} = '{value}': a {type(value).__name__}; allowed: a number, a text, a list or a dict of them")
+        return "{ " + ", ".join(f"{_name(name)} = {_value(f'{key}.{name}', item, depth + 1)}" for name, item in value.items()) + " }"
+    raise InputError(f"{shown(key)} = '{shown(value)}': a {type(value).__name__}; allowed: a number, a text, a list or a dict of them")
 
 
 def to_toml(tables):
@@ -41,7 +48,7 @@ def to_toml(tables):
 
 def _name(key):
     if not isinstance(key, str):
-        raise InputError(f"'{key}': a key that is a {type(key).__name__}; allowed: a text")
+        raise InputError(f"'{shown(key)}': a key that is a {type(key).__name__}; allowed: a text")
     return key if re.fullmatch("[A-Za-z0-9_-]+", key) else _value(key, key)
 
 
@@ -55,7 +62,7 @@ def overrides(settings):
     if settings is None:
         return []
     if not isinstance(settings, Mapping):
-        raise InputError(f"set = '{settings}': a {type(settings).__name__}; allowed: a dict such as {{'friction.coefficient': 0.5}}")
+        raise InputError(f"set = '{shown(settings)}': a {type(settings).__name__}; allowed: a dict such as {{'friction.coefficient': 0.5}}")
     return [f"{key}={value if isinstance(value, str) else _value(key, value)}" for key, value in settings.items()]
 
 
@@ -68,7 +75,7 @@ def path(name, value):
     except TypeError:
         text = None
     if not isinstance(text, str) or not text or "\0" in text:
-        raise InputError(f"{name} = '{value}': not a path; allowed: a str or os.PathLike")
+        raise InputError(f"{name} = '{shown(value)}': not a path; allowed: a str or os.PathLike")
     return text
 
 

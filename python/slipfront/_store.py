@@ -1,6 +1,7 @@
 """Results of a sweep on disk while it runs: lines that are appended whole, each with its checksum, so that a killed sweep
 loses at most the line that it was writing."""
 
+import contextlib
 import fcntl
 import json
 import os
@@ -41,14 +42,19 @@ class Store:
             else:
                 self.append(about)
         except OSError as error:
-            os.close(self._file)
+            self._close()
             if isinstance(error, FileError):
                 raise
             reason = "another process is writing it" if isinstance(error, BlockingIOError) else error.strerror
             raise FileError(f"{path}: {reason}") from error
         except InputError:
-            os.close(self._file)
+            self._close()
             raise
+
+    def _close(self):
+        with contextlib.suppress(OSError):
+            fcntl.flock(self._file, fcntl.LOCK_UN)  # a process that was started meanwhile has the descriptor too
+        os.close(self._file)
 
     def _read(self, about):
         whole = 0
@@ -85,7 +91,7 @@ class Store:
         try:
             if remove:
                 os.unlink(self.path)
-            os.close(self._file)
+            self._close()
         except OSError as error:
             if not remove:
                 raise FileError(f"{self.path}: {error.strerror}") from error

@@ -14,6 +14,7 @@ from ._numbers import np, thread_count
 from ._progress import showing
 from ._run import check, open
 from ._scenario import arguments, overrides
+from ._shown import shown
 from ._slipfront import FileError, InputError, __version__
 from ._store import Store
 
@@ -24,12 +25,15 @@ _not_by_default = {"time", "wall_seconds", "solve_seconds", "site_updates_per_se
 def _axes(axes):
     """{key: list of values}, each list one-dimensional and without repetition."""
     if not hasattr(axes, "items") or not axes:
-        raise InputError(f"axes = '{axes}': not a dict; allowed: {{'friction.coefficient': [0.1, 0.5], ...}}")
+        raise InputError(f"axes = '{shown(axes)}': not a dict; allowed: {{'friction.coefficient': [0.1, 0.5], ...}}")
     checked = {}
     for key, values in axes.items():
-        array = np.asarray(values)
         if not isinstance(key, str):
-            raise InputError(f"axes: '{key}' is no key; allowed: texts such as 'friction.coefficient'")
+            raise InputError(f"axes: '{shown(key)}' is no key; allowed: texts such as 'friction.coefficient'")
+        try:
+            array = np.asarray(values)
+        except ValueError as error:
+            raise InputError(f"axes: {key}: not an array: {error}; allowed: one row of numbers or texts") from None
         if array.ndim != 1 or array.size == 0 or array.dtype.kind not in "fiubU":
             raise InputError(f"axes: {key}: an array of shape {array.shape} of {array.dtype}; allowed: one row of numbers or texts")
         if array.dtype.kind == "f" and not np.isfinite(array).all():
@@ -47,8 +51,8 @@ def _variables(variables, command):
     if isinstance(variables, str):
         variables = [variables]
     for name in variables:
-        if name not in known:
-            raise InputError(f"variables: '{name}': unknown; allowed: {', '.join(known)}")
+        if not isinstance(name, str) or name not in known:
+            raise InputError(f"variables: '{shown(name)}': unknown; allowed: {', '.join(known)}")
     return {name: known[name] for name in variables}
 
 
@@ -100,7 +104,7 @@ def sweep(scenario, axes, *, variables=None, set=None, command="pulse", output=N
     InputError for what is wrong with every point, or with the axes; FileError. KeyboardInterrupt keeps what is done.
     """
     if command not in ("pulse", "chain"):
-        raise InputError(f"command = '{command}': unknown; allowed: pulse, chain")
+        raise InputError(f"command = '{shown(command)}': unknown; allowed: pulse, chain")
     threads = thread_count(threads)
     axes, kept = _axes(axes), _variables(variables, command)
     shape = tuple(len(values) for values in axes.values())

@@ -2,9 +2,11 @@
 
 #include <fcntl.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstddef>
@@ -15,6 +17,7 @@
 
 #include "../sanitized.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/record/dataset_file.hpp"
 
 namespace slipfront::record {
 namespace {
@@ -85,13 +88,32 @@ void silence_libraries() {
   close(nowhere);
 }
 
+/// Seconds of the processor that the copy may use: what is asked, unless this process may use less. The system kills a
+/// process at its hard limit, without a signal that says why.
+unsigned long processor_limit(unsigned long seconds) {
+  rlimit own{};
+  if (getrlimit(RLIMIT_CPU, &own) != 0) return seconds;
+  const rlim_t most = own.rlim_max == RLIM_INFINITY || own.rlim_max < 2 ? own.rlim_max : own.rlim_max - 1;
+  return std::min({static_cast<rlim_t>(seconds), own.rlim_cur, most});
+}
+
+/// From now on the copy ends by SIGXCPU after some seconds of the processor, and leaves no core file.
+void limit_processor(unsigned long seconds) {
+  rlimit limit{};
+  setrlimit(RLIMIT_CORE, &limit);
+  if (seconds == 0 || getrlimit(RLIMIT_CPU, &limit) != 0) return;
+  limit.rlim_cur = processor_limit(seconds);
+  setrlimit(RLIMIT_CPU, &limit);
+}
+
 /// The copy's life. It ends without the ends of this program: no destructor and nothing that stdio still holds.
-[[noreturn]] void live_as_copy(int pipe, const std::function<std::string()>& work) {
+[[noreturn]] void live_as_copy(int pipe, const std::function<std::string()>& work, unsigned long seconds) {
   is_copy = true;
+  limit_processor(seconds);
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody is left to put the file in its place
   sigset_t others;                   // Ctrl-C and the like are for the program to answer
   sigfillset(&others);
-  for (const int crash : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL}) {
+  for (const int crash : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU}) {
     std::signal(crash, SIG_DFL);
     sigdelset(&others, crash);
   }
@@ -116,7 +138,8 @@ void silence_libraries() {
   _exit(sent ? 0 : 1);
 }
 
-std::string result_of(const std::string& text, const std::string& name, const std::string& failed, int status) {
+std::string result_of(const std::string& text, const std::string& name, const std::string& failed, int status,
+                      unsigned long seconds) {
   if (text == "m") throw std::bad_alloc();
   Fields fields(text.empty() ? std::string_view() : std::string_view(text).substr(1));
   const End end = text.empty() ? End::memory : static_cast<End>(text[0]);
@@ -130,6 +153,10 @@ std::string result_of(const std::string& text, const std::string& name, const st
     if (fields.whole() && end == End::file) throw FileError(field);
     if (fields.whole()) return field;
   }
+  if (seconds > 0 && WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
+    throw FileError(name + ": " + failed + ": the NetCDF library did not end within " +
+                    std::to_string(processor_limit(seconds)) +
+                    " s of processor time, which no file of this size takes; it is probably damaged");
   std::string reason = "the NetCDF library gave up";
   if (WIFSIGNALED(status)) reason += std::string(" (") + strsignal(WTERMSIG(status)) + ")";
   throw FileError(name + ": " + failed + ": " + reason);
@@ -141,7 +168,8 @@ std::unique_lock<std::recursive_mutex> lock_netcdf() {
   return is_copy ? std::unique_lock<std::recursive_mutex>() : std::unique_lock(library_mutex());
 }
 
-std::string isolated(const std::string& name, const std::string& failed, const std::function<std::string()>& work) {
+std::string isolated(const std::string& name, const std::string& failed, const std::function<std::string()>& work,
+                     unsigned long seconds) {
   if (is_copy) return work();
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) return work();
@@ -151,7 +179,7 @@ std::string isolated(const std::string& name, const std::string& failed, const s
     copy = fork();
     if (copy == 0) {
       close(ends[0]);
-      live_as_copy(ends[1], work);
+      live_as_copy(ends[1], work, seconds);
     }
   }
   close(ends[1]);
@@ -177,7 +205,7 @@ std::string isolated(const std::string& name, const std::string& failed, const s
   while (waitpid(copy, &status, 0) < 0 && errno == EINTR) {
   }
   if (exception) std::rethrow_exception(exception);
-  return result_of(text, name, failed, status);
+  return result_of(text, name, failed, status, seconds);
 }
 
 }  // namespace slipfront::record

@@ -3,7 +3,6 @@
 /// Work in a process of its own.
 
 #include <functional>
-#include <mutex>
 #include <string>
 
 namespace slipfront::record {
@@ -12,10 +11,9 @@ namespace slipfront::record {
 /// where an allocation fails and where a file is damaged; a copy crashes alone. What `work` throws is thrown here:
 /// InputError and FileError as they are, anything else as std::bad_alloc or FileError. It may write to descriptors that
 /// are open; all else that it does is lost with the copy. Where no process can be started it is done in this one.
-/// \throws FileError with `name` and `failed` if the copy crashed.
-std::string isolated(const std::string& name, const std::string& failed, const std::function<std::string()>& work);
-
-/// The lock of the NetCDF library, which is not made for threads. In a copy there is but one thread, and no lock.
-std::unique_lock<std::recursive_mutex> lock_netcdf();
+/// The copy may use the processor for `seconds`; 0: without a limit. Time in which a busy machine does not run it does
+/// not count. \throws FileError with `name` and `failed` if the copy crashed or took longer.
+std::string isolated(const std::string& name, const std::string& failed, const std::function<std::string()>& work,
+                     unsigned long seconds = 0);
 
 }  // namespace slipfront::record

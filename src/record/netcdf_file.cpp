@@ -31,7 +31,10 @@ void write_netcdf(const std::string& path, std::size_t expected_size,
 
 std::string read_netcdf(const std::string& path, std::string_view image, std::size_t most_bytes,
                         const std::function<std::string(const netcdf::Reader&)>& take) {
-  return isolated(path, "cannot be read", [&] { return take(netcdf::Reader(path, image, most_bytes)); });
+  // Damage can make the library read without an end. It usually reads 100 MB a second.
+  const unsigned long seconds = 30 + image.size() / 1000000;
+  return isolated(
+      path, "cannot be read", [&] { return take(netcdf::Reader(path, image, most_bytes)); }, seconds);
 }
 
 }  // namespace slipfront::record

@@ -15,7 +15,8 @@ namespace slipfront::record {
 /// reason), also where the NetCDF library crashes.
 void write_netcdf(const std::string& path, std::size_t expected_size, const std::function<void(netcdf::Writer&)>& fill);
 
-/// The bytes that `take` makes of a NetCDF image. \throws what `take` throws; FileError where the library crashes.
+/// The bytes that `take` makes of a NetCDF image. \throws what `take` throws; FileError where the library crashes, or
+/// uses the processor for longer than 30 s and a second for each megabyte.
 std::string read_netcdf(const std::string& path, std::string_view image, std::size_t most_bytes,
                         const std::function<std::string(const netcdf::Reader&)>& take);
 

@@ -59,6 +59,12 @@ bool is_part(std::string_view name, const std::string& target) {
   return dash != std::string_view::npos && all_digits(name.substr(0, dash)) && all_digits(name.substr(dash + 1));
 }
 
+/// Closes a file and gives back its lock, which would otherwise last as long as any process that was started meanwhile.
+int close_unlocked(int descriptor) {
+  flock(descriptor, LOCK_UN);
+  return close(descriptor);
+}
+
 /// Removes the part files beside `target` whose lock nobody holds. A process looks for each name once, because a folder
 /// may be large. Whatever stands in the way is not an error.
 void remove_parts(const fs::path& target) {
@@ -74,7 +80,7 @@ void remove_parts(const fs::path& target) {
     const int part = openat(dirfd(entries.get()), entry->d_name, O_WRONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
     if (part < 0) continue;
     if (flock(part, LOCK_EX | LOCK_NB) == 0) unlinkat(dirfd(entries.get()), entry->d_name, 0);
-    close(part);
+    close_unlocked(part);
   }
 }
 
@@ -91,12 +97,12 @@ class PartFile {
       struct stat now {};
       const bool locked = flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;  // some have no locks
       if (locked && fstat(descriptor_, &now) == 0 && now.st_nlink > 0) return;
-      close(descriptor_);  // another process took it for a leftover before it was locked
+      close_unlocked(descriptor_);  // another process took it for a leftover before it was locked
     }
   }
   ~PartFile() {
-    if (descriptor_ >= 0) close(descriptor_);
     if (!name_.empty()) unlink(name_.c_str());
+    if (descriptor_ >= 0) close_unlocked(descriptor_);
   }
   PartFile(const PartFile&) = delete;
   PartFile& operator=(const PartFile&) = delete;
@@ -123,7 +129,7 @@ class PartFile {
     const int why = errno;
     const bool renamed = closed && std::rename(name_.c_str(), target.c_str()) == 0;
     const int why_not_renamed = errno;
-    if (lock >= 0) close(lock);
+    if (lock >= 0) close_unlocked(lock);
     if (!closed) fail(path_, reason(why));
     if (!renamed) fail(path_, reason(why_not_renamed));
     name_.clear();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <string>
 
@@ -68,7 +69,8 @@ bool carry_out(Run& run, const CheckpointOptions& options, const std::function<b
     });
   } catch (const NumericsError& error) {  // the run stands at its last good step, or the last checkpoint does
     if (run.can_checkpoint()) write();
-    if (options.output.wanted())
+    std::error_code none;
+    if (options.output.wanted() && std::filesystem::exists(options.output.unfinished(), none))
       throw NumericsError(std::string(error.what()) + "; what was computed is in " + options.output.unfinished());
     throw;
   }

@@ -7,7 +7,7 @@ import shutil
 import subprocess
 import unittest
 
-from support import CommandLine, PROGRAM, SOURCE, run
+from support import PATIENCE, CommandLine, PROGRAM, SOURCE, run
 
 CHAIN = ["time", "scale", "slip_at_origin", "dislocations", "sites", "steps", "site_updates_per_second", "energy_drift", "charge_error",
          "wall_seconds"]
@@ -119,7 +119,7 @@ class Chain(CommandLine):
 
         def mpirun(ranks, *arguments):
             return subprocess.run(["mpirun", "-n", str(ranks), PROGRAM, "chain", case, "--set", "chain.scale=500", *arguments],
-                                  env=environment, capture_output=True, text=True, timeout=400)
+                                  env=environment, capture_output=True, text=True, timeout=PATIENCE)
 
         alone, shared = os.path.join(folder, "alone.nc"), os.path.join(folder, "shared.nc")
         self.ok("chain", case, "--set", "chain.scale=500", "-o", alone)

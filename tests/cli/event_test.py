@@ -6,10 +6,9 @@ import json
 import os
 import signal
 import subprocess
-import time
 import unittest
 
-from support import CommandLine, PROGRAM, SANITIZED, SOURCE, run
+from support import PATIENCE, PROGRAM, SANITIZED, SOURCE, CommandLine, run, until_it_has_worked
 
 EVENT = ["name", "c_m_s", "rupture_velocity", "stress", "frictionless_slip_velocity", "observed_slip_velocity",
          "contact_ratio", "stress_pa", "damping_number", "warnings"]
@@ -253,7 +252,7 @@ class Event(CommandLine):
         while process.poll() is None and os.stat(cut).st_size == grown:
             pass
         process.send_signal(signal.SIGINT)
-        out, errors = process.communicate(timeout=60)
+        out, errors = process.communicate(timeout=PATIENCE)
         self.assertEqual((process.returncode, out), (130, ""), errors)
         self.assertRegex(errors, "interrupted after [0-9]+ of 1500 events; go on with --resume ")
         self.assertGreater(os.stat(cut).st_size, grown)
@@ -265,9 +264,9 @@ class Event(CommandLine):
 
     def interrupted_csv(self, case, path):
         process = subprocess.Popen([PROGRAM, "event", case, "--samples", "100000", "-o", path], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-        time.sleep(0.5)
+        until_it_has_worked(process, 0.3)
         process.send_signal(signal.SIGINT)
-        _, errors = process.communicate(timeout=60)
+        _, errors = process.communicate(timeout=PATIENCE)
         self.assertEqual(process.returncode, 130, errors)
         return errors
 

@@ -1,8 +1,10 @@
 """What the tests of the command line share. They run the program named by $SLIPFRONT."""
 
+import contextlib
 import json
 import os
 import random
+import resource
 import signal
 import subprocess
 import tempfile
@@ -11,11 +13,41 @@ import unittest
 
 PROGRAM = os.environ["SLIPFRONT"]
 SOURCE = os.environ["SLIPFRONT_SOURCE"]
+PATIENCE = 1200  # seconds that nothing takes, however busy the machine is: who waits longer, waits for what hangs
 SANITIZED = os.environ.get("SLIPFRONT_SANITIZED") == "ON"  # then everything takes ten times longer
 
 
 def run(*arguments, stdin=""):
-    return subprocess.run([PROGRAM, *arguments], input=stdin, capture_output=True, text=True, timeout=120)
+    return subprocess.run([PROGRAM, *arguments], input=stdin, capture_output=True, text=True, timeout=PATIENCE)
+
+
+def processor_time():
+    """Seconds of the processor, in all child processes that have been waited for."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def processor_time_of(process):
+    """The same of a process that runs, without its children."""
+    with open(f"/proc/{process.pid}/stat", encoding="utf-8") as file:
+        fields = file.read().rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def until_it_has_worked(process, seconds):
+    """Waits until the program has used the processor for some seconds, however long that takes on a busy machine."""
+    while process.poll() is None and processor_time_of(process) < seconds:
+        time.sleep(0.001)
+
+
+def until_it_answers(process, number):
+    """Waits until the program answers a signal, or has blocked it; before that it dies of it."""
+    while process.poll() is None:
+        with open(f"/proc/{process.pid}/status", encoding="utf-8") as file:
+            masks = [int(line.split()[1], 16) for line in file if line.startswith(("SigCgt:", "SigBlk:"))]
+        if any(mask >> (number - 1) & 1 for mask in masks):
+            return
+        time.sleep(0.001)
 
 
 class CommandLine(unittest.TestCase):
@@ -52,6 +84,13 @@ class CommandLine(unittest.TestCase):
         return self.file("slow.toml", "[initial]\nstress_left = 0.855\nstress_right = 0\n[friction]\nlaw = 'viscous'\ncoefficient = 0.5\n"
                                       f"[pulse]\ncells = {cells}\n[chain]\nscale = {scale}\n[output]\nevery = 0.3\n")
 
+    @contextlib.contextmanager
+    def takes_at_most(self, seconds):
+        """Of the processor, in processes that are waited for: a busy machine changes nothing."""
+        begun = processor_time()
+        yield
+        self.assertLess(processor_time() - begun, seconds)
+
     def wait_for(self, path, process):
         """Until the process has written the file, or has ended."""
         while not os.path.exists(path) and process.poll() is None:
@@ -62,7 +101,7 @@ class CommandLine(unittest.TestCase):
         process = subprocess.Popen([PROGRAM, *arguments, "-o", path], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
         self.wait_for(path, process)
         process.send_signal(signal.SIGINT)
-        _, errors = process.communicate(timeout=60)
+        _, errors = process.communicate(timeout=PATIENCE)
         self.assertEqual(process.returncode, 130, errors)
         return errors
 

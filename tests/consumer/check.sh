@@ -2,7 +2,7 @@
 # Installs the build tree $1 below $2 and builds and runs the two-file project beside this script against it.
 set -euo pipefail
 build="$1" work="$2" compiler="$3" sanitize="${4:-OFF}"
-here="$(cd "$(dirname "$0")" && pwd)"
+here="$(dirname "$(readlink -f "$0")")"
 flags=""
 [ "$sanitize" = ON ] && flags="-fsanitize=address,undefined"
 rm -rf "$work"

@@ -5,6 +5,7 @@ import { createRequire } from 'node:module';
 import { once } from 'node:events';
 import { after } from 'node:test';
 
+const patience = 300000; // ms that nothing takes, however busy the machine is
 const require = createRequire(`${process.env.SLIPFRONT_NODE_MODULES}/`);
 const { chromium } = require('playwright-core');
 export const axe = require.resolve('axe-core/axe.min.js');
@@ -22,6 +23,7 @@ after(async () => {
 export async function open(hash, options = {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, ...options });
   await context.grantPermissions(['clipboard-read', 'clipboard-write'], { origin: url.slice(0, -1) });
+  context.setDefaultTimeout(patience);
   const page = await context.newPage();
   page.complaints = [];
   page.on('console', (message) => message.type() === 'error' && page.complaints.push(message.text()));
@@ -31,10 +33,21 @@ export async function open(hash, options = {}) {
   return page;
 }
 
+/** Repeats a check until it passes: how long that takes depends on the machine. */
+export async function eventually(check) {
+  for (const began = Date.now(); ; await new Promise((resolve) => setTimeout(resolve, 50))) {
+    try {
+      return await check();
+    } catch (error) {
+      if (Date.now() - began > patience) throw error;
+    }
+  }
+}
+
 /** Waits until what is computed stands there. */
 export async function ready(page) {
-  await page.locator('.plot canvas').first().waitFor({ timeout: 60000 });
-  await page.waitForFunction(() => !document.querySelector('.busy'), null, { timeout: 60000 });
+  await page.locator('.plot canvas').first().waitFor();
+  await page.waitForFunction(() => !document.querySelector('.busy'), null);
 }
 
 /** Like a user: the text of a field is replaced. */

@@ -70,7 +70,7 @@ class Job:
         return self.out.read_bytes() if self.out.exists() else b""
 
     def run(self, environment, arguments=None, check=False):
-        done = subprocess.run([PROGRAM, *(arguments or self.arguments)], env={**os.environ, **environment}, capture_output=True, text=True, timeout=120)
+        done = subprocess.run([PROGRAM, *(arguments or self.arguments)], env={**os.environ, **environment}, capture_output=True, text=True, timeout=1200)
         assert not check or done.returncode == 0, done
         return done
 

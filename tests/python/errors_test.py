@@ -11,13 +11,13 @@ import warnings
 import numpy as np
 
 import slipfront
-from support import CommandLine, PROGRAM, SOURCE
+from support import PATIENCE, CommandLine, PROGRAM, SOURCE
 
 STEP = os.path.join(SOURCE, "cases/step.toml")
 
 
 def python(code, **environment):
-    return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120, env={**os.environ, **environment})
+    return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=PATIENCE, env={**os.environ, **environment})
 
 
 class Errors(CommandLine):
@@ -113,7 +113,7 @@ class Errors(CommandLine):
             process = subprocess.Popen([sys.executable, "-c", code], stderr=subprocess.PIPE, text=True)
             self.wait_for(cut, process)
             process.send_signal(2)
-            _, errors = process.communicate(timeout=60)
+            _, errors = process.communicate(timeout=PATIENCE)
             self.assertIn("KeyboardInterrupt", errors)
             self.assertEqual(slipfront.open(cut).attrs["finished"], 0)
             getattr(slipfront, command)(case, set={key: int(value)}, resume=cut, threads=1)
@@ -126,6 +126,32 @@ class Errors(CommandLine):
             warnings.simplefilter("always")
             slipfront.pulse(STEP)
         self.assertEqual([str(w.message) for w in seen], [])
+
+
+def nested(kind, depth):
+    value = 1.0
+    for _ in range(depth):
+        value = {"a": value} if kind is dict else [value]
+    return value
+
+
+class Nested(unittest.TestCase):
+    """Values that hold values that hold values ..., deeper than Python can follow, are bad input like any other."""
+
+    def test_are_refused_everywhere(self):
+        endless = {}
+        endless["a"] = endless
+        step = {"initial": {"profile": "step", "stress_left": 0.855, "stress_right": 0}}
+        for value in (nested(dict, 5000), nested(list, 5000), nested(dict, 150), endless):
+            for call in (lambda v: slipfront.pulse(v), lambda v: slipfront.pulse({**step, "time": v}), lambda v: slipfront.pulse({**step, "time": {"end": v}}),
+                         lambda v: slipfront.pulse(step, set=v), lambda v: slipfront.pulse(step, set={"time.end": v}), lambda v: slipfront.pulse(step, output=v),
+                         lambda v: slipfront.pulse(step, progress=v), lambda v: slipfront.chain(step, threads=v), lambda v: slipfront.compare(step, scales=v),
+                         lambda v: slipfront.sweep(step, v), lambda v: slipfront.sweep(step, {"time.end": v}), lambda v: slipfront.sweep(step, {"time.end": [1.0]}, variables=v),
+                         lambda v: slipfront.event(v), lambda v: slipfront.event({"name": "a", "rupture_velocity": v}), lambda v: slipfront.relations(stress=v),
+                         lambda v: slipfront.open(v), lambda v: slipfront.check(step, command=v)):
+                with self.assertRaises(slipfront.InputError) as caught:
+                    call(value)
+                self.assertLess(len(str(caught.exception)), 1000)
 
 
 class Commands(CommandLine):

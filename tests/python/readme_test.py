@@ -8,7 +8,7 @@ import sys
 import tempfile
 import unittest
 
-from support import PROGRAM, SOURCE
+from support import PATIENCE, PROGRAM, SOURCE
 
 README = pathlib.Path(SOURCE, "README.md")
 
@@ -69,7 +69,7 @@ class Readme(unittest.TestCase):
 
     def done(self, *command, **how):
         environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"} | {"HOME": str(self.root / "home")}
-        done = subprocess.run(command, cwd=self.root, capture_output=True, text=True, timeout=120, env=environment | how.pop("env", {}), **how)
+        done = subprocess.run(command, cwd=self.root, capture_output=True, text=True, timeout=PATIENCE, env=environment | how.pop("env", {}), **how)
         self.assertEqual(done.returncode, 0, (command, done.stderr[-2000:]))
         return done.stdout
 

@@ -14,6 +14,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from page import Page
+from support import PATIENCE
 from slipfront.plots.style import styled
 from slipfront.reproduce import outputs, report, report_hover
 from slipfront.reproduce.picture import Picture
@@ -125,7 +126,7 @@ class Browser(Report):
             page = pathlib.Path(folder) / "moved.html"
             page.write_text(self.text.replace("</body>", f"<script>document.title=JSON.stringify({script})</script></body>"), encoding="utf-8")
             done = subprocess.run([CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu", "--enable-logging=stderr", f"--user-data-dir={folder}/profile",
-                                   f"--window-size={width},900", "--dump-dom", page.as_uri()], capture_output=True, text=True, timeout=120)
+                                   f"--window-size={width},900", "--dump-dom", page.as_uri()], capture_output=True, text=True, timeout=PATIENCE)
             self.assertEqual([line for line in done.stderr.splitlines() if "CONSOLE" in line], [])
             return json.loads(re.search(r"<title>(.*?)</title>", done.stdout, re.DOTALL).group(1))
 

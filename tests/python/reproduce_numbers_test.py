@@ -15,7 +15,7 @@ import xarray as xr
 
 import slipfront
 from slipfront.reproduce.picture import captions
-from support import PROGRAM, SOURCE, CommandLine
+from support import PATIENCE, PROGRAM, SOURCE, CommandLine
 
 PAPER = os.path.join(SOURCE, "python/slipfront/reproduce/paper.toml")
 SAME, FOLLOWS, READING, WRONG = "same", "follows from a printed number that differs", "the paper rounds or misreads", "the paper is wrong"
@@ -54,7 +54,7 @@ class Numbers(CommandLine):
     def setUpClass(cls):
         cls.temporary = tempfile.TemporaryDirectory()
         cls.folder = os.path.join(cls.temporary.name, "reproduction")
-        done = subprocess.run([PROGRAM, "reproduce", "-o", cls.folder, "--json", "--threads", "1"], capture_output=True, text=True, timeout=280)
+        done = subprocess.run([PROGRAM, "reproduce", "-o", cls.folder, "--json", "--threads", "1"], capture_output=True, text=True, timeout=PATIENCE)
         assert done.returncode == 0, done.stderr
         cls.out = json.loads(done.stdout)
         with open(PAPER, "rb") as file:
@@ -184,7 +184,7 @@ class Numbers(CommandLine):
             words = shlex.split(command)[1:]
             if words[0] in ("pulse", "chain", "compare"):  # the runs themselves are tested elsewhere
                 words = [word for word, before in zip(words, ["", *words]) if "-o" not in (word, before) and word != "--json"] + ["--check"]
-            done = subprocess.run([PROGRAM, *words], capture_output=True, text=True, timeout=60, cwd=SOURCE)
+            done = subprocess.run([PROGRAM, *words], capture_output=True, text=True, timeout=PATIENCE, cwd=SOURCE)
             self.assertEqual(done.returncode, 0, (command, done.stderr))
 
     def test_lines_of_python_run_as_printed(self):

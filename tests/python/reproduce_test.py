@@ -10,7 +10,7 @@ import unittest
 
 import xarray as xr
 from page import Page
-from support import PROGRAM, CommandLine
+from support import PATIENCE, PROGRAM, CommandLine
 
 TABLES = ("numbers", "formulas", "statements", "inputs")
 
@@ -21,7 +21,7 @@ class Reproduce(CommandLine):
         cls.temporary = tempfile.TemporaryDirectory()
         cls.folder = os.path.join(cls.temporary.name, "reproduction")
         # Without arguments: this is the main job.
-        done = subprocess.run([PROGRAM], capture_output=True, text=True, timeout=280, cwd=cls.temporary.name)
+        done = subprocess.run([PROGRAM], capture_output=True, text=True, timeout=PATIENCE, cwd=cls.temporary.name)
         assert done.returncode == 0, done.stderr
         cls.printed, cls.errors = done.stdout, done.stderr
 
@@ -74,16 +74,65 @@ class Reproduce(CommandLine):
         self.refused(2, "reproduce", "--nonsense", says=["--nonsense"])
         self.assertEqual(os.listdir(os.path.dirname(mine)), ["letter.txt"])
 
-    def test_interrupted_leaves_nothing(self):
-        with tempfile.TemporaryDirectory() as folder:
-            process = subprocess.Popen([PROGRAM, "reproduce", "-o", os.path.join(folder, "out")], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-            while process.poll() is None and not os.listdir(folder):
-                time.sleep(0.01)
+    def interrupted(self, site, when):
+        """Ctrl-C of `reproduce` once when(folder, process) returns; `site` is code that Python runs as it starts."""
+        with tempfile.TemporaryDirectory() as folder, tempfile.TemporaryDirectory() as path:
+            with open(os.path.join(path, "sitecustomize.py"), "w", encoding="ascii") as file:
+                file.write(site)
+            environment = {**os.environ, "PYTHONPATH": path + os.pathsep + os.environ.get("PYTHONPATH", ""), "PYTHONDONTWRITEBYTECODE": "1"}
+            process = subprocess.Popen([PROGRAM, "reproduce", "-o", os.path.join(folder, "out")], env=environment,
+                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            when(folder, process)
             process.send_signal(signal.SIGINT)
-            _, errors = process.communicate(timeout=60)
-            self.assertEqual(process.returncode, 130, errors)
+            _, errors = process.communicate()
+            self.assertEqual((process.returncode, errors), (130, "slipfront: interrupted\n"))
             self.assertEqual(os.listdir(folder), [])
-            self.assertEqual(errors.count("\n"), 1, errors)
+
+    def wait_for_folder(self, folder, process):
+        while process.poll() is None and not os.listdir(folder):
+            time.sleep(0.01)
+
+    def test_interrupted_leaves_nothing(self):
+        self.interrupted("", self.wait_for_folder)
+
+    def test_interrupted_leaves_nothing_where_the_interpreter_ends_slowly(self):
+        self.interrupted("import builtins, time\n"
+                         "class Slow:\n"
+                         "    def __del__(self, sleep=time.sleep):\n"
+                         "        sleep(2)\n"
+                         "builtins.slow = Slow()\n", self.wait_for_folder)
+
+    def test_interrupted_leaves_nothing_where_a_library_loses_the_exception(self):
+        for instead in ("raise ImportError('lost')", "time.sleep(1000)"):
+            self.interrupted("import pathlib, time\n"
+                             "mkdir = pathlib.Path.mkdir\n"
+                             "def make(path, *arguments, **options):\n"
+                             "    mkdir(path, *arguments, **options)\n"
+                             "    if not options:\n"  # the folder that is written into
+                             "        try:\n"
+                             "            time.sleep(1000)\n"
+                             "        except BaseException:\n"
+                             f"            {instead}\n"
+                             "pathlib.Path.mkdir = make\n", self.wait_for_folder)
+
+    def test_interrupted_while_the_interpreter_starts(self):
+        self.interrupted("import time\nprint(flush=True)\ntime.sleep(0.5)\n", lambda folder, process: process.stdout.readline())
+
+    def test_an_interruption_at_the_very_end_does_not_change_the_exit_code(self):
+        with tempfile.TemporaryDirectory() as path:
+            with open(os.path.join(path, "sitecustomize.py"), "w", encoding="ascii") as file:
+                file.write("import builtins, os, time\n"
+                           "class Slow:\n"
+                           "    def __del__(self, sleep=time.sleep, write=os.write):\n"
+                           "        write(2, b'ending\\n')\n"
+                           "        sleep(1)\n"
+                           "builtins.slow = Slow()\n")
+            environment = {**os.environ, "PYTHONPATH": path + os.pathsep + os.environ.get("PYTHONPATH", "")}
+            process = subprocess.Popen([PROGRAM, "reproduce", "--help"], env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+            self.assertEqual(process.stderr.readline(), "ending\n")
+            process.send_signal(signal.SIGINT)
+            _, errors = process.communicate()
+            self.assertEqual((process.returncode, errors), (0, ""))
 
 
 if __name__ == "__main__":

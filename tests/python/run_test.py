@@ -142,24 +142,18 @@ class Run(CommandLine):
 
     def test_others_run_meanwhile(self):
         """The GIL is free: Python goes on while another thread computes."""
-        case, done, gaps = self.slow_case(), [], [0.0]
+        case, rounds = self.slow_case(), 0
 
         def work():
-            begun = time.monotonic()
             slipfront.chain(case, set={"chain.scale": 3000}, threads=1)
-            done.append(time.monotonic() - begun)
 
         thread = threading.Thread(target=work)
         thread.start()
-        last = time.monotonic()
         while thread.is_alive():
             time.sleep(0.001)
-            now = time.monotonic()
-            gaps.append(now - last)
-            last = now
+            rounds += 1
         thread.join()
-        self.assertGreater(done[0], 0.2)
-        self.assertLess(max(gaps), done[0] / 3)
+        self.assertGreater(rounds, 20)  # hundreds on an idle machine; one or two where the thread keeps the GIL
 
     def test_two_threads_at_once_give_what_one_gives(self):
         results = [None, None]

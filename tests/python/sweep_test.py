@@ -11,7 +11,7 @@ import warnings
 import numpy as np
 
 import slipfront
-from support import CommandLine
+from support import PATIENCE, CommandLine
 
 SCENARIO = {"initial": {"profile": "tanh", "stress_left": 0.855, "stress_right": 0.179, "width": 1}, "friction": {"law": "viscous", "coefficient": 0.5},
             "pulse": {"cells": 60}}
@@ -119,7 +119,7 @@ class Sweep(CommandLine):
         process = self.begin()
         self.wait_for_rows(process, 1)
         process.send_signal(signal.SIGINT)
-        errors = process.communicate(timeout=60)[1]
+        errors = process.communicate(timeout=PATIENCE)[1]
         self.assertIn("KeyboardInterrupt", errors)
         with self.assertRaises(slipfront.InputError) as caught:  # an unfinished sweep is not written over
             slipfront.sweep(SCENARIO, MANY, output=self.output)

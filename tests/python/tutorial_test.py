@@ -7,7 +7,7 @@ import sys
 import tempfile
 import unittest
 
-from support import SOURCE
+from support import PATIENCE, SOURCE
 
 SAYS = {
     "1_relations": "V = 0.5 c needs a stress of 0.9845",
@@ -24,7 +24,7 @@ class Tutorial(unittest.TestCase):
         for script in scripts:
             name = os.path.basename(script)[:-3]
             with self.subTest(name), tempfile.TemporaryDirectory() as folder:
-                done = subprocess.run([sys.executable, script], cwd=folder, capture_output=True, text=True, timeout=120)
+                done = subprocess.run([sys.executable, script], cwd=folder, capture_output=True, text=True, timeout=PATIENCE)
                 self.assertEqual(done.returncode, 0, done.stderr)
                 self.assertIn(SAYS[name], done.stdout)
                 pictures = os.listdir(folder)

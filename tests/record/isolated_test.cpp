@@ -3,6 +3,7 @@
 #include "../../src/record/isolated.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <cstdlib>
@@ -47,6 +48,31 @@ TEST(Isolated, ACrashIsAFileError) {
     EXPECT_EQ(message_of<slipfront::FileError>(crash).find("a.nc: cannot be read: "), 0u) << signal;
   }
   EXPECT_EQ(isolated("a", "fails", [] { return std::string("next"); }), "next");
+}
+
+TEST(Isolated, WorkWithoutAnEndIsAFileError) {
+  const auto endless = [] {
+    isolated(
+        "a.nc", "cannot be read",
+        []() -> std::string {
+          for (volatile bool always = true; always;) {
+          }
+          return {};
+        },
+        1);
+  };
+  const std::string message = message_of<slipfront::FileError>(endless);
+  EXPECT_EQ(message.find("a.nc: cannot be read: "), 0u) << message;
+  EXPECT_NE(message.find("within 1 s"), std::string::npos) << message;
+}
+
+/// A wait is not work: a busy machine, or a slow disk, does not end it.
+TEST(Isolated, AWaitMayBeLongerThanTheLimit) {
+  const auto wait = []() -> std::string {
+    usleep(1500000);
+    return "done";
+  };
+  EXPECT_EQ(isolated("a", "fails", wait, 1), "done");
 }
 
 }  // namespace

@@ -1,10 +1,15 @@
 // Files are written whole or not at all.
 
+#include "../../src/record/whole_file.hpp"
+
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/file.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <string>
@@ -44,6 +49,27 @@ class FileSizeLimit {
   rlimit old_{};
   void (*old_handler_)(int);
 };
+
+/// Another thread may start a process while a file is written: it inherits the descriptor, and with it the lock.
+TEST(WholeFile, LeavesNoLockToAProcessThatWasStartedMeanwhile) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "a.txt";
+  pid_t other = -1;
+  slipfront::record::replace_file(path, [&](const slipfront::record::Put& put) {
+    put("text");
+    other = fork();
+    if (other == 0) {
+      pause();
+      _exit(0);
+    }
+  });
+  ASSERT_GT(other, 0);
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  EXPECT_EQ(flock(file, LOCK_EX | LOCK_NB), 0);
+  close(file);
+  kill(other, SIGKILL);
+  waitpid(other, nullptr, 0);
+}
 
 TEST(WholeFile, FailedWriteKeepsTheOldFileAndLeavesNothingElse) {
   const TemporaryFolder folder;

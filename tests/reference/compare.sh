@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
 # The committed tables are what the script makes.
 set -euo pipefail
-here="$(cd "$(dirname "$0")" && pwd)"
+here="$(dirname "$(readlink -f "$0")")"
 for table in "$here"/*.csv; do cmp "$table" "$1/$(basename "$table")"; done

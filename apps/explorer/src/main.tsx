@@ -4,7 +4,7 @@ import './style.css';
 import { render, type ComponentType } from 'preact';
 import { useEffect, useState } from 'preact/hooks';
 import { signal } from '@preact/signals';
-import { addressOf, route, setParams } from './state/route';
+import { addressOf, entryOf, route, setParams } from './state/route';
 import { refreshUnits, stated, wantsUnits } from './state/units';
 import { said } from './ui/announce';
 import { setTheme, theme } from './ui/colors';
@@ -75,7 +75,7 @@ function Top() {
 }
 
 function App() {
-  const page = pages[route.value.panel];
+  const page = entryOf(pages, route.value.panel);
   useEffect(() => {
     if (wantsUnits.value) refreshUnits();
   }, [wantsUnits.value, stated.value.join()]);

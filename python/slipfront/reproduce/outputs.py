@@ -25,6 +25,8 @@ def locked(folder):
             free = False
         yield free
     finally:
+        with contextlib.suppress(OSError):
+            fcntl.flock(descriptor, fcntl.LOCK_UN)  # a process that was started meanwhile has the descriptor too
         os.close(descriptor)
 
 
@@ -58,10 +60,18 @@ def whole_folder(path):
     if path.exists() and not (path / "report.html").is_file() and (not path.is_dir() or any(path.iterdir())):
         raise ValueError(f"-o {path}: something else is there; allowed: a new name, an empty folder or an earlier reproduction")
     beside, old = (path.with_name(f".{path.name}.{kind}-{os.getpid()}") for kind in ("new", "old"))
+
+    def undo():
+        if old.exists() and not path.exists():
+            old.rename(path)
+        for folder in (beside, old, old):  # once more, where something failed on the way
+            with contextlib.suppress(OSError):
+                shutil.rmtree(folder, ignore_errors=True)
+
     with told_of(path), contextlib.ExitStack() as locks:
         try:
+            UNFINISHED.add(undo)
             path.parent.mkdir(parents=True, exist_ok=True)
-            UNFINISHED.add(beside)
             beside.mkdir()
             locks.enter_context(locked(beside))
             yield beside
@@ -70,12 +80,8 @@ def whole_folder(path):
                 path.rename(old)
             beside.rename(path)
         finally:
-            if old.exists() and not path.exists():
-                old.rename(path)
-            for folder in (beside, old, old):  # once more, where something failed on the way
-                with contextlib.suppress(OSError):
-                    shutil.rmtree(folder, ignore_errors=True)
-            UNFINISHED.discard(beside)
+            undo()
+            UNFINISHED.discard(undo)
 
 
 def write_picture(folder, picture) -> None:

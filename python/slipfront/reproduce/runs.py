@@ -52,8 +52,11 @@ class Runs:
         missing = {(kind, *frozen(*run)): run for run in wanted if (kind, *frozen(*run)) not in self.done}
         if missing:
             self.tell(f"{what}: {len(missing)} {kind}" if what else f"{len(missing)} {kind}")
-            with concurrent.futures.ThreadPoolExecutor(self.threads) as workers:
+            workers = concurrent.futures.ThreadPoolExecutor(self.threads)
+            try:
                 self.done.update(zip(missing, workers.map(lambda run: solve(*run), missing.values())))
+            finally:  # after an error or an interruption nothing is left to wait for
+                workers.shutdown(wait=False, cancel_futures=True)
         return [self.done[(kind, *frozen(*run))] for run in wanted]
 
     def sweep(self, what, case, axes, changes, variables):

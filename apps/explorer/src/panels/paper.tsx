@@ -3,7 +3,7 @@
 import { useEffect, useState } from 'preact/hooks';
 import type { Answer, Complaint } from '../engine/binding';
 import { call, type PulseRun } from '../engine/client';
-import { route, setParams } from '../state/route';
+import { entryOf, route, setParams } from '../state/route';
 import { commandOf, tomlOf } from '../state/scenario';
 import { Check, NumberField, Segments, sentence } from '../ui/fields';
 import { short } from '../ui/format';
@@ -164,7 +164,7 @@ function Picture({ figure, ...v }: View & { figure: string }) {
 
 export function PaperPanel() {
   const params = route.value.params;
-  const figure = figures[params.fig] ? params.fig : '8';
+  const figure = entryOf(figures, params.fig) ? params.fig : '8';
   const { title, text, sliders, closure, logarithmic } = figures[figure];
   const texts = sliders.map(({ key, value }) => params[key] ?? value);
   const bad = texts.map((one) => one.trim() === '' || !Number.isFinite(Number(one)));

@@ -4,7 +4,7 @@ import { useEffect, useMemo, useState } from 'preact/hooks';
 import catalogue from '@events';
 import type { Answer, Complaint } from '../engine/binding';
 import { call } from '../engine/client';
-import { route, setParams } from '../state/route';
+import { entryOf, route, setParams } from '../state/route';
 import { Equations } from '../ui/equations';
 import { NumberField, Segments, SelectField, sentence, TextField } from '../ui/fields';
 import { inUnits, short } from '../ui/format';
@@ -138,7 +138,7 @@ function curveSpec(curve: Answer, range: (typeof ranges)[string], keys: [string,
 
 export function StressPanel() {
   const params = route.value.params;
-  const range = ranges[params.range] ?? ranges.observed;
+  const range = entryOf(ranges, params.range) ?? ranges.observed;
   const given = givens.find((one) => one.key === params.given) ?? givens[0];
   const value = params.value ?? (given.key === 'stress' ? '1.03' : given.key === 'rupture_velocity' ? '0.55' : '0.1');
   const number = value.trim() === '' ? NaN : Number(value);

@@ -18,6 +18,11 @@ function readable(text: string): string {
   }
 }
 
+/** The entry of a table under a name that a user typed; `constructor` and the like are entries of no table. */
+export function entryOf<T>(table: Record<string, T>, name: string | undefined): T | undefined {
+  return name !== undefined && Object.hasOwn(table, name) ? table[name] : undefined;
+}
+
 export function parse(hash: string): Route {
   const [path, query = ''] = hash.replace(/^#\/?/, '').split(/\?(.*)/s);
   const params: Params = {};

@@ -1,0 +1,10 @@
+"""Values as error messages show them."""
+
+
+def shown(value, most=80):
+    """The value as text, cut to some characters. One that is nested too deeply to be printed is shown as its type."""
+    try:
+        text = str(value)
+    except (RecursionError, ValueError):  # the second: an int of more digits than Python prints
+        return f"a {type(value).__name__} that is nested too deeply or too long"
+    return text if len(text) <= most else text[:most - 3] + "..."
