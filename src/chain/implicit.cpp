@@ -228,8 +228,8 @@ double ImplicitSteps::memory_error(std::size_t j, double dt, double by_velocity)
   };
   for (std::size_t i = 0; i < variables_; ++i)
     moved = std::fmax(moved, difference(one[i], now_.memory[variables_ * j + i]));
-  // The state counts ten times: near the critical stiffness, peak velocities are most sensitive to its errors.
-  constexpr double weight = 10;
+  // The state counts forty times: near the critical stiffness, peak velocities are most sensitive to its errors.
+  constexpr double weight = 40;
   const double doubt = by_velocity + std::fabs(next_velocity(j) - now_.v[j]) / 12 * std::fmin(1, moved);
   law.advance(p + doubt, dt, std::span(other.data(), variables_));
   for (std::size_t i = 0; i < variables_; ++i) most = std::fmax(most, difference(one[i], other[i]));

@@ -34,6 +34,7 @@ class Block:
     theta: float
     event: float
     state: str = "ageing"
+    sliding: float = 0.0  # velocity at t = 0; the spring then balances friction at the state theta
 
     def logarithms(self, s, log_theta):
         """Of |w| and of the slope of w over s = f / a."""
@@ -57,9 +58,15 @@ class Block:
         accelerates = (self.kappa * stretch - self.a * s) * math.exp(min(-log_slope, LARGEST))
         return [self.v - w, accelerates + self.b / self.a * math.tanh(s) * heals, heals]
 
+    def start(self):
+        log_theta = math.log(self.theta)
+        log_scale = self.logarithms(0.0, log_theta)[1]
+        s = math.asinh(self.sliding * math.exp(-log_scale)) if self.sliding > 0 else 0.0
+        return [self.a * s / self.kappa, s, log_theta]
+
     def steps(self, end, tolerance):
-        """Times, velocities and stretches from rest, with five points of the interpolant in each step."""
-        solver = Radau(self.slope, 0.0, [0.0, 0.0, math.log(self.theta)], end, rtol=tolerance, atol=tolerance)
+        """Times, velocities and stretches, with five points of the interpolant in each step."""
+        solver = Radau(self.slope, 0.0, self.start(), end, rtol=tolerance, atol=tolerance)
         while solver.status == "running":
             message = solver.step()
             if solver.status == "failed":
@@ -83,7 +90,7 @@ class Block:
                 peaks[-1] = max(peaks[-1], w)
                 within = w >= self.event / 2
             last = (t, w)
-        return onsets, peaks, not within, self.v * t - stretch, w
+        return onsets, peaks, not within, self.v * t - (stretch - self.start()[0]), w
 
 
 LIMIT_CYCLES = [Block(0.05, 0.01, 0.015, 1, 0.01, kappa, 0.001, 100, 0.01) for kappa in (0.0025, 0.0012)]
@@ -91,6 +98,10 @@ LABORATORY = [  # f0 / a of 60, 44 and 200; the second slides steadily after its
     (Block(0.6, 0.01, 0.015, 1, 0.01, 0.004, 0.001, 100, 0.01), 450000),
     (Block(0.129, 0.00294, 0.002593, 0.06724, 0.001114, 0.003593, 0.0009073, 277.3, 0.009073, "slip"), 118714.24557756461),
     (Block(0.2, 0.001, 0.0015, 0.5, 0.001, 0.0007, 0.0001, 500, 0.001), 8e6)]
+SLIDING = [  # steady sliding, disturbed by 1 %: a stable one, and two that become stick-slip
+    (Block(0.6, 0.01, 0.008, 1, 0.01, 0.004, 0.001, 1000, 0.01, "ageing", 0.00101), 20000),
+    (Block(0.6, 0.01, 0.015, 1, 0.01, 0.004, 0.001, 1000, 0.01, "ageing", 0.00101), 120000),
+    (Block(0.6, 0.01, 0.015, 1, 0.01, 0.004, 0.001, 1000, 0.01, "slip", 0.00101), 120000)]
 
 
 def critical_stiffness(a=0.01, b=0.015, D=1.0, v=0.001):
@@ -111,10 +122,10 @@ def main():
         onsets, peaks, *_ = block.run(12 * 4 * 0.05 / (block.kappa * block.v), tolerance)
         periods = np.diff(onsets)
         print(f"kappa {block.kappa}: period {periods[-1]:.8g}, before {periods[-2]:.8g}; peak velocity {peaks[-2]:.8g}")
-    for block, end in LABORATORY:
+    for block, end in LABORATORY + SLIDING:
         onsets, peaks, complete, slip, w = block.run(end, tolerance)
         first = f"first onset {onsets[0]:.8g}, peak {peaks[0]:.8g}" if onsets else "no event"
-        print(f"f0/a {block.f0 / block.a:.3g}, {block.state}: {len(onsets)} events, {first}; "
+        print(f"f0/a {block.f0 / block.a:.3g}, {block.state}, from {block.sliding or 'rest'}: {len(onsets)} events, {first}; "
               f"slip {slip:.8g}, velocity {w:.8g} at the end, last complete {complete}")
 
 

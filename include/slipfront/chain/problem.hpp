@@ -58,7 +58,7 @@ struct Problem {
   Loading loading = {};
   bool substrate = true;    ///< false: a = 0, sites on a smooth surface; implicit steps only
   bool implicit = false;    ///< implicit steps of any length (docs/loading.md); `step` does not count then
-  double tolerance = 2e-5;  ///< of an implicit step: error of u in radians, of u_t in c A / 2 pi, of ln(theta)
+  double tolerance = 5e-5;  ///< of an implicit step: error of u in radians, of u_t in c A / 2 pi, of ln(theta)
 };
 
 /// The coarsest grid that is accepted: sites in a width (b / A over a, Lorentz contraction apart) of a dislocation.

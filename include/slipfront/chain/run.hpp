@@ -33,7 +33,7 @@ struct ScaledProblem {
   Loading loading = {};              ///< in the scenario's units: force over slip, or stress over slip at a pulled end
   bool substrate = true;             ///< false: none
   bool implicit = false;             ///< steps; docs/loading.md
-  double tolerance = 2e-5;           ///< of implicit steps
+  double tolerance = 5e-5;           ///< of implicit steps
   double step = 0;                   ///< of time, in the chain's own t; 0: chosen (chosen_step)
   double window = 0;  ///< of averages at x = 0, in the scenario's x; 0: spacings of the train left of it, one for the
                       ///< slip, eight for velocity and stress

@@ -62,7 +62,7 @@ struct ChainOptions {
   chain::End left = chain::End::fixed, right = chain::End::fixed;
   bool periodic = false;         ///< a ring: `left` and `right` do not count
   bool implicit = false;         ///< steps of any length; with [loading] they always are
-  double tolerance = 2e-5;       ///< of implicit steps, 1e-12 to 0.1
+  double tolerance = 5e-5;       ///< of implicit steps, 1e-12 to 0.1
   std::optional<double> window;  ///< of averages at x = 0, > 0, in the scenario's x
 };
 
