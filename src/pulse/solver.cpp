@@ -192,25 +192,43 @@ double Solver::gaps_close_in(const std::vector<double>& rates) const {
   return least;
 }
 
-/// Where the edges of a gap have met, to a millionth of the cells beside it, these become neighbours. Cells are small
-/// at free edges; in the dense state that grows where two have met they would only shorten the steps, and are joined.
+/// Whether the edges of a gap have met, to a millionth of the cells next to it.
+bool Solver::gap_has_closed(std::size_t i) const {
+  return cells_.charge[i] == 0 && cells_.width(i) <= 1e-6 * std::fmin(cells_.width(i - 1), cells_.width(i + 1));
+}
+
+/// Cells next to a closed gap become neighbours. Cells are small at free edges; in the dense state that grows where two
+/// edges have met they would only shorten the steps, and are joined.
+void Solver::close_gap(std::size_t i) {
+  cells_.width(i - 1) += cells_.width(i) / 2;
+  cells_.width(i + 1) += cells_.width(i) / 2;
+  cells_.width(i) = 0;
+  drop_cell(i);
+  std::vector<double> sorted = cells_.charge;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  const double enough = 0.4 * *middle;
+  const auto small = [&](std::size_t j) { return cells_.charge[j] > 0 && cells_.charge[j] < enough; };
+  for (std::size_t j = i; j < size() && small(j); ++j)
+    while (small(j) && j + 1 < size() && cells_.charge[j + 1] > 0) join(j + 1, j);
+  std::size_t j = i;
+  while (j > 0 && small(j - 1)) {
+    --j;
+    while (small(j) && j > 0 && cells_.charge[j - 1] > 0) {
+      join(j - 1, j);
+      --j;  // the index of the joined cell
+    }
+  }
+}
+
+/// Closes gaps from right to left. The first and the last cell are never gaps: layout and saved runs begin and end with
+/// stress, and no end drops a cell next to a gap.
 void Solver::close_gaps() {
   bool closed = false;
-  for (std::size_t i = size(); i-- > 0;) {
-    if (cells_.charge[i] != 0 || cells_.width(i) > 1e-6 * std::fmin(cells_.width(i - 1), cells_.width(i + 1))) continue;
-    cells_.width(i - 1) += cells_.width(i) / 2;
-    cells_.width(i + 1) += cells_.width(i) / 2;
-    cells_.width(i) = 0;
-    drop_cell(i);
-    std::vector<double> sorted = cells_.charge;
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    const double enough = 0.4 * *middle;
-    const auto small = [&](std::size_t j) { return cells_.charge[j] > 0 && cells_.charge[j] < enough; };
-    for (std::size_t j = i; j < size() && small(j); ++j)
-      while (small(j) && j + 1 < size() && cells_.charge[j + 1] > 0) join(j + 1, j);
-    for (std::size_t j = i - 1; small(j) && j > 0; --j)
-      for (; small(j) && j > 0 && cells_.charge[j - 1] > 0; --j) join(j - 1, j);
+  for (std::size_t i = size() - 1; i-- > 1;) {
+    if (!gap_has_closed(i)) continue;
+    close_gap(i);
+    i = std::min(i, size() - 1);  // joining may have removed cells on both sides
     closed = true;
   }
   if (!closed) return;

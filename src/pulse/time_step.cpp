@@ -179,16 +179,23 @@ void ImplicitStep::solve(std::vector<double>& b) {
   to_widths(b);
 }
 
+/// df/dt. The difference in time is large, as rates at rest are small differences of large forces. No run begins before
+/// t = 0, and a forcing need not be defined there: near it the difference is one of second order to one side.
+void ImplicitStep::differentiate_by_time(const Rates& f, double t, double dt, const std::vector<double>& y,
+                                         const std::vector<double>& rate_at_start) {
+  const double nudge = 1e-3 * dt;
+  const bool centred = t >= nudge;
+  f(t + nudge, y.data(), by_time_.data());
+  f(centred ? t - nudge : t + 2 * nudge, y.data(), rate_.data());
+  for (std::size_t i = 0; i < unknowns_; ++i)
+    by_time_[i] = (centred ? by_time_[i] - rate_[i] : 4 * by_time_[i] - rate_[i] - 3 * rate_at_start[i]) / (2 * nudge);
+}
+
 double ImplicitStep::operator()(const Rates& f, double t, double dt, const std::vector<double>& y,
                                 const std::vector<double>& rate_at_start, const std::vector<double>& scale,
                                 double friction_rate, double tolerance, std::vector<double>& next) {
   factorise(1 / (gamma_diagonal * dt));
-  if (depends_on_time_) {  // df/dt; the nudge is large, as rates at rest are small differences of large forces
-    const double nudge = 1e-3 * dt;
-    f(t + nudge, y.data(), by_time_.data());
-    f(t - nudge, y.data(), rate_.data());
-    for (std::size_t i = 0; i < unknowns_; ++i) by_time_[i] = (by_time_[i] - rate_[i]) / (2 * nudge);
-  }
+  if (depends_on_time_) differentiate_by_time(f, t, dt, y, rate_at_start);
   for (std::size_t stage = 0; stage < 6; ++stage) {
     next = y;
     for (std::size_t j = 0; j < stage; ++j)

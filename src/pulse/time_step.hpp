@@ -78,6 +78,8 @@ class ImplicitStep {
                  const std::vector<double>& scale, double slow);
 
  private:
+  void differentiate_by_time(const Rates& f, double t, double dt, const std::vector<double>& y,
+                             const std::vector<double>& rate_at_start);
   void factorise(double diagonal);
   void solve(std::vector<double>& b);
   double& entry(std::vector<double>& m, std::size_t row, std::size_t column) const {

@@ -57,8 +57,11 @@ void try_out(const Section& section, const friction::Curve& curve, double fastes
   constexpr double slowest = 1e-12;
   for (int i = 0; i <= samples; ++i)
     greatest = std::fmax(greatest, curve(slowest * std::pow(fastest / slowest, static_cast<double>(i) / samples)));
-  if (std::fabs(curve(slowest) - at_rest) > 1e-3 * greatest)
-    throw section.refuse("formula", "f jumps from " + shortest(at_rest) + " at w = 0 to " + shortest(curve(slowest)),
+  // A steep law, such as w^0.1, comes to f(0) at far smaller velocities; a jump remains at any.
+  constexpr double nearest_rest = 1e-300;
+  const double near_rest = curve(nearest_rest);
+  if (std::fabs(near_rest - at_rest) > 1e-3 * greatest)
+    throw section.refuse("formula", "f jumps from " + shortest(at_rest) + " at w = 0 to " + shortest(near_rest),
                          "f(0) is the force that a place at rest withstands; for a constant force: law = \"coulomb\"");
 }
 

@@ -2,9 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <random>
+#include <vector>
 
+#include "slipfront/error.hpp"
 #include "slipfront/pulse/run.hpp"
 #include "slipfront/rupture/relations.hpp"
 #include "slipfront/train/train.hpp"
@@ -100,6 +104,102 @@ TEST(Gap, PeakBesideTheEdgesIsTheSameInAMirror) {
     return sign * run.snapshots().back().peak_slip_velocity;
   };
   EXPECT_NEAR(peak(-1) / peak(1), 1, 2e-5);
+}
+
+/// Straight lines between points (x, stress).
+struct Points {
+  std::vector<double> x, stress;
+  double operator()(double at) const {
+    for (std::size_t i = 1; i < x.size(); ++i)
+      if (at <= x[i]) return std::lerp(stress[i - 1], stress[i], (at - x[i - 1]) / (x[i] - x[i - 1]));
+    return stress.back();
+  }
+};
+
+/// Two to six stretches of stress between points at random, some of them empty.
+Points random_points(std::mt19937& chance) {
+  const auto between = [&](double low, double high) { return std::uniform_real_distribution<>(low, high)(chance); };
+  Points points{{-3.6}, {chance() % 4 == 0 ? 0.0 : 1.2}};
+  while (points.x.back() < 3.6) {
+    const bool empty = points.stress.back() == 0;
+    points.x.push_back(points.x.back() + between(0.02, 1.5));
+    points.stress.push_back(!empty && chance() % 2 == 0 ? 0 : between(0.1, 1.4));
+  }
+  return points;
+}
+
+/// Widths are positive, and the dislocations are those at t = 0 and those that came in.
+void expect_sound(const Solver& s, double at_first) {
+  double charge = 0;
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    charge += s.charge()[i];
+    if (s.charge()[i] > 0) {
+      EXPECT_GT(s.cells().width(i), 0);
+    }
+  }
+  const double entered = s.cells().entered_left + s.cells().entered_right;
+  EXPECT_NEAR(charge, at_first + entered, 1e-9 * (at_first + std::fabs(entered)));
+  EXPECT_GT(s.charge().front(), 0);
+  EXPECT_GT(s.charge().back(), 0);
+}
+
+/// Few cells are left when gaps have closed: joining the small ones may reach the first and the last cell.
+TEST(Gap, FewCellsAndEveryKindOfEndKeepAllDislocations) {
+  std::mt19937 chance(26);
+  constexpr std::array<End, 3> ends{End::continued, End::fixed, End::free};
+  int ran = 0, closed = 0;
+  for (int i = 0; i < 200; ++i) {
+    Problem p{
+        .stress = random_points(chance), .forcing = {}, .friction = friction::viscous(0), .left = -3.5, .right = 3.5};
+    p.corner = HUGE_VAL;
+    p.friction = i % 3 == 0 ? friction::coulomb(0.01) : i % 3 == 1 ? friction::viscous(0.1) : friction::viscous(0);
+    p.left_end = ends[chance() % 3];
+    p.right_end = ends[chance() % 3];
+    p.cells = 4 + static_cast<int>(chance() % 9);
+    const double end = 0.5 + static_cast<double>(chance() % 6);
+    try {
+      Solver s(p);
+      double at_first = 0;
+      for (const double q : s.charge()) at_first += q;
+      const std::size_t cells = s.size();
+      s.advance_to(end);
+      ++ran;
+      closed += s.size() < cells ? 1 : 0;
+      expect_sound(s, at_first);
+    } catch (const InputError&) {  // a ring or an end without stress
+    } catch (const NumericsError&) {
+    }
+  }
+  EXPECT_GT(ran, 150);
+  EXPECT_GT(closed, 15);
+}
+
+/// The cells to the left of a closed gap are all small, so that joining them reaches the first cell.
+TEST(Gap, JoinsUpToTheFirstCell) {
+  const Points points{{-4, -2.532701194467415, -2.4726732772599416, -0.6367292433644893, -0.49426282527591114,
+                       -0.48891112430626826, 1.1153443564011116, 1.9799118410055883, 4},
+                      {0, 0, 0, 0.0046, 0, 1.2, 0.0046, 0.3, 0}};
+  for (const End right : {End::fixed, End::free, End::continued}) {
+    Solver s({.stress =
+                  [=](double x) {
+                    const double f = points(x);
+                    return f < 0.0045 ? 0 : f;
+                  },
+              .forcing = {},
+              .friction = friction::coulomb(0.01),
+              .left = -3.5,
+              .right = 3.5,
+              .corner = HUGE_VAL,
+              .left_end = End::fixed,
+              .right_end = right,
+              .cells = 6});
+    double at_first = 0;
+    for (const double q : s.charge()) at_first += q;
+    const std::size_t cells = s.size();
+    s.advance_to(2);
+    EXPECT_LT(s.size(), cells);
+    expect_sound(s, at_first);
+  }
 }
 
 TEST(Gap, ResumedRunHasTheSameBits) {

@@ -142,6 +142,8 @@ class Solver {
   bool steps_by_parts() const;
   double friction_rate_by_parts() const;
   double gaps_close_in(const std::vector<double>& rates) const;
+  bool gap_has_closed(std::size_t i) const;
+  void close_gap(std::size_t i);
   void close_gaps();
   void adjust_ends();
   void fill_end(bool left);
