@@ -182,7 +182,9 @@ Layout lay_cells(const std::function<double(double)>& stress, double left, doubl
     if (layout.faces.back() < s.from) layout.faces.push_back(s.from);  // a gap is one cell
     const int share = std::max(4, static_cast<int>(std::lround(cells * (s.to - s.from) / length)));
     const Monitor monitor(stress, s.from, s.to, corner);
-    if (corner > s.from && corner < s.to) {
+    // A corner at an end of the stretch, but for rounding, would make a cell that only rounding has made.
+    const double sliver = 1e-9 * (s.to - s.from);
+    if (corner - s.from > sliver && s.to - corner > sliver) {
       const int before = std::clamp(static_cast<int>(std::lround(share * monitor.share_at(corner))), 1, share - 1);
       fill(layout.faces, monitor, s.from, corner, before, left_free, false);
       fill(layout.faces, monitor, corner, s.to, share - before, false, right_free);

@@ -165,7 +165,8 @@ double CellFriction::memory_error(const std::vector<double>& foretold, double ti
     const double off = 2 * pi * time * charge_[i] * (force_[i] - foretold[i]) / scale[Values::momentum_at(i)];
     sum += off * off;
   }
-  return std::sqrt(sum * static_cast<double>(stride) / static_cast<double>(x_.size()));
+  const double error = std::sqrt(sum * static_cast<double>(stride) / static_cast<double>(x_.size()));
+  return std::isfinite(error) ? error : HUGE_VAL;
 }
 
 Places Solver::places() const {

@@ -73,7 +73,8 @@ double SplitStep::error(const std::vector<double>& y, const std::vector<double>&
     const double off = (y[i] - midpoint_[i]) / scale[i];
     sum += (1 - excluded[i / 2]) * off * off;
   }
-  return std::sqrt(sum / static_cast<double>(2 * cells_));
+  const double error = std::sqrt(sum / static_cast<double>(2 * cells_));
+  return std::isfinite(error) ? error : HUGE_VAL;
 }
 
 }  // namespace slipfront::pulse

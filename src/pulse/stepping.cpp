@@ -27,6 +27,9 @@ constexpr double longest_in_friction_times = 2;
 /// And below which they are explicit again.
 constexpr double stiff_below = 0.3;
 
+/// No momentum is measured by less: a scale of 0 would make the error of what rests no number.
+constexpr double smallest_scale = 1e-305;
+
 /// Dry friction cannot reverse a cell: one that would have is at rest, and moves on only if pushed hard enough. So is
 /// one that `friction` (that of a dislocation) holds, as it has turned it back in a stage of the step and nothing else
 /// acts as strongly: what the step would have made of its momentum is no error then, nor what its friction does in the
@@ -156,16 +159,17 @@ double Solver::mean_speed() const {
 /// is pushed by its neighbours. What is slower by a thousandth than the mean so far, as after a push that has ended,
 /// adds nothing to slip; and the forces of a contact profile are differences of numbers of size 1.
 void Solver::find_scale(double crossing, std::vector<double>& scale) const {
-  double fastest = 8e-3 * *std::max_element(equations_->s().begin(), equations_->s().end()) /
-                   (1 + equations_->largest_friction_rate() * crossing);
+  const double rate = equations_->largest_friction_rate();
+  const double damping = rate > 0 ? rate * crossing : 0;  // waves may never cross a cell: 0 times infinity
+  double fastest = 8e-3 * *std::max_element(equations_->s().begin(), equations_->s().end()) / (1 + damping);
   constexpr double slow = 8e-3, rounding = 1e-8;
   if (!cells_.face_momentum.empty()) fastest = std::fmax(fastest, slow * mean_speed());
-  if (contact_varies_) fastest = std::fmax(fastest, rounding / (1 + equations_->largest_friction_rate()));
+  if (contact_varies_) fastest = std::fmax(fastest, rounding / (1 + rate));
   for (std::size_t i = 0; i < size(); ++i)
     if (cells_.charge[i] > 0) fastest = std::fmax(fastest, std::fabs(cells_.momentum(i) / cells_.charge[i]));
   for (std::size_t i = 0; i < size(); ++i) {
     scale[Values::width_at(i)] = cells_.width(i);
-    scale[Values::momentum_at(i)] = cells_.charge[i] > 0 ? cells_.charge[i] * fastest : 1;
+    scale[Values::momentum_at(i)] = cells_.charge[i] > 0 ? std::fmax(cells_.charge[i] * fastest, smallest_scale) : 1;
   }
 }
 
@@ -260,7 +264,7 @@ double Solver::step_implicitly(Work& work, double remaining, double crossing) {
   for (std::size_t face = 0; face < staggered.faces(); ++face) {
     const FaceValues at(scale.data(), staggered.faces());
     at.width_left_of(face) = work.scale[Values::width_at(face == 0 ? 0 : face - 1)];
-    at.momentum(face) = staggered.charge_around(face) * fastest;
+    at.momentum(face) = std::fmax(staggered.charge_around(face) * fastest, smallest_scale);
   }
   constexpr double slow = 1e-4;
   work.implicit_step->linearise(f, cells_.time, z, rate, scale, steep() ? slow : 0);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "../../src/pulse/semidiscrete.hpp"
-#include "slipfront/pulse/solver.hpp"
+#include "slipfront/pulse/run.hpp"
 
 namespace {
 
@@ -63,6 +63,41 @@ TEST(CellsAtRest, NeedNoLooking) {
     equations(time + dt, stage.data(), part.data());
     EXPECT_EQ(whole, part) << time;
   }
+}
+
+/// Trains so sparse that waves never cross a cell, under friction that is steep at rest: the time step was no number.
+TEST(CellsAtRest, StayFiniteWhereTrainsAreSparse) {
+  Problem problem = step(friction::power(1e-8, 0.5));
+  problem.stress = [](double x) { return x < 0 ? 0.004703 : 0.0045001; };
+  problem.left = -1e-287;
+  problem.right = 1e-287;
+  problem.cells = 40;
+  pulse::Run run(problem, {.times = {0, 0.2}, .x_edges = {-1e-287, 0, 1e-287}});
+  EXPECT_TRUE(run.go());
+  EXPECT_TRUE(std::isfinite(run.snapshots().back().slip_at_origin));
+}
+
+/// Runs begin at t = 0, and a forcing such as sqrt(t) is not defined before.
+TEST(CellsAtRest, AskForNoForcingBeforeTheBeginning) {
+  for (const double C : {0.0, 0.2, 1e4}) {
+    Problem problem = step(friction::viscous(C));
+    double earliest = 0;
+    problem.forcing = [&earliest](double, double t) {
+      earliest = std::fmin(earliest, t);
+      return -0.05 * std::sqrt(std::fabs(t));
+    };
+    Solver(problem).advance_to(0.05);
+    EXPECT_EQ(earliest, 0) << C;
+  }
+}
+
+/// A stretch of stress that begins at a step, but for rounding, has no cell of that width.
+TEST(CellsAtRest, NoneIsAsNarrowAsRounding) {
+  Problem problem = step(friction::viscous(0));
+  problem.stress = [](double x) { return x < -1e-16 ? 0.0 : 0.855; };
+  problem.corner = 0;
+  const Solver solver(problem);
+  for (std::size_t i = 0; i < solver.size(); ++i) EXPECT_GT(solver.cells().width(i), 1e-9) << i;
 }
 
 }  // namespace
