@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "../digits.hpp"
 #include "slipfront/setup/pulse.hpp"
 #include "slipfront/train/at_rest.hpp"
 #include "slipfront/train/train.hpp"
@@ -20,6 +21,18 @@ double chosen_spacing(const scenario::Scenario& s, double left, double right) {
     narrowest = std::fmin(narrowest, 1 / (a * growth * (packed > 1.05 ? packed : 1)));
   }
   return chain::default_spacing * narrowest;
+}
+
+/// With fewer the chain's differences reach past both ends.
+void require_sites(const scenario::Scenario& s, const chain::ScaledProblem& c) {
+  constexpr double fewest = 8;
+  const double sites = std::ceil(c.scale * (c.right - c.left) / c.spacing - 1e-9) + (c.boundary.periodic ? 0 : 1);
+  if (!(sites < fewest)) return;
+  throw InputError({.file = s.file,
+                    .key = "chain.scale",
+                    .value = digits(c.scale),
+                    .problem = "makes a chain of " + digits(sites) + " sites, " + digits(c.spacing) + " apart",
+                    .allowed = "at least 8 sites: a larger scale or domain, or a smaller chain.spacing"});
 }
 
 }  // namespace
@@ -65,6 +78,7 @@ chain::ScaledProblem chain_problem(const scenario::Scenario& s) {
   } else {
     c.spacing = s.chain.spacing ? *s.chain.spacing : chosen_spacing(s, c.left, c.right);
   }
+  require_sites(s, c);
   return c;
 }
 

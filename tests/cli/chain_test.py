@@ -14,6 +14,11 @@ CHAIN = ["time", "scale", "slip_at_origin", "dislocations", "sites", "steps", "s
 
 
 class Chain(CommandLine):
+    def test_too_few_sites_name_the_key_and_the_file(self):
+        case = self.file("short.toml", "[initial]\nstress_left = 1\nstress_right = 1\n[domain]\nleft = -1\nright = 1\n"
+                                       "[chain]\nscale = 0.5\nspacing = 0.5\n")
+        self.refused(2, "chain", case, says=("short.toml: chain.scale = '0.5': makes a chain of 3 sites",))
+
     def test_json_has_the_contract_keys(self):
         case = os.path.join(SOURCE, "cases/step.toml")
         out = self.chain(case, "--set", "chain.scale=300")

@@ -50,6 +50,13 @@ TEST(FrictionCurve, RefusesWhatIsNoForce) {
   EXPECT_TRUE(contains(refused_text(table, {{0, 1}, {1, -1}}).problem, "f = -1"));
 }
 
+/// However steep: a jump is one at the smallest velocities too.
+TEST(FrictionCurve, AcceptsSteepCurvesAtRest) {
+  EXPECT_NEAR(read(formula("0.02*w^0.1")).friction.law().strength(1e-10, {}), 0.002, 1e-12);
+  EXPECT_NEAR(read(formula("0.02*w^0.02")).friction.law().strength(1, {}), 0.02, 1e-12);
+  EXPECT_TRUE(contains(refused_text(formula("w > 0 ? 0.1 + w : 0")).problem, "jumps from 0 at w = 0 to 0.1"));
+}
+
 /// A formula's parser is not to be called by two threads; the curve is.
 TEST(FrictionCurve, MayBeCalledByThreads) {
   const friction::Friction f = read(formula("0.1*w/(1 + w^2)")).friction;
