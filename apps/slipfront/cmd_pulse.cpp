@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -7,6 +8,7 @@
 
 #include "batch.hpp"
 #include "long_run.hpp"
+#include "slipfront/pulse/run.hpp"
 #include "slipfront/record/unfinished.hpp"
 #include "slipfront/run/errors.hpp"
 #include "slipfront/run/run.hpp"
@@ -17,13 +19,38 @@ namespace {
 using namespace slipfront;
 using namespace slipfront::setup;
 
+double two_digits(double value) {
+  const double last = std::pow(10, std::floor(std::log10(value)) - 1);
+  return std::round(value / last) * last;
+}
+
+/// About how many steps the run takes and how long, from the time of its first steps; empty if these fail. The estimate
+/// of errors takes another third.
+std::string duration_of(const run::PulsePlan& plan) {
+  constexpr int most_cells = 100000;
+  constexpr long enough_steps = 20;
+  constexpr double enough_seconds = 0.2, with_errors = 4.0 / 3;
+  if (plan.problem.cells > most_cells) return {};
+  try {
+    pulse::Run trial(plan.problem, plan.schedule);
+    long steps = 0;
+    const auto begun = Clock::now();
+    trial.go([&] { return ++steps == enough_steps || seconds_since(begun) > enough_seconds; });
+    const double expected = trial.budget().expected(), each = seconds_since(begun) / static_cast<double>(steps);
+    return fmt::format(", about {:.0f} steps and {:.2g} s", two_digits(expected), with_errors * expected * each);
+  } catch (const NumericsError&) {
+    return {};
+  }
+}
+
 void describe(const scenario::Scenario& s, const run::PulsePlan& plan, const std::string& output) {
   const pulse::Problem& problem = plan.problem;
   record::require_disk_space(output, plan.need.disk);
   put(fmt::format(
-      "{}: fine. Would run {} cells over x = {:.6g} ... {:.6g} to t = {:.6g}, {} friction {} (closure {}), {}.\n",
+      "{}: fine. Would run {} cells over x = {:.6g} ... {:.6g} to t = {:.6g}, {} friction {} (closure {}), {}{}.\n",
       s.title.empty() ? s.file : s.title, problem.cells, problem.left, problem.right, s.end,
-      s.friction.definition().adjective, s.friction.coefficient(), name_of(s.friction.closure()), in_words(plan.need)));
+      s.friction.definition().adjective, s.friction.coefficient(), name_of(s.friction.closure()), in_words(plan.need),
+      duration_of(plan)));
 }
 
 int run_pulse(ScenarioArguments a, std::optional<double> tolerance) {

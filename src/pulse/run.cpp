@@ -100,10 +100,18 @@ Cells saved_cells(const friction::Friction& friction, bytes::Reader& reader) {
   return cells;
 }
 
+/// A step ends on each output time, and the one before it is shortened.
+double expected_steps(const Solver& start, const output::Schedule& schedule) {
+  return start.expected_steps(schedule.times.back()) + 2 * static_cast<double>(schedule.times.size());
+}
+
 }  // namespace
 
 Run::Run(Problem problem, output::Schedule schedule)
-    : schedule_(std::move(schedule)), solver_(std::move(problem)), trailing_characteristic_(solver_) {
+    : schedule_(std::move(schedule)),
+      solver_(std::move(problem)),
+      budget_(expected_steps(solver_, schedule_), schedule_.times.back()),
+      trailing_characteristic_(solver_) {
   const output::Energy energy = energy_of(solver_);
   first_energy_ = energy.elastic + energy.kinetic;
 }
@@ -173,6 +181,12 @@ void Run::sample() {
   slip_.add(time, velocity);
 }
 
+void Run::refuse_more_steps() const {
+  const Cells& cells = solver_.cells();
+  throw budget_.error(cells.time, cells.steps, solver_.reason_of_short_steps(),
+                      "fewer pulse.cells, an earlier time.end or slipfront chain may help");
+}
+
 bool Run::go(const std::function<bool()>& interrupted) {
   while (!finished()) {
     const double target = schedule_.times[snapshots_.size()];
@@ -184,6 +198,7 @@ bool Run::go(const std::function<bool()>& interrupted) {
       const Cells& cells = solver_.cells();
       const bool begins = cells.steps < 64, is_explicit = cells.face_momentum.empty();
       if (cells.steps % (is_explicit ? begins ? 4 : 16 : begins ? 1 : 2) == 0) sample();
+      if (budget_.exhausted(cells.steps)) refuse_more_steps();
       return interrupted && interrupted();
     };
     const auto begun = Clock::now();

@@ -23,6 +23,9 @@ constexpr std::array<std::string_view, 6> without_error{"friction_coefficient", 
                                                         "conservation_error",   "solve_seconds",  "wall_seconds"};
 constexpr double safety = 1.25;  ///< Roache's factor for estimates by three grids
 constexpr int fewest_cells = 4, most_cells = 25600;
+/// A doubling of the cells doubles the steps too. --tolerance makes no run of more steps times cells than this, which
+/// is a minute or so of one processor.
+constexpr double most_cost = 1e8, cost_of_doubling = 4;
 
 /// Rows that a tolerance holds for.
 constexpr std::array<std::string_view, 4> held_to_tolerance{"slip_velocity_at_origin", "stress_at_origin",
@@ -43,9 +46,10 @@ double real(const Value& value) {
 }
 
 /// The summary of a run of `cells` cells to the end, with steps so many times coarser and no outputs on the way; empty
-/// if `interrupted` said so.
+/// if `interrupted` said so. `cost`, if any, is what the run took.
 std::vector<SummaryValue> summary_with(int cells, const scenario::Scenario& scenario,
-                                       const std::function<bool()>& interrupted, double coarser = 4) {
+                                       const std::function<bool()>& interrupted, double coarser = 4,
+                                       double* cost = nullptr) {
   scenario::Scenario other = scenario;
   other.pulse.cells = cells;
   other.output.times.clear();
@@ -60,6 +64,7 @@ std::vector<SummaryValue> summary_with(int cells, const scenario::Scenario& scen
   } catch (const NumericsError&) {
     if (!run.finished()) throw;  // it has reached the end and is too coarse: so much the larger are the errors
   }
+  if (cost) *cost = static_cast<double>(run.solver().cells().steps) * cells;
   return summary(pulse_summary(), {other, run, 0});
 }
 
@@ -150,9 +155,11 @@ int cells_for(double tolerance, bool resumed, const scenario::Scenario& scenario
   const int given = scenario.pulse.cells;
   std::vector<SummaryValue> quarter = summary_with(std::max(given / 4, fewest_cells), scenario, interrupted, 16),
                             half = summary_with(std::max(given / 2, fewest_cells), scenario, interrupted);
-  double reached = 0;
-  for (int cells = given; cells <= most_cells && !quarter.empty() && !half.empty(); cells *= 2) {
-    std::vector<SummaryValue> fine = summary_with(cells, scenario, interrupted);
+  double reached = 0, cost = 0;
+  int cells = given;
+  for (; cells <= most_cells && !quarter.empty() && !half.empty(); cells *= 2) {
+    if (cost_of_doubling * cost > most_cost) break;
+    std::vector<SummaryValue> fine = summary_with(cells, scenario, interrupted, 4, &cost);
     if (fine.empty()) return given;
     reached = largest_relative(fine, estimated(fine, half, quarter));
     if (reached <= tolerance) return cells;
@@ -160,8 +167,13 @@ int cells_for(double tolerance, bool resumed, const scenario::Scenario& scenario
     half = std::move(fine);
   }
   if (quarter.empty() || half.empty()) return given;
-  throw NumericsError("tolerance " + digits(tolerance, 3) + " is not reached with " + std::to_string(most_cells) +
-                      " cells: " + digits(reached, 3) + " is");
+  const std::string why = cells > most_cells
+                              ? "; that many cells is the most it tries"
+                              : "; " + std::to_string(cells) + " cells would take about " +
+                                    digits(cost_of_doubling * cost / cells, 2) + " steps, more than it spends";
+  throw NumericsError("tolerance " + digits(tolerance, 3) + " is not reached with " + std::to_string(cells / 2) +
+                      " cells: " + digits(reached, 3) + " is" + why +
+                      ". Without --tolerance, pulse.cells = " + std::to_string(cells / 2) + " gives that result");
 }
 
 }  // namespace slipfront::run

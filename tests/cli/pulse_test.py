@@ -3,6 +3,7 @@
 import json
 import math
 import os
+import re
 import unittest
 
 import netCDF4
@@ -29,6 +30,18 @@ class Pulse(CommandLine):
         self.assertIsNone(out["first_crossing_time"])
         self.assertIsNone(out["first_crossing_position"])
         self.assertEqual(out["warnings"], [])
+
+    def test_check_estimates_the_steps_and_the_time(self):
+        told = self.ok("pulse", os.path.join(SOURCE, "cases/step.toml"), "--check")
+        steps = float(re.search(r"about (\S+) steps and \S+ s\.", told).group(1))
+        self.assertLess(abs(math.log(steps / 400)), math.log(3))
+
+    def test_tolerance_gives_up_with_what_it_reached(self):
+        """No number of cells resolves a corner to 1e-9."""
+        case = self.file("slow.toml", "[initial]\nprofile = 'step'\nstress_left = 0.8\nstress_right = 0.2\n"
+                                      "[friction]\nlaw = 'viscous'\ncoefficient = 0.5\n[pulse]\ncells = 25600\n"
+                                      "[time]\nend = 1e-3\n[domain]\nleft = -1\nright = 1\n")
+        self.refused(4, "pulse", case, "--tolerance", "1e-9", says=("is not reached with ", "pulse.cells = "))
 
     def test_streams_that_cross_are_told(self):
         """Dislocations at rest on a slope of a(x) roll down and overtake each other: values stay possible, and it is told."""

@@ -13,6 +13,7 @@
 #include "slipfront/output/sampled_integral.hpp"
 #include "slipfront/output/snapshot.hpp"
 #include "slipfront/pulse/observe.hpp"
+#include "slipfront/step_budget.hpp"
 
 namespace slipfront::pulse {
 
@@ -29,6 +30,8 @@ class Run {
   const Solver& solver() const { return solver_; }
   const output::Schedule& schedule() const { return schedule_; }
   const std::vector<output::Snapshot>& snapshots() const { return snapshots_; }
+  /// The steps that it may take. `go` ends with a NumericsError when they are used up.
+  const StepBudget& budget() const { return budget_; }
   /// Wall time that the steps have taken, without laying cells and outputs.
   double stepping_seconds() const { return stepping_seconds_; }
   /// May be saved even after a NumericsError: a step that fails changes nothing.
@@ -55,10 +58,12 @@ class Run {
  private:
   void take();
   void sample();
+  [[noreturn]] void refuse_more_steps() const;
   output::Findings findings() const;
 
   output::Schedule schedule_;
   Solver solver_;
+  StepBudget budget_;
   TrailingCharacteristic trailing_characteristic_;
   double stepping_seconds_ = 0;
   double first_energy_ = 0;

@@ -11,6 +11,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "slipfront/friction/friction.hpp"
@@ -84,6 +85,11 @@ class Solver {
   /// Advances to `time`. `interrupted` is asked after each step; true stops early. Returns whether `time` was reached.
   /// \throws NumericsError with the time and place where no state exists.
   bool advance_to(double time, const std::function<bool()>& interrupted = {});
+
+  /// About how many steps the next `duration` takes: those that waves allow, or fewer where viscous friction rules.
+  double expected_steps(double duration) const;
+  /// Where steps are short and why, as a sentence without a full stop, for a message.
+  std::string reason_of_short_steps() const;
 
   const Problem& problem() const { return problem_; }
   const Cells& cells() const { return cells_; }
