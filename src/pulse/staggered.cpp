@@ -182,32 +182,47 @@ Staggered::Terminal Staggered::terminal(const double* rates) const {
   return force > 0 ? Terminal{momentum(phi), std::tanh(phi), loss_rate(face, phi)} : Terminal{0, 0, 0};
 }
 
+void Staggered::find_masses(double t, const double* z) {
+  find_cells(t, z);
+  for (std::size_t f = 0; f < faces(); ++f) {
+    if (setup_.contact) face_a_[f] = contact_at(f);
+    const bool free_edge = is_edge(f) && edge_at(f) == Edge::free;
+    face_mass_[f] = 8 * face_a_[f] * (free_edge ? 1 : beside(mass_, f));
+  }
+}
+
+/// Of the forcing, on all dislocations around a face.
+double Staggered::push_on(std::size_t f, double t) const {
+  return setup_.forcing ? 2 * pi * charge_around(f) * setup_.forcing(place_[f], t) : 0;
+}
+
+/// Energy that comes in through a face at velocity U, in a unit of time.
+double Staggered::power_through(std::size_t f, double U) const {
+  if (!is_edge(f) || edge_at(f) != Edge::continued) return 0;
+  const std::size_t cell = f == 0 ? 0 : f - 1;
+  const double work = a_[cell] * a_[cell] * pressure_[cell] * U;
+  return f == 0 ? work : -work;
+}
+
+/// A wall holds what presses against it.
+double Staggered::held_by_wall(std::size_t f, double force) const {
+  if (edge_at(f) != Edge::wall) return force;
+  return f == 0 ? std::fmax(force, 0) : std::fmin(force, 0);
+}
+
 void Staggered::operator()(double t, const double* z, double* dz) {
   const ConstFaceValues values(z, faces());
   const FaceValues rates(dz, faces());
-  find_cells(t, z);
-  const auto is_edge = [&](std::size_t f) { return charge_left(f) == 0 || charge_right(f) == 0; };
-  for (std::size_t f = 0; f < faces(); ++f) {
-    if (setup_.contact) face_a_[f] = contact_at(f);
-    face_mass_[f] = 8 * face_a_[f] * (is_edge(f) && edge_at(f) == Edge::free ? 1 : beside(mass_, f));
-  }
+  find_masses(t, z);
   face_velocities(faces(), on_one_.data(), face_mass_.data(), sinh_phi_.data(), cosh_phi_.data(), U_.data());
   find_loss_rates();
   double before = 0, dissipation = 0, supply = 0, through_ends = 0;
   for (std::size_t f = 0; f < faces(); ++f) {
-    const Edge end = edge_at(f);
-    const double U = U_[f], loss = loss_rate_[f] * values.momentum(f);
-    const double push = setup_.forcing ? 2 * pi * charge_around(f) * setup_.forcing(place_[f], t) : 0;
+    const double U = U_[f], loss = loss_rate_[f] * values.momentum(f), push = push_on(f, t);
     const double force = setup_.contact ? force_on(f) / cosh_phi_[f] : force_on(f);
     rates.width_left_of(f) = U - before;
-    rates.momentum(f) = force + push - loss;
-    if (end == Edge::wall)  // which holds what presses against it
-      rates.momentum(f) = f == 0 ? std::fmax(rates.momentum(f), 0) : std::fmin(rates.momentum(f), 0);
-    if (is_edge(f) && end == Edge::continued) {
-      const std::size_t cell = f == 0 ? 0 : f - 1;
-      const double work = a_[cell] * a_[cell] * pressure_[cell] * U;
-      through_ends += f == 0 ? work : -work;
-    }
+    rates.momentum(f) = held_by_wall(f, force + push - loss);
+    through_ends += power_through(f, U);
     dissipation += U * loss;
     supply += U * push;
     before = U;

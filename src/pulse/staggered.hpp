@@ -37,6 +37,11 @@ class Staggered {
   static constexpr std::size_t reach = 3;
 
   void operator()(double t, const double* z, double* dz);
+
+  /// A step of the semi-implicit Euler method: the momenta first, with friction implicit and face by face, then the
+  /// widths by the new velocities. First order, and stable under any friction where no wave crosses a cell in `dt`.
+  /// Friction that is steep at rest needs no small steps here, as its force at the end of the step is solved for.
+  void split_step(double t, double dt, const double* z, double* next);
   /// tanh(psi) of the cells: where the next solves start, and what the last found.
   void start_from(const std::vector<double>& s) { cells_.s = s; }
   const std::vector<double>& s() const { return cells_.s; }
@@ -64,8 +69,14 @@ class Staggered {
  private:
   double charge_left(std::size_t face) const { return face > 0 ? setup_.charge[face - 1] : 0; }
   double charge_right(std::size_t face) const { return face < setup_.charge.size() ? setup_.charge[face] : 0; }
+  bool is_edge(std::size_t face) const { return charge_left(face) == 0 || charge_right(face) == 0; }
   void find_cells(double t, const double* z);
+  void find_masses(double t, const double* z);
   double force_on(std::size_t face) const;
+  double push_on(std::size_t face, double t) const;
+  double power_through(std::size_t face, double U) const;
+  double held_by_wall(std::size_t face, double force) const;
+  double rapidity_after(std::size_t face, double free, double time) const;
   Edge edge_at(std::size_t face) const;
   double loss_rate(std::size_t face, double phi) const;
   void find_loss_rates();

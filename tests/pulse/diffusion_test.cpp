@@ -141,4 +141,44 @@ TEST(Diffusion, StepsDoNotGrowWithGamma) {
               static_cast<double>(weak) * std::log(gamma) / std::log(1e3));
 }
 
+Problem steep_at_rest(double exponent, double coefficient, double stress, int cells) {
+  return {.stress = [=](double x) { return 0.3 + (stress - 0.3) * (1 - std::tanh(x)) / 2; },
+          .forcing = {},
+          .friction = friction::power(coefficient, exponent),
+          .left = -5,
+          .right = 5,
+          .corner = HUGE_VAL,
+          .cells = cells};
+}
+
+/// Friction times are shorter than any step here, and the slope at rest tells nothing of the force at the end of a
+/// step: implicit steps of 1e-36 would follow each other.
+TEST(SteepAtRest, NeedsFewSteps) {
+  for (const double exponent : {0.1, 0.2, 0.3, 0.5})
+    for (const int cells : {4, 40}) {
+      Problem p = steep_at_rest(exponent, 0.02, 0.24, cells);
+      p.stress = [](double x) { return 0.12 * (1 - std::tanh(x)) < 0.0045 ? 0 : 0.12 * (1 - std::tanh(x)); };
+      Solver s(p);
+      s.advance_to(0.05);
+      EXPECT_LT(s.cells().steps, 60) << exponent << " " << cells;
+      EXPECT_TRUE(std::isfinite(s.view().states[0].phi));
+    }
+}
+
+/// As many steps as the error needs give what a hundred times as many give.
+TEST(SteepAtRest, StepsAreAsGoodAsShortOnes) {
+  Problem p = steep_at_rest(0.5, 50, 0.855, 100);
+  Solver free(p);
+  free.advance_to(6);
+  EXPECT_LT(free.cells().steps, 30);
+  p.longest_step = 6.0 / 400;
+  Solver small(p);
+  small.advance_to(6);
+  EXPECT_GE(small.cells().steps, 400);
+  const auto at = [](const Solver& s) { return averages_of(s.view(), state_at(s.view(), 0), 0).W; };
+  EXPECT_NEAR(at(free) / at(small), 1, 1e-5);
+  EXPECT_NEAR(free.slip_at(free.view(), 0) / small.slip_at(small.view(), 0), 1, 1e-5);
+  EXPECT_NEAR(free.dissipated() / small.dissipated(), 1, 1e-5);
+}
+
 }  // namespace

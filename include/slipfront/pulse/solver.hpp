@@ -133,6 +133,8 @@ class Solver {
   /// wave crosses a cell.
   double step_explicitly(Work& work, double remaining, double crossing);
   double step_implicitly(Work& work, double remaining, double crossing);
+  /// Takes friction face by face in the place of an implicit step; `z` are the unknowns at the faces.
+  double step_by_faces(const std::vector<double>& z, const std::vector<double>& scale, double longest);
   /// For friction that remembers or is steep at rest (memory_step.cpp); `rate` are the rates at the present time.
   double step_by_parts(MemoryStep& work, const std::vector<double>& rate, double remaining, double crossing);
   Places places() const;
