@@ -14,6 +14,8 @@
 #include <cstdlib>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "slipfront/chain/run.hpp"
 #include "slipfront/error.hpp"
@@ -51,8 +53,19 @@ std::string positive(FuzzedDataProvider& data) {
   return mostly<8>(data, {"1", "0.1", "0.5", "2", "4", "1e-3", "1e-6", "0.3"});
 }
 
+/// Points of a table of stress, with gaps and steep walls.
+std::vector<std::pair<double, double>> table_rows(FuzzedDataProvider& data) {
+  constexpr std::array<double, 5> stresses{0, 0, 1.2, 0.3, 0.0046}, distances{0.01, 0.05, 0.2, 0.7, 2};
+  std::vector<std::pair<double, double>> rows{{-10, 0.8}};
+  while (rows.back().first < 10)
+    rows.emplace_back(rows.back().first + data.PickValueInArray(distances), data.PickValueInArray(stresses));
+  return rows;
+}
+
 std::string initial(FuzzedDataProvider& data) {
-  switch (data.ConsumeIntegralInRange(0, 2)) {
+  switch (data.ConsumeIntegralInRange(0, 3)) {
+    case 3:
+      return "profile = 'table'\nfile = 'table.csv'\n";
     case 0:
       return "profile = 'step'\nstress_left = " + stress(data) + "\nstress_right = " + stress(data) + "\n";
     case 1:
@@ -77,15 +90,18 @@ std::string friction(FuzzedDataProvider& data) {
           mostly<7>(data, {"0.1", "0.5", "3", "100", "1e5", "1e-3", "0"}) + "\n";
   if (law == "power") add("exponent");
   if (law == "formula")
-    text += "formula = '" + one_of<6>(data, {"w", "0.1*sqrt(w)", "0.1+w^2", "1/w", "w/(1+w^3)", "1e9*w^0.1"}) + "'\n";
+    text += "formula = '" + one_of<6>(data, {"w", "0.1*sqrt(w)", "0.1+w^2", "1/w", "w/(1+w^3)", "0.01*w^0.1"}) + "'\n";
   if (law == "n-shaped" || law == "flash-heating") add("velocity");
   if (law == "flash-heating") add("weakened");
   if (law == "slip-weakening") add("residual");
   if (law == "slip-weakening" || law == "rate-and-state") add("characteristic_slip");
   if (law == "rate-and-state") {
     add("reference_velocity");
-    add("direct_effect");
-    add("evolution_effect");
+    // Strength over direct effect: 40 to 100 in laboratories.
+    text += "direct_effect = " + mostly<4>(data, {"1e-3", "1e-2", "1e-5", "0.1"}) + "\n";
+    text += "evolution_effect = " + mostly<4>(data, {"1.5e-3", "5e-3", "1e-5", "0.3"}) + "\n";
+    if (data.ConsumeIntegralInRange(0, 7) == 0)
+      text += "contact_ageing = 0.003\ncontact_time = 1\ndilatancy = 0.02\ndrainage_time = 10\npore_pressure = 0.5\n";
     text += "state = '" + one_of<2>(data, {"ageing", "slip"}) + "'\n";
   }
   return text;
@@ -97,14 +113,15 @@ std::string random_scenario(FuzzedDataProvider& data) {
   text += friction(data);
   if (sometimes()) text += "closure = '" + one_of<2>(data, {"paper", "consistent"}) + "'\n";
   if (sometimes())
-    text += "[forcing]\nformula = '" + one_of<5>(data, {"0.5", "sin(t)", "x", "1e5*sin(40*x)", "-1"}) + "'\n";
+    text += "[forcing]\nformula = '" + one_of<6>(data, {"0.5", "sin(t)", "x", "1e5*sin(40*x)", "-1", "0.05*sqrt(t)"}) +
+            "'\n";
   if (sometimes())
     text += "[interface]\ncontact = '" + one_of<4>(data, {"1+0.2*sin(x)", "2", "x>0?2:1", "1e-3"}) + "'\n";
   if (!sometimes())
     text += "[domain]\nleft = " + mostly<5>(data, {"-4", "-1", "-10", "-0.1", "0"}) +
             "\nright = " + mostly<5>(data, {"4", "1", "10", "0.1", "0"}) + "\n";
   text += "[time]\nend = " + positive(data) + "\n";
-  text += "[pulse]\ncells = " + std::to_string(data.ConsumeIntegralInRange(4, 40)) + "\n";
+  text += "[pulse]\ncells = " + std::to_string(data.ConsumeIntegralInRange(4, sometimes() ? 40 : 12)) + "\n";
   if (sometimes()) text += "left = '" + one_of<3>(data, {"continued", "fixed", "free"}) + "'\n";
   if (sometimes()) text += "right = '" + one_of<3>(data, {"continued", "fixed", "free"}) + "'\n";
   if (sometimes()) text += "periodic = true\n";
@@ -115,6 +132,9 @@ std::string random_scenario(FuzzedDataProvider& data) {
   if (sometimes()) text += "spacing = " + positive(data) + "\n";
   if (sometimes()) text += "window = " + positive(data) + "\n";
   if (sometimes()) text += "[output]\nevery = 0.7\n";
+  if (data.ConsumeIntegralInRange(0, 7) == 0)
+    text += "[loading]\nstiffness = " + positive(data) + "\nvelocity = " + positive(data) + "\nwhere = '" +
+            one_of<3>(data, {"everywhere", "left", "right"}) + "'\n";
   return text;
 }
 
@@ -152,8 +172,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   FuzzedDataProvider data(bytes, size);
   const std::string text = random_scenario(data);
   if (std::getenv("SLIPFRONT_PRINT")) std::fputs((text + "\n").c_str(), stderr);
+  const std::vector<std::pair<double, double>> rows = table_rows(data);
+  const auto table = [&rows](const std::string&, const std::string&, const std::string&) { return rows; };
   attempt([&] {
-    const scenario::Scenario s = scenario::read_scenario(text, "fuzz.toml", {}, nullptr);
+    const scenario::Scenario s = scenario::read_scenario(text, "fuzz.toml", {}, table);
     attempt([&] {
       const pulse::Problem problem = setup::pulse_problem(s);
       pulse::Run run(problem, setup::pulse_schedule(s, problem));

@@ -4,6 +4,7 @@ import json
 import math
 import os
 import pathlib
+import re
 import resource
 import signal
 import subprocess
@@ -72,3 +73,20 @@ def read_fields(path):
     with netCDF4.Dataset(path) as data:
         data.set_auto_mask(False)
         return {name: np.array(data[name][:]) for name in data.variables if name != "checkpoint"}
+
+
+def ends_well(s, command):
+    """What is wrong with how a run of the scenario ends, or None: it finishes, is refused (2), or gives up with a reason (4);
+    no number that it prints is infinite or none where it should be one, and it does not run into the limit of time."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = scenarios.write(s, pathlib.Path(folder))
+        done = subprocess.run([PROGRAM, command, path, "--json", "--threads", "1"], capture_output=True, text=True,
+                              preexec_fn=limit_time, check=False)
+    said = done.stderr.strip().split("\n")[-1]
+    if done.returncode == -signal.SIGXCPU:
+        return f"not done after {CPU_LIMIT} s of the processor"
+    if done.returncode not in (0, 2, 4):
+        return f"exit {done.returncode}: " + " ".join(line for line in done.stderr.split("\n") if "ERROR" in line or "SUMMARY" in line)
+    if re.search(r"\bnan\b", said):
+        return f"exit {done.returncode}: {said}"
+    return None

@@ -237,8 +237,19 @@ def toml_value(value):
 
 
 def text(s):
+    """The rows of a table are a file of their own."""
     lines = [f"{key} = {toml_value(value)}" for key, value in s.items() if not isinstance(value, dict)]
     for name, table in s.items():
         if isinstance(table, dict):
-            lines += [f"[{name}]"] + [f"{key} = {toml_value(value)}" for key, value in table.items()]
+            lines += [f"[{name}]"] + [f"{key} = {toml_value(value)}" for key, value in table.items() if key != "rows"]
     return "\n".join(lines) + "\n"
+
+
+def write(s, folder):
+    """The scenario, and its table if it has one, as files in a folder; returns the scenario's path."""
+    path = folder / "scenario.toml"
+    path.write_text(text(s), encoding="utf-8")
+    if "rows" in s["initial"]:
+        rows = "".join(f"{x!r},{stress!r}\n" for x, stress in s["initial"]["rows"])
+        (folder / s["initial"]["file"]).write_text("x,stress\n" + rows, encoding="utf-8")
+    return path
