@@ -76,7 +76,7 @@ class Staggered {
   double push_on(std::size_t face, double t) const;
   double power_through(std::size_t face, double U) const;
   double held_by_wall(std::size_t face, double force) const;
-  double rapidity_after(std::size_t face, double free, double time) const;
+  void slow_down(const std::vector<double>& free, double time);
   Edge edge_at(std::size_t face) const;
   double loss_rate(std::size_t face, double phi) const;
   void find_loss_rates();
