@@ -201,7 +201,7 @@ void PageServer::Connection::send_more() {
   std::string_view piece = std::string_view(answer).substr(answered);
   if (piece.empty() && file.descriptor && offset < file.size) {
     auto& buffer = scratch();
-    const auto wanted = static_cast<std::size_t>(std::min<long long>(file.size - offset, buffer.size()));
+    const auto wanted = std::min(static_cast<std::size_t>(file.size - offset), buffer.size());
     const ssize_t size = pread(file.descriptor.get(), buffer.data(), wanted, offset);
     if (size <= 0) return enter(Phase::closed);  // the file has become shorter
     piece = {buffer.data(), static_cast<std::size_t>(size)};
