@@ -284,7 +284,7 @@ void PageServer::advance(Connection& connection) const {
     connection.drain();
 }
 
-/// Waits until a connection or a client at the door can be served, and serves the connections.
+/// Waits until a connection or a new client can be served, and serves them.
 void PageServer::wait() {
   std::vector<pollfd> waiting = {{.fd = listening_.get(), .events = POLLIN, .revents = 0}};
   for (const Connection& c : connections_) {

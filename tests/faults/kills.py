@@ -35,7 +35,7 @@ LAWS = {
 CHAINS = {"contact-ageing": STATE + "contact_ageing = 0.003\ncontact_time = 1\n", "dilatancy": STATE + "dilatancy = 0.01\ndrainage_time = 1\npore_pressure = 0.3\n"}
 LOADED = {
     "loading": RING.replace("[chain]\n", "[chain]\nperiodic = true\n") + "[loading]\nstiffness = 4e-5\nvelocity = 1e-4\n[time]\nend = 4e5\n[output]\nevery = 1e4\n",
-    "loading-left": RING + "[loading]\nstiffness = 4e-3\nvelocity = 1e-4\nwhere = 'left'\n[time]\nend = 2e4\n[output]\nevery = 1e3\n",
+    "loading-left": RING.replace("[chain]\n", "[chain]\nleft = 'free'\n") + "[loading]\nstiffness = 4e-3\nvelocity = 1e-4\nwhere = 'left'\n[time]\nend = 2e4\n[output]\nevery = 1e3\n",
     "implicit": "[initial]\nstress_left = 0.855\nstress_right = 0\n[friction]\nlaw = 'viscous'\ncoefficient = 0.5\n[chain]\nscale = 40\nsteps = 'implicit'\n[output]\nevery = 0.3\n",
 }
 STEP = "[initial]\nstress_left = 0.855\nstress_right = 0\n[domain]\nleft = -7\nright = 3\n[output]\nevery = 0.3\n"
