@@ -81,7 +81,7 @@ std::string host_name(std::string_view host) {
 std::string_view target_of(std::string_view line, bool& head_only) {
   const std::size_t first = line.find(' '), last = line.rfind(' ');
   if (first == std::string_view::npos || first == last) throw RefusedRequest(400, "The request is not HTTP.");
-  if (line.substr(last + 1, 7) != "HTTP/1.") throw RefusedRequest(505, "Only HTTP/1 is spoken here.");
+  if (line.substr(last + 1, 7) != "HTTP/1.") throw RefusedRequest(505, "Only HTTP/1 is supported.");
   const std::string_view method = line.substr(0, first);
   if (method != "GET" && method != "HEAD") throw RefusedRequest(405, "Only GET and HEAD are allowed.");
   head_only = method == "HEAD";

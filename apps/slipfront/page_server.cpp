@@ -201,7 +201,7 @@ void PageServer::Connection::send_more() {
   std::string_view piece = std::string_view(answer).substr(answered);
   if (piece.empty() && file.descriptor && offset < file.size) {
     auto& buffer = scratch();
-    const auto wanted = static_cast<std::size_t>(std::min<long long>(file.size - offset, buffer.size()));
+    const auto wanted = std::min(static_cast<std::size_t>(file.size - offset), buffer.size());
     const ssize_t size = pread(file.descriptor.get(), buffer.data(), wanted, offset);
     if (size <= 0) return enter(Phase::closed);  // the file has become shorter
     piece = {buffer.data(), static_cast<std::size_t>(size)};
@@ -284,7 +284,7 @@ void PageServer::advance(Connection& connection) const {
     connection.drain();
 }
 
-/// Waits until a connection or a client at the door can be served, and serves the connections.
+/// Waits until a connection or a new client can be served, and serves them.
 void PageServer::wait() {
   std::vector<pollfd> waiting = {{.fd = listening_.get(), .events = POLLIN, .revents = 0}};
   for (const Connection& c : connections_) {

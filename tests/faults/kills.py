@@ -35,7 +35,7 @@ LAWS = {
 CHAINS = {"contact-ageing": STATE + "contact_ageing = 0.003\ncontact_time = 1\n", "dilatancy": STATE + "dilatancy = 0.01\ndrainage_time = 1\npore_pressure = 0.3\n"}
 LOADED = {
     "loading": RING.replace("[chain]\n", "[chain]\nperiodic = true\n") + "[loading]\nstiffness = 4e-5\nvelocity = 1e-4\n[time]\nend = 4e5\n[output]\nevery = 1e4\n",
-    "loading-left": RING + "[loading]\nstiffness = 4e-3\nvelocity = 1e-4\nwhere = 'left'\n[time]\nend = 2e4\n[output]\nevery = 1e3\n",
+    "loading-left": RING.replace("157.07963267948966", "15.707963267948966").replace("[chain]\n", "[chain]\nleft = 'free'\n") + "[loading]\nstiffness = 4e-3\nvelocity = 1e-4\nwhere = 'left'\n[time]\nend = 500\n[output]\nevery = 50\n",
     "implicit": "[initial]\nstress_left = 0.855\nstress_right = 0\n[friction]\nlaw = 'viscous'\ncoefficient = 0.5\n[chain]\nscale = 40\nsteps = 'implicit'\n[output]\nevery = 0.3\n",
 }
 STEP = "[initial]\nstress_left = 0.855\nstress_right = 0\n[domain]\nleft = -7\nright = 3\n[output]\nevery = 0.3\n"
@@ -45,7 +45,7 @@ def scenario(command, name):
     """TOML of a named scenario, of such a size that the command takes a second or so."""
     if name in LOADED:
         return LOADED[name]
-    size = "[pulse]\ncells = 400\n" if command == "pulse" else "[chain]\nscale = 200\n"
+    size = "[pulse]\ncells = 800\n" if command == "pulse" else "[chain]\nscale = 200\n"
     if name == "forcing":
         return STEP + size + "[forcing]\nformula = '0.02*cos(3*t)'\n[interface]\ncontact = '1 + 0.1*tanh(x)'\n"
     return STEP + size + "[friction]\n" + (LAWS | CHAINS)[name]
