@@ -71,21 +71,24 @@ void open_browser(const std::string& url) {
   posix_spawn_file_actions_destroy(&actions);
 }
 
-int serve(const Arguments& a, bool asked_port) {
-  check(a);
-  const std::filesystem::path folder = page(a);
-  const std::vector<int> ports = asked_port ? std::vector{a.port} : std::vector{usual_port, 0};
-  PageServer server(folder.string(), {.address = a.address, .ports = ports, .anyone = a.anyone});
+void announce(const Arguments& a, const std::string& folder, int port) {
   const std::string host = a.address.find(':') == std::string::npos ? a.address : "[" + a.address + "]";
-  const std::string url = fmt::format("http://{}:{}/", host, server.port());
+  const std::string url = fmt::format("http://{}:{}/", host, port);
   interrupted_means("; the page is no longer served");
   if (a.common.json)
-    put(nlohmann::ordered_json({{"url", url}, {"folder", folder.string()}}).dump() + "\n");
+    put(nlohmann::ordered_json({{"url", url}, {"folder", folder}}).dump() + "\n");
   else if (!a.common.quiet)
     put(fmt::format("The explorer is at {}  (Ctrl-C ends it)\n", url));
   std::fflush(stdout);
   if (!a.no_open) open_browser(url);
-  server.serve();
+}
+
+int serve(const Arguments& a, bool asked_port) {
+  check(a);
+  const std::string folder = page(a).string();
+  const std::vector<int> ports = asked_port ? std::vector{a.port} : std::vector{usual_port, 0};
+  serve_page(folder, {.address = a.address, .ports = ports, .anyone = a.anyone},
+             [&](int port) { announce(a, folder, port); });
 }
 
 }  // namespace

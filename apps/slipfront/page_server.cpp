@@ -1,33 +1,44 @@
 #include "page_server.hpp"
 
-#include <arpa/inet.h>
+#include <fcntl.h>
 #include <fmt/format.h>
-#include <netdb.h>
-#include <poll.h>
 #include <sys/resource.h>
-#include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/read_until.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/write.hpp>
+#include <boost/beast/http.hpp>
 #include <chrono>
-#include <cstring>
-#include <memory>
+#include <limits>
+#include <list>
 #include <string_view>
+#include <utility>
 
+#include "page_folder.hpp"
+#include "page_path.hpp"
 #include "slipfront/error.hpp"
 
 namespace {
 
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = boost::beast::http;
+using asio::ip::tcp;
+using boost::system::error_code;
 using slipfront::FileError;
 using slipfront::InputError;
 using Clock = std::chrono::steady_clock;
 using std::chrono::seconds;
+using Request = http::request<http::empty_body>;
 
 constexpr std::size_t usual_connections = 128;  ///< a browser opens six
 constexpr std::size_t max_request = 32768;      ///< bytes; cookies of other pages of this machine are sent here too
-constexpr auto request_time = seconds(5), idle_time = seconds(10), drain_time = seconds(1);
+constexpr long long max_piece = 65536;          ///< bytes of a file that are sent at a time
+constexpr auto request_time = seconds(5), idle_time = seconds(30), drain_time = seconds(1);
 
 /// The page loads only its own files, and no other page may show it in a frame. KaTeX writes styles into elements.
 constexpr std::string_view common_fields =
@@ -41,308 +52,252 @@ constexpr std::string_view common_fields =
     "'unsafe-inline'; img-src 'self' data: blob:; font-src 'self'; connect-src 'self'; worker-src 'self'; "
     "base-uri 'none'; form-action 'none'; frame-ancestors 'none'\r\n";
 
-std::string_view reason(int status) {
-  struct Known {
-    int status;
-    std::string_view text;
-  };
-  static constexpr std::array<Known, 8> known = {{{200, "OK"},
-                                                  {403, "Forbidden"},
-                                                  {404, "Not Found"},
-                                                  {405, "Method Not Allowed"},
-                                                  {408, "Request Timeout"},
-                                                  {421, "Misdirected Request"},
-                                                  {431, "Request Header Fields Too Large"},
-                                                  {505, "HTTP Version Not Supported"}}};
-  for (const Known& k : known)
-    if (k.status == status) return k.text;
-  return "Bad Request";
+std::string head(unsigned status, std::string_view type, long long size) {
+  return fmt::format("HTTP/1.1 {} {}\r\nContent-Type: {}\r\nContent-Length: {}\r\n{}{}\r\n", status,
+                     http::obsolete_reason(http::int_to_status(status)).to_string(), type, size,
+                     status == 405 ? "Allow: GET, HEAD\r\n" : "", common_fields);
 }
 
 std::string_view media_type(std::string_view name) {
-  struct Known {
-    std::string_view extension, type;
-  };
-  static constexpr std::array<Known, 12> known = {{{"html", "text/html; charset=utf-8"},
-                                                   {"js", "text/javascript"},
-                                                   {"mjs", "text/javascript"},
-                                                   {"css", "text/css"},
-                                                   {"wasm", "application/wasm"},
-                                                   {"json", "application/json"},
-                                                   {"svg", "image/svg+xml"},
-                                                   {"png", "image/png"},
-                                                   {"ico", "image/x-icon"},
-                                                   {"woff2", "font/woff2"},
-                                                   {"csv", "text/csv"},
-                                                   {"txt", "text/plain; charset=utf-8"}}};
-  const std::string_view extension = name.substr(name.rfind('.') + 1);  // npos + 1 is 0: the whole name
-  for (const Known& k : known)
-    if (k.extension == extension) return k.type;
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 12> known = {
+      {{".html", "text/html; charset=utf-8"},
+       {".js", "text/javascript"},
+       {".mjs", "text/javascript"},
+       {".css", "text/css"},
+       {".wasm", "application/wasm"},
+       {".json", "application/json"},
+       {".svg", "image/svg+xml"},
+       {".png", "image/png"},
+       {".ico", "image/x-icon"},
+       {".woff2", "font/woff2"},
+       {".csv", "text/csv"},
+       {".txt", "text/plain; charset=utf-8"}}};
+  for (const auto& [extension, type] : known)
+    if (name.ends_with(extension)) return type;
   return "application/octet-stream";
 }
 
-std::string head(int status, std::string_view type, long long size) {
-  return fmt::format("HTTP/1.1 {} {}\r\nContent-Type: {}\r\nContent-Length: {}\r\n{}{}\r\n", status, reason(status),
-                     type, size, status == 405 ? "Allow: GET, HEAD\r\n" : "", common_fields);
-}
-
-bool is_loopback(const sockaddr* address) {
-  if (address->sa_family == AF_INET) {
-    const auto* v4 = reinterpret_cast<const sockaddr_in*>(address);
-    return ntohl(v4->sin_addr.s_addr) >> 24U == 127;
-  }
-  if (address->sa_family != AF_INET6) return false;
-  const in6_addr& v6 = reinterpret_cast<const sockaddr_in6*>(address)->sin6_addr;
-  return IN6_IS_ADDR_LOOPBACK(&v6) || (IN6_IS_ADDR_V4MAPPED(&v6) && v6.s6_addr[12] == 127);
-}
-
-struct FreeAddresses {
-  void operator()(addrinfo* list) const { freeaddrinfo(list); }
-};
-using Addresses = std::unique_ptr<addrinfo, FreeAddresses>;
-
-Addresses addresses_of(const PageServer::Options& options, int port) {
-  addrinfo hints{};
-  hints.ai_socktype = SOCK_STREAM;
-  addrinfo* found = nullptr;
-  if (const int error = getaddrinfo(options.address.c_str(), std::to_string(port).c_str(), &hints, &found))
-    throw FileError(fmt::format("{} cannot be served: {}", options.address, gai_strerror(error)));
-  Addresses list(found);
-  for (const addrinfo* a = found; a; a = a->ai_next)
-    if (!options.anyone && !is_loopback(a->ai_addr))
-      throw InputError({.file = "command line",
-                        .key = "--address",
-                        .value = options.address,
-                        .problem = "other machines could read the page there",
-                        .allowed = "127.0.0.1, or --anyone to let them"});
-  return list;
-}
-
-/// Listens on the first address where that is possible. Without SO_REUSEPORT, which would share a port that is taken.
-Descriptor listen_on(const Addresses& addresses) {
-  for (const addrinfo* a = addresses.get(); a; a = a->ai_next) {
-    Descriptor s(socket(a->ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, a->ai_protocol));
-    const int yes = 1;
-    if (!s || setsockopt(s.get(), SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes) != 0) continue;
-    if (::bind(s.get(), a->ai_addr, a->ai_addrlen) == 0 && listen(s.get(), SOMAXCONN) == 0) return s;
-  }
-  return Descriptor();
-}
-
-int port_of(const Descriptor& listening) {
-  sockaddr_storage address{};
-  socklen_t size = sizeof address;
-  if (getsockname(listening.get(), reinterpret_cast<sockaddr*>(&address), &size) != 0) return 0;
-  if (address.ss_family == AF_INET) return ntohs(reinterpret_cast<const sockaddr_in*>(&address)->sin_port);
-  return ntohs(reinterpret_cast<const sockaddr_in6*>(&address)->sin6_port);
+/// The host without its port. An IPv6 address keeps its brackets.
+std::string host_name(const std::string& host) {
+  const std::size_t begin = host.empty() || host[0] != '[' ? 0 : std::min(host.find(']'), host.size());
+  return host.substr(0, host.find(':', begin));
 }
 
 /// Names under which this machine reaches itself. A page of a stranger whose name has been made to point here (DNS
 /// rebinding) comes with its own name. The port may differ: it does behind a tunnel.
 bool is_own_host(const std::string& host, const std::string& address) {
-  in_addr v4{};
-  if (inet_pton(AF_INET, host.c_str(), &v4) == 1) return ntohl(v4.s_addr) >> 24U == 127;
-  return host == "localhost" || host == "[::1]" || host == address;
+  error_code error;
+  const auto v4 = asio::ip::make_address_v4(host, error);
+  if (!error) return v4.is_loopback();
+  return beast::iequals(host, "localhost") || host == "[::1]" || beast::iequals(host, address);
 }
+
+/// Ranges are ignored, which RFC 9110 allows: the whole file is sent. \throws RefusedRequest where the text is not
+/// HTTP/1, or the method is not GET or HEAD.
+Request parsed(const std::string& text) {
+  http::request_parser<http::empty_body> parser;
+  parser.header_limit(max_request);
+  parser.body_limit(std::numeric_limits<std::uint64_t>::max());  // bodies are not read
+  error_code error;
+  parser.put(asio::buffer(text), error);
+  if (error == http::error::bad_version) throw RefusedRequest(505, "Only HTTP/1 is spoken here.");
+  if (error) throw RefusedRequest(400, "The request is not HTTP.");
+  const http::verb method = parser.get().method();
+  if (method == http::verb::get || method == http::verb::head) return parser.release();
+  throw RefusedRequest(405, "Only GET and HEAD are allowed.");
+}
+
+/// \throws RefusedRequest where a page of another origin asks, or the request is for another host.
+void check(const Request& request, const PageAddress& allowed) {
+  const std::string host(request[http::field::host]);
+  if (request.count(http::field::host) != 1 || host_name(host).empty())
+    throw RefusedRequest(400, "The request needs one Host header.");
+  for (auto [origin, end] = request.equal_range(http::field::origin); origin != end; ++origin)
+    if (!beast::iequals(origin->value(), "http://" + host) && !beast::iequals(origin->value(), "https://" + host))
+      throw RefusedRequest(403, "Pages of other origins may not ask here.");
+  if (!allowed.anyone && !is_own_host(host_name(host), allowed.address))
+    throw RefusedRequest(421, "This server does not answer for that host.");
+}
+
+struct Page {
+  PageFolder folder;
+  PageAddress address;
+};
+
+/// Answers one request. Each operation that is under way holds a reference to it.
+class Connection : public std::enable_shared_from_this<Connection> {
+ public:
+  Connection(const Page& page, tcp::socket socket)
+      : page_(page), socket_(std::move(socket)), timer_(socket_.get_executor()) {}
+
+  /// The parser gets only whole requests: Beast bounds the size of each piece of a header but not their sum.
+  void receive() {
+    allow(request_time);
+    async_read_until(socket_, asio::dynamic_buffer(text_, max_request), "\r\n\r\n",
+                     [self = shared_from_this()](error_code error, std::size_t) { self->reply(error); });
+  }
+
+  /// Time of the last progress, or of the beginning of the request.
+  Clock::time_point since() const { return since_; }
+
+  void close() {
+    error_code ignored;
+    socket_.close(ignored);
+  }
+
+ private:
+  /// The client has this time until the next call. While it sends its request, only reading ends then, so that it can
+  /// still be answered.
+  void allow(seconds time) {
+    since_ = Clock::now();
+    timer_.expires_after(time);
+    timer_.async_wait([weak = weak_from_this()](error_code error) {
+      const auto self = weak.lock();
+      if (error || !self || self->timer_.expiry() > Clock::now()) return;
+      self->is_receiving_ ? self->socket_.shutdown(tcp::socket::shutdown_receive, error) : self->socket_.close(error);
+    });
+  }
+
+  void reply(error_code error) {
+    is_receiving_ = false;
+    const bool is_cut = error == asio::error::eof && !text_.empty();
+    if (error && !is_cut && error != asio::error::not_found) return;
+    const bool head_only = text_.starts_with("HEAD ");
+    try {
+      if (is_cut) throw RefusedRequest(408, "The request was not complete in time.");
+      if (error) throw RefusedRequest(431, "The request is too long.");
+      const Request request = parsed(text_);
+      check(request, page_.address);
+      const std::vector<std::string> path = page_path(request.target().to_string());
+      file_ = page_.folder.open(path);
+      if (!file_.descriptor) throw RefusedRequest(404, "There is no such file.");
+      text_ = head(200, media_type(path.back()), file_.size);
+    } catch (const RefusedRequest& refused) {
+      const std::string_view reason = refused.what();
+      text_ = head(refused.status(), "text/plain; charset=utf-8", static_cast<long long>(reason.size()));
+      if (!head_only) text_ += reason;
+    }
+    if (head_only) file_ = {};
+    send();
+  }
+
+  /// Sends the text and then the next piece of the file, until there is none.
+  void send() {
+    allow(idle_time);
+    async_write(socket_, asio::buffer(text_), [self = shared_from_this()](error_code error, std::size_t) {
+      if (error) return;
+      if (self->read_more()) return self->send();
+      self->socket_.shutdown(tcp::socket::shutdown_send, error);
+      self->allow(drain_time);
+      self->drain();
+    });
+  }
+
+  /// Returns false at the end of the file.
+  bool read_more() {
+    if (file_.size == 0 || !file_.descriptor) return false;
+    text_.resize(static_cast<std::size_t>(std::min<long long>(file_.size, max_piece)));
+    const ssize_t size = read(file_.descriptor.get(), text_.data(), text_.size());
+    text_.resize(static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
+    file_.size -= size;
+    return size > 0;
+  }
+
+  /// Reads the client until it closes: what it has sent but nobody has read would otherwise make the system discard
+  /// the answer.
+  void drain() {
+    static std::array<char, 65536> unused;
+    socket_.async_read_some(asio::buffer(unused), [self = shared_from_this()](error_code error, std::size_t) {
+      if (!error) self->drain();
+    });
+  }
+
+  const Page& page_;
+  tcp::socket socket_;
+  asio::steady_timer timer_;
+  Clock::time_point since_;
+  std::string text_;  ///< the request, then a piece of the answer
+  PageFile file_;     ///< its size is that of the rest
+  bool is_receiving_ = true;
+};
 
 /// Each connection may need two descriptors: its own and that of a file.
 std::size_t connections_within_limits() {
-  constexpr rlim_t others = 10;  // streams, the socket that listens, the folder
+  constexpr rlim_t others = 12;  // streams, the socket that listens, the folder, those of Asio
   rlimit limit{};
   if (getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return usual_connections;
   const rlim_t possible = limit.rlim_cur > others + 2 ? (limit.rlim_cur - others) / 2 : 1;
   return std::min<std::size_t>(usual_connections, possible);
 }
 
-bool must_wait(ssize_t result) { return result < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR); }
-
-std::array<char, 65536>& scratch() {
-  static std::array<char, 65536> buffer;
-  return buffer;
+/// Listens on the first endpoint of the address where that is possible.
+tcp::acceptor listen(asio::io_context& context, const PageAddress& a, int port) {
+  error_code error;
+  const auto found =
+      tcp::resolver(context).resolve(a.address, std::to_string(port), tcp::resolver::numeric_service, error);
+  if (error) throw FileError(fmt::format("{} cannot be served: {}", a.address, error.message()));
+  for (const auto& entry : found)
+    if (!a.anyone && !entry.endpoint().address().is_loopback())
+      throw InputError({.file = "command line",
+                        .key = "--address",
+                        .value = a.address,
+                        .problem = "other machines could read the page there",
+                        .allowed = "127.0.0.1, or --anyone to let them"});
+  for (const auto& entry : found) {
+    try {
+      return tcp::acceptor(context, entry.endpoint());
+    } catch (const boost::system::system_error&) {  // the next one may do
+    }
+  }
+  return tcp::acceptor(context);
 }
+
+class Server {
+ public:
+  Server(const std::string& folder, const PageAddress& a) : page_{.folder = PageFolder(folder), .address = a} {
+    for (std::size_t i = 0; i < a.ports.size() && !acceptor_.is_open(); ++i)
+      acceptor_ = listen(context_, a, a.ports[i]);
+    if (!acceptor_.is_open())
+      throw FileError(fmt::format("{}:{} cannot be served (is the port taken?)", a.address, a.ports.at(0)));
+    fcntl(acceptor_.native_handle(), F_SETFD, FD_CLOEXEC);  // a browser must not inherit it
+    accept();
+  }
+  int port() const { return acceptor_.local_endpoint().port(); }
+  void run() { context_.run(); }
+
+ private:
+  void accept() {
+    acceptor_.async_accept([this](error_code error, tcp::socket client) {
+      connections_.remove_if([](const auto& c) { return c.expired(); });
+      if (error && connections_.empty()) throw FileError("connections can no longer be accepted: " + error.message());
+      if (error || connections_.size() >= max_connections_) drop_slowest();
+      if (!error) {
+        auto connection = std::make_shared<Connection>(page_, std::move(client));
+        connections_.push_back(connection);
+        connection->receive();
+      }
+      accept();
+    });
+  }
+
+  void drop_slowest() {
+    const auto earlier = [](const auto& a, const auto& b) { return a.lock()->since() < b.lock()->since(); };
+    const auto slowest = std::min_element(connections_.begin(), connections_.end(), earlier);
+    slowest->lock()->close();
+    connections_.erase(slowest);
+  }
+
+  Page page_;
+  asio::io_context context_{1};
+  tcp::acceptor acceptor_{context_};
+  std::list<std::weak_ptr<Connection>> connections_;
+  const std::size_t max_connections_ = connections_within_limits();
+};
 
 }  // namespace
 
-struct PageServer::Connection {
-  enum class Phase { receiving, sending, draining, closed };
-
-  explicit Connection(Descriptor s) : socket(std::move(s)) {}
-
-  void answer_with(std::string text, PageFile content = {}) {
-    request.clear();
-    request.shrink_to_fit();
-    answer = std::move(text);
-    file = std::move(content);
-    enter(Phase::sending);
-  }
-  void enter(Phase next) {
-    phase = next;
-    since = Clock::now();
-  }
-  bool is_late(Clock::time_point now) const {
-    const auto allowed = phase == Phase::receiving ? request_time : phase == Phase::sending ? idle_time : drain_time;
-    return now - since > allowed;
-  }
-  void send_more();
-  void drain();
-
-  Descriptor socket;
-  Phase phase = Phase::receiving;
-  Clock::time_point since = Clock::now();  ///< beginning of the phase, or the last time that the client took bytes
-  std::string request, answer;
-  std::size_t answered = 0;  ///< bytes of `answer` that have been sent
-  PageFile file;
-  long long offset = 0;  ///< bytes of `file` that have been sent
-};
-
-/// Sends the next piece. When all is sent, the client is read until it closes: what it has sent but nobody has read
-/// would otherwise make the system discard the answer.
-void PageServer::Connection::send_more() {
-  std::string_view piece = std::string_view(answer).substr(answered);
-  if (piece.empty() && file.descriptor && offset < file.size) {
-    auto& buffer = scratch();
-    const auto wanted = std::min(static_cast<std::size_t>(file.size - offset), buffer.size());
-    const ssize_t size = pread(file.descriptor.get(), buffer.data(), wanted, offset);
-    if (size <= 0) return enter(Phase::closed);  // the file has become shorter
-    piece = {buffer.data(), static_cast<std::size_t>(size)};
-  }
-  if (piece.empty()) {
-    shutdown(socket.get(), SHUT_WR);
-    return enter(Phase::draining);
-  }
-  const ssize_t sent = ::send(socket.get(), piece.data(), piece.size(), MSG_NOSIGNAL);
-  if (must_wait(sent)) return;
-  if (sent < 0) return enter(Phase::closed);
-  since = Clock::now();
-  if (answered < answer.size())
-    answered += static_cast<std::size_t>(sent);
-  else
-    offset += sent;
-}
-
-void PageServer::Connection::drain() {
-  const ssize_t size = recv(socket.get(), scratch().data(), scratch().size(), 0);
-  if (size == 0 || (size < 0 && !must_wait(size))) enter(Phase::closed);
-}
-
-PageServer::PageServer(const std::string& folder, const Options& options)
-    : folder_(folder), options_(options), max_connections_(connections_within_limits()) {
-  for (const int port : options.ports) {
-    listening_ = listen_on(addresses_of(options, port));
-    if (!listening_) continue;
-    port_ = port_of(listening_);
-    return;
-  }
-  const int asked = options.ports.empty() ? 0 : options.ports[0];
-  throw FileError(fmt::format("{}:{} cannot be served (is the port taken?)", options.address, asked));
-}
-
-PageServer::~PageServer() = default;
-
-PageFile PageServer::requested_file(const HttpRequest& request) const {
-  if (!options_.anyone && !is_own_host(request.host, options_.address))
-    throw RefusedRequest(421, "This server does not answer for that host.");
-  PageFile file = folder_.open(request.path);
-  if (!file.descriptor) throw RefusedRequest(404, "There is no such file.");
-  return file;
-}
-
-void PageServer::answer(Connection& connection) const {
-  try {
-    const HttpRequest request = parse_request(connection.request);
-    PageFile file = requested_file(request);
-    std::string text = head(200, media_type(request.path.back()), file.size);
-    connection.answer_with(std::move(text), request.head_only ? PageFile() : std::move(file));
-  } catch (const RefusedRequest& refused) {
-    const std::string_view text = refused.what();
-    const auto size = static_cast<long long>(text.size());
-    std::string answer = head(refused.status(), "text/plain; charset=utf-8", size);
-    if (connection.request.rfind("HEAD ", 0) != 0) answer += text;
-    connection.answer_with(std::move(answer));
-  }
-}
-
-void PageServer::receive(Connection& connection) const {
-  std::string& text = connection.request;
-  const ssize_t size = recv(connection.socket.get(), scratch().data(), max_request - text.size(), 0);
-  if (must_wait(size)) return;
-  if (size <= 0) return connection.enter(Connection::Phase::closed);
-  const std::size_t seen = text.size() < 3 ? 0 : text.size() - 3;
-  text.append(scratch().data(), static_cast<std::size_t>(size));
-  if (text.find("\r\n\r\n", seen) != std::string::npos) return answer(connection);
-  if (text.size() < max_request) return;
-  connection.answer_with(head(431, "text/plain", 0));
-}
-
-void PageServer::advance(Connection& connection) const {
-  using Phase = Connection::Phase;
-  if (connection.phase == Phase::receiving)
-    receive(connection);
-  else if (connection.phase == Phase::sending)
-    connection.send_more();
-  else if (connection.phase == Phase::draining)
-    connection.drain();
-}
-
-/// Waits until a connection or a new client can be served, and serves them.
-void PageServer::wait() {
-  std::vector<pollfd> waiting = {{.fd = listening_.get(), .events = POLLIN, .revents = 0}};
-  for (const Connection& c : connections_) {
-    const short events = c.phase == Connection::Phase::sending ? POLLOUT : POLLIN;
-    waiting.push_back({.fd = c.socket.get(), .events = events, .revents = 0});
-  }
-  const int tick = connections_.empty() ? -1 : 200;
-  if (poll(waiting.data(), waiting.size(), tick) < 0) {
-    if (errno == EINTR) return;
-    throw FileError(std::string("connections can no longer be served: ") + std::strerror(errno));
-  }
-  std::size_t i = 0;
-  for (Connection& c : connections_)
-    if (waiting[++i].revents != 0) advance(c);
-  if (waiting[0].revents != 0) accept_waiting();
-}
-
-void PageServer::expire() {
-  const auto now = Clock::now();
-  for (Connection& c : connections_) {
-    if (!c.is_late(now)) continue;
-    const bool has_asked = c.phase == Connection::Phase::receiving && !c.request.empty();
-    if (has_asked)
-      c.answer_with(head(408, "text/plain", 0));
-    else
-      c.enter(Connection::Phase::closed);
-  }
-  connections_.remove_if([](const Connection& c) { return c.phase == Connection::Phase::closed; });
-}
-
-void PageServer::drop_slowest() {
-  const auto earlier = [](const Connection& a, const Connection& b) { return a.since < b.since; };
-  const auto slowest = std::min_element(connections_.begin(), connections_.end(), earlier);
-  if (slowest != connections_.end()) connections_.erase(slowest);
-}
-
-void PageServer::accept_waiting() {
-  const std::size_t in_a_turn = std::max<std::size_t>(1, max_connections_ / 2);  // so that each has a turn to ask
-  for (std::size_t i = 0; i < in_a_turn; ++i) {
-    Descriptor client(accept4(listening_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
-    if (!client) {
-      if (errno == EAGAIN || errno == EWOULDBLOCK) return;
-      if (errno == EINTR || errno == ECONNABORTED || errno == EPROTO) continue;
-      const bool is_full = errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM;
-      if (!is_full || connections_.empty())
-        throw FileError(std::string("connections can no longer be accepted: ") + std::strerror(errno));
-      drop_slowest();
-      continue;
-    }
-    if (connections_.size() >= max_connections_) drop_slowest();
-    connections_.emplace_back(std::move(client));
-    advance(connections_.back());  // its request is usually there
-  }
-}
-
-void PageServer::serve() {
-  for (;;) {
-    wait();
-    expire();
-  }
+void serve_page(const std::string& folder, const PageAddress& address, const std::function<void(int)>& when_ready) {
+  Server server(folder, address);
+  when_ready(server.port());
+  for (;;) server.run();
 }

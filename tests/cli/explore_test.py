@@ -151,6 +151,18 @@ class Explore(CommandLine):
         self.assertEqual(self.ask()[0], 200)
         self.assertLess(self.most_memory(process) - before, 60 if SANITIZED else 10)
 
+    def test_header_fields_without_an_end_cost_no_memory(self):
+        process, _ = self.serve("--port", "0")
+        self.ask()
+        before = self.most_memory(process)
+        connection = self.connect()
+        with contextlib.suppress(ConnectionError):
+            connection.sendall(b"GET / HTTP/1.1\r\na")
+            for _ in range(1000):
+                connection.sendall(b":\r\na" * 5000)  # Beast bounds no sum of pieces that end in a name
+        self.assertEqual(self.ask()[0], 200)
+        self.assertLess(self.most_memory(process) - before, 60 if SANITIZED else 10)
+
     def test_slow_clients_do_not_keep_others_waiting(self):
         self.write("large.bin", bytes(1 << 24))
         process, _ = self.serve("--port", "0")
