@@ -56,12 +56,23 @@ class Run {
   void take();
   void sample();
   output::Findings findings() const;
+  /// Largest slip at x = 0 and in the last profile.
+  double largest_slip(const Solver::View& view) const;
+  /// Slip at x = 0 that is small compared with a cell: from there on the slip velocity in the cell is not known well.
+  double unresolved_slip(const Solver::View& view) const;
+  /// Largest energy that was moving or dissipated, or that the forcing supplied, at an output time.
+  double energy_of_motion() const;
+  /// Share of the stored energy that the cells leave open where a contact profile acts: as large a share of the forces
+  /// that should balance there does not.
+  double contact_doubt() const;
+  /// How far the change of the stored energy may be wrong because it is a sum over cells.
+  double energy_doubt() const;
 
   output::Schedule schedule_;
   Solver solver_;
   TrailingCharacteristic trailing_characteristic_;
   double stepping_seconds_ = 0;
-  double first_energy_ = 0;
+  StoredEnergy first_energy_{};
   output::SampledIntegral slip_;  ///< at x = 0, by the slip velocity there
   double slip_size_ = 0;          ///< integral of the size of that velocity
   double slip_doubt_ = 0;         ///< integral of how wrong it may be, from what it is in the cells around
