@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
+#include "slipfront/friction/law.hpp"
 #include "slipfront/pulse/run.hpp"
 #include "slipfront/scenario/scenario.hpp"
 #include "slipfront/setup/pulse.hpp"
@@ -107,6 +109,43 @@ TEST(RunChecks, EnergyOfASlowPulseIsAccountedFor) {
   const output::Energy e = end_of(p, 1.119e7).energy;
   EXPECT_GT(e.kinetic, 0);
   EXPECT_LT(std::fabs(e.shocks), 0.1 * e.kinetic);
+}
+
+/// By the closure of the paper friction hardly slows the dislocations at a free edge, and they leave the others far
+/// behind. A cell next to one that is a hundred times wider had next to no width at its centre, and the pressure of
+/// that threw its neighbours away: to x = 13.3 by the end with these cells, with energy from nothing.
+TEST(RunChecks, AFreeEdgeIsNotThrownAway) {
+  const Problem p{.stress = [](double x) { return x < 0 ? 0.6161 : 0.0; },
+                  .forcing = {},
+                  .friction = friction::power(1.931, 1.956, friction::Closure::paper),
+                  .left = -66,
+                  .right = 6,
+                  .cells = 600};
+  pulse::Run run(p, until(500, p));
+  run.go();
+  const output::Snapshot& s = run.snapshots().back();
+  EXPECT_LT(s.fronts.leading, 5.5);
+  EXPECT_GT(s.energy.shocks, -1e-3 * (s.energy.kinetic + s.energy.dissipated));
+}
+
+/// Friction whose mean is not tabulated, on a train that ends in a stress so small that its psi is hardly a double.
+TEST(RunChecks, StepsWhereATrainIsAlmostEmpty) {
+  const auto& laws = friction::laws();
+  const auto is_n_shaped = [](const friction::Definition* law) { return law->name == "n-shaped"; };
+  const friction::Definition& n_shaped = **std::find_if(laws.begin(), laws.end(), is_n_shaped);
+  const Problem p{.stress =
+                      [](double x) {
+                        const double stress = 0.474 * (1 - std::tanh(x / 0.678)) / 2;
+                        return stress < 0.0045 ? 0.0 : stress;
+                      },
+                  .forcing = {},
+                  .friction = {n_shaped, {0.81, 0.0497}},
+                  .left = -6.78,
+                  .right = 6.78,
+                  .corner = HUGE_VAL,
+                  .cells = 100};
+  pulse::Run run(p, until(6.41, p));
+  EXPECT_TRUE(run.go());
 }
 
 /// The front of a smooth stress does not depend on whether the cells show a corner: -1.499 with 200 cells once, where
