@@ -128,6 +128,18 @@ TEST(RunChecks, AFreeEdgeIsNotThrownAway) {
   EXPECT_GT(s.energy.shocks, -1e-3 * (s.energy.kinetic + s.energy.dissipated));
 }
 
+/// A strong step under friction that is steep at rest but does not rule what moves: no spike at the foot of the fan,
+/// by either closure. The peak was 1.036 by the closure of the paper.
+TEST(RunChecks, FrictionSteepAtRestMakesNoSpike) {
+  const Problem p{.stress = [](double x) { return x < 0 ? 3.732 : 1.505; },
+                  .forcing = {},
+                  .friction = friction::power(0.1919, 0.5437, friction::Closure::paper),
+                  .left = -2.2,
+                  .right = 2.2,
+                  .cells = 120};
+  EXPECT_NEAR(end_of(p, 1.888).peak_slip_velocity, 0.9045, 4e-3);
+}
+
 /// Friction whose mean is not tabulated, on a train that ends in a stress so small that its psi is hardly a double.
 TEST(RunChecks, StepsWhereATrainIsAlmostEmpty) {
   const auto& laws = friction::laws();
