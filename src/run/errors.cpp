@@ -21,12 +21,17 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 /// Given, or of the computation and not of the physics.
 constexpr std::array<std::string_view, 6> without_error{"friction_coefficient", "damping_number", "time",
                                                         "conservation_error",   "solve_seconds",  "wall_seconds"};
-constexpr double safety = 1.25;  ///< Roache's factor for estimates by three grids
+/// Factors of safety where three grids converge, and where they do not (Eca & Hoekstra, 2014, J. Comput. Phys.
+/// 262:104).
+constexpr double safety = 1.5, safety_unordered = 3;
 constexpr int fewest_cells = 4, most_cells = 25600;
 
 /// Rows that a tolerance holds for.
 constexpr std::array<std::string_view, 4> held_to_tolerance{"slip_velocity_at_origin", "stress_at_origin",
                                                             "slip_at_origin", "peak_slip_velocity"};
+
+/// Places of which each is read from a few cells.
+constexpr std::array<std::string_view, 2> read_from_cells{"peak_position", "first_crossing_position"};
 
 /// Measured where a number of cells show them.
 constexpr std::array<std::string_view, 4> fronts{"trailing_front", "leading_front", "trailing_front_observed",
@@ -63,20 +68,24 @@ std::vector<SummaryValue> summary_with(int cells, const scenario::Scenario& scen
   return summary(pulse_summary(), {other, run, 0});
 }
 
-std::vector<double> differences(const std::vector<SummaryValue>& fine, const std::vector<SummaryValue>& coarse) {
-  std::vector<double> errors(fine.size(), none);
-  for (std::size_t i = 0; i < std::min(fine.size(), coarse.size()); ++i)
-    if (!among(without_error, fine[i].key)) errors[i] = std::fabs(real(fine[i].value) - real(coarse[i].value));
-  return errors;
+/// The error of the finest of three values, of which each has twice the cells of the next; without the last (NaN) as if
+/// they did not converge, and NaN without the second.
+double estimated(double fine, double half, double quarter) {
+  const double last = fine - half, before = half - quarter;
+  if (std::isnan(last)) return none;
+  const bool converges = last * before >= 0 && std::fabs(last) <= std::fabs(before);
+  if (converges) return safety * std::fmax(std::fabs(last), std::fabs(before) / 2);
+  return safety_unordered * std::fmax(std::fabs(last), std::isnan(before) ? 0 : std::fabs(before));
 }
 
 /// The errors of the finest of three runs, from what each doubling of the cells changed.
 std::vector<double> estimated(const std::vector<SummaryValue>& fine, const std::vector<SummaryValue>& half,
                               const std::vector<SummaryValue>& quarter) {
-  std::vector<double> errors = differences(fine, half);
-  const std::vector<double> before = differences(half, quarter);
-  for (std::size_t i = 0; i < errors.size(); ++i)
-    errors[i] = safety * (i < before.size() && before[i] / 2 > errors[i] ? before[i] / 2 : errors[i]);
+  std::vector<double> errors(fine.size(), none);
+  for (std::size_t i = 0; i < std::min(fine.size(), half.size()); ++i)
+    if (!among(without_error, fine[i].key))
+      errors[i] =
+          estimated(real(fine[i].value), real(half[i].value), i < quarter.size() ? real(quarter[i].value) : none);
   return errors;
 }
 
@@ -122,6 +131,9 @@ Errors errors_of(const Result<pulse::Run>& fine, const scenario::Scenario& scena
   for (std::size_t i = 0; i < half.size(); ++i)
     if (among(fronts, fine.summary[i].key) && std::isfinite(real(fine.summary[i].value)) && std::isnan(errors[i]))
       errors[i] = cell_of_half;
+  for (std::size_t i = 0; i < errors.size(); ++i)
+    if (among(read_from_cells, fine.summary[i].key) && std::isfinite(errors[i]))
+      errors[i] = std::fmax(errors[i], cell_of_half / 2);
   if (const auto slip = fine.run->slip_twice())
     for (std::size_t i = 0; i < errors.size(); ++i)
       if (std::string_view(fine.summary[i].key) == "slip_at_origin") errors[i] = std::fmax(errors[i], slip->error());
