@@ -116,20 +116,23 @@ std::size_t row_of(std::string_view key, const std::vector<SummaryValue>& rows) 
   return static_cast<std::size_t>(std::find_if(rows.begin(), rows.end(), is_it) - rows.begin());
 }
 
-/// The peak may be anywhere where the slip velocity is as large but for its error, also where it has the other sign.
-void add_rivals_of_the_peak(const Result<pulse::Run>& fine, std::vector<double>& errors) {
+/// The largest slip velocity is known no better than that at x = 0, and the peak may be anywhere where it is as large
+/// but for its error, also where it has the other sign.
+void correct_peak(const Result<pulse::Run>& fine, std::vector<double>& errors) {
   const std::size_t height = row_of("peak_slip_velocity", fine.summary), place = row_of("peak_position", fine.summary);
-  const double peak = real(fine.summary[height].value), x = real(fine.summary[place].value), error = errors[height];
+  const double at_origin = errors[row_of("slip_velocity_at_origin", fine.summary)];
+  const double peak = real(fine.summary[height].value), x = real(fine.summary[place].value);
+  const double error = errors[height] = std::isnan(errors[height]) ? none : std::fmax(errors[height], at_origin);
   if (!std::isfinite(error) || !std::isfinite(x)) return;
   const std::vector<double>&W = fine.run->snapshots().back().profile.W, &edges = fine.run->schedule().x_edges;
   for (std::size_t i = 0; i < W.size(); ++i) {
     if (std::fabs(W[i]) < std::fabs(peak) - 2 * error) continue;
     errors[place] = std::fmax(errors[place], std::fabs((edges[i] + edges[i + 1]) / 2 - x));
-    if (W[i] * peak < 0) errors[height] = std::fmax(errors[height], std::fabs(peak - W[i]) + error);
+    if (W[i] * peak < 0) errors[height] = std::fmax(errors[height], std::fabs(peak - W[i]) + 2 * error);
   }
 }
 
-/// What the cells leave open of places: rounding of all, a cell of a front that half the cells do not show, half of one
+/// What the cells leave open of places: rounding of all, two cells of a front that half the cells do not show, one
 /// of a peak or a crossing. A front that an observer sees at an end of the domain may be anywhere outside.
 void correct_places(const Result<pulse::Run>& fine, std::vector<double>& errors) {
   constexpr double rounding = 1e-9;
@@ -139,13 +142,13 @@ void correct_places(const Result<pulse::Run>& fine, std::vector<double>& errors)
     const std::string_view key = fine.summary[i].key;
     const double x = real(fine.summary[i].value);
     const bool is_front = among(fronts, key), is_read = among(read_from_cells, key);
-    if (!(is_front || is_read) || !std::isfinite(x)) continue;
+    if (!(is_front || is_read || key == "trailing_characteristic") || !std::isfinite(x)) continue;
     if (is_front && std::isnan(errors[i])) errors[i] = 2 * cell;
     const double from_end = std::fmin(std::fabs(x - problem.left), std::fabs(x - problem.right));
-    if (among(observed_fronts, key) && from_end <= rounding * domain) errors[i] = none;
-    if (std::isfinite(errors[i])) errors[i] = std::fmax(errors[i], is_read ? cell / 2 : rounding * domain);
+    if (among(observed_fronts, key) && from_end <= 2 * cell) errors[i] = none;
+    if (std::isfinite(errors[i])) errors[i] = std::fmax(errors[i], is_read ? cell : rounding * domain);
   }
-  add_rivals_of_the_peak(fine, errors);
+  correct_peak(fine, errors);
 }
 
 }  // namespace

@@ -39,6 +39,22 @@ def both(number):
     return number, s, runs
 
 
+def ending(number):
+    """How the run of a scenario ends, and where that is exit code 4, how the run with four times the cells ends."""
+    s = scenarios.make_wide(number)
+    for more in (1, 4):
+        try:
+            run(scenarios.changed(s, pulse_cells=more * s["pulse"]["cells"]))
+            end = "runs"
+        except Failed as failure:
+            end = f"exit {failure.code}: {failure}"
+        if more == 1 and not end.startswith("exit 4"):
+            return number, end, ""
+        if more == 1:
+            first = end
+    return number, first, end
+
+
 def compared(coarse, fine):
     """For each scalar with a stated error: its value, the value with more cells, the stated error, and whether it holds."""
     for key, stated in coarse.errors.items():
@@ -52,11 +68,10 @@ def compared(coarse, fine):
 def refusals(numbers, jobs):
     with concurrent.futures.ProcessPoolExecutor(jobs) as pool:
         ended = collections.Counter()
-        for number, _, runs in pool.map(both, numbers):
-            kinds = [r.split(":")[0] if isinstance(r, str) else "runs" for r in runs]
-            ended[kinds[0]] += 1
-            if kinds[0] != "runs":
-                print(f"{number} {runs[0]}; with four times the cells: {kinds[1] if len(kinds) > 1 else 'not run'}", flush=True)
+        for number, end, with_more in pool.map(ending, numbers):
+            ended[end.split(":")[0]] += 1
+            if end != "runs":
+                print(f"{number} {end}" + (f"; with four times the cells {with_more}" if with_more else ""), flush=True)
     print(", ".join(f"{count} {kind}" for kind, count in ended.most_common()))
     return int(ended["exit 4"] > 0)
 

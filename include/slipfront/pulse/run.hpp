@@ -58,7 +58,7 @@ class Run {
   output::Findings findings() const;
   /// Largest slip at x = 0 and in the last profile.
   double largest_slip(const Solver::View& view) const;
-  /// Slip at x = 0 that is small compared with a cell: from there on the slip velocity in the cell is not known well.
+  /// Slip of the cell at x = 0 where nothing has come farther than a few cells, whose inside is not known well; else 0.
   double unresolved_slip(const Solver::View& view) const;
   /// Largest energy that was moving or dissipated, or that the forcing supplied, at an output time.
   double energy_of_motion() const;
