@@ -101,4 +101,40 @@ double pressure(double psi) {
   return 2 * sinh_psi * sinh_psi;
 }
 
+double mass_excess(double psi) {
+  if (psi == 0) return 0;
+  const double half = std::sinh(psi / 2);
+  return std::cosh(psi) * elliptic::at_psi(psi).E_rest + 2 * half * half;
+}
+
+double interaction_energy(double psi) {
+  if (psi == 0) return 0;
+  return 8 * mass_excess(psi) - pressure(psi) * 2 * elliptic::at_psi(psi).K / std::cosh(psi);
+}
+
+namespace {
+
+/// Integral of p(l) - p from the spacing of a train that moves to the one that it has in its own frame, where its
+/// pressure is p.
+double compression_energy(const State& state) {
+  constexpr double short_way = 0.1;
+  const double half = std::sinh(state.phi / 2), own_spacing = lagrangian_state({0, state.psi}).spacing;
+  const double way = own_spacing * 2 * half * half / std::cosh(state.phi), own_pressure = pressure(state.psi);
+  const auto psi_at = [&](double spacing) { return state_of({spacing, 0}, state.psi).psi; };
+  if (std::fabs(state.phi) > short_way)
+    return interaction_energy(psi_at(own_spacing - way)) - interaction_energy(state.psi) - own_pressure * way;
+  constexpr double at[3] = {0.1127016653792583, 0.5, 0.8872983346207417}, weight[3] = {5.0 / 18, 4.0 / 9, 5.0 / 18};
+  double sum = 0;  // Gauss
+  for (int i = 0; i < 3; ++i) sum += weight[i] * (pressure(psi_at(own_spacing - at[i] * way)) - own_pressure);
+  return sum * way;
+}
+
+}  // namespace
+
+double kinetic_energy(const State& state) {
+  const double half = std::sinh(state.phi / 2), isolated = 16 * half * half;
+  if (state.empty() || state.phi == 0) return isolated;
+  return std::fmax(isolated * (1 + mass_excess(state.psi)) - compression_energy(state), 0.0);
+}
+
 }  // namespace slipfront::modulation

@@ -88,7 +88,7 @@ void SlowedTrains::evaluate() {
   states_.solve_slip(size, fastest_.data());
   for (std::size_t i = 0; i < size; ++i) fastest_[i] = states_.solved(i) ? contact_[i] * fastest_[i] : 1;
   friction_.law().mean_strengths({size, fastest_.data(), states_.s.data(), {memory_.data(), variables_}},
-                                 friction::Closure::consistent, force_.data(), slope_.data());
+                                 friction_.closure(), force_.data(), slope_.data());
 }
 
 SlowedTrain::Left SlowedTrains::solve_alone(std::size_t i, double time) const {

@@ -94,7 +94,7 @@ SLIPFRONT_CLONES void per_dislocation(std::size_t size, const double* per_charge
                                       double* momentum) {
   SLIPFRONT_INDEPENDENT
   for (std::size_t i = 0; i < size; ++i) {
-    spacing[i] = (spacing[i] > 0 ? spacing[i] : width[i]) * per_charge[i];
+    spacing[i] = centre_width(spacing[i], width[i]) * per_charge[i];
     momentum[i] *= per_charge[i];
   }
 }
@@ -306,7 +306,7 @@ SLIPFRONT_CLONES void find_trains(const TrainsAtFaces& a, double creep) {
     const double size = std::fabs(sinh_phi[i]), large = size > creep ? size : creep,
                  small = size > creep ? creep : size;
     const double ratio = large > 0 ? small / large : 0.0, limit = at_rest * (psi[i] < 1 ? psi[i] : 1.0);
-    const double x = large > 0 ? large * std::sqrt(1 + ratio * ratio) : limit;
+    const double some_x = large > 0 ? large * std::sqrt(1 + ratio * ratio) : limit, x = some_x > least ? some_x : least;
     const double up = expm1_branch_free(2 * psi[i]), s = up / (2 + up), some = s > least ? s : least, m1 = some * some;
     const double E = 1 + m1 * (polynomial(fit::E, m1) - 2 * log_branch_free(some) * polynomial(fit::E_log, m1));
     const double slip = contact[i] * x * (2 + up) / (2 * std::sqrt(1 + up));  // times cosh psi

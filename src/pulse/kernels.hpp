@@ -47,8 +47,14 @@ void face_fluxes(std::size_t faces, const double* phi, const double* psi, double
 /// first, second = pairs[2 i], pairs[2 i + 1].
 void split(std::size_t size, const double* pairs, double* first, double* second);
 
-/// Spacing and momentum of one dislocation from those at the centres of cells; the width stands in for a centre value
-/// that is not positive (in a last cell, much narrower than the ones beside it).
+/// Width at the centre of a cell, no further from its mean than cells that resolve it have it: next to a cell that is
+/// much wider the differences would leave next to nothing, whose pressure throws the neighbours apart.
+inline double centre_width(double at_centre, double mean) {
+  constexpr double apart = 0.1;
+  const double low = (1 - apart) * mean, high = (1 + apart) * mean;
+  return at_centre > low ? (at_centre < high ? at_centre : high) : low;
+}
+/// Spacing and momentum of one dislocation from those at the centres of cells; `width` are means.
 void per_dislocation(std::size_t size, const double* per_charge, const double* width, double* spacing,
                      double* momentum);
 

@@ -146,7 +146,7 @@ void CellFriction::find_forces(const std::vector<double>& s, std::size_t stride)
   }
   problem_.friction.law().mean_strengths(
       {count, slipping_fastest_.data(), slipping_s_.data(), {slipping_memory_.data(), each}},
-      friction::Closure::consistent, slipping_force_.data(), slipping_slope_.data());
+      problem_.friction.closure(), slipping_force_.data(), slipping_slope_.data());
   for (std::size_t j = 0; j < count; ++j) {
     force_[slipping_[j]] = slipping_force_[j];
     slope_[slipping_[j]] = slipping_slope_[j];

@@ -76,6 +76,12 @@ struct Inwards {
     const double before = std::fabs(change(i - 1)), after = std::fabs(change(i));
     return std::lerp(x(i - 1), x(i), (level - before) / (after - before));
   }
+  /// The same in a tail that falls by a factor from cell to cell: its logarithm is nearly a straight line.
+  double place_in_tail(std::size_t i, double level) const {
+    const double before = std::fabs(change(i - 1)), after = std::fabs(change(i));
+    if (!(before > 0) || before * after < 0) return place(i, level);
+    return std::lerp(x(i - 1), x(i), std::log(level / before) / std::log(after / before));
+  }
 };
 
 /// The foot of a fan that rises within a few cells from `first` on to `top`: its quarter and three quarters, which the
@@ -92,9 +98,9 @@ double foot_of_narrow_fan(const Inwards& in, std::size_t first, double top) {
 
 /// The foot of the fan on the more stressed side: behind the first cell whose slip velocity differs from that at the
 /// stressed end by a thousandth of the largest, the places of three cells as a parabola in that difference,
-/// continued to none. Where a smooth stress or friction has drawn the foot out into a tail, the front is where the
-/// tail is felt.
-double trailing_front(const Solver::View& v, const std::vector<double>& W, bool stressed_left) {
+/// continued to none. Where friction has drawn the foot out into a tail, the front is where the tail is felt, and so it
+/// is for a smooth initial stress, whose fan has no corner: whether cells show one would depend on their number.
+double trailing_front(const Solver::View& v, const std::vector<double>& W, bool stressed_left, bool smooth) {
   constexpr double felt = 1e-3;
   constexpr std::size_t behind = 4, apart = 3, last = behind + 2 * apart;  // cells: a fan's corner is round by two
   const std::size_t n = W.size();
@@ -105,6 +111,7 @@ double trailing_front(const Solver::View& v, const std::vector<double>& W, bool 
   std::size_t first = 0;
   while (first < n && !(std::fabs(in.change(first)) > felt * most)) ++first;
   if (first <= 1 || first + last + behind >= n) return none;  // it has reached the end, or nothing moves
+  if (smooth) return in.place_in_tail(first, felt * most);
   double top = 0;
   for (std::size_t i = first; i <= first + last + behind; ++i) top = std::fmax(top, std::fabs(in.change(i)));
   double x[3], w[3];
@@ -116,7 +123,7 @@ double trailing_front(const Solver::View& v, const std::vector<double>& W, bool 
   if (narrow) return foot_of_narrow_fan(in, first, top);
   const bool rises = std::fabs(w[0]) > 0 && w[1] / w[0] > 1.2 && w[2] / w[1] > 1.1;
   const bool tail = w[0] * w[2] > 0.95 * w[1] * w[1];  // exponential, as of a smooth stress: it has no foot
-  if (!rises || tail) return in.place(first, felt * most);
+  if (!rises || tail) return in.place_in_tail(first, felt * most);
   const auto [slope, curve] = parabola_through(w[1] - w[0], x[1] - x[0], w[2] - w[0], x[2] - x[0]);
   const double foot = x[0] - w[0] * (slope - curve * w[0]);
   const double ahead = in.x(first - 1), farthest = ahead - 2 * (in.x(first) - ahead);
@@ -220,37 +227,73 @@ void find_observed_fronts(const Problem& problem, const Solver::View& v, std::ve
   s.fronts.leading_observed = in_domain(problem, to_right ? seen.right : seen.left);
 }
 
-Energy energy_of(const Solver& solver, const Solver::View& v) {
-  Energy e{.elastic = 0,
-           .kinetic = 0,
-           .dissipated = solver.dissipated(),
-           .supplied = solver.supplied(),
-           .through_ends = solver.through_ends(),
-           .shocks = none,
-           .phonons = none};
+/// A sum over the dislocations from values at the centres of cells, fourth order in the cells' own coordinate where
+/// these are smooth there, and second order next to a jump or a free edge.
+struct SumOverCells {
+  const std::vector<double>& charge;
+  double corrections = 0;  ///< of all sums
+  double rough = 0;        ///< part of the last sum, in cells where values are not smooth
+
+  double operator()(const std::vector<double>& f) {
+    double sum = 0;
+    rough = 0;
+    for (std::size_t i = 0; i < f.size(); ++i) {
+      if (charge[i] == 0) continue;
+      sum += charge[i] * f[i];
+      if (!is_smooth(f, i)) {
+        rough += charge[i] * f[i];
+        continue;
+      }
+      corrections += correction(f, i);
+      sum += correction(f, i);
+    }
+    return sum;
+  }
+
+ private:
+  bool is_smooth(const std::vector<double>& f, std::size_t i) const {
+    if (i == 0 || i + 1 == f.size() || charge[i - 1] == 0 || charge[i + 1] == 0) return false;
+    const double before = f[i] - f[i - 1], behind = f[i + 1] - f[i];
+    constexpr double smooth = 0.7;
+    return std::fabs(behind - before) < smooth * (std::fabs(before) + std::fabs(behind));
+  }
+  double correction(const std::vector<double>& f, std::size_t i) const {
+    return (f[i + 1] - 2 * f[i] + f[i - 1]) / 24 * charge[i] +
+           (f[i + 1] - f[i - 1]) * (charge[i + 1] - charge[i - 1]) / 48;
+  }
+};
+
+StoredEnergy stored_energy(const Solver& solver, const Solver::View& v) {
   const std::size_t n = v.states.size();
-  std::vector<double> width(n), rest(n), moving(n);
+  std::vector<double> isolated(n), interaction(n), kinetic(n);
   for (std::size_t i = 0; i < n; ++i) {
-    width[i] = v.faces[i + 1] - v.faces[i];
-    if (v.states[i].empty()) continue;
-    const double x = v.centres[i], contact = v.contact ? v.contact(x) : 1;
-    const train::Averages a = averages_of(v, v.states[i], x);
-    const State at_rest = modulation::state_of({2 * pi * contact / a.k, 0}, v.states[i].psi);
-    rest[i] = averages_of(v, at_rest, x).H;
-    moving[i] = a.H - rest[i];
+    if (solver.charge()[i] == 0) continue;
+    const double contact = v.contact ? v.contact(v.centres[i]) : 1;
+    isolated[i] = 8 * contact;
+    kinetic[i] = contact * modulation::kinetic_energy(v.states[i]);
+    if (v.states[i].empty()) continue;  // too far apart to feel each other
+    const double spacing = modulation::lagrangian_state(v.states[i]).spacing;
+    interaction[i] = contact * modulation::interaction_energy(modulation::state_of({spacing, 0}, v.states[i].psi).psi);
   }
-  // A cell's integral from the values at centres, fourth order in the cells' own coordinate.
-  const auto integral = [&](const std::vector<double>& f, std::size_t i) {
-    const bool inside = i > 0 && i + 1 < n && !v.states[i - 1].empty() && !v.states[i + 1].empty();
-    if (!inside || v.states[i].empty()) return f[i] * width[i];
-    return (f[i] + (f[i - 1] - 2 * f[i] + f[i + 1]) / 24) * width[i] +
-           (f[i + 1] - f[i - 1]) * (width[i + 1] - width[i - 1]) / 48;
-  };
-  for (std::size_t i = 0; i < n; ++i) {
-    e.elastic += integral(rest, i);
-    e.kinetic += integral(moving, i);
-  }
+  SumOverCells sum{solver.charge()};
+  StoredEnergy e{};
+  e.isolated = sum(isolated);
+  e.interaction = sum(interaction);
+  e.kinetic = std::fmax(sum(kinetic), 0.0);
+  e.correction = sum.corrections;
+  e.unresolved = sum.rough;
   return e;
+}
+
+Energy energy_of(const Solver& solver, const Solver::View& v) {
+  const StoredEnergy stored = stored_energy(solver, v);
+  return {.elastic = stored.elastic(),
+          .kinetic = stored.kinetic,
+          .dissipated = solver.dissipated(),
+          .supplied = solver.supplied(),
+          .through_ends = solver.through_ends(),
+          .shocks = none,
+          .phonons = none};
 }
 
 }  // namespace
@@ -263,11 +306,14 @@ TrailingCharacteristic::TrailingCharacteristic(const Solver& start) {
   stressed_left_ = v.right_free || (!v.left_free && v.states.front().psi >= (1 - rounding) * v.states.back().psi);
   const auto from_stressed = [&](std::size_t i) { return stressed_left_ ? i : n - 1 - i; };
   const auto stress = [&](double x) { return start.problem().stress(x) / (v.contact ? v.contact(x) : 1); };
-  const double stressed = stress(v.centres[from_stressed(0)]);
+  const double end = v.faces[stressed_left_ ? 0 : n];
+  const double stressed = stress(std::lerp(end, v.centres[from_stressed(0)], rounding));
   double low = stressed, high = stressed;
-  for (const double x : v.centres) {
-    low = std::fmin(low, stress(x));
-    high = std::fmax(high, stress(x));
+  constexpr int samples = 512;  // whatever the cells
+  for (int i = 0; i < samples; ++i) {
+    const double at = stress(std::lerp(v.faces.front(), v.faces.back(), (i + 0.5) / samples));
+    low = std::fmin(low, at);
+    high = std::fmax(high, at);
   }
   const bool uniform = high - low <= 1e-12 * high;  // up to a free edge: the front starts there
   const auto departs = [&](double x, double share) {
@@ -281,14 +327,14 @@ TrailingCharacteristic::TrailingCharacteristic(const Solver& start) {
   constexpr double felt = 0.01;
   const std::size_t i = first(felt);
   position_ = i < n ? v.centres[from_stressed(i)] : v.faces[stressed_left_ ? n : 0];
-  double still = i < n ? v.centres[from_stressed(i - 1)] : position_;
+  double still = i == n ? position_ : i == 0 ? end : v.centres[from_stressed(i - 1)];
   while (true) {
     const double middle = still + (position_ - still) / 2;
     if (middle == still || middle == position_) break;
     (departs(middle, felt) ? position_ : still) = middle;
   }
   steady_ = first(1e-12) == i && !start.problem().forcing;
-  speed_ = speed_into(v.states[from_stressed(0)]);
+  speed_ = steady_ ? speed_into(v.states[from_stressed(0)]) : speed_at(start);
 }
 
 double TrailingCharacteristic::speed_into(const State& ahead) const {
@@ -296,19 +342,41 @@ double TrailingCharacteristic::speed_into(const State& ahead) const {
   return stressed_left_ ? speeds.minus : speeds.plus;
 }
 
+/// Speed at the present place: between the cells of a smooth stress, and ahead of a corner by more than a
+/// reconstruction reaches, so that the front itself is not seen.
+double TrailingCharacteristic::speed_at(const Solver& now) const {
+  const Cells& cells = now.cells();
+  const std::size_t last = now.size() - 1;
+  std::size_t cell = 0;
+  double left = cells.left_edge();
+  for (; cell < last && left + cells.width(cell) <= position_; ++cell) left += cells.width(cell);
+  if (now.problem().corner < HUGE_VAL) {
+    constexpr std::size_t reach = 6;
+    return speed_into(now.state_in(stressed_left_ ? cell - std::min(cell, reach) : std::min(cell + reach, last)));
+  }
+  const double middle = left + cells.width(cell) / 2, here = speed_into(now.state_in(cell));
+  const bool to_right = position_ > middle;
+  if (to_right ? cell == last : cell == 0) return here;
+  const std::size_t next = to_right ? cell + 1 : cell - 1;
+  if (cells.charge[cell] == 0 || cells.charge[next] == 0) return here;
+  const double apart = (cells.width(cell) + cells.width(next)) / 2;
+  return std::lerp(here, speed_into(now.state_in(next)), std::fmin(std::fabs(position_ - middle) / apart, 1.0));
+}
+
 void TrailingCharacteristic::advance(const Solver& now, double dt) {
   if (steady_) {
     position_ += dt * speed_;
     return;
   }
-  const Cells& cells = now.cells();
-  std::size_t cell = 0;
-  for (double right = cells.left_edge() + cells.width(0); cell + 1 < now.size() && right <= position_;
-       right += cells.width(cell))
-    ++cell;
-  // Ahead of it by more than a reconstruction reaches, so that the front itself is not seen.
-  const std::size_t ahead = stressed_left_ ? (cell > 6 ? cell - 6 : 0) : std::min(cell + 6, now.size() - 1);
-  position_ += dt * speed_into(now.state_in(ahead));
+  const double before = speed_;
+  position_ += dt * before;
+  position_ += dt * (speed_at(now) - before) / 2;
+  speed_ = speed_at(now);
+}
+
+void TrailingCharacteristic::restore(const Solver& now, double position) {
+  position_ = position;
+  if (!steady_) speed_ = speed_at(now);
 }
 
 Snapshot observe(const Solver& solver, const std::vector<double>& x_edges, const TrailingCharacteristic& trailing,
@@ -341,8 +409,9 @@ Snapshot observe(const Solver& solver, const std::vector<double>& x_edges, const
   const double characteristic = free_at(v, !to_right) ? none : in_domain(problem, trailing.position());
   s.fronts.trailing_characteristic = characteristic;
   // At rest the front of a step is where it stands; a smooth stress has none yet.
-  const double at_rest = problem.corner < HUGE_VAL ? characteristic : none;
-  s.fronts.trailing = s.time == 0 ? at_rest : in_domain(problem, trailing_front(v, W, to_right));
+  const bool smooth = !(problem.corner < HUGE_VAL);
+  const double at_rest = smooth ? none : characteristic;
+  s.fronts.trailing = s.time == 0 ? at_rest : in_domain(problem, trailing_front(v, W, to_right, smooth));
   s.fronts.leading = in_domain(problem, leading_front(v, W, to_right));
   find_peak(points_of(problem, v, W), s);
   const double beyond = v.shocked[interval(v.faces, 0)] != 0 ? overshoot : 1;
@@ -356,7 +425,7 @@ Snapshot observe(const Solver& solver, const std::vector<double>& x_edges, const
   return s;
 }
 
-Energy energy_of(const Solver& solver) { return energy_of(solver, solver.view()); }
+StoredEnergy stored_energy(const Solver& solver) { return stored_energy(solver, solver.view(false)); }
 
 double conservation_error(const Solver& solver) {
   const Solver::View v = solver.view();

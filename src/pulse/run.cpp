@@ -111,17 +111,15 @@ Run::Run(Problem problem, output::Schedule schedule)
     : schedule_(std::move(schedule)),
       solver_(std::move(problem)),
       budget_(expected_steps(solver_, schedule_), schedule_.times.back()),
-      trailing_characteristic_(solver_) {
-  const output::Energy energy = energy_of(solver_);
-  first_energy_ = energy.elastic + energy.kinetic;
-}
+      trailing_characteristic_(solver_),
+      first_energy_(stored_energy(solver_)) {}
 
 Run::Run(Problem problem, output::Schedule schedule, std::string_view saved, std::vector<output::Snapshot> snapshots)
     : Run(std::move(problem), std::move(schedule)) {
   bytes::Reader reader(saved);
   if (reader.get<std::uint64_t>() != format || snapshots.size() > schedule_.times.size()) refuse_saved();
   Cells cells = saved_cells(solver_.problem().friction, reader);
-  trailing_characteristic_.restore(get_number(reader, "trailing_characteristic"));
+  const double trailing_characteristic = get_number(reader, "trailing_characteristic");
   output::SampledIntegral& slip = slip_;
   for (double* value : {&slip.time, &slip.velocity, &slip.integral, &slip_size_, &slip.early_time, &slip.early_velocity,
                         &slip.coarse_integral, &slip.spread, &slip_doubt_})
@@ -129,6 +127,7 @@ Run::Run(Problem problem, output::Schedule schedule, std::string_view saved, std
   slip.samples = static_cast<long>(reader.get<std::int64_t>());
   reader.end();
   solver_.restore(std::move(cells));
+  trailing_characteristic_.restore(solver_, trailing_characteristic);
   snapshots_ = std::move(snapshots);
 }
 
@@ -147,8 +146,11 @@ std::string Run::saved() const {
 
 void Run::take() {
   output::Snapshot s = observe(solver_, schedule_.x_edges, trailing_characteristic_, schedule_.threshold);
+  const StoredEnergy stored = stored_energy(solver_);
   output::Energy& e = s.energy;
-  e.shocks = first_energy_ + e.supplied + e.through_ends - e.dissipated - e.elastic - e.kinetic;
+  const double released =
+      (first_energy_.isolated - stored.isolated + e.through_ends) + first_energy_.interaction - stored.interaction;
+  e.shocks = released + first_energy_.kinetic + e.supplied - e.dissipated - e.kinetic;
   output::add_further_scalars(s, schedule_);
   snapshots_.push_back(std::move(s));
 }

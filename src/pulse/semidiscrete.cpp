@@ -167,6 +167,33 @@ double Semidiscrete::friction_rate_of_fastest() const {
   return 2 * pi * force / std::fabs(momentum[fastest]);
 }
 
+double Semidiscrete::mean_friction_rate() const {
+  constexpr std::size_t most = 64;
+  constexpr double slow = 0.01;
+  const CellStates& trains = centres_.train;
+  double fastest = 0;
+  for (std::size_t i = 0; i < size(); ++i)
+    if (!gap(i)) fastest = std::fmax(fastest, std::fabs(trains.momentum[i]));
+  std::vector<double> slip, s, charge;
+  double momentum = 0;
+  for (std::size_t i = 0; i < size() && fastest > 0; i += std::max<std::size_t>(size() / most, 1)) {
+    if (gap(i) || !(std::fabs(trains.momentum[i]) > slow * fastest)) continue;
+    slip.push_back(0);
+    fastest_slip(1, &trains.phi[i], &trains.psi[i], &slip.back());
+    if (setup_.contact) slip.back() *= centres_.contact[i];
+    s.push_back(trains.s[i]);
+    charge.push_back(setup_.charge[i]);
+    momentum += setup_.charge[i] * std::fabs(trains.momentum[i]);
+  }
+  if (slip.empty()) return friction_rate_of_fastest();
+  std::vector<double> force(slip.size());
+  setup_.friction.law().mean_strengths({slip.size(), slip.data(), s.data()}, setup_.friction.closure(), force.data(),
+                                       nullptr);
+  double taken = 0;
+  for (std::size_t j = 0; j < force.size(); ++j) taken += 2 * pi * charge[j] * force[j];
+  return taken / momentum;
+}
+
 double Semidiscrete::mean_crossing_time(const double* y) const {
   const ConstValues values(y, size());
   double width = 0, fastest = 0;

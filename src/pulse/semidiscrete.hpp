@@ -59,6 +59,8 @@ class Semidiscrete {
   double largest_friction_rate() const { return sources_.largest_friction_rate; }
   /// That of the cell with the most momentum a dislocation; 0 where all rest.
   double friction_rate_of_fastest() const;
+  /// Mean over the momentum of the cells that move, of some of them.
+  double mean_friction_rate() const;
   /// From the last call, where friction is apart: finds the largest rate, which the call itself does else.
   void find_friction_rates() { find_rates(); }
   /// From the last call: the cell in the middle of the hardest collision between streams of dislocations that run into

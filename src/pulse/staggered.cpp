@@ -20,14 +20,6 @@ using std::numbers::pi;
   throw NumericsError("t = " + digits(t) + ", cell " + std::to_string(cell) + ": squeezed to nothing");
 }
 
-/// cosh(psi) E - 1, which is 0 for dislocations far from each other: without cancellation, as their forces are small
-/// differences of it.
-double mass_excess(double psi) {
-  if (psi == 0) return 0;
-  const double half = std::sinh(psi / 2);
-  return std::cosh(psi) * elliptic::at_psi(psi).E_rest + 2 * half * half;
-}
-
 }  // namespace
 
 Staggered::Staggered(Setup setup)
@@ -98,7 +90,7 @@ void Staggered::find_cells(double t, const double* z) {
   for (std::size_t i = 0; i < n; ++i) {
     if (setup_.charge[i] == 0) continue;
     balance_[i] =  // dp = k dg
-        4 / pi * a_[i] * mass_excess(cells_.psi[i]) +
+        4 / pi * a_[i] * modulation::mass_excess(cells_.psi[i]) +
         a_[i] * a_[i] * (pressure_[i] - modulation::pressure(cells_.psi[i])) * width_[i] / (2 * pi * setup_.charge[i]);
   }
 }

@@ -161,7 +161,8 @@ State Solver::state_in(std::size_t cell) const {
   centre_values(stencil, {0, stencil}, width, width_at);
   centre_values(stencil, {0, stencil}, momentum, momentum_at);
   centre_values(stencil, {0, stencil}, &charge[cell - reach], charge_at);
-  return modulation::state_of({width_at[reach] / charge_at[reach], momentum_at[reach] / charge_at[reach]}, psi);
+  const double width_here = centre_width(width_at[reach], width[reach]);
+  return modulation::state_of({width_here / charge_at[reach], momentum_at[reach] / charge_at[reach]}, psi);
 }
 
 State state_at(const Solver::View& v, double place) {

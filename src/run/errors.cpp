@@ -21,7 +21,9 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 /// Given, or of the computation and not of the physics.
 constexpr std::array<std::string_view, 6> without_error{"friction_coefficient", "damping_number", "time",
                                                         "conservation_error",   "solve_seconds",  "wall_seconds"};
-constexpr double safety = 1.25;  ///< Roache's factor for estimates by three grids
+/// Factors of safety where three grids converge, and where they do not (Eca & Hoekstra, 2014, J. Comput. Phys.
+/// 262:104).
+constexpr double safety = 1.5, safety_unordered = 3;
 constexpr int fewest_cells = 4, most_cells = 25600;
 /// A doubling of the cells doubles the steps too. --tolerance makes no run of more steps times cells than this, which
 /// is a minute or so of one processor.
@@ -30,6 +32,11 @@ constexpr double most_cost = 1e8, cost_of_doubling = 4;
 /// Rows that a tolerance holds for.
 constexpr std::array<std::string_view, 4> held_to_tolerance{"slip_velocity_at_origin", "stress_at_origin",
                                                             "slip_at_origin", "peak_slip_velocity"};
+
+/// Places of which each is read from a few cells.
+constexpr std::array<std::string_view, 2> read_from_cells{"peak_position", "first_crossing_position"};
+
+constexpr std::array<std::string_view, 2> observed_fronts{"trailing_front_observed", "leading_front_observed"};
 
 /// Measured where a number of cells show them.
 constexpr std::array<std::string_view, 4> fronts{"trailing_front", "leading_front", "trailing_front_observed",
@@ -68,20 +75,27 @@ std::vector<SummaryValue> summary_with(int cells, const scenario::Scenario& scen
   return summary(pulse_summary(), {other, run, 0});
 }
 
-std::vector<double> differences(const std::vector<SummaryValue>& fine, const std::vector<SummaryValue>& coarse) {
-  std::vector<double> errors(fine.size(), none);
-  for (std::size_t i = 0; i < std::min(fine.size(), coarse.size()); ++i)
-    if (!among(without_error, fine[i].key)) errors[i] = std::fabs(real(fine[i].value) - real(coarse[i].value));
-  return errors;
+/// The error of the finest of three values, of which each has twice the cells of the next; without the last (NaN) as if
+/// they did not converge, and NaN without the second. `factor` is that of values that converge.
+double estimated(double fine, double half, double quarter, double factor) {
+  const double last = fine - half, before = half - quarter;
+  if (std::isnan(last)) return none;
+  const bool converges = last * before >= 0 && std::fabs(last) <= std::fabs(before);
+  if (converges) return factor * std::fmax(std::fabs(last), std::fabs(before) / 2);
+  return safety_unordered * std::fmax(std::fabs(last), std::isnan(before) ? 0 : std::fabs(before));
 }
 
 /// The errors of the finest of three runs, from what each doubling of the cells changed.
 std::vector<double> estimated(const std::vector<SummaryValue>& fine, const std::vector<SummaryValue>& half,
                               const std::vector<SummaryValue>& quarter) {
-  std::vector<double> errors = differences(fine, half);
-  const std::vector<double> before = differences(half, quarter);
-  for (std::size_t i = 0; i < errors.size(); ++i)
-    errors[i] = safety * (i < before.size() && before[i] / 2 > errors[i] ? before[i] / 2 : errors[i]);
+  std::vector<double> errors(fine.size(), none);
+  for (std::size_t i = 0; i < std::min(fine.size(), half.size()); ++i) {
+    if (among(without_error, fine[i].key)) continue;
+    // A tail that an observer sees is drawn out by the cells, less than in proportion to their size.
+    const double factor = among(observed_fronts, fine[i].key) ? safety_unordered : safety;
+    const double coarsest = i < quarter.size() ? real(quarter[i].value) : none;
+    errors[i] = estimated(real(fine[i].value), real(half[i].value), coarsest, factor);
+  }
   return errors;
 }
 
@@ -100,6 +114,46 @@ double largest_relative(const std::vector<SummaryValue>& fine, const std::vector
     if (among(held_to_tolerance, fine[i].key) && std::isfinite(errors[i]))
       largest = std::fmax(largest, errors[i] / std::fmax(std::fabs(real(fine[i].value)), 1e-3 * stress));
   return largest;
+}
+
+std::size_t row_of(std::string_view key, const std::vector<SummaryValue>& rows) {
+  const auto is_it = [key](const SummaryValue& row) { return key == row.key; };
+  return static_cast<std::size_t>(std::find_if(rows.begin(), rows.end(), is_it) - rows.begin());
+}
+
+/// The largest slip velocity is known no better than that at x = 0, and the peak may be anywhere where it is as large
+/// but for its error, also where it has the other sign.
+void correct_peak(const Result<pulse::Run>& fine, std::vector<double>& errors) {
+  const std::size_t height = row_of("peak_slip_velocity", fine.summary), place = row_of("peak_position", fine.summary);
+  const double at_origin = errors[row_of("slip_velocity_at_origin", fine.summary)];
+  const double peak = real(fine.summary[height].value), x = real(fine.summary[place].value);
+  const double error = errors[height] = std::isnan(errors[height]) ? none : std::fmax(errors[height], at_origin);
+  if (!std::isfinite(error) || !std::isfinite(x)) return;
+  const std::vector<double>&W = fine.run->snapshots().back().profile.W, &edges = fine.run->schedule().x_edges;
+  for (std::size_t i = 0; i < W.size(); ++i) {
+    if (std::fabs(W[i]) < std::fabs(peak) - 2 * error) continue;
+    errors[place] = std::fmax(errors[place], std::fabs((edges[i] + edges[i + 1]) / 2 - x));
+    if (W[i] * peak < 0) errors[height] = std::fmax(errors[height], std::fabs(peak - W[i]) + 2 * error);
+  }
+}
+
+/// What the cells leave open of places: rounding of all, two cells of a front that half the cells do not show, one
+/// of a peak or a crossing. A front that an observer sees at an end of the domain may be anywhere outside.
+void correct_places(const Result<pulse::Run>& fine, std::vector<double>& errors) {
+  constexpr double rounding = 1e-9;
+  const pulse::Problem& problem = fine.run->solver().problem();
+  const double domain = problem.right - problem.left, cell = domain / problem.cells;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    const std::string_view key = fine.summary[i].key;
+    const double x = real(fine.summary[i].value);
+    const bool is_front = among(fronts, key), is_read = among(read_from_cells, key);
+    if (!(is_front || is_read || key == "trailing_characteristic") || !std::isfinite(x)) continue;
+    if (is_front && std::isnan(errors[i])) errors[i] = 2 * cell;
+    const double from_end = std::fmin(std::fabs(x - problem.left), std::fabs(x - problem.right));
+    if (among(observed_fronts, key) && from_end <= 2 * cell) errors[i] = none;
+    if (std::isfinite(errors[i])) errors[i] = std::fmax(errors[i], is_read ? cell : rounding * domain);
+  }
+  correct_peak(fine, errors);
 }
 
 }  // namespace
@@ -122,11 +176,7 @@ Errors errors_of(const Result<pulse::Run>& fine, const scenario::Scenario& scena
   const std::vector<SummaryValue> quarter = half.empty() ? half : coarse(4, 16);  // without a half no error is known
   std::vector<double> errors = estimated(fine.summary, half, quarter);
   std::vector<std::string> warnings;
-  const pulse::Problem& problem = fine.run->solver().problem();
-  const double cell_of_half = 2 * (problem.right - problem.left) / scenario.pulse.cells;
-  for (std::size_t i = 0; i < half.size(); ++i)
-    if (among(fronts, fine.summary[i].key) && std::isfinite(real(fine.summary[i].value)) && std::isnan(errors[i]))
-      errors[i] = cell_of_half;
+  if (!half.empty()) correct_places(fine, errors);
   if (const auto slip = fine.run->slip_twice())
     for (std::size_t i = 0; i < errors.size(); ++i)
       if (std::string_view(fine.summary[i].key) == "slip_at_origin") errors[i] = std::fmax(errors[i], slip->error());

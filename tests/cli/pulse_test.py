@@ -76,6 +76,29 @@ cells = 200
             W, k, U = (file[name][:] for name in ("W", "k", "U"))
             self.assertTrue(np.isfinite(W).all() and (abs(W) <= k).all() and (abs(U) < 1).all())
 
+    def test_stated_errors_hold_against_four_times_the_cells(self):
+        """Two smooth steps of stress: the front was stated as -1.499 +- 0.009 with 200 cells, and -1.588 with 800."""
+        case = self.file("two.toml", """[initial]
+profile = "formula"
+formula = "0.7522+1.599*0.5*(1-tanh((x+0.09676)/0.08963))-0.7522*0.5*(1-tanh((x-0.09676)/0.08963))"
+[friction]
+law = "n-shaped"
+coefficient = 0.1667
+velocity = 0.09302
+[domain]
+left = -2.666
+right = 2.666
+[time]
+end = 1.461
+[pulse]
+cells = 200
+""")
+        coarse, fine = (self.pulse(case, "--quiet", "--set", f"pulse.cells={cells}") for cells in (200, 800))
+        self.assertGreater(coarse["errors"]["peak_position"], 0)
+        for key, error in coarse["errors"].items():
+            if None not in (error, coarse[key], fine[key]):
+                self.assertLessEqual(abs(coarse[key] - fine[key]), error, key)
+
     def test_every_case_runs(self):
         folder = os.path.join(SOURCE, "cases")
         for name in sorted(os.listdir(folder)):

@@ -9,6 +9,7 @@
 #include "slipfront/elliptic/complete.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/modulation/characteristics.hpp"
+#include "slipfront/train/train.hpp"
 
 namespace {
 
@@ -67,6 +68,31 @@ TEST(PerDislocation, GoesToTheEmptyStateAndRefusesNonsense) {
   EXPECT_NEAR(state_of({2000, 8 * std::sinh(0.3)}, 1).phi, 0.3, 1e-15);
   EXPECT_THROW(state_of({-1, 0}, 1), NumericsError);
   EXPECT_THROW(state_of({std::nan(""), 0}, 1), NumericsError);
+}
+
+/// Against the energy density of the averages, where that is no small difference of large numbers.
+TEST(PerDislocation, KineticEnergyIsThatOfTheAverages) {
+  for (const double psi : {1e-5, 0.01, 0.3, 1.4, 3.0})
+    for (const double phi : {0.03, 0.09, 0.11, 0.5, 2.0}) {
+      const State moving{-phi, psi};
+      const double spacing = lagrangian_state(moving).spacing;
+      const State at_rest = state_of({spacing, 0}, psi);
+      const double direct = (train::averages(moving).H - train::averages(at_rest).H) * spacing;
+      EXPECT_NEAR(kinetic_energy(moving), direct, 1e-12 * train::averages(moving).H * spacing) << psi << " " << phi;
+      EXPECT_NEAR(8 + interaction_energy(at_rest.psi), train::averages(at_rest).H * spacing,
+                  1e-13 * train::averages(at_rest).H * spacing);
+    }
+}
+
+/// Slow trains have half of momentum times velocity, to full precision; H had no digit of it left.
+TEST(PerDislocation, KineticEnergyOfASlowTrain) {
+  for (const double psi : {1e-300, 1e-17, 1e-4, 0.3, 3.0})
+    for (const double phi : {1e-30, 1e-12, 1e-6}) {
+      const State slow{phi, psi};
+      EXPECT_NEAR(kinetic_energy(slow) / (lagrangian_state(slow).momentum * phi / 2), 1, 1e-10) << psi << " " << phi;
+    }
+  EXPECT_EQ(kinetic_energy({0, 0.3}), 0);
+  EXPECT_NEAR(kinetic_energy({0.5, 0}), 8 * (std::cosh(0.5) - 1), 1e-14);
 }
 
 }  // namespace

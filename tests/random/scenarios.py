@@ -118,6 +118,57 @@ def make(number):
     return s
 
 
+def any_friction(chance):
+    """Every law that a scenario can name without a file: most often one of those that `friction` draws."""
+    kind = chance.random()
+    if kind < 0.6:
+        return friction(chance)
+    if kind < 0.72:
+        return {"law": "n-shaped", "coefficient": decades(chance, 0.01, 1), "velocity": decades(chance, 0.03, 1)}
+    strength = decades(chance, 1e-3, 0.08)
+    if kind < 0.8:
+        return {"law": "flash-heating", "strength": strength, "weakened": short(strength * chance.uniform(0.1, 0.9)),
+                "velocity": decades(chance, 0.03, 1)}
+    if kind < 0.88:
+        return {"law": "slip-weakening", "strength": strength, "residual": short(strength * chance.uniform(0.1, 0.9)),
+                "characteristic_slip": decades(chance, 0.02, 1)}
+    direct = short(strength * chance.uniform(0.05, 0.3))
+    return {"law": "rate-and-state", "strength": strength, "direct_effect": direct,
+            "evolution_effect": short(direct * chance.uniform(0.5, 3)), "reference_velocity": decades(chance, 0.02, 0.5),
+            "characteristic_slip": decades(chance, 0.02, 1), "state": chance.choice(["ageing", "slip"])}
+
+
+def smooth_sum(chance):
+    """Two smooth steps of stress, or a smooth step and a hump, as one formula."""
+    levels = [stress_of(chance) for _ in range(3)]
+    place, width = decades(chance, 0.05, 1.5), decades(chance, 0.04, 1.2)
+    step = f"0.5*(1-tanh((x-(-{place}))/({width})))"
+    if chance.random() < 0.5:
+        other = f"0.5*(1-tanh((x-({place}))/({width})))"
+        return f"({levels[2]})+({short(levels[0] - levels[1])})*{step}+({short(levels[1] - levels[2])})*{other}"
+    return f"({levels[0]})+({levels[1]})*{step}+({levels[2]})*exp(-((x-(-{short(2 * place)}))/({width}))^2)"
+
+
+def make_wide(number):
+    """A scenario that a user may well run: any law, held profiles, two steps of stress, waves far inside the domain."""
+    chance = random.Random(f"wide {number}")
+    s = {"title": f"random {number} of any law", "initial": initial(chance), "friction": any_friction(chance)}
+    if chance.random() < 0.25:
+        s["initial"] = {"profile": "formula", "formula": smooth_sum(chance)}
+    if s["initial"].get("stress_left") == s["initial"].get("stress_right") or chance.random() < 0.15:
+        s["forcing"] = forcing(chance)
+    if chance.random() < 0.15:
+        s["interface"] = contact(chance)
+        if chance.random() < 0.5 and s["initial"]["profile"] != "step" and "abs" not in s["initial"].get("formula", ""):
+            s["initial"]["hold"] = True
+    s["time"] = {"end": decades(chance, 0.5, 15)}
+    if s["initial"]["profile"] == "formula" or "interface" in s or "forcing" in s or chance.random() < 0.3:
+        reach = 1.1 * s["time"]["end"] + 3 * s["initial"].get("width", 1)
+        s["domain"] = {"left": -short(reach), "right": short(reach)}
+    s["pulse"] = {"cells": chance.choice([100, 100, 200])}
+    return s
+
+
 def make_for_chain(number):
     """A scenario that the chain can check: moderate stress, waves that do not reach the ends, no strong friction, and
     a contact ratio that changes too little for dislocations to overtake each other."""

@@ -34,4 +34,14 @@ SolvedState solve_state(const LagrangianState& train, double psi_guess);
 /// Pressure of a train, 2 sinh^2 psi.
 double pressure(double psi);
 
+/// Mass of a dislocation in a train, less that of an isolated one and over it, cosh(psi) E - 1, without cancellation.
+double mass_excess(double psi);
+
+/// Energy of a dislocation in a train at rest, less that of an isolated one, 8.
+double interaction_energy(double psi);
+
+/// Energy of a dislocation less that of one at rest in a train of the same spacing: never negative, and to full
+/// relative precision however slow the train is.
+double kinetic_energy(const State& state);
+
 }  // namespace slipfront::modulation

@@ -60,13 +60,24 @@ class Run {
   void sample();
   [[noreturn]] void refuse_more_steps() const;
   output::Findings findings() const;
+  /// Largest slip at x = 0 and in the last profile.
+  double largest_slip(const Solver::View& view) const;
+  /// Slip of the cell at x = 0 where nothing has come farther than a few cells, whose inside is not known well; else 0.
+  double unresolved_slip(const Solver::View& view) const;
+  /// Largest energy that was moving or dissipated, or that the forcing supplied, at an output time.
+  double energy_of_motion() const;
+  /// Share of the stored energy that the cells leave open where a contact profile acts: as large a share of the forces
+  /// that should balance there does not.
+  double contact_doubt() const;
+  /// How far the change of the stored energy may be wrong because it is a sum over cells.
+  double energy_doubt() const;
 
   output::Schedule schedule_;
   Solver solver_;
   StepBudget budget_;
   TrailingCharacteristic trailing_characteristic_;
   double stepping_seconds_ = 0;
-  double first_energy_ = 0;
+  StoredEnergy first_energy_{};
   output::SampledIntegral slip_;  ///< at x = 0, by the slip velocity there
   double slip_size_ = 0;          ///< integral of the size of that velocity
   double slip_doubt_ = 0;         ///< integral of how wrong it may be, from what it is in the cells around

@@ -19,10 +19,12 @@ struct Errors {
 
 /// For each row of a finished run's summary an estimate of its error, from runs with half and a quarter of the cells
 /// and coarser steps, which are made here and take a third of the time: what the last doubling of the cells changed, or
-/// half of what the doubling before did if that is more, as for a scheme of first order, times the 1.25 that Roache
-/// (1997, Annu. Rev. Fluid Mech. 29:123) gives to estimates by three grids. Slip at x = 0 is known twice: its error is
-/// no less than what the difference of the two says of the cells there. A front that half the cells do not show is
-/// known to one of their cells. NaN for what has no error of this kind, for what each doubling of the cells more than
+/// half of what the doubling before did if that is more, as for a scheme of first order, times 1.5; and where the three
+/// values do not converge, three times the larger change (Eca & Hoekstra, 2014, J. Comput. Phys. 262:104). Slip at
+/// x = 0 is known twice: its error is no less than what the difference of the two says of the cells there. A front that
+/// half the cells do not show is known to one of their cells. The position of the peak is known to a cell at
+/// best, and no better than how far other places are that slip as fast but for the error. NaN for what has no error of
+/// this kind, for a front that an observer sees at an end of the domain, for what each doubling of the cells more than
 /// doubles, with a warning, and where the run or the one with half the cells has no value or `interrupted` said to
 /// stop.
 Errors errors_of(const Result<pulse::Run>& fine, const scenario::Scenario& scenario,
