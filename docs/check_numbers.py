@@ -163,6 +163,9 @@ def slip_difference(law, parameters):
 STEP = "[initial]\nstress_left = 0.855\nstress_right = 0\n"
 ON_A_SLOPE = STEP + '[interface]\ncontact = "1 + 0.2 * tanh(x - 1)"\n[domain]\nleft = -7\nright = 7\n'
 UNIFORM = "[initial]\nstress_left = 0.8\nstress_right = 0.8\n[forcing]\nformula = \"0.05\"\n[domain]\nleft = -4\nright = 4\n[time]\nend = 20\n"
+CONTACTS = ("friction.evolution_effect=0.015", "friction.characteristic_slip=0.05", "domain.left=-7", "domain.right=3")
+AGEING = ("friction.contact_ageing=0.003", "friction.contact_time=1")
+DILATING = ("friction.dilatancy=0.003", "friction.drainage_time=3")
 BARRIERS = (0.6, 0.5, 0.45, 0.4, 0.3)
 PULSE = ("slip_at_origin", "slip_velocity_at_origin", "peak_slip_velocity", "peak_position")
 VISCOUS = ("friction.law=viscous", "friction.coefficient=0.5")
@@ -187,16 +190,37 @@ def contact_table():
             "epsilon / b_p = 0.001, t_p = 3": ("dilatancy=0.001", "drainage_time=3"), "epsilon / b_p = 0.003, t_p = 3": ("dilatancy=0.003", "drainage_time=3")}
     keys = ("slip_at_origin", "peak_slip_velocity", "leading_front", "energy_contacts")
     for name, more in rows.items():
-        settings = ["friction.evolution_effect=0.015", "friction.characteristic_slip=0.05", "domain.left=-7", "domain.right=3", "chain.scale=200", *(f"friction.{word}" for word in more)]
+        settings = [*CONTACTS, "chain.scale=200", *(f"friction.{word}" for word in more)]
         yield Entry("friction.md", f"| {name} | {{}} | {{}} | {{}} | {{}} |", end_of(keys, "chain", "rate-and-state", *settings), slow=True)
+
+
+def front_table():
+    """How far the fast front gets under three laws, as shares of slip and of |V-| t without friction (docs/friction_figures.py, fronts)."""
+    def values(law, settings):
+        def shares():
+            free = run("pulse", "step", "pulse.cells=400")
+            front = free["trailing_characteristic"]
+            out = run("pulse", "rate-and-state" if law == "rate-and-state" else "step", "pulse.cells=400", "initial.stress_left=0.855", *settings)
+            return [out["slip_at_origin"] / free["slip_at_origin"], out["trailing_front"] / front, out["trailing_front_observed"] / front]
+        return shares
+    laws = {"viscous": (("friction.coefficient", 0.02, 3), (0, 8, 12), ("friction.law=viscous",)),
+            "coulomb": (("friction.coefficient", 0.001, 0.1), (0, 4, 8), ("friction.law=coulomb",)),
+            "rate-and-state": (("friction.strength", 0.001, 0.1), (0, 8, 12), ("friction.evolution_effect=0.015",))}
+    for law, ((key, least, most), places, more) in laws.items():
+        settings = [(*more, f"{key}={least * (most / least) ** (i / 13)}") for i in places]
+        yield Entry("friction.md", " ".join([f"| {law} | {{}} | {{}} | {{}} |"] * len(places)), lambda law=law, settings=settings: [n for s in settings for n in values(law, s)()])
 
 
 ENTRIES = [
     *friction_table(),
+    *front_table(),
     *contact_table(),
     Entry("friction.md", "| pulse, 400 cells | {} | {} | {} | {} |", end_of(PULSE, "pulse", "rate-and-state", "pulse.cells=400")),
     Entry("friction.md", "| chain, scale 1000 | {} | {} | {} | {} |", end_of(PULSE, "chain", "rate-and-state", "chain.scale=1000"), slow=True),
     Entry("friction.md", "| chain, scale 300 | {} | {} | {} | {} |", end_of(PULSE, "chain", "rate-and-state", "chain.scale=300")),
+    Entry("friction.md", "At scales 100, 200, 400 and 800 the slip with beta = 0.003 is {}, {}, {} and {}, with epsilon / b_p = 0.003 {}, {}, {} and {}.",
+          lambda: [run("chain", "rate-and-state", *CONTACTS, *more, f"chain.scale={scale}")["slip_at_origin"] for more in (AGEING, DILATING) for scale in (100, 200, 400, 800)],
+          slow=True),
     Entry("pulse.md", "between x = -7 and 7 has W(0) = {}, {}, {} with 100, 200, 400 cells",
           lambda: [run("pulse", ON_A_SLOPE, f"pulse.cells={n}")["slip_velocity_at_origin"] for n in (100, 200, 400)]),
     Entry("pulse.md", "W(0) at t = 20 is {} with continued ends and on a ring",
