@@ -142,6 +142,18 @@ def recurrence(velocity):
     return values
 
 
+def slider(tolerance):
+    """Period and peak velocity of the block of docs/loading.md, f_0 = 0.05, once it repeats itself."""
+    events = run("chain", SLIDER, f"chain.tolerance={tolerance}")["events"]
+    return events[7]["onset"] - events[6]["onset"], events[7]["peak_velocity"]
+
+
+def slider_errors():
+    """How much too long the period is, in per cent of Radau's on the same page."""
+    exact = numbers_on("loading.md", "| f_0 = 0.05, kappa = 0.0025: period | {_} | {} |")[0]
+    return [100 * (slider(tolerance)[0] / exact - 1) for tolerance in (1e-3, 1e-4, 2e-5, 1e-6)]
+
+
 def energy_lost(scenario, *settings):
     """The share of the energy of motion that a pulse loses where streams cross, in per cent."""
     def values():
@@ -167,6 +179,36 @@ CONTACTS = ("friction.evolution_effect=0.015", "friction.characteristic_slip=0.0
 AGEING = ("friction.contact_ageing=0.003", "friction.contact_time=1")
 DILATING = ("friction.dilatancy=0.003", "friction.drainage_time=3")
 BARRIERS = (0.6, 0.5, 0.45, 0.4, 0.3)
+SLIDER = """[initial]
+stress_left = 0
+stress_right = 0
+[interface]
+contact = 0
+[friction]
+law = "rate-and-state"
+strength = 0.05
+direct_effect = 0.01
+evolution_effect = 0.015
+characteristic_slip = 1
+reference_velocity = 0.01
+[loading]
+stiffness = 0.0025
+velocity = 0.001
+event_velocity = 0.01
+[domain]
+left = -2
+right = 2
+[chain]
+left = "free"
+right = "free"
+spacing = 0.5
+[time]
+end = 4.4e5
+[output]
+every = 1e5
+[pulse]
+cells = 4
+"""
 PULSE = ("slip_at_origin", "slip_velocity_at_origin", "peak_slip_velocity", "peak_position")
 VISCOUS = ("friction.law=viscous", "friction.coefficient=0.5")
 
@@ -239,6 +281,9 @@ ENTRIES = [
           lambda: [grid_barrier(h) for h in BARRIERS]),
     Entry("chain.md", "gives {} at scale 1000,", end_of(["energy_phonons"], "chain", "shock", "chain.scale=1000"), slow=True),
     *(Entry("loading.md", f"| {v} | {{}} | {{}} |", recurrence(float(v)), slow=True) for v in ("1e-5", "3e-5", "1e-4", "3e-4", "1e-3")),
+    Entry("loading.md", "| f_0 = 0.05, kappa = 0.0025: period | {} | {_} |", lambda: [slider(1e-6)[0]], slow=True),
+    Entry("loading.md", "| peak velocity | {} | {_} |", lambda: [slider(1e-6)[1]], slow=True),
+    Entry("loading.md", "At tolerances 1e-3, 1e-4, 2e-5 (the default) and 1e-6 the period is {}, {}, {} and {} % too long", slider_errors, slow=True),
     # Numbers that come from others on the pages.
     Entry("loading.md", "the drop falls by {} (b - a) for a factor e", recurrence_slope),
     Entry("loading.md", "the drop falls by {} (b - a) for a factor e", legend_slope),
