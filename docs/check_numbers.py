@@ -175,7 +175,7 @@ def slip_difference(law, parameters):
 STEP = "[initial]\nstress_left = 0.855\nstress_right = 0\n"
 ON_A_SLOPE = STEP + '[interface]\ncontact = "1 + 0.2 * tanh(x - 1)"\n[domain]\nleft = -7\nright = 7\n'
 UNIFORM = "[initial]\nstress_left = 0.8\nstress_right = 0.8\n[forcing]\nformula = \"0.05\"\n[domain]\nleft = -4\nright = 4\n[time]\nend = 20\n"
-CONTACTS = ("friction.evolution_effect=0.015", "friction.characteristic_slip=0.05", "domain.left=-7", "domain.right=3")
+CONTACTS = ("friction.evolution_effect=0.015", "friction.characteristic_slip=0.05", "domain.left=-7", "domain.right=3", "pulse.cells=200")
 AGEING = ("friction.contact_ageing=0.003", "friction.contact_time=1")
 DILATING = ("friction.dilatancy=0.003", "friction.drainage_time=3")
 BARRIERS = (0.6, 0.5, 0.45, 0.4, 0.3)

@@ -43,10 +43,12 @@ struct Place {
 
 /// Compares forces at speeds from far below slow slip to far above earthquakes.
 void compare_forces(const Definition& definition, const Place& original, const Place& scaled, double scale) {
-  constexpr double slowest = 1e-12, fastest = 50, step = 10, tolerance = 1e-8, least = 1e-280;
+  constexpr int slowest = -12, fastest = 1;  // powers of ten
+  constexpr double tolerance = 1e-8, least = 1e-280;
   double worst = tolerance;
   std::string problem;
-  for (double speed = 0; speed < fastest; speed = speed == 0 ? slowest : speed * step) {
+  for (int power = slowest - 1; power <= fastest; ++power) {
+    const double speed = power < slowest ? 0 : std::pow(10.0, power);
     const double wanted = original.force(speed) / scale, force = scaled.force(speed);
     const double error = std::fabs(force - wanted) / (std::fabs(wanted) + least);
     if (!(error > worst)) continue;

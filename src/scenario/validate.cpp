@@ -92,8 +92,10 @@ double holding_force(const friction::Friction& friction) {
   std::vector<double> state(friction.variables());
   friction.law().start(state);
   double top = 0;
-  constexpr double slowest = 1e-12, fastest = 10, step = 1.3;
-  for (double speed = slowest; speed < fastest; speed *= step) {
+  constexpr double slowest = 1e-12, fastest = 10;
+  constexpr int steps = 120;
+  for (int i = 0; i <= steps; ++i) {
+    const double speed = slowest * std::pow(fastest / slowest, static_cast<double>(i) / steps);
     const double force = friction.law().strength(speed, state);
     if (force < (1 - 1e-9) * top) held = std::fmax(held, top);
     top = std::fmax(top, force);
