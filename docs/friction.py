@@ -1,6 +1,7 @@
 """Prints the table of docs/friction.md: slip at x = 0 by the average (pulse) and by every dislocation (chain), law by law.
 
 Usage: friction.py PROGRAM [LAW...]   (build/release/bin/slipfront). Takes some fifty minutes on two cores.
+docs/check_numbers.py compares the page with runs of the same laws.
 """
 
 import json
@@ -8,7 +9,6 @@ import pathlib
 import subprocess
 import sys
 
-PROGRAM = sys.argv[1]
 CASE = str(pathlib.Path(__file__).parent.parent / "cases" / "step.toml")  # 0.855 into the empty side, to t = 2 pi
 SCALES = (1000, 4000)
 STATE = {"strength": 0.05, "characteristic_slip": 0.05, "reference_velocity": 0.05}
@@ -25,22 +25,44 @@ SETS = {
 }
 
 
-def slip(command, law, values, *settings):
+SYMBOLS = {"coefficient": "C", "exponent": "n", "formula": "f =", "weakened": "f_w", "residual": "f_d", "characteristic_slip": "D_c",
+           "reference_velocity": "w_0", "direct_effect": "a", "evolution_effect": "b", "state": "state"}
+
+
+def symbol(law, key):
+    """The symbol of a parameter in the table."""
+    if key == "velocity":
+        return "w_p" if law == "n-shaped" else "w_w"
+    if key == "strength":
+        return "f_s" if law == "slip-weakening" else "f_0"
+    return SYMBOLS[key]
+
+
+def in_words(law, values):
+    """The cell "parameters" of a row."""
+    return ", ".join(f"{symbol(law, key)} {value}" for key, value in values.items())
+
+
+def settings(law, values):
+    """The law as overrides of a scenario."""
+    return [f"friction.law={law}", *(f"friction.{key}={value}" for key, value in values.items())]
+
+
+def slip(program, command, law, values, *more):
     """Slip at x = 0 at the end of a run."""
-    friction = [f"friction.law={law}", *(f"friction.{key}={value}" for key, value in values.items())]
-    done = subprocess.run([PROGRAM, command, CASE, "--json", "--set", *friction, *settings], capture_output=True, check=True, text=True)
+    done = subprocess.run([program, command, CASE, "--json", "--set", *settings(law, values), *more], capture_output=True, check=True, text=True)
     return json.loads(done.stdout)["slip_at_origin"]
 
 
-def slips(law, values):
-    """Of the pulse, and of the chain at each scale."""
-    return [slip("pulse", law, values, "pulse.cells=400"), *(slip("chain", law, values, f"chain.scale={scale}") for scale in SCALES)]
+def main(program, laws):
+    print("| law | parameters | pulse | " + " | ".join(f"scale {scale}" for scale in SCALES) + " | difference |")
+    print("|---|---|---|" + "---|" * len(SCALES) + "---|")
+    for law in laws or SETS:
+        for values in SETS[law]:
+            average = slip(program, "pulse", law, values, "pulse.cells=400")
+            chains = [slip(program, "chain", law, values, f"chain.scale={scale}") for scale in SCALES]
+            print(f"| {law} | {in_words(law, values)} | {average:.5f} | " + " | ".join(f"{c:.5f}" for c in chains) + f" | {100 * (average / chains[-1] - 1):+.1f} % |", flush=True)
 
 
-print("| law | parameters | pulse | " + " | ".join(f"chain, scale {scale}" for scale in SCALES) + " | difference |")
-print("|---|---|---|" + "---|" * len(SCALES) + "---|")
-for name in sys.argv[2:] or SETS:
-    for parameters in SETS[name]:
-        average, *chains = slips(name, parameters)
-        text = ", ".join(f"{key} {value}" for key, value in parameters.items())
-        print(f"| {name} | {text} | {average:.5f} | " + " | ".join(f"{c:.5f}" for c in chains) + f" | {100 * (average / chains[-1] - 1):+.1f} % |", flush=True)
+if __name__ == "__main__":
+    main(sys.argv[1], sys.argv[2:])

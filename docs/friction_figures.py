@@ -106,7 +106,7 @@ def fronts():
         free = float(slipfront.relations(stress=0.855)["rupture_velocity"]) * END
         slip, foot, seen = np.array(points).T
         line, = axis.plot(slip, -foot / free, marker=marker, label=f"{law}: first felt")
-        axis.plot(slip, -seen / free, marker=marker, color=line.get_color(), linestyle="--", markerfacecolor="white", label=f"{law}: seen at 2 % of the largest W")
+        axis.plot(slip, -seen / free, marker=marker, color=line.get_color(), linestyle="--", markerfacecolor="white", label=f"{law}: seen at 0.001 of the largest W")
         for s, f, o in points[::4]:
             print(f"{law}: slip {s:.3f} of the frictionless, first felt at {-f / free:.3f} of |V-| t, seen at {-o / free:.3f}")
     axis.set(xlabel="slip at x = 0 over that without friction", ylabel="place of the fast front over $|V_-| t$", ylim=(0, 1.05))

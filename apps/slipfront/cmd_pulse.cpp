@@ -46,11 +46,10 @@ std::string duration_of(const run::PulsePlan& plan) {
 void describe(const scenario::Scenario& s, const run::PulsePlan& plan, const std::string& output) {
   const pulse::Problem& problem = plan.problem;
   record::require_disk_space(output, plan.need.disk);
-  put(fmt::format(
-      "{}: fine. Would run {} cells over x = {:.6g} ... {:.6g} to t = {:.6g}, {} friction {} (closure {}), {}{}.\n",
-      s.title.empty() ? s.file : s.title, problem.cells, problem.left, problem.right, s.end,
-      s.friction.definition().adjective, s.friction.coefficient(), name_of(s.friction.closure()), in_words(plan.need),
-      duration_of(plan)));
+  put(fmt::format("{}: fine. Would run {} cells over x = {:.6g} ... {:.6g} to t = {:.6g}, {} (closure {}), {}{}.\n",
+                  s.title.empty() ? s.file : s.title, problem.cells, problem.left, problem.right, s.end,
+                  parameters_in_words(s.friction), name_of(s.friction.closure()), in_words(plan.need),
+                  duration_of(plan)));
 }
 
 int run_pulse(ScenarioArguments a, std::optional<double> tolerance) {
@@ -74,7 +73,7 @@ int run_pulse(ScenarioArguments a, std::optional<double> tolerance) {
   const run::Errors errors = run::errors_of(result, s, {});
   std::vector<std::string> warnings = result.metadata.warnings;
   warnings.insert(warnings.end(), errors.warnings.begin(), errors.warnings.end());
-  print_summary(s.title, result.summary, errors.of, warnings, a);
+  print_summary(s, result.summary, errors.of, warnings, a);
   return exit_done;
 }
 

@@ -33,10 +33,11 @@ std::string json_level(const Level& level, const Level* reference) {
 }
 
 void print_json(const scenario::Scenario& s, const std::vector<Level>& levels) {
+  const std::optional<double> C = s.friction.linear_coefficient();
   std::string text = fmt::format(
       "{{\"time\": {}, \"friction_coefficient\": {}, \"damping_number\": {}, \"reference\": \"pulse-consistent\", "
       "\"levels\": [",
-      json_number(s.end), json_number(s.friction.coefficient()), json_number(s.friction.coefficient() * s.end));
+      json_number(s.end), json_or_null(C), C ? json_number(*C * s.end) : "null");
   for (const Level& level : levels)
     text += (&level == levels.data() ? "" : ", ") + json_level(level, reference_level(levels));
   text += "], \"trend\": {";
@@ -50,6 +51,12 @@ void print_json(const scenario::Scenario& s, const std::vector<Level>& levels) {
   const std::vector<std::string> notes = notes_on(s, levels);
   for (const std::string& note : notes) text += fmt::format("{}\"{}\"", &note == notes.data() ? "" : ", ", note);
   put(text + "]}\n");
+}
+
+/// Gamma belongs to viscous friction; other laws have their parameters.
+std::string friction_in_words(const friction::Friction& f, double time) {
+  if (const auto C = f.linear_coefficient()) return fmt::format("C = {:.6g}, Gamma = C t = {:.6g}", *C, *C * time);
+  return parameters_in_words(f);
 }
 
 std::string cell(double value, const char* unit = "") {
@@ -68,8 +75,8 @@ std::string difference_cell(double difference, double theory, const Quantity& q)
 
 void print_table(const scenario::Scenario& s, const std::vector<Level>& levels) {
   const Level* reference = reference_level(levels);
-  put(fmt::format("{}{}t = {:.6g}, C = {:.6g}, Gamma = C t = {:.6g}\n\n{:<18}", s.title, s.title.empty() ? "" : ": ",
-                  s.end, s.friction.coefficient(), s.friction.coefficient() * s.end, "at the end"));
+  put(fmt::format("{}{}t = {:.6g}, {}\n\n{:<18}", s.title, s.title.empty() ? "" : ": ", s.end,
+                  friction_in_words(s.friction, s.end), "at the end"));
   for (const Quantity& q : compared_quantities()) put(fmt::format("{:>13}", q.heading));
   put(fmt::format("{:>10}\n{:<18}", "seconds", ""));
   for (const char* unit : {"b / (2 pi)", "c A / pi", "c A / pi", "b / A", "b / A", "b / A"})

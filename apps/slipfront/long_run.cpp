@@ -1,6 +1,7 @@
 #include "long_run.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <system_error>
@@ -102,7 +103,19 @@ std::string json_of(const std::vector<output::SlipEvent>& events) {
 
 }  // namespace
 
-void print_summary(const std::string& title, const std::vector<run::SummaryValue>& summary,
+std::string parameters_in_words(const friction::Friction& friction) {
+  std::string text;
+  for (const friction::Parameter& p : friction.definition().parameters) {
+    const double value = friction.parameter(p.name);
+    if (value == 0 && p.value == 0 && p.words.empty() && !text.empty()) continue;  // has no effect
+    const std::string words =
+        p.words.empty() ? fmt::format("{:.6g}", value) : std::string(p.words.at(static_cast<std::size_t>(value)));
+    text += fmt::format("{}{} = {}", text.empty() ? " with " : ", ", p.name, words);
+  }
+  return fmt::format("{} friction{}", friction.definition().adjective, text);
+}
+
+void print_summary(const scenario::Scenario& scenario, const std::vector<run::SummaryValue>& summary,
                    const std::vector<double>& errors, const std::vector<std::string>& warnings,
                    const ScenarioArguments& a, const std::vector<output::SlipEvent>* events) {
   struct AsJson {
@@ -110,8 +123,10 @@ void print_summary(const std::string& title, const std::vector<run::SummaryValue
     std::string operator()(long value) const { return fmt::format("{}", value); }
     std::string operator()(const std::string& value) const { return fmt::format("\"{}\"", value); }
   };
+  const std::vector<std::string>& printed = scenario.warnings;
   if (!a.common.quiet)
-    for (const std::string& warning : warnings) complain("warning: " + warning);
+    for (const std::string& warning : warnings)
+      if (std::find(printed.begin(), printed.end(), warning) == printed.end()) complain("warning: " + warning);
   if (a.common.json) {
     std::string text = "{";
     for (const auto& row : summary)
@@ -128,7 +143,7 @@ void print_summary(const std::string& title, const std::vector<run::SummaryValue
     put(text + "]}\n");
     return;
   }
-  if (!title.empty()) put(title + "\n");
+  if (!scenario.title.empty()) put(scenario.title + "\n");
   for (std::size_t i = 0; i < summary.size(); ++i) {
     const auto& row = summary[i];
     const bool known = i < errors.size() && std::isfinite(errors[i]);

@@ -32,12 +32,14 @@ slipfront::scenario::Scenario read_scenario_of(const ScenarioArguments& argument
 
 /// A number as JSON, null where there is none.
 std::string json_number(double value);
-/// What a run is summed up by, as a table or one JSON object on stdout; its warnings, a sentence each, on stderr and in
-/// the JSON. `errors`: of each row, NaN where there is none; empty: none at all. `events`: of a loaded chain; else
-/// null.
-void print_summary(const std::string& title, const std::vector<slipfront::run::SummaryValue>& summary,
-                   const std::vector<double>& errors, const std::vector<std::string>& warnings,
-                   const ScenarioArguments& arguments,
+/// The law of friction with its parameters: "slip-weakening friction with strength = 0.08, residual = 0.02".
+std::string parameters_in_words(const slipfront::friction::Friction& friction);
+/// What a run is summed up by, as a table or one JSON object on stdout. `warnings`, a sentence each, are in the JSON;
+/// those that `read_scenario_of` has not printed go to stderr. `errors`: of each row, NaN where there is none; empty:
+/// none at all. `events`: of a loaded chain; else null.
+void print_summary(const slipfront::scenario::Scenario& scenario,
+                   const std::vector<slipfront::run::SummaryValue>& summary, const std::vector<double>& errors,
+                   const std::vector<std::string>& warnings, const ScenarioArguments& arguments,
                    const std::vector<slipfront::output::SlipEvent>* events = nullptr);
 
 /// A run (of pulse or chain) of the program: its progress, its output, and heed to Ctrl-C while this lives.

@@ -21,7 +21,7 @@ py::dict run_chain(const py::dict& arguments, int threads) {
     result = run::chain(s, plan, options);
   }
   watch.finish();
-  return dataset_of(result, s);
+  return dataset_of(result);
 }
 
 py::dict check_chain(const py::dict& arguments) {

@@ -2,6 +2,8 @@
 
 #include <pybind11/stl.h>
 
+#include <limits>
+
 #include "results.hpp"
 #include "slipfront/record/comparison_file.hpp"
 #include "slipfront/record/unfinished.hpp"
@@ -55,14 +57,13 @@ py::dict run_compare(const py::dict& arguments, const std::vector<double>& scale
   watch.finish();
   Levels series;
   for (const Level& level : levels) series.push_back(&level.snapshots);
-  py::dict result =
-      dataset_of(metadata, record::comparison_format, reached, comparison.schedule.times, series, true, s);
+  py::dict result = dataset_of(metadata, record::comparison_format, reached, comparison.schedule.times, series, true);
   result["levels"] = level_rows(levels);
   result["scale_about"] = described(record::scale_variable);
   result["trends"] = trends(levels);
   result["notes"] = setup::notes_on(s, levels);
-  result["summary"] = py::dict("time"_a = s.end, "friction_coefficient"_a = s.friction.coefficient(),
-                               "damping_number"_a = s.friction.coefficient() * s.end);
+  const double C = s.friction.linear_coefficient().value_or(std::numeric_limits<double>::quiet_NaN());
+  result["summary"] = py::dict("time"_a = s.end, "friction_coefficient"_a = C, "damping_number"_a = C * s.end);
   return result;
 }
 

@@ -38,7 +38,7 @@ py::dict run_pulse(const py::dict& arguments, std::optional<double> tolerance, b
   }
   watch.finish();
   result.metadata.warnings.insert(result.metadata.warnings.end(), errors.warnings.begin(), errors.warnings.end());
-  py::dict data = dataset_of(result, s);
+  py::dict data = dataset_of(result);
   data["errors"] = errors_of(result.summary, errors.of);
   return data;
 }
@@ -49,11 +49,14 @@ py::dict check_pulse(const py::dict& arguments) {
   const run::PulsePlan plan = run::plan_pulse(s);
   const pulse::Problem& problem = plan.problem;
   setup::check_cells(s, problem);
+  py::dict friction;
+  for (const friction::Parameter& p : s.friction.definition().parameters)
+    friction[py::str(std::string(p.name))] = s.friction.parameter(p.name);
   return py::dict("title"_a = s.title, "cells"_a = problem.cells, "left"_a = problem.left, "right"_a = problem.right,
                   "end"_a = s.end, "friction_law"_a = std::string(s.friction.definition().adjective),
-                  "friction_coefficient"_a = s.friction.coefficient(), "closure"_a = name_of(s.friction.closure()),
-                  "times"_a = plan.schedule.times.size(), "memory_bytes"_a = plan.need.memory_with_file(),
-                  "disk_bytes"_a = plan.need.disk);
+                  "friction_coefficient"_a = s.friction.linear_coefficient(), "friction_parameters"_a = friction,
+                  "closure"_a = name_of(s.friction.closure()), "times"_a = plan.schedule.times.size(),
+                  "memory_bytes"_a = plan.need.memory_with_file(), "disk_bytes"_a = plan.need.disk);
 }
 
 }  // namespace

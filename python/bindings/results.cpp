@@ -89,8 +89,7 @@ py::dict axes(const std::vector<double>& times, const std::vector<double>& edges
 }  // namespace
 
 py::dict dataset_of(const record::PulseMetadata& metadata, const std::string& format, bool finished,
-                    const std::vector<double>& times, const Levels& levels, bool by_level,
-                    const scenario::Scenario& scenario) {
+                    const std::vector<double>& times, const Levels& levels, bool by_level) {
   Shape over_time, over_time_and_x;
   if (by_level) over_time.push_back(static_cast<py::ssize_t>(levels.size()));
   over_time.push_back(static_cast<py::ssize_t>(times.size()));
@@ -111,9 +110,7 @@ py::dict dataset_of(const record::PulseMetadata& metadata, const std::string& fo
   result["axes"] = axes(times, metadata.x_edges);
   result["fields"] = fields;
   result["scalars"] = scalars;
-  std::vector<std::string> warnings = scenario.warnings;
-  warnings.insert(warnings.end(), metadata.warnings.begin(), metadata.warnings.end());
-  result["warnings"] = py::cast(warnings);
+  result["warnings"] = py::cast(metadata.warnings);
   py::list events;
   for (const output::SlipEventColumn& column : output::slip_event_columns()) {
     std::vector<double> values;

@@ -29,10 +29,9 @@ using Levels = std::vector<const std::vector<slipfront::output::Snapshot>*>;
 
 /// A dict {attributes, axes, fields, scalars, warnings} for the pure-Python half; arrays have a dimension "level" in
 /// front if `by_level`.
-/// Warnings are those of the scenario and of the metadata.
+/// Warnings are those of the metadata.
 py::dict dataset_of(const slipfront::record::PulseMetadata& metadata, const std::string& format, bool finished,
-                    const std::vector<double>& times, const Levels& levels, bool by_level,
-                    const slipfront::scenario::Scenario& scenario);
+                    const std::vector<double>& times, const Levels& levels, bool by_level);
 
 py::dict summary_of(const std::vector<slipfront::run::SummaryValue>& summary);
 /// What is known of the errors of a summary's numbers; empty `errors`: of none.
@@ -40,9 +39,9 @@ py::dict errors_of(const std::vector<slipfront::run::SummaryValue>& summary, con
 
 /// That of a run of pulse or chain, with its summary.
 template <class Run>
-py::dict dataset_of(const slipfront::run::Result<Run>& result, const slipfront::scenario::Scenario& scenario) {
+py::dict dataset_of(const slipfront::run::Result<Run>& result) {
   py::dict data = dataset_of(result.metadata, slipfront::record::pulse_format, result.finished(),
-                             result.run->schedule().times, {&result.run->snapshots()}, false, scenario);
+                             result.run->schedule().times, {&result.run->snapshots()}, false);
   data["summary"] = summary_of(result.summary);
   return data;
 }

@@ -65,7 +65,7 @@ def pulse(scenario, *, set=None, output=None, resume=None, progress=None, thread
     -------
     xarray.Dataset with what the NetCDF file holds, its checkpoint apart: dimensions time and x; k, Sigma, U, W, slip and
     stress_drop over both; fronts, energies and values at x = 0 over time. Attributes closure, friction_coefficient,
-    damping_number (Gamma = C t), ..., wall_seconds are those of `slipfront pulse --json`: at the end of the run; NaN where
+    damping_number (Gamma = C t; both NaN unless friction is viscous), ..., wall_seconds are those of `slipfront pulse --json`: at the end of the run; NaN where
     there is none. With `errors`, slip_at_origin_error and the like are their estimated errors.
 
     Raises
@@ -111,7 +111,8 @@ def compare(scenario, *, scales=(), set=None, output=None, progress=None, thread
     xarray.Dataset with the variables of `pulse` for each level, by name: `result.sel(name="chain-1000")`. `closure`,
     `scale`, `window`, `smooth_window` and `wall_seconds` tell of the level, `difference` (by level and quantity) how far
     its end is from that of pulse-consistent, `trend_exponent`, `trend_extrapolated` and `trend_difference` (by quantity)
-    how the chain tends to it. Attributes time, friction_coefficient, damping_number, reference and notes.
+    how the chain tends to it. Attributes time, friction_coefficient, damping_number (NaN unless friction is viscous),
+    reference and notes.
     """
     with showing(progress) as call:
         result = _slipfront.compare(arguments(scenario, set=set, output=output, progress=call), _scales(scales), thread_count(threads))

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "../digits.hpp"
+#include "scaling.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/train/train.hpp"
 
@@ -35,6 +36,7 @@ Friction::Friction(const Definition& definition, std::vector<double> values, Clo
       law_(definition.make(values_, curve_)) {
   for (std::size_t i = 0; i < values_.size(); ++i)
     acts_ = acts_ || (definition.parameters[i].dimension == Dimension::force && values_[i] > 0);
+  if (!acts_) check_no_force(definition, values_);
   contacts_ = {.ageing = parameter("contact_ageing"),
                .age = parameter("contact_time"),
                .dilatancy = parameter("dilatancy"),
@@ -61,7 +63,9 @@ Friction Friction::scaled_by(double scale) const {
     if (dimension == Dimension::force) values[i] /= scale;
     if (dimension == Dimension::slip || dimension == Dimension::time) values[i] *= scale;
   }
-  return {*definition_, std::move(values), closure_, curve_};
+  Friction scaled(*definition_, std::move(values), closure_, curve_);
+  check_scaling(*this, scaled, scale);
+  return scaled;
 }
 
 void Friction::check() const {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "slipfront/clock.hpp"
 #include "slipfront/error.hpp"
@@ -21,6 +22,11 @@ struct CheckpointOptions {
   const Ranks* ranks = nullptr;  ///< that share the run, if any: all of them call
 };
 
+/// Appends what a finished run reports to what was known of its scenario.
+inline void add_warnings(const std::vector<std::string>& of_run, record::PulseMetadata& metadata) {
+  metadata.warnings.insert(metadata.warnings.end(), of_run.begin(), of_run.end());
+}
+
 /// Carries `run` on until its end or until `after_step` says to stop, and writes it: at the start (a path that cannot
 /// be written, or a disk too small, is known before the work), now and then, and at the end, wherever that is. What
 /// stands at the output is replaced at the end of the run alone. Returns whether the end was reached. \throws
@@ -37,7 +43,7 @@ bool carry_out(Run& run, const CheckpointOptions& options, const std::function<b
     const std::string state = run.saved();  // ranks send their parts to the first
     record::PulseMetadata metadata = options.metadata;
     if constexpr (requires { run.events(); }) metadata.events = run.events();
-    if (run.finished()) metadata.warnings = run.warnings();  // which asks all ranks
+    if (run.finished()) add_warnings(run.warnings(), metadata);  // which asks all ranks
     const auto put_down = [&] {
       if (!first) return;
       const record::Output& output = options.output;

@@ -26,7 +26,8 @@ record::PulseMetadata metadata_of(const scenario::Scenario& scenario, const std:
   // The history is that of the run, not of how it was interrupted and resumed: equal runs make equal files.
   return {scenario.title,    scenario.text,
           SLIPFRONT_VERSION, scenario::command_line(scenario, command, scales),
-          x_edges,           scenario.output.variables};
+          x_edges,           scenario.output.variables,
+          scenario.warnings};
 }
 
 PulsePlan plan_pulse(const scenario::Scenario& scenario) {
@@ -59,7 +60,7 @@ Result<pulse::Run> pulse(const scenario::Scenario& scenario, const PulsePlan& pl
                                    return options.after_step && options.after_step(cells.time, cells.steps);
                                  });
   if (!reached) return result;
-  result.metadata.warnings = result.run->warnings();
+  add_warnings(result.run->warnings(), result.metadata);
   result.summary = summary(pulse_summary(), {scenario, *result.run, seconds_since(options.begun)});
   return result;
 }
@@ -82,7 +83,7 @@ Result<chain::Run> chain(const scenario::Scenario& scenario, const ChainPlan& pl
   result.metadata.events = run.events();
   if (!reached) return result;
   const double stepping = seconds_since(begun);
-  result.metadata.warnings = run.warnings();  // asks all ranks
+  add_warnings(run.warnings(), result.metadata);  // asks all ranks
   result.summary = summary(chain_summary(), {.run = run,
                                              .balance = run.balance(),  // asks all ranks
                                              .stepping = stepping,

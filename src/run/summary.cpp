@@ -1,5 +1,7 @@
 #include "slipfront/run/summary.hpp"
 
+#include <limits>
+
 #include "slipfront/output/further_scalars.hpp"
 #include "slipfront/pulse/observe.hpp"
 #include "slipfront/setup/pulse.hpp"
@@ -10,6 +12,11 @@ namespace {
 const output::Snapshot& last(const FinishedPulse& end) { return end.run.snapshots().back(); }
 const output::Snapshot& last(const FinishedChain& end) { return end.run.snapshots().back(); }
 const chain::Grid& grid(const FinishedChain& end) { return end.run.chain().problem().grid; }
+
+/// C of f = C w; not a number for other laws.
+double viscous_coefficient(const FinishedPulse& end) {
+  return end.scenario.friction.linear_coefficient().value_or(std::numeric_limits<double>::quiet_NaN());
+}
 
 /// With what the last snapshot has beside its members.
 template <class End>
@@ -27,9 +34,10 @@ std::vector<SummaryItem<FinishedPulse>> pulse_items() {
   return {
       {"closure", [](const FinishedPulse& e) -> Value { return name_of(e.scenario.friction.closure()); },
        "how friction is averaged"},
-      {"friction_coefficient", [](const FinishedPulse& e) -> Value { return e.scenario.friction.coefficient(); }, "C"},
-      {"damping_number",
-       [](const FinishedPulse& e) -> Value { return e.scenario.friction.coefficient() * last(e).time; }, "Gamma = C t"},
+      {"friction_coefficient", [](const FinishedPulse& e) -> Value { return viscous_coefficient(e); },
+       "C of viscous friction"},
+      {"damping_number", [](const FinishedPulse& e) -> Value { return viscous_coefficient(e) * last(e).time; },
+       "Gamma = C t of viscous friction"},
       {"time", [](const FinishedPulse& e) -> Value { return last(e).time; }, "in b / (c A)"},
       {"slip_velocity_at_origin", [](const FinishedPulse& e) -> Value { return last(e).slip_velocity_at_origin; },
        "W at x = 0, in c A / pi"},

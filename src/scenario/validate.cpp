@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
+#include "../digits.hpp"
 #include "formula.hpp"
 
 namespace slipfront::scenario {
@@ -82,6 +84,35 @@ void add_contacts_at_start(Scenario& scenario) {
   };
 }
 
+/// The largest force that holds a place still, or nearly so: at rest at t = 0, the law's nominal strength, and the top
+/// of a force that falls again at higher speeds. Curves are not followed: a table may end.
+double holding_force(const friction::Friction& friction) {
+  double held = std::fmax(friction.strength_at_rest(), friction.parameter("strength"));
+  if (friction.definition().curve != friction::CurveSource::none) return held;
+  std::vector<double> state(friction.variables());
+  friction.law().start(state);
+  double top = 0;
+  constexpr double slowest = 1e-12, fastest = 10;
+  constexpr int steps = 120;
+  for (int i = 0; i <= steps; ++i) {
+    const double speed = slowest * std::pow(fastest / slowest, static_cast<double>(i) / steps);
+    const double force = friction.law().strength(speed, state);
+    if (force < (1 - 1e-9) * top) held = std::fmax(held, top);
+    top = std::fmax(top, force);
+  }
+  return held;
+}
+
+/// The contacts of the substrate hold the force a^2 at most, Eq. (3). Friction acts in addition to them.
+void warn_of_strength(double largest_contact, Scenario& scenario) {
+  const double held = holding_force(scenario.friction), substrate = largest_contact * largest_contact;
+  if (!scenario.substrate || !(held > substrate)) return;
+  scenario.warnings.push_back("friction holds a force of " + digits(held, 3) + " in the unit of F, " +
+                              digits(held / substrate, 3) +
+                              " times the most that the contacts of the substrate hold (" + digits(substrate, 3) +
+                              "); friction acts in addition to these contacts (docs/friction.md, In SI units)");
+}
+
 /// Where to try the functions: the domain, or what a solver may be expected to choose for it.
 std::pair<double, double> trial_range(const Scenario& scenario, const RawStress& raw) {
   const double reach = scenario.initial.reach > 0 ? 2 * scenario.initial.reach : 7;
@@ -96,7 +127,7 @@ std::pair<double, double> trial_range(const Scenario& scenario, const RawStress&
 void try_out(const Document& document, const RawStress& raw, Scenario& scenario) {
   const auto [left, right] = trial_range(scenario, raw);
   std::optional<double> first_small;
-  double last_small = 0;
+  double last_small = 0, largest_contact = 1;
   bool stressed = false;
   for (int i = 0; i < samples; ++i) {
     const double x = i == samples - 1 ? right : std::min(right, left + (right - left) * (i / (samples - 1.0)));
@@ -106,12 +137,13 @@ void try_out(const Document& document, const RawStress& raw, Scenario& scenario)
       first_small = first_small.value_or(x);
       last_small = x;
     }
-    if (scenario.contact_at) scenario.contact_at(x);
+    if (scenario.contact_at) largest_contact = std::fmax(i == 0 ? 0 : largest_contact, scenario.contact_at(x));
     if (scenario.forcing_at) {
       scenario.forcing_at(x, 0);
       scenario.forcing_at(x, scenario.end);
     }
   }
+  warn_of_strength(largest_contact, scenario);
   const std::string quantity = scenario.contact_at ? "initial stress over contact ratio" : "initial stress";
   if (first_small && !stressed && scenario.contact_at)
     throw refusal(Section(document, "interface", {"contact"}).where("contact"),

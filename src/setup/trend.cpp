@@ -62,6 +62,7 @@ std::vector<std::string> notes_on(const scenario::Scenario& s, const std::vector
   notes.emplace_back(
       "* as an observer with a threshold sees it; on a chain with little friction phonons run ahead, and raising "
       "pulse.threshold hides them");
+  notes.insert(notes.end(), s.warnings.begin(), s.warnings.end());
   for (const Level& level : levels)
     for (const std::string& warning : level.warnings) notes.push_back(level.name + ": " + warning);
   return notes;

@@ -43,8 +43,9 @@ TEST(ChainChecks, WorkOfAFastForceBalances) {
     const output::Energy &first = run.snapshots().front().energy, &last = run.snapshots().back().energy;
     const double gained = last.elastic + last.kinetic - first.elastic - first.kinetic;
     const bool smooth = f.linear_coefficient().has_value();
-    EXPECT_GT(last.supplied, 10) << f.coefficient();
-    EXPECT_NEAR(gained, last.supplied - last.dissipated, (smooth ? 2e-3 : 1e-2) * last.supplied) << f.coefficient();
+    EXPECT_GT(last.supplied, 10) << f.parameter("coefficient");
+    EXPECT_NEAR(gained, last.supplied - last.dissipated, (smooth ? 2e-3 : 1e-2) * last.supplied)
+        << f.parameter("coefficient");
   }
 }
 

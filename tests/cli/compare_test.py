@@ -32,6 +32,14 @@ class Compare(CommandLine):
         self.assertEqual(levels["chain-1000"]["scale"], 1000)
         self.assertAlmostEqual(out["damping_number"], math.pi)
 
+    def test_only_viscous_friction_has_a_damping_number(self):
+        strength = ("--scale", "20", "--set", "pulse.cells=20", "friction.law=rate-and-state", "friction.strength=0.05")
+        out = self.compare(*strength)
+        self.assertEqual((out["friction_coefficient"], out["damping_number"]), (None, None))
+        table = self.ok("compare", os.path.join(SOURCE, "cases/step.toml"), *strength)
+        self.assertIn("rate-and-state friction with strength = 0.05", table)
+        self.assertNotIn("Gamma", table)
+
     def test_has_the_closed_form_where_there_is_one(self):
         for right in ("0", "0.179"):
             out = self.compare("--scale", "100", "--set", f"initial.stress_right={right}", "--set", "pulse.threshold=0.01")

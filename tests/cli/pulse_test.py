@@ -134,6 +134,34 @@ cells = 200
         self.assertLess(abs(right["slip_velocity_at_origin"] - 0.009337), 3e-6)
         self.assertAlmostEqual(right["damping_number"], math.pi)
 
+    def test_only_viscous_friction_has_a_coefficient_and_a_damping_number(self):
+        case = os.path.join(SOURCE, "cases/step.toml")
+        for law in (["coulomb", "coefficient=0.03"], ["power", "coefficient=0.1", "exponent=1.5"], ["n-shaped", "coefficient=0.1"],
+                    ["slip-weakening", "strength=0.05"], ["flash-heating", "strength=0.05"], ["formula", "formula=0.1*w"],
+                    ["rate-and-state", "strength=0.05"]):
+            settings = ("--set", "pulse.cells=20", f"friction.law={law[0]}", *(f"friction.{value}" for value in law[1:]))
+            out = self.pulse(case, *settings)
+            self.assertEqual((out["friction_coefficient"], out["damping_number"]), (None, None), law)
+            self.assertRegex(self.ok("pulse", case, *settings), r"friction_coefficient +null .*\ndamping_number +null ")
+            self.assertIn(f"{law[0]} friction with " if law[0] != "formula" else "drawn friction with ", self.ok("pulse", case, "--check", *settings))
+        for C in (0, 0.5):
+            out = self.pulse(case, "--set", "pulse.cells=20", "friction.law=viscous", f"friction.coefficient={C}")
+            self.assertEqual(out["friction_coefficient"], C)
+            self.assertAlmostEqual(out["damping_number"], 2 * math.pi * C)
+        self.assertEqual(self.pulse(case, "--set", "pulse.cells=20")["damping_number"], 0)
+
+    def test_a_strength_above_that_of_the_substrate_is_a_warning(self):
+        case = os.path.join(SOURCE, "cases/step.toml")
+        path = os.path.join(os.path.dirname(self.file("unused", "")), "out.nc")
+        for command in ("pulse", "chain"):
+            done = run(command, case, "-o", path, "--json", "--set", "pulse.cells=20", "chain.scale=20", "initial.profile=tanh",
+                       "friction.law=coulomb", "friction.coefficient=2")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(done.stderr.count("warning: friction holds a force of 2 "), 1)
+            self.assertEqual(len([w for w in json.loads(done.stdout)["warnings"] if "friction holds" in w]), 1)
+            with netCDF4.Dataset(path) as file:
+                self.assertIn("friction holds", file.getncattr("warnings"))
+
     def test_refuses(self):
         case = os.path.join(SOURCE, "cases/step.toml")
         self.refused(2, "pulse", says=["SCENARIO"])

@@ -108,6 +108,8 @@ for (const [name, toml] of Object.entries(scenarios))
     // The fast front is where the slip velocity leaves zero: its place is known no better than rounding leaves zero.
     if (theirs.trailing_front !== null) near(last('trailing_front'), theirs.trailing_front, 1e-6, 'trailing_front');
     assert.equal(mine.steps, theirs.steps);
+    // Null where friction is not viscous: it has no such numbers.
+    for (const key of ['friction_coefficient', 'damping_number']) assert.equal(mine[key], theirs[key], key);
     console.log(`# ${name}: largest difference ${worst}`);
   });
 

@@ -147,7 +147,7 @@ TEST(Friction, ImplicitSolveOfAnyLawIsThatOfClosedForms) {
 
 TEST(Friction, DividesForcesAndRefusesNumbersOutOfRange) {
   const Friction scaled = power(3, 1.5, Closure::paper).scaled_by(2);
-  EXPECT_EQ(scaled.coefficient(), 1.5);
+  EXPECT_EQ(scaled.parameter("coefficient"), 1.5);
   EXPECT_EQ(scaled.parameter("exponent"), 1.5);
   EXPECT_EQ(scaled.closure(), Closure::paper);
   EXPECT_THROW(viscous(-1).check(), InputError);

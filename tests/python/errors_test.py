@@ -126,6 +126,13 @@ class Errors(CommandLine):
             warnings.simplefilter("always")
             slipfront.pulse(STEP)
         self.assertEqual([str(w.message) for w in seen], [])
+        sticks = {"friction.law": "coulomb", "friction.coefficient": 2, "pulse.cells": 20, "chain.scale": 20, "initial.profile": "tanh"}
+        for run, more in ((slipfront.pulse, {}), (slipfront.chain, {}), (slipfront.compare, {"scales": [20]})):
+            with warnings.catch_warnings(record=True) as seen:
+                warnings.simplefilter("always")
+                data = run(STEP, set=sticks, **more)
+            self.assertEqual(len([w for w in seen if "friction holds a force of 2" in str(w.message)]), 1, run)
+            self.assertIn("friction holds", data.attrs["notes" if run is slipfront.compare else "warnings"])
 
 
 def nested(kind, depth):

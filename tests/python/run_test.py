@@ -77,6 +77,11 @@ class Run(CommandLine):
         damped = slipfront.pulse(STEP, set={"friction.law": "viscous", "friction.coefficient": 0.5})
         self.assertLess(abs(damped.attrs["slip_at_origin"] - 0.16962), 1e-5)
         self.assertAlmostEqual(damped.attrs["damping_number"], math.pi)
+        sticks = {"friction.law": "rate-and-state", "friction.strength": 0.05, "pulse.cells": 20}
+        for data in (slipfront.pulse(STEP, set=sticks), slipfront.compare(STEP, set=sticks, scales=[20])):
+            self.assertTrue(math.isnan(data.attrs["friction_coefficient"]) and math.isnan(data.attrs["damping_number"]))
+        checked = slipfront.check(STEP, set=sticks)
+        self.assertEqual((checked["friction_coefficient"], checked["friction_parameters"]["strength"]), (None, 0.05))
         chain = slipfront.chain(STEP, set={"chain.scale": 1000}, threads=1)
         self.assertLess(abs(chain.attrs["slip_at_origin"] / 0.30290 - 1), 0.01)
 

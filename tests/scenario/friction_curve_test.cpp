@@ -111,7 +111,7 @@ TEST(FrictionUnits, NeedWhatTheyAreMadeOf) {
   const std::string law = "law = \"slip-weakening\"\nstrength = ";
   EXPECT_TRUE(contains(refused_text(friction(law + "\"30 MPa\"\n")).problem, "medium.contact_ratio"));
   const std::string rock = "[medium]\ncontact_ratio = 0.01\n";
-  EXPECT_EQ(read(friction(law + "\"30 MPa\"\n") + rock).warnings.size(), 1u);  // the constants it took
+  EXPECT_EQ(read(friction(law + "\"0.3 MPa\"\n") + rock).warnings.size(), 1u);  // the constants it took
   EXPECT_TRUE(contains(refused_text(friction(law + "0.1\ncharacteristic_slip = \"1 mm\"\n") + rock).problem,
                        "medium.asperity_spacing"));
   EXPECT_TRUE(contains(refused_text(friction(law + "\"3 km\"\n") + rock).problem, "km"));
@@ -119,6 +119,45 @@ TEST(FrictionUnits, NeedWhatTheyAreMadeOf) {
   EXPECT_EQ(refused_text(friction("law = \"none\"\nnormal_stress = \"5 MPa\"\n") + rock).key, "friction.normal_stress");
   EXPECT_TRUE(
       contains(refused_text(friction("law = \"viscous\"\ncoefficient = \"5 MPa\"\n") + rock).problem, "no SI unit"));
+}
+
+std::vector<std::string> strength_warnings(const std::string& text, const Rows& rows = {}) {
+  std::vector<std::string> found;
+  for (const std::string& warning : read(text, {}, rows).warnings)
+    if (contains(warning, "friction holds a force")) found.push_back(warning);
+  return found;
+}
+
+/// Of Eq. (3): sin u is at most 1, and a^2 sin u at most a^2.
+TEST(FrictionStrength, WarnsWhereItExceedsThatOfTheSubstrate) {
+  const std::string contact =
+      "[interface]\ncontact = \"1 + x^2 / 10\"\n[domain]\nleft = -4\nright = 3\n";  // 2.6 at most
+  for (const char* law : {"coulomb\"\ncoefficient = ", "flash-heating\"\nstrength = ", "slip-weakening\"\nstrength = ",
+                          "rate-and-state\"\nstrength = ", "formula\"\nformula = \"1\"\ncoefficient = "}) {
+    const std::string text = friction("law = \"" + std::string(law));
+    EXPECT_TRUE(strength_warnings(text + "1\n").empty()) << law;
+    EXPECT_EQ(strength_warnings(text + "1.01\n").size(), 1u) << law;
+    EXPECT_TRUE(strength_warnings(text + "6.7\n" + contact).empty()) << law;
+    EXPECT_EQ(strength_warnings(text + "6.8\n" + contact).size(), 1u) << law;
+  }
+  // The top of a force that falls again is a strength; a force that rises with the velocity for ever has none.
+  const std::string n_shaped = friction("law = \"n-shaped\"\nvelocity = 1e-3\ncoefficient = ");
+  EXPECT_TRUE(strength_warnings(n_shaped + "1.99\n").empty());
+  EXPECT_EQ(strength_warnings(n_shaped + "2.1\n").size(), 1u);
+  EXPECT_TRUE(strength_warnings(friction("law = \"viscous\"\ncoefficient = 50\n")).empty());
+  EXPECT_TRUE(strength_warnings("[initial]\nstress_left = 0\nstress_right = 0\n[interface]\ncontact = 0\n"
+                                "[friction]\nlaw = \"rate-and-state\"\nstrength = 50\n")
+                  .empty());
+}
+
+/// A laboratory: f_0 = 0.4 at 5 MPa, on an interface whose unit of force is 0.23 MPa.
+TEST(FrictionStrength, WarnsOfThatOfALaboratory) {
+  const std::string text = friction("law = \"rate-and-state\"\nnormal_stress = \"5 MPa\"\nstrength = 0.4\n") +
+                           "[medium]\nshear_modulus = \"30 GPa\"\npoisson_ratio = 0.3\np_wave_speed = \"6 km/s\"\n"
+                           "contact_ratio = 0.0041\nasperity_spacing = \"1 mm\"\n";
+  const std::vector<std::string> warnings = strength_warnings(text);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_TRUE(contains(warnings[0], "8.72 times")) << warnings[0];
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ TEST(ScenarioOverride, AppliesInOrderBeforeChecking) {
   const Scenario s = read(step, {"friction.law=viscous", "friction.coefficient=-1", "friction.coefficient = 0.5",
                                  "output.times=[0, 1]", "forcing.formula=0.1*sin(x)*t", "title=two words",
                                  "chain.model=\"lattice\"", "interface.contact=2", "medium.poisson_ratio=2_5e-2"});
-  EXPECT_EQ(s.friction.coefficient(), 0.5);
+  EXPECT_EQ(s.friction.parameter("coefficient"), 0.5);
   EXPECT_EQ(s.output.times.size(), 2u);
   EXPECT_DOUBLE_EQ(s.forcing_at(1, 2), 0.2 * std::sin(1));
   EXPECT_EQ(s.title, "two words");
@@ -70,7 +70,7 @@ TEST(ScenarioFile, ReadsItsOwnTextBack) {
     EXPECT_EQ(a.title, b.title);
     EXPECT_EQ(a.initial.profile, b.initial.profile);
     EXPECT_EQ(a.friction.name(), b.friction.name());
-    EXPECT_EQ(a.friction.coefficient(), b.friction.coefficient());
+    EXPECT_EQ(a.friction.parameter("coefficient"), b.friction.parameter("coefficient"));
     EXPECT_EQ(a.friction.parameter("exponent"), b.friction.parameter("exponent"));
     EXPECT_EQ(a.output.times, b.output.times);
     EXPECT_EQ(a.forcing, b.forcing);

@@ -81,7 +81,7 @@ anything = nan
   EXPECT_EQ(s.initial.stress_right, 0.5);
   EXPECT_EQ(s.initial.width, 2);
   EXPECT_EQ(s.friction.name(), "power");
-  EXPECT_EQ(s.friction.coefficient(), 1);
+  EXPECT_EQ(s.friction.parameter("coefficient"), 1);
   EXPECT_EQ(s.friction.parameter("exponent"), 0.5);
   EXPECT_EQ(s.friction.closure(), friction::Closure::paper);
   EXPECT_EQ(s.forcing, "0.1*x + t");
@@ -175,7 +175,7 @@ TEST(ScenarioFile, RefusesValuesOutOfRangeWithLineAndKey) {
 TEST(ScenarioFile, TakesTheEndsOfRanges) {
   EXPECT_EQ(read(step + "[pulse]\ncells = 4\ntolerance = 0.1\n").pulse.cells, 4);
   EXPECT_EQ(read(step + "[pulse]\ncells = 10000000\ntolerance = 1e-12\n").pulse.tolerance, 1e-12);
-  EXPECT_EQ(read(step + "[friction]\nlaw = \"coulomb\"\ncoefficient = 0\n").friction.coefficient(), 0);
+  EXPECT_EQ(read(step + "[friction]\nlaw = \"coulomb\"\ncoefficient = 0\n").friction.parameter("coefficient"), 0);
   EXPECT_EQ(read("[initial]\nstress_left = 0.0045\nstress_right = 1e6\n").stress(-1), 0.0045);
 }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <optional>
 
 #include "../../../src/digits.hpp"
 #include "scenario.hpp"
@@ -22,7 +23,7 @@ namespace {
 struct Session {
   std::unique_ptr<pulse::Run> run;
   std::vector<std::string> warnings;  ///< of the scenario
-  double coefficient = 0;
+  std::optional<double> coefficient;
 };
 
 std::map<int, Session>& sessions() {
@@ -105,7 +106,7 @@ SLIPFRONT_EXPORT const char* pulse_begin(int handle, const char* toml, int frame
       x.push_back((schedule.x_edges[i] + schedule.x_edges[i + 1]) / 2);
     object.numbers("x", x).put("end", s.end).put("frames", static_cast<long>(schedule.times.size()));
     object.put("closure", name_of(problem.friction.closure())).put("warnings", s.warnings);
-    const double coefficient = s.friction.coefficient();
+    const std::optional<double> coefficient = s.friction.linear_coefficient();
     sessions()[handle] = {std::make_unique<pulse::Run>(std::move(problem), std::move(schedule)), s.warnings,
                           coefficient};
     return object;
@@ -128,6 +129,7 @@ SLIPFRONT_EXPORT const char* pulse_go(int handle, double milliseconds, int first
     const pulse::Cells& cells = solver.cells();
     Object object;
     object.put("finished", s.run->finished()).put("now", cells.time).put("steps", cells.steps);
+    object.put("friction_coefficient", s.coefficient);
     if (!gave_up.empty()) object.put("gave_up", gave_up);
     const std::vector<output::Snapshot>& all = s.run->snapshots();
     const std::size_t from = std::min(all.size(), static_cast<std::size_t>(std::max(first, 0)));
@@ -140,8 +142,7 @@ SLIPFRONT_EXPORT const char* pulse_go(int handle, double milliseconds, int first
       std::vector<std::string> warnings = s.warnings;
       for (const std::string& w : s.run->warnings()) warnings.push_back(w);
       object.put("warnings", warnings)
-          .put("friction_coefficient", s.coefficient)
-          .put("damping_number", s.coefficient * all.back().time)
+          .put("damping_number", s.coefficient ? std::optional(*s.coefficient * all.back().time) : std::nullopt)
           .put("conservation_error", pulse::conservation_error(solver))
           .put("first_crossing_time", cells.crossing_time)
           .put("first_crossing_position", cells.crossing_position)

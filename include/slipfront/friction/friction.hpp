@@ -17,6 +17,7 @@ class Friction {
   /// No friction.
   Friction();
   /// `values` are those of the definition's parameters, in their order; `curve` is for laws that take one.
+  /// \throws InputError if there is a force although no parameter that is declared a force is > 0.
   Friction(const Definition& definition, std::vector<double> values, Closure closure = Closure::consistent,
            Curve curve = {});
 
@@ -30,16 +31,15 @@ class Friction {
 
   /// The value of a parameter; 0 if the law has none of that name.
   double parameter(std::string_view name) const;
-  /// C, or of a law that has none its strength.
-  double coefficient() const { return parameter("coefficient") + parameter("strength"); }
   /// The same friction on a chain whose x and t are scaled up by `scale`.
+  /// \throws InputError if the force does not scale, because a parameter of the law states a wrong Dimension.
   Friction scaled_by(double scale) const;
   /// \throws InputError for a parameter out of its range.
   void check() const;
 
   /// Whether there is any force.
   bool acts() const { return acts_; }
-  /// C where f = C w (0 without friction).
+  /// C where f = C w (0 without friction). No other law has a coefficient C or a damping number C t.
   std::optional<double> linear_coefficient() const { return linear_; }
   /// Whether a place at rest can hold out against a force.
   bool sticks() const { return at_rest_ > 0; }

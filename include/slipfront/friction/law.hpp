@@ -31,7 +31,8 @@ Closure closure_named(std::string_view name);
 inline constexpr std::string_view force_unit = "mu A^2 / (pi (1 - nu))";
 
 /// What a parameter is. On a chain whose x and t are scaled up, forces are divided by the scale, slips and times
-/// multiplied by it.
+/// multiplied by it. A factor of the force is a force, whatever it multiplies: C of f = C w^n too. `Friction` compares
+/// what is stated here with the force of the law, and refuses a law that does not scale.
 enum class Dimension { number, force, slip, time, velocity, pressure };  // pressure: over the normal stress
 
 /// A number that a law takes, and the key of table [friction] that gives it.

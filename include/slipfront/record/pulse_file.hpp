@@ -22,7 +22,7 @@ struct PulseMetadata {
   std::string command_line;                    ///< the file's history
   std::vector<double> x_edges;                 ///< of the cells, ascending: one more than there are cells
   std::vector<std::string> variables;          ///< names of pulse_variables(); empty: all
-  std::vector<std::string> warnings = {};      ///< of the finished run, a sentence each
+  std::vector<std::string> warnings = {};      ///< of the scenario and the finished run, a sentence each
   std::vector<output::SlipEvent> events = {};  ///< of a loaded chain so far: variables event_... over dimension event
 };
 

@@ -68,14 +68,14 @@ function Facts({ run, time }: { run: PulseRun; time: number }) {
     const scale = scaleOf(quantity, number);
     return Number.isFinite(number) ? `${short(number * scale.factor, 4)} ${scale.unit}` : '–';
   };
-  const gamma = (run.facts.friction_coefficient ?? NaN) * time;
+  const coefficient = run.facts.friction_coefficient; // null where friction is not viscous, and has no such number
   return (
     <dl class="facts" aria-label="Numbers at this time">
       <div><dt>Slip velocity at x = 0</dt><dd>{value('slip_velocity_at_origin', 'slipVelocity')}</dd></div>
       <div><dt>Slip at x = 0</dt><dd>{value('slip_at_origin', 'slip')}</dd></div>
       <div><dt>Fast front, V−</dt><dd>{value('trailing_front', 'x')}</dd></div>
       <div><dt>Slow front, V+</dt><dd>{value('leading_front', 'x')}</dd></div>
-      <div><dt>Damping number Γ = C t</dt><dd>{Number.isFinite(gamma) ? short(gamma, 3) : '–'}</dd></div>
+      {coefficient !== null && <div><dt>Damping number Γ = C t</dt><dd>{coefficient === undefined ? '–' : short(coefficient * time, 3)}</dd></div>}
     </dl>
   );
 }
