@@ -1,6 +1,7 @@
 #include "rate_and_state_loops.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "../elementary.hpp"
@@ -283,7 +284,7 @@ void means_by_table(double a, std::size_t size, const double* log_A, const doubl
   }
 }
 
-/// Where it is not large, by quadrature; at most PhaseNodes::most trains.
+/// Where it is not large, by quadrature; at most PhaseNodes::most trains, of one kind.
 void means_by_quadrature(double a, std::size_t size, const double* log_A, const double*, const double* s, double* mean,
                          double* slope) {
   constexpr std::size_t most = PhaseNodes::most;
@@ -340,12 +341,14 @@ void mean_forces(const RateAndStateRule& rule, std::size_t size, const double* f
       means_by_table(rule.a, n, at.log_A, at.A, s + begin, mean + begin, slopes);
     } else {
       if (at.count_logarithmic > 0) logarithmic_means(rule.a, n, at, s + begin, mean + begin, slopes);
-      Some tabulated, others;
+      Some tabulated;
+      std::array<Some, PhaseNodes::kinds> others;
       for (std::size_t i = 0; i < n && at.count_logarithmic < n; ++i)
         if (at.logarithmic[i] == 0)
-          (at.tabulated[i] != 0 ? tabulated : others).add(i, at.log_A[i], at.A[i], s[begin + i]);
+          (at.tabulated[i] != 0 ? tabulated : others[PhaseNodes::kind_of(s[begin + i])])
+              .add(i, at.log_A[i], at.A[i], s[begin + i]);
       tabulated.find(means_by_table, rule.a, mean + begin, slopes);
-      others.find(means_by_quadrature, rule.a, mean + begin, slopes);
+      for (Some& some : others) some.find(means_by_quadrature, rule.a, mean + begin, slopes);
     }
     if (slope != nullptr) std::copy_n(slopes, n, slope + begin);
   }

@@ -1,6 +1,7 @@
 #include "train_means.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -18,10 +19,38 @@ double mean_of(double a, double b) {  // arithmetic-geometric
   return a;
 }
 
-/// n with exp(-2 pi n K' / K) below 1e-12: the error of a mean over slip is up to a hundred times that, as for f = w.
+/// n with exp(-2 pi n K' / K) below 1e-13: the error of a mean over slip is up to a thousand times that, as for f = w.
 std::size_t steps_for(double s) {
   const double K_over_K1 = mean_of(1, std::sqrt((1 - s) * (1 + s))) / mean_of(1, s);
-  return std::clamp<std::size_t>(static_cast<std::size_t>(std::ceil(4.5 * K_over_K1)), 3, PhaseNodes::most_steps);
+  return std::clamp<std::size_t>(static_cast<std::size_t>(std::ceil(4.8 * K_over_K1)), 3, PhaseNodes::most_steps);
+}
+
+/// Numbers of steps that are used, and the smallest s for which each is enough.
+struct StepCounts {
+  static constexpr std::array<std::size_t, PhaseNodes::kinds> steps{
+      3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 32, 40, 48, 64, PhaseNodes::most_steps};
+  std::array<double, steps.size()> least_s;
+  StepCounts() {
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      double low = std::log(PhaseNodes::least_s), high = 0;
+      for (int halving = 0; halving < 40; ++halving) {
+        const double middle = (low + high) / 2;
+        (steps_for(std::exp(middle)) <= steps[i] ? high : low) = middle;
+      }
+      least_s[i] = std::exp(high);
+    }
+    least_s.back() = 0;
+  }
+  /// The first that is enough for this s.
+  std::size_t of(double s) const {
+    std::size_t i = 0;
+    while (s < least_s[i]) ++i;
+    return i;
+  }
+};
+const StepCounts& step_counts() {
+  static const StepCounts counts;
+  return counts;
 }
 
 // One transformation takes the modulus k to k1 = (1 - k') / (1 + k'), with k1' = 2 k'^(1/2) / (1 + k') nearer to 1, and
@@ -63,10 +92,12 @@ SLIPFRONT_CLONES void add(std::size_t size, const double* weight, const double* 
 
 }  // namespace
 
+std::size_t PhaseNodes::kind_of(double s) { return step_counts().of(s); }
+
 PhaseNodes::PhaseNodes(std::size_t size, const double* s) : size_(size), steps_(3) {
   double least = 1;
   for (std::size_t i = 0; i < size; ++i) least = s[i] < least ? s[i] : least;
-  steps_ = steps_for(std::fmax(least, least_s));
+  steps_ = StepCounts::steps[kind_of(least)];
   const double angle = std::numbers::pi / 2 / static_cast<double>(steps_), c = std::cos(angle), d = std::sin(angle);
   double sine = 0, cosine = 1;
   for (std::size_t k = 0; k <= steps_; ++k) {
@@ -86,8 +117,10 @@ void PhaseNodes::node(std::size_t k, Closure closure, double* r, double* weight)
 void means_by_phase(const Law& law, const Trains& trains, Closure closure, double* mean) {
   constexpr std::size_t most = PhaseNodes::most;
   double r[most], weight[most], speed[most], force[most], weights[most];
-  for (std::size_t begin = 0; begin < trains.size; begin += most) {
-    const std::size_t size = std::min(most, trains.size - begin);
+  std::size_t size = 0;
+  for (std::size_t begin = 0; begin < trains.size; begin += size) {
+    const std::size_t kind = PhaseNodes::kind_of(trains.s[begin]), end = std::min(begin + most, trains.size);
+    for (size = 1; begin + size < end && PhaseNodes::kind_of(trains.s[begin + size]) == kind;) ++size;
     const Memories memory = trains.memory.from(begin);
     const PhaseNodes nodes(size, trains.s + begin);
     std::fill_n(mean + begin, size, 0.0);

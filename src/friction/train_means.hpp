@@ -14,7 +14,11 @@ class PhaseNodes {
  public:
   static constexpr std::size_t most = 64;  ///< trains at once
   static constexpr double least_s = 1e-12;
-  static constexpr std::size_t most_steps = 84;  ///< at least_s
+  static constexpr std::size_t most_steps = 90;  ///< at least_s
+  /// Numbers of steps are rounded up to one of so many. `kind_of` a train of this s = tanh psi tells which it needs.
+  /// Trains whose means are found together should be of one kind: then no mean depends on the others.
+  static constexpr std::size_t kinds = 15;
+  static std::size_t kind_of(double s);
   /// `size` <= most trains of these s = tanh psi; smaller ones count as least_s.
   PhaseNodes(std::size_t size, const double* s);
   std::size_t count() const { return steps_ + 1; }

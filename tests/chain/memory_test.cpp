@@ -36,7 +36,7 @@ const friction::Definition& weakening_law() {
       .source = "this test",
       .parameters =
           {{.name = "coefficient", .symbol = "C", .unit = "mu A / 2 pi", .dimension = friction::Dimension::force},
-           {.name = "length", .symbol = "L", .unit = "b / 2 pi"}},
+           {.name = "length", .symbol = "L", .unit = "b / 2 pi", .dimension = friction::Dimension::slip}},
       .variables = {{.name = "slip", .symbol = "s", .unit = "b / 2 pi"}},
       .make = [](const std::vector<double>& v, const friction::Curve&) -> std::shared_ptr<const friction::Law> {
         return std::make_shared<Weakening>(v[0], v[1]);
@@ -46,7 +46,7 @@ const friction::Definition& weakening_law() {
 
 chain::ScaledProblem step() {
   chain::ScaledProblem s = small_step();
-  s.friction = {weakening_law(), {0.04, 3}};
+  s.friction = {weakening_law(), {0.04, 0.05}};
   return s;
 }
 

@@ -97,7 +97,7 @@ class Sizes(CommandLine):
     def said_by_check(self, *arguments):
         """(GB of memory, GB on the disk) that --check speaks of."""
         text = self.ok(*arguments, "--check")
-        return tuple(float(x) for x in re.search(r"([\d.e+-]+) GB of memory, ([\d.e+-]+) GB on the disk with -o\.", text).groups())
+        return tuple(float(x) for x in re.search(r"([\d.e+-]+) GB of memory, ([\d.e+-]+) GB on the disk with -o[.,]", text).groups())
 
     def test_every_check_tells_memory_and_disk(self):
         for command in (["pulse", STEP], ["chain", STEP], ["compare", STEP, "--scale", "20"]):

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <string>
@@ -91,6 +92,32 @@ TEST(FrictionOfMany, MeansAreThoseOfOne) {
         const double h = 1e-4, want = (of_one(std::exp(h)) - of_one(std::exp(-h))) / (2 * h);
         EXPECT_NEAR(slope[i], want, 1e-5 * of_one(1)) << friction.name() << " phi " << phi[i] << " psi " << psi[i];
       }
+    }
+}
+
+/// A resumed run finds the means of other trains together than an uninterrupted one: of cells that rest, each knows
+/// some already.
+TEST(FrictionOfMany, MeansDoNotDependOnTheOtherTrains) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> u(0, 1);
+  constexpr std::size_t count = 150;
+  for (const Closure closure : {Closure::consistent, Closure::paper})
+    for (const Friction& friction : some_of_each(closure)) {
+      std::vector<double> fastest(count), s(count), theta(count), together(count), alone(count);
+      for (std::size_t i = 0; i < count; ++i) {
+        fastest[i] = std::exp(-12 + 12 * u(random));
+        s[i] = std::tanh(std::exp(-12 + 12 * u(random)));
+        theta[i] = std::exp(4 * u(random) - 2);
+      }
+      const std::size_t each = friction.variables();
+      const auto means = [&](std::size_t begin, std::size_t end, std::vector<double>& to) {
+        friction.law().mean_strengths({end - begin, &fastest[begin], &s[begin], {&theta[begin], each}}, closure,
+                                      &to[begin], nullptr);
+      };
+      means(0, count, together);
+      for (std::size_t begin = 0, end = 1; begin < count; begin = end, end = std::min(count, 2 * end + 1))
+        means(begin, end, alone);
+      EXPECT_EQ(together, alone) << friction.name();
     }
 }
 

@@ -105,8 +105,10 @@ class Case:
 
 
 def finite(case):
+    viscous = case.s["friction"]["law"] in ("none", "viscous")
+    absent = MAY_BE_ABSENT | (set() if viscous else {"friction_coefficient", "damping_number"})
     bad = [key for key, value in case.plain.summary.items()
-           if isinstance(value, float) and not math.isfinite(value) and key not in MAY_BE_ABSENT]
+           if isinstance(value, float) and not math.isfinite(value) and key not in absent]
     bad += [key for key, values in case.seen.fields.items()
             if not np.all(np.isfinite(values)) and key not in MAY_BE_ABSENT | {"energy_phonons"}]
     yield "finite", len(bad), 0, " ".join(bad)
