@@ -82,7 +82,7 @@ def wrong(printed, value):
     return not abs(float(printed) - value) <= 1.0000001 * last_unit(printed)
 
 
-# What is computed.
+# Ways to compute the numbers.
 
 
 def end_of(keys, *arguments):
@@ -307,7 +307,7 @@ def catalogue_rows():
 
 
 def check(entry):
-    """What is wrong with an entry, as lines; empty if nothing is."""
+    """The faults of an entry, a line each; empty if it has none."""
     try:
         printed, values = found(entry.page, entry.text), entry.values()
     except (LookupError, RuntimeError) as error:

@@ -34,7 +34,7 @@ slipfront::scenario::Scenario read_scenario_of(const ScenarioArguments& argument
 std::string json_number(double value);
 /// The law of friction with its parameters: "slip-weakening friction with strength = 0.08, residual = 0.02".
 std::string parameters_in_words(const slipfront::friction::Friction& friction);
-/// What a run is summed up by, as a table or one JSON object on stdout. `warnings`, a sentence each, are in the JSON;
+/// Prints the summary of a run as a table or as one JSON object on stdout. `warnings`, a sentence each, are in the JSON;
 /// those that `read_scenario_of` has not printed go to stderr. `errors`: of each row, NaN where there is none; empty:
 /// none at all. `events`: of a loaded chain; else null.
 void print_summary(const slipfront::scenario::Scenario& scenario,

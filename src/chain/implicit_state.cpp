@@ -184,7 +184,7 @@ void ImplicitSteps::look() {
   now_.log.look(now_.time, load, places);
 }
 
-/// Of a step that has passed the present time, the start is saved; `resume` takes it again.
+/// Saves the start of a step that has passed the present time; `resume` takes this step again.
 std::vector<double> ImplicitSteps::saved() const {
   const Moment& m = passed_ ? before_ : now_;
   std::vector<double> all{static_cast<double>(n_),

@@ -88,7 +88,7 @@ class Solver {
 
   /// About how many steps the next `duration` takes: those that waves allow, or fewer where viscous friction rules.
   double expected_steps(double duration) const;
-  /// Where steps are short and why, as a sentence without a full stop, for a message.
+  /// The reason for short steps, with the position, as a sentence without a full stop for a message.
   std::string reason_of_short_steps() const;
 
   const Problem& problem() const { return problem_; }
