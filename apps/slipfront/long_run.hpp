@@ -34,9 +34,9 @@ slipfront::scenario::Scenario read_scenario_of(const ScenarioArguments& argument
 std::string json_number(double value);
 /// The law of friction with its parameters: "slip-weakening friction with strength = 0.08, residual = 0.02".
 std::string parameters_in_words(const slipfront::friction::Friction& friction);
-/// Prints the summary of a run as a table or as one JSON object on stdout. `warnings`, a sentence each, are in the JSON;
-/// those that `read_scenario_of` has not printed go to stderr. `errors`: of each row, NaN where there is none; empty:
-/// none at all. `events`: of a loaded chain; else null.
+/// Prints the summary of a run as a table or as one JSON object on stdout. `warnings`, a sentence each, are in the
+/// JSON; those that `read_scenario_of` has not printed go to stderr. `errors`: of each row, NaN where there is none;
+/// empty: none at all. `events`: of a loaded chain; else null.
 void print_summary(const slipfront::scenario::Scenario& scenario,
                    const std::vector<slipfront::run::SummaryValue>& summary, const std::vector<double>& errors,
                    const std::vector<std::string>& warnings, const ScenarioArguments& arguments,
