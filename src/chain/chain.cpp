@@ -161,9 +161,6 @@ long Chain::level() const { return implicit() ? parts_->implicit->steps() : part
 double Chain::dt() const { return parts_->scheme.dt; }
 double Chain::time() const { return implicit() ? parts_->implicit->time() : static_cast<double>(level()) * dt(); }
 
-std::size_t Chain::first_site() const { return parts_->begin; }
-std::size_t Chain::end_site() const { return parts_->end; }
-
 Levels Chain::levels(std::size_t begin, std::size_t end) const {
   Levels levels;
   levels.level = level();

@@ -68,8 +68,6 @@ double largest(const Problem& p, double a) {
 
 double chosen_step(const Problem& p) { return p.step > 0 ? p.step : chosen(p, largest_contact(p)); }
 
-double largest_step(const Problem& p) { return largest(p, largest_contact(p)); }
-
 double memory_needed(const Problem& p) {
   // Two levels, and a displacement to start from; where not plain also contact, three levels of forcing and the
   // displacement at the last level; where contacts change theta, pressure and five numbers of the contact.

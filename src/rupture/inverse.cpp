@@ -42,11 +42,6 @@ double psi_of_fan(double r) {
   return newton_in_log(r < 2 ? r / (L + std::log(L)) : (r - 0.34) / 3, residual, "psi in the fan");
 }
 
-double origin_slip_velocity(double psi_at_origin) {
-  const double K = elliptic::at_psi(psi_at_origin).K;
-  return pi * std::sinh(modulation::sound(psi_at_origin).rapidity) * std::cosh(psi_at_origin) / K;
-}
-
 double psi_of_origin_slip_velocity(double W) {
   const auto residual = [W](double psi) {
     const elliptic::AtPsi at = elliptic::at_psi(psi);

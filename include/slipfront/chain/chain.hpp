@@ -48,9 +48,9 @@ struct Window {
   std::vector<double> stress;  ///< -u_x; of a lattice, the mean of the bonds on either side
 };
 
-/// With Execution::ranks a chain is shared among processes: each has the sites [first_site(), end_site()), each makes
-/// the same calls in the same order with the same arguments and gets the same results, to the bits of one process
-/// alone; an error on one is thrown on all.
+/// With Execution::ranks processes share a chain, each with some of its sites. All make the same calls in the same
+/// order with the same arguments. All get the same results, to the bits of a single process. An error on one is thrown
+/// on all.
 class Chain {
  public:
   /// \throws InputError as check(Problem) does, for a motion that does not fit the grid or is too steep for it (too few
@@ -101,9 +101,6 @@ class Chain {
   double dt() const;
   double time() const;
 
-  /// This rank's sites.
-  std::size_t first_site() const;
-  std::size_t end_site() const;
   /// All sites, or [begin, end), on rank 0; none on others. A piece at a time, no rank need hold them all.
   Levels levels() const;
   Levels levels(std::size_t begin, std::size_t end) const;

@@ -67,9 +67,6 @@ inline constexpr double least_sites_per_width = 1.5;
 /// The step that `step = 0` chooses: of sine_gordon close to the spacing, of a lattice 0.05 or less.
 double chosen_step(const Problem& problem);
 
-/// The largest stable step.
-double largest_step(const Problem& problem);
-
 /// Bytes that a run holds, all ranks together, and what this machine has (0 where that cannot be told).
 double memory_needed(const Problem& problem);
 double memory_of_machine();

@@ -14,7 +14,4 @@ double psi_of_fan(double r);
 /// psi(0) of the pulse with slip velocity W(0) = pi sinh(phi0) cosh(psi0) / K = W, phi0 = atanh c0(psi0), W > 0.
 double psi_of_origin_slip_velocity(double W);
 
-/// W(0) of the pulse whose state at the origin has this psi.
-double origin_slip_velocity(double psi_at_origin);
-
 }  // namespace slipfront::rupture
