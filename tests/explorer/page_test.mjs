@@ -41,13 +41,13 @@ test('a link shows the same', async () => {
   await eventually(async () => {
     for (const part of ['initial.stress_left=0.7', 'initial.width=0.4', 't=']) assert.match(page.url(), new RegExp(`[?&]${part}`));
   });
-  await ready(page);
-  const [link, velocity, slip] = [page.url(), await factOf(page, 'Slip velocity at x = 0'), await factOf(page, 'Slip at x = 0')];
-  const other = await open(link.slice(url.length), calm);
-  await ready(other);
-  await eventually(async () => {
-    assert.equal(await factOf(other, 'Slip velocity at x = 0'), velocity);
-    assert.equal(await factOf(other, 'Slip at x = 0'), slip);
+  const other = await open(page.url().slice(url.length), calm);
+  for (const one of [page, other]) await ready(one);
+  await eventually(async () => { // both settle: either may still show what it computed last
+    for (const fact of ['Slip velocity at x = 0', 'Slip at x = 0']) {
+      assert.match(await factOf(other, fact), /\d/);
+      assert.equal(await factOf(other, fact), await factOf(page, fact));
+    }
   });
 });
 
