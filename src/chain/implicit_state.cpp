@@ -160,21 +160,23 @@ Window ImplicitSteps::window(std::size_t from, std::size_t to) const {
   return window;
 }
 
-/// Hands the step that has just been taken to the log of events.
+/// Hands the step that has just been taken to the log of events. Slip counts as positive in the direction of the
+/// springs.
 void ImplicitSteps::look() {
+  const double direction = problem_.loading.velocity < 0 ? -1 : 1;
   Places places;
   places.length = static_cast<double>(n_) * springs_.spacing() / static_cast<double>(places_);
   const bool everywhere = problem_.loading.where == Pulled::everywhere;
   double load = 0;
   for (std::size_t j = 0; j < n_; ++j)
-    if (everywhere || pull(j) > 0) load += springs_.weight(j) * forcing(j);
+    if (everywhere || pull(j) > 0) load += direction * springs_.weight(j) * forcing(j);
   if (everywhere) load /= springs_.spacing() * static_cast<double>(problem_.boundary.periodic ? n_ : n_ - 1);
   for (std::size_t i = 0; i < places_; ++i) {
     const std::size_t from = n_ * i / places_, to = n_ * (i + 1) / places_;
     double u = 0, p = 0;
     for (std::size_t j = from; j < to; ++j) {
-      u += now_.u[j];
-      p += springs_.held(j) ? 0 : now_.w[j];
+      u += direction * now_.u[j];
+      p += springs_.held(j) ? 0 : direction * now_.w[j];
     }
     const double count = static_cast<double>(to - from);
     places.x.push_back((problem_.grid.x(from) + problem_.grid.x(to - 1)) / 2);

@@ -250,6 +250,23 @@ Problem block_of_laboratory() {
   return p;
 }
 
+/// Springs that pull the other way: the same events, to the bit.
+TEST(ImplicitSteps, MirroredLoadingHasTheSameEvents) {
+  Problem p = block_of_laboratory();
+  Chain forward(p, at_rest(p));
+  p.loading.velocity = -p.loading.velocity;
+  Chain back(p, at_rest(p));
+  for (Chain* chain : {&forward, &back}) chain->proceed(210000, 1 << 30);
+  ASSERT_EQ(forward.events().size(), 2u);
+  ASSERT_EQ(back.events().size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(back.events()[i].onset, forward.events()[i].onset);
+    EXPECT_EQ(back.events()[i].slip, forward.events()[i].slip);
+    EXPECT_EQ(back.events()[i].stress_drop, forward.events()[i].stress_drop);
+    EXPECT_EQ(back.events()[i].peak_velocity, forward.events()[i].peak_velocity);
+  }
+}
+
 /// Steps are the same whenever the motion is looked at, also in the middle of an event.
 TEST(ImplicitSteps, DoNotDependOnOutputTimes) {
   const Problem p = block_of_laboratory();
