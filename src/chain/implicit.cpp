@@ -140,7 +140,7 @@ double ImplicitSteps::velocity_under_friction(std::size_t j, double change, doub
   const double by_springs = dt / (2 * theta * springs_.spacing() * springs_.spacing());
   const double weight = 1 / std::fmax(trial_.slope[j] - trial_.friction_slope[j] + by_springs, 1 / (2 * theta * dt));
   std::array<double, most_variables> middle;
-  std::copy_n(&now_.memory[variables_ * j], variables_, middle.begin());
+  std::copy_n(now_.memory.begin() + static_cast<std::ptrdiff_t>(variables_ * j), variables_, middle.begin());
   const std::span<double> memory(middle.data(), variables_);
   if (variables_ > 0) problem_.friction.law().advance(mean_velocity(j), dt / 2, memory);
   const double linear = w + weight * f + change * (1 + weight * trial_.friction_slope[j]);

@@ -113,6 +113,19 @@ TEST(Loading, ViscousBlockFollowsItsSprings) {
   EXPECT_LT(chain.level(), 400);  // long steps where nothing changes
 }
 
+/// Friction that is steep at rest and has no state. The force of the springs ends as C v^n.
+TEST(Loading, BlockUnderPowerFrictionFollowsItsSprings) {
+  Problem p = smooth_block();
+  p.friction = friction::power(0.3, 0.3);
+  p.loading = {.stiffness = 0.01, .velocity = 0.002};
+  Chain chain(p, at_rest(p));
+  chain.proceed(2e4, 1 << 30);
+  const auto w = chain.window(3, 4);
+  EXPECT_NEAR(w.velocity[0], 0.002, 1e-6);
+  EXPECT_NEAR(0.01 * (0.002 * 2e4 - w.u[0]), 0.3 * std::pow(0.002, 0.3), 1e-5);
+  EXPECT_LT(budget(chain, 0), 1e-12);
+}
+
 /// Growth rate of a small disturbance of steady sliding.
 double growth(double stiffness, double v) {
   const double f0 = 0.05, a = 0.01, b = 0.015, D = 1, w0 = 0.01;
