@@ -284,7 +284,7 @@ void means_by_table(double a, std::size_t size, const double* log_A, const doubl
   }
 }
 
-/// Where it is not large, by quadrature; at most PhaseNodes::most trains, of one kind.
+/// Means by quadrature where A is not large, of at most PhaseNodes::most trains of one kind.
 void means_by_quadrature(double a, std::size_t size, const double* log_A, const double*, const double* s, double* mean,
                          double* slope) {
   constexpr std::size_t most = PhaseNodes::most;

@@ -32,7 +32,7 @@ struct Block {
   std::size_t begin, end;  ///< cells
   Edge left, right;
 };
-/// What a block and a stretch have in common.
+/// The cells that a block and a stretch have in common.
 inline Stretch common(const Block& block, Stretch stretch) {
   const std::size_t begin = std::max(block.begin, stretch.begin);
   return {begin, std::max(begin, std::min(block.end, stretch.end))};

@@ -183,7 +183,7 @@ void Staggered::find_masses(double t, const double* z) {
   }
 }
 
-/// Of the forcing, on all dislocations around a face.
+/// Force of the forcing on all dislocations around a face.
 double Staggered::push_on(std::size_t f, double t) const {
   return setup_.forcing ? 2 * pi * charge_around(f) * setup_.forcing(place_[f], t) : 0;
 }

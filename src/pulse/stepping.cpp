@@ -297,7 +297,7 @@ double Solver::step_implicitly(Work& work, double remaining, double crossing) {
   }
 }
 
-/// Where friction is so steep at rest that its slope tells nothing of its force at the end of a step. Two halves of a
+/// Serves friction so steep at rest that its slope does not show its force at the end of a step. Two halves of a
 /// step are compared with the whole, and extrapolated to second order.
 double Solver::step_by_faces(const std::vector<double>& z, const std::vector<double>& scale, double longest) {
   Staggered& staggered = this->staggered();
