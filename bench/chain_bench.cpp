@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "chain/kernel.hpp"
+#include "foundation/simd/vector_code.hpp"
 #include "slipfront/chain/chain.hpp"
 #include "slipfront/chain/run.hpp"
 #include "slipfront/setup/chain.hpp"
-#include "vector_code.hpp"
 
 namespace {
 

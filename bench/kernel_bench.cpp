@@ -6,10 +6,10 @@
 #include <cstdio>
 #include <vector>
 
+#include "foundation/simd/vector_code.hpp"
 #include "pulse/kernels.hpp"
 #include "pulse/semidiscrete.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
-#include "vector_code.hpp"
 
 // The cell stage of a pulse run, alone and by its two costliest loops, beside the limit of the arithmetic units: what a
 // loop of nothing but independent fused multiply-adds reaches, same vector width, same run. Operations are those of the

@@ -13,8 +13,8 @@
 #include <string_view>
 #include <vector>
 
-#include "../src/record/netcdf.hpp"
-#include "../src/record/seal.hpp"
+#include "record/netcdf.hpp"
+#include "record/seal.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/record/event_file.hpp"
 #include "slipfront/record/pulse_file.hpp"

@@ -9,10 +9,10 @@
 #include <locale>
 #include <string>
 
+#include "foundation/machine.hpp"
 #include "slipfront/catalogue/read.hpp"
 #include "slipfront/elliptic/complete.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/machine.hpp"
 #include "slipfront/medium/medium.hpp"
 #include "slipfront/pulse/solver.hpp"
 #include "slipfront/scenario/scenario.hpp"

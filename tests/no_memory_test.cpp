@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "../src/sanitized.hpp"
+#include "foundation/sanitized.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/medium/quantity.hpp"
 #include "slipfront/record/table_file.hpp"

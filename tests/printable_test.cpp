@@ -1,6 +1,6 @@
 // Text for a terminal: nothing in it is obeyed.
 
-#include "slipfront/printable.hpp"
+#include "foundation/text/printable.hpp"
 
 #include <gtest/gtest.h>
 

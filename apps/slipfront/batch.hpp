@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "foundation/parallel.hpp"
+#include "foundation/text/printable.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/parallel.hpp"
-#include "slipfront/printable.hpp"
 
 /// `make(i)` for i < count on several threads, in order: the result does not depend on how many. The exception of the
 /// lowest i is thrown. `few`: see for_each_parallel.

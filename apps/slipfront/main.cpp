@@ -10,10 +10,10 @@
 
 #include "batch.hpp"
 #include "commands.hpp"
+#include "foundation/machine.hpp"
+#include "foundation/text/printable.hpp"
 #include "interrupts.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/machine.hpp"
-#include "slipfront/printable.hpp"
 #include "slipfront/ranks.hpp"
 
 const slipfront::Ranks* the_ranks = nullptr;

@@ -7,8 +7,8 @@
 #include <exception>
 #include <new>
 
-#include "../../src/sanitized.hpp"
 #include "commands.hpp"
+#include "foundation/sanitized.hpp"
 
 namespace {
 

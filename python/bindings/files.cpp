@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "bindings.hpp"
-#include "slipfront/machine.hpp"
-#include "slipfront/printable.hpp"
+#include "foundation/machine.hpp"
+#include "foundation/text/printable.hpp"
 #include "slipfront/record/dataset_file.hpp"
 #include "slipfront/record/text_file.hpp"
 

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "bindings.hpp"
+#include "foundation/parallel.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/parallel.hpp"
 
 namespace {
 

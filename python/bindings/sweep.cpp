@@ -14,8 +14,8 @@
 #include <tuple>
 #include <utility>
 
+#include "foundation/machine.hpp"
 #include "results.hpp"
-#include "slipfront/machine.hpp"
 #include "slipfront/record/table_file.hpp"
 #include "slipfront/run/run.hpp"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string>
 
-#include "../../src/digits.hpp"
 #include "columns.hpp"
+#include "foundation/text/digits.hpp"
 #include "slipfront/elliptic/jacobi.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/rupture/pulse.hpp"

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <optional>
 
-#include "../csv_records.hpp"
-#include "csv_header.hpp"
-#include "format.hpp"
+#include "catalogue/csv_header.hpp"
+#include "catalogue/format.hpp"
+#include "foundation/text/csv_records.hpp"
 #include "slipfront/catalogue/read.hpp"
 
 namespace slipfront::catalogue {

@@ -1,10 +1,10 @@
-#include "csv_header.hpp"
+#include "catalogue/csv_header.hpp"
 
 #include <algorithm>
 #include <array>
 #include <utility>
 
-#include "../nearest.hpp"
+#include "foundation/text/nearest.hpp"
 
 namespace slipfront::catalogue {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "keys.hpp"
+#include "catalogue/keys.hpp"
 
 namespace slipfront::catalogue {
 

@@ -1,9 +1,9 @@
-#include "fsp.hpp"
+#include "catalogue/fsp.hpp"
 
 #include <cmath>
 
-#include "../digits.hpp"
-#include "format.hpp"
+#include "catalogue/format.hpp"
+#include "foundation/text/digits.hpp"
 #include "slipfront/catalogue/read.hpp"
 
 namespace slipfront::catalogue {

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "fsp.hpp"
+#include "catalogue/fsp.hpp"
 
 namespace slipfront::catalogue::fsp {
 namespace {

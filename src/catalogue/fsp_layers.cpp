@@ -1,7 +1,7 @@
 #include <cmath>
 
-#include "../digits.hpp"
-#include "fsp.hpp"
+#include "catalogue/fsp.hpp"
+#include "foundation/text/digits.hpp"
 
 namespace slipfront::catalogue::fsp {
 namespace {

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fsp.hpp"
+#include "catalogue/fsp.hpp"
 
 namespace slipfront::catalogue::fsp {
 namespace {

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fsp.hpp"
+#include "catalogue/fsp.hpp"
 
 namespace slipfront::catalogue::fsp {
 namespace {

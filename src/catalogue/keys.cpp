@@ -1,4 +1,4 @@
-#include "keys.hpp"
+#include "catalogue/keys.hpp"
 
 #include <string>
 

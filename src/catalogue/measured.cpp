@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
-#include "../nearest.hpp"
-#include "../trimmed.hpp"
+#include "foundation/text/nearest.hpp"
+#include "foundation/text/trimmed.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::catalogue {

@@ -2,7 +2,7 @@
 
 #include <iterator>
 
-#include "format.hpp"
+#include "catalogue/format.hpp"
 
 namespace slipfront::catalogue {
 

@@ -1,12 +1,12 @@
 #include <string>
 
-#include "../nearest.hpp"
-#include "../parse_toml.hpp"
-#include "../plain_stream.hpp"
-#include "format.hpp"
-#include "keys.hpp"
+#include "catalogue/format.hpp"
+#include "catalogue/keys.hpp"
+#include "catalogue/toml_distribution.hpp"
+#include "foundation/text/nearest.hpp"
+#include "foundation/text/parse_toml.hpp"
+#include "foundation/text/plain_stream.hpp"
 #include "slipfront/catalogue/read.hpp"
-#include "toml_distribution.hpp"
 
 namespace slipfront::catalogue {
 namespace {

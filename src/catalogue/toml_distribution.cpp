@@ -1,11 +1,11 @@
-#include "toml_distribution.hpp"
+#include "catalogue/toml_distribution.hpp"
 
 #include <algorithm>
 #include <string_view>
 #include <vector>
 
-#include "../nearest.hpp"
-#include "../plain_stream.hpp"
+#include "foundation/text/nearest.hpp"
+#include "foundation/text/plain_stream.hpp"
 
 namespace slipfront::catalogue {
 namespace {

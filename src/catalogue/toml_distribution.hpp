@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "../parse_toml.hpp"
-#include "keys.hpp"
+#include "catalogue/keys.hpp"
+#include "foundation/text/parse_toml.hpp"
 
 namespace slipfront::catalogue {
 

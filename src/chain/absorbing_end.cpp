@@ -1,4 +1,4 @@
-#include "absorbing_end.hpp"
+#include "chain/absorbing_end.hpp"
 
 #include <cmath>
 #include <numbers>

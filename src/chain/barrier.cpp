@@ -1,4 +1,4 @@
-#include "barrier.hpp"
+#include "chain/barrier.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -5,9 +5,9 @@
 #include <string>
 #include <utility>
 
-#include "parts.hpp"
+#include "chain/parts.hpp"
+#include "chain/start.hpp"
 #include "slipfront/error.hpp"
-#include "start.hpp"
 
 namespace slipfront::chain {
 namespace {

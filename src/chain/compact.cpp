@@ -1,4 +1,4 @@
-#include "compact.hpp"
+#include "chain/compact.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -1,9 +1,9 @@
-#include "contact_field.hpp"
+#include "chain/contact_field.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "../digits.hpp"
+#include "foundation/text/digits.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::chain {

@@ -1,4 +1,4 @@
-#include "forces.hpp"
+#include "chain/forces.hpp"
 
 #include <algorithm>
 #include <cmath>

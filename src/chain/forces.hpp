@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "contact_field.hpp"
-#include "scheme.hpp"
-#include "slab.hpp"
+#include "chain/contact_field.hpp"
+#include "chain/scheme.hpp"
+#include "chain/slab.hpp"
 
 namespace slipfront::chain {
 

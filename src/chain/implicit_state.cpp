@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
-#include "../digits.hpp"
-#include "implicit.hpp"
+#include "chain/implicit.hpp"
+#include "foundation/text/digits.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::chain {

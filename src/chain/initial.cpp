@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "../digits.hpp"
+#include "foundation/text/digits.hpp"
 #include "slipfront/elliptic/jacobi.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/train/at_rest.hpp"

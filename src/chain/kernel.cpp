@@ -1,8 +1,8 @@
-#include "kernel.hpp"
+#include "chain/kernel.hpp"
 
 #include <cmath>
 
-#include "../vector_code.hpp"
+#include "foundation/simd/vector_code.hpp"
 
 namespace slipfront::chain {
 namespace {

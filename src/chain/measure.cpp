@@ -7,10 +7,10 @@
 #include <string>
 #include <utility>
 
-#include "../digits.hpp"
-#include "elastic.hpp"
-#include "parts.hpp"
-#include "refuse_window.hpp"
+#include "chain/elastic.hpp"
+#include "chain/parts.hpp"
+#include "chain/refuse_window.hpp"
+#include "foundation/text/digits.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::chain {

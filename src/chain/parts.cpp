@@ -1,10 +1,10 @@
-#include "parts.hpp"
+#include "chain/parts.hpp"
 
 #include <algorithm>
 #include <array>
 #include <string>
 
-#include "../digits.hpp"
+#include "foundation/text/digits.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/train/at_rest.hpp"
 #include "slipfront/train/train.hpp"

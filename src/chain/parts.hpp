@@ -5,14 +5,14 @@
 #include <utility>
 #include <vector>
 
-#include "blocks.hpp"
-#include "forces.hpp"
-#include "implicit.hpp"
-#include "scheme.hpp"
-#include "slab.hpp"
+#include "chain/blocks.hpp"
+#include "chain/forces.hpp"
+#include "chain/implicit.hpp"
+#include "chain/scheme.hpp"
+#include "chain/slab.hpp"
+#include "chain/work_meter.hpp"
 #include "slipfront/chain/chain.hpp"
 #include "slipfront/ranks.hpp"
-#include "work_meter.hpp"
 
 namespace slipfront::chain {
 

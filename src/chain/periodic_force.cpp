@@ -1,4 +1,4 @@
-#include "periodic_force.hpp"
+#include "chain/periodic_force.hpp"
 
 #include <array>
 #include <cmath>

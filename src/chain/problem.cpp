@@ -5,9 +5,9 @@
 #include <string>
 #include <utility>
 
-#include "../digits.hpp"
+#include "foundation/machine.hpp"
+#include "foundation/text/digits.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/machine.hpp"
 
 namespace slipfront::chain {
 namespace {

@@ -9,9 +9,9 @@
 #include <string>
 #include <utility>
 
-#include "../bytes.hpp"
-#include "../digits.hpp"
-#include "contact_field.hpp"
+#include "chain/contact_field.hpp"
+#include "foundation/bytes.hpp"
+#include "foundation/text/digits.hpp"
 #include "slipfront/chain/smooth.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/output/further_scalars.hpp"

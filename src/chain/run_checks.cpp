@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "../digits.hpp"
-#include "barrier.hpp"
+#include "chain/barrier.hpp"
+#include "foundation/text/digits.hpp"
 #include "slipfront/chain/run.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/train/at_rest.hpp"

@@ -1,4 +1,4 @@
-#include "scheme.hpp"
+#include "chain/scheme.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "slab.hpp"
+#include "chain/slab.hpp"
 
 #include <algorithm>
 #include <cstring>

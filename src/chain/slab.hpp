@@ -5,8 +5,8 @@
 #include <new>
 #include <vector>
 
-#include "absorbing_end.hpp"
-#include "scheme.hpp"
+#include "chain/absorbing_end.hpp"
+#include "chain/scheme.hpp"
 
 namespace slipfront::chain {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "elastic.hpp"
-#include "refuse_window.hpp"
+#include "chain/elastic.hpp"
+#include "chain/refuse_window.hpp"
 #include "slipfront/train/at_rest.hpp"
 #include "slipfront/train/train.hpp"
 

@@ -1,4 +1,4 @@
-#include "start.hpp"
+#include "chain/start.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "../digits.hpp"
+#include "foundation/text/digits.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::chain {

@@ -2,8 +2,8 @@
 
 #include <cstddef>
 
-#include "forces.hpp"
-#include "scheme.hpp"
+#include "chain/forces.hpp"
+#include "chain/scheme.hpp"
 #include "slipfront/chain/chain.hpp"
 #include "slipfront/ranks.hpp"
 

@@ -3,7 +3,7 @@
 #include <numbers>
 #include <vector>
 
-#include "parts.hpp"
+#include "chain/parts.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::chain {

@@ -3,9 +3,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "blocks.hpp"
-#include "forces.hpp"
-#include "slab.hpp"
+#include "chain/blocks.hpp"
+#include "chain/forces.hpp"
+#include "chain/slab.hpp"
 
 namespace slipfront::chain {
 

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <string>
 
-#include "../digits.hpp"
+#include "foundation/text/digits.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::elliptic {

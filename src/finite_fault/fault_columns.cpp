@@ -1,4 +1,4 @@
-#include "fault_columns.hpp"
+#include "finite_fault/fault_columns.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "held_side.hpp"
+#include "finite_fault/held_side.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,8 @@
 #include <numbers>
 #include <numeric>
 
-#include "fault_columns.hpp"
-#include "held_side.hpp"
+#include "finite_fault/fault_columns.hpp"
+#include "finite_fault/held_side.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/medium/medium.hpp"
 #include "slipfront/rupture/relations.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "../digits.hpp"
+#include "foundation/text/digits.hpp"
 
 namespace slipfront::finite_fault {
 

@@ -1,10 +1,10 @@
-#include "asinh_mean_table.hpp"
+#include "friction/asinh_mean_table.hpp"
 
 #include <algorithm>
 
-#include "../elementary.hpp"
-#include "../vector_code.hpp"
-#include "train_means.hpp"
+#include "foundation/simd/elementary.hpp"
+#include "foundation/simd/vector_code.hpp"
+#include "friction/train_means.hpp"
 
 namespace slipfront::friction {
 namespace {

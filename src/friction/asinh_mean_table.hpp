@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "chebyshev_patch.hpp"
+#include "friction/chebyshev_patch.hpp"
 
 namespace slipfront::friction {
 

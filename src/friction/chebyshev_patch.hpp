@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstring>
 
-#include "chebyshev.hpp"
+#include "friction/chebyshev.hpp"
 
 namespace slipfront::friction {
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "../elementary.hpp"
-#include "../vector_code.hpp"
+#include "foundation/simd/elementary.hpp"
+#include "foundation/simd/vector_code.hpp"
 
 namespace slipfront::friction {
 namespace {

@@ -5,9 +5,9 @@
 #include <mutex>
 #include <utility>
 
-#include "mean_table.hpp"
+#include "friction/mean_table.hpp"
+#include "friction/tabulated_curve.hpp"
 #include "slipfront/friction/friction.hpp"
-#include "tabulated_curve.hpp"
 
 namespace slipfront::friction {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <utility>
 
-#include "../digits.hpp"
-#include "scaling.hpp"
+#include "foundation/text/digits.hpp"
+#include "friction/scaling.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/train/train.hpp"
 

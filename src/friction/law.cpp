@@ -7,10 +7,10 @@
 #include <numbers>
 #include <string>
 
-#include "../vector_code.hpp"
+#include "foundation/simd/vector_code.hpp"
+#include "friction/train_means.hpp"
 #include "slipfront/elliptic/complete.hpp"
 #include "slipfront/error.hpp"
-#include "train_means.hpp"
 
 namespace slipfront::friction {
 namespace {

@@ -1,13 +1,13 @@
-#include "mean_table.hpp"
+#include "friction/mean_table.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "../elementary.hpp"
-#include "../vector_code.hpp"
+#include "foundation/simd/elementary.hpp"
+#include "foundation/simd/vector_code.hpp"
+#include "friction/train_means.hpp"
 #include "slipfront/error.hpp"
-#include "train_means.hpp"
 
 namespace slipfront::friction {
 namespace {

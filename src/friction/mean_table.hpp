@@ -5,7 +5,7 @@
 #include <mutex>
 #include <vector>
 
-#include "chebyshev_patch.hpp"
+#include "friction/chebyshev_patch.hpp"
 #include "slipfront/friction/law.hpp"
 
 namespace slipfront::friction {

@@ -1,4 +1,4 @@
-#include "../vector_code.hpp"
+#include "foundation/simd/vector_code.hpp"
 #include "slipfront/friction/friction.hpp"
 
 namespace slipfront::friction {

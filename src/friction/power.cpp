@@ -3,9 +3,9 @@
 #include <cstddef>
 #include <numbers>
 
-#include "../elementary.hpp"
-#include "../vector_code.hpp"
-#include "mean_table.hpp"
+#include "foundation/simd/elementary.hpp"
+#include "foundation/simd/vector_code.hpp"
+#include "friction/mean_table.hpp"
 #include "slipfront/elliptic/complete.hpp"
 #include "slipfront/friction/friction.hpp"
 #include "slipfront/train/train.hpp"

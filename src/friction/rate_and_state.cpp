@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "../elementary.hpp"
-#include "rate_and_state_loops.hpp"
+#include "foundation/simd/elementary.hpp"
+#include "friction/rate_and_state_loops.hpp"
 #include "slipfront/friction/friction.hpp"
 
 namespace slipfront::friction {

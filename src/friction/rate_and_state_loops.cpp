@@ -1,13 +1,13 @@
-#include "rate_and_state_loops.hpp"
+#include "friction/rate_and_state_loops.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "../elementary.hpp"
-#include "../vector_code.hpp"
-#include "asinh_mean_table.hpp"
-#include "train_means.hpp"
+#include "foundation/simd/elementary.hpp"
+#include "foundation/simd/vector_code.hpp"
+#include "friction/asinh_mean_table.hpp"
+#include "friction/train_means.hpp"
 
 namespace slipfront::friction {
 namespace {

@@ -1,12 +1,12 @@
 // The dimensions that a law states for its parameters decide how it is scaled. These checks compare them with its
 // force.
 
-#include "scaling.hpp"
+#include "friction/scaling.hpp"
 
 #include <cmath>
 #include <string>
 
-#include "../digits.hpp"
+#include "foundation/text/digits.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::friction {

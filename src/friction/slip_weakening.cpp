@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../vector_code.hpp"
+#include "foundation/simd/vector_code.hpp"
 #include "slipfront/friction/friction.hpp"
 
 namespace slipfront::friction {

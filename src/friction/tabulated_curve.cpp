@@ -1,4 +1,4 @@
-#include "tabulated_curve.hpp"
+#include "friction/tabulated_curve.hpp"
 
 #include <bit>
 #include <cmath>
@@ -6,9 +6,9 @@
 #include <limits>
 #include <utility>
 
-#include "../elementary.hpp"
-#include "../vector_code.hpp"
-#include "chebyshev.hpp"
+#include "foundation/simd/elementary.hpp"
+#include "foundation/simd/vector_code.hpp"
+#include "friction/chebyshev.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::friction {

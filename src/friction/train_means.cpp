@@ -1,11 +1,11 @@
-#include "train_means.hpp"
+#include "friction/train_means.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
-#include "../vector_code.hpp"
+#include "foundation/simd/vector_code.hpp"
 
 namespace slipfront::friction {
 namespace {

@@ -1,6 +1,6 @@
 // Made by tools/friction_ratio. Do not edit.
 
-#include "coefficients.hpp"
+#include "friction_ratio/coefficients.hpp"
 
 namespace slipfront::friction_ratio {
 

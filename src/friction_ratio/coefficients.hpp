@@ -1,6 +1,6 @@
 #pragma once
 
-#include "layout.hpp"
+#include "friction_ratio/layout.hpp"
 
 namespace slipfront::friction_ratio {
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "../digits.hpp"
-#include "layout.hpp"
+#include "foundation/text/digits.hpp"
+#include "friction_ratio/layout.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::friction_ratio {

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "../parabola.hpp"
+#include "foundation/math/parabola.hpp"
 #include "slipfront/pulse/solver.hpp"
 #include "slipfront/rupture/relations.hpp"
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <string>
 
-#include "../digits.hpp"
-#include "coefficients.hpp"
+#include "foundation/text/digits.hpp"
+#include "friction_ratio/coefficients.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::friction_ratio {

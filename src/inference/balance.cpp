@@ -1,4 +1,4 @@
-#include "balance.hpp"
+#include "inference/balance.hpp"
 
 #include <cmath>
 

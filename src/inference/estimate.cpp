@@ -4,8 +4,8 @@
 #include <limits>
 #include <utility>
 
-#include "../digits.hpp"
-#include "balance.hpp"
+#include "foundation/text/digits.hpp"
+#include "inference/balance.hpp"
 #include "slipfront/medium/elastic.hpp"
 #include "slipfront/medium/medium.hpp"
 #include "slipfront/rupture/relations.hpp"

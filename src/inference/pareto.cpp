@@ -1,4 +1,4 @@
-#include "pareto.hpp"
+#include "inference/pareto.hpp"
 
 #include <algorithm>
 #include <cmath>

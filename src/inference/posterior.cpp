@@ -5,11 +5,11 @@
 #include <cmath>
 #include <utility>
 
-#include "../digits.hpp"
-#include "pareto.hpp"
-#include "sampler.hpp"
+#include "foundation/text/digits.hpp"
+#include "inference/pareto.hpp"
+#include "inference/sampler.hpp"
+#include "inference/weighted.hpp"
 #include "slipfront/medium/medium.hpp"
-#include "weighted.hpp"
 
 namespace slipfront::inference {
 

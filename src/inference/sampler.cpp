@@ -1,4 +1,4 @@
-#include "sampler.hpp"
+#include "inference/sampler.hpp"
 
 #include <cmath>
 

@@ -3,10 +3,10 @@
 #include <array>
 #include <optional>
 
-#include "balance.hpp"
+#include "inference/balance.hpp"
+#include "inference/sobol.hpp"
 #include "slipfront/inference/posterior.hpp"
 #include "slipfront/medium/elastic.hpp"
-#include "sobol.hpp"
 
 namespace slipfront::inference {
 

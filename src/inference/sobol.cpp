@@ -1,4 +1,4 @@
-#include "sobol.hpp"
+#include "inference/sobol.hpp"
 
 #include <boost/random/sobol.hpp>
 #include <map>

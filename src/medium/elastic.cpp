@@ -1,6 +1,6 @@
 #include "slipfront/medium/elastic.hpp"
 
-#include "../digits.hpp"
+#include "foundation/text/digits.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/medium/medium.hpp"
 #include "slipfront/medium/quantity.hpp"

@@ -6,9 +6,9 @@
 #include <string>
 #include <utility>
 
-#include "../trimmed.hpp"
+#include "foundation/text/trimmed.hpp"
+#include "medium/units.hpp"
 #include "slipfront/error.hpp"
-#include "units.hpp"
 
 namespace slipfront::medium {
 namespace {

@@ -5,7 +5,7 @@
 #include <span>
 #include <string_view>
 
-#include "units.hpp"
+#include "medium/units.hpp"
 
 namespace slipfront::medium {
 

@@ -1,11 +1,11 @@
-#include "units.hpp"
+#include "medium/units.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <string>
 
-#include "unit_names.hpp"
+#include "medium/unit_names.hpp"
 
 namespace slipfront::medium {
 namespace {

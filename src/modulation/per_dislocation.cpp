@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "../digits.hpp"
+#include "foundation/text/digits.hpp"
 #include "slipfront/elliptic/complete.hpp"
 #include "slipfront/error.hpp"
 

@@ -1,4 +1,4 @@
-#include "block.hpp"
+#include "pulse/block.hpp"
 
 #include <algorithm>
 

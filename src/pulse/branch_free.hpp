@@ -1,4 +1,4 @@
 #pragma once
 
-#include "../elementary.hpp"
-#include "elliptic_fit.hpp"
+#include "foundation/simd/elementary.hpp"
+#include "foundation/simd/elliptic_fit.hpp"

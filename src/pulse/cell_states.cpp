@@ -1,11 +1,11 @@
-#include "cell_states.hpp"
+#include "pulse/cell_states.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
-#include "../digits.hpp"
-#include "kernels.hpp"
+#include "foundation/text/digits.hpp"
+#include "pulse/kernels.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
 

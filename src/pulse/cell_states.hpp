@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "block.hpp"
+#include "pulse/block.hpp"
 
 namespace slipfront::pulse {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "../digits.hpp"
+#include "foundation/text/digits.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/pulse/solver.hpp"
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "../digits.hpp"
-#include "semidiscrete.hpp"
+#include "foundation/text/digits.hpp"
+#include "pulse/semidiscrete.hpp"
 #include "slipfront/pulse/solver.hpp"
 
 namespace slipfront::pulse {

@@ -1,10 +1,10 @@
-#include "friction_solve.hpp"
+#include "pulse/friction_solve.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "kernels.hpp"
+#include "pulse/kernels.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
 
 namespace slipfront::pulse {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "cell_states.hpp"
+#include "pulse/cell_states.hpp"
 #include "slipfront/friction/friction.hpp"
 
 namespace slipfront::pulse {

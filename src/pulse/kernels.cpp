@@ -1,12 +1,12 @@
-#include "kernels.hpp"
+#include "pulse/kernels.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "../vector_code.hpp"
-#include "branch_free.hpp"
-#include "elliptic_fit.hpp"
-#include "weno.hpp"
+#include "foundation/simd/elliptic_fit.hpp"
+#include "foundation/simd/vector_code.hpp"
+#include "pulse/branch_free.hpp"
+#include "pulse/weno.hpp"
 
 namespace slipfront::pulse {
 

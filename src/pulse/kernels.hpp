@@ -3,7 +3,7 @@
 #include <array>
 #include <cstddef>
 
-#include "block.hpp"
+#include "pulse/block.hpp"
 
 /// The loops over cells and faces where a pulse run spends its time, as vector code chosen at run time (AVX-512, AVX2
 /// or plain).

@@ -1,11 +1,11 @@
-#include "layout.hpp"
+#include "pulse/layout.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
 
-#include "../digits.hpp"
+#include "foundation/text/digits.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::pulse {

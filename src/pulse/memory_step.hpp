@@ -3,11 +3,11 @@
 #include <cstddef>
 #include <vector>
 
-#include "friction_solve.hpp"
-#include "places.hpp"
-#include "semidiscrete.hpp"
+#include "pulse/friction_solve.hpp"
+#include "pulse/places.hpp"
+#include "pulse/semidiscrete.hpp"
+#include "pulse/split_step.hpp"
 #include "slipfront/pulse/solver.hpp"
-#include "split_step.hpp"
 
 namespace slipfront::pulse {
 

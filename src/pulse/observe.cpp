@@ -6,8 +6,8 @@
 #include <numbers>
 #include <numeric>
 
-#include "../parabola.hpp"
-#include "interval.hpp"
+#include "foundation/math/parabola.hpp"
+#include "pulse/interval.hpp"
 #include "slipfront/modulation/characteristics.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
 #include "slipfront/train/train.hpp"

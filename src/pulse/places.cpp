@@ -1,4 +1,4 @@
-#include "places.hpp"
+#include "pulse/places.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernels.hpp"
-#include "semidiscrete.hpp"
-#include "weno.hpp"
+#include "pulse/kernels.hpp"
+#include "pulse/semidiscrete.hpp"
+#include "pulse/weno.hpp"
 
 namespace slipfront::pulse {
 

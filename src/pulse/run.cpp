@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <utility>
 
-#include "../bytes.hpp"
-#include "../digits.hpp"
+#include "foundation/bytes.hpp"
+#include "foundation/text/digits.hpp"
 #include "slipfront/clock.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/output/further_scalars.hpp"

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "../digits.hpp"
-#include "interval.hpp"
+#include "foundation/text/digits.hpp"
+#include "pulse/interval.hpp"
 #include "slipfront/pulse/run.hpp"
 
 namespace slipfront::pulse {

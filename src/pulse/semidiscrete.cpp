@@ -1,4 +1,4 @@
-#include "semidiscrete.hpp"
+#include "pulse/semidiscrete.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "../digits.hpp"
-#include "kernels.hpp"
+#include "foundation/text/digits.hpp"
+#include "pulse/kernels.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
 

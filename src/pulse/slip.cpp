@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "interval.hpp"
-#include "lagrange.hpp"
-#include "layout.hpp"
+#include "foundation/math/lagrange.hpp"
+#include "pulse/interval.hpp"
+#include "pulse/layout.hpp"
 #include "slipfront/pulse/solver.hpp"
 
 namespace slipfront::pulse {

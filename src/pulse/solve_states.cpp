@@ -3,10 +3,10 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "../vector_code.hpp"
-#include "branch_free.hpp"
-#include "elliptic_fit.hpp"
-#include "kernels.hpp"
+#include "foundation/simd/elliptic_fit.hpp"
+#include "foundation/simd/vector_code.hpp"
+#include "pulse/branch_free.hpp"
+#include "pulse/kernels.hpp"
 
 namespace slipfront::pulse {
 namespace {

@@ -6,16 +6,16 @@
 #include <string>
 #include <utility>
 
-#include "../digits.hpp"
-#include "kernels.hpp"
-#include "layout.hpp"
-#include "places.hpp"
-#include "semidiscrete.hpp"
+#include "foundation/text/digits.hpp"
+#include "pulse/kernels.hpp"
+#include "pulse/layout.hpp"
+#include "pulse/places.hpp"
+#include "pulse/semidiscrete.hpp"
+#include "pulse/staggered.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
 #include "slipfront/train/at_rest.hpp"
 #include "slipfront/train/train.hpp"
-#include "staggered.hpp"
 
 namespace slipfront::pulse {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "kernels.hpp"
-#include "semidiscrete.hpp"
+#include "pulse/kernels.hpp"
+#include "pulse/semidiscrete.hpp"
 #include "slipfront/elliptic/complete.hpp"
 
 namespace slipfront::pulse {

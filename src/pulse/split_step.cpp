@@ -1,9 +1,9 @@
-#include "split_step.hpp"
+#include "pulse/split_step.hpp"
 
 #include <array>
 #include <cmath>
 
-#include "kernels.hpp"
+#include "pulse/kernels.hpp"
 #include "slipfront/pulse/named_values.hpp"
 
 namespace slipfront::pulse {

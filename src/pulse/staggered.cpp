@@ -1,12 +1,12 @@
-#include "staggered.hpp"
+#include "pulse/staggered.hpp"
 
 #include <cmath>
 #include <numbers>
 #include <string>
 #include <utility>
 
-#include "../digits.hpp"
-#include "kernels.hpp"
+#include "foundation/text/digits.hpp"
+#include "pulse/kernels.hpp"
 #include "slipfront/elliptic/complete.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "pulse/staggered.hpp"
 #include "slipfront/pulse/named_values.hpp"
-#include "staggered.hpp"
 
 namespace slipfront::pulse {
 

@@ -6,13 +6,13 @@
 #include <numbers>
 #include <vector>
 
-#include "../digits.hpp"
-#include "memory_step.hpp"
-#include "semidiscrete.hpp"
+#include "foundation/text/digits.hpp"
+#include "pulse/memory_step.hpp"
+#include "pulse/semidiscrete.hpp"
+#include "pulse/staggered.hpp"
+#include "pulse/time_step.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/pulse/solver.hpp"
-#include "staggered.hpp"
-#include "time_step.hpp"
 
 namespace slipfront::pulse {
 namespace {

@@ -1,10 +1,10 @@
-#include "time_step.hpp"
+#include "pulse/time_step.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "../digits.hpp"
-#include "kernels.hpp"
+#include "foundation/text/digits.hpp"
+#include "pulse/kernels.hpp"
 #include "slipfront/pulse/named_values.hpp"
 
 namespace slipfront::pulse {

@@ -4,14 +4,14 @@
 #include <cmath>
 #include <numbers>
 
-#include "interval.hpp"
-#include "kernels.hpp"
-#include "lagrange.hpp"
-#include "semidiscrete.hpp"
+#include "foundation/math/lagrange.hpp"
+#include "pulse/interval.hpp"
+#include "pulse/kernels.hpp"
+#include "pulse/semidiscrete.hpp"
+#include "pulse/staggered.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
 #include "slipfront/pulse/solver.hpp"
 #include "slipfront/train/train.hpp"
-#include "staggered.hpp"
 
 namespace slipfront::pulse {
 namespace {

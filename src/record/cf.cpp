@@ -1,11 +1,11 @@
-#include "cf.hpp"
+#include "record/cf.hpp"
 
 #include <numeric>
 #include <span>
 #include <string>
 #include <string_view>
 
-#include "utf8.hpp"
+#include "record/utf8.hpp"
 
 namespace slipfront::record::cf {
 namespace {

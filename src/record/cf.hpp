@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "netcdf.hpp"
+#include "record/netcdf.hpp"
 #include "slipfront/record/pulse_file.hpp"
 #include "slipfront/record/pulse_variables.hpp"
 

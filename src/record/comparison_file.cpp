@@ -5,8 +5,8 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "cf.hpp"
-#include "netcdf_file.hpp"
+#include "record/cf.hpp"
+#include "record/netcdf_file.hpp"
 #include "slipfront/record/pulse_variables.hpp"
 
 namespace slipfront::record {

@@ -5,10 +5,10 @@
 #include <map>
 #include <stdexcept>
 
-#include "netcdf_file.hpp"
-#include "seal.hpp"
+#include "record/netcdf_file.hpp"
+#include "record/seal.hpp"
+#include "record/utf8.hpp"
 #include "slipfront/record/text_file.hpp"
-#include "utf8.hpp"
 
 namespace slipfront::record {
 namespace {

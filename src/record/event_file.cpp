@@ -4,13 +4,13 @@
 #include <cstdio>
 #include <utility>
 
-#include "cf.hpp"
-#include "event_layout.hpp"
-#include "fnv.hpp"
-#include "netcdf_file.hpp"
+#include "record/cf.hpp"
+#include "record/event_layout.hpp"
+#include "record/fnv.hpp"
+#include "record/netcdf_file.hpp"
+#include "record/utf8.hpp"
 #include "slipfront/results/columns.hpp"
 #include "slipfront/results/serialize.hpp"
-#include "utf8.hpp"
 
 namespace slipfront::record {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "netcdf.hpp"
+#include "record/netcdf.hpp"
 #include "slipfront/catalogue/population.hpp"
 #include "slipfront/results/columns.hpp"
 

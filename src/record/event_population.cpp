@@ -1,6 +1,6 @@
 #include <string>
 
-#include "event_layout.hpp"
+#include "record/event_layout.hpp"
 #include "slipfront/results/quantities.hpp"
 
 namespace slipfront::record::event_layout {

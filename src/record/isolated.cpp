@@ -1,4 +1,4 @@
-#include "isolated.hpp"
+#include "record/isolated.hpp"
 
 #include <fcntl.h>
 #include <sys/prctl.h>
@@ -15,7 +15,7 @@
 #include <new>
 #include <string_view>
 
-#include "../sanitized.hpp"
+#include "foundation/sanitized.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/record/dataset_file.hpp"
 

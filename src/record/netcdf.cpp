@@ -1,4 +1,4 @@
-#include "netcdf.hpp"
+#include "record/netcdf.hpp"
 
 #include <netcdf.h>
 #include <netcdf_mem.h>

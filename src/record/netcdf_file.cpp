@@ -1,10 +1,10 @@
-#include "netcdf_file.hpp"
+#include "record/netcdf_file.hpp"
 
 #include <new>
 
-#include "isolated.hpp"
-#include "seal.hpp"
-#include "whole_file.hpp"
+#include "record/isolated.hpp"
+#include "record/seal.hpp"
+#include "record/whole_file.hpp"
 
 namespace slipfront::record {
 

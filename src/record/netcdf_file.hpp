@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "netcdf.hpp"
+#include "record/netcdf.hpp"
 
 namespace slipfront::record {
 

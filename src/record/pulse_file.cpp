@@ -6,11 +6,11 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "cf.hpp"
-#include "netcdf_file.hpp"
-#include "pulse_layout.hpp"
+#include "record/cf.hpp"
+#include "record/netcdf_file.hpp"
+#include "record/pulse_layout.hpp"
+#include "record/utf8.hpp"
 #include "slipfront/record/pulse_variables.hpp"
-#include "utf8.hpp"
 
 namespace slipfront::record {
 namespace {

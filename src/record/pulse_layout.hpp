@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "fnv.hpp"
+#include "record/fnv.hpp"
 #include "slipfront/record/pulse_file.hpp"
 #include "slipfront/record/pulse_variables.hpp"
 

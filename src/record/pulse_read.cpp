@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <utility>
 
-#include "../bytes.hpp"
-#include "netcdf_file.hpp"
-#include "pulse_layout.hpp"
-#include "seal.hpp"
+#include "foundation/bytes.hpp"
+#include "record/netcdf_file.hpp"
+#include "record/pulse_layout.hpp"
+#include "record/seal.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/record/pulse_file.hpp"
 #include "slipfront/record/pulse_variables.hpp"

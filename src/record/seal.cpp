@@ -1,8 +1,8 @@
-#include "seal.hpp"
+#include "record/seal.hpp"
 
 #include <cstdint>
 
-#include "fnv.hpp"
+#include "record/fnv.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::record {

@@ -8,11 +8,11 @@
 #include <string_view>
 #include <system_error>
 
-#include "../csv_records.hpp"
-#include "../digits.hpp"
-#include "../trimmed.hpp"
-#include "netcdf_file.hpp"
-#include "seal.hpp"
+#include "foundation/text/csv_records.hpp"
+#include "foundation/text/digits.hpp"
+#include "foundation/text/trimmed.hpp"
+#include "record/netcdf_file.hpp"
+#include "record/seal.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/medium/quantity.hpp"
 #include "slipfront/record/text_file.hpp"

@@ -8,10 +8,10 @@
 #include <memory>
 #include <system_error>
 
-#include "../digits.hpp"
+#include "foundation/machine.hpp"
+#include "foundation/text/digits.hpp"
+#include "record/whole_file.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/machine.hpp"
-#include "whole_file.hpp"
 
 namespace slipfront::record {
 namespace {

@@ -6,9 +6,9 @@
 #include <system_error>
 #include <utility>
 
-#include "../digits.hpp"
+#include "foundation/text/digits.hpp"
+#include "record/whole_file.hpp"
 #include "slipfront/error.hpp"
-#include "whole_file.hpp"
 
 namespace slipfront::record {
 

@@ -1,6 +1,6 @@
-#include "utf8.hpp"
+#include "record/utf8.hpp"
 
-#include "slipfront/printable.hpp"
+#include "foundation/text/printable.hpp"
 
 namespace slipfront::record {
 

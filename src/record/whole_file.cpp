@@ -1,4 +1,4 @@
-#include "whole_file.hpp"
+#include "record/whole_file.hpp"
 
 #include <dirent.h>
 #include <fcntl.h>

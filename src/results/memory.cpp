@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <string>
 
-#include "../digits.hpp"
-#include "../inference/sampler.hpp"
-#include "../inference/sobol.hpp"
+#include "foundation/machine.hpp"
+#include "foundation/text/digits.hpp"
+#include "inference/sampler.hpp"
+#include "inference/sobol.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/machine.hpp"
 #include "slipfront/results/columns.hpp"
 
 namespace slipfront::results {

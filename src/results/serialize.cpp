@@ -4,7 +4,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "../bytes.hpp"
+#include "foundation/bytes.hpp"
 
 namespace slipfront::results {
 

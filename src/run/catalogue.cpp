@@ -4,12 +4,12 @@
 #include <span>
 #include <utility>
 
+#include "foundation/parallel.hpp"
 #include "slipfront/catalogue/population.hpp"
 #include "slipfront/catalogue/read.hpp"
 #include "slipfront/clock.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/finite_fault/sources.hpp"
-#include "slipfront/parallel.hpp"
 #include "slipfront/results/memory.hpp"
 #include "slipfront/results/quantities.hpp"
 #include "slipfront/results/serialize.hpp"

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "../digits.hpp"
+#include "foundation/text/digits.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/pulse/run.hpp"
 #include "slipfront/setup/pulse.hpp"

@@ -1,6 +1,6 @@
 #include "slipfront/run/run.hpp"
 
-#include "carry_out.hpp"
+#include "run/carry_out.hpp"
 #include "slipfront/record/comparison_file.hpp"
 #include "slipfront/setup/chain.hpp"
 #include "slipfront/setup/pulse.hpp"

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <string>
 
-#include "../digits.hpp"
+#include "foundation/text/digits.hpp"
 #include "slipfront/elliptic/complete.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/modulation/characteristics.hpp"

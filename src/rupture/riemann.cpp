@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string>
 
-#include "../digits.hpp"
-#include "bracket.hpp"
+#include "foundation/text/digits.hpp"
+#include "rupture/bracket.hpp"
 #include "slipfront/elliptic/complete.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/modulation/characteristics.hpp"

@@ -1,4 +1,4 @@
-#include "document.hpp"
+#include "scenario/document.hpp"
 #include "slipfront/scenario/scenario.hpp"
 
 namespace slipfront::scenario {

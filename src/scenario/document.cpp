@@ -1,12 +1,12 @@
-#include "document.hpp"
+#include "scenario/document.hpp"
 
 #include <charconv>
 
-#include "../nearest.hpp"
-#include "../parse_toml.hpp"
-#include "key_near.hpp"
-#include "overrides.hpp"
-#include "serialize.hpp"
+#include "foundation/text/nearest.hpp"
+#include "foundation/text/parse_toml.hpp"
+#include "scenario/key_near.hpp"
+#include "scenario/overrides.hpp"
+#include "scenario/serialize.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::scenario {

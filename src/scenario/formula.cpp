@@ -1,4 +1,4 @@
-#include "formula.hpp"
+#include "scenario/formula.hpp"
 
 #include <muParser.h>
 
@@ -10,7 +10,7 @@
 #include <numbers>
 #include <system_error>
 
-#include "formula_functions.hpp"
+#include "scenario/formula_functions.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::scenario {

@@ -1,5 +1,5 @@
-#include "../nearest.hpp"
-#include "formula.hpp"
+#include "foundation/text/nearest.hpp"
+#include "scenario/formula.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/medium/quantity.hpp"
 

@@ -5,10 +5,10 @@
 #include <utility>
 #include <vector>
 
-#include "friction_curve.hpp"
-#include "friction_units.hpp"
-#include "section.hpp"
-#include "settings.hpp"
+#include "scenario/friction_curve.hpp"
+#include "scenario/friction_units.hpp"
+#include "scenario/section.hpp"
+#include "scenario/settings.hpp"
 
 namespace slipfront::scenario {
 

@@ -1,13 +1,13 @@
-#include "friction_curve.hpp"
+#include "scenario/friction_curve.hpp"
 
 #include <cmath>
 #include <memory>
 #include <mutex>
 #include <utility>
 
-#include "formula.hpp"
-#include "monotone.hpp"
-#include "table.hpp"
+#include "scenario/formula.hpp"
+#include "scenario/monotone.hpp"
+#include "scenario/table.hpp"
 
 namespace slipfront::scenario {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "section.hpp"
+#include "scenario/section.hpp"
 #include "slipfront/friction/law.hpp"
 #include "slipfront/scenario/scenario.hpp"
 

@@ -1,6 +1,6 @@
-#include "friction_units.hpp"
+#include "scenario/friction_units.hpp"
 
-#include "quantity_value.hpp"
+#include "scenario/quantity_value.hpp"
 #include "slipfront/medium/elastic.hpp"
 #include "slipfront/medium/medium.hpp"
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "section.hpp"
+#include "scenario/section.hpp"
 #include "slipfront/friction/law.hpp"
 #include "slipfront/medium/constants.hpp"
 

@@ -1,11 +1,11 @@
-#include "initial.hpp"
+#include "scenario/initial.hpp"
 
 #include <cmath>
 #include <memory>
 
-#include "formula.hpp"
-#include "monotone.hpp"
-#include "table.hpp"
+#include "scenario/formula.hpp"
+#include "scenario/monotone.hpp"
+#include "scenario/table.hpp"
 
 namespace slipfront::scenario {
 namespace {

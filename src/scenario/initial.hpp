@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "section.hpp"
+#include "scenario/section.hpp"
 #include "slipfront/scenario/scenario.hpp"
 
 namespace slipfront::scenario {

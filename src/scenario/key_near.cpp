@@ -1,8 +1,8 @@
-#include "key_near.hpp"
+#include "scenario/key_near.hpp"
 
 #include <algorithm>
 
-#include "../trimmed.hpp"
+#include "foundation/text/trimmed.hpp"
 
 namespace slipfront::scenario {
 namespace {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <string>
 
-#include "section.hpp"
-#include "settings.hpp"
+#include "scenario/section.hpp"
+#include "scenario/settings.hpp"
 
 namespace slipfront::scenario {
 

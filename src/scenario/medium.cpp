@@ -1,7 +1,7 @@
 // The table [medium] of a scenario.
 
-#include "quantity_value.hpp"
-#include "settings.hpp"
+#include "scenario/quantity_value.hpp"
+#include "scenario/settings.hpp"
 #include "slipfront/medium/constants.hpp"
 
 namespace slipfront::scenario {

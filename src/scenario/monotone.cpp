@@ -1,4 +1,4 @@
-#include "monotone.hpp"
+#include "scenario/monotone.hpp"
 
 #include <algorithm>
 #include <cmath>

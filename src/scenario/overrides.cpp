@@ -1,9 +1,9 @@
-#include "overrides.hpp"
+#include "scenario/overrides.hpp"
 
-#include "../nearest.hpp"
-#include "../parse_toml.hpp"
-#include "../trimmed.hpp"
-#include "document.hpp"
+#include "foundation/text/nearest.hpp"
+#include "foundation/text/parse_toml.hpp"
+#include "foundation/text/trimmed.hpp"
+#include "scenario/document.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::scenario {

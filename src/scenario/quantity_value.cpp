@@ -1,4 +1,4 @@
-#include "quantity_value.hpp"
+#include "scenario/quantity_value.hpp"
 
 #include <string>
 

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "section.hpp"
+#include "scenario/section.hpp"
 #include "slipfront/medium/quantity.hpp"
 
 namespace slipfront::scenario {

@@ -1,8 +1,8 @@
-#include "document.hpp"
-#include "initial.hpp"
-#include "settings.hpp"
+#include "scenario/document.hpp"
+#include "scenario/initial.hpp"
+#include "scenario/settings.hpp"
+#include "scenario/validate.hpp"
 #include "slipfront/scenario/scenario.hpp"
-#include "validate.hpp"
 
 namespace slipfront::scenario {
 namespace {

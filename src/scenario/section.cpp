@@ -1,4 +1,4 @@
-#include "section.hpp"
+#include "scenario/section.hpp"
 
 #include <cmath>
 

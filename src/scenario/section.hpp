@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "../nearest.hpp"
-#include "document.hpp"
+#include "foundation/text/nearest.hpp"
+#include "scenario/document.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::scenario {

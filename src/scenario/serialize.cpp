@@ -1,9 +1,9 @@
-#include "serialize.hpp"
+#include "scenario/serialize.hpp"
 
 #include <type_traits>
 
-#include "../plain_stream.hpp"
-#include "document.hpp"
+#include "foundation/text/plain_stream.hpp"
+#include "scenario/document.hpp"
 
 namespace slipfront::scenario {
 namespace {

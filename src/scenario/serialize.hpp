@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "../parse_toml.hpp"
+#include "foundation/text/parse_toml.hpp"
 
 namespace slipfront::scenario {
 

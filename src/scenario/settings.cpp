@@ -1,8 +1,8 @@
-#include "settings.hpp"
+#include "scenario/settings.hpp"
 
 #include <algorithm>
 
-#include "section.hpp"
+#include "scenario/section.hpp"
 
 namespace slipfront::scenario {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "document.hpp"
+#include "scenario/document.hpp"
 #include "slipfront/scenario/scenario.hpp"
 
 namespace slipfront::scenario {

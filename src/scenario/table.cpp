@@ -1,4 +1,4 @@
-#include "table.hpp"
+#include "scenario/table.hpp"
 
 #include <filesystem>
 

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "section.hpp"
+#include "scenario/section.hpp"
 #include "slipfront/scenario/scenario.hpp"
 
 namespace slipfront::scenario {

@@ -1,11 +1,11 @@
-#include "validate.hpp"
+#include "scenario/validate.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "../digits.hpp"
-#include "formula.hpp"
+#include "foundation/text/digits.hpp"
+#include "scenario/formula.hpp"
 
 namespace slipfront::scenario {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "initial.hpp"
+#include "scenario/initial.hpp"
 
 namespace slipfront::scenario {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "../digits.hpp"
+#include "foundation/text/digits.hpp"
 #include "slipfront/setup/pulse.hpp"
 #include "slipfront/train/at_rest.hpp"
 #include "slipfront/train/train.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "../digits.hpp"
+#include "foundation/text/digits.hpp"
 #include "slipfront/clock.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/setup/chain.hpp"

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <string>
 
-#include "../digits.hpp"
+#include "foundation/machine.hpp"
+#include "foundation/text/digits.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/machine.hpp"
 
 namespace slipfront::setup {
 namespace {

@@ -1,4 +1,4 @@
-#include "hold.hpp"
+#include "setup/hold.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../digits.hpp"
-#include "hold.hpp"
+#include "foundation/text/digits.hpp"
+#include "setup/hold.hpp"
 #include "slipfront/rupture/riemann.hpp"
 #include "slipfront/setup/estimate.hpp"
 #include "slipfront/train/at_rest.hpp"

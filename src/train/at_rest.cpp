@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "../newton.hpp"
+#include "foundation/math/newton.hpp"
 #include "slipfront/elliptic/complete.hpp"
 
 namespace slipfront::train {

@@ -1,5 +1,5 @@
 // Against UDUNITS-2, whose names the table holds.
-#include "../../src/medium/units.hpp"
+#include "medium/units.hpp"
 
 #include <gtest/gtest.h>
 #include <udunits2.h>
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "../../src/medium/unit_names.hpp"
+#include "medium/unit_names.hpp"
 
 namespace {
 

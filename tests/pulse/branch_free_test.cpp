@@ -1,11 +1,11 @@
-#include "../../src/pulse/branch_free.hpp"
+#include "pulse/branch_free.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "../../src/pulse/kernels.hpp"
 #include "error_metric.hpp"
+#include "pulse/kernels.hpp"
 #include "slipfront/elliptic/complete.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "../../src/pulse/semidiscrete.hpp"
+#include "pulse/semidiscrete.hpp"
 #include "slipfront/pulse/run.hpp"
 
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "../../src/record/netcdf.hpp"
-#include "../../src/record/seal.hpp"
+#include "record/netcdf.hpp"
+#include "record/seal.hpp"
 #include "slipfront/catalogue/read.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/record/pulse_file.hpp"

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "../../src/record/netcdf.hpp"
-#include "../../src/record/seal.hpp"
 #include "pulse_sample.hpp"
+#include "record/netcdf.hpp"
+#include "record/seal.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/record/pulse_file.hpp"
 #include "slipfront/record/pulse_variables.hpp"

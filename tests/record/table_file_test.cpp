@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "../../src/record/netcdf.hpp"
+#include "record/netcdf.hpp"
 #include "slipfront/error.hpp"
 #include "temporary_folder.hpp"
 

@@ -1,6 +1,6 @@
 // Files are written whole or not at all.
 
-#include "../../src/record/whole_file.hpp"
+#include "record/whole_file.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "../../src/inference/pareto.hpp"
+#include "inference/pareto.hpp"
 #include "slipfront/catalogue/read.hpp"
 #include "slipfront/finite_fault/sources.hpp"
 #include "slipfront/results/evaluate.hpp"

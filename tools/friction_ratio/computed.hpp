@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "../../src/friction_ratio/layout.hpp"
+#include "friction_ratio/layout.hpp"
 #include "slipfront/friction_ratio/solve.hpp"
 
 namespace slipfront::friction_ratio {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "../../src/friction_ratio/layout.hpp"
+#include "friction_ratio/layout.hpp"
 
 namespace slipfront::friction_ratio {
 

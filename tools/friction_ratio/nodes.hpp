@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <numbers>
 
-#include "../../src/friction_ratio/layout.hpp"
+#include "friction_ratio/layout.hpp"
 
 namespace slipfront::friction_ratio {
 

@@ -4,7 +4,7 @@
 #include <exception>
 #include <new>
 
-#include "../../../src/digits.hpp"
+#include "foundation/text/digits.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::explorer {

@@ -10,7 +10,7 @@
 #include <memory>
 #include <optional>
 
-#include "../../../src/digits.hpp"
+#include "foundation/text/digits.hpp"
 #include "scenario.hpp"
 #include "slipfront/clock.hpp"
 #include "slipfront/error.hpp"

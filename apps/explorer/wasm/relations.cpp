@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "../../../src/digits.hpp"
 #include "answer.hpp"
+#include "foundation/text/digits.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/rupture/pulse.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "../../../src/scenario/document.hpp"
+#include "scenario/document.hpp"
 #include "slipfront/medium/constants.hpp"
 #include "slipfront/setup/pulse.hpp"
 

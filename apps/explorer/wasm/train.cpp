@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../../../src/digits.hpp"
 #include "answer.hpp"
+#include "foundation/text/digits.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/train/at_rest.hpp"
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "../../../src/friction_ratio/coefficients.hpp"
+#include "friction_ratio/coefficients.hpp"
 
 namespace slipfront::friction_ratio {
 

@@ -1,8 +1,8 @@
 /// \file
 /// What the library asks of a machine, where there is one thread and the memory that a page may have.
 
-#include "slipfront/machine.hpp"
-#include "slipfront/parallel.hpp"
+#include "foundation/machine.hpp"
+#include "foundation/parallel.hpp"
 
 namespace slipfront {
 

@@ -1,4 +1,4 @@
-#include "slipfront/machine.hpp"
+#include "foundation/machine.hpp"
 
 #include <algorithm>
 #include <limits>

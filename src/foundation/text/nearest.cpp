@@ -1,4 +1,4 @@
-#include "nearest.hpp"
+#include "foundation/text/nearest.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -1,4 +1,4 @@
-#include "slipfront/parallel.hpp"
+#include "foundation/parallel.hpp"
 
 #include <algorithm>
 #include <atomic>

@@ -1,4 +1,4 @@
-#include "slipfront/printable.hpp"
+#include "foundation/text/printable.hpp"
 
 #include <algorithm>
 #include <cstdint>

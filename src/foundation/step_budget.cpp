@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "digits.hpp"
+#include "foundation/text/digits.hpp"
 
 namespace slipfront {
 

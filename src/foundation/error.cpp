@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "slipfront/printable.hpp"
+#include "foundation/text/printable.hpp"
 
 namespace slipfront {
 std::string one_line(const Complaint& c) {

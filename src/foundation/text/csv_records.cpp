@@ -1,4 +1,4 @@
-#include "csv_records.hpp"
+#include "foundation/text/csv_records.hpp"
 
 #include <csv.h>
 

@@ -1,4 +1,4 @@
-#include "parse_toml.hpp"
+#include "foundation/text/parse_toml.hpp"
 
 #include <algorithm>
 #include <utility>
