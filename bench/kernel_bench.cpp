@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "foundation/simd/vector_code.hpp"
-#include "pulse/kernels.hpp"
-#include "pulse/semidiscrete.hpp"
+#include "pulse/space/kernels.hpp"
+#include "pulse/space/semidiscrete.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
 
 // The cell stage of a pulse run, alone and by its two costliest loops, beside the limit of the arithmetic units: what a

@@ -12,8 +12,8 @@
 #include <numbers>
 #include <vector>
 
-#include "pulse/semidiscrete.hpp"
-#include "pulse/time_step.hpp"
+#include "pulse/space/semidiscrete.hpp"
+#include "pulse/time/time_step.hpp"
 #include "slipfront/modulation/characteristics.hpp"
 #include "slipfront/modulation/conservation.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"

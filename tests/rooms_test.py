@@ -33,6 +33,18 @@ ROOMS = {
     "run": "record friction setup results finite_fault inference catalogue scenario chain pulse output medium",
 }
 
+# The folders of a module, from the bottom up, with the folders next to them that they may include. Files at the root of
+# a module may include all of its folders.
+FOLDERS = {
+    "foundation": {"math": "text", "simd": "", "text": ""},
+    "pulse": {
+        "grid": "space time observe",
+        "space": "grid",
+        "time": "grid space observe",
+        "observe": "grid space time",
+    },
+}
+
 SOURCE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
 
@@ -65,6 +77,28 @@ class Rooms(unittest.TestCase):
                 yield name, self.room_of(os.path.join(self.include, name.removeprefix("slipfront/")))
             else:  # by its path below src
                 yield name, self.room_of(os.path.join(self.src, name))
+
+    def folder_of(self, path):
+        """The folder of a file within its module; "" at the module's root, and for public headers."""
+        return "" if path.startswith(self.include) else os.path.relpath(path, self.src).partition("/")[2].rpartition("/")[0]
+
+    def test_no_folder_of_a_module_includes_one_that_it_may_not_use(self):
+        wrong = []
+        for path in sources_in(self.src):
+            room, folder = self.room_of(path), self.folder_of(path)
+            if not folder:
+                continue
+            if folder not in FOLDERS.get(room, {}):
+                wrong.append(f"unknown folder {room}/{folder}: add it to FOLDERS of tests/rooms_test.py")
+                continue
+            allowed = {folder, *FOLDERS[room][folder].split()}
+            with open(path, encoding="utf-8") as file:
+                names = INCLUDE.findall(file.read())
+            for name in names:
+                used = os.path.join(self.src, name)
+                if not name.startswith("slipfront/") and self.room_of(used) == room and self.folder_of(used) not in allowed:
+                    wrong.append(f"{os.path.relpath(path, SOURCE)} includes {name}")
+        self.assertEqual(sorted(set(wrong)), [], "\n" + "\n".join(wrong))
 
     def test_every_room_is_in_the_table_and_in_the_architecture(self):
         for room in sorted(self.rooms - set(ROOMS)):

@@ -7,11 +7,11 @@
 #include <utility>
 
 #include "foundation/text/digits.hpp"
-#include "pulse/kernels.hpp"
-#include "pulse/layout.hpp"
-#include "pulse/places.hpp"
-#include "pulse/semidiscrete.hpp"
-#include "pulse/staggered.hpp"
+#include "pulse/grid/layout.hpp"
+#include "pulse/grid/state_grid.hpp"
+#include "pulse/space/kernels.hpp"
+#include "pulse/space/semidiscrete.hpp"
+#include "pulse/space/staggered.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
 #include "slipfront/train/at_rest.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "pulse/semidiscrete.hpp"
+#include "pulse/space/semidiscrete.hpp"
 #include "slipfront/pulse/run.hpp"
 
 namespace {

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "foundation/text/digits.hpp"
-#include "pulse/memory_step.hpp"
-#include "pulse/semidiscrete.hpp"
-#include "pulse/staggered.hpp"
-#include "pulse/time_step.hpp"
+#include "pulse/space/semidiscrete.hpp"
+#include "pulse/space/staggered.hpp"
+#include "pulse/time/cell_friction.hpp"
+#include "pulse/time/time_step.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/pulse/solver.hpp"
 

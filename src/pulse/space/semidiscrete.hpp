@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "pulse/block.hpp"
-#include "pulse/cell_states.hpp"
+#include "pulse/grid/block.hpp"
+#include "pulse/space/cell_states.hpp"
 #include "slipfront/friction/friction.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
 #include "slipfront/pulse/named_values.hpp"

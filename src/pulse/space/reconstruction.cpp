@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pulse/kernels.hpp"
-#include "pulse/semidiscrete.hpp"
-#include "pulse/weno.hpp"
+#include "pulse/space/kernels.hpp"
+#include "pulse/space/semidiscrete.hpp"
+#include "pulse/space/weno.hpp"
 
 namespace slipfront::pulse {
 

@@ -1,11 +1,11 @@
-#include "pulse/cell_states.hpp"
+#include "pulse/space/cell_states.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "foundation/text/digits.hpp"
-#include "pulse/kernels.hpp"
+#include "pulse/space/kernels.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
 

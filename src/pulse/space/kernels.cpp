@@ -1,12 +1,12 @@
-#include "pulse/kernels.hpp"
+#include "pulse/space/kernels.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "foundation/simd/elementary.hpp"
 #include "foundation/simd/elliptic_fit.hpp"
 #include "foundation/simd/vector_code.hpp"
-#include "pulse/branch_free.hpp"
-#include "pulse/weno.hpp"
+#include "pulse/space/weno.hpp"
 
 namespace slipfront::pulse {
 

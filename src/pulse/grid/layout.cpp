@@ -1,4 +1,4 @@
-#include "pulse/layout.hpp"
+#include "pulse/grid/layout.hpp"
 
 #include <algorithm>
 #include <cmath>

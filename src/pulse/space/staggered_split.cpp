@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "pulse/staggered.hpp"
+#include "pulse/space/staggered.hpp"
 #include "slipfront/pulse/named_values.hpp"
 
 namespace slipfront::pulse {

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstddef>
 
-#include "pulse/block.hpp"
+#include "pulse/grid/block.hpp"
 
 /// The loops over cells and faces where a pulse run spends its time, as vector code chosen at run time (AVX-512, AVX2
 /// or plain).

@@ -1,14 +1,14 @@
 // Steps that take friction cell by cell, where it remembers or is steep at rest: the memory of the places and the
 // motion of the cells, each with the other's values in the middle of the step.
 
-#include "pulse/memory_step.hpp"
+#include "pulse/time/cell_friction.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
-#include "pulse/kernels.hpp"
+#include "pulse/space/kernels.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::pulse {

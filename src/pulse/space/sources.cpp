@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "pulse/kernels.hpp"
-#include "pulse/semidiscrete.hpp"
+#include "pulse/space/kernels.hpp"
+#include "pulse/space/semidiscrete.hpp"
 #include "slipfront/elliptic/complete.hpp"
 
 namespace slipfront::pulse {

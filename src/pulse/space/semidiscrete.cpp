@@ -1,4 +1,4 @@
-#include "pulse/semidiscrete.hpp"
+#include "pulse/space/semidiscrete.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "foundation/text/digits.hpp"
-#include "pulse/kernels.hpp"
+#include "pulse/space/kernels.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "pulse/block.hpp"
+#include "pulse/grid/block.hpp"
 
 namespace slipfront::pulse {
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "pulse/cell_states.hpp"
+#include "pulse/space/cell_states.hpp"
 #include "slipfront/friction/friction.hpp"
 #include "slipfront/pulse/named_values.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "pulse/cell_states.hpp"
+#include "pulse/space/cell_states.hpp"
 #include "slipfront/friction/friction.hpp"
 
 namespace slipfront::pulse {

@@ -3,10 +3,10 @@
 #include <cstddef>
 #include <vector>
 
-#include "pulse/friction_solve.hpp"
-#include "pulse/places.hpp"
-#include "pulse/semidiscrete.hpp"
-#include "pulse/split_step.hpp"
+#include "pulse/grid/state_grid.hpp"
+#include "pulse/space/semidiscrete.hpp"
+#include "pulse/time/ars443.hpp"
+#include "pulse/time/friction_solve.hpp"
 #include "slipfront/pulse/solver.hpp"
 
 namespace slipfront::pulse {

@@ -1,4 +1,4 @@
-#include "pulse/staggered.hpp"
+#include "pulse/space/staggered.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "foundation/text/digits.hpp"
-#include "pulse/kernels.hpp"
+#include "pulse/space/kernels.hpp"
 #include "slipfront/elliptic/complete.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "foundation/text/digits.hpp"
-#include "pulse/semidiscrete.hpp"
+#include "pulse/space/semidiscrete.hpp"
 #include "slipfront/pulse/solver.hpp"
 
 namespace slipfront::pulse {

@@ -1,10 +1,10 @@
-#include "pulse/friction_solve.hpp"
+#include "pulse/time/friction_solve.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "pulse/kernels.hpp"
+#include "pulse/space/kernels.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
 
 namespace slipfront::pulse {

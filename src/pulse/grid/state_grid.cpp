@@ -1,4 +1,4 @@
-#include "pulse/places.hpp"
+#include "pulse/grid/state_grid.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
-#include "pulse/time_step.hpp"
+#include "pulse/time/time_step.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "foundation/text/digits.hpp"
-#include "pulse/kernels.hpp"
+#include "pulse/space/kernels.hpp"
 #include "slipfront/pulse/named_values.hpp"
 
 namespace slipfront::pulse {

@@ -1,11 +1,11 @@
-#include "pulse/branch_free.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "error_metric.hpp"
-#include "pulse/kernels.hpp"
+#include "foundation/simd/elementary.hpp"
+#include "foundation/simd/elliptic_fit.hpp"
+#include "pulse/space/kernels.hpp"
 #include "slipfront/elliptic/complete.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "foundation/text/digits.hpp"
-#include "pulse/interval.hpp"
+#include "pulse/grid/interval.hpp"
 #include "slipfront/pulse/run.hpp"
 
 namespace slipfront::pulse {

@@ -3,10 +3,10 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "foundation/simd/elementary.hpp"
 #include "foundation/simd/elliptic_fit.hpp"
 #include "foundation/simd/vector_code.hpp"
-#include "pulse/branch_free.hpp"
-#include "pulse/kernels.hpp"
+#include "pulse/space/kernels.hpp"
 
 namespace slipfront::pulse {
 namespace {

@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "pulse/time_step.hpp"
+#include "pulse/time/time_step.hpp"
 
 namespace slipfront::pulse {
 

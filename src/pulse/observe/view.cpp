@@ -5,10 +5,10 @@
 #include <numbers>
 
 #include "foundation/math/lagrange.hpp"
-#include "pulse/interval.hpp"
-#include "pulse/kernels.hpp"
-#include "pulse/semidiscrete.hpp"
-#include "pulse/staggered.hpp"
+#include "pulse/grid/interval.hpp"
+#include "pulse/space/kernels.hpp"
+#include "pulse/space/semidiscrete.hpp"
+#include "pulse/space/staggered.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
 #include "slipfront/pulse/solver.hpp"
 #include "slipfront/train/train.hpp"

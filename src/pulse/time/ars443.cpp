@@ -1,9 +1,9 @@
-#include "pulse/split_step.hpp"
+#include "pulse/time/ars443.hpp"
 
 #include <array>
 #include <cmath>
 
-#include "pulse/kernels.hpp"
+#include "pulse/space/kernels.hpp"
 #include "slipfront/pulse/named_values.hpp"
 
 namespace slipfront::pulse {

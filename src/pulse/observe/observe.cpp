@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "foundation/math/parabola.hpp"
-#include "pulse/interval.hpp"
+#include "pulse/grid/interval.hpp"
 #include "slipfront/modulation/characteristics.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
 #include "slipfront/train/train.hpp"

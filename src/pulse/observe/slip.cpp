@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "foundation/math/lagrange.hpp"
-#include "pulse/interval.hpp"
-#include "pulse/layout.hpp"
+#include "pulse/grid/interval.hpp"
+#include "pulse/grid/layout.hpp"
 #include "slipfront/pulse/solver.hpp"
 
 namespace slipfront::pulse {

@@ -1,4 +1,4 @@
-#include "pulse/block.hpp"
+#include "pulse/grid/block.hpp"
 
 #include <algorithm>
 
