@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "chain/kernel.hpp"
+#include "chain/explicit/levels/kernel.hpp"
 #include "foundation/simd/vector_code.hpp"
 #include "slipfront/chain/chain.hpp"
 #include "slipfront/chain/run.hpp"

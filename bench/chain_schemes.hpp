@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "chain/periodic_force.hpp"
+#include "chain/model/periodic_force.hpp"
 #include "slipfront/chain/chain.hpp"
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)

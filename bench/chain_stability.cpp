@@ -3,7 +3,7 @@
 // right, and ends so near that all that leaves x = 0 meets them.
 //
 // Usage: chain_stability [--mass M0 M1] [--quick] [--only ENDS] [--stress K]... [--spacing H]... [--scale S]...
-// With --mass the step is that of mass^2 = M0 a^2 + M1 a k, k the largest stress (src/chain/problem.cpp), instead of
+// With --mass the step is that of mass^2 = M0 a^2 + M1 a k, k the largest stress (chain/model/problem.cpp), instead of
 // the chosen one. Prints a table in Markdown: the largest drift over all scales and right-hand stresses, a row a
 // stress, a column an end and a spacing. ">" is a run that ended early, with a drift of more than 1e-2 or a
 // NumericsError.

@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "chain/contact_field.hpp"
+#include "chain/explicit/contact_field.hpp"
 #include "foundation/bytes.hpp"
 #include "foundation/text/digits.hpp"
 #include "slipfront/chain/smooth.hpp"

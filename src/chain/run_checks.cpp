@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "chain/barrier.hpp"
+#include "chain/model/barrier.hpp"
 #include "foundation/text/digits.hpp"
 #include "slipfront/chain/run.hpp"
 #include "slipfront/error.hpp"

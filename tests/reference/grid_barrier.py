@@ -1,5 +1,5 @@
 """The Peierls-Nabarro barrier of the chain's grid, and of the lattice: a dislocation at rest centred on a site has more energy
-than one between two sites; F = (difference) / (2 h) is the force that moves it over (src/chain/barrier.hpp, docs/chain.md).
+than one between two sites; F = (difference) / (2 h) is the force that moves it over (src/chain/model/barrier.hpp).
 
 At rest the diamond rule reads d2 u / h^2 = (1 + d2 / 12) sin u, the lattice d2 u / h^2 = sin u. Solved by Newton's method
 with 40 digits: the barrier is far below the error of h^4 in the energy itself. Prints a table; takes a minute.

@@ -31,8 +31,8 @@ struct Execution {
 struct Levels {
   long level = 0;  ///< steps done
   std::vector<double> now, before;
-  /// The friction law's variables, site by site, and those of contacts that change (chain/contact_field.hpp); empty at
-  /// a start.
+  /// The friction law's variables, site by site, and those of contacts that change (chain/explicit/contact_field.hpp);
+  /// empty at a start.
   std::vector<double> memory = {};
 };
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "chain/implicit.hpp"
+#include "chain/implicit/implicit.hpp"
 #include "foundation/text/digits.hpp"
 #include "slipfront/error.hpp"
 

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "chain/compact.hpp"
+#include "chain/implicit/compact.hpp"
 #include "slipfront/chain/chain.hpp"
 #include "slipfront/chain/events.hpp"
 

@@ -5,12 +5,12 @@
 #include <utility>
 #include <vector>
 
-#include "chain/blocks.hpp"
-#include "chain/forces.hpp"
-#include "chain/implicit.hpp"
-#include "chain/scheme.hpp"
-#include "chain/slab.hpp"
-#include "chain/work_meter.hpp"
+#include "chain/explicit/forces.hpp"
+#include "chain/explicit/levels/scheme.hpp"
+#include "chain/explicit/levels/slab.hpp"
+#include "chain/explicit/work_meter.hpp"
+#include "chain/implicit/implicit.hpp"
+#include "chain/model/blocks.hpp"
 #include "slipfront/chain/chain.hpp"
 #include "slipfront/ranks.hpp"
 

@@ -1,4 +1,4 @@
-#include "chain/contact_field.hpp"
+#include "chain/explicit/contact_field.hpp"
 
 #include <algorithm>
 #include <cmath>

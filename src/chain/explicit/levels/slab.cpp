@@ -1,4 +1,4 @@
-#include "chain/slab.hpp"
+#include "chain/explicit/levels/slab.hpp"
 
 #include <algorithm>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include "chain/scheme.hpp"
+#include "chain/explicit/levels/scheme.hpp"
 
 #include <cmath>
 

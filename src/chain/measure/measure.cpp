@@ -7,9 +7,9 @@
 #include <string>
 #include <utility>
 
-#include "chain/elastic.hpp"
-#include "chain/parts.hpp"
-#include "chain/refuse_window.hpp"
+#include "chain/explicit/parts.hpp"
+#include "chain/measure/elastic.hpp"
+#include "chain/measure/refuse_window.hpp"
 #include "foundation/text/digits.hpp"
 #include "slipfront/error.hpp"
 

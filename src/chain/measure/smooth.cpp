@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "chain/elastic.hpp"
-#include "chain/refuse_window.hpp"
+#include "chain/measure/elastic.hpp"
+#include "chain/measure/refuse_window.hpp"
 #include "slipfront/train/at_rest.hpp"
 #include "slipfront/train/train.hpp"
 

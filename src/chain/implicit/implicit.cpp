@@ -1,4 +1,4 @@
-#include "chain/implicit.hpp"
+#include "chain/implicit/implicit.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "chain/forces.hpp"
+#include "chain/explicit/forces.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "chain/periodic_force.hpp"
+#include "chain/model/periodic_force.hpp"
 
 /// The loops over sites where a chain spends its time, as vector code chosen at run time (AVX-512, AVX2 or plain).
 /// Every site is computed by the same operations wherever it falls in a vector, so that tilings and threads change no

@@ -5,8 +5,8 @@
 #include <new>
 #include <vector>
 
-#include "chain/absorbing_end.hpp"
-#include "chain/scheme.hpp"
+#include "chain/explicit/levels/absorbing_end.hpp"
+#include "chain/explicit/levels/scheme.hpp"
 
 namespace slipfront::chain {
 

@@ -2,8 +2,8 @@
 
 #include <cstddef>
 
-#include "chain/forces.hpp"
-#include "chain/scheme.hpp"
+#include "chain/explicit/forces.hpp"
+#include "chain/explicit/levels/scheme.hpp"
 #include "slipfront/chain/chain.hpp"
 #include "slipfront/ranks.hpp"
 

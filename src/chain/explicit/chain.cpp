@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "chain/parts.hpp"
-#include "chain/start.hpp"
+#include "chain/explicit/parts.hpp"
+#include "chain/explicit/start.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::chain {

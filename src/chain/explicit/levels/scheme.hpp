@@ -1,6 +1,6 @@
 #pragma once
 
-#include "chain/kernel.hpp"
+#include "chain/explicit/levels/kernel.hpp"
 #include "slipfront/chain/problem.hpp"
 
 /// The numbers of one time step. With S = a^2 sin u, g = C dt / 2, lambda = dt / h, and d2 the second difference over

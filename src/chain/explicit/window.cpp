@@ -3,7 +3,7 @@
 #include <numbers>
 #include <vector>
 
-#include "chain/parts.hpp"
+#include "chain/explicit/parts.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::chain {

@@ -1,5 +1,3 @@
-#include "slipfront/chain/initial.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -7,6 +5,7 @@
 #include <utility>
 
 #include "foundation/text/digits.hpp"
+#include "slipfront/chain/initial.hpp"
 #include "slipfront/elliptic/jacobi.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/train/at_rest.hpp"

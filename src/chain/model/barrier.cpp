@@ -1,4 +1,4 @@
-#include "chain/barrier.hpp"
+#include "chain/model/barrier.hpp"
 
 #include <cmath>
 #include <numbers>

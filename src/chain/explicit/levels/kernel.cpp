@@ -1,4 +1,4 @@
-#include "chain/kernel.hpp"
+#include "chain/explicit/levels/kernel.hpp"
 
 #include <cmath>
 

@@ -1,9 +1,9 @@
-#include "chain/work_meter.hpp"
+#include "chain/explicit/work_meter.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "chain/kernel.hpp"
+#include "chain/explicit/levels/kernel.hpp"
 
 namespace slipfront::chain {
 WorkMeter::WorkMeter(const Problem& p, bool active, const Scheme& s, const Blocks& blocks, std::size_t first_block,

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "chain/contact_field.hpp"
-#include "chain/scheme.hpp"
-#include "chain/slab.hpp"
+#include "chain/explicit/contact_field.hpp"
+#include "chain/explicit/levels/scheme.hpp"
+#include "chain/explicit/levels/slab.hpp"
 
 namespace slipfront::chain {
 

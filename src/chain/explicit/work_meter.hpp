@@ -3,9 +3,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "chain/blocks.hpp"
-#include "chain/forces.hpp"
-#include "chain/slab.hpp"
+#include "chain/explicit/forces.hpp"
+#include "chain/explicit/levels/slab.hpp"
+#include "chain/model/blocks.hpp"
 
 namespace slipfront::chain {
 

@@ -1,4 +1,4 @@
-#include "chain/periodic_force.hpp"
+#include "chain/model/periodic_force.hpp"
 
 #include <array>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "chain/start.hpp"
+#include "chain/explicit/start.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "chain/parts.hpp"
+#include "chain/explicit/parts.hpp"
 
 #include <algorithm>
 #include <array>

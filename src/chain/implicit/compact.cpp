@@ -1,4 +1,4 @@
-#include "chain/compact.hpp"
+#include "chain/implicit/compact.hpp"
 
 #include <cmath>
 #include <numbers>

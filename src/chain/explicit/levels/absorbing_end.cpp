@@ -1,4 +1,4 @@
-#include "chain/absorbing_end.hpp"
+#include "chain/explicit/levels/absorbing_end.hpp"
 
 #include <cmath>
 #include <numbers>
