@@ -37,6 +37,13 @@ ROOMS = {
 # a module may include all of its folders.
 FOLDERS = {
     "foundation": {"math": "text", "simd": "", "text": ""},
+    "chain": {
+        "model": "",
+        "implicit": "model",
+        "explicit/levels": "model",
+        "explicit": "explicit/levels implicit model",
+        "measure": "explicit model",
+    },
     "pulse": {
         "grid": "space time observe",
         "space": "grid",
