@@ -5,8 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "modulation/equations.hpp"
 #include "slipfront/modulation/characteristics.hpp"
-#include "slipfront/modulation/per_dislocation.hpp"
 #include "slipfront/rupture/inverse.hpp"
 #include "slipfront/train/at_rest.hpp"
 

@@ -1,5 +1,6 @@
 #include "slipfront/modulation/conservation.hpp"
 
+#include "modulation/equations.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::modulation {
@@ -10,8 +11,10 @@ Pair density(const State& state) {
 }
 
 Pair flux(const State& state) {
-  const train::Averages a = train::averages(state);
-  return {a.W, a.Q};
+  if (state.empty()) return {0, 0};
+  const Pair at = density(state);
+  const auto [U, p] = fluxes(state.phi, state.psi);
+  return {U * at.number, U * at.momentum + p};
 }
 
 }  // namespace slipfront::modulation

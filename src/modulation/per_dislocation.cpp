@@ -4,6 +4,7 @@
 #include <string>
 
 #include "foundation/text/digits.hpp"
+#include "modulation/equations.hpp"
 #include "slipfront/elliptic/complete.hpp"
 #include "slipfront/error.hpp"
 
@@ -95,11 +96,6 @@ SolvedState solve_state(const LagrangianState& c, double psi_guess) {
 }
 
 State state_of(const LagrangianState& train, double psi_guess) { return solve_state(train, psi_guess).state; }
-
-double pressure(double psi) {
-  const double sinh_psi = std::sinh(psi);
-  return 2 * sinh_psi * sinh_psi;
-}
 
 double mass_excess(double psi) {
   if (psi == 0) return 0;

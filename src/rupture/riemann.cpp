@@ -5,6 +5,7 @@
 #include <string>
 
 #include "foundation/text/digits.hpp"
+#include "modulation/equations.hpp"
 #include "rupture/bracket.hpp"
 #include "slipfront/elliptic/complete.hpp"
 #include "slipfront/error.hpp"
@@ -37,12 +38,12 @@ PerDislocation per_dislocation(double psi) {
 double shock_drop(const State& left, double psi_star) {
   const PerDislocation a = per_dislocation(left.psi), b = per_dislocation(psi_star);
   // Both products are of the order of psi_star^2, which may underflow: each factor is taken over psi_star.
-  const double jump_p = 2 * (std::sinh(psi_star + left.psi) / psi_star) * (std::sinh(psi_star - left.psi) / psi_star);
+  const double jump_p = modulation::pressure_jump(left.psi, psi_star, psi_star);
   const double l_left = a.spacing_unit / std::cosh(left.phi);
   const double jump_unit = (b.momentum_rest - a.momentum_rest) * std::sinh(left.phi);
   const auto mismatch = [&](double drop) {
     const double phi = left.phi - drop;
-    const double jump_U = -std::sinh(drop) / psi_star / (std::cosh(phi) * std::cosh(left.phi));
+    const double jump_U = modulation::velocity_jump(left.phi, -drop, psi_star);
     const double jump_sinh = -2 * std::cosh(left.phi - drop / 2) * std::sinh(drop / 2);  // sinh(phi) - sinh(phi_left)
     const double jump_M = (b.momentum_unit * jump_sinh + jump_unit) / psi_star;
     return jump_p * (b.spacing_unit / std::cosh(phi) - l_left) + jump_U * jump_M;
@@ -88,7 +89,7 @@ constexpr double weak_below = 6e-6;
 Wave first_wave(const State& left, const State& star) {
   if (left.empty()) return {};
   if (star.empty()) {  // fan down to the edge of the empty region, which moves with the last dislocation
-    return {Wave::Kind::fan, modulation::characteristic_speeds(left).minus, std::tanh(star.phi)};
+    return {Wave::Kind::fan, modulation::characteristic_speeds(left).minus, modulation::velocity(star.phi)};
   }
   if (star.psi == left.psi) {
     const double speed = modulation::characteristic_speeds(left).minus;
@@ -105,8 +106,8 @@ Wave first_wave(const State& left, const State& star) {
   // s = U - j / k with the flux j of dislocations through the shock, j [1/k] = -[U].
   const double l_left = per_dislocation(left.psi).spacing_unit / std::cosh(left.phi);
   const double l_star = per_dislocation(star.psi).spacing_unit / std::cosh(star.phi);
-  const double slowed = std::sinh(left.phi - star.phi) / (std::cosh(left.phi) * std::cosh(star.phi));
-  const double speed = std::tanh(left.phi) - slowed * l_left / (l_left - l_star);
+  const double slowed = modulation::velocity_jump(star.phi, left.phi - star.phi);
+  const double speed = modulation::velocity(left.phi) - slowed * l_left / (l_left - l_star);
   return {Wave::Kind::shock, speed, speed};
 }
 

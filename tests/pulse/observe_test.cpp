@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "modulation/equations.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
 #include "slipfront/pulse/run.hpp"
@@ -137,7 +138,7 @@ TEST(Observe, ShockTakesWhatTheRiemannProblemSays) {
   const train::Averages behind = train::averages(solution.star), ahead = train::averages(solution.right);
   const double speed = rupture::edges_of(solution).right;
   // Energy flows at p U per unit of time through a place that moves with the dislocations, H x_t with that place.
-  const double flux = modulation::pressure(solution.star.psi) * std::tanh(solution.star.phi) +
+  const double flux = modulation::pressure(solution.star.psi) * modulation::velocity(solution.star.phi) +
                       behind.H * (std::tanh(solution.star.phi) - speed) + ahead.H * speed;
   const double lost = (run.snapshots()[2].energy.shocks - run.snapshots()[1].energy.shocks) / 2;
   EXPECT_NEAR(lost, flux, 0.03 * flux);

@@ -15,7 +15,7 @@ struct Pair {
 /// k and P. Zero for the empty state.
 Pair density(const State& state);
 
-/// Fluxes W = U k of k, and Q of P. Zero for the empty state.
+/// Fluxes W = U k of k, and Q = U P + p of P. Zero for the empty state. |phi| < 350, psi < 350.
 Pair flux(const State& state);
 
 }  // namespace slipfront::modulation

@@ -31,9 +31,6 @@ struct SolvedState {
 };
 SolvedState solve_state(const LagrangianState& train, double psi_guess);
 
-/// Pressure of a train, 2 sinh^2 psi.
-double pressure(double psi);
-
 /// Mass of a dislocation in a train, less that of an isolated one and over it, cosh(psi) E - 1, without cancellation.
 double mass_excess(double psi);
 

@@ -6,6 +6,7 @@
 #include "foundation/simd/elementary.hpp"
 #include "foundation/simd/elliptic_fit.hpp"
 #include "foundation/simd/vector_code.hpp"
+#include "modulation/equations.hpp"
 #include "pulse/space/weno.hpp"
 
 namespace slipfront::pulse {
@@ -74,11 +75,9 @@ SLIPFRONT_CLONES void face_fluxes(std::size_t faces, const double* phi, const do
                                   double* p) {
   SLIPFRONT_INDEPENDENT
   for (std::size_t f = 0; f < faces; ++f) {
-    // tanh phi = -down / (2 + down), 2 sinh^2 psi = cosh 2 psi - 1 = up^2 / (2 (1 + up)), by one division.
-    const double down = expm1_branch_free(-2 * std::fabs(phi[f])), up = expm1_branch_free(2 * psi[f]);
-    const double wide = 2 + down, tall = 1 + up, inverse = 1 / (wide * tall);
-    U[f] = std::fabs(phi[f]) > rounding * psi[f] ? std::copysign(down * tall * inverse, phi[f]) : 0.0;
-    p[f] = (up * inverse) * wide * (up / 2);
+    const modulation::Fluxes at = modulation::fluxes(phi[f], psi[f]);
+    U[f] = std::fabs(phi[f]) > rounding * psi[f] ? at.velocity : 0.0;
+    p[f] = at.pressure;
   }
 }
 
@@ -282,7 +281,7 @@ SLIPFRONT_CLONES void masses_and_pressures(const StaggeredCells& a) {
     const double sinh = x1 * x2 > 0 ? apart : crossed - other, closing = sinh > 0 ? sinh : 0.0;
     const double more = closing + closing * closing / (1 + std::sqrt(1 + closing * closing));
     const double up = expm1_branch_free(2 * psi[i]), all = up + more + up * more;  // e^(2 psi + closing) - 1
-    pressure[i] = all / (1 + all) * (all / 2);
+    pressure[i] = modulation::pressure_from(all);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "foundation/text/digits.hpp"
+#include "modulation/equations.hpp"
 #include "pulse/space/kernels.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
@@ -164,7 +165,7 @@ double Semidiscrete::friction_rate_of_fastest() const {
   if (setup_.contact) slip *= centres_.contact[fastest];
   setup_.friction.law().mean_strengths({1, &slip, &centres_.train.s[fastest]}, setup_.friction.closure(), &force,
                                        nullptr);
-  return 2 * pi * force / std::fabs(momentum[fastest]);
+  return modulation::force_per_dislocation(force) / std::fabs(momentum[fastest]);
 }
 
 double Semidiscrete::mean_friction_rate() const {

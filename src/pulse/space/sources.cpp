@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "modulation/equations.hpp"
 #include "pulse/space/kernels.hpp"
 #include "pulse/space/semidiscrete.hpp"
 #include "slipfront/elliptic/complete.hpp"
 
 namespace slipfront::pulse {
 namespace {
-
-using std::numbers::pi;
 
 /// Dry friction on one cell that is pushed by `push`: opposes motion with `most`, or holds a cell that is at rest.
 double dry_friction(double momentum, double push, double most) {
@@ -59,8 +57,7 @@ void Semidiscrete::add_contact_force(double* dy) {
     const double a = square(faces_.contact[i]), b = square(centres_.contact[i]), c = square(faces_.contact[i + 1]);
     sources_.contact_force[i] = 0;
     if (!gap(i) && (a != b || b != c))
-      sources_.contact_force[i] =
-          -(face[i] * (4 * b - 3 * a - c) + 4 * centre[i] * (c - a) + face[i + 1] * (a - 4 * b + 3 * c)) / 6;
+      sources_.contact_force[i] = modulation::contact_source({face[i], centre[i], face[i + 1]}, {a, b, c});
   }
   for (const Block& r : blocks_) {
     const auto of_one = [&](std::size_t i) {  // energy of a dislocation times their number, evenly over the cell
@@ -92,7 +89,7 @@ void Semidiscrete::add_sources(double t, const double* y, double* dy) {
     const double U = centres_.train.velocity[i];
     sources_.force[i] = 0;
     if (setup_.forcing) {
-      const double push = 2 * pi * setup_.forcing(centres_.x[i], t) * centres_.charge[i];
+      const double push = modulation::force_per_dislocation(setup_.forcing(centres_.x[i], t)) * centres_.charge[i];
       supply += U * push;
       sources_.force[i] += push;
     }
@@ -107,8 +104,9 @@ void Semidiscrete::add_sources(double t, const double* y, double* dy) {
   for (std::size_t i = 0; i < n; ++i) {
     rates.momentum(i) += means_.source[i];
     if (dry) {  // no detour over point values, as of a constant force there is none
-      const double force = dry_friction(values.momentum(i), rates.momentum(i),
-                                        2 * pi * sources_.friction_strength[i] * setup_.charge[i]);
+      const double force =
+          dry_friction(values.momentum(i), rates.momentum(i),
+                       modulation::force_per_dislocation(sources_.friction_strength[i]) * setup_.charge[i]);
       dissipation -= centres_.train.velocity[i] * force;
       rates.momentum(i) += force;
     } else if (frictional && linear) {
@@ -146,7 +144,8 @@ void Semidiscrete::find_rates() {
   if (f.sticks()) return;  // such friction relaxes nothing, but stops it
   for (std::size_t i = 0; i < size(); ++i) {
     if (gap(i)) continue;
-    sources_.friction_rate[i] = 2 * pi * sources_.friction_strength[i] / sources_.shown_momentum[i];
+    sources_.friction_rate[i] =
+        modulation::force_per_dislocation(sources_.friction_strength[i]) / sources_.shown_momentum[i];
     sources_.largest_friction_rate = std::max(sources_.largest_friction_rate, sources_.friction_rate[i]);
   }
 }

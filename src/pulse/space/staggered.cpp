@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "foundation/text/digits.hpp"
+#include "modulation/equations.hpp"
 #include "pulse/space/kernels.hpp"
 #include "slipfront/elliptic/complete.hpp"
 #include "slipfront/error.hpp"
@@ -185,7 +186,7 @@ void Staggered::find_masses(double t, const double* z) {
 
 /// Force of the forcing on all dislocations around a face.
 double Staggered::push_on(std::size_t f, double t) const {
-  return setup_.forcing ? 2 * pi * charge_around(f) * setup_.forcing(place_[f], t) : 0;
+  return setup_.forcing ? modulation::force_per_dislocation(setup_.forcing(place_[f], t)) * charge_around(f) : 0;
 }
 
 /// Energy that comes in through a face at velocity U, in a unit of time.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "foundation/text/digits.hpp"
+#include "modulation/equations.hpp"
 #include "pulse/space/semidiscrete.hpp"
 #include "pulse/space/staggered.hpp"
 #include "pulse/time/cell_friction.hpp"
@@ -88,7 +89,7 @@ double Solver::step_explicitly(Work& work, double remaining, double crossing) {
   const double wanted = cells_.step > 0 ? std::fmin(crossing, cells_.step) : crossing;
   double dt = next_step(remaining, wanted);
   const bool dry = problem_.friction.sticks();
-  const double friction = 2 * pi * problem_.friction.strength_at_rest();
+  const double friction = modulation::force_per_dislocation(problem_.friction.strength_at_rest());
   work.next = cells_.unknowns;
   // What comes up within a step may be too hard for it: shorter, then.
   for (int tries = 0;; ++tries) {
