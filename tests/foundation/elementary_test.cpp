@@ -1,9 +1,10 @@
+#include "foundation/simd/elementary.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "error_metric.hpp"
-#include "foundation/simd/elementary.hpp"
 #include "foundation/simd/elliptic_fit.hpp"
 #include "pulse/space/kernels.hpp"
 #include "slipfront/elliptic/complete.hpp"
