@@ -12,7 +12,7 @@
 #include "foundation/simd/vector_code.hpp"
 #include "slipfront/chain/chain.hpp"
 #include "slipfront/chain/run.hpp"
-#include "slipfront/setup/chain.hpp"
+#include "slipfront/setup/problem.hpp"
 
 namespace {
 

@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "foundation/ranks.hpp"
 #include "slipfront/chain/chain.hpp"
-#include "slipfront/ranks.hpp"
 
 int main(int argc, char** argv) {
   using namespace slipfront::chain;

@@ -19,7 +19,7 @@
 
 #include "slipfront/chain/run.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/train/at_rest.hpp"
+#include "slipfront/train/train.hpp"
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include "slipfront/modulation/per_dislocation.hpp"
 #include "slipfront/pulse/solver.hpp"
 #include "slipfront/scenario/scenario.hpp"
-#include "slipfront/setup/pulse.hpp"
+#include "slipfront/setup/problem.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace {

@@ -14,11 +14,11 @@
 
 #include "pulse/space/semidiscrete.hpp"
 #include "pulse/time/time_step.hpp"
+#include "rupture/inverse.hpp"
 #include "slipfront/modulation/characteristics.hpp"
 #include "slipfront/modulation/conservation.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
 #include "slipfront/pulse/solver.hpp"
-#include "slipfront/rupture/inverse.hpp"
 #include "slipfront/rupture/relations.hpp"
 
 namespace {

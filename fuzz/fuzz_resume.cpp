@@ -13,12 +13,12 @@
 #include <string_view>
 #include <vector>
 
+#include "record/event_file.hpp"
 #include "record/netcdf.hpp"
+#include "record/pulse_file.hpp"
+#include "record/pulse_variables.hpp"
 #include "record/seal.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/record/event_file.hpp"
-#include "slipfront/record/pulse_file.hpp"
-#include "slipfront/record/pulse_variables.hpp"
 
 namespace {
 

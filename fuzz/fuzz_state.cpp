@@ -8,12 +8,12 @@
 #include <utility>
 #include <vector>
 
+#include "results/columns.hpp"
+#include "results/serialize.hpp"
 #include "slipfront/catalogue/read.hpp"
 #include "slipfront/chain/run.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/pulse/run.hpp"
-#include "slipfront/results/columns.hpp"
-#include "slipfront/results/serialize.hpp"
 
 using namespace slipfront;
 

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "foundation/sanitized.hpp"
+#include "record/table_file.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/medium/quantity.hpp"
-#include "slipfront/record/table_file.hpp"
 #include "slipfront/scenario/scenario.hpp"
 
 #if !SLIPFRONT_SANITIZED

@@ -125,6 +125,14 @@ class Rooms(unittest.TestCase):
                 self.assertIn(used, below, f"ROOMS: {room} may not use {used}, which is not above it in the table")
             below.add(room)
 
+    def test_public_headers_include_only_public_ones(self):
+        wrong = []
+        for path in sources_in(self.include):
+            with open(path, encoding="utf-8") as file:
+                wrong += [f"{os.path.relpath(path, SOURCE)} includes {name}, which is internal"
+                          for name in INCLUDE.findall(file.read()) if not name.startswith("slipfront/")]
+        self.assertFalse(wrong, "\n" + "\n".join(wrong))
+
     def test_no_room_includes_one_that_it_may_not_use(self):
         wrong = []
         for path in [*sources_in(self.include), *sources_in(self.src)]:

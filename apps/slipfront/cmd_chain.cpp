@@ -4,10 +4,10 @@
 #include <utility>
 
 #include "batch.hpp"
+#include "foundation/ranks.hpp"
 #include "long_run.hpp"
-#include "slipfront/ranks.hpp"
-#include "slipfront/record/unfinished.hpp"
-#include "slipfront/run/run.hpp"
+#include "record/unfinished.hpp"
+#include "run/run.hpp"
 
 namespace {
 

@@ -8,10 +8,10 @@
 #include "compare_print.hpp"
 #include "interrupts.hpp"
 #include "long_run.hpp"
-#include "slipfront/record/unfinished.hpp"
-#include "slipfront/run/run.hpp"
-#include "slipfront/setup/estimate.hpp"
-#include "slipfront/setup/pulse.hpp"
+#include "record/unfinished.hpp"
+#include "run/run.hpp"
+#include "setup/estimate.hpp"
+#include "slipfront/setup/problem.hpp"
 
 namespace {
 

@@ -8,11 +8,11 @@
 
 #include "batch.hpp"
 #include "long_run.hpp"
+#include "record/unfinished.hpp"
+#include "run/errors.hpp"
+#include "run/run.hpp"
 #include "slipfront/pulse/run.hpp"
-#include "slipfront/record/unfinished.hpp"
-#include "slipfront/run/errors.hpp"
-#include "slipfront/run/run.hpp"
-#include "slipfront/setup/pulse.hpp"
+#include "slipfront/setup/problem.hpp"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "slipfront/results/quantities.hpp"
+#include "results/quantities.hpp"
 
 namespace {
 

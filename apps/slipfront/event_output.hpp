@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "slipfront/results/columns.hpp"
+#include "results/columns.hpp"
 
 /// One object of `{"events": [...]}`; null where not identifiable.
 std::string event_json(const slipfront::results::EventResult& result);

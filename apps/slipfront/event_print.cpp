@@ -8,7 +8,7 @@
 #include "batch.hpp"
 #include "event_output.hpp"
 #include "population_output.hpp"
-#include "slipfront/results/quantities.hpp"
+#include "results/quantities.hpp"
 
 namespace {
 

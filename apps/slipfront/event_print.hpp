@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "catalogue/population.hpp"
 #include "commands.hpp"
-#include "slipfront/catalogue/population.hpp"
-#include "slipfront/results/evaluate.hpp"
+#include "results/evaluate.hpp"
 
 /// What of the events is printed.
 struct EventShown {

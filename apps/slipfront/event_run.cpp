@@ -13,8 +13,8 @@
 #include "event_print.hpp"
 #include "interrupts.hpp"
 #include "progress.hpp"
-#include "slipfront/record/text_file.hpp"
-#include "slipfront/run/catalogue.hpp"
+#include "record/text_file.hpp"
+#include "run/catalogue.hpp"
 
 using slipfront::results::EventResult;
 using slipfront::run::EventText;

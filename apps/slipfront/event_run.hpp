@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "commands.hpp"
-#include "slipfront/medium/elastic.hpp"
+#include "slipfront/medium/constants.hpp"
 
 /// Options of the command line.
 struct EventArguments {

@@ -9,8 +9,8 @@
 #include <csignal>
 
 #include "commands.hpp"
-#include "slipfront/ranks.hpp"
-#include "slipfront/record/text_file.hpp"
+#include "foundation/ranks.hpp"
+#include "record/text_file.hpp"
 
 namespace {
 

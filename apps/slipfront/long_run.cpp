@@ -7,7 +7,7 @@
 #include <system_error>
 
 #include "batch.hpp"
-#include "slipfront/record/unfinished.hpp"
+#include "record/unfinished.hpp"
 
 using namespace slipfront;
 

@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "foundation/ranks.hpp"
 #include "interrupts.hpp"
 #include "progress.hpp"
-#include "slipfront/ranks.hpp"
-#include "slipfront/record/table_file.hpp"
-#include "slipfront/record/text_file.hpp"
-#include "slipfront/run/run.hpp"
-#include "slipfront/run/summary.hpp"
+#include "record/table_file.hpp"
+#include "record/text_file.hpp"
+#include "run/run.hpp"
+#include "run/summary.hpp"
 #include "slipfront/scenario/scenario.hpp"
 
 /// What the subcommands that run a scenario have in common.

@@ -11,10 +11,10 @@
 #include "batch.hpp"
 #include "commands.hpp"
 #include "foundation/machine.hpp"
+#include "foundation/ranks.hpp"
 #include "foundation/text/printable.hpp"
 #include "interrupts.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/ranks.hpp"
 
 const slipfront::Ranks* the_ranks = nullptr;
 

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "event_output.hpp"
-#include "slipfront/results/quantities.hpp"
+#include "results/quantities.hpp"
 
 using namespace slipfront::catalogue;
 using namespace slipfront::results;

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "slipfront/catalogue/population.hpp"
+#include "catalogue/population.hpp"
 
 /// Decades of rupture velocity as a JSON array, slowest first; null where nothing is known.
 std::string population_json(const std::vector<slipfront::catalogue::Decade>& decades);

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "slipfront/clock.hpp"
+#include "foundation/clock.hpp"
 
 /// What long work shows: a line of progress.
 

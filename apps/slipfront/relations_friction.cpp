@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "batch.hpp"
-#include "slipfront/friction_ratio/inverse.hpp"
+#include "slipfront/friction_ratio/table.hpp"
 
 namespace {
 

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <string_view>
 
+#include "record/text_file.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/medium/quantity.hpp"
-#include "slipfront/record/text_file.hpp"
 
 namespace {
 

@@ -1,5 +1,5 @@
 #include "results.hpp"
-#include "slipfront/run/run.hpp"
+#include "run/run.hpp"
 #include "watch.hpp"
 
 namespace {

@@ -4,12 +4,12 @@
 
 #include <limits>
 
+#include "record/comparison_file.hpp"
+#include "record/unfinished.hpp"
 #include "results.hpp"
-#include "slipfront/record/comparison_file.hpp"
-#include "slipfront/record/unfinished.hpp"
-#include "slipfront/run/run.hpp"
-#include "slipfront/setup/estimate.hpp"
-#include "slipfront/setup/pulse.hpp"
+#include "run/run.hpp"
+#include "setup/estimate.hpp"
+#include "slipfront/setup/problem.hpp"
 #include "watch.hpp"
 
 namespace {

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "bindings.hpp"
-#include "slipfront/record/text_file.hpp"
-#include "slipfront/record/unfinished.hpp"
-#include "slipfront/results/columns.hpp"
-#include "slipfront/run/catalogue.hpp"
+#include "record/text_file.hpp"
+#include "record/unfinished.hpp"
+#include "results/columns.hpp"
+#include "run/catalogue.hpp"
 #include "watch.hpp"
 
 namespace {

@@ -11,8 +11,8 @@
 #include "bindings.hpp"
 #include "foundation/machine.hpp"
 #include "foundation/text/printable.hpp"
-#include "slipfront/record/dataset_file.hpp"
-#include "slipfront/record/text_file.hpp"
+#include "record/dataset_file.hpp"
+#include "record/text_file.hpp"
 
 namespace {
 

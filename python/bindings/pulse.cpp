@@ -1,5 +1,3 @@
-#include "slipfront/setup/pulse.hpp"
-
 #include <pybind11/stl.h>
 
 #include <optional>
@@ -7,8 +5,9 @@
 #include <vector>
 
 #include "results.hpp"
-#include "slipfront/run/errors.hpp"
-#include "slipfront/run/run.hpp"
+#include "run/errors.hpp"
+#include "run/run.hpp"
+#include "slipfront/setup/problem.hpp"
 #include "watch.hpp"
 
 namespace {

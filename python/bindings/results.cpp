@@ -8,10 +8,10 @@
 #include <utility>
 #include <variant>
 
-#include "slipfront/record/pulse_variables.hpp"
-#include "slipfront/record/table_file.hpp"
-#include "slipfront/record/text_file.hpp"
-#include "slipfront/record/unfinished.hpp"
+#include "record/pulse_variables.hpp"
+#include "record/table_file.hpp"
+#include "record/text_file.hpp"
+#include "record/unfinished.hpp"
 
 using namespace slipfront;
 using output::Snapshot;

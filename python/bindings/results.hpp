@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "bindings.hpp"
-#include "slipfront/record/pulse_file.hpp"
-#include "slipfront/run/run.hpp"
+#include "record/pulse_file.hpp"
+#include "run/run.hpp"
 #include "slipfront/scenario/scenario.hpp"
 
 /// A run that Python asks for.

@@ -15,9 +15,9 @@
 #include <utility>
 
 #include "foundation/machine.hpp"
+#include "record/table_file.hpp"
 #include "results.hpp"
-#include "slipfront/record/table_file.hpp"
-#include "slipfront/run/run.hpp"
+#include "run/run.hpp"
 
 namespace {
 

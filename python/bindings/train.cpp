@@ -8,10 +8,8 @@
 #include "foundation/text/digits.hpp"
 #include "slipfront/elliptic/jacobi.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/rupture/pulse.hpp"
 #include "slipfront/rupture/riemann.hpp"
 #include "slipfront/scenario/scenario.hpp"
-#include "slipfront/train/at_rest.hpp"
 
 namespace {
 

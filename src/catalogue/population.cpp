@@ -1,4 +1,4 @@
-#include "slipfront/catalogue/population.hpp"
+#include "catalogue/population.hpp"
 
 #include <algorithm>
 #include <cmath>

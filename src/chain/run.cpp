@@ -11,12 +11,11 @@
 
 #include "chain/explicit/contact_field.hpp"
 #include "foundation/bytes.hpp"
+#include "foundation/ranks.hpp"
 #include "foundation/text/digits.hpp"
+#include "output/further_scalars.hpp"
 #include "slipfront/chain/smooth.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/output/further_scalars.hpp"
-#include "slipfront/ranks.hpp"
-#include "slipfront/train/at_rest.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::chain {

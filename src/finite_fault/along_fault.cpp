@@ -1,10 +1,10 @@
-#include "slipfront/finite_fault/along_fault.hpp"
+#include "finite_fault/along_fault.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "slipfront/medium/elastic.hpp"
+#include "slipfront/medium/constants.hpp"
 #include "slipfront/medium/medium.hpp"
 #include "slipfront/rupture/relations.hpp"
 

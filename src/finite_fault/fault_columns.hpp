@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "slipfront/finite_fault/along_fault.hpp"
+#include "finite_fault/along_fault.hpp"
 
 namespace slipfront::finite_fault {
 

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "modulation/equations.hpp"
+#include "rupture/inverse.hpp"
 #include "slipfront/modulation/characteristics.hpp"
-#include "slipfront/rupture/inverse.hpp"
-#include "slipfront/train/at_rest.hpp"
+#include "slipfront/train/train.hpp"
 
 namespace slipfront::finite_fault {
 namespace {

@@ -1,4 +1,4 @@
-#include "slipfront/finite_fault/sources.hpp"
+#include "finite_fault/sources.hpp"
 
 #include <algorithm>
 #include <string_view>

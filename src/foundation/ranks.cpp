@@ -1,4 +1,4 @@
-#include "slipfront/ranks.hpp"
+#include "foundation/ranks.hpp"
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,10 +1,9 @@
-#include "slipfront/friction_ratio/inverse.hpp"
-
 #include <cmath>
 
 #include "foundation/text/digits.hpp"
 #include "friction_ratio/layout.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/friction_ratio/table.hpp"
 
 namespace slipfront::friction_ratio {
 namespace {

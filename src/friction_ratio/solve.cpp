@@ -1,4 +1,4 @@
-#include "slipfront/friction_ratio/solve.hpp"
+#include "friction_ratio/solve.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 
 #include "foundation/text/digits.hpp"
 #include "inference/balance.hpp"
-#include "slipfront/medium/elastic.hpp"
+#include "slipfront/medium/constants.hpp"
 #include "slipfront/medium/medium.hpp"
 #include "slipfront/rupture/relations.hpp"
 

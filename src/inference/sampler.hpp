@@ -6,7 +6,7 @@
 #include "inference/balance.hpp"
 #include "inference/sobol.hpp"
 #include "slipfront/inference/posterior.hpp"
-#include "slipfront/medium/elastic.hpp"
+#include "slipfront/medium/constants.hpp"
 
 namespace slipfront::inference {
 

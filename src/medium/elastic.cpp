@@ -1,7 +1,6 @@
-#include "slipfront/medium/elastic.hpp"
-
 #include "foundation/text/digits.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/medium/constants.hpp"
 #include "slipfront/medium/medium.hpp"
 #include "slipfront/medium/quantity.hpp"
 

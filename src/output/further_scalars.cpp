@@ -1,4 +1,4 @@
-#include "slipfront/output/further_scalars.hpp"
+#include "output/further_scalars.hpp"
 
 #include <cstddef>
 #include <limits>

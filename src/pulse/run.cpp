@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "foundation/bytes.hpp"
+#include "foundation/clock.hpp"
 #include "foundation/text/digits.hpp"
-#include "slipfront/clock.hpp"
+#include "output/further_scalars.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/output/further_scalars.hpp"
 
 namespace slipfront::pulse {
 namespace {

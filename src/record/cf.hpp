@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "record/netcdf.hpp"
-#include "slipfront/record/pulse_file.hpp"
-#include "slipfront/record/pulse_variables.hpp"
+#include "record/pulse_file.hpp"
+#include "record/pulse_variables.hpp"
 
 namespace slipfront::record::cf {
 

@@ -1,4 +1,4 @@
-#include "slipfront/record/comparison_file.hpp"
+#include "record/comparison_file.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -7,7 +7,7 @@
 
 #include "record/cf.hpp"
 #include "record/netcdf_file.hpp"
-#include "slipfront/record/pulse_variables.hpp"
+#include "record/pulse_variables.hpp"
 
 namespace slipfront::record {
 namespace {

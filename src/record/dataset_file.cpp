@@ -1,4 +1,4 @@
-#include "slipfront/record/dataset_file.hpp"
+#include "record/dataset_file.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -7,8 +7,8 @@
 
 #include "record/netcdf_file.hpp"
 #include "record/seal.hpp"
+#include "record/text_file.hpp"
 #include "record/utf8.hpp"
-#include "slipfront/record/text_file.hpp"
 
 namespace slipfront::record {
 namespace {

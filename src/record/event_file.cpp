@@ -1,4 +1,4 @@
-#include "slipfront/record/event_file.hpp"
+#include "record/event_file.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -9,8 +9,8 @@
 #include "record/fnv.hpp"
 #include "record/netcdf_file.hpp"
 #include "record/utf8.hpp"
-#include "slipfront/results/columns.hpp"
-#include "slipfront/results/serialize.hpp"
+#include "results/columns.hpp"
+#include "results/serialize.hpp"
 
 namespace slipfront::record {
 namespace {

@@ -5,9 +5,9 @@
 #include <limits>
 #include <vector>
 
+#include "catalogue/population.hpp"
 #include "record/netcdf.hpp"
-#include "slipfront/catalogue/population.hpp"
-#include "slipfront/results/columns.hpp"
+#include "results/columns.hpp"
 
 namespace slipfront::record::event_layout {
 

@@ -1,7 +1,7 @@
 #include <string>
 
 #include "record/event_layout.hpp"
-#include "slipfront/results/quantities.hpp"
+#include "results/quantities.hpp"
 
 namespace slipfront::record::event_layout {
 namespace {

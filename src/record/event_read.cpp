@@ -1,10 +1,10 @@
+#include "record/event_file.hpp"
 #include "record/event_layout.hpp"
 #include "record/netcdf_file.hpp"
 #include "record/seal.hpp"
+#include "record/text_file.hpp"
 #include "record/utf8.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/record/event_file.hpp"
-#include "slipfront/record/text_file.hpp"
 
 namespace slipfront::record {
 

@@ -16,8 +16,8 @@
 #include <string_view>
 
 #include "foundation/sanitized.hpp"
+#include "record/dataset_file.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/record/dataset_file.hpp"
 
 namespace slipfront::record {
 namespace {

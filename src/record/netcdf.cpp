@@ -5,8 +5,8 @@
 
 #include <utility>
 
+#include "record/dataset_file.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/record/dataset_file.hpp"
 
 namespace slipfront::record::netcdf {
 namespace {

@@ -1,4 +1,4 @@
-#include "slipfront/record/pulse_file.hpp"
+#include "record/pulse_file.hpp"
 
 #include <cmath>
 #include <cstddef>
@@ -9,8 +9,8 @@
 #include "record/cf.hpp"
 #include "record/netcdf_file.hpp"
 #include "record/pulse_layout.hpp"
+#include "record/pulse_variables.hpp"
 #include "record/utf8.hpp"
-#include "slipfront/record/pulse_variables.hpp"
 
 namespace slipfront::record {
 namespace {

@@ -5,12 +5,12 @@
 
 #include "foundation/bytes.hpp"
 #include "record/netcdf_file.hpp"
+#include "record/pulse_file.hpp"
 #include "record/pulse_layout.hpp"
+#include "record/pulse_variables.hpp"
 #include "record/seal.hpp"
+#include "record/text_file.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/record/pulse_file.hpp"
-#include "slipfront/record/pulse_variables.hpp"
-#include "slipfront/record/text_file.hpp"
 
 namespace slipfront::record {
 namespace {

@@ -1,10 +1,10 @@
-#include "slipfront/record/pulse_variables.hpp"
+#include "record/pulse_variables.hpp"
 
 #include <algorithm>
 #include <iterator>
 
+#include "output/further_scalars.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/output/further_scalars.hpp"
 
 namespace slipfront::record {
 namespace {

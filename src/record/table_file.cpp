@@ -1,4 +1,4 @@
-#include "slipfront/record/table_file.hpp"
+#include "record/table_file.hpp"
 
 #include <cmath>
 #include <cstddef>
@@ -13,9 +13,9 @@
 #include "foundation/text/trimmed.hpp"
 #include "record/netcdf_file.hpp"
 #include "record/seal.hpp"
+#include "record/text_file.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/medium/quantity.hpp"
-#include "slipfront/record/text_file.hpp"
 
 namespace slipfront::record {
 namespace {

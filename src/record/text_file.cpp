@@ -1,4 +1,4 @@
-#include "slipfront/record/text_file.hpp"
+#include "record/text_file.hpp"
 
 #include <algorithm>
 #include <cerrno>

@@ -1,4 +1,4 @@
-#include "slipfront/record/unfinished.hpp"
+#include "record/unfinished.hpp"
 
 #include <unistd.h>
 

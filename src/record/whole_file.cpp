@@ -17,8 +17,8 @@
 #include <system_error>
 #include <utility>
 
+#include "record/text_file.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/record/text_file.hpp"
 
 namespace slipfront::record {
 namespace {

@@ -1,9 +1,9 @@
-#include "slipfront/results/columns.hpp"
+#include "results/columns.hpp"
 
 #include <limits>
 #include <utility>
 
-#include "slipfront/results/quantities.hpp"
+#include "results/quantities.hpp"
 
 namespace slipfront::results {
 

@@ -1,9 +1,9 @@
-#include "slipfront/results/evaluate.hpp"
+#include "results/evaluate.hpp"
 
 #include <utility>
 
-#include "slipfront/results/quantities.hpp"
-#include "slipfront/results/serialize.hpp"
+#include "results/quantities.hpp"
+#include "results/serialize.hpp"
 
 namespace slipfront::results {
 

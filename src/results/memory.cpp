@@ -1,4 +1,4 @@
-#include "slipfront/results/memory.hpp"
+#include "results/memory.hpp"
 
 #include <algorithm>
 #include <string>
@@ -7,8 +7,8 @@
 #include "foundation/text/digits.hpp"
 #include "inference/sampler.hpp"
 #include "inference/sobol.hpp"
+#include "results/columns.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/results/columns.hpp"
 
 namespace slipfront::results {
 

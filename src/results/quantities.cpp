@@ -1,4 +1,4 @@
-#include "slipfront/results/quantities.hpp"
+#include "results/quantities.hpp"
 
 #include <limits>
 

@@ -1,4 +1,4 @@
-#include "slipfront/results/serialize.hpp"
+#include "results/serialize.hpp"
 
 #include <cstdint>
 #include <type_traits>

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "slipfront/clock.hpp"
+#include "foundation/clock.hpp"
+#include "foundation/ranks.hpp"
+#include "record/pulse_file.hpp"
+#include "record/unfinished.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/ranks.hpp"
-#include "slipfront/record/pulse_file.hpp"
-#include "slipfront/record/unfinished.hpp"
 
 namespace slipfront::run {
 

@@ -1,18 +1,18 @@
-#include "slipfront/run/catalogue.hpp"
+#include "run/catalogue.hpp"
 
 #include <algorithm>
 #include <span>
 #include <utility>
 
+#include "catalogue/population.hpp"
+#include "finite_fault/sources.hpp"
+#include "foundation/clock.hpp"
 #include "foundation/parallel.hpp"
-#include "slipfront/catalogue/population.hpp"
+#include "results/memory.hpp"
+#include "results/quantities.hpp"
+#include "results/serialize.hpp"
 #include "slipfront/catalogue/read.hpp"
-#include "slipfront/clock.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/finite_fault/sources.hpp"
-#include "slipfront/results/memory.hpp"
-#include "slipfront/results/quantities.hpp"
-#include "slipfront/results/serialize.hpp"
 
 namespace slipfront::run {
 namespace {

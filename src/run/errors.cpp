@@ -1,4 +1,4 @@
-#include "slipfront/run/errors.hpp"
+#include "run/errors.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 #include "foundation/text/digits.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/pulse/run.hpp"
-#include "slipfront/setup/pulse.hpp"
+#include "slipfront/setup/problem.hpp"
 
 namespace slipfront::run {
 namespace {

@@ -1,9 +1,8 @@
-#include "slipfront/run/run.hpp"
+#include "run/run.hpp"
 
+#include "record/comparison_file.hpp"
 #include "run/carry_out.hpp"
-#include "slipfront/record/comparison_file.hpp"
-#include "slipfront/setup/chain.hpp"
-#include "slipfront/setup/pulse.hpp"
+#include "slipfront/setup/problem.hpp"
 
 namespace slipfront::run {
 namespace {

@@ -1,10 +1,10 @@
-#include "slipfront/run/summary.hpp"
+#include "run/summary.hpp"
 
 #include <limits>
 
-#include "slipfront/output/further_scalars.hpp"
+#include "output/further_scalars.hpp"
 #include "slipfront/pulse/observe.hpp"
-#include "slipfront/setup/pulse.hpp"
+#include "slipfront/setup/problem.hpp"
 
 namespace slipfront::run {
 namespace {

@@ -1,4 +1,4 @@
-#include "slipfront/rupture/inverse.hpp"
+#include "rupture/inverse.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -1,8 +1,7 @@
-#include "slipfront/rupture/pulse.hpp"
-
 #include <cmath>
 
 #include "slipfront/rupture/relations.hpp"
+#include "slipfront/rupture/riemann.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::rupture {

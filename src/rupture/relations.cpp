@@ -6,11 +6,10 @@
 #include <string>
 
 #include "foundation/text/digits.hpp"
+#include "rupture/inverse.hpp"
 #include "slipfront/elliptic/complete.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/modulation/characteristics.hpp"
-#include "slipfront/rupture/inverse.hpp"
-#include "slipfront/train/at_rest.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::rupture {

@@ -7,10 +7,10 @@
 #include "foundation/text/digits.hpp"
 #include "modulation/equations.hpp"
 #include "rupture/bracket.hpp"
+#include "rupture/inverse.hpp"
 #include "slipfront/elliptic/complete.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/modulation/characteristics.hpp"
-#include "slipfront/rupture/inverse.hpp"
 
 // The 2-wave is the 1-wave of the mirrored problem (x -> -x, phi -> -phi), so only the 1-wave is written out.
 

@@ -1,7 +1,7 @@
 #include "scenario/friction_units.hpp"
 
 #include "scenario/quantity_value.hpp"
-#include "slipfront/medium/elastic.hpp"
+#include "slipfront/medium/constants.hpp"
 #include "slipfront/medium/medium.hpp"
 
 namespace slipfront::scenario {

@@ -1,10 +1,7 @@
-#include "slipfront/setup/chain.hpp"
-
 #include <cmath>
 
 #include "foundation/text/digits.hpp"
-#include "slipfront/setup/pulse.hpp"
-#include "slipfront/train/at_rest.hpp"
+#include "slipfront/setup/problem.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::setup {

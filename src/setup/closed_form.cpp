@@ -1,10 +1,9 @@
 #include <cmath>
 #include <limits>
 
-#include "slipfront/output/further_scalars.hpp"
+#include "output/further_scalars.hpp"
 #include "slipfront/rupture/riemann.hpp"
 #include "slipfront/setup/compare.hpp"
-#include "slipfront/train/at_rest.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::setup {

@@ -4,12 +4,11 @@
 #include <cmath>
 #include <utility>
 
+#include "foundation/clock.hpp"
 #include "foundation/text/digits.hpp"
-#include "slipfront/clock.hpp"
+#include "setup/estimate.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/setup/chain.hpp"
-#include "slipfront/setup/estimate.hpp"
-#include "slipfront/setup/pulse.hpp"
+#include "slipfront/setup/problem.hpp"
 
 namespace slipfront::setup {
 namespace {

@@ -1,4 +1,4 @@
-#include "slipfront/setup/estimate.hpp"
+#include "setup/estimate.hpp"
 
 #include <algorithm>
 #include <cmath>

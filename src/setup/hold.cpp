@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "slipfront/elliptic/complete.hpp"
-#include "slipfront/train/at_rest.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::setup {

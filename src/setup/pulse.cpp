@@ -1,13 +1,12 @@
-#include "slipfront/setup/pulse.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "foundation/text/digits.hpp"
+#include "setup/estimate.hpp"
 #include "setup/hold.hpp"
 #include "slipfront/rupture/riemann.hpp"
-#include "slipfront/setup/estimate.hpp"
-#include "slipfront/train/at_rest.hpp"
+#include "slipfront/setup/problem.hpp"
+#include "slipfront/train/train.hpp"
 
 namespace slipfront::setup {
 namespace {

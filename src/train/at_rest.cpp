@@ -1,10 +1,9 @@
-#include "slipfront/train/at_rest.hpp"
-
 #include <cmath>
 #include <numbers>
 
 #include "foundation/math/newton.hpp"
 #include "slipfront/elliptic/complete.hpp"
+#include "slipfront/train/train.hpp"
 
 namespace slipfront::train {
 

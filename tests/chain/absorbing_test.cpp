@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "slipfront/chain/run.hpp"
-#include "slipfront/train/at_rest.hpp"
+#include "slipfront/train/train.hpp"
 
 namespace {
 

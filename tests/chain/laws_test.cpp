@@ -12,7 +12,7 @@
 
 #include "law_values.hpp"
 #include "slipfront/setup/compare.hpp"
-#include "slipfront/setup/pulse.hpp"
+#include "slipfront/setup/problem.hpp"
 
 namespace slipfront {
 namespace {

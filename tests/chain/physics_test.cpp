@@ -6,7 +6,6 @@
 #include "exact.hpp"
 #include "slipfront/chain/measure.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/train/at_rest.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace {

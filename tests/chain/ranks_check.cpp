@@ -15,9 +15,9 @@
 #include <vector>
 
 #include "cases.hpp"
+#include "foundation/ranks.hpp"
 #include "slipfront/chain/measure.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/ranks.hpp"
 
 namespace {
 

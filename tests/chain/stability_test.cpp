@@ -5,7 +5,7 @@
 #include <string>
 
 #include "slipfront/chain/run.hpp"
-#include "slipfront/train/at_rest.hpp"
+#include "slipfront/train/train.hpp"
 
 namespace {
 

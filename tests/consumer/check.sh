@@ -7,7 +7,10 @@ flags=""
 [ "$sanitize" = ON ] && flags="-fsanitize=address,undefined"
 rm -rf "$work"
 cmake --install "$build" --prefix "$work/prefix" >/dev/null
-cmake -G Ninja -S "$here" -B "$work/build" -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_CXX_FLAGS="$flags" >/dev/null
+# All public headers, to be compiled where those of src/ cannot be found.
+mkdir "$work/generated"
+(cd "$work/prefix/include" && find slipfront -name '*.hpp' -printf '#include "%p"\n') | sort >"$work/generated/all_headers.hpp"
+cmake -G Ninja -S "$here" -B "$work/build" -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_CXX_FLAGS="$flags -I$work/generated" >/dev/null
 cmake --build "$work/build" >/dev/null
 "$work/build/consumer"
 "$work/prefix/bin/slipfront" relations --stress 1.03 --csv >/dev/null

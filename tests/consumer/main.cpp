@@ -1,7 +1,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "slipfront/rupture/relations.hpp"
+#include "all_headers.hpp"
 
 int main() {
   const auto pulse = slipfront::rupture::from_stress(1.03);

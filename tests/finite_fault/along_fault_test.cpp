@@ -1,4 +1,4 @@
-#include "slipfront/finite_fault/along_fault.hpp"
+#include "finite_fault/along_fault.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "slipfront/finite_fault/pulse_along_fault.hpp"
+#include "finite_fault/pulse_along_fault.hpp"
 
 #include <gtest/gtest.h>
 

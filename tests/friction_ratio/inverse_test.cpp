@@ -1,11 +1,10 @@
-#include "slipfront/friction_ratio/inverse.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
 #include "slipfront/error.hpp"
+#include "slipfront/friction_ratio/table.hpp"
 
 namespace {
 

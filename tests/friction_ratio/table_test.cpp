@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "friction_ratio/solve.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/friction_ratio/solve.hpp"
 #include "slipfront/rupture/relations.hpp"
 
 namespace {

@@ -6,10 +6,10 @@
 #include <functional>
 #include <numbers>
 
+#include "rupture/inverse.hpp"
 #include "slipfront/elliptic/complete.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/pulse/solver.hpp"
-#include "slipfront/rupture/inverse.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace {

@@ -10,7 +10,6 @@
 
 #include "slipfront/elliptic/complete.hpp"
 #include "slipfront/pulse/solver.hpp"
-#include "slipfront/train/at_rest.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace {

@@ -9,7 +9,7 @@
 #include "slipfront/friction/law.hpp"
 #include "slipfront/pulse/run.hpp"
 #include "slipfront/scenario/scenario.hpp"
-#include "slipfront/setup/pulse.hpp"
+#include "slipfront/setup/problem.hpp"
 
 namespace {
 

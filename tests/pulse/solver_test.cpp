@@ -7,10 +7,8 @@
 
 #include "slipfront/error.hpp"
 #include "slipfront/modulation/conservation.hpp"
-#include "slipfront/rupture/pulse.hpp"
 #include "slipfront/rupture/relations.hpp"
 #include "slipfront/rupture/riemann.hpp"
-#include "slipfront/train/at_rest.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace {

@@ -7,12 +7,12 @@
 #include <memory>
 #include <string>
 
+#include "record/table_file.hpp"
+#include "record/text_file.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/pulse/run.hpp"
-#include "slipfront/record/table_file.hpp"
-#include "slipfront/record/text_file.hpp"
 #include "slipfront/scenario/scenario.hpp"
-#include "slipfront/setup/pulse.hpp"
+#include "slipfront/setup/problem.hpp"
 
 using namespace slipfront;
 

@@ -1,4 +1,4 @@
-#include "slipfront/record/event_file.hpp"
+#include "record/event_file.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "record/netcdf.hpp"
+#include "record/pulse_file.hpp"
 #include "record/seal.hpp"
+#include "record/text_file.hpp"
+#include "results/quantities.hpp"
+#include "results/serialize.hpp"
 #include "slipfront/catalogue/read.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/record/pulse_file.hpp"
-#include "slipfront/record/text_file.hpp"
-#include "slipfront/results/quantities.hpp"
-#include "slipfront/results/serialize.hpp"
 #include "temporary_folder.hpp"
 
 namespace {

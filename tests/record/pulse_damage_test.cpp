@@ -10,10 +10,10 @@
 
 #include "pulse_sample.hpp"
 #include "record/netcdf.hpp"
+#include "record/pulse_file.hpp"
+#include "record/pulse_variables.hpp"
 #include "record/seal.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/record/pulse_file.hpp"
-#include "slipfront/record/pulse_variables.hpp"
 #include "temporary_folder.hpp"
 
 namespace {

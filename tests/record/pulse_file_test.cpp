@@ -1,4 +1,4 @@
-#include "slipfront/record/pulse_file.hpp"
+#include "record/pulse_file.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "slipfront/record/table_file.hpp"
+#include "record/table_file.hpp"
 
 #include <gtest/gtest.h>
 

@@ -15,8 +15,8 @@
 #include <string>
 
 #include "pulse_sample.hpp"
+#include "record/pulse_file.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/record/pulse_file.hpp"
 #include "temporary_folder.hpp"
 
 namespace {

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "finite_fault/sources.hpp"
 #include "inference/pareto.hpp"
+#include "results/evaluate.hpp"
 #include "slipfront/catalogue/read.hpp"
-#include "slipfront/finite_fault/sources.hpp"
-#include "slipfront/results/evaluate.hpp"
 #include "slipfront/rupture/relations.hpp"
 
 namespace {

@@ -1,12 +1,12 @@
-#include "slipfront/results/serialize.hpp"
+#include "results/serialize.hpp"
 
 #include <gtest/gtest.h>
 
 #include <bit>
 #include <cmath>
 
+#include "results/columns.hpp"
 #include "slipfront/catalogue/read.hpp"
-#include "slipfront/results/columns.hpp"
 
 namespace {
 

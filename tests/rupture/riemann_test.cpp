@@ -11,9 +11,7 @@
 #include "slipfront/error.hpp"
 #include "slipfront/modulation/characteristics.hpp"
 #include "slipfront/modulation/conservation.hpp"
-#include "slipfront/rupture/pulse.hpp"
 #include "slipfront/rupture/relations.hpp"
-#include "slipfront/train/at_rest.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace {

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "friction_ratio/solve.hpp"
 #include "nodes.hpp"
-#include "slipfront/friction_ratio/solve.hpp"
 #include "slipfront/friction_ratio/table.hpp"
 
 namespace slipfront::friction_ratio {

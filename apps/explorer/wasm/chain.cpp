@@ -1,20 +1,19 @@
 /// \file
 /// Panel "Dislocations": every dislocation of a scenario, live.
 
-#include "slipfront/setup/chain.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
 #include <span>
 
+#include "foundation/clock.hpp"
 #include "scenario.hpp"
 #include "slipfront/chain/measure.hpp"
 #include "slipfront/chain/run.hpp"
 #include "slipfront/chain/smooth.hpp"
-#include "slipfront/clock.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/setup/problem.hpp"
 
 namespace slipfront::explorer {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "answer.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/medium/elastic.hpp"
+#include "slipfront/medium/constants.hpp"
 #include "slipfront/medium/quantity.hpp"
 
 namespace slipfront::explorer {

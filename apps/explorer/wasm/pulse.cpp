@@ -2,20 +2,19 @@
 /// Panel "Pulse" and the live figures of the paper: runs of the modulation equations that go on piece by piece, so that
 /// the page can stop them and show what there is.
 
-#include "slipfront/setup/pulse.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <memory>
 #include <optional>
 
+#include "foundation/clock.hpp"
 #include "foundation/text/digits.hpp"
+#include "output/further_scalars.hpp"
 #include "scenario.hpp"
-#include "slipfront/clock.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/output/further_scalars.hpp"
 #include "slipfront/pulse/run.hpp"
+#include "slipfront/setup/problem.hpp"
 
 namespace slipfront::explorer {
 namespace {

@@ -8,7 +8,7 @@
 #include "answer.hpp"
 #include "foundation/text/digits.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/rupture/pulse.hpp"
+#include "slipfront/rupture/riemann.hpp"
 
 namespace slipfront::explorer {
 namespace {

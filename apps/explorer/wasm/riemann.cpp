@@ -9,7 +9,6 @@
 #include "answer.hpp"
 #include "foundation/text/digits.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/train/at_rest.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::explorer {

@@ -4,7 +4,7 @@
 
 #include "scenario/document.hpp"
 #include "slipfront/medium/constants.hpp"
-#include "slipfront/setup/pulse.hpp"
+#include "slipfront/setup/problem.hpp"
 
 namespace slipfront::explorer {
 namespace {

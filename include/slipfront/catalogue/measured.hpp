@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A measured quantity with what is known of its error.
+/// A measured quantity with what is known of its error, and the quantiles that sum up a distribution.
 
 #include <optional>
 #include <string_view>
@@ -37,5 +37,11 @@ struct Measured {
 /// and allowed only), as parse_quantity does and for an uncertainty that is not positive, a factor not above 1, a
 /// distribution that is not one of these.
 Measured parse_measured(std::string_view text, medium::Dimension dimension, std::string_view default_unit);
+
+struct Quantiles {
+  double low;  ///< 5 %
+  double median;
+  double high;  ///< 95 %
+};
 
 }  // namespace slipfront::catalogue

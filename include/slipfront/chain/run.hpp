@@ -11,8 +11,7 @@
 #include <vector>
 
 #include "slipfront/chain/measure.hpp"
-#include "slipfront/output/findings.hpp"
-#include "slipfront/output/sampled_integral.hpp"
+#include "slipfront/output/self_check.hpp"
 #include "slipfront/output/snapshot.hpp"
 
 namespace slipfront::chain {

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "slipfront/train/state.hpp"
+#include "slipfront/train/train.hpp"
 
 namespace slipfront::friction {
 

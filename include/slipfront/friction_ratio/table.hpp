@@ -2,7 +2,7 @@
 /// \file
 /// What viscous friction leaves of the slip velocity, W with friction over W(0) without, as a function of Sigma- and
 /// the damping number Gamma = C T: a table made from the pulse solver (docs/friction_ratio.md), for a true step of
-/// stress into the empty interface.
+/// stress into the empty interface. `damping_number` reads it the other way, as with a ruler on the paper's Fig. 10.
 
 #include <string_view>
 
@@ -42,5 +42,14 @@ struct StressRange {
   double least, most;
 };
 StressRange stress_range();
+
+struct Reading {
+  double damping_number;  ///< Gamma = C T at which the table has the ratio
+  double error;           ///< of the damping number, absolute, from `uncertainty` of the table alone
+};
+
+/// `stress` = Sigma- in 0.05 ... 3; `ratio` of W to the frictionless W(0), above 0 and at most what `measure` has
+/// without friction (1 for `origin` and `time_mean`). \throws InputError.
+Reading damping_number(Measure measure, friction::Closure closure, double stress, double ratio);
 
 }  // namespace slipfront::friction_ratio

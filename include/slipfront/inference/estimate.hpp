@@ -8,7 +8,7 @@
 
 #include "slipfront/catalogue/observation.hpp"
 #include "slipfront/inference/quantities.hpp"
-#include "slipfront/medium/elastic.hpp"
+#include "slipfront/medium/constants.hpp"
 
 namespace slipfront::inference {
 

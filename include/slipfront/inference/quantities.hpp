@@ -6,9 +6,9 @@
 #include <span>
 #include <string_view>
 
-#include "slipfront/catalogue/quantiles.hpp"
+#include "slipfront/catalogue/measured.hpp"
 #include "slipfront/description.hpp"
-#include "slipfront/medium/elastic.hpp"
+#include "slipfront/medium/constants.hpp"
 
 namespace slipfront::inference {
 

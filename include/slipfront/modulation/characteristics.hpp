@@ -2,7 +2,7 @@
 /// \file
 /// Characteristic form of the modulation equations (6): phi +- psi travel at lambda_pm.
 
-#include "slipfront/train/state.hpp"
+#include "slipfront/train/train.hpp"
 
 namespace slipfront::modulation {
 

@@ -2,7 +2,7 @@
 /// \file
 /// The conservation laws behind Eqs. (6): dislocation number k and momentum P, the pair that holds across shocks too.
 
-#include "slipfront/train/state.hpp"
+#include "slipfront/train/train.hpp"
 
 namespace slipfront::modulation {
 

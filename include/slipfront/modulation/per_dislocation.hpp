@@ -4,7 +4,7 @@
 /// 2 pi F
 /// - friction. A relativistic gas of particles of mass 8 that repel with the pressure p = 2 sinh^2 psi.
 
-#include "slipfront/train/state.hpp"
+#include "slipfront/train/train.hpp"
 
 namespace slipfront::modulation {
 

@@ -9,8 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "slipfront/output/findings.hpp"
-#include "slipfront/output/sampled_integral.hpp"
+#include "slipfront/output/self_check.hpp"
 #include "slipfront/output/snapshot.hpp"
 #include "slipfront/pulse/observe.hpp"
 #include "slipfront/step_budget.hpp"

@@ -1,9 +1,10 @@
 #pragma once
 /// \file
 /// The exact Riemann problem of the modulation equations, by the jump conditions of (k, P): two uniform trains meet at
-/// x = 0. Every scheme is tested against it; the slip pulse of Eqs. 8-10 is its special case with an empty right side.
+/// x = 0. Every scheme is tested against it. The slip pulse of Eqs. 8-9 is its special case with an empty right side;
+/// Figs. 4-6 draw its profiles over x/t.
 
-#include "slipfront/train/state.hpp"
+#include "slipfront/train/train.hpp"
 
 namespace slipfront::rupture {
 
@@ -37,5 +38,19 @@ Edges edges_of(const RiemannSolution& solution);
 
 /// State at x/t.
 State sample(const RiemannSolution& solution, double x_over_t);
+
+/// The pulse from a step of stress `Sigma- = stress` into an empty interface: a fan from the trailing edge at
+/// left_wave.outer = V- to the leading edge at left_wave.inner = V+. Take its states with sample(pulse, x/t).
+/// \throws InputError as from_stress.
+RiemannSolution slip_pulse(double stress);
+
+/// Averages at one x/t.
+struct ProfilePoint {
+  double U;      ///< velocity of the dislocations, 0 where there are none
+  double Sigma;  ///< stress
+  double W;      ///< slip velocity
+  double P;      ///< momentum density
+};
+ProfilePoint profile_point(const RiemannSolution& pulse, double x_over_t);
 
 }  // namespace slipfront::rupture

@@ -1,9 +1,22 @@
 #pragma once
 /// \file
-/// The uniform train of dislocations: fields and averages over a period (Eqs. 4-5). All quantities dimensionless: x in
-/// b/A, stress in mu A / pi, slip velocity in c A / pi.
+/// The uniform train of dislocations: the two numbers that fix it, its fields and averages over a period (Eqs. 4-5),
+/// and the train at rest under a stress. All quantities are dimensionless: x in b/A, stress in mu A / pi, slip velocity
+/// in c A / pi.
 
-#include "slipfront/train/state.hpp"
+namespace slipfront {
+
+/// A uniform train: dislocations move at U = tanh(phi); sqrt(m1) = tanh(psi) tells how densely they are packed. psi ->
+/// 0 is the empty interface, psi -> infinity the dense limit. In these variables the modulation equations (6) are
+/// diagonal, and slow slip (psi ~ 1e-6 and far below) loses no digits; the elliptic parameter m itself is never stored.
+struct State {
+  double phi = 0;  ///< rapidity of the dislocations
+  double psi = 0;  ///< density variable; 0 means empty
+
+  bool empty() const { return psi == 0; }
+};
+
+}  // namespace slipfront
 
 namespace slipfront::train {
 
@@ -46,5 +59,11 @@ inline constexpr double smallest_stress = 0.0045;
 
 /// Stress of a train at rest, pi cosh(psi) / K: the initial state of a rupture. \throws InputError unless psi > 0.
 double stress_at_rest(double psi);
+
+/// psi with pi cosh(psi) / K = stress, stress > 0, to full relative precision: the inverse of stress_at_rest.
+double psi_of_stress(double stress);
+
+/// The interface at rest under this stress, >= 0; without stress it is empty.
+inline State at_rest(double stress) { return stress > 0 ? State{0, psi_of_stress(stress)} : State{}; }
 
 }  // namespace slipfront::train

@@ -11,8 +11,8 @@
 #include "chain/explicit/work_meter.hpp"
 #include "chain/implicit/implicit.hpp"
 #include "chain/model/blocks.hpp"
+#include "foundation/ranks.hpp"
 #include "slipfront/chain/chain.hpp"
-#include "slipfront/ranks.hpp"
 
 namespace slipfront::chain {
 

@@ -4,8 +4,8 @@
 
 #include "chain/explicit/forces.hpp"
 #include "chain/explicit/levels/scheme.hpp"
+#include "foundation/ranks.hpp"
 #include "slipfront/chain/chain.hpp"
-#include "slipfront/ranks.hpp"
 
 namespace slipfront::chain {
 

@@ -6,7 +6,6 @@
 
 #include "chain/measure/elastic.hpp"
 #include "chain/measure/refuse_window.hpp"
-#include "slipfront/train/at_rest.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::chain {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "record/pulse_file.hpp"
 #include "slipfront/description.hpp"
-#include "slipfront/record/pulse_file.hpp"
 
 namespace slipfront::record {
 

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "slipfront/catalogue/population.hpp"
-#include "slipfront/results/columns.hpp"
-#include "slipfront/results/evaluate.hpp"
+#include "catalogue/population.hpp"
+#include "results/columns.hpp"
+#include "results/evaluate.hpp"
 
 namespace slipfront::record {
 

@@ -1,10 +1,31 @@
 #pragma once
 /// \file
-/// The integral of a velocity that a run samples on its way, and how far it may be from the truth.
+/// How a run checks itself: what it finds wrong in its own results, and the integral of a velocity that it samples on
+/// its way, with an estimate of the error.
 
 #include <cmath>
+#include <string>
+#include <vector>
 
 namespace slipfront::output {
+
+/// What a run finds wrong or doubtful in its own results: sentences for the user, and the worst violation among them.
+struct Findings {
+  static constexpr double worth_a_warning = 1e-3, wrong = 1e-2;  ///< relative sizes of a violation
+
+  std::vector<std::string> sentences;
+  std::string worst;
+  double size = 0;
+
+  void violation(double relative, const std::string& sentence) {
+    if (relative <= worth_a_warning) return;  // NaN is a violation
+    sentences.push_back(sentence);
+    if (relative <= size) return;
+    size = std::isnan(relative) ? HUGE_VAL : relative;
+    worst = sentence;
+  }
+  bool wrong_results() const { return size > wrong; }
+};
 
 /// Integral over time by the trapezoidal rule over samples, and over every other of them: slow errors of the sum show
 /// as the difference of the two, and waves faster than the samples by the spread of the samples.

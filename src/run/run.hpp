@@ -9,16 +9,16 @@
 #include <string>
 #include <vector>
 
+#include "foundation/clock.hpp"
+#include "foundation/ranks.hpp"
+#include "record/pulse_file.hpp"
+#include "record/unfinished.hpp"
+#include "run/summary.hpp"
+#include "setup/estimate.hpp"
 #include "slipfront/chain/run.hpp"
-#include "slipfront/clock.hpp"
 #include "slipfront/pulse/run.hpp"
-#include "slipfront/ranks.hpp"
-#include "slipfront/record/pulse_file.hpp"
-#include "slipfront/record/unfinished.hpp"
-#include "slipfront/run/summary.hpp"
 #include "slipfront/scenario/scenario.hpp"
 #include "slipfront/setup/compare.hpp"
-#include "slipfront/setup/estimate.hpp"
 
 namespace slipfront::run {
 

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "record/event_file.hpp"
+#include "record/unfinished.hpp"
+#include "results/evaluate.hpp"
 #include "slipfront/catalogue/observation.hpp"
-#include "slipfront/medium/elastic.hpp"
-#include "slipfront/record/event_file.hpp"
-#include "slipfront/record/unfinished.hpp"
-#include "slipfront/results/evaluate.hpp"
+#include "slipfront/medium/constants.hpp"
 
 namespace slipfront::run {
 

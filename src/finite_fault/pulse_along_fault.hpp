@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "finite_fault/along_fault.hpp"
 #include "slipfront/description.hpp"
-#include "slipfront/finite_fault/along_fault.hpp"
 
 namespace slipfront::finite_fault {
 

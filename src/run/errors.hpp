@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "slipfront/run/run.hpp"
+#include "run/run.hpp"
 #include "slipfront/scenario/scenario.hpp"
 
 namespace slipfront::run {

@@ -6,7 +6,7 @@
 #include <map>
 #include <vector>
 
-#include "slipfront/catalogue/quantiles.hpp"
+#include "slipfront/catalogue/measured.hpp"
 
 namespace slipfront::catalogue {
 

@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "slipfront/results/evaluate.hpp"
+#include "results/evaluate.hpp"
 
 namespace slipfront::results {
 

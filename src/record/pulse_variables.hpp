@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "record/pulse_file.hpp"
 #include "slipfront/description.hpp"
 #include "slipfront/output/snapshot.hpp"
-#include "slipfront/record/pulse_file.hpp"
 
 namespace slipfront::record {
 

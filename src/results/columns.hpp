@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "slipfront/results/evaluate.hpp"
+#include "results/evaluate.hpp"
 
 namespace slipfront::results {
 

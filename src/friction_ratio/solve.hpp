@@ -1,7 +1,8 @@
 #pragma once
 /// \file
-/// Slip velocity of one pulse with viscous friction, from the pulse solver: what the table of `table.hpp` is made from
-/// and checked against. True step of stress, from Sigma- into the empty interface.
+/// Slip velocity of one pulse with viscous friction, from the pulse solver: what the table of
+/// `friction_ratio/table.hpp` is made from and checked against. True step of stress, from Sigma- into the empty
+/// interface.
 
 #include <vector>
 

@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
-#include "slipfront/catalogue/population.hpp"
+#include "catalogue/population.hpp"
+#include "results/evaluate.hpp"
 #include "slipfront/description.hpp"
 #include "slipfront/inference/quantities.hpp"
-#include "slipfront/results/evaluate.hpp"
 
 namespace slipfront::results {
 

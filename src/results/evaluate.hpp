@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "finite_fault/along_fault.hpp"
+#include "finite_fault/pulse_along_fault.hpp"
 #include "slipfront/description.hpp"
-#include "slipfront/finite_fault/along_fault.hpp"
-#include "slipfront/finite_fault/pulse_along_fault.hpp"
 #include "slipfront/inference/estimate.hpp"
 #include "slipfront/inference/posterior.hpp"
 
