@@ -208,8 +208,10 @@ def stress_left(axes):
         factors[stress] = [out[k]["slip_velocity_at_origin"] / free["slip_velocity"] for k in ("pulse-consistent", f"chain-{SWEEP}", "pulse-paper")]
         rows.append([f"{stress:g}", f"{free['rupture_velocity']:.4f}", f"{free['slip_velocity']:.6f}"] + [f"{f:.4f}" for f in factors[stress]])
     table(["Sigma-", "rupture velocity, c", "W(0) without friction", "factor: consistent", "chain", "paper"], rows)
+
     def span(i, low=0.0):
         return max(f[i] for s, f in factors.items() if s >= low) / min(f[i] for s, f in factors.items() if s >= low)
+
     free = relations("--stress", str(stresses[0]), "--stress", str(stresses[-1]))
     velocity = free[1]["slip_velocity"] / free[0]["slip_velocity"]
     verdict(f"The factor changes {span(1):.2f} times on the chain ({span(0):.2f} consistent, {span(2):.2f} paper) while W(0) changes {velocity:.0f} times",
@@ -261,8 +263,9 @@ def ratio_of_fronts():
     say("Into an empty interface |V- / V+| = K / E, without friction:")
     say()
     picked = rows[::10] + [rows[-1]]
-    table(["Sigma-", "V-, c", "V+, c", "ratio"], [[f"{r['stress']:.4g}", f"{r['rupture_velocity']:.4g}", f"{r['leading_velocity']:.4g}",
-                                                     f"{r['velocity_ratio']:.4f}"] for r in picked])
+    columns = {"stress": ".4g", "rupture_velocity": ".4g", "leading_velocity": ".4g", "velocity_ratio": ".4f"}
+    table(["Sigma-", "V-, c", "V+, c", "ratio"],
+          [[f"{r[key]:{digits}}" for key, digits in columns.items()] for r in picked])
     say("Into a stressed side V+ is that of the shock (closed form), Sigma- = 0.855:")
     say()
     shocks = []

@@ -23,7 +23,7 @@ def run_points(command, request, work, variables, threads, deliver):
 def _task(packed):
     """Points and results travel as bytes: Dask would look into every text of them."""
     command, request, work, variables = pickle.loads(packed)
-    rows = []
+    rows: list[tuple] = []
     run_points(command, request, work, variables, 1, rows.extend)
     return pickle.dumps(rows)
 
@@ -50,7 +50,7 @@ def on_cluster(client, command, request, work, variables, deliver):
         parts[future.key] = part
         return future
 
-    parts = {}
+    parts: dict[str, list] = {}
     running = distributed.as_completed([submit(part) for part in _parts(work, threads)])
     try:
         for future in running:

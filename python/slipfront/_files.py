@@ -4,12 +4,13 @@ import contextlib
 import numbers as kinds
 import os
 import signal
+from collections.abc import Callable
 
 from . import _slipfront
 from ._optional import import_optional
 
 #: Functions that undo what has been written in part. They may be called twice; a program that has to end at once calls them.
-UNFINISHED = set()
+UNFINISHED: set[Callable[[], object]] = set()
 
 
 def write_bytes(path, content):

@@ -15,7 +15,7 @@ from ._progress import showing
 from ._run import check, open
 from ._scenario import arguments, overrides
 from ._shown import shown
-from ._slipfront import FileError, InputError, __version__
+from ._slipfront import InputError, __version__
 from ._store import Store
 
 _format = "sweep 1"
@@ -58,14 +58,14 @@ def _variables(variables, command):
 
 def _check_some(scenario, settings, points, command):
     """Raises the first point's error if no point can run: a wrong key is said at once, a wrong value in its own place."""
-    first = None
+    errors = []
     for point in points:
         try:
             check(scenario, set={**settings, **point}, command=command)
             return
         except InputError as error:
-            first = first or error
-    raise first
+            errors.append(error)
+    raise errors[0]
 
 
 def sweep(scenario, axes, *, variables=None, set=None, command="pulse", output=None, resume=None, client=None, progress=None, threads=None):

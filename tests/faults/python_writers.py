@@ -17,7 +17,7 @@ import tempfile
 
 import matplotlib.pyplot  # so that no attempt has to
 import numpy as np
-import pandas
+import pandas  # noqa: F401, so that no attempt has to
 import xarray as xr
 
 import slipfront

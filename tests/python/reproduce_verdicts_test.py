@@ -2,7 +2,7 @@
 
 import unittest
 
-from slipfront.reproduce import derived, numbers, verdicts
+from slipfront.reproduce import derived, numbers
 from slipfront.reproduce.verdicts import FOLLOWS, READING, SAME, WRONG, Printed, rounded, verdict
 
 #: Every number of the paper's text, in its order: section, as it stands there, key in paper.toml. References, numbers of equations and

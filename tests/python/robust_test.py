@@ -59,6 +59,7 @@ for refused in (lambda: slipfront.train.fields(0.5, -1.5, 0.5), lambda: slipfron
     except ValueError as error:
         print(error)
 """
+
         def said(text):
             done = subprocess.run([sys.executable, "-c", text], env={**os.environ, "LOCPATH": folder}, capture_output=True, text=True)
             self.assertEqual(done.returncode, 0, done.stderr)

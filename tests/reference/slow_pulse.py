@@ -172,8 +172,10 @@ class SlowPulse:
         """2 pi times the number of dislocations that have passed these places."""
         now = PchipInterpolator(y[0::2], self.q)
         places = np.asarray(places, float)
+
         def count(curve, faces):
             return np.where(places <= faces[0], self.q[0], np.where(places >= faces[-1], self.q[-1], curve(places)))
+
         return 2 * np.pi * (count(self.q0, self.faces) - count(now, y[0::2]))
 
     def slip_velocity(self, y, place):

@@ -8,6 +8,6 @@ import importlib
 from .choose import KINDS
 from .style import save
 
-__all__ = sorted([function for function, _ in KINDS.values()] + ["save"])
+__all__ = sorted([function for function, _ in KINDS.values()] + [save.__name__])
 for _function, _ in KINDS.values():
     globals()[_function] = getattr(importlib.import_module(f".{_function}", __name__), _function)

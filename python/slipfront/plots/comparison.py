@@ -1,12 +1,14 @@
 """Closed form, pulse and chain side by side."""
 
+from typing import Any
+
 from matplotlib.figure import Figure
 
 from .pulse_parts import mark_fronts, shades, title_of, window
 from .style import label, plain, styled
 
 #: Lines of the levels that are no chains; chains are shaded by their scale.
-LEVELS = {
+LEVELS: dict[str, dict[str, Any]] = {
     "closed-form": {"color": "0.65", "linestyle": "-", "linewidth": 3.5},
     "pulse-consistent": {"color": "black", "linestyle": "-"},
     "pulse-paper": {"color": "C1", "linestyle": "--"},

@@ -25,8 +25,8 @@ def scale_of(values) -> str:
 
 def bins_of(values, count):
     """Edges of the bins of a quantity, even on its axis."""
-    spread = numpy.geomspace if scale_of(values) == "log" else numpy.linspace
-    return spread(values.min(), values.max(), count + 1)
+    ends = values.min(), values.max()
+    return numpy.geomspace(*ends, count + 1) if scale_of(values) == "log" else numpy.linspace(*ends, count + 1)
 
 
 def drawn(dataset):

@@ -33,7 +33,7 @@ def fronts_of(dataset) -> list:
     return [(dataset[front], *look) for front, look in FRONTS.items() if front in dataset and bool(dataset[front].notnull().any())]
 
 
-def extent(values) -> tuple:
+def extent(values) -> tuple[float, float]:
     """The least and the largest finite value, without a single bad cell: one that is OUTLIER times larger than every other. (0, 0) of none."""
     values = values[numpy.isfinite(values)]
     magnitudes = numpy.sort(numpy.abs(values))

@@ -3,6 +3,7 @@
 import dataclasses
 import math
 from collections.abc import Callable
+from typing import Any
 
 from .. import relations
 
@@ -17,7 +18,8 @@ class Rule:
 
 def relation(wanted, **given) -> float:
     """One quantity of the closed form (Eqs. 8-10)."""
-    return float(relations(**{key: [value] for key, value in given.items()})[wanted].values[0])
+    arguments: dict[str, Any] = {key: [value] for key, value in given.items()}
+    return float(relations(**arguments)[wanted].values[0])
 
 
 def contact_ratio(slip_velocity_m_s, c, slip_velocity):

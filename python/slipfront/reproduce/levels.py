@@ -1,5 +1,7 @@
 """The three levels of the theory side by side: closed form, pulse and chain."""
 
+from typing import Any
+
 import slipfront
 
 from .runs import CASES
@@ -14,7 +16,7 @@ def table(threads) -> dict:
     Returns {"rows", "scale", "worst", "paper", "command"}: rows of friction_coefficient, damping_number, closed_form (None with friction), consistent, chain,
     paper (b / (2 pi)), and consistent_off and paper_off, relative to the chain; the largest of each.
     """
-    rows = []
+    rows: list[dict[str, Any]] = []
     for coefficient in COEFFICIENTS:
         levels = slipfront.compare(CASES / "step.toml", scales=[SCALE], set={"friction.law": "viscous", "friction.coefficient": coefficient}, threads=threads)
         slip = {name: float(value) for name, value in zip(levels["name"].values, levels["slip_at_origin"].isel(time=-1).values)}

@@ -5,7 +5,6 @@ import numpy
 import slipfront
 
 from .derived import relation
-from .numbers import FRICTION
 from .on_fronts import SHARES, STEP, STEP_CHAIN, step_runs
 from .rows import EXACT, REFUTED, close, judged, row
 from .runs import CLOSURES, at_origin
@@ -58,7 +57,7 @@ def place_of_peak(runs) -> list:
     x = numpy.linspace(-0.6, 0.2, 8001)
     W = slipfront.train.profile(1.03, x)
     edges = slipfront.train.profile(1.03, [W.attrs["left_edge"] + 1e-9, W.attrs["right_edge"] - 1e-9])["W"].values
-    top = float(W["x_over_t"][int(W["W"].argmax())])
+    top = float(W["x_over_t"][int(W["W"].values.argmax())])
     places = [at_origin(run, "peak_position") for run in step_runs(runs, SHARES[0])["chain"]]
     return [row("W is 0 at both edges and has its maximum at x = 0", "3.1", EXACT, f"Without friction (U k)_x = (x/t) k_x, which changes its sign at x = 0. The profile has its peak at x/t = {top:.4f} and {edges[0]:.0e} cA/π at 1e-9 from the trailing edge; at the leading edge it goes to 0 as 1/ln of the distance and is still {edges[1]:.0e} there. "
                 f"With friction the peak moves back: on the chain to x = {places[2]:.2f} b/A at C = 0.5 and {places[3]:.2f} at C = 2, t = 2π.", "Σ− = 1.03 without, 0.855 with friction", STEP_CHAIN + " --json   # peak_position")]

@@ -1,5 +1,7 @@
 """All of the reproduction, in order."""
 
+from typing import Any
+
 import slipfront
 
 from .._files import write_text
@@ -19,7 +21,7 @@ def pictures_of(runs, paper, found) -> list:
 def computed(runs, paper) -> dict:
     """What tables and figures share: values of the numbers, sweeps, the nearest widths."""
     given = numbers.taken(paper)
-    found = {"factors": widths.factors(runs), "curves": sweeps.ratios(runs), "ratio": ratios.ratios(runs, sweeps.READ), "drops": sweeps.drops(runs)}
+    found: dict[str, Any] = {"factors": widths.factors(runs), "curves": sweeps.ratios(runs), "ratio": ratios.ratios(runs, sweeps.READ), "drops": sweeps.drops(runs)}
     found["width"] = widths.nearest(found["factors"], {c: given[f"fig_8_factor_{c}"] for c in numbers.FRICTION[1:]})
     found["values"] = numbers.computed(paper, found["factors"], found["width"], found["ratio"], found["curves"])
     return found

@@ -43,6 +43,7 @@ def numbers_section(rows) -> str:
     verdicts = list(dict.fromkeys(row["verdict"] for row in rows))
     counts = "; ".join(f"{verdict}: {sum(row['verdict'] == verdict for row in rows)}" for verdict in sorted(verdicts, key=lambda text: text != "same"))
     heading = ("what", "where", "printed", "rounded as printed", "computed", "difference", "verdict", "remark")
+
     def difference(row):  # a printed bound is met or not, and by how much says nothing
         return f"{100 * row['difference']:+.1f} %" if row["printed"][:1].isdigit() else ""
 

@@ -70,7 +70,7 @@ def plain(text) -> str:
 
 def frames(svg) -> list:
     """The rectangles of all axes in a figure's SVG: left, top, width, height as shares of the figure, from its upper left corner."""
-    wide, high = (float(number) for number in re.search(r'viewBox="0 0 ([\d.]+) ([\d.]+)"', svg).groups())
+    wide, high = (float(number) for number in re.findall(r'viewBox="0 0 ([\d.]+) ([\d.]+)"', svg)[0])
     corners = re.findall(r'<g id="axes_\d+">\s*<g id="patch_\d+">\s*<path d="M ([\d.]+) ([\d.]+) \nL ([\d.]+) [\d.]+ \nL [\d.]+ ([\d.]+) ', svg)
     return [(x0 / wide, y0 / high, (x1 - x0) / wide, (y1 - y0) / high) for x0, y1, x1, y0 in (map(float, found) for found in corners)]
 

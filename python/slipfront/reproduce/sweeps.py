@@ -19,7 +19,7 @@ STRESSES = (0.855, 0.606, 0.419)
 #: Ratios that the paper reads off it, at C = 0.1, 0.5 and 2.
 READ = (0.83, 0.5, 0.2)
 #: (Sigma- - Sigma+) / Sigma- of Fig. 12, and its two Sigma-, which the paper does not print.
-DROPS = numpy.round(numpy.concatenate(([0.02, 0.05], numpy.linspace(0.1, 0.75, 14), [0.8, 0.85, 0.9, 0.95, 0.98, 1.0])), 6)
+DROPS = numpy.round([0.02, 0.05, *numpy.linspace(0.1, 0.75, 14), 0.8, 0.85, 0.9, 0.95, 0.98, 1.0], 6)
 LEFT = (0.855, 0.606)
 
 

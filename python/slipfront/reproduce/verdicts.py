@@ -35,7 +35,7 @@ class Printed:
 
 def unit_of_last_digit(text) -> float:
     """1 in the place of the last digit printed: 0.01 for "0.55"."""
-    return 10.0 ** decimal.Decimal(text).as_tuple().exponent
+    return 10.0 ** int(decimal.Decimal(text).as_tuple().exponent)
 
 
 def rounded(value, text) -> str:
