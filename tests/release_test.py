@@ -1,0 +1,58 @@
+"""The check of a release passes on this checkout, and fails on copies in which version or changelog do not agree."""
+
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+FILES = ["CMakeLists.txt", "CITATION.cff", "CHANGELOG.md", "pyproject.toml", "setup.py", "apps/explorer/package.json", "README.md"]
+
+
+def check(folder):
+    """Return code and errors of the check."""
+    done = subprocess.run([sys.executable, ROOT / "tools/release", folder], capture_output=True, text=True)
+    return done.returncode, done.stderr
+
+
+class Release(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.copy = pathlib.Path(folder.name)
+        for name in FILES:
+            (self.copy / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(ROOT / name, self.copy / name)
+
+    def replace(self, name, old, new):
+        text = (self.copy / name).read_text(encoding="utf-8")
+        self.assertIn(old, text)
+        (self.copy / name).write_text(text.replace(old, new, 1), encoding="utf-8")
+
+    def assert_refused(self, *words):
+        code, errors = check(self.copy)
+        self.assertEqual(code, 1, errors)
+        for word in words:
+            self.assertIn(word, errors)
+
+    def test_accepts_this_checkout(self):
+        self.assertEqual(check(ROOT), (0, ""))
+
+    def test_refuses_another_version_in_any_file(self):
+        self.replace("CITATION.cff", "\nversion: ", "\nversion: 9")
+        self.replace("apps/explorer/package.json", '"version": "', '"version": "8')
+        self.assert_refused("CITATION.cff has version 9", "package.json has version 8")
+
+    def test_refuses_a_version_that_the_changelog_lacks(self):
+        self.replace("CMakeLists.txt", "project(slipfront VERSION ", "project(slipfront VERSION 7")
+        self.assert_refused("CHANGELOG.md has no section '## 7")
+
+    def test_refuses_other_kinds_of_changes(self):
+        self.replace("CHANGELOG.md", "### Fixed", "### Mended")
+        self.assert_refused("'Mended' is none of Added, Changed, Fixed")
+
+
+if __name__ == "__main__":
+    unittest.main()
