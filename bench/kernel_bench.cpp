@@ -122,8 +122,8 @@ void kernel_stage(benchmark::State& state) {
   pulse::Semidiscrete equations(std::move(setup));
   std::vector<double> y(pulse::Values::size(cells)), dy(y.size()), s(cells);
   for (std::size_t i = 0; i < cells; ++i) {
-    y[2 * i] = 0.01 * p.spacing[i];
-    y[2 * i + 1] = 0.01 * p.momentum[i];
+    y[i] = 0.01 * p.spacing[i];
+    y[cells + i] = 0.01 * p.momentum[i];
     s[i] = std::tanh(p.psi[i]) * 1.002;
   }
   measure(state, 707, 10, 57, [&] {

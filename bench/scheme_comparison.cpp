@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "pulse/space/semidiscrete.hpp"
-#include "pulse/time/time_step.hpp"
 #include "rupture/inverse.hpp"
 #include "slipfront/modulation/characteristics.hpp"
 #include "slipfront/modulation/conservation.hpp"

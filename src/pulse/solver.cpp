@@ -246,8 +246,8 @@ void Solver::join(std::size_t cell, std::size_t into) {
 
 void Solver::drop_cell(std::size_t i) {
   const auto at = static_cast<std::ptrdiff_t>(i);
-  const auto first = cells_.unknowns.begin() + static_cast<std::ptrdiff_t>(Values::width_at(i));
-  cells_.unknowns.erase(first, first + 2);
+  cells_.unknowns.erase(cells_.unknowns.begin() + static_cast<std::ptrdiff_t>(size() + i));
+  cells_.unknowns.erase(cells_.unknowns.begin() + at);
   cells_.s.erase(cells_.s.begin() + at);
   cells_.charge.erase(cells_.charge.begin() + at);
 }

@@ -28,7 +28,8 @@ void Solver::fill_end(bool left) {
                s = cells_.s[end];
   const auto at = [&](std::size_t i) { return static_cast<std::ptrdiff_t>(i); };
   const std::size_t where = left ? 0 : n;
-  cells_.unknowns.insert(cells_.unknowns.begin() + at(Values::width_at(where)), {width, momentum});
+  cells_.unknowns.insert(cells_.unknowns.begin() + at(n + where), momentum);
+  cells_.unknowns.insert(cells_.unknowns.begin() + at(where), width);
   cells_.charge.insert(cells_.charge.begin() + at(where), charge);
   cells_.s.insert(cells_.s.begin() + at(where), s);
   if (!cells_.face_momentum.empty()) {  // around the face at an end there is half a cell

@@ -156,8 +156,8 @@ State Solver::state_in(std::size_t cell) const {
                       std::find(&charge[cell - reach], &charge[cell + reach] + 1, 0.0) == &charge[cell + reach] + 1;
   if (!inside)
     return modulation::state_of({cells_.width(cell) / charge[cell], cells_.momentum(cell) / charge[cell]}, psi);
-  double width[stencil], momentum[stencil], width_at[stencil], momentum_at[stencil], charge_at[stencil];
-  split(stencil, cells_.values().from(cell - reach), width, momentum);
+  const double *width = cells_.values().widths() + cell - reach, *momentum = cells_.values().momenta() + cell - reach;
+  double width_at[stencil], momentum_at[stencil], charge_at[stencil];
   centre_values(stencil, {0, stencil}, width, width_at);
   centre_values(stencil, {0, stencil}, momentum, momentum_at);
   centre_values(stencil, {0, stencil}, &charge[cell - reach], charge_at);

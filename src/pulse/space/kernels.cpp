@@ -81,14 +81,6 @@ SLIPFRONT_CLONES void face_fluxes(std::size_t faces, const double* phi, const do
   }
 }
 
-SLIPFRONT_CLONES void split(std::size_t size, const double* pairs, double* first, double* second) {
-  SLIPFRONT_INDEPENDENT
-  for (std::size_t i = 0; i < size; ++i) {
-    first[i] = pairs[2 * i];
-    second[i] = pairs[2 * i + 1];
-  }
-}
-
 SLIPFRONT_CLONES void per_dislocation(std::size_t size, const double* per_charge, const double* width, double* spacing,
                                       double* momentum) {
   SLIPFRONT_INDEPENDENT
@@ -144,12 +136,13 @@ SLIPFRONT_CLONES double hardest_collision(std::size_t size, const double* plus, 
       larger);
 }
 
-SLIPFRONT_CLONES void differences(std::size_t size, const double* U, const double* p, double rounding, double* dy) {
+SLIPFRONT_CLONES void differences(std::size_t size, const double* U, const double* p, double rounding,
+                                  double* width_rate, double* momentum_rate) {
   SLIPFRONT_INDEPENDENT
   for (std::size_t i = 0; i < size; ++i) {
     const double push = p[i] - p[i + 1];
-    dy[2 * i] = U[i + 1] - U[i];
-    dy[2 * i + 1] = std::fabs(push) > rounding * 0.5 * (p[i] + p[i + 1]) ? push : 0.0;
+    width_rate[i] = U[i + 1] - U[i];
+    momentum_rate[i] = std::fabs(push) > rounding * 0.5 * (p[i] + p[i + 1]) ? push : 0.0;
   }
 }
 
@@ -164,8 +157,8 @@ SLIPFRONT_CLONES void fastest_slip(std::size_t size, const double* phi, const do
 
 SLIPFRONT_CLONES void free_momenta(const FreeArrays& a, double time) {
   constexpr double least = 1e-280, rounding = 16 * 2.2e-16;
-  const double *charge = a.charge, *contact = a.contact, *y = a.y, *free = a.free, *s = a.s, *at_rest = a.at_rest,
-               *last = a.last;
+  const double *charge = a.charge, *contact = a.contact, *width = a.width, *free = a.free, *s = a.s,
+               *at_rest = a.at_rest, *last = a.last;
   double *momentum = a.momentum, *start = a.start, *moves = a.moves, *spacing = a.spacing;
   SLIPFRONT_INDEPENDENT
   for (std::size_t i = 0; i < a.size; ++i) {
@@ -175,7 +168,7 @@ SLIPFRONT_CLONES void free_momenta(const FreeArrays& a, double time) {
     moves[i] = moving ? 1.0 : 0.0;
     momentum[i] = M;
     start[i] = last[i] > 0 ? last[i] : M;
-    spacing[i] = contact[i] * y[2 * i] * per_charge;
+    spacing[i] = contact[i] * width[i] * per_charge;
   }
 }
 
@@ -211,21 +204,19 @@ SLIPFRONT_CLONES void find_after_newton(const NewtonArrays& a, double weight, do
   }
 }
 
-SLIPFRONT_CLONES double damp(std::size_t size, double rate, const double* y, const double* U, double* dy) {
+SLIPFRONT_CLONES double damp(std::size_t size, double rate, const double* momentum, const double* U,
+                             double* momentum_rate) {
   SLIPFRONT_INDEPENDENT
-  for (std::size_t i = 0; i < size; ++i) dy[2 * i + 1] -= rate * y[2 * i + 1];
+  for (std::size_t i = 0; i < size; ++i) momentum_rate[i] -= rate * momentum[i];
   return rate *
          reduce(
-             size, 0, [=](std::size_t i) { return U[i] * y[2 * i + 1]; }, [](double a, double b) { return a + b; });
+             size, 0, [=](std::size_t i) { return U[i] * momentum[i]; }, [](double a, double b) { return a + b; });
 }
 
 SLIPFRONT_CLONES double take_friction(std::size_t size, const double* free, const double* momentum,
-                                      const double* velocity, double per_time, double* friction, double* y) {
+                                      const double* velocity, double per_time, double* friction) {
   SLIPFRONT_INDEPENDENT
-  for (std::size_t i = 0; i < size; ++i) {
-    friction[i] = (free[i] - momentum[i]) * per_time;
-    y[2 * i + 1] = momentum[i];
-  }
+  for (std::size_t i = 0; i < size; ++i) friction[i] = (free[i] - momentum[i]) * per_time;
   return reduce(
       size, 0, [=](std::size_t i) { return friction[i] * velocity[i]; }, [](double a, double b) { return a + b; });
 }
@@ -238,28 +229,15 @@ SLIPFRONT_CLONES double paper_rates(std::size_t size, double coefficient, const 
       size, 0, [=](std::size_t i) { return rate[i]; }, larger);
 }
 
-SLIPFRONT_CLONES double least_crossing_time(std::size_t size, const double* y, const double* dy, const double* U,
-                                            const double* c0) {
+SLIPFRONT_CLONES double least_crossing_time(std::size_t size, const double* width, const double* width_rate,
+                                            const double* U, const double* c0) {
   return reduce(
       size, HUGE_VAL,
       [=](std::size_t i) {
         const double slowed = 1 - std::fabs(U[i]) * c0[i];
-        return y[2 * i] * slowed / larger(c0[i] * (1 - U[i] * U[i]), -dy[2 * i] * slowed * (1 / 0.3));
+        return width[i] * slowed / larger(c0[i] * (1 - U[i] * U[i]), -width_rate[i] * slowed * (1 / 0.3));
       },
       smaller);
-}
-
-SLIPFRONT_CLONES void combine3(std::size_t size, std::array<double, 3> c, std::array<const double*, 3> x, double* sum) {
-  const auto [x0, x1, x2] = x;
-  SLIPFRONT_INDEPENDENT
-  for (std::size_t i = 0; i < size; ++i) sum[i] = c[0] * x0[i] + c[1] * x1[i] + c[2] * x2[i];
-}
-
-SLIPFRONT_CLONES void combine5(std::size_t size, std::array<double, 5> c, std::array<const double*, 5> x, double* sum) {
-  const auto [x0, x1, x2, x3, x4] = x;
-  SLIPFRONT_INDEPENDENT
-  for (std::size_t i = 0; i < size; ++i)
-    sum[i] = c[0] * x0[i] + c[1] * x1[i] + c[2] * x2[i] + c[3] * x3[i] + c[4] * x4[i];
 }
 
 SLIPFRONT_CLONES void masses_and_pressures(const StaggeredCells& a) {

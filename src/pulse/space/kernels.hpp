@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 
 #include "pulse/grid/block.hpp"
@@ -44,9 +43,6 @@ void weno_faces(std::size_t faces, const double* plus, const double* minus, doub
 /// a run.
 void face_fluxes(std::size_t faces, const double* phi, const double* psi, double rounding, double* U, double* p);
 
-/// first, second = pairs[2 i], pairs[2 i + 1].
-void split(std::size_t size, const double* pairs, double* first, double* second);
-
 /// Width at the centre of a cell, no further from its mean than cells that resolve it have it: next to a cell that is
 /// much wider the differences would leave next to nothing, whose pressure throws the neighbours apart.
 inline double centre_width(double at_centre, double mean) {
@@ -65,8 +61,10 @@ double hardest_collision(std::size_t size, const double* plus, const double* min
 /// plus, minus = phi +- psi over the largest of them, which is returned: the squares of 1e-300 would underflow.
 double invariants(std::size_t size, const double* phi, const double* psi, double* plus, double* minus);
 
-/// dy of the conservation laws from the fluxes at the faces. Pressures that differ by `rounding` of them push nothing.
-void differences(std::size_t size, const double* U, const double* p, double rounding, double* dy);
+/// Rates of the widths and momenta of the cells from the fluxes at their faces. Pressures that differ by `rounding` of
+/// them push nothing.
+void differences(std::size_t size, const double* U, const double* p, double rounding, double* width_rate,
+                 double* momentum_rate);
 
 /// Largest slip velocities 2 sinh |phi| cosh psi of trains, in local units.
 void fastest_slip(std::size_t size, const double* phi, const double* psi, double* fastest);
@@ -74,10 +72,10 @@ void fastest_slip(std::size_t size, const double* phi, const double* psi, double
 /// Momenta of a dislocation in cells of which friction is about to take for a time: their size, where to start the
 /// search for what friction leaves (the last one, if there is one), and whether there is anything (1, else 0). Less
 /// than rounding of the pressure is nothing, and so is what cannot overcome `at_rest`, the momentum that friction takes
-/// of what rests. Also the spacings of dislocations, in local units, in cells of width y[2 i].
+/// of what rests. Also the spacings of dislocations, in local units.
 struct FreeArrays {
   std::size_t size;
-  const double *charge, *contact, *y, *free, *s, *at_rest, *last;
+  const double *charge, *contact, *width, *free, *s, *at_rest, *last;
   double *momentum, *start, *moves, *spacing;
 };
 void free_momenta(const FreeArrays& a, double time);
@@ -103,24 +101,21 @@ struct AfterNewton {
 void find_after_newton(const NewtonArrays& a, double weight, double last_step, double precision,
                        const AfterNewton& after);
 
-/// What friction takes in a unit of time of which it leaves `momentum` of `free`; gives the cells these momenta,
-/// y[2 i + 1], and returns the power that it takes.
+/// Force of friction that leaves `momentum` of `free` in a time, from 1 over that time; returns the power that it
+/// takes.
 double take_friction(std::size_t size, const double* free, const double* momentum, const double* velocity,
-                     double per_time, double* friction, double* y);
+                     double per_time, double* friction);
 
-/// Friction at one rate for all on the momenta y[2 i + 1]; returns the power that it takes.
-double damp(std::size_t size, double rate, const double* y, const double* U, double* dy);
+/// Adds friction at one rate for all cells to the rates of their momenta; returns the power that it takes.
+double damp(std::size_t size, double rate, const double* momentum, const double* U, double* momentum_rate);
 
 /// Viscous friction rates of closure "paper", C pi^2 / (4 E K), C where EK is given as 0; returns the largest.
 double paper_rates(std::size_t size, double coefficient, const double* EK, double* rate);
 
-/// Least time in which a wave crosses a cell of width y[2 i], |lambda_pm - U| = c0 (1 - U^2) / (1 - |U| c0), or the
-/// cell loses 0.3 of it.
-double least_crossing_time(std::size_t size, const double* y, const double* dy, const double* U, const double* c0);
-
-/// sum = c_0 x_0 + c_1 x_1 + ...
-void combine3(std::size_t size, std::array<double, 3> c, std::array<const double*, 3> x, double* sum);
-void combine5(std::size_t size, std::array<double, 5> c, std::array<const double*, 5> x, double* sum);
+/// Least time in which a wave crosses a cell, |lambda_pm - U| = c0 (1 - U^2) / (1 - |U| c0), or the cell loses 0.3 of
+/// its width.
+double least_crossing_time(std::size_t size, const double* width, const double* width_rate, const double* U,
+                           const double* c0);
 
 /// Of implicit steps. Trains in cells with momenta `on_one` of a dislocation at the faces on either side: their mass
 /// cosh(psi) E, an eighth of M / sinh(phi), and their pressure 2 sinh^2 psi. Trains that run into each other are

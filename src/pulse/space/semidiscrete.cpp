@@ -22,10 +22,9 @@ Semidiscrete::Semidiscrete(Setup setup)
       blocks_(blocks_of(setup_.charge, setup_.left, setup_.right)) {
   const std::size_t n = size();
   wake();
-  for (auto* array :
-       {&centres_.charge, &centres_.per_charge, &means_.width, &means_.momentum, &means_.phi, &means_.psi,
-        &sources_.friction_rate, &sources_.friction_strength, &sources_.force, &means_.source, &sources_.fastest,
-        &sources_.shape, &sources_.mean, &sources_.shown_momentum, &centres_.x, &reconstruction_.shocked})
+  for (auto* array : {&centres_.charge, &centres_.per_charge, &means_.phi, &means_.psi, &sources_.friction_rate,
+                      &sources_.friction_strength, &sources_.force, &means_.source, &sources_.fastest, &sources_.shape,
+                      &sources_.mean, &sources_.shown_momentum, &centres_.x, &reconstruction_.shocked})
     array->assign(n, 0);
   sources_.cell.assign(n, 0);
   sources_.resting_s.assign(n, -1);
@@ -60,15 +59,15 @@ std::vector<State> Semidiscrete::states() const {
 
 void Semidiscrete::find_states(double t, const double* y) {
   const std::size_t n = size();
-  split(n, y, means_.width.data(), means_.momentum.data());
+  const ConstValues means(y, n);
   for (const Block& r : blocks_) {
     const Stretch awake = awake_in(r);
     if (awake.empty()) continue;
     double *spacing = centres_.train.spacing.data() + r.begin, *momentum = centres_.train.momentum.data() + r.begin;
-    centre_values(r.end - r.begin, awake, means_.width.data() + r.begin, spacing);
-    centre_values(r.end - r.begin, awake, means_.momentum.data() + r.begin, momentum);
+    centre_values(r.end - r.begin, awake, means.widths() + r.begin, spacing);
+    centre_values(r.end - r.begin, awake, means.momenta() + r.begin, momentum);
     const std::size_t first = r.begin + awake.begin;
-    per_dislocation(awake.end - awake.begin, &centres_.per_charge[first], &means_.width[first], spacing + awake.begin,
+    per_dislocation(awake.end - awake.begin, &centres_.per_charge[first], means.widths() + first, spacing + awake.begin,
                     momentum + awake.begin);
   }
   if (setup_.contact) {
@@ -117,9 +116,10 @@ void Semidiscrete::operator()(double t, const double* y, double* dy) {
   rates.left_edge() = faces_.velocity[0];
   rates.dissipated() = rates.supplied() = 0;
   rates.through_ends() = faces_.pressure[0] * faces_.velocity[0] - faces_.pressure[n] * faces_.velocity[n];
-  std::fill_n(rates.from(0), 2 * n, 0.0);
-  differences(count, &faces_.velocity[awake], &faces_.pressure[awake], rounding, rates.from(awake));
-  if (setup_.contact) add_contact_force(dy);
+  std::fill_n(rates.widths(), 2 * n, 0.0);
+  differences(count, &faces_.velocity[awake], &faces_.pressure[awake], rounding, rates.widths() + awake,
+              rates.momenta() + awake);
+  if (setup_.contact) add_contact_force(y, dy);
   add_sources(t, y, dy);
 }
 
@@ -138,11 +138,11 @@ void Semidiscrete::let_rest(const double* y, const double* dy) {
 }
 
 double Semidiscrete::crossing_time(const double* y, const double* dy) const {
-  const ConstValues values(y, size());
+  const ConstValues values(y, size()), rates(dy, size());
   double least = HUGE_VAL;
   for (const Block& r : blocks_) {
     const std::size_t i = r.begin;
-    least = std::fmin(least, least_crossing_time(r.end - i, values.from(i), ConstValues(dy, size()).from(i),
+    least = std::fmin(least, least_crossing_time(r.end - i, values.widths() + i, rates.widths() + i,
                                                  &centres_.train.velocity[i], &centres_.train.sound_speed[i]));
   }
   if (setup_.contact)  // which may not throw a cell, of mass 8 a dislocation, farther than a part of its width

@@ -94,13 +94,13 @@ class Semidiscrete {
   void find_rates();
   void find_strengths();
   void add_sources(double t, const double* y, double* dy);
-  void add_contact_force(double* dy);
+  void add_contact_force(const double* y, double* dy);
 
   bool gap(std::size_t i) const { return setup_.charge[i] == 0; }
 
   /// Averages over the cells.
   struct Means {
-    std::vector<double> width, momentum, phi, psi;
+    std::vector<double> phi, psi;
     std::vector<double> source;  ///< force on the cell
   };
   /// Values at the cell centres.

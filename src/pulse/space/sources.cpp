@@ -47,7 +47,8 @@ void between_centres(const Block& block, const double* centre, double* face) {
 /// order, and no derivative of a is needed. In a dilute train <1 - cos u> goes as 1 / ln psi, and a psi that the
 /// invariants leave at a face, much smaller than phi, has no digits: faces take it from the centres around them. Beside
 /// a free edge, where the density falls to nothing within a cell, what is smooth is the energy of one dislocation.
-void Semidiscrete::add_contact_force(double* dy) {
+void Semidiscrete::add_contact_force(const double* y, double* dy) {
+  const ConstValues values(y, size());
   const Values rates(dy, size());
   const auto square = [](double a) { return a * a; };
   std::vector<double>&centre = sources_.substrate, &face = sources_.substrate_at_faces;
@@ -61,7 +62,7 @@ void Semidiscrete::add_contact_force(double* dy) {
   }
   for (const Block& r : blocks_) {
     const auto of_one = [&](std::size_t i) {  // energy of a dislocation times their number, evenly over the cell
-      const double number = setup_.charge[i] * centres_.train.spacing[i] / (centres_.contact[i] * means_.width[i]);
+      const double number = setup_.charge[i] * centres_.train.spacing[i] / (centres_.contact[i] * values.width(i));
       sources_.contact_force[i] = -centre[i] * number * (square(faces_.contact[i + 1]) - square(faces_.contact[i]));
     };
     if (r.left == Edge::free) of_one(r.begin);
@@ -82,7 +83,7 @@ void Semidiscrete::add_sources(double t, const double* y, double* dy) {
   if (!frictional && !setup_.forcing) return;
   double dissipation = 0, supply = 0;
   if (linear && !setup_.forcing) {  // the plain case, without the detour over point values
-    rates.dissipated() = damp(n, *C, y, centres_.train.velocity.data(), dy);
+    rates.dissipated() = damp(n, *C, values.momenta(), centres_.train.velocity.data(), rates.momenta());
     return;
   }
   for (std::size_t i = 0; i < n; ++i) {

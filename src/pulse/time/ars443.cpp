@@ -1,8 +1,10 @@
 #include "pulse/time/ars443.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "foundation/simd/combine.hpp"
 #include "pulse/space/kernels.hpp"
 #include "slipfront/pulse/named_values.hpp"
 
@@ -20,24 +22,23 @@ constexpr double by_friction[stages][stages] = {
 
 }  // namespace
 
-SplitStep::SplitStep(std::size_t cells, std::size_t size)
+Ars443::Ars443(std::size_t cells, std::size_t size)
     : cells_(cells),
       rates_(stages, std::vector<double>(size)),
       friction_(stages, std::vector<double>(cells + 1)),
       stage_(size),
       midpoint_(size),
-      width_(cells),
       free_(cells),
       momentum_(cells),
       velocity_(cells) {}
 
-void SplitStep::operator()(const Rates& f, const Friction& friction, double t, double dt, std::vector<double>& y,
-                           const std::vector<double>& rate_at_start) {
+void Ars443::operator()(const Rates& f, const Friction& friction, double t, double dt, std::vector<double>& y,
+                        const std::vector<double>& rate_at_start) {
   before_ = y;
   rates_[0] = rate_at_start;
   std::array<const double*, 1 + stages> y_and_rates, y_and_friction;  // as far as they are known; with weight 0 else
   y_and_rates.fill(before_.data());
-  y_and_friction.fill(free_.data());
+  y_and_friction.fill(stage_.data());
   for (std::size_t k = 0; k < stages; ++k) {
     std::array<double, 1 + stages> by_stage{1}, taken{1};
     for (std::size_t j = 0; j <= k; ++j) by_stage[1 + j] = dt * by_rates[k][j];
@@ -46,11 +47,12 @@ void SplitStep::operator()(const Rates& f, const Friction& friction, double t, d
     combine5(stage_.size(), by_stage, y_and_rates, stage_.data());
     const Values values(stage_.data(), cells_);
     const double time = dt * by_friction[k][k];
-    split(cells_, stage_.data(), width_.data(), free_.data());
+    y_and_friction[0] = values.momenta();
     combine5(cells_, taken, y_and_friction, free_.data());
     friction(stage_.data(), free_.data(), time, momentum_.data(), velocity_.data());
-    friction_[k][cells_] = take_friction(cells_, free_.data(), momentum_.data(), velocity_.data(), 1 / time,
-                                         friction_[k].data(), stage_.data());
+    friction_[k][cells_] =
+        take_friction(cells_, free_.data(), momentum_.data(), velocity_.data(), 1 / time, friction_[k].data());
+    std::copy_n(momentum_.data(), cells_, values.momenta());
     y_and_friction[1 + k] = friction_[k].data();
     for (std::size_t j = 0; j <= k; ++j) values.dissipated() += dt * by_friction[k][j] * friction_[j][cells_];
     if (k + 1 < stages) f(t + at[k] * dt, stage_.data(), rates_[k + 1].data());
@@ -66,13 +68,14 @@ void SplitStep::operator()(const Rates& f, const Friction& friction, double t, d
   y = stage_;
 }
 
-double SplitStep::error(const std::vector<double>& y, const std::vector<double>& scale,
-                        const std::vector<double>& excluded) const {
+double Ars443::error(const std::vector<double>& y, const std::vector<double>& scale,
+                     const std::vector<double>& excluded) const {
   double sum = 0;
-  for (std::size_t i = 0; i < 2 * cells_; ++i) {
-    const double off = (y[i] - midpoint_[i]) / scale[i];
-    sum += (1 - excluded[i / 2]) * off * off;
-  }
+  for (std::size_t cell = 0; cell < cells_; ++cell)
+    for (const std::size_t i : {cell, cells_ + cell}) {
+      const double off = (y[i] - midpoint_[i]) / scale[i];
+      sum += (1 - excluded[cell]) * off * off;
+    }
   const double error = std::sqrt(sum / static_cast<double>(2 * cells_));
   return std::isfinite(error) ? error : HUGE_VAL;
 }

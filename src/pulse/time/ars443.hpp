@@ -3,16 +3,16 @@
 #include <functional>
 #include <vector>
 
-#include "pulse/time/time_step.hpp"
+#include "pulse/time/rates.hpp"
 
 namespace slipfront::pulse {
 
 /// One step in which friction is implicit, cell by cell, and all else explicit: ARS(4,4,3) (Ascher, Ruuth & Spiteri
 /// 1997), third order, with the implicit midpoint rule beside it for the error. Friction that balances a push holds a
 /// cell through all stages, for the last one is the result and no stage asks for the force at the start.
-class SplitStep {
+class Ars443 {
  public:
-  SplitStep(std::size_t cells, std::size_t size);
+  Ars443(std::size_t cells, std::size_t size);
 
   /// Friction on all cells of the stage y for a time: from the momenta `free` that they would have without it, those
   /// that it leaves and the velocities.
@@ -35,7 +35,7 @@ class SplitStep {
   std::size_t cells_;
   std::vector<std::vector<double>> rates_;     ///< at the start and at each stage but the last, without friction
   std::vector<std::vector<double>> friction_;  ///< of each stage: loss of momentum by cell, then of energy
-  std::vector<double> before_, stage_, midpoint_, width_, free_, momentum_, velocity_;
+  std::vector<double> before_, stage_, midpoint_, free_, momentum_, velocity_;
 };
 
 }  // namespace slipfront::pulse

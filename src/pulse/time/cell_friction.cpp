@@ -8,7 +8,9 @@
 #include <numbers>
 #include <utility>
 
+#include "foundation/math/step_control.hpp"
 #include "pulse/space/kernels.hpp"
+#include "pulse/time/step_limits.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::pulse {
@@ -105,8 +107,8 @@ void CellFriction::operator()(const double* y, const double* free, double time, 
   const std::size_t first = awake_.begin, count = awake_.end - first;
   for (std::size_t i = first; i < awake_.end; ++i) held_[i] = weight * strength_at_rest_[i];
   const auto part = [first](std::vector<double>& array) { return array.data() + first; };
-  free_momenta({count, part(charge_), part(contact_), ConstValues(y, x_.size()).from(first), free + first, part(s_),
-                part(held_), part(momentum_), part(free_), part(guess_), part(moves_), part(spacing_)},
+  free_momenta({count, part(charge_), part(contact_), ConstValues(y, x_.size()).widths() + first, free + first,
+                part(s_), part(held_), part(momentum_), part(free_), part(guess_), part(moves_), part(spacing_)},
                time);
   // From the momentum, the force and its slope as last found.
   take_newton_steps({count, part(guess_), part(free_), part(force_), part(slope_), part(guess_)}, weight,
@@ -162,7 +164,8 @@ double CellFriction::memory_error(const std::vector<double>& foretold, double ti
   double sum = 0;
   for (std::size_t i = 0; i < x_.size(); i += stride) {
     if (!(fastest_[i] > 0)) continue;
-    const double off = 2 * pi * time * charge_[i] * (force_[i] - foretold[i]) / scale[Values::momentum_at(i)];
+    const double off =
+        2 * pi * time * charge_[i] * (force_[i] - foretold[i]) / ConstValues(scale.data(), x_.size()).momentum(i);
     sum += off * off;
   }
   const double error = std::sqrt(sum * static_cast<double>(stride) / static_cast<double>(x_.size()));
@@ -194,8 +197,8 @@ double Solver::step_by_parts(MemoryStep& work, const std::vector<double>& rate, 
   if (remembers) at_start = now.passing(friction.x(), friction.passing(cells_));
   std::vector<double> x(size());
   find_scale(crossing, work.scale);
-  const double longest = SplitStep::longest_in_crossing_times * crossing;
-  double dt = next_step(remaining, cells_.step > 0 ? std::fmin(longest, cells_.step) : longest);
+  const double longest = Ars443::longest_in_crossing_times * crossing;
+  double dt = step_within(remaining, cells_.step > 0 ? std::fmin(longest, cells_.step) : longest);
   for (int tries = 0;; ++tries) {
     double factor = 0.5;
     try {

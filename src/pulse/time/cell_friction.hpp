@@ -23,7 +23,7 @@ class CellFriction {
   Places::Passing passing(const Cells& cells) const;
   /// From where the cells are in the middle of a step of `dt`.
   void take_memory(const Places& places, double dt);
-  /// SplitStep::Friction.
+  /// Ars443::Friction.
   void operator()(const double* y, const double* free, double time, double* momentum, double* velocity);
   /// Mean forces as last found.
   void foretell(std::vector<double>& force) const;
@@ -56,7 +56,7 @@ class CellFriction {
 struct MemoryStep {
   MemoryStep(const Problem& problem, std::size_t cells, std::size_t unknowns)
       : split(cells, unknowns), friction(problem, cells), scale(2 * cells), foretold(cells) {}
-  SplitStep split;
+  Ars443 split;
   CellFriction friction;
   std::vector<double> before, scale, foretold;
 };

@@ -6,12 +6,15 @@
 #include <numbers>
 #include <vector>
 
+#include "foundation/math/step_control.hpp"
 #include "foundation/text/digits.hpp"
 #include "modulation/equations.hpp"
 #include "pulse/space/semidiscrete.hpp"
 #include "pulse/space/staggered.hpp"
 #include "pulse/time/cell_friction.hpp"
-#include "pulse/time/time_step.hpp"
+#include "pulse/time/rodas4.hpp"
+#include "pulse/time/ssprk54.hpp"
+#include "pulse/time/step_limits.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/pulse/solver.hpp"
 
@@ -35,10 +38,10 @@ constexpr double smallest_scale = 1e-305;
 /// one that `friction` (that of a dislocation) holds, as it has turned it back in a stage of the step and nothing else
 /// acts as strongly: what the step would have made of its momentum is no error then, nor what its friction does in the
 /// means over the cells beside it.
-void stop_reversals(const ExplicitStep& step, double friction, const std::vector<double>& charge,
+void stop_reversals(const Ssprk54& step, double friction, const std::vector<double>& charge,
                     const std::vector<double>& before, std::vector<double>& after, std::vector<double>& scale) {
   for (std::size_t cell = 0; cell < charge.size(); ++cell) {
-    const std::size_t i = Values::momentum_at(cell);
+    const std::size_t i = charge.size() + cell;
     const bool reversed = before[i] * after[i] < 0;
     const bool held =
         (reversed || step.returns_to_zero(i, before[i])) && step.largest_rate(i) <= 2 * friction * charge[cell];
@@ -46,15 +49,18 @@ void stop_reversals(const ExplicitStep& step, double friction, const std::vector
     after[i] = 0;
     if (!held) continue;
     for (std::size_t j = cell > 1 ? cell - 2 : 0; j <= std::min(cell + 2, charge.size() - 1); ++j)
-      scale[Values::momentum_at(j)] = HUGE_VAL;
+      scale[charge.size() + j] = HUGE_VAL;
   }
 }
 
 /// Cells that were left alone in a step keep their bits: its sums of a width with itself are rounded.
 void keep_others(Stretch awake, const std::vector<double>& before, std::vector<double>& after, std::size_t cells) {
-  const auto at = [](std::size_t cell) { return static_cast<std::ptrdiff_t>(Values::width_at(cell)); };
-  std::copy_n(before.begin(), at(awake.begin), after.begin());
-  std::copy(before.begin() + at(awake.end), before.begin() + at(cells), after.begin() + at(awake.end));
+  const auto copy = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t first : {begin, cells + begin})
+      std::copy_n(before.data() + first, end - begin, after.data() + first);
+  };
+  copy(0, awake.begin);
+  copy(awake.end, cells);
 }
 
 }  // namespace
@@ -68,10 +74,10 @@ bool Solver::advance_to(double time, const std::function<bool()>& interrupted) {
 /// What steps work with, as long as the cells stay the same.
 struct Solver::Work {
   Rates f;
-  ExplicitStep explicit_step;
+  Ssprk54 explicit_step;
   std::vector<double> rate, next, scale;
-  std::unique_ptr<ImplicitStep> implicit_step;  // made when friction first rules
-  std::unique_ptr<MemoryStep> memory_step;      // if friction remembers
+  std::unique_ptr<Rodas4> implicit_step;    // made when friction first rules
+  std::unique_ptr<MemoryStep> memory_step;  // if friction remembers
 
   explicit Work(Semidiscrete& equations, std::size_t cells, std::size_t size)
       : f([&equations](double t, const double* y, double* dy) { equations(t, y, dy); }),
@@ -87,7 +93,7 @@ double Solver::step_explicitly(Work& work, double remaining, double crossing) {
     cells_.step = 0;
   }
   const double wanted = cells_.step > 0 ? std::fmin(crossing, cells_.step) : crossing;
-  double dt = next_step(remaining, wanted);
+  double dt = step_within(remaining, wanted);
   const bool dry = problem_.friction.sticks();
   const double friction = modulation::force_per_dislocation(problem_.friction.strength_at_rest());
   work.next = cells_.unknowns;
@@ -125,7 +131,7 @@ double Solver::step_explicitly(Work& work, double remaining, double crossing) {
 /// missed, in units of the largest that the forcing gives or there is; of a few cells.
 double Solver::unseen_push(double dt) const {
   if (!problem_.forcing) return 0;
-  constexpr double last = ExplicitStep::last_stage;
+  constexpr double last = Ssprk54::last_stage;
   const std::size_t stride = std::max<std::size_t>(size() / 64, 1);
   const double before = cells_.time + (2 * last - 1) * dt, stage = cells_.time + last * dt, end = cells_.time + dt;
   double missed = 0, largest = 0, left = cells_.left_edge();  // the face left of cell `counted`
@@ -169,8 +175,8 @@ void Solver::find_scale(double crossing, std::vector<double>& scale) const {
   for (std::size_t i = 0; i < size(); ++i)
     if (cells_.charge[i] > 0) fastest = std::fmax(fastest, std::fabs(cells_.momentum(i) / cells_.charge[i]));
   for (std::size_t i = 0; i < size(); ++i) {
-    scale[Values::width_at(i)] = cells_.width(i);
-    scale[Values::momentum_at(i)] = cells_.charge[i] > 0 ? std::fmax(cells_.charge[i] * fastest, smallest_scale) : 1;
+    scale[i] = cells_.width(i);
+    scale[size() + i] = cells_.charge[i] > 0 ? std::fmax(cells_.charge[i] * fastest, smallest_scale) : 1;
   }
 }
 
@@ -244,7 +250,7 @@ double Solver::step_implicitly(Work& work, double remaining, double crossing) {
   Staggered& staggered = this->staggered();
   if (!work.implicit_step)
     work.implicit_step =
-        std::make_unique<ImplicitStep>(staggered.faces(), staggered.size(), Staggered::reach, bool(problem_.forcing));
+        std::make_unique<Rodas4>(staggered.faces(), staggered.size(), Staggered::reach, bool(problem_.forcing));
   if (cells_.face_momentum.empty()) cells_.step = 0;
   const Rates f = [&staggered](double t, const double* z, double* dz) { staggered(t, z, dz); };
   const std::vector<double> z = faces_of_cells(staggered);
@@ -252,7 +258,7 @@ double Solver::step_implicitly(Work& work, double remaining, double crossing) {
   find_scale(crossing, work.scale);
   double fastest = 0;
   for (std::size_t i = 0; i < size(); ++i)
-    if (cells_.charge[i] > 0) fastest = std::fmax(fastest, work.scale[Values::momentum_at(i)] / cells_.charge[i]);
+    if (cells_.charge[i] > 0) fastest = std::fmax(fastest, work.scale[size() + i] / cells_.charge[i]);
   constexpr double creep = 1e-6;  // of the mean speed so far: adds as little to slip
   staggered.viscous_below(creep * mean_speed());
   staggered.start_from(cells_.s);
@@ -266,7 +272,7 @@ double Solver::step_implicitly(Work& work, double remaining, double crossing) {
   }
   for (std::size_t face = 0; face < staggered.faces(); ++face) {
     const FaceValues at(scale.data(), staggered.faces());
-    at.width_left_of(face) = work.scale[Values::width_at(face == 0 ? 0 : face - 1)];
+    at.width_left_of(face) = work.scale[face == 0 ? 0 : face - 1];
     at.momentum(face) = std::fmax(staggered.charge_around(face) * fastest, smallest_scale);
   }
   constexpr double slow = 1e-4;
@@ -277,11 +283,12 @@ double Solver::step_implicitly(Work& work, double remaining, double crossing) {
     if (steep() && dt < far_too_short * std::fmin(crossing, remaining))
       return step_by_faces(z, scale, std::fmin(crossing, remaining));
     const double wanted = dt;
-    dt = next_step(remaining, dt);
+    dt = step_within(remaining, dt);
     double error = HUGE_VAL;
     try {
-      error = (*work.implicit_step)(f, cells_.time, dt, z, rate, scale, equations_->largest_friction_rate(),
-                                    problem_.tolerance, next);
+      const StepAttempt made = (*work.implicit_step)(
+          f, cells_.time, dt, z, rate, {scale, problem_.tolerance, equations_->largest_friction_rate()}, next);
+      if (made.succeeded) error = made.error;
     } catch (const NumericsError&) {  // a stage left the range of states: as good as a large error
     }
     const double factor = std::clamp(0.9 * std::pow(error, -0.25), 0.2, 4.0);
@@ -313,13 +320,16 @@ double Solver::step_by_faces(const std::vector<double>& z, const std::vector<dou
       staggered.split_step(cells_.time, dt / 2, z.data(), half.data());
       staggered.split_step(cells_.time + dt / 2, dt / 2, half.data(), next.data());
       double sum = 0;
-      for (std::size_t i = 0; i < scale.size(); ++i) {
-        const double off = (next[i] - whole[i]) / std::fmax(scale[i], std::fabs(next[i]));
-        sum += i % 2 == 1 ? of_momentum_least * of_momentum_least * off * off : off * off;
+      const std::size_t faces = staggered.faces();
+      const auto off = [&](std::size_t i) { return (next[i] - whole[i]) / std::fmax(scale[i], std::fabs(next[i])); };
+      for (std::size_t f = 0; f < faces; ++f) {
+        const double of_width = off(f), of_momentum = off(faces + f);
+        sum += of_width * of_width;
+        sum += of_momentum_least * of_momentum_least * of_momentum * of_momentum;
       }
       error = std::sqrt(sum / static_cast<double>(scale.size())) / problem_.explicit_tolerance;
       for (std::size_t i = 0; i < z.size(); ++i) next[i] += next[i] - whole[i];
-      for (std::size_t i = 2; i < scale.size(); i += 2)
+      for (std::size_t i = 1; i < faces; ++i)
         if (!(next[i] > z[i] / 10) && z[i] > 0) error = HUGE_VAL;
     } catch (const NumericsError&) {  // a stage left the range of states
     }
