@@ -78,7 +78,7 @@ class Chain(CommandLine):
         self.assertIsNone(events[3]["rupture_velocity"])
         self.assertLess(whole["energy_drift"], 1e-10)
         # Left alone and interrupted: the same file.
-        longer = ["--set", "time.end=2e7", "--set", "output.every=2e6"]
+        longer = ["--set", "time.end=4e6", "--set", "output.every=4e5"]
         cut, left_alone = case + ".cut.nc", case + ".alone.nc"
         self.interrupted(cut, "chain", case, *longer)
         self.ok("chain", case, *longer, "--resume", cut)

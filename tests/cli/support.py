@@ -80,7 +80,7 @@ class CommandLine(unittest.TestCase):
         return json.loads(self.ok("chain", *arguments, "--json"))
 
     def slow_case(self):
-        cells, scale = (300, 400) if SANITIZED else (700, 1500)
+        cells, scale = (300, 400) if SANITIZED else (700, 700)
         return self.file("slow.toml", "[initial]\nstress_left = 0.855\nstress_right = 0\n[friction]\nlaw = 'viscous'\ncoefficient = 0.5\n"
                                       f"[pulse]\ncells = {cells}\n[chain]\nscale = {scale}\n[output]\nevery = 0.3\n")
 

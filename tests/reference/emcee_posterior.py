@@ -64,18 +64,20 @@ def closed_form(V):
     return stress, np.pi * np.sinh(phi) * np.cosh(at_origin) / ellipkm1(np.tanh(at_origin) ** 2)
 
 
-def ln_ratio(coefficients, corner, ln_stress, u):
-    stress = np.exp(ln_stress)
+def ln_ratio(coefficients, corner, stress, u):
+    """Of arrays of states."""
     y = (2 * stress / (1 + stress) - STRESS.sum()) / (STRESS[1] - STRESS[0])
-    ends = ENDS.copy()
+    ends = np.tile(ENDS, (len(y), 1))
     if corner[0] != 0:
-        ends[1] = np.polynomial.chebyshev.chebval(y, corner)
-        ends[2] = (ends[1] + ends[3]) / 2
-    piece = min(max(np.searchsorted(ends, u, side="right") - 1, 0), 6)
-    x = (u - ends[piece]) / (ends[piece + 1] - ends[piece])
-    if corner[0] != 0 and piece == 1:
-        x = np.sqrt(x)
-    return np.polynomial.chebyshev.chebval2d(y, 2 * x - 1, coefficients[piece])
+        ends[:, 1] = np.polynomial.chebyshev.chebval(y, corner)
+        ends[:, 2] = (ends[:, 1] + ends[:, 3]) / 2
+    piece = np.clip((ends <= u[:, None]).sum(axis=1) - 1, 0, 6)
+    every = np.arange(len(y))
+    x = (u - ends[every, piece]) / (ends[every, piece + 1] - ends[every, piece])
+    if corner[0] != 0:
+        x = np.where(piece == 1, np.sqrt(np.abs(x)), x)
+    in_stress, in_damping = (np.polynomial.chebyshev.chebvander(at, degree) for at, degree in ((y, 14), (2 * x - 1, 8)))
+    return np.einsum("si,sij,sj->s", in_stress, coefficients[piece], in_damping)
 
 
 def sampled(event, coefficients, corners):
@@ -85,12 +87,17 @@ def sampled(event, coefficients, corners):
     forms = np.array([closed_form(np.exp(v) / C_SPEED) for v in grid])
     index = ["origin", "mean", "peak", "time-mean"].index(measure)
 
-    def ln_density(theta):
-        ln_V, ln_A, u = theta
-        if not (grid[0] < ln_V < grid[-1] and np.log(1e-8) < ln_A < np.log(PLASTIC) and 0 < u < ENDS[-1]):
-            return -np.inf
+    def ln_density(states):
+        """Of all states of a step of the ensemble at once."""
+        ln_V, ln_A, u = states.T
+        allowed = (grid[0] < ln_V) & (ln_V < grid[-1]) & (np.log(1e-8) < ln_A) & (ln_A < np.log(PLASTIC)) & (0 < u) & (u < ENDS[-1])
+        density = np.full(len(states), -np.inf)
+        density[allowed] = ln_density_within(ln_V[allowed], ln_A[allowed], u[allowed])
+        return density
+
+    def ln_density_within(ln_V, ln_A, u):
         stress, W = (np.interp(ln_V, grid, forms[:, 0]), np.exp(np.interp(ln_V, grid, np.log(forms[:, 1]))))
-        ln_w = ln_A + np.log(C_SPEED / np.pi * W) + ln_ratio(coefficients[index], corners[index], np.log(stress), u)
+        ln_w = ln_A + np.log(C_SPEED / np.pi * W) + ln_ratio(coefficients[index], corners[index], stress, u)
         return (-0.5 * ((np.exp(ln_V) - V0) / sd) ** 2 - 0.5 * ((ln_w - np.log(w0)) / np.log(w_factor)) ** 2
                 - 0.5 * ((ln_A - np.log(A0)) / np.log(A_factor)) ** 2)
 
@@ -98,7 +105,7 @@ def sampled(event, coefficients, corners):
     np.random.seed(1)
     start = np.column_stack([np.log(V0) + 0.01 * random.standard_normal(24), np.log(A0) + 0.1 * random.standard_normal(24),
                              random.uniform(0.5, 12, 24)])
-    sampler = emcee.EnsembleSampler(24, 3, ln_density)
+    sampler = emcee.EnsembleSampler(24, 3, ln_density, vectorize=True)
     sampler.run_mcmc(start, 6000)
     chain = sampler.get_chain(discard=1500)
     parts = np.array([[np.quantile(part[:, :, i], [0.05, 0.5, 0.95]) for i in (1, 2)] for part in np.array_split(chain, 9)])
