@@ -97,30 +97,32 @@ Exact at_rest(const Exact& u0, double C) {
   };
 }
 
+/// Displacement averaged over a window of this width about x = 0, by interpolation between the sites.
+double mean_over(Scheme& s, double width) {
+  const auto u = s.u();
+  const double h = s.x[1] - s.x[0];
+  const auto at = [&](double y) {
+    const double r = (y - s.x[0]) / h;
+    const auto j = static_cast<std::size_t>(r);
+    const double f = r - static_cast<double>(j), *p = &u[j - 2];
+    double sum = 0;  // Lagrange, six points
+    for (int a = 0; a < 6; ++a) {
+      double w = 1;
+      for (int b = 0; b < 6; ++b)
+        if (b != a) w *= (f + 2 - b) / (a - b);
+      sum += w * p[a];
+    }
+    return sum;
+  };
+  double sum = 0;
+  for (int i = 0; i < 256; ++i) sum += at(width * ((i + 0.5) / 256 - 0.5));
+  return sum / 256;
+}
+
 /// Displacement averaged over one spacing of the train about x = 0, at 64 times, less that at t = 0.
 std::vector<double> history(Scheme& s, double per, double end, double width, double* seconds) {
   std::vector<double> out;
-  const auto mean = [&] {
-    // Trapezoid over the window with interpolated ends, from a cubic through the sites.
-    const auto u = s.u();
-    const double h = s.x[1] - s.x[0];
-    const auto at = [&](double y) {
-      const double r = (y - s.x[0]) / h;
-      const auto j = static_cast<std::size_t>(r);
-      const double f = r - static_cast<double>(j), *p = &u[j - 2];
-      double sum = 0;  // Lagrange, six points
-      for (int a = 0; a < 6; ++a) {
-        double w = 1;
-        for (int b = 0; b < 6; ++b)
-          if (b != a) w *= (f + 2 - b) / (a - b);
-        sum += w * p[a];
-      }
-      return sum;
-    };
-    double sum = 0;
-    for (int i = 0; i < 256; ++i) sum += at(width * ((i + 0.5) / 256 - 0.5));
-    return sum / 256;
-  };
+  const auto mean = [&] { return mean_over(s, width); };
   const double first = mean();
   *seconds = 0;
   double before_time = s.time, before = first;

@@ -19,6 +19,30 @@ int run_event(const EventArguments& a) {
   return to_file ? write_events(a) : print_events(a);
 }
 
+void add_medium_options(CLI::App* command, slipfront::medium::StatedDefaults& medium) {
+  command
+      ->add_option("--p-wave-speed", medium.p_wave_speed, "For events that give no elastic constants (default: 6 km/s)")
+      ->type_name("SPEED");
+  command->add_option("--poisson-ratio", medium.poisson_ratio, "Likewise (default: 0.3)")->type_name("RATIO");
+  command->add_option("--shear-modulus", medium.shear_modulus, "Likewise (default: 30 GPa)")->type_name("MODULUS");
+}
+
+void add_sampling_options(CLI::App* command, EventArguments& arguments) {
+  command
+      ->add_option("--samples", arguments.samples,
+                   "Sample every event with this many states of the fault (default: 1000 for events that carry an "
+                   "uncertainty, a contact ratio, a stress drop or a friction coefficient; 0: none). They double until "
+                   "they suffice for intervals")
+      ->check(CLI::Range(0, 10000000));
+  command
+      ->add_option("--draws", arguments.draws,
+                   "Write this many states of the posterior of each sampled event too (with -o OUT.nc)")
+      ->check(CLI::Range(1, 100000));
+  command->add_option("--seed", arguments.seed, "Of the samples (default: 1)");
+  command->add_option("--closure", arguments.closure, "Of the friction: consistent (default) or paper")
+      ->check(CLI::IsMember({"consistent", "paper"}));
+}
+
 }  // namespace
 
 Runner add_event(CLI::App& app) {
@@ -28,27 +52,8 @@ Runner add_event(CLI::App& app) {
   command->add_option(
       "FILE", arguments->files,
       "Events: .toml (one), .csv (a catalogue), SRCMOD or USGS .fsp, - for stdin; none: the shipped catalogue");
-  command
-      ->add_option("--p-wave-speed", arguments->medium.p_wave_speed,
-                   "For events that give no elastic constants (default: 6 km/s)")
-      ->type_name("SPEED");
-  command->add_option("--poisson-ratio", arguments->medium.poisson_ratio, "Likewise (default: 0.3)")
-      ->type_name("RATIO");
-  command->add_option("--shear-modulus", arguments->medium.shear_modulus, "Likewise (default: 30 GPa)")
-      ->type_name("MODULUS");
-  command
-      ->add_option("--samples", arguments->samples,
-                   "Sample every event with this many states of the fault (default: 1000 for events that carry an "
-                   "uncertainty, a contact ratio, a stress drop or a friction coefficient; 0: none). They double until "
-                   "they suffice for intervals")
-      ->check(CLI::Range(0, 10000000));
-  command
-      ->add_option("--draws", arguments->draws,
-                   "Write this many states of the posterior of each sampled event too (with -o OUT.nc)")
-      ->check(CLI::Range(1, 100000));
-  command->add_option("--seed", arguments->seed, "Of the samples (default: 1)");
-  command->add_option("--closure", arguments->closure, "Of the friction: consistent (default) or paper")
-      ->check(CLI::IsMember({"consistent", "paper"}));
+  add_medium_options(command, arguments->medium);
+  add_sampling_options(command, *arguments);
   command->add_flag("--pulse", arguments->pulse,
                     "Run a frictionless pulse through the slip distribution of a .fsp; its front and slip beside the "
                     "model's");

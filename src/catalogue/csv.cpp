@@ -52,6 +52,44 @@ void note_provenance(Observation& o, const Column& column, const std::string& ce
   if (derived) o.warnings.push_back(std::string(column.key->name) + ": " + cell);
 }
 
+/// Adds a cell that is one end of a range to the ends that are there.
+void add_end(std::vector<Ends>& ranges, const Column& column, const std::string& cell) {
+  Observation end;
+  read_cell(column, [&] { store(end, *column.key, cell, column.unit); });
+  auto same = std::find_if(ranges.begin(), ranges.end(), [&](const Ends& r) { return r.column->key == column.key; });
+  if (same == ranges.end()) same = ranges.insert(ranges.end(), Ends{&column, {}, {}});
+  (column.role == Role::range_low ? same->low : same->high) = end.*column.key->measured;
+}
+
+void read_into(Observation& o, std::vector<Ends>& ranges, const Column& column, const std::string& cell) {
+  switch (column.role) {
+    case Role::quantity:
+      return read_cell(column, [&] { store(o, *column.key, cell, column.unit); });
+    case Role::range_low:
+    case Role::range_high:
+      return add_end(ranges, column, cell);
+    case Role::provenance:
+      return note_provenance(o, column, cell);
+    case Role::date:
+      o.date = cell;
+      return;
+    case Role::kind:
+      o.kind = cell;
+      return;
+    case Role::citation:
+      o.citation = cell;
+      return;
+    case Role::note:
+      o.note = cell;
+      return;
+    case Role::slip_velocity_is:
+      return read_cell(column, [&] { o.slip_velocity_is = friction_ratio::measure_named(cell); });
+    case Role::name:
+    case Role::ignored:
+      return;
+  }
+}
+
 Entry read_row(const std::vector<Column>& columns, const std::vector<std::string>& cells, std::size_t line,
                const std::string& file) {
   Entry entry;
@@ -65,47 +103,8 @@ Entry read_row(const std::vector<Column>& columns, const std::vector<std::string
     if (cells.size() != columns.size())
       throw InputError({.problem = "the row has " + std::to_string(cells.size()) + " cells",
                         .allowed = std::to_string(columns.size()) + " cells, as in the header"});
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-      const Column& column = columns[i];
-      const std::string& cell = cells[i];
-      if (blank(cell)) continue;
-      switch (column.role) {
-        case Role::quantity:
-          read_cell(column, [&] { store(o, *column.key, cell, column.unit); });
-          break;
-        case Role::range_low:
-        case Role::range_high: {
-          Observation end;
-          read_cell(column, [&] { store(end, *column.key, cell, column.unit); });
-          auto same =
-              std::find_if(ranges.begin(), ranges.end(), [&](const Ends& r) { return r.column->key == column.key; });
-          if (same == ranges.end()) same = ranges.insert(ranges.end(), Ends{&column, {}, {}});
-          (column.role == Role::range_low ? same->low : same->high) = end.*column.key->measured;
-          break;
-        }
-        case Role::provenance:
-          note_provenance(o, column, cell);
-          break;
-        case Role::date:
-          o.date = cell;
-          break;
-        case Role::kind:
-          o.kind = cell;
-          break;
-        case Role::citation:
-          o.citation = cell;
-          break;
-        case Role::note:
-          o.note = cell;
-          break;
-        case Role::slip_velocity_is:
-          read_cell(column, [&] { o.slip_velocity_is = friction_ratio::measure_named(cell); });
-          break;
-        case Role::name:
-        case Role::ignored:
-          break;
-      }
-    }
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      if (!blank(cells[i])) read_into(o, ranges, columns[i], cells[i]);
     close_ranges(o, ranges);
   } catch (const InputError& error) {
     entry.error = error.complaint();

@@ -26,24 +26,57 @@ FaultColumn column_of(const std::vector<LocalState>& states, std::size_t from, s
   return c;
 }
 
+/// The subfault that slipped first; null: none has a time.
+const LocalState* first_of(const std::vector<LocalState>& states, double least_slip) {
+  const LocalState* first = nullptr;
+  for (const LocalState& s : states)
+    if (timed(s, least_slip) && (!first || time_of(s) < time_of(*first))) first = &s;
+  return first;
+}
+
+/// The subfaults of a segment, along strike.
+std::vector<LocalState> segment_of(const std::vector<LocalState>& states, std::size_t number) {
+  std::vector<LocalState> segment;
+  for (const LocalState& s : states)
+    if (s.subfault.segment == number) segment.push_back(s);
+  std::sort(segment.begin(), segment.end(),
+            [](const LocalState& a, const LocalState& b) { return a.along_strike < b.along_strike; });
+  return segment;
+}
+
+/// Divides a segment into columns. Within a column subfaults are close up to rounding; between columns they are apart
+/// by the length of a subfault, at most `widest`. Returns why it cannot be divided, or an empty text.
+std::string divide(const std::vector<LocalState>& segment, double origin, double begin, double least_slip,
+                   double widest, std::vector<FaultColumn>& columns) {
+  double broadest = 0;
+  bool alike = true;
+  std::size_t rows = 0;
+  for (std::size_t from = 0, to = 0; from < segment.size(); from = to) {
+    while (++to < segment.size() && segment[to].along_strike - segment[to - 1].along_strike <= widest / 2) {
+    }
+    if (columns.empty()) rows = to;
+    alike = alike && to - from == rows;
+    broadest = std::fmax(broadest, segment[to - 1].along_strike - segment[from].along_strike);
+    columns.push_back(column_of(segment, from, to, origin, begin, least_slip));
+    // Positions are given to metres: a column this near is the hypocentre's, and belongs to both sides.
+    if (std::fabs(columns.back().x) < 0.01 * widest) columns.back().x = 0;
+  }
+  if (!alike || broadest > widest / 2) return "the subfaults do not stand in columns along strike";
+  if (columns.size() < 3) return std::to_string(columns.size()) + " columns along strike, at least 3 are needed";
+  return {};
+}
+
 }  // namespace
 
 FaultColumns columns_of(const std::vector<LocalState>& states) {
   if (states.empty()) return {{}, 0, "the file gives no places of subfaults"};
   double least_slip = 0;
   for (const LocalState& s : states) least_slip = std::fmax(least_slip, least_share * s.subfault.slip);
-  const LocalState* first = nullptr;
-  for (const LocalState& s : states)
-    if (timed(s, least_slip) && (!first || time_of(s) < time_of(*first))) first = &s;
+  const LocalState* first = first_of(states, least_slip);
   if (!first) return {{}, 0, "the file gives no rupture times (TRUP)"};
   const double begin = time_of(*first);
 
-  std::vector<LocalState> segment;
-  for (const LocalState& s : states)
-    if (s.subfault.segment == first->subfault.segment) segment.push_back(s);
-  std::sort(segment.begin(), segment.end(),
-            [](const LocalState& a, const LocalState& b) { return a.along_strike < b.along_strike; });
-
+  const std::vector<LocalState> segment = segment_of(states, first->subfault.segment);
   FaultColumns out;
   double origin = 0, beginning = 0, latest = 0, widest = 0;
   for (std::size_t i = 0; i < segment.size(); ++i) {
@@ -57,23 +90,8 @@ FaultColumns columns_of(const std::vector<LocalState>& states) {
   if (!(latest > 0)) return {{}, 0, "all rupture times (TRUP) are alike"};
   origin /= beginning;
 
-  // Within a column subfaults lie together up to rounding; between columns by one subfault's length.
-  double broadest = 0;
-  bool alike = true;
-  std::size_t rows = 0;
-  for (std::size_t from = 0, to = 0; from < segment.size(); from = to) {
-    while (++to < segment.size() && segment[to].along_strike - segment[to - 1].along_strike <= widest / 2) {
-    }
-    if (out.columns.empty()) rows = to;
-    alike = alike && to - from == rows;
-    broadest = std::fmax(broadest, segment[to - 1].along_strike - segment[from].along_strike);
-    out.columns.push_back(column_of(segment, from, to, origin, begin, least_slip));
-    // Places are given to metres: a column this near is the hypocentre's, and belongs to both sides.
-    if (std::fabs(out.columns.back().x) < 0.01 * widest) out.columns.back().x = 0;
-  }
-  if (!alike || broadest > widest / 2) return {{}, 0, "the subfaults do not stand in columns along strike"};
-  if (out.columns.size() < 3)
-    return {{}, 0, std::to_string(out.columns.size()) + " columns along strike, at least 3 are needed"};
+  const std::string reason = divide(segment, origin, begin, least_slip, widest, out.columns);
+  if (!reason.empty()) return {{}, 0, reason};
   return out;
 }
 

@@ -27,60 +27,81 @@ inline void add_warnings(const std::vector<std::string>& of_run, record::PulseMe
   metadata.warnings.insert(metadata.warnings.end(), of_run.begin(), of_run.end());
 }
 
+/// Writes a run to its output, whole: as unfinished until it has ended.
+template <class Run>
+class Checkpoints {
+ public:
+  Checkpoints(const Run& run, const CheckpointOptions& options) : run_(run), options_(options) {}
+
+  /// A checkpoint is the whole file: writing it must stay a small part of the work.
+  bool due() const {
+    return options_.output.wanted() &&
+           any(is_first() && seconds_since(written_) > 0.05 && seconds_since(written_) > 20 * cost_);
+  }
+  /// What one rank wants, all do.
+  bool any(bool mine) const { return options_.ranks ? options_.ranks->any(mine) : mine; }
+
+  void require_disk_space() const {
+    if (options_.output.wanted())
+      on_first([&] { record::require_disk_space(options_.output.finished(), options_.disk); });
+  }
+
+  void write() {
+    if (!options_.output.wanted()) return;
+    const auto begun = Clock::now();
+    const std::string state = run_.saved();  // ranks send their parts to the first
+    record::PulseMetadata metadata = options_.metadata;
+    if constexpr (requires { run_.events(); }) metadata.events = run_.events();
+    if (run_.finished()) add_warnings(run_.warnings(), metadata);  // which asks all ranks
+    on_first([&] {
+      const record::Output& output = options_.output;
+      record::write_pulse(run_.finished() ? output.finished() : output.unfinished(), metadata, run_.snapshots(), state,
+                          run_.finished());
+      if (run_.finished()) output.clear();
+    });
+    cost_ = seconds_since(begun);
+    written_ = Clock::now();
+  }
+
+ private:
+  bool is_first() const { return !options_.ranks || options_.ranks->rank() == 0; }
+  /// On the first rank; if it throws, all do.
+  template <class Work>
+  void on_first(const Work& work) const {
+    const auto mine = [&] { is_first() ? work() : void(); };
+    options_.ranks ? options_.ranks->together(mine) : mine();
+  }
+
+  const Run& run_;
+  const CheckpointOptions& options_;
+  Clock::time_point written_ = Clock::now();
+  double cost_ = 0;  ///< seconds of the last one
+};
+
 /// Carries `run` on until its end or until `after_step` says to stop, and writes it: at the start (a path that cannot
 /// be written, or a disk too small, is known before the work), now and then, and at the end, wherever that is. What
 /// stands at the output is replaced at the end of the run alone. Returns whether the end was reached. \throws
 /// NumericsError, after what was computed has been written; FileError.
 template <class Run>
 bool carry_out(Run& run, const CheckpointOptions& options, const std::function<bool()>& after_step) {
-  const bool first = !options.ranks || options.ranks->rank() == 0;
-  const auto agreed = [&](bool mine) { return options.ranks ? options.ranks->any(mine) : mine; };
-  auto written = Clock::now();
-  double cost = 0;
-  const auto write = [&] {
-    if (!options.output.wanted()) return;
-    const auto begun = Clock::now();
-    const std::string state = run.saved();  // ranks send their parts to the first
-    record::PulseMetadata metadata = options.metadata;
-    if constexpr (requires { run.events(); }) metadata.events = run.events();
-    if (run.finished()) add_warnings(run.warnings(), metadata);  // which asks all ranks
-    const auto put_down = [&] {
-      if (!first) return;
-      const record::Output& output = options.output;
-      record::write_pulse(run.finished() ? output.finished() : output.unfinished(), metadata, run.snapshots(), state,
-                          run.finished());
-      if (run.finished()) output.clear();
-    };
-    if (options.ranks)
-      options.ranks->together(put_down);
-    else
-      put_down();
-    cost = seconds_since(begun);
-    written = Clock::now();
-  };
-  if (options.output.wanted()) {
-    const auto space = [&] { first ? record::require_disk_space(options.output.finished(), options.disk) : void(); };
-    options.ranks ? options.ranks->together(space) : space();
-  }
-  if (!options.resumed && !options.output.replaces()) write();
+  Checkpoints<Run> checkpoints(run, options);
+  checkpoints.require_disk_space();
+  if (!options.resumed && !options.output.replaces()) checkpoints.write();
   bool reached = false;
   try {
     reached = run.go([&] {
       const bool stop = after_step();
-      // A checkpoint is the whole file: writing it must stay a small part of the work.
-      if (options.output.wanted() &&
-          agreed(first && seconds_since(written) > 0.05 && seconds_since(written) > 20 * cost))
-        write();
-      return agreed(stop);
+      if (checkpoints.due()) checkpoints.write();
+      return checkpoints.any(stop);
     });
   } catch (const NumericsError& error) {  // the run stands at its last good step, or the last checkpoint does
-    if (run.can_checkpoint()) write();
+    if (run.can_checkpoint()) checkpoints.write();
     std::error_code none;
     if (options.output.wanted() && std::filesystem::exists(options.output.unfinished(), none))
       throw NumericsError(std::string(error.what()) + "; what was computed is in " + options.output.unfinished());
     throw;
   }
-  write();
+  checkpoints.write();
   return reached;
 }
 

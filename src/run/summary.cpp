@@ -30,7 +30,8 @@ std::vector<SummaryItem<End>> with_further(std::vector<SummaryItem<End>> items) 
   return items;
 }
 
-std::vector<SummaryItem<FinishedPulse>> pulse_items() {
+/// Settings, and what is at x = 0 and at the peak.
+std::vector<SummaryItem<FinishedPulse>> pulse_at_origin() {
   return {
       {"closure", [](const FinishedPulse& e) -> Value { return name_of(e.scenario.friction.closure()); },
        "how friction is averaged"},
@@ -48,6 +49,11 @@ std::vector<SummaryItem<FinishedPulse>> pulse_items() {
       {"peak_slip_velocity", [](const FinishedPulse& e) -> Value { return last(e).peak_slip_velocity; },
        "largest W, in c A / pi"},
       {"peak_position", [](const FinishedPulse& e) -> Value { return last(e).peak_position; }, "its x, in b / A"},
+  };
+}
+
+std::vector<SummaryItem<FinishedPulse>> pulse_fronts_and_energy() {
+  return {
       {"trailing_front", [](const FinishedPulse& e) -> Value { return last(e).fronts.trailing; },
        "x of the fast front, the foot of the slip velocity, in b / A"},
       {"trailing_characteristic",
@@ -69,6 +75,12 @@ std::vector<SummaryItem<FinishedPulse>> pulse_items() {
        "come in through the ends of the domain"},
       {"energy_shocks", [](const FinishedPulse& e) -> Value { return last(e).energy.shocks; },
        "lost where trains run into each other"},
+  };
+}
+
+/// How the solver went.
+std::vector<SummaryItem<FinishedPulse>> pulse_solver() {
+  return {
       {"first_crossing_time", [](const FinishedPulse& e) -> Value { return e.run.solver().cells().crossing_time; },
        "when dislocations first overtake each other"},
       {"first_crossing_position",
@@ -83,6 +95,13 @@ std::vector<SummaryItem<FinishedPulse>> pulse_items() {
        "of the time steps alone"},
       {"wall_seconds", [](const FinishedPulse& e) -> Value { return e.wall; }, "of the whole command"},
   };
+}
+
+std::vector<SummaryItem<FinishedPulse>> pulse_items() {
+  std::vector<SummaryItem<FinishedPulse>> items = pulse_at_origin();
+  for (const auto& part : {pulse_fronts_and_energy(), pulse_solver()})
+    items.insert(items.end(), part.begin(), part.end());
+  return items;
 }
 
 double site_updates_per_second(const FinishedChain& end) {

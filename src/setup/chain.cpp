@@ -32,6 +32,17 @@ void require_sites(const scenario::Scenario& s, const chain::ScaledProblem& c) {
                     .allowed = "at least 8 sites: a larger scale or domain, or a smaller chain.spacing"});
 }
 
+/// The spacing of sites that a scenario states, or the default.
+double spacing_of(const scenario::Scenario& s, double left, double right) {
+  if (s.chain.spacing) return *s.chain.spacing;
+  if (s.chain.model != chain::Model::lattice) return chosen_spacing(s, left, right);
+  if (s.medium.contact_ratio) return *s.medium.contact_ratio;
+  throw InputError({.file = s.file,
+                    .key = "chain.spacing",
+                    .problem = "a lattice needs its spacing, which is the contact ratio A",
+                    .allowed = "[chain] spacing = ... or [medium] contact_ratio = ..."});
+}
+
 }  // namespace
 
 chain::ScaledProblem chain_problem(const scenario::Scenario& s) {
@@ -64,17 +75,7 @@ chain::ScaledProblem chain_problem(const scenario::Scenario& s) {
                       .value = s.contact,
                       .problem = "explicit steps are those of a substrate",
                       .allowed = "chain.steps = \"implicit\", [loading], or a contact > 0"});
-  if (c.model == chain::Model::lattice) {
-    const auto spacing = s.chain.spacing ? s.chain.spacing : s.medium.contact_ratio;
-    if (!spacing)
-      throw InputError({.file = s.file,
-                        .key = "chain.spacing",
-                        .problem = "a lattice needs its spacing, which is the contact ratio A",
-                        .allowed = "[chain] spacing = ... or [medium] contact_ratio = ..."});
-    c.spacing = *spacing;
-  } else {
-    c.spacing = s.chain.spacing ? *s.chain.spacing : chosen_spacing(s, c.left, c.right);
-  }
+  c.spacing = spacing_of(s, c.left, c.right);
   require_sites(s, c);
   return c;
 }

@@ -48,6 +48,16 @@ double passes(const RiemannSolution& solution, double resting, double peak, doub
   return (resting + peak) / 2;
 }
 
+/// Adds what has no closed form for all times: where the slip velocity is largest, and what an observer with a
+/// threshold sees. `fast` and `slow` are x/t of the fronts.
+void add_observed(output::Snapshot& s, const RiemannSolution& solution, double threshold, double fast, double slow) {
+  const double peak = peak_of(solution, rupture::edges_of(solution)), most = speed(solution, peak);
+  s.peak_slip_velocity = at(solution, peak).W;
+  s.peak_position = s.time * peak;
+  s.fronts.trailing_observed = s.time * passes(solution, fast, peak, threshold * most);
+  s.fronts.leading_observed = s.time * passes(solution, slow, peak, threshold * most);
+}
+
 output::Snapshot snapshot_of(const RiemannSolution& solution, const output::Schedule& schedule, double time) {
   output::Snapshot s{};
   s.time = time;
@@ -88,13 +98,7 @@ output::Snapshot snapshot_of(const RiemannSolution& solution, const output::Sche
   s.slip_at_origin = slip(origin, 0);
   output::add_further_scalars(s, schedule);
   s.peak_position = none;
-  if (time > 0) {
-    const double peak = peak_of(solution, edges), most = speed(solution, peak);
-    s.peak_slip_velocity = at(solution, peak).W;
-    s.peak_position = time * peak;
-    s.fronts.trailing_observed = time * passes(solution, fast, peak, schedule.threshold * most);
-    s.fronts.leading_observed = time * passes(solution, slow, peak, schedule.threshold * most);
-  }
+  if (time > 0) add_observed(s, solution, schedule.threshold, fast, slow);
   return s;
 }
 

@@ -28,6 +28,30 @@ struct Worst {
   }
 };
 
+/// Relative differences of the table from the solver; infinite where one of them is no number.
+Logarithms differences(Closure closure, double stress, double damping) {
+  const Logarithms from_solver = computed(closure, stress, damping);
+  Logarithms error{};
+  for (std::size_t m = 0; m < layout::measures; ++m) {
+    const double ours = evaluate(static_cast<Measure>(m), closure, stress, damping).value;
+    error[m] = std::fabs(ours / std::exp(from_solver[m]) - 1);
+    if (std::isnan(error[m])) error[m] = HUGE_VAL;
+  }
+  return error;
+}
+
+/// Prints the largest differences. Returns whether they are within what the table states.
+bool report(const Worst& w, Closure closure, bool unstable) {
+  if (w.points == 0) return true;
+  const double allowed = uncertainty(closure, w.damping), largest = *std::max_element(w.error.begin(), w.error.end());
+  std::printf(
+      "%s%s: %zu points, largest relative difference: origin %.1e, mean %.1e, peak %.1e, time-mean %.1e (at stress "
+      "%.4g, damping number %.4g), allowed %.0e\n",
+      closure == Closure::paper ? "paper" : "consistent", unstable ? ", unstable range" : "", w.points, w.error[0],
+      w.error[1], w.error[2], w.error[3], w.stress, w.damping, allowed);
+  return largest <= allowed;
+}
+
 }  // namespace
 
 int check(long points) {
@@ -42,13 +66,7 @@ int check(long points) {
       const double stress = layout::least_stress * std::pow(layout::most_stress / layout::least_stress, uniform());
       const double damping = std::expm1(uniform() * std::log1p(layout::most_damping));
       try {
-        const Logarithms from_solver = computed(closure, stress, damping);
-        Logarithms error{};
-        for (std::size_t m = 0; m < layout::measures; ++m) {
-          const double ours = evaluate(static_cast<Measure>(m), closure, stress, damping).value;
-          error[m] = std::fabs(ours / std::exp(from_solver[m]) - 1);
-          if (std::isnan(error[m])) error[m] = HUGE_VAL;
-        }
+        const Logarithms error = differences(closure, stress, damping);
 #pragma omp critical
         worst[uncertainty(closure, damping) > 1e-4 ? 1 : 0].take(error, stress, damping);
       } catch (const std::exception& error) {
@@ -56,19 +74,7 @@ int check(long points) {
         failed = error.what();
       }
     }
-    for (int u = 0; u < 2; ++u) {
-      const Worst& w = worst[u];
-      if (w.points == 0) continue;
-      const double allowed = uncertainty(closure, w.damping),
-                   largest = *std::max_element(w.error.begin(), w.error.end());
-      std::printf(
-          "%s%s: %zu points, largest relative difference: origin %.1e, mean %.1e, peak %.1e, time-mean %.1e (at stress "
-          "%.4g, damping "
-          "number %.4g), allowed %.0e\n",
-          closure == Closure::paper ? "paper" : "consistent", u == 0 ? "" : ", unstable range", w.points, w.error[0],
-          w.error[1], w.error[2], w.error[3], w.stress, w.damping, allowed);
-      good = good && largest <= allowed;
-    }
+    for (int u = 0; u < 2; ++u) good = report(worst[u], closure, u == 1) && good;
     if (!failed.empty()) {
       std::printf("failed: %s\n", failed.c_str());
       good = false;
