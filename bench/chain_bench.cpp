@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "chain/explicit/explicit_chain.hpp"
 #include "chain/explicit/levels/kernel.hpp"
 #include "foundation/simd/vector_code.hpp"
 #include "slipfront/chain/chain.hpp"
@@ -90,7 +91,7 @@ Motion rough_train(std::size_t sites) {
 /// Sites, threads. 1e8 sites lie in DRAM.
 void chain_sites(benchmark::State& state) {
   const auto sites = static_cast<std::size_t>(state.range(0));
-  chain::Chain run(damped_train(sites), rough_train(sites), {.threads = static_cast<int>(state.range(1))});
+  chain::ExplicitChain run(damped_train(sites), rough_train(sites), {.threads = static_cast<int>(state.range(1))});
   const long levels = sites < 10000000 ? std::max<long>(32, 32 * (3000000 / static_cast<long>(sites))) : 64;
   for (auto _ : state) run.advance(levels);
   state.SetItemsProcessed(state.iterations() * levels * static_cast<long>(sites));
@@ -130,7 +131,7 @@ void chain_general(benchmark::State& state) {
   p.steady_forcing = kind == 2;
   if (kind == 3) p.friction = friction::coulomb(0.01);
   if (kind == 5) p.friction = weak_rate_and_state();
-  chain::Chain run(p, rough_train(sites));
+  chain::ExplicitChain run(p, rough_train(sites));
   for (auto _ : state) run.advance(10);
   state.SetItemsProcessed(state.iterations() * 10 * static_cast<long>(sites));
   state.SetLabel(kinds[kind]);
@@ -153,7 +154,7 @@ void chain_rate_and_state(benchmark::State& state) {
   for (auto _ : state) {
     chain::Run run(problem, schedule, {});
     run.go();
-    updates += run.chain().level() * static_cast<long>(run.chain().problem().grid.sites);
+    updates += run.chain().steps() * static_cast<long>(run.chain().problem().grid.sites);
     slip = run.snapshots().back().slip_at_origin;
   }
   state.SetItemsProcessed(updates);

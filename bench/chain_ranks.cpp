@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "chain/explicit/explicit_chain.hpp"
+#include "chain/model/initial_train.hpp"
 #include "foundation/ranks.hpp"
 #include "slipfront/chain/chain.hpp"
 
@@ -21,7 +23,7 @@ int main(int argc, char** argv) {
                   .forcing = {},
                   .contact = {}};
   try {
-    Chain chain(p, StaticTrain([](double) { return 0.8; }, p.grid), {.threads = threads, .ranks = &ranks});
+    ExplicitChain chain(p, StaticTrain([](double) { return 0.8; }, p.grid), {.threads = threads, .ranks = &ranks});
     const long levels = 32 * std::max(1L, 30000000 / static_cast<long>(sites));
     double best = 0;
     for (int i = 0; i < 7; ++i) {

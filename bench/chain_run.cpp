@@ -11,7 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "slipfront/chain/chain.hpp"
+#include "chain/explicit/explicit_chain.hpp"
+#include "chain/explicit/levels/levels.hpp"
 
 namespace {
 
@@ -54,7 +55,7 @@ double by_library(std::vector<double>& u, const std::vector<double>& velocity, d
     levels.now[j] = u[j] / turn;
     levels.before[j] = (u[j] - (j > 0 && j + 1 < n ? dt * velocity[j] : 0)) / turn;
   }
-  slipfront::chain::Chain run(problem, levels);
+  slipfront::chain::ExplicitChain run(problem, levels);
   const std::clock_t begun = std::clock();
   run.advance(steps);
   const double seconds = static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC;

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "slipfront/chain/initial.hpp"
+#include "chain/model/initial_train.hpp"
 
 namespace {
 

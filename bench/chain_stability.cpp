@@ -69,7 +69,7 @@ Outcome run(const Kind& kind, double stress, double right, double scale, double 
     std::fprintf(stderr, "%s, stress %g to %g, scale %g, spacing %g: %s\n", kind.name, stress, right, scale, spacing,
                  error.what());
   }
-  return {drift, chain.chain().level()};
+  return {drift, chain.chain().steps()};
 }
 
 /// The largest drift of the energy for each stress (rows) and kind of chain (columns).

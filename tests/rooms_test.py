@@ -39,10 +39,10 @@ FOLDERS = {
     "foundation": {"math": "text", "simd": "", "text": ""},
     "chain": {
         "model": "",
-        "implicit": "model",
+        "measure": "model",
+        "implicit": "model measure",
         "explicit/levels": "model",
-        "explicit": "explicit/levels implicit model",
-        "measure": "explicit model",
+        "explicit": "explicit/levels model",
     },
     "pulse": {
         "grid": "space time observe",

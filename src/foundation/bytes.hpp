@@ -57,6 +57,7 @@ class Reader {
     return text;
   }
   bool at_end() const { return text_.empty(); }
+  std::string_view rest() const { return text_; }
   void end() const {
     if (!text_.empty()) refuse();
   }

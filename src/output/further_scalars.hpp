@@ -2,7 +2,7 @@
 /// \file
 /// Numbers of a snapshot without a member of their own: declared once for files, tables, JSON and Python. To add one,
 /// add its line to further_scalars.cpp. There it is computed too if it follows from the rest of a snapshot, at any
-/// level; else it is set, by its name, where a run is observed (pulse/observe.cpp, chain/run.cpp).
+/// level; else it is set, by its name, where a run is observed (pulse/observe, chain/run_observer.cpp).
 
 #include <span>
 #include <string_view>

@@ -69,7 +69,7 @@ Result<chain::Run> chain(const scenario::Scenario& scenario, const ChainPlan& pl
   Result<chain::Run> result{.run = begin<chain::Run>(options, plan.chain, plan.schedule, execution),
                             .metadata = metadata_of(scenario, "chain", plan.schedule.x_edges)};
   const chain::Run& run = *result.run;
-  const long first = run.chain().level();
+  const long first = run.chain().steps();
   const auto begun = Clock::now();
   const bool reached =
       carry_out(*result.run,
@@ -78,7 +78,7 @@ Result<chain::Run> chain(const scenario::Scenario& scenario, const ChainPlan& pl
                  .disk = plan.need.disk,
                  .resumed = options.checkpoint.has_value(),
                  .ranks = options.ranks},
-                [&] { return options.after_step && options.after_step(run.time(), run.chain().level()); });
+                [&] { return options.after_step && options.after_step(run.time(), run.chain().steps()); });
   result.metadata.events = run.events();
   if (!reached) return result;
   const double stepping = seconds_since(begun);
@@ -87,7 +87,7 @@ Result<chain::Run> chain(const scenario::Scenario& scenario, const ChainPlan& pl
                                              .balance = run.balance(),  // asks all ranks
                                              .stepping = stepping,
                                              .wall = seconds_since(options.begun),
-                                             .steps = run.chain().level() - first,
+                                             .steps = run.chain().steps() - first,
                                              .ranks = options.ranks ? options.ranks->size() : 1,
                                              .threads = options.threads});
   return result;

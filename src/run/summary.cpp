@@ -141,7 +141,7 @@ std::vector<SummaryItem<FinishedChain>> chain_items() {
        "dislocations that left through the ends; none can where they are held or joined"},
       {"sites", [](const FinishedChain& e) -> Value { return static_cast<long>(grid(e).sites); }, ""},
       {"spacing", [](const FinishedChain& e) -> Value { return grid(e).spacing; }, "of the sites, on the chain"},
-      {"steps", [](const FinishedChain& e) -> Value { return e.run.chain().level(); }, ""},
+      {"steps", [](const FinishedChain& e) -> Value { return e.run.chain().steps(); }, ""},
       {"ranks", [](const FinishedChain& e) -> Value { return static_cast<long>(e.ranks); }, ""},
       {"threads", [](const FinishedChain& e) -> Value { return static_cast<long>(e.threads); }, "of each rank"},
       {"site_updates_per_second", [](const FinishedChain& e) -> Value { return site_updates_per_second(e); },

@@ -36,7 +36,7 @@ std::span<const SummaryItem<FinishedPulse>> pulse_summary();
 /// A chain that has reached its end, and how it was run.
 struct FinishedChain {
   const chain::Run& run;
-  chain::Run::Balance balance;  ///< run.balance(), which all ranks take part in
+  chain::Balance balance;  ///< run.balance(), which all ranks take part in
   double stepping, wall;        ///< seconds: of the run alone, of everything
   long steps;                   ///< of these seconds
   int ranks, threads;

@@ -80,7 +80,7 @@ bool run_levels(const Comparison& c, int threads, std::vector<Level>& levels, co
     chain::Run run(scaled, c.schedule, {.threads = threads});
     level.window = run.window();
     level.smooth_window = run.smooth_window();
-    if (!carry(run, level, [&] { return after_step(level.name, run.time(), run.chain().level()); })) return false;
+    if (!carry(run, level, [&] { return after_step(level.name, run.time(), run.chain().steps()); })) return false;
     levels.push_back(std::move(level));
   }
   return true;

@@ -3,8 +3,13 @@
 #include <cmath>
 #include <limits>
 
-#include "exact.hpp"
-#include "slipfront/chain/measure.hpp"
+#include "chain/explicit/explicit_chain.hpp"
+#include "chain/explicit/levels/levels.hpp"
+#include "chain/measure/average.hpp"
+#include "chain/measure/dislocations.hpp"
+#include "chain/measure/totals.hpp"
+#include "chain/model/initial_train.hpp"
+#include "exact_chains.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/train/train.hpp"
 
@@ -84,7 +89,7 @@ TEST(ChainInitial, UniformTrainStaysAtRest) {
   p.grid.sites = 320;
   p.boundary = {.periodic = true, .charge = 17};
   const Motion m = static_train([](double) { return 17.0 / 20; }, p.grid, true);
-  chain::Chain run(p, m);
+  chain::ExplicitChain run(p, m);
   run.advance_to(100);
   const Window w = run.window(0, 320);
   for (std::size_t j = 0; j < 320; ++j) ASSERT_NEAR(w.u[j], m.u[j], 2e-3) << j;
@@ -98,7 +103,7 @@ TEST(ChainInitial, UniformTrainStaysAtRestInStrongerOrWeakerContact) {
     p.boundary = {.periodic = true, .charge = 17};
     p.contact = [a](double) { return a; };
     const Motion m = static_train([](double) { return 17.0 / 20; }, p.grid, true, p.contact);
-    chain::Chain run(p, m);
+    chain::ExplicitChain run(p, m);
     run.advance_to(100);
     const Window w = run.window(0, 480);
     for (std::size_t j = 0; j < 480; ++j) ASSERT_NEAR(w.u[j], m.u[j], 2e-3) << j;
@@ -127,7 +132,7 @@ TEST(ChainInitial, EquilibriumOnASlopeOfContactStaysAtRest) {
     p.contact = a;
     const double fall = train(0, 1).u[0] - train(p.grid.sites - 1, p.grid.sites).u[0];
     p.boundary = {.periodic = true, .charge = std::lround(fall / (2 * pi))};
-    chain::Chain run(p, train(0, p.grid.sites));
+    chain::ExplicitChain run(p, train(0, p.grid.sites));
     double moving = 0;
     for (int i = 0; i < 10; ++i) {
       run.advance(20);
@@ -149,7 +154,7 @@ TEST(ChainPhysics, GridHoldsADislocationBelowItsBarrier) {
     p.friction = friction::viscous(0.02);
     p.forcing = [=](double, double t) { return share * barrier * std::fmin(t / 1000, 1.0); };  // slowly, from rest
     p.boundary = {End::fixed, End::fixed, false, 0};
-    chain::Chain run(p, exact::motion_of(exact::kink(0), p.grid, 0));
+    chain::ExplicitChain run(p, exact::motion_of(exact::kink(0), p.grid, 0));
     run.advance_to(3000);
     return std::fabs(dislocations(run).at(0).x);
   };
@@ -165,8 +170,8 @@ TEST(ChainPhysics, LatticePinsDislocations) {
     p.model = model;
     p.friction = friction::viscous(0.3);
     p.forcing = [F](double, double t) { return F * std::fmin(t / 40, 1.0); };  // slowly, from rest
-    chain::Chain run(p,
-                     exact::motion_of([](double x, double) { return 4 * std::atan(std::exp(-x - 0.5)); }, p.grid, 0));
+    chain::ExplicitChain run(
+        p, exact::motion_of([](double x, double) { return 4 * std::atan(std::exp(-x - 0.5)); }, p.grid, 0));
     run.advance_to(60);
     const double before = dislocations(run).at(0).x;
     run.advance_to(160);
@@ -185,7 +190,7 @@ TEST(ChainPhysics, CoulombFrictionSticksAndSlows) {
   p.friction = friction::coulomb(0.05);
   Motion rest;
   rest.u.assign(p.grid.sites, 0.03);  // sin u < f
-  chain::Chain stuck(p, rest);
+  chain::ExplicitChain stuck(p, rest);
   stuck.advance_to(50);
   for (const double u : stuck.window(0, p.grid.sites).u) EXPECT_NEAR(u, 0.03, 1e-3);
 
@@ -194,7 +199,7 @@ TEST(ChainPhysics, CoulombFrictionSticksAndSlows) {
   viscous.friction = friction::viscous(0.2);
   power.friction = friction::power(0.2, 1);
   const Motion kink = exact::motion_of(exact::kink(0.5), viscous.grid, 0);
-  chain::Chain a(viscous, kink), b(power, kink);
+  chain::ExplicitChain a(viscous, kink), b(power, kink);
   a.advance_to(10);
   b.advance_to(10);
   EXPECT_NEAR(dislocations(a).at(0).x, dislocations(b).at(0).x, 2e-3);
@@ -205,8 +210,8 @@ TEST(ChainPhysics, UniformContactIsAScale) {
   Problem plain = line(-20, 20, 0.2), strong = line(-10, 10, 0.1);
   strong.contact = [](double) { return 2.0; };
   const auto u = exact::kink(0.4);
-  chain::Chain a(plain, exact::motion_of(u, plain.grid, 0));
-  chain::Chain b(strong, exact::motion_of([u](double x, double t) { return u(2 * x, 2 * t); }, strong.grid, 0));
+  chain::ExplicitChain a(plain, exact::motion_of(u, plain.grid, 0));
+  chain::ExplicitChain b(strong, exact::motion_of([u](double x, double t) { return u(2 * x, 2 * t); }, strong.grid, 0));
   a.advance(60);
   b.advance(60);
   EXPECT_NEAR(a.time(), 2 * b.time(), 1e-12);
@@ -219,7 +224,7 @@ TEST(ChainPhysics, UniformContactIsAScale) {
 TEST(ChainPhysics, AbsorbingEndLetsDislocationsOut) {
   Problem p = line(-15, 15, 0.25);
   p.boundary = {End::absorbing, End::absorbing, false, 0};
-  chain::Chain run(p, exact::motion_of(exact::kink(0.9), p.grid, 0));
+  chain::ExplicitChain run(p, exact::motion_of(exact::kink(0.9), p.grid, 0));
   const double first = totals(run).energy();
   run.advance_to(40);
   EXPECT_EQ(dislocations(run).size(), 0u);
@@ -231,7 +236,7 @@ TEST(ChainPhysics, PhaseShiftOfACollision) {
   const double U = 0.6, g = 1 / std::sqrt(1 - U * U);
   const Problem p = line(-25, 25, 0.02);
   const auto u = exact::kink_kink(U);
-  chain::Chain run(p, exact::motion_of(u, p.grid, -12));
+  chain::ExplicitChain run(p, exact::motion_of(u, p.grid, -12));
   run.advance_to(24);
   // Two that repel: after it, each stands where g (x -+ U t) = -+ ln U.
   const double t = run.time() - 12;
@@ -247,7 +252,7 @@ TEST(ChainPhysics, PhaseShiftOfACollision) {
 
 void refused(const Problem& p, const Motion& m, const std::string& what) {
   try {
-    chain::Chain run(p, m);
+    chain::ExplicitChain run(p, m);
     ADD_FAILURE() << "accepted: " << what;
   } catch (const InputError& e) {
     EXPECT_NE(std::string(e.what()).find(what), std::string::npos) << e.what();
@@ -281,14 +286,14 @@ TEST(ChainRefuses, BadInputInOneLine) {
   p = good;
   p.friction = friction::viscous(-1);
   refused(p, kink, "friction");
-  EXPECT_THROW(average(chain::Chain(good, kink), 19, 4, 0), InputError);
-  EXPECT_THROW(chain::Chain(good, Levels{0, {1, 2}, {1, 2}}), InputError);
+  EXPECT_THROW(average(chain::ExplicitChain(good, kink), 19, 4, 0), InputError);
+  EXPECT_THROW(chain::ExplicitChain(good, Levels{0, {1, 2}, {1, 2}}), InputError);
 }
 
 TEST(ChainRefuses, NumbersThatAreNone) {
   Problem p = line(-20, 20, 0.4);
   p.forcing = [](double x, double t) { return t > 3 && x > 5 ? std::numeric_limits<double>::quiet_NaN() : 0.0; };
-  chain::Chain run(p, exact::motion_of(exact::kink(0), p.grid, 0));
+  chain::ExplicitChain run(p, exact::motion_of(exact::kink(0), p.grid, 0));
   try {
     run.advance_to(10);
     ADD_FAILURE();

@@ -6,7 +6,7 @@
 scipy's Radau integrates it in the stretch of the spring, f / a and ln theta. These variables resolve all decades of the
 velocity: a block at rest with f0 / a = 60 creeps at 1e-26 and less. This file shares no code with slipfront. It prints the
 critical stiffness, from the eigenvalues of steady sliding, the limit cycle at two stiffnesses, and blocks with friction as
-in a laboratory: the numbers of tests/chain/loading_test.cpp.
+in a laboratory: the numbers of tests/chain/implicit/spring_slider_test.cpp.
 
 Usage: spring_slider.py [TOLERANCE]      (default 1e-10)
 """

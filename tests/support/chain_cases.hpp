@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "chain/explicit/explicit_chain.hpp"
 #include "slipfront/chain/run.hpp"
 
 namespace slipfront {
@@ -26,13 +27,18 @@ inline output::Schedule until(double end) {
   return schedule;
 }
 
+/// The levels of a run by explicit steps.
+inline chain::Levels levels_of(const chain::Run& run) {
+  return dynamic_cast<const chain::ExplicitChain&>(run.chain()).levels();
+}
+
 /// Growth rate of a small disturbance of a block that slides at v, from the peaks of its velocity until `end`; as many
 /// as `skipped` at the start do not count.
 inline double growth_of_peaks(chain::Chain& chain, double v, double end, std::size_t skipped) {
   std::vector<double> times, peaks;
   double v1 = 0, v2 = 0, t1 = 0;
   while (chain.time() < end) {
-    chain.proceed(1e9, 1);
+    chain.advance_to(1e9, 1);
     const double now = chain.window(3, 4).velocity[0];
     if (v1 > v2 && v1 > now && v1 > v) {
       times.push_back(t1);

@@ -3,15 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <numbers>
 #include <span>
 
+#include "chain/make_chain.hpp"
+#include "chain/measure/dislocations.hpp"
+#include "chain/measure/smooth_average.hpp"
+#include "chain/scaled_start.hpp"
 #include "foundation/clock.hpp"
 #include "scenario.hpp"
-#include "slipfront/chain/measure.hpp"
 #include "slipfront/chain/run.hpp"
-#include "slipfront/chain/smooth.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/setup/problem.hpp"
 
@@ -33,19 +36,13 @@ Live& live() {
 }
 
 std::unique_ptr<chain::Chain> started(const chain::ScaledProblem& s) {
-  chain::Problem problem = chain::problem_of(s);
-  if (problem.grid.sites > most_sites)
+  const std::size_t sites = chain::problem_of(s).grid.sites;
+  if (sites > most_sites)
     throw InputError({.key = "chain.scale",
-                      .problem = "too many sites for a page: " + std::to_string(problem.grid.sites),
+                      .problem = "too many sites for a page: " + std::to_string(sites),
                       .allowed = "a smaller scale; slipfront chain runs larger ones"});
-  const chain::StaticTrain train([s](double x) { return s.stress(std::clamp(x / s.scale, s.left, s.right)); },
-                                 problem.grid, s.boundary.periodic, problem.contact);
-  const chain::Motion motion = train(0, problem.grid.sites);
-  if (s.boundary.periodic) {
-    const double share = static_cast<double>(problem.grid.sites) / static_cast<double>(problem.grid.sites - 1);
-    problem.boundary.charge = std::lround((motion.u.front() - motion.u.back()) * share / (2 * std::numbers::pi));
-  }
-  return std::make_unique<chain::Chain>(problem, motion);
+  const chain::ScaledStart start = chain::scaled_start(s);
+  return chain::make_chain(start.problem, std::cref(start.train));
 }
 
 }  // namespace
@@ -87,14 +84,15 @@ SLIPFRONT_EXPORT const char* chain_go(double time, double milliseconds, double h
     if (!now.chain) throw InputError({.key = "chain", .problem = "there is none"});
     chain::Chain& c = *now.chain;
     const auto begun = Clock::now();
-    const bool reached = c.advance_to(time * now.scale, [&] { return 1e3 * seconds_since(begun) > milliseconds; });
+    bool reached = c.advance_to(time * now.scale, 32);
+    while (!reached && 1e3 * seconds_since(begun) <= milliseconds) reached = c.advance_to(time * now.scale, 32);
     std::vector<double> place, sign;
     for (const chain::Dislocation& d : chain::dislocations(c)) {
       place.push_back(d.x / now.scale);
       sign.push_back(d.sign);
     }
     Object object;
-    object.put("reached", reached).put("time", c.time() / now.scale).put("steps", c.level());
+    object.put("reached", reached).put("time", c.time() / now.scale).put("steps", c.steps());
     object.numbers("x", place).numbers("sign", sign);
     if (!(half > 0)) return object;
     const chain::Grid& grid = c.problem().grid;

@@ -15,7 +15,7 @@ std::size_t folded(const Problem& p, long j) {
   return static_cast<std::size_t>(j);
 }
 
-std::vector<std::string_view> remembered(const Problem& p) {
+std::vector<std::string_view> state_names(const Problem& p) {
   std::vector<std::string_view> names;
   for (const friction::Variable& variable : p.friction.definition().variables) names.push_back(variable.name);
   if (p.friction.contacts().act()) names.insert(names.end(), {"excess_pressure", "earlier_contact"});

@@ -14,7 +14,7 @@ std::size_t folded(const Problem& problem, long j);
 
 /// Names of what a place remembers, in the order of Levels::memory: the friction law's variables, and where contacts
 /// age or pores dilate the pressure above the ambient one, and a^2 at the level before.
-std::vector<std::string_view> remembered(const Problem& problem);
+std::vector<std::string_view> state_names(const Problem& problem);
 
 /// a^2 of sites whose contacts change with the state of friction, at three levels of explicit steps, and the pressure
 /// of their pores. Arrays reach from site `first` to `last`, beyond the ends of the chain too.

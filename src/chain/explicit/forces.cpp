@@ -36,32 +36,35 @@ Forces::Forces(const Problem& problem, const Scheme& scheme, long level, std::si
       last_(static_cast<long>(end + beyond)),
       nonlinear_(problem.friction.acts() && !problem.friction.linear_coefficient()),
       variables_(problem.friction.variables()),
-      memory_(variables_ * problem.grid.sites),
+      state_(variables_ * problem.grid.sites),
       a2_(a2_of(problem_, first_, last_)),
       contacts_(problem_, first_, a2_) {
-  for (std::size_t j = 0; j < memory_.size(); j += variables_)
-    problem_.friction.law().start(std::span(memory_).subspan(j, variables_));
+  for (std::size_t j = 0; j < state_.size(); j += variables_)
+    problem_.friction.law().start(std::span(state_).subspan(j, variables_));
   if (problem_.forcing) {
-    F_now_ = forcing_at(problem_.steady_forcing ? 0 : level_);
+    F_now_.resize(at(last_));
+    evaluate_forcing(problem_.steady_forcing ? 0 : level_, F_now_);
     if (problem_.steady_forcing) return;
-    F_next_ = forcing_at(level_ + 1);
-    F_before_ = forcing_at(level_ - 1);
+    F_before_ = F_next_ = F_now_;
+    evaluate_forcing(level_ + 1, F_next_);
+    evaluate_forcing(level_ - 1, F_before_);
   }
 }
 
-std::vector<double> Forces::forcing_at(long level) const {
-  std::vector<double> F(at(last_));
+void Forces::evaluate_forcing(long level, std::vector<double>& F) const {
   if (level < 0) {  // before the start, where F need not be defined: by extrapolation
-    const std::vector<double> zero = forcing_at(0), one = forcing_at(1), two = forcing_at(2);
+    std::vector<double> zero = F, one = F, two = F;
+    evaluate_forcing(0, zero);
+    evaluate_forcing(1, one);
+    evaluate_forcing(2, two);
     for (std::size_t j = 0; j < F.size(); ++j) F[j] = 3 * zero[j] - 3 * one[j] + two[j];
-    return F;
+    return;
   }
   const double t = static_cast<double>(level) * dt_;
   for (long j = first_; j < last_; ++j) F[at(j)] = problem_.forcing(problem_.grid.x(folded(problem_, j)), t);
-  return F;
 }
 
-const double* Forces::memory_of(long j) const { return memory_.data() + variables_ * folded(problem_, j); }
+const double* Forces::state_of(long j) const { return state_.data() + variables_ * folded(problem_, j); }
 
 void Forces::age(long first, std::size_t size, const double* now, const double* next) {
   if (variables_ == 0) return;
@@ -74,35 +77,35 @@ void Forces::age(long first, std::size_t size, const double* now, const double* 
       continue;
     }
     problem_.friction.law().advance_all(some, velocity, dt_, variables_,
-                                        memory_.data() + variables_ * (static_cast<std::size_t>(first) + j));
+                                        state_.data() + variables_ * (static_cast<std::size_t>(first) + j));
   }
 }
 
 void Forces::age_contacts(long first, std::size_t size, const double* velocity) {
   double before[together];
-  double* const theta = memory_.data() + static_cast<std::size_t>(first);
+  double* const theta = state_.data() + static_cast<std::size_t>(first);
   std::copy_n(theta, size, before);
   problem_.friction.law().advance_all(size, velocity, dt_, variables_, theta);
   contacts_.advance(first, dt_, {before, size}, {theta, size});
 }
 
-std::vector<double> Forces::memories(std::size_t begin, std::size_t end) const {
-  const auto at = [&](std::size_t j) { return memory_.begin() + static_cast<std::ptrdiff_t>(variables_ * j); };
+std::vector<double> Forces::states(std::size_t begin, std::size_t end) const {
+  const auto at = [&](std::size_t j) { return state_.begin() + static_cast<std::ptrdiff_t>(variables_ * j); };
   if (!contacts_.acts()) return {at(begin), at(end)};
-  std::vector<double> all(remembered() * (end - begin));
+  std::vector<double> all(state_size() * (end - begin));
   for (std::size_t j = begin; j < end; ++j) {
-    double* const to = all.data() + remembered() * (j - begin);
+    double* const to = all.data() + state_size() * (j - begin);
     std::copy_n(at(j), variables_, to);
     contacts_.save(j, to + variables_);
   }
   return all;
 }
 
-void Forces::set_memories(std::size_t begin, const std::vector<double>& memories) {
-  for (std::size_t i = 0; i < memories.size(); i += remembered()) {
-    const std::size_t site = begin + i / remembered();
-    std::copy_n(memories.data() + i, variables_, memory_.data() + variables_ * site);
-    if (contacts_.acts()) contacts_.resume(site, memories[i], memories.data() + i + variables_);
+void Forces::set_states(std::size_t begin, const std::vector<double>& states) {
+  for (std::size_t i = 0; i < states.size(); i += state_size()) {
+    const std::size_t site = begin + i / state_size();
+    std::copy_n(states.data() + i, variables_, state_.data() + variables_ * site);
+    if (contacts_.acts()) contacts_.resume(site, states[i], states.data() + i + variables_);
   }
 }
 
@@ -112,7 +115,7 @@ void Forces::proceed() {
   if (steady()) return;
   F_before_.swap(F_now_);
   F_now_.swap(F_next_);
-  F_next_ = forcing_at(level_ + 1);
+  evaluate_forcing(level_ + 1, F_next_);
 }
 
 void Forces::steps_from(long j, std::size_t size, const double* before, const double* now, const double* next,
@@ -132,7 +135,7 @@ void Forces::displacements_from(long j, std::size_t size, const double* z, doubl
     displacements(sine_, scheme_.eps, a2(j), z, u, S, size);
 }
 
-void Forces::level(const Sides& sides, long offset, std::size_t size, const double* before, const double* now,
+void Forces::level(const EndConditions& ends, long offset, std::size_t size, const double* before, const double* now,
                    double* next, double* y, Outflow& outflow, double* applied) const {
   if (!a2_.empty()) {
     const double* a2 = this->a2(offset - 1);
@@ -141,11 +144,11 @@ void Forces::level(const Sides& sides, long offset, std::size_t size, const doub
     local_part(scheme_.rule, now - 1, before - 1, next - 1, y - 1, 0, (size + 2 + lanes - 1) / lanes * lanes);
   }
   // Counted from two sites before, so that a seam's other side has an index.
-  const EndSites bare = before_neighbours(sides, next - 2, 2, size + 1);
+  const EndSites bare = before_neighbours(ends, next - 2, 2, size + 1);
   add_neighbours(scheme_.rule.spread, y, next, 0, (size + lanes - 1) / lanes * lanes);
-  const auto given = [](Side side) { return side == Side::fixed || side == Side::absorbing; };
-  const std::size_t from = given(sides.left) ? 1 : 0, to = given(sides.right) ? size - 1 : size;
-  mend_ends(sides, bare, scheme_.rule.spread, now - 2, y - 2, next - 2, 2, size + 1, outflow);
+  const auto given = [](EndCondition side) { return side == EndCondition::fixed || side == EndCondition::absorbing; };
+  const std::size_t from = given(ends.left) ? 1 : 0, to = given(ends.right) ? size - 1 : size;
+  mend_ends(ends, bare, scheme_.rule.spread, now - 2, y - 2, next - 2, 2, size + 1, outflow);
   if (!F_now_.empty()) {
     const long first = offset + static_cast<long>(from);
     const double strength = scheme_.force / turn;
@@ -181,7 +184,7 @@ void Forces::add_friction(long offset, std::size_t begin, std::size_t end, const
       continue;
     }
     const long site = offset + static_cast<long>(j);
-    const friction::Memories memory = memory_from(site, some, room);
+    const friction::Memories memory = states_from(site, some, room);
     if (contacts_.have_pressure())
       f.law().speeds_after_under(some, contacts_.share(site), free, weight, memory, speed);
     else
@@ -190,13 +193,13 @@ void Forces::add_friction(long offset, std::size_t begin, std::size_t end, const
   }
 }
 
-friction::Memories Forces::memory_from(long j, std::size_t size, std::vector<double>& room) const {
+friction::Memories Forces::states_from(long j, std::size_t size, std::vector<double>& room) const {
   if (variables_ == 0) return {};
   const long end = j + static_cast<long>(size);
   if (j >= 0 && end <= static_cast<long>(problem_.grid.sites))
-    return {memory_.data() + variables_ * static_cast<std::size_t>(j), variables_};
+    return {state_.data() + variables_ * static_cast<std::size_t>(j), variables_};
   room.clear();
-  for (; j < end; ++j) room.insert(room.end(), memory_of(j), memory_of(j) + variables_);
+  for (; j < end; ++j) room.insert(room.end(), state_of(j), state_of(j) + variables_);
   return {room.data(), variables_};
 }
 
@@ -207,7 +210,7 @@ double Forces::work_of_friction(long j, std::size_t size, const double* D, const
   for (std::size_t at = 0; at < size; at += together) {
     const std::size_t some = std::min(together, size - at);
     for (std::size_t i = 0; i < some; ++i) speed[i] = std::fabs(D[at + i]) / dt_;
-    problem_.friction.law().strengths(some, speed, memory_from(j + static_cast<long>(at), some, room), force);
+    problem_.friction.law().strengths(some, speed, states_from(j + static_cast<long>(at), some, room), force);
     sum += dt_ * sum_of_products(force, speed, some);
   }
   return sum;

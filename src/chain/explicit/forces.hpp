@@ -36,8 +36,8 @@ class Forces {
   /// One level of `size` sites, the first of which is site `offset` of the chain; arrays count from it. `now` and
   /// `before` have two neighbours on the left and ten on the right; `next` and `y` have room for them. `applied`,
   /// unless null, gets the force by which friction that is neither linear nor constant has slowed each site.
-  void level(const Sides& sides, long offset, std::size_t size, const double* before, const double* now, double* next,
-             double* y, Outflow& outflow, double* applied = nullptr) const;
+  void level(const EndConditions& ends, long offset, std::size_t size, const double* before, const double* now,
+             double* next, double* y, Outflow& outflow, double* applied = nullptr) const;
   /// The work of such friction on `size` sites from site j on in a step D, in radians: by the forces that were applied
   /// if those act over the step, otherwise by those at its velocity.
   double work_of_friction(long j, std::size_t size, const double* D, const double* applied) const;
@@ -48,11 +48,11 @@ class Forces {
   /// Changes the friction law's variables of `size` sites from site `first` on, over the step from `now` to `next`.
   void age(long first, std::size_t size, const double* now, const double* next);
   /// The same variables of sites [begin, end), site by site; none for most laws.
-  std::vector<double> memories(std::size_t begin, std::size_t end) const;
-  void set_memories(std::size_t begin, const std::vector<double>& memories);
+  std::vector<double> states(std::size_t begin, std::size_t end) const;
+  void set_states(std::size_t begin, const std::vector<double>& states);
   /// Numbers that a site remembers.
-  std::size_t remembered() const { return variables_ + (contacts_.acts() ? ContactField::columns : 0); }
-  /// To be called when the memories of all sites are set.
+  std::size_t state_size() const { return variables_ + (contacts_.acts() ? ContactField::columns : 0); }
+  /// To be called when the states of all sites are set.
   void resumed() {
     if (contacts_.acts()) contacts_.resumed();
   }
@@ -70,29 +70,29 @@ class Forces {
 
  private:
   friction::Memory memory(long j) const {
-    return variables_ == 0 ? friction::Memory{} : friction::Memory{memory_of(j), variables_};
+    return variables_ == 0 ? friction::Memory{} : friction::Memory{state_of(j), variables_};
   }
-  const double* memory_of(long j) const;
+  const double* state_of(long j) const;
   std::size_t at(long j) const { return static_cast<std::size_t>(j - first_); }
-  std::vector<double> forcing_at(long level) const;
+  void evaluate_forcing(long level, std::vector<double>& F) const;
   bool steady() const { return F_next_.empty(); }
   /// On sites [begin, end) of a level that begins with site `offset`.
   void add_friction(long offset, std::size_t begin, std::size_t end, const double* before, const double* now,
                     double* next, double* applied) const;
   void age_contacts(long first, std::size_t size, const double* velocity);
   /// The memory of `size` sites from site j on; of those beyond an end in `room`.
-  friction::Memories memory_from(long j, std::size_t size, std::vector<double>& room) const;
+  friction::Memories states_from(long j, std::size_t size, std::vector<double>& room) const;
 
   Problem problem_;
   Scheme scheme_;
   PeriodicForce sine_;
   double dt_;
   long level_;
-  long first_, last_;           ///< sites of the arrays' first element and behind their last
-  bool nonlinear_;              ///< there is friction other than C w, which the scheme itself has
-  std::size_t variables_;       ///< of the friction law
-  std::vector<double> memory_;  ///< their values at each site of the chain, which one rank has alone then
-  std::vector<double> a2_;      ///< at t = 0 if it changes
+  long first_, last_;          ///< sites of the arrays' first element and behind their last
+  bool nonlinear_;             ///< there is friction other than C w, which the scheme itself has
+  std::size_t variables_;      ///< of the friction law
+  std::vector<double> state_;  ///< their values at each site of the chain, which one rank has alone then
+  std::vector<double> a2_;     ///< at t = 0 if it changes
   ContactField contacts_;
   std::vector<double> F_before_, F_now_, F_next_;  ///< F_now_ alone where it does not depend on t
 };

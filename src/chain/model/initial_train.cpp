@@ -1,3 +1,5 @@
+#include "chain/model/initial_train.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -5,7 +7,6 @@
 #include <utility>
 
 #include "foundation/text/digits.hpp"
-#include "slipfront/chain/initial.hpp"
 #include "slipfront/elliptic/jacobi.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/train/train.hpp"

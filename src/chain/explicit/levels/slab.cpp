@@ -17,7 +17,7 @@ void prefetch(const double* sites, std::size_t count) {
 #endif
 }
 
-bool is_end(Side side) { return side != Side::joined && side != Side::seam; }
+bool is_end(EndCondition side) { return side != EndCondition::joined && side != EndCondition::seam; }
 
 }  // namespace
 
@@ -26,116 +26,146 @@ Aligned::Aligned(std::size_t size)
   std::fill_n(data_.get(), size + 1, 0.0);
 }
 
-Slab::Slab(std::size_t begin, std::size_t size, const Sides& sides)
+Slab::Slab(std::size_t begin, std::size_t size, const EndConditions& ends)
     : begin_(begin),
       size_(size),
-      sides_(sides),
+      ends_(ends),
       levels_{Aligned(size + 2 * margin + lanes), Aligned(size + 2 * margin + lanes)} {}
 
-EndSites before_neighbours(const Sides& s, const double* next, std::size_t first, std::size_t last) {
+EndSites before_neighbours(const EndConditions& s, const double* next, std::size_t first, std::size_t last) {
   EndSites bare;
-  if (s.left != Side::joined) bare.left_bare = next[first];
-  if (s.left == Side::seam) bare.left_beyond_bare = next[first - 1];
-  if (s.right != Side::joined) bare.right_bare = next[last];
-  if (s.right == Side::seam) bare.right_beyond_bare = next[last + 1];
+  if (s.left != EndCondition::joined) bare.left = next[first];
+  if (s.left == EndCondition::seam) bare.left_of_seam = next[first - 1];
+  if (s.right != EndCondition::joined) bare.right = next[last];
+  if (s.right == EndCondition::seam) bare.right_of_seam = next[last + 1];
   return bare;
 }
 
-void mend_ends(const Sides& s, const EndSites& bare, double spread, const double* now, const double* y, double* next,
-               std::size_t first, std::size_t last, Outflow& outflow) {
-  const auto absorb = [&](const AbsorbingEnd& end, std::size_t j) {
+namespace {
+
+/// A level just computed, for the site at an end and the sites on both ends of a seam.
+struct LevelAtEnd {
+  double spread, turns;
+  const double *now, *y;
+  double* next;
+
+  /// Energy that leaves.
+  double absorb(const AbsorbingEnd& end, std::size_t j) const {
     const AbsorbingEnd::Step step = end.step(now + j, next + j);
     next[j] = step.next;
     return step.outflow;
-  };
-  // Across the seam: the site to the left of the first is the last, higher by a turn a dislocation.
-  const auto first_of_chain = [&](std::size_t j, double w) {
-    next[j] = w + spread * ((y[j - 1] + s.turns) + y[j + 1]);
-  };
-  const auto last_of_chain = [&](std::size_t j, double w) { next[j] = w + spread * (y[j - 1] + (y[j + 1] - s.turns)); };
-  switch (s.left) {
-    case Side::free:
-      next[first] = bare.left_bare + spread * (y[first + 1] + y[first + 1]);
-      break;
-    case Side::fixed:
-      next[first] = now[first];
-      break;
-    case Side::absorbing:
-      outflow.left += absorb(s.beyond_left, first);
-      break;
-    case Side::seam:
-      last_of_chain(first - 1, bare.left_beyond_bare);
-      first_of_chain(first, bare.left_bare);
-      break;
-    case Side::joined:
-      break;
   }
-  switch (s.right) {
-    case Side::free:
-      next[last] = bare.right_bare + spread * (y[last - 1] + y[last - 1]);
+  /// Across the seam: the site to the left of the first is the last, higher by a turn for each dislocation.
+  void first_of_chain(std::size_t j, double bare) const { next[j] = bare + spread * ((y[j - 1] + turns) + y[j + 1]); }
+  void last_of_chain(std::size_t j, double bare) const { next[j] = bare + spread * (y[j - 1] + (y[j + 1] - turns)); }
+};
+
+void mend_left(const EndConditions& s, const EndSites& bare, const LevelAtEnd& level, std::size_t first,
+               Outflow& outflow) {
+  switch (s.left) {
+    case EndCondition::free:
+      level.next[first] = bare.left + level.spread * (level.y[first + 1] + level.y[first + 1]);
       break;
-    case Side::fixed:
-      next[last] = now[last];
+    case EndCondition::fixed:
+      level.next[first] = level.now[first];
       break;
-    case Side::absorbing:
-      outflow.right += absorb(s.beyond_right, last);
+    case EndCondition::absorbing:
+      outflow.left += level.absorb(s.absorbing_left, first);
       break;
-    case Side::seam:
-      last_of_chain(last, bare.right_bare);
-      first_of_chain(last + 1, bare.right_beyond_bare);
+    case EndCondition::seam:
+      level.last_of_chain(first - 1, bare.left_of_seam);
+      level.first_of_chain(first, bare.left);
       break;
-    case Side::joined:
+    case EndCondition::joined:
       break;
   }
 }
 
+void mend_right(const EndConditions& s, const EndSites& bare, const LevelAtEnd& level, std::size_t last,
+                Outflow& outflow) {
+  switch (s.right) {
+    case EndCondition::free:
+      level.next[last] = bare.right + level.spread * (level.y[last - 1] + level.y[last - 1]);
+      break;
+    case EndCondition::fixed:
+      level.next[last] = level.now[last];
+      break;
+    case EndCondition::absorbing:
+      outflow.right += level.absorb(s.absorbing_right, last);
+      break;
+    case EndCondition::seam:
+      level.last_of_chain(last, bare.right);
+      level.first_of_chain(last + 1, bare.right_of_seam);
+      break;
+    case EndCondition::joined:
+      break;
+  }
+}
+
+constexpr std::size_t pad = lanes;  // y is read one site outside the tile and its halos
+constexpr std::size_t tile_begin = pad + halo;
+
+}  // namespace
+
+void mend_ends(const EndConditions& s, const EndSites& bare, double spread, const double* now, const double* y,
+               double* next, std::size_t first, std::size_t last, Outflow& outflow) {
+  const LevelAtEnd level{spread, s.turns, now, y, next};
+  mend_left(s, bare, level, first, outflow);
+  mend_right(s, bare, level, last, outflow);
+}
+
 void Slab::advance(const LevelRule& rule, std::size_t count, std::size_t tile) {
-  constexpr std::size_t pad = lanes;  // y is read one site beyond
   tile = std::max(std::min(tile, (size_ + lanes - 1) / lanes * lanes), 2 * halo);
   const std::size_t room = tile + 2 * halo + 2 * pad;
-  Aligned scratch_now(room), scratch_next(room), scratch_y(room);
-  Aligned carry_now(halo), carry_old(halo);  // the sites left of the tile, as they were
-  copy(now() - halo, carry_now.data(), halo);
-  copy(old() - halo, carry_old.data(), halo);
-  double* const y = scratch_y.data();
-
+  if (tile_.size != room) tile_ = Tile(room);
+  copy(now() - halo, tile_.left_now.data(), halo);
+  copy(old() - halo, tile_.left_old.data(), halo);
   for (std::size_t from = 0, width = 0; from < size_; from += width) {
     width = std::min(tile, size_ - from);
-    // The last tile is no smaller than a halo: the end of the chain lies in no other tile's halo.
+    // The last tile is no smaller than a halo, so that the end of the chain is in no other tile's halo.
     if (from + width < size_ && size_ - from - width < halo) width -= halo;
-    const std::size_t first = pad + halo, last = first + width - 1;
-    double *z = scratch_now.data(), *next = scratch_next.data();
-    copy(carry_now.data(), z + pad, halo);
-    copy(carry_old.data(), next + pad, halo);
-    copy(now() + from, z + first, width + halo);
-    copy(old() + from, next + first, width + halo);
-    if (width >= halo) {
-      copy(now() + from + width - halo, carry_now.data(), halo);
-      copy(old() + from + width - halo, carry_old.data(), halo);
-    }
-    Sides sides = sides_;
-    if (from > 0) sides.left = Side::joined;
-    if (from + width < size_) sides.right = Side::joined;
-    // Where there is a halo the range shrinks by a site a level; rounded outwards to whole vectors, never beyond the
-    // pad.
-    const std::size_t share = (std::min(tile, size_ - from - width) / count + lanes) / lanes * lanes;
-    for (std::size_t level = 0; level < count; ++level) {
-      if (from + width < size_) {
-        prefetch(now() + from + width + halo + level * share, share);
-        prefetch(old() + from + width + halo + level * share, share);
-      }
-      const std::size_t left = is_end(sides.left) ? first : pad + level;
-      const std::size_t right = is_end(sides.right) ? last + 1 : last + 1 + halo - level;
-      const std::size_t begin = left / lanes * lanes, end = (right + lanes - 1) / lanes * lanes;
-      local_part(rule, z, next, next, y, begin, end);
-      const EndSites bare = before_neighbours(sides, next, first, last);
-      add_neighbours(rule.spread, y, next, begin, end);
-      mend_ends(sides, bare, rule.spread, z, y, next, first, last, outflow);
-      std::swap(z, next);
-    }
-    copy(z + first, now() + from, width);
-    copy(next + first, old() + from, width);
+    load(from, width);
+    advance_tile(rule, count, tile, from, width);
   }
+}
+
+/// Copies `width` sites and their halos from both levels, and keeps the sites left of the next tile.
+void Slab::load(std::size_t from, std::size_t width) {
+  double *const z = tile_.now.data(), *const old_z = tile_.next.data();
+  copy(tile_.left_now.data(), z + pad, halo);
+  copy(tile_.left_old.data(), old_z + pad, halo);
+  copy(now() + from, z + tile_begin, width + halo);
+  copy(old() + from, old_z + tile_begin, width + halo);
+  if (width < halo) return;
+  copy(now() + from + width - halo, tile_.left_now.data(), halo);
+  copy(old() + from + width - halo, tile_.left_old.data(), halo);
+}
+
+void Slab::advance_tile(const LevelRule& rule, std::size_t count, std::size_t tile, std::size_t from,
+                        std::size_t width) {
+  double *z = tile_.now.data(), *next = tile_.next.data(), *const y = tile_.y.data();
+  const std::size_t first = tile_begin, last = first + width - 1;
+  EndConditions ends = ends_;
+  if (from > 0) ends.left = EndCondition::joined;
+  if (from + width < size_) ends.right = EndCondition::joined;
+  // Where there is a halo the range shrinks by a site a level; rounded outwards to whole vectors, never past the pad.
+  const std::size_t share = (std::min(tile, size_ - from - width) / count + lanes) / lanes * lanes;
+  for (std::size_t level = 0; level < count; ++level) {
+    if (from + width < size_) {
+      prefetch(now() + from + width + halo + level * share, share);
+      prefetch(old() + from + width + halo + level * share, share);
+    }
+    const std::size_t left = is_end(ends.left) ? first : pad + level;
+    const std::size_t right = is_end(ends.right) ? last + 1 : last + 1 + halo - level;
+    const std::size_t begin = left / lanes * lanes, end = (right + lanes - 1) / lanes * lanes;
+    local_part(rule, z, next, next, y, begin, end);
+    const EndSites bare = before_neighbours(ends, next, first, last);
+    add_neighbours(rule.spread, y, next, begin, end);
+    mend_ends(ends, bare, rule.spread, z, y, next, first, last, outflow);
+    std::swap(z, next);
+  }
+  copy(z + tile_begin, now() + from, width);
+  copy(next + tile_begin, old() + from, width);
 }
 
 }  // namespace slipfront::chain

@@ -28,12 +28,13 @@ class Aligned {
 /// written once in that many levels.
 inline constexpr std::size_t halo = 32;
 
-/// What holds at the two ends of a stretch of sites, level by level.
-enum class Side { joined, free, fixed, absorbing, seam };
-struct Sides {
-  Side left = Side::joined, right = Side::joined;  ///< joined: a halo; seam: too, from the other end
-  double turns = 0;                                ///< u falls by so many turns around
-  AbsorbingEnd beyond_left, beyond_right;          ///< for absorbing ends
+/// The conditions at the two ends of consecutive sites, level by level.
+enum class EndCondition { joined, free, fixed, absorbing, seam };
+struct EndConditions {
+  EndCondition left = EndCondition::joined,
+               right = EndCondition::joined;  ///< joined: a halo; seam: a halo from the other end of a ring
+  double turns = 0;                           ///< fall of u around a ring, in turns
+  AbsorbingEnd absorbing_left, absorbing_right;
 };
 
 /// Energy that has left through absorbing ends.
@@ -41,11 +42,11 @@ struct Outflow {
   double left = 0, right = 0;
 };
 
-/// Sites [begin, begin + size) of a chain at two levels, with halos: what one thread (or one process) has. The halos
-/// are the owner's to fill before each advance.
+/// Sites [begin, begin + size) of a chain at two levels, with halos: the share of one thread. The owner fills the halos
+/// before each advance.
 class Slab {
  public:
-  Slab(std::size_t begin, std::size_t size, const Sides& sides);
+  Slab(std::size_t begin, std::size_t size, const EndConditions& ends);
 
   std::size_t begin() const { return begin_; }
   std::size_t size() const { return size_; }
@@ -53,7 +54,7 @@ class Slab {
   double* old() { return levels_[1 - current_].data() + margin; }
   const double* now() const { return levels_[current_].data() + margin; }
   const double* old() const { return levels_[1 - current_].data() + margin; }
-  const Sides& sides() const { return sides_; }
+  const EndConditions& ends() const { return ends_; }
   void swap() { current_ = 1 - current_; }
 
   /// `count` <= halo levels, tile by tile in cache, in place. Bits do not depend on `tile` (a multiple of lanes).
@@ -63,19 +64,29 @@ class Slab {
 
  private:
   static constexpr std::size_t margin = 2 * halo;
+  /// Arrays for one tile, and the sites left of it at the levels from which its computation starts.
+  struct Tile {
+    explicit Tile(std::size_t sites) : size(sites), now(sites), next(sites), y(sites), left_now(halo), left_old(halo) {}
+    std::size_t size;
+    Aligned now, next, y, left_now, left_old;
+  };
+  void load(std::size_t from, std::size_t width);
+  void advance_tile(const LevelRule& rule, std::size_t count, std::size_t tile, std::size_t from, std::size_t width);
+
   std::size_t begin_, size_;
-  Sides sides_;
+  EndConditions ends_;
   Aligned levels_[2];
   std::size_t current_ = 0;
+  Tile tile_{0};
 };
 
-/// What the ends add to a level just computed: `first` and `last` are the sites at the ends of the chain where `sides`
-/// has one (or where the seam lies), `bare` what local_part left there.
+/// The results of local_part at the ends of the chain, or on both ends of a seam, before neighbours are added.
 struct EndSites {
-  double left_bare = 0, left_beyond_bare = 0, right_bare = 0, right_beyond_bare = 0;
+  double left = 0, left_of_seam = 0, right = 0, right_of_seam = 0;
 };
-EndSites before_neighbours(const Sides& sides, const double* next, std::size_t first, std::size_t last);
-void mend_ends(const Sides& sides, const EndSites& bare, double spread, const double* now, const double* y,
+EndSites before_neighbours(const EndConditions& ends, const double* next, std::size_t first, std::size_t last);
+/// Replaces a level just computed at its ends, sites `first` and `last`, and across a seam.
+void mend_ends(const EndConditions& ends, const EndSites& bare, double spread, const double* now, const double* y,
                double* next, std::size_t first, std::size_t last, Outflow& outflow);
 
 }  // namespace slipfront::chain

@@ -1,0 +1,182 @@
+#include "chain/explicit/explicit_chain.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "chain/explicit/explicit_window.hpp"
+#include "chain/explicit/first_levels.hpp"
+#include "chain/explicit/share.hpp"
+#include "chain/model/start_check.hpp"
+#include "foundation/bytes.hpp"
+#include "slipfront/error.hpp"
+
+namespace slipfront::chain {
+namespace {
+
+/// Pieces of levels that a caller holds whole.
+LevelsOf pieces_of(const Levels& saved, std::size_t sites) {
+  return [&saved, sites](std::size_t begin, std::size_t end) -> Levels {
+    if (saved.now.size() != sites || saved.before.size() != sites)
+      throw InputError({.key = "resume",
+                        .value = std::to_string(saved.now.size()) + " sites",
+                        .problem = "does not fit the scenario",
+                        .allowed = std::to_string(sites) + " sites"});
+    const auto part = [](const std::vector<double>& all, std::size_t from, std::size_t to) {
+      const auto at = [&](std::size_t j) { return all.begin() + static_cast<std::ptrdiff_t>(j); };
+      return std::vector<double>(at(from), at(to));
+    };
+    const std::size_t variables = saved.state.size() / sites;
+    return {saved.level, part(saved.now, begin, end), part(saved.before, begin, end),
+            part(saved.state, variables * begin, variables * end)};
+  };
+}
+
+}  // namespace
+
+ExplicitChain::ExplicitChain(const Problem& p, const MotionOf& start, const Execution& execution)
+    : Chain(p, execution.ranks), execution_(execution) {
+  StartCheck look;
+  ranks().together([&] {
+    check(p, ranks().share_of_machine());
+    share_ = std::make_unique<Share>(p, execution, ranks(), 0);
+    share_->fill([&](std::size_t begin, std::size_t end) {
+      return first_levels(p, share_->scheme(), share_->forces(), start, begin, end, look);
+    });
+  });
+  look.finish(p, ranks());
+  ranks().together([&] { check_charge(p, start); });
+}
+
+ExplicitChain::ExplicitChain(const Problem& p, long level, const LevelsOf& saved, const Execution& execution)
+    : Chain(p, execution.ranks), execution_(execution) {
+  start_from(level, saved);
+}
+
+ExplicitChain::ExplicitChain(const Problem& p, const Motion& start, const Execution& execution)
+    : ExplicitChain(p, pieces_of(start, p.grid.sites), execution) {}
+ExplicitChain::ExplicitChain(const Problem& p, const Levels& saved, const Execution& execution)
+    : ExplicitChain(p, saved.level, pieces_of(saved, p.grid.sites), execution) {}
+
+ExplicitChain::~ExplicitChain() = default;
+ExplicitChain::ExplicitChain(ExplicitChain&&) noexcept = default;
+
+void ExplicitChain::start_from(long level, const LevelsOf& saved) {
+  constexpr long most = 9007199254740992;  // whole numbers that a double holds
+  ranks().together([&] {
+    check(problem(), ranks().share_of_machine());
+    if (!(level >= 0 && level <= most))
+      throw InputError(
+          {.key = "resume", .value = std::to_string(level), .problem = "not a level", .allowed = "0 or greater"});
+    share_ = std::make_unique<Share>(problem(), execution_, ranks(), level);
+    share_->fill(saved);
+  });
+}
+
+double ExplicitChain::dt() const { return share_->scheme().dt; }
+double ExplicitChain::time() const { return share_->time(); }
+long ExplicitChain::steps() const { return share_->level(); }
+bool ExplicitChain::meters_friction() const { return share_->level_by_level(); }
+
+void ExplicitChain::advance(long levels) {
+  valid_ = false;
+  while (levels > 0) {
+    const long some = std::min(levels, static_cast<long>(share_->depth()));
+    share_->advance(static_cast<std::size_t>(some));
+    ranks().together([this] { share_->check_numbers(); });
+    levels -= some;
+  }
+  valid_ = true;
+}
+
+bool ExplicitChain::advance_to(double time, long most) {
+  advance(std::min(std::lround(time / dt()) - steps(), most));
+  return reached(time);
+}
+
+void ExplicitChain::exchange() const { share_->exchange(); }
+Window ExplicitChain::own_window(std::size_t begin, std::size_t end, double time) const {
+  return window_of(*share_, begin, end, time);
+}
+
+double ExplicitChain::contact_squared(std::size_t site) const {
+  const double* a2 = share_->forces().a2(static_cast<long>(site));
+  return a2 == nullptr ? 1 : *a2;
+}
+double ExplicitChain::forcing(std::size_t site) const { return share_->forces().now(static_cast<long>(site)); }
+double ExplicitChain::friction(std::size_t site, double velocity) const {
+  return share_->forces().friction(static_cast<long>(site), velocity);
+}
+double ExplicitChain::effective_stress(std::size_t site) const {
+  const ContactField& contacts = share_->forces().contacts();
+  return contacts.acts() ? *contacts.share(static_cast<long>(site)) : 1;
+}
+
+Flows ExplicitChain::flows() const { return share_->flows(); }
+std::vector<double> ExplicitChain::flow_sums() const { return share_->flow_sums(); }
+
+Levels ExplicitChain::levels(std::size_t begin, std::size_t end) const {
+  Levels levels = share_->levels(begin, end);
+  if (ranks().size() == 1) return levels;
+  levels.now = ranks().joined_at_first(levels.now);
+  levels.before = ranks().joined_at_first(levels.before);
+  return levels;
+}
+
+Levels ExplicitChain::levels() const {
+  const std::size_t sites = problem().grid.sites;
+  if (ranks().size() == 1) return levels(0, sites);
+  Levels all;
+  all.level = steps();
+  constexpr std::size_t piece = std::size_t{1} << 26;  // the largest message
+  for (std::size_t begin = 0; begin < sites; begin += piece) {
+    const Levels some = levels(begin, std::min(begin + piece, sites));
+    all.now.insert(all.now.end(), some.now.begin(), some.now.end());
+    all.before.insert(all.before.end(), some.before.begin(), some.before.end());
+  }
+  return all;
+}
+
+std::string ExplicitChain::saved() const {
+  bytes::Writer writer;
+  writer.put(flow_sums());
+  const Levels levels = this->levels();
+  writer.put(static_cast<std::int64_t>(levels.level));
+  writer.put(levels.now);
+  writer.put(levels.before);
+  const std::vector<std::string_view> names = state_names(problem());
+  for (std::size_t v = 0; v < names.size(); ++v) {
+    std::vector<double> values;
+    for (std::size_t j = v; j < levels.state.size(); j += names.size()) values.push_back(levels.state[j]);
+    writer.put_text(names[v]);
+    writer.put(values);
+  }
+  return std::move(writer).text();
+}
+
+void ExplicitChain::resume(std::string_view saved) {
+  bytes::Reader reader(saved);
+  const std::vector<double> flows = reader.vector();
+  Levels levels;
+  levels.level = static_cast<long>(reader.get<std::int64_t>());
+  levels.now = reader.vector();
+  levels.before = reader.vector();
+  const std::vector<std::string_view> names = state_names(problem());
+  levels.state.resize(names.size() * levels.now.size());
+  for (std::size_t v = 0; v < names.size(); ++v) {
+    const bool known = reader.text() == names[v];
+    const std::vector<double> values = reader.vector();
+    if (!known || values.size() != levels.now.size())
+      throw InputError({.key = "resume",
+                        .problem = "the saved state is of another version or scenario",
+                        .allowed = "a file of this version and scenario, written by slipfront chain"});
+    for (std::size_t j = 0; j < values.size(); ++j) levels.state[names.size() * j + v] = values[j];
+  }
+  reader.end();
+  start_from(levels.level, pieces_of(levels, problem().grid.sites));
+  share_->continue_flows(flows);
+  valid_ = true;
+}
+
+}  // namespace slipfront::chain

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "chain/explicit/forces.hpp"
+#include "chain/explicit/levels/levels.hpp"
+#include "chain/explicit/levels/scheme.hpp"
+#include "chain/explicit/levels/slab.hpp"
+#include "chain/explicit/work_meter.hpp"
+#include "chain/model/blocks.hpp"
+#include "foundation/ranks.hpp"
+#include "slipfront/chain/chain.hpp"
+
+namespace slipfront::chain {
+
+/// The sites of a chain that one rank has, cut into slabs, a thread each. Calls marked (all) are messages between
+/// ranks.
+class Share {
+ public:
+  /// At t = level dt. \throws InputError for more threads or ranks than the chain can have.
+  Share(const Problem& problem, const Execution& execution, const Ranks& ranks, long level);
+  Share(const Share&) = delete;
+  Share& operator=(const Share&) = delete;
+
+  const Problem& problem() const { return problem_; }
+  const Scheme& scheme() const { return scheme_; }
+  const EndConditions& ends() const { return ends_; }
+  const Forces& forces() const { return forces_; }
+  std::size_t end() const { return end_; }  ///< of this rank's sites
+  long level() const { return level_; }
+  double time() const { return static_cast<double>(level_) * scheme_.dt; }
+  std::size_t depth() const { return depth_; }  ///< levels between exchanges
+  /// Whether it advances level by level and meters works; otherwise by 32 levels at a time, tile by tile.
+  bool level_by_level() const { return level_by_level_; }
+
+  /// Sets the levels from `source`, a piece at a time.
+  void fill(const LevelsOf& source);
+  /// (all) `count` <= depth levels.
+  void advance(std::size_t count);
+  /// \throws NumericsError
+  void check_numbers() const;
+
+  /// (all) Gets halos from neighbours, around a periodic chain too; across its seam the values stay as they are.
+  void exchange();
+  /// z / 2 pi of site j at both levels, also past the ends; in this rank's halo after an exchange.
+  std::pair<double, double> site(long j) const;
+
+  /// Those of sites [begin, end) that this rank has. Without state if there are several ranks.
+  Levels levels(std::size_t begin, std::size_t end) const;
+  /// (all) Works of all ranks, block by block, and the outflow through the two ends.
+  std::vector<double> flow_sums() const;
+  void continue_flows(const std::vector<double>& sums);
+  Flows flows() const;  ///< (all)
+
+ private:
+  /// The arrays with which a slab advances by one level, and the sites at which its pieces begin and end.
+  struct ByLevel {
+    std::vector<std::size_t> cuts;
+    Aligned next, y;
+    WorkMeter::Room work;
+  };
+  void check_execution() const;
+  void make_slabs();
+  void exchange_with_ranks();
+  void exchange_slab(std::size_t i);
+  template <class Each>
+  void for_slabs(std::size_t levels, const Each& each);
+  void advance_slab(std::size_t i, std::size_t count);
+  void advance_by_one_level(std::size_t i);
+
+  const Ranks& ranks_;
+  Problem problem_;
+  Scheme scheme_;
+  EndConditions ends_;
+  Execution execution_;
+  Blocks blocks_;
+  std::size_t first_block_, end_block_;  ///< of this rank
+  std::size_t begin_, end_;              ///< their sites
+  Forces forces_;
+  bool level_by_level_;
+  WorkMeter meter_;
+  std::vector<Slab> slabs_;
+  long level_;
+  std::vector<ByLevel> by_level_;  ///< for each slab; empty unless level_by_level_
+  std::size_t depth_ = halo;
+};
+
+}  // namespace slipfront::chain

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "chain/implicit/implicit_step.hpp"
+#include "chain/implicit/moment.hpp"
+#include "chain/implicit/site_forces.hpp"
+#include "slipfront/chain/chain.hpp"
+
+namespace slipfront::chain {
+
+/// A chain that advances by implicit steps of any length (ImplicitStep): for loading, and for whatever is slow
+/// (docs/loading.md). The length of a step follows an estimate of its error.
+///
+/// Steps do not depend on the times at which the motion is observed. A step that passes such a time is kept, and a
+/// second, shorter step from the same start gives the motion at that time. It is only shown.
+class ImplicitChain final : public Chain {
+ public:
+  /// \throws InputError as ExplicitChain does, and for conditions that implicit steps do not support: several ranks,
+  /// absorbing ends, friction that jumps at rest.
+  ImplicitChain(const Problem& problem, const MotionOf& start, const Execution& execution = {});
+  ImplicitChain(const Problem& problem, const Motion& start, const Execution& execution = {});
+  ImplicitChain(const ImplicitChain&) = delete;
+  ImplicitChain& operator=(const ImplicitChain&) = delete;
+
+  double time() const override { return now_.time; }
+  std::optional<double> constant_step() const override { return std::nullopt; }
+  void exchange() const override {}
+  Window own_window(std::size_t begin, std::size_t end, double time) const override;
+  double contact_squared(std::size_t site) const override { return forces_.contact_squared(now_, site); }
+  double forcing(std::size_t site) const override { return forces_.forcing(now_, site); }
+  double friction(std::size_t site, double velocity) const override { return forces_.friction(now_, site, velocity); }
+  double effective_stress(std::size_t site) const override { return forces_.effective_stress(now_, site); }
+  SpringEnergy spring_energy() const override;
+
+  long steps() const override { return now_.steps; }
+  /// Counts the steps that are only shown, too. \throws NumericsError where no step is short enough.
+  bool advance_to(double time, long most = no_limit) override;
+  bool valid() const override { return true; }  // a step that fails is not taken
+  Flows flows() const override { return {now_.supplied, now_.dissipated, 0, now_.by_contacts}; }
+  bool meters_friction() const override { return true; }
+  std::vector<output::SlipEvent> events() const override { return now_.log.events(); }
+  std::string saved() const override;
+  void resume(std::string_view saved) override;
+
+ private:
+  void step();
+  void step_to(double time);
+  void finish_step();
+  void look();
+  void check_progress();
+  [[noreturn]] void give_up() const;
+
+  Moment now_;
+  SiteForces forces_;
+  ImplicitStep step_;
+  ChainParts parts_;  ///< that are watched for events
+  /// The step that has passed the time of `now_`: its start and its end, if there is one.
+  Moment before_, after_;
+  bool passed_ = false;
+};
+
+}  // namespace slipfront::chain

@@ -1,0 +1,267 @@
+#include "chain/implicit/implicit_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <span>
+
+namespace slipfront::chain {
+
+ImplicitStep::ImplicitStep(const SiteForces& forces, int threads)
+    : forces_(forces),
+      springs_(forces.springs()),
+      friction_law_(forces.problem().friction),
+      threads_(threads),
+      matrix_(forces.sites()) {
+  for (auto* column :
+       {&w_, &weight_, &shift_, &force_, &slope_, &middle_, &friction_, &friction_slope_, &forcing_, &right_, &errors_})
+    column->resize(forces.sites());
+}
+
+template <class Each>
+void ImplicitStep::for_sites(const Each& each) const {
+  const auto n = static_cast<long>(sites());
+  std::exception_ptr exception;  // by friction whose curve the user gave
+#ifdef _OPENMP
+#pragma omp parallel for num_threads(threads_) schedule(static) if (threads_ > 1 && n > 20000)
+#endif
+  for (long j = 0; j < n; ++j) {
+    try {
+      each(static_cast<std::size_t>(j));
+    } catch (...) {
+#ifdef _OPENMP
+#pragma omp critical
+#endif
+      exception = std::current_exception();
+    }
+  }
+  if (exception) std::rethrow_exception(exception);
+}
+
+/// Friction at the state of the middle of the step, which has evolved at the mean velocity. Where contacts change, it
+/// includes the force by which the substrate exceeds that of the start of the step.
+double ImplicitStep::friction_at(std::size_t j, double w, double dt) const {
+  if (forces_.variables() == 0) return friction_law_.force(w);
+  SiteForces::State values;
+  const double p = from_->v[j] + gain(j, w) / 2;
+  const double force = friction_law_.force(w, forces_.evolved(*from_, j, p, dt / 2, values));
+  if (!forces_.contacts_change()) return force;
+  const SiteForces::Aged then = forces_.aged(*from_, j, p, dt);
+  const double more = (then.a2 - forces_.contact_squared(*from_, j)) / 2;
+  return then.share * force + (more == 0 ? 0 : more * mean_sine(from_->u[j] + dt * p / 2, dt * p / 2));
+}
+
+/// Guesses velocities, and chooses the velocity that friction feels.
+void ImplicitStep::prepare(const Moment& from, double dt) {
+  from_ = &from;
+  for (std::size_t j = 0; j < sites(); ++j)  // formulas are called from one thread
+    forcing_[j] = forces_.given_forcing(j, from.time + dt / 2);
+  double largest = 0;
+  for (const double u : from.u) largest = std::fmax(largest, std::fabs(u));
+  rounding_ = 1e-13 + 4 * std::numeric_limits<double>::epsilon() * largest / (springs_.spacing() * springs_.spacing());
+  for_sites([&](std::size_t j) {
+    const double z = dt * std::fmax(from.slope[j], 0.0), eta = from.steps == 0 ? 0 : z / (3 * (1 + z));
+    weight_[j] = (1 + eta) / 2;
+    shift_[j] = eta / 2 * dt * from.acceleration[j];
+    w_[j] = springs_.held(j) ? 0 : z > 1 ? from.w[j] : from.v[j] + dt / 2 * from.acceleration[j];
+  });
+}
+
+/// The force on a site from all but its neighbours, (v' - v) / dt + S + f - F, and its slope in w.
+void ImplicitStep::evaluate(std::size_t j, double dt) {
+  if (springs_.held(j)) {
+    force_[j] = springs_.held_force(j);
+    slope_[j] = 1;
+    middle_[j] = from_->u[j];
+    return;
+  }
+  const double weight = weight_[j], w = w_[j], p = mean_velocity(j), half = dt * p / 2;
+  const double a2 = forces_.contact_squared(*from_, j), K = forces_.pull(j), middle = from_->u[j] + half;
+  const double pulled = K * forces_.stretch(j, middle, from_->time + dt / 2);
+  double force = gain(j, w) / dt - forcing_[j] - pulled, by_p = K * dt / 2;
+  if (a2 > 0) {
+    const Sinc s = sinc(half);
+    const double sine = std::sin(middle), cosine = std::cos(middle);
+    force += a2 * sine * s.value;
+    by_p += a2 * dt / 2 * (cosine * s.value + sine * s.slope);
+  }
+  double slope = 1 / (weight * dt) + by_p / (2 * weight);
+  if (forces_.rubs()) {
+    const auto friction = [&](double velocity) { return friction_at(j, velocity, dt); };
+    friction_[j] = friction(w);
+    friction_slope_[j] = SiteForces::slope(friction, w, friction_[j]);
+    force += friction_[j];
+    slope += friction_slope_[j];
+  }
+  force_[j] = force;
+  slope_[j] = slope;
+  middle_[j] = middle;
+}
+
+/// The velocity of a site to which Newton's method gives `change`, if friction is not taken as linear in between:
+/// w + f(w) / A is the result of the linear step, with A the slope of all other forces. Friction that is a logarithm of
+/// the velocity changes it by many decades at a time, up or down, which no linear step follows.
+double ImplicitStep::velocity_under_friction(std::size_t j, double change, double dt) const {
+  const double w = w_[j], f = friction_[j];
+  const double by_springs = dt / (2 * weight_[j] * springs_.spacing() * springs_.spacing());
+  const double weight = 1 / std::fmax(slope_[j] - friction_slope_[j] + by_springs, 1 / (2 * weight_[j] * dt));
+  SiteForces::State values;
+  const double linear = w + weight * f + change * (1 + weight * friction_slope_[j]);
+  return friction_law_.velocity_after(linear, weight, forces_.evolved(*from_, j, mean_velocity(j), dt / 2, values));
+}
+
+/// Changes the velocities by Newton's method. They have converged if all sites have: in relative velocity, or in the
+/// balance of forces to rounding. An absolute velocity would not do: friction may hold a site at 1e-20 and less, where
+/// velocities that differ by all decades below 1e-13 mean forces of any size.
+ImplicitStep::Outcome ImplicitStep::correct(double dt) {
+  bool converged = true;
+  for (std::size_t j = 0; j < sites(); ++j) {
+    const double change = right_[j], size = std::fabs(change);
+    if (!std::isfinite(change)) return Outcome::failed;
+    if (springs_.held(j)) continue;
+    double& w = w_[j];
+    converged = converged && (size <= 1e-6 * std::fabs(w) || size * std::fabs(slope_[j]) <= rounding_);
+    const bool curved = forces_.rubs() && size > 0.3 * std::fabs(w) && friction_law_.steep_at_rest();
+    w = curved ? velocity_under_friction(j, change, dt) : w + change;
+    if (!std::isfinite(w)) return Outcome::failed;
+  }
+  return converged ? Outcome::converged : Outcome::improved;
+}
+
+void ImplicitStep::build_matrix(double dt) {
+  const double m = springs_.coupling(), h2 = springs_.spacing() * springs_.spacing();
+  const bool ring = springs_.periodic();
+  const auto column = [&](std::size_t j, double spread, double bend) {
+    return springs_.held(j) ? 0 : spread * slope_[j] - bend * dt / (4 * weight_[j] * h2);
+  };
+  for_sites([&](std::size_t j) {
+    const bool first = j == 0, last = j + 1 == sites();
+    if (springs_.held(j)) {
+      matrix_.diagonal[j] = 1;
+      matrix_.below[j] = matrix_.above[j] = right_[j] = 0;
+      return;
+    }
+    const double left = ring ? 1 : first ? 0 : last ? 2 : 1, right = ring ? 1 : last ? 0 : first ? 2 : 1;
+    matrix_.diagonal[j] = column(j, 1 - 2 * m, -2);
+    matrix_.below[j] = left == 0 ? 0 : column(first ? sites() - 1 : j - 1, left * m, left);
+    matrix_.above[j] = right == 0 ? 0 : column(last ? 0 : j + 1, right * m, right);
+    right_[j] = springs_.bend(middle_, j) - springs_.spread(force_, j);
+  });
+}
+
+bool ImplicitStep::solve(const Moment& from, double dt) {
+  constexpr int most_iterations = 40;
+  prepare(from, dt);
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    for_sites([&](std::size_t j) { evaluate(j, dt); });
+    build_matrix(dt);
+    matrix_.solve(right_, springs_.periodic());
+    const Outcome outcome = correct(dt);
+    if (outcome == Outcome::failed) return false;
+    if (outcome == Outcome::improved) continue;
+    for_sites([&](std::size_t j) { evaluate(j, dt); });
+    return true;
+  }
+  return false;
+}
+
+/// Error of the mean velocity of a step at a site that friction holds. Its velocity follows the force, as the
+/// exponential of it under rate-and-state friction: it may rise by many decades in a step that moves nothing until its
+/// last part. The logarithm of the velocity is taken as a straight line through the middles of the last two steps.
+double ImplicitStep::creep_error(std::size_t j, double dt) const {
+  const double w = w_[j], before = from_->w[j], ratio = w / before;
+  if (!forces_.rubs() || !(dt * friction_slope_[j] > 1) || !(ratio > 0)) return 0;
+  const double x = std::fmin(std::fabs(std::log(ratio)) * dt / (dt + from_->last_step), 300.0);  // half in the step
+  const double mean = std::fabs(w) * (x < 1e-3 ? 1 + x * x / 6 : std::sinh(x) / x);
+  return std::fabs(mean - std::fabs(w));
+}
+
+/// Error of the logarithm of the state variables, if the mean velocity has the error `by_velocity`.
+double ImplicitStep::state_error(std::size_t j, double dt, double by_velocity) const {
+  const double p = std::fabs(mean_velocity(j));
+  const std::size_t variables = forces_.variables();
+  const double* const start = &from_->state[variables * j];
+  SiteForces::State first, second;
+  const std::span<const double> one = forces_.evolved(*from_, j, p, dt, first);
+  const auto difference = [](double a, double b) {
+    return a > 0 && b > 0 ? std::fabs(std::log(a / b)) : std::fabs(a - b);
+  };
+  double moved = 0, most = 0;
+  for (std::size_t i = 0; i < variables; ++i) moved = std::fmax(moved, difference(one[i], start[i]));
+  // The state counts forty times: near the critical stiffness, peak velocities are most sensitive to its errors.
+  constexpr double weight = 40;
+  const double doubt = by_velocity + std::fabs(next_velocity(j) - from_->v[j]) / 12 * std::fmin(1, moved);
+  const std::span<const double> other = forces_.evolved(*from_, j, p + doubt, dt, second);
+  for (std::size_t i = 0; i < variables; ++i) most = std::fmax(most, difference(one[i], other[i]));
+  return weight * most;
+}
+
+/// The error at a site: that of the trapezoidal rule, dt^3 y''' / 12, by differences of the accelerations of three
+/// steps, that of creep and that of the state.
+double ImplicitStep::error_at(std::size_t j, double dt) const {
+  const double h1 = from_->last_step, h2 = from_->earlier_step;
+  const double now = (next_velocity(j) - from_->v[j]) / dt;
+  const double jerk = (now - from_->acceleration[j]) / ((dt + h1) / 2);
+  const double before = (from_->acceleration[j] - from_->earlier[j]) / ((h1 + h2) / 2);
+  const double snap = (jerk - before) / ((dt + 2 * h1 + h2) / 4);
+  const double by_creep = creep_error(j, dt);
+  double worst = std::fmax(dt * dt * dt / 12 * std::fmax(std::fabs(jerk), std::fabs(snap)), dt * by_creep);
+  if (forces_.variables() > 0) worst = std::fmax(worst, state_error(j, dt, dt * dt * std::fabs(jerk) / 12 + by_creep));
+  return std::isfinite(worst) ? worst : HUGE_VAL;
+}
+
+double ImplicitStep::error(const Moment& from, double dt) {
+  if (!(from.earlier_step > 0)) return 0.125;  // not known yet: grow carefully
+  for_sites([&](std::size_t j) { errors_[j] = springs_.held(j) ? 0 : error_at(j, dt); });
+  return *std::max_element(errors_.begin(), errors_.end()) / forces_.problem().tolerance;
+}
+
+/// Adds the work of the step. Friction includes the force of growing contacts, which belongs to the substrate.
+void ImplicitStep::add_energies(Moment& m, double dt) const {
+  double work = 0, lost = 0, given = 0;
+  const double velocity = forces_.problem().loading.velocity;
+  for (std::size_t j = 0; j < sites(); ++j) {
+    const bool held = springs_.held(j);
+    const double p = held ? 0 : mean_velocity(j), weight = springs_.weight(j), K = forces_.pull(j);
+    work += weight * dt * forcing_[j] * p;
+    if (K > 0) work += weight * dt * K * velocity * forces_.stretch(j, m.u[j] + dt * p / 2, m.time + dt / 2);
+    if (held) continue;
+    if (forces_.rubs()) lost += weight * dt * friction_[j] * p;
+    if (!forces_.has_changing_contacts()) continue;
+    const double middle = m.u[j] + dt * p / 2, change = forces_.aged(m, j, p, dt).a2 - m.a2[j];
+    const double sine = mean_sine(middle, dt * p / 2);
+    lost -= weight * change / 2 * sine * dt * p;
+    given += weight * change * (1 - std::cos(middle) * std::cos(dt * p / 2));
+  }
+  m.supplied += work;
+  m.dissipated += lost;
+  m.by_contacts += given;
+}
+
+void ImplicitStep::take(Moment& m, double dt) const {
+  add_energies(m, dt);
+  for_sites([&](std::size_t j) {
+    if (springs_.held(j)) return;
+    const double p = mean_velocity(j), next = next_velocity(j);
+    forces_.evolve(m, j, p, dt);
+    m.earlier[j] = m.acceleration[j];
+    m.acceleration[j] = (next - m.v[j]) / dt;
+    m.slope[j] = forces_.rubs() ? friction_slope_[j] : 0;
+    m.w[j] = w_[j];
+    m.u[j] += dt * p;
+    m.v[j] = next;
+  });
+  m.earlier_step = m.last_step;
+  m.last_step = dt;
+  ++m.steps;
+}
+
+std::size_t ImplicitStep::hardest_site() const {
+  std::size_t site = 0;
+  for (std::size_t j = 0; j < sites() && std::isfinite(force_[site]); ++j)
+    if (!(std::fabs(force_[j]) < HUGE_VAL) || std::fabs(w_[j]) > std::fabs(w_[site])) site = j;
+  return site;
+}
+
+}  // namespace slipfront::chain

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "chain/measure/event_log.hpp"
+
+namespace slipfront::chain {
+
+/// The motion between two implicit steps, with all that the next step depends on.
+struct Moment {
+  double time = 0;
+  long steps = 0;
+  double last_step = 0, earlier_step = 0, next_step = 0;
+  double window_start = 0;  ///< time at which the present window of ImplicitChain::check_progress began
+  double supplied = 0, dissipated = 0, by_contacts = 0;
+  std::vector<double> u, v;
+  std::vector<double> state;                  ///< the friction law's state variables, site by site
+  std::vector<double> w, slope;               ///< velocity that friction felt in the last step, slope of friction there
+  std::vector<double> acceleration, earlier;  ///< of the last two steps
+  std::vector<double> excess;                 ///< p - p_0 of the pores; empty unless contacts change
+  std::vector<double> a2;                     ///< follows from the state; empty where a is the same everywhere
+  EventLog log;
+};
+
+/// The list of what a checkpoint holds of a moment, in its order: calls number(member), then column(member). The log of
+/// events follows.
+template <class AMoment, class Number, class Column>
+void each_saved(AMoment& m, const Number& number, const Column& column) {
+  number(m.time);
+  number(m.steps);
+  for (auto* step : {&m.last_step, &m.earlier_step, &m.next_step}) number(*step);
+  for (auto* energy : {&m.supplied, &m.dissipated, &m.by_contacts}) number(*energy);
+  number(m.window_start);
+  for (auto* values : {&m.u, &m.v, &m.state, &m.w, &m.slope, &m.acceleration, &m.earlier, &m.excess}) column(*values);
+}
+
+}  // namespace slipfront::chain

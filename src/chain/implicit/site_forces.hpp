@@ -1,0 +1,105 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "chain/implicit/compact_springs.hpp"
+#include "chain/implicit/moment.hpp"
+#include "slipfront/chain/problem.hpp"
+
+namespace slipfront::chain {
+
+/// sin(y) / y and its derivative.
+struct Sinc {
+  double value, slope;
+};
+inline Sinc sinc(double y) {
+  const double y2 = y * y;
+  if (y2 < 1e-3) return {1 - y2 / 6 * (1 - y2 / 20 * (1 - y2 / 42)), -y / 3 * (1 - y2 / 10 * (1 - y2 / 28))};
+  const double s = std::sin(y) / y;
+  return {s, (std::cos(y) - s) / y};
+}
+
+/// (cos u - cos u') / (u' - u), from their middle and half their difference.
+inline double mean_sine(double middle, double half) { return std::sin(middle) * sinc(half).value; }
+
+/// The forces on the sites of a chain that moves by implicit steps, and how its contacts change.
+class SiteForces {
+ public:
+  /// Sets the state of friction and the contacts of `now`, whose u and v are those of the start.
+  SiteForces(const Problem& problem, Moment& now);
+
+  const Problem& problem() const { return problem_; }
+  const CompactSprings& springs() const { return springs_; }
+  std::size_t sites() const { return problem_.grid.sites; }
+  std::size_t variables() const { return variables_; }  ///< state variables of a site
+  bool rubs() const { return rubs_; }                   ///< whether there is friction
+  bool contacts_change() const { return contacts_.act(); }
+  /// Whether a^2 changes with them: not without a substrate.
+  bool has_changing_contacts() const { return !base_.empty(); }
+
+  double contact_squared(const Moment& m, std::size_t j) const { return m.a2.empty() ? all_contact_ : m.a2[j]; }
+  double effective_stress(const Moment& m, std::size_t j) const {
+    return contacts_.act() ? contacts_.share(m.excess[j]) : 1;
+  }
+  /// Stiffness of the spring that loads a site, per length.
+  double pull(std::size_t site) const {
+    const Loading& l = problem_.loading;
+    if (l.where == Pulled::everywhere) return l.stiffness;
+    return site == (l.where == Pulled::left ? 0 : sites() - 1) ? l.stiffness / springs_.weight(site) : 0;
+  }
+  /// F(x, t) as the problem has it, and with the pull of the springs.
+  double given_forcing(std::size_t j, double time) const {
+    return problem_.forcing ? problem_.forcing(problem_.grid.x(j), time) : 0;
+  }
+  double forcing(const Moment& m, std::size_t j) const;
+  /// Stretch of the spring at a site that is displaced by u.
+  double stretch(std::size_t j, double u, double time) const {
+    return problem_.loading.velocity * time - (u - first_u_[j]);
+  }
+  double friction(const Moment& m, std::size_t j, double velocity) const;
+  double loading_energy(const Moment& m) const;  ///< in the springs that pull
+
+  static constexpr std::size_t most_variables = 4;
+  using State = std::array<double, most_variables>;
+  /// The state variables of a site after a time at the velocity p. `values` has room for them.
+  std::span<const double> evolved(const Moment& m, std::size_t j, double p, double time, State& values) const;
+
+  /// State and contact of a site after a step from `m` at the mean velocity p, and 1 - p_pore in its middle. For
+  /// friction that changes contacts.
+  struct Aged {
+    double theta, excess, a2, share;
+  };
+  Aged aged(const Moment& m, std::size_t j, double p, double dt) const;
+  /// Changes the state and the contact of a site over a step at the mean velocity p.
+  void evolve(Moment& m, std::size_t j, double p, double dt) const;
+  /// a^2 from the states of the sites. It is always computed in this way, so a resumed run has the same bits.
+  void strengthen_contacts(Moment& m) const;
+  /// \throws NumericsError where the pressure of pores has reached the normal stress.
+  void check_contacts(const Moment& m) const;
+
+  static constexpr double smallest_velocity = 1e-290;  ///< far below that of any interface at rest
+  /// The slope of a friction force f(w) at w, where it is f, by a small difference away from rest.
+  template <class Force>
+  static double slope(const Force& force, double w, double f) {
+    const double step = std::copysign(std::fmax(1e-6 * std::fabs(w), smallest_velocity), w);
+    return (force(w + step) - f) / step;
+  }
+
+ private:
+  void start_contacts(Moment& now);
+
+  Problem problem_;
+  std::size_t variables_;
+  bool rubs_;
+  CompactSprings springs_;
+  double all_contact_;  ///< a^2 where it is the same everywhere
+  friction::Contacts contacts_;
+  std::vector<double> base_;  ///< a^2 of contacts without age and pores without pressure; empty unless contacts change
+  std::vector<double> first_u_;
+};
+
+}  // namespace slipfront::chain

@@ -1,0 +1,69 @@
+#include "chain/measure/dislocations.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "chain/measure/interpolation.hpp"
+#include "chain/measure/own_sites.hpp"
+
+namespace slipfront::chain {
+namespace {
+
+/// u / 2 pi - 1/2: dislocations are at whole numbers.
+std::vector<double> turns(std::vector<double> u) {
+  for (double& v : u) v = v / (2 * std::numbers::pi) - 0.5;
+  return u;
+}
+
+/// Adds those between values j and j + 1 of `turns`; value 0 is at x.
+void find(const std::vector<double>& turns, std::size_t j, double x, double h, std::vector<Dislocation>& found) {
+  const double a = turns[j], b = turns[j + 1];
+  const int sign = a > b ? 1 : -1;
+  // Between two sites u passes more than one whole number only on a lattice of dislocations that are narrower than A.
+  for (double level = sign > 0 ? std::ceil(a) - 1 : std::floor(a) + 1; sign * (level - b) >= 0; level -= sign) {
+    double low = static_cast<double>(j), high = low + 1;
+    for (int i = 0; i < 50; ++i) {
+      const double middle = (low + high) / 2;
+      (sign * (interpolated(turns, middle) - level) > 0 ? low : high) = middle;
+    }
+    found.push_back({x + h * low, sign});
+  }
+}
+
+/// (all) Those of all ranks.
+std::vector<Dislocation> joined(const Ranks& ranks, const std::vector<Dislocation>& found) {
+  if (ranks.size() == 1) return found;
+  std::vector<double> mine;
+  for (const Dislocation& d : found) mine.insert(mine.end(), {d.x, static_cast<double>(d.sign)});
+  const std::vector<double> numbers = ranks.joined(mine);
+  std::vector<Dislocation> all;
+  for (std::size_t i = 0; i < numbers.size(); i += 2) all.push_back({numbers[i], static_cast<int>(numbers[i + 1])});
+  return all;
+}
+
+}  // namespace
+
+std::vector<Dislocation> dislocations(const Sites& chain) {
+  const Problem& p = chain.problem();
+  const Grid& grid = p.grid;
+  std::vector<Dislocation> found;
+  for_own_sites(
+      chain,
+      [&](std::size_t begin, std::size_t end) {
+        const std::size_t first = begin < 3 ? 0 : begin - 3, last = std::min(end + 4, grid.sites);
+        const std::vector<double> values = turns(chain.own_window(first, last, chain.time()).u);
+        for (std::size_t j = begin; j < std::min(end, grid.sites - 1); ++j)
+          find(values, j - first, grid.x(first), grid.spacing, found);
+      },
+      [] {});
+  found = joined(chain.ranks(), found);
+  if (p.boundary.periodic) {  // between the last site and the first
+    std::vector<double> values = turns(chain.window(grid.sites - 3, grid.sites).u);
+    for (const double v : turns(chain.window(0, 3).u)) values.push_back(v - static_cast<double>(p.boundary.charge));
+    find(values, 2, grid.x(grid.sites - 3), grid.spacing, found);
+  }
+  return found;
+}
+
+}  // namespace slipfront::chain

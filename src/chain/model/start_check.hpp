@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+
+#include "foundation/ranks.hpp"
+#include "slipfront/chain/problem.hpp"
+
+namespace slipfront::chain {
+
+/// `start(begin, end)`. \throws InputError if it has not as many sites.
+Motion sites_of(const MotionOf& start, const Problem& problem, std::size_t begin, std::size_t end);
+/// The same of a motion that a caller holds whole. It must outlive the result.
+MotionOf pieces_of(const Motion& start, std::size_t sites);
+
+/// Checks an initial motion while it is read.
+class StartCheck {
+ public:
+  /// \throws InputError for a number that is not finite.
+  void look(const Problem& problem, const Motion& motion, std::size_t first);
+  /// (all) \throws InputError if the grid is too coarse for the steepest slope.
+  void finish(const Problem& problem, const Ranks& ranks) const;
+
+ private:
+  double steepest_ = 0, at_ = 0;  ///< rise between two neighbours, and its x
+};
+
+/// \throws InputError if the ends of a periodic chain do not differ by its charge.
+void check_charge(const Problem& problem, const MotionOf& start);
+
+}  // namespace slipfront::chain

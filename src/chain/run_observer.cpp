@@ -1,0 +1,273 @@
+#include "chain/run_observer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include "chain/measure/average.hpp"
+#include "chain/measure/dislocations.hpp"
+#include "chain/measure/smooth_average.hpp"
+#include "foundation/text/digits.hpp"
+#include "output/further_scalars.hpp"
+#include "slipfront/error.hpp"
+#include "slipfront/train/train.hpp"
+
+namespace slipfront::chain {
+namespace {
+
+using output::Snapshot;
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+/// In the window of velocities and stresses (smooth_average): their ripple is some 0.1 % then.
+constexpr double dislocations_in_window = 8;
+
+/// Dislocations are wider than that; a chain that has more of them has diverged.
+constexpr double most_dislocations_a_site = 8;
+
+/// The train's spacing just left of x = 0, or anywhere if it is empty there.
+double spacing_of_train(const ScaledProblem& s) {
+  for (const double x : {-1e-9 * (s.right - s.left), s.left, s.right})
+    if (const double k = s.stress(x); k > 0) return 2 * std::numbers::pi / k / s.scale;
+  return (s.right - s.left) / 16;
+}
+
+/// The first step after `steps` at which rates are sampled: one somewhere in each `every` steps. A train passes x = 0
+/// with a period of its own, and regular samples, of any pattern, can see the same phase of it again and again.
+long sample_after(long steps, long every) {
+  const auto sample = [every](long n) {
+    std::uint64_t z = static_cast<std::uint64_t>(n) * 0x9e3779b97f4a7c15u;  // splitmix64, of the number of the sample
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return n * every + static_cast<long>((z ^ (z >> 31)) % static_cast<std::uint64_t>(every));
+  };
+  const long n = steps / every;
+  return sample(n) > steps ? sample(n) : sample(n + 1);
+}
+
+/// A dislocation in a train at rest feels the force dJ/dx (docs/theory.md 6) and F.
+double driving_force(const ScaledProblem& s, double end) {
+  constexpr int samples = 2000;
+  const double dx = (s.right - s.left) / samples;
+  double last = 0, by_stress = 0, by_forcing = 0;
+  for (int i = 0; i <= samples; ++i) {
+    const double x = s.left + dx * i, a = s.contact ? s.contact(x) : 1, k = s.stress(x);
+    const double J = a * train::averages(train::at_rest(k / a)).J;
+    if (i > 0) by_stress = std::fmax(by_stress, std::fabs(J - last) / dx);
+    last = J;
+    if (s.forcing)
+      for (const double share : {0.0, 0.5, 1.0})
+        by_forcing = std::fmax(by_forcing, std::fabs(s.forcing(x, share * end)));
+  }
+  return by_stress + by_forcing;
+}
+
+}  // namespace
+
+RunObserver::RunObserver(const ScaledProblem& scaled, const output::Schedule& schedule, const Chain& chain)
+    : scaled_(scaled), schedule_(schedule), chain_(chain) {
+  choose_windows();
+  const double c = scaled_.scale;
+  for (std::size_t i = 0; i + 1 < schedule_.x_edges.size(); ++i)
+    first_u_.push_back(average(chain_, c * centre_of_cell(i), c * width_of_cell(i), 0).u);
+  const Grid& grid = chain_.problem().grid;
+  if (scaled_.left + window_ / 2 <= 0 && grid.x(grid.sites - 1) / scaled_.scale - window_ / 2 >= 0)
+    first_u_at_origin_ = average(chain_, 0, c * window_, 0).u;
+  else
+    first_u_at_origin_ = none;
+  const Totals t = totals(chain_);
+  first_energy_ = t.energy();
+  first_charge_ = t.charge;
+  first_dislocations_ = t.dislocations;
+  driving_force_ = driving_force(scaled_, schedule_.times.back());
+  sample();
+}
+
+void RunObserver::choose_windows() {
+  const double length = scaled_.right - scaled_.left;
+  window_ = scaled_.window > 0 ? scaled_.window : std::min(spacing_of_train(scaled_), length / 4);
+  smooth_window_ =
+      scaled_.window > 0 ? scaled_.window : std::min(dislocations_in_window * spacing_of_train(scaled_), length / 4);
+  const auto step = chain_.constant_step();
+  if (!step) return;
+  const double steps = schedule_.times.back() * scaled_.scale / *step;
+  sample_every_ = std::max(32L, 32 * std::lround(steps / 200 / 32));
+  // The slip velocity at x = 0 of so few sites can be followed even where one dislocation passes.
+  if (chain_.problem().grid.sites < 5000) sample_every_ = std::clamp(sample_every_ / 16, 2L, 32L);
+}
+
+double RunObserver::middle_of_cell(std::size_t i) const {
+  return (schedule_.x_edges[i] + schedule_.x_edges[i + 1]) / 2;
+}
+
+double RunObserver::centre_of_cell(std::size_t i) const {
+  const double half = width_of_cell(i) / 2 * (1 + 1e-9);  // the window stays on the chain
+  const Grid& grid = chain_.problem().grid;               // a ring's last site is a spacing before its end
+  return std::clamp(middle_of_cell(i), scaled_.left + half, grid.x(grid.sites - 1) / scaled_.scale - half);
+}
+
+double RunObserver::width_of_cell(std::size_t i) const {
+  const double cell = schedule_.x_edges[i + 1] - schedule_.x_edges[i];
+  return std::min(std::max(cell, spacing_of_train(scaled_)), (scaled_.right - scaled_.left) * (1 - 1e-6));
+}
+
+long RunObserver::steps_to_sample() const {
+  return chain_.constant_step() ? sample_after(chain_.steps(), sample_every_) - chain_.steps() : 1;
+}
+
+/// Where the chain meters all that takes energy, its rate is not needed.
+void RunObserver::sample() {
+  if (chain_.problem().friction.acts() && !chain_.meters_friction()) work_.sample(totals(chain_));
+  if (!sees_origin()) return;
+  const double time = chain_.time();
+  slip_.add(time, average(chain_, 0, scaled_.scale * window_, time).velocity);
+}
+
+bool RunObserver::sees_origin() const { return !std::isnan(first_u_at_origin_); }
+
+Work RunObserver::work_until(const Totals& now) const {
+  Work work = work_;
+  if (work.started) work.sample(now);
+  return work;
+}
+
+Snapshot RunObserver::snapshot(double time) const {
+  Snapshot s{};
+  s.time = time;
+  add_profile(s, time);
+  add_origin(s, time);
+  const Totals now = totals(chain_);
+  if (static_cast<double>(now.dislocations) >
+      most_dislocations_a_site * static_cast<double>(chain_.problem().grid.sites))
+    throw NumericsError("The chain diverged: more than " + digits(most_dislocations_a_site) +
+                        " dislocations per site at t = " + digits(time));
+  find_fronts(s);
+  add_energy(s, now);
+  output::add_further_scalars(s, schedule_);
+  return s;
+}
+
+/// Averages over the output cells, their peak, and the energy of phonons.
+void RunObserver::add_profile(Snapshot& s, double time) const {
+  const double c = scaled_.scale;
+  std::size_t peak = 0;
+  for (std::size_t i = 0; i < first_u_.size(); ++i) {
+    const double u = average(chain_, c * centre_of_cell(i), c * width_of_cell(i), c * time).u;
+    const double cell = schedule_.x_edges[i + 1] - schedule_.x_edges[i], middle = middle_of_cell(i);
+    const double wide = std::max(2 * cell, smooth_window_);
+    const SmoothAverage a = smooth_average(chain_, c * middle, c * wide, c * time);
+    s.profile.k.push_back(a.stress);
+    s.profile.W.push_back(a.velocity);
+    // Where others than dislocations of one sign move, waves or antidislocations too, U is none of theirs.
+    const bool of_one_sign = std::fabs(a.velocity) < a.stress;
+    s.profile.U.push_back(a.stress < train::smallest_stress ? 0 : of_one_sign ? a.velocity / a.stress : none);
+    s.profile.H.push_back(a.energy);
+    s.profile.slip.push_back((u - first_u_[i]) / c);
+    // At an end the window is cut, and its average is not that of a uniform train.
+    const bool whole = middle - wide / 2 >= scaled_.left && middle + wide / 2 <= scaled_.right;
+    const double contact = contact_at(middle);
+    if (whole) s.energy.phonons += cell * (a.energy - energy_of_train(a.stress, a.velocity, contact));
+    if (std::fabs(a.velocity) > std::fabs(s.profile.W[peak])) peak = i;
+  }
+  s.peak_slip_velocity = s.profile.W[peak];
+  s.peak_position = middle_of_cell(peak);
+}
+
+void RunObserver::add_origin(Snapshot& s, double time) const {
+  s.slip_velocity_at_origin = s.stress_at_origin = s.slip_at_origin = none;
+  if (!sees_origin()) return;
+  const double c = scaled_.scale;
+  const SmoothAverage origin = smooth_average(chain_, 0, c * smooth_window_, c * time);
+  s.slip_velocity_at_origin = origin.velocity;
+  s.stress_at_origin = origin.stress;
+  s.slip_at_origin = (average(chain_, 0, c * window_, c * time).u - first_u_at_origin_) / c;
+}
+
+void RunObserver::add_energy(Snapshot& s, const Totals& now) const {
+  const double c = scaled_.scale;
+  const Flows flows = chain_.flows();
+  s.energy = {.elastic = (now.elastic + now.substrate) / c,
+              .kinetic = now.kinetic / c,
+              .dissipated = (work_until(now).dissipated + flows.dissipated + flows.outflow) / c,
+              .supplied = flows.supplied / c,
+              .through_ends = none,
+              .shocks = none,
+              .phonons = s.energy.phonons};
+  if (scaled_.loading.acts()) s.further["energy_loading"] = now.loading / c;
+  if (!chain_.problem().friction.contacts().act()) return;
+  s.further["energy_contacts"] = flows.by_contacts / c;
+  s.further["pore_pressure_at_origin"] = pore_pressure_at_origin();
+}
+
+/// From the profile, and from the outermost dislocation where one side is empty.
+void RunObserver::find_fronts(Snapshot& s) const {
+  s.fronts = {none, none, none, none, none};
+  const double stress_left = scaled_.stress(scaled_.left), stress_right = scaled_.stress(scaled_.right);
+  const bool stressed_left = stress_left >= stress_right;
+  if (std::fmin(stress_left, stress_right) == 0) {
+    const auto all = chain::dislocations(chain_);
+    if (!all.empty()) s.fronts.leading = (stressed_left ? all.back() : all.front()).x / scaled_.scale;
+  }
+  // At an end the window is cut, and contains phonons that a whole one averages away: no front is sought there.
+  const double half = std::min(smooth_window_ / 2, (scaled_.right - scaled_.left) / 4);
+  std::vector<double> x, speed;
+  for (std::size_t i = 0; i < s.profile.W.size(); ++i) {
+    x.push_back(middle_of_cell(i));
+    const bool cut = x[i] - half < scaled_.left || x[i] + half > scaled_.right;
+    speed.push_back(cut ? 0 : std::fabs(s.profile.W[i]));
+  }
+  const output::Observed seen =
+      output::observed_fronts(x, speed, schedule_.threshold * std::fabs(s.peak_slip_velocity), x.front(), x.back());
+  s.fronts.trailing_observed = stressed_left ? seen.left : seen.right;
+  s.fronts.leading_observed = stressed_left ? seen.right : seen.left;
+}
+
+/// a at a position of the scenario, at present.
+double RunObserver::contact_at(double x) const {
+  const Grid& grid = chain_.problem().grid;
+  if (!chain_.problem().friction.contacts().act()) return scaled_.contact ? scaled_.contact(x) : 1.0;
+  const double site =
+      std::clamp((x * scaled_.scale - grid.left) / grid.spacing, 0.0, static_cast<double>(grid.sites - 1));
+  return std::sqrt(chain_.contact_squared(static_cast<std::size_t>(std::lround(site))));
+}
+
+/// p, on the mean over the window of the slip at x = 0.
+double RunObserver::pore_pressure_at_origin() const {
+  if (!sees_origin()) return none;
+  const Grid& grid = chain_.problem().grid;
+  const double half = scaled_.scale * window_ / 2;
+  double count = 0, sum = 0;
+  const auto from = static_cast<std::size_t>(std::ceil((-half - grid.left) / grid.spacing));
+  for (std::size_t j = from; j < grid.sites && (count == 0 || grid.x(j) <= half); ++j, ++count)
+    sum += chain_.effective_stress(j);
+  return 1 - sum / count;
+}
+
+Balance RunObserver::balance() const {
+  const Totals now = totals(chain_);
+  const Flows flows = chain_.flows();
+  const double gone = work_until(now).dissipated + flows.dissipated + flows.outflow;
+  const double all =
+      std::max({first_energy_, now.energy(), std::fabs(flows.supplied), std::fabs(gone), std::fabs(flows.by_contacts)});
+  const double missing = now.energy() + gone - flows.supplied - flows.by_contacts - first_energy_;
+  return {all > 0 ? std::fabs(missing) / all : 0, now.charge - first_charge_, now.dislocations, now.steepest};
+}
+
+RunObserver::OriginSlip RunObserver::origin_slip() const {
+  const Average now = average(chain_, 0, scaled_.scale * window_, chain_.time());
+  return {now.u - first_u_at_origin_, slip_.up_to(chain_.time(), now.velocity), slip_.error(), slip_.samples};
+}
+
+void RunObserver::save(bytes::Writer& writer) const {
+  for (const double* number : numbers(*this)) writer.put(*number);
+  writer.put(static_cast<std::int64_t>(slip_.samples + 1));
+}
+
+void RunObserver::resume(bytes::Reader& reader) {
+  for (double* number : numbers(*this)) *number = reader.get<double>();
+  slip_.samples = static_cast<long>(reader.get<std::int64_t>()) - 1;
+}
+
+}  // namespace slipfront::chain

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "chain/measure/totals.hpp"
+#include "foundation/bytes.hpp"
+#include "slipfront/chain/run.hpp"
+#include "slipfront/output/snapshot.hpp"
+
+namespace slipfront::chain {
+
+/// Measures the chain of a run in the scenario's units, and compares with its state at t = 0.
+class RunObserver {
+ public:
+  /// Of a chain at t = 0, which outlives it.
+  RunObserver(const ScaledProblem& scaled, const output::Schedule& schedule, const Chain& chain);
+
+  const ScaledProblem& scaled() const { return scaled_; }
+  const output::Schedule& schedule() const { return schedule_; }
+  const Chain& chain() const { return chain_; }
+  double window() const { return window_; }
+  double smooth_window() const { return smooth_window_; }
+
+  /// The number of steps to the next sample.
+  long steps_to_sample() const;
+  /// Samples the rates that are integrated over time.
+  void sample();
+  /// At `time` of the scenario, which the chain has reached. \throws NumericsError if the chain has diverged.
+  output::Snapshot snapshot(double time) const;
+  Balance balance() const;
+
+  /// The start, for checks.
+  double charge_at_start() const { return first_charge_; }
+  long dislocations_at_start() const { return first_dislocations_; }
+  /// The largest force on a dislocation at t = 0, as a force F of the scenario.
+  double driving_force_at_start() const { return driving_force_; }
+  /// Whether there is a window at x = 0; not if the domain ends there.
+  bool sees_origin() const;
+  /// Slip at x = 0 on the chain, in its own units, from the displacement and from the sampled velocity.
+  struct OriginSlip {
+    double by_displacement, by_velocity, error;  ///< of the integral of the velocity
+    long samples;
+  };
+  OriginSlip origin_slip() const;
+
+  void save(bytes::Writer& writer) const;
+  void resume(bytes::Reader& reader);
+
+ private:
+  /// The numbers that a checkpoint holds, in its order. The count of samples follows.
+  template <class Observer>
+  static auto numbers(Observer& o) {
+    auto &work = o.work_, &slip = o.slip_;
+    return std::array{
+        &work.supplied, &work.dissipated, &work.time,       &work.supplied_rate,  &work.dissipated_rate, &slip.time,
+        &slip.velocity, &slip.integral,   &slip.early_time, &slip.early_velocity, &slip.coarse_integral, &slip.spread};
+  }
+  void choose_windows();
+  double width_of_cell(std::size_t i) const;
+  double middle_of_cell(std::size_t i) const;
+  double centre_of_cell(std::size_t i) const;  ///< of the window for its slip, which stays on the chain
+  Work work_until(const Totals& now) const;
+  void add_profile(output::Snapshot& snapshot, double time) const;
+  void add_origin(output::Snapshot& snapshot, double time) const;
+  void add_energy(output::Snapshot& snapshot, const Totals& now) const;
+  void find_fronts(output::Snapshot& snapshot) const;
+  double contact_at(double x) const;
+  double pore_pressure_at_origin() const;
+
+  ScaledProblem scaled_;
+  output::Schedule schedule_;
+  const Chain& chain_;
+  double window_ = 0, smooth_window_ = 0;
+  long sample_every_ = 1;  ///< steps; each step if they have no constant length
+  // At t = 0.
+  std::vector<double> first_u_;  ///< averages over the output cells
+  double first_u_at_origin_ = 0, first_energy_ = 0, first_charge_ = 0;
+  long first_dislocations_ = 0;
+  double driving_force_ = 0;
+  Work work_;  ///< since then, of viscous friction that the chain itself does not meter
+  /// Integral of the velocity at x = 0 over the window of the slip. Its first sample is that of t = 0.
+  output::SampledIntegral slip_{.samples = -1};
+};
+
+}  // namespace slipfront::chain

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "chain/model/initial_train.hpp"
+#include "slipfront/chain/chain.hpp"
+#include "slipfront/chain/run.hpp"
+
+namespace slipfront::chain {
+
+/// A scaled problem in the chain's own units, with its initial train.
+struct ScaledStart {
+  Problem problem;
+  StaticTrain train;
+};
+
+/// The charge of a ring is that of its train. \throws InputError as `problem_of` and StaticTrain do.
+ScaledStart scaled_start(const ScaledProblem& scaled, double share_of_machine = 1);
+/// (all) All ranks throw the same error together.
+ScaledStart scaled_start(const ScaledProblem& scaled, const Execution& execution);
+
+}  // namespace slipfront::chain

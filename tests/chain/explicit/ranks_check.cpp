@@ -1,0 +1,224 @@
+// Run by mpirun with any number of ranks (tests/CMakeLists.txt):
+//     ranks_check same              a shared chain has the bits of one process alone; errors reach all ranks
+//     ranks_check save FILE         runs half the way
+//     ranks_check resume FILE       and on, to the same bits
+//     ranks_check lost              rank 1 fails alone: all ranks end, code 3
+// Prints what is wrong and returns 1.
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "chain/explicit/explicit_chain.hpp"
+#include "chain/explicit/levels/levels.hpp"
+#include "chain/measure/average.hpp"
+#include "chain/measure/dislocations.hpp"
+#include "chain/measure/totals.hpp"
+#include "chain/model/initial_train.hpp"
+#include "foundation/ranks.hpp"
+#include "rough_chains.hpp"
+#include "slipfront/error.hpp"
+
+namespace {
+
+using namespace slipfront;
+using namespace slipfront::chain;
+
+constexpr std::size_t sites = 1501;
+constexpr long half_way = 150, all_the_way = 301;
+int wrong = 0;
+
+void expect(bool right, const std::string& what) {
+  if (right) return;
+  std::fprintf(stderr, "differs: %s\n", what.c_str());
+  ++wrong;
+}
+
+bool same(const std::vector<double>& a, const std::vector<double>& b) {
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
+}
+
+/// All that is measured on a chain, in one row.
+std::vector<double> measured(const ExplicitChain& chain) {
+  std::vector<double> row;
+  const Window w = chain.window(3, chain.problem().grid.sites - 1, chain.time() + chain.dt() / 3);
+  for (const auto* values : {&w.x, &w.u, &w.velocity, &w.stress}) row.insert(row.end(), values->begin(), values->end());
+  const Totals t = totals(chain);
+  for (const double sum : {t.charge, static_cast<double>(t.dislocations), t.kinetic, t.elastic, t.substrate, t.momentum,
+                           t.supplied_rate, t.dissipated_rate})
+    row.push_back(sum);
+  for (const Dislocation& d : dislocations(chain)) row.insert(row.end(), {d.x, static_cast<double>(d.sign)});
+  const Average a = average(chain, 290, 80, chain.time());  // across the ranks' edges
+  row.insert(row.end(), {a.u, a.velocity, a.stress});
+  return row;
+}
+
+struct Outcome {
+  Levels levels;
+  std::vector<double> row;
+};
+
+Outcome outcome(const Problem& p, const MotionOf& start, const Execution& execution) {
+  ExplicitChain chain(p, start, execution);
+  chain.advance(all_the_way);
+  return {chain.levels(), measured(chain)};
+}
+
+void compare(const Ranks& ranks, const Problem& p, const MotionOf& start, const std::string& what) {
+  const Outcome alone = outcome(p, start, {});
+  for (const int threads : {1, 2}) {
+    const Outcome shared = outcome(p, start, {.threads = threads, .ranks = &ranks});
+    const std::string with = what + ", threads " + std::to_string(threads);
+    expect(same(shared.row, alone.row), with + ": measured");  // on every rank
+    expect(shared.levels.level == all_the_way, with + ": level");
+    expect(same(shared.levels.now, ranks.rank() == 0 ? alone.levels.now : std::vector<double>{}), with + ": now");
+    expect(same(shared.levels.before, ranks.rank() == 0 ? alone.levels.before : std::vector<double>{}),
+           with + ": before");
+  }
+}
+
+void same_bits(const Ranks& ranks) {
+  for (int kind = 0; kind < cases::kinds; ++kind) {
+    const Problem p = cases::problem(sites, kind);
+    const Motion start = cases::bumpy(p);
+    compare(
+        ranks, p,
+        [&](std::size_t begin, std::size_t end) -> Motion {
+          const auto part = [&](const std::vector<double>& all) {
+            return std::vector<double>(all.data() + begin, all.data() + end);
+          };
+          return {part(start.u), part(start.velocity)};
+        },
+        "kind " + std::to_string(kind));
+  }
+  // A train that opens into an empty stretch, made by each rank for itself.
+  for (const int kind : {0, 2, 5}) {
+    const Problem p = cases::problem(sites, kind);
+    compare(ranks, p, StaticTrain([](double x) { return x < 300 ? 0.855 : 0.0; }, p.grid),
+            "train, kind " + std::to_string(kind));
+  }
+  // Long enough for true threads.
+  const Problem p = cases::problem(9000, 2);
+  compare(ranks, p, StaticTrain([](double x) { return x < 1500 ? 0.7 : 0.0; }, p.grid), "9000 sites");
+}
+
+/// What every rank throws.
+template <class Error>
+void expect_error(const Ranks& ranks, const std::function<void()>& task, const std::string& part) {
+  std::string text = "nothing thrown";
+  try {
+    task();
+  } catch (const Error& error) {
+    text = error.what();
+  }
+  expect(text.find(part) != std::string::npos, "error '" + part + "', but: " + text);
+  // One after the other, all ranks have the same text.
+  std::vector<double> letters(text.begin(), text.end());
+  std::vector<double> all = ranks.joined(letters), expected;
+  for (int r = 0; r < ranks.size(); ++r) expected.insert(expected.end(), letters.begin(), letters.end());
+  expect(same(all, expected), "the same error on all ranks: " + text);
+}
+
+void errors(const Ranks& ranks) {
+  Problem p = cases::problem(sites, 0);
+  const Motion start = cases::bumpy(p);
+  const Execution shared{.ranks = &ranks};
+  p.forcing = [](double x, double t) { return t > 3 && x > 500 ? std::numeric_limits<double>::quiet_NaN() : 0.0; };
+  expect_error<NumericsError>(
+      ranks, [&] { ExplicitChain(p, start, shared).advance(50); }, "is not a number");
+  p = cases::problem(sites, 0);
+  Motion steep = start;
+  steep.u[1200] += 2;
+  expect_error<InputError>(
+      ranks, [&] { ExplicitChain(p, steep, shared); }, "too coarse");
+  const Problem few = cases::problem(100, 0);
+  if (ranks.size() > 1)
+    expect_error<InputError>(
+        ranks, [&] { ExplicitChain(few, cases::bumpy(few), shared); }, "too many for 100 sites");
+  expect_error<FileError>(
+      ranks,
+      [&] {
+        ranks.together([&] {
+          if (ranks.rank() == ranks.size() - 1) throw FileError("the last rank's");
+        });
+      },
+      "the last rank's");
+  expect(ranks.any(ranks.rank() == ranks.size() - 1), "any");
+}
+
+void write(std::ofstream& file, const std::vector<double>& values) {
+  file.write(reinterpret_cast<const char*>(values.data()),
+             static_cast<std::streamsize>(values.size() * sizeof(double)));
+}
+
+void save(const Ranks& ranks, const std::string& path) {
+  std::ofstream file;
+  if (ranks.rank() == 0) file.open(path, std::ios::binary);
+  for (int kind = 0; kind < cases::kinds; ++kind) {
+    const Problem p = cases::problem(sites, kind);
+    ExplicitChain chain(p, cases::bumpy(p), {.ranks = &ranks});
+    chain.advance(half_way);
+    for (std::size_t begin = 0; begin < sites; begin += 400) {  // a piece at a time
+      const Levels piece = chain.levels(begin, std::min(begin + 400, sites));
+      if (ranks.rank() != 0) continue;
+      for (std::size_t j = 0; j < piece.now.size(); ++j) write(file, {piece.now[j], piece.before[j]});
+    }
+  }
+  if (ranks.rank() == 0) expect(file.flush().good(), "written");
+}
+
+void resume(const Ranks& ranks, const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  for (int kind = 0; kind < cases::kinds; ++kind) {
+    const Problem p = cases::problem(sites, kind);
+    const auto read = [&](std::size_t begin, std::size_t end) {  // every rank its own
+      std::vector<double> pairs(2 * (end - begin));
+      file.seekg(static_cast<std::streamoff>(2 * sizeof(double) * (static_cast<std::size_t>(kind) * sites + begin)));
+      file.read(reinterpret_cast<char*>(pairs.data()), static_cast<std::streamsize>(pairs.size() * sizeof(double)));
+      expect(file.good(), "read");
+      Levels levels;
+      levels.level = half_way;
+      for (std::size_t j = 0; j < pairs.size(); j += 2) {
+        levels.now.push_back(pairs[j]);
+        levels.before.push_back(pairs[j + 1]);
+      }
+      return levels;
+    };
+    ExplicitChain chain(p, half_way, read, {.threads = 2, .ranks = &ranks}), alone(p, cases::bumpy(p));
+    chain.advance(all_the_way - half_way);
+    alone.advance(all_the_way);
+    expect(same(measured(chain), measured(alone)), "resumed, kind " + std::to_string(kind));
+    expect(ranks.rank() != 0 || chain.steps() == alone.steps(), "level");
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const Ranks ranks = Ranks::of_mpirun();
+  try {
+    const std::string what = argc > 1 ? argv[1] : "";
+    if (what == "same") {
+      same_bits(ranks);
+      errors(ranks);
+    } else if (what == "save" && argc > 2) {
+      save(ranks, argv[2]);
+    } else if (what == "resume" && argc > 2) {
+      resume(ranks, argv[2]);
+    } else if (what == "lost") {
+      if (ranks.rank() == 1) throw FileError("rank 1 cannot write");
+      ExplicitChain chain(cases::problem(sites, 0), cases::bumpy(cases::problem(sites, 0)), {.ranks = &ranks});
+    } else {
+      return 2;
+    }
+  } catch (const std::exception& error) {
+    return ranks.failed(3, [&] { std::fprintf(stderr, "%s\n", error.what()); });
+  }
+  if (ranks.rank() == 0) std::printf("%d rank(s): %s\n", ranks.size(), wrong == 0 ? "the same" : "DIFFERENT");
+  return ranks.any(wrong > 0) ? 1 : 0;
+}

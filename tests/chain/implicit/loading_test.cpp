@@ -1,0 +1,96 @@
+// Loading through springs: exact cases.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "chain/measure/totals.hpp"
+#include "loaded_chains.hpp"
+
+namespace {
+
+using namespace slipfront;
+using namespace loaded;
+using chain::ImplicitChain;
+using chain::Pulled;
+
+/// u_tt = kappa (v t - u) from rest: u = v t - (v / omega) sin(omega t).
+TEST(Loading, BlockOnASpringWithoutFrictionIsExact) {
+  Problem p = smooth_block();
+  p.loading = {.stiffness = 0.04, .velocity = 0.3};
+  double last = 0;
+  for (const double tolerance : {1e-5, 1e-7}) {
+    p.tolerance = tolerance;
+    ImplicitChain chain(p, at_rest(p));
+    chain.advance_to(100);
+    const double omega = 0.2, t = chain.time(), exact = 0.3 * t - 0.3 / omega * std::sin(omega * t);
+    const double error = std::fabs(chain.window(3, 4).u[0] - exact);
+    EXPECT_LT(error, 2000 * tolerance);
+    if (last > 0) {
+      EXPECT_GT(last / error, 15);  // 100^(2/3) = 21.5: second order
+    }
+    last = error;
+    EXPECT_LT(budget(chain, 0), 1e-13);
+    const double stretch = 0.3 * t - exact;
+    EXPECT_NEAR(chain::totals(chain).loading, 0.04 * stretch * stretch / 2 * 3.5, 1e-2);
+  }
+}
+
+/// Far from its other end a string whose end is pulled moves as u = g(t - x), g' + kappa g = kappa v t.
+TEST(Loading, PulledEndSendsTheExactWave) {
+  for (const Pulled where : {Pulled::left, Pulled::right}) {
+    double last = 0;
+    for (const double h : {0.2, 0.1}) {
+      Problem p = smooth_block();
+      p.grid = {0, h, static_cast<std::size_t>(std::lround(40 / h)) + 1};
+      p.loading = {.stiffness = 0.5, .velocity = 0.2, .where = where};
+      p.tolerance = 1e-7;
+      ImplicitChain chain(p, at_rest(p));
+      chain.advance_to(30);
+      const auto w = chain.window(0, p.grid.sites);
+      double most = 0;
+      for (std::size_t j = 0; j < w.u.size(); ++j) {
+        const double x = where == Pulled::left ? w.x[j] : 40 - w.x[j], t = 30 - x;
+        const double g = t > 0 ? 0.2 * (t - 2 * (1 - std::exp(-0.5 * t))) : 0;
+        most = std::fmax(most, std::fabs(w.u[j] - g));
+      }
+      EXPECT_LT(most, 0.1 * h);
+      if (last > 0) {
+        EXPECT_GT(last / most, 1.7);
+      }
+      last = most;
+      EXPECT_LT(budget(chain, 0), 1e-12);
+    }
+  }
+}
+
+/// Damped motion ends at the velocity of the springs, stretched by C v / kappa.
+TEST(Loading, ViscousBlockFollowsItsSprings) {
+  Problem p = smooth_block();
+  p.friction = friction::viscous(0.7);
+  p.loading = {.stiffness = 0.01, .velocity = 0.02};
+  ImplicitChain chain(p, at_rest(p));
+  chain.advance_to(5000);
+  const auto w = chain.window(0, 8);
+  for (std::size_t j = 0; j < 8; ++j) {
+    EXPECT_NEAR(w.velocity[j], 0.02, 1e-8);
+    EXPECT_NEAR(0.02 * 5000 - w.u[j], 0.7 * 0.02 / 0.01, 1e-4);
+  }
+  EXPECT_LT(budget(chain, 0), 1e-12);
+  EXPECT_LT(chain.steps(), 400);  // long steps where nothing changes
+}
+
+/// Friction that is steep at rest and has no state. The force of the springs ends as C v^n.
+TEST(Loading, BlockUnderPowerFrictionFollowsItsSprings) {
+  Problem p = smooth_block();
+  p.friction = friction::power(0.3, 0.3);
+  p.loading = {.stiffness = 0.01, .velocity = 0.002};
+  ImplicitChain chain(p, at_rest(p));
+  chain.advance_to(2e4);
+  const auto w = chain.window(3, 4);
+  EXPECT_NEAR(w.velocity[0], 0.002, 1e-6);
+  EXPECT_NEAR(0.01 * (0.002 * 2e4 - w.u[0]), 0.3 * std::pow(0.002, 0.3), 1e-5);
+  EXPECT_LT(budget(chain, 0), 1e-12);
+}
+
+}  // namespace

@@ -1,0 +1,85 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "chain_cases.hpp"
+#include "exact_chains.hpp"
+#include "slipfront/chain/run.hpp"
+
+namespace {
+
+using namespace slipfront;
+using friction::Memory;
+
+/// Friction that weakens with the slip of a place: f = C sign(w) (1 - min(slip / L, 1) / 2).
+class Weakening : public friction::Law {
+ public:
+  Weakening(double C, double L) : C_(C), L_(L) {}
+  double strength(double, Memory slip) const override { return C_ * (1 - std::fmin(slip[0] / L_, 1) / 2); }
+  void start(std::span<double> slip) const override { slip[0] = 0; }
+  void advance(double velocity, double time, std::span<double> slip) const override {
+    slip[0] += std::fabs(velocity) * time;
+  }
+
+ private:
+  double C_, L_;
+};
+
+const friction::Definition& weakening_law() {
+  static const friction::Definition definition{
+      .name = "weakening",
+      .adjective = "weakening",
+      .equation = "f = C sign(w) (1 - min(slip / L, 1) / 2)",
+      .source = "this test",
+      .parameters =
+          {{.name = "coefficient", .symbol = "C", .unit = "mu A / 2 pi", .dimension = friction::Dimension::force},
+           {.name = "length", .symbol = "L", .unit = "b / 2 pi", .dimension = friction::Dimension::slip}},
+      .variables = {{.name = "slip", .symbol = "s", .unit = "b / 2 pi"}},
+      .make = [](const std::vector<double>& v, const friction::Curve&) -> std::shared_ptr<const friction::Law> {
+        return std::make_shared<Weakening>(v[0], v[1]);
+      }};
+  return definition;
+}
+
+chain::ScaledProblem step() {
+  chain::ScaledProblem s = small_step();
+  s.friction = {weakening_law(), {0.04, 0.05}};
+  return s;
+}
+
+TEST(ChainState, FrictionFollowsTheSlipOfEachSite) {
+  chain::Run run(step(), until(2), {});
+  const auto before = run.chain().window(0, run.chain().problem().grid.sites);
+  ASSERT_TRUE(run.go());
+  const auto after = run.chain().window(0, run.chain().problem().grid.sites);
+  const std::vector<double> slip = levels_of(run).state;
+  ASSERT_EQ(slip.size(), after.u.size());
+  EXPECT_GT(*std::max_element(slip.begin(), slip.end()), 6);
+  // z = u + eps sin u differs from u by little; waves go to and fro.
+  for (std::size_t j = 0; j < slip.size(); ++j) EXPECT_GE(slip[j], after.u[j] - before.u[j] - 0.05) << j;
+  EXPECT_LT(run.balance().energy_drift, 2e-4);
+  chain::ScaledProblem strong = step();
+  strong.friction = friction::coulomb(0.04);
+  chain::Run without(strong, until(2), {});
+  ASSERT_TRUE(without.go());
+  EXPECT_GT(run.snapshots().back().slip_at_origin, 1.01 * without.snapshots().back().slip_at_origin);
+}
+
+TEST(ChainState, ThreadsAndStopsChangeNoBits) {
+  chain::Run alone(step(), until(1), {});
+  chain::Run threads(step(), until(1), {.threads = 3});
+  ASSERT_TRUE(alone.go() && threads.go());
+  EXPECT_EQ(levels_of(alone).now, levels_of(threads).now);
+  EXPECT_EQ(levels_of(alone).state, levels_of(threads).state);
+  chain::Run stopped(step(), until(1), {});
+  stopped.go([] { return true; });
+  ASSERT_FALSE(stopped.finished());
+  chain::Run resumed(step(), until(1), {}, stopped.saved(), stopped.snapshots());
+  ASSERT_TRUE(resumed.go());
+  EXPECT_EQ(alone.saved(), resumed.saved());
+  EXPECT_NE(alone.saved().find("slip"), std::string::npos);
+}
+
+}  // namespace
