@@ -2,11 +2,11 @@
 // the text is bad. An exception from a function that is declared not to throw would end the whole test.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <new>
 #include <string>
 #include <utility>
 
+#include "allocations.hpp"
 #include "foundation/sanitized.hpp"
 #include "record/table_file.hpp"
 #include "slipfront/error.hpp"
@@ -14,20 +14,6 @@
 #include "slipfront/scenario/scenario.hpp"
 
 #if !SLIPFRONT_SANITIZED
-
-namespace {
-
-thread_local long left = -1;  ///< Allocations until one fails; none does below 0.
-
-}  // namespace
-
-void* operator new(std::size_t size) {
-  if (left >= 0 && left-- == 0) throw std::bad_alloc();
-  if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace {
 
@@ -39,15 +25,15 @@ template <class Work>
 long fail_each(const Work& work) {
   for (long n = 0;; ++n) {
     std::string said;
-    left = n;
+    allocations::until_failure = n;
     try {
       work();
     } catch (const std::bad_alloc&) {
     } catch (const std::exception& error) {
-      left = -1;
+      allocations::until_failure = -1;
       said = error.what();
     }
-    if (std::exchange(left, -1) >= 0) return n;
+    if (std::exchange(allocations::until_failure, -1) >= 0) return n;
     EXPECT_EQ(said, "") << "allocation " << n;
   }
 }
