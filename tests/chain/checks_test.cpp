@@ -79,7 +79,7 @@ TEST(ChainChecks, DislocationsAreSlowerThanC) {
 }
 
 /// A scale at which the answer is a share of one dislocation says so, and what would do; a large one does not.
-TEST(ChainChecks, SaysWhereDislocationsAreTooFew) {
+TEST(ChainChecks, WarnsOfTooFewDislocations) {
   for (const double scale : {1.0, 1000.0}) {
     ScaledProblem s = uniform(0.855, 3, scale);
     s.stress = [](double x) { return x < 0 ? 0.855 : 0; };
@@ -92,7 +92,7 @@ TEST(ChainChecks, SaysWhereDislocationsAreTooFew) {
 }
 
 /// A smooth step of little stress moves slowly. A grid that holds slow dislocations says so, and what would do.
-TEST(ChainChecks, SaysWhereTheGridHoldsDislocations) {
+TEST(ChainChecks, WarnsWhereTheGridHoldsDislocations) {
   for (const double spacing : {default_spacing, 0.5, 0.6}) {
     ScaledProblem s = uniform(0, 2, 1000);
     s.stress = [](double x) { return 0.533 + 0.148 * (1 - std::tanh(x / 0.5)) / 2; };

@@ -259,7 +259,7 @@ void refused(const Problem& p, const Motion& m, const std::string& what) {
   }
 }
 
-TEST(ChainRefuses, BadInputInOneLine) {
+TEST(ChainInput, RejectsBadNumbersInOneLine) {
   const Problem good = line(-20, 20, 0.4);
   const Motion kink = exact::motion_of(exact::kink(0), good.grid, 0);
   Problem p = good;
@@ -290,7 +290,7 @@ TEST(ChainRefuses, BadInputInOneLine) {
   EXPECT_THROW(chain::ExplicitChain(good, Levels{0, {1, 2}, {1, 2}}), InputError);
 }
 
-TEST(ChainRefuses, NumbersThatAreNone) {
+TEST(ChainInput, StopsAtADisplacementThatIsNotANumber) {
   Problem p = line(-20, 20, 0.4);
   p.forcing = [](double x, double t) { return t > 3 && x > 5 ? std::numeric_limits<double>::quiet_NaN() : 0.0; };
   chain::ExplicitChain run(p, exact::motion_of(exact::kink(0), p.grid, 0));

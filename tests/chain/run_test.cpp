@@ -72,7 +72,7 @@ TEST(ChainRun, UniformTrainInAnotherContactIsAtRest) {
   EXPECT_NEAR(run.snapshots().back().energy.phonons / run.snapshots().back().energy.elastic, 0, 1e-4);
 }
 
-TEST(ChainRun, SavedRunGoesOnToTheSameBits) {
+TEST(ChainRun, ResumedRunHasTheSameBits) {
   const output::Schedule when = schedule({0, 0.5, 1});
   chain::Run whole(step(300, 0.5), when, {.threads = 2});
   whole.go();
@@ -86,7 +86,7 @@ TEST(ChainRun, SavedRunGoesOnToTheSameBits) {
   EXPECT_EQ(whole.snapshots().back().energy.dissipated, resumed.snapshots().back().energy.dissipated);
 }
 
-TEST(ChainRun, RefusesTheStateOfAnotherRun) {
+TEST(ChainRun, RejectsTheStateOfAnotherRun) {
   chain::Run run(step(100), schedule({0, 0.1}), {});
   run.go();
   EXPECT_THROW(chain::Run(step(200), schedule({0, 0.1}), {}, run.saved(), {}), InputError);

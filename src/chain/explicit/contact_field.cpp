@@ -59,7 +59,7 @@ void ContactField::advance(long first, double time, std::span<const double> thet
     a2[size - 1] = *now(sites_ - 1);
 }
 
-/// The level after this one, for those who look before it is known; and all beyond the ends.
+/// Extrapolates the next level, for use before it is computed, and fills the arrays past the ends.
 void ContactField::look_ahead() {
   for (std::size_t i = 0; i < now_.size(); ++i) next_[i] = 2 * now_[i] - before_[i];
   const long last = first_ + static_cast<long>(now_.size());

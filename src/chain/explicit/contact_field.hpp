@@ -9,15 +9,15 @@
 
 namespace slipfront::chain {
 
-/// Site j of the problem's grid, also beyond its ends.
+/// Site j of the problem's grid, also past its ends.
 std::size_t folded(const Problem& problem, long j);
 
-/// Names of what a place remembers, in the order of Levels::memory: the friction law's variables, and where contacts
+/// Names of the state variables of a site, in the order of Levels::state: those of the friction law, and where contacts
 /// age or pores dilate the pressure above the ambient one, and a^2 at the level before.
 std::vector<std::string_view> state_names(const Problem& problem);
 
 /// a^2 of sites whose contacts change with the state of friction, at three levels of explicit steps, and the pressure
-/// of their pores. Arrays reach from site `first` to `last`, beyond the ends of the chain too.
+/// of their pores. Arrays reach from site `first` to `last`, past the ends of the chain too.
 class ContactField {
  public:
   /// `a2` is that at t = 0.
@@ -36,11 +36,11 @@ class ContactField {
   void advance(long first, double time, std::span<const double> theta_before, std::span<const double> theta);
   /// To the next level.
   void proceed();
-  /// \throws NumericsError where the pressure of pores has reached the normal stress, or contacts have grown beyond
-  /// what the time step allows.
+  /// \throws NumericsError where the pressure of pores has reached the normal stress, or contacts have become stronger
+  /// than what the time step allows.
   void check(double time) const;
 
-  /// What a site remembers besides theta: two numbers.
+  /// Numbers in the state of a site besides theta.
   static constexpr std::size_t columns = 2;
   void save(std::size_t site, double* to) const;
   void resume(std::size_t site, double theta, const double* from);

@@ -22,13 +22,13 @@ Displaced displaced(const Share& share, std::size_t from, std::size_t to) {
   const Problem& p = share.problem();
   const EndConditions& ends = share.ends();
   const long n = static_cast<long>(p.grid.sites);
-  constexpr std::size_t beside = 5;
+  constexpr std::size_t margin = 5;
   const bool absorbs_left = from == 0 && ends.left == EndCondition::absorbing;
   const bool absorbs_right = static_cast<long>(to) == n && ends.right == EndCondition::absorbing;
   const std::size_t more_left = absorbs_right ? std::min(from, ends.absorbing_right.reach + 3) : 0;
   const std::size_t more_right = absorbs_left ? std::min(share.end() - to, ends.absorbing_left.reach + 3) : 0;
-  const std::size_t reach = beside + more_left;
-  const std::size_t wide = reach + (to - from) + beside + more_right, room = wide + 4 * lanes;
+  const std::size_t reach = margin + more_left;
+  const std::size_t wide = reach + (to - from) + margin + more_right, room = wide + 4 * lanes;
   const auto column = [room] { return std::vector<double>(room); };
   Displaced d{static_cast<long>(from) - static_cast<long>(reach), wide, column(), column(), column()};
   std::vector<double> y(room);

@@ -32,8 +32,8 @@ Forces::Forces(const Problem& problem, const Scheme& scheme, long level, std::si
       sine_(substrate_force(0)),
       dt_(scheme.dt),
       level_(level),
-      first_(static_cast<long>(begin) - static_cast<long>(beyond)),
-      last_(static_cast<long>(end + beyond)),
+      first_(static_cast<long>(begin) - static_cast<long>(margin)),
+      last_(static_cast<long>(end + margin)),
       nonlinear_(problem.friction.acts() && !problem.friction.linear_coefficient()),
       variables_(problem.friction.variables()),
       state_(variables_ * problem.grid.sites),
@@ -153,7 +153,7 @@ void Forces::level(const EndConditions& ends, long offset, std::size_t size, con
     const long first = offset + static_cast<long>(from);
     const double strength = scheme_.force / turn;
     const DriveRule rule{strength * scheme_.share_next, strength * scheme_.share_before, strength * scheme_.share_now,
-                         strength * scheme_.share_beside};
+                         strength * scheme_.share_neighbour};
     add_drive(rule, F_before(first), F_now(first), F_next(first), next + from, to - from);
   }
   if (!nonlinear_) return;
@@ -184,11 +184,11 @@ void Forces::add_friction(long offset, std::size_t begin, std::size_t end, const
       continue;
     }
     const long site = offset + static_cast<long>(j);
-    const friction::Memories memory = states_from(site, some, room);
+    const friction::Memories state = states_from(site, some, room);
     if (contacts_.have_pressure())
-      f.law().speeds_after_under(some, contacts_.share(site), free, weight, memory, speed);
+      f.law().speeds_after_under(some, contacts_.share(site), free, weight, state, speed);
     else
-      f.law().speeds_after(some, free, weight, memory, speed);
+      f.law().speeds_after(some, free, weight, state, speed);
     take_speeds(turn / time, 1 / weight, from, free, speed, next + j, force, some);
   }
 }

@@ -8,14 +8,14 @@
 
 namespace slipfront::chain {
 
-/// The forces on a site besides springs, a substrate of strength 1 and viscous friction. A chain without them can
+/// All forces on a site but springs, a substrate of strength 1 and viscous friction. A chain without them can
 /// advance many levels at a time; a chain with them advances level by level, through here.
 class Forces {
  public:
-  /// Arrays reach this far beyond both ends: what a window of a few sites beyond them needs.
-  static constexpr std::size_t beyond = 16;
+  /// Sites by which arrays extend past both ends. A window of a few sites there needs them.
+  static constexpr std::size_t margin = 16;
 
-  /// On sites [begin, end), and `beyond`: around a periodic chain, reflected at the ends of others.
+  /// On sites [begin, end), and `margin` more: around a periodic chain, reflected at the ends of others.
   Forces(const Problem& problem, const Scheme& scheme, long level, std::size_t begin, std::size_t end);
 
   bool none() const { return a2_.empty() && F_now_.empty() && !nonlinear_; }
@@ -50,7 +50,7 @@ class Forces {
   /// The same variables of sites [begin, end), site by site; none for most laws.
   std::vector<double> states(std::size_t begin, std::size_t end) const;
   void set_states(std::size_t begin, const std::vector<double>& states);
-  /// Numbers that a site remembers.
+  /// Numbers in the state of a site.
   std::size_t state_size() const { return variables_ + (contacts_.acts() ? ContactField::columns : 0); }
   /// To be called when the states of all sites are set.
   void resumed() {
@@ -59,7 +59,7 @@ class Forces {
 
   /// The friction force on site j at velocity u_t.
   double friction(long j, double velocity) const {
-    return (contacts_.acts() ? *contacts_.share(j) : 1.0) * problem_.friction.force(velocity, memory(j));
+    return (contacts_.acts() ? *contacts_.share(j) : 1.0) * problem_.friction.force(velocity, state(j));
   }
   /// u from z, both in turns, of `size` sites from site j on; `S` is room for work.
   void displacements_from(long j, std::size_t size, const double* z, double* u, double* S) const;
@@ -69,7 +69,7 @@ class Forces {
                   double* D, double* B, double* u_next, double* S) const;
 
  private:
-  friction::Memory memory(long j) const {
+  friction::Memory state(long j) const {
     return variables_ == 0 ? friction::Memory{} : friction::Memory{state_of(j), variables_};
   }
   const double* state_of(long j) const;
@@ -80,7 +80,7 @@ class Forces {
   void add_friction(long offset, std::size_t begin, std::size_t end, const double* before, const double* now,
                     double* next, double* applied) const;
   void age_contacts(long first, std::size_t size, const double* velocity);
-  /// The memory of `size` sites from site j on; of those beyond an end in `room`.
+  /// The state variables of `size` sites from site j on; those of sites past an end in `room`.
   friction::Memories states_from(long j, std::size_t size, std::vector<double>& room) const;
 
   Problem problem_;

@@ -9,19 +9,19 @@
 
 namespace slipfront::chain {
 
-/// (all) Calls measure(begin, end) for this rank's sites in order, some 16 384 at a time, in stretches that depend only
+/// (all) Calls measure(begin, end) for this rank's sites in order, some 16 384 at a time, in ranges that depend only
 /// on the number of sites, and done() after every block.
 template <class Measure, class Done>
 void for_own_sites(const Sites& chain, const Measure& measure, const Done& done) {
-  constexpr std::size_t stretch = 16384;
+  constexpr std::size_t range = 16384;
   const Ranks& ranks = chain.ranks();
   const Blocks blocks{chain.problem().grid.sites};
   chain.exchange();
   for (std::size_t block = blocks.first_of(ranks.rank(), ranks.size());
        block < blocks.first_of(ranks.rank() + 1, ranks.size()); ++block) {
     const std::size_t end = blocks.begin(block + 1);
-    for (std::size_t begin = blocks.begin(block); begin < end; begin += stretch)
-      measure(begin, std::min(begin + stretch, end));
+    for (std::size_t begin = blocks.begin(block); begin < end; begin += range)
+      measure(begin, std::min(begin + range, end));
     done();
   }
 }

@@ -5,7 +5,7 @@
 
 namespace slipfront::chain {
 
-/// A chain in stretches of 64 sites or more that depend on the number of its sites alone. Ranks hold whole blocks, and
+/// The sites of a chain in blocks of 64 or more, which depend only on the number of sites. Ranks hold whole blocks, and
 /// sums over the chain are sums over blocks, added up in order: the same bits whatever the ranks.
 struct Blocks {
   static constexpr std::size_t least = 64;  ///< two halos

@@ -30,7 +30,7 @@ double largest_contact(const Problem& p) {
   return p.substrate ? most * p.friction.contact_growth(p.longest) : most;
 }
 
-/// What lies beyond an absorbing end is a train that nothing changes.
+/// Nothing changes the train outside an absorbing end.
 void check_ends(const Problem& p) {
   const Boundary& ends = p.boundary;
   if (!p.friction.contacts().act() || ends.periodic) return;
@@ -38,7 +38,7 @@ void check_ends(const Problem& p) {
     if (end == End::absorbing)
       throw InputError({.key = key,
                         .value = "absorbing",
-                        .problem = "what lies beyond an absorbing end has contacts that do not change",
+                        .problem = "the train outside an absorbing end has contacts that do not change",
                         .allowed = "free or fixed, or no friction.contact_ageing and no friction.dilatancy"});
 }
 

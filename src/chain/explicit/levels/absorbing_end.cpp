@@ -11,7 +11,7 @@ namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
 
-/// A train of dislocations through a place where its displacement is u: u_x^2 = 4 C (sinh^2 psi + sin^2(u / 2)),
+/// A train of dislocations at a position where its displacement is u: u_x^2 = 4 C (sinh^2 psi + sin^2(u / 2)),
 /// C = a^2 cosh^2 phi (Eq. 4), hence u_xx = C sin u.
 struct Profile {
   double C, sinh_psi;
@@ -70,9 +70,9 @@ double AbsorbingEnd::displacement(double z) const {
   return u;
 }
 
-/// Of the dislocations beside the end: each passes with u_t = -U u_x. 0 where there are none.
-double AbsorbingEnd::velocity_beside(const double* now, const double* next) const {
-  // From the second site beside it on: the end itself has no next level yet.
+/// Velocity of the dislocations next to the end: each passes with u_t = -U u_x. 0 where there are none.
+double AbsorbingEnd::velocity_of_train(const double* now, const double* next) const {
+  // From the second site on: the end itself has no next level yet.
   double risen = 0, passed = 0;
   for (std::size_t i = 2; i <= reach; ++i) {
     const std::ptrdiff_t j = -outward * static_cast<std::ptrdiff_t>(i);
@@ -86,7 +86,7 @@ double AbsorbingEnd::velocity_beside(const double* now, const double* next) cons
 
 AbsorbingEnd::Step AbsorbingEnd::step(const double* now, const double* next) const {
   const double z = turn * now[0], inner = turn * now[-outward], u = displacement(z);
-  if (!(psi0 > 0)) {  // nothing lies beyond
+  if (!(psi0 > 0)) {  // there is no train outside
     const double gained = dt / h * (inner - z), after = displacement(z + gained);
     // The flux at the end itself, from slopes to second order: half a spacing inwards would be first order.
     const auto falls = [&](const double* level, double at_end) {
@@ -95,12 +95,12 @@ AbsorbingEnd::Step AbsorbingEnd::step(const double* now, const double* next) con
     };
     return {now[0] + gained / turn, (falls(now, u) + falls(next, after)) / 2 * (after - u)};
   }
-  const double U = velocity_beside(now, next), phi = std::atanh(U), cosh_phi = std::cosh(phi);
+  const double U = velocity_of_train(now, next), phi = std::atanh(U), cosh_phi = std::cosh(phi);
   const Profile train{a * a * cosh_phi * cosh_phi, std::sinh(psi_at(outward * phi))};
   const auto of = [&](double displacement) { return displacement + eps * a * a * std::sin(displacement); };
   const double carried = of(u + train.change(u, -U * dt)) - z;
-  const double beside = of(u + train.change(u, -outward * h)) - z;
-  const double gained = carried + dt / h * ((inner - z) - beside);
+  const double neighbour = of(u + train.change(u, -outward * h)) - z;
+  const double gained = carried + dt / h * ((inner - z) - neighbour);
   const double middle = displacement(z + gained / 2), rise = displacement(z + gained) - u;
   const double traction = -train.slope(middle) + outward * (rise / dt + U * train.slope(middle));
   return {now[0] + gained / turn, outward * traction * rise};

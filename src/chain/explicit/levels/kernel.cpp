@@ -86,7 +86,7 @@ SLIPFRONT_CLONES void add_drive(const DriveRule& rule, const double* F_before, c
   const double *left = F_now - 1, *right = F_now + 1;
   SLIPFRONT_INDEPENDENT
   for (std::size_t j = 0; j < size; ++j)
-    next[j] += r.next * F_next[j] + r.before * F_before[j] + r.now * F_now[j] + r.beside * (left[j] + right[j]);
+    next[j] += r.next * F_next[j] + r.before * F_before[j] + r.now * F_now[j] + r.neighbour * (left[j] + right[j]);
 }
 
 SLIPFRONT_CLONES void shorten_steps(double most, const double* now, double* next, std::size_t size) {

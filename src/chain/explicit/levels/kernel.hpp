@@ -36,7 +36,7 @@ void add_neighbours(double spread, const double* y, double* next, std::size_t be
 
 /// next += what a force F adds to z at the next level, shared among the five points of the diamond.
 struct DriveRule {
-  double next = 0, before = 0, now = 0, beside = 0;  ///< in turns
+  double next = 0, before = 0, now = 0, neighbour = 0;  ///< in turns
 };
 void add_drive(const DriveRule& rule, const double* F_before, const double* F_now, const double* F_next, double* next,
                std::size_t size);

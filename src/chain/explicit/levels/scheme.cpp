@@ -29,7 +29,7 @@ Scheme scheme_of(const Problem& p) {
     s.share_next = grow / 12;
     s.share_before = fall / 12;
     s.share_now = 8.0 / 12;
-    s.share_beside = 1.0 / 12;
+    s.share_neighbour = 1.0 / 12;
   }
   s.rule.f = substrate_force(s.eps);
   return s;

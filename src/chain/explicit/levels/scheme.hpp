@@ -16,7 +16,8 @@ struct Scheme {
   double eps = 0;    ///< z = u + eps S
   LevelRule rule;    ///< one step, C included where friction is viscous
   double force = 0;  ///< what a force that is the same at all five points adds to z at the next level
-  double share_next = 0, share_now = 0, share_before = 0, share_beside = 0;  ///< how `force` is shared among the five
+  double share_next = 0, share_now = 0, share_before = 0,
+         share_neighbour = 0;  ///< how `force` is shared among the five
 };
 
 Scheme scheme_of(const Problem& problem);
