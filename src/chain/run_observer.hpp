@@ -52,7 +52,8 @@ class RunObserver {
   /// The numbers that a checkpoint holds, in its order. The count of samples follows.
   template <class Observer>
   static auto numbers(Observer& o) {
-    auto &work = o.work_, &slip = o.slip_;
+    auto& work = o.work_;
+    auto& slip = o.slip_;
     return std::array{
         &work.supplied, &work.dissipated, &work.time,       &work.supplied_rate,  &work.dissipated_rate, &slip.time,
         &slip.velocity, &slip.integral,   &slip.early_time, &slip.early_velocity, &slip.coarse_integral, &slip.spread};
