@@ -4,9 +4,9 @@
 #include <cmath>
 #include <string>
 
+#include "foundation/math/bracket.hpp"
 #include "foundation/text/digits.hpp"
 #include "modulation/equations.hpp"
-#include "rupture/bracket.hpp"
 #include "rupture/inverse.hpp"
 #include "slipfront/elliptic/complete.hpp"
 #include "slipfront/error.hpp"

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cmath>
+
+namespace slipfront {
+
+/// An interval that contains the root of a rising function, narrowed by secants. A secant that moves the same end twice
+/// gives the other end half its weight (regula falsi, Illinois variant), so that both ends converge. The caller
+/// evaluates the function at `x`, maybe for many brackets at once, and ends when the root is as close as it needs:
+///
+///     for (root.aim(); !done; root.aim()) root.take(f(root.x));
+struct Bracket {
+  double low, high;
+  double at_low = 0, at_high = 0;  ///< the function there, or a part of it: at_low < 0 < at_high
+  double x = 0;
+  int side = 0;  ///< of the end that moved last: -1 low, 1 high
+
+  /// Moves the end of the side on which the function at x lies.
+  void take(double at) {
+    const int now = at > 0 ? 1 : -1;
+    (at > 0 ? high : low) = x;
+    (at > 0 ? at_high : at_low) = at;
+    if (side == now) (at > 0 ? at_low : at_high) /= 2;
+    side = now;
+  }
+  /// Chooses x by a secant, or half way where the function is infinite: a secant would stay at the other end for ever.
+  /// With a `margin`, x lies no nearer to an end: then the other end follows at once.
+  void aim(double margin = 0) {
+    const double part = std::isfinite(at_low - at_high) ? at_low / (at_low - at_high) : 0.5;
+    x = low + (high - low) * part;
+    if (margin > 0) x = std::fmin(std::fmax(x, low + margin), high - margin);
+    keep_inside();
+  }
+  void keep_inside() {
+    if (!(x > low && x < high)) x = (low + high) / 2;
+  }
+};
+
+/// Root of a rising f between 0 < low < high with f(low) <= 0 <= f(high): bisection in the logarithm down to a factor
+/// 4, then secants. Ends at the resolution of a double.
+template <class Function>
+double root_in_bracket(double low, double high, Function&& f) {
+  while (high > 4 * low) {
+    const double middle = std::sqrt(low) * std::sqrt(high);
+    (f(middle) < 0 ? low : high) = middle;
+  }
+  Bracket root{.low = low, .high = high, .at_low = f(low), .at_high = f(high)};
+  const double margin = 2.2e-16 * high;
+  while (root.high - root.low > 2 * margin) {
+    root.aim(margin);
+    const double value = f(root.x);
+    if (value == 0) return root.x;
+    root.take(value);
+  }
+  return root.low + (root.high - root.low) / 2;
+}
+
+}  // namespace slipfront
