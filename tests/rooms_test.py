@@ -37,6 +37,7 @@ ROOMS = {
 # a module may include all of its folders.
 FOLDERS = {
     "foundation": {"math": "text", "simd": "", "text": ""},
+    "friction": {"state": "", "train_means": "", "laws": "state train_means"},
     "chain": {
         "model": "",
         "measure": "model",

@@ -196,7 +196,7 @@ void RunObserver::add_energy(Snapshot& s, const Totals& now) const {
               .shocks = none,
               .phonons = s.energy.phonons};
   if (scaled_.loading.acts()) s.further["energy_loading"] = now.loading / c;
-  if (!chain_.problem().friction.contacts().act()) return;
+  if (!chain_.problem().friction.changes_contacts()) return;
   s.further["energy_contacts"] = flows.by_contacts / c;
   s.further["pore_pressure_at_origin"] = pore_pressure_at_origin();
 }
@@ -227,7 +227,7 @@ void RunObserver::find_fronts(Snapshot& s) const {
 /// a at a position of the scenario, at present.
 double RunObserver::contact_at(double x) const {
   const Grid& grid = chain_.problem().grid;
-  if (!chain_.problem().friction.contacts().act()) return scaled_.contact ? scaled_.contact(x) : 1.0;
+  if (!chain_.problem().friction.changes_contacts()) return scaled_.contact ? scaled_.contact(x) : 1.0;
   const double site =
       std::clamp((x * scaled_.scale - grid.left) / grid.spacing, 0.0, static_cast<double>(grid.sites - 1));
   return std::sqrt(chain_.contact_squared(static_cast<std::size_t>(std::lround(site))));

@@ -6,12 +6,11 @@
 
 #include "foundation/text/digits.hpp"
 #include "friction/scaling.hpp"
+#include "friction/state/contacts.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::friction {
-
-const Definition& no_law();
 
 namespace {
 
@@ -26,8 +25,6 @@ std::string range_of(const Parameter& p) {
 
 }  // namespace
 
-Friction::Friction() : Friction(no_law(), {}) {}
-
 Friction::Friction(const Definition& definition, std::vector<double> values, Closure closure, Curve curve)
     : definition_(&definition),
       values_(std::move(values)),
@@ -37,15 +34,12 @@ Friction::Friction(const Definition& definition, std::vector<double> values, Clo
   for (std::size_t i = 0; i < values_.size(); ++i)
     acts_ = acts_ || (definition.parameters[i].dimension == Dimension::force && values_[i] > 0);
   if (!acts_) check_no_force(definition, values_);
-  contacts_ = {.ageing = parameter("contact_ageing"),
-               .age = parameter("contact_time"),
-               .dilatancy = parameter("dilatancy"),
-               .drainage = parameter("drainage_time"),
-               .ambient = parameter("pore_pressure")};
-  linear_ = law_->linear_coefficient();
-  std::vector<double> memory(variables());
-  law_->start(memory);
-  at_rest_ = law_->strength(0, memory);
+  contacts_ = std::make_shared<const Contacts>(Contacts{.ageing = parameter("contact_ageing"),
+                                                        .age = parameter("contact_time"),
+                                                        .dilatancy = parameter("dilatancy"),
+                                                        .drainage = parameter("drainage_time"),
+                                                        .ambient = parameter("pore_pressure")});
+  at_rest_ = law_->strength(0, state_at_start());
 }
 
 Friction Friction::with(Closure closure) const { return {*definition_, values_, closure, curve_}; }
@@ -79,43 +73,46 @@ void Friction::check() const {
   }
 }
 
+std::vector<double> Friction::state_at_start() const {
+  std::vector<double> state(state_size());
+  evolution().start(state);
+  return state;
+}
+
+bool Friction::changes_contacts() const { return contacts_->act(); }
+
 double Friction::contact_at_start() const {
-  if (!contacts_.act()) return 1;
-  std::vector<double> theta(variables());
-  law_->start(theta);
-  return std::sqrt(contacts_.strength(theta[0], 0));
+  return changes_contacts() ? std::sqrt(contacts_->strength(state_at_start()[0], 0)) : 1;
 }
 
 /// The oldest contacts are those that rest; a slip that renews them sucks at the pores, most where they do not drain.
 double Friction::contact_growth(double time) const {
-  if (!contacts_.act()) return 1;
+  if (!changes_contacts()) return 1;
   constexpr double fastest = 10;
   constexpr int samples = 200;
-  std::vector<double> theta(variables());
-  law_->start(theta);
-  const double oldest = theta[0] + std::fmax(time, 0);
-  const double youngest = std::fmin(theta[0], parameter("characteristic_slip") / fastest);
+  const double start = state_at_start()[0], oldest = start + std::fmax(time, 0);
+  const double youngest = std::fmin(start, parameter("characteristic_slip") / fastest);
   double most = 1;
   for (int i = 0; i <= samples; ++i) {
     const double at = youngest * std::pow(oldest / youngest, static_cast<double>(i) / samples);
-    const double excess = -contacts_.dilatancy * std::log(oldest / at);
-    most = std::fmax(most, std::sqrt(contacts_.strength(at, excess)) / contact_at_start());
+    const double excess = -contacts_->dilatancy * std::log(oldest / at);
+    most = std::fmax(most, std::sqrt(contacts_->strength(at, excess)) / contact_at_start());
   }
   return most;
 }
 
-double Friction::force(double velocity, Memory memory) const {
-  return velocity == 0 ? 0 : std::copysign(law_->strength(std::fabs(velocity), memory), velocity);
+double Friction::force(double velocity, LocalState state) const {
+  return velocity == 0 ? 0 : std::copysign(law_->strength(std::fabs(velocity), state), velocity);
 }
 
-double Friction::velocity_after(double free, double weight, Memory memory) const {
-  return std::copysign(law_->speed_after(std::fabs(free), weight, memory), free);
+double Friction::velocity_after(double free, double weight, LocalState state) const {
+  return std::copysign(law_->speed_after(std::fabs(free), weight, state), free);
 }
 
-double Friction::momentum_loss(const State& state, double contact, Memory memory) const {
-  if (!acts_ || state.empty() || state.phi == 0) return 0;
-  const double k = train::averages(state).k * contact;
-  return std::copysign(k * mean_strength(state, contact, memory), state.phi);
+double Friction::momentum_loss(const State& train, double contact, LocalState state) const {
+  if (!acts_ || train.empty() || train.phi == 0) return 0;
+  const double k = train::averages(train).k * contact;
+  return std::copysign(k * mean_strength(train, contact, state), train.phi);
 }
 
 }  // namespace slipfront::friction

@@ -1,25 +1,37 @@
-// The registry of friction laws: a declaration and an entry for each. Each law is defined in its own file.
+// The registry of friction laws. Each law is defined in its own file in laws/.
 
-#include "slipfront/friction/law.hpp"
+#include "slipfront/friction/friction.hpp"
+
+// One line a law, in the order in which users see them.
+#define SLIPFRONT_EACH_LAW(LAW) \
+  LAW(no_law)                   \
+  LAW(viscous_law)              \
+  LAW(coulomb_law)              \
+  LAW(power_law)                \
+  LAW(formula_law)              \
+  LAW(table_law)                \
+  LAW(n_shaped_law)             \
+  LAW(flash_heating_law)        \
+  LAW(slip_weakening_law)       \
+  LAW(rate_and_state_law)
 
 namespace slipfront::friction {
 
-const Definition& no_law();
-const Definition& viscous_law();
-const Definition& coulomb_law();
-const Definition& power_law();
-const Definition& formula_law();
-const Definition& table_law();
-const Definition& n_shaped_law();
-const Definition& flash_heating_law();
-const Definition& slip_weakening_law();
-const Definition& rate_and_state_law();
+#define SLIPFRONT_DECLARE(law) const Definition& law();
+SLIPFRONT_EACH_LAW(SLIPFRONT_DECLARE)
 
 const std::vector<const Definition*>& laws() {
-  static const std::vector<const Definition*> all = {
-      &no_law(),    &viscous_law(),  &coulomb_law(),       &power_law(),          &formula_law(),
-      &table_law(), &n_shaped_law(), &flash_heating_law(), &slip_weakening_law(), &rate_and_state_law()};
+#define SLIPFRONT_ENTRY(law) &law(),
+  static const std::vector<const Definition*> all = {SLIPFRONT_EACH_LAW(SLIPFRONT_ENTRY)};
   return all;
+}
+
+Friction::Friction() : Friction(no_law(), {}) {}
+
+Friction viscous(double coefficient, Closure closure) { return {viscous_law(), {coefficient}, closure}; }
+Friction coulomb(double coefficient, Closure closure) { return {coulomb_law(), {coefficient}, closure}; }
+Friction power(double coefficient, double exponent, Closure closure) {
+  return {power_law(), {coefficient, exponent}, closure};
 }
 
 }  // namespace slipfront::friction

@@ -30,19 +30,20 @@ std::shared_ptr<const Law> probe_law(const Definition& definition, const std::ve
                                "strengths and of coefficients of the velocity"});
 }
 
-/// A law at one place, with its state.
-struct Place {
+/// A law at one position, with its state.
+struct Position {
   std::shared_ptr<const Law> law;
   std::vector<double> state;
 
-  Place(const Friction& friction, std::shared_ptr<const Law> of) : law(std::move(of)), state(friction.variables()) {
-    law->start(state);
+  Position(const Friction& friction, std::shared_ptr<const Law> of) : law(std::move(of)), state(friction.state_size()) {
+    law->evolution().start(state);
   }
+  void slip(double velocity, double time) { law->evolution().advance(Slip::at(velocity), time, state); }
   double force(double speed) const { return law->strength(speed, state); }
 };
 
 /// Compares forces at speeds from far below slow slip to far above earthquakes.
-void compare_forces(const Definition& definition, const Place& original, const Place& scaled, double scale) {
+void compare_forces(const Definition& definition, const Position& original, const Position& scaled, double scale) {
   constexpr int slowest = -12, fastest = 1;  // powers of ten
   constexpr double tolerance = 1e-8, least = 1e-280;
   double worst = tolerance;
@@ -69,24 +70,24 @@ std::vector<double> values_of(const Friction& friction) {
 
 void check_scaling(const Friction& original, const Friction& scaled, double scale) {
   const Definition& definition = original.definition();
-  Place one(original, probe_law(definition, values_of(original)));
-  Place stretched(scaled, probe_law(definition, values_of(scaled)));
+  Position one(original, probe_law(definition, values_of(original)));
+  Position stretched(scaled, probe_law(definition, values_of(scaled)));
   compare_forces(definition, one, stretched, scale);
-  if (original.variables() == 0) return;
-  struct Slip {
+  if (original.state_size() == 0) return;
+  struct History {
     double velocity, time;
   };
-  for (const Slip& slip : {Slip{0, 0.5}, {1e-3, 2}, {0.2, 1}, {3, 0.3}}) {
-    one.law->advance(slip.velocity, slip.time, one.state);
-    stretched.law->advance(slip.velocity, scale * slip.time, stretched.state);
+  for (const History& h : {History{0, 0.5}, {1e-3, 2}, {0.2, 1}, {3, 0.3}}) {
+    one.slip(h.velocity, h.time);
+    stretched.slip(h.velocity, scale * h.time);
     compare_forces(definition, one, stretched, scale);
   }
 }
 
 void check_no_force(const Definition& definition, const std::vector<double>& values) {
   const std::shared_ptr<const Law> law = probe_law(definition, values);
-  std::vector<double> state(definition.variables.size());
-  law->start(state);
+  std::vector<double> state(definition.state.size());
+  law->evolution().start(state);
   for (const double speed : {0.0, 1e-3, 1.0})
     if (const double force = law->strength(speed, state); force > 0)
       refuse(definition, "its force at w = " + digits(speed) + " is " + digits(force, 6) +

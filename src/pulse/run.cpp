@@ -40,7 +40,7 @@ double get_number(bytes::Reader& reader, std::string_view name) {
 /// The names of what places remember, in their order.
 std::string memory_name(const friction::Friction& friction) {
   std::string names = "memory:";
-  for (const friction::Variable& variable : friction.definition().variables) names += " " + std::string(variable.name);
+  for (const friction::StateVariable& variable : friction.definition().state) names += " " + std::string(variable.name);
   return names;
 }
 

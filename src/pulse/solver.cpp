@@ -34,7 +34,7 @@ void check(const Problem& p) {
                       .value = "paper",
                       .problem = "is not defined for a law that remembers, such as " + std::string(p.friction.name()),
                       .allowed = "consistent"});
-  if (p.friction.variables() > 0 && p.periodic)
+  if (p.friction.state_size() > 0 && p.periodic)
     throw InputError({.key = "pulse.periodic",
                       .value = "true",
                       .problem = "a ring of places that remember is not among what pulse can do",
@@ -104,7 +104,7 @@ Solver::Solver(Problem problem) : problem_(std::move(problem)) {
     cells_.s[i] = std::tanh(train::psi_of_stress(local));
   }
   cells_.left_edge() = layout.faces.front();
-  if (problem_.friction.variables() > 0) cells_.memory = places().values();
+  if (problem_.friction.state_size() > 0) cells_.memory = places().values();
   lay_equations();
   first_ = view();
 }
@@ -123,7 +123,7 @@ Setup Solver::setup() const {
   s.right = edge(problem_.right_end, right_free_);
   s.left_wall = problem_.left;
   s.right_wall = problem_.right;
-  if (problem_.friction.variables() == 0) s.friction = problem_.friction;  // else CellFriction has it
+  if (problem_.friction.state_size() == 0) s.friction = problem_.friction;  // else CellFriction has it
   if constexpr (requires { s.friction_apart; }) s.friction_apart = steps_by_parts();
   s.forcing = problem_.forcing;
   s.contact = problem_.contact;

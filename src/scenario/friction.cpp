@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "friction/state/contacts.hpp"
 #include "scenario/friction_curve.hpp"
 #include "scenario/friction_units.hpp"
 #include "scenario/section.hpp"

@@ -77,7 +77,7 @@ void make_contact(const Document& document, Scenario& scenario) {
 
 /// Contacts that age, and pores under pressure, have another contact ratio at t = 0 than [interface] says.
 void add_contacts_at_start(Scenario& scenario) {
-  if (!scenario.friction.contacts().act() || !scenario.substrate) return;
+  if (!scenario.friction.changes_contacts() || !scenario.substrate) return;
   const double at_start = scenario.friction.contact_at_start();
   scenario.contact_at = [at_start, given = scenario.contact_at](double x) {
     return at_start * (given ? given(x) : 1.0);
@@ -89,8 +89,8 @@ void add_contacts_at_start(Scenario& scenario) {
 double holding_force(const friction::Friction& friction) {
   double held = std::fmax(friction.strength_at_rest(), friction.parameter("strength"));
   if (friction.definition().curve != friction::CurveSource::none) return held;
-  std::vector<double> state(friction.variables());
-  friction.law().start(state);
+  std::vector<double> state(friction.state_size());
+  friction.evolution().start(state);
   double top = 0;
   constexpr double slowest = 1e-12, fastest = 10;
   constexpr int steps = 120;

@@ -35,7 +35,7 @@ void require_averages(const scenario::Scenario& s) {
            "the averages have no rule for where loading gives birth to dislocations, which their equations conserve",
            "slipfront chain, where dislocations are born by themselves");
   for (const friction::Parameter& p : s.friction.definition().parameters)
-    if (p.on_chain_alone && s.friction.parameter(p.name) != 0)
+    if (p.only_on_chain && s.friction.parameter(p.name) != 0)
       refuse(
           "friction." + std::string(p.name), digits(s.friction.parameter(p.name)),
           "the averages have a contact a(x) that stays: the pressure of a train whose contacts or pores follow theta "
@@ -59,9 +59,9 @@ pulse::Problem stated_problem(const scenario::Scenario& s) {
   if (!known && !(s.domain.left && s.domain.right))
     throw InputError({.file = s.file,
                       .key = "domain",
-                      .problem = s.friction.contacts().act() ? "left and right are needed where contacts change"
-                                 : s.contact_at              ? "left and right are needed with a contact profile"
-                                                             : "left and right are needed for this profile",
+                      .problem = s.friction.changes_contacts() ? "left and right are needed where contacts change"
+                                 : s.contact_at                ? "left and right are needed with a contact profile"
+                                                               : "left and right are needed for this profile",
                       .allowed = "[domain] left = ..., right = ..."});
   const Reach reach = known ? reach_of(s) : Reach{0, 0};
   // A forcing carries dislocations along; through a domain made for slow waves it would carry them without end.

@@ -37,7 +37,7 @@ scenario::Scenario step_under(const Definition& law, std::size_t word, double fo
       friction::law_values(law, word, {.force = force, .slip = 0.1, .time = 0.7, .velocity = 0.05});
   for (std::size_t i = 0; i < values.size(); ++i) {
     const Parameter& p = law.parameters[i];
-    if (p.on_chain_alone) continue;
+    if (p.only_on_chain) continue;
     const std::string value = p.words.empty()
                                   ? std::to_string(values[i])
                                   : '"' + std::string(p.words.at(static_cast<std::size_t>(values[i]))) + '"';

@@ -11,20 +11,24 @@
 namespace {
 
 using namespace slipfront;
-using friction::Memory;
+using friction::LocalState;
 
 /// Friction that weakens with the slip of a place: f = C sign(w) (1 - min(slip / L, 1) / 2).
 class Weakening : public friction::Law {
  public:
-  Weakening(double C, double L) : C_(C), L_(L) {}
-  double strength(double, Memory slip) const override { return C_ * (1 - std::fmin(slip[0] / L_, 1) / 2); }
-  void start(std::span<double> slip) const override { slip[0] = 0; }
-  void advance(double velocity, double time, std::span<double> slip) const override {
-    slip[0] += std::fabs(velocity) * time;
-  }
+  explicit Weakening(const std::vector<double>& values) : C_(values[0]), L_(values[1]) {}
+  double strength(double, LocalState slip) const override { return C_ * (1 - std::fmin(slip[0] / L_, 1) / 2); }
+  const friction::StateEvolution& evolution() const override { return evolution_; }
 
  private:
+  class PathLength : public friction::StateEvolution {
+    void start(std::span<double> path) const override { path[0] = 0; }
+    void advance(const friction::Slip& slip, double time, std::span<double> path) const override {
+      path[0] += std::fabs(slip.mean) * time;
+    }
+  };
   double C_, L_;
+  PathLength evolution_;
 };
 
 const friction::Definition& weakening_law() {
@@ -36,10 +40,8 @@ const friction::Definition& weakening_law() {
       .parameters =
           {{.name = "coefficient", .symbol = "C", .unit = "mu A / 2 pi", .dimension = friction::Dimension::force},
            {.name = "length", .symbol = "L", .unit = "b / 2 pi", .dimension = friction::Dimension::slip}},
-      .variables = {{.name = "slip", .symbol = "s", .unit = "b / 2 pi"}},
-      .make = [](const std::vector<double>& v, const friction::Curve&) -> std::shared_ptr<const friction::Law> {
-        return std::make_shared<Weakening>(v[0], v[1]);
-      }};
+      .state = {{.name = "slip", .symbol = "s", .unit = "b / 2 pi"}},
+      .make = friction::make_law<Weakening>};
   return definition;
 }
 

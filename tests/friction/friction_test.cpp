@@ -90,8 +90,8 @@ TEST(Friction, PowerLawHasItsRelaxationRateFromATable) {
 /// A law that says nothing but its force: f = C |w|^n.
 class Bare : public Law {
  public:
-  Bare(double C, double n) : C_(C), n_(n) {}
-  double strength(double speed, Memory) const override { return C_ * std::pow(speed, n_); }
+  explicit Bare(const std::vector<double>& values) : C_(values[0]), n_(values[1]) {}
+  double strength(double speed, LocalState) const override { return C_ * std::pow(speed, n_); }
 
  private:
   double C_, n_;
@@ -105,9 +105,7 @@ const Definition& bare_law() {
       .source = "",
       .parameters = {{.name = "coefficient", .symbol = "C", .unit = "", .dimension = friction::Dimension::force},
                      {.name = "exponent", .symbol = "n", .unit = ""}},
-      .make = [](const std::vector<double>& v, const friction::Curve&) -> std::shared_ptr<const Law> {
-        return std::make_shared<Bare>(v[0], v[1]);
-      }};
+      .make = make_law<Bare>};
   return definition;
 }
 
@@ -173,8 +171,8 @@ TEST(Friction, MeansAreThoseOfHighPrecision) {
       values.push_back(values.size() < 5 ? row["v" + std::to_string(values.size())] : p.value);
     const Friction friction(law, values);
     const double theta[] = {row["theta"]};
-    const Memory memory = friction.variables() > 0 ? Memory(theta) : Memory();
-    EXPECT_NEAR(friction.mean_strength({row["phi"], row["psi"]}, 1, memory) / row["mean"], 1, 1e-10)
+    const LocalState state = friction.state_size() > 0 ? LocalState(theta) : LocalState();
+    EXPECT_NEAR(friction.mean_strength({row["phi"], row["psi"]}, 1, state) / row["mean"], 1, 1e-10)
         << row.text("law") << " phi " << row["phi"] << " psi " << row["psi"];
   }
 }
@@ -197,19 +195,19 @@ TEST(Friction, RateAndStateAveragesToTheLawAtOneSpeed) {
 TEST(Friction, StateAgesAtRestAndTendsToItsSteadyValue) {
   double theta[] = {0.2};
   const Friction ageing = rate_and_state(0.05, 0.01, 0.015, 0.1, 0.05);
-  ageing.law().advance(0, 3, theta);
+  ageing.evolution().advance(Slip::at(0), 3, theta);
   EXPECT_DOUBLE_EQ(theta[0], 3.2);
   for (const bool slip_law : {false, true}) {
     const Friction friction = rate_and_state(0.05, 0.01, 0.015, 0.1, 0.05, slip_law);
     double once[] = {0.7}, twice[] = {0.7};
-    friction.law().advance(-0.3, 0.5, once);  // exact, so that two steps are one
-    friction.law().advance(-0.3, 0.2, twice);
-    friction.law().advance(-0.3, 0.3, twice);
+    friction.evolution().advance(Slip::at(-0.3), 0.5, once);  // exact, so that two steps are one
+    friction.evolution().advance(Slip::at(-0.3), 0.2, twice);
+    friction.evolution().advance(Slip::at(-0.3), 0.3, twice);
     EXPECT_NEAR(once[0] / twice[0], 1, 1e-14);
-    friction.law().advance(0.3, 100, once);
+    friction.evolution().advance(Slip::at(0.3), 100, once);
     EXPECT_NEAR(once[0] / (0.1 / 0.3), 1, 1e-13);
     double still[] = {0.7};
-    friction.law().advance(0, 5, still);
+    friction.evolution().advance(Slip::at(0), 5, still);
     EXPECT_EQ(still[0], slip_law ? 0.7 : 5.7);
   }
 }
@@ -225,9 +223,9 @@ TEST(Friction, StateInATrainIsTheMeanOverItsDislocations) {
     constexpr int steps = 400, passages = 40;
     for (int i = 0; i < steps * passages; ++i) {
       const double w = train::fields(train, length * (i % steps + 0.5) / steps).w;
-      friction.law().advance(w, passage / steps, every);
+      friction.evolution().advance(Slip::at(w), passage / steps, every);
     }
-    friction.law().advance_in_train(W, typical, passage * passages, mean);
+    friction.evolution().advance({W, typical}, passage * passages, mean);
     EXPECT_GT(std::fabs(every[0] / 200 - 1), 0.05) << slip_law;
     EXPECT_NEAR(every[0] / mean[0], 1, 1e-3) << slip_law;
   }
@@ -247,12 +245,12 @@ TEST(Friction, RateAndStateSolvesForTheSpeedAfterAStep) {
 TEST(Friction, SlipWeakensWhatHolds) {
   const Friction friction(law_named("slip-weakening"), {0.4, 0.1, 2});
   double slip[] = {0};
-  friction.law().start(slip);
+  friction.evolution().start(slip);
   EXPECT_TRUE(friction.sticks());
   EXPECT_EQ(friction.force(1, slip), 0.4);
-  friction.law().advance(-0.5, 2, slip);
+  friction.evolution().advance(Slip::at(-0.5), 2, slip);
   EXPECT_DOUBLE_EQ(friction.force(1, slip), 0.25);
-  friction.law().advance(0.5, 20, slip);
+  friction.evolution().advance(Slip::at(0.5), 20, slip);
   EXPECT_DOUBLE_EQ(friction.force(1, slip), 0.1);
 }
 

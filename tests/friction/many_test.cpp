@@ -57,7 +57,7 @@ TEST(FrictionOfMany, SpeedsUnderShareOfNormalStressAreThoseOfOne) {
       theta[i] = std::pow(10.0, 6 * u(random) - 3);
     }
     for (const double weight : {0.1, 2.0}) {
-      f.law().speeds_after_under(size, share.data(), free.data(), weight, {theta.data(), 1}, speed.data());
+      f.loops().speeds_after_under(size, share.data(), free.data(), weight, {theta.data(), 1}, speed.data());
       for (std::size_t i = 0; i < size; ++i) {
         const double one = f.law().speed_after(free[i], weight * share[i], {&theta[i], 1});
         EXPECT_NEAR(speed[i], one, 1e-12 * free[i] + 1e-9 * one) << share[i] << ' ' << free[i] << ' ' << theta[i];
@@ -80,13 +80,13 @@ TEST(FrictionOfMany, MeansAreThoseOfOne) {
         s[i] = std::tanh(psi[i]);
         theta[i] = std::exp(4 * u(random) - 2);
       }
-      const std::size_t each = friction.variables();
-      friction.law().mean_strengths({count, fastest.data(), s.data(), {theta.data(), each}}, closure, mean.data(),
-                                    slope.data());
+      const std::size_t each = friction.state_size();
+      friction.average().mean_strengths({count, fastest.data(), s.data(), {theta.data(), each}}, closure, mean.data(),
+                                        slope.data());
       for (std::size_t i = 0; i < count; ++i) {
         const auto of_one = [&](double faster) {
           const double at = std::asinh(std::sinh(phi[i]) * faster);
-          return friction.law().mean_strength({at, psi[i]}, 1, closure, Memory(&theta[i], each));
+          return friction.average().mean_strength({at, psi[i]}, 1, closure, LocalState(&theta[i], each));
         };
         EXPECT_NEAR(mean[i] / of_one(1), 1, 3e-10) << friction.name() << " phi " << phi[i] << " psi " << psi[i];
         const double h = 1e-4, want = (of_one(std::exp(h)) - of_one(std::exp(-h))) / (2 * h);
@@ -109,10 +109,10 @@ TEST(FrictionOfMany, MeansDoNotDependOnTheOtherTrains) {
         s[i] = std::tanh(std::exp(-12 + 12 * u(random)));
         theta[i] = std::exp(4 * u(random) - 2);
       }
-      const std::size_t each = friction.variables();
+      const std::size_t each = friction.state_size();
       const auto means = [&](std::size_t begin, std::size_t end, std::vector<double>& to) {
-        friction.law().mean_strengths({end - begin, &fastest[begin], &s[begin], {&theta[begin], each}}, closure,
-                                      &to[begin], nullptr);
+        friction.average().mean_strengths({end - begin, &fastest[begin], &s[begin], {&theta[begin], each}}, closure,
+                                          &to[begin], nullptr);
       };
       means(0, count, together);
       for (std::size_t begin = 0, end = 1; begin < count; begin = end, end = std::min(count, 2 * end + 1))
@@ -139,7 +139,7 @@ TEST(FrictionOfMany, MeansOfACurveThatBendsAndEnds) {
       speeds.push_back(fastest);
       s.push_back(0.005 + 0.0099 * i);
     }
-    friction.law().mean_strengths({100, speeds.data(), s.data(), {}}, Closure::consistent, mean.data(), nullptr);
+    friction.average().mean_strengths({100, speeds.data(), s.data(), {}}, Closure::consistent, mean.data(), nullptr);
     return mean;
   };
   for (int step = 0; step < 232; ++step) {
@@ -169,17 +169,17 @@ TEST(FrictionOfMany, ForcesAndSolvesAreThoseOfOne) {
         free[i] = i % 7 == 0 ? 0 : std::pow(10, i % 5 == 0 ? -300 * u(random) : -12 + 13 * u(random));
         theta[i] = std::exp(8 * u(random) - 4);
       }
-      const Memories memory{theta.data(), friction.variables()};
-      friction.law().strengths(count, free.data(), memory, force.data());
-      friction.law().speeds_after(count, free.data(), weight, memory, speed.data());
+      const LocalStates states{theta.data(), friction.state_size()};
+      friction.loops().strengths(count, free.data(), states, force.data());
+      friction.loops().speeds_after(count, free.data(), weight, states, speed.data());
       for (std::size_t i = 0; i < count; ++i) {
-        const double f = friction.law().strength(free[i], memory.of(i));
+        const double f = friction.law().strength(free[i], states.at(i));
         EXPECT_NEAR(force[i], f, 1e-12 * f) << friction.name() << " " << free[i];
-        const double v = friction.law().speed_after(free[i], weight, memory.of(i));
+        const double v = friction.law().speed_after(free[i], weight, states.at(i));
         EXPECT_NEAR(speed[i], v, 2e-12 * v + 1e-14 * free[i]) << friction.name() << " " << weight << " " << free[i];
         // What it is does not depend on what is beside it.
         double alone = -1;
-        friction.law().speeds_after(1, &free[i], weight, {memory.of(i).data(), memory.each}, &alone);
+        friction.loops().speeds_after(1, &free[i], weight, {states.at(i).data(), states.each}, &alone);
         EXPECT_EQ(alone, speed[i]) << friction.name() << " " << weight << " " << free[i];
       }
     }
@@ -187,7 +187,7 @@ TEST(FrictionOfMany, ForcesAndSolvesAreThoseOfOne) {
 
 TEST(FrictionOfMany, MemoriesAreThoseOfOne) {
   for (const Friction& friction : some_of_each()) {
-    if (friction.variables() == 0) continue;
+    if (friction.state_size() == 0) continue;
     for (const double time : {1e-3, 1.0, 1e3}) {
       std::vector<double> velocity, typical, all, in_train;
       for (int i = 0; i < 150; ++i) {
@@ -197,13 +197,13 @@ TEST(FrictionOfMany, MemoriesAreThoseOfOne) {
       }
       in_train = all;
       const std::vector<double> before = all;
-      friction.law().advance_all(all.size(), velocity.data(), time, 1, all.data());
-      friction.law().advance_in_trains(all.size(), velocity.data(), typical.data(), time, 1, in_train.data());
+      friction.evolution().advance_all(all.size(), Slips::at(velocity.data()), time, 1, all.data());
+      friction.evolution().advance_all(all.size(), {velocity.data(), typical.data()}, time, 1, in_train.data());
       for (std::size_t i = 0; i < all.size(); ++i) {
         double one[] = {before[i]}, train[] = {before[i]}, alone = before[i];
-        friction.law().advance(velocity[i], time, one);
-        friction.law().advance_in_train(velocity[i], typical[i], time, train);
-        friction.law().advance_all(1, &velocity[i], time, 1, &alone);
+        friction.evolution().advance(Slip::at(velocity[i]), time, one);
+        friction.evolution().advance({velocity[i], typical[i]}, time, train);
+        friction.evolution().advance_all(1, Slips::at(&velocity[i]), time, 1, &alone);
         EXPECT_NEAR(all[i] / one[0], 1, 1e-12) << friction.name() << " " << velocity[i] << " " << time;
         EXPECT_NEAR(in_train[i] / train[0], 1, 1e-12) << friction.name() << " " << velocity[i] << " " << time;
         EXPECT_EQ(all[i], alone) << friction.name() << " " << velocity[i] << " " << time;
@@ -227,7 +227,7 @@ TEST(FrictionOfMany, ForcesOfACurveAreItsOwnWhereItIsNotSmooth) {
     const Friction friction(*formula, {3}, Closure::consistent, curve);
     std::vector<double> speed{0, 1e-300, 0.1, 0.2, 0.3}, force(2005);
     for (int i = 0; i < 2000; ++i) speed.push_back(0.7 * std::pow(10, -0.015 * i));
-    friction.law().strengths(speed.size(), speed.data(), {}, force.data());
+    friction.loops().strengths(speed.size(), speed.data(), {}, force.data());
     for (std::size_t i = 0; i < speed.size(); ++i)
       EXPECT_NEAR(force[i], 3 * curve(speed[i]), 1e-12 * force[i]) << speed[i];
   }
@@ -235,8 +235,8 @@ TEST(FrictionOfMany, ForcesOfACurveAreItsOwnWhereItIsNotSmooth) {
       goes_on(*formula, {3}, Closure::consistent, curves[0]);
   const double fast = 0.71, fastest = 1e5;
   double force = 0;
-  EXPECT_THROW(ends.law().strengths(1, &fast, {}, &force), InputError);
-  goes_on.law().strengths(1, &fastest, {}, &force);
+  EXPECT_THROW(ends.loops().strengths(1, &fast, {}, &force), InputError);
+  goes_on.loops().strengths(1, &fastest, {}, &force);
   EXPECT_DOUBLE_EQ(force, 0.9);
 }
 

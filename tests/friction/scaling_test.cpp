@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "friction/state/contacts.hpp"
 #include "law_values.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/friction/friction.hpp"
@@ -20,41 +21,42 @@ constexpr double scales[] = {0.3, 7, 1000};
 
 double curve(double speed) { return 0.2 + speed / (1 + speed * speed); }
 
-/// A law and the same on a chain of some scale, each with the state of a few places.
+/// A law and the same on a chain of some scale, each with the state of a few positions.
 class Pair {
  public:
-  static constexpr std::size_t places = 5;
-  static constexpr double speed[places] = {0, 1e-6, 0.02, 0.4, 3}, share[places] = {0.3, 0.5, 0.7, 0.9, 1};
+  static constexpr std::size_t positions = 5;
+  static constexpr double speed[positions] = {0, 1e-6, 0.02, 0.4, 3}, share[positions] = {0.3, 0.5, 0.7, 0.9, 1};
 
   Pair(const Friction& friction, double scale)
-      : one(friction), many(friction.scaled_by(scale)), scale_(scale), each_(friction.variables()) {
-    one_state_.resize(places * each_);
-    for (std::size_t i = 0; i < places; ++i) one.law().start(std::span(one_state_).subspan(i * each_, each_));
-    many_state_.resize(places * each_);
-    for (std::size_t i = 0; i < places; ++i) many.law().start(std::span(many_state_).subspan(i * each_, each_));
+      : one(friction), many(friction.scaled_by(scale)), scale_(scale), each_(friction.state_size()) {
+    one_state_.resize(positions * each_);
+    for (std::size_t i = 0; i < positions; ++i) one.evolution().start(std::span(one_state_).subspan(i * each_, each_));
+    many_state_.resize(positions * each_);
+    for (std::size_t i = 0; i < positions; ++i)
+      many.evolution().start(std::span(many_state_).subspan(i * each_, each_));
   }
 
-  /// Slips every place at its own speed for a time.
+  /// Slips every position at its own speed for a time.
   void slip(double time) {
-    one.law().advance_all(places, speed, time, each_, one_state_.data());
-    many.law().advance_all(places, speed, scale_ * time, each_, many_state_.data());
+    one.evolution().advance_all(positions, Slips::at(speed), time, each_, one_state_.data());
+    many.evolution().advance_all(positions, Slips::at(speed), scale_ * time, each_, many_state_.data());
   }
   void slip_in_trains(double time) {
     const double typical[] = {0, 2e-6, 0.03, 0.3, 4};
-    one.law().advance_in_trains(places, speed, typical, time, each_, one_state_.data());
-    many.law().advance_in_trains(places, speed, typical, scale_ * time, each_, many_state_.data());
+    one.evolution().advance_all(positions, {speed, typical}, time, each_, one_state_.data());
+    many.evolution().advance_all(positions, {speed, typical}, scale_ * time, each_, many_state_.data());
   }
 
   void expect_equal_forces(const std::string& when) const {
-    const Memories a{one_state_.data(), each_}, b{many_state_.data(), each_};
-    for (std::size_t i = 0; i < places; ++i) {
+    const LocalStates a{one_state_.data(), each_}, b{many_state_.data(), each_};
+    for (std::size_t i = 0; i < positions; ++i) {
       const State train{0.1 + 0.2 * static_cast<double>(i), 0.7};
-      near(many.force(speed[i], b.of(i)), one.force(speed[i], a.of(i)) / scale_, "force " + when);
-      near(many.velocity_after(speed[i], 0.7 * scale_, b.of(i)), one.velocity_after(speed[i], 0.7, a.of(i)),
+      near(many.force(speed[i], b.at(i)), one.force(speed[i], a.at(i)) / scale_, "force " + when);
+      near(many.velocity_after(speed[i], 0.7 * scale_, b.at(i)), one.velocity_after(speed[i], 0.7, a.at(i)),
            "velocity_after " + when);
-      near(many.mean_strength(train, 0.8, b.of(i)), one.mean_strength(train, 0.8, a.of(i)) / scale_,
+      near(many.mean_strength(train, 0.8, b.at(i)), one.mean_strength(train, 0.8, a.at(i)) / scale_,
            "mean_strength " + when);
-      near((*many.relaxation_rate())(train, 0.8, b.of(i)), (*one.relaxation_rate())(train, 0.8, a.of(i)) / scale_,
+      near((*many.relaxation_rate())(train, 0.8, b.at(i)), (*one.relaxation_rate())(train, 0.8, a.at(i)) / scale_,
            "relaxation_rate " + when);
     }
     expect_equal_arrays(a, b, when);
@@ -65,8 +67,7 @@ class Pair {
     EXPECT_EQ(many.steep_at_rest(), one.steep_at_rest());
     near(many.strength_at_rest(), one.strength_at_rest() / scale_, "strength_at_rest");
     near(many.linear_coefficient().value_or(0), one.linear_coefficient().value_or(0) / scale_, "linear_coefficient");
-    near(many.law().constant_strength().value_or(0), one.law().constant_strength().value_or(0) / scale_,
-         "constant_strength");
+    near(many.constant_strength().value_or(0), one.constant_strength().value_or(0) / scale_, "constant_strength");
     near(many.contact_at_start(), one.contact_at_start(), "contact_at_start");
     near(many.contact_growth(scale_ * 3), one.contact_growth(3), "contact_growth");
     near(many.contacts().strength(2 * scale_, 0.01), one.contacts().strength(2, 0.01), "contacts' strength");
@@ -81,26 +82,27 @@ class Pair {
     EXPECT_NEAR(value, wanted, 1e-9 * std::fabs(wanted)) << one.name() << ", scale " << scale_ << ": " << what;
   }
 
-  void expect_equal_arrays(Memories a, Memories b, const std::string& when) const {
-    const double s[places] = {0.1, 0.2, 0.3, 0.5, 0.9}, fastest[places] = {1e-6, 0.02, 0.1, 0.4, 3};
-    using Call = std::function<void(const Law&, Memories, double scale, double* out)>;
+  void expect_equal_arrays(LocalStates a, LocalStates b, const std::string& when) const {
+    const double s[positions] = {0.1, 0.2, 0.3, 0.5, 0.9}, fastest[positions] = {1e-6, 0.02, 0.1, 0.4, 3};
+    using Call = std::function<void(const Law&, LocalStates, double scale, double* out)>;
     const auto compare = [&](const char* name, bool is_force, const Call& call) {
-      double of_one[places], of_many[places];
+      double of_one[positions], of_many[positions];
       call(one.law(), a, 1, of_one);
       call(many.law(), b, scale_, of_many);
-      for (std::size_t i = 0; i < places; ++i)
+      for (std::size_t i = 0; i < positions; ++i)
         near(of_many[i], is_force ? of_one[i] / scale_ : of_one[i], name + (" " + when));
     };
-    compare("strengths", true,
-            [&](const Law& law, Memories state, double, double* out) { law.strengths(places, speed, state, out); });
-    compare("speeds_after", false, [&](const Law& law, Memories state, double scale, double* out) {
-      law.speeds_after(places, speed, 0.7 * scale, state, out);
+    compare("strengths", true, [&](const Law& law, LocalStates state, double, double* out) {
+      law.loops().strengths(positions, speed, state, out);
     });
-    compare("speeds_after_under", false, [&](const Law& law, Memories state, double scale, double* out) {
-      law.speeds_after_under(places, share, speed, 0.7 * scale, state, out);
+    compare("speeds_after", false, [&](const Law& law, LocalStates state, double scale, double* out) {
+      law.loops().speeds_after(positions, speed, 0.7 * scale, state, out);
     });
-    compare("mean_strengths", true, [&](const Law& law, Memories state, double, double* out) {
-      law.mean_strengths({places, fastest, s, state}, one.closure(), out, nullptr);
+    compare("speeds_after_under", false, [&](const Law& law, LocalStates state, double scale, double* out) {
+      law.loops().speeds_after_under(positions, share, speed, 0.7 * scale, state, out);
+    });
+    compare("mean_strengths", true, [&](const Law& law, LocalStates state, double, double* out) {
+      law.average().mean_strengths({positions, fastest, s, state}, one.closure(), out, nullptr);
     });
   }
 
@@ -134,13 +136,17 @@ TEST(FrictionScaling, DividesTheForceOfEveryLawByTheScale) {
 class Example final : public Law {
  public:
   explicit Example(const std::vector<double>& v) : f0_(v[0]), eta_(v[1]), D_(v[2]) {}
-  double strength(double speed, Memory slip) const override { return f0_ * (1 + slip[0] / D_) + eta_ * speed; }
-  void start(std::span<double> slip) const override { slip[0] = 0; }
-  void advance(double velocity, double time, std::span<double> slip) const override {
-    slip[0] += std::fabs(velocity) * time;
-  }
+  double strength(double speed, LocalState slip) const override { return f0_ * (1 + slip[0] / D_) + eta_ * speed; }
+  const StateEvolution& evolution() const override { return evolution_; }
 
  private:
+  class PathLength final : public StateEvolution {
+    void start(std::span<double> path) const override { path[0] = 0; }
+    void advance(const Slip& slip, double time, std::span<double> path) const override {
+      path[0] += std::fabs(slip.mean) * time;
+    }
+  };
+  PathLength evolution_;
   double f0_, eta_, D_;
 };
 
@@ -152,10 +158,8 @@ Definition example(Dimension strength, Dimension viscosity, Dimension slip) {
           .parameters = {{.name = "strength", .symbol = "f_0", .unit = force_unit, .dimension = strength},
                          {.name = "viscosity", .symbol = "eta", .unit = "1", .dimension = viscosity},
                          {.name = "distance", .symbol = "D", .unit = "b / (2 pi)", .dimension = slip}},
-          .variables = {{.name = "slipped", .symbol = "s", .unit = "b / (2 pi)"}},
-          .make = [](const std::vector<double>& values, const Curve&) -> std::shared_ptr<const Law> {
-            return std::make_shared<Example>(values);
-          }};
+          .state = {{.name = "slipped", .symbol = "s", .unit = "b / (2 pi)"}},
+          .make = make_law<Example>};
 }
 
 std::string refusal_of(const Definition& law, const std::vector<double>& values) {

@@ -1,5 +1,7 @@
 // Keys of contacts that age and pores that dilate.
 
+#include "friction/state/contacts.hpp"
+
 #include <cmath>
 
 #include "slipfront/error.hpp"

@@ -99,7 +99,7 @@ SLIPFRONT_EXPORT const char* laws() {
     for (const friction::Definition* law : friction::laws()) {
       std::vector<Object> parameters;
       for (const friction::Parameter& p : law->parameters)
-        if (!p.on_chain_alone) parameters.push_back(described(p));
+        if (!p.only_on_chain) parameters.push_back(described(p));
       all.push_back(Object()
                         .put("name", law->name)
                         .put("equation", law->equation)

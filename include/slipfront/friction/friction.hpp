@@ -7,10 +7,11 @@
 #include <string_view>
 #include <vector>
 
-#include "slipfront/friction/contacts.hpp"
 #include "slipfront/friction/law.hpp"
 
 namespace slipfront::friction {
+
+struct Contacts;
 
 class Friction {
  public:
@@ -24,10 +25,13 @@ class Friction {
   const Definition& definition() const { return *definition_; }
   std::string_view name() const { return definition_->name; }
   const Law& law() const { return *law_; }
+  const ForceLoops& loops() const { return law_->loops(); }
+  const TrainAverage& average() const { return law_->average(); }
+  const StateEvolution& evolution() const { return law_->evolution(); }
   Closure closure() const { return closure_; }
   Friction with(Closure closure) const;
-  /// Whether an average by this closure is defined: that of the paper knows no memory.
-  bool defined_by(Closure closure) const { return closure == Closure::consistent || variables() == 0; }
+  /// Whether an average by this closure is defined: that of the paper knows no state.
+  bool defined_by(Closure closure) const { return closure == Closure::consistent || state_size() == 0; }
 
   /// The value of a parameter; 0 if the law has none of that name.
   double parameter(std::string_view name) const;
@@ -40,33 +44,40 @@ class Friction {
   /// Whether there is any force.
   bool acts() const { return acts_; }
   /// C where f = C w (0 without friction). No other law has a coefficient C or a damping number C t.
-  std::optional<double> linear_coefficient() const { return linear_; }
-  /// Whether a place at rest can hold out against a force.
+  std::optional<double> linear_coefficient() const { return law_->facts().linear_coefficient; }
+  /// f_0 where f = f_0 sign(w).
+  std::optional<double> constant_strength() const { return law_->facts().constant_strength; }
+  /// Whether a position at rest can withstand a force.
   bool sticks() const { return at_rest_ > 0; }
-  /// The largest force that holds a place at rest at t = 0.
+  /// The largest force that holds a position at rest at t = 0.
   double strength_at_rest() const { return at_rest_; }
   /// Whether f jumps or rises so steeply from rest that a step must end, not pass through, rest.
-  bool steep_at_rest() const { return sticks() || law_->steep_at_rest(); }
-  std::size_t variables() const { return definition_->variables.size(); }
+  bool steep_at_rest() const { return sticks() || law_->facts().steep_at_rest; }
+  /// Number of state variables of each position.
+  std::size_t state_size() const { return definition_->state.size(); }
+  /// Their values at t = 0.
+  std::vector<double> state_at_start() const;
 
-  /// What the law's state does to contacts and pores; `act()` is false for most friction.
-  const Contacts& contacts() const { return contacts_; }
+  /// The effect of the law's state on contacts and pores (friction/state/contacts.hpp).
+  const Contacts& contacts() const { return *contacts_; }
+  /// Whether there is one; not for most friction.
+  bool changes_contacts() const;
   /// The contact ratio at t = 0 over that of contacts without age and pores without pressure. 1 for most friction.
   double contact_at_start() const;
   /// The largest factor by which a contact ratio may rise within a time, at slip velocities up to 10 c A / pi.
   double contact_growth(double time) const;
 
   /// f at the slip velocity w = `velocity`, with the sign of w.
-  double force(double velocity, Memory memory = {}) const;
+  double force(double velocity, LocalState state = {}) const;
   /// The velocity that friction leaves of `free` in a time step: v + weight f(v) = free.
-  double velocity_after(double free, double weight, Memory memory = {}) const;
+  double velocity_after(double free, double weight, LocalState state = {}) const;
 
   /// Loss of momentum per unit length, with the sign of U. Zero for the empty state.
-  double momentum_loss(const State& state, double contact = 1, Memory memory = {}) const;
-  double mean_strength(const State& state, double contact, Memory memory = {}) const {
-    return law_->mean_strength(state, contact, closure_, memory);
+  double momentum_loss(const State& train, double contact = 1, LocalState state = {}) const;
+  double mean_strength(const State& train, double contact, LocalState state = {}) const {
+    return average().mean_strength(train, contact, closure_, state);
   }
-  std::unique_ptr<RelaxationRate> relaxation_rate() const { return law_->relaxation_rate(closure_); }
+  std::unique_ptr<RelaxationRate> relaxation_rate() const { return average().relaxation_rate(closure_); }
 
  private:
   const Definition* definition_;
@@ -74,9 +85,8 @@ class Friction {
   Curve curve_;
   Closure closure_ = Closure::consistent;
   std::shared_ptr<const Law> law_;
-  Contacts contacts_;
+  std::shared_ptr<const Contacts> contacts_;
   bool acts_ = false;
-  std::optional<double> linear_;
   double at_rest_ = 0;
 };
 

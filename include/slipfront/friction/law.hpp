@@ -1,9 +1,9 @@
 #pragma once
 /// \file
-/// A friction law: the force that opposes slip at one place, and its averages over a uniform train
-/// (docs/theory.md 3.3). To add a law, write one file in src/friction/ and add its line to src/friction/laws.cpp. The
-/// file must give the name, the parameters and the force; averages and implicit solves follow by quadrature and
-/// bisection unless the law knows closed forms.
+/// A friction law is the force that opposes slip at a position (docs/theory.md 3.3). To add a law, write one file in
+/// src/friction/laws/ and add its line to src/friction/laws.cpp. The file gives the name, the parameters and the force.
+/// A law with state variables also gives their StateEvolution. Averages over a train, implicit solves and loops over
+/// many positions follow from the force, by quadrature and bracketing, unless the law knows closed forms.
 
 #include <functional>
 #include <limits>
@@ -11,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "slipfront/train/train.hpp"
@@ -42,15 +43,21 @@ struct Parameter {
   double least = 0, most = std::numeric_limits<double>::infinity();
   bool without_least = false;
   Dimension dimension = Dimension::number;
-  std::vector<std::string_view> words = {};  ///< what may be given instead of a number; the value is the word's place
+  std::vector<std::string_view> words = {};  ///< what may be given instead of a number; the value is the word's index
   std::string_view if_missing = {};          ///< a warning that says what its absence means
-  bool on_chain_alone = false;               ///< averages over a train do not know it
+  bool only_on_chain = false;                ///< averages over a train do not know it
 };
 
-/// C of a law whose force is proportional to it. `unit` is that of F, over what C stands before.
+/// C of a law whose force is proportional to it. `unit` is that of F, over what C multiplies.
 Parameter coefficient_in(std::string_view unit);
 /// "strength": the friction at rest, or at the reference velocity.
 Parameter strength_in(std::string_view unit, std::string_view symbol);
+/// A force of any name.
+Parameter force_named(std::string_view name, std::string_view symbol, double value = 0);
+/// A velocity > 0 of any name; 1 if none is given.
+Parameter velocity_named(std::string_view name, std::string_view symbol);
+/// "characteristic_slip" > 0; 1 if none is given.
+Parameter characteristic_slip();
 
 /// f as a curve that the user draws: the force >= 0 at the speed |w| >= 0. May be called by several threads at once.
 using Curve = std::function<double(double speed)>;
@@ -58,20 +65,67 @@ using Curve = std::function<double(double speed)>;
 /// How a scenario gives a law its curve: not at all, by the key "formula", or by a table in the file that "file" names.
 enum class CurveSource { none, formula, table };
 
-/// A quantity that each place remembers, such as the age of its contacts.
-struct Variable {
+/// A quantity that belongs to each position and changes as it slips, such as the age of its contacts.
+struct StateVariable {
   std::string_view name, symbol, unit;
 };
 
-/// Values of a law's variables at one place, in the order of its definition; none for most laws.
-using Memory = std::span<const double>;
+/// Values of a law's state variables at one position, in the order of its definition; none for most laws.
+using LocalState = std::span<const double>;
 
-/// Values of a law's variables at many places, one place after the other: `each` numbers a place.
-struct Memories {
+/// Values of a law's state variables at many positions, one position after the other.
+struct LocalStates {
   const double* values = nullptr;
-  std::size_t each = 0;
-  Memory of(std::size_t i) const { return {values + i * each, each}; }
-  Memories from(std::size_t i) const { return {values + i * each, each}; }
+  std::size_t each = 0;  ///< values of one position
+  LocalState at(std::size_t i) const { return {values + i * each, each}; }
+  LocalStates from(std::size_t i) const { return {values + i * each, each}; }
+};
+
+/// The slip of a position during a time: its mean velocity; and the velocity whose logarithm is the mean of ln |w| over
+/// slip, which is a sinh |phi| e^psi where dislocations of a train pass.
+struct Slip {
+  double mean, typical;
+  static Slip at(double velocity) { return {velocity, velocity}; }
+};
+
+/// The slip of many positions.
+struct Slips {
+  const double *mean, *typical;
+  static Slips at(const double* velocity) { return {velocity, velocity}; }
+};
+
+/// How the state variables of a law change.
+class StateEvolution {
+ public:
+  virtual ~StateEvolution() = default;
+  /// Sets a position's state at t = 0, where nothing has slipped.
+  virtual void start(std::span<double> state) const = 0;
+  /// Changes it over a time in which the position slips.
+  virtual void advance(const Slip& slip, double time, std::span<double> state) const = 0;
+  /// `advance` of `size` positions of `each` values.
+  virtual void advance_all(std::size_t size, const Slips& slips, double time, std::size_t each, double* state) const;
+};
+
+class Law;
+
+/// The force at many positions at once. A law derives from this class to have vector loops; each of its functions calls
+/// that of the law for one position otherwise.
+class ForceLoops {
+ public:
+  explicit ForceLoops(const Law& law) : law_(law) {}
+  virtual ~ForceLoops() = default;
+  /// `strength` at each speed.
+  virtual void strengths(std::size_t size, const double* speed, LocalStates states, double* force) const;
+  /// `speed_after` of each speed.
+  virtual void speeds_after(std::size_t size, const double* free, double weight, LocalStates states,
+                            double* speed) const;
+  /// The same where the normal stress on each position is a share > 0 of what the law's numbers are for: v + weight
+  /// share f(v) = free.
+  virtual void speeds_after_under(std::size_t size, const double* share, const double* free, double weight,
+                                  LocalStates states, double* speed) const;
+
+ protected:
+  const Law& law_;
 };
 
 /// Many uniform trains at once, an entry of each array for each.
@@ -79,82 +133,88 @@ struct Trains {
   std::size_t size = 0;
   const double* fastest = nullptr;  ///< the largest slip velocity in it, 2 a sinh |phi| cosh psi
   const double* s = nullptr;        ///< the least slip velocity over the largest, tanh psi, 0 < s < 1
-  Memories memory = {};
+  LocalStates states = {};
 };
 
-/// Rate at which friction relaxes the momentum of uniform trains, loss / P, with its limit at rest. The train lies in a
-/// contact ratio a; its state is that in the local units a x, a t. An object may keep tables that fill as they are
-/// used: it serves one thread.
+/// Rate at which friction relaxes the momentum of uniform trains, loss / P, with its limit at rest. An object may keep
+/// tables that fill as they are used: it serves one thread.
 class RelaxationRate {
  public:
   virtual ~RelaxationRate() = default;
-  virtual double operator()(const State& state, double contact, Memory memory) const = 0;
-  /// The same in many trains, of these largest slip velocities 2 a sinh |phi| cosh psi, without memory.
+  /// The train lies in a contact ratio a; it is given in the local units a x, a t.
+  virtual double operator()(const State& train, double contact, LocalState state) const = 0;
+  /// The same in many trains, of these largest slip velocities 2 a sinh |phi| cosh psi, of a law without state.
   virtual void rates(std::size_t size, const double* fastest, const double* psi, double* rate) const;
+  /// Whether there is a table, or a closed form.
+  virtual bool tabulated() const { return false; }
 };
 
-/// A law with its numbers.
+/// Averages of the force over a uniform train. Positions that one dislocation spans have the same state.
+class TrainAverage {
+ public:
+  virtual ~TrainAverage() = default;
+  /// Mean of f >= 0; the loss of momentum is k times this. The mean is over slip (consistent) or length (paper).
+  virtual double mean_strength(const State& train, double contact, Closure closure, LocalState state) const = 0;
+  /// `mean_strength` of each train, to 3e-10 of itself where it is smooth in ln w; and, unless `slope` is null, its
+  /// derivative with respect to ln(fastest).
+  virtual void mean_strengths(const Trains& trains, Closure closure, double* mean, double* slope) const = 0;
+  virtual std::unique_ptr<RelaxationRate> relaxation_rate(Closure closure) const = 0;
+};
+
+/// The averages of any law, from its force.
+class QuadratureAverage : public TrainAverage {
+ public:
+  explicit QuadratureAverage(const Law& law) : law_(law) {}
+  double mean_strength(const State& train, double contact, Closure closure, LocalState state) const override;
+  void mean_strengths(const Trains& trains, Closure closure, double* mean, double* slope) const override;
+  std::unique_ptr<RelaxationRate> relaxation_rate(Closure closure) const override;
+
+ protected:
+  const Law& law_;
+};
+
+/// Properties of a force that solvers use.
+struct ForceFacts {
+  std::optional<double> linear_coefficient = {};  ///< C where f = C w, which the time steps of pulse and chain have
+  std::optional<double> constant_strength = {};   ///< f_0 where f = f_0 sign(w), the same at every speed
+  bool steep_at_rest = false;  ///< f rises so steeply, without a jump, that a step centred on rest would reverse slip
+};
+
+/// A law with its numbers: the force at a position, and how to find what else the law offers.
 class Law {
  public:
+  explicit Law(const ForceFacts& facts = {}) : facts_(facts) {}
   virtual ~Law() = default;
+  Law(const Law&) = delete;
+  Law& operator=(const Law&) = delete;
 
-  /// f at the slip velocity |w| = `speed` >= 0. Its limit at 0 is the largest force that holds a place at rest.
-  virtual double strength(double speed, Memory memory) const = 0;
-
-  /// C where f = C w. Such friction is built into the time steps of pulse and chain.
-  virtual std::optional<double> linear_coefficient() const { return std::nullopt; }
-  /// f_0 where f = f_0 sign(w), the same at every speed.
-  virtual std::optional<double> constant_strength() const { return std::nullopt; }
-  /// Whether f rises so steeply from rest, without a jump, that a step which is centred on it would reverse the slip.
-  virtual bool steep_at_rest() const { return false; }
-
+  /// f at the slip velocity |w| = `speed` >= 0. Its limit at 0 is the largest force that holds a position at rest.
+  virtual double strength(double speed, LocalState state) const = 0;
   /// The speed v >= 0 that friction leaves of `free` >= 0 in a time step: v + weight f(v) = free; 0 where friction
-  /// holds the place.
-  virtual double speed_after(double free, double weight, Memory memory) const;
+  /// holds the position.
+  virtual double speed_after(double free, double weight, LocalState state) const;
 
-  /// Mean of f over a uniform train, >= 0; the loss of momentum is k times this. The mean is over slip (consistent) or
-  /// over length (paper). The places that a dislocation spans have the same memory.
-  virtual double mean_strength(const State& state, double contact, Closure closure, Memory memory) const;
-  virtual std::unique_ptr<RelaxationRate> relaxation_rate(Closure closure) const;
-  /// Whether that has a table, or a closed form.
-  virtual bool tabulates_rate() const { return false; }
+  virtual const ForceLoops& loops() const { return loops_; }
+  virtual const TrainAverage& average() const { return average_; }
+  /// Does nothing for a law without state.
+  virtual const StateEvolution& evolution() const;
 
-  // The same for many places or trains at once. A law that can, has vector loops for them.
+  const ForceFacts& facts() const { return facts_; }
 
-  /// `strength` at each speed.
-  virtual void strengths(std::size_t size, const double* speed, Memories memory, double* force) const;
-  /// `speed_after` of each speed.
-  virtual void speeds_after(std::size_t size, const double* free, double weight, Memories memory, double* speed) const;
-  /// The same where the normal stress on each place is a share > 0 of what the law's numbers are for: v + weight
-  /// share f(v) = free.
-  virtual void speeds_after_under(std::size_t size, const double* share, const double* free, double weight,
-                                  Memories memory, double* speed) const;
-  /// `mean_strength` of each train, to 3e-10 of itself where it is smooth in ln w; and, unless `slope` is null, what it
-  /// changes by with ln(fastest).
-  virtual void mean_strengths(const Trains& trains, Closure closure, double* mean, double* slope) const;
-  /// `advance` and `advance_in_train` of `size` places of `each` variables.
-  virtual void advance_all(std::size_t size, const double* velocity, double time, std::size_t each,
-                           double* memory) const;
-  virtual void advance_in_trains(std::size_t size, const double* mean, const double* typical, double time,
-                                 std::size_t each, double* memory) const;
-
-  /// Sets a place's variables at t = 0, where nothing has slipped.
-  virtual void start(std::span<double> memory) const;
-  /// Changes them over a time in which the place slips at a constant velocity.
-  virtual void advance(double velocity, double time, std::span<double> memory) const;
-  /// The same over a time in which many dislocations of a train pass, of the given mean velocity; the logarithm of
-  /// their velocity has over slip the mean ln `typical` (which is a sinh |phi| e^psi).
-  virtual void advance_in_train(double mean, double typical, double time, std::span<double> memory) const;
+ private:
+  ForceFacts facts_;
+  ForceLoops loops_{*this};
+  QuadratureAverage average_{*this};
 };
 
 /// What is known of a law before its numbers are.
 struct Definition {
   std::string_view name;       ///< of friction.law in a scenario
-  std::string_view adjective;  ///< stands before "friction" in a sentence
+  std::string_view adjective;  ///< precedes "friction" in a sentence
   std::string_view equation;
   std::string_view source;
   std::vector<Parameter> parameters = {};
-  std::vector<Variable> variables = {};
+  std::vector<StateVariable> state = {};
   CurveSource curve = CurveSource::none;
   /// From the parameters' values, in their order, and the curve if the law takes one.
   std::shared_ptr<const Law> (*make)(const std::vector<double>& values, const Curve& curve);
@@ -162,6 +222,15 @@ struct Definition {
   /// Null if the law has no such parameter.
   const Parameter* find(std::string_view parameter) const;
 };
+
+/// Definition::make for a law whose constructor takes the values, or the values and the curve.
+template <class L>
+std::shared_ptr<const Law> make_law(const std::vector<double>& values, const Curve& curve) {
+  if constexpr (std::is_constructible_v<L, const std::vector<double>&, const Curve&>)
+    return std::make_shared<L>(values, curve);
+  else
+    return std::make_shared<L>(values);
+}
 
 /// All laws that a scenario can name.
 const std::vector<const Definition*>& laws();

@@ -17,8 +17,8 @@ std::size_t folded(const Problem& p, long j) {
 
 std::vector<std::string_view> state_names(const Problem& p) {
   std::vector<std::string_view> names;
-  for (const friction::Variable& variable : p.friction.definition().variables) names.push_back(variable.name);
-  if (p.friction.contacts().act()) names.insert(names.end(), {"excess_pressure", "earlier_contact"});
+  for (const friction::StateVariable& variable : p.friction.definition().state) names.push_back(variable.name);
+  if (p.friction.changes_contacts()) names.insert(names.end(), {"excess_pressure", "earlier_contact"});
   return names;
 }
 
@@ -36,7 +36,7 @@ ContactField::ContactField(const Problem& p, long first, const std::vector<doubl
   // The contacts at t = 0 follow from the state by the same operations as later ones: a run that resumes from there has
   // nothing else to compute them from.
   std::vector<double> theta(p.grid.sites);
-  for (double& age : theta) p.friction.law().start({&age, 1});
+  for (double& age : theta) p.friction.evolution().start({&age, 1});
   advance(0, 0, theta, theta);
   std::copy_n(next_.begin() - first_, sites_, now_.begin() - first_);
   before_ = now_;

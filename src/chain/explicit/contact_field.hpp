@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "friction/state/contacts.hpp"
 #include "slipfront/chain/problem.hpp"
 
 namespace slipfront::chain {

@@ -15,7 +15,7 @@ constexpr std::size_t together = 64;  ///< sites that friction's loops take at o
 /// a(x)^2 on sites [first, last); none where it is 1.
 std::vector<double> a2_of(const Problem& p, long first, long last) {
   std::vector<double> a2;
-  const bool changes = p.friction.contacts().act();
+  const bool changes = p.friction.changes_contacts();
   if (!p.contact && !changes) return a2;
   for (long j = first; j < last; ++j) {
     const double a = p.contact ? p.contact(p.grid.x(folded(p, j))) : 1;
@@ -35,12 +35,12 @@ Forces::Forces(const Problem& problem, const Scheme& scheme, long level, std::si
       first_(static_cast<long>(begin) - static_cast<long>(margin)),
       last_(static_cast<long>(end + margin)),
       nonlinear_(problem.friction.acts() && !problem.friction.linear_coefficient()),
-      variables_(problem.friction.variables()),
+      variables_(problem.friction.state_size()),
       state_(variables_ * problem.grid.sites),
       a2_(a2_of(problem_, first_, last_)),
       contacts_(problem_, first_, a2_) {
   for (std::size_t j = 0; j < state_.size(); j += variables_)
-    problem_.friction.law().start(std::span(state_).subspan(j, variables_));
+    problem_.friction.evolution().start(std::span(state_).subspan(j, variables_));
   if (problem_.forcing) {
     F_now_.resize(at(last_));
     evaluate_forcing(problem_.steady_forcing ? 0 : level_, F_now_);
@@ -76,8 +76,8 @@ void Forces::age(long first, std::size_t size, const double* now, const double* 
       age_contacts(first + static_cast<long>(j), some, velocity);
       continue;
     }
-    problem_.friction.law().advance_all(some, velocity, dt_, variables_,
-                                        state_.data() + variables_ * (static_cast<std::size_t>(first) + j));
+    problem_.friction.evolution().advance_all(some, friction::Slips::at(velocity), dt_, variables_,
+                                              state_.data() + variables_ * (static_cast<std::size_t>(first) + j));
   }
 }
 
@@ -85,7 +85,7 @@ void Forces::age_contacts(long first, std::size_t size, const double* velocity) 
   double before[together];
   double* const theta = state_.data() + static_cast<std::size_t>(first);
   std::copy_n(theta, size, before);
-  problem_.friction.law().advance_all(size, velocity, dt_, variables_, theta);
+  problem_.friction.evolution().advance_all(size, friction::Slips::at(velocity), dt_, variables_, theta);
   contacts_.advance(first, dt_, {before, size}, {theta, size});
 }
 
@@ -164,7 +164,7 @@ void Forces::level(const EndConditions& ends, long offset, std::size_t size, con
 void Forces::add_friction(long offset, std::size_t begin, std::size_t end, const double* before, const double* now,
                           double* next, double* applied) const {
   const friction::Friction& f = problem_.friction;
-  if (const auto strength = f.law().constant_strength()) {
+  if (const auto strength = f.constant_strength()) {
     shorten_steps(dt_ * dt_ * *strength / turn, now + begin, next + begin, end - begin);
     return;
   }
@@ -184,16 +184,16 @@ void Forces::add_friction(long offset, std::size_t begin, std::size_t end, const
       continue;
     }
     const long site = offset + static_cast<long>(j);
-    const friction::Memories state = states_from(site, some, room);
+    const friction::LocalStates states = states_from(site, some, room);
     if (contacts_.have_pressure())
-      f.law().speeds_after_under(some, contacts_.share(site), free, weight, state, speed);
+      f.loops().speeds_after_under(some, contacts_.share(site), free, weight, states, speed);
     else
-      f.law().speeds_after(some, free, weight, state, speed);
+      f.loops().speeds_after(some, free, weight, states, speed);
     take_speeds(turn / time, 1 / weight, from, free, speed, next + j, force, some);
   }
 }
 
-friction::Memories Forces::states_from(long j, std::size_t size, std::vector<double>& room) const {
+friction::LocalStates Forces::states_from(long j, std::size_t size, std::vector<double>& room) const {
   if (variables_ == 0) return {};
   const long end = j + static_cast<long>(size);
   if (j >= 0 && end <= static_cast<long>(problem_.grid.sites))
@@ -210,7 +210,7 @@ double Forces::work_of_friction(long j, std::size_t size, const double* D, const
   for (std::size_t at = 0; at < size; at += together) {
     const std::size_t some = std::min(together, size - at);
     for (std::size_t i = 0; i < some; ++i) speed[i] = std::fabs(D[at + i]) / dt_;
-    problem_.friction.law().strengths(some, speed, states_from(j + static_cast<long>(at), some, room), force);
+    problem_.friction.loops().strengths(some, speed, states_from(j + static_cast<long>(at), some, room), force);
     sum += dt_ * sum_of_products(force, speed, some);
   }
   return sum;

@@ -69,8 +69,8 @@ class Forces {
                   double* D, double* B, double* u_next, double* S) const;
 
  private:
-  friction::Memory state(long j) const {
-    return variables_ == 0 ? friction::Memory{} : friction::Memory{state_of(j), variables_};
+  friction::LocalState state(long j) const {
+    return variables_ == 0 ? friction::LocalState{} : friction::LocalState{state_of(j), variables_};
   }
   const double* state_of(long j) const;
   std::size_t at(long j) const { return static_cast<std::size_t>(j - first_); }
@@ -80,8 +80,8 @@ class Forces {
   void add_friction(long offset, std::size_t begin, std::size_t end, const double* before, const double* now,
                     double* next, double* applied) const;
   void age_contacts(long first, std::size_t size, const double* velocity);
-  /// The state variables of `size` sites from site j on; those of sites past an end in `room`.
-  friction::Memories states_from(long j, std::size_t size, std::vector<double>& room) const;
+  /// The states of `size` sites from site j on; those past an end are copied into `room`.
+  friction::LocalStates states_from(long j, std::size_t size, std::vector<double>& room) const;
 
   Problem problem_;
   Scheme scheme_;

@@ -93,7 +93,7 @@ void Share::check_execution() const {
   if (execution_.threads < 1)
     throw InputError(
         {.key = "threads", .value = std::to_string(execution_.threads), .problem = "out of range", .allowed = ">= 1"});
-  if (ranks_.size() > 1 && problem_.friction.variables() > 0)
+  if (ranks_.size() > 1 && problem_.friction.state_size() > 0)
     refuse_ranks(ranks_, "friction.law = \"" + std::string(problem_.friction.name()) + "\" has variables at each site",
                  "1 rank, with as many threads as wanted");
   if (static_cast<std::size_t>(ranks_.size()) > blocks_.count)

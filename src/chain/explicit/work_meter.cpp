@@ -46,7 +46,7 @@ void WorkMeter::add(const Forces& forces, std::size_t begin, std::size_t end, co
   if (const auto C = friction.linear_coefficient()) {
     add_to_blocks(begin, end, 1, *C / dt_,
                   [=](std::size_t at, std::size_t size) { return work_of_viscous_friction(D + at, B + at, size); });
-  } else if (const auto f = friction.law().constant_strength()) {
+  } else if (const auto f = friction.constant_strength()) {
     add_to_blocks(begin, end, 1, *f,
                   [=](std::size_t at, std::size_t size) { return work_of_coulomb_friction(D + at, size); });
   } else {

@@ -36,7 +36,7 @@ class WorkMeter {
 
   /// Kinds of energy that are metered: supplied by the forcing, dissipated by friction, and where contacts change what
   /// they give to the substrate.
-  static std::size_t kinds(const Problem& problem) { return problem.friction.contacts().act() ? 3 : 2; }
+  static std::size_t kinds(const Problem& problem) { return problem.friction.changes_contacts() ? 3 : 2; }
   /// That of each block of this rank, one after the other.
   std::vector<double> sums;
 

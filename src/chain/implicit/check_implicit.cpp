@@ -6,6 +6,7 @@
 
 #include "foundation/ranks.hpp"
 #include "foundation/text/digits.hpp"
+#include "friction/state/contacts.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::chain {

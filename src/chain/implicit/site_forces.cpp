@@ -10,7 +10,7 @@ namespace slipfront::chain {
 
 SiteForces::SiteForces(const Problem& p, Moment& now)
     : problem_(p),
-      variables_(p.friction.variables()),
+      variables_(p.friction.state_size()),
       rubs_(p.friction.acts()),
       springs_(p, now.u),
       all_contact_(p.substrate ? 1 : 0),
@@ -18,7 +18,7 @@ SiteForces::SiteForces(const Problem& p, Moment& now)
       first_u_(now.u) {
   now.state.resize(variables_ * sites());
   for (std::size_t j = 0; j < now.state.size(); j += variables_)
-    p.friction.law().start(std::span(now.state).subspan(j, variables_));
+    p.friction.evolution().start(std::span(now.state).subspan(j, variables_));
   start_contacts(now);
 }
 
@@ -45,7 +45,8 @@ double SiteForces::forcing(const Moment& m, std::size_t j) const {
 }
 
 double SiteForces::friction(const Moment& m, std::size_t j, double velocity) const {
-  const double force = problem_.friction.force(velocity, friction::Memory(m.state).subspan(variables_ * j, variables_));
+  const double force =
+      problem_.friction.force(velocity, friction::LocalState(m.state).subspan(variables_ * j, variables_));
   return contacts_.act() ? effective_stress(m, j) * force : force;
 }
 
@@ -64,7 +65,7 @@ std::span<const double> SiteForces::evolved(const Moment& m, std::size_t j, doub
   const std::span<double> state(values.data(), variables_);
   if (variables_ == 0) return state;
   std::copy_n(&m.state[variables_ * j], variables_, values.begin());
-  problem_.friction.law().advance(p, time, state);
+  problem_.friction.evolution().advance(friction::Slip::at(p), time, state);
   return state;
 }
 

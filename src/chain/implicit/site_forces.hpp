@@ -8,6 +8,7 @@
 
 #include "chain/implicit/compact_springs.hpp"
 #include "chain/implicit/moment.hpp"
+#include "friction/state/contacts.hpp"
 #include "slipfront/chain/problem.hpp"
 
 namespace slipfront::chain {

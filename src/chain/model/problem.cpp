@@ -33,7 +33,7 @@ double largest_contact(const Problem& p) {
 /// Nothing changes the train outside an absorbing end.
 void check_ends(const Problem& p) {
   const Boundary& ends = p.boundary;
-  if (!p.friction.contacts().act() || ends.periodic) return;
+  if (!p.friction.changes_contacts() || ends.periodic) return;
   for (const auto& [end, key] : {std::pair{ends.left, "chain.left"}, {ends.right, "chain.right"}})
     if (end == End::absorbing)
       throw InputError({.key = key,
@@ -71,9 +71,9 @@ double chosen_step(const Problem& p) { return p.step > 0 ? p.step : chosen(p, la
 double memory_needed(const Problem& p) {
   // Two levels, and a displacement to start from; where not plain also contact, three levels of forcing and the
   // displacement at the last level; where contacts change theta, pressure and five numbers of the contact.
-  const double columns = plain(p) ? 3 : p.friction.contacts().act() ? 15 : 8;
+  const double columns = plain(p) ? 3 : p.friction.changes_contacts() ? 15 : 8;
   // Implicit steps hold the motion at three times, a step that is tried, and a matrix.
-  const double by_implicit = p.implicit ? 40 + 3 * static_cast<double>(p.friction.variables()) : 0;
+  const double by_implicit = p.implicit ? 40 + 3 * static_cast<double>(p.friction.state_size()) : 0;
   return static_cast<double>(p.grid.sites) * 8 * (columns + by_implicit);
 }
 

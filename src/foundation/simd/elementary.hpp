@@ -9,6 +9,9 @@
 /// 70), also for tiny arguments.
 namespace slipfront {
 
+inline double at_least(double x, double least) { return x > least ? x : least; }
+inline double at_most(double x, double most) { return x < most ? x : most; }
+
 /// c_k + c_k+1 x + ...
 template <std::size_t k = 0, class Real, std::size_t terms>
 inline Real polynomial(const Real (&c)[terms], Real x) {

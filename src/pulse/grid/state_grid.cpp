@@ -9,10 +9,10 @@ namespace slipfront::pulse {
 Places::Places(const friction::Friction& friction, double left, double right, std::size_t count)
     : left_(left),
       spacing_((right - left) / static_cast<double>(count)),
-      variables_(friction.variables()),
+      variables_(friction.state_size()),
       values_(variables_ * count) {
   for (std::size_t j = 0; j < values_.size(); j += variables_)
-    friction.law().start(std::span(values_).subspan(j, variables_));
+    friction.evolution().start(std::span(values_).subspan(j, variables_));
 }
 
 Places::Passing Places::passing(const std::vector<double>& x, const Passing& there) const {
@@ -30,8 +30,8 @@ Places::Passing Places::passing(const std::vector<double>& x, const Passing& the
   return here;
 }
 
-void Places::advance(const friction::Law& law, const Passing& passing, double time) {
-  law.advance_in_trains(passing.mean.size(), passing.mean.data(), passing.typical.data(), time, variables_,
+void Places::advance(const friction::StateEvolution& evolution, const Passing& passing, double time) {
+  evolution.advance_all(passing.mean.size(), {passing.mean.data(), passing.typical.data()}, time, variables_,
                         values_.data());
 }
 

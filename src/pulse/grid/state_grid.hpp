@@ -25,7 +25,7 @@ class Places {
   /// From what passes at x[i], which rise; nothing outside.
   Passing passing(const std::vector<double>& x, const Passing& there) const;
   /// Changes the memory over a time in which the same passes all along.
-  void advance(const friction::Law& law, const Passing& passing, double time);
+  void advance(const friction::StateEvolution& evolution, const Passing& passing, double time);
   /// The memory at each of `size` x, between two places; that of the last one outside.
   void look_up(std::size_t size, const double* x, double* memory) const;
 

@@ -163,8 +163,8 @@ double Semidiscrete::friction_rate_of_fastest() const {
   double slip = 0, force = 0;
   fastest_slip(1, &centres_.train.phi[fastest], &centres_.train.psi[fastest], &slip);
   if (setup_.contact) slip *= centres_.contact[fastest];
-  setup_.friction.law().mean_strengths({1, &slip, &centres_.train.s[fastest]}, setup_.friction.closure(), &force,
-                                       nullptr);
+  setup_.friction.average().mean_strengths({1, &slip, &centres_.train.s[fastest]}, setup_.friction.closure(), &force,
+                                           nullptr);
   return modulation::force_per_dislocation(force) / std::fabs(momentum[fastest]);
 }
 
@@ -188,8 +188,8 @@ double Semidiscrete::mean_friction_rate() const {
   }
   if (slip.empty()) return friction_rate_of_fastest();
   std::vector<double> force(slip.size());
-  setup_.friction.law().mean_strengths({slip.size(), slip.data(), s.data()}, setup_.friction.closure(), force.data(),
-                                       nullptr);
+  setup_.friction.average().mean_strengths({slip.size(), slip.data(), s.data()}, setup_.friction.closure(),
+                                           force.data(), nullptr);
   double taken = 0;
   for (std::size_t j = 0; j < force.size(); ++j) taken += 2 * pi * charge[j] * force[j];
   return taken / momentum;

@@ -132,7 +132,7 @@ void Semidiscrete::find_rates() {
     }
     return;
   }
-  if (f.law().tabulates_rate()) {
+  if (relaxation_rate_->tabulated()) {
     for (std::size_t i = 0; i < size(); ++i) {
       if (gap(i)) continue;
       const State state{centres_.train.phi[i], centres_.train.psi[i]};
@@ -181,8 +181,8 @@ void Semidiscrete::find_strengths() {
     o.shape[count] = s;
     o.cell[count++] = i;
   }
-  f.law().mean_strengths({count, o.fastest.data(), o.shape.data()}, f.closure(), o.mean.data(), nullptr);
-  f.law().strengths(size() - rounded, o.shape.data() + rounded, {}, o.mean.data() + rounded);
+  f.average().mean_strengths({count, o.fastest.data(), o.shape.data()}, f.closure(), o.mean.data(), nullptr);
+  f.loops().strengths(size() - rounded, o.shape.data() + rounded, {}, o.mean.data() + rounded);
   for (std::size_t j = 0; j < count; ++j) o.friction_strength[o.cell[j]] = o.mean[j];
   for (std::size_t j = rounded; j < size(); ++j) o.friction_strength[o.cell[j]] = o.mean[j];
 }

@@ -143,11 +143,11 @@ void Staggered::find_loss_rates() {
   find_trains(
       {faces(), sinh_phi_.data(), psi_.data(), face_a_.data(), fastest_.data(), s_.data(), per_momentum_.data()},
       creep());
-  if (friction.law().tabulates_rate()) {
+  if (relaxation_rate_->tabulated()) {
     relaxation_rate_->rates(faces(), fastest_.data(), psi_.data(), loss_rate_.data());
     return;
   }
-  friction.law().mean_strengths({faces(), fastest_.data(), s_.data()}, friction.closure(), mean_.data(), nullptr);
+  friction.average().mean_strengths({faces(), fastest_.data(), s_.data()}, friction.closure(), mean_.data(), nullptr);
   for (std::size_t f = 0; f < faces(); ++f) {
     if (std::isnan(per_momentum_[f])) per_momentum_[f] = pi / (2 * fastest_[f] * elliptic::at_psi(psi_[f]).E);
     loss_rate_[f] = per_momentum_[f] * mean_[f];

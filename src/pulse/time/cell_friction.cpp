@@ -40,7 +40,7 @@ Places::Passing between(const Places::Passing& from, const Places::Passing& to, 
 }  // namespace
 
 CellFriction::CellFriction(const Problem& problem, std::size_t cells)
-    : problem_(problem), solve_(problem.friction, cells), memory_(cells * problem.friction.variables()) {
+    : problem_(problem), solve_(problem.friction, cells), memory_(cells * problem.friction.state_size()) {
   for (auto* array : {&charge_, &x_, &contact_, &start_, &start_s_, &start_typical_, &start_momentum_, &start_force_,
                       &s_, &momentum_, &velocity_, &typical_, &force_, &slope_, &start_slope_})
     array->resize(cells);
@@ -90,14 +90,13 @@ Places::Passing CellFriction::passing(const Cells& cells) const {
 }
 
 void CellFriction::take_memory(const Places& places, double dt) {
-  const friction::Law& law = problem_.friction.law();
   const std::size_t first = awake_.begin, count = awake_.end - first;
   for (std::size_t i = first; i < awake_.end; ++i) middle_[i] = x_[i] + start_[i] * dt / 2;
   double* memory = memory_.data() + first * variables();
   places.look_up(count, middle_.data() + first, memory);
   std::fill(held_.begin(), held_.end(), 0.0);
   if (problem_.friction.sticks())
-    law.strengths(count, held_.data(), {memory, variables()}, strength_at_rest_.data() + first);
+    problem_.friction.loops().strengths(count, held_.data(), {memory, variables()}, strength_at_rest_.data() + first);
 }
 
 void CellFriction::operator()(const double* y, const double* free, double time, double* momentum, double* velocity) {
@@ -146,7 +145,7 @@ void CellFriction::find_forces(const std::vector<double>& s, std::size_t stride)
     std::copy_n(memory_.data() + i * each, each, slipping_memory_.data() + count * each);
     ++count;
   }
-  problem_.friction.law().mean_strengths(
+  problem_.friction.average().mean_strengths(
       {count, slipping_fastest_.data(), slipping_s_.data(), {slipping_memory_.data(), each}},
       problem_.friction.closure(), slipping_force_.data(), slipping_slope_.data());
   for (std::size_t j = 0; j < count; ++j) {
@@ -179,8 +178,8 @@ Places Solver::places() const {
 }
 
 double Solver::step_by_parts(MemoryStep& work, const std::vector<double>& rate, double remaining, double crossing) {
-  const friction::Law& law = problem_.friction.law();
-  const bool remembers = problem_.friction.variables() > 0;
+  const friction::StateEvolution& evolution = problem_.friction.evolution();
+  const bool remembers = problem_.friction.state_size() > 0;
   if (!cells_.face_momentum.empty()) {
     cells_.face_momentum.clear();
     cells_.step = 0;
@@ -203,7 +202,7 @@ double Solver::step_by_parts(MemoryStep& work, const std::vector<double>& rate, 
     double factor = 0.5;
     try {
       Places half = now, better = now, after = now;
-      if (remembers) half.advance(law, at_start, dt / 2);
+      if (remembers) half.advance(evolution, at_start, dt / 2);
       friction.take_memory(half, dt);
       work.split(f, slow, cells_.time, dt, cells_.unknowns, rate);
       double of_memory = 0;
@@ -211,8 +210,8 @@ double Solver::step_by_parts(MemoryStep& work, const std::vector<double>& rate, 
         find_centres(cells_, x);
         const Places::Passing at_end = now.passing(x, friction.passing(cells_));
         friction.foretell(work.foretold);
-        better.advance(law, between(at_start, at_end, 0.25), dt / 2);
-        after.advance(law, between(at_start, at_end, 0.5), dt);
+        better.advance(evolution, between(at_start, at_end, 0.25), dt / 2);
+        after.advance(evolution, between(at_start, at_end, 0.5), dt);
         friction.take_memory(better, dt);
         of_memory = friction.memory_error(work.foretold, dt, work.scale);
       }

@@ -34,7 +34,7 @@ class CellFriction {
   void restart();
 
  private:
-  std::size_t variables() const { return problem_.friction.variables(); }
+  std::size_t variables() const { return problem_.friction.state_size(); }
   double contact(std::size_t cell) const { return problem_.contact ? problem_.contact(x_[cell]) : 1; }
   void find_forces(const std::vector<double>& s, std::size_t stride = 1);
 

@@ -62,7 +62,7 @@ SlowedTrain::Left SlowedTrain::after(double free, double time) const {
 }
 
 SlowedTrains::SlowedTrains(const friction::Friction& friction, std::size_t most)
-    : friction_(friction), variables_(friction.variables()), memory_((most + lanes) * friction.variables()) {
+    : friction_(friction), variables_(friction.state_size()), memory_((most + lanes) * friction.state_size()) {
   states_.resize(most + lanes);  // room for whole vectors
   cell_.resize(most + lanes);
   for (auto* array : {&contact_, &free_, &momentum_, &fastest_, &force_, &slope_, &next_, &velocity_, &typical_,
@@ -87,8 +87,8 @@ void SlowedTrains::evaluate() {
   for (std::size_t i = 0; i < size; ++i) states_.momentum[i] = momentum_[i] / contact_[i];
   states_.solve_slip(size, fastest_.data());
   for (std::size_t i = 0; i < size; ++i) fastest_[i] = states_.solved(i) ? contact_[i] * fastest_[i] : 1;
-  friction_.law().mean_strengths({size, fastest_.data(), states_.s.data(), {memory_.data(), variables_}},
-                                 friction_.closure(), force_.data(), slope_.data());
+  friction_.average().mean_strengths({size, fastest_.data(), states_.s.data(), {memory_.data(), variables_}},
+                                     friction_.closure(), force_.data(), slope_.data());
 }
 
 SlowedTrain::Left SlowedTrains::solve_alone(std::size_t i, double time) const {

@@ -13,8 +13,8 @@ struct SlowedTrain {
   const friction::Friction& friction;
   double spacing;
   double contact;
-  friction::Memory memory;  ///< of the places that it lies over
-  double psi_guess;         ///< near that of the train
+  friction::LocalState memory;  ///< of the places that it lies over
+  double psi_guess;             ///< near that of the train
 
   struct Left {
     double momentum, velocity;

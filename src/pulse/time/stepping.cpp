@@ -189,14 +189,14 @@ bool Solver::steep() const {
 /// Whether steps take friction cell by cell: where it remembers, or is steep at rest.
 bool Solver::steps_by_parts() const {
   const friction::Friction& f = problem_.friction;
-  return f.variables() > 0 || (steep() && !problem_.periodic);
+  return f.state_size() > 0 || (steep() && !problem_.periodic);
 }
 
 /// Of the dislocations that count, at which friction takes their momentum: those that are fastest, or all but at rest
 /// those on which most force acts, at the velocity that friction allows them. By the closure of the paper friction
 /// hardly slows a dilute train, and the fastest dislocations are a few at a free edge: there it is the mean of all.
 double Solver::friction_rate_by_parts() const {
-  if (problem_.friction.variables() > 0) return 0;  // steps by parts are all there are
+  if (problem_.friction.state_size() > 0) return 0;  // steps by parts are all there are
   const bool consistent = problem_.friction.closure() == friction::Closure::consistent;
   const double rate = consistent ? equations_->friction_rate_of_fastest() : equations_->mean_friction_rate();
   if (rate > 0) return rate;

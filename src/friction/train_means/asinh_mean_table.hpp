@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "friction/chebyshev_patch.hpp"
+#include "friction/train_means/chebyshev_patch.hpp"
 
 namespace slipfront::friction {
 

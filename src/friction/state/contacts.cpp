@@ -1,4 +1,4 @@
-#include "slipfront/friction/contacts.hpp"
+#include "friction/state/contacts.hpp"
 
 #include <cmath>
 
@@ -21,9 +21,9 @@ struct PressureRule {
   }
 };
 
-SLIPFRONT_CLONES void advance_places(const Contacts& contacts, const PressureRule& rule, std::size_t size,
-                                     const double* theta_before, const double* theta, double* excess,
-                                     double* strength) {
+SLIPFRONT_CLONES void advance_positions(const Contacts& contacts, const PressureRule& rule, std::size_t size,
+                                        const double* theta_before, const double* theta, double* excess,
+                                        double* strength) {
   const PressureRule r = rule;
   const double beta = contacts.ageing, per_age = beta > 0 ? 1 / contacts.age : 0, ambient = contacts.ambient;
   SLIPFRONT_INDEPENDENT
@@ -48,7 +48,7 @@ double Contacts::excess_after(double time, double excess, double theta_before, d
 
 void Contacts::advance(std::size_t size, double time, const double* theta_before, const double* theta, double* excess,
                        double* strength) const {
-  advance_places(*this, PressureRule(*this, time), size, theta_before, theta, excess, strength);
+  advance_positions(*this, PressureRule(*this, time), size, theta_before, theta, excess, strength);
 }
 
 }  // namespace slipfront::friction

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstring>
 
-#include "friction/chebyshev.hpp"
+#include "friction/train_means/chebyshev.hpp"
 
 namespace slipfront::friction {
 

@@ -5,9 +5,8 @@
 
 #include "foundation/simd/elementary.hpp"
 #include "foundation/simd/vector_code.hpp"
-#include "friction/mean_table.hpp"
+#include "friction/train_means/tabulated_average.hpp"
 #include "slipfront/elliptic/complete.hpp"
-#include "slipfront/friction/friction.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::friction {
@@ -15,12 +14,10 @@ namespace {
 
 using std::numbers::pi;
 
-/// <sigma^n> over a period: (2 beta)^n / K times the integral of dn^(n-1) over the amplitude from 0 to pi/2. Periodic
-/// and smooth in it, so the trapezoidal rule would do for dense trains; towards the empty limit dn^(n-1) becomes
-/// cos^(n-1), and the substitution amplitude = gd(y) turns both ends into decaying tails.
+/// The integral of dn^(n-1) over the amplitude from 0 to pi / 2, of which <sigma^n> is (2 beta)^n / K. With
+/// amplitude = gd(y), dn^2 = sech^2 y + s^2 tanh^2 y, and the sum is that of mean_over_train without its weights. The
+/// integrand has no singularity within pi / 2 of the real axis: the error is some exp(-pi^2 / h).
 double integral_of_power(const elliptic::AtPsi& at, double n) {
-  // amplitude = gd(y): cos = sech y, d(amplitude) = sech y dy, dn^2 = sech^2 y + m1 tanh^2 y
-  // The integrand has no singularity within pi / 2 of the real axis: the error is some exp(-pi^2 / h).
   constexpr double end = 40, h = 0.25;
   double sum = 0;
   for (int i = 0; i * h <= end; ++i) {
@@ -32,9 +29,9 @@ double integral_of_power(const elliptic::AtPsi& at, double n) {
 }
 
 /// <sigma^n>.
-double mean_power(const State& state, double n) {
-  const elliptic::AtPsi at = elliptic::at_psi(state.psi);
-  const double two_beta = 2 * std::cosh(state.phi) * std::cosh(state.psi);
+double mean_power(const State& train, double n) {
+  const elliptic::AtPsi at = elliptic::at_psi(train.psi);
+  const double two_beta = 2 * std::cosh(train.phi) * std::cosh(train.psi);
   return std::pow(two_beta, n) / at.K * integral_of_power(at, n);
 }
 
@@ -44,13 +41,14 @@ class PowerRate final : public RelaxationRate {
  public:
   PowerRate(double coefficient, double exponent, Closure closure) : C_(coefficient), n_(exponent), closure_(closure) {}
 
-  double operator()(const State& state, double contact, Memory) const override {
-    if (C_ == 0 || state.empty() || state.phi == 0) return 0;
-    const double fastest = 2 * std::sinh(std::fabs(state.phi)) * std::cosh(state.psi);
-    const double rate = C_ * std::pow(fastest, n_ - 1) * shape(state.psi, std::log(state.psi));
+  double operator()(const State& train, double contact, LocalState) const override {
+    if (C_ == 0 || train.empty() || train.phi == 0) return 0;
+    const double fastest = 2 * std::sinh(std::fabs(train.phi)) * std::cosh(train.psi);
+    const double rate = C_ * std::pow(fastest, n_ - 1) * shape(train.psi, std::log(train.psi));
     return contact == 1 ? rate : rate * std::pow(contact, n_ - 1);  // <|w|^n sigma> over P, w in units of a
   }
   void rates(std::size_t size, const double* fastest, const double* psi, double* rate) const override;
+  bool tabulated() const override { return true; }
 
  private:
   static constexpr double per_unit = 32, least_log = -700, most_psi = 20;  // nodes per unit of ln psi
@@ -122,47 +120,67 @@ void PowerRate::rates(std::size_t size, const double* fastest, const double* psi
   }
 }
 
-class Power final : public Law {
+class PowerLoops final : public ForceLoops {
  public:
-  Power(double coefficient, double exponent) : C_(coefficient), n_(exponent) {}
-  double strength(double speed, Memory) const override { return C_ * std::pow(speed, n_); }
-  void strengths(std::size_t size, const double* speed, Memories memory, double* force) const override {
+  PowerLoops(const Law& law, double coefficient, double exponent) : ForceLoops(law), C_(coefficient), n_(exponent) {}
+  void strengths(std::size_t size, const double* speed, LocalStates states, double* force) const override {
     forces(C_, n_, size, speed, force);
     for (std::size_t i = 0; i < size; ++i)
-      if (std::isnan(force[i])) force[i] = strength(speed[i], memory.of(i));
-  }
-  bool steep_at_rest() const override { return n_ < 1; }
-
-  /// v + s v^n = free is monotone. Newton in ln v from above is monotone too: v + s v^n is convex in ln v.
-  double speed_after(double free, double weight, Memory) const override {
-    const double s = weight * C_;
-    if (free == 0 || s == 0) return free;
-    double v = std::fmin(free, std::pow(free / s, 1 / n_));
-    if (v == 0) return 0;  // below what a double holds
-    for (int i = 0; i < 60; ++i) {
-      const double drag = s * std::pow(v, n_), step = (v + drag - free) / (v + n_ * drag);
-      v *= std::exp(-step);
-      if (std::fabs(step) < 1e-8) break;  // what is left is of the order of its square
-    }
-    return v;
+      if (std::isnan(force[i])) force[i] = law_.strength(speed[i], states.at(i));
   }
 
-  double mean_strength(const State& state, double contact, Closure closure, Memory) const override {
-    const double speed = std::pow(contact * std::fabs(std::tanh(state.phi)), n_);
-    if (closure == Closure::paper) return C_ * speed * mean_power(state, n_);
-    return C_ * speed * mean_power(state, n_ + 1) / train::averages(state).k;
-  }
-  void mean_strengths(const Trains& trains, Closure closure, double* mean, double* slope) const override {
-    means_.look_up(trains, closure, mean, slope);
+ private:
+  double C_, n_;
+};
+
+class PowerAverage final : public TabulatedAverage {
+ public:
+  PowerAverage(const Law& law, double coefficient, double exponent)
+      : TabulatedAverage(law), C_(coefficient), n_(exponent) {}
+  double mean_strength(const State& train, double contact, Closure closure, LocalState) const override {
+    const double speed = std::pow(contact * std::fabs(std::tanh(train.phi)), n_);
+    if (closure == Closure::paper) return C_ * speed * mean_power(train, n_);
+    return C_ * speed * mean_power(train, n_ + 1) / train::averages(train).k;
   }
   std::unique_ptr<RelaxationRate> relaxation_rate(Closure closure) const override {
     return std::make_unique<PowerRate>(C_, n_, closure);
   }
-  bool tabulates_rate() const override { return true; }
 
  private:
   double C_, n_;
-  MeanTable means_{*this};
+};
+
+class Power final : public Law {
+ public:
+  explicit Power(const std::vector<double>& values)
+      : Law({.steep_at_rest = values[1] < 1}),
+        C_(values[0]),
+        n_(values[1]),
+        loops_(*this, C_, n_),
+        average_(*this, C_, n_) {}
+  double strength(double speed, LocalState) const override { return C_ * std::pow(speed, n_); }
+
+  /// v + s v^n = free is monotone. Newton in ln v from above is monotone too: v + s v^n is convex in ln v.
+  double speed_after(double free, double weight, LocalState) const override {
+    const double s = weight * C_;
+    if (free == 0 || s == 0) return free;
+    double v = std::fmin(free, std::pow(free / s, 1 / n_));
+    if (v == 0) return 0;  // less than the smallest double
+    for (int i = 0; i < 60; ++i) {
+      const double drag = s * std::pow(v, n_), step = (v + drag - free) / (v + n_ * drag);
+      v *= std::exp(-step);
+      if (std::fabs(step) < 1e-8) break;  // the error left is of the order of its square
+    }
+    return v;
+  }
+
+  const ForceLoops& loops() const override { return loops_; }
+  const TrainAverage& average() const override { return average_; }
+
+ private:
+  double C_, n_;
+  PowerLoops loops_;
+  PowerAverage average_;
 };
 
 }  // namespace
@@ -175,14 +193,8 @@ const Definition& power_law() {
       .source = "docs/theory.md 3.3",
       .parameters = {coefficient_in("mu A^2 / (pi (1 - nu)) over the unit of w to the power n"),
                      {.name = "exponent", .symbol = "n", .unit = "1", .value = 1, .most = 20, .without_least = true}},
-      .make = [](const std::vector<double>& values, const Curve&) -> std::shared_ptr<const Law> {
-        return std::make_shared<Power>(values[0], values[1]);
-      }};
+      .make = make_law<Power>};
   return definition;
-}
-
-Friction power(double coefficient, double exponent, Closure closure) {
-  return {power_law(), {coefficient, exponent}, closure};
 }
 
 }  // namespace slipfront::friction

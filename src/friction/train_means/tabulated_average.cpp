@@ -1,4 +1,4 @@
-#include "friction/mean_table.hpp"
+#include "friction/train_means/tabulated_average.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "foundation/simd/elementary.hpp"
 #include "foundation/simd/vector_code.hpp"
-#include "friction/train_means.hpp"
+#include "friction/train_means/phase_nodes.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::friction {
@@ -19,16 +19,16 @@ constexpr std::size_t rows = 571, columns = 56;           ///< to ln(fastest) = 
 constexpr double slowest = 1e-60, fastest_of_all = 64, least_s = 1e-6, largest_s = 0.9999999;  ///< within them
 constexpr double precision = 2e-11;                                                            ///< of a mean
 
-/// Places in the table of at most `most` trains.
-struct Places {
+/// Positions in the table of at most `most` trains.
+struct Positions {
   static constexpr std::size_t most = PhaseNodes::most;
-  double row[most], column[most];  ///< -1 beyond the table
+  double row[most], column[most];  ///< -1 outside the table
   double x[most], y[most];         ///< -1 to 1 across the patch
   const ChebyshevPatch* patch[most];
   double mean[most], slope[most];
 };
 
-SLIPFRONT_CLONES void find_places(std::size_t size, const double* fastest, const double* s, Places& at) {
+SLIPFRONT_CLONES void find_positions(std::size_t size, const double* fastest, const double* s, Positions& at) {
   constexpr double per_side = 1 / side;
   SLIPFRONT_INDEPENDENT
   for (std::size_t i = 0; i < size; ++i) {
@@ -44,7 +44,7 @@ SLIPFRONT_CLONES void find_places(std::size_t size, const double* fastest, const
 }
 
 /// Train by train: gathering coefficients for many trains would take longer.
-SLIPFRONT_CLONES void interpolate_all(std::size_t size, Places& at) {
+SLIPFRONT_CLONES void interpolate_all(std::size_t size, Positions& at) {
   for (std::size_t i = 0; i < size; ++i) {
     const ValueAndSlope found = interpolate(*at.patch[i], at.x[i], at.y[i]);
     at.mean[i] = found.value;
@@ -54,14 +54,14 @@ SLIPFRONT_CLONES void interpolate_all(std::size_t size, Places& at) {
 
 /// Trains on a grid of speeds and s, by means_by_phase.
 template <std::size_t count, class Node>
-void means_at(const Law& law, std::size_t row, std::size_t column, const Node& node, double* mean) {
+void means_at(const ForceLoops& loops, std::size_t row, std::size_t column, const Node& node, double* mean) {
   double fastest[count], s[count];
   for (std::size_t i = 0; i < count; ++i) {
     const auto [x, y] = node(i);
     fastest[i] = std::exp(first_row + (static_cast<double>(row) + (1 + x) / 2) * side);
     s[i] = std::fmin(std::exp(first_column + (static_cast<double>(column) + (1 + y) / 2) * side), 1.0);
   }
-  means_by_phase(law, {count, fastest, s, {}}, Closure::consistent, mean);
+  means_by_phase(loops, {count, fastest, s, {}}, Closure::consistent, mean);
 }
 
 struct Node {
@@ -70,13 +70,13 @@ struct Node {
 
 }  // namespace
 
-MeanTable::Patch MeanTable::made(std::size_t row, std::size_t column) const {
+TabulatedAverage::Patch TabulatedAverage::made(std::size_t row, std::size_t column) const {
   using Fit = ChebyshevPatch::Fit;
   static const Fit through;
   Patch patch{};
   ChebyshevPatch::Values values;
   means_at<terms * terms>(
-      law_, row, column,
+      law_.loops(), row, column,
       [](std::size_t i) {
         return Node{Fit::extremum(i / terms), Fit::extremum(i % terms)};
       },
@@ -90,7 +90,7 @@ MeanTable::Patch MeanTable::made(std::size_t row, std::size_t column) const {
     return Node{x, i % 2 == 0 ? x : -x};
   };
   double mean[between];
-  means_at<between>(law_, row, column, node, mean);
+  means_at<between>(law_.loops(), row, column, node, mean);
   patch.good = true;
   for (std::size_t i = 0; i < between; ++i) {
     const double found = interpolate(patch.polynomial, node(i).x, node(i).y).value;
@@ -99,14 +99,14 @@ MeanTable::Patch MeanTable::made(std::size_t row, std::size_t column) const {
   return patch;
 }
 
-const ChebyshevPatch* MeanTable::good_patch(std::size_t row, std::size_t column) const {
+const ChebyshevPatch* TabulatedAverage::good_patch(std::size_t row, std::size_t column) const {
   const auto if_good = [](const Patch* known) { return known->good ? &known->polynomial : nullptr; };
   std::atomic<const Patch*>& place = patches_[row * columns + column];
   if (const Patch* known = place.load(std::memory_order_acquire)) return if_good(known);
   Patch found{};
   try {
     found = made(row, column);
-  } catch (const InputError&) {  // of a curve that ends: the word is that of the speeds which come
+  } catch (const InputError&) {  // the curve ends: quadrature reports the speed, if a train has it
     found.good = false;
   }
   const std::lock_guard<std::mutex> lock(making_);
@@ -115,15 +115,15 @@ const ChebyshevPatch* MeanTable::good_patch(std::size_t row, std::size_t column)
   return if_good(place.load(std::memory_order_relaxed));
 }
 
-void MeanTable::look_up(const Trains& trains, Closure closure, double* mean, double* slope) const {
-  if (closure != Closure::consistent) return law_.Law::mean_strengths(trains, closure, mean, slope);
+void TabulatedAverage::mean_strengths(const Trains& trains, Closure closure, double* mean, double* slope) const {
+  if (closure != Closure::consistent) return QuadratureAverage::mean_strengths(trains, closure, mean, slope);
   static constexpr ChebyshevPatch none{};
-  std::call_once(laid_, [this] { patches_ = std::vector<std::atomic<const Patch*>>(rows * columns); });
-  Places at;
+  std::call_once(once_, [this] { patches_ = std::vector<std::atomic<const Patch*>>(rows * columns); });
+  Positions at;
   std::vector<std::size_t> others;
-  for (std::size_t begin = 0; begin < trains.size; begin += Places::most) {
-    const std::size_t some = std::min(Places::most, trains.size - begin);
-    find_places(some, trains.fastest + begin, trains.s + begin, at);
+  for (std::size_t begin = 0; begin < trains.size; begin += Positions::most) {
+    const std::size_t some = std::min(Positions::most, trains.size - begin);
+    find_positions(some, trains.fastest + begin, trains.s + begin, at);
     for (std::size_t i = 0; i < some; ++i) {
       at.patch[i] = at.row[i] < 0
                         ? nullptr
@@ -142,8 +142,8 @@ void MeanTable::look_up(const Trains& trains, Closure closure, double* mean, dou
     fastest.push_back(trains.fastest[i]);
     s.push_back(trains.s[i]);
   }
-  law_.Law::mean_strengths({others.size(), fastest.data(), s.data(), {}}, Closure::consistent, means.data(),
-                           slope == nullptr ? nullptr : slopes.data());
+  QuadratureAverage::mean_strengths({others.size(), fastest.data(), s.data(), {}}, Closure::consistent, means.data(),
+                                    slope == nullptr ? nullptr : slopes.data());
   for (std::size_t i = 0; i < others.size(); ++i) {
     mean[others[i]] = means[i];
     if (slope != nullptr) slope[others[i]] = slopes[i];

@@ -1,10 +1,10 @@
-#include "friction/asinh_mean_table.hpp"
+#include "friction/train_means/asinh_mean_table.hpp"
 
 #include <algorithm>
 
 #include "foundation/simd/elementary.hpp"
 #include "foundation/simd/vector_code.hpp"
-#include "friction/train_means.hpp"
+#include "friction/train_means/phase_nodes.hpp"
 
 namespace slipfront::friction {
 namespace {
@@ -66,16 +66,16 @@ AsinhMeanTable::AsinhMeanTable() {
 
 namespace {
 
-/// Places in the table of at most `most` trains.
-struct PlacesInTable {
+/// Positions in the table of at most `most` trains.
+struct PositionsInTable {
   static constexpr std::size_t most = 64;
   double x_A[most], x_s[most];  ///< -1 to 1 within the patch
   int patch[most];
   double difference[most], by_A[most];  ///< what the table has there, and its slope
 };
 
-SLIPFRONT_CLONES void find_places(std::size_t size, std::size_t columns, double first_s, double first_A, double side,
-                                  const double* log_A, const double* s, PlacesInTable& at) {
+SLIPFRONT_CLONES void find_positions(std::size_t size, std::size_t columns, double first_s, double first_A, double side,
+                                     const double* log_A, const double* s, PositionsInTable& at) {
   const double per_side = 1 / side;
   SLIPFRONT_INDEPENDENT
   for (std::size_t i = 0; i < size; ++i) {
@@ -89,7 +89,7 @@ SLIPFRONT_CLONES void find_places(std::size_t size, std::size_t columns, double 
 }
 
 /// Train by train: gathering coefficients for many trains would take longer.
-SLIPFRONT_CLONES void interpolate_all(std::size_t size, const ChebyshevPatch* patches, PlacesInTable& at) {
+SLIPFRONT_CLONES void interpolate_all(std::size_t size, const ChebyshevPatch* patches, PositionsInTable& at) {
   for (std::size_t i = 0; i < size; ++i) {
     const ValueAndSlope found = interpolate(patches[at.patch[i]], at.x_A[i], at.x_s[i]);
     at.difference[i] = found.value;
@@ -98,7 +98,7 @@ SLIPFRONT_CLONES void interpolate_all(std::size_t size, const ChebyshevPatch* pa
 }
 
 SLIPFRONT_CLONES void add_to_asinh(std::size_t size, double first_A, double side, const double* A, const double* s,
-                                   const PlacesInTable& at, double* mean, double* slope) {
+                                   const PositionsInTable& at, double* mean, double* slope) {
   const double per_first = 1 / first_A, per_unit = 2 / side;
   SLIPFRONT_INDEPENDENT
   for (std::size_t i = 0; i < size; ++i) {
@@ -114,11 +114,11 @@ SLIPFRONT_CLONES void add_to_asinh(std::size_t size, double first_A, double side
 
 void AsinhMeanTable::look_up(std::size_t size, const double* log_A, const double* A, const double* s, double* mean,
                              double* slope) const {
-  constexpr std::size_t most = PlacesInTable::most;
-  PlacesInTable at;
+  constexpr std::size_t most = PositionsInTable::most;
+  PositionsInTable at;
   for (std::size_t begin = 0; begin < size; begin += most) {
     const std::size_t some = std::min(most, size - begin);
-    find_places(some, columns_, std::log(least_s), least_log_A, side, log_A + begin, s + begin, at);
+    find_positions(some, columns_, std::log(least_s), least_log_A, side, log_A + begin, s + begin, at);
     interpolate_all(some, patches_.data(), at);
     add_to_asinh(some, std::exp(least_log_A), side, A + begin, s + begin, at, mean + begin, slope + begin);
   }

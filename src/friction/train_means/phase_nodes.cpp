@@ -1,4 +1,4 @@
-#include "friction/train_means.hpp"
+#include "friction/train_means/phase_nodes.hpp"
 
 #include <algorithm>
 #include <array>
@@ -114,21 +114,21 @@ void PhaseNodes::node(std::size_t k, Closure closure, double* r, double* weight)
         k == 0 || k == steps_ ? 0.5 : 1.0, r, weight);
 }
 
-void means_by_phase(const Law& law, const Trains& trains, Closure closure, double* mean) {
+void means_by_phase(const ForceLoops& loops, const Trains& trains, Closure closure, double* mean) {
   constexpr std::size_t most = PhaseNodes::most;
   double r[most], weight[most], speed[most], force[most], weights[most];
   std::size_t size = 0;
   for (std::size_t begin = 0; begin < trains.size; begin += size) {
     const std::size_t kind = PhaseNodes::kind_of(trains.s[begin]), end = std::min(begin + most, trains.size);
     for (size = 1; begin + size < end && PhaseNodes::kind_of(trains.s[begin + size]) == kind;) ++size;
-    const Memories memory = trains.memory.from(begin);
+    const LocalStates states = trains.states.from(begin);
     const PhaseNodes nodes(size, trains.s + begin);
     std::fill_n(mean + begin, size, 0.0);
     std::fill_n(weights, size, 0.0);
     for (std::size_t k = 0; k < nodes.count(); ++k) {
       nodes.node(k, closure, r, weight);
       for (std::size_t i = 0; i < size; ++i) speed[i] = trains.fastest[begin + i] * r[i];
-      law.strengths(size, speed, memory, force);
+      loops.strengths(size, speed, states, force);
       add(size, weight, force, mean + begin, weights);
     }
     for (std::size_t i = 0; i < size; ++i) mean[begin + i] /= weights[i];

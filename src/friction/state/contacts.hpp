@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What the state theta of a place does to its contacts and its pores (docs/friction.md, "Ageing contacts and
+/// The effect of the state theta of a position on its contacts and its pores (docs/friction.md, "Ageing contacts and
 /// dilatancy").
 
 #include <cstddef>
@@ -25,7 +25,7 @@ struct Contacts {
   double share(double excess) const { return 1 - (ambient + excess); }
   /// p - p_0 after a time in which the logarithm of theta changed evenly: exact then, for any t_p.
   double excess_after(double time, double excess, double theta_before, double theta) const;
-  /// Both for many places: `excess` becomes that after the time, `strength` what belongs to it and to theta.
+  /// Both for many positions: `excess` becomes that after the time, `strength` what belongs to it and to theta.
   void advance(std::size_t size, double time, const double* theta_before, const double* theta, double* excess,
                double* strength) const;
 };

@@ -3,48 +3,51 @@
 #include <cmath>
 #include <memory>
 #include <mutex>
-#include <utility>
 
-#include "friction/mean_table.hpp"
-#include "friction/tabulated_curve.hpp"
-#include "slipfront/friction/friction.hpp"
+#include "friction/laws/tabulated_curve.hpp"
+#include "friction/train_means/tabulated_average.hpp"
 
 namespace slipfront::friction {
 namespace {
 
-class DrawnCurve final : public Law {
+/// Whether the curve leaves rest as a power of w below 0.9.
+bool rises_steeply(const Curve& curve) {
+  const double near = curve ? curve(1e-10) : 0, far = curve ? curve(1e-8) : 0;
+  return near > 0 && std::log(far / near) < 0.9 * std::log(100.0);
+}
+
+/// Looks forces up in a table, which is made when it is first needed.
+class CurveLoops final : public ForceLoops {
  public:
-  DrawnCurve(double coefficient, Curve curve) : C_(coefficient), curve_(std::move(curve)) {
-    // The power of w with which the curve leaves rest.
-    const double near = curve_ ? curve_(1e-10) : 0, far = curve_ ? curve_(1e-8) : 0;
-    steep_ = near > 0 && std::log(far / near) < 0.9 * std::log(100.0);
-  }
-  double strength(double speed, Memory) const override { return curve_ ? C_ * curve_(speed) : 0; }
-  void strengths(std::size_t size, const double* speed, Memories, double* force) const override {
+  using ForceLoops::ForceLoops;
+  void strengths(std::size_t size, const double* speed, LocalStates, double* force) const override {
     std::call_once(once_, [this] {
-      table_ = std::make_unique<const TabulatedCurve>([this](double w) { return strength(w, {}); });
+      table_ = std::make_unique<const TabulatedCurve>([this](double w) { return law_.strength(w, {}); });
     });
     table_->values(size, speed, force);
   }
-  void mean_strengths(const Trains& trains, Closure closure, double* mean, double* slope) const override {
-    means_.look_up(trains, closure, mean, slope);
-  }
-  bool steep_at_rest() const override { return steep_; }
+
+ private:
+  mutable std::once_flag once_;
+  mutable std::unique_ptr<const TabulatedCurve> table_;
+};
+
+class DrawnCurve final : public Law {
+ public:
+  DrawnCurve(const std::vector<double>& values, const Curve& curve)
+      : Law({.steep_at_rest = rises_steeply(curve)}), C_(values[0]), curve_(curve) {}
+  double strength(double speed, LocalState) const override { return curve_ ? C_ * curve_(speed) : 0; }
+  const ForceLoops& loops() const override { return loops_; }
+  const TrainAverage& average() const override { return average_; }
 
  private:
   double C_;
   Curve curve_;
-  bool steep_;
-  mutable std::once_flag once_;
-  mutable std::unique_ptr<const TabulatedCurve> table_;
-  MeanTable means_{*this};
+  CurveLoops loops_{*this};
+  TabulatedAverage average_{*this};
 };
 
-std::shared_ptr<const Law> drawn(const std::vector<double>& values, const Curve& curve) {
-  return std::make_shared<DrawnCurve>(values[0], curve);
-}
-
-/// What multiplies the curve: 1 leaves it as it is.
+/// The factor of the curve. 1 leaves the curve as it is.
 Parameter factor() {
   Parameter parameter = coefficient_in(force_unit);
   parameter.value = 1;
@@ -61,7 +64,7 @@ const Definition& formula_law() {
                                      .source = "the scenario",
                                      .parameters = {factor()},
                                      .curve = CurveSource::formula,
-                                     .make = drawn};
+                                     .make = make_law<DrawnCurve>};
   return definition;
 }
 
@@ -74,7 +77,7 @@ const Definition& table_law() {
       .source = "the scenario",
       .parameters = {factor()},
       .curve = CurveSource::table,
-      .make = drawn};
+      .make = make_law<DrawnCurve>};
   return definition;
 }
 

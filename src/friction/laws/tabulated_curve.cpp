@@ -1,4 +1,4 @@
-#include "friction/tabulated_curve.hpp"
+#include "friction/laws/tabulated_curve.hpp"
 
 #include <bit>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include "foundation/simd/elementary.hpp"
 #include "foundation/simd/vector_code.hpp"
-#include "friction/chebyshev.hpp"
+#include "friction/train_means/chebyshev.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::friction {
@@ -36,7 +36,7 @@ void fit(const ChebyshevFit<n>& through, const Curve& curve, double from, double
                    value = curve(speed_at(t));
       fits = std::fabs(polynomial_by_pairs(c, t) - value) <= precision * std::fabs(value);
     }
-  } catch (const InputError&) {  // the curve's own word on speeds that may never come
+  } catch (const InputError&) {  // the curve ends, maybe at speeds that never come
     fits = false;
   }
   if (!fits) c[0] = no_number;

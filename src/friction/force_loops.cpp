@@ -1,0 +1,83 @@
+// The force at many positions, by the force at one.
+
+#include <algorithm>
+#include <cstddef>
+
+#include "foundation/simd/vector_code.hpp"
+#include "slipfront/friction/law.hpp"
+
+namespace slipfront::friction {
+namespace {
+
+/// Many solves of v + weight f(v) = free at once, by secants. `before` and `excess` are the last v and the excess of
+/// the left side there; `open` is 1 until v is found to rounding.
+struct Secants {
+  static constexpr std::size_t most = 64;
+  double v[most], before[most], excess[most], open[most];
+};
+
+/// Starts at v = free, where the force is `force`; `at_rest` is what holds a position at rest.
+SLIPFRONT_CLONES void start_secants(std::size_t size, const double* free, double weight, const double* at_rest,
+                                    const double* force, Secants& s) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) {
+    const double slowed = free[i] - weight * force[i];
+    const bool held = weight * at_rest[i] >= free[i], found = held || slowed == free[i];
+    s.before[i] = free[i];
+    s.excess[i] = weight * force[i];
+    s.v[i] = held ? 0 : slowed > 0 ? slowed : free[i] / 2;
+    s.open[i] = found ? 0.0 : 1.0;
+  }
+}
+
+/// One step of each from the force at v. The error of a secant is the product of the errors of its two points.
+SLIPFRONT_CLONES void take_secants(std::size_t size, const double* free, double weight, const double* force,
+                                   Secants& s) {
+  constexpr double rounding = 4e-16;
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) {
+    const double v = s.v[i], excess = v + weight * force[i] - free[i];
+    const double way = v - s.before[i], next = v - excess * (way / (excess - s.excess[i])), step = next - v;
+    const double error = excess > 0 ? excess : -excess, left = step / v * (way / v);
+    const bool there = error <= rounding * free[i], inside = next > 0 && next < free[i];
+    const bool open = s.open[i] != 0, moves = open && !there && inside;
+    s.open[i] = open && !there && !(inside && left <= rounding && left >= -rounding) ? 1.0 : 0.0;
+    s.before[i] = v;
+    s.excess[i] = excess;
+    s.v[i] = moves ? next : v;
+  }
+}
+
+}  // namespace
+
+void ForceLoops::strengths(std::size_t size, const double* speed, LocalStates states, double* force) const {
+  for (std::size_t i = 0; i < size; ++i) force[i] = law_.strength(speed[i], states.at(i));
+}
+
+void ForceLoops::speeds_after(std::size_t size, const double* free, double weight, LocalStates states,
+                              double* speed) const {
+  constexpr int most_steps = 6;
+  Secants s;
+  double at_rest[Secants::most], force[Secants::most];
+  for (std::size_t begin = 0; begin < size; begin += Secants::most) {
+    const std::size_t some = std::min(Secants::most, size - begin);
+    const LocalStates theirs = states.from(begin);
+    std::fill_n(s.v, some, 0.0);
+    strengths(some, s.v, theirs, at_rest);
+    strengths(some, free + begin, theirs, force);
+    start_secants(some, free + begin, weight, at_rest, force, s);
+    for (int step = 0; step < most_steps && std::find(s.open, s.open + some, 1.0) != s.open + some; ++step) {
+      strengths(some, s.v, theirs, force);
+      take_secants(some, free + begin, weight, force, s);
+    }
+    for (std::size_t i = 0; i < some; ++i)
+      speed[begin + i] = s.open[i] == 0 ? s.v[i] : law_.speed_after(free[begin + i], weight, theirs.at(i));
+  }
+}
+
+void ForceLoops::speeds_after_under(std::size_t size, const double* share, const double* free, double weight,
+                                    LocalStates states, double* speed) const {
+  for (std::size_t i = 0; i < size; ++i) speed[i] = law_.speed_after(free[i], weight * share[i], states.at(i));
+}
+
+}  // namespace slipfront::friction

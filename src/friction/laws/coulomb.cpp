@@ -1,0 +1,30 @@
+#include <cmath>
+
+#include "slipfront/friction/law.hpp"
+
+namespace slipfront::friction {
+namespace {
+
+class Coulomb final : public Law {
+ public:
+  explicit Coulomb(const std::vector<double>& values) : Law({.constant_strength = values[0]}), C_(values[0]) {}
+  double strength(double, LocalState) const override { return C_; }
+  double speed_after(double free, double weight, LocalState) const override { return std::fmax(free - weight * C_, 0); }
+
+ private:
+  double C_;
+};
+
+}  // namespace
+
+const Definition& coulomb_law() {
+  static const Definition definition{.name = "coulomb",
+                                     .adjective = "coulomb",
+                                     .equation = "f = C sign(w); positions stick while the force on them is smaller",
+                                     .source = "Coulomb (1785)",
+                                     .parameters = {coefficient_in(force_unit)},
+                                     .make = make_law<Coulomb>};
+  return definition;
+}
+
+}  // namespace slipfront::friction

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "foundation/simd/vector_code.hpp"
+#include "slipfront/friction/law.hpp"
+
+namespace slipfront::friction {
+
+template <class Force>
+SLIPFRONT_CLONES void forces_at(Force force, std::size_t size, const double* speed, double* f) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) f[i] = force(speed[i]);
+}
+
+/// A law whose force depends on the speed only. `Force` is made from the values of the parameters, and its operator()
+/// gives f. The same expression becomes vector code for many positions, so it calls no function that has none.
+template <class Force>
+class ForceOfSpeed final : public Law {
+ public:
+  explicit ForceOfSpeed(const std::vector<double>& values) : force_(values), loops_(*this, force_) {}
+  double strength(double speed, LocalState) const override { return force_(speed); }
+  const ForceLoops& loops() const override { return loops_; }
+
+ private:
+  class Loops final : public ForceLoops {
+   public:
+    Loops(const Law& law, const Force& force) : ForceLoops(law), force_(force) {}
+    void strengths(std::size_t size, const double* speed, LocalStates, double* force) const override {
+      forces_at(force_, size, speed, force);
+    }
+
+   private:
+    Force force_;
+  };
+  Force force_;
+  Loops loops_;
+};
+
+}  // namespace slipfront::friction

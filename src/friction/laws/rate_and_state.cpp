@@ -1,0 +1,160 @@
+// Rate-and-state friction. Each position has a state theta, the age of its contacts.
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "foundation/simd/elementary.hpp"
+#include "friction/laws/rate_and_state_loops.hpp"
+#include "friction/state/contact_age.hpp"
+#include "friction/train_means/asinh_average.hpp"
+
+namespace slipfront::friction {
+namespace {
+
+enum Value : std::size_t { f0, direct, evolution_effect, distance, velocity, age, kind };
+
+class RateAndStateLoops final : public ForceLoops {
+ public:
+  RateAndStateLoops(const Law& law, const AsinhForce& force, double direct_over_evolution)
+      : ForceLoops(law), force_(force), a_over_b_(direct_over_evolution) {}
+
+  void strengths(std::size_t size, const double* speed, LocalStates theta, double* force) const override {
+    if (forces(force_, size, speed, theta.values, force)) return;
+    for (std::size_t i = 0; i < size; ++i)
+      if (!within_exponents(force_, theta.values[i])) force[i] = law_.strength(speed[i], theta.at(i));
+  }
+
+  void speeds_after(std::size_t size, const double* free, double weight, LocalStates theta,
+                    double* speed) const override {
+    double done[most];
+    for (std::size_t begin = 0; begin < size; begin += most) {
+      const std::size_t n = std::min(most, size - begin);
+      const double* const states = theta.values + begin;
+      if (friction::speeds_after(force_, n, free + begin, weight, states, speed + begin, done)) continue;
+      for (std::size_t i = 0; i < n; ++i)
+        if (done[i] == 0) speed[begin + i] = law_.speed_after(free[begin + i], weight, theta.at(begin + i));
+    }
+  }
+
+  /// Under a share s, v = s v' obeys v' + weight a asinh(G s v') = free / s, and b ln(theta) has s G as well: theta
+  /// s^(a / b) in place of theta.
+  void speeds_after_under(std::size_t size, const double* share, const double* free, double weight, LocalStates theta,
+                          double* speed) const override {
+    constexpr double most_power = 20;
+    if (!(a_over_b_ < most_power)) return ForceLoops::speeds_after_under(size, share, free, weight, theta, speed);
+    double freed[most], aged[most];
+    for (std::size_t begin = 0; begin < size; begin += most) {
+      const std::size_t n = std::min(most, size - begin);
+      for (std::size_t i = 0; i < n; ++i) {
+        freed[i] = free[begin + i] / share[begin + i];
+        aged[i] = theta.values[begin + i] * exp_branch_free(a_over_b_ * log_branch_free(share[begin + i]));
+      }
+      speeds_after(n, freed, weight, {aged, 1}, speed + begin);
+      for (std::size_t i = 0; i < n; ++i) speed[begin + i] *= share[begin + i];
+    }
+  }
+
+ private:
+  static constexpr std::size_t most = 64;
+  AsinhForce force_;
+  double a_over_b_;
+};
+
+class RateAndState final : public Law {
+ public:
+  explicit RateAndState(const std::vector<double>& v)
+      : Law({.steep_at_rest = true}),
+        f0_(v[f0]),
+        a_(v[direct]),
+        b_(v[evolution_effect]),
+        D_(v[distance]),
+        v0_(v[velocity]),
+        loops_(*this, asinh_force(), a_ / b_),
+        average_(*this, asinh_force()),
+        evolution_(v[kind] != 0 ? ContactAge::Kind::slip : ContactAge::Kind::ageing, v[age] > 0 ? v[age] : D_ / v0_,
+                   D_) {}
+
+  /// a asinh((w / 2 w_0) exp(E)), E = (f_0 + b ln(theta w_0 / D_c)) / a, without overflow.
+  double strength(double speed, LocalState theta) const override {
+    if (!(speed > 0)) return 0;
+    const double log_twice = std::log(speed / v0_) + exponent(theta);  // of 2 x, with f = a asinh x
+    return a_ * (log_twice > large ? log_twice : std::asinh(std::exp(log_twice) / 2));
+  }
+
+  /// v + weight f(v) = free. In s = f / a it is convex with its root below the start, so that Newton's steps fall to
+  /// it.
+  double speed_after(double free, double weight, LocalState theta) const override {
+    if (!(free > 0)) return 0;
+    const double E = exponent(theta);
+    const auto speed = [&](double s) {
+      return 2 * v0_ * (s > large ? std::exp(s - E) / 2 : std::sinh(s) * std::exp(-E));
+    };
+    double s = std::fmin(strength(free, theta) / a_, free / (weight * a_));
+    for (int i = 0; i < 60; ++i) {
+      const double v = speed(s), slope = s > large ? v : 2 * v0_ * std::cosh(s) * std::exp(-E);
+      const double step = (v + weight * a_ * s - free) / (slope + weight * a_);
+      s -= step;
+      if (std::fabs(step) <= 1e-9 * s) break;  // the error left is of the order of its square
+    }
+    // The difference free - weight f has the digits where friction is weak, the speed itself where it is strong.
+    const double slowed = free - weight * a_ * s;
+    return slowed > free / 2 ? slowed : speed(s);
+  }
+
+  const ForceLoops& loops() const override { return loops_; }
+  const TrainAverage& average() const override { return average_; }
+  const StateEvolution& evolution() const override { return evolution_; }
+
+ private:
+  static constexpr double large = 18;  // asinh(e^x / 2) is x to 1e-16 above it
+
+  double exponent(LocalState theta) const { return (f0_ + b_ * std::log(theta[0] * v0_ / D_)) / a_; }
+  AsinhForce asinh_force() const {
+    return {.a = a_, .base = (f0_ + b_ * std::log(v0_ / D_)) / a_ - std::log(2 * v0_), .share = b_ / a_};
+  }
+
+  double f0_, a_, b_, D_, v0_;
+  RateAndStateLoops loops_;
+  AsinhAverage average_;
+  ContactAge evolution_;
+};
+
+}  // namespace
+
+const Definition& rate_and_state_law() {
+  static const auto on_chain = [](std::string_view name, std::string_view symbol, std::string_view unit,
+                                  Dimension dimension) {
+    return Parameter{.name = name, .symbol = symbol, .unit = unit, .dimension = dimension, .only_on_chain = true};
+  };
+  static const auto with = [](Parameter parameter, auto member, auto value) {
+    parameter.*member = value;
+    return parameter;
+  };
+  static const Definition definition{
+      .name = "rate-and-state",
+      .adjective = "rate-and-state",
+      .equation =
+          "f = a asinh((w / 2 w_0) exp((f_0 + b ln(theta w_0 / D_c)) / a)), with the sign of w; ageing: theta_t = 1 - "
+          "|w| theta / D_c; slip: theta_t = -x ln x with x = |w| theta / D_c",
+      .source =
+          "Dieterich (1979), J. Geophys. Res. 84:2161; Ruina (1983), J. Geophys. Res. 88:10359; regularised as by "
+          "Rice & Ben-Zion (1996), Proc. Natl. Acad. Sci. 93:3811",
+      .parameters = {strength_in(force_unit, "f_0"),
+                     with(force_named("direct_effect", "a", 0.01), &Parameter::without_least, true),
+                     force_named("evolution_effect", "b"),
+                     characteristic_slip(),
+                     velocity_named("reference_velocity", "w_0"),
+                     {.name = "initial_state", .symbol = "theta_0", .unit = "b / (c A)", .dimension = Dimension::time},
+                     {.name = "state", .symbol = "", .unit = "1", .most = 1, .words = {"ageing", "slip"}},
+                     on_chain("contact_ageing", "beta", "1", Dimension::number),
+                     on_chain("contact_time", "theta_c", "b / (c A)", Dimension::time),
+                     on_chain("dilatancy", "epsilon / b_p", "normal stress", Dimension::pressure),
+                     on_chain("drainage_time", "t_p", "b / (c A)", Dimension::time),
+                     with(on_chain("pore_pressure", "p_0", "normal stress", Dimension::pressure), &Parameter::most, 1)},
+      .state = {{.name = "theta", .symbol = "theta", .unit = "b / (c A)"}},
+      .make = make_law<RateAndState>};
+  return definition;
+}
+
+}  // namespace slipfront::friction

@@ -1,0 +1,116 @@
+#include <algorithm>
+#include <cmath>
+
+#include "foundation/simd/vector_code.hpp"
+#include "slipfront/friction/law.hpp"
+
+namespace slipfront::friction {
+namespace {
+
+SLIPFRONT_CLONES void forces(double residual, double gain, double distance, std::size_t size, const double* slip,
+                             double* force) {
+  const double per_slip = 1 / distance;
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) {
+    const double part = 1 - slip[i] * per_slip;
+    force[i] = residual + gain * (part > 0 ? part : 0);
+  }
+}
+
+SLIPFRONT_CLONES void slow(std::size_t size, const double* free, double weight, double* speed) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) {
+    const double slowed = free[i] - weight * speed[i];
+    speed[i] = slowed < 0 ? 0 : slowed;
+  }
+}
+
+SLIPFRONT_CLONES void add_slip(std::size_t size, const double* velocity, double time, double* slip) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) slip[i] += std::fabs(velocity[i]) * time;
+}
+
+/// The strength f_d + (f_s - f_d) max(0, 1 - slip / D_c), which does not depend on the speed.
+struct Strength {
+  double residual, gain, distance;
+  double operator()(double slip) const { return residual + gain * std::fmax(0, 1 - slip / distance); }
+  void of_all(std::size_t size, LocalStates slip, double* force) const {
+    forces(residual, gain, distance, size, slip.values, force);
+  }
+};
+
+class StrengthLoops final : public ForceLoops {
+ public:
+  StrengthLoops(const Law& law, const Strength& strength) : ForceLoops(law), strength_(strength) {}
+  void strengths(std::size_t size, const double*, LocalStates slip, double* force) const override {
+    strength_.of_all(size, slip, force);
+  }
+  void speeds_after(std::size_t size, const double* free, double weight, LocalStates slip,
+                    double* speed) const override {
+    strength_.of_all(size, slip, speed);
+    slow(size, free, weight, speed);
+  }
+
+ private:
+  Strength strength_;
+};
+
+class StrengthAverage final : public QuadratureAverage {
+ public:
+  StrengthAverage(const Law& law, const Strength& strength) : QuadratureAverage(law), strength_(strength) {}
+  double mean_strength(const State&, double, Closure, LocalState slip) const override { return strength_(slip[0]); }
+  void mean_strengths(const Trains& trains, Closure, double* mean, double* slope) const override {
+    strength_.of_all(trains.size, trains.states, mean);
+    if (slope != nullptr) std::fill_n(slope, trains.size, 0.0);
+  }
+
+ private:
+  Strength strength_;
+};
+
+/// The state of a position is how far it has slipped, to and fro.
+class PathLength final : public StateEvolution {
+ public:
+  void start(std::span<double> path) const override { path[0] = 0; }
+  void advance(const Slip& slip, double time, std::span<double> path) const override {
+    path[0] += std::fabs(slip.mean) * time;
+  }
+  void advance_all(std::size_t size, const Slips& slips, double time, std::size_t, double* path) const override {
+    add_slip(size, slips.mean, time, path);
+  }
+};
+
+class SlipWeakening final : public Law {
+ public:
+  explicit SlipWeakening(const std::vector<double>& values)
+      : strength_{.residual = values[1], .gain = values[0] - values[1], .distance = values[2]} {}
+  double strength(double, LocalState slip) const override { return strength_(slip[0]); }
+  double speed_after(double free, double weight, LocalState slip) const override {
+    return std::fmax(free - weight * strength_(slip[0]), 0);
+  }
+  const ForceLoops& loops() const override { return loops_; }
+  const TrainAverage& average() const override { return average_; }
+  const StateEvolution& evolution() const override { return evolution_; }
+
+ private:
+  Strength strength_;
+  StrengthLoops loops_{*this, strength_};
+  StrengthAverage average_{*this, strength_};
+  PathLength evolution_;
+};
+
+}  // namespace
+
+const Definition& slip_weakening_law() {
+  static const Definition definition{
+      .name = "slip-weakening",
+      .adjective = "slip-weakening",
+      .equation = "f = f_d + (f_s - f_d) max(0, 1 - slip / D_c), with the sign of w; positions stick below it",
+      .source = "Andrews (1976), J. Geophys. Res. 81:5679",
+      .parameters = {strength_in(force_unit, "f_s"), force_named("residual", "f_d"), characteristic_slip()},
+      .state = {{.name = "slipped", .symbol = "s", .unit = "b / (2 pi)"}},
+      .make = make_law<SlipWeakening>};
+  return definition;
+}
+
+}  // namespace slipfront::friction
