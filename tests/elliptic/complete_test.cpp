@@ -28,7 +28,7 @@ TEST(Complete, ObeysLegendresRelation) {  // independent of any table: E K' + E'
   }
 }
 
-TEST(Complete, RefusesWhatIsNoComplementaryParameter) {
+TEST(Complete, RejectsInvalidComplementaryParameters) {
   for (const double bad : {0.0, -1e-300, 1.0000001, std::nan(""), HUGE_VAL})
     EXPECT_THROW(complete(bad), slipfront::InputError) << bad;
   for (const double bad : {0.0, -1.0, std::nan("")}) EXPECT_THROW(at_psi(bad), slipfront::InputError) << bad;
@@ -43,7 +43,7 @@ TEST(AtPsi, MatchesTheTableOverAllDensities) {
   }
 }
 
-TEST(AtPsi, DifferencesAgreeWithTheirDefinitionsWhereThoseDoNotCancel) {
+TEST(AtPsi, MatchesDefinitionsOfDifferencesWithoutCancellation) {
   for (const double psi : {1e-12, 1e-6, 0.01, 0.1, 0.2, 0.5, 1.0}) {
     const AtPsi at = at_psi(psi);
     EXPECT_NEAR(at.ratio, at.E / at.K, 1e-15);
@@ -64,7 +64,7 @@ void expect_same(const AtPsi& a, const AtPsi& b, double eps) {
   EXPECT_LE(error_in_eps(a.above_m1, b.above_m1), eps);
 }
 
-TEST(AtPsi, RegimesJoinAtTheirSwitches) {
+TEST(AtPsi, JoinsRegimesAtTheirSwitches) {
   const double up = 1 + 1e-12;  // just on the other side, where the general route is taken
   expect_same(at_psi_empty(psi_empty_below * up), at_psi(psi_empty_below * up), 8);
   expect_same(at_psi_empty(psi_empty_below / up), at_psi(psi_empty_below / up), 0);

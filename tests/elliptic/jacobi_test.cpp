@@ -52,7 +52,7 @@ TEST(Jacobi, ObeysItsAlgebra) {
     }
 }
 
-TEST(Jacobi, HyperbolicRegimeJoinsTheGeneralOne) {
+TEST(Jacobi, JoinsTheHyperbolicToTheGeneralRegime) {
   const double s = 1e-8;  // sqrt(m1) at the switch
   const double below = s * s * (1 - 1e-12), above = s * s * (1 + 1e-12);
   const double K = complete(s * s).K;
@@ -63,7 +63,7 @@ TEST(Jacobi, HyperbolicRegimeJoinsTheGeneralOne) {
   }
 }
 
-TEST(Jacobi, BetweenDistantKinksDnIsAsSmallAsItShouldBe) {
+TEST(Jacobi, ResolvesSmallDnBetweenDistantKinks) {
   const AtPsi at = at_psi(1e-200);
   EXPECT_LE(error_in_eps(jacobi(at.K, at).dn, 1e-200), 4);
   EXPECT_THROW(jacobi(HUGE_VAL, at), slipfront::InputError);

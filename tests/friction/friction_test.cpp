@@ -17,7 +17,7 @@ using namespace slipfront;
 using namespace slipfront::friction;
 
 /// <f(w) sigma> and <f(w)> by quadrature of the fields themselves.
-TEST(Friction, IsTheAverageOfTheFields) {
+TEST(Friction, AveragesTheForceOverTheFields) {
   const State states[] = {{0.3, 0.2}, {-0.7, 0.9}, {1.1, 0.02}, {0.05, 2.5}};
   for (const State& s : states)
     for (const double n : {0.5, 1.0, 2.0, 3.3}) {
@@ -38,7 +38,7 @@ TEST(Friction, IsTheAverageOfTheFields) {
     }
 }
 
-TEST(Friction, PowersOneAndTwoAreTheClosedForms) {
+TEST(Friction, ReducesPowersOneAndTwoToClosedForms) {
   for (const double psi : {1e-200, 1e-9, 0.01, 0.5, 4.0}) {
     const State s{0.4, psi};
     for (const Closure closure : {Closure::consistent, Closure::paper}) {
@@ -62,7 +62,7 @@ TEST(Friction, OpposesAndVanishesAtRest) {
 }
 
 /// docs/theory.md 3.3: the ratio of the closures, I / W = 4 E K / pi^2.
-TEST(Friction, PaperClosureUnderstates) {
+TEST(Friction, LosesLessByTheClosureOfThePaper) {
   const State s{0.2, 1e-3};
   const train::Averages a = train::averages(s);
   EXPECT_NEAR(viscous(1, Closure::consistent).momentum_loss(s) / viscous(1, Closure::paper).momentum_loss(s), a.I / a.W,
@@ -74,7 +74,7 @@ double rate_of(const Friction& f, const State& s, double contact) {
   return f.momentum_loss(s, contact) / train::averages(s, contact).P;
 }
 
-TEST(Friction, PowerLawHasItsRelaxationRateFromATable) {
+TEST(Friction, TabulatesTheRelaxationRateOfAPower) {
   for (const double n : {0.3, 0.7, 1.0, 1.5, 2.0, 5.0})
     for (const Closure closure : {Closure::consistent, Closure::paper}) {
       const Friction friction = power(0.7, n, closure);
@@ -87,7 +87,7 @@ TEST(Friction, PowerLawHasItsRelaxationRateFromATable) {
     }
 }
 
-/// A law that says nothing but its force: f = C |w|^n.
+/// A law that has only a force: f = C |w|^n.
 class Bare : public Law {
  public:
   explicit Bare(const std::vector<double>& values) : C_(values[0]), n_(values[1]) {}
@@ -109,7 +109,7 @@ const Definition& bare_law() {
   return definition;
 }
 
-TEST(Friction, AveragesOfAnyLawAreThoseOfClosedForms) {
+TEST(Friction, AveragesAnyLawLikeTheClosedForms) {
   for (const Closure closure : {Closure::consistent, Closure::paper})
     for (const double n : {0.0, 0.5, 1.0, 2.0, 3.3}) {
       const Friction any(bare_law(), {0.7, n}, closure);
@@ -131,7 +131,7 @@ TEST(Friction, AveragesOfAnyLawAreThoseOfClosedForms) {
   EXPECT_NEAR((*linear.relaxation_rate())({0, 1e-9}, 1, {}), 0.7, 1e-12);  // the limit at rest
 }
 
-TEST(Friction, ImplicitSolveOfAnyLawIsThatOfClosedForms) {
+TEST(Friction, SolvesAnyLawLikeTheClosedForms) {
   for (const double n : {0.0, 0.5, 1.0, 2.0, 3.3})
     for (const double weight : {1e-6, 0.1, 30.0})
       for (const double free : {-2.0, 0.0, 1e-9, 0.04, 7.0}) {
@@ -143,7 +143,7 @@ TEST(Friction, ImplicitSolveOfAnyLawIsThatOfClosedForms) {
       }
 }
 
-TEST(Friction, DividesForcesAndRefusesNumbersOutOfRange) {
+TEST(Friction, DividesForcesAndRejectsNumbersOutOfRange) {
   const Friction scaled = power(3, 1.5, Closure::paper).scaled_by(2);
   EXPECT_EQ(scaled.parameter("coefficient"), 1.5);
   EXPECT_EQ(scaled.parameter("exponent"), 1.5);
@@ -163,7 +163,7 @@ const Definition& law_named(const std::string& name) {
 }
 
 /// Means over slip by mpmath, of random laws in random trains.
-TEST(Friction, MeansAreThoseOfHighPrecision) {
+TEST(Friction, AgreesWithMeansOfHighPrecision) {
   for (const auto& row : reference_table("friction.csv")) {
     const Definition& law = law_named(row.text("law"));
     std::vector<double> values;
@@ -183,7 +183,7 @@ Friction rate_and_state(double f0, double a, double b, double D, double w0, bool
 }
 
 /// The law is a logarithm where w is not small, and <ln w>_u = ln sinh phi + psi.
-TEST(Friction, RateAndStateAveragesToTheLawAtOneSpeed) {
+TEST(Friction, AveragesRateAndStateToTheLawAtOneSpeed) {
   const Friction friction = rate_and_state(0.6, 0.01, 0.015, 0.1, 0.05);
   const double theta[] = {3.0};
   for (const double psi : {0.01, 0.3, 2.0})
@@ -192,7 +192,7 @@ TEST(Friction, RateAndStateAveragesToTheLawAtOneSpeed) {
                   1, 1e-14);
 }
 
-TEST(Friction, StateAgesAtRestAndTendsToItsSteadyValue) {
+TEST(Friction, AgesAtRestAndTendsToTheSteadyState) {
   double theta[] = {0.2};
   const Friction ageing = rate_and_state(0.05, 0.01, 0.015, 0.1, 0.05);
   ageing.evolution().advance(Slip::at(0), 3, theta);
@@ -213,7 +213,7 @@ TEST(Friction, StateAgesAtRestAndTendsToItsSteadyValue) {
 }
 
 /// One dislocation after the other: D_c is that of many, so that theta hardly changes while one passes.
-TEST(Friction, StateInATrainIsTheMeanOverItsDislocations) {
+TEST(Friction, AdvancesStateInATrainAsTheMeanOverDislocations) {
   const State train{0.4, 0.3};
   const double D = 500, typical = std::sinh(train.phi) * std::exp(train.psi), W = train::averages(train).W;
   const double length = train::spacing(train), passage = length / std::tanh(train.phi);
@@ -231,7 +231,7 @@ TEST(Friction, StateInATrainIsTheMeanOverItsDislocations) {
   }
 }
 
-TEST(Friction, RateAndStateSolvesForTheSpeedAfterAStep) {
+TEST(Friction, SolvesRateAndStateForTheSpeedAfterAStep) {
   const Friction friction = rate_and_state(0.5, 0.01, 0.015, 0.1, 0.05);
   const double theta[] = {2.0};
   for (const double weight : {1e-6, 0.1, 30.0})
@@ -242,7 +242,7 @@ TEST(Friction, RateAndStateSolvesForTheSpeedAfterAStep) {
     }
 }
 
-TEST(Friction, SlipWeakensWhatHolds) {
+TEST(Friction, WeakensStrengthWithSlip) {
   const Friction friction(law_named("slip-weakening"), {0.4, 0.1, 2});
   double slip[] = {0};
   friction.evolution().start(slip);
@@ -255,7 +255,7 @@ TEST(Friction, SlipWeakensWhatHolds) {
 }
 
 /// v = (free / C)^2 is no double there; the tails of dislocations are that slow.
-TEST(Friction, PowerBelowOneTakesAllOfTheSlowest) {
+TEST(Friction, StopsTheSlowestUnderAPowerBelowOne) {
   for (const double free : {1e-300, 1e-170, 1e-160}) {
     const double v = power(0.1, 0.5).velocity_after(free, 1, {});
     EXPECT_GE(v, 0) << free;
@@ -271,7 +271,7 @@ TEST(Friction, ScalesForcesSlipsAndTimes) {
   for (const Parameter& p : scaled.definition().parameters) EXPECT_EQ(scaled.parameter(p.name), want[i++]) << p.name;
 }
 
-TEST(Friction, LawsSayWhatTheyAre) {
+TEST(Friction, DescribesEveryLaw) {
   for (const Definition* law : laws()) {
     EXPECT_FALSE(law->name.empty());
     EXPECT_FALSE(law->equation.empty()) << law->name;

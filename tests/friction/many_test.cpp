@@ -1,4 +1,4 @@
-// Laws for many places and trains at once, as vector code, beside the same for one.
+// Vector loops over many positions and trains, compared with the functions for one.
 
 #include <gtest/gtest.h>
 
@@ -36,12 +36,12 @@ std::vector<Friction> some_of_each(Closure closure = Closure::consistent) {
   add("rate-and-state", {0.05, 0.01, 0.015, 0.05, 0.05, 0, 0});
   add("rate-and-state", {0.05, 0.015, 0.01, 0.05, 0.05, 0, 1});
   add("rate-and-state", {0.6, 0.01, 0.015, 0.05, 1e-6, 0, 0});
-  add("rate-and-state", {6, 0.01, 0.015, 0.05, 1e-6, 0, 0});  // exp(600): beyond the range of the vector code
+  add("rate-and-state", {6, 0.01, 0.015, 0.05, 1e-6, 0, 0});  // exp(600) exceeds the range of the vector code
   return all;
 }
 
-/// Under another normal stress on each place.
-TEST(FrictionOfMany, SpeedsUnderShareOfNormalStressAreThoseOfOne) {
+/// The normal stress differs from position to position.
+TEST(FrictionOfMany, SolvesUnderAShareOfNormalStressAsForOnePosition) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> u(0, 1);
   std::vector<Friction> all;
@@ -66,7 +66,7 @@ TEST(FrictionOfMany, SpeedsUnderShareOfNormalStressAreThoseOfOne) {
   }
 }
 
-TEST(FrictionOfMany, MeansAreThoseOfOne) {
+TEST(FrictionOfMany, FindsTheMeanOfEachTrain) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> u(0, 1);
   for (const Closure closure : {Closure::consistent, Closure::paper})
@@ -97,7 +97,7 @@ TEST(FrictionOfMany, MeansAreThoseOfOne) {
 
 /// A resumed run finds the means of other trains together than an uninterrupted one: of cells that rest, each knows
 /// some already.
-TEST(FrictionOfMany, MeansDoNotDependOnTheOtherTrains) {
+TEST(FrictionOfMany, FindsMeansThatDoNotDependOnTheOtherTrains) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> u(0, 1);
   constexpr std::size_t count = 150;
@@ -121,11 +121,11 @@ TEST(FrictionOfMany, MeansDoNotDependOnTheOtherTrains) {
     }
 }
 
-/// A curve with a kink, which also ends: tables of its means may reach neither over the kink nor beyond the end.
-TEST(FrictionOfMany, MeansOfACurveThatBendsAndEnds) {
+/// A curve with a kink, which also ends: tables of its means may reach neither over the kink nor past the end.
+TEST(FrictionOfMany, FindsMeansOfACurveWithAKinkAndAnEnd) {
   constexpr double kink = 0.05, end = 0.1;
   const auto curve = [](double w) {
-    if (w > end) throw InputError({.key = "w", .problem = "beyond the end"});
+    if (w > end) throw InputError({.key = "w", .problem = "past the end"});
     return w < kink ? w : kink;
   };
   std::vector<Friction> both;
@@ -150,7 +150,7 @@ TEST(FrictionOfMany, MeansOfACurveThatBendsAndEnds) {
       if (fastest < kink) {
         EXPECT_NEAR(bent[i] / linear[i], 1, 3e-10) << fastest;
       }
-      if (fastest * (0.005 + 0.0099 * static_cast<double>(i)) > kink) {  // faster than the kink all the time
+      if (fastest * (0.005 + 0.0099 * static_cast<double>(i)) > kink) {  // faster than the kink everywhere
         EXPECT_NEAR(bent[i], kink, 1e-12);
       }
     }
@@ -158,7 +158,7 @@ TEST(FrictionOfMany, MeansOfACurveThatBendsAndEnds) {
   EXPECT_THROW(means(both[1], 1.01 * end), InputError);
 }
 
-TEST(FrictionOfMany, ForcesAndSolvesAreThoseOfOne) {
+TEST(FrictionOfMany, FindsForcesAndSolvesAsForOnePosition) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> u(0, 1);
   for (const Friction& friction : some_of_each())
@@ -177,7 +177,7 @@ TEST(FrictionOfMany, ForcesAndSolvesAreThoseOfOne) {
         EXPECT_NEAR(force[i], f, 1e-12 * f) << friction.name() << " " << free[i];
         const double v = friction.law().speed_after(free[i], weight, states.at(i));
         EXPECT_NEAR(speed[i], v, 2e-12 * v + 1e-14 * free[i]) << friction.name() << " " << weight << " " << free[i];
-        // What it is does not depend on what is beside it.
+        // The result does not depend on the other positions.
         double alone = -1;
         friction.loops().speeds_after(1, &free[i], weight, {states.at(i).data(), states.each}, &alone);
         EXPECT_EQ(alone, speed[i]) << friction.name() << " " << weight << " " << free[i];
@@ -185,7 +185,7 @@ TEST(FrictionOfMany, ForcesAndSolvesAreThoseOfOne) {
     }
 }
 
-TEST(FrictionOfMany, MemoriesAreThoseOfOne) {
+TEST(FrictionOfMany, AdvancesStatesAsForOnePosition) {
   for (const Friction& friction : some_of_each()) {
     if (friction.state_size() == 0) continue;
     for (const double time : {1e-3, 1.0, 1e3}) {
@@ -212,8 +212,8 @@ TEST(FrictionOfMany, MemoriesAreThoseOfOne) {
   }
 }
 
-/// Rest, kinks, jumps, speeds beyond all others, and a curve that ends.
-TEST(FrictionOfMany, ForcesOfACurveAreItsOwnWhereItIsNotSmooth) {
+/// Rest, kinks, jumps, speeds above all others, and a curve that ends.
+TEST(FrictionOfMany, FollowsACurveWhereItIsNotSmooth) {
   const Curve curves[] = {[](double w) { return 0.2 + std::fmin(w, 0.1); }, [](double w) { return std::fabs(w - 0.3); },
                           [](double w) { return w < 0.2 ? w : 0.5 * w; }, [](double w) { return 1 - std::exp(-w); },
                           [](double w) {

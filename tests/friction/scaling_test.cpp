@@ -174,7 +174,7 @@ std::string refusal_of(const Definition& law, const std::vector<double>& values)
   return "";
 }
 
-TEST(FrictionScaling, RefusesALawWithAWrongDimension) {
+TEST(FrictionScaling, RejectsALawWithAWrongDimension) {
   const std::vector<double> values = {0.1, 0.5, 2};
   const Definition right = example(Dimension::force, Dimension::force, Dimension::slip);
   EXPECT_EQ(refusal_of(right, values), "");
@@ -190,7 +190,7 @@ TEST(FrictionScaling, RefusesALawWithAWrongDimension) {
 }
 
 /// Such friction would be left out, as if the law were "none".
-TEST(FrictionScaling, RefusesAForceWithoutAParameterThatIsAForce) {
+TEST(FrictionScaling, RejectsAForceWithoutAForceParameter) {
   const Definition law = example(Dimension::number, Dimension::number, Dimension::slip);
   EXPECT_THROW(Friction(law, {0, 0.5, 2}), InputError);
   EXPECT_THROW(Friction(law, {0.1, 0, 2}), InputError);

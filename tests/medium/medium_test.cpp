@@ -19,11 +19,11 @@ const medium::Interface rock{
 const medium::Interface soft{
     .shear_modulus = 30e9, .density = 2700, .poisson_ratio = 0.3, .asperity_spacing = 1e-3, .contact_ratio = 0.05};
 
-TEST(Medium, SpeedOfThePaper) {  // of its example of Parkfield (docs/worked_examples.md)
+TEST(Medium, HasTheSpeedOfThePaper) {  // of its example of Parkfield (docs/worked_examples.md)
   EXPECT_NEAR(medium::speed_from_p_wave(6000, 0.3), 5421.0, 0.05);
 }
 
-TEST(Medium, SpeedIsTheSameFromAnyConstants) {
+TEST(Medium, FindsOneSpeedFromAnyConstants) {
   const double vs = std::sqrt(rock.shear_modulus / rock.density);
   const double vp = vs * std::sqrt(2 * (1 - 0.25) / (1 - 2 * 0.25));
   const double c = medium::speed_from_shear_modulus(rock.shear_modulus, rock.density, 0.25);
@@ -33,7 +33,7 @@ TEST(Medium, SpeedIsTheSameFromAnyConstants) {
   EXPECT_NEAR(medium::poisson_ratio(vp, vs), 0.25, 1e-14);
 }
 
-TEST(Medium, ChainConstantsOfEquation1) {
+TEST(Medium, FindsTheConstantsOfEquation1) {
   const medium::ChainConstants chain = medium::chain_constants(rock);
   EXPECT_DOUBLE_EQ(chain.mass, 2.7e-6);
   EXPECT_DOUBLE_EQ(chain.spring, 8e7);
@@ -43,7 +43,7 @@ TEST(Medium, ChainConstantsOfEquation1) {
 /// The map to Eq. (3): with these units every term of Eq. (1) is measured by the same force, and the lattice spacing is
 /// A. That fixes F_d = K_b b A^2 / (2 pi) at the derived form of A_plastic, which is where the paper's mu b^2 (A /
 /// A_plastic)^2 / 2 pi comes from.
-TEST(Medium, UnitsTurnEquation1IntoEquation3) {
+TEST(Medium, HasUnitsThatTurnEquation1IntoEquation3) {
   const medium::ChainConstants chain = medium::chain_constants(rock);
   const medium::Units u = medium::units(rock.shear_modulus, chain.speed, rock.contact_ratio, rock.asperity_spacing);
   const double inertia = chain.mass * u.slip / (u.time * u.time);
@@ -91,7 +91,7 @@ double pushed_dislocation(double traction, double drag) {
 
 /// The unit of F by another route: the lattice in SI units knows it from Eq. (1) alone, and the textbook result for one
 /// dislocation (McLaughlin & Scott 1978) is stated in F and C. With mu A / (2 pi) F would be 7 times too small.
-TEST(Medium, TractionUnitMovesADislocationOfEquation1) {
+TEST(Medium, HasATractionUnitThatMovesADislocation) {
   const medium::ChainConstants chain = medium::chain_constants(soft);
   const double unit = medium::traction_unit(soft.shear_modulus, soft.poisson_ratio, soft.contact_ratio);
   EXPECT_NEAR(unit * soft.asperity_spacing * soft.asperity_spacing / chain.substrate_force, 1, 1e-14);
@@ -104,14 +104,14 @@ TEST(Medium, TractionUnitMovesADislocationOfEquation1) {
   EXPECT_NEAR(medium::printed_traction_unit(30e9, 0.003) / medium::traction_unit(30e9, 0.3, 0.003), 116.7, 0.05);
 }
 
-TEST(Medium, BothFormsOfTheContactRatio) {
+TEST(Medium, FindsBothFormsOfTheContactRatio) {
   const double plastic = medium::plastic_contact_ratio(0.3);
   EXPECT_NEAR(plastic, std::sqrt(0.35), 1e-15);
   EXPECT_NEAR(medium::contact_ratio(100e6, 10e9, 0.3, medium::ContactForm::derived), 0.01 * plastic, 1e-16);
   EXPECT_NEAR(medium::contact_ratio(100e6, 10e9, 0.3, medium::ContactForm::rounded), 0.01, 1e-16);
 }
 
-TEST(Medium, RefusesConstantsOutOfRange) {
+TEST(Medium, RejectsConstantsOutOfRange) {
   for (const double nu : {-1.0, 0.5, 0.7, std::nan("")})
     EXPECT_THROW(medium::speed_from_p_wave(6000, nu), InputError) << nu;
   EXPECT_THROW(medium::speed_from_p_wave(-6000, 0.3), InputError);

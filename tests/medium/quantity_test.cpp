@@ -16,7 +16,7 @@ double one(std::string_view text, Dimension dimension, std::string_view unit = {
   return span.low;
 }
 
-TEST(Quantity, ReadsWhatPeopleWrite) {
+TEST(Quantity, ReadsTheCommonNotations) {
   EXPECT_DOUBLE_EQ(one("3.0 km/s", Dimension::velocity), 3000);
   EXPECT_DOUBLE_EQ(one("10 km/day", Dimension::velocity), 10e3 / 86400);
   EXPECT_DOUBLE_EQ(one(" 10km/d ", Dimension::velocity), 10e3 / 86400);
@@ -33,7 +33,7 @@ TEST(Quantity, ReadsWhatPeopleWrite) {
   EXPECT_DOUBLE_EQ(one("2.8 m/s", Dimension::velocity, "km/s"), 2.8);  // its own unit wins
 }
 
-TEST(Quantity, KeepsRanges) {
+TEST(Quantity, ReadsRangesAsRanges) {
   const medium::Span span = parse_quantity("2-15 km/day", Dimension::velocity);
   EXPECT_DOUBLE_EQ(span.low, 2e3 / 86400);
   EXPECT_DOUBLE_EQ(span.high, 15e3 / 86400);
@@ -41,7 +41,7 @@ TEST(Quantity, KeepsRanges) {
   EXPECT_DOUBLE_EQ(parse_quantity("-2--1", Dimension::ratio).low, -2);
 }
 
-TEST(Quantity, RefusesWithWhatIsAllowed) {
+TEST(Quantity, RejectsTextAndNamesTheAllowed) {
   const struct {
     const char* text;
     Dimension dimension;
@@ -81,7 +81,7 @@ TEST(Quantity, RefusesWithWhatIsAllowed) {
   }
 }
 
-TEST(Number, IsTheWholeTextAndFinite) {
+TEST(Number, AcceptsOnlyAWholeFiniteNumber) {
   EXPECT_EQ(medium::number("1.5"), 1.5);
   EXPECT_EQ(medium::number(" +2e3\t"), 2000);
   for (const char* bad : {"", "x", "1.5x", "1e400", "nan", "inf", "0x10", "1,5", "+", "--1"})

@@ -65,7 +65,7 @@ std::vector<std::string> names() {
   return all;
 }
 
-TEST(Units, OthersAreKnownAsNoUnitsOfMechanics) {
+TEST(Units, RecognizeUnitsOutsideMechanics) {
   ASSERT_TRUE(database());
   for (const char* text : {"K", "V", "cd", "kat", "degC", "kelvin", "mV", "m K-1", "V/m"})
     EXPECT_FALSE(expect_same(text)) << text;
@@ -73,7 +73,7 @@ TEST(Units, OthersAreKnownAsNoUnitsOfMechanics) {
     for (const medium::NamedUnit& unit : table) EXPECT_EQ(expect_same(std::string(unit.name)), unit.unit.factor != 0);
 }
 
-TEST(Units, AreThoseOfUdunitsWithEveryPrefix) {
+TEST(Units, MatchUdunitsWithEveryPrefix) {
   ASSERT_TRUE(database());
   for (const std::string& name : names())
     for (const char* prefix :
@@ -84,7 +84,7 @@ TEST(Units, AreThoseOfUdunitsWithEveryPrefix) {
       expect_same(prefix + name);
 }
 
-TEST(Units, ProductsAreThoseOfUdunits) {
+TEST(Units, MatchUdunitsForProducts) {
   ASSERT_TRUE(database());
   const std::vector<std::string> all = names();
   std::mt19937 random(1);
@@ -100,7 +100,7 @@ TEST(Units, ProductsAreThoseOfUdunits) {
   }
 }
 
-TEST(Units, OfAnyLettersAreThoseOfUdunits) {
+TEST(Units, MatchUdunitsForAnyLetters) {
   ASSERT_TRUE(database());
   std::mt19937 random(2);
   int known = 0;
@@ -112,7 +112,7 @@ TEST(Units, OfAnyLettersAreThoseOfUdunits) {
   EXPECT_GT(known, 1000);
 }
 
-TEST(Units, WhatIsNoUnitIsNone) {
+TEST(Units, RejectTextThatIsNoUnit) {
   for (const char* text : {"", " ", "km/", "km//s", "km  s", "km^", "km-", "10 km", "km per s", "(km)", "km s since",
                            "kilo", "k", "m12", "\xc2\xb5m"})
     EXPECT_FALSE(medium::parse_unit(text)) << text;

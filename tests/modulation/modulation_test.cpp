@@ -20,7 +20,7 @@ TEST(Sound, MatchesTheTable) {
   }
 }
 
-TEST(Sound, SlopesAreDerivatives) {
+TEST(Sound, HasSlopesThatAreDerivatives) {
   for (const double psi : {1e-8, 1e-3, 0.05, 0.12, 0.13, 0.4, 0.9, 2.0, 6.0, 19.0, 30.0}) {
     const double h = 1e-3 * std::fmin(psi, 1.0);
     const auto rapidity = [&](int i) { return modulation::sound(psi + i * h).rapidity; };
@@ -54,7 +54,7 @@ TEST(Characteristics, AreEigenvaluesOfTheFluxes) {
   }
 }
 
-TEST(Characteristics, OfTheEmptyStateMoveWithIt) {
+TEST(Characteristics, MoveWithTheEmptyState) {
   const modulation::Speeds edge = modulation::characteristic_speeds({0.4, 0});
   EXPECT_EQ(edge.minus, std::tanh(0.4));
   EXPECT_EQ(edge.plus, std::tanh(0.4));

@@ -28,7 +28,7 @@ RC_GTEST_PROP(PerDislocation, RoundTrips, ()) {
 }
 
 /// Both routes of the solve, and what else it finds, against the direct functions.
-TEST(PerDislocation, FindsSoundAndClosureToo) {
+TEST(PerDislocation, FindsSoundAndClosureWithTheState) {
   for (const double psi : {1e-295, 1e-20, 1e-3, 0.124, 0.126, 0.5, 1.4, 1.5, 3.0, 30.0})
     for (const double off : {0.5, 0.99, 1.01, 3.0}) {
       const State s{0.3, psi};
@@ -63,7 +63,7 @@ TEST(PerDislocation, ConvergesFromAnyStartWhereDislocationsAreFastAndFarApart) {
     }
 }
 
-TEST(PerDislocation, GoesToTheEmptyStateAndRefusesNonsense) {
+TEST(PerDislocation, ReachesTheEmptyStateAndRejectsInvalidInput) {
   EXPECT_TRUE(state_of({2000, 0.1}, 1).empty());
   EXPECT_NEAR(state_of({2000, 8 * std::sinh(0.3)}, 1).phi, 0.3, 1e-15);
   EXPECT_THROW(state_of({-1, 0}, 1), NumericsError);
@@ -71,7 +71,7 @@ TEST(PerDislocation, GoesToTheEmptyStateAndRefusesNonsense) {
 }
 
 /// Against the energy density of the averages, where that is no small difference of large numbers.
-TEST(PerDislocation, KineticEnergyIsThatOfTheAverages) {
+TEST(PerDislocation, MatchesTheKineticEnergyOfTheAverages) {
   for (const double psi : {1e-5, 0.01, 0.3, 1.4, 3.0})
     for (const double phi : {0.03, 0.09, 0.11, 0.5, 2.0}) {
       const State moving{-phi, psi};
@@ -85,7 +85,7 @@ TEST(PerDislocation, KineticEnergyIsThatOfTheAverages) {
 }
 
 /// Slow trains have half of momentum times velocity, to full precision; H had no digit of it left.
-TEST(PerDislocation, KineticEnergyOfASlowTrain) {
+TEST(PerDislocation, KeepsDigitsInTheKineticEnergyOfASlowTrain) {
   for (const double psi : {1e-300, 1e-17, 1e-4, 0.3, 3.0})
     for (const double phi : {1e-30, 1e-12, 1e-6}) {
       const State slow{phi, psi};

@@ -34,23 +34,23 @@ void expect_row(const Relations& r, const ReferenceRow& row, double condition) {
         << c.name << " at stress " << row.text("stress") << ", V " << row.text("rupture_velocity");
 }
 
-TEST(Relations, FromRuptureVelocityMatchTheTable) {
+TEST(Relations, MatchTheTableFromRuptureVelocity) {
   for (const auto& row : reference_table("relations_from_velocity.csv"))
     expect_row(from_rupture_velocity(row["rupture_velocity"]), row, std::fmax(1, 1 / (1 - row["rupture_velocity"])));
 }
 
-TEST(Relations, FromStressMatchTheTable) {
+TEST(Relations, MatchTheTableFromStress) {
   for (const auto& row : reference_table("relations_from_stress.csv"))
     expect_row(from_stress(row["stress"]), row, std::fmax(1, pi / row["stress"]));
 }
 
-TEST(Relations, FromSlipVelocityMatchTheTable) {
+TEST(Relations, MatchTheTableFromSlipVelocity) {
   for (const auto& row : reference_table("relations_from_slip_velocity.csv"))
     expect_row(from_slip_velocity(row["slip_velocity"]), row, 1);
 }
 
 /// The two worked examples of the paper without friction (docs/worked_examples.md), and the stress of its figures.
-TEST(Relations, GiveThePapersNumbers) {
+TEST(Relations, ReproduceTheNumbersOfThePaper) {
   EXPECT_NEAR(from_rupture_velocity(0.55).stress, 1.03653, 5e-6);
   EXPECT_NEAR(from_stress(1.03).rupture_velocity, 0.54390, 5e-6);
   EXPECT_NEAR(from_stress(1.03).slip_velocity, 0.1000039, 5e-8);
@@ -76,7 +76,7 @@ RC_GTEST_PROP(Relations, RoundTripThroughSlipVelocity, ()) {
   RC_ASSERT(error_in_eps(from_slip_velocity(there.slip_velocity).rupture_velocity, V) <= 32 / (1 - V));
 }
 
-RC_GTEST_PROP(Relations, GrowTogether, ()) {
+RC_GTEST_PROP(Relations, IncreaseTogether, ()) {
   const double a = 0.0046 * std::exp(*rc::gen::inRange(0, 12000) / 1000.0);
   const double b = a * (1 + *rc::gen::inRange(1, 1000) * 1e-4);
   const Relations low = from_stress(a), high = from_stress(b);
@@ -90,7 +90,7 @@ RC_GTEST_PROP(Relations, GrowTogether, ()) {
   RC_ASSERT(low.leading_velocity <= low.rupture_velocity);
 }
 
-TEST(Relations, HaveTheirLimits) {
+TEST(Relations, ApproachTheirLimits) {
   const Relations slow = from_rupture_velocity(1e-200);  // Sigma = pi / ln(4 / psi), W(0) = pi psi0
   EXPECT_NEAR(slow.stress * std::log(4 / slow.psi) / pi, 1, 1e-14);
   EXPECT_NEAR(slow.slip_velocity / (pi * slow.psi_at_origin), 1, 1e-14);
@@ -106,7 +106,7 @@ TEST(Relations, WorkToTheEndsOfTheirRanges) {
   for (const double w : {7.2e-308, 5e307}) EXPECT_TRUE(std::isfinite(from_slip_velocity(w).stress)) << w;
 }
 
-TEST(Relations, RefuseWhatNoPulseHas) {
+TEST(Relations, RejectValuesThatNoPulseHas) {
   for (const double bad : {0.0, -1.0, 1e-3, std::nan(""), HUGE_VAL}) {
     EXPECT_THROW(from_stress(bad), InputError) << bad;
     if (bad != 1e-3) {

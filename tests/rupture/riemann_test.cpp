@@ -57,7 +57,7 @@ TEST(Riemann, MatchesTheTable) {
 /// The project's founding table of the Riemann problem, to all digits; its U* of the first row was cut, not rounded,
 /// and its fan edge of the second row is misprinted
 /// (-0.2007656747): psi* and U* of that row give -0.2007657047.
-TEST(Riemann, GivesTheFoundingTable) {
+TEST(Riemann, ReproducesTheTableOfTheTheory) {
   const struct {
     double left, right, psi, U, k, W, edge, shock;
   } rows[] = {{0.855, 0.179, 0.0286532627, 0.0718291137, 0.6378761420, 0.0458180779, -0.0701295888, 0.0998484639},
@@ -107,7 +107,7 @@ RC_GTEST_PROP(Riemann, HoldsJumpsFansAndSymmetry, ()) {
 }
 
 /// Both routes to the speed of a shock, just on either side of the switch between them.
-TEST(Riemann, WeakShockRegimeJoinsTheGeneralOne) {
+TEST(Riemann, JoinsWeakShocksToTheGeneralRegime) {
   for (const State right : {State{0, 0.1}, State{0.4, 1e-7}, State{-0.5, 1.2}}) {
     double speeds[2];
     for (const int side : {0, 1}) {
@@ -149,7 +149,7 @@ TEST(Riemann, FansSolveTheModulationEquations) {
   }
 }
 
-TEST(Riemann, ResidualHelperNoticesAWrongField) {
+TEST(Riemann, HasAResidualThatDetectsAWrongField) {
   const PdeResidual r = pde_residual(
       [](double x, double t) {
         return State{0.1 * x / t, 0.2 + 0.01 * x};
@@ -158,7 +158,7 @@ TEST(Riemann, ResidualHelperNoticesAWrongField) {
   EXPECT_GT(r.number, 1e-2);
 }
 
-TEST(Riemann, EmptySides) {
+TEST(Riemann, SolvesForEmptySides) {
   const RiemannSolution none = rupture::solve_riemann({}, {});
   EXPECT_TRUE(rupture::sample(none, 0.1).empty());
   const RiemannSolution right = rupture::solve_riemann({}, {0, 0.2});
@@ -172,7 +172,7 @@ TEST(Riemann, EmptySides) {
   EXPECT_NEAR(parting.right_wave.inner, std::tanh(0.9), 1e-15);
 }
 
-TEST(Riemann, EqualStatesStay) {
+TEST(Riemann, LeavesEqualStatesUnchanged) {
   const RiemannSolution s = rupture::solve_riemann({0.3, 0.2}, {0.3, 0.2});
   for (const double x : {-0.9, 0.0, 0.3, 0.9}) {
     EXPECT_EQ(rupture::sample(s, x).phi, 0.3);
@@ -180,7 +180,7 @@ TEST(Riemann, EqualStatesStay) {
   }
 }
 
-TEST(Riemann, RefusesWhatIsNoState) {
+TEST(Riemann, RejectsInvalidStates) {
   EXPECT_THROW(rupture::solve_riemann({0, -1}, {}), InputError);
   EXPECT_THROW(rupture::solve_riemann({0, std::nan("")}, {}), InputError);
   EXPECT_THROW(rupture::solve_riemann({}, {HUGE_VAL, 0.1}), InputError);

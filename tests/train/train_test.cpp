@@ -29,8 +29,8 @@ TEST(TrainAverages, MatchTheQuadratureOfTheFields) {
   }
 }
 
-TEST(TrainAverages,
-     AreThoseOfTheFields) {  // the library's own fields, trapezoidal rule (spectral for periodic functions)
+/// The trapezoidal rule is spectral for periodic functions.
+TEST(TrainAverages, MatchTheLibrarysFields) {
   for (const State state : {State{0.0, 0.4}, State{0.3, 0.2}, State{-1.2, 1.1}}) {
     const double length = train::spacing(state), U = std::tanh(state.phi);
     constexpr int n = 400;
@@ -83,7 +83,7 @@ TEST(TrainFields, FallByTwoPiOverEachDislocation) {
   EXPECT_LE(error_in_eps(train::fields({0, 1e-250}, train::spacing({0, 1e-250}) / 2).sigma, 2e-250), 8);
 }
 
-TEST(Train, EmptyStateHoldsNothing) {
+TEST(Train, HasNoAveragesWithoutDislocations) {
   const train::Averages a = train::averages({0.7, 0});
   EXPECT_EQ(a.k, 0);
   EXPECT_EQ(a.W, 0);

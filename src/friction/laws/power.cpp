@@ -88,7 +88,7 @@ class PowerRate final : public RelaxationRate {
   mutable std::vector<double> nodes_;  ///< g, NaN where not yet known
 };
 
-/// C w^n; NaN where that is beyond the range of exp. w = 0 gives 0.
+/// C w^n; NaN where that exceeds the range of exp. w = 0 gives 0.
 SLIPFRONT_CLONES void forces(double C, double n, std::size_t size, const double* speed, double* force) {
   constexpr double least = 1e-300, range = 690;
   SLIPFRONT_INDEPENDENT

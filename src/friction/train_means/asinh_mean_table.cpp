@@ -43,7 +43,7 @@ AsinhMeanTable::AsinhMeanTable() {
     double r[terms], weight[terms], s[terms], weights[terms] = {};
     for (std::size_t k = 0; k < terms; ++k) s[k] = exp_of_node(first_s, column, k);  // < 1
     const PhaseNodes phases(terms, s);
-    // Beyond these the mean is logarithmic.
+    // Above these the mean is logarithmic.
     const std::size_t needed = std::min(rows, patches_in(std::log(largest_As / s[terms - 1]) - least_log_A));
     for (std::vector<double>& sum : sums) sum.assign(needed * terms, 0);
     for (std::size_t p = 0; p < phases.count(); ++p) {

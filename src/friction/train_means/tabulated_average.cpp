@@ -101,8 +101,8 @@ TabulatedAverage::Patch TabulatedAverage::made(std::size_t row, std::size_t colu
 
 const ChebyshevPatch* TabulatedAverage::good_patch(std::size_t row, std::size_t column) const {
   const auto if_good = [](const Patch* known) { return known->good ? &known->polynomial : nullptr; };
-  std::atomic<const Patch*>& place = patches_[row * columns + column];
-  if (const Patch* known = place.load(std::memory_order_acquire)) return if_good(known);
+  std::atomic<const Patch*>& entry = patches_[row * columns + column];
+  if (const Patch* known = entry.load(std::memory_order_acquire)) return if_good(known);
   Patch found{};
   try {
     found = made(row, column);
@@ -110,9 +110,9 @@ const ChebyshevPatch* TabulatedAverage::good_patch(std::size_t row, std::size_t 
     found.good = false;
   }
   const std::lock_guard<std::mutex> lock(making_);
-  if (place.load(std::memory_order_relaxed) == nullptr)
-    place.store(&all_.emplace_back(found), std::memory_order_release);
-  return if_good(place.load(std::memory_order_relaxed));
+  if (entry.load(std::memory_order_relaxed) == nullptr)
+    entry.store(&all_.emplace_back(found), std::memory_order_release);
+  return if_good(entry.load(std::memory_order_relaxed));
 }
 
 void TabulatedAverage::mean_strengths(const Trains& trains, Closure closure, double* mean, double* slope) const {
