@@ -23,11 +23,14 @@ struct Bracket {
     if (side == now) (at > 0 ? at_low : at_high) /= 2;
     side = now;
   }
-  /// Chooses x by a secant, or half way where the function is infinite: a secant would stay at the other end for ever.
-  /// With a `margin`, x lies no nearer to an end: then the other end follows at once.
+  /// Chooses x by a secant from the end nearer to the root, or half way where the function is infinite: a secant would
+  /// stay at the other end for ever. With a `margin`, x lies no nearer to an end: then the other end follows at once.
   void aim(double margin = 0) {
-    const double part = std::isfinite(at_low - at_high) ? at_low / (at_low - at_high) : 0.5;
-    x = low + (high - low) * part;
+    const double rise = at_high - at_low;
+    if (!std::isfinite(rise))
+      x = (low + high) / 2;
+    else
+      x = -at_low < at_high ? low - (high - low) * (at_low / rise) : high - (high - low) * (at_high / rise);
     if (margin > 0) x = std::fmin(std::fmax(x, low + margin), high - margin);
     keep_inside();
   }
