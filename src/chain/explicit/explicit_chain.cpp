@@ -63,7 +63,7 @@ ExplicitChain::~ExplicitChain() = default;
 ExplicitChain::ExplicitChain(ExplicitChain&&) noexcept = default;
 
 void ExplicitChain::start_from(long level, const LevelsOf& saved) {
-  constexpr long most = 9007199254740992;  // whole numbers that a double holds
+  constexpr long most = no_limit / 2;  // the levels after it are numbers too
   ranks().together([&] {
     check(problem(), ranks().share_of_machine());
     if (!(level >= 0 && level <= most))

@@ -57,7 +57,7 @@ class ImplicitStep {
   const SiteForces& forces_;
   const CompactSprings& springs_;
   const friction::Friction& friction_law_;
-  int threads_;
+  [[maybe_unused]] int threads_;  ///< of OpenMP
   const Moment* from_ = nullptr;
   double rounding_ = 0;  ///< of the force on a site
   // Site by site.
