@@ -116,7 +116,7 @@ BENCHMARK(kernel_faces);
 
 void kernel_stage(benchmark::State& state) {
   const Pulse p;
-  pulse::Semidiscrete::Setup setup;
+  pulse::Setup setup;
   setup.charge.assign(cells, 0.01);
   setup.friction = friction::viscous(0.5, friction::Closure::consistent);
   pulse::Semidiscrete equations(std::move(setup));

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "slipfront/modulation/per_dislocation.hpp"
-#include "slipfront/pulse/solver.hpp"
+#include "pulse/solver.hpp"
 #include "slipfront/scenario/scenario.hpp"
 #include "slipfront/setup/problem.hpp"
 #include "slipfront/train/train.hpp"

@@ -17,7 +17,7 @@
 #include "slipfront/modulation/characteristics.hpp"
 #include "slipfront/modulation/conservation.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
-#include "slipfront/pulse/solver.hpp"
+#include "pulse/solver.hpp"
 #include "slipfront/rupture/relations.hpp"
 
 namespace {

@@ -14,7 +14,7 @@
 #include "slipfront/elliptic/complete.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/medium/medium.hpp"
-#include "slipfront/pulse/solver.hpp"
+#include "pulse/solver.hpp"
 #include "slipfront/scenario/scenario.hpp"
 
 namespace slipfront {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "batch.hpp"
+#include "foundation/step_budget.hpp"
 #include "long_run.hpp"
 #include "record/unfinished.hpp"
 #include "run/errors.hpp"

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "slipfront/pulse/solver.hpp"
+#include "pulse/solver.hpp"
 
 namespace slipfront::finite_fault {
 

@@ -1,4 +1,4 @@
-#include "slipfront/step_budget.hpp"
+#include "foundation/step_budget.hpp"
 
 #include <algorithm>
 #include <string>

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "foundation/math/parabola.hpp"
-#include "slipfront/pulse/solver.hpp"
+#include "pulse/solver.hpp"
 #include "slipfront/rupture/relations.hpp"
 
 namespace slipfront::friction_ratio {

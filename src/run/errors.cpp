@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "foundation/text/digits.hpp"
+#include "pulse/checks/slip_record.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/pulse/run.hpp"
 #include "slipfront/setup/problem.hpp"

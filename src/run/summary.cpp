@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "output/further_scalars.hpp"
-#include "slipfront/pulse/observe.hpp"
+#include "pulse/observe/energy.hpp"
 #include "slipfront/setup/problem.hpp"
 
 namespace slipfront::run {

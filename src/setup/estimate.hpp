@@ -5,7 +5,7 @@
 #include <string>
 
 #include "slipfront/chain/run.hpp"
-#include "slipfront/pulse/solver.hpp"
+#include "pulse/solver.hpp"
 #include "slipfront/scenario/scenario.hpp"
 #include "slipfront/setup/compare.hpp"
 

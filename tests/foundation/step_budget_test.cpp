@@ -1,12 +1,13 @@
 // Runs that take far more steps than expected are given up.
 
-#include "slipfront/step_budget.hpp"
+#include "foundation/step_budget.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 
+#include "pulse/solver.hpp"
 #include "slipfront/pulse/run.hpp"
 
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "slipfront/elliptic/complete.hpp"
-#include "slipfront/pulse/solver.hpp"
+#include "pulse/solver.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "pulse/solver.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
 #include "slipfront/pulse/run.hpp"

@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+#include "pulse/solver.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/pulse/run.hpp"
 #include "slipfront/rupture/relations.hpp"

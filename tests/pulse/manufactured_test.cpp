@@ -9,7 +9,7 @@
 
 #include "slipfront/friction/friction.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
-#include "slipfront/pulse/solver.hpp"
+#include "pulse/solver.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "pulse/solver.hpp"
 #include "slipfront/chain/run.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/pulse/run.hpp"
@@ -90,7 +91,7 @@ TEST(PulseMemory, StopsChangeNoBits) {
   pulse::Run resumed(step(rate_and_state(), 40), until(0.5), stopped.saved(), stopped.snapshots());
   ASSERT_TRUE(resumed.go());
   EXPECT_EQ(alone.saved(), resumed.saved());
-  EXPECT_NE(alone.saved().find("memory: theta"), std::string::npos);
+  EXPECT_NE(alone.saved().find("state: theta"), std::string::npos);
 }
 
 /// A step that squeezes cells of the sparse train is tried again, shorter: it was taken, and the next one crashed.

@@ -1,11 +1,11 @@
-#include "slipfront/pulse/observe.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
 #include "modulation/equations.hpp"
+#include "pulse/observe/energy.hpp"
+#include "pulse/solver.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
 #include "slipfront/pulse/run.hpp"

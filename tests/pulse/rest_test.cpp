@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "pulse/solver.hpp"
 #include "pulse/space/semidiscrete.hpp"
 #include "slipfront/pulse/run.hpp"
 

@@ -1,4 +1,4 @@
-#include "slipfront/pulse/solver.hpp"
+#include "pulse/solver.hpp"
 
 #include <gtest/gtest.h>
 

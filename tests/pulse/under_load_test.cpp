@@ -5,8 +5,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "pulse/checks/slip_record.hpp"
+#include "pulse/solver.hpp"
 #include "slipfront/pulse/run.hpp"
-#include "slipfront/pulse/solver.hpp"
 
 namespace {
 

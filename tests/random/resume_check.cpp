@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "pulse/solver.hpp"
 #include "record/table_file.hpp"
 #include "record/text_file.hpp"
 #include "slipfront/error.hpp"

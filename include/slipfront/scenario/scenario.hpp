@@ -15,7 +15,7 @@
 #include "slipfront/error.hpp"
 #include "slipfront/friction/friction.hpp"
 #include "slipfront/medium/constants.hpp"
-#include "slipfront/pulse/end.hpp"
+#include "slipfront/pulse/problem.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::scenario {

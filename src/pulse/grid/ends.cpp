@@ -1,10 +1,11 @@
-// What happens at the ends of the domain: dislocations come in, leave, or stop at a wall.
+#include "pulse/grid/ends.hpp"
 
 #include <cmath>
 
 #include "foundation/text/digits.hpp"
 #include "slipfront/error.hpp"
-#include "slipfront/pulse/solver.hpp"
+#include "slipfront/modulation/per_dislocation.hpp"
+#include "slipfront/train/train.hpp"
 
 namespace slipfront::pulse {
 namespace {
@@ -13,99 +14,94 @@ constexpr std::size_t fewest = 8;   ///< cells that are kept, wherever they are
 constexpr std::size_t reach = 3;    ///< cells beyond a continued end, for the faces inside
 constexpr int most_at_once = 5000;  ///< cells that come in after one step; more is no step that waves allow
 
-}  // namespace
-
-double Solver::left_face(std::size_t cell) const {
-  double x = cells_.left_edge();
-  for (std::size_t i = 0; i < cell; ++i) x += cells_.width(i);
-  return x;
+double energy_in(const Problem& problem, const Cells& cells, std::size_t cell) {
+  const double x = cells.centre(cell), a = problem.contact ? problem.contact(x) : 1;
+  const double q = cells.charge[cell], width = cells.width(cell);
+  const State state =
+      modulation::state_of({a * width / q, cells.momentum(cell) / (a * q)}, std::atanh(cells.s[cell]));
+  return train::averages(state, a).H * width;
 }
 
-/// A train that goes on beyond the end is as it is at the end: a cell like the last one comes in.
-void Solver::fill_end(bool left) {
-  const std::size_t n = size(), end = left ? 0 : n - 1;
-  const double charge = cells_.charge[end], width = cells_.width(end), momentum = cells_.momentum(end),
-               s = cells_.s[end];
-  const auto at = [&](std::size_t i) { return static_cast<std::ptrdiff_t>(i); };
-  const std::size_t where = left ? 0 : n;
-  cells_.unknowns.insert(cells_.unknowns.begin() + at(n + where), momentum);
-  cells_.unknowns.insert(cells_.unknowns.begin() + at(where), width);
-  cells_.charge.insert(cells_.charge.begin() + at(where), charge);
-  cells_.s.insert(cells_.s.begin() + at(where), s);
-  if (!cells_.face_momentum.empty()) {  // around the face at an end there is half a cell
-    double& half = left ? cells_.face_momentum.front() : cells_.face_momentum.back();
+/// The train outside is as it is at the end of the domain: a cell like the last one comes in.
+void fill_end(const Problem& problem, Cells& cells, bool left) {
+  const Cells::Cell last = cells.cell(left ? 0 : cells.size() - 1);
+  cells.insert(left ? 0 : cells.size(), last);
+  if (!cells.face_momentum.empty()) {  // around the face at an end there is half a cell
+    double& half = left ? cells.face_momentum.front() : cells.face_momentum.back();
     const double outer = half;
     half *= 2;
-    cells_.face_momentum.insert(left ? cells_.face_momentum.begin() : cells_.face_momentum.end(), outer);
+    cells.face_momentum.insert(left ? cells.face_momentum.begin() : cells.face_momentum.end(), outer);
   }
-  (left ? cells_.entered_left : cells_.entered_right) += charge;
-  if (left) cells_.left_edge() -= width;
-  cells_.values().through_ends() += energy_in(left ? 0 : size() - 1);
+  (left ? cells.entered_left : cells.entered_right) += last.charge;
+  if (left) cells.left_edge() -= last.width;
+  cells.values().through_ends() += energy_in(problem, cells, left ? 0 : cells.size() - 1);
 }
 
-/// What is beyond the end no longer counts.
-void Solver::drop_beyond(bool left) {
-  const std::size_t end = left ? 0 : size() - 1;
-  const double width = cells_.width(end);
-  cells_.values().through_ends() -= energy_in(end);
-  (left ? cells_.entered_left : cells_.entered_right) -= cells_.charge[end];
-  if (!cells_.face_momentum.empty()) {
-    const std::size_t next = left ? 1 : size() - 1;
-    const double around = cells_.charge[next] + cells_.charge[next - 1], inside = cells_.charge[left ? 1 : end - 1];
-    cells_.face_momentum[next] *= inside / around;
-    cells_.face_momentum.erase(left ? cells_.face_momentum.begin() : cells_.face_momentum.end() - 1);
+/// Removes the last cell, which is outside the domain.
+void drop_outside(const Problem& problem, Cells& cells, bool left) {
+  const std::size_t end = left ? 0 : cells.size() - 1;
+  const double width = cells.width(end);
+  cells.values().through_ends() -= energy_in(problem, cells, end);
+  (left ? cells.entered_left : cells.entered_right) -= cells.charge[end];
+  if (!cells.face_momentum.empty()) {
+    const std::size_t next = left ? 1 : cells.size() - 1;
+    const double around = cells.charge[next] + cells.charge[next - 1], inside = cells.charge[left ? 1 : end - 1];
+    cells.face_momentum[next] *= inside / around;
+    cells.face_momentum.erase(left ? cells.face_momentum.begin() : cells.face_momentum.end() - 1);
   }
-  drop_cell(end);
-  if (left) cells_.left_edge() += width;
+  cells.erase(end);
+  if (left) cells.left_edge() += width;
 }
 
 /// A free edge that comes back to a wall stops there.
-void Solver::stop_at_walls() {
-  double& x = cells_.left_edge();
+void stop_at_walls(const Problem& problem, Cells& cells) {
+  double& x = cells.left_edge();
   const double near = 1e-6;  // of a cell, as where a gap closes
-  if (problem_.left_end == End::fixed && x < problem_.left + near * cells_.width(0)) {
-    cells_.width(0) -= problem_.left - x;
-    x = problem_.left;
+  if (problem.left_end == End::fixed && x < problem.left + near * cells.width(0)) {
+    cells.width(0) -= problem.left - x;
+    x = problem.left;
   }
-  if (problem_.right_end != End::fixed) return;
-  double& last = cells_.width(size() - 1);
-  const double beyond = left_face(size()) - problem_.right;
+  if (problem.right_end != End::fixed) return;
+  double& last = cells.width(cells.size() - 1);
+  const double beyond = cells.left_face(cells.size()) - problem.right;
   if (beyond > -near * last) last -= beyond;
 }
 
-void Solver::adjust_ends() {
-  if (problem_.periodic) return;
+}  // namespace
+
+bool adjust_ends(const Problem& problem, FreeEdges free, Cells& cells) {
+  if (problem.periodic) return false;
   bool changed = false;
   for (const bool left : {true, false}) {
-    const End end = left ? problem_.left_end : problem_.right_end;
+    const End end = left ? problem.left_end : problem.right_end;
     if (end == End::fixed) continue;
     const bool continued = end == End::continued;
-    if (continued && (left ? left_free_ : right_free_)) continue;  // the stress ends inside the domain
-    const double edge = left ? cells_.left_edge() : left_face(size());
+    if (continued && (left ? free.left : free.right)) continue;  // the stress ends inside the domain
+    const double edge = left ? cells.left_edge() : cells.left_face(cells.size());
     // A train at rest moves by rounding: a sliver is no place that has to be filled.
-    const double sliver = continued ? 1e-3 * cells_.width(left ? 0 : size() - 1) : 0;
-    double inside = (left ? edge - problem_.left : problem_.right - edge) - sliver;
+    const double sliver = continued ? 1e-3 * cells.width(left ? 0 : cells.size() - 1) : 0;
+    double inside = (left ? edge - problem.left : problem.right - edge) - sliver;
     for (int i = 0; continued && inside > 0; ++i) {
       if (i == most_at_once)
-        throw NumericsError("t = " + digits(cells_.time) + ": the train has left an end of the domain by " +
+        throw NumericsError("t = " + digits(cells.time) + ": the train has left an end of the domain by " +
                             digits(inside) + " in a step; more pulse.cells or a larger domain help");
-      fill_end(left);
+      fill_end(problem, cells, left);
       changed = true;
-      inside -= cells_.width(left ? 0 : size() - 1);
+      inside -= cells.width(left ? 0 : cells.size() - 1);
     }
     const std::size_t margin = continued ? reach : 0;
-    while (size() > fewest + margin) {
+    while (cells.size() > fewest + margin) {
       double first = 0;  // width of the cells that must lie beyond
-      for (std::size_t i = 0; i <= margin; ++i) first += cells_.width(left ? i : size() - 1 - i);
-      const bool alone = cells_.charge[left ? 1 : size() - 2] == 0;
+      for (std::size_t i = 0; i <= margin; ++i) first += cells.width(left ? i : cells.size() - 1 - i);
+      const bool alone = cells.charge[left ? 1 : cells.size() - 2] == 0;
       if (inside + first > 0 || alone) break;
-      inside += cells_.width(left ? 0 : size() - 1);
-      drop_beyond(left);
+      inside += cells.width(left ? 0 : cells.size() - 1);
+      drop_outside(problem, cells, left);
       changed = true;
     }
   }
-  stop_at_walls();
-  if (changed) lay_equations();
+  stop_at_walls(problem, cells);
+  return changed;
 }
 
 }  // namespace slipfront::pulse

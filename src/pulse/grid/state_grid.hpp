@@ -7,32 +7,33 @@
 
 namespace slipfront::pulse {
 
-/// What the places of the interface remember. They stay where they are, dislocations pass over them: so their values
-/// lie on a grid of x that does not move with the cells, and an empty stretch has them too.
-class Places {
+/// A grid of x for the state variables of friction. It does not move with the cells, as dislocations pass over the
+/// interface and leave its state behind; and it covers stretches without dislocations too. The values at a point follow
+/// each other.
+class StateGrid {
  public:
-  /// As many as `count` between `left` and `right`, as they are at t = 0.
-  Places(const friction::Friction& friction, double left, double right, std::size_t count);
+  /// `count` points between `left` and `right`.
+  StateGrid(const friction::Friction& friction, double left, double right, std::size_t count);
 
-  /// The law's variables, place by place. All places together: what is saved.
-  std::vector<double>& values() { return values_; }
-  const std::vector<double>& values() const { return values_; }
+  /// Values at t = 0; none for a law without state.
+  std::vector<double> initial() const;
 
-  /// What passes over each place: the mean slip velocity, and the one whose logarithm is the mean over slip.
+  /// Slip velocities of the trains that pass over points: their means, and those whose logarithms are the means over
+  /// slip.
   struct Passing {
     std::vector<double> mean, typical;
   };
-  /// From what passes at x[i], which rise; nothing outside.
-  Passing passing(const std::vector<double>& x, const Passing& there) const;
-  /// Changes the memory over a time in which the same passes all along.
-  void advance(const friction::StateEvolution& evolution, const Passing& passing, double time);
-  /// The memory at each of `size` x, between two places; that of the last one outside.
-  void look_up(std::size_t size, const double* x, double* memory) const;
+  /// Finds the velocities at the grid from those at x[i], which rise; 0 outside.
+  void find_passing(const std::vector<double>& x, const Passing& there, Passing& here) const;
+  /// Changes the values over a time in which the velocities stay the same.
+  void advance(const Passing& passing, double time, std::vector<double>& values) const;
+  /// Finds the state at each of `size` x between two points; that of the last point outside.
+  void look_up(const std::vector<double>& values, std::size_t size, const double* x, double* state) const;
 
  private:
+  friction::Friction friction_;
   double left_, spacing_;
-  std::size_t variables_;
-  std::vector<double> values_;
+  std::size_t count_, each_;  ///< points, and values at each
 };
 
 }  // namespace slipfront::pulse

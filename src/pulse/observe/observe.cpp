@@ -1,4 +1,4 @@
-#include "slipfront/pulse/observe.hpp"
+#include "pulse/observe/observe.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,130 +7,21 @@
 #include <numeric>
 
 #include "foundation/math/parabola.hpp"
-#include "pulse/grid/interval.hpp"
-#include "slipfront/modulation/characteristics.hpp"
-#include "slipfront/modulation/per_dislocation.hpp"
+#include "pulse/observe/energy.hpp"
+#include "pulse/observe/fronts.hpp"
+#include "foundation/math/interval.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::pulse {
 namespace {
 
-using output::Energy;
 using output::Observed;
 using output::observed_fronts;
 using output::Snapshot;
 using std::numbers::pi;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-bool free_at(const Solver::View& v, bool right) { return right ? v.right_free : v.left_free; }
-
-/// Where a shock stands that W falls through in cell `in`, seen from the front: what slips in the cells from there
-/// outwards, in units of the slip velocity behind it, is the way that it has come into them.
-double shock_near(const Solver::View& v, const std::vector<double>& W, std::size_t in, bool to_right) {
-  constexpr std::size_t behind = 3, beyond = 6;
-  const std::size_t n = W.size();
-  const auto outward = [&](std::size_t steps) {
-    return to_right ? std::min(in + steps, n - 1) : in - std::min(in, steps);
-  };
-  const std::size_t back = to_right ? in - std::min(in, behind) : std::min(in + behind, n - 1);
-  double way = 0;
-  std::size_t last = n;
-  for (std::size_t j = 0; j <= beyond; ++j) {
-    const std::size_t i = outward(j);
-    if (i == last) break;
-    last = i;
-    way += (v.faces[i + 1] - v.faces[i]) * std::clamp(W[i] / W[back], 0.0, 1.0);
-  }
-  return to_right ? v.faces[in] + way : v.faces[in + 1] - way;
-}
-
-/// The edge of what moves on the less stressed side: the free edge, or where the slip velocity W (of the cells) falls
-/// through half of its largest. Velocities of the dislocations would not do: a shock pushes a few of a dilute train
-/// ahead of itself.
-double leading_front(const Solver::View& v, const std::vector<double>& W, bool to_right) {
-  const std::size_t n = W.size();
-  if (free_at(v, to_right)) return to_right ? v.faces.back() : v.faces.front();
-  double half = 0;
-  for (const double w : W) half = std::fmax(half, std::fabs(w) / 2);
-  for (std::size_t i = 1; i < n && half > 0; ++i) {  // from the front inwards
-    const std::size_t out = to_right ? n - i : i - 1, in = to_right ? out - 1 : out + 1;
-    const double a = std::fabs(W[in]), b = std::fabs(W[out]);
-    if (!(a >= half && b < half)) continue;
-    if (v.shocked[in] != 0) return shock_near(v, W, in, to_right);
-    return std::lerp(v.centres[in], v.centres[out], (half - a) / (b - a));
-  }
-  return none;
-}
-
-/// Slip velocities seen from the more stressed end inwards: how far each differs from that at the end.
-struct Inwards {
-  const Solver::View& v;
-  const std::vector<double>& W;
-  bool stressed_left;
-
-  std::size_t index(std::size_t i) const { return stressed_left ? i : W.size() - 1 - i; }
-  double x(std::size_t i) const { return v.centres[index(i)]; }
-  double change(std::size_t i) const { return W[index(i)] - W[index(0)]; }
-  /// Where the size of the change passes `level` between the cells i - 1 and i.
-  double place(std::size_t i, double level) const {
-    const double before = std::fabs(change(i - 1)), after = std::fabs(change(i));
-    return std::lerp(x(i - 1), x(i), (level - before) / (after - before));
-  }
-  /// The same in a tail that falls by a factor from cell to cell: its logarithm is nearly a straight line.
-  double place_in_tail(std::size_t i, double level) const {
-    const double before = std::fabs(change(i - 1)), after = std::fabs(change(i));
-    if (!(before > 0) || before * after < 0) return place(i, level);
-    return std::lerp(x(i - 1), x(i), std::log(level / before) / std::log(after / before));
-  }
-};
-
-/// The foot of a fan that rises within a few cells from `first` on to `top`: its quarter and three quarters, which the
-/// rounding of its corners moves least, on a straight line.
-double foot_of_narrow_fan(const Inwards& in, std::size_t first, double top) {
-  std::size_t i = first;
-  const auto place_of = [&](double level) {
-    while (std::fabs(in.change(i)) < level) ++i;
-    return in.place(i, level);
-  };
-  const double quarter = place_of(0.25 * top), three_quarters = place_of(0.75 * top);
-  return quarter - (three_quarters - quarter) / 2;
-}
-
-/// The foot of the fan on the more stressed side: behind the first cell whose slip velocity differs from that at the
-/// stressed end by a thousandth of the largest, the places of three cells as a parabola in that difference,
-/// continued to none. Where friction has drawn the foot out into a tail, the front is where the tail is felt, and so it
-/// is for a smooth initial stress, whose fan has no corner: whether cells show one would depend on their number.
-double trailing_front(const Solver::View& v, const std::vector<double>& W, bool stressed_left, bool smooth) {
-  constexpr double felt = 1e-3;
-  constexpr std::size_t behind = 4, apart = 3, last = behind + 2 * apart;  // cells: a fan's corner is round by two
-  const std::size_t n = W.size();
-  if (free_at(v, !stressed_left)) return none;
-  const Inwards in{v, W, stressed_left};
-  double most = 0;
-  for (const double w : W) most = std::fmax(most, std::fabs(w));
-  std::size_t first = 0;
-  while (first < n && !(std::fabs(in.change(first)) > felt * most)) ++first;
-  if (first <= 1 || first + last + behind >= n) return none;  // it has reached the end, or nothing moves
-  if (smooth) return in.place_in_tail(first, felt * most);
-  double top = 0;
-  for (std::size_t i = first; i <= first + last + behind; ++i) top = std::fmax(top, std::fabs(in.change(i)));
-  double x[3], w[3];
-  for (std::size_t j = 0; j < 3; ++j) {
-    x[j] = in.x(first + behind + apart * j);
-    w[j] = in.change(first + behind + apart * j);
-  }
-  const bool narrow = std::fabs(w[2]) > 0.85 * top && top > 10 * felt * most;
-  if (narrow) return foot_of_narrow_fan(in, first, top);
-  const bool rises = std::fabs(w[0]) > 0 && w[1] / w[0] > 1.2 && w[2] / w[1] > 1.1;
-  const bool tail = w[0] * w[2] > 0.95 * w[1] * w[1];  // exponential, as of a smooth stress: it has no foot
-  if (!rises || tail) return in.place_in_tail(first, felt * most);
-  const auto [slope, curve] = parabola_through(w[1] - w[0], x[1] - x[0], w[2] - w[0], x[2] - x[0]);
-  const double foot = x[0] - w[0] * (slope - curve * w[0]);
-  const double ahead = in.x(first - 1), farthest = ahead - 2 * (in.x(first) - ahead);
-  return std::clamp(foot, std::fmin(farthest, x[0]), std::fmax(farthest, x[0]));
-}
-
-std::vector<double> slip_velocities(const Solver::View& v) {
+std::vector<double> slip_velocities(const View& v) {
   std::vector<double> W(v.states.size());
   for (std::size_t i = 0; i < W.size(); ++i) W[i] = averages_of(v, v.states[i], v.centres[i]).W;
   return W;
@@ -170,7 +61,7 @@ double without_ripple(const std::vector<double>& W, std::size_t i) {
 }
 
 /// Of the domain, as some cells lie beyond an end where the train goes on; `W` are those at the centres.
-Points points_of(const Problem& problem, const Solver::View& v, const std::vector<double>& W) {
+Points points_of(const Problem& problem, const View& v, const std::vector<double>& W) {
   Points points;
   const std::size_t n = W.size();
   const auto add = [&](double x, double slip_velocity, bool near_shock) {
@@ -218,7 +109,7 @@ void find_peak(const Points& p, Snapshot& s) {
 }
 
 /// From the cells of the domain, with a threshold relative to the peak.
-void find_observed_fronts(const Problem& problem, const Solver::View& v, std::vector<double> W, double threshold,
+void find_observed_fronts(const Problem& problem, const View& v, std::vector<double> W, double threshold,
                           bool to_right, Snapshot& s) {
   for (std::size_t i = 0; i < W.size(); ++i) W[i] = std::isnan(in_domain(problem, v.centres[i])) ? 0 : std::fabs(W[i]);
   const double left = std::fmax(v.faces.front(), problem.left), right = std::fmin(v.faces.back(), problem.right);
@@ -227,161 +118,11 @@ void find_observed_fronts(const Problem& problem, const Solver::View& v, std::ve
   s.fronts.leading_observed = in_domain(problem, to_right ? seen.right : seen.left);
 }
 
-/// A sum over the dislocations from values at the centres of cells, fourth order in the cells' own coordinate where
-/// these are smooth there, and second order next to a jump or a free edge.
-struct SumOverCells {
-  const std::vector<double>& charge;
-  double corrections = 0;  ///< of all sums
-  double rough = 0;        ///< part of the last sum, in cells where values are not smooth
-
-  double operator()(const std::vector<double>& f) {
-    double sum = 0;
-    rough = 0;
-    for (std::size_t i = 0; i < f.size(); ++i) {
-      if (charge[i] == 0) continue;
-      sum += charge[i] * f[i];
-      if (!is_smooth(f, i)) {
-        rough += charge[i] * f[i];
-        continue;
-      }
-      corrections += correction(f, i);
-      sum += correction(f, i);
-    }
-    return sum;
-  }
-
- private:
-  bool is_smooth(const std::vector<double>& f, std::size_t i) const {
-    if (i == 0 || i + 1 == f.size() || charge[i - 1] == 0 || charge[i + 1] == 0) return false;
-    const double before = f[i] - f[i - 1], behind = f[i + 1] - f[i];
-    constexpr double smooth = 0.7;
-    return std::fabs(behind - before) < smooth * (std::fabs(before) + std::fabs(behind));
-  }
-  double correction(const std::vector<double>& f, std::size_t i) const {
-    return (f[i + 1] - 2 * f[i] + f[i - 1]) / 24 * charge[i] +
-           (f[i + 1] - f[i - 1]) * (charge[i + 1] - charge[i - 1]) / 48;
-  }
-};
-
-StoredEnergy stored_energy(const Solver& solver, const Solver::View& v) {
-  const std::size_t n = v.states.size();
-  std::vector<double> isolated(n), interaction(n), kinetic(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    if (solver.charge()[i] == 0) continue;
-    const double contact = v.contact ? v.contact(v.centres[i]) : 1;
-    isolated[i] = 8 * contact;
-    kinetic[i] = contact * modulation::kinetic_energy(v.states[i]);
-    if (v.states[i].empty()) continue;  // too far apart to feel each other
-    const double spacing = modulation::lagrangian_state(v.states[i]).spacing;
-    interaction[i] = contact * modulation::interaction_energy(modulation::state_of({spacing, 0}, v.states[i].psi).psi);
-  }
-  SumOverCells sum{solver.charge()};
-  StoredEnergy e{};
-  e.isolated = sum(isolated);
-  e.interaction = sum(interaction);
-  e.kinetic = std::fmax(sum(kinetic), 0.0);
-  e.correction = sum.corrections;
-  e.unresolved = sum.rough;
-  return e;
-}
-
-Energy energy_of(const Solver& solver, const Solver::View& v) {
-  const StoredEnergy stored = stored_energy(solver, v);
-  return {.elastic = stored.elastic(),
-          .kinetic = stored.kinetic,
-          .dissipated = solver.dissipated(),
-          .supplied = solver.supplied(),
-          .through_ends = solver.through_ends(),
-          .shocks = none,
-          .phonons = none};
-}
-
 }  // namespace
-
-TrailingCharacteristic::TrailingCharacteristic(const Solver& start) {
-  const Solver::View v = start.view();
-  const std::size_t n = v.states.size();
-  constexpr double rounding = 1e-9;  // the left end of two that are stressed alike, whatever the cells
-  // Cells stop at a free edge: there it is the face that is empty.
-  stressed_left_ = v.right_free || (!v.left_free && v.states.front().psi >= (1 - rounding) * v.states.back().psi);
-  const auto from_stressed = [&](std::size_t i) { return stressed_left_ ? i : n - 1 - i; };
-  const auto stress = [&](double x) { return start.problem().stress(x) / (v.contact ? v.contact(x) : 1); };
-  const double end = v.faces[stressed_left_ ? 0 : n];
-  const double stressed = stress(std::lerp(end, v.centres[from_stressed(0)], rounding));
-  double low = stressed, high = stressed;
-  constexpr int samples = 512;  // whatever the cells
-  for (int i = 0; i < samples; ++i) {
-    const double at = stress(std::lerp(v.faces.front(), v.faces.back(), (i + 0.5) / samples));
-    low = std::fmin(low, at);
-    high = std::fmax(high, at);
-  }
-  const bool uniform = high - low <= 1e-12 * high;  // up to a free edge: the front starts there
-  const auto departs = [&](double x, double share) {
-    return !uniform && std::fabs(stress(x) - stressed) > share * (high - low);
-  };
-  const auto first = [&](double share) {
-    std::size_t i = 0;
-    while (i < n && !departs(v.centres[from_stressed(i)], share)) ++i;
-    return i;
-  };
-  constexpr double felt = 0.01;
-  const std::size_t i = first(felt);
-  position_ = i < n ? v.centres[from_stressed(i)] : v.faces[stressed_left_ ? n : 0];
-  double still = i == n ? position_ : i == 0 ? end : v.centres[from_stressed(i - 1)];
-  while (true) {
-    const double middle = still + (position_ - still) / 2;
-    if (middle == still || middle == position_) break;
-    (departs(middle, felt) ? position_ : still) = middle;
-  }
-  steady_ = first(1e-12) == i && !start.problem().forcing;
-  speed_ = steady_ ? speed_into(v.states[from_stressed(0)]) : speed_at(start);
-}
-
-double TrailingCharacteristic::speed_into(const State& ahead) const {
-  const auto speeds = modulation::characteristic_speeds(ahead);
-  return stressed_left_ ? speeds.minus : speeds.plus;
-}
-
-/// Speed at the present place: between the cells of a smooth stress, and ahead of a corner by more than a
-/// reconstruction reaches, so that the front itself is not seen.
-double TrailingCharacteristic::speed_at(const Solver& now) const {
-  const Cells& cells = now.cells();
-  const std::size_t last = now.size() - 1;
-  std::size_t cell = 0;
-  double left = cells.left_edge();
-  for (; cell < last && left + cells.width(cell) <= position_; ++cell) left += cells.width(cell);
-  if (now.problem().corner < HUGE_VAL) {
-    constexpr std::size_t reach = 6;
-    return speed_into(now.state_in(stressed_left_ ? cell - std::min(cell, reach) : std::min(cell + reach, last)));
-  }
-  const double middle = left + cells.width(cell) / 2, here = speed_into(now.state_in(cell));
-  const bool to_right = position_ > middle;
-  if (to_right ? cell == last : cell == 0) return here;
-  const std::size_t next = to_right ? cell + 1 : cell - 1;
-  if (cells.charge[cell] == 0 || cells.charge[next] == 0) return here;
-  const double apart = (cells.width(cell) + cells.width(next)) / 2;
-  return std::lerp(here, speed_into(now.state_in(next)), std::fmin(std::fabs(position_ - middle) / apart, 1.0));
-}
-
-void TrailingCharacteristic::advance(const Solver& now, double dt) {
-  if (steady_) {
-    position_ += dt * speed_;
-    return;
-  }
-  const double before = speed_;
-  position_ += dt * before;
-  position_ += dt * (speed_at(now) - before) / 2;
-  speed_ = speed_at(now);
-}
-
-void TrailingCharacteristic::restore(const Solver& now, double position) {
-  position_ = position;
-  if (!steady_) speed_ = speed_at(now);
-}
 
 Snapshot observe(const Solver& solver, const std::vector<double>& x_edges, const TrailingCharacteristic& trailing,
                  double threshold) {
-  const Solver::View v = solver.view();
+  const View v = solver.view();
   Snapshot s{};
   s.time = solver.cells().time;
   const std::size_t n = x_edges.size() - 1;
@@ -423,20 +164,6 @@ Snapshot observe(const Solver& solver, const std::vector<double>& x_edges, const
   find_observed_fronts(problem, v, W, threshold, to_right, s);
   s.energy = energy_of(solver, v);
   return s;
-}
-
-StoredEnergy stored_energy(const Solver& solver) { return stored_energy(solver, solver.view(false)); }
-
-double conservation_error(const Solver& solver) {
-  const Solver::View v = solver.view();
-  double counted = 0, known = 0;
-  for (std::size_t i = 0; i < v.states.size(); ++i) {
-    known += solver.charge()[i];
-    if (v.states[i].empty()) continue;
-    const double middle = averages_of(v, v.states[i], v.centres[i]).k / (2 * pi);
-    counted += (v.face_density[i] + 4 * middle + v.face_density[i + 1]) / 6 * (v.faces[i + 1] - v.faces[i]);
-  }
-  return std::fabs(counted - known) / known;
 }
 
 }  // namespace slipfront::pulse

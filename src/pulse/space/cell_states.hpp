@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "pulse/grid/block.hpp"
+#include "pulse/space/block.hpp"
 
 namespace slipfront::pulse {
 

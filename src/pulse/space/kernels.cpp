@@ -5,6 +5,7 @@
 
 #include "foundation/simd/elementary.hpp"
 #include "foundation/simd/elliptic_fit.hpp"
+#include "foundation/simd/reduce.hpp"
 #include "foundation/simd/vector_code.hpp"
 #include "modulation/equations.hpp"
 #include "pulse/space/weno.hpp"
@@ -91,21 +92,6 @@ SLIPFRONT_CLONES void per_dislocation(std::size_t size, const double* per_charge
 }
 
 namespace {
-
-// Sums and extrema in eight lanes, in the same order on every machine.
-constexpr std::size_t lanes = 8;
-
-template <class Value, class Join>
-inline double reduce(std::size_t size, double start, Value value, Join join) {
-  double part[lanes];
-  for (double& p : part) p = start;
-  std::size_t i = 0;
-  for (; i + lanes <= size; i += lanes)
-    for (std::size_t j = 0; j < lanes; ++j) part[j] = join(part[j], value(i + j));
-  for (; i < size; ++i) part[0] = join(part[0], value(i));
-  for (std::size_t j = 1; j < lanes; ++j) part[0] = join(part[0], part[j]);
-  return part[0];
-}
 
 inline double larger(double a, double b) { return b > a ? b : a; }
 inline double smaller(double a, double b) { return b < a ? b : a; }
@@ -211,14 +197,6 @@ SLIPFRONT_CLONES double damp(std::size_t size, double rate, const double* moment
   return rate *
          reduce(
              size, 0, [=](std::size_t i) { return U[i] * momentum[i]; }, [](double a, double b) { return a + b; });
-}
-
-SLIPFRONT_CLONES double take_friction(std::size_t size, const double* free, const double* momentum,
-                                      const double* velocity, double per_time, double* friction) {
-  SLIPFRONT_INDEPENDENT
-  for (std::size_t i = 0; i < size; ++i) friction[i] = (free[i] - momentum[i]) * per_time;
-  return reduce(
-      size, 0, [=](std::size_t i) { return friction[i] * velocity[i]; }, [](double a, double b) { return a + b; });
 }
 
 SLIPFRONT_CLONES double paper_rates(std::size_t size, double coefficient, const double* EK, double* rate) {

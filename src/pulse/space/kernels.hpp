@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "pulse/grid/block.hpp"
+#include "pulse/space/block.hpp"
 
 /// The loops over cells and faces where a pulse run spends its time, as vector code chosen at run time (AVX-512, AVX2
 /// or plain).
@@ -100,11 +100,6 @@ struct AfterNewton {
 };
 void find_after_newton(const NewtonArrays& a, double weight, double last_step, double precision,
                        const AfterNewton& after);
-
-/// Force of friction that leaves `momentum` of `free` in a time, from 1 over that time; returns the power that it
-/// takes.
-double take_friction(std::size_t size, const double* free, const double* momentum, const double* velocity,
-                     double per_time, double* friction);
 
 /// Adds friction at one rate for all cells to the rates of their momenta; returns the power that it takes.
 double damp(std::size_t size, double rate, const double* momentum, const double* U, double* momentum_rate);

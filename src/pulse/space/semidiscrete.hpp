@@ -4,11 +4,12 @@
 #include <memory>
 #include <vector>
 
-#include "pulse/grid/block.hpp"
+#include "pulse/grid/values.hpp"
+#include "pulse/space/block.hpp"
 #include "pulse/space/cell_states.hpp"
+#include "pulse/space/setup.hpp"
 #include "slipfront/friction/friction.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
-#include "slipfront/pulse/named_values.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::pulse {
@@ -23,15 +24,6 @@ namespace slipfront::pulse {
 /// problem at the face.
 class Semidiscrete {
  public:
-  struct Setup {
-    std::vector<double> charge;  ///< dislocations in each cell, 0 in a gap
-    Edge left = Edge::continued, right = Edge::continued;
-    double left_wall = 0, right_wall = 0;  ///< x, where the edges are walls
-    friction::Friction friction;
-    std::function<double(double, double)> forcing;  ///< null: none
-    std::function<double(double)> contact;          ///< a(x); null: 1
-    bool friction_apart = false;                    ///< the rates dy are those without friction
-  };
   explicit Semidiscrete(Setup setup);
 
   std::size_t size() const { return setup_.charge.size(); }

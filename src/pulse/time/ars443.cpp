@@ -5,8 +5,9 @@
 #include <cmath>
 
 #include "foundation/simd/combine.hpp"
-#include "pulse/space/kernels.hpp"
-#include "slipfront/pulse/named_values.hpp"
+#include "foundation/simd/reduce.hpp"
+#include "foundation/simd/vector_code.hpp"
+#include "pulse/grid/values.hpp"
 
 namespace slipfront::pulse {
 namespace {
@@ -19,6 +20,16 @@ constexpr double by_rates[stages][stages] = {
 /// And from which friction: column 0 is the first stage.
 constexpr double by_friction[stages][stages] = {
     {1.0 / 2}, {1.0 / 6, 1.0 / 2}, {-1.0 / 2, 1.0 / 2, 1.0 / 2}, {3.0 / 2, -3.0 / 2, 1.0 / 2, 1.0 / 2}};
+
+/// Force of friction that leaves `momentum` of `free` in a time, from 1 over that time; returns the power that it
+/// takes.
+SLIPFRONT_CLONES double take_friction(std::size_t size, const double* free, const double* momentum,
+                                      const double* velocity, double per_time, double* friction) {
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t i = 0; i < size; ++i) friction[i] = (free[i] - momentum[i]) * per_time;
+  return reduce(
+      size, 0, [=](std::size_t i) { return friction[i] * velocity[i]; }, [](double a, double b) { return a + b; });
+}
 
 }  // namespace
 

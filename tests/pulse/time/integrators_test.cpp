@@ -10,7 +10,7 @@
 #include "pulse/time/ars443.hpp"
 #include "pulse/time/rodas4.hpp"
 #include "pulse/time/ssprk54.hpp"
-#include "slipfront/pulse/named_values.hpp"
+#include "pulse/grid/values.hpp"
 
 namespace {
 

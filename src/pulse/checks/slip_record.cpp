@@ -1,0 +1,73 @@
+#include "pulse/checks/slip_record.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace slipfront::pulse {
+namespace {
+
+/// By how much the slip velocity at x may be wrong: what the curve between the centre and the face beside it adds to a
+/// straight line, and a hundredth of what W changes by between them. Where a pulse is narrower than a cell, the cells
+/// do not resolve it.
+double unresolved_at(const View& v, double x, double W) {
+  const auto right = std::upper_bound(v.faces.begin() + 1, v.faces.end() - 1, x);
+  const auto cell = static_cast<std::size_t>(right - v.faces.begin() - 1);
+  if (v.states[cell].empty()) return 0;
+  constexpr double interpolated = 0.01;
+  const std::size_t face = x < v.centres[cell] ? cell : cell + 1;
+  const double at_face = averages_of(v, v.face_states[face], v.faces[face]).W;
+  const double at_centre = averages_of(v, v.states[cell], v.centres[cell]).W;
+  const double share = (x - v.centres[cell]) / (v.faces[face] - v.centres[cell]);
+  return std::fabs(W - std::lerp(at_centre, at_face, share)) + interpolated * std::fabs(at_face - at_centre);
+}
+
+}  // namespace
+
+double SlipTwice::error() const {
+  const double apart = std::fabs(by_place - by_velocity);
+  return std::fmax(apart - sampling, std::fmin(apart, of_velocity));
+}
+
+void SlipRecord::sample(const Solver& solver) {
+  const View v = solver.view(false);
+  const double time = solver.cells().time, velocity = averages_of(v, state_at(v, 0), 0).W;
+  const double elapsed = time - integral_.time;
+  size_ += elapsed * (std::fabs(velocity) + std::fabs(integral_.velocity)) / 2;
+  doubt_ += elapsed * unresolved_at(v, 0, velocity);
+  integral_.add(time, velocity);
+}
+
+std::optional<SlipTwice> SlipRecord::compare(const Solver& solver) const {
+  const Problem& problem = solver.problem();
+  if (!(problem.left < 0 && problem.right > 0 && integral_.samples > 8)) return std::nullopt;
+  const View v = solver.view();
+  const double now = averages_of(v, state_at(v, 0), 0).W;
+  return SlipTwice{solver.slip_at(v, 0), integral_.up_to(solver.cells().time, now), integral_.error(), doubt_};
+}
+
+template <class Record, class Each>
+void SlipRecord::for_each_number(Record& record, const Each& each) {
+  auto& slip = record.integral_;
+  each(slip.time);
+  each(slip.velocity);
+  each(slip.integral);
+  each(record.size_);
+  each(slip.early_time);
+  each(slip.early_velocity);
+  each(slip.coarse_integral);
+  each(slip.spread);
+  each(record.doubt_);
+}
+
+void SlipRecord::save(bytes::Writer& writer) const {
+  for_each_number(*this, [&](double value) { writer.put(value); });
+  writer.put(static_cast<std::int64_t>(integral_.samples));
+}
+
+void SlipRecord::restore(bytes::Reader& reader) {
+  for_each_number(*this, [&](double& value) { value = reader.get<double>(); });
+  integral_.samples = static_cast<long>(reader.get<std::int64_t>());
+}
+
+}  // namespace slipfront::pulse

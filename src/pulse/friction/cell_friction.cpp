@@ -1,0 +1,151 @@
+#include "pulse/friction/cell_friction.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "pulse/space/kernels.hpp"
+
+namespace slipfront::pulse {
+using std::numbers::pi;
+
+void find_centres(const Cells& cells, std::vector<double>& x) {
+  double face = cells.left_edge();
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    x[i] = face + cells.width(i) / 2;
+    face += cells.width(i);
+  }
+}
+
+CellFriction::CellFriction(const Problem& problem, std::size_t cells)
+    : problem_(problem), solve_(problem.friction, cells), state_(cells * problem.friction.state_size()) {
+  for (auto* array : {&charge_, &x_, &contact_, &start_, &start_s_, &start_typical_, &start_momentum_, &start_force_,
+                      &s_, &momentum_, &velocity_, &typical_, &force_, &slope_, &start_slope_})
+    array->resize(cells);
+  for (auto* array : {&strength_at_rest_, &held_, &free_, &guess_, &moves_, &spacing_, &middle_, &fastest_,
+                      &slipping_fastest_, &slipping_s_, &slipping_force_, &slipping_slope_})
+    array->resize(cells);
+  slipping_.resize(cells);
+  slipping_state_.resize(state_.size());
+}
+
+void CellFriction::start(const Cells& cells, const CellStates& trains, Stretch awake, const StateGrid& grid) {
+  awake_ = awake;
+  charge_ = cells.charge;
+  find_centres(cells, x_);
+  start_ = trains.velocity;
+  start_s_ = cells.s;
+  for (std::size_t i = 0; i < x_.size(); ++i) {
+    const bool gap = charge_[i] == 0;
+    contact_[i] = contact(i);
+    start_momentum_[i] = gap ? 0 : std::fabs(cells.momentum(i)) / charge_[i];
+    if (gap) start_[i] = 0;
+  }
+  take_state(grid, cells.state, 0);
+  fastest_slip(x_.size(), trains.phi.data(), trains.psi.data(), fastest_.data());
+  for (std::size_t i = 0; i < x_.size(); ++i) fastest_[i] = charge_[i] == 0 ? 0 : contact_[i] * fastest_[i];
+  find_forces(trains.s);
+  start_force_ = force_;
+  start_slope_ = slope_;
+  for (std::size_t i = 0; i < x_.size(); ++i) start_typical_[i] = fastest_[i] / 2 * (1 + trains.s[i]);
+  restart();
+}
+
+void CellFriction::restart() {
+  s_ = start_s_;
+  momentum_ = start_momentum_;
+  velocity_ = start_;
+  typical_ = start_typical_;
+  force_ = start_force_;
+  slope_ = start_slope_;
+}
+
+void CellFriction::find_passing(const Cells& cells, StateGrid::Passing& passing) const {
+  passing.mean.resize(x_.size());
+  passing.typical = typical_;
+  for (std::size_t i = 0; i < x_.size(); ++i)  // W = k U
+    passing.mean[i] = velocity_[i] * 2 * pi * charge_[i] / cells.width(i);
+}
+
+void CellFriction::take_state(const StateGrid& grid, const std::vector<double>& values, double dt) {
+  const std::size_t first = awake_.begin, count = awake_.end - first;
+  for (std::size_t i = first; i < awake_.end; ++i) middle_[i] = x_[i] + start_[i] * dt / 2;
+  double* state = state_.data() + first * variables();
+  grid.look_up(values, count, middle_.data() + first, state);
+  std::fill(held_.begin(), held_.end(), 0.0);
+  if (problem_.friction.sticks())
+    problem_.friction.loops().strengths(count, held_.data(), {state, variables()}, strength_at_rest_.data() + first);
+}
+
+void CellFriction::operator()(const double* y, const double* free, double time, double* momentum, double* velocity) {
+  const double weight = 2 * pi * time;
+  const std::size_t each = variables();
+  solve_.clear();
+  const std::size_t first = awake_.begin, count = awake_.end - first;
+  for (std::size_t i = first; i < awake_.end; ++i) held_[i] = weight * strength_at_rest_[i];
+  const auto part = [first](std::vector<double>& array) { return array.data() + first; };
+  free_momenta({count, part(charge_), part(contact_), ConstValues(y, x_.size()).widths() + first, free + first,
+                part(s_), part(held_), part(momentum_), part(free_), part(guess_), part(moves_), part(spacing_)},
+               time);
+  // From the momentum, the force and its slope as last found.
+  take_newton_steps({count, part(guess_), part(free_), part(force_), part(slope_), part(guess_)}, weight,
+                    SlowedTrains::at_rest_below);
+  for (std::size_t i = first; i < awake_.end; ++i) {
+    if (moves_[i] != 0) {
+      solve_.add({i, spacing_[i], contact_[i], state_.data() + i * each, free_[i], guess_[i], s_[i]});
+    } else {
+      momentum_[i] = std::isnan(free_[i]) ? free_[i] : 0;
+      velocity_[i] = typical_[i] = force_[i] = slope_[i] = 0;
+    }
+  }
+  solve_.solve(time, {momentum_.data(), velocity_.data(), typical_.data(), force_.data(), slope_.data(), s_.data()});
+  std::copy_n(free, first, momentum);  // a gap's, or nothing
+  std::copy(free + awake_.end, free + x_.size(), momentum + awake_.end);
+  std::fill_n(velocity, x_.size(), 0.0);
+  for (std::size_t i = first; i < awake_.end; ++i) {
+    momentum[i] = charge_[i] == 0 ? free[i] : std::copysign(momentum_[i], free[i]) * charge_[i];
+    velocity_[i] = std::copysign(velocity_[i], free[i]);
+    velocity[i] = velocity_[i];
+  }
+}
+
+/// Mean forces, and their slopes, of the cells that slip, or of one in `stride`, from their largest slip velocities and
+/// s.
+void CellFriction::find_forces(const std::vector<double>& s, std::size_t stride) {
+  const std::size_t each = variables();
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < x_.size(); i += stride) {
+    force_[i] = slope_[i] = 0;
+    if (!(fastest_[i] > 0)) continue;
+    slipping_[count] = i;
+    slipping_fastest_[count] = fastest_[i];
+    slipping_s_[count] = s[i];
+    std::copy_n(state_.data() + i * each, each, slipping_state_.data() + count * each);
+    ++count;
+  }
+  problem_.friction.average().mean_strengths(
+      {count, slipping_fastest_.data(), slipping_s_.data(), {slipping_state_.data(), each}},
+      problem_.friction.closure(), slipping_force_.data(), slipping_slope_.data());
+  for (std::size_t j = 0; j < count; ++j) {
+    force_[slipping_[j]] = slipping_force_[j];
+    slope_[slipping_[j]] = slipping_slope_[j];
+  }
+}
+
+double CellFriction::state_error(const std::vector<double>& forces_before, double time,
+                                 const std::vector<double>& scale) {
+  const std::size_t stride = std::max<std::size_t>(x_.size() / 64, 1);
+  for (std::size_t i = 0; i < x_.size(); ++i) fastest_[i] = velocity_[i] == 0 ? 0 : 2 * typical_[i] / (1 + s_[i]);
+  find_forces(s_, stride);
+  double sum = 0;
+  for (std::size_t i = 0; i < x_.size(); i += stride) {
+    if (!(fastest_[i] > 0)) continue;
+    const double off =
+        2 * pi * time * charge_[i] * (force_[i] - forces_before[i]) / ConstValues(scale.data(), x_.size()).momentum(i);
+    sum += off * off;
+  }
+  const double error = std::sqrt(sum * static_cast<double>(stride) / static_cast<double>(x_.size()));
+  return std::isfinite(error) ? error : HUGE_VAL;
+}
+
+}  // namespace slipfront::pulse

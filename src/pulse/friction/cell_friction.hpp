@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "pulse/friction/friction_solve.hpp"
+#include "pulse/grid/cells.hpp"
+#include "pulse/grid/state_grid.hpp"
+#include "pulse/space/cell_states.hpp"
+#include "slipfront/pulse/problem.hpp"
+
+namespace slipfront::pulse {
+
+/// Centres of the cells.
+void find_centres(const Cells& cells, std::vector<double>& x);
+
+/// Friction on the cells over a step, at the state of the interface in the middle of the step. Its arrays serve step
+/// after step.
+class CellFriction {
+ public:
+  CellFriction(const Problem& problem, std::size_t cells);
+  /// Prepares a step from these cells, whose trains have the states `trains`. Cells outside `awake` are at rest
+  /// throughout the step.
+  void start(const Cells& cells, const CellStates& trains, Stretch awake, const StateGrid& grid);
+
+  const std::vector<double>& x() const { return x_; }  ///< centres
+  /// Slip velocities at the centres for cells of these widths, from the velocities of the last call.
+  void find_passing(const Cells& cells, StateGrid::Passing& passing) const;
+  /// Takes the state at the centres of the cells in the middle of a step of `dt`.
+  void take_state(const StateGrid& grid, const std::vector<double>& values, double dt);
+  /// Ars443::Friction.
+  void operator()(const double* y, const double* free, double time, double* momentum, double* velocity);
+  /// Mean forces of the last call.
+  const std::vector<double>& forces() const { return force_; }
+  /// Error of a step of `time` whose forces were `forces_before`, if the state last taken is right: in units of
+  /// `scale`, root mean square over some of the cells.
+  double state_error(const std::vector<double>& forces_before, double time, const std::vector<double>& scale);
+  /// Goes back to the start of the step, for another attempt.
+  void restart();
+
+ private:
+  std::size_t variables() const { return problem_.friction.state_size(); }
+  double contact(std::size_t cell) const { return problem_.contact ? problem_.contact(x_[cell]) : 1; }
+  void find_forces(const std::vector<double>& s, std::size_t stride = 1);
+
+  const Problem& problem_;
+  SlowedTrains solve_;
+  Stretch awake_{0, 0};
+  std::vector<double> charge_, x_, contact_, state_;
+  // Of one dislocation, at the start of the step and in the last call.
+  std::vector<double> start_, start_s_, start_typical_, start_momentum_, start_force_, start_slope_;
+  std::vector<double> s_, momentum_, velocity_, typical_, force_, slope_;
+  std::vector<double> strength_at_rest_, held_;  ///< friction on cells at rest, as a force and as a momentum
+  std::vector<double> free_, guess_, moves_, spacing_, middle_;
+  std::vector<double> fastest_;  ///< largest slip velocities
+  std::vector<std::size_t> slipping_;
+  std::vector<double> slipping_fastest_, slipping_s_, slipping_state_, slipping_force_, slipping_slope_;
+};
+
+}  // namespace slipfront::pulse

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "pulse/grid/cells.hpp"
+#include "slipfront/pulse/problem.hpp"
+
+namespace slipfront::pulse {
+
+/// Time until the edges of a gap meet, or a train that has left a wall is back at it, from the rates of the unknowns.
+double gaps_close_in(const Problem& problem, const Cells& cells, const double* rates);
+
+/// Joins the cells on both sides of each gap whose edges have met. Returns whether there was one.
+bool close_gaps(Cells& cells);
+
+}  // namespace slipfront::pulse

@@ -1,0 +1,122 @@
+#include "pulse/observe/fronts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "foundation/math/parabola.hpp"
+
+namespace slipfront::pulse {
+
+bool free_at(const View& v, bool right) { return right ? v.right_free : v.left_free; }
+
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+/// Where a shock stands that W falls through in cell `in`, seen from the front: what slips in the cells from there
+/// outwards, in units of the slip velocity behind it, is the way that it has come into them.
+double shock_near(const View& v, const std::vector<double>& W, std::size_t in, bool to_right) {
+  constexpr std::size_t behind = 3, beyond = 6;
+  const std::size_t n = W.size();
+  const auto outward = [&](std::size_t steps) {
+    return to_right ? std::min(in + steps, n - 1) : in - std::min(in, steps);
+  };
+  const std::size_t back = to_right ? in - std::min(in, behind) : std::min(in + behind, n - 1);
+  double way = 0;
+  std::size_t last = n;
+  for (std::size_t j = 0; j <= beyond; ++j) {
+    const std::size_t i = outward(j);
+    if (i == last) break;
+    last = i;
+    way += (v.faces[i + 1] - v.faces[i]) * std::clamp(W[i] / W[back], 0.0, 1.0);
+  }
+  return to_right ? v.faces[in] + way : v.faces[in + 1] - way;
+}
+
+}  // namespace
+
+double leading_front(const View& v, const std::vector<double>& W, bool to_right) {
+  const std::size_t n = W.size();
+  if (free_at(v, to_right)) return to_right ? v.faces.back() : v.faces.front();
+  double half = 0;
+  for (const double w : W) half = std::fmax(half, std::fabs(w) / 2);
+  for (std::size_t i = 1; i < n && half > 0; ++i) {  // from the front inwards
+    const std::size_t out = to_right ? n - i : i - 1, in = to_right ? out - 1 : out + 1;
+    const double a = std::fabs(W[in]), b = std::fabs(W[out]);
+    if (!(a >= half && b < half)) continue;
+    if (v.shocked[in] != 0) return shock_near(v, W, in, to_right);
+    return std::lerp(v.centres[in], v.centres[out], (half - a) / (b - a));
+  }
+  return none;
+}
+
+namespace {
+
+/// Slip velocities seen from the more stressed end inwards: how far each differs from that at the end.
+struct Inwards {
+  const View& v;
+  const std::vector<double>& W;
+  bool stressed_left;
+
+  std::size_t index(std::size_t i) const { return stressed_left ? i : W.size() - 1 - i; }
+  double x(std::size_t i) const { return v.centres[index(i)]; }
+  double change(std::size_t i) const { return W[index(i)] - W[index(0)]; }
+  /// Where the size of the change passes `level` between the cells i - 1 and i.
+  double place(std::size_t i, double level) const {
+    const double before = std::fabs(change(i - 1)), after = std::fabs(change(i));
+    return std::lerp(x(i - 1), x(i), (level - before) / (after - before));
+  }
+  /// The same in a tail that falls by a factor from cell to cell: its logarithm is nearly a straight line.
+  double place_in_tail(std::size_t i, double level) const {
+    const double before = std::fabs(change(i - 1)), after = std::fabs(change(i));
+    if (!(before > 0) || before * after < 0) return place(i, level);
+    return std::lerp(x(i - 1), x(i), std::log(level / before) / std::log(after / before));
+  }
+};
+
+/// The foot of a fan that rises within a few cells from `first` on to `top`: its quarter and three quarters, which the
+/// rounding of its corners moves least, on a straight line.
+double foot_of_narrow_fan(const Inwards& in, std::size_t first, double top) {
+  std::size_t i = first;
+  const auto place_of = [&](double level) {
+    while (std::fabs(in.change(i)) < level) ++i;
+    return in.place(i, level);
+  };
+  const double quarter = place_of(0.25 * top), three_quarters = place_of(0.75 * top);
+  return quarter - (three_quarters - quarter) / 2;
+}
+
+}  // namespace
+
+double trailing_front(const View& v, const std::vector<double>& W, bool stressed_left, bool smooth) {
+  constexpr double felt = 1e-3;
+  constexpr std::size_t behind = 4, apart = 3, last = behind + 2 * apart;  // cells: a fan's corner is round by two
+  const std::size_t n = W.size();
+  if (free_at(v, !stressed_left)) return none;
+  const Inwards in{v, W, stressed_left};
+  double most = 0;
+  for (const double w : W) most = std::fmax(most, std::fabs(w));
+  std::size_t first = 0;
+  while (first < n && !(std::fabs(in.change(first)) > felt * most)) ++first;
+  if (first <= 1 || first + last + behind >= n) return none;  // it has reached the end, or nothing moves
+  if (smooth) return in.place_in_tail(first, felt * most);
+  double top = 0;
+  for (std::size_t i = first; i <= first + last + behind; ++i) top = std::fmax(top, std::fabs(in.change(i)));
+  double x[3], w[3];
+  for (std::size_t j = 0; j < 3; ++j) {
+    x[j] = in.x(first + behind + apart * j);
+    w[j] = in.change(first + behind + apart * j);
+  }
+  const bool narrow = std::fabs(w[2]) > 0.85 * top && top > 10 * felt * most;
+  if (narrow) return foot_of_narrow_fan(in, first, top);
+  const bool rises = std::fabs(w[0]) > 0 && w[1] / w[0] > 1.2 && w[2] / w[1] > 1.1;
+  const bool tail = w[0] * w[2] > 0.95 * w[1] * w[1];  // exponential, as of a smooth stress: it has no foot
+  if (!rises || tail) return in.place_in_tail(first, felt * most);
+  const auto [slope, curve] = parabola_through(w[1] - w[0], x[1] - x[0], w[2] - w[0], x[2] - x[0]);
+  const double foot = x[0] - w[0] * (slope - curve * w[0]);
+  const double ahead = in.x(first - 1), farthest = ahead - 2 * (in.x(first) - ahead);
+  return std::clamp(foot, std::fmin(farthest, x[0]), std::fmax(farthest, x[0]));
+}
+
+}  // namespace slipfront::pulse

@@ -1,0 +1,91 @@
+#include "pulse/steps/explicit_steps.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "modulation/equations.hpp"
+#include "pulse/steps/step_limits.hpp"
+#include "slipfront/error.hpp"
+
+namespace slipfront::pulse {
+namespace {
+
+/// Dry friction cannot reverse a cell: one that would have is at rest, and moves on only if pushed hard enough. So is
+/// one that `friction` (that of a dislocation) holds, as it has turned it back in a stage of the step and nothing else
+/// acts as strongly: what the step would have made of its momentum is no error then, nor what its friction does in the
+/// means over the cells beside it.
+void stop_reversals(const Ssprk54& step, double friction, const std::vector<double>& charge,
+                    const std::vector<double>& before, std::vector<double>& after, std::vector<double>& scale) {
+  for (std::size_t cell = 0; cell < charge.size(); ++cell) {
+    const std::size_t i = charge.size() + cell;
+    const bool reversed = before[i] * after[i] < 0;
+    const bool held =
+        (reversed || step.returns_to_zero(i, before[i])) && step.largest_rate(i) <= 2 * friction * charge[cell];
+    if (!reversed && !held) continue;
+    after[i] = 0;
+    if (!held) continue;
+    for (std::size_t j = cell > 1 ? cell - 2 : 0; j <= std::min(cell + 2, charge.size() - 1); ++j)
+      scale[charge.size() + j] = HUGE_VAL;
+  }
+}
+
+/// Cells that were left alone in a step keep their bits: its sums of a width with itself are rounded.
+void keep_others(Stretch awake, const std::vector<double>& before, std::vector<double>& after, std::size_t cells) {
+  const auto copy = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t first : {begin, cells + begin})
+      std::copy_n(before.data() + first, end - begin, after.data() + first);
+  };
+  copy(0, awake.begin);
+  copy(awake.end, cells);
+}
+
+}  // namespace
+
+ExplicitSteps::ExplicitSteps(const Problem& problem, const Measures& measures, std::size_t cells)
+    : problem_(problem), measures_(measures), step_(Values::size(cells)), before_(Values::size(cells)), scale_(2 * cells) {}
+
+StepAttempt ExplicitSteps::attempt(Cells& cells, Semidiscrete& equations, const std::vector<double>& rate, double dt) {
+  const Rates f = [&equations](double t, const double* y, double* dy) { equations(t, y, dy); };
+  const double friction = modulation::force_per_dislocation(problem_.friction.strength_at_rest());
+  try {
+    step_(f, cells.time, dt, cells.unknowns, rate);
+    keep_others(equations.awake(), before_, cells.unknowns, cells.size());
+    if (problem_.friction.sticks()) stop_reversals(step_, friction, cells.charge, before_, cells.unknowns, scale_);
+    const double error =
+        std::fmax(step_.error(dt, rate, scale_, equations.shocked()), measures_.unseen_push(cells, dt)) /
+        problem_.explicit_tolerance;
+    return {.succeeded = true, .error = error, .resolved = !cells_jump(before_, cells.unknowns, cells.charge)};
+  } catch (const NumericsError&) {  // a stage left the range of states
+    failure_ = std::current_exception();
+    return {};
+  }
+}
+
+double ExplicitSteps::take(Cells& cells, Semidiscrete& equations, const std::vector<double>& rate, double remaining,
+                           double crossing) {
+  if (!cells.face_momentum.empty()) {
+    cells.face_momentum.clear();
+    cells.step = 0;
+  }
+  before_ = cells.unknowns;
+  measures_.find_scale(cells, equations, crossing, scale_);
+  const auto attempt_from_start = [&](double dt) {
+    failure_ = nullptr;
+    return attempt(cells, equations, rate, dt);
+  };
+  const double wanted = cells.step > 0 ? std::fmin(crossing, cells.step) : crossing;
+  const StepTaken step = take_step(StepControl{.order = 4}, step_within(remaining, wanted), attempt_from_start,
+                                   [&](double, int attempts) {
+                                     cells.unknowns = before_;
+                                     if (attempts > most_shortenings && failure_) std::rethrow_exception(failure_);
+                                     if (attempts > most_shortenings) throw too_strong_forces(cells.time);
+                                     equations.start_from(cells.s);
+                                     measures_.find_scale(cells, equations, crossing, scale_);
+                                     return false;
+                                   });
+  cells.step = step.next;
+  cells.s = equations.s();
+  return step.length;
+}
+
+}  // namespace slipfront::pulse

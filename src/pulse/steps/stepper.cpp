@@ -1,0 +1,109 @@
+#include "pulse/steps/stepper.hpp"
+
+#include <cmath>
+
+#include "pulse/grid/gaps.hpp"
+
+namespace slipfront::pulse {
+namespace {
+
+/// Friction times in which a wave crosses a cell of average width, above which steps are implicit: there the pulse
+/// diffuses.
+constexpr double stiff_above = 1;
+/// And below which they are explicit again.
+constexpr double stiff_below = 0.3;
+/// Explicit steps are stable up to 4 friction times or so.
+constexpr double longest_in_friction_times = 2;
+
+}  // namespace
+
+Stepper::Stepper(const Problem& problem, const InitialGrid& initial)
+    : problem_(problem),
+      initial_(initial),
+      measures_(problem, initial),
+      equations_(problem, initial.free),
+      state_grid_(problem.friction, problem.left, problem.right, static_cast<std::size_t>(problem.cells)),
+      by_cells_(takes_friction_by_cells(problem)) {}
+
+void Stepper::rebuild(const Cells& cells) {
+  equations_.rebuild(cells);
+  rate_.assign(cells.unknowns.size(), 0.0);
+  explicit_.reset();
+  split_.reset();
+  implicit_.reset();
+  if (by_cells_)
+    split_ = std::make_unique<SplitSteps>(problem_, measures_, state_grid_, cells.size());
+  else
+    explicit_ = std::make_unique<ExplicitSteps>(problem_, measures_, cells.size());
+}
+
+ImplicitSteps& Stepper::implicit_steps(const Cells& cells) {
+  if (!implicit_) implicit_ = std::make_unique<ImplicitSteps>(problem_, measures_, equations_.staggered(cells));
+  return *implicit_;
+}
+
+/// The equations start as in a resumed run, whoever has looked at them since the last step.
+const std::vector<double>& Stepper::rates_of(const Cells& cells) {
+  Semidiscrete& equations = equations_.semidiscrete();
+  equations.wake();
+  equations.start_from(cells.s);
+  equations(cells.time, cells.unknowns.data(), rate_.data());
+  return rate_;
+}
+
+/// Rate at which friction takes the momentum of the dislocations that count: those that are fastest, or where all but
+/// rest those on which most force acts, at the velocity that friction allows them. By the closure of the paper friction
+/// hardly slows a dilute train, and the fastest dislocations are a few at a free edge: there it is the mean of all.
+double Stepper::friction_rate(const Cells& cells) {
+  Semidiscrete& equations = equations_.semidiscrete();
+  if (!by_cells_) return equations.largest_friction_rate();
+  if (problem_.friction.state_size() > 0) return 0;  // no other steps know the state
+  const bool consistent = problem_.friction.closure() == friction::Closure::consistent;
+  const double rate = consistent ? equations.friction_rate_of_fastest() : equations.mean_friction_rate();
+  return rate > 0 ? rate : implicit_steps(cells).friction_rate_from_rest(cells, equations_.staggered(cells));
+}
+
+bool Stepper::is_stiff(const Cells& cells, double rate) {
+  if (problem_.periodic) return false;
+  Semidiscrete& equations = equations_.semidiscrete();
+  const bool at_rest = equations.largest_friction_rate() == 0;
+  if (!by_cells_ && is_steep(problem_.friction) && at_rest) return true;
+  const double friction_times = rate * equations.mean_crossing_time(cells.unknowns.data());
+  return friction_times > (cells.face_momentum.empty() ? stiff_above : stiff_below);
+}
+
+void Stepper::look_for_crossing(Cells& cells) {
+  const std::size_t cell = equations_.semidiscrete().crossing(cells.time, cells.unknowns.data());
+  if (cell >= cells.size()) return;
+  cells.crossing_time = cells.time;
+  cells.crossing_position = cells.centre(cell);
+}
+
+double Stepper::take(Cells& cells, double remaining) {
+  Semidiscrete& equations = equations_.semidiscrete();
+  const double* unknowns = cells.unknowns.data();
+  double crossing = problem_.cfl * equations.crossing_time(unknowns, rate_.data());
+  const bool stiff = is_stiff(cells, friction_rate(cells));
+  if (!stiff && !by_cells_)
+    crossing = std::fmin(crossing, longest_in_friction_times / equations.largest_friction_rate());
+  if (stiff && by_cells_) equations.find_friction_rates();
+  equations.let_rest(unknowns, rate_.data());
+  if (stiff) return implicit_steps(cells).take(cells, equations_, remaining, crossing);
+  if (by_cells_) return split_->take(cells, equations, rate_, remaining, crossing);
+  return explicit_->take(cells, equations, rate_, remaining, crossing);
+}
+
+void Stepper::step(Cells& cells, double time) {
+  rates_of(cells);
+  if (std::isnan(cells.crossing_time)) look_for_crossing(cells);
+  const double remaining =
+      std::fmin(std::fmin(time - cells.time, problem_.longest_step), gaps_close_in(problem_, cells, rate_.data()));
+  const double dt = take(cells, remaining);
+  equations_.semidiscrete().wake();
+  cells.time = dt == time - cells.time ? time : cells.time + dt;
+  ++cells.steps;
+  const bool closed = close_gaps(cells);
+  if (adjust_ends(problem_, initial_.free, cells) || closed) rebuild(cells);
+}
+
+}  // namespace slipfront::pulse

@@ -1,0 +1,215 @@
+#include "pulse/view/view.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "foundation/math/interval.hpp"
+#include "foundation/math/lagrange.hpp"
+#include "pulse/space/kernels.hpp"
+#include "slipfront/modulation/per_dislocation.hpp"
+#include "slipfront/train/train.hpp"
+
+namespace slipfront::pulse {
+namespace {
+
+using std::numbers::pi;
+
+/// State at face f, inside a block or where the train goes on alike at an end, from the reconstructed phi and psi:
+/// between the states of the cells beside it, or beyond both as a smooth extremum is, by at most twice the eighth of
+/// what these differ by from the next cells. psi is half the difference of two invariants: where phi changes from cell
+/// to cell by as much as psi is, that is the pressure of the collision, or rounding, and the train at the face is taken
+/// from the cells.
+State state_between(const std::vector<State>& cells, std::size_t f, double phi, double psi) {
+  const std::size_t n = cells.size(), left = f == 0 ? 0 : f - 1, right = f == n ? n - 1 : f;
+  const double least = std::fmin(cells[left].psi, cells[right].psi),
+               most = std::fmax(cells[left].psi, cells[right].psi);
+  double below = 0, above = 0;
+  if (left > 0 && right + 1 < n && !cells[left - 1].empty() && !cells[right + 1].empty()) {
+    const double before = cells[left - 1].psi, behind = cells[right + 1].psi;
+    below = std::fmax(std::fmin(before, behind) - least, 0) / 4;
+    above = std::fmax(most - std::fmax(before, behind), 0) / 4;
+  }
+  constexpr double small = 0.02;
+  const double within = std::clamp(psi, least - below, most + above);
+  if (std::fabs(psi - within) <= small * within) return {phi, within};
+  return {phi, std::sqrt(cells[left].psi) * std::sqrt(cells[right].psi)};
+}
+
+/// How often a ring must be turned back to bring x among its faces.
+double turns(const View& v, double x) { return std::floor((x - v.faces.front()) / v.period); }
+
+/// Centres and faces around a place, at most five that rise with x.
+struct Nodes {
+  double x[5];
+  State state[5];
+  std::size_t size = 0;
+
+  void add(double place, const State& s) {
+    x[size] = place;
+    state[size++] = s;
+  }
+};
+
+/// Whether the train in a cell ends at a face of it where another begins that is so much denser that this one pushes
+/// nothing back, and no fan of that one reaches into it: it is as it is up to the face.
+bool ends_at(const View& v, std::size_t cell, std::size_t face) {
+  constexpr double denser = 100, fan = 0.1, apart = 0.5;
+  const State &here = v.states[cell], &beyond = v.states[face == cell ? face - 1 : face];
+  if (beyond.empty() || !(beyond.psi > denser * here.psi)) return false;
+  return std::fabs(v.face_states[face].phi - (here.phi + beyond.phi) / 2) < fan * beyond.psi &&
+         std::fabs(beyond.phi - here.phi) < apart * beyond.psi;
+}
+
+/// The centre of the cell, its faces, and the centres of its neighbours in the same block. A step of stress, or a
+/// pulse that is still narrower than a cell, is known at a face long before the cells feel it. At the face itself, to
+/// rounding, neither side's state counts for more than the other's.
+Nodes nodes_around(const View& v, std::size_t cell, double x) {
+  Nodes nodes;
+  const std::size_t n = v.states.size();
+  const double rounding = 1e-9 * (v.faces[cell + 1] - v.faces[cell]);
+  const bool left_ends = cell > 0 && x > v.faces[cell] + rounding && ends_at(v, cell, cell);
+  const bool right_ends = cell + 1 < n && x < v.faces[cell + 1] - rounding && ends_at(v, cell, cell + 1);
+  const auto at_face = [&](std::size_t f, bool ends) {
+    nodes.add(v.faces[f], ends ? State{v.face_states[f].phi, v.states[cell].psi} : v.face_states[f]);
+  };
+  if (cell > 0 && !left_ends && !v.states[cell - 1].empty()) nodes.add(v.centres[cell - 1], v.states[cell - 1]);
+  at_face(cell, left_ends);
+  nodes.add(v.centres[cell], v.states[cell]);
+  at_face(cell + 1, right_ends);
+  if (cell + 1 < n && !right_ends && !v.states[cell + 1].empty()) nodes.add(v.centres[cell + 1], v.states[cell + 1]);
+  return nodes;
+}
+
+/// Whether three values and the next one bend alike.
+bool bends_alike(const double* x, const double* f) {
+  const auto slope = [&](std::size_t j) { return (f[j + 1] - f[j]) / (x[j + 1] - x[j]); };
+  const double bend = (slope(1) - slope(0)) / (x[2] - x[0]), next = (slope(2) - slope(1)) / (x[3] - x[1]);
+  return std::fabs(next - bend) < 0.5 * (std::fabs(bend) + std::fabs(next));
+}
+
+/// The polynomial through all of `size` points. Where these are not smooth, there is no value beyond the two beside x;
+/// a smooth extremum lies beyond all of them by a part of their range.
+double bounded(std::size_t size, const double* at, const double* f, double x) {
+  const std::size_t next =
+      std::clamp<std::size_t>(static_cast<std::size_t>(std::upper_bound(at, at + size, x) - at), 1, size - 1);
+  bool smooth = true;
+  for (std::size_t j = 0; j + 3 < size; ++j) smooth = smooth && bends_alike(at + j, f + j);
+  const double sum = lagrange(size, at, f, x);
+  if (!smooth) return std::clamp(sum, std::min(f[next - 1], f[next]), std::max(f[next - 1], f[next]));
+  const auto [least, most] = std::minmax_element(f, f + size);
+  const double beyond = (*most - *least) / 4;
+  return std::clamp(sum, *least - beyond, *most + beyond);
+}
+
+}  // namespace
+
+View view_of(const Problem& problem, const Cells& cells, Equations& equations, bool densities) {
+  const std::size_t n = cells.size();
+  Semidiscrete& semidiscrete = equations.semidiscrete();
+  std::vector<double> rate(cells.unknowns.size());
+  semidiscrete.start_from(cells.s);
+  semidiscrete(cells.time, cells.unknowns.data(), rate.data());
+  View v;
+  v.faces.resize(n + 1);
+  v.charge_faces.resize(n + 1);
+  v.faces[0] = cells.left_edge();
+  v.charge_faces[0] = -cells.entered_left;
+  if (problem.periodic) v.period = problem.right - problem.left;
+  for (std::size_t i = 0; i < n; ++i) {
+    v.faces[i + 1] = v.faces[i] + cells.width(i);
+    v.charge_faces[i + 1] = v.charge_faces[i] + cells.charge[i];
+  }
+  v.states = semidiscrete.states();
+  v.contact = problem.contact;
+  v.shocked = semidiscrete.shocked();
+  v.left_free = semidiscrete.blocks().front().left == Edge::free;
+  v.right_free = semidiscrete.blocks().back().right == Edge::free;
+  const std::vector<double>* face_phi = &semidiscrete.face_phi();
+  if (!cells.face_momentum.empty()) {  // where friction rules, velocities are those of the faces
+    Staggered& staggered = equations.staggered(cells);
+    staggered.start_from(cells.s);
+    std::vector<double> unknowns, face_rate(staggered.size());
+    faces_from_cells(cells, staggered, unknowns);
+    staggered(cells.time, unknowns.data(), face_rate.data());
+    face_phi = &staggered.face_phi();
+  }
+  for (std::size_t f = 0; f <= n; ++f) {
+    const double phi = (*face_phi)[f], psi = semidiscrete.face_psi()[f];
+    const bool edge = f == 0 ? v.left_free : f == n ? v.right_free : cells.charge[f - 1] == 0 || cells.charge[f] == 0;
+    v.face_states.push_back(edge ? State{phi, psi} : state_between(v.states, f, phi, psi));
+  }
+  for (std::size_t f = 0; f <= n && densities; ++f)
+    v.face_density.push_back(averages_of(v, v.face_states[f], v.faces[f]).k / (2 * pi));
+  v.centres.resize(n);
+  middles(semidiscrete.blocks(), v.faces, v.centres);
+  return v;
+}
+
+State state_in(const Cells& cells, std::size_t cell) {
+  constexpr std::size_t reach = 2, stencil = 2 * reach + 1;
+  const std::vector<double>& charge = cells.charge;
+  if (charge[cell] == 0) return {};
+  const double psi = std::atanh(cells.s[cell]);
+  const bool inside = cell >= reach && cell + reach < cells.size() &&
+                      std::find(&charge[cell - reach], &charge[cell + reach] + 1, 0.0) == &charge[cell + reach] + 1;
+  if (!inside)
+    return modulation::state_of({cells.width(cell) / charge[cell], cells.momentum(cell) / charge[cell]}, psi);
+  const double *width = cells.values().widths() + cell - reach, *momentum = cells.values().momenta() + cell - reach;
+  double width_at[stencil], momentum_at[stencil], charge_at[stencil];
+  centre_values(stencil, {0, stencil}, width, width_at);
+  centre_values(stencil, {0, stencil}, momentum, momentum_at);
+  centre_values(stencil, {0, stencil}, &charge[cell - reach], charge_at);
+  const double width_here = centre_width(width_at[reach], width[reach]);
+  return modulation::state_of({width_here / charge_at[reach], momentum_at[reach] / charge_at[reach]}, psi);
+}
+
+State state_at(const View& v, double place) {
+  double x = place;
+  if (v.period > 0) x = std::clamp(place - turns(v, place) * v.period, v.faces.front(), v.faces.back());
+  if (x < v.faces.front() || x > v.faces.back()) return {};
+  const std::size_t cell = interval(v.faces, x);
+  if (v.states[cell].empty()) return {};
+  const Nodes nodes = nodes_around(v, cell, x);
+  double phi[5] = {}, psi[5] = {};
+  for (std::size_t j = 0; j < nodes.size; ++j) {
+    phi[j] = nodes.state[j].phi;
+    psi[j] = nodes.state[j].psi;
+  }
+  const auto [least, most] = std::minmax_element(psi, psi + nodes.size);
+  const double phi_here = bounded(nodes.size, nodes.x, phi, x);
+  const bool decades = *least > 0 && *most > 100 * *least;
+  if (!decades) return {phi_here, std::fmax(bounded(nodes.size, nodes.x, psi, x), 0.0)};
+  // Where psi changes by decades from cell to cell, either phi changes by as much, as in a fan, or the train is slow
+  // and the logarithm of psi is what is smooth.
+  const std::size_t j = interval(nodes.x, nodes.size, x);
+  const double ratio = std::fabs(phi[j + 1] - phi[j]) / std::fabs(psi[j + 1] - psi[j]);
+  if (ratio > 0.5 && ratio < 2) {
+    const double share = std::clamp((x - nodes.x[j]) / (nodes.x[j + 1] - nodes.x[j]), 0.0, 1.0);
+    return {phi_here, std::lerp(psi[j], psi[j + 1], share)};
+  }
+  for (std::size_t i = 0; i < nodes.size; ++i) psi[i] = std::log(psi[i]);
+  return {phi_here, std::exp(bounded(nodes.size, nodes.x, psi, x))};
+}
+
+train::Averages averages_of(const View& v, const State& state, double x) {
+  return v.contact ? train::averages(state, v.contact(x)) : train::averages(state);
+}
+
+double charge_left_of(const View& v, double place) {
+  const double whole = v.period > 0 ? turns(v, place) : 0, x = place - whole * v.period;
+  const double before = whole * (v.charge_faces.back() - v.charge_faces.front());
+  // Between an end of the domain and the last face there, the train that goes on beyond may have come in a little.
+  if (x <= v.faces.front())
+    return before + v.charge_faces.front() - (v.left_free ? 0 : (v.faces.front() - x) * v.face_density.front());
+  if (x >= v.faces.back())
+    return before + v.charge_faces.back() + (v.right_free ? 0 : (x - v.faces.back()) * v.face_density.back());
+  const std::size_t i = interval(v.faces, x);
+  // Cubic Hermite: the slopes k / 2 pi at the faces are known; limited so that it cannot fall (Fritsch & Carlson).
+  const double h = v.faces[i + 1] - v.faces[i], rise = v.charge_faces[i + 1] - v.charge_faces[i], mean = rise / h;
+  const auto slope = [&](std::size_t f) { return std::fmin(v.face_density[f], 3 * mean); };
+  const double s = (x - v.faces[i]) / h, r = 1 - s;
+  return before + v.charge_faces[i] + rise * s * s * (3 - 2 * s) + h * s * r * (slope(i) * r - slope(i + 1) * s);
+}
+
+}  // namespace slipfront::pulse
