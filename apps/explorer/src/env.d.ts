@@ -1,5 +1,5 @@
 declare module '@wasm/slipfront.mjs' {
-  const make: (options: object) => Promise<any>;
+  const make: (options: object) => Promise<import('./engine/binding').Module>;
   export default make;
 }
 declare module '@wasm/slipfront.wasm?url' {
@@ -7,6 +7,6 @@ declare module '@wasm/slipfront.wasm?url' {
   export default address;
 }
 declare module '@events' {
-  const events: { events: Record<string, any>[] };
+  const events: { events: import('./model/events').PublishedEvent[] };
   export default events;
 }

@@ -1,16 +1,6 @@
 /** Calls into the WebAssembly module: texts and numbers in, an object out whose arrays are copies of its memory. */
 
-export type Value = number | string | boolean | null | Float64Array | Value[] | { [key: string]: Value };
-export interface Complaint {
-  kind: 'input' | 'numerics' | 'memory';
-  message: string;
-  key?: string;
-  value?: string;
-  problem?: string;
-  allowed?: string;
-  line?: number;
-}
-export type Answer = Record<string, any> & { error?: Complaint };
+import type { AnswerOf, Calls, Name } from './protocol';
 
 /** What emscripten gives. */
 export interface Module {
@@ -24,16 +14,18 @@ export interface Module {
   [name: string]: unknown;
 }
 
-function withArrays(value: any, heap: Float64Array, base: number): any {
+const isObject = (value: unknown): value is Record<string, unknown> => value !== null && typeof value === 'object';
+
+function withArrays(value: unknown, heap: Float64Array, base: number): unknown {
   if (Array.isArray(value)) return value.map((item) => withArrays(item, heap, base));
-  if (value === null || typeof value !== 'object') return value;
+  if (!isObject(value)) return value;
   const place = value.$;
   if (Array.isArray(place)) return heap.slice(base + place[0], base + place[0] + place[1]);
   for (const key of Object.keys(value)) value[key] = withArrays(value[key], heap, base);
   return value;
 }
 
-export function call(module: Module, name: string, args: (number | string | Float64Array)[]): Answer {
+export function call<N extends Name>(module: Module, name: N, args: Calls[N]['arguments']): AnswerOf<N> {
   const taken: number[] = [];
   const addresses = args.map((argument) => {
     if (typeof argument === 'number') return argument;
@@ -46,16 +38,15 @@ export function call(module: Module, name: string, args: (number | string | Floa
   });
   try {
     const text = module.UTF8ToString((module[`_${name}`] as (...all: number[]) => number)(...addresses));
-    const answer = JSON.parse(text);
-    return withArrays(answer, module.HEAPF64, module._numbers() / 8);
+    return withArrays(JSON.parse(text), module.HEAPF64, module._numbers() / 8) as AnswerOf<N>;
   } finally {
     taken.forEach((address) => module._free(address));
   }
 }
 
 /** The buffers of all arrays in an answer, to be handed over between threads without a copy. */
-export function buffersOf(value: any, found: ArrayBuffer[] = []): ArrayBuffer[] {
+export function buffersOf(value: unknown, found: ArrayBuffer[] = []): ArrayBuffer[] {
   if (value instanceof Float64Array) found.push(value.buffer as ArrayBuffer);
-  else if (value && typeof value === 'object') Object.values(value).forEach((item) => buffersOf(item, found));
+  else if (isObject(value)) Object.values(value).forEach((item) => buffersOf(item, found));
   return found;
 }

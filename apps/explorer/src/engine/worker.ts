@@ -1,13 +1,8 @@
 /** The worker: the numerics, off the thread that draws. Runs go on in pieces, so that a newer question gets through. */
 
 import make from '@wasm/slipfront.mjs';
-import { buffersOf, call, type Answer, type Module } from './binding';
-
-type Question =
-  | { type: 'start'; wasm: WebAssembly.Module }
-  | { type: 'call'; id: number; name: string; args: (number | string | Float64Array)[] }
-  | { type: 'pulse'; id: number; slot: number; toml: string; table: [number[], number[]] | null; frames: number; look: number; closure: number }
-  | { type: 'cancel'; id: number };
+import { buffersOf, call, type Module } from './binding';
+import type { Calls, Message, Name, News, Question, Table } from './protocol';
 
 const milliseconds = 12;
 let begin!: (made: Promise<Module>) => void;
@@ -16,8 +11,10 @@ const module = new Promise<Module>((resolve) => (begin = resolve));
 const cancelled = new Set<number>();
 const latest = new Map<number, number>();
 
-const say = (id: number, answer: Answer, done: boolean) =>
-  postMessage({ id, answer, done }, { transfer: buffersOf(answer) });
+function say(id: number, news: News, last: boolean) {
+  const message: Message = { id, last, ...news };
+  postMessage(message, { transfer: buffersOf(message) });
+}
 
 /** Lets messages in. */
 const breathe = () =>
@@ -27,7 +24,7 @@ const breathe = () =>
     channel.port2.postMessage(0);
   });
 
-function setTable(m: Module, table: [number[], number[]] | null) {
+function setTable(m: Module, table: Table | null) {
   const [x, y] = table ?? [[], []];
   call(m, 'set_table', [Float64Array.from(x), Float64Array.from(y), x.length]);
 }
@@ -37,20 +34,20 @@ async function pulse(q: Question & { type: 'pulse' }) {
   latest.set(q.slot, q.id);
   await breathe();
   const stopped = () => cancelled.has(q.id) || latest.get(q.slot) !== q.id;
-  if (stopped()) return say(q.id, { superseded: true }, true);
+  if (stopped()) return say(q.id, { type: 'superseded' }, true);
   setTable(m, q.table);
   const begun = call(m, 'pulse_begin', [q.slot, q.toml, q.frames, q.look, q.closure]);
-  if (begun.error) return say(q.id, begun, true);
-  say(q.id, { begun }, false);
+  if (begun.error) return say(q.id, { type: 'answer', answer: begun }, true);
+  say(q.id, { type: 'begun', begun }, false);
   let taken = 0;
   while (true) {
     const more = call(m, 'pulse_go', [q.slot, milliseconds, taken]);
-    const over = Boolean(more.error || more.finished || more.gave_up);
-    taken += more.time?.length ?? 0;
-    say(q.id, { more }, over);
+    const over = more.error !== undefined || more.finished || Boolean(more.gave_up);
+    taken += more.error ? 0 : more.time.length;
+    say(q.id, { type: 'more', more }, over);
     if (over) return;
     await breathe();
-    if (stopped()) return say(q.id, { superseded: true }, true);
+    if (stopped()) return say(q.id, { type: 'superseded' }, true);
   }
 }
 
@@ -68,6 +65,6 @@ onmessage = async ({ data }: MessageEvent<Question>) => {
   } else if (data.type === 'pulse') {
     await pulse(data);
   } else {
-    say(data.id, call(await module, data.name, data.args), true);
+    say(data.id, { type: 'answer', answer: call(await module, data.name, data.args as Calls[Name]['arguments']) }, true);
   }
 };

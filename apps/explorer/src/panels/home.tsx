@@ -6,7 +6,8 @@ import { stops } from './tour';
 import { tomlOf } from '../state/scenario';
 import { makePlayer, reducedMotion, Transport } from '../ui/player';
 import { Plot } from '../ui/plot';
-import { fieldAt, seriesAt, usePulse } from './use_pulse';
+import { fieldAt, seriesAt } from '../model/pulse_run';
+import { usePulse } from './use_pulse';
 
 const player = makePlayer(0.7);
 const toml = tomlOf({ 'initial.profile': 'step', 'initial.stress_left': '0.855', 'initial.stress_right': '0', 'friction.law': 'viscous', 'friction.coefficient': '0.2', 'pulse.cells': '100' });

@@ -1,8 +1,9 @@
 /** Panel "The paper": its figures, each with sliders. */
 
 import { useEffect, useState } from 'preact/hooks';
-import type { Answer, Complaint } from '../engine/binding';
-import { call, type PulseRun } from '../engine/client';
+import { call } from '../engine/client';
+import type { Complaint, RelationsKey } from '../engine/protocol';
+import { last, lastOf, type PulseRun } from '../model/pulse_run';
 import { entryOf, route, setParams } from '../state/route';
 import { commandOf, tomlOf } from '../state/scenario';
 import { Check, NumberField, Segments, sentence } from '../ui/fields';
@@ -12,7 +13,8 @@ import { Plot } from '../ui/plot';
 import { copy, save } from '../ui/save';
 import type { Spec } from '../ui/spec';
 import { figures } from './figures';
-import { last, lastOf, useRuns, type Question } from './use_runs';
+import { useAnswer } from './use_answer';
+import { useRuns, type Question } from './use_runs';
 
 type Values = Record<string, number>;
 interface View {
@@ -33,25 +35,15 @@ function scenario(v: View, changes: { left?: number; right?: number; C?: number;
   });
 }
 
-function useCall(name: string, args: number[]): Answer | null {
-  const [answer, setAnswer] = useState<Answer | null>(null);
-  useEffect(() => {
-    let alive = true;
-    call(name, ...args).then((a) => alive && setAnswer(a));
-    return () => void (alive = false);
-  }, [name, args.join()]);
-  return answer;
-}
-
 function Problem({ error }: { error?: Complaint }) {
   return error ? <p class="error" role="alert">{error.key ? `${error.key}: ` : ''}{sentence(error)}</p> : null;
 }
 
 function Train({ values }: View) {
-  const a = useCall('train', [values.stress, values.velocity, 4, 600]);
+  const a = useAnswer('train', values.stress, values.velocity, 4, 600);
   if (!a) return null;
   if (a.error) return <Problem error={a.error} />;
-  const flat = (value: number) => Array.from(a.xi as Float64Array, () => value);
+  const flat = (value: number) => Array.from(a.xi, () => value);
   const spec = (name: string, title: string, y: Float64Array, mean: number, color: string, label: string): Spec => ({
     name, title, x: a.xi, xLabel: 'x − Ut, in b/A', yLabel: label,
     series: [{ label: 'single dislocations', y, color }, { label: 'average', y: flat(mean), color: 'quiet', dash: [6, 4] }],
@@ -81,13 +73,13 @@ function Before(v: View) {
 }
 
 function Closed({ figure, values }: { figure: string; values: Values }) {
-  const a = useCall('relations_curve', [1, values.least, 0.999, 400, 1]);
-  const marks = useCall('relations', [1, 0.55]);
-  const slow = useCall('relations', [1, 2.14e-5]);
+  const a = useAnswer('relations_curve', 1, values.least, 0.999, 400, 1);
+  const marks = useAnswer('relations', 1, 0.55);
+  const slow = useAnswer('relations', 1, 2.14e-5);
   if (!a) return null;
   if (a.error) return <Problem error={a.error} />;
   const events = [[marks, 'Parkfield', 'earthquake'], [slow, 'slow slip', 'slowslip']] as const;
-  const points = (key: string) => events.filter(([e]) => e && !e.error).map(([e, label, color]) => ({ x: figure === '4' ? e!.rupture_velocity : e!.stress, y: e![key], label, color, chosen: true }));
+  const points = (key: RelationsKey) => events.flatMap(([e, label, color]) => (e && !e.error ? [{ x: figure === '4' ? e.rupture_velocity : e.stress, y: e[key], label, color, chosen: true }] : []));
   const against = figure === '4' ? { x: a.rupture_velocity, xLabel: '|V−|, in c', xLog: true } : { x: a.stress, xLabel: 'Σ−, in μA/π' };
   const spec: Record<string, Spec> = {
     4: { name: 'fig-04', title: '|V− / V+|', ...against, yLabel: '|V− / V+|', series: [{ label: 'ratio', y: a.velocity_ratio, color: 'fast' }], points: points('velocity_ratio') },

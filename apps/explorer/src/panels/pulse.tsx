@@ -1,7 +1,8 @@
 /** Panel "Pulse": the modulation equations with friction, live. */
 
 import { useEffect, useMemo, useRef } from 'preact/hooks';
-import type { PulseRun } from '../engine/client';
+import type { PulseField, PulseSeries } from '../engine/protocol';
+import { fieldAt, seriesAt, type PulseRun } from '../model/pulse_run';
 import { route, setParams } from '../state/route';
 import { drawnOf, scenarioOf, tableOf, tomlOf } from '../state/scenario';
 import { scaleOf, type Quantity } from '../state/units';
@@ -14,7 +15,7 @@ import { Plot } from '../ui/plot';
 import { ScenarioForm } from '../ui/scenario_form';
 import type { Series, Spec } from '../ui/spec';
 import { stopAll } from '../engine/client';
-import { fieldAt, seriesAt, usePulse, type Shown } from './use_pulse';
+import { usePulse, type Shown } from './use_pulse';
 
 const player: Player = makePlayer(1);
 
@@ -33,7 +34,7 @@ interface Curve {
   dash?: number[];
 }
 
-function profile(name: string, title: string, field: string, quantity: Quantity, symbol: string, color: string, curves: Curve[], time: number, extent: number): Spec {
+function profile(name: string, title: string, field: PulseField, quantity: Quantity, symbol: string, color: string, curves: Curve[], time: number, extent: number): Spec {
   const first = curves[0].run;
   const xScale = scaleOf('x', largest(first.x));
   const yScale = scaleOf(quantity, extent);
@@ -41,7 +42,7 @@ function profile(name: string, title: string, field: string, quantity: Quantity,
   if (field === 'Sigma') series.push({ label: 'before', y: times(fieldAt(first, field, 0), yScale.factor), color: 'before', width: 1.5 });
   for (const curve of curves)
     series.push({ label: curve.label, y: times(fieldAt(curve.run, field, time), yScale.factor), color: curve.color(color), dash: curve.dash, fill: field === 'W' && !curve.dash });
-  const fronts: [string, string, string][] = [['trailing_front', 'V−', 'fast'], ['leading_front', 'V+', 'slow']];
+  const fronts: [PulseSeries, string, string][] = [['trailing_front', 'V−', 'fast'], ['leading_front', 'V+', 'slow']];
   const verticals = fronts.map(([key, label, tint]) => ({ x: seriesAt(first, key, time) * xScale.factor, label, color: tint })).filter((v) => Number.isFinite(v.x));
   return {
     name, title, x: times(first.x, xScale.factor), xLabel: `x, in ${xScale.unit}`, yLabel: `${symbol}, in ${yScale.unit}`, series, verticals,
@@ -54,7 +55,7 @@ function runToShow(shown: Shown): PulseRun | null {
   return shown.look ?? shown.run;
 }
 
-function extentOf(run: PulseRun, field: string): number {
+function extentOf(run: PulseRun, field: PulseField): number {
   const steady = run.fields[field];
   // The slip velocity of a step is largest at once; later ones would be flat beneath it.
   if (field !== 'W') return largest(steady);
@@ -63,12 +64,12 @@ function extentOf(run: PulseRun, field: string): number {
 }
 
 function Facts({ run, time }: { run: PulseRun; time: number }) {
-  const value = (key: string, quantity: Quantity) => {
+  const value = (key: PulseSeries, quantity: Quantity) => {
     const number = seriesAt(run, key, time);
     const scale = scaleOf(quantity, number);
     return Number.isFinite(number) ? `${short(number * scale.factor, 4)} ${scale.unit}` : '–';
   };
-  const coefficient = run.facts.friction_coefficient; // null where friction is not viscous, and has no such number
+  const coefficient = run.frictionCoefficient; // null where friction is not viscous, and has no such number
   return (
     <dl class="facts" aria-label="Numbers at this time">
       <div><dt>Slip velocity at x = 0</dt><dd>{value('slip_velocity_at_origin', 'slipVelocity')}</dd></div>
@@ -168,11 +169,11 @@ export function PulsePanel() {
   const t = scaleOf('t', end);
   const names: Record<string, string> = { consistent: 'exact average', paper: 'average of the paper' };
   const specs = useMemo(() => {
-    if (!run || run.count < 1 || !run.fields.W) return null;
+    if (!run || run.count < 1 || !run.fields.W.length) return null;
     const shownEnd = run.series.time[run.count - 1];
     const at = Math.min(time, shownEnd);
     const curves: Curve[] = [{ run, label: compare ? names[run.closure] : 'now', color: (base) => base }];
-    if (second?.fields.W) curves.push({ run: second, label: names[second.closure], color: (base) => `${base}-other`, dash: [6, 4] });
+    if (second?.fields.W.length) curves.push({ run: second, label: names[second.closure], color: (base) => `${base}-other`, dash: [6, 4] });
     const extent = (field: 'W' | 'Sigma' | 'U') => (main.look ? Math.max(largest(fieldAt(run, field, at)), field === 'Sigma' ? largest(fieldAt(run, field, 0)) : 0) : extents?.[field] ?? largest(run.fields[field]));
     return [
       profile('slip-velocity', 'Slip velocity', 'W', 'slipVelocity', 'W', 'slip', curves, at, Math.max(extent('W'), main.look && extents ? extents.W : 0)),

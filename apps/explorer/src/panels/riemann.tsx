@@ -1,8 +1,8 @@
 /** Panel "Riemann": two states, and the waves between them. */
 
 import { useEffect, useState } from 'preact/hooks';
-import type { Answer } from '../engine/binding';
 import { call } from '../engine/client';
+import type { Complaint, Riemann } from '../engine/protocol';
 import { route, setParams } from '../state/route';
 import { Equations } from '../ui/equations';
 import { about, NumberField, sentence } from '../ui/fields';
@@ -20,7 +20,7 @@ const fields = [
 const inWords: Record<string, string> = { fan: 'a fan: the train spreads', shock: 'a shock: the train is run into', none: 'no wave' };
 
 /** Rays of constant state in x-t; t goes to 1. */
-function rays(a: Answer): Path[] {
+function rays(a: Riemann): Path[] {
   const all: Path[] = [];
   const ray = (speed: number, color: string, width: number, dash?: number[], label?: string) => all.push({ x: [0, speed], y: [0, 1], color, width, dash, label });
   for (const [side, color] of [['left', 'fast'], ['right', 'slow']] as const) {
@@ -33,7 +33,7 @@ function rays(a: Answer): Path[] {
   return all;
 }
 
-function planeSpec(a: Answer): Spec {
+function planeSpec(a: Riemann): Spec {
   const states = [
     { state: a.left, label: 'left', color: 'fast' },
     { state: a.star, label: 'between', color: 'chosen' },
@@ -57,7 +57,7 @@ function planeSpec(a: Answer): Spec {
   };
 }
 
-function profileSpec(a: Answer, key: string, title: string, yLabel: string, color: string): Spec {
+function profileSpec(a: Riemann, key: 'Sigma' | 'W', title: string, yLabel: string, color: string): Spec {
   return { name: key, title, x: a.x_over_t, xLabel: 'x/t, in c', yLabel, series: [{ label: yLabel, y: a[key], color, fill: key === 'W' }] };
 }
 
@@ -65,13 +65,14 @@ export function RiemannPanel() {
   const params = route.value.params;
   const texts = fields.map(({ key, value }) => params[key] ?? value);
   const values = texts.map((text) => (text.trim() === '' ? NaN : Number(text)));
-  const [answer, setAnswer] = useState<Answer | null>(null);
-  const [error, setError] = useState<Answer['error']>();
+  const [answer, setAnswer] = useState<Riemann | null>(null);
+  const [error, setError] = useState<Complaint | undefined>();
   useEffect(() => {
     const bad = values.findIndex((v) => !Number.isFinite(v));
     if (bad >= 0) return setError({ kind: 'input', message: '', key: fields[bad].key, problem: 'not a number', allowed: 'a number such as 0.855' });
     let alive = true;
-    call('riemann', ...values, 600).then((a) => {
+    const [leftStress, leftVelocity, rightStress, rightVelocity] = values;
+    call('riemann', leftStress, leftVelocity, rightStress, rightVelocity, 600).then((a) => {
       if (!alive) return;
       setError(a.error);
       if (!a.error) setAnswer(a);

@@ -2,8 +2,9 @@
 
 import { useEffect, useMemo, useState } from 'preact/hooks';
 import catalogue from '@events';
-import type { Answer, Complaint } from '../engine/binding';
 import { call } from '../engine/client';
+import type { Complaint, EventKey, Relations, RelationsCurve, RelationsKey, Reply } from '../engine/protocol';
+import { isLocated, published, typed as typedEvent, type FaultEvent } from '../model/events';
 import { entryOf, route, setParams } from '../state/route';
 import { Equations } from '../ui/equations';
 import { NumberField, Segments, SelectField, sentence, TextField } from '../ui/fields';
@@ -12,9 +13,9 @@ import { Plot } from '../ui/plot';
 import { copy } from '../ui/save';
 import type { Point, Spec } from '../ui/spec';
 import { wantsUnits } from '../state/units';
+import { useAnswer } from './use_answer';
 
-type Event = Record<string, any>;
-const events = (catalogue.events as Event[]).filter((event) => !event.error && event.stress !== null && event.rupture_velocity !== null);
+const events = catalogue.events.filter((event) => !event.error).map(published).filter(isLocated);
 
 const ranges: Record<string, { label: string; from: number; to: number; log: boolean }> = {
   all: { label: 'All 300 decades', from: 1e-300, to: 0.999, log: true },
@@ -26,7 +27,7 @@ const givens = [
   { key: 'rupture_velocity', label: 'Rupture velocity |V−|, in c', least: 1e-12, most: 0.99, log: true },
   { key: 'slip_velocity', label: 'Slip velocity W(0), in cA/π', least: 1e-14, most: 1, log: true },
 ];
-const names: [string, string, string][] = [
+const names: [RelationsKey, string, string][] = [
   ['stress', 'Stress before, Σ−', 'μA/π'],
   ['rupture_velocity', 'Fast front, |V−|', 'c'],
   ['leading_velocity', 'Slow front, V+', 'c'],
@@ -36,42 +37,34 @@ const names: [string, string, string][] = [
   ['dislocation_velocity_at_origin', 'Velocity of dislocations there', 'c'],
 ];
 
-const isSlow = (event: Event) => event.rupture_velocity < 0.01;
+const isSlow = (rupture_velocity: number) => rupture_velocity < 0.01;
 
-function useAnswer(name: string, ...args: (number | string)[]): Answer | null {
-  const [answer, setAnswer] = useState<Answer | null>(null);
-  useEffect(() => {
-    let alive = true;
-    call(name, ...args).then((got) => alive && setAnswer(got));
-    return () => void (alive = false);
-  }, [name, ...args]);
-  return answer;
-}
-
-const interval = (event: Event, key: string, show: (value: number) => string) => {
-  const [low, high] = event[`${key}_interval`] ?? [event[`${key}_low`], event[`${key}_high`]];
-  return low !== null && low !== undefined ? ` (${show(low)} to ${show(high)})` : '';
+const interval = (event: FaultEvent, key: EventKey, show: (value: number) => string) => {
+  const known = event.intervals[key];
+  return known ? ` (${show(known[0])} to ${show(known[1])})` : '';
 };
 
-function EventCard({ event }: { event: Event }) {
+function EventCard({ event }: { event: FaultEvent }) {
+  const of = event.numbers;
+  const or = (value: number | null, none: string, known: (value: number) => string) => (value === null ? none : known(value));
   const pa = (value: number) => inUnits('stress', value);
   const rows: [string, string][] = [
-    ['Rupture velocity', `${inUnits('velocity', event.rupture_velocity_m_s)}, ${short(event.rupture_velocity)} c${interval(event, 'rupture_velocity', short)}`],
-    ['Stress before, Σ−', `${short(event.stress)} μA/π${interval(event, 'stress', short)}`],
-    ['Slip velocity, observed', event.slip_velocity_m_s === null ? 'not known' : inUnits('velocity', event.slip_velocity_m_s)],
-    ['Slip velocity without friction', `${short(event.frictionless_slip_velocity)} cA/π`],
-    event.stress_pa !== null
-      ? ['Stress in SI', pa(event.stress_pa) + interval(event, 'stress_pa', pa)]
-      : ['Stress in SI', event.stress_pa_bound !== null ? `at least ${pa(event.stress_pa_bound)}${interval(event, 'stress_pa_bound', pa)}, if friction took nothing` : 'cannot be known: no slip velocity and no contact ratio'],
-    ['Contact ratio A', event.contact_ratio === null ? 'cannot be known' : `${event.contact_ratio_bound !== null ? 'at least ' : ''}${short(event.contact_ratio)}${interval(event, 'contact_ratio', short)}`],
-    ['Damping number Γ', event.damping_number === null ? 'cannot be known from velocities alone' : `${short(event.damping_number)}${interval(event, 'damping_number', short)}`],
+    ['Rupture velocity', `${or(of.rupture_velocity_m_s, '–', (v) => inUnits('velocity', v))}, ${or(of.rupture_velocity, '–', short)} c${interval(event, 'rupture_velocity', short)}`],
+    ['Stress before, Σ−', `${or(of.stress, '–', short)} μA/π${interval(event, 'stress', short)}`],
+    ['Slip velocity, observed', or(of.slip_velocity_m_s, 'not known', (v) => inUnits('velocity', v))],
+    ['Slip velocity without friction', `${or(of.frictionless_slip_velocity, '–', short)} cA/π`],
+    ['Stress in SI', of.stress_pa !== null
+      ? pa(of.stress_pa) + interval(event, 'stress_pa', pa)
+      : or(of.stress_pa_bound, 'cannot be known: no slip velocity and no contact ratio', (v) => `at least ${pa(v)}${interval(event, 'stress_pa_bound', pa)}, if friction took nothing`)],
+    ['Contact ratio A', or(of.contact_ratio, 'cannot be known', (v) => `${of.contact_ratio_bound !== null ? 'at least ' : ''}${short(v)}${interval(event, 'contact_ratio', short)}`)],
+    ['Damping number Γ', or(of.damping_number, 'cannot be known from velocities alone', (v) => `${short(v)}${interval(event, 'damping_number', short)}`)],
   ];
   return (
     <section class="card event" aria-label="Chosen event" aria-live="polite">
       <h2>{event.name || 'Your event'}</h2>
       <table><tbody>{rows.map(([name, value]) => <tr><th scope="row">{name}</th><td>{value}</td></tr>)}</tbody></table>
       {event.citation && <p class="hint">{event.citation}{event.note ? `. ${event.note}` : ''}</p>}
-      {event.warnings?.length > 0 && <ul>{event.warnings.map((w: string) => <li>{w}</li>)}</ul>}
+      {event.warnings.length > 0 && <ul>{event.warnings.map((w) => <li>{w}</li>)}</ul>}
     </section>
   );
 }
@@ -91,16 +84,16 @@ const tomlOfTyped = (params: Record<string, string>) =>
     })
     .join('');
 
-function useTyped(): { event: Event | null; error?: Complaint; toml: string } {
+function useTyped(): { event: FaultEvent | null; error?: Complaint; toml: string } {
   const params = route.value.params;
   const toml = tomlOfTyped(params);
-  const [state, setState] = useState<{ event: Event | null; error?: Complaint }>({ event: null });
+  const [state, setState] = useState<{ event: FaultEvent | null; error?: Complaint }>({ event: null });
   useEffect(() => {
     if (!toml) return setState({ event: null });
     let alive = true;
     const timer = setTimeout(() => {
       const text = toml.startsWith('[event]') ? `[event]\nname = "Your event"\n${toml.slice(8)}` : `[event]\nname = "Your event"\n${toml}`;
-      call('event', text, 400).then((answer) => alive && setState(answer.error ? { event: null, error: answer.error } : { event: answer }));
+      call('event', text, 400).then((answer) => alive && setState(answer.error ? { event: null, error: answer.error } : { event: typedEvent(answer) }));
     }, 150);
     return () => {
       alive = false;
@@ -126,7 +119,7 @@ function TypedForm({ error, toml }: { error?: Complaint; toml: string }) {
   );
 }
 
-function curveSpec(curve: Answer, range: (typeof ranges)[string], keys: [string, string, string][], title: string, yLabel: string, points: Point[], chosen: Answer | null, pointKey: string): Spec {
+function curveSpec(curve: RelationsCurve, range: (typeof ranges)[string], keys: [RelationsKey, string, string][], title: string, yLabel: string, points: Point[], chosen: Reply<Relations> | null, pointKey: RelationsKey): Spec {
   const spec: Spec = {
     name: title.toLowerCase().replace(/\W+/g, '-'), title, x: curve.stress, xLabel: 'stress before, Σ−, in μA/π', yLabel, yLog: range.log,
     series: keys.map(([key, label, color]) => ({ label, y: curve[key], color })), points,
@@ -147,16 +140,18 @@ export function StressPanel() {
   const typed = useTyped();
   const index = params.event === undefined ? -1 : events.findIndex((event) => event.name === params.event);
   const event = index >= 0 ? events[index] : typed.event;
-  const points = (key: string): Point[] => [
-    ...events.filter((e) => e[key] !== null).map((e) => ({
-      x: e.stress, y: e[key], label: e.name, color: isSlow(e) ? 'slowslip' : 'earthquake', chosen: e.name === params.event,
-    })),
-    ...(typed.event && typed.event.stress !== null && typed.event[key] !== null ? [{ x: typed.event.stress, y: typed.event[key], label: 'Your event', color: 'chosen', chosen: true, xInterval: typed.event.stress_low !== null ? ([typed.event.stress_low, typed.event.stress_high] as [number, number]) : undefined }] : []),
+  const mine = typed.event?.numbers;
+  const points = (key: 'rupture_velocity' | 'frictionless_slip_velocity'): Point[] => [
+    ...events.flatMap(({ name, numbers }) => {
+      const y = numbers[key];
+      return y === null ? [] : [{ x: numbers.stress, y, label: name, color: isSlow(numbers.rupture_velocity) ? 'slowslip' : 'earthquake', chosen: name === params.event }];
+    }),
+    ...(mine && mine.stress !== null && mine[key] !== null ? [{ x: mine.stress, y: mine[key], label: 'Your event', color: 'chosen', chosen: true, xInterval: typed.event?.intervals.stress }] : []),
   ];
   const pick = (i: number) => {
     if (i < events.length) setParams({ event: events[i].name });
   };
-  const specs = useMemo(() => curve && [
+  const specs = useMemo(() => curve && !curve.error && [
     curveSpec(curve, range, [['rupture_velocity', 'fast front, |V−|', 'fast'], ['leading_velocity', 'slow front, V+', 'slow']], 'Rupture velocity', 'velocity, in c', points('rupture_velocity'), chosen, 'rupture_velocity'),
     curveSpec(curve, range, [['slip_velocity', 'W(0)', 'slip']], 'Slip velocity without friction', 'W(0), in cA/π', points('frictionless_slip_velocity'), chosen, 'slip_velocity'),
   ], [curve, chosen, params.event, typed.event]);
@@ -187,7 +182,7 @@ export function StressPanel() {
             <div class="list">
               {events.map((one) => (
                 <button type="button" aria-pressed={one.name === params.event} onClick={() => setParams({ event: one.name === params.event ? null : one.name })}>
-                  <span>{one.name}</span><span>{inUnits('velocity', one.rupture_velocity_m_s)}</span>
+                  <span>{one.name}</span><span>{inUnits('velocity', one.numbers.rupture_velocity_m_s)}</span>
                 </button>
               ))}
             </div>

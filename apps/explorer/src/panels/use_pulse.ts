@@ -1,8 +1,9 @@
 /** The run of the scenario in the address: a quick look while a control moves, all of it when it rests. */
 
 import { useEffect, useRef, useState } from 'preact/hooks';
-import type { Complaint } from '../engine/binding';
-import { runPulse, type PulseRun } from '../engine/client';
+import { runPulse } from '../engine/client';
+import type { Complaint, Table } from '../engine/protocol';
+import type { PulseRun } from '../model/pulse_run';
 
 export interface Shown {
   run: PulseRun | null;
@@ -19,7 +20,7 @@ export interface Shown {
 
 const rest = 160;
 
-export function usePulse(toml: string, table: [number[], number[]] | null, slot: number, look: () => number, closure = 0, on = true, frames = 121): Shown {
+export function usePulse(toml: string, table: Table | null, slot: number, look: () => number, closure = 0, on = true, frames = 121): Shown {
   const [shown, setShown] = useState<Shown>({ run: null, look: null, busy: true, elapsed: 0, share: 0, stop: () => undefined, milliseconds: 0 });
   const first = useRef(true);
   const key = `${toml}|${table?.join('|') ?? ''}|${closure}|${on}`;
@@ -67,29 +68,4 @@ export function usePulse(toml: string, table: [number[], number[]] | null, slot:
     };
   }, [key]);
   return shown;
-}
-
-/** A field of a run at a time, between its snapshots. */
-export function fieldAt(run: PulseRun, name: string, time: number): Float64Array {
-  const n = run.x.length;
-  const times = run.series.time;
-  const last = times.length - 1;
-  let i = 0;
-  while (i < last - 1 && times[i + 1] <= time) ++i;
-  const field = run.fields[name];
-  const share = last === 0 ? 0 : Math.min(1, Math.max(0, (time - times[i]) / (times[i + 1] - times[i])));
-  const values = new Float64Array(n);
-  for (let k = 0; k < n; ++k) values[k] = field[i * n + k] * (1 - share) + (last === 0 ? 0 : field[(i + 1) * n + k] * share);
-  return values;
-}
-
-export function seriesAt(run: PulseRun, name: string, time: number): number {
-  const times = run.series.time;
-  const values = run.series[name];
-  const last = times.length - 1;
-  if (last < 1) return values?.[0] ?? NaN;
-  let i = 0;
-  while (i < last - 1 && times[i + 1] <= time) ++i;
-  const share = Math.min(1, Math.max(0, (time - times[i]) / (times[i + 1] - times[i])));
-  return share === 1 ? values[i + 1] : share === 0 ? values[i] : values[i] * (1 - share) + values[i + 1] * share;
 }

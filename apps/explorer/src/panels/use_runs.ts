@@ -1,8 +1,9 @@
 /** Several pulses, one after the other: what there is so far. */
 
 import { useEffect, useState } from 'preact/hooks';
-import type { Complaint } from '../engine/binding';
-import { runPulse, type PulseRun } from '../engine/client';
+import { runPulse } from '../engine/client';
+import type { Complaint } from '../engine/protocol';
+import type { PulseRun } from '../model/pulse_run';
 
 export interface Question {
   toml: string;
@@ -38,6 +39,3 @@ export function useRuns(questions: Question[], slot: number): { runs: (PulseRun 
   }, [key]);
   return { runs: state.runs, error: state.error, done: state.key === key ? state.runs.filter(Boolean).length : 0 };
 }
-
-export const last = (run: PulseRun, field: string) => run.fields[field].subarray(run.fields[field].length - run.x.length);
-export const lastOf = (run: PulseRun, name: string) => run.series[name][run.series[name].length - 1];

@@ -2,25 +2,7 @@
 
 import { signal } from '@preact/signals';
 import { call } from '../engine/client';
-
-export interface Parameter {
-  name: string;
-  symbol: string;
-  unit: string;
-  value: number;
-  least: number;
-  most: number | null;
-  without_least: boolean;
-  words: string[];
-}
-export interface Law {
-  name: string;
-  equation: string;
-  source: string;
-  curve: 'none' | 'formula' | 'table';
-  remembers: boolean;
-  parameters: Parameter[];
-}
+import type { Law } from '../engine/protocol';
 
 export const laws = signal<Law[]>([]);
-call('laws').then((answer) => (laws.value = (answer.laws as Law[]) ?? []));
+call('laws').then((answer) => (laws.value = answer.error ? [] : answer.laws));

@@ -2,7 +2,7 @@
 
 import { computed, signal } from '@preact/signals';
 import { call } from '../engine/client';
-import type { Answer } from '../engine/binding';
+import type { Complaint, Units } from '../engine/protocol';
 import { bestUnit, type Kind } from '../ui/format';
 import { route } from './route';
 
@@ -16,8 +16,8 @@ export const constants = [
 
 export const wantsUnits = computed(() => route.value.params.si === '1');
 export const stated = computed(() => constants.map(({ key, value }) => route.value.params[key] ?? value));
-export const units = signal<Answer | null>(null);
-export const unitsProblem = signal<Answer['error']>(undefined);
+export const units = signal<Units | null>(null);
+export const unitsProblem = signal<Complaint | undefined>(undefined);
 
 let asked = '';
 export async function refreshUnits() {
@@ -32,7 +32,7 @@ export async function refreshUnits() {
 }
 
 export type Quantity = 'x' | 't' | 'stress' | 'slipVelocity' | 'velocity' | 'slip' | 'none';
-const meanings: Record<Exclude<Quantity, 'none'>, { unit: string; kind: Kind; plain: string }> = {
+const meanings: Record<Exclude<Quantity, 'none'>, { unit: keyof Units; kind: Kind; plain: string }> = {
   x: { unit: 'length', kind: 'length', plain: 'b/A' },
   t: { unit: 'time', kind: 'time', plain: 'b/(cA)' },
   stress: { unit: 'stress', kind: 'stress', plain: 'μA/π' },
@@ -46,7 +46,7 @@ export function scaleOf(quantity: Quantity, largest: number): { unit: string; fa
   if (quantity === 'none') return { unit: '', factor: 1 };
   const meaning = meanings[quantity];
   if (!wantsUnits.value || !units.value) return { unit: meaning.plain, factor: 1 };
-  const unit = units.value[meaning.unit] as number;
+  const unit = units.value[meaning.unit];
   const [name, si] = bestUnit(meaning.kind, largest * unit);
   return { unit: name, factor: unit / si };
 }

@@ -17,7 +17,7 @@ export async function paramsOfToml(toml: string, drawn?: string): Promise<{ para
   const answer = await call('scenario', toml);
   if (answer.error) return { problem: `${answer.error.line ? `Line ${answer.error.line}: ` : ''}${answer.error.key ? `${answer.error.key}: ` : ''}${sentence(answer.error)}` };
   const params: Params = { 'friction.law': 'none' }; // what the program takes where a file is silent
-  for (const { key, value } of answer.keys as { key: string; value: string }[]) params[key] = value;
+  for (const { key, value } of answer.keys) params[key] = value;
   params['initial.stress_left'] ??= '0';
   params['initial.stress_right'] ??= '0';
   params['friction.closure'] ??= 'consistent';

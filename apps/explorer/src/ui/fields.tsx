@@ -2,7 +2,7 @@
 
 import type { ComponentChildren } from 'preact';
 import { useEffect, useId, useState } from 'preact/hooks';
-import type { Complaint } from '../engine/binding';
+import type { Complaint } from '../engine/protocol';
 
 /** The sentence beside a field. */
 export function sentence(error: Complaint | undefined): string {

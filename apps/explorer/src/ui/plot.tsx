@@ -127,7 +127,7 @@ function optionsOf(spec: () => Spec, width: number, height: number, moved: (i: n
     axes: [axis('x'), axis('y')],
     series: [
       {},
-      ...(spec().series.length ? spec().series : [{ color: 'quiet', width: 1 } as any]).map((s) => ({
+      ...(spec().series.length ? spec().series : [{ label: '', y: [], color: 'quiet', width: 1 }]).map((s) => ({
         stroke: () => color(s.color),
         width: s.width ?? 2,
         dash: s.dash,

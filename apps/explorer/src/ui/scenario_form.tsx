@@ -1,7 +1,7 @@
 /** The controls of a scenario: initial stress, friction, contact, time. Shared by all panels that run one. */
 
-import type { Complaint } from '../engine/binding';
-import { laws, type Parameter } from '../state/laws';
+import type { Complaint, Parameter } from '../engine/protocol';
+import { laws } from '../state/laws';
 import { route, setParams } from '../state/route';
 import { scenarioOf } from '../state/scenario';
 import { about, NumberField, Segments, SelectField, sentence, TextField } from './fields';
