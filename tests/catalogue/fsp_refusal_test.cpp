@@ -5,7 +5,7 @@
 namespace slipfront::catalogue {
 namespace {
 
-TEST(Fsp, NotAModel) {
+TEST(Fsp, RejectsOtherFiles) {
   for (const std::string text :
        {"", "\n", "hello", "name,slip\na,1\n", "% Event : A 01/02/1903 [B]\n", "{}", "\xff\xfe\x00"}) {
     EXPECT_NE(refusal(text).allowed.find(".fsp"), std::string::npos) << text;
@@ -18,7 +18,7 @@ TEST(Fsp, NotAModel) {
   EXPECT_EQ(refusal(text + text).line, 51U);
 }
 
-TEST(Fsp, CutAtEveryLine) {
+TEST(Fsp, SurvivesACutAtEveryLine) {
   for (const char* name : all_files) {
     const std::string text = text_of(name);
     const LastRow last = last_row(text);
@@ -28,7 +28,7 @@ TEST(Fsp, CutAtEveryLine) {
   }
 }
 
-TEST(Fsp, CutAtEveryByte) {
+TEST(Fsp, SurvivesACutAtEveryByte) {
   for (const char* name : all_files) {
     const std::string text = text_of(name);
     const LastRow last = last_row(text);
@@ -40,7 +40,7 @@ TEST(Fsp, CutAtEveryByte) {
   }
 }
 
-TEST(Fsp, CutFileNamesWhatIsMissing) {
+TEST(Fsp, NamesWhatACutFileLacks) {
   std::string text = text_of("fsp_srcmod_segments");
   text.resize(text.find("% SEGMENT #   3"));
   const Complaint segments = refusal(text);
@@ -54,13 +54,13 @@ TEST(Fsp, CutFileNamesWhatIsMissing) {
   EXPECT_NE(rows.problem.find("segment 1 has 3"), std::string::npos);
 }
 
-TEST(Fsp, MoreSegmentsThanAnnounced) {
+TEST(Fsp, RejectsMoreSegmentsThanAnnounced) {
   const Observation o = read(edited(text_of("fsp_usgs_segments"), "Nsg = 2", "Nsg = 1"));
   expect_value(o.slip, 1.25);
   EXPECT_EQ(warnings_with(o, "Nsg = 1"), 1U);
 }
 
-TEST(Fsp, BadRows) {
+TEST(Fsp, RejectsBadRows) {
   const std::string row = "    34.990  -119.990    -2.000    -2.000     0.500     1.500   180.000";
   for (const std::string bad : {"1e400", "-1e400", "1e-400", "nan", "inf", "-inf"}) {
     const Complaint c = refusal(single(row, "    34.990  -119.990    -2.000    -2.000     0.500 " + bad + "  180.000"));
@@ -77,7 +77,7 @@ TEST(Fsp, BadRows) {
   }
 }
 
-TEST(Fsp, SumsThatOverflow) {
+TEST(Fsp, RejectsSumsThatOverflow) {
   EXPECT_EQ(refusal(edited(single("0.500     1.500", "0.500     1e308"), "0.500     1.000", "0.500     1e308")).key,
             "SLIP");
   const Observation o = read(edited(single("0.500     1.500", "0.500     1e300"), "avTr = 2.0", "avTr = 1e-300"));
@@ -85,13 +85,13 @@ TEST(Fsp, SumsThatOverflow) {
   EXPECT_EQ(warnings_with(o, "out of range"), 1U);
 }
 
-TEST(Fsp, NumbersOutsideDoubleInTheHeader) {
+TEST(Fsp, RejectsHeaderNumbersOutsideDouble) {
   EXPECT_EQ(refusal(single("avVr = 2.5", "avVr = 1e400")).key, "avVr");
   EXPECT_EQ(refusal(single("DEP = 7.00", "DEP = 1e400")).line, 6U);
   EXPECT_EQ(refusal(single("4.00       6.00", "4.00       1e400")).line, 27U);
 }
 
-TEST(Fsp, HeadingsThatCannotBeRead) {
+TEST(Fsp, RejectsUnreadableHeadings) {
   EXPECT_EQ(refusal(single("SLIP      RAKE\n", "SLIP      SLIP\n")).key, "SLIP");
   EXPECT_TRUE(is_refused(single("SLIP      RAKE\n", "GLIDE     RAKE\n")));
   const std::string heading = "%   RISE      SLIP        LAT        LON          X==NS      Y==EW        Z \n";

@@ -5,7 +5,7 @@
 namespace slipfront::catalogue {
 namespace {
 
-TEST(Fsp, SrcmodSingleSegment) {
+TEST(Fsp, ReadsASingleSrcmodSegment) {
   const Observation o = read(text_of("fsp_srcmod_single"));
   EXPECT_EQ(o.name, "Northern Nowhere (Calif.)");
   EXPECT_EQ(o.date, "02/30/1901");
@@ -25,7 +25,7 @@ TEST(Fsp, SrcmodSingleSegment) {
   EXPECT_TRUE(o.warnings.empty());
 }
 
-TEST(Fsp, UsgsSingleSegment) {
+TEST(Fsp, ReadsASingleUsgsSegment) {
   const Observation o = read(text_of("fsp_usgs_single"));
   EXPECT_EQ(o.name, "FAR COAST OF UTOPIA");
   EXPECT_EQ(o.date, "2031-02-29T01:02:03");
@@ -37,7 +37,7 @@ TEST(Fsp, UsgsSingleSegment) {
   EXPECT_TRUE(o.warnings.empty());
 }
 
-TEST(Fsp, SegmentsAreWeightedWithTheirOwnArea) {
+TEST(Fsp, WeightsSegmentsByTheirArea) {
   // Subfaults of 2 km x 3 km, although LEN x WID is larger: 24 km^2 of 2.5 m; 60 km^2 of 1 m; 16 km^2 of 2.5 m.
   const Observation o = read(text_of("fsp_srcmod_segments"));
   expect_value(o.slip, (24 * 2.5 + 60 * 1 + 16 * 2.5) / 100);
@@ -50,7 +50,7 @@ TEST(Fsp, SegmentsAreWeightedWithTheirOwnArea) {
   EXPECT_TRUE(usgs.warnings.empty());
 }
 
-TEST(Fsp, SegmentsWithoutAreaFallBack) {
+TEST(Fsp, WeightsSubfaultsEquallyWithoutAnArea) {
   // Header: 15 km x 10 km a subfault, two in either segment.
   std::string text = edited(text_of("fsp_usgs_segments"), "% LEN = 30 km WID = 20 km\n", "");
   expect_value(read(text).slip, (300 * 1.5 + 200 * 0.5) / 500);
@@ -60,7 +60,7 @@ TEST(Fsp, SegmentsWithoutAreaFallBack) {
   EXPECT_EQ(warnings_with(o, "count alike"), 1U);
 }
 
-TEST(Fsp, RiseTimeFromItsColumnIfTheHeaderHasNone) {
+TEST(Fsp, TakesRiseTimeFromItsColumnIfTheHeaderHasNone) {
   // Rows with no slip or a placeholder for RISE do not count: (1 + 2 + 6 + 8 + 1 + 8) / (10 + 2.5).
   const Observation o = read(text_of("fsp_srcmod_segments"));
   EXPECT_FALSE(o.rupture_velocity_m_s);
@@ -71,7 +71,7 @@ TEST(Fsp, RiseTimeFromItsColumnIfTheHeaderHasNone) {
   EXPECT_EQ(warnings_with(o, "column RISE"), 1U);
 }
 
-TEST(Fsp, PlaceholdersAreNoVelocities) {
+TEST(Fsp, IgnoresPlaceholdersOfVelocities) {
   for (const std::string value : {"0.0", "-99.0", "999.0", "99", "-1", "", "unknown"}) {
     const Observation o = read(single("avVr = 2.5 km/s", "avVr = " + value + " km/s"));
     EXPECT_FALSE(o.rupture_velocity_m_s) << value;
@@ -81,7 +81,7 @@ TEST(Fsp, PlaceholdersAreNoVelocities) {
   expect_value(read(single("avVr = 2.5 km/s", "avVr = 98.9 km/s")).rupture_velocity_m_s, 98900);
 }
 
-TEST(Fsp, PlaceholdersAreNoRiseTimes) {
+TEST(Fsp, IgnoresPlaceholdersOfRiseTimes) {
   for (const std::string value : {"0.0", "-99.0", "999.0", "900", "", "-"}) {
     const Observation o = read(single("avTr = 2.0 s", "avTr = " + value + " s"));
     EXPECT_FALSE(o.rise_time) << value;
@@ -93,14 +93,14 @@ TEST(Fsp, PlaceholdersAreNoRiseTimes) {
   EXPECT_EQ(warnings_with(read(single("avTr = 2.0 s    ", "")), "no avTr"), 1U);
 }
 
-TEST(Fsp, BlankValueDoesNotTakeTheNextOne) {
+TEST(Fsp, LeavesABlankValueBlank) {
   const Observation o = read(single("avTr = 2.0 s    avVr = 2.5 km/s", "avTr = avVr = 2.5 km/s"));
   EXPECT_FALSE(o.rise_time);
   EXPECT_EQ(warnings_with(o, "avTr = ''"), 1U);
   expect_value(o.rupture_velocity_m_s, 2500);
 }
 
-TEST(Fsp, OtherUnitsAreRefused) {
+TEST(Fsp, RejectsOtherUnits) {
   const Complaint c = refusal(single("avVr = 2.5 km/s", "avVr = 25 m/s"));
   EXPECT_EQ(c.line, 9U);
   EXPECT_EQ(c.key, "avVr");
@@ -108,7 +108,7 @@ TEST(Fsp, OtherUnitsAreRefused) {
   EXPECT_EQ(c.allowed, "km/s");
 }
 
-TEST(Fsp, DirtyFile) {
+TEST(Fsp, ReadsADirtyFile) {
   const Observation o = read(text_of("fsp_dirty"));
   EXPECT_EQ(o.name, "Lost Isle");
   expect_value(o.rupture_velocity_m_s, 3000);
@@ -122,7 +122,7 @@ TEST(Fsp, DirtyFile) {
   EXPECT_EQ(o.warnings.size(), 3U);
 }
 
-TEST(Fsp, LineEndsAndMissingLastNewline) {
+TEST(Fsp, AcceptsAnyLineEndAndNoLastNewline) {
   for (const char* name : all_files) {
     const std::string text = text_of(name);
     const Observation unix_ends = read(text);
@@ -137,13 +137,13 @@ TEST(Fsp, LineEndsAndMissingLastNewline) {
   }
 }
 
-TEST(Fsp, ColumnNamesWithoutCommentSign) {
+TEST(Fsp, ReadsColumnNamesWithoutCommentSign) {
   const Observation o = read(single("%   LAT       LON ", "    LAT       LON "));
   expect_value(o.slip_velocity_m_s, 0.5);
   EXPECT_TRUE(o.warnings.empty());
 }
 
-TEST(Fsp, NamesAreValidText) {
+TEST(Fsp, MakesNamesValidText) {
   EXPECT_EQ(read(single("Northern   Nowhere", "S\xf8r\tland")).name, "S\xc3\xb8r land (Calif.)");
   EXPECT_EQ(read(single("Northern   Nowhere", "S\xc3\xb8rland\x01")).name, "S\xc3\xb8rland (Calif.)");
   EXPECT_EQ(read(single("Northern   Nowhere (Calif.) ", "")).name, "s1901NOWHERnobo");
@@ -152,14 +152,14 @@ TEST(Fsp, NamesAreValidText) {
   EXPECT_EQ(tag_only.line, 4U);
 }
 
-TEST(Fsp, VeryLongLines) {
+TEST(Fsp, SurvivesVeryLongLines) {
   const std::string blanks(1 << 20, ' '), equals(1 << 20, '=');
   expect_value(read(single("Northern   ", "Northern" + blanks)).slip, 1);
   expect_value(read(single("% SVF  :", "% Invs : " + equals)).slip, 1);
   expect_value(read(single("% SVF  :", "% Invs : " + blanks + "Nx" + blanks + "=")).slip, 1);
 }
 
-TEST(Fsp, OneCountOfTwoMayBeWrong) {
+TEST(Fsp, AcceptsOneWrongCountOfTwo) {
   EXPECT_EQ(warnings_with(read(single("Nsbfs =      6", "Nsbfs = 2")), "not Nsbfs = 2"), 1U);
   EXPECT_EQ(warnings_with(read(single("Nsbfs =      6", "Nsbfs = 60")), "not Nsbfs = 60"), 1U);
   EXPECT_EQ(warnings_with(read(single("Nx  =    3", "Nx  =   30")), "not Nx*Nz = 60"), 1U);
@@ -168,7 +168,7 @@ TEST(Fsp, OneCountOfTwoMayBeWrong) {
   EXPECT_EQ(warnings_with(read(neither), "no Nsbfs"), 1U);
 }
 
-TEST(Fsp, TableBetweenTwoWrongCountsIsCut) {
+TEST(Fsp, RejectsATableBetweenTwoWrongCounts) {
   // Six rows, where one count says less and the other more.
   const Complaint c = refusal(edited(single("Nsbfs =      6", "Nsbfs = 2"), "Nx  =    3", "Nx  = 4"));
   EXPECT_EQ(c.key, "Nx*Nz");
@@ -178,7 +178,7 @@ TEST(Fsp, TableBetweenTwoWrongCountsIsCut) {
   expect_value(read(both_less).slip, 1);
 }
 
-TEST(Fsp, MeanSlipMustBePositive) {
+TEST(Fsp, RequiresAPositiveMeanSlip) {
   // The six rows sum to -4 m, or to zero.
   for (const std::string slip : {"-8.000", "-4.000"}) {
     const Observation o = read(single("2.500     2.000", "2.500    " + slip));
@@ -190,7 +190,7 @@ TEST(Fsp, MeanSlipMustBePositive) {
   }
 }
 
-TEST(Fsp, LayerAtTheHypocentre) {
+TEST(Fsp, TakesTheLayerAtTheHypocentre) {
   const auto s_speed_at = [](const std::string& depth) {
     return read(single("DEP = 7.00", "DEP = " + depth)).s_wave_speed.value_or(0);
   };
@@ -203,7 +203,7 @@ TEST(Fsp, LayerAtTheHypocentre) {
   expect_no_elastic_constants(read(no_depth));
 }
 
-TEST(Fsp, DepthsThatBeginBelowTheSurfaceAreBottoms) {
+TEST(Fsp, TakesDepthsThatBeginBelowTheSurfaceAsBottoms) {
   const std::string text = single("%     0.00       3.00", "%     1.00       3.00");
   const Observation o = read(text);
   expect_value(o.s_wave_speed, 4500);  // 7 km: between the bottoms 4 km and 16 km
@@ -211,7 +211,7 @@ TEST(Fsp, DepthsThatBeginBelowTheSurfaceAreBottoms) {
   expect_value(read(edited(text, "DEP = 7.00", "DEP = 4.00")).s_wave_speed, 3000);
 }
 
-TEST(Fsp, BelowWaterTheNextSolidLayer) {
+TEST(Fsp, TakesTheNextSolidLayerBelowWater) {
   const Observation o = read(text_of("fsp_srcmod_segments"));
   expect_value(o.p_wave_speed, 4000);
   expect_value(o.s_wave_speed, 2000);
@@ -219,7 +219,7 @@ TEST(Fsp, BelowWaterTheNextSolidLayer) {
   EXPECT_EQ(warnings_with(o, "water"), 1U);
 }
 
-TEST(Fsp, UnphysicalLayersAreLeftOut) {
+TEST(Fsp, IgnoresUnphysicalLayers) {
   const std::string layer = "4.00       6.00       3.00        2.50";
   for (const std::string bad :
        {"4.00       2.40       6.16        3.59", "4.00  4.24 3.00 2.50", "4.00  6.00 3.00 0.89",
@@ -232,7 +232,7 @@ TEST(Fsp, UnphysicalLayersAreLeftOut) {
   expect_value(read(single(layer, "4.00  4.27 3.00 2.50")).s_wave_speed, 3000);
 }
 
-TEST(Fsp, DamagedVelocityTableIsLeftOut) {
+TEST(Fsp, IgnoresADamagedVelocityTable) {
   // Published once: the rows lost, only their comment signs and the last layer kept.
   const Observation lost =
       read(single("%     0.00       3.00       1.50        2.00       70     35\n%     4.00", "% % 4.00"));
@@ -243,7 +243,7 @@ TEST(Fsp, DamagedVelocityTableIsLeftOut) {
   EXPECT_EQ(warnings_with(disorder, "do not increase"), 1U);
 }
 
-TEST(Fsp, ModulusPlaceholderIsLeftOut) {
+TEST(Fsp, IgnoresAPlaceholderOfTheModulus) {
   for (const std::string bad : {"999", "0", "-99", "see the reference"}) {
     const Observation o = read(edited(text_of("fsp_dirty"), "%  3.30\n", "%  " + bad + "\n"));
     expect_no_elastic_constants(o);

@@ -38,7 +38,7 @@ TEST(Measured, ReadsEveryForm) {
   EXPECT_TRUE(read("3 km/s").is_exact());
 }
 
-TEST(Measured, RefusesWithTheReason) {
+TEST(Measured, RejectsWithTheReason) {
   const auto complaint = [](const char* text) {
     try {
       read(text);
@@ -63,7 +63,7 @@ TEST(Measured, RefusesWithTheReason) {
 }
 
 /// Draws weigh what takes them from their own density to the likelihood over ln x.
-TEST(Measured, LikelihoodFitsQuantile) {
+TEST(Measured, HasALikelihoodThatAgreesWithItsQuantiles) {
   for (const char* text : {"3 +- 0.5", "3 */ 1.4", "2..4"}) {
     const Measured m = read(text);
     for (const double p : {0.05, 0.3, 0.5, 0.8, 0.99}) {

@@ -15,7 +15,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 Member member(double V, double value) { return {V, std::vector<double>(3, value)}; }
 
-TEST(Population, PutsTheEndsOfDecadesWhereTheyBelong) {
+TEST(Population, AssignsTheEndsOfDecades) {
   for (int k = -300; k < 0; ++k) {
     const double edge = std::pow(10.0, k);
     Population population;
@@ -29,7 +29,7 @@ TEST(Population, PutsTheEndsOfDecadesWhereTheyBelong) {
   }
 }
 
-TEST(Population, HasGapsAndTheClosedForm) {
+TEST(Population, ListsEmptyDecadesAndTheClosedForm) {
   Population population;
   population.add(member(2e-6, 1));
   population.add(member(0.5, nan));
@@ -54,7 +54,7 @@ TEST(Population, HasGapsAndTheClosedForm) {
   EXPECT_TRUE(line_through({}).empty());
 }
 
-TEST(Population, QuantilesAreLinearBetweenOrderedValues) {
+TEST(Population, InterpolatesQuantilesLinearly) {
   Population population;
   for (const double value : {5.0, 1.0, nan, 3.0, 2.0, 4.0}) population.add(member(0.2, value));
   const Spread s = population.decades().front().spread.front();

@@ -65,7 +65,7 @@ TEST(Toml, ReadsDistributionsAsTables) {
   expect_same(o.uncertain_constants.at(0).measured, same.uncertain_constants.at(0).measured);
 }
 
-TEST(Toml, RefusesTablesThatAreNoDistribution) {
+TEST(Toml, RejectsTablesThatAreNoDistribution) {
   const auto c = [](const std::string& table) {
     return refusal([&] { read_toml("[event]\nslip_velocity = " + table + "\n", "t.toml"); });
   };
@@ -102,7 +102,7 @@ TEST(Csv, ReadsPublishedColumnNames) {
   EXPECT_EQ(rows[2].observation.warnings.size(), 1u);  // an upper bound is not an observation
 }
 
-TEST(Csv, ABadRowDoesNotLoseTheOthers) {
+TEST(Csv, KeepsTheOtherRowsOfABadOne) {
   const auto rows =
       csv("name,rupture_velocity_km_s,slip_velocity_m_s\n"
           "good,2.8,0.5\n"
@@ -126,7 +126,7 @@ TEST(Csv, ABadRowDoesNotLoseTheOthers) {
   EXPECT_EQ(rows[3].error->value, "1e400");
 }
 
-TEST(Csv, RefusesHeadersThatMeanNothing) {
+TEST(Csv, RejectsUnknownHeaders) {
   EXPECT_EQ(refusal([] { csv("name,rupture_velocty_km_s\nA,1\n"); }).key, "rupture_velocty_km_s");
   EXPECT_EQ(refusal([] { csv("name,rupture_velocity_km\nA,1\n"); }).key, "rupture_velocity_km");
   EXPECT_EQ(refusal([] { csv("name,slip_m,slip_m\nA,1,1\n"); }).problem, "column given twice");
@@ -156,7 +156,7 @@ TEST(Toml, ReadsOneEvent) {
   EXPECT_EQ(o.line, 1u);
 }
 
-TEST(Toml, RefusesWithLineKeyAndNearestName) {
+TEST(Toml, RejectsWithLineKeyAndNearestName) {
   const auto refused = [](std::string_view text) { return refusal([&] { read_toml(text, "p.toml"); }); };
   const Complaint typo = refused("[event]\nrupture_velocty = \"3 km/s\"\n");
   EXPECT_EQ(typo.line, 2u);
@@ -178,7 +178,7 @@ TEST(Toml, RefusesWithLineKeyAndNearestName) {
   EXPECT_EQ(refused("[event]\nrupture_velocity = \"1e400 km/s\"\n").problem, "not a finite number");
 }
 
-TEST(ReadEvents, KnowsTheFormats) {
+TEST(ReadEvents, RecognizesTheFormats) {
   const auto names = [](std::string_view text, const char* file) {
     std::string all;
     read_events(text, file, [&](Entry&& e) { all += (e.error ? "!" : "") + e.observation.name + ";"; });

@@ -40,7 +40,7 @@ TEST(AlongFault, FindsThePlaneFront) {
   EXPECT_NEAR(states.back().down_dip - states.front().down_dip, 7500, 1e-6);
 }
 
-TEST(AlongFault, LeavesOutWhatIsNotThere) {
+TEST(AlongFault, LeavesMissingQuantitiesAbsent) {
   Observation o;
   o.name = "no times";
   for (int i = 0; i < 5; ++i) o.subfaults.push_back({.x = 1000.0 * i, .z = 500, .slip = 1});

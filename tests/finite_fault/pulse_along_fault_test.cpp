@@ -79,14 +79,14 @@ TEST(PulseAlongFault, StopsWhereNothingWasStored) {
   EXPECT_FALSE(p.model_time[14]);
 }
 
-TEST(PulseAlongFault, RuptureFromAnEnd) {
+TEST(PulseAlongFault, StartsFromAnEnd) {
   const FaultPulse p = pulse_along_fault(fault(0, 2000, [](int) { return 1.0; }), 0.9, speed);
   EXPECT_EQ(p.x.front(), 0);
   EXPECT_GT(p.pulse_slip[0], p.pulse_slip[3]);
   EXPECT_GT(p.pulse_slip[3], 0);
 }
 
-TEST(PulseAlongFault, StressGivesTheSlipsShareOfTheSlipVelocity) {
+TEST(PulseAlongFault, ScalesStressWithSlip) {
   EXPECT_NEAR(stress_by_slip(0.9, 1), 0.9, 1e-12);
   const double half = rupture::from_stress(stress_by_slip(0.9, 0.5)).slip_velocity;
   EXPECT_NEAR(half, rupture::from_stress(0.9).slip_velocity / 2, 1e-12);
@@ -95,7 +95,7 @@ TEST(PulseAlongFault, StressGivesTheSlipsShareOfTheSlipVelocity) {
   EXPECT_EQ(stress_by_slip(0.9, 1e9), 5);
 }
 
-TEST(PulseAlongFault, SaysWhatTheModelLacks) {
+TEST(PulseAlongFault, NamesWhatTheModelLacks) {
   const auto reason = [](const std::vector<LocalState>& states) {
     return pulse_along_fault(states, 0.9, speed).reason;
   };

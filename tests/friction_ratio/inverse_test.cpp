@@ -12,7 +12,7 @@ using namespace slipfront;
 using namespace slipfront::friction_ratio;
 using friction::Closure;
 
-TEST(DampingNumber, ReadsTheTableBack) {
+TEST(DampingNumber, InvertsTheTable) {
   for (const Closure closure : {Closure::consistent, Closure::paper})
     for (const double stress : {0.05, 0.21, 0.855, 3.0})
       for (const double damping : {1e-3, 0.63, 3.14, 12.6, 4e3, 1e6, 1e10})
@@ -35,7 +35,7 @@ TEST(DampingNumber, ErrorCoversTheTable) {
     }
 }
 
-TEST(DampingNumber, RefusesRatiosThatFrictionDoesNotLeave) {
+TEST(DampingNumber, RejectsRatiosThatFrictionDoesNotLeave) {
   for (const double ratio : {0.0, -0.1, 1.001, 1e-200, std::numeric_limits<double>::quiet_NaN()})
     EXPECT_THROW(damping_number(Measure::origin, Closure::consistent, 0.855, ratio), InputError) << ratio;
   EXPECT_EQ(damping_number(Measure::origin, Closure::consistent, 0.855, 1).damping_number, 0);

@@ -19,7 +19,7 @@ constexpr Closure closures[] = {Closure::consistent, Closure::paper};
 constexpr auto& measures = all_measures;
 
 /// A few points of `friction_ratio_table check`, none of them a node.
-TEST(FrictionRatio, IsWhatThePulseSolverGives) {
+TEST(FrictionRatio, AgreesWithThePulseSolver) {
   struct Point {
     double stress, damping;
   };
@@ -62,7 +62,7 @@ TEST(FrictionRatio, FollowsTheCorners) {
 
 /// The table has slip over duration from the dislocations that have passed x = 0; here it is the integral of its own
 /// W(0), since only Gamma = C t counts: (1 / Gamma) times that of the ratio from 0 to Gamma, in u = ln(1 + Gamma).
-TEST(FrictionRatio, TimeMeanIsTheIntegralOfTheSlipVelocityAtTheOrigin) {
+TEST(FrictionRatio, IntegratesTheSlipVelocityForTheTimeMean) {
   for (const Closure closure : closures)
     for (const double stress : {0.05, 0.2117, 0.855, 2.9})
       for (const double damping : {0.01, 0.7, 21.4, 137.0, 3e3, 2e5, 9e7}) {
@@ -82,13 +82,13 @@ TEST(FrictionRatio, TimeMeanIsTheIntegralOfTheSlipVelocityAtTheOrigin) {
 
 /// A fifth of the frictionless slip velocity, as slip over duration of the paper's ETS event: not Gamma = 5.7, or 36
 /// with the paper's closure, which are of W at the end.
-TEST(FrictionRatio, AFifthInTheMeanOverTime) {
+TEST(FrictionRatio, IsAFifthInTheMeanOverTime) {
   EXPECT_NEAR(evaluate(Measure::time_mean, Closure::consistent, 0.2117, 21.4).value, 0.199, 3e-4);
   EXPECT_NEAR(evaluate(Measure::time_mean, Closure::paper, 0.2117, 137).value, 0.199, 1e-3);
   EXPECT_NEAR(evaluate(Measure::origin, Closure::consistent, 0.2117, 5.74).value, 0.199, 3e-4);
 }
 
-TEST(FrictionRatio, HasOneRunForManyDampingNumbers) {
+TEST(FrictionRatio, NeedsOneRunForManyDampingNumbers) {
   const std::vector<SlipVelocities> w = solve_each(0.855, Closure::consistent, 400, {0.5, 2});
   ASSERT_EQ(w.size(), 2u);
   EXPECT_NEAR(w[0].origin / solve({.stress = 0.855, .damping_number = 0.5}).origin, 1, 1e-5);
@@ -97,7 +97,7 @@ TEST(FrictionRatio, HasOneRunForManyDampingNumbers) {
 }
 
 /// W(0) sqrt(Gamma) of the step 0.855 solved apart from the scheme (docs/pulse.md).
-TEST(FrictionRatio, HasTheDiffusionLimit) {
+TEST(FrictionRatio, TendsToTheDiffusionLimit) {
   const double unit = rupture::from_stress(0.855).slip_velocity;
   const double damping = 1e12;
   const auto W = [&](Closure c) {
@@ -113,7 +113,7 @@ TEST(FrictionRatio, IsOneWithoutFriction) {
       EXPECT_NEAR(evaluate(Measure::origin, closure, stress, 0).value, 1, 1e-6);
 }
 
-TEST(FrictionRatio, DerivativesAreThose) {
+TEST(FrictionRatio, HasDerivativesThatAgreeWithDifferences) {
   for (const Closure closure : closures)
     for (const Measure m : measures)
       for (const double damping : {0.3, 1.5, 2.2, 20.0, 5e3, 1e7, 1e9})
@@ -128,7 +128,7 @@ TEST(FrictionRatio, DerivativesAreThose) {
         }
 }
 
-TEST(FrictionRatio, FallsWithFrictionAndHasNoSteps) {
+TEST(FrictionRatio, FallsSmoothlyWithFriction) {
   for (const Closure closure : closures)
     for (const Measure m : measures)
       for (const double stress : {0.05, 0.12, 0.5, 1.3, 3.0}) {
@@ -142,7 +142,7 @@ TEST(FrictionRatio, FallsWithFrictionAndHasNoSteps) {
       }
 }
 
-TEST(FrictionRatio, RefusesWhatIsOutside) {
+TEST(FrictionRatio, RejectsArgumentsOutsideTheTable) {
   const auto at = [](double stress, double damping) {
     return evaluate(Measure::origin, Closure::consistent, stress, damping);
   };

@@ -33,7 +33,7 @@ bool mentions(const std::vector<std::string>& warnings, const std::string& word)
 }
 
 /// docs/theory.md 5, the rows without friction. The paper works with rounded c, V and Sigma-; so does the second half.
-TEST(Estimate, ParkfieldAsInThePaper) {
+TEST(Estimate, ReproducesParkfield) {
   const Estimate e = estimate(from_case("parkfield-2004.toml"), {});
   EXPECT_NEAR(e.speed, 5421.0, 0.05);
   EXPECT_NEAR(e.rupture_velocity->value, 0.5534, 5e-5);
@@ -48,7 +48,7 @@ TEST(Estimate, ParkfieldAsInThePaper) {
   EXPECT_NEAR(30e9 * paper_A * 1.03 / pi / 1e6, 29, 0.5);
 }
 
-TEST(Estimate, EtsAsInThePaper) {
+TEST(Estimate, ReproducesEpisodicTremorAndSlip) {
   const Estimate e = estimate(from_case("ets.toml"), {});
   EXPECT_NEAR(e.rupture_velocity->value, 2.135e-5, 5e-9);
   EXPECT_NEAR(e.observed_slip_velocity->value, 4.8e-8, 5e-10);
@@ -57,7 +57,7 @@ TEST(Estimate, EtsAsInThePaper) {
   EXPECT_EQ(e.contact_ratio->value, 4e-5);
 }
 
-TEST(Estimate, RangesBecomeExactQuantiles) {
+TEST(Estimate, TurnsRangesIntoExactQuantiles) {
   Observation o;
   o.rupture_velocity_m_s = Measured{1000, 3000};
   o.slip_velocity_m_s = Measured{0.5, 0.5};
@@ -74,7 +74,7 @@ TEST(Estimate, RangesBecomeExactQuantiles) {
   EXPECT_TRUE(mentions(both.warnings, "several observed errors"));
 }
 
-TEST(Estimate, SaysWhatItAssumed) {
+TEST(Estimate, WarnsOfAssumedConstants) {
   Observation o;
   o.rupture_velocity_m_s = Measured{3000, 3000};
   EXPECT_TRUE(mentions(estimate(o, {}).warnings, "assumed: poisson_ratio 0.3, p_wave_speed 6000 m/s"));
@@ -89,7 +89,7 @@ TEST(Estimate, SaysWhatItAssumed) {
   EXPECT_NEAR(e.speed, 3500 * std::sqrt(2 / 0.75), 1e-9);
 }
 
-TEST(Estimate, LeavesOutWhatCannotBeKnown) {
+TEST(Estimate, LeavesUnidentifiableQuantitiesAbsent) {
   Observation o;
   o.slip_velocity_m_s = Measured{0.5, 0.5};
   const Estimate none = estimate(o, {});
@@ -102,7 +102,7 @@ TEST(Estimate, LeavesOutWhatCannotBeKnown) {
   EXPECT_FALSE(by_slip.rupture_velocity);
 }
 
-TEST(Estimate, RefusesWhatTheModelCannotBe) {
+TEST(Estimate, RejectsUnphysicalObservations) {
   Observation o;
   o.file = "f.csv";
   o.line = 7;
@@ -123,14 +123,14 @@ TEST(Estimate, RefusesWhatTheModelCannotBe) {
   EXPECT_THROW(estimate(o, {}), InputError);
 }
 
-TEST(Estimate, WarnsOfAContactBeyondPlastic) {
+TEST(Estimate, WarnsOfAContactRatioAbovePlastic) {
   Observation o;
   o.rupture_velocity_m_s = Measured{0.1, 0.1};
   o.slip_velocity_m_s = Measured{0.1, 0.1};
   EXPECT_TRUE(mentions(estimate(o, {}).warnings, "exceeds plastic contact"));
 }
 
-TEST(Estimate, AbsurdSlipMakesNoInfinity) {  // found by fuzzing an .fsp file
+TEST(Estimate, KeepsNumbersFiniteForAbsurdSlip) {  // found by fuzzing an .fsp file
   Observation o = from_case("parkfield-2004.toml");
   o.slip_velocity_m_s = Measured{1e305, 1e305};
   const Estimate e = estimate(o, {});

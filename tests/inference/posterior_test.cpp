@@ -65,7 +65,7 @@ void expect_ninety_percent(const std::vector<std::pair<const char*, int>>& insid
 
 bool holds(const std::optional<Quantiles>& q, double truth) { return q && q->low <= truth && truth <= q->high; }
 
-TEST(Posterior, HoldsTheTruthInNineOfTenEventsOfKnownContact) {
+TEST(Posterior, CoversTheTruthInNineOfTenEventsOfKnownContact) {
   constexpr int events = 1000;
   int stress = 0, contact = 0, damping = 0, pascal = 0;
   for (int n = 0; n < events; ++n) {
@@ -95,7 +95,7 @@ TEST(Posterior, HoldsTheTruthInNineOfTenEventsOfKnownContact) {
                         events);
 }
 
-TEST(Posterior, HoldsTheTruthInNineOfTenEventsOfKnownFriction) {
+TEST(Posterior, CoversTheTruthInNineOfTenEventsOfKnownFriction) {
   constexpr int events = 1000;
   int contact = 0, damping = 0, pascal = 0;
   for (int n = 0; n < events; ++n) {
@@ -140,7 +140,7 @@ struct OnGrid {
   }
 };
 
-TEST(Posterior, IsThatOfAGrid) {
+TEST(Posterior, AgreesWithIntegrationOverAGrid) {
   Observation o;
   o.name = "grid";
   o.rupture_velocity_m_s = Measured{3000, 3000, Shape::normal, 150};
@@ -177,7 +177,7 @@ TEST(Posterior, IsThatOfAGrid) {
 }
 
 /// Exact observations have one state of the fault.
-TEST(Posterior, SolvesWhatIsExact) {
+TEST(Posterior, SolvesExactObservations) {
   const Truth truth{3000, 0.01, 12.5};
   Observation o;
   o.name = "exact";
@@ -197,7 +197,7 @@ TEST(Posterior, SolvesWhatIsExact) {
     }
 }
 
-TEST(Posterior, SaysWhatCannotBeKnown) {
+TEST(Posterior, NotesUnidentifiableQuantities) {
   Observation o;
   o.name = "velocities";
   o.rupture_velocity_m_s = Measured{3000, 3000, Shape::normal, 100};
@@ -220,7 +220,7 @@ TEST(Posterior, SaysWhatCannotBeKnown) {
   EXPECT_FALSE(posterior(o, defaults, {}));
 }
 
-TEST(Posterior, RefusesWhatExcludesItself) {
+TEST(Posterior, RejectsContradictoryObservations) {
   Observation o;
   o.name = "contradiction";
   o.rupture_velocity_m_s = exact(3000);
@@ -241,7 +241,7 @@ TEST(Posterior, RefusesWhatExcludesItself) {
   EXPECT_NE(complaint().find("outside the table"), std::string::npos) << complaint();
 }
 
-TEST(Posterior, SeedsAreThoseOfTheEvent) {
+TEST(Posterior, DerivesTheSeedFromTheEvent) {
   Observation o;
   o.name = "a";
   o.rupture_velocity_m_s = Measured{2000, 3000};

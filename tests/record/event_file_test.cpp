@@ -53,7 +53,7 @@ class EventFile : public testing::Test {
   const std::vector<EventResult> all = results();
 };
 
-TEST_F(EventFile, HoldsWhatItTakesToGoOn) {
+TEST_F(EventFile, HoldsWhatIsNeededToResume) {
   write(false);
   EXPECT_EQ(read_events_done(path, metadata), serialize(all));
   EXPECT_EQ(deserialize(read_events_done(path, metadata)).size(), 3u);
@@ -87,7 +87,7 @@ TEST_F(EventFile, HoldsTheColumnsAndThePopulation) {
   EXPECT_EQ(file.find("line_stress")->shape, std::vector<std::size_t>{101});
 }
 
-TEST_F(EventFile, IsNotTakenForAnother) {
+TEST_F(EventFile, RejectsAFileOfAnotherCatalogue) {
   write(false);
   EventMetadata other = metadata;
   other.settings[0].second = "2";
@@ -105,7 +105,7 @@ TEST_F(EventFile, IsNotTakenForAnother) {
   EXPECT_THROW(read_events_done(path, metadata), FileError);
 }
 
-TEST_F(EventFile, IsRefusedWhenDamaged) {
+TEST_F(EventFile, RejectsDamage) {
   write(false);
   const std::string whole = read_text(path);
   for (const std::size_t at : {std::size_t{100}, whole.size() / 2, whole.size() - 30}) {
@@ -118,7 +118,7 @@ TEST_F(EventFile, IsRefusedWhenDamaged) {
   }
 }
 
-TEST(ChecksumOfInputs, TellsNamesContentsAndOrder) {
+TEST(ChecksumOfInputs, DependsOnNamesContentsAndOrder) {
   const auto one = checksum_of_inputs("", "a", "b");
   EXPECT_NE(one, checksum_of_inputs("", "ab", ""));
   EXPECT_NE(checksum_of_inputs(one, "c", "d"), checksum_of_inputs(checksum_of_inputs("", "c", "d"), "a", "b"));

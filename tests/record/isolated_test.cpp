@@ -17,14 +17,14 @@ namespace {
 
 using slipfront::record::isolated;
 
-TEST(Isolated, GivesBackAnyBytes) {
+TEST(Isolated, ReturnsAnyBytes) {
   std::string bytes(3000000, '\0');
   for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<char>(i * 7);
   EXPECT_EQ(isolated("a", "fails", [&] { return bytes; }), bytes);
   EXPECT_EQ(isolated("a", "fails", [] { return std::string(); }), "");
 }
 
-TEST(Isolated, ThrowsWhatTheWorkThrows) {
+TEST(Isolated, RethrowsTheExceptionOfTheWork) {
   const auto input = [] {
     isolated("a", "fails", []() -> std::string {
       throw slipfront::InputError({.file = "f", .line = 3, .key = "k", .value = "v", .problem = "p", .allowed = "q"});
@@ -36,7 +36,7 @@ TEST(Isolated, ThrowsWhatTheWorkThrows) {
   EXPECT_THROW(isolated("a", "fails", []() -> std::string { throw std::bad_alloc(); }), std::bad_alloc);
 }
 
-TEST(Isolated, ACrashIsAFileError) {
+TEST(Isolated, ReportsACrashAsAFileError) {
   for (const int signal : {SIGSEGV, SIGABRT, SIGKILL}) {
     const auto crash = [signal] {
       isolated("a.nc", "cannot be read", [signal]() -> std::string {
@@ -50,7 +50,7 @@ TEST(Isolated, ACrashIsAFileError) {
   EXPECT_EQ(isolated("a", "fails", [] { return std::string("next"); }), "next");
 }
 
-TEST(Isolated, WorkWithoutAnEndIsAFileError) {
+TEST(Isolated, ReportsEndlessWorkAsAFileError) {
   const auto endless = [] {
     isolated(
         "a.nc", "cannot be read",
@@ -67,7 +67,7 @@ TEST(Isolated, WorkWithoutAnEndIsAFileError) {
 }
 
 /// A wait is not work: a busy machine, or a slow disk, does not end it.
-TEST(Isolated, AWaitMayBeLongerThanTheLimit) {
+TEST(Isolated, AllowsWaitsLongerThanTheLimit) {
   const auto wait = []() -> std::string {
     usleep(1500000);
     return "done";

@@ -42,14 +42,14 @@ std::string good_file() {
   return read_bytes(folder / "a.nc");
 }
 
-TEST(PulseDamage, WhatIsNoFileIsRefused) {
+TEST(PulseDamage, RejectsWhatIsNoFile) {
   const TemporaryFolder folder;
   EXPECT_NE(refusal(folder / "none.nc").find("cannot be opened: No such file"), std::string::npos);
   EXPECT_NE(refusal(folder.path().string()).find("is a directory"), std::string::npos);
   EXPECT_EQ(refusal("/dev/zero"), "/dev/zero: is not a regular file");
 }
 
-TEST(PulseDamage, OtherFilesAreRefused) {
+TEST(PulseDamage, RejectsOtherFiles) {
   EXPECT_EQ(refusal_of(""), "the file is empty");
   EXPECT_EQ(refusal_of("title = \"a\"\n"), "not a NetCDF-4 file");
   EXPECT_EQ(refusal_of(std::string(5000, '\0')), "not a NetCDF-4 file");
@@ -61,7 +61,7 @@ TEST(PulseDamage, OtherFilesAreRefused) {
   EXPECT_NE(refusal_of(std::string(image.bytes())).find("has no seal"), std::string::npos);
 }
 
-TEST(PulseDamage, CutFilesAreRefused) {
+TEST(PulseDamage, RejectsCutFiles) {
   const std::string file = good_file();
   for (std::size_t size = 0; size < file.size(); size += 1 + file.size() / 50)
     EXPECT_NE(refusal_of(file.substr(0, size)), "");
@@ -69,7 +69,7 @@ TEST(PulseDamage, CutFilesAreRefused) {
   EXPECT_NE(refusal_of(file + "x").find("has no seal"), std::string::npos);
 }
 
-TEST(PulseDamage, EveryChangedByteIsNoticed) {
+TEST(PulseDamage, DetectsEveryChangedByte) {
   const std::string file = good_file();
   for (std::size_t at = 0; at < file.size(); at += 1 + file.size() / 300) {
     std::string damaged = file;
@@ -124,7 +124,7 @@ std::string made(const Form& form) {
 
 std::string refusal_of(const Form& form) { return refusal_of(made(form)); }
 
-TEST(PulseDamage, WhatIsMissingIsNamed) {
+TEST(PulseDamage, NamesWhatIsMissing) {
   EXPECT_NE(refusal_of(Form{}).find("the checksum of its content does not match"), std::string::npos);
   for (const char* name : {"slipfront_format", "scenario", "version", "checksum", "finished", "time", "x", "checkpoint",
                            "trailing_front", "energy_kinetic", "peak_position"}) {
@@ -134,7 +134,7 @@ TEST(PulseDamage, WhatIsMissingIsNamed) {
   }
 }
 
-TEST(PulseDamage, WrongShapesAndTypesAreNamed) {
+TEST(PulseDamage, NamesWrongShapesAndTypes) {
   for (const char* name : {"time", "x", "k", "U", "W", "slip", "checkpoint", "stress_at_origin"}) {
     Form form;
     form.wrong_shape = name;
@@ -145,7 +145,7 @@ TEST(PulseDamage, WrongShapesAndTypesAreNamed) {
   }
 }
 
-TEST(PulseDamage, WrongValuesAreRefused) {
+TEST(PulseDamage, RejectsWrongValues) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const std::vector<double>& times : {std::vector<double>{0, nan}, {nan, 1}, {1, 1}, {1, 0}}) {
     Form form;
@@ -160,7 +160,7 @@ TEST(PulseDamage, WrongValuesAreRefused) {
   EXPECT_NE(refusal_of(form).find("its slipfront_format is 'chain 1'"), std::string::npos);
 }
 
-TEST(PulseDamage, AbsurdSizesAreNotAllocated) {
+TEST(PulseDamage, AllocatesNoAbsurdSizes) {
   Form form;
   form.times = 0;  // unlimited
   form.time = {};

@@ -48,7 +48,7 @@ void expect_equal(const std::vector<Snapshot>& a, const std::vector<Snapshot>& b
   }
 }
 
-TEST(PulseFile, ComesBackToTheBit) {
+TEST(PulseFile, RestoresEveryBit) {
   const TemporaryFolder folder;
   const auto snapshots = sample_snapshots(5, 7);
   write_pulse(folder / "a.nc", sample_metadata(7), snapshots, sample_state(), false);
@@ -60,7 +60,7 @@ TEST(PulseFile, ComesBackToTheBit) {
   expect_equal(run.snapshots, snapshots);
 }
 
-TEST(PulseFile, MayHoldNothingYet) {
+TEST(PulseFile, AcceptsARunWithoutSnapshots) {
   const TemporaryFolder folder;
   write_pulse(folder / "a.nc", sample_metadata(1), {}, "", true);
   const Checkpoint run = read_checkpoint(folder / "a.nc");
@@ -69,14 +69,14 @@ TEST(PulseFile, MayHoldNothingYet) {
   EXPECT_TRUE(run.finished);
 }
 
-TEST(PulseFile, EqualRunsMakeEqualFiles) {
+TEST(PulseFile, WritesEqualFilesForEqualRuns) {
   const TemporaryFolder folder;
   write_pulse(folder / "a.nc", sample_metadata(7), sample_snapshots(5, 7), sample_state(), true);
   write_pulse(folder / "b.nc", sample_metadata(7), sample_snapshots(5, 7), sample_state(), true);
   EXPECT_EQ(read_bytes(folder / "a.nc"), read_bytes(folder / "b.nc"));
 }
 
-TEST(PulseFile, ResumedRunMakesTheFileOfAnUninterruptedOne) {
+TEST(PulseFile, WritesTheSameFileForAResumedRun) {
   const TemporaryFolder folder;
   for (const std::vector<std::string>& variables :
        {std::vector<std::string>{}, {"stress_drop", "W"}, {"slip"}, {"Sigma", "stress_drop"}, {"k"}}) {
@@ -92,7 +92,7 @@ TEST(PulseFile, ResumedRunMakesTheFileOfAnUninterruptedOne) {
   }
 }
 
-TEST(PulseFile, HoldsOnlyWhatWasAskedFor) {
+TEST(PulseFile, HoldsOnlyRequestedVariables) {
   const TemporaryFolder folder;
   PulseMetadata metadata = sample_metadata(7);
   metadata.variables = {"W"};
@@ -104,7 +104,7 @@ TEST(PulseFile, HoldsOnlyWhatWasAskedFor) {
   EXPECT_EQ(scalar_bits(run.snapshots[2]), scalar_bits(snapshots[2]));
 }
 
-TEST(PulseFile, UnknownVariableIsAnInputErrorThatListsTheKnown) {
+TEST(PulseFile, ListsKnownVariablesIfOneIsUnknown) {
   const TemporaryFolder folder;
   PulseMetadata metadata = sample_metadata(7);
   metadata.variables = {"W", "w"};
@@ -113,7 +113,7 @@ TEST(PulseFile, UnknownVariableIsAnInputErrorThatListsTheKnown) {
   EXPECT_EQ(folder.files(), 0u);
 }
 
-TEST(PulseFile, ScenarioOfAnyBytesComesBack) {
+TEST(PulseFile, RestoresAScenarioOfAnyBytes) {
   const TemporaryFolder folder;
   for (const std::string& scenario :
        {std::string(), std::string("\0", 1), std::string("a\0b\xff\xfe\n", 6),
@@ -128,7 +128,7 @@ TEST(PulseFile, ScenarioOfAnyBytesComesBack) {
   }
 }
 
-TEST(PulseFile, WrongArgumentsAreRefused) {
+TEST(PulseFile, RejectsWrongArguments) {
   const TemporaryFolder folder;
   const auto refused = [&](const PulseMetadata& metadata, const std::vector<Snapshot>& snapshots) {
     return message_of<std::invalid_argument>([&] { write_pulse(folder / "a.nc", metadata, snapshots, "", false); });

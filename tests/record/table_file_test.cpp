@@ -53,13 +53,13 @@ std::string netcdf(const std::vector<double>& x, const std::vector<double>& stre
 
 const Table expected = {{-1, 0.855}, {0, 0.5}, {0.1, 0}};
 
-TEST(TableFile, CsvIsRead) {
+TEST(TableFile, ReadsCsv) {
   EXPECT_EQ(read("a.csv", "x,stress\n-1,0.855\n0,0.5\n1e-1,0\n"), expected);
   EXPECT_EQ(read("a.csv", "\xEF\xBB\xBF\"stress\" , note, x\r\n0.855,\"a, b\",-1\r\n\r\n 0.5 ,,\"0\"\r\n0,c,0.1"),
             expected);
 }
 
-TEST(TableFile, BadCsvNamesLineColumnAndValue) {
+TEST(TableFile, NamesLineColumnAndValueOfBadCsv) {
   auto c = complaint("a.csv", "x,stress\n0,1\n\n1,1.2.3\n");
   EXPECT_EQ(c.line, 4u);
   EXPECT_EQ(c.key, "stress");
@@ -79,9 +79,9 @@ TEST(TableFile, BadCsvNamesLineColumnAndValue) {
   EXPECT_EQ(complaint("a.csv", "").problem, "the file is empty");
 }
 
-TEST(TableFile, NetcdfIsRead) { EXPECT_EQ(read("a.nc", netcdf({-1, 0, 0.1}, {0.855, 0.5, 0})), expected); }
+TEST(TableFile, ReadsNetcdf) { EXPECT_EQ(read("a.nc", netcdf({-1, 0, 0.1}, {0.855, 0.5, 0})), expected); }
 
-TEST(TableFile, BadNetcdfNamesTheVariable) {
+TEST(TableFile, NamesTheVariableOfBadNetcdf) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(complaint("a.nc", netcdf({0, 1}, {0})).key, "stress");
   EXPECT_EQ(complaint("a.nc", netcdf({}, {})).key, "x");
@@ -96,7 +96,7 @@ TEST(TableFile, BadNetcdfNamesTheVariable) {
   EXPECT_EQ(complaint("a.nc", std::string(image.bytes())).problem, "has 2 dimensions");
 }
 
-TEST(TableFile, WhatCannotBeReadIsAFileError) {
+TEST(TableFile, ReportsUnreadableFilesAsFileErrors) {
   const TemporaryFolder folder;
   EXPECT_THROW(read_table(folder / "none.csv", "x", "stress"), FileError);
   EXPECT_THROW(read_table(folder / "none.nc", "x", "stress"), FileError);

@@ -71,7 +71,7 @@ TEST(WholeFile, LeavesNoLockToAProcessThatWasStartedMeanwhile) {
   waitpid(other, nullptr, 0);
 }
 
-TEST(WholeFile, FailedWriteKeepsTheOldFileAndLeavesNothingElse) {
+TEST(WholeFile, KeepsTheOldFileIfAWriteFails) {
   const TemporaryFolder folder;
   const std::string path = folder / "a.nc";
   ASSERT_EQ(failure(path), "");
@@ -87,7 +87,7 @@ TEST(WholeFile, FailedWriteKeepsTheOldFileAndLeavesNothingElse) {
   EXPECT_EQ(folder.files(), 1u);
 }
 
-TEST(WholeFile, WrongPathsAreNamed) {
+TEST(WholeFile, NamesWrongPaths) {
   const TemporaryFolder folder;
   EXPECT_EQ(failure(folder / "none/a.nc"),
             (folder / "none/a.nc") + ": cannot be written: folder " + (folder / "none") + " does not exist");
@@ -99,14 +99,14 @@ TEST(WholeFile, WrongPathsAreNamed) {
   EXPECT_EQ(folder.files(), 1u);
 }
 
-TEST(WholeFile, DevicesAreNotReplaced) {
+TEST(WholeFile, ReplacesNoDevices) {
   const TemporaryFolder folder;
   ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
   EXPECT_EQ(failure(folder / "pipe"), (folder / "pipe") + ": cannot be written: is not a regular file");
   EXPECT_TRUE(fs::is_fifo(folder / "pipe"));
 }
 
-TEST(WholeFile, LinksAreFollowedAndModesKept) {
+TEST(WholeFile, FollowsLinksAndKeepsModes) {
   const TemporaryFolder folder;
   fs::create_directory(folder / "deep");
   fs::create_symlink("deep/target.nc", folder / "link.nc");
@@ -117,7 +117,7 @@ TEST(WholeFile, LinksAreFollowedAndModesKept) {
   EXPECT_EQ(fs::status(folder / "deep/target.nc").permissions(), fs::perms::owner_read | fs::perms::owner_write);
 }
 
-TEST(WholeFile, NamesThatTheNetcdfLibraryWouldInterpretAreOnlyNames) {
+TEST(WholeFile, TakesNamesLiterallyThatTheNetcdfLibraryWouldInterpret) {
   const TemporaryFolder folder;
   for (const char* name : {" a b.nc", "a#mode=zarr", "s3:a.nc", "a\\b.nc", "a%20.nc", "[x=1]a.nc", "\xff.nc"}) {
     EXPECT_EQ(failure(folder / name), "") << name;

@@ -43,7 +43,7 @@ double width(const EventResult& r) {
 }
 
 /// The bound's distribution by another sampler: plain Monte Carlo over what was observed, ln V even before.
-TEST(Answer, BoundOfTohokuHasEveryErrorInItsInterval) {
+TEST(Answer, CountsEveryErrorInTheBoundOfTohoku) {
   const EventResult r = result_of(tohoku("12 */ 1.5 m", "40 */ 1.4 s", "40 GPa"), {.sampling = {.samples = 20000}});
   ASSERT_TRUE(r.estimate) << r.error;
   EXPECT_FALSE(r.estimate->stress_pa);
@@ -83,7 +83,7 @@ TEST(Answer, BoundOfTohokuHasEveryErrorInItsInterval) {
 }
 
 /// An answer is the same in both places that JSON, CSV, NetCDF and Python have of it.
-TEST(Answer, IsThePosteriors) {
+TEST(Answer, IsThatOfThePosterior) {
   const EventResult r = result_of(
       "[event]\nrupture_velocity = \"3.0 +- 0.2 km/s\"\nslip_velocity = \"0.5 */ 1.2 m/s\"\n[medium]\ncontact_ratio = "
       "{ mean = 0.01, sd = 0.002 }\n");
@@ -98,7 +98,7 @@ TEST(Answer, IsThePosteriors) {
   EXPECT_NEAR(rupture::from_rupture_velocity(e.rupture_velocity->value).stress, e.stress->value, 1e-5);
 }
 
-TEST(Answer, WithoutARuptureVelocityIsABoundOfTheStress) {
+TEST(Answer, BoundsTheStressWithoutARuptureVelocity) {
   const EventResult r = result_of(
       "[event]\nslip_velocity = \"0.5 */ 1.3 m/s\"\n[medium]\ncontact_ratio = { median = 0.003, factor = 1.2 }\n");
   ASSERT_TRUE(r.estimate) << r.error;
@@ -108,7 +108,7 @@ TEST(Answer, WithoutARuptureVelocityIsABoundOfTheStress) {
   EXPECT_EQ(r.estimate->stress_bound->value, r.estimate->stress->value);
 }
 
-TEST(Answer, SamplesGrowUntilTheySuffice) {
+TEST(Answer, DoublesSamplesUntilTheySuffice) {
   // Two standard deviations above c: a few per cent of the samples are below.
   const EventResult r = result_of("[event]\nrupture_velocity = \"6.0 +- 0.3 km/s\"\nslip_velocity = \"0.5 m/s\"\n");
   ASSERT_TRUE(r.estimate) << r.error;
@@ -120,7 +120,7 @@ TEST(Answer, SamplesGrowUntilTheySuffice) {
   EXPECT_NE(result_of("[event]\nrupture_velocity = \"6.0 km/s\"\n").error, "");
 }
 
-TEST(Answer, ContactBeyondPlasticIsSampledWhereItsErrorReachesBelow) {
+TEST(Answer, SamplesAContactAbovePlasticIfItsErrorReachesBelow) {
   const std::string head = "[event]\nrupture_velocity = \"3 km/s\"\nslip_velocity = \"0.5 m/s\"\n[medium]\n";
   const EventResult r = result_of(head + "contact_ratio = { median = 0.7, factor = 1.5 }\n");
   ASSERT_TRUE(r.estimate) << r.error;
@@ -129,7 +129,7 @@ TEST(Answer, ContactBeyondPlasticIsSampledWhereItsErrorReachesBelow) {
   EXPECT_NE(result_of(head + "contact_ratio = 0.7\n").error, "");
 }
 
-TEST(Answer, NoIntervalFromAFewSamples) {
+TEST(Answer, HasNoIntervalFromAFewSamples) {
   // Contact ratio and stress drop disagree by three standard deviations, and the drop is sharp.
   const EventResult r = result_of(
       "[event]\nrupture_velocity = \"3 km/s\"\nslip_velocity = \"0.5 m/s\"\nstress_drop = \"69.5 +- 0.2 MPa\"\n"
@@ -141,7 +141,7 @@ TEST(Answer, NoIntervalFromAFewSamples) {
   EXPECT_TRUE(mentions(r, "no intervals: "));
 }
 
-TEST(Answer, DrawsAreOfThePosterior) {
+TEST(Answer, DrawsFromThePosterior) {
   const EventResult r = result_of(tohoku("12 */ 1.5 m", "40 */ 1.4 s", "40 GPa"), {.sampling = {.draws = 500}});
   ASSERT_EQ(r.posterior->draws.size(), 500u);
   std::vector<double> values;
@@ -156,7 +156,7 @@ TEST(Answer, DrawsAreOfThePosterior) {
 }
 
 /// T is the duration, where rise time and duration are both known.
-TEST(Answer, FrictionIsOverTheDuration) {
+TEST(Answer, AveragesFrictionOverTheDuration) {
   const auto with = [](const std::string& times) {
     return result_of("[event]\nrupture_velocity = \"3 km/s\"\nslip = \"0.5 m\"\n" + times +
                      "[medium]\ncontact_ratio = 0.01\nasperity_spacing = \"1 m\"\n");
@@ -169,7 +169,7 @@ TEST(Answer, FrictionIsOverTheDuration) {
   EXPECT_NEAR(rise.estimate->friction_coefficient->value / both.estimate->friction_coefficient->value, 7, 1e-9);
 }
 
-TEST(Answer, SaysWhereSourcesDisagree) {
+TEST(Answer, WarnsWhereSourcesDisagree) {
   std::vector<Entry> entries;
   const auto sink = [&](Entry&& entry) { entries.push_back(std::move(entry)); };
   read_events(
@@ -193,7 +193,7 @@ TEST(Answer, SaysWhereSourcesDisagree) {
       << entries[0].observation.warnings[0];
 }
 
-TEST(ParetoK, IsThatOfADistributionOfThatTail) {
+TEST(ParetoK, RecoversTheTailOfADistribution) {
   for (const double k : {0.2, 0.5, 0.9}) {
     std::vector<double> weights;
     constexpr int n = 40000;

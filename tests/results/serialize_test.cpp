@@ -41,7 +41,7 @@ void expect_same(const EventResult& a, const EventResult& b) {
   for (const TextColumn& c : text_columns(true)) EXPECT_EQ(c.get(a), c.get(b)) << c.name;
 }
 
-TEST(Saved, ComesBackToTheBit) {
+TEST(Saved, RestoresEveryBit) {
   const EvaluationOptions plan{.sampling = {.samples = 200}};
   std::vector<EventResult> results;
   for (Entry& entry : entries()) results.push_back(evaluate(std::move(entry), {}, plan));
@@ -68,7 +68,7 @@ TEST(Saved, ComesBackToTheBit) {
   EXPECT_EQ(serialize(again), bytes);
 }
 
-TEST(Saved, RefusesWhatIsCut) {
+TEST(Saved, RejectsCutBytes) {
   std::vector<EventResult> results;
   for (Entry& entry : entries()) results.push_back(evaluate(std::move(entry), {}, {.sampling = {.samples = 50}}));
   const std::string bytes = serialize(results);

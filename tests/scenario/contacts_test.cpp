@@ -15,7 +15,7 @@ using namespace slipfront::scenario;
 const std::string law =
     step + "[domain]\nleft = -7\nright = 3\n[friction]\nlaw = \"rate-and-state\"\nstrength = 0.05\n";
 
-TEST(ContactKeys, AreReadAndMakeTheContactAtTheStart) {
+TEST(ContactKeys, SetTheContactAtTheStart) {
   const Scenario s =
       read(law +
            "reference_velocity = 0.05\ncharacteristic_slip = 0.1\ncontact_ageing = 0.1\ncontact_time = 0.5\n"
@@ -34,7 +34,7 @@ TEST(ContactKeys, AreReadAndMakeTheContactAtTheStart) {
   EXPECT_EQ(scaled.dilatancy, 0.02);
 }
 
-TEST(ContactKeys, InSiUnits) {
+TEST(ContactKeys, AcceptSiUnits) {
   const Scenario s = read(law +
                           "normal_stress = \"50 MPa\"\ndilatancy = \"0.5 MPa\"\npore_pressure = \"20 MPa\"\n"
                           "drainage_time = \"1 ms\"\n[medium]\nshear_modulus = \"30 GPa\"\npoisson_ratio = 0.25\n"
@@ -46,7 +46,7 @@ TEST(ContactKeys, InSiUnits) {
   EXPECT_EQ(refused(law + "dilatancy = \"0.5 MPa\"\n").key, "friction.dilatancy");
 }
 
-TEST(ContactKeys, AreRefusedWhereTheyAreWrong) {
+TEST(ContactKeys, RejectWrongValues) {
   const struct {
     const char *lines, *key, *said;
   } cases[] = {
@@ -70,7 +70,7 @@ TEST(ContactKeys, AreRefusedWhereTheyAreWrong) {
   EXPECT_TRUE(contains(other.allowed, "rate-and-state"));
 }
 
-TEST(ContactKeys, WithoutDrainageWarns) {
+TEST(ContactKeys, WarnWithoutDrainage) {
   const Scenario s = read(law + "dilatancy = 0.1\n");
   ASSERT_FALSE(s.warnings.empty());
   EXPECT_TRUE(contains(s.warnings.back(), "never drain"));

@@ -16,7 +16,7 @@ Complaint refused_text(const std::string& text, const Rows& rows = {}) {
   return refused([&] { read(text, {}, rows); });
 }
 
-TEST(FrictionCurve, IsTheFormula) {
+TEST(FrictionCurve, AgreesWithTheFormula) {
   const Scenario s = read(formula("0.1*w/(1 + w^2)") + "coefficient = 2\n");
   for (const double w : {1e-9, 0.3, 4.0}) EXPECT_DOUBLE_EQ(s.friction.force(-w), -0.2 * w / (1 + w * w));
   EXPECT_FALSE(s.friction.sticks());
@@ -25,7 +25,7 @@ TEST(FrictionCurve, IsTheFormula) {
   EXPECT_FALSE(read(formula("0.1*w")).friction.steep_at_rest());
 }
 
-TEST(FrictionCurve, IsTheMonotoneCurveThroughTheTable) {
+TEST(FrictionCurve, InterpolatesTheTableMonotonically) {
   const Rows rows = {{0, 0.1}, {0.5, 0.3}, {2, 0.2}};
   const Scenario s = read(friction("law = \"table\"\nfile = \"f.csv\"\n"), {}, rows);
   EXPECT_TRUE(s.friction.sticks());
@@ -37,7 +37,7 @@ TEST(FrictionCurve, IsTheMonotoneCurveThroughTheTable) {
   EXPECT_TRUE(contains(beyond.problem, "2.1")) << beyond.problem;
 }
 
-TEST(FrictionCurve, RefusesWhatIsNoForce) {
+TEST(FrictionCurve, RejectsWhatIsNoForce) {
   EXPECT_TRUE(contains(refused_text(formula("1/w")).problem, "inf at the slip velocity w = 0"));
   EXPECT_TRUE(contains(refused_text(formula("w - 0.1")).problem, "-0.1"));
   EXPECT_TRUE(contains(refused_text(formula("w > 0 ? 0.1 : 0")).allowed, "coulomb"));
@@ -73,7 +73,7 @@ TEST(FrictionCurve, MayBeCalledByThreads) {
   for (const int count : wrong) EXPECT_EQ(count, 0);
 }
 
-TEST(FrictionCurve, WordsStandForNumbers) {
+TEST(FrictionCurve, AcceptsWordsForNumbers) {
   const std::string text = friction("law = \"rate-and-state\"\nstrength = 0.5\nevolution_effect = 0.02\n");
   EXPECT_EQ(read(text).friction.parameter("state"), 0);
   EXPECT_EQ(read(text + "state = \"slip\"\n").friction.parameter("state"), 1);
@@ -83,7 +83,7 @@ TEST(FrictionCurve, WordsStandForNumbers) {
 }
 
 // Rock and interface of the worked examples: the units of the model, by hand.
-TEST(FrictionUnits, AreThoseOfTheMedium) {
+TEST(FrictionUnits, FollowFromTheMedium) {
   const std::string rock =
       "[medium]\nshear_modulus = \"30 GPa\"\np_wave_speed = \"6 km/s\"\npoisson_ratio = 0.3\ncontact_ratio = "
       "0.01\nasperity_spacing = \"1 mm\"\n";
@@ -107,7 +107,7 @@ TEST(FrictionUnits, AreThoseOfTheMedium) {
   EXPECT_NEAR(rate / (b / (c * A)), 1e-6 / 10e-6, 1e-13);
 }
 
-TEST(FrictionUnits, NeedWhatTheyAreMadeOf) {
+TEST(FrictionUnits, NameMissingConstants) {
   const std::string law = "law = \"slip-weakening\"\nstrength = ";
   EXPECT_TRUE(contains(refused_text(friction(law + "\"30 MPa\"\n")).problem, "medium.contact_ratio"));
   const std::string rock = "[medium]\ncontact_ratio = 0.01\n";

@@ -27,7 +27,7 @@ TEST(ScenarioInitial, StepAndTanhTakeTheirValues) {
   EXPECT_EQ(read(step, {"initial.profile=tanh"}).initial.width, 1);
 }
 
-TEST(ScenarioInitial, RefusesKeysThatDoNotFitTheProfile) {
+TEST(ScenarioInitial, RejectsKeysThatDoNotFitTheProfile) {
   EXPECT_EQ(refused("[initial]\n").key, "initial.stress_left");
   EXPECT_EQ(refused("[initial]\n").line, 1u);
   EXPECT_EQ(refused("[initial]\nstress_left = 1\n").key, "initial.stress_right");
@@ -46,7 +46,7 @@ TEST(ScenarioInitial, RefusesKeysThatDoNotFitTheProfile) {
     EXPECT_EQ(refused(step, {"initial.profile=tanh", "initial.width=" + bad}).key, "initial.width");
 }
 
-TEST(ScenarioInitial, FormulasMeanWhatTheySay) {
+TEST(ScenarioInitial, EvaluatesFormulas) {
   EXPECT_DOUBLE_EQ(formula("exp(-x^2) + 1")(0.5), std::exp(-0.25) + 1);
   EXPECT_DOUBLE_EQ(formula("5 - 2^-x^2 + 2^3^2 - 512")(1), 4.5);  // powers bind to the right and before the sign
   EXPECT_DOUBLE_EQ(formula("x < 0 ? 2 : x >= 1 && x != 2 ? 3 : 4")(2), 4);
@@ -60,7 +60,7 @@ TEST(ScenarioInitial, FormulasMeanWhatTheySay) {
   EXPECT_EQ(twice(1), 2);
 }
 
-TEST(ScenarioInitial, RefusesFormulasWithPosition) {
+TEST(ScenarioInitial, RejectsFormulasWithPosition) {
   const Complaint unknown = refused_formula("1 + tnh(x)");
   EXPECT_TRUE(contains(unknown.problem, "'tnh' at character 5")) << unknown.problem;
   EXPECT_TRUE(contains(unknown.allowed, "'tanh'"));
@@ -78,7 +78,7 @@ TEST(ScenarioInitial, RefusesFormulasWithPosition) {
   refused_formula(std::string(200000, '('));
 }
 
-TEST(ScenarioInitial, RefusesStressThatIsNone) {
+TEST(ScenarioInitial, RejectsStressThatIsNoNumber) {
   for (const std::string bad :
        {"x", "-1", "1/x", "sqrt(x)", "log(x)", "max(1, sqrt(x))", "min(1, sqrt(x))", "1e7", "2 + sign(sqrt(x))"})
     EXPECT_TRUE(contains(refused_formula(bad).problem, "at x = "));
@@ -139,7 +139,7 @@ TEST(ScenarioTable, InterpolatesMonotonically) {
   EXPECT_LT(error(0.2), 1e-3);
 }
 
-TEST(ScenarioTable, RefusesWhatIsNoTable) {
+TEST(ScenarioTable, RejectsWhatIsNoTable) {
   const std::string text = "[initial]\nprofile = \"table\"\nfile = \"t.csv\"\n";
   const double nan = std::nan("");
   for (const Rows& rows : std::vector<Rows>{{},
@@ -163,7 +163,7 @@ TEST(ScenarioTable, RefusesWhatIsNoTable) {
   EXPECT_EQ(refused([&] { read_scenario(text, "s.toml", {}, {}); }).key, "initial.file");
 }
 
-TEST(ScenarioTable, LiesBesideTheScenario) {
+TEST(ScenarioTable, IsFoundNextToTheScenario) {
   const auto path = [](const std::string& scenario, const std::string& table) {
     std::string asked;
     read_scenario("[initial]\nprofile = \"table\"\n", scenario, {"initial.file=" + table},

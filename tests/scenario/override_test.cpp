@@ -18,7 +18,7 @@ TEST(ScenarioOverride, AppliesInOrderBeforeChecking) {
   EXPECT_EQ(*s.medium.poisson_ratio, 0.25);
 }
 
-TEST(ScenarioOverride, ComplaintsNameItAndItsText) {
+TEST(ScenarioOverride, IsNamedInComplaints) {
   const auto complaint = [](const std::string& text) {
     const Complaint c = refused(step, {text});
     EXPECT_EQ(c.file, "--set") << text;

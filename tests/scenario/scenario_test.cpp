@@ -109,7 +109,7 @@ anything = nan
   EXPECT_EQ(*read(step + "[output]\nevery = 0.5\n").output.every, 0.5);
 }
 
-TEST(ScenarioFile, RefusesValuesOutOfRangeWithLineAndKey) {
+TEST(ScenarioFile, RejectsValuesOutOfRangeWithLineAndKey) {
   const std::vector<std::array<std::string, 2>> numbers = {
       {"friction", "coefficient"}, {"friction", "exponent"}, {"domain", "left"},
       {"domain", "right"},         {"time", "end"},          {"pulse", "cells"},
@@ -172,14 +172,14 @@ TEST(ScenarioFile, RefusesValuesOutOfRangeWithLineAndKey) {
   EXPECT_EQ(refused(step + "[output]\ntimes = [0,\n 2,\n 1]\n").line, 7u);
 }
 
-TEST(ScenarioFile, TakesTheEndsOfRanges) {
+TEST(ScenarioFile, AcceptsTheEndsOfRanges) {
   EXPECT_EQ(read(step + "[pulse]\ncells = 4\ntolerance = 0.1\n").pulse.cells, 4);
   EXPECT_EQ(read(step + "[pulse]\ncells = 10000000\ntolerance = 1e-12\n").pulse.tolerance, 1e-12);
   EXPECT_EQ(read(step + "[friction]\nlaw = \"coulomb\"\ncoefficient = 0\n").friction.parameter("coefficient"), 0);
   EXPECT_EQ(read("[initial]\nstress_left = 0.0045\nstress_right = 1e6\n").stress(-1), 0.0045);
 }
 
-TEST(ScenarioFile, RefusesUnknownNamesAndContradictions) {
+TEST(ScenarioFile, RejectsUnknownNamesAndContradictions) {
   EXPECT_EQ(refused("title = 1\n" + step).key, "title");
   EXPECT_EQ(refused("").problem, "there is no [initial] table");
   const Complaint table = refused(step + "[frction]\n");
@@ -198,7 +198,7 @@ TEST(ScenarioFile, RefusesUnknownNamesAndContradictions) {
   EXPECT_EQ(read(step + "[friction]\nlaw = \"viscous\"\n").warnings.size(), 1u);  // and no coefficient
 }
 
-TEST(ScenarioFile, NamesTheKeyOfANumberThatTomlRefuses) {
+TEST(ScenarioFile, NamesTheKeyOfANumberThatTomlRejects) {
   const Complaint c = refused(step + "[output]\ntimes = [1,\n  1e400]\n");
   EXPECT_EQ(c.line, 6u);
   EXPECT_EQ(c.key, "output.times");
