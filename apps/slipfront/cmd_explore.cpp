@@ -7,13 +7,13 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "batch.hpp"
 #include "commands.hpp"
 #include "interrupts.hpp"
+#include "json.hpp"
 #include "page_server.hpp"
 #include "slipfront/error.hpp"
 
@@ -76,7 +76,7 @@ void announce(const Arguments& a, const std::string& folder, int port) {
   const std::string url = fmt::format("http://{}:{}/", host, port);
   interrupted_means("; the page is no longer served");
   if (a.common.json)
-    put(nlohmann::ordered_json({{"url", url}, {"folder", folder}}).dump() + "\n");
+    put(text_of({{"url", url}, {"folder", folder}}) + "\n");
   else if (!a.common.quiet)
     put(fmt::format("The explorer is at {}  (Ctrl-C ends it)\n", url));
   std::fflush(stdout);

@@ -6,6 +6,7 @@
 
 #include "batch.hpp"
 #include "commands.hpp"
+#include "json.hpp"
 #include "relations_friction.hpp"
 #include "slipfront/rupture/relations.hpp"
 #include "state_values.hpp"
@@ -43,10 +44,9 @@ Relations solve(const State& state) {
 }
 
 std::string json_row(const Relations& r) {
-  std::string row = "{";
-  for (const RelationsQuantity& q : relations_quantities())
-    row += fmt::format("{}\"{}\": {}", row.size() > 1 ? ", " : "", q.about.name, r.*q.value);
-  return row + "}";
+  Json row;
+  for (const RelationsQuantity& q : relations_quantities()) row[std::string(q.about.name)] = r.*q.value;
+  return text_of(row);
 }
 
 std::string csv_row(const Relations& r) {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "batch.hpp"
+#include "json.hpp"
 #include "long_run.hpp"
 
 using namespace slipfront;
@@ -10,47 +11,40 @@ using namespace slipfront::setup;
 
 namespace {
 
-std::string json_text(const std::string& text) { return text.empty() ? "null" : fmt::format("\"{}\"", text); }
-std::string json_or_null(const std::optional<double>& value) { return value ? json_number(*value) : "null"; }
-
 double last(const Level& level, const Quantity& quantity) { return quantity.get(level.snapshots.back()); }
 
-std::string json_level(const Level& level, const Level* reference) {
+Json json_level(const Level& level, const Level* reference) {
   const output::Snapshot& s = level.snapshots.back();
-  std::string text = fmt::format("{{\"level\": \"{}\", \"closure\": {}, \"scale\": {}", level.name,
-                                 json_text(level.closure), json_or_null(level.scale));
-  for (const Quantity& q : compared_quantities()) text += fmt::format(", \"{}\": {}", q.key, json_number(q.get(s)));
-  text += fmt::format(
-      ", \"stress_at_origin\": {}, \"peak_position\": {}, \"trailing_front\": {}, \"energy_dissipated\": {}, "
-      "\"window\": {}, \"smooth_window\": {}, \"wall_seconds\": {}, \"difference\": {{",
-      json_number(s.stress_at_origin), json_number(s.peak_position), json_number(s.fronts.trailing),
-      json_number(s.energy.dissipated), json_or_null(level.window), json_or_null(level.smooth_window),
-      json_number(level.wall_seconds));
+  Json j = {{"level", level.name},
+            {"closure", level.closure.empty() ? Json() : Json(level.closure)},
+            {"scale", json_of(level.scale)}};
+  for (const Quantity& q : compared_quantities()) j[q.key] = q.get(s);
+  j["stress_at_origin"] = s.stress_at_origin;
+  j["peak_position"] = s.peak_position;
+  j["trailing_front"] = s.fronts.trailing;
+  j["energy_dissipated"] = s.energy.dissipated;
+  j["window"] = json_of(level.window);
+  j["smooth_window"] = json_of(level.smooth_window);
+  j["wall_seconds"] = level.wall_seconds;
   for (const Quantity& q : compared_quantities())
-    text += fmt::format("{}\"{}\": {}", &q == compared_quantities().data() ? "" : ", ", q.key,
-                        reference ? json_number(q.get(s) - last(*reference, q)) : "null");
-  return text + "}}";
+    j["difference"][q.key] = reference ? Json(q.get(s) - last(*reference, q)) : Json();
+  return j;
 }
 
 void print_json(const scenario::Scenario& s, const std::vector<Level>& levels) {
   const std::optional<double> C = s.friction.linear_coefficient();
-  std::string text = fmt::format(
-      "{{\"time\": {}, \"friction_coefficient\": {}, \"damping_number\": {}, \"reference\": \"pulse-consistent\", "
-      "\"levels\": [",
-      json_number(s.end), json_or_null(C), C ? json_number(*C * s.end) : "null");
-  for (const Level& level : levels)
-    text += (&level == levels.data() ? "" : ", ") + json_level(level, reference_level(levels));
-  text += "], \"trend\": {";
+  Json j = {{"time", s.end},
+            {"friction_coefficient", json_of(C)},
+            {"damping_number", C ? Json(*C * s.end) : Json()},
+            {"reference", "pulse-consistent"},
+            {"levels", Json::array()}};
+  for (const Level& level : levels) j["levels"].push_back(json_level(level, reference_level(levels)));
   for (const Quantity& q : compared_quantities()) {
     const Trend t = trend_of(levels, q);
-    text += fmt::format("{}\"{}\": {{\"exponent\": {}, \"extrapolated\": {}, \"difference\": {}}}",
-                        &q == compared_quantities().data() ? "" : ", ", q.key, json_number(t.exponent),
-                        json_number(t.extrapolated), json_number(t.difference));
+    j["trend"][q.key] = {{"exponent", t.exponent}, {"extrapolated", t.extrapolated}, {"difference", t.difference}};
   }
-  text += "}, \"notes\": [";
-  const std::vector<std::string> notes = notes_on(s, levels);
-  for (const std::string& note : notes) text += fmt::format("{}\"{}\"", &note == notes.data() ? "" : ", ", note);
-  put(text + "]}\n");
+  j["notes"] = notes_on(s, levels);
+  put(text_of(j) + "\n");
 }
 
 /// Gamma belongs to viscous friction; other laws have their parameters.

@@ -2,15 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
 #include <string_view>
 #include <vector>
 
+#include "json.hpp"
 #include "results/quantities.hpp"
 
 namespace {
 
-using Json = nlohmann::ordered_json;
 using slipfront::finite_fault::FaultPulse;
 using slipfront::finite_fault::pulse_quantities;
 using slipfront::inference::answer_quantities;
@@ -30,8 +29,6 @@ std::string quoted(const std::string& text) {
   return out + "\"";
 }
 
-Json number_or_null(const std::optional<double>& x) { return x ? Json(*x) : Json(); }
-
 Json posterior_json(const EventResult& result) {
   if (!result.posterior) return nullptr;
   const Posterior& p = *result.posterior;
@@ -44,8 +41,8 @@ Json posterior_json(const EventResult& result) {
   }
   j["slip_velocity_is"] = name_of(result.observation.measure());
   j["friction_identified"] = p.friction_identified;
-  j["prior_share"] = {{"contact_ratio", number_or_null(p.contact_ratio_prior_share)},
-                      {"damping_number", number_or_null(p.damping_number_prior_share)}};
+  j["prior_share"] = {{"contact_ratio", json_of(p.contact_ratio_prior_share)},
+                      {"damping_number", json_of(p.damping_number_prior_share)}};
   j["trade_off"] = Json::array();
   for (const auto& t : p.trade_off)
     j["trade_off"].push_back(
@@ -67,11 +64,11 @@ Json along_fault_json(const EventResult& result) {
                    {"down_dip_m", s.down_dip},
                    {"depth_m", s.subfault.z},
                    {"slip_m", s.subfault.slip},
-                   {"rupture_velocity_m_s", number_or_null(s.rupture_velocity_m_s)},
-                   {"slip_velocity_m_s", number_or_null(s.slip_velocity_m_s)},
-                   {"stress", number_or_null(s.stress)},
-                   {"contact_ratio", number_or_null(s.contact_ratio)},
-                   {"stress_pa", number_or_null(s.stress_pa)}});
+                   {"rupture_velocity_m_s", json_of(s.rupture_velocity_m_s)},
+                   {"slip_velocity_m_s", json_of(s.slip_velocity_m_s)},
+                   {"stress", json_of(s.stress)},
+                   {"contact_ratio", json_of(s.contact_ratio)},
+                   {"stress_pa", json_of(s.stress_pa)}});
   return all;
 }
 
@@ -79,7 +76,7 @@ Json pulse_json(const FaultPulse& p) {
   if (!p.reason.empty()) return {{"reason", p.reason}};
   const auto times = [](const std::vector<std::optional<double>>& all) {
     Json j = Json::array();
-    for (const auto& time : all) j.push_back(number_or_null(time));
+    for (const auto& time : all) j.push_back(json_of(time));
     return j;
   };
   Json j = {{"reason", nullptr},
@@ -92,7 +89,7 @@ Json pulse_json(const FaultPulse& p) {
             {"end_s", p.end},
             {"columns_reached", p.reached}};
   for (const auto& q : pulse_quantities())  // without "pulse_", which the object says
-    if (!q.is_count) j[std::string(q.about.name.substr(6))] = number_or_null(q.get(p));
+    if (!q.is_count) j[std::string(q.about.name.substr(6))] = json_of(q.get(p));
   return j;
 }
 
@@ -108,7 +105,7 @@ std::string event_json(const EventResult& result) {
   j["note"] = o.note;
   j["file"] = o.file;
   j["line"] = o.line;
-  for (const auto& number : event_numbers()) j[std::string(number.about.name)] = number_or_null(number.get(result));
+  for (const auto& number : event_numbers()) j[std::string(number.about.name)] = json_of(number.get(result));
   for (const auto quantities : {answer_quantities(), bound_quantities()})
     for (const auto& q : quantities) {
       const auto x = answer_of(result, q);
@@ -121,7 +118,7 @@ std::string event_json(const EventResult& result) {
   if (result.pulse) j["pulse"] = pulse_json(*result.pulse);
   j["warnings"] = result.warnings();
   j["error"] = result.error.empty() ? Json() : Json(result.error);
-  return j.dump(-1, ' ', true, Json::error_handler_t::replace);
+  return text_of(j);
 }
 
 std::string event_csv_head(bool with_pulse) {

@@ -3,10 +3,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <system_error>
 
 #include "batch.hpp"
+#include "json.hpp"
 #include "record/unfinished.hpp"
 
 using namespace slipfront;
@@ -75,11 +77,9 @@ scenario::Scenario read_scenario_of(const ScenarioArguments& a) {
   return s;
 }
 
-std::string json_number(double value) { return std::isfinite(value) ? fmt::format("{}", value) : "null"; }
-
 namespace {
 
-/// The events as a table, or as the value of a key of JSON.
+/// The events as a table.
 std::string table_of(const std::vector<output::SlipEvent>& events) {
   std::string text = fmt::format("{} events\n", events.size());
   if (events.empty()) return text;
@@ -90,15 +90,40 @@ std::string table_of(const std::vector<output::SlipEvent>& events) {
   }
   return text + '\n';
 }
-std::string json_of(const std::vector<output::SlipEvent>& events) {
-  std::string text;
+
+Json json_of(const std::vector<output::SlipEvent>& events) {
+  Json all = Json::array();
   for (const output::SlipEvent& event : events) {
-    std::string row;
-    for (const auto& column : output::slip_event_columns())
-      row += fmt::format("{}\"{}\": {}", row.empty() ? "" : ", ", column.about.name, json_number(event.*column.value));
-    text += (text.empty() ? "{" : ", {") + row + "}";
+    Json row;
+    for (const auto& column : output::slip_event_columns()) row[std::string(column.about.name)] = event.*column.value;
+    all.push_back(row);
   }
-  return "[" + text + "]";
+  return all;
+}
+
+/// Three digits: an error is not known better.
+double rounded(double error) { return std::strtod(fmt::format("{:.3g}", error).c_str(), nullptr); }
+
+std::string summary_json(const std::vector<run::SummaryValue>& summary, const std::vector<double>& errors,
+                         const std::vector<std::string>& warnings, const std::vector<output::SlipEvent>* events) {
+  Json j;
+  for (const auto& row : summary) j[row.key] = std::visit([](const auto& value) { return Json(value); }, row.value);
+  if (!errors.empty()) j["errors"] = Json::object();
+  for (std::size_t i = 0; i < errors.size(); ++i)
+    if (std::isfinite(errors[i])) j["errors"][summary[i].key] = rounded(errors[i]);
+  if (events) j["events"] = json_of(*events);
+  j["warnings"] = warnings;
+  return text_of(j);
+}
+
+/// A value in the table.
+std::string cell_of(const run::SummaryValue& row) {
+  struct AsText {
+    std::string operator()(double value) const { return std::isfinite(value) ? fmt::format("{}", value) : "null"; }
+    std::string operator()(long value) const { return fmt::format("{}", value); }
+    std::string operator()(const std::string& value) const { return fmt::format("\"{}\"", value); }
+  };
+  return std::visit(AsText{}, row.value);
 }
 
 }  // namespace
@@ -118,36 +143,19 @@ std::string parameters_in_words(const friction::Friction& friction) {
 void print_summary(const scenario::Scenario& scenario, const std::vector<run::SummaryValue>& summary,
                    const std::vector<double>& errors, const std::vector<std::string>& warnings,
                    const ScenarioArguments& a, const std::vector<output::SlipEvent>* events) {
-  struct AsJson {
-    std::string operator()(double value) const { return json_number(value); }
-    std::string operator()(long value) const { return fmt::format("{}", value); }
-    std::string operator()(const std::string& value) const { return fmt::format("\"{}\"", value); }
-  };
   const std::vector<std::string>& printed = scenario.warnings;
   if (!a.common.quiet)
     for (const std::string& warning : warnings)
       if (std::find(printed.begin(), printed.end(), warning) == printed.end()) complain("warning: " + warning);
   if (a.common.json) {
-    std::string text = "{";
-    for (const auto& row : summary)
-      text += fmt::format("{}\"{}\": {}", text.size() > 1 ? ", " : "", row.key, std::visit(AsJson{}, row.value));
-    std::string known;
-    for (std::size_t i = 0; i < errors.size(); ++i)
-      if (std::isfinite(errors[i]))
-        known += fmt::format("{}\"{}\": {:.3g}", known.empty() ? "" : ", ", summary[i].key, errors[i]);
-    if (!errors.empty()) text += ", \"errors\": {" + known + "}";
-    if (events) text += ", \"events\": " + json_of(*events);
-    text += ", \"warnings\": [";
-    for (const std::string& warning : warnings)
-      text += fmt::format("{}\"{}\"", &warning == warnings.data() ? "" : ", ", warning);
-    put(text + "]}\n");
+    put(summary_json(summary, errors, warnings, events) + "\n");
     return;
   }
   if (!scenario.title.empty()) put(scenario.title + "\n");
   for (std::size_t i = 0; i < summary.size(); ++i) {
     const auto& row = summary[i];
     const bool known = i < errors.size() && std::isfinite(errors[i]);
-    put(fmt::format("{:<25} {:<24} {}{}\n", row.key, std::visit(AsJson{}, row.value),
+    put(fmt::format("{:<25} {:<24} {}{}\n", row.key, cell_of(row),
                     errors.empty() ? "" : fmt::format("{:<12} ", known ? fmt::format("+- {:.2g}", errors[i]) : ""),
                     row.meaning));
   }

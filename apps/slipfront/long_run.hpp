@@ -30,8 +30,6 @@ void add_scenario_options(CLI::App& command, ScenarioArguments& arguments, bool 
 /// The scenario; its warnings are said.
 slipfront::scenario::Scenario read_scenario_of(const ScenarioArguments& arguments);
 
-/// A number as JSON, null where there is none.
-std::string json_number(double value);
 /// The law of friction with its parameters: "slip-weakening friction with strength = 0.08, residual = 0.02".
 std::string parameters_in_words(const slipfront::friction::Friction& friction);
 /// Prints the summary of a run as a table or as one JSON object on stdout. `warnings`, a sentence each, are in the

@@ -2,19 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string_view>
 
 #include "event_output.hpp"
+#include "json.hpp"
 #include "results/quantities.hpp"
 
 using namespace slipfront::catalogue;
 using namespace slipfront::results;
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// The spread of a quantity of this name.
 const Spread& spread_of(const Decade& decade, std::string_view name) {
@@ -69,7 +67,7 @@ std::string population_json(const std::vector<Decade>& decades) {
     }
     all.push_back(j);
   }
-  return all.dump();
+  return text_of(all);
 }
 
 std::string population_csv(const std::vector<Decade>& decades) {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "batch.hpp"
+#include "json.hpp"
 #include "slipfront/friction_ratio/table.hpp"
 
 namespace {
@@ -71,13 +72,13 @@ std::vector<Row> rows_of(const std::vector<Relations>& states, const FrictionOpt
 }
 
 void print_json(const std::vector<Row>& rows, const FrictionOptions& friction) {
-  put(fmt::format("{{\"measure\": \"{}\", \"time\": {}, \"friction\": [", friction.measure, friction.time));
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    std::string text = fmt::format("{}{{\"closure\": \"{}\"", i == 0 ? "\n" : ",\n", rows[i].closure);
-    for (const Column& column : columns) text += fmt::format(", \"{}\": {}", column.name, rows[i].*column.value);
-    put(text + "}");
+  Json j = {{"measure", friction.measure}, {"time", friction.time}, {"friction", Json::array()}};
+  for (const Row& row : rows) {
+    Json one = {{"closure", row.closure}};
+    for (const Column& column : columns) one[column.name] = row.*column.value;
+    j["friction"].push_back(one);
   }
-  put("\n]}\n");
+  put(text_of(j) + "\n");
 }
 
 void print_csv(const std::vector<Row>& rows) {

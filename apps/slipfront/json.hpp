@@ -1,0 +1,15 @@
+#pragma once
+/// \file
+/// How the program writes JSON.
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+/// Keys keep their order. A number that is NaN or infinite becomes null.
+using Json = nlohmann::ordered_json;
+
+inline Json json_of(const std::optional<double>& x) { return x ? Json(*x) : Json(); }
+
+/// One line of ASCII, whatever bytes a name has.
+inline std::string text_of(const Json& json) { return json.dump(-1, ' ', true, Json::error_handler_t::replace); }
