@@ -58,6 +58,17 @@ void add_observed(output::Snapshot& s, const RiemannSolution& solution, double t
   s.fronts.leading_observed = s.time * passes(solution, slow, peak, threshold * most);
 }
 
+/// Nothing is dissipated or supplied without friction and forcing; the other energies are not computed.
+output::Energy energy_without_forces() {
+  return {.elastic = none,
+          .kinetic = none,
+          .dissipated = 0,
+          .supplied = 0,
+          .through_ends = none,
+          .shocks = none,
+          .phonons = none};
+}
+
 output::Snapshot snapshot_of(const RiemannSolution& solution, const output::Schedule& schedule, double time) {
   output::Snapshot s{};
   s.time = time;
@@ -78,13 +89,7 @@ output::Snapshot snapshot_of(const RiemannSolution& solution, const output::Sche
     s.profile.slip.push_back(slip(a, x));
   }
   const Edges edges = rupture::edges_of(solution);
-  s.energy = {.elastic = none,
-              .kinetic = none,
-              .dissipated = 0,
-              .supplied = 0,
-              .through_ends = none,
-              .shocks = none,
-              .phonons = none};
+  s.energy = energy_without_forces();
   const bool stressed_left = left >= right;
   const double fast = stressed_left ? edges.left : edges.right, slow = stressed_left ? edges.right : edges.left;
   s.fronts = {.trailing = time * fast,

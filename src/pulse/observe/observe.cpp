@@ -6,10 +6,10 @@
 #include <numbers>
 #include <numeric>
 
+#include "foundation/math/interval.hpp"
 #include "foundation/math/parabola.hpp"
 #include "pulse/observe/energy.hpp"
 #include "pulse/observe/fronts.hpp"
-#include "foundation/math/interval.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::pulse {
@@ -109,8 +109,8 @@ void find_peak(const Points& p, Snapshot& s) {
 }
 
 /// From the cells of the domain, with a threshold relative to the peak.
-void find_observed_fronts(const Problem& problem, const View& v, std::vector<double> W, double threshold,
-                          bool to_right, Snapshot& s) {
+void find_observed_fronts(const Problem& problem, const View& v, std::vector<double> W, double threshold, bool to_right,
+                          Snapshot& s) {
   for (std::size_t i = 0; i < W.size(); ++i) W[i] = std::isnan(in_domain(problem, v.centres[i])) ? 0 : std::fabs(W[i]);
   const double left = std::fmax(v.faces.front(), problem.left), right = std::fmin(v.faces.back(), problem.right);
   const Observed seen = observed_fronts(v.centres, W, threshold * std::fabs(s.peak_slip_velocity), left, right);
@@ -120,6 +120,7 @@ void find_observed_fronts(const Problem& problem, const View& v, std::vector<dou
 
 }  // namespace
 
+// NOLINTNEXTLINE(readability-function-size)
 Snapshot observe(const Solver& solver, const std::vector<double>& x_edges, const TrailingCharacteristic& trailing,
                  double threshold) {
   const View v = solver.view();

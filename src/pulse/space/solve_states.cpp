@@ -66,6 +66,7 @@ inline float log_float(double s) {
 inline double clamp(double x, double low, double high) { return x > low ? (x < high ? x : high) : low; }
 
 /// s, and in the arrays of sound speed, EK and velocity K, E and once more s, as found even where they are not fine.
+// NOLINTNEXTLINE(readability-function-size)
 SLIPFRONT_CLONES void solve(const StateArrays& a) {
   const std::size_t n = a.size;
   const double *spacing = a.spacing, *momentum = a.momentum;

@@ -71,6 +71,7 @@ void Semidiscrete::add_contact_force(const double* y, double* dy) {
   for (std::size_t i = 0; i < size(); ++i) rates.momentum(i) += sources_.contact_force[i];
 }
 
+// NOLINTNEXTLINE(readability-function-size)
 void Semidiscrete::add_sources(double t, const double* y, double* dy) {
   const std::size_t n = size();
   const ConstValues values(y, n);

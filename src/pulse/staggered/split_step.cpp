@@ -37,6 +37,7 @@ struct Bracket {
 /// Leaves in sinh_phi_ what friction leaves in a time of the momenta `free` >= 0 of single dislocations:
 /// M(phi) (1 + time rate(phi)) = free, solved in logarithms, in which it is nearly a straight line for any power of the
 /// velocity. 0 where the velocity is less than a double holds.
+// NOLINTNEXTLINE(readability-function-size)
 void Staggered::slow_down(const std::vector<double>& free, double time) {
   constexpr double slowest = -690, precision = 1e-13;
   constexpr int most_tries = 100;
