@@ -13,11 +13,11 @@
 #include <string_view>
 #include <vector>
 
-#include "record/event_file.hpp"
-#include "record/netcdf.hpp"
-#include "record/pulse_file.hpp"
-#include "record/pulse_variables.hpp"
-#include "record/seal.hpp"
+#include "record/events/event_file.hpp"
+#include "record/files/seal.hpp"
+#include "record/netcdf/netcdf.hpp"
+#include "record/pulses/pulse_file.hpp"
+#include "record/pulses/pulse_variables.hpp"
 #include "slipfront/error.hpp"
 
 namespace {

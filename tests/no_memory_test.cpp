@@ -8,7 +8,7 @@
 
 #include "allocations.hpp"
 #include "foundation/sanitized.hpp"
-#include "record/table_file.hpp"
+#include "record/netcdf/table_file.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/medium/quantity.hpp"
 #include "slipfront/scenario/scenario.hpp"

@@ -36,6 +36,9 @@ ROOMS = {
 # The folders of a module, from the bottom up, with the folders next to them that they may include; "." are the files at
 # the root of the module, which may include all of its folders.
 FOLDERS = {
+    "catalogue": {"csv": ".", "fsp": ".", "toml": "."},
+    "record": {"files": "", "netcdf": "files", "pulses": "netcdf files", "events": "pulses netcdf files"},
+    "scenario": {"text": "", "formula": "text", "profile": "formula text", "friction": ". profile formula text"},
     "foundation": {"math": "text", "simd": "", "text": ""},
     "friction": {"state": "", "train_means": "", "laws": "state train_means"},
     "chain": {

@@ -6,7 +6,7 @@
 #include "batch.hpp"
 #include "foundation/ranks.hpp"
 #include "long_run.hpp"
-#include "record/unfinished.hpp"
+#include "record/files/unfinished.hpp"
 #include "run/run.hpp"
 
 namespace {

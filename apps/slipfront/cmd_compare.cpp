@@ -8,7 +8,7 @@
 #include "compare_print.hpp"
 #include "interrupts.hpp"
 #include "long_run.hpp"
-#include "record/unfinished.hpp"
+#include "record/files/unfinished.hpp"
 #include "run/run.hpp"
 #include "setup/estimate.hpp"
 #include "slipfront/setup/problem.hpp"

@@ -9,7 +9,7 @@
 #include "batch.hpp"
 #include "foundation/step_budget.hpp"
 #include "long_run.hpp"
-#include "record/unfinished.hpp"
+#include "record/files/unfinished.hpp"
 #include "run/errors.hpp"
 #include "run/run.hpp"
 #include "slipfront/pulse/run.hpp"

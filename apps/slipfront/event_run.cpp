@@ -13,7 +13,7 @@
 #include "event_print.hpp"
 #include "interrupts.hpp"
 #include "progress.hpp"
-#include "record/text_file.hpp"
+#include "record/files/text_file.hpp"
 #include "run/catalogue.hpp"
 
 using slipfront::results::EventResult;

@@ -10,7 +10,7 @@
 
 #include "commands.hpp"
 #include "foundation/ranks.hpp"
-#include "record/text_file.hpp"
+#include "record/files/text_file.hpp"
 
 namespace {
 

@@ -9,7 +9,7 @@
 
 #include "batch.hpp"
 #include "json.hpp"
-#include "record/unfinished.hpp"
+#include "record/files/unfinished.hpp"
 
 using namespace slipfront;
 

@@ -4,8 +4,8 @@
 
 #include <limits>
 
-#include "record/comparison_file.hpp"
-#include "record/unfinished.hpp"
+#include "record/files/unfinished.hpp"
+#include "record/pulses/comparison_file.hpp"
 #include "results.hpp"
 #include "run/run.hpp"
 #include "setup/estimate.hpp"

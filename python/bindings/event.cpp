@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "bindings.hpp"
-#include "record/text_file.hpp"
-#include "record/unfinished.hpp"
+#include "record/files/text_file.hpp"
+#include "record/files/unfinished.hpp"
 #include "results/columns.hpp"
 #include "run/catalogue.hpp"
 #include "watch.hpp"

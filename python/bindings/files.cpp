@@ -11,8 +11,8 @@
 #include "bindings.hpp"
 #include "foundation/machine.hpp"
 #include "foundation/text/printable.hpp"
-#include "record/dataset_file.hpp"
-#include "record/text_file.hpp"
+#include "record/files/text_file.hpp"
+#include "record/netcdf/dataset_file.hpp"
 
 namespace {
 

@@ -8,10 +8,10 @@
 #include <utility>
 #include <variant>
 
-#include "record/pulse_variables.hpp"
-#include "record/table_file.hpp"
-#include "record/text_file.hpp"
-#include "record/unfinished.hpp"
+#include "record/files/text_file.hpp"
+#include "record/files/unfinished.hpp"
+#include "record/netcdf/table_file.hpp"
+#include "record/pulses/pulse_variables.hpp"
 
 using namespace slipfront;
 using output::Snapshot;

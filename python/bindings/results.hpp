@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bindings.hpp"
-#include "record/pulse_file.hpp"
+#include "record/pulses/pulse_file.hpp"
 #include "run/run.hpp"
 #include "slipfront/scenario/scenario.hpp"
 

@@ -15,7 +15,7 @@
 #include <utility>
 
 #include "foundation/machine.hpp"
-#include "record/table_file.hpp"
+#include "record/netcdf/table_file.hpp"
 #include "results.hpp"
 #include "run/run.hpp"
 

@@ -7,8 +7,8 @@
 
 #include "foundation/clock.hpp"
 #include "foundation/ranks.hpp"
-#include "record/pulse_file.hpp"
-#include "record/unfinished.hpp"
+#include "record/files/unfinished.hpp"
+#include "record/pulses/pulse_file.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::run {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "record/event_file.hpp"
-#include "record/unfinished.hpp"
+#include "record/events/event_file.hpp"
+#include "record/files/unfinished.hpp"
 #include "results/evaluate.hpp"
 #include "slipfront/catalogue/observation.hpp"
 #include "slipfront/medium/constants.hpp"

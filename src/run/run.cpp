@@ -1,6 +1,6 @@
 #include "run/run.hpp"
 
-#include "record/comparison_file.hpp"
+#include "record/pulses/comparison_file.hpp"
 #include "run/carry_out.hpp"
 #include "slipfront/setup/problem.hpp"
 

@@ -11,8 +11,8 @@
 
 #include "foundation/clock.hpp"
 #include "foundation/ranks.hpp"
-#include "record/pulse_file.hpp"
-#include "record/unfinished.hpp"
+#include "record/files/unfinished.hpp"
+#include "record/pulses/pulse_file.hpp"
 #include "run/summary.hpp"
 #include "setup/estimate.hpp"
 #include "slipfront/chain/run.hpp"

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <string>
 
-#include "scenario/section.hpp"
 #include "scenario/settings.hpp"
+#include "scenario/text/section.hpp"
 
 namespace slipfront::scenario {
 

@@ -1,7 +1,7 @@
 // The table [medium] of a scenario.
 
-#include "scenario/quantity_value.hpp"
 #include "scenario/settings.hpp"
+#include "scenario/text/quantity_value.hpp"
 #include "slipfront/medium/constants.hpp"
 
 namespace slipfront::scenario {

@@ -1,6 +1,6 @@
-#include "scenario/document.hpp"
-#include "scenario/initial.hpp"
+#include "scenario/profile/initial.hpp"
 #include "scenario/settings.hpp"
+#include "scenario/text/document.hpp"
 #include "scenario/validate.hpp"
 #include "slipfront/scenario/scenario.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "scenario/section.hpp"
+#include "scenario/text/section.hpp"
 
 namespace slipfront::scenario {
 namespace {

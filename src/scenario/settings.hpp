@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scenario/document.hpp"
+#include "scenario/text/document.hpp"
 #include "slipfront/scenario/scenario.hpp"
 
 namespace slipfront::scenario {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "foundation/text/digits.hpp"
-#include "scenario/formula.hpp"
+#include "scenario/formula/formula.hpp"
 
 namespace slipfront::scenario {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scenario/initial.hpp"
+#include "scenario/profile/initial.hpp"
 
 namespace slipfront::scenario {
 

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "pulse/solver.hpp"
-#include "record/table_file.hpp"
-#include "record/text_file.hpp"
+#include "record/files/text_file.hpp"
+#include "record/netcdf/table_file.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/pulse/run.hpp"
 #include "slipfront/scenario/scenario.hpp"

@@ -1,4 +1,4 @@
-#include "record/event_file.hpp"
+#include "record/events/event_file.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "record/netcdf.hpp"
-#include "record/pulse_file.hpp"
-#include "record/seal.hpp"
-#include "record/text_file.hpp"
+#include "record/files/seal.hpp"
+#include "record/files/text_file.hpp"
+#include "record/netcdf/netcdf.hpp"
+#include "record/pulses/pulse_file.hpp"
 #include "results/quantities.hpp"
 #include "results/serialize.hpp"
 #include "slipfront/catalogue/read.hpp"

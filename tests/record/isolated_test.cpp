@@ -1,6 +1,6 @@
 // Work in a copy of the process: what it gives, what it throws, and that it may crash.
 
-#include "record/isolated.hpp"
+#include "record/netcdf/isolated.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "pulse_sample.hpp"
-#include "record/netcdf.hpp"
-#include "record/pulse_file.hpp"
-#include "record/pulse_variables.hpp"
-#include "record/seal.hpp"
+#include "record/files/seal.hpp"
+#include "record/netcdf/netcdf.hpp"
+#include "record/pulses/pulse_file.hpp"
+#include "record/pulses/pulse_variables.hpp"
 #include "slipfront/error.hpp"
 #include "temporary_folder.hpp"
 

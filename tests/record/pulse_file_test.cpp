@@ -1,4 +1,4 @@
-#include "record/pulse_file.hpp"
+#include "record/pulses/pulse_file.hpp"
 
 #include <gtest/gtest.h>
 

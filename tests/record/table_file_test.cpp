@@ -1,4 +1,4 @@
-#include "record/table_file.hpp"
+#include "record/netcdf/table_file.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "record/netcdf.hpp"
+#include "record/netcdf/netcdf.hpp"
 #include "slipfront/error.hpp"
 #include "temporary_folder.hpp"
 

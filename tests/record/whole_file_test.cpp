@@ -1,6 +1,6 @@
 // Files are written whole or not at all.
 
-#include "record/whole_file.hpp"
+#include "record/files/whole_file.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 #include <string>
 
 #include "pulse_sample.hpp"
-#include "record/pulse_file.hpp"
+#include "record/pulses/pulse_file.hpp"
 #include "slipfront/error.hpp"
 #include "temporary_folder.hpp"
 

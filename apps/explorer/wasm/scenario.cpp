@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "scenario/document.hpp"
+#include "scenario/text/document.hpp"
 #include "slipfront/medium/constants.hpp"
 #include "slipfront/setup/problem.hpp"
 

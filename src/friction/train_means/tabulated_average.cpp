@@ -120,7 +120,8 @@ void TabulatedAverage::mean_strengths(const Trains& trains, Closure closure, dou
   static constexpr ChebyshevPatch none{};
   std::call_once(once_, [this] { patches_ = std::vector<std::atomic<const Patch*>>(rows * columns); });
   Positions at;
-  std::vector<std::size_t> others;
+  thread_local std::vector<std::size_t> others;  // kept between calls, so that steps allocate nothing
+  others.clear();
   for (std::size_t begin = 0; begin < trains.size; begin += Positions::most) {
     const std::size_t some = std::min(Positions::most, trains.size - begin);
     find_positions(some, trains.fastest + begin, trains.s + begin, at);
@@ -137,7 +138,11 @@ void TabulatedAverage::mean_strengths(const Trains& trains, Closure closure, dou
     if (slope != nullptr) std::copy_n(at.slope, some, slope + begin);
   }
   if (others.empty()) return;
-  std::vector<double> fastest, s, means(others.size()), slopes(others.size());
+  thread_local std::vector<double> fastest, s, means, slopes;
+  fastest.clear();
+  s.clear();
+  means.resize(others.size());
+  slopes.resize(others.size());
   for (const std::size_t i : others) {
     fastest.push_back(trains.fastest[i]);
     s.push_back(trains.s[i]);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "foundation/math/bracket.hpp"
 #include "pulse/space/kernels.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
 
@@ -14,30 +15,17 @@ constexpr std::size_t lanes = 8;
 constexpr double precision = 1e-12;  ///< of the momentum, or of the force where friction takes nearly all
 constexpr double at_rest_below = SlowedTrains::at_rest_below;
 
-/// The root of excess(size e^x), over which the force of a regularised law changes evenly: secants that keep the
-/// bracket; one that moves the same end twice gives the other half its weight (the Illinois rule).
+/// The root of excess(size e^x): over x, the force of a regularised law changes evenly.
 template <class Excess>
 double root_between(double low, double high, double at_low, double at_high, double size, const Excess& excess) {
-  double x = high;
-  int side = 0;
-  for (int i = 0; i < 100 && high - low > 1e-13 * std::fmax(1, -low); ++i) {
-    x = (low * at_high - high * at_low) / (at_high - at_low);
-    if (!(x > low && x < high)) x = (low + high) / 2;
-    const double at = excess(size * std::exp(x));
+  Bracket root{.low = low, .high = high, .at_low = at_low, .at_high = at_high, .x = high};
+  for (int i = 0; i < 100 && root.high - root.low > 1e-13 * std::fmax(1, -root.low); ++i) {
+    root.aim();
+    const double at = excess(size * std::exp(root.x));
     if (std::fabs(at) <= precision * size) break;
-    if (at > 0) {
-      high = x;
-      at_high = at;
-      if (side > 0) at_low /= 2;
-      side = 1;
-    } else {
-      low = x;
-      at_low = at;
-      if (side < 0) at_high /= 2;
-      side = -1;
-    }
+    root.take(at);
   }
-  return x;
+  return root.x;
 }
 
 }  // namespace
@@ -48,7 +36,7 @@ SlowedTrain::Left SlowedTrain::after(double free, double time) const {
   State state{};
   const auto excess = [&](double momentum) {
     state = modulation::state_of({contact * spacing, momentum / contact}, psi_guess);
-    return momentum + weight * friction.mean_strength(state, contact, memory) - size;
+    return momentum + weight * friction.mean_strength(state, contact, state_values) - size;
   };
   const auto with_sign = [&](double momentum) {
     return Left{std::copysign(momentum, free), std::copysign(std::tanh(state.phi), free),
@@ -62,7 +50,7 @@ SlowedTrain::Left SlowedTrain::after(double free, double time) const {
 }
 
 SlowedTrains::SlowedTrains(const friction::Friction& friction, std::size_t most)
-    : friction_(friction), variables_(friction.state_size()), memory_((most + lanes) * friction.state_size()) {
+    : friction_(friction), variables_(friction.state_size()), state_values_((most + lanes) * friction.state_size()) {
   states_.resize(most + lanes);  // room for whole vectors
   cell_.resize(most + lanes);
   for (auto* array : {&contact_, &free_, &momentum_, &fastest_, &force_, &slope_, &next_, &velocity_, &typical_,
@@ -77,7 +65,8 @@ void SlowedTrains::copy(std::size_t from, std::size_t to) {
   momentum_[to] = momentum_[from];
   states_.spacing[to] = states_.spacing[from];
   states_.s[to] = states_.s[from];
-  for (std::size_t v = 0; v < variables_; ++v) memory_[to * variables_ + v] = memory_[from * variables_ + v];
+  for (std::size_t v = 0; v < variables_; ++v)
+    state_values_[to * variables_ + v] = state_values_[from * variables_ + v];
 }
 
 /// States, mean forces and their slopes of the trains at their momenta.
@@ -87,7 +76,7 @@ void SlowedTrains::evaluate() {
   for (std::size_t i = 0; i < size; ++i) states_.momentum[i] = momentum_[i] / contact_[i];
   states_.solve_slip(size, fastest_.data());
   for (std::size_t i = 0; i < size; ++i) fastest_[i] = states_.solved(i) ? contact_[i] * fastest_[i] : 1;
-  friction_.average().mean_strengths({size, fastest_.data(), states_.s.data(), {memory_.data(), variables_}},
+  friction_.average().mean_strengths({size, fastest_.data(), states_.s.data(), {state_values_.data(), variables_}},
                                      friction_.closure(), force_.data(), slope_.data());
 }
 
@@ -95,7 +84,7 @@ SlowedTrain::Left SlowedTrains::solve_alone(std::size_t i, double time) const {
   const SlowedTrain train{friction_,
                           states_.spacing[i] / contact_[i],
                           contact_[i],
-                          {memory_.data() + i * variables_, variables_},
+                          {state_values_.data() + i * variables_, variables_},
                           std::atanh(std::fmin(std::fmax(states_.s[i], 0.0), 1 - 1e-16))};
   return train.after(free_[i], time);
 }

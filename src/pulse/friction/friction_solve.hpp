@@ -13,15 +13,15 @@ struct SlowedTrain {
   const friction::Friction& friction;
   double spacing;
   double contact;
-  friction::LocalState memory;  ///< of the places that it lies over
-  double psi_guess;             ///< near that of the train
+  friction::LocalState state_values;  ///< of the positions that it covers
+  double psi_guess;                   ///< near that of the train
 
   struct Left {
     double momentum, velocity;
     double typical_speed;  ///< a sinh |phi| e^psi, whose logarithm is the mean of ln |w| over slip (docs/friction.md)
   };
   /// What friction leaves of the momentum `free` in a time, implicitly: M + time 2 pi <f>(M) = free. 0 where friction
-  /// holds the train. For laws whose force does not fall with the slip velocity at constant memory.
+  /// holds the train. For laws whose force does not fall with the slip velocity at constant state.
   Left after(double free, double time) const;
 };
 
@@ -29,7 +29,7 @@ struct SlowedTrain {
 /// vector code, SlowedTrain has the word.
 class SlowedTrains {
  public:
-  /// What friction leaves less of than this part of what would be there without it, is at rest.
+  /// A train is at rest if friction leaves less than this fraction of its frictionless momentum.
   static constexpr double at_rest_below = 1e-12;
 
   /// Of at most so many trains.
@@ -39,7 +39,7 @@ class SlowedTrains {
     std::size_t cell;  ///< where its results go
     double spacing;    ///< in local units
     double contact;
-    const double* memory;
+    const double* state_values;
     double free;     ///< momentum without friction, > 0
     double guess;    ///< of the momentum, > 0
     double s_guess;  ///< of tanh psi
@@ -58,7 +58,7 @@ class SlowedTrains {
     momentum_[i] = train.guess;
     states_.spacing[i] = train.spacing;
     states_.s[i] = train.s_guess;
-    for (std::size_t v = 0; v < variables_; ++v) memory_[i * variables_ + v] = train.memory[v];
+    for (std::size_t v = 0; v < variables_; ++v) state_values_[i * variables_ + v] = train.state_values[v];
   }
   void solve(double time, const Results& results);
   /// Forgets what was added: a solve that has thrown leaves the trains that it had not come to.
@@ -75,7 +75,7 @@ class SlowedTrains {
   std::size_t count_ = 0;
   CellStates states_;  ///< its spacings are in local units
   std::vector<std::size_t> cell_;
-  std::vector<double> contact_, memory_, free_, momentum_, fastest_, force_, slope_;
+  std::vector<double> contact_, state_values_, free_, momentum_, fastest_, force_, slope_;
   std::vector<double> next_, velocity_, typical_, next_force_, last_;  ///< after a step of Newton's method
 };
 

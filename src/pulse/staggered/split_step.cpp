@@ -9,31 +9,6 @@
 
 namespace slipfront::pulse {
 
-namespace {
-
-/// The root of a rising function of x by secants that keep a bracket; one that moves the same end twice gives the other
-/// half its weight. The function is evaluated elsewhere, for many roots at once.
-struct Bracket {
-  double low, high, at_low = 0, at_high = 0, x = 0;
-  int side = 0;
-  bool done = false;
-
-  void take(double at) {
-    const int now = at > 0 ? 1 : -1;
-    (at > 0 ? high : low) = x;
-    (at > 0 ? at_high : at_low) = at;
-    if (side == now) (at > 0 ? at_low : at_high) /= 2;
-    side = now;
-    choose();
-  }
-  void choose() {
-    x = (low * at_high - high * at_low) / (at_high - at_low);
-    if (!(x > low && x < high)) x = (low + high) / 2;
-  }
-};
-
-}  // namespace
-
 /// Leaves in sinh_phi_ what friction leaves in a time of the momenta `free` >= 0 of single dislocations:
 /// M(phi) (1 + time rate(phi)) = free, solved in logarithms, in which it is nearly a straight line for any power of the
 /// velocity. 0 where the velocity is less than a double holds.
@@ -41,23 +16,23 @@ struct Bracket {
 void Staggered::slow_down(const std::vector<double>& free, double time) {
   constexpr double slowest = -690, precision = 1e-13;
   constexpr int most_tries = 100;
-  std::vector<Bracket> brackets;
+  brackets_.clear();
   for (std::size_t f = 0; f < faces(); ++f)
-    brackets.push_back({.low = slowest, .high = std::log(free[f] / face_mass_[f])});
+    brackets_.push_back({{.low = slowest, .high = std::log(free[f] / face_mass_[f])}});
   const auto excess = [&](std::size_t f) {
-    return std::log(face_mass_[f] / free[f]) + brackets[f].x + std::log1p(time * loss_rate_[f]);
+    return std::log(face_mass_[f] / free[f]) + brackets_[f].x + std::log1p(time * loss_rate_[f]);
   };
   const auto evaluate = [&] {
-    for (std::size_t f = 0; f < faces(); ++f) sinh_phi_[f] = std::exp(brackets[f].x);
+    for (std::size_t f = 0; f < faces(); ++f) sinh_phi_[f] = std::exp(brackets_[f].x);
     find_loss_rates();
   };
-  for (Bracket& b : brackets) {
+  for (FaceBracket& b : brackets_) {
     b.done = !(b.high > b.low);
     b.x = b.done ? slowest : b.high;
   }
   evaluate();
   for (std::size_t f = 0; f < faces(); ++f) {
-    Bracket& b = brackets[f];
+    FaceBracket& b = brackets_[f];
     if (b.done) continue;
     b.at_high = excess(f);
     b.done = b.at_high <= precision;
@@ -65,24 +40,27 @@ void Staggered::slow_down(const std::vector<double>& free, double time) {
   }
   evaluate();
   for (std::size_t f = 0; f < faces(); ++f) {
-    Bracket& b = brackets[f];
+    FaceBracket& b = brackets_[f];
     if (b.done) continue;
     b.at_low = excess(f);
     b.done = b.at_low >= 0;
-    if (!b.done) b.choose();
+    if (!b.done) b.aim();
   }
   for (int i = 0; i < most_tries; ++i) {
-    if (std::all_of(brackets.begin(), brackets.end(), [](const Bracket& b) { return b.done; })) break;
+    if (std::all_of(brackets_.begin(), brackets_.end(), [](const FaceBracket& b) { return b.done; })) break;
     evaluate();
     for (std::size_t f = 0; f < faces(); ++f) {
-      Bracket& b = brackets[f];
+      FaceBracket& b = brackets_[f];
       if (b.done) continue;
       const double at = excess(f);
       b.done = std::fabs(at) <= precision || b.high - b.low <= precision;
-      if (!b.done) b.take(at);
+      if (!b.done) {
+        b.take(at);
+        b.aim();
+      }
     }
   }
-  for (std::size_t f = 0; f < faces(); ++f) sinh_phi_[f] = brackets[f].x > slowest ? std::exp(brackets[f].x) : 0;
+  for (std::size_t f = 0; f < faces(); ++f) sinh_phi_[f] = brackets_[f].x > slowest ? std::exp(brackets_[f].x) : 0;
 }
 
 void Staggered::split_step(double t, double dt, const double* z, double* next) {
@@ -92,7 +70,7 @@ void Staggered::split_step(double t, double dt, const double* z, double* next) {
   then.dissipated() = now.dissipated();
   then.supplied() = now.supplied();
   then.through_ends() = now.through_ends();
-  std::vector<double> free(faces()), of_one(faces()), pushes(faces());
+  std::vector<double>&free = free_, &of_one = free_on_one_, &pushes = pushes_;
   for (std::size_t f = 0; f < faces(); ++f) {
     pushes[f] = push_on(f, t);
     const double cosh_phi = std::sqrt(1 + std::pow(on_one_[f] / face_mass_[f], 2));

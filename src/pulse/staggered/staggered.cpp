@@ -33,7 +33,7 @@ Staggered::Staggered(Setup setup)
   for (auto* array : {&width_, &pressure_, &mass_, &balance_}) array->assign(n, 0);
   a_.assign(n, 1);
   for (auto* array : {&place_, &on_one_, &face_mass_, &sinh_phi_, &cosh_phi_, &U_, &face_phi_, &psi_, &loss_rate_,
-                      &fastest_, &s_, &mean_, &per_momentum_})
+                      &fastest_, &s_, &mean_, &per_momentum_, &free_, &free_on_one_, &pushes_})
     array->assign(n + 1, 0);
   face_a_.assign(n + 1, 1);
   for (std::size_t f = 0; f <= n; ++f) charge_.push_back((charge_left(f) + charge_right(f)) / 2);

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "foundation/math/bracket.hpp"
 #include "pulse/grid/values.hpp"
 #include "pulse/space/cell_states.hpp"
 #include "pulse/space/setup.hpp"
@@ -79,6 +80,10 @@ class Staggered {
   /// Mean over the cells beside a face that hold dislocations.
   double beside(const std::vector<double>& values, std::size_t face) const;
 
+  struct FaceBracket : Bracket {
+    bool done = false;
+  };
+
   Setup setup_;
   double creep_ = 0;
   std::unique_ptr<friction::RelaxationRate> relaxation_rate_;
@@ -89,7 +94,9 @@ class Staggered {
   // At the faces.
   std::vector<double> charge_, place_, face_a_;
   std::vector<double> on_one_, face_mass_, sinh_phi_, cosh_phi_, U_,
-      face_phi_;                                                             ///< momentum of a dislocation, M / sinh
+      face_phi_;                                     ///< momentum of a dislocation, M / sinh
+  std::vector<double> free_, free_on_one_, pushes_;  ///< of split steps
+  std::vector<FaceBracket> brackets_;
   std::vector<double> psi_, fastest_, s_, per_momentum_, mean_, loss_rate_;  ///< of the trains there
 };
 

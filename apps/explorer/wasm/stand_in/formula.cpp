@@ -2,7 +2,7 @@
 /// In place of scenario/formula.cpp, whose parser is a library of the system: the same formulas, by recursive descent.
 /// What is wrong with a text is found before, by scan_formula, but for its grammar.
 
-#include "scenario/formula.hpp"
+#include "scenario/formula/formula.hpp"
 
 #include <cctype>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include <functional>
 #include <numbers>
 
-#include "scenario/formula_functions.hpp"
+#include "scenario/formula/formula_functions.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::scenario {

@@ -1,0 +1,216 @@
+#include <algorithm>
+#include <cmath>
+
+#include "catalogue/fsp/fsp.hpp"
+
+namespace slipfront::catalogue::fsp {
+namespace {
+
+constexpr double longest_rise_time = 900;  // s; placeholders lie above
+
+[[noreturn]] void refuse_heading(std::size_t line, const std::string& file, const std::string& segment) {
+  throw InputError({.file = file,
+                    .line = line,
+                    .key = segment,
+                    .problem = "announced, but no table of subfaults follows: the file is cut short",
+                    .allowed = "a line of column names and the rows it announces"});
+}
+
+/// The numbers of a row, without words that are none.
+std::vector<double> numbers(const Words& row, const Place& place) {
+  std::vector<double> out;
+  for (const std::string_view word : row) {
+    const auto value = number(word);
+    if (!value) continue;
+    if (!std::isfinite(*value)) {
+      throw InputError({.file = place.file,
+                        .line = place.line,
+                        .key = "subfault",
+                        .value = std::string(word),
+                        .problem = "out of range",
+                        .allowed = "finite numbers"});
+    }
+    out.push_back(*value);
+  }
+  return out;
+}
+
+}  // namespace
+
+bool SubfaultTables::is_heading(const Words& words) {
+  return index_of(words, "LAT") && index_of(words, "LON") && index_of(words, "SLIP") && !index_of(words, "=");
+}
+
+void SubfaultTables::take_segment_line(const Place& place) {
+  if (announced_ > 0) refuse_heading(announced_, place.file, "SEGMENT");
+  next_ = {};
+  announced_ = place.line;
+}
+
+void SubfaultTables::take_keys(std::string_view text, const Place& place) {
+  keep(next_.stated_rows, count_of(text, "Nsbfs", place));
+  keep(next_.length, size_of(text, "LEN", place));
+  keep(next_.width, size_of(text, "WID", place));
+  keep(next_.dx, size_of(text, "Dx", place));
+  keep(next_.dz, size_of(text, "Dz", place));
+}
+
+void SubfaultTables::take_heading(const Words& names, const Place& place) {
+  if (!segments_.empty() && segments_.back().rows == 0) {
+    refuse_heading(segments_.back().line, place.file, label(segments_.size() - 1));
+  }
+  for (const std::string_view wanted : {"SLIP", "RISE"}) {
+    if (std::count_if(names.begin(), names.end(), [&](std::string_view n) { return same(n, wanted); }) > 1) {
+      throw InputError({.file = place.file,
+                        .line = place.line,
+                        .key = std::string(wanted),
+                        .problem = "two columns of this name",
+                        .allowed = "one"});
+    }
+  }
+  next_.columns = names.size();
+  next_.slip_column = index_of(names, "SLIP").value();
+  next_.rise_column = index_of(names, "RISE");
+  next_.time_column = index_of(names, "TRUP");
+  next_.z_column = index_of(names, "Z");
+  for (std::size_t i = 0; i < names.size(); ++i) {  // X==NS or X==EW
+    if (begins(names[i], "X==")) next_.x_column = i;
+    if (begins(names[i], "Y==")) next_.y_column = i;
+  }
+  next_.line = place.line;
+  segments_.push_back(next_);
+  next_ = {};
+  announced_ = 0;
+}
+
+void SubfaultTables::take_row(const Words& row, const Place& place) {
+  Segment& segment = segments_.back();
+  const std::vector<double> values = numbers(row, place);
+  if (values.size() != segment.columns) {
+    throw InputError(
+        {.file = place.file,
+         .line = place.line,
+         .key = "subfault",
+         .value = tidy(row.front().substr(0, 40)) + " ...",
+         .problem = std::to_string(values.size()) + " numbers in this row",
+         .allowed = std::to_string(segment.columns) + ", one for each name of line " + std::to_string(segment.line)});
+  }
+  if (row.size() != values.size()) ++stray_rows_;
+  const double slip = values[segment.slip_column];
+  if (slip < 0) ++negative_rows_;
+  segment.slip += slip;
+  ++segment.rows;
+  keep_subfault(segment, values);
+  if (!segment.rise_column) return;
+  const double rise = values[*segment.rise_column];
+  if (slip > 0 && rise > 0 && rise < longest_rise_time) {
+    segment.slip_with_rise += slip;
+    segment.slip_times_rise += slip * rise;
+  }
+}
+
+void SubfaultTables::keep_subfault(const Segment& segment, const std::vector<double>& values) {
+  if (!segment.x_column || !segment.y_column || !segment.z_column) return;
+  constexpr double m_per_km = 1000;
+  Subfault s{.segment = segments_.size() - 1,
+             .x = values[*segment.x_column] * m_per_km,
+             .y = values[*segment.y_column] * m_per_km,
+             .z = values[*segment.z_column] * m_per_km,
+             .slip = values[segment.slip_column]};
+  if (segment.rise_column && values[*segment.rise_column] > 0 && values[*segment.rise_column] < longest_rise_time)
+    s.rise_time = values[*segment.rise_column];
+  if (segment.time_column && values[*segment.time_column] >= 0 && values[*segment.time_column] < longest_rise_time)
+    s.rupture_time = values[*segment.time_column];
+  subfaults_.push_back(s);
+}
+
+void SubfaultTables::check(const Header& header, const Place& end, std::vector<std::string>& warnings) const {
+  if (announced_ > 0) refuse_heading(announced_, end.file, "SEGMENT");
+  if (header.segments && segments_.size() < *header.segments) {
+    throw InputError(
+        {.file = end.file,
+         .line = end.line,
+         .key = "Nsg",
+         .value = std::to_string(*header.segments),
+         .problem = "only " + std::to_string(segments_.size()) + " segments have a table: the file is cut short",
+         .allowed = "as many tables as segments"});
+  }
+  if (header.segments && segments_.size() > *header.segments) {
+    warnings.push_back("Nsg = " + std::to_string(*header.segments) + ", but " + std::to_string(segments_.size()) +
+                       " segments have a table: all are used");
+  }
+  for (std::size_t k = 0; k < segments_.size(); ++k) check_rows(k, header, end, warnings);
+  if (stray_rows_ > 0) {
+    warnings.push_back("rows with words that are no numbers, left out: " + std::to_string(stray_rows_));
+  }
+  if (negative_rows_ > 0) {
+    warnings.push_back("subfaults that slip backwards, counted as written: " + std::to_string(negative_rows_));
+  }
+}
+
+/// Both Nsbfs and Nx*Nz can be wrong in a whole file. A table is whole if it agrees with either, or goes beyond both.
+void SubfaultTables::check_rows(std::size_t index, const Header& header, const Place& end,
+                                std::vector<std::string>& warnings) const {
+  const Segment& segment = segments_[index];
+  if (segment.rows == 0) refuse_heading(segment.line, end.file, label(index));
+  const std::size_t stated = segment.stated_rows.value_or(0);
+  const bool has_grid = segments_.size() == 1 && header.along_strike_cells && header.down_dip_cells;
+  const std::size_t grid = has_grid ? *header.along_strike_cells * *header.down_dip_cells : 0;
+
+  const std::string found = label(index) + " has " + std::to_string(segment.rows) + " subfaults";
+  if (stated == 0 && grid == 0) {
+    warnings.push_back(found + ", and no Nsbfs to tell whether they are all");
+  } else if (segment.rows != stated && segment.rows != grid && segment.rows < std::max(stated, grid)) {
+    throw InputError({.file = end.file,
+                      .line = index + 1 == segments_.size() ? end.line : segments_[index + 1].line,
+                      .key = stated > segment.rows ? "Nsbfs" : "Nx*Nz",
+                      .value = std::to_string(stated > segment.rows ? stated : grid),
+                      .problem = found + ": the file is cut short",
+                      .allowed = "as many rows as announced"});
+  } else if (stated > 0 && segment.rows != stated) {
+    warnings.push_back(found + ", not Nsbfs = " + std::to_string(stated) + ": all are used");
+  } else if (grid > 0 && segment.rows != grid) {
+    warnings.push_back(found + ", not Nx*Nz = " + std::to_string(grid) + ": all are used");
+  }
+}
+
+std::string SubfaultTables::label(std::size_t index) const {
+  return segments_.size() > 1 ? "segment " + std::to_string(index + 1) : "the table";
+}
+
+/// Area of the whole segment, km^2.
+std::optional<double> SubfaultTables::Segment::area(const Header& header) const {
+  const double n = static_cast<double>(rows);
+  if (dx && dz) return *dx * *dz * n;
+  if (length && width) return *length * *width;
+  if (header.dx && header.dz) return *header.dx * *header.dz * n;
+  return std::nullopt;
+}
+
+double SubfaultTables::mean_slip(const Header& header, std::vector<std::string>& warnings) const {
+  const bool one = segments_.size() == 1;
+  const auto has_area = [&](const Segment& s) { return s.area(header).has_value(); };
+  const bool areas = !one && std::all_of(segments_.begin(), segments_.end(), has_area);
+  if (!one && !areas) warnings.push_back("segments without area: all subfaults count alike");
+
+  double potency = 0, total = 0;
+  for (const Segment& segment : segments_) {
+    const double rows = static_cast<double>(segment.rows);
+    const double area = areas ? segment.area(header).value() : rows;
+    potency += segment.slip / rows * area;
+    total += area;
+  }
+  return potency / total;
+}
+
+std::optional<double> SubfaultTables::mean_rise_time() const {
+  double slip = 0, slip_times_rise = 0;
+  for (const Segment& segment : segments_) {
+    slip += segment.slip_with_rise;
+    slip_times_rise += segment.slip_times_rise;
+  }
+  const double mean = slip_times_rise / slip;
+  return slip > 0 && std::isfinite(mean) && mean > 0 ? std::optional(mean) : std::nullopt;
+}
+
+}  // namespace slipfront::catalogue::fsp

@@ -1,0 +1,194 @@
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+#include "catalogue/fsp/fsp.hpp"
+
+namespace slipfront::catalogue::fsp {
+namespace {
+
+bool is_blank(char c) { return static_cast<unsigned char>(c) <= 0x20 || c == 0x7f; }
+
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+bool is_letter(char c) { return lower(c) >= 'a' && lower(c) <= 'z'; }
+
+/// A number at the start of `text`, and how many characters it takes.
+struct Leading {
+  std::optional<double> value;
+  std::size_t length = 0;
+};
+
+Leading leading_number(std::string_view text) {
+  // from_chars takes no '+', and after one it must not take a second sign.
+  const bool plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
+  const char* const begin = text.data() + (plus ? 1 : 0);
+  double value = 0;
+  const auto [end, error] = std::from_chars(begin, text.data() + text.size(), value);
+  if (error == std::errc::invalid_argument) return {};
+  if (error == std::errc::result_out_of_range) value = std::numeric_limits<double>::infinity();
+  return {value, static_cast<std::size_t>(end - text.data())};
+}
+
+/// Bytes of the UTF-8 character at `at`, 0 if there is none. Overlong forms and surrogates are not told apart by length
+/// alone, so the second byte is checked against the bounds of the Unicode table 3-7.
+std::size_t utf8_length(std::string_view text, std::size_t at) {
+  const auto byte = [&](std::size_t k) {
+    return at + k < text.size() ? static_cast<unsigned char>(text[at + k]) : static_cast<unsigned char>(0);
+  };
+  const unsigned char first = byte(0);
+  if (first < 0x80) return 1;
+  const std::size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
+  const unsigned char low = first == 0xe0 ? 0xa0 : first == 0xf0 ? 0x90 : 0x80;
+  const unsigned char high = first == 0xed ? 0x9f : first == 0xf4 ? 0x8f : 0xbf;
+  if (first < 0xc2 || first > 0xf4 || byte(1) < low || byte(1) > high) return 0;
+  for (std::size_t k = 2; k < length; ++k) {
+    if (byte(k) < 0x80 || byte(k) > 0xbf) return 0;
+  }
+  return length;
+}
+
+bool is_utf8(std::string_view text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = utf8_length(text, at);
+    if (length == 0) return false;
+    at += length;
+  }
+  return true;
+}
+
+std::string from_latin1(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80) {
+      out += c;
+    } else {
+      out += static_cast<char>(0xc0 | (byte >> 6));
+      out += static_cast<char>(0x80 | (byte & 0x3f));
+    }
+  }
+  return out;
+}
+
+/// The word that ends just before `end`; an earlier '=' ends the search, so that a line of '=' is read in linear time.
+std::string_view word_before(std::string_view text, std::size_t end) {
+  while (end > 0 && is_blank(text[end - 1])) --end;
+  std::size_t begin = end;
+  while (begin > 0 && !is_blank(text[begin - 1]) && text[begin - 1] != '=') --begin;
+  return text.substr(begin, end - begin);
+}
+
+/// Cuts the first word off `text`; '=' and ',' end it too.
+std::string_view next_word(std::string_view& text) {
+  text = trimmed(text);
+  std::size_t size = 0;
+  while (size < text.size() && !is_blank(text[size]) && text[size] != '=' && text[size] != ',') ++size;
+  const std::string_view word = text.substr(0, size);
+  text = trimmed(text.substr(size));
+  return word;
+}
+
+Value value_at(std::string_view rest, std::string_view key, const Place& place) {
+  Value out;
+  const std::string_view word = next_word(rest);
+  if (begins(rest, "=")) return out;
+  out.text = word;
+  const auto [value, length] = leading_number(word);
+  // `4.2s` is a number with its unit, `2004/09` is none.
+  if (!value || (length < word.size() && !is_letter(word[length]))) return out;
+  if (!std::isfinite(*value)) {
+    throw InputError({.file = place.file,
+                      .line = place.line,
+                      .key = std::string(key),
+                      .value = std::string(word),
+                      .problem = "out of range",
+                      .allowed = "a finite number"});
+  }
+  out.number = value;
+  out.unit = word.substr(length);
+  if (out.unit.empty()) {
+    const std::string_view after = next_word(rest);
+    if (!begins(rest, "=") && !after.empty() && is_letter(after.front())) out.unit = after;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+std::string_view uncommented(std::string_view line) {
+  while (!line.empty() && (line.front() == '%' || is_blank(line.front()))) line.remove_prefix(1);
+  return trimmed(line);
+}
+
+Words words(std::string_view text) {
+  Words out;
+  for (std::size_t at = 0; at < text.size();) {
+    std::size_t end = at;
+    while (end < text.size() && !is_blank(text[end])) ++end;
+    if (end > at) out.push_back(text.substr(at, end - at));
+    at = end + 1;
+  }
+  return out;
+}
+
+bool same(std::string_view a, std::string_view b) { return a.size() == b.size() && begins(a, b); }
+
+bool begins(std::string_view text, std::string_view with) {
+  if (text.size() < with.size()) return false;
+  for (std::size_t k = 0; k < with.size(); ++k) {
+    if (lower(text[k]) != lower(with[k])) return false;
+  }
+  return true;
+}
+
+std::optional<std::size_t> index_of(const Words& words, std::string_view word) {
+  for (std::size_t k = 0; k < words.size(); ++k) {
+    if (same(words[k], word)) return k;
+  }
+  return std::nullopt;
+}
+
+std::optional<double> number(std::string_view word) {
+  const auto [value, length] = leading_number(word);
+  return length == word.size() ? value : std::nullopt;
+}
+
+std::string tidy(std::string_view text) {
+  std::string out;
+  for (const std::string_view word : words(text)) {
+    if (!out.empty()) out += ' ';
+    out += word;
+  }
+  return is_utf8(out) ? out : from_latin1(out);
+}
+
+std::optional<Value> value_of(std::string_view text, std::string_view key, const Place& place) {
+  for (std::size_t at = text.find('='); at != std::string_view::npos; at = text.find('=', at + 1)) {
+    if (same(word_before(text, at), key)) return value_at(text.substr(at + 1), key, place);
+  }
+  return std::nullopt;
+}
+
+std::optional<double> size_of(std::string_view text, std::string_view key, const Place& place) {
+  const auto value = value_of(text, key, place);
+  if (!value || !value->number || *value->number <= 0 || *value->number == 999) return std::nullopt;
+  return value->number;
+}
+
+std::optional<std::size_t> count_of(std::string_view text, std::string_view key, const Place& place) {
+  constexpr double most = 1e9;
+  const auto value = value_of(text, key, place);
+  if (!value || !value->number) return std::nullopt;
+  const double n = *value->number;
+  if (n < 1 || n > most || n != std::floor(n)) return std::nullopt;
+  return static_cast<std::size_t>(n);
+}
+
+}  // namespace slipfront::catalogue::fsp

@@ -1,0 +1,150 @@
+#include <string>
+
+#include "catalogue/format.hpp"
+#include "catalogue/keys.hpp"
+#include "catalogue/toml/toml_distribution.hpp"
+#include "foundation/text/nearest.hpp"
+#include "foundation/text/parse_toml.hpp"
+#include "foundation/text/plain_stream.hpp"
+#include "slipfront/catalogue/read.hpp"
+
+namespace slipfront::catalogue {
+namespace {
+
+std::size_t line_of(const toml::node& node) { return node.source().begin.line; }
+
+std::string text_value(const toml::node& node, const std::string& key) {
+  if (const auto text = node.value<std::string>()) return *text;
+  if (node.is_integer() || node.is_date() || node.is_date_time()) {
+    std::ostringstream out = plain_stream();
+    if (node.is_date()) out << *node.as_date();
+    if (node.is_date_time()) out << *node.as_date_time();
+    if (node.is_integer()) out << *node.as_integer();
+    return out.str();
+  }
+  throw InputError({.line = line_of(node), .key = key, .problem = "not a text", .allowed = "a text in quotes"});
+}
+
+void read_quantity(Observation& o, const Key& key, const std::string& full_key, const toml::node& node) {
+  try {
+    if (const toml::table* table = node.as_table()) {
+      std::ostringstream text = plain_stream();
+      text << *table;
+      store(o, key, read_distribution(*table, full_key, key), text.str());
+      return;
+    }
+    if (!node.is_string() && !node.is_number())
+      throw InputError(
+          {.problem = "neither a number nor a text", .allowed = std::string(medium::example(key.dimension))});
+    store(o, key, quantity_text(node), {});
+  } catch (const InputError& error) {
+    Complaint c = error.complaint();
+    if (c.key.empty()) c.key = full_key;
+    if (c.line == 0) c.line = line_of(node);
+    throw InputError(c);
+  }
+}
+
+void read_measure(Observation& o, const std::string& full_key, const toml::node& node) {
+  try {
+    o.slip_velocity_is = friction_ratio::measure_named(text_value(node, full_key));
+  } catch (const InputError& error) {
+    Complaint c = error.complaint();
+    c.key = full_key;
+    c.line = line_of(node);
+    throw InputError(c);
+  }
+}
+
+/// Reads one table: quantities on the wanted side (observed or of the medium), texts if it is [event].
+void read_table(Observation& o, const toml::table& table, const std::string& name, bool observed) {
+  std::vector<std::string_view> known;
+  if (observed) known = {"name", "date", "kind", "citation", "note", "slip_velocity_is"};
+  for (const Key& key : quantity_keys())
+    if ((key.measured != nullptr) == observed) known.push_back(key.name);
+  for (const auto& [key_node, node] : table) {
+    const std::string key(key_node.str());
+    const std::string full_key = name + "." + key;
+    const Key* quantity = find_key(key);
+    if (quantity && (quantity->measured != nullptr) == observed) {
+      read_quantity(o, *quantity, full_key, node);
+    } else if (observed && key == "name") {
+      o.name = text_value(node, full_key);
+    } else if (observed && key == "date") {
+      o.date = text_value(node, full_key);
+    } else if (observed && key == "kind") {
+      o.kind = text_value(node, full_key);
+    } else if (observed && key == "citation") {
+      o.citation = text_value(node, full_key);
+    } else if (observed && key == "note") {
+      o.note = text_value(node, full_key);
+    } else if (observed && key == "slip_velocity_is") {
+      read_measure(o, full_key, node);
+    } else {
+      throw InputError(
+          {.line = line_of(node), .key = full_key, .problem = "unknown key", .allowed = nearest_or_all(key, known)});
+    }
+  }
+}
+
+/// Tables of a scenario: one file can be both, an event and what `pulse` makes of it.
+bool belongs_to_scenario(std::string_view table) {
+  for (const std::string_view name :
+       {"initial", "friction", "forcing", "interface", "domain", "time", "pulse", "chain", "output"})
+    if (table == name) return true;
+  return false;
+}
+
+Observation read_document(const toml::table& document) {
+  Observation o;
+  const toml::table* event = nullptr;
+  for (const auto& [key_node, node] : document) {
+    const std::string key(key_node.str());
+    if (key == "title") {
+      if (o.name.empty()) o.name = text_value(node, key);
+    } else if ((key == "event" || key == "medium") && node.is_table()) {
+      if (key == "event") event = node.as_table();
+      read_table(o, *node.as_table(), key, key == "event");
+    } else if (!(node.is_table() && belongs_to_scenario(key))) {
+      const bool table_wanted = key == "event" || key == "medium";
+      throw InputError({.line = line_of(node),
+                        .key = key,
+                        .problem = table_wanted ? "not a table" : "unknown key",
+                        .allowed = table_wanted ? "[" + key + "]" : nearest_or_all(key, {"title", "event", "medium"})});
+    }
+  }
+  if (!event)
+    throw InputError(
+        {.problem = "there is no [event] table", .allowed = "[event] with rupture_velocity, slip_velocity, ..."});
+  o.line = line_of(*event);
+  return o;
+}
+
+}  // namespace
+
+Observation read_toml(std::string_view text, const std::string& file) {
+  try {
+    Observation o = read_document(parse_toml(text, file));
+    if (o.name.empty()) o.name = file;
+    o.file = file;
+    return o;
+  } catch (const InputError& error) {
+    Complaint c = error.complaint();
+    c.file = file;
+    throw InputError(c);
+  }
+}
+
+extern const Format toml_format;
+const Format toml_format{.ending = ".toml",
+                         .looks_like =
+                             [](std::string_view text) {
+                               return first_character(text) == '[' || text.find("\n[") != std::string_view::npos;
+                             },
+                         .read =
+                             [](std::string_view text, const std::string& file, const Sink& sink) {
+                               sink({read_toml(text, file), {}});
+                               return std::vector<std::string>{};
+                             }};
+
+}  // namespace slipfront::catalogue

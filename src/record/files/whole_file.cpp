@@ -1,0 +1,222 @@
+#include "record/files/whole_file.hpp"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include "record/files/text_file.hpp"
+#include "slipfront/error.hpp"
+
+namespace slipfront::record {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const std::string& path, const std::string& reason) {
+  throw FileError(path + ": cannot be written: " + reason);
+}
+
+std::string reason(int error) { return std::generic_category().message(error); }
+
+/// Where a link points to, be there a file or not.
+fs::path behind_links(const std::string& path) {
+  fs::path target(path);
+  std::error_code error;
+  for (int i = 0; i < 40; ++i) {  // as many as the system follows
+    const fs::path next = fs::read_symlink(target, error);
+    if (error) return target;  // no link, or nothing at all
+    // Such a link leads to the file that is open, which another file of its name would not be.
+    const std::string folder = fs::canonical(target.has_parent_path() ? target.parent_path() : ".", error).string();
+    if (folder.rfind("/proc/", 0) == 0) fail(path, "is an open file, not the name of one");
+    target = target.parent_path() / next;
+  }
+  fail(path, reason(ELOOP));
+}
+
+bool all_digits(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+/// Whether `name` is one that a PartFile gives itself beside `target`.
+bool is_part(std::string_view name, const std::string& target) {
+  const std::string begin = target + ".part";
+  if (name.substr(0, begin.size()) != begin) return false;
+  name.remove_prefix(begin.size());
+  const std::size_t dash = name.find('-');
+  return dash != std::string_view::npos && all_digits(name.substr(0, dash)) && all_digits(name.substr(dash + 1));
+}
+
+/// Closes a file and gives back its lock, which would otherwise last as long as any process that was started meanwhile.
+int close_unlocked(int descriptor) {
+  flock(descriptor, LOCK_UN);
+  return close(descriptor);
+}
+
+/// Removes the part files beside `target` whose lock nobody holds. A process looks for each name once, because a folder
+/// may be large. Whatever stands in the way is not an error.
+void remove_parts(const fs::path& target) {
+  static std::mutex mutex;
+  static std::set<fs::path> looked_at;
+  const std::scoped_lock lock(mutex);
+  if (looked_at.size() > 1000 || !looked_at.insert(fs::absolute(target)).second) return;
+  const fs::path folder = target.has_parent_path() ? target.parent_path() : ".";
+  // Not by std::filesystem, whose iterators end the program where memory ends.
+  const std::unique_ptr<DIR, int (*)(DIR*)> entries(opendir(folder.c_str()), closedir);
+  while (const dirent* entry = entries ? readdir(entries.get()) : nullptr) {
+    if (!is_part(entry->d_name, target.filename().string())) continue;
+    const int part = openat(dirfd(entries.get()), entry->d_name, O_WRONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+    if (part < 0) continue;
+    if (flock(part, LOCK_EX | LOCK_NB) == 0) unlinkat(dirfd(entries.get()), entry->d_name, 0);
+    close_unlocked(part);
+  }
+}
+
+/// A new file beside `target`, locked while it is written; gone again unless it was renamed.
+class PartFile {
+ public:
+  PartFile(const std::string& path, const std::string& target) : path_(path) {
+    static std::atomic<unsigned> made = 0;  // two threads of one process may write at once
+    for (;;) {
+      name_ = target + ".part" + std::to_string(getpid()) + "-" + std::to_string(made++);
+      descriptor_ = open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+      if (descriptor_ < 0 && (errno == EEXIST || errno == EINTR)) continue;  // EEXIST: left by a killed process
+      if (descriptor_ < 0) fail(path_, reason(errno));
+      struct stat now {};
+      const bool locked = flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;  // some have no locks
+      if (locked && fstat(descriptor_, &now) == 0 && now.st_nlink > 0) return;
+      close_unlocked(descriptor_);  // another process took it for a leftover before it was locked
+    }
+  }
+  ~PartFile() {
+    if (!name_.empty()) unlink(name_.c_str());
+    if (descriptor_ >= 0) close_unlocked(descriptor_);
+  }
+  PartFile(const PartFile&) = delete;
+  PartFile& operator=(const PartFile&) = delete;
+
+  void set_mode(mode_t mode) {
+    if (fchmod(descriptor_, mode) != 0) fail(path_, reason(errno));
+  }
+
+  void write(std::string_view data) {
+    constexpr std::size_t most = std::size_t{1} << 30;  // the system takes no more at once
+    while (!data.empty()) {
+      const ssize_t size = ::write(descriptor_, data.data(), std::min(data.size(), most));
+      if (size < 0 && errno == EINTR) continue;
+      if (size <= 0) fail(path_, reason(size < 0 ? errno : ENOSPC));
+      data.remove_prefix(static_cast<std::size_t>(size));
+    }
+  }
+
+  void rename_to(const std::string& target) {
+    if (fsync(descriptor_) != 0) fail(path_, reason(errno));
+    const int lock = dup(descriptor_);  // the lock stays until the name is the other one
+    const int descriptor = std::exchange(descriptor_, -1);
+    const bool closed = close(descriptor) == 0;
+    const int why = errno;
+    const bool renamed = closed && std::rename(name_.c_str(), target.c_str()) == 0;
+    const int why_not_renamed = errno;
+    if (lock >= 0) close_unlocked(lock);
+    if (!closed) fail(path_, reason(why));
+    if (!renamed) fail(path_, reason(why_not_renamed));
+    name_.clear();
+  }
+
+ private:
+  const std::string& path_;  ///< as the user named it, for messages
+  std::string name_;
+  int descriptor_ = -1;
+};
+
+/// Brings the new name to the disk too. Not every file system can; the file itself is safe already.
+void sync_folder(const fs::path& folder) {
+  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  fsync(descriptor);
+  close(descriptor);
+}
+
+}  // namespace
+
+namespace {
+
+std::atomic<int> writing = 0;
+static_assert(std::atomic<int>::is_always_lock_free);
+
+struct Counted {
+  Counted() { ++writing; }
+  ~Counted() { --writing; }
+  Counted(const Counted&) = delete;
+  Counted& operator=(const Counted&) = delete;
+};
+
+/// The file that stands where `path` leads, and whether there is one.
+struct Place {
+  fs::path target, folder;
+  bool replaces = false;
+  mode_t mode = 0;
+};
+
+Place place_of(const std::string& path) {
+  if (path.empty()) throw FileError("cannot write a file without a name");
+  if (path.find('\0') != std::string::npos) throw FileError("cannot write a file with a zero byte in its name");
+  Place place{behind_links(path), {}};
+  place.folder = place.target.parent_path();
+  if (place.folder.empty()) place.folder = ".";
+  std::error_code error;
+  if (!fs::exists(place.folder, error))
+    fail(path, error ? error.message() : "folder " + place.folder.string() + " does not exist");
+
+  struct stat old {};
+  place.replaces = stat(place.target.c_str(), &old) == 0;
+  place.mode = old.st_mode;
+  if (place.replaces && S_ISDIR(old.st_mode)) fail(path, "is a directory");
+  // Renaming over /dev/null would replace the device for everyone.
+  if (place.replaces && !S_ISREG(old.st_mode)) fail(path, "is not a regular file");
+  // Renaming asks for the right to change the folder only; a file that is write-protected shall stay so.
+  if (place.replaces && access(place.target.c_str(), W_OK) != 0) fail(path, reason(errno));
+  return place;
+}
+
+}  // namespace
+
+void require_replaceable(const std::string& path) {
+  const Place place = place_of(path);
+  if (access(place.folder.c_str(), W_OK | X_OK) != 0) fail(path, reason(errno));
+}
+
+void remove_leftovers(const std::string& path) { remove_parts(place_of(path).target); }
+
+bool is_writing() noexcept { return writing > 0; }
+
+void replace_file(const std::string& path, const std::function<void(const Put&)>& write) {
+  const Counted counted;
+  const Place place = place_of(path);
+  remove_parts(place.target);
+  PartFile part(path, place.target.string());
+  if (place.replaces) part.set_mode(place.mode & 07777);
+  write([&](std::string_view data) { part.write(data); });
+  part.rename_to(place.target.string());
+  sync_folder(place.folder);
+}
+
+void replace_file(const std::string& path, std::initializer_list<std::string_view> parts) {
+  replace_file(path, [&](const Put& put) {
+    for (const std::string_view data : parts) put(data);
+  });
+}
+
+}  // namespace slipfront::record

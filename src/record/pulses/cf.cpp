@@ -1,0 +1,98 @@
+#include "record/pulses/cf.hpp"
+
+#include <numeric>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "record/files/utf8.hpp"
+
+namespace slipfront::record::cf {
+namespace {
+
+using netcdf::Writer;
+
+constexpr AxisVariables axis = {
+    .time = {"time", "time", "b / (c A)", "Eq. 3"},
+    .x = {"x", "position along the interface, centre of the cell", "b / A", "Eq. 3"},
+    .x_bounds = {"x_bounds", "ends of the cell", "b / A", "Eq. 3"},
+};
+constexpr std::string_view paper = "Gershenzon, Bambakidis and Skinner (2015)";
+constexpr std::string_view paper_title =
+    "How does dissipation affect the transition from static to dynamic macroscopic friction?";
+
+void describe(Writer& file, int variable, const Description& about) {
+  file.attribute(variable, "long_name", about.long_name);
+  file.attribute(variable, "units", "1");
+  file.attribute(variable, "dimensional_unit", about.dimensional_unit);
+  file.attribute(variable, "references", reference_of(about));
+}
+
+}  // namespace
+
+int reals(Writer& file, const Description& about, const std::vector<int>& dimensions) {
+  const int variable = file.reals(std::string(about.name), dimensions);
+  describe(file, variable, about);
+  return variable;
+}
+
+Axes axes(Writer& file, std::size_t times, std::size_t cells) {
+  Axes axes{};
+  axes.time = file.dimension("time", times);
+  axes.x = file.dimension("x", cells);
+  const int ends = file.dimension("ends", 2);
+  axes.times = reals(file, axis.time, {axes.time});
+  axes.centres = reals(file, axis.x, {axes.x});
+  axes.bounds = reals(file, axis.x_bounds, {axes.x, ends});
+  file.attribute(axes.centres, "axis", "X");
+  file.attribute(axes.centres, "bounds", axis.x_bounds.name);
+  return axes;
+}
+
+void write_axes(Writer& file, const Axes& axes, const std::vector<double>& times, const std::vector<double>& edges) {
+  file.write(axes.times, times);
+  std::vector<double> centres;
+  for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
+    centres.push_back(std::midpoint(edges[i], edges[i + 1]));
+    file.write_row(axes.bounds, i, std::span(edges).subspan(i, 2));
+  }
+  file.write(axes.centres, centres);
+}
+
+void describe_file(Writer& file, const PulseMetadata& metadata, const char* format, bool finished) {
+  for (const auto& [name, value] : file_attributes(metadata, format))
+    file.attribute(Writer::global, name, clean_text(value, netcdf::longest_text));
+  file.attribute(Writer::global, "finished", finished ? 1 : 0);
+}
+
+}  // namespace slipfront::record::cf
+
+namespace slipfront::record {
+
+const AxisVariables& axis_variables() { return cf::axis; }
+
+std::string reference_of(const Description& about) {
+  return std::string(cf::paper) + ", " + std::string(about.reference);
+}
+
+std::vector<std::pair<std::string, std::string>> file_attributes(const PulseMetadata& metadata,
+                                                                 const std::string& format) {
+  std::string warnings;
+  for (const std::string& warning : metadata.warnings) warnings += (warnings.empty() ? "" : "\n") + warning;
+  return {
+      {"Conventions", "CF-1.10"},
+      {"title", metadata.title},
+      {"source", "slipfront " + metadata.version},
+      {"history", metadata.command_line},
+      {"references", std::string(cf::paper) + ", " + std::string(cf::paper_title)},
+      {"comment",
+       "All values are dimensionless; multiply by dimensional_unit: A contact ratio, b asperity spacing, c speed of "
+       "strain waves, mu shear modulus, nu Poisson ratio."},
+      {"version", metadata.version},
+      {"warnings", warnings},
+      {"scenario", metadata.scenario_text},
+      {"slipfront_format", format},
+  };
+}
+
+}  // namespace slipfront::record

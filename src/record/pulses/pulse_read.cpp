@@ -1,0 +1,178 @@
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+#include "foundation/bytes.hpp"
+#include "record/files/seal.hpp"
+#include "record/files/text_file.hpp"
+#include "record/netcdf/netcdf_file.hpp"
+#include "record/pulses/pulse_file.hpp"
+#include "record/pulses/pulse_layout.hpp"
+#include "record/pulses/pulse_variables.hpp"
+#include "slipfront/error.hpp"
+
+namespace slipfront::record {
+namespace {
+
+using netcdf::Reader;
+using netcdf::Variable;
+using Kind = Variable::Kind;
+using Shape = std::vector<std::size_t>;
+using output::Snapshot;
+
+[[noreturn]] void fail(const std::string& path, const std::string& reason) {
+  throw FileError(path + ": not a pulse file to resume from: " + reason);
+}
+
+/// A sealed file says what slipfront wrote; which slipfront, and whether a pulse, must still be checked.
+class PulseReader {
+ public:
+  PulseReader(const std::string& path, const Reader& file) : path_(path), file_(file) {
+    if (const std::string format = text("slipfront_format"); format != pulse_format)
+      fail(path_, "its slipfront_format is '" + format.substr(0, 40) + "', read here is '" + pulse_format + "'");
+    times_ = require_rank("time", 1).shape[0];
+    cells_ = require_rank("x", 1).shape[0];
+  }
+
+  Checkpoint read() {
+    Checkpoint run{scenario(), text("version"), bytes(require(layout::solver_state)), times(), finished()};
+    for (const ScalarVariable& scalar : scalar_variables()) read_scalar(scalar, run.snapshots);
+    const std::vector<const FieldVariable*> written = fields();
+    for (const auto values : profile_fields())
+      if (const FieldVariable* field = holder(written, values)) read_field(*field, run.snapshots);
+    if (text("checksum") != layout::checksum(run.scenario_text, run.solver_state, run.finished, run.snapshots, written))
+      fail(path_, "the checksum of its content does not match");
+    return run;
+  }
+
+ private:
+  std::string text(const char* attribute) const {
+    auto value = file_.text(attribute);
+    if (!value) fail(path_, "attribute " + std::string(attribute) + " is missing");
+    return *std::move(value);
+  }
+
+  std::string scenario() const {
+    const auto variable = file_.find(layout::scenario_bytes);
+    return variable ? bytes(*variable) : text("scenario");
+  }
+
+  bool finished() const {
+    const auto value = file_.number("finished");
+    if (!value || (*value != 0 && *value != 1)) fail(path_, "attribute finished is neither 0 nor 1");
+    return *value == 1;
+  }
+
+  Variable require(const std::string& name) const {
+    auto variable = file_.find(name);
+    if (!variable) fail(path_, "variable " + name + " is missing");
+    return *std::move(variable);
+  }
+
+  Variable require_rank(const std::string& name, std::size_t rank) const {
+    Variable variable = require(name);
+    if (variable.kind != Kind::real || variable.shape.size() != rank)
+      fail(path_, name + " has the wrong type or shape");
+    return variable;
+  }
+
+  Variable require_shape(std::string_view name, const Shape& shape) const {
+    Variable variable = require_rank(std::string(name), shape.size());
+    if (variable.shape != shape) fail(path_, variable.name + " has the wrong size");
+    return variable;
+  }
+
+  std::string bytes(const Variable& variable) const {
+    if (variable.kind != Kind::byte || variable.shape.size() != 1)
+      fail(path_, variable.name + " has the wrong type or shape");
+    return file_.bytes(variable);
+  }
+
+  /// Snapshots that have but their times.
+  std::vector<Snapshot> times() const {
+    const std::vector<double> times = file_.reals(require_shape("time", {times_}));
+    std::vector<Snapshot> snapshots(times.size());
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      if (!std::isfinite(times[i]) || (i > 0 && times[i] <= times[i - 1])) fail(path_, "its times do not ascend");
+      snapshots[i].time = times[i];
+    }
+    return snapshots;
+  }
+
+  void read_scalar(const ScalarVariable& scalar, std::vector<Snapshot>& snapshots) const {
+    const std::vector<double> values = file_.reals(require_shape(scalar.about.name, {times_}));
+    for (std::size_t i = 0; i < times_; ++i) scalar.set(snapshots[i], values[i]);
+  }
+
+  std::vector<const FieldVariable*> fields() const {
+    std::vector<const FieldVariable*> found;
+    for (const FieldVariable& field : field_variables())
+      if (file_.find(std::string(field.about.name))) found.push_back(&field);
+    return found;
+  }
+
+  void read_field(const FieldVariable& field, std::vector<Snapshot>& snapshots) const {
+    const Variable variable = require_shape(field.about.name, {times_, cells_});
+    file_.require_reals(variable);
+    for (std::size_t i = 0; i < times_; ++i) {
+      auto& values = snapshots[i].profile.*field.values;
+      values.resize(cells_);
+      file_.read_row(variable, i, values);
+    }
+  }
+
+  const std::string& path_;
+  const Reader& file_;
+  std::size_t times_ = 0, cells_ = 0;
+};
+
+/// A checkpoint as bytes, and back: from the process that reads the file to this one.
+std::string packed(const Checkpoint& run) {
+  bytes::Writer out;
+  for (const std::string* text : {&run.scenario_text, &run.version, &run.solver_state}) out.put_text(*text);
+  out.put(run.finished);
+  out.put(static_cast<std::uint64_t>(run.snapshots.size()));
+  for (const Snapshot& snapshot : run.snapshots) {
+    out.put(snapshot.time);
+    for (const ScalarVariable& scalar : scalar_variables()) out.put(scalar.get(snapshot));
+    for (const auto values : profile_fields()) out.put(snapshot.profile.*values);
+  }
+  return std::move(out).text();
+}
+
+Checkpoint unpacked(std::string_view packed_run) {
+  bytes::Reader in(packed_run);
+  Checkpoint run{};
+  for (std::string* text : {&run.scenario_text, &run.version, &run.solver_state}) *text = in.text();
+  run.finished = in.get<bool>();
+  run.snapshots.resize(static_cast<std::size_t>(in.get<std::uint64_t>()));
+  for (Snapshot& snapshot : run.snapshots) {
+    snapshot.time = in.get<double>();
+    for (const ScalarVariable& scalar : scalar_variables()) scalar.set(snapshot, in.get<double>());
+    for (const auto values : profile_fields()) snapshot.profile.*values = in.vector();
+  }
+  return run;
+}
+
+}  // namespace
+
+Checkpoint read_checkpoint(const std::string& path) {
+  const std::string file = read_regular(path);
+  const std::string_view image = sealed_content(file, path);
+  return unpacked(read_netcdf(path, image, image.size(),
+                              [&](const Reader& reader) { return packed(PulseReader(path, reader).read()); }));
+}
+
+Checkpoint read_checkpoint_of(const std::string& path, const std::string& scenario_text, const std::string& version) {
+  Checkpoint saved = read_checkpoint(path);
+  const auto refuse = [&](const char* what, const std::string& wanted) {
+    throw InputError(
+        {.file = path, .key = "resume", .problem = std::string("was written by another ") + what, .allowed = wanted});
+  };
+  if (saved.scenario_text != scenario_text) refuse("scenario", "the scenario that began it, with the same --set");
+  if (saved.version != version) refuse("version", "version " + version);
+  return saved;
+}
+
+}  // namespace slipfront::record

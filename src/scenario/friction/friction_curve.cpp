@@ -1,0 +1,119 @@
+#include "scenario/friction/friction_curve.hpp"
+
+#include <cmath>
+#include <memory>
+#include <mutex>
+#include <utility>
+
+#include "scenario/formula/formula.hpp"
+#include "scenario/profile/monotone.hpp"
+#include "scenario/profile/table.hpp"
+
+namespace slipfront::scenario {
+namespace {
+
+InputError refusal(Complaint where, const std::string& problem, const std::string& allowed) {
+  where.problem = problem;
+  where.allowed = allowed;
+  return InputError(std::move(where));
+}
+
+/// A formula that several threads may call at once: as many copies as there are calls at the same time.
+class FormulaForThreads {
+ public:
+  explicit FormulaForThreads(std::string text) : text_(std::move(text)) { idle_.emplace_back(text_, variables()); }
+  double operator()(double w) {
+    Formula formula = take();
+    const double f = formula(w);
+    const std::scoped_lock lock(mutex_);
+    idle_.push_back(std::move(formula));
+    return f;
+  }
+
+ private:
+  static std::vector<std::string_view> variables() { return {"w"}; }
+  Formula take() {
+    {
+      const std::scoped_lock lock(mutex_);
+      if (!idle_.empty()) {
+        Formula formula = std::move(idle_.back());
+        idle_.pop_back();
+        return formula;
+      }
+    }
+    return {text_, variables()};
+  }
+
+  std::string text_;
+  std::mutex mutex_;
+  std::vector<Formula> idle_;
+};
+
+/// What a chain or pulse may ask for: rest, and speeds from far below slow slip to far above earthquakes.
+void try_out(const Section& section, const friction::Curve& curve, double fastest) {
+  const double at_rest = curve(0);
+  double greatest = 0;
+  constexpr int samples = 320;
+  constexpr double slowest = 1e-12;
+  for (int i = 0; i <= samples; ++i)
+    greatest = std::fmax(greatest, curve(slowest * std::pow(fastest / slowest, static_cast<double>(i) / samples)));
+  // A steep law, such as w^0.1, comes to f(0) at far smaller velocities; a jump remains at any.
+  constexpr double nearest_rest = 1e-300;
+  const double near_rest = curve(nearest_rest);
+  if (std::fabs(near_rest - at_rest) > 1e-3 * greatest)
+    throw section.refuse("formula", "f jumps from " + shortest(at_rest) + " at w = 0 to " + shortest(near_rest),
+                         "f(0) is the force that a place at rest withstands; for a constant force: law = \"coulomb\"");
+}
+
+friction::Curve from_formula(const Section& section) {
+  const std::string text = *section.formula("formula");
+  const Complaint where = section.where("formula");
+  std::shared_ptr<FormulaForThreads> formula;
+  try {
+    formula = std::make_shared<FormulaForThreads>(text);
+  } catch (const InputError& error) {
+    throw section.refuse("formula", error.complaint().problem, error.complaint().allowed);
+  }
+  friction::Curve curve = [formula, where](double w) {
+    const double f = (*formula)(w);
+    if (!(f >= 0 && std::isfinite(f)))
+      throw refusal(where, "the friction is " + shortest(f) + " at the slip velocity w = " + shortest(w),
+                    "a finite force >= 0");
+    return f;
+  };
+  try_out(section, curve, 10);
+  return curve;
+}
+
+friction::Curve from_table(const Section& section, const TableReader& tables) {
+  const Column w{"w", {.least = 0, .most = farthest}, "w >= 0, at most 1e9"};
+  const Column f{"f", {.least = 0, .most = largest_stress}, "a finite force >= 0, at most 1e6"};
+  const auto curve = std::make_shared<const MonotoneCurve>(read_rows(section, tables, w, f));
+  if (curve->first() != 0)
+    throw section.refuse("file", "the table begins at w = " + shortest(curve->first()),
+                         "a first row with w = 0; its f is the force that a place at rest withstands");
+  return [curve, where = section.where("file")](double speed) {
+    if (speed <= curve->last()) return (*curve)(speed);
+    throw refusal(
+        where,
+        "the table ends at w = " + shortest(curve->last()) + "; the slip velocity " + shortest(speed) + " was reached",
+        "a table up to the slip velocities at the centres of dislocations");
+  };
+}
+
+}  // namespace
+
+friction::Curve read_curve(const Section& section, const TableReader& tables, friction::CurveSource source) {
+  const bool formula = source == friction::CurveSource::formula, table = source == friction::CurveSource::table;
+  for (const auto& [key, wanted, law] :
+       {std::tuple("formula", formula, "formula"), std::tuple("file", table, "table")}) {
+    const std::string with = "with law = \"" + std::string(law) + '"';
+    if (section.has(key) && !wanted) throw section.refuse(key, "contradicts friction.law", with);
+    if (!section.has(key) && wanted) throw section.refuse(key, "missing", std::string("friction.law needs it"));
+  }
+  if (formula) return from_formula(section);
+  if (table) return from_table(section, tables);
+  return {};
+}
+
+}  // namespace slipfront::scenario

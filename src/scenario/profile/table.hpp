@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scenario/text/section.hpp"
+#include "slipfront/scenario/scenario.hpp"
+
+namespace slipfront::scenario {
+
+/// A column of a table file, and what its numbers may be.
+struct Column {
+  std::string name;
+  Limits limits;
+  const char* allowed;  ///< the limits in words
+};
+
+/// The rows of the table file that the key "file" of a section names, relative to the scenario: two or more, x strictly
+/// increasing. \throws InputError; what `tables` throws.
+std::vector<std::pair<double, double>> read_rows(const Section& section, const TableReader& tables, const Column& x,
+                                                 const Column& y);
+
+}  // namespace slipfront::scenario
