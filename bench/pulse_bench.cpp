@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "slipfront/modulation/per_dislocation.hpp"
 #include "pulse/solver.hpp"
+#include "slipfront/modulation/per_dislocation.hpp"
 #include "slipfront/scenario/scenario.hpp"
 #include "slipfront/setup/problem.hpp"
 #include "slipfront/train/train.hpp"

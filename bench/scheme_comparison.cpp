@@ -12,12 +12,12 @@
 #include <numbers>
 #include <vector>
 
+#include "pulse/solver.hpp"
 #include "pulse/space/semidiscrete.hpp"
 #include "rupture/inverse.hpp"
 #include "slipfront/modulation/characteristics.hpp"
 #include "slipfront/modulation/conservation.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
-#include "pulse/solver.hpp"
 #include "slipfront/rupture/relations.hpp"
 
 namespace {

@@ -10,11 +10,11 @@
 #include <string>
 
 #include "foundation/machine.hpp"
+#include "pulse/solver.hpp"
 #include "slipfront/catalogue/read.hpp"
 #include "slipfront/elliptic/complete.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/medium/medium.hpp"
-#include "pulse/solver.hpp"
 #include "slipfront/scenario/scenario.hpp"
 
 namespace slipfront {

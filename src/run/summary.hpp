@@ -37,8 +37,8 @@ std::span<const SummaryItem<FinishedPulse>> pulse_summary();
 struct FinishedChain {
   const chain::Run& run;
   chain::Balance balance;  ///< run.balance(), which all ranks take part in
-  double stepping, wall;        ///< seconds: of the run alone, of everything
-  long steps;                   ///< of these seconds
+  double stepping, wall;   ///< seconds: of the run alone, of everything
+  long steps;              ///< of these seconds
   int ranks, threads;
 };
 std::span<const SummaryItem<FinishedChain>> chain_summary();

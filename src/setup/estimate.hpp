@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "slipfront/chain/run.hpp"
 #include "pulse/solver.hpp"
+#include "slipfront/chain/run.hpp"
 #include "slipfront/scenario/scenario.hpp"
 #include "slipfront/setup/compare.hpp"
 

@@ -6,10 +6,10 @@
 #include <functional>
 #include <numbers>
 
+#include "pulse/solver.hpp"
 #include "rupture/inverse.hpp"
 #include "slipfront/elliptic/complete.hpp"
 #include "slipfront/error.hpp"
-#include "pulse/solver.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace {

@@ -8,8 +8,8 @@
 #include <numbers>
 #include <vector>
 
-#include "slipfront/elliptic/complete.hpp"
 #include "pulse/solver.hpp"
+#include "slipfront/elliptic/complete.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace {

@@ -7,9 +7,9 @@
 #include <numbers>
 #include <vector>
 
+#include "pulse/solver.hpp"
 #include "slipfront/friction/friction.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
-#include "pulse/solver.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace {

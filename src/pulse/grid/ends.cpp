@@ -17,8 +17,7 @@ constexpr int most_at_once = 5000;  ///< cells that come in after one step; more
 double energy_in(const Problem& problem, const Cells& cells, std::size_t cell) {
   const double x = cells.centre(cell), a = problem.contact ? problem.contact(x) : 1;
   const double q = cells.charge[cell], width = cells.width(cell);
-  const State state =
-      modulation::state_of({a * width / q, cells.momentum(cell) / (a * q)}, std::atanh(cells.s[cell]));
+  const State state = modulation::state_of({a * width / q, cells.momentum(cell) / (a * q)}, std::atanh(cells.s[cell]));
   return train::averages(state, a).H * width;
 }
 

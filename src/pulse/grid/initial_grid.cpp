@@ -56,8 +56,8 @@ bool InitialGrid::fits(const Cells& cells, std::size_t state_values) const {
   double left = -cells.entered_left;
   bool fits = std::isfinite(left) && std::isfinite(cells.entered_right) && n > 0 && cells.s.size() == n &&
               (cells.face_momentum.empty() || cells.face_momentum.size() == n + 1) &&
-              cells.unknowns.size() == Values::size(n) && cells.state.size() == state_values &&
-              cells.charge[0] > 0 && cells.charge[n - 1] > 0;
+              cells.unknowns.size() == Values::size(n) && cells.state.size() == state_values && cells.charge[0] > 0 &&
+              cells.charge[n - 1] > 0;
   for (std::size_t i = 0; i < n && fits; ++i) {
     left += cells.charge[i];
     const auto near = std::lower_bound(charges.begin(), charges.end(), left - 1e-9 * all);

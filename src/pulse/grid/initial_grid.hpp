@@ -23,8 +23,8 @@ struct InitialGrid {
   double position_of(double charge) const;
   /// Dislocations between two positions at t = 0: the integral of the initial stress over 2 pi.
   double charge_between(double from, double to) const;
-  /// Whether saved cells may have come from these. Cells may have been joined, gaps may have closed and dislocations may
-  /// have come in since t = 0; the faces that are left have as many dislocations to their left as they had.
+  /// Whether saved cells may have come from these. Cells may have been joined, gaps may have closed and dislocations
+  /// may have come in since t = 0; the faces that are left have as many dislocations to their left as they had.
   bool fits(const Cells& cells, std::size_t state_values) const;
 };
 

@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "slipfront/output/snapshot.hpp"
 #include "pulse/observe/trailing_characteristic.hpp"
 #include "pulse/solver.hpp"
+#include "slipfront/output/snapshot.hpp"
 
 namespace slipfront::pulse {
 

@@ -68,8 +68,7 @@ std::string Stepper::reason_of_short_steps(const Cells& cells) {
     pushed = i;
   }
   const auto at = [&](std::size_t i) {
-    return "cell " + std::to_string(i) + " of " + std::to_string(cells.size()) +
-           ", at x = " + digits(cells.centre(i));
+    return "cell " + std::to_string(i) + " of " + std::to_string(cells.size()) + ", at x = " + digits(cells.centre(i));
   };
   if (cells.step >= crossing / 4)
     return "The steps are those in which waves cross the narrowest cell, which is " + at(narrowest) + ", " +

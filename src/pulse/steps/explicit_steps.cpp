@@ -42,7 +42,11 @@ void keep_others(Stretch awake, const std::vector<double>& before, std::vector<d
 }  // namespace
 
 ExplicitSteps::ExplicitSteps(const Problem& problem, const Measures& measures, std::size_t cells)
-    : problem_(problem), measures_(measures), step_(Values::size(cells)), before_(Values::size(cells)), scale_(2 * cells) {}
+    : problem_(problem),
+      measures_(measures),
+      step_(Values::size(cells)),
+      before_(Values::size(cells)),
+      scale_(2 * cells) {}
 
 StepAttempt ExplicitSteps::attempt(Cells& cells, Semidiscrete& equations, const std::vector<double>& rate, double dt) {
   const Rates f = [&equations](double t, const double* y, double* dy) { equations(t, y, dy); };
@@ -74,15 +78,15 @@ double ExplicitSteps::take(Cells& cells, Semidiscrete& equations, const std::vec
     return attempt(cells, equations, rate, dt);
   };
   const double wanted = cells.step > 0 ? std::fmin(crossing, cells.step) : crossing;
-  const StepTaken step = take_step(StepControl{.order = 4}, step_within(remaining, wanted), attempt_from_start,
-                                   [&](double, int attempts) {
-                                     cells.unknowns = before_;
-                                     if (attempts > most_shortenings && failure_) std::rethrow_exception(failure_);
-                                     if (attempts > most_shortenings) throw too_strong_forces(cells.time);
-                                     equations.start_from(cells.s);
-                                     measures_.find_scale(cells, equations, crossing, scale_);
-                                     return false;
-                                   });
+  const StepTaken step =
+      take_step(StepControl{.order = 4}, step_within(remaining, wanted), attempt_from_start, [&](double, int attempts) {
+        cells.unknowns = before_;
+        if (attempts > most_shortenings && failure_) std::rethrow_exception(failure_);
+        if (attempts > most_shortenings) throw too_strong_forces(cells.time);
+        equations.start_from(cells.s);
+        measures_.find_scale(cells, equations, crossing, scale_);
+        return false;
+      });
   cells.step = step.next;
   cells.s = equations.s();
   return step.length;

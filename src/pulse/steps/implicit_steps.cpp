@@ -131,7 +131,8 @@ StepAttempt ImplicitSteps::attempt_by_faces(const Cells& cells, Staggered& stagg
   }
   const double error = std::sqrt(sum / static_cast<double>(2 * faces)) / problem_.explicit_tolerance;
   bool compressed = false;  // a cell to nothing
-  for (std::size_t i = 1; i < faces; ++i) compressed = compressed || (!(next_[i] > unknowns_[i] / 10) && unknowns_[i] > 0);
+  for (std::size_t i = 1; i < faces; ++i)
+    compressed = compressed || (!(next_[i] > unknowns_[i] / 10) && unknowns_[i] > 0);
   return {.succeeded = std::isfinite(error) && !compressed, .error = error};
 }
 

@@ -7,10 +7,10 @@
 #include <functional>
 #include <vector>
 
+#include "pulse/grid/values.hpp"
 #include "pulse/time/ars443.hpp"
 #include "pulse/time/rodas4.hpp"
 #include "pulse/time/ssprk54.hpp"
-#include "pulse/grid/values.hpp"
 
 namespace {
 
