@@ -118,33 +118,42 @@ void find_observed_fronts(const Problem& problem, const View& v, std::vector<dou
   s.fronts.leading_observed = in_domain(problem, to_right ? seen.right : seen.left);
 }
 
+/// Means and values in the cells of the grid whose edges are given.
+output::Profile profile_of(const Solver& solver, const View& v, const std::vector<double>& x_edges) {
+  output::Profile profile;
+  double left = charge_left_of(v, x_edges[0]);
+  for (std::size_t i = 0; i + 1 < x_edges.size(); ++i) {
+    const double right = charge_left_of(v, x_edges[i + 1]), x = (x_edges[i] + x_edges[i + 1]) / 2;
+    const State state = state_at(v, x);
+    const train::Averages a = averages_of(v, state, x);
+    const double k = 2 * pi * (right - left) / (x_edges[i + 1] - x_edges[i]);
+    profile.k.push_back(k);
+    profile.U.push_back(state.empty() ? 0.0 : std::tanh(state.phi));
+    // Where k changes much within a cell of the grid, its value at the centre is not its mean.
+    profile.W.push_back(std::clamp(a.W, -k, k));
+    profile.H.push_back(a.H);
+    profile.slip.push_back(solver.slip_at(v, x));
+    left = right;
+  }
+  return profile;
+}
+
+void find_values_at_origin(const Solver& solver, const View& v, Snapshot& s) {
+  const train::Averages origin = averages_of(v, state_at(v, 0), 0);
+  s.slip_velocity_at_origin = origin.W;
+  s.stress_at_origin = origin.k;
+  s.slip_at_origin = solver.slip_at(v, 0);
+}
+
 }  // namespace
 
-// NOLINTNEXTLINE(readability-function-size)
 Snapshot observe(const Solver& solver, const std::vector<double>& x_edges, const TrailingCharacteristic& trailing,
                  double threshold) {
   const View v = solver.view();
   Snapshot s{};
   s.time = solver.cells().time;
-  const std::size_t n = x_edges.size() - 1;
-  double left = charge_left_of(v, x_edges[0]);
-  for (std::size_t i = 0; i < n; ++i) {
-    const double right = charge_left_of(v, x_edges[i + 1]), x = (x_edges[i] + x_edges[i + 1]) / 2;
-    const State state = state_at(v, x);
-    s.profile.k.push_back(2 * pi * (right - left) / (x_edges[i + 1] - x_edges[i]));
-    s.profile.U.push_back(state.empty() ? 0.0 : std::tanh(state.phi));
-    const train::Averages a = averages_of(v, state, x);
-    // Where k changes much within a cell of the grid, that of its centre is not its mean.
-    const double k = s.profile.k.back();
-    s.profile.W.push_back(std::clamp(a.W, -k, k));
-    s.profile.H.push_back(a.H);
-    s.profile.slip.push_back(solver.slip_at(v, x));
-    left = right;
-  }
-  const train::Averages origin = averages_of(v, state_at(v, 0), 0);
-  s.slip_velocity_at_origin = origin.W;
-  s.stress_at_origin = origin.k;
-  s.slip_at_origin = solver.slip_at(v, 0);
+  s.profile = profile_of(solver, v, x_edges);
+  find_values_at_origin(solver, v, s);
   const std::vector<double> W = slip_velocities(v);
   const bool to_right = trailing.stressed_left();
   const Problem& problem = solver.problem();

@@ -86,6 +86,10 @@ class Semidiscrete {
   void find_rates();
   void find_strengths();
   void add_sources(double t, const double* y, double* dy);
+  struct Powers {
+    double dissipation = 0, supply = 0;
+  };
+  Powers find_forces(double t, bool rated, bool in_force);
   void add_contact_force(const double* y, double* dy);
 
   bool gap(std::size_t i) const { return setup_.charge[i] == 0; }

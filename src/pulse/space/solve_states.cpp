@@ -65,23 +65,29 @@ inline float log_float(double s) {
 
 inline double clamp(double x, double low, double high) { return x > low ? (x < high ? x : high) : low; }
 
-/// s, and in the arrays of sound speed, EK and velocity K, E and once more s, as found even where they are not fine.
-// NOLINTNEXTLINE(readability-function-size)
-SLIPFRONT_CLONES void solve(const StateArrays& a) {
-  const std::size_t n = a.size;
-  const double *spacing = a.spacing, *momentum = a.momentum;
-  double *s_out = a.s, *psi = a.psi, *sound = a.sound_speed, *EK = a.EK, *U = a.velocity, *solved = a.solved;
-  constexpr double least = 1e-290, most = fit::largest_s;
-  // The guess is brought near in single precision: twice as many lanes. ln s waits in `psi`.
+constexpr double least = 1e-290, most = fit::largest_s;  // of s
+
+/// Brings the guess near the solution in single precision, which has twice as many lanes; ln s goes to `psi`.
+SLIPFRONT_CLONES void approach(const StateArrays& a) {
+  const double *spacing = a.spacing, *momentum = a.momentum, *s_in = a.s;
+  double* psi = a.psi;
   SLIPFRONT_INDEPENDENT
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < a.size; ++i) {
     const auto half = static_cast<float>(spacing[i] / 2), eighth = static_cast<float>(momentum[i] / 8);
-    const double guess = clamp(s_out[i], least, most);
+    const double guess = clamp(s_in[i], least, most);
     const auto s = static_cast<float>(guess);
     const float log_s = log_float(guess), m1 = s * s;  // below 1e-19 m1 is 0, and all depends on ln s alone
     const KandEFloat at(m1, -2 * log_s);
     psi[i] = static_cast<double>(log_s + HalleyStep<float>(at.K, at.E, m1, half, eighth).step);
   }
+}
+
+/// Finds s from ln s in `psi`. The arrays of sound speed, EK and velocity hold K, E and once more s, also where they
+/// are not fine.
+SLIPFRONT_CLONES void solve_from_logarithm(const StateArrays& a) {
+  const std::size_t n = a.size;
+  const double *spacing = a.spacing, *momentum = a.momentum;
+  double *s_out = a.s, *psi = a.psi, *sound = a.sound_speed, *EK = a.EK, *U = a.velocity, *solved = a.solved;
   SLIPFRONT_INDEPENDENT
   for (std::size_t i = 0; i < n; ++i) {
     const double log_s = clamp(psi[i], -668.0, -0.105), from = exp_branch_free(log_s);
@@ -108,6 +114,11 @@ SLIPFRONT_CLONES void solve(const StateArrays& a) {
     solved[i] = fine ? 1.0 : 0.0;
     s_out[i] = fine ? s : s_out[i];
   }
+}
+
+void solve(const StateArrays& a) {
+  approach(a);
+  solve_from_logarithm(a);
 }
 
 SLIPFRONT_CLONES void find_rapidities(const StateArrays& a) {

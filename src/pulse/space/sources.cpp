@@ -71,53 +71,57 @@ void Semidiscrete::add_contact_force(const double* y, double* dy) {
   for (std::size_t i = 0; i < size(); ++i) rates.momentum(i) += sources_.contact_force[i];
 }
 
-// NOLINTNEXTLINE(readability-function-size)
 void Semidiscrete::add_sources(double t, const double* y, double* dy) {
-  const std::size_t n = size();
-  const ConstValues values(y, n);
-  const Values rates(dy, n);
+  const ConstValues values(y, size());
+  const Values rates(dy, size());
   const friction::Friction& friction = setup_.friction;
   const bool frictional = friction.acts() && !setup_.friction_apart;
-  const bool dry = frictional && friction.sticks();
   const std::optional<double> C = friction.linear_coefficient();
   const bool linear = frictional && C && friction.closure() == friction::Closure::consistent;
   if (!frictional && !setup_.forcing) return;
-  double dissipation = 0, supply = 0;
   if (linear && !setup_.forcing) {  // the plain case, without the detour over point values
-    rates.dissipated() = damp(n, *C, values.momenta(), centres_.train.velocity.data(), rates.momenta());
+    rates.dissipated() = damp(size(), *C, values.momenta(), centres_.train.velocity.data(), rates.momenta());
     return;
   }
-  for (std::size_t i = 0; i < n; ++i) {
-    const double U = centres_.train.velocity[i];
-    sources_.force[i] = 0;
-    if (setup_.forcing) {
-      const double push = modulation::force_per_dislocation(setup_.forcing(centres_.x[i], t)) * centres_.charge[i];
-      supply += U * push;
-      sources_.force[i] += push;
-    }
-    if (frictional && !dry) {
-      const double loss = sources_.friction_rate[i] * centres_.train.momentum[i] * centres_.charge[i];
-      dissipation += U * loss;
-      if (!linear) sources_.force[i] -= loss;
-    }
-  }
+  const Powers powers = find_forces(t, frictional && !friction.sticks(), !linear);
   for (const Block& r : blocks_)
     cell_means(r.end - r.begin, {0, r.end - r.begin}, sources_.force.data() + r.begin, means_.source.data() + r.begin);
-  for (std::size_t i = 0; i < n; ++i) {
+  double dissipation = powers.dissipation;
+  for (std::size_t i = 0; i < size(); ++i) {
     rates.momentum(i) += means_.source[i];
-    if (dry) {  // no detour over point values, as of a constant force there is none
+    if (frictional && friction.sticks()) {  // no detour over point values, as of a constant force there is none
       const double force =
           dry_friction(values.momentum(i), rates.momentum(i),
                        modulation::force_per_dislocation(sources_.friction_strength[i]) * setup_.charge[i]);
       dissipation -= centres_.train.velocity[i] * force;
       rates.momentum(i) += force;
-    } else if (frictional && linear) {
+    } else if (linear) {
       rates.momentum(i) -= *C * values.momentum(i);
     }
   }
   // M = 2 pi P / k and 2 pi q_s = k x_s: the sums are over P dx = M q_s ds.
   rates.dissipated() = dissipation;
-  rates.supplied() = supply;
+  rates.supplied() = powers.supply;
+}
+
+/// Forces at the centres of the cells, in a unit of s: the load and, if it is `in_force`, friction that has a rate.
+/// Returns the power of the load, and that of friction if it is `rated`.
+Semidiscrete::Powers Semidiscrete::find_forces(double t, bool rated, bool in_force) {
+  Powers powers;
+  for (std::size_t i = 0; i < size(); ++i) {
+    const double U = centres_.train.velocity[i];
+    sources_.force[i] = 0;
+    if (setup_.forcing) {
+      const double push = modulation::force_per_dislocation(setup_.forcing(centres_.x[i], t)) * centres_.charge[i];
+      powers.supply += U * push;
+      sources_.force[i] += push;
+    }
+    if (!rated) continue;
+    const double loss = sources_.friction_rate[i] * centres_.train.momentum[i] * centres_.charge[i];
+    powers.dissipation += U * loss;
+    if (in_force) sources_.force[i] -= loss;
+  }
+  return powers;
 }
 
 void Semidiscrete::find_rates() {

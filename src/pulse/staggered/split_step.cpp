@@ -9,57 +9,47 @@
 
 namespace slipfront::pulse {
 
-/// Leaves in sinh_phi_ what friction leaves in a time of the momenta `free` >= 0 of single dislocations:
+/// Finds sinh(phi) at the faces after friction has acted for a time on the momenta `free` >= 0 of single dislocations:
 /// M(phi) (1 + time rate(phi)) = free, solved in logarithms, in which it is nearly a straight line for any power of the
-/// velocity. 0 where the velocity is less than a double holds.
-// NOLINTNEXTLINE(readability-function-size)
+/// velocity. sinh(phi) is 0 where the velocity is less than a double holds.
 void Staggered::slow_down(const std::vector<double>& free, double time) {
   constexpr double slowest = -690, precision = 1e-13;
   constexpr int most_tries = 100;
   brackets_.clear();
-  for (std::size_t f = 0; f < faces(); ++f)
-    brackets_.push_back({{.low = slowest, .high = std::log(free[f] / face_mass_[f])}});
-  const auto excess = [&](std::size_t f) {
-    return std::log(face_mass_[f] / free[f]) + brackets_[f].x + std::log1p(time * loss_rate_[f]);
-  };
-  const auto evaluate = [&] {
-    for (std::size_t f = 0; f < faces(); ++f) sinh_phi_[f] = std::exp(brackets_[f].x);
-    find_loss_rates();
-  };
-  for (FaceBracket& b : brackets_) {
+  for (std::size_t f = 0; f < faces(); ++f) {
+    FaceBracket b{{.low = slowest, .high = std::log(free[f] / face_mass_[f])}};
     b.done = !(b.high > b.low);
     b.x = b.done ? slowest : b.high;
+    brackets_.push_back(b);
   }
-  evaluate();
-  for (std::size_t f = 0; f < faces(); ++f) {
-    FaceBracket& b = brackets_[f];
-    if (b.done) continue;
-    b.at_high = excess(f);
-    b.done = b.at_high <= precision;
-    if (!b.done) b.x = b.low;
-  }
-  evaluate();
-  for (std::size_t f = 0; f < faces(); ++f) {
-    FaceBracket& b = brackets_[f];
-    if (b.done) continue;
-    b.at_low = excess(f);
-    b.done = b.at_low >= 0;
-    if (!b.done) b.aim();
-  }
-  for (int i = 0; i < most_tries; ++i) {
-    if (std::all_of(brackets_.begin(), brackets_.end(), [](const FaceBracket& b) { return b.done; })) break;
-    evaluate();
+  const auto take_excess = [&](const auto& take) {
+    for (std::size_t f = 0; f < faces(); ++f) sinh_phi_[f] = std::exp(brackets_[f].x);
+    find_loss_rates();
     for (std::size_t f = 0; f < faces(); ++f) {
       FaceBracket& b = brackets_[f];
-      if (b.done) continue;
-      const double at = excess(f);
-      b.done = std::fabs(at) <= precision || b.high - b.low <= precision;
-      if (!b.done) {
-        b.take(at);
-        b.aim();
-      }
+      if (!b.done) take(b, std::log(face_mass_[f] / free[f]) + b.x + std::log1p(time * loss_rate_[f]));
     }
-  }
+  };
+  take_excess([](FaceBracket& b, double excess) {
+    b.at_high = excess;
+    b.done = excess <= precision;
+    if (!b.done) b.x = b.low;
+  });
+  take_excess([](FaceBracket& b, double excess) {
+    b.at_low = excess;
+    b.done = excess >= 0;
+    if (!b.done) b.aim();
+  });
+  const auto all_done = [&] {
+    return std::all_of(brackets_.begin(), brackets_.end(), [](const FaceBracket& b) { return b.done; });
+  };
+  for (int i = 0; i < most_tries && !all_done(); ++i)
+    take_excess([](FaceBracket& b, double excess) {
+      b.done = std::fabs(excess) <= precision || b.high - b.low <= precision;
+      if (b.done) return;
+      b.take(excess);
+      b.aim();
+    });
   for (std::size_t f = 0; f < faces(); ++f) sinh_phi_[f] = brackets_[f].x > slowest ? std::exp(brackets_[f].x) : 0;
 }
 
