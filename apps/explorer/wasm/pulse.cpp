@@ -11,6 +11,7 @@
 #include "foundation/clock.hpp"
 #include "foundation/text/digits.hpp"
 #include "output/further_scalars.hpp"
+#include "pulse/observe/energy.hpp"
 #include "pulse/solver.hpp"
 #include "scenario.hpp"
 #include "slipfront/error.hpp"

@@ -105,7 +105,7 @@ SLIPFRONT_EXPORT const char* laws() {
                         .put("equation", law->equation)
                         .put("source", law->source)
                         .put("curve", word_for(law->curve))
-                        .put("remembers", !law->variables.empty())
+                        .put("remembers", !law->state.empty())
                         .put("parameters", parameters));
     }
     return Object().put("laws", all);

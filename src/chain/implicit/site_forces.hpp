@@ -57,7 +57,7 @@ class SiteForces {
     return problem_.forcing ? problem_.forcing(problem_.grid.x(j), time) : 0;
   }
   double forcing(const Moment& m, std::size_t j) const;
-  /// Stretch of the spring at a site that is displaced by u.
+  /// CellRange of the spring at a site that is displaced by u.
   double stretch(std::size_t j, double u, double time) const {
     return problem_.loading.velocity * time - (u - first_u_[j]);
   }

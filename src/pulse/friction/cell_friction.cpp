@@ -29,7 +29,7 @@ CellFriction::CellFriction(const Problem& problem, std::size_t cells)
   slipping_state_.resize(state_.size());
 }
 
-void CellFriction::start(const Cells& cells, const CellStates& trains, Stretch awake, const StateGrid& grid) {
+void CellFriction::start(const Cells& cells, const CellStates& trains, CellRange awake, const StateGrid& grid) {
   awake_ = awake;
   charge_ = cells.charge;
   find_centres(cells, x_);

@@ -21,7 +21,7 @@ class CellFriction {
   CellFriction(const Problem& problem, std::size_t cells);
   /// Prepares a step from these cells, whose trains have the states `trains`. Cells outside `awake` are at rest
   /// throughout the step.
-  void start(const Cells& cells, const CellStates& trains, Stretch awake, const StateGrid& grid);
+  void start(const Cells& cells, const CellStates& trains, CellRange awake, const StateGrid& grid);
 
   const std::vector<double>& x() const { return x_; }  ///< centres
   /// Slip velocities at the centres for cells of these widths, from the velocities of the last call.
@@ -45,7 +45,7 @@ class CellFriction {
 
   const Problem& problem_;
   SlowedTrains solve_;
-  Stretch awake_{0, 0};
+  CellRange awake_{0, 0};
   std::vector<double> charge_, x_, contact_, state_;
   // Of one dislocation, at the start of the step and in the last call.
   std::vector<double> start_, start_s_, start_typical_, start_momentum_, start_force_, start_slope_;

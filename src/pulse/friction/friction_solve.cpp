@@ -30,7 +30,7 @@ double root_between(double low, double high, double at_low, double at_high, doub
 
 }  // namespace
 
-SlowedTrain::Left SlowedTrain::after(double free, double time) const {
+SlowedTrain::Result SlowedTrain::after(double free, double time) const {
   const double size = std::fabs(free), weight = 2 * std::numbers::pi * time;
   if (size == 0) return {0, 0, 0};
   State state{};
@@ -39,8 +39,8 @@ SlowedTrain::Left SlowedTrain::after(double free, double time) const {
     return momentum + weight * friction.mean_strength(state, contact, state_values) - size;
   };
   const auto with_sign = [&](double momentum) {
-    return Left{std::copysign(momentum, free), std::copysign(std::tanh(state.phi), free),
-                contact * std::sinh(std::fabs(state.phi)) * std::exp(state.psi)};
+    return Result{std::copysign(momentum, free), std::copysign(std::tanh(state.phi), free),
+                  contact * std::sinh(std::fabs(state.phi)) * std::exp(state.psi)};
   };
   const double at_slowest = excess(at_rest_below * size);
   if (at_slowest >= 0) return {0, 0, 0};
@@ -80,7 +80,7 @@ void SlowedTrains::evaluate() {
                                      friction_.closure(), force_.data(), slope_.data());
 }
 
-SlowedTrain::Left SlowedTrains::solve_alone(std::size_t i, double time) const {
+SlowedTrain::Result SlowedTrains::solve_alone(std::size_t i, double time) const {
   const SlowedTrain train{friction_,
                           states_.spacing[i] / contact_[i],
                           contact_[i],
@@ -93,7 +93,7 @@ void SlowedTrains::solve(double time, const Results& results) {
   constexpr int most_steps = 60;
   constexpr double last_step = 3e-5;  // of ln M: what is left is of the order of its square
   const double weight = 2 * std::numbers::pi * time;
-  const auto finish = [&](std::size_t i, const SlowedTrain::Left& as, double force) {
+  const auto finish = [&](std::size_t i, const SlowedTrain::Result& as, double force) {
     const std::size_t cell = cell_[i];
     results.momentum[cell] = as.momentum;
     results.velocity[cell] = as.velocity;
@@ -113,7 +113,7 @@ void SlowedTrains::solve(double time, const Results& results) {
     for (std::size_t i = 0; i < count_; ++i) {
       const double free = free_[i], M = momentum_[i];
       if (!states_.solved(i) || tries == most_steps) {
-        const SlowedTrain::Left as = solve_alone(i, time);
+        const SlowedTrain::Result as = solve_alone(i, time);
         finish(i, as, (free - as.momentum) / weight);
       } else if (M <= at_rest_below * free && M + weight * force_[i] >= free) {
         finish(i, {0, 0, 0}, free / weight);

@@ -16,13 +16,13 @@ struct SlowedTrain {
   friction::LocalState state_values;  ///< of the positions that it covers
   double psi_guess;                   ///< near that of the train
 
-  struct Left {
+  struct Result {
     double momentum, velocity;
     double typical_speed;  ///< a sinh |phi| e^psi, whose logarithm is the mean of ln |w| over slip (docs/friction.md)
   };
   /// What friction leaves of the momentum `free` in a time, implicitly: M + time 2 pi <f>(M) = free. 0 where friction
   /// holds the train. For laws whose force does not fall with the slip velocity at constant state.
-  Left after(double free, double time) const;
+  Result after(double free, double time) const;
 };
 
 /// The same for many trains at once, by Newton's method in ln M. Where it fails, or a train is out of the range of the
@@ -67,7 +67,7 @@ class SlowedTrains {
  private:
   void evaluate();
   void copy(std::size_t from, std::size_t to);
-  SlowedTrain::Left solve_alone(std::size_t i, double time) const;
+  SlowedTrain::Result solve_alone(std::size_t i, double time) const;
 
   const friction::Friction& friction_;
   std::size_t variables_;

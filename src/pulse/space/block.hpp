@@ -21,7 +21,7 @@ inline Edge edge_at_wall(double x, double wall, double width) {
 }
 
 /// Neighbouring cells or faces, without `end`.
-struct Stretch {
+struct CellRange {
   std::size_t begin, end;
   bool empty() const { return begin >= end; }
 };
@@ -33,7 +33,7 @@ struct Block {
   Edge left, right;
 };
 /// The cells that a block and a stretch have in common.
-inline Stretch common(const Block& block, Stretch stretch) {
+inline CellRange common(const Block& block, CellRange stretch) {
   const std::size_t begin = std::max(block.begin, stretch.begin);
   return {begin, std::max(begin, std::min(block.end, stretch.end))};
 }

@@ -54,9 +54,9 @@ void CellStates::solve_one(std::size_t i) {
   solved_[i] = 1;
 }
 
-void CellStates::solve(const std::vector<Block>& blocks, Stretch awake, double time) {
+void CellStates::solve(const std::vector<Block>& blocks, CellRange awake, double time) {
   for (const Block& r : blocks) {
-    const Stretch part = common(r, awake);
+    const CellRange part = common(r, awake);
     if (part.empty()) continue;
     solve_vector(part.begin, part.end);
     for (std::size_t i = part.begin; i < part.end; ++i) {

@@ -16,7 +16,7 @@ struct CellStates {
   void resize(std::size_t size);
   /// Finds everything from spacing and momentum; gaps are left as they are. \throws NumericsError with time and cell
   /// where no state exists. Of the cells of `awake`.
-  void solve(const std::vector<Block>& blocks, Stretch awake, double time);
+  void solve(const std::vector<Block>& blocks, CellRange awake, double time);
   /// Only s, velocity and the largest slip velocities 2 sinh |phi| cosh psi, of the first `size` trains. Where no state
   /// exists, a train stays without one.
   void solve_slip(std::size_t size, double* fastest);

@@ -27,7 +27,7 @@ struct Differences {
 };
 
 /// Those of `part` that have two neighbours among `size` on either side.
-inline Stretch inside(std::size_t size, Stretch part) {
+inline CellRange inside(std::size_t size, CellRange part) {
   const std::size_t begin = std::min(std::max<std::size_t>(part.begin, 2), part.end);
   return {begin, std::max(begin, std::min(part.end, size > 2 ? size - 2 : 0))};
 }
@@ -35,8 +35,8 @@ inline Stretch inside(std::size_t size, Stretch part) {
 }  // namespace
 
 // mean = value + d2 / 24 - 17 d4 / 5760, value = mean - d2 / 24 + 3 d4 / 640: sixth order.
-SLIPFRONT_CLONES void centre_values(std::size_t size, Stretch part, const double* averages, double* values) {
-  const Stretch inner = inside(size, part);
+SLIPFRONT_CLONES void centre_values(std::size_t size, CellRange part, const double* averages, double* values) {
+  const CellRange inner = inside(size, part);
   SLIPFRONT_INDEPENDENT
   for (std::size_t i = inner.begin; i < inner.end; ++i) {
     const Differences d(averages + i);
@@ -46,8 +46,8 @@ SLIPFRONT_CLONES void centre_values(std::size_t size, Stretch part, const double
   for (std::size_t i = inner.end; i < part.end; ++i) values[i] = averages[i];
 }
 
-SLIPFRONT_CLONES void cell_means(std::size_t size, Stretch part, const double* values, double* averages) {
-  const Stretch inner = inside(size, part);
+SLIPFRONT_CLONES void cell_means(std::size_t size, CellRange part, const double* values, double* averages) {
+  const CellRange inner = inside(size, part);
   SLIPFRONT_INDEPENDENT
   for (std::size_t i = inner.begin; i < inner.end; ++i) {
     const Differences d(values + i);

@@ -32,8 +32,8 @@ void solve_slip(const StateArrays& a, double* fastest);
 /// where the fourth difference is not small beside the second (there f is not smooth on the grid, and average and
 /// centre value are the same to the order that is left), and in the two cells at each end. Of `part` of the `size`
 /// cells.
-void centre_values(std::size_t size, Stretch part, const double* averages, double* values);
-void cell_means(std::size_t size, Stretch part, const double* values, double* averages);
+void centre_values(std::size_t size, CellRange part, const double* averages, double* values);
+void cell_means(std::size_t size, CellRange part, const double* values, double* averages);
 
 /// Face values of the Riemann invariants by WENO: `plus` from the left, `minus` from the right; p[f - 1] and p[f] are
 /// the cells beside face f, with three ghosts at each end. phi = (plus + minus) / 2, psi = max((plus - minus) / 2, 0).

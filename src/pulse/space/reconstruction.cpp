@@ -76,7 +76,7 @@ void Semidiscrete::find_faces(const Block& block) {
   fill_ghosts(block, plus, minus);
   double* face_phi = faces_.phi.data() + block.begin;
   double* face_psi = faces_.psi.data() + block.begin;
-  const Stretch awake = awake_in(block);
+  const CellRange awake = awake_in(block);
   if (awake.empty()) return;
   weno_faces(awake.end - awake.begin + 1, plus + awake.begin, minus + awake.begin, scale, face_phi + awake.begin,
              face_psi + awake.begin);

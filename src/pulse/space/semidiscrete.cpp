@@ -61,7 +61,7 @@ void Semidiscrete::find_states(double t, const double* y) {
   const std::size_t n = size();
   const ConstValues means(y, n);
   for (const Block& r : blocks_) {
-    const Stretch awake = awake_in(r);
+    const CellRange awake = awake_in(r);
     if (awake.empty()) continue;
     double *spacing = centres_.train.spacing.data() + r.begin, *momentum = centres_.train.momentum.data() + r.begin;
     centre_values(r.end - r.begin, awake, means.widths() + r.begin, spacing);
@@ -131,7 +131,7 @@ void Semidiscrete::let_rest(const double* y, const double* dy) {
   const auto rests = [&](std::size_t i) {
     return values.momentum(i) == 0 && rates.momentum(i) == 0 && rates.width(i) == 0;
   };
-  Stretch moving{0, size()};
+  CellRange moving{0, size()};
   while (!moving.empty() && rests(moving.begin)) ++moving.begin;
   while (!moving.empty() && rests(moving.end - 1)) --moving.end;
   awake_ = {moving.begin > far ? moving.begin - far : 0, std::min(moving.end + far, size())};

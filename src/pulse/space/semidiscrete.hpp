@@ -35,7 +35,7 @@ class Semidiscrete {
   /// arguments of the last call.
   void let_rest(const double* y, const double* dy);
   void wake() { awake_ = {0, size()}; }
-  const Stretch& awake() const { return awake_; }
+  const CellRange& awake() const { return awake_; }
   /// Starts the next solves for s = tanh(psi) from these values: the bits of a result depend on where its solves start.
   void start_from(const std::vector<double>& s);
 
@@ -68,8 +68,8 @@ class Semidiscrete {
  private:
   static constexpr std::size_t ghosts = 3;  ///< cells that a face sees to either side
   /// The cells of a block that are awake, counted from its first.
-  Stretch awake_in(const Block& block) const {
-    const Stretch part = common(block, awake_);
+  CellRange awake_in(const Block& block) const {
+    const CellRange part = common(block, awake_);
     return {part.begin - block.begin, part.end - block.begin};
   }
   void find_states(double t, const double* y);
@@ -132,7 +132,7 @@ class Semidiscrete {
   Setup setup_;
   std::unique_ptr<friction::RelaxationRate> relaxation_rate_;
   std::vector<Block> blocks_;
-  Stretch awake_{0, 0};
+  CellRange awake_{0, 0};
   Means means_;
   Centres centres_;
   Faces faces_;

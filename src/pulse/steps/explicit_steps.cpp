@@ -30,7 +30,7 @@ void stop_reversals(const Ssprk54& step, double friction, const std::vector<doub
 }
 
 /// Cells that were left alone in a step keep their bits: its sums of a width with itself are rounded.
-void keep_others(Stretch awake, const std::vector<double>& before, std::vector<double>& after, std::size_t cells) {
+void keep_others(CellRange awake, const std::vector<double>& before, std::vector<double>& after, std::size_t cells) {
   const auto copy = [&](std::size_t begin, std::size_t end) {
     for (std::size_t first : {begin, cells + begin})
       std::copy_n(before.data() + first, end - begin, after.data() + first);

@@ -1,0 +1,81 @@
+// The staggered equations: momenta at the faces, and the step that takes friction there implicitly.
+
+#include "pulse/staggered/staggered.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "slipfront/modulation/per_dislocation.hpp"
+#include "slipfront/train/train.hpp"
+
+namespace {
+
+using namespace slipfront;
+using pulse::Edge;
+using pulse::Staggered;
+
+constexpr std::size_t cells = 12;
+
+pulse::Setup setup(const friction::Friction& friction, Edge edge = Edge::wall) {
+  pulse::Setup s;
+  s.charge.assign(cells, 0.05);
+  s.left = s.right = edge;
+  s.left_wall = 0;
+  s.right_wall = cells * 0.4;
+  s.friction = friction;
+  return s;
+}
+
+/// Unknowns of cells of equal width with a momentum at each face but the outer ones.
+std::vector<double> unknowns(double width, double momentum) {
+  std::vector<double> z(pulse::FaceValues::size(cells + 1), 0.0);
+  const pulse::FaceValues values(z.data(), cells + 1);
+  for (std::size_t i = 0; i < cells; ++i) values.width(i) = width;
+  for (std::size_t f = 1; f < cells; ++f) values.momentum(f) = momentum;
+  return z;
+}
+
+TEST(Staggered, CarriesALineOfMomentaToTheFacesAndBack) {
+  const Staggered equations(setup(friction::viscous(1), Edge::continued));
+  std::vector<double> in_cells(cells), at_faces(cells + 1), back(cells);
+  for (std::size_t i = 0; i < cells; ++i) in_cells[i] = 1 + 0.1 * static_cast<double>(i);
+  equations.face_momenta(in_cells.data(), at_faces.data());
+  equations.cell_momenta(at_faces.data(), back.data());
+  for (std::size_t i = 2; i + 2 < cells; ++i) EXPECT_NEAR(back[i], in_cells[i], 1e-14) << i;
+}
+
+TEST(Staggered, LeavesATrainAtRestAtRest) {
+  Staggered equations(setup(friction::viscous(1)));
+  const std::vector<double> z = unknowns(0.4, 0);
+  std::vector<double> rates(z.size());
+  equations.start_from(std::vector<double>(cells, 0.3));
+  equations(0, z.data(), rates.data());
+  for (const double rate : rates) EXPECT_EQ(rate, 0);
+}
+
+TEST(Staggered, DampsEveryMomentumAtTheRateOfViscousFriction) {
+  Staggered equations(setup(friction::viscous(2)));
+  const std::vector<double> z = unknowns(0.4, 1e-4);
+  std::vector<double> rates(z.size());
+  equations.start_from(std::vector<double>(cells, 0.3));
+  equations(0, z.data(), rates.data());
+  const pulse::ConstFaceValues rate(rates.data(), cells + 1);
+  for (std::size_t f = 2; f + 1 < cells; ++f) EXPECT_NEAR(rate.momentum(f), -2e-4, 1e-8) << f;
+}
+
+TEST(Staggered, StepsTakeTheFrictionOfTheirEnd) {
+  for (const double time : {0.1, 1.0, 30.0}) {
+    Staggered equations(setup(friction::viscous(2)));
+    const std::vector<double> z = unknowns(0.4, 1e-8);
+    std::vector<double> next(z.size());
+    equations.start_from(std::vector<double>(cells, 0.3));
+    equations.split_step(0, time, z.data(), next.data());
+    const pulse::ConstFaceValues then(next.data(), cells + 1);
+    for (std::size_t f = 3; f + 2 < cells; ++f)
+      EXPECT_NEAR(then.momentum(f), 1e-8 / (1 + 2 * time), 1e-12 / (1 + 2 * time)) << time;
+  }
+}
+
+}  // namespace
