@@ -222,7 +222,7 @@ test('the first load is small, and nothing is fetched from elsewhere', async () 
     await Promise.all(bodies);
     const total = [...sizes.values()].reduce((a, b) => a + b, 0);
     console.log(`# ${hash}: ${(total / 1000).toFixed(1)} kB gzipped (${(total / 1024).toFixed(1)} KiB) in ${sizes.size} files, first picture after ${seconds.toFixed(2)} s`);
-    assert.ok(total <= 400 * 1024, `${total} bytes`);
+    assert.ok(total <= 420_000, `${total} bytes`);
     assert.deepEqual(page.complaints, []);
     await page.context().close();
   }
