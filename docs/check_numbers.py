@@ -260,7 +260,7 @@ ENTRIES = [
     Entry("friction.md", "| pulse, 400 cells | {} | {} | {} | {} |", end_of(PULSE, "pulse", "rate-and-state", "pulse.cells=400")),
     Entry("friction.md", "| chain, scale 1000 | {} | {} | {} | {} |", end_of(PULSE, "chain", "rate-and-state", "chain.scale=1000"), slow=True),
     Entry("friction.md", "| chain, scale 300 | {} | {} | {} | {} |", end_of(PULSE, "chain", "rate-and-state", "chain.scale=300")),
-    Entry("friction.md", "At scales 100, 200, 400 and 800 the slip with beta = 0.003 is {}, {}, {} and {}, with epsilon / b_p = 0.003 {}, {}, {} and {}.",
+    Entry("friction.md", "At scales 100, 200, 400 and 800 the slip with beta = 0.003 is {}, {}, {} and {}. With epsilon / b_p = 0.003 it is {}, {}, {} and {}.",
           lambda: [run("chain", "rate-and-state", *CONTACTS, *more, f"chain.scale={scale}")["slip_at_origin"] for more in (AGEING, DILATING) for scale in (100, 200, 400, 800)],
           slow=True),
     Entry("pulse.md", "between x = -7 and 7 has W(0) = {}, {}, {} with 100, 200, 400 cells",
