@@ -209,6 +209,16 @@ every = 1e5
 [pulse]
 cells = 4
 """
+MY_EVENT = """\
+[event]
+name = "My event"
+rupture_velocity = "3.0 +- 0.2 km/s"
+slip_velocity = "0.5 */ 1.2 m/s"
+[medium]
+p_wave_speed = "6 km/s"
+poisson_ratio = 0.25
+shear_modulus = "30 GPa"
+"""
 PULSE = ("slip_at_origin", "slip_velocity_at_origin", "peak_slip_velocity", "peak_position")
 VISCOUS = ("friction.law=viscous", "friction.coefficient=0.5")
 
@@ -234,6 +244,14 @@ def contact_table():
     for name, more in rows.items():
         settings = [*CONTACTS, "chain.scale=200", *(f"friction.{word}" for word in more)]
         yield Entry("friction.md", f"| {name} | {{}} | {{}} | {{}} | {{}} |", end_of(keys, "chain", "rate-and-state", *settings), slow=True)
+
+
+def my_event(*keys, more=""):
+    """The event with which events.md begins; pressures in MPa."""
+    def values():
+        event = run("event", MY_EVENT.replace("[medium]", more + "\n[medium]"))["events"][0]
+        return [event[key] / (1e6 if "_pa" in key else 1) for key in keys]
+    return values
 
 
 def front_table():
@@ -296,6 +314,11 @@ ENTRIES = [
     Entry("../python/slipfront/reproduce/report.py", "within {} %, and the paper's closure is up to {} % above the chain (docs/claims.md)",
           lambda: numbers_on("claims.md", "The pulse with the consistent closure is within {} % of the chain in every row") +
           numbers_on("claims.md", "with the paper's up to {} % above it")),
+    Entry("events.md", "My event 3 km/s {} {} 0.5 m/s {} - >={} >={} -",
+          my_event("rupture_velocity", "stress", "frictionless_slip_velocity", "contact_ratio_bound", "stress_pa_bound")),
+    Entry("events.md", "My event 3 km/s {} {} 0.5 m/s {} {} {} {} {} 5 %",
+          my_event("rupture_velocity", "stress", "frictionless_slip_velocity", "slip_velocity_ratio", "contact_ratio", "stress_pa", "damping_number",
+                   more='stress_drop = "60 */ 1.5 MPa"')),
     Entry("events.md", "`cases/catalogue.csv`: {} published events", lambda: [catalogue_rows()]),
     Entry("../CHANGELOG.md", "a shipped catalogue of {} published events", lambda: [catalogue_rows()]),
 ]
