@@ -18,8 +18,8 @@ std::string state_name(const friction::Friction& friction) {
   return names;
 }
 
-/// Calls number(name, member) and array(name, member) for all that cells hold but their unknowns, in the order of a
-/// checkpoint.
+/// Calls number(name, member) or array(name, member) for each member of the cells but the number of steps, in the order
+/// of a checkpoint.
 template <class SomeCells, class Number, class Array>
 void for_each_member(SomeCells& cells, const friction::Friction& friction, const Number& number, const Array& array) {
   number("time", cells.time);

@@ -5,7 +5,6 @@
 
 #include "modulation/equations.hpp"
 #include "pulse/steps/step_limits.hpp"
-#include "slipfront/error.hpp"
 
 namespace slipfront::pulse {
 namespace {
@@ -51,18 +50,12 @@ ExplicitSteps::ExplicitSteps(const Problem& problem, const Measures& measures, s
 StepAttempt ExplicitSteps::attempt(Cells& cells, Semidiscrete& equations, const std::vector<double>& rate, double dt) {
   const Rates f = [&equations](double t, const double* y, double* dy) { equations(t, y, dy); };
   const double friction = modulation::force_per_dislocation(problem_.friction.strength_at_rest());
-  try {
-    step_(f, cells.time, dt, cells.unknowns, rate);
-    keep_others(equations.awake(), before_, cells.unknowns, cells.size());
-    if (problem_.friction.sticks()) stop_reversals(step_, friction, cells.charge, before_, cells.unknowns, scale_);
-    const double error =
-        std::fmax(step_.error(dt, rate, scale_, equations.shocked()), measures_.unseen_push(cells, dt)) /
-        problem_.explicit_tolerance;
-    return {.succeeded = true, .error = error, .resolved = !cells_jump(before_, cells.unknowns, cells.charge)};
-  } catch (const NumericsError&) {  // a stage left the range of states
-    failure_ = std::current_exception();
-    return {};
-  }
+  step_(f, cells.time, dt, cells.unknowns, rate);
+  keep_others(equations.awake(), before_, cells.unknowns, cells.size());
+  if (problem_.friction.sticks()) stop_reversals(step_, friction, cells.charge, before_, cells.unknowns, scale_);
+  const double error = std::fmax(step_.error(dt, rate, scale_, equations.shocked()), measures_.unseen_push(cells, dt)) /
+                       problem_.explicit_tolerance;
+  return {.succeeded = true, .error = error, .resolved = !cells_jump(before_, cells.unknowns, cells.charge)};
 }
 
 double ExplicitSteps::take(Cells& cells, Semidiscrete& equations, const std::vector<double>& rate, double remaining,
@@ -73,19 +66,13 @@ double ExplicitSteps::take(Cells& cells, Semidiscrete& equations, const std::vec
   }
   before_ = cells.unknowns;
   measures_.find_scale(cells, equations, crossing, scale_);
-  const auto attempt_from_start = [&](double dt) {
-    failure_ = nullptr;
-    return attempt(cells, equations, rate, dt);
-  };
   const double wanted = cells.step > 0 ? std::fmin(crossing, cells.step) : crossing;
-  const StepTaken step =
-      take_step(StepControl{.order = 4}, step_within(remaining, wanted), attempt_from_start, [&](double, int attempts) {
-        cells.unknowns = before_;
-        if (attempts > most_shortenings && failure_) std::rethrow_exception(failure_);
-        if (attempts > most_shortenings) throw too_strong_forces(cells.time);
+  const StepTaken step = take_step_from(
+      before_, cells, StepControl{.order = 4}, step_within(remaining, wanted),
+      [&](double dt) { return attempt(cells, equations, rate, dt); },
+      [&] {
         equations.start_from(cells.s);
         measures_.find_scale(cells, equations, crossing, scale_);
-        return false;
       });
   cells.step = step.next;
   cells.s = equations.s();

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <exception>
 #include <vector>
 
 #include "foundation/math/step_control.hpp"
@@ -25,7 +24,6 @@ class ExplicitSteps {
   const Measures& measures_;
   Ssprk54 step_;
   std::vector<double> before_, scale_;
-  std::exception_ptr failure_;  ///< of the last attempt
 };
 
 }  // namespace slipfront::pulse

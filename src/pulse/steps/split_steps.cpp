@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "pulse/steps/step_limits.hpp"
-#include "slipfront/error.hpp"
 
 namespace slipfront::pulse {
 
@@ -51,20 +50,15 @@ StepAttempt SplitSteps::attempt(Cells& cells, Semidiscrete& equations, const std
   const auto friction = [this](const double* y, const double* free, double time, double* momentum, double* velocity) {
     friction_(y, free, time, momentum, velocity);
   };
-  try {
-    half_ = cells.state;
-    if (has_state_) grid_.advance(at_start_, dt / 2, half_);
-    friction_.take_state(grid_, half_, dt);
-    step_(f, friction, cells.time, dt, cells.unknowns, rate);
-    const double of_state = has_state_ ? advance_state(cells, dt) : 0;
-    const double error = std::max({step_.error(cells.unknowns, scale_, equations.shocked()), of_state,
-                                   measures_.unseen_push(cells, dt)}) /
-                         problem_.explicit_tolerance;
-    return {.succeeded = true, .error = error, .resolved = !cells_jump(before_, cells.unknowns, cells.charge)};
-  } catch (const NumericsError&) {  // a stage left the range of states
-    failure_ = std::current_exception();
-    return {};
-  }
+  half_ = cells.state;
+  if (has_state_) grid_.advance(at_start_, dt / 2, half_);
+  friction_.take_state(grid_, half_, dt);
+  step_(f, friction, cells.time, dt, cells.unknowns, rate);
+  const double of_state = has_state_ ? advance_state(cells, dt) : 0;
+  const double error =
+      std::max({step_.error(cells.unknowns, scale_, equations.shocked()), of_state, measures_.unseen_push(cells, dt)}) /
+      problem_.explicit_tolerance;
+  return {.succeeded = true, .error = error, .resolved = !cells_jump(before_, cells.unknowns, cells.charge)};
 }
 
 double SplitSteps::take(Cells& cells, Semidiscrete& equations, const std::vector<double>& rate, double remaining,
@@ -82,18 +76,12 @@ double SplitSteps::take(Cells& cells, Semidiscrete& equations, const std::vector
   measures_.find_scale(cells, equations, crossing, scale_);
   const double longest = Ars443::longest_in_crossing_times * crossing;
   const double wanted = cells.step > 0 ? std::fmin(longest, cells.step) : longest;
-  const auto attempt_from_start = [&](double dt) {
-    failure_ = nullptr;
-    return attempt(cells, equations, rate, dt);
-  };
-  const StepTaken step =
-      take_step(StepControl{.order = 3}, step_within(remaining, wanted), attempt_from_start, [&](double, int attempts) {
-        cells.unknowns = before_;
-        if (attempts > most_shortenings && failure_) std::rethrow_exception(failure_);
-        if (attempts > most_shortenings) throw too_strong_forces(cells.time);
+  const StepTaken step = take_step_from(
+      before_, cells, StepControl{.order = 3}, step_within(remaining, wanted),
+      [&](double dt) { return attempt(cells, equations, rate, dt); },
+      [&] {
         equations.start_from(cells.s);
         friction_.restart();
-        return false;
       });
   cells.step = step.next;
   if (has_state_) cells.state = after_;

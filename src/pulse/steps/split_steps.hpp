@@ -1,6 +1,5 @@
 #pragma once
 
-#include <exception>
 #include <vector>
 
 #include "foundation/math/step_control.hpp"
@@ -37,7 +36,6 @@ class SplitSteps {
   std::vector<double> half_, better_,
       after_;  ///< state in the middle of the step, by its start and by both ends; at its end
   StateGrid::Passing at_cells_, at_start_, at_end_, mixed_;
-  std::exception_ptr failure_;  ///< of the last attempt
 };
 
 }  // namespace slipfront::pulse
