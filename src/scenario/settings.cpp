@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "foundation/text/digits.hpp"
 #include "scenario/text/section.hpp"
 
 namespace slipfront::scenario {

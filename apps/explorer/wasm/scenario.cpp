@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "foundation/text/digits.hpp"
 #include "scenario/text/document.hpp"
 #include "slipfront/medium/constants.hpp"
 #include "slipfront/setup/problem.hpp"
@@ -16,7 +17,7 @@ std::vector<std::pair<double, double>>& table() {
 
 std::string in_words(const scenario::Value& value) {
   using Kind = scenario::Value::Kind;
-  if (value.kind == Kind::number) return scenario::shortest(value.number);
+  if (value.kind == Kind::number) return shortest(value.number);
   if (value.kind == Kind::truth) return value.number != 0 ? "true" : "false";
   if (value.kind != Kind::array) return value.text;
   std::string all;

@@ -5,7 +5,7 @@
 #include "catalogue/toml/toml_distribution.hpp"
 #include "foundation/text/nearest.hpp"
 #include "foundation/text/parse_toml.hpp"
-#include "foundation/text/plain_stream.hpp"
+#include "foundation/text/toml_text.hpp"
 #include "slipfront/catalogue/read.hpp"
 
 namespace slipfront::catalogue {
@@ -15,22 +15,14 @@ std::size_t line_of(const toml::node& node) { return node.source().begin.line; }
 
 std::string text_value(const toml::node& node, const std::string& key) {
   if (const auto text = node.value<std::string>()) return *text;
-  if (node.is_integer() || node.is_date() || node.is_date_time()) {
-    std::ostringstream out = plain_stream();
-    if (node.is_date()) out << *node.as_date();
-    if (node.is_date_time()) out << *node.as_date_time();
-    if (node.is_integer()) out << *node.as_integer();
-    return out.str();
-  }
+  if (node.is_integer() || node.is_date() || node.is_date_time()) return toml_text(node);
   throw InputError({.line = line_of(node), .key = key, .problem = "not a text", .allowed = "a text in quotes"});
 }
 
 void read_quantity(Observation& o, const Key& key, const std::string& full_key, const toml::node& node) {
   try {
     if (const toml::table* table = node.as_table()) {
-      std::ostringstream text = plain_stream();
-      text << *table;
-      store(o, key, read_distribution(*table, full_key, key), text.str());
+      store(o, key, read_distribution(*table, full_key, key), toml_text(*table));
       return;
     }
     if (!node.is_string() && !node.is_number())

@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include "foundation/text/digits.hpp"
 #include "foundation/text/nearest.hpp"
-#include "foundation/text/plain_stream.hpp"
 
 namespace slipfront::catalogue {
 namespace {
@@ -70,10 +70,7 @@ double number_of(const toml::table& table, const char* name, const std::string& 
 std::string quantity_text(const toml::node& node) {
   if (const auto text = node.value<std::string>()) return *text;
   if (!node.is_number()) return {};
-  std::ostringstream out = plain_stream();
-  out.precision(17);
-  out << node.value_or(0.0);
-  return out.str();
+  return digits(node.value_or(0.0), 17);
 }
 
 Measured read_distribution(const toml::table& table, const std::string& full_key, const Key& key) {

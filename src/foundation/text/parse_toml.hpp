@@ -3,9 +3,8 @@
 // clang-format off
 #define TOML_ASSERT(x) static_cast<void>(0)  // else an escape such as "[\x06" aborts
 #define TOML_EXCEPTIONS 0                    // the exception's constructor, which must not throw, ends all without memory
-#ifndef __EMSCRIPTEN__
-#define TOML_FLOAT_CHARCONV 1  // else by streams, which without memory for them call a good number none
-#endif
+#define TOML_FLOAT_CHARCONV 1  // else by streams, which refuse a valid number when memory runs out
+#define TOML_INT_CHARCONV 1
 // The Unicode tables of toml++ 3.3 call TOML_UNREACHABLE for letters that are not white space (U+00E9 among them) where
 // they mean "no".
 #include <stdint.h>

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "foundation/text/digits.hpp"
 #include "friction/state/contacts.hpp"
 #include "scenario/friction/friction_curve.hpp"
 #include "scenario/friction/friction_units.hpp"

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <utility>
 
+#include "foundation/text/digits.hpp"
 #include "scenario/formula/formula.hpp"
 #include "scenario/profile/monotone.hpp"
 #include "scenario/profile/table.hpp"

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <memory>
 
+#include "foundation/text/digits.hpp"
 #include "scenario/formula/formula.hpp"
 #include "scenario/profile/monotone.hpp"
 #include "scenario/profile/table.hpp"

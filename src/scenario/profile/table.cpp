@@ -2,6 +2,8 @@
 
 #include <filesystem>
 
+#include "foundation/text/digits.hpp"
+
 namespace slipfront::scenario {
 
 std::vector<std::pair<double, double>> read_rows(const Section& section, const TableReader& tables, const Column& x,

@@ -1,3 +1,4 @@
+#include "foundation/text/digits.hpp"
 #include "scenario/text/document.hpp"
 #include "slipfront/scenario/scenario.hpp"
 

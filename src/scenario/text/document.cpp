@@ -1,7 +1,6 @@
 #include "scenario/text/document.hpp"
 
-#include <charconv>
-
+#include "foundation/text/digits.hpp"
 #include "foundation/text/nearest.hpp"
 #include "foundation/text/parse_toml.hpp"
 #include "scenario/text/key_near.hpp"
@@ -94,12 +93,6 @@ Document read_document(std::string_view text, const std::string& file, const std
     parse_toml(document.text, file);  // written in another form, it must still be readable
   }
   return document;
-}
-
-std::string shortest(double number) {
-  char buffer[32];
-  const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, number);
-  return error == std::errc{} ? std::string(buffer, end) : std::string();
 }
 
 }  // namespace slipfront::scenario

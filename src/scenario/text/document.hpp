@@ -39,7 +39,4 @@ const std::vector<std::string_view>& known_tables();
 /// \throws InputError for what is not TOML, an unknown table, or an override that is none.
 Document read_document(std::string_view text, const std::string& file, const std::vector<std::string>& overrides);
 
-/// The shortest text that reads back as the same number.
-std::string shortest(double number);
-
 }  // namespace slipfront::scenario

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "foundation/text/digits.hpp"
+
 namespace slipfront::scenario {
 
 double quantity_in(const Section& section, std::string_view key, const Value& value, medium::Dimension dimension) {

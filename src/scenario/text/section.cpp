@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "foundation/text/digits.hpp"
+
 namespace slipfront::scenario {
 
 bool Limits::hold(double value) const {

@@ -7,9 +7,7 @@
 
 namespace slipfront::scenario {
 
-/// The document, which to_ascii() has been through, as TOML again, the overrides that made it as comments: what a run
-/// must keep to be run again. (The formatter of toml++ casts negative doubles to size_t, prints 0.1 with 17 digits and
-/// breaks short arrays.)
+/// The document as TOML text, with its overrides as comments. A run stores this text, so that the run can be repeated.
 std::string serialize(const toml::table& root, const std::vector<std::string>& overrides);
 
 }  // namespace slipfront::scenario

@@ -44,6 +44,11 @@ inline to_chars_result to_chars(char* first, char* last, double value) {
   return {first + length, errc{}};
 }
 
+/// For toml++, which names this form but is never asked here for a number in hexadecimal.
+inline to_chars_result to_chars(char* first, char* last, double value, chars_format) {
+  return to_chars(first, last, value);
+}
+
 /// A decimal number as std::from_chars reads it: no leading blank or plus, no hexadecimal form.
 inline from_chars_result from_chars(const char* first, const char* last, double& value,
                                     chars_format = chars_format::general) {
