@@ -47,14 +47,14 @@ std::string text_of(const toml::date& date) {
 }
 
 std::string text_of(const toml::time& time) {
-  const std::string text = padded(time.hour, 2) + ":" + padded(time.minute, 2) + ":" + padded(time.second, 2);
+  std::string text = padded(time.hour, 2) + ":" + padded(time.minute, 2) + ":" + padded(time.second, 2);
   if (time.nanosecond == 0) return text;
   const std::string fraction = padded(time.nanosecond, 9);
   return text + "." + fraction.substr(0, fraction.find_last_not_of('0') + 1);
 }
 
 std::string text_of(const toml::date_time& value) {
-  const std::string text = text_of(value.date) + "T" + text_of(value.time);
+  std::string text = text_of(value.date) + "T" + text_of(value.time);
   if (!value.offset) return text;
   const int minutes = value.offset->minutes;
   if (minutes == 0) return text + "Z";
