@@ -1,20 +1,22 @@
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <exception>
+#include <functional>
 #include <limits>
 #include <mutex>
 #include <new>
 #include <span>
 #include <string_view>
-#include <system_error>
 #include <thread>
 #include <tuple>
 #include <utility>
 
 #include "foundation/machine.hpp"
+#include "foundation/threads.hpp"
 #include "record/netcdf/table_file.hpp"
 #include "results.hpp"
 #include "run/run.hpp"
@@ -192,12 +194,8 @@ void sweep(const std::string& command, const py::dict& arguments, std::vector<Ov
   };
   {
     const py::gil_scoped_release others_may_run;
-    std::vector<std::jthread> workers;
-    try {  // where the machine gives no more threads, those that are there do it all
-      for (int i = 0; i < threads; ++i) workers.emplace_back([&] { work.work(); });
-    } catch (const std::system_error&) {
-    } catch (const std::bad_alloc&) {
-    }
+    const std::function<void()> body = [&work] { work.work(); };
+    const std::vector<std::jthread> workers = start_threads(static_cast<std::size_t>(std::max(threads, 0)), body);
     if (workers.empty()) work.work();
     for (bool all = false, delivers = true; !all;) {
       std::vector<Outcome> outcomes;

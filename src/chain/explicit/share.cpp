@@ -4,6 +4,7 @@
 #include <array>
 #include <string>
 
+#include "foundation/team.hpp"
 #include "foundation/text/digits.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/train/train.hpp"
@@ -209,29 +210,11 @@ void Share::advance_by_one_level(std::size_t i) {
   slab.swap();
 }
 
-/// each(i) for every slab, a thread each, before the next `levels`.
+/// Calls each(i) for every slab on a thread of its own. `levels` is the number of levels that the slabs advance by.
 template <class Each>
 void Share::for_slabs(std::size_t levels, const Each& each) {
-  // Fewer site updates than this take less time than it takes to wake a thread.
-  const bool worth = slabs_.size() > 1 && (end_ - begin_) * levels > 50000;
-  const int number = static_cast<int>(slabs_.size());
-  if (!worth) {
-    for (int i = 0; i < number; ++i) each(static_cast<std::size_t>(i));
-    return;
-  }
-  std::vector<std::exception_ptr> exceptions(slabs_.size());  // by friction whose curve the user gave
-#ifdef _OPENMP
-#pragma omp parallel for num_threads(number) schedule(static, 1)
-#endif
-  for (int i = 0; i < number; ++i) {
-    try {
-      each(static_cast<std::size_t>(i));
-    } catch (...) {
-      exceptions[static_cast<std::size_t>(i)] = std::current_exception();
-    }
-  }
-  for (const std::exception_ptr& e : exceptions)
-    if (e) std::rethrow_exception(e);
+  const bool worth = (end_ - begin_) * levels > 50000;  // fewer site updates take less time than waking a thread
+  for_each_on_team(slabs_.size(), worth ? static_cast<int>(slabs_.size()) : 1, each);
 }
 
 void Share::advance(std::size_t count) {

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <limits>
 #include <span>
+
+#include "foundation/team.hpp"
 
 namespace slipfront::chain {
 
@@ -21,22 +22,7 @@ ImplicitStep::ImplicitStep(const SiteForces& forces, int threads)
 
 template <class Each>
 void ImplicitStep::for_sites(const Each& each) const {
-  const auto n = static_cast<long>(sites());
-  std::exception_ptr exception;  // by friction whose curve the user gave
-#ifdef _OPENMP
-#pragma omp parallel for num_threads(threads_) schedule(static) if (threads_ > 1 && n > 20000)
-#endif
-  for (long j = 0; j < n; ++j) {
-    try {
-      each(static_cast<std::size_t>(j));
-    } catch (...) {
-#ifdef _OPENMP
-#pragma omp critical
-#endif
-      exception = std::current_exception();
-    }
-  }
-  if (exception) std::rethrow_exception(exception);
+  for_each_on_team(sites(), sites() > 20000 ? threads_ : 1, each);
 }
 
 /// Friction at the state of the middle of the step, which has evolved at the mean velocity. Where contacts change, it
