@@ -9,6 +9,7 @@
 
 #include "pulse/grid/values.hpp"
 #include "pulse/time/ars443.hpp"
+#include "pulse/time/extrapolated_euler.hpp"
 #include "pulse/time/rodas4.hpp"
 #include "pulse/time/ssprk54.hpp"
 
@@ -131,6 +132,45 @@ TEST(Rodas4, AddsUpSumsByItsDenseOutput) {
     return y[2] - (std::exp(2.0) - 1) / 2;
   };
   EXPECT_NEAR(order_of(error, 10), 4, 0.3);
+}
+
+/// One Euler step of an equation: explicit in the width, linearly implicit in the momentum.
+pulse::ExtrapolatedEuler::Step semi_implicit(const Equation& equation) {
+  return [&equation](double t, double dt, const double* y, double* next) {
+    constexpr double small = 1e-7;
+    double rate[2], shifted_rate[2];
+    const double shifted[2] = {y[0], y[1] + small};
+    equation.f(t, y, rate);
+    equation.f(t, shifted, shifted_rate);
+    const double slope = (shifted_rate[1] - rate[1]) / small;
+    next[0] = y[0] + dt * rate[0];
+    next[1] = y[1] + dt * rate[1] / (1 - dt * slope);
+  };
+}
+
+TEST(ExtrapolatedEuler, ConvergesAtSecondOrder) {
+  for (const Equation& equation : equations()) {
+    const auto error = [&](int steps) {
+      pulse::ExtrapolatedEuler step(2);
+      std::vector<double> next(2);
+      return error_after(steps, equation, 2, [&](double t, double dt, std::vector<double>& y) {
+        step(semi_implicit(equation), t, dt, y, next);
+        y = next;
+      });
+    };
+    EXPECT_NEAR(order_of(error, 80), 2, 0.1) << equation.name;
+  }
+}
+
+TEST(ExtrapolatedEuler, EstimatesTheErrorOfTheFirstOrderMethod) {
+  const Equation equation = equations().front();
+  const auto estimate = [&](int steps) {
+    pulse::ExtrapolatedEuler step(2);
+    std::vector<double> next(2);
+    step(semi_implicit(equation), 0, end / steps, {1, 1}, next);
+    return step.difference(1);
+  };
+  EXPECT_NEAR(order_of(estimate, 80), 2, 0.1);
 }
 
 /// The momentum decays by friction, implicitly; the width grows explicitly.
