@@ -1,0 +1,43 @@
+"""Sphinx configuration of the documentation site, which `docs/site/build` calls with the staged sources."""
+
+project = "slipfront"
+copyright = "the authors of slipfront"
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx_copybutton"]
+root_doc = "index"
+
+html_theme = "furo"
+html_title = "slipfront"
+html_show_copyright = False
+html_show_sphinx = False
+html_copy_source = False
+html_static_path = ["static"]
+html_css_files = ["katex/katex.min.css", "site.css"]
+html_js_files = ["katex/katex.min.js", "katex/contrib/auto-render.js", "site.js"]
+html_theme_options = {"navigation_with_keys": True}
+highlight_language = "none"
+
+myst_enable_extensions = ["dollarmath", "colon_fence", "deflist"]
+myst_heading_anchors = 4
+copybutton_prompt_text = "$ "
+
+autodoc_member_order = "bysource"
+autodoc_typehints = "none"
+napoleon_google_docstring = False
+SENTENCES = {"Returns": "Result", "Raises": "Errors"}
+napoleon_custom_sections = list(SENTENCES.values())
+
+
+def as_sphinx_reads_it(app, what, name, obj, options, lines):
+    """Adapts docstrings, which are written for a terminal. There |V| is a modulus and an indented block is a table.
+    Sphinx would take the first for a substitution and the second for a quotation."""
+    out = []
+    for i, line in enumerate(lines):
+        if what == "module" and line.startswith("    ") and not lines[i - 1]:
+            out += ["::", ""]
+        heading = i + 1 < len(lines) and lines[i + 1].startswith("---")
+        out.append(SENTENCES.get(line, line) if heading else line.replace("|", r"\|"))
+    lines[:] = out
+
+
+def setup(app):
+    app.connect("autodoc-process-docstring", as_sphinx_reads_it, priority=400)  # before napoleon
