@@ -1,9 +1,13 @@
 """Sphinx configuration of the documentation site, which `docs/site/build` calls with the staged sources."""
 
+from matplotlib.figure import Figure
+from sphinx_gallery.scrapers import figure_rst
+
 project = "slipfront"
 copyright = "the authors of slipfront"
-extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx_copybutton"]
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx_copybutton", "sphinx_gallery.gen_gallery"]
 root_doc = "index"
+exclude_patterns = ["docs/gallery"]  # Sphinx-Gallery writes its pages to gallery/
 
 html_theme = "furo"
 html_title = "slipfront"
@@ -25,6 +29,32 @@ autodoc_typehints = "none"
 napoleon_google_docstring = False
 SENTENCES = {"Returns": "Result", "Raises": "Errors"}
 napoleon_custom_sections = list(SENTENCES.values())
+
+
+def figures_of(block, block_vars, gallery_conf):
+    """Saves the figures that a block of an example has made. They are not of pyplot, which Sphinx-Gallery looks for."""
+    names = block_vars["example_globals"]
+    saved = names.setdefault("_saved_figures", set())
+    paths = []
+    for figure in [value for value in names.values() if isinstance(value, Figure) and id(value) not in saved]:
+        saved.add(id(figure))
+        path = next(block_vars["image_path_iterator"])
+        figure.savefig(path, bbox_inches="tight")
+        paths.append(path)
+    return figure_rst(paths, gallery_conf["src_dir"])
+
+
+sphinx_gallery_conf = {
+    "examples_dirs": ["docs/gallery"],
+    "gallery_dirs": ["gallery"],
+    "image_scrapers": [figures_of],
+    "min_reported_time": 1e9,
+    "show_memory": False,
+    "show_signature": False,
+    "remove_config_comments": True,
+    "abort_on_example_error": True,
+}
+suppress_warnings = ["config.cache"]  # the scraper above is a function
 
 
 def as_sphinx_reads_it(app, what, name, obj, options, lines):

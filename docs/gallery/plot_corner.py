@@ -1,0 +1,15 @@
+"""
+Posterior of one event
+======================
+
+The rupture velocity, the slip velocity and the stress drop of an event, each with its error, give a posterior of
+stress, contact ratio and friction. Here the stress drop is taken for all of the stored stress.
+"""
+import slipfront
+from slipfront import plots
+
+event = slipfront.event({"name": "an earthquake",
+                         "rupture_velocity": "2.7 +- 0.2 km/s",
+                         "slip_velocity": "0.5 */ 1.3 m/s",
+                         "stress_drop": "60 */ 1.5 MPa"}, draws=2000)
+figure = plots.corner(event)
