@@ -7,5 +7,6 @@ Three methods solve one scenario: the closed form, the averaged equations, and c
 import slipfront
 from slipfront import plots
 
-scenario = {"initial": {"profile": "step", "stress_left": 0.855, "stress_right": 0}, "time": {"end": 3}}
+scenario = {"title": "A step of stress", "initial": {"profile": "step", "stress_left": 0.855, "stress_right": 0},
+            "time": {"end": 3}}
 figure = plots.comparison(slipfront.compare(scenario, scales=[100, 300]))

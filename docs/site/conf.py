@@ -15,12 +15,11 @@ html_show_copyright = False
 html_show_sphinx = False
 html_copy_source = False
 html_static_path = ["static"]
-html_css_files = ["katex/katex.min.css", "site.css"]
-html_js_files = ["katex/katex.min.js", "katex/contrib/auto-render.js", "site.js"]
+html_css_files = ["site.css"]
 html_theme_options = {"navigation_with_keys": True}
 highlight_language = "none"
 
-myst_enable_extensions = ["dollarmath", "colon_fence", "deflist"]
+myst_enable_extensions = ["colon_fence"]
 myst_heading_anchors = 4
 copybutton_prompt_text = "$ "
 
@@ -54,7 +53,6 @@ sphinx_gallery_conf = {
     "remove_config_comments": True,
     "abort_on_example_error": True,
 }
-suppress_warnings = ["config.cache"]  # the scraper above is a function
 
 
 def as_sphinx_reads_it(app, what, name, obj, options, lines):
