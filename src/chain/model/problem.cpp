@@ -69,12 +69,12 @@ double largest(const Problem& p, double a) {
 double chosen_step(const Problem& p) { return p.step > 0 ? p.step : chosen(p, largest_contact(p)); }
 
 double memory_needed(const Problem& p) {
-  // Two levels, and a displacement to start from; where not plain also contact, three levels of forcing and the
-  // displacement at the last level; where contacts change theta, pressure and five numbers of the contact.
-  const double columns = plain(p) ? 3 : p.friction.changes_contacts() ? 15 : 8;
-  // Implicit steps hold the motion at three times, a step that is tried, and a matrix.
-  const double by_implicit = p.implicit ? 40 + 3 * static_cast<double>(p.friction.state_size()) : 0;
-  return static_cast<double>(p.grid.sites) * 8 * (columns + by_implicit);
+  // Implicit steps store the motion at three times, a step that is tried, and a matrix. Explicit steps store two levels
+  // and the initial displacement. Unless the chain is plain, they also store the contact, three levels of the force and
+  // the displacement at the last level. Contacts that change add theta, the pressure and five numbers each.
+  const double by_implicit = 40 + 3 * static_cast<double>(p.friction.state_size());
+  const double by_explicit = plain(p) ? 3 : p.friction.changes_contacts() ? 15 : 8;
+  return static_cast<double>(p.grid.sites) * 8 * (p.implicit ? by_implicit : by_explicit);
 }
 
 void check(const Problem& p, double share_of_machine) {

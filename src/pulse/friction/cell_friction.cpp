@@ -9,14 +9,6 @@
 namespace slipfront::pulse {
 using std::numbers::pi;
 
-void find_centres(const Cells& cells, std::vector<double>& x) {
-  double face = cells.left_edge();
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    x[i] = face + cells.width(i) / 2;
-    face += cells.width(i);
-  }
-}
-
 CellFriction::CellFriction(const Problem& problem, std::size_t cells)
     : problem_(problem), solve_(problem.friction, cells), state_(cells * problem.friction.state_size()) {
   for (auto* array : {&charge_, &x_, &contact_, &start_, &start_s_, &start_typical_, &start_momentum_, &start_force_,
@@ -32,7 +24,7 @@ CellFriction::CellFriction(const Problem& problem, std::size_t cells)
 void CellFriction::start(const Cells& cells, const CellStates& trains, CellRange awake, const StateGrid& grid) {
   awake_ = awake;
   charge_ = cells.charge;
-  find_centres(cells, x_);
+  cells.find_centres(x_);
   start_ = trains.velocity;
   start_s_ = cells.s;
   for (std::size_t i = 0; i < x_.size(); ++i) {

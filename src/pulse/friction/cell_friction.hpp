@@ -11,9 +11,6 @@
 
 namespace slipfront::pulse {
 
-/// Centres of the cells.
-void find_centres(const Cells& cells, std::vector<double>& x);
-
 /// Friction on the cells over a step, at the state of the interface in the middle of the step. Its arrays serve step
 /// after step.
 class CellFriction {

@@ -13,6 +13,14 @@ double Cells::left_face(std::size_t cell) const {
   return x;
 }
 
+void Cells::find_centres(std::vector<double>& x) const {
+  double face = left_edge();
+  for (std::size_t i = 0; i < size(); ++i) {
+    x[i] = face + width(i) / 2;
+    face += width(i);
+  }
+}
+
 void Cells::insert(std::size_t before, const Cell& cell) {
   unknowns.insert(unknowns.begin() + at(size() + before), cell.momentum);
   unknowns.insert(unknowns.begin() + at(before), cell.width);

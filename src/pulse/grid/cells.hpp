@@ -39,6 +39,8 @@ struct Cells {
   double left_face(std::size_t cell) const;
   /// x in the middle of a cell.
   double centre(std::size_t cell) const { return left_face(cell) + width(cell) / 2; }
+  /// Writes x in the middle of each cell to `x`, which has size() elements.
+  void find_centres(std::vector<double>& x) const;
   /// A cell that is put before the cell of this index.
   struct Cell {
     double charge, width, momentum, s;

@@ -31,7 +31,7 @@ void SplitSteps::mix(double share) {
 /// Advances the state with the velocities at both ends of the step. Returns the error of the step that comes from the
 /// state in its middle, which was found from the velocities at the start.
 double SplitSteps::advance_state(const Cells& cells, double dt) {
-  find_centres(cells, x_);
+  cells.find_centres(x_);
   friction_.find_passing(cells, at_cells_);
   grid_.find_passing(x_, at_cells_, at_end_);
   forces_ = friction_.forces();
