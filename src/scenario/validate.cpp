@@ -41,7 +41,7 @@ std::pair<Formula, Complaint> read_formula(const Section& section, std::string_v
 }
 
 void make_forcing(const Document& document, Scenario& scenario) {
-  const Section section(document, "forcing", {"formula"});
+  const Section section(document, "forcing");
   const auto text = section.formula("formula");
   if (!text) return;
   scenario.forcing = *text;
@@ -58,7 +58,7 @@ void make_forcing(const Document& document, Scenario& scenario) {
 }
 
 void make_contact(const Document& document, Scenario& scenario) {
-  const Section section(document, "interface", {"contact"});
+  const Section section(document, "interface");
   const auto text = section.formula("contact");
   if (!text) return;
   scenario.contact = *text;
@@ -146,7 +146,7 @@ void try_out(const Document& document, const RawStress& raw, Scenario& scenario)
   warn_of_strength(largest_contact, scenario);
   const std::string quantity = scenario.contact_at ? "initial stress over contact ratio" : "initial stress";
   if (first_small && !stressed && scenario.contact_at)
-    throw refusal(Section(document, "interface", {"contact"}).where("contact"),
+    throw refusal(Section(document, "interface").where("contact"),
                   quantity + " is below " + shortest(smallest_stress) + " everywhere",
                   "at least " + shortest(smallest_stress) + " somewhere");
   if (first_small)
@@ -164,7 +164,7 @@ void make_functions(const Document& document, const RawStress& raw, Scenario& sc
   if (!scenario.substrate &&
       (scenario.initial.profile == ProfileKind::formula || scenario.initial.profile == ProfileKind::table ||
        scenario.initial.stress_left > 0 || scenario.initial.stress_right > 0))
-    throw refusal(Section(document, "interface", {"contact"}).where("contact"),
+    throw refusal(Section(document, "interface").where("contact"),
                   "without a substrate there are no dislocations, and so no initial stress",
                   "with initial.stress_left = 0 and stress_right = 0, or a contact > 0");
   scenario.stress = validated_stress(raw, scenario.contact_at);

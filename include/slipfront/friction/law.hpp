@@ -39,7 +39,8 @@ enum class Dimension { number, force, slip, time, velocity, pressure };  // pres
 /// A number that a law takes, and the key of table [friction] that gives it.
 struct Parameter {
   std::string_view name, symbol, unit;
-  double value = 0;  ///< if none is given
+  std::string_view meaning = {};  ///< in a few words, for the reference of keys
+  double value = 0;               ///< if none is given
   double least = 0, most = std::numeric_limits<double>::infinity();
   bool without_least = false;
   Dimension dimension = Dimension::number;
@@ -51,11 +52,11 @@ struct Parameter {
 /// C of a law whose force is proportional to it. `unit` is that of F, over what C multiplies.
 Parameter coefficient_in(std::string_view unit);
 /// "strength": the friction at rest, or at the reference velocity.
-Parameter strength_in(std::string_view unit, std::string_view symbol);
+Parameter strength_in(std::string_view unit, std::string_view symbol, std::string_view meaning);
 /// A force of any name.
-Parameter force_named(std::string_view name, std::string_view symbol, double value = 0);
+Parameter force_named(std::string_view name, std::string_view symbol, std::string_view meaning, double value = 0);
 /// A velocity > 0 of any name; 1 if none is given.
-Parameter velocity_named(std::string_view name, std::string_view symbol);
+Parameter velocity_named(std::string_view name, std::string_view symbol, std::string_view meaning);
 /// "characteristic_slip" > 0; 1 if none is given.
 Parameter characteristic_slip();
 

@@ -23,10 +23,11 @@ struct Constants {
   std::optional<double> asperity_spacing;  ///< b, m
 };
 
-/// One of them: its name in files, what it is, where it goes.
+/// One of these constants: its name in files, its dimension, its meaning in a few words, and its member.
 struct Constant {
   std::string_view name;
   Dimension dimension;
+  std::string_view meaning;
   std::optional<double> Constants::*member;
 };
 const std::vector<Constant>& constants();

@@ -24,6 +24,9 @@ namespace slipfront::scenario {
 using train::smallest_stress;
 inline constexpr double largest_stress = 1e6;
 
+/// The largest |x| that is accepted. Differences of positions then neither overflow nor lose the cells between them.
+inline constexpr double farthest = 1e9;
+
 enum class ProfileKind { step, tanh, formula, table };
 
 /// [initial]: stress along x at t = 0, everything at rest.

@@ -124,8 +124,13 @@ class RateAndState final : public Law {
 
 const Definition& rate_and_state_law() {
   static const auto on_chain = [](std::string_view name, std::string_view symbol, std::string_view unit,
-                                  Dimension dimension) {
-    return Parameter{.name = name, .symbol = symbol, .unit = unit, .dimension = dimension, .only_on_chain = true};
+                                  Dimension dimension, std::string_view meaning) {
+    return Parameter{.name = name,
+                     .symbol = symbol,
+                     .unit = unit,
+                     .meaning = meaning,
+                     .dimension = dimension,
+                     .only_on_chain = true};
   };
   static const auto with = [](Parameter parameter, auto member, auto value) {
     parameter.*member = value;
@@ -140,18 +145,34 @@ const Definition& rate_and_state_law() {
       .source =
           "Dieterich (1979), J. Geophys. Res. 84:2161; Ruina (1983), J. Geophys. Res. 88:10359; regularised as by "
           "Rice & Ben-Zion (1996), Proc. Natl. Acad. Sci. 93:3811",
-      .parameters = {strength_in(force_unit, "f_0"),
-                     with(force_named("direct_effect", "a", 0.01), &Parameter::without_least, true),
-                     force_named("evolution_effect", "b"),
+      .parameters = {strength_in(force_unit, "f_0", "friction at the reference velocity in steady slip"),
+                     with(force_named("direct_effect", "a", "growth of friction with ln w at a constant state", 0.01),
+                          &Parameter::without_least, true),
+                     force_named("evolution_effect", "b", "growth of friction with ln theta"),
                      characteristic_slip(),
-                     velocity_named("reference_velocity", "w_0"),
-                     {.name = "initial_state", .symbol = "theta_0", .unit = "b / (c A)", .dimension = Dimension::time},
-                     {.name = "state", .symbol = "", .unit = "1", .most = 1, .words = {"ageing", "slip"}},
-                     on_chain("contact_ageing", "beta", "1", Dimension::number),
-                     on_chain("contact_time", "theta_c", "b / (c A)", Dimension::time),
-                     on_chain("dilatancy", "epsilon / b_p", "normal stress", Dimension::pressure),
-                     on_chain("drainage_time", "t_p", "b / (c A)", Dimension::time),
-                     with(on_chain("pore_pressure", "p_0", "normal stress", Dimension::pressure), &Parameter::most, 1)},
+                     velocity_named("reference_velocity", "w_0", "slip velocity at which steady friction is f_0"),
+                     {.name = "initial_state",
+                      .symbol = "theta_0",
+                      .unit = "b / (c A)",
+                      .meaning = "age theta of the contacts at t = 0; 0 means D_c / w_0",
+                      .dimension = Dimension::time},
+                     {.name = "state",
+                      .symbol = "",
+                      .unit = "1",
+                      .meaning = "law by which the age of the contacts evolves",
+                      .most = 1,
+                      .words = {"ageing", "slip"}},
+                     on_chain("contact_ageing", "beta", "1", Dimension::number,
+                              "growth of the contacts' strength a^2 with ln(1 + theta / theta_c)"),
+                     on_chain("contact_time", "theta_c", "b / (c A)", Dimension::time,
+                              "age theta_c from which on the contacts strengthen"),
+                     on_chain("dilatancy", "epsilon / b_p", "normal stress", Dimension::pressure,
+                              "change of pore pressure with ln theta, without drainage"),
+                     on_chain("drainage_time", "t_p", "b / (c A)", Dimension::time,
+                              "time in which the pore pressure returns; 0 means never"),
+                     with(on_chain("pore_pressure", "p_0", "normal stress", Dimension::pressure,
+                                   "ambient pore pressure"),
+                          &Parameter::most, 1)},
       .state = {{.name = "theta", .symbol = "theta", .unit = "b / (c A)"}},
       .make = make_law<RateAndState>};
   return definition;

@@ -93,10 +93,7 @@ void check_contacts(const Section& section, const friction::Contacts& contacts, 
 
 void read_friction(const Document& document, const TableReader& tables, Scenario& scenario) {
   const std::vector<const Parameter*> parameters = all_parameters();
-  std::vector<std::string_view> keys = {"law"};
-  for (const Parameter* p : parameters) keys.push_back(p->name);
-  keys.insert(keys.end(), {"formula", "file", "closure", "normal_stress"});
-  const Section section(document, "friction", keys);
+  const Section section(document, "friction");
   FrictionUnits units(section, scenario.medium);
   std::vector<std::pair<std::string_view, const Definition*>> names;
   for (const Definition* law : friction::laws()) names.emplace_back(law->name, law);
