@@ -13,7 +13,7 @@
 
 namespace slipfront::scenario {
 
-/// What a number may be; it is finite in any case.
+/// The range that is allowed for a number, which must also be finite.
 struct Limits {
   double least = -std::numeric_limits<double>::infinity();
   double most = std::numeric_limits<double>::infinity();
@@ -27,12 +27,11 @@ struct Limits {
 inline constexpr Limits positive{.least = 0, .without_least = true};
 inline constexpr Limits not_negative{.least = 0};
 
-/// Positions, so that their differences neither overflow nor lose the cells between them.
+/// Limits of positions. Within these, differences of positions neither overflow nor lose the cells between them.
 inline constexpr double farthest = 1e9;
 inline constexpr Limits position{.least = -farthest, .most = farthest};
 
-/// One table of a scenario and its known keys. Whatever it finds wrong it throws as an InputError that names file,
-/// line, key and value.
+/// One table of a scenario and its known keys. Every error is an InputError that names file, line, key and value.
 class Section {
  public:
   /// \throws InputError for a key that is not known.
@@ -49,7 +48,7 @@ class Section {
   std::optional<std::string> formula(std::string_view key) const;  ///< a text, or a number as a constant formula
   const Value* array(std::string_view key, const char* allowed) const;
 
-  /// One of a few words.
+  /// Reads a value that must be one of these words.
   template <typename Enum>
   std::optional<Enum> choice(std::string_view key, const std::vector<std::pair<std::string_view, Enum>>& words) const {
     const Value* const value = find(key);
@@ -63,7 +62,8 @@ class Section {
                  nearest_or_all(value->text, names));
   }
 
-  /// Where a key stands, to be completed with what is wrong. A missing key stands at its table's first line.
+  /// The file, line and key of an error, to which the caller adds the problem. For a missing key, the line is the first
+  /// line of the table.
   Complaint where(std::string_view key) const;
   InputError refuse(std::string_view key, std::string problem, std::string allowed) const;
   InputError refuse(std::string_view key, const Value& item, std::string problem, std::string allowed) const;
