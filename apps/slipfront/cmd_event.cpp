@@ -63,7 +63,7 @@ Runner add_event(CLI::App& app) {
   command
       ->add_option("-o,--output", arguments->output,
                    "File to write instead of the table: NetCDF, or CSV rows by its ending")
-      ->check([](const std::string& path) { return path.empty() ? "no name of a file" : ""; })
+      ->check([](const std::string& path) { return path.empty() ? "the file name is empty" : ""; })
       ->type_name("OUT.nc");
   command->add_option("--resume", arguments->resume, "Go on from an unfinished file of these events, and write to it")
       ->type_name("OUT.nc");

@@ -27,7 +27,7 @@ class Outputs(CommandLine):
     def test_names_that_are_none(self):
         events = os.path.join(SOURCE, "cases/parkfield-2004.toml")
         for command in (["pulse", STEP], ["chain", STEP], ["compare", STEP], ["event", events]):
-            self.refused(2, *command, "-o", "", says=["no name of a file"])
+            self.refused(2, *command, "-o", "", says=["the file name is empty"])
             self.refused(2, *command, "-o", "x.txt", says=["x.txt"])
         self.refused(2, "pulse", STEP, "-o", "x.csv", says=["unsupported file type", ".nc"])
 

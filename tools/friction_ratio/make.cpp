@@ -121,7 +121,7 @@ int make() {
     std::fprintf(stderr, "friction_ratio_table: %s\n", failed.c_str());
     return 1;
   }
-  std::puts("// Made by tools/friction_ratio. Do not edit.\n");
+  std::puts("// tools/friction_ratio generates this file. Do not edit it.\n");
   std::puts("#include \"coefficients.hpp\"\n\nnamespace slipfront::friction_ratio {\n\n// clang-format off");
   print_table(solved, corners);
   std::puts("// clang-format on\n\n}  // namespace slipfront::friction_ratio");

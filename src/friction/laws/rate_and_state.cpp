@@ -1,4 +1,4 @@
-// Rate-and-state friction. Each position has a state theta, the age of its contacts.
+// Rate-and-state friction. Each position has a state variable theta, the age of its contacts.
 
 #include <algorithm>
 #include <cmath>
@@ -37,8 +37,8 @@ class RateAndStateLoops final : public ForceLoops {
     }
   }
 
-  /// Under a share s, v = s v' obeys v' + weight a asinh(G s v') = free / s, and b ln(theta) has s G as well: theta
-  /// s^(a / b) in place of theta.
+  /// If the normal stress is a share s, the speed v = s v' obeys v' + weight a asinh(s G v') = free / s. Because G is
+  /// proportional to theta^(b / a), the factor s has the same effect as theta s^(a / b) in place of theta.
   void speeds_after_under(std::size_t size, const double* share, const double* free, double weight, LocalStates theta,
                           double* speed) const override {
     constexpr double most_power = 20;
@@ -75,15 +75,15 @@ class RateAndState final : public Law {
         evolution_(v[kind] != 0 ? ContactAge::Kind::slip : ContactAge::Kind::ageing, v[age] > 0 ? v[age] : D_ / v0_,
                    D_) {}
 
-  /// a asinh((w / 2 w_0) exp(E)), E = (f_0 + b ln(theta w_0 / D_c)) / a, without overflow.
+  /// Computes a asinh((w / 2 w_0) exp(E)), E = (f_0 + b ln(theta w_0 / D_c)) / a, without overflow.
   double strength(double speed, LocalState theta) const override {
     if (!(speed > 0)) return 0;
-    const double log_twice = std::log(speed / v0_) + exponent(theta);  // of 2 x, with f = a asinh x
+    const double log_twice = std::log(speed / v0_) + exponent(theta);  // ln(2 x), where f = a asinh x
     return a_ * (log_twice > large ? log_twice : std::asinh(std::exp(log_twice) / 2));
   }
 
-  /// v + weight f(v) = free. In s = f / a it is convex with its root below the start, so that Newton's steps fall to
-  /// it.
+  /// Solves v + weight f(v) = free by Newton's method in s = f / a. The equation is convex in s and the start is above
+  /// its root, so the steps descend to the root.
   double speed_after(double free, double weight, LocalState theta) const override {
     if (!(free > 0)) return 0;
     const double E = exponent(theta);
@@ -95,9 +95,9 @@ class RateAndState final : public Law {
       const double v = speed(s), slope = s > large ? v : 2 * v0_ * std::cosh(s) * std::exp(-E);
       const double step = (v + weight * a_ * s - free) / (slope + weight * a_);
       s -= step;
-      if (std::fabs(step) <= 1e-9 * s) break;  // the error left is of the order of its square
+      if (std::fabs(step) <= 1e-9 * s) break;  // the remaining error is of the order of step^2
     }
-    // The difference free - weight f has the digits where friction is weak, the speed itself where it is strong.
+    // The difference free - weight f is more precise if friction is weak, and the speed at s if friction is strong.
     const double slowed = free - weight * a_ * s;
     return slowed > free / 2 ? slowed : speed(s);
   }
@@ -107,7 +107,7 @@ class RateAndState final : public Law {
   const StateEvolution& evolution() const override { return evolution_; }
 
  private:
-  static constexpr double large = 18;  // asinh(e^x / 2) is x to 1e-16 above it
+  static constexpr double large = 18;  // above it, asinh(e^x / 2) = x to 1e-16
 
   double exponent(LocalState theta) const { return (f0_ + b_ * std::log(theta[0] * v0_ / D_)) / a_; }
   AsinhForce asinh_force() const {

@@ -32,7 +32,7 @@ class Section {
   const std::vector<std::string_view>& words(std::string_view name) const { return key(name).words; }  ///< allowed
   const Value* array(std::string_view key, const char* allowed) const;
 
-  /// One of a few words.
+  /// Reads a value that must be one of these words.
   template <typename Enum>
   std::optional<Enum> choice(std::string_view key, const std::vector<std::pair<std::string_view, Enum>>& words) const {
     const Value* const value = find(key);
@@ -46,7 +46,8 @@ class Section {
                  nearest_or_all(value->text, names));
   }
 
-  /// Where a key stands, to be completed with what is wrong. A missing key stands at its table's first line.
+  /// The file, line and key of an error, to which the caller adds the problem. For a missing key, the line is the first
+  /// line of the table.
   Complaint where(std::string_view key) const;
   InputError refuse(std::string_view key, std::string problem, std::string allowed) const;
   InputError refuse(std::string_view key, const Value& item, std::string problem, std::string allowed) const;
