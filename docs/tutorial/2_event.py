@@ -1,8 +1,8 @@
 """Step 2: find the stress that drove an observed event.
 
 The rupture velocity gives the dimensionless stress, that is, the stress over mu A / pi. The slip velocity gives the
-contact ratio A, the share of the interface that is in contact. The dimensionless stress does not depend on friction.
-The contact ratio is computed without friction, so it is a lower bound.
+contact ratio A, the share of the interface that is in contact. The first step needs no assumption about friction. The
+second assumes that there is none, so its contact ratio is a lower bound.
 """
 
 import numpy as np

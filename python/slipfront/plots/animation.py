@@ -22,8 +22,8 @@ def metres(value: float) -> str:
 
 
 def scale_of(pulse, left, right) -> float:
-    """Returns the factor by which dislocations are drawn denser than they are, so that about SHOWN of them lie between x = left and
-    x = right at the first time."""
+    """Returns the factor by which the density of dislocations is multiplied in the picture, so that about SHOWN of them lie between
+    x = left and x = right at the first time."""
     seen = pulse.isel(time=0)["k"].where((pulse["x"] > left) & (pulse["x"] < right))
     count = float((seen * (pulse["x_bounds"][:, 1] - pulse["x_bounds"][:, 0])).sum()) / (2 * numpy.pi)
     return SHOWN / count if count > 0 else 1.0

@@ -24,8 +24,8 @@ def colours(values) -> dict:
 
 
 def name_fronts(axes, pulse) -> None:
-    """Draws the fronts of a pulse as lines, with their symbols next to them. The symbol is where the line is most likely to be in the
-    window."""
+    """Draws the fronts of a pulse as lines, with their symbols next to them. The symbol is at a late time of the front, where
+    the line is usually inside the window."""
     for front, line, text, symbol in fronts_of(pulse):
         axes.plot(front, pulse["time"], color="C6", linestyle=line, label=text, linewidth=1.3)
         inside = numpy.flatnonzero(front.notnull().values & (pulse["time"].values > 0))

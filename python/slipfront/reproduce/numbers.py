@@ -52,7 +52,7 @@ def peak_stress(stress=1e-1) -> float:
 
 
 def closed_forms(paper) -> dict:
-    """Returns the numbers without friction. A number that the paper reads off a figure is computed at the abscissa that the paper prints."""
+    """Returns the numbers without friction. A number that the paper reads off a figure is computed from the value on the other axis that the paper prints."""
     given = taken(paper)
     decade = relation("stress", rupture_velocity=SLOWEST)
     parkfield = event("parkfield-2004.toml", "rupture_velocity")

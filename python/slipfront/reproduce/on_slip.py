@@ -87,7 +87,7 @@ def stability(runs) -> dict:
     """Tests the paper's reason for a smooth profile and Sigma+ > 0."""
     W = at_origin(runs.pulse("step.toml", {"friction.law": "viscous", "friction.coefficient": 0.5, "friction.closure": "consistent", "pulse.threshold": SHARES[0]}))
     chain = at_origin(step_runs(runs, SHARES[0])["chain"][2])
-    return row("A smooth profile with Σ+ > 0 is necessary for a numerically stable solution", "3.2", REFUTED if abs(W / chain - 1) < 0.01 else "Confirmed", f"A run of a true step into the empty side is stable: W(0) = {W:.5f} cA/π at t = 2π, {100 * (W / chain - 1):+.2f} % from the chain.",
+    return row("A smooth profile with Σ+ > 0 is necessary for a numerically stable solution", "3.2", REFUTED if abs(W / chain - 1) < 0.01 else "Confirmed", f"A run of a true step into the empty side completes: W(0) = {W:.5f} cA/π at t = 2π, {100 * (W / chain - 1):+.2f} % from the chain.",
                "Σ− = 0.855, Σ+ = 0, C = 0.5, consistent closure; the paper's own closure is unstable from C t = 3 on (docs/friction_ratio.md)", STEP.replace("=2", "=0.5") + " --json")
 
 
