@@ -31,13 +31,13 @@ struct Key {
   std::string_view table, name;
   KeyType type = KeyType::number;
   std::string meaning;                       ///< in a few words
-  std::string_view unit = {};                ///< of a number; empty for other types
+  std::string_view unit = {};                ///< unit; empty unless the key is a number
   std::string otherwise = {};                ///< the value if the key is absent, or what happens then
-  Limits limits = {};                        ///< of numbers
+  Limits limits = {};                        ///< range of a number
   std::vector<std::string_view> words = {};  ///< allowed words
   std::vector<std::string_view> laws = {};   ///< friction laws that have this key; empty: all, or not about friction
 
-  std::string allowed() const;  ///< the allowed values in words; empty if the type says everything
+  std::string allowed() const;  ///< the allowed values in words; empty if the type is enough
 };
 
 /// All keys, in the order of tables and keys in which the documentation lists them.
