@@ -80,7 +80,7 @@ void ContactField::check(double time) const {
     throw NumericsError("t = " + digits(time) + ": at x = " + digits(problem_->grid.x(static_cast<std::size_t>(j))) +
                         ' ' + problem);
   };
-  const double limit = 1.01 * limit_;  // the step is chosen with a larger margin than 1 %
+  const double limit = 1.01 * limit_;  // 1 % more, because the step has a margin
   std::size_t bad = 0;
   for (long j = 0; j < sites_; ++j) bad += *share(j) > 0 && *now(j) <= limit ? 0u : 1u;
   for (long j = 0; bad != 0 && j < sites_; ++j) {

@@ -56,7 +56,7 @@ class ContactField {
   const Problem* problem_;
   friction::Contacts contacts_;
   long first_, sites_;
-  double limit_ = 0;            ///< largest a^2 for which the time step is stable
+  double limit_ = 0;            ///< largest a^2 for which the time step was chosen
   std::vector<double> base_;    ///< a^2 without ageing and pore pressure, for the chain's sites
   std::vector<double> excess_;  ///< p - p_0
   std::vector<double> before_, now_, next_, share_;
