@@ -37,8 +37,8 @@ double most_of(const Sampling& sampling) {
 
 double memory_needed(const EvaluationOptions& options, std::size_t events, int at_once) {
   // The number of samples doubles. So does the vector that holds them, and while it grows, its old half exists too. In
-  // addition there are the weights and the order of samples. The Sobol sequences are kept, and each is twice as long as
-  // the one before.
+  // addition there are the weights and the order of samples. All Sobol sequences stay in memory, each twice as
+  // long as the one before.
   const double of_sample = 3 * sizeof(Sample) + 4 * sizeof(double);
   const double most = most_of(options.sampling);
   const double kept = most > static_cast<double>(options.sampling.samples) ? 2 : 1;
