@@ -26,9 +26,8 @@ struct Errors {
 /// - Slip at x = 0 is computed in two ways. Its error is at least the one that their difference implies for the cells
 ///   there.
 /// - A front that half the cells do not show has an error of one of their cells.
-/// - The position of the peak has an error of at least a cell. The error also reaches to all other positions that slip
-/// as
-///   fast within the error.
+/// - The position of the peak has an error of at least a cell. The error also covers all other positions that slip as
+///   fast within the error of slip velocity.
 ///
 /// An error is NaN for rows without an error of this kind, and for a front that an observer sees at an end of the
 /// domain. It is NaN, with a warning, for a value that each doubling of the cells more than doubles. It is also NaN if
