@@ -16,8 +16,8 @@ using Role = Quantity::Role;
   &FaultQuantities<double>::name, &FaultQuantities<std::optional<Inferred>>::name, \
       &FaultQuantities<std::optional<Quantiles>>::name
 
-// Each has a name, long name, unit to multiply by, equation, long name in the result of an event, role, whether the
-// posterior shows it, members, and axis label.
+// The first four entries are name, long name, unit to multiply by, and equation. Then follow the long name in the
+// result of an event, the role, whether the posterior shows it, the members, and the axis label.
 constexpr Quantity declarations[] = {
     {{"rupture_velocity_m_s", "rupture velocity, in m/s", "", "Eqs. 8-10"},
      "",

@@ -167,8 +167,8 @@ bool Sampler::find_friction(Sample& s, std::optional<double> w) {
   return true;
 }
 
-/// Computes a lower bound, which exists because friction can only slow slip: the bound of A if the rupture velocity is
-/// known, and of Sigma- if A is known.
+/// Computes a lower bound, which exists because friction can only slow slip. It is the bound of A if the rupture
+/// velocity is known, and of Sigma- if A is known.
 bool Sampler::find_bound(Sample& s, double w) {
   FaultState& state = s.state;
   if (o_.rupture_velocity_m_s) {

@@ -78,10 +78,10 @@ class Checkpoints {
   double cost_ = 0;  ///< seconds that the last checkpoint took
 };
 
-/// Continues `run` until its end, or until `after_step` returns true, and writes its file: at the start, so that a bad
-/// path or a full disk fails before the work, then from time to time, and when the run stops. An existing file at the
-/// output is replaced only at the end of the run. Returns whether the run has reached its end. \throws NumericsError,
-/// after writing the results so far; FileError.
+/// Continues `run` until its end, or until `after_step` returns true. It writes the file at the start, so that a bad
+/// path or a full disk fails before the work. It writes again from time to time, and when the run stops. An existing
+/// file at the output is replaced only at the end of the run. Returns whether the run has reached its end. \throws
+/// NumericsError, after writing the results so far; FileError.
 template <class Run>
 bool carry_out(Run& run, const CheckpointOptions& options, const std::function<bool()>& after_step) {
   Checkpoints<Run> checkpoints(run, options);

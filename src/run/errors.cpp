@@ -142,8 +142,8 @@ void correct_peak(const Result<pulse::Run>& fine, std::vector<double>& errors) {
 }
 
 /// Corrects the errors of positions for the size of the cells. Every position has a rounding error. A front that half
-/// the cells do not show has an error of two cells, and a peak or a crossing one of at least one cell. A front that an
-/// observer sees at an end of the domain may be anywhere outside, so its error is unknown.
+/// the cells do not show has an error of two cells. A peak or a crossing has an error of at least one cell. A front
+/// that an observer sees at an end of the domain may be anywhere outside, so its error is unknown.
 void correct_places(const Result<pulse::Run>& fine, std::vector<double>& errors) {
   constexpr double rounding = 1e-9;
   const pulse::Problem& problem = fine.run->solver().problem();

@@ -10,8 +10,8 @@ namespace slipfront::train {
 using std::numbers::pi;
 
 double psi_of_stress(double stress) {
-  // Newton's method starts from the limits of sparse and dense trains: K = ln(4/psi) = pi/Sigma for small stress, and
-  // K = pi/2, Sigma = 2 cosh(psi) for large stress.
+  // Newton's method starts from the limit of a sparse or a dense train. For small stress, K = ln(4/psi) = pi/Sigma. For
+  // large stress, K = pi/2 and Sigma = 2 cosh(psi).
   if (stress > 20) {
     const auto dense = [stress](double psi) {
       const elliptic::AtPsi at = elliptic::at_psi(psi);

@@ -93,10 +93,11 @@ class Run {
   /// a site, or of the stress at a pulled end.
   std::vector<output::SlipEvent> events() const;
 
-  /// Returns a sentence for each wrong or doubtful result so far. The run checks its invariants: energy; slip at x = 0
-  /// against the integral of the velocity there; the number of dislocations against the charge of the ends; |W| <= k;
-  /// fronts inside the domain and slower than c. It also warns of a grid that holds slow dislocations, and of too few
-  /// dislocations. If an error is above 1 %, `go` throws a NumericsError that states the reason.
+  /// Returns a sentence for each wrong or doubtful result so far. The run checks energy, slip at x = 0 against the
+  /// integral of the velocity there, and the number of dislocations against the charge of the ends. It also checks that
+  /// |W| <= k, and that fronts are inside the domain and slower than c. It warns of a grid that holds slow
+  /// dislocations, and of too few dislocations. If an error is above 1 %, `go` throws a NumericsError that states the
+  /// reason.
   std::vector<std::string> warnings() const;
 
  private:

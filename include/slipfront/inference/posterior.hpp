@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Infers the state of a fault with friction and uncertainty: the posterior distribution of Sigma-, A, Gamma and C,
-/// given the observed quantities with their errors (docs/events.md).
+/// Infers the state of a fault with friction and uncertainty. The result is the posterior distribution of Sigma-, A,
+/// Gamma and C, given the observed quantities with their errors (docs/events.md).
 
 #include <cstdint>
 #include <optional>

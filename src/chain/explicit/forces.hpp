@@ -66,7 +66,7 @@ class Forces {
   }
   /// Computes u from z, both in turns, for `size` sites from site j on. `S` is scratch space.
   void displacements_from(long j, std::size_t size, const double* z, double* u, double* S) const;
-  /// Computes the steps D and B (take_steps in kernel.hpp) of `size` sites from site j on, and sets u to its value at
+  /// Computes the steps D and B (take_steps in kernel.hpp) of `size` sites from site j on. It sets u to its value at
   /// the next level. If contacts change, call `age` first. `u_next` and `S` are scratch space.
   void steps_from(long j, std::size_t size, const double* before, const double* now, const double* next, double* u,
                   double* D, double* B, double* u_next, double* S) const;

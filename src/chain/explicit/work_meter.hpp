@@ -9,9 +9,9 @@
 
 namespace slipfront::chain {
 
-/// Measures the work of the forcing and of friction on the sites of one rank, for each level and block, to the fourth
-/// order of the scheme. For a step from u to u + D, with the second difference B of u over levels, the work follows
-/// from
+/// Measures the work of the forcing and of friction on the sites of one rank, for each level and block. It has the
+/// fourth order of the scheme. For a step from u to u + D, with the second difference B of u over levels, the work
+/// follows from
 ///     int F u_t dt = F_mean D + (F_next - F_before) B / 12,     int u_t^2 dt = (D^2 + B^2 / 12) / dt,
 /// up to terms that cancel from step to step.
 class WorkMeter {
@@ -36,8 +36,8 @@ class WorkMeter {
            const double* next, Room& room);
   static constexpr std::size_t piece = 1024;  ///< sites whose arrays all fit into the innermost cache
 
-  /// Number of kinds of energy that are measured: energy supplied by the forcing, energy dissipated by friction, and,
-  /// if contacts change, the energy that they give to the substrate.
+  /// Number of kinds of energy that are measured. The forcing supplies energy, and friction dissipates it. If contacts
+  /// change, they give energy to the substrate.
   static std::size_t kinds(const Problem& problem) { return problem.friction.changes_contacts() ? 3 : 2; }
   /// The energies of each block of this rank, one block after the other.
   std::vector<double> sums;

@@ -10,7 +10,7 @@
 namespace slipfront::chain {
 
 /// A trial step of any length from a moment. With the mean velocity p = (v + v') / 2 of the step, it solves
-///     u' = u + dt p,    (v' - v) / dt + S + f - F = springs((u + u') / 2),    S = a^2 (cos u - cos u') / (u' - u):
+///     u' = u + dt p,    (v' - v) / dt + S + f - F = springs((u + u') / 2),    S = a^2 (cos u - cos u') / (u' - u).
 /// This is the midpoint rule with a discrete gradient. Conservative forces conserve energy for every dt, so work and
 /// energy balance up to the residual of Newton's method. Friction is evaluated with the state at the middle of the step
 /// and at the velocity
@@ -26,8 +26,8 @@ class ImplicitStep {
 
   /// Finds the velocities at the end of a step with Newton's method. Returns whether the method converged.
   bool solve(const Moment& from, double dt);
-  /// The largest error of the step that `solve` found, divided by the tolerance: the error of u, of u_t and of the
-  /// logarithm of the state variables.
+  /// The largest error of the step that `solve` found, divided by the tolerance. It considers u, u_t and the logarithm
+  /// of the state variables.
   double error(const Moment& from, double dt);
   /// Takes the step that `solve` found: advances `m`, from which it was tried, to the end of the step, except its time.
   void take(Moment& m, double dt) const;

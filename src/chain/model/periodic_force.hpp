@@ -28,7 +28,7 @@ struct PeriodicForce {
 /// f(1/2) = 0, so that the force has no jump and derives from a periodic potential.
 PeriodicForce fit(const std::function<double(double turns)>& f);
 
-/// The force on u as a function of z: sin(2 pi u) / 2 pi, with z = u + eps sin(2 pi u) / 2 pi and 0 <= eps < 0.5.
+/// The force on u, sin(2 pi u) / 2 pi, as a function of z = u + eps sin(2 pi u) / 2 pi, 0 <= eps < 0.5.
 double force_seen_from(double z, double eps);
 
 /// The polynomial for this force. With eps = h^2 / 12, the largest error in sin u is 3e-11 at h = 0 (a lattice), 8e-10

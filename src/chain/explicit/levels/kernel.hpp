@@ -44,8 +44,9 @@ void add_drive(const DriveRule& rule, const double* F_before, const double* F_no
 /// site, but not reverse its motion. NaN stays NaN.
 void shorten_steps(double most, const double* now, double* next, std::size_t size);
 
-/// Sets `free` to |next - from| times `per_step`, and returns whether any of them is not 0. A step is 0 if it is a
-/// rounding error of z, or, ahead of fronts with a smaller z, of a thousandth of a turn.
+/// Sets `free` to |next - from| times `per_step`, and returns whether any of them is not 0. A step counts as 0 if it is
+/// a rounding error of z. Ahead of fronts, where z is smaller, it counts as 0 if it is a rounding error of a thousandth
+/// of a turn.
 bool free_speeds(double per_step, const double* from, const double* next, double* free, std::size_t size);
 /// Sets `next` so that the speed is `speed`, which friction has left of `free`. If `force` is not null, it gets the
 /// difference times `per_weight`, with the sign of the step. NaN stays NaN.

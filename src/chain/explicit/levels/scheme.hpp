@@ -7,7 +7,7 @@
 /// difference over sites. The sine-Gordon equation then becomes (docs/chain.md)
 ///     (1 - theta)(e^g u_N + e^-g u_S) - (2 + 10 theta) u - (lambda^2 + theta) d2 u
 ///         = -(dt^2 / 12)(e^g S_N + e^-g S_S + 10 S + d2 S),      theta = (cosh g - 1) / (cosh g + 5),
-/// which is of fourth order if 1 - lambda^2 = O(h^2), and keeps u = 2 pi n at rest. The step is explicit in z = u + eps
+/// This is of fourth order if 1 - lambda^2 = O(h^2), and keeps u = 2 pi n at rest. The step is explicit in z = u + eps
 /// S, because S is a function of z (PeriodicForce), evaluated once for each site. The lattice is of second order in dt
 /// and has z = u.
 namespace slipfront::chain {
