@@ -22,8 +22,8 @@ struct SideStress {
 class HeldSide {
  public:
   HeldSide(SideStress stress, double end);
-  /// The time at which the front comes to this distance. It moves with the local speed c0(psi) of the closed form (Eq.
-  /// 8), because the state ahead is at rest. The time is infinite if the stress is zero anywhere on the way.
+  /// The time at which the front comes to this distance. It moves with the local speed c0(psi) of Eq. 8, because the
+  /// state ahead is at rest. The time is infinite if the stress is zero anywhere on the way.
   double front_time(double distance) const;
   /// The stressed side lies at x < 0. The load F(x) = p_x / k keeps it at rest: P_t + Q_x = F k with U = 0, Q = p.
   pulse::Problem problem() const;
