@@ -56,7 +56,7 @@ class Event(CommandLine):
         self.assertTrue(known["posterior"]["friction_identified"])
         self.assertIsNone(unknown["damping_number"])
         self.assertGreater(len(unknown["posterior"]["trade_off"]), 3)
-        for event, says in ((impossible, "above what any friction leaves"), (word, "unknown distribution"), (zero, "uncertainty is 0")):
+        for event, says in ((impossible, "above that without friction"), (word, "unknown distribution"), (zero, "uncertainty is 0")):
             self.assertIn(says, event["error"])
         one, two = (run("event", path, "--json", "--threads", n).stdout for n in "12")
         self.assertEqual(one, two)
