@@ -23,8 +23,8 @@ namespace slipfront::train {
 
 /// Displacement, stress and slip velocity at one point of a train.
 struct Fields {
-  double
-      u;  ///< slip in b / (2 pi); falls by 2 pi at each dislocation as x grows (Eq. 4; the paper misprints a factor 2)
+  /// Slip in b / (2 pi). It falls by 2 pi at each dislocation as x grows. The print of Eq. (4) lacks a factor 2.
+  double u;
   double sigma;  ///< stress -u_x, in mu A / pi
   double w;      ///< slip velocity u_t = U sigma, in c A / pi
 };
