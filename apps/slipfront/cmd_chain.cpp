@@ -20,8 +20,7 @@ void describe(const scenario::Scenario& s, const run::ChainPlan& plan, const std
   if (p.implicit) {
     put(
         fmt::format("{}: OK. This scenario would run {} sites, {:.6g} apart, at scale {:.6g} by implicit steps of "
-                    "tolerance {:.6g}, "
-                    "{}.\n",
+                    "tolerance {:.6g}, {}.\n",
                     s.title.empty() ? s.file : s.title, p.grid.sites, p.grid.spacing, plan.chain.scale, p.tolerance,
                     in_words(plan.need)));
     return;

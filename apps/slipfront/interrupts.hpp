@@ -9,8 +9,8 @@
 /// prints one line: "interrupted", followed by the text of interrupted_means.
 void end_on_interrupts();
 
-/// Sets the text that follows "interrupted" from now on, such as "; nothing was written". Text after
-/// 400 bytes is cut. While `file` does not exist, the text is replaced by "; nothing has been written yet".
+/// Sets the text that follows "interrupted" from now on, such as "; nothing was written". Text after 400 bytes is cut.
+/// While `file` does not exist, the text is replaced by "; nothing has been written yet".
 void interrupted_means(std::string_view text, const std::string& file = {});
 
 /// While this object exists, the first signal only makes interrupted_by_user() true, and the work has a second to end.

@@ -89,9 +89,8 @@ std::string population_table(const std::vector<Decade>& decades, std::size_t eve
   std::size_t binned = 0;
   for (const Decade& d : decades) binned += d.events;
   std::string text = fmt::format(
-      "{} of {} events have a rupture velocity{}. Medians (5 % to 95 %) are over the events of a decade. The closed "
-      "form "
-      "is that in the middle of the decade.\n\n",
+      "{} of {} events have a rupture velocity{}. Medians (5 % to 95 %) are over the events of a decade. "
+      "The closed form is that in the middle of the decade.\n\n",
       binned, events, errors > 0 ? fmt::format(" ({} refused)", errors) : "");
   text += fmt::format("{:<13} {:>7} {:>16} {:>11}\n", "", "", "rupture", "stress by");
   text += fmt::format(layout, "V / c", "events", "velocity", "closed form", "stress, mu A / pi", "slip velocity",

@@ -70,7 +70,7 @@ export function DislocationsPanel() {
           <button type="button" onClick={restart}>Start again</button>
         </div>
         <CannotRun error={error} shown={Boolean(chain)} />
-        {!chain && !error && <p class="busy" role="status">Laying the dislocations …</p>}
+        {!chain && !error && <p class="busy" role="status">Placing the dislocations …</p>}
         {chain && now && (
           <div class={error ? 'stale' : ''}>
             <dl class="facts">
@@ -103,7 +103,7 @@ function Places({ chain }: { chain: Chain }) {
       buttons={() => <button type="button" onClick={() => save('paths.csv', csvOfPaths(chain), 'text/csv')}>CSV of all paths</button>}
       table={() => (
         <>
-          <caption>Places at t = {short(now.time)}</caption>
+          <caption>Positions at t = {short(now.time)}</caption>
           <thead><tr><th scope="col">dislocation</th><th scope="col">x, in b/A</th></tr></thead>
           <tbody>{Array.from(now.x, (x, i) => <tr><th scope="row">{i + 1}</th><td>{short(x, 6)}</td></tr>)}</tbody>
         </>
