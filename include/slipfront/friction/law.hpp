@@ -39,7 +39,7 @@ enum class Dimension { number, force, slip, time, velocity, pressure };  // pres
 /// A number that a law takes, and the key of table [friction] that gives it.
 struct Parameter {
   std::string_view name, symbol, unit;
-  double value = 0;  ///< the default
+  double value = 0;  ///< if none is given
   double least = 0, most = std::numeric_limits<double>::infinity();
   bool without_least = false;
   Dimension dimension = Dimension::number;

@@ -23,7 +23,7 @@ struct Constants {
   std::optional<double> asperity_spacing;  ///< b, m
 };
 
-/// One of the constants: its name in files, its dimension and its member of Constants.
+/// One of them: its name in files, what it is, where it goes.
 struct Constant {
   std::string_view name;
   Dimension dimension;

@@ -10,18 +10,18 @@
 
 namespace slipfront::output {
 
-/// One slip event of a chain. It begins when the slip velocity of any site exceeds a threshold. It ends when the slip
-/// velocities of all sites are below half the threshold.
+/// One slip event of a chain, which is divided into equal parts (docs/loading.md). It begins when the mean slip
+/// velocity of any part exceeds a threshold. It ends when the velocities of all parts are below half the threshold.
 struct SlipEvent {
   double onset = 0, duration = 0;  ///< `duration` of an event in progress is that so far
-  double slip = 0;                 ///< mean over all sites
-  double largest_slip = 0;         ///< slip of the site that slips most
+  double slip = 0;                 ///< mean over the chain
+  double largest_slip = 0;         ///< slip of the part that slips most
   double stress_drop = 0;          ///< fall of the mean force that loads a site, or of the stress at a pulled end
-  double peak_velocity = 0;        ///< largest slip velocity of any site
-  double origin = 0;               ///< x of the site that moved first
-  double length = 0;               ///< length of the region that moved
-  /// |dx / dt| of the front, by least squares through the sites that moved, from `origin`. NaN if fewer than three
-  /// sites moved, or if all moved at once.
+  double peak_velocity = 0;        ///< largest mean slip velocity of a part
+  double origin = 0;               ///< x of the part that moved first
+  double length = 0;               ///< total length of the parts that moved
+  /// |dx / dt| of the front, by least squares through the parts that moved, from `origin`. NaN if fewer than three
+  /// parts moved, or if all moved at once.
   double rupture_velocity = std::numeric_limits<double>::quiet_NaN();
   double complete = 0;  ///< 1, or 0 if the run ended during the event
 };
