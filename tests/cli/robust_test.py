@@ -213,7 +213,7 @@ class Inputs(CommandLine):
         together = self.pulse(STEP, "--set", "pulse.cells=16", "time.end=0.5")
         self.assertEqual((together["cells"], together["time"]), (16, 0.5))
         self.assertEqual(self.pulse("--set", "pulse.cells=16", "time.end=0.5", STEP)["cells"], 16)
-        self.refused(2, "pulse", STEP, STEP, says=["one too many"])
+        self.refused(2, "pulse", STEP, STEP, says=["a second scenario file"])
 
     def test_a_result_is_no_scenario(self):
         out = os.path.join(os.path.dirname(self.file("x", "")), "out.nc")
