@@ -13,7 +13,7 @@ ROOT = ROOT if ROOT.is_dir() else ROOT.parents[1]
 DOCUMENTS = ["ARCHITECTURE.md", "docs/design.md", "docs/NOTATION.md"]
 FOLDERS = ["", "src", "include/slipfront", "apps", "apps/slipfront", "python", "python/slipfront", "tests", "docs", "tools", "fuzz"]
 SOURCES = (".cpp", ".hpp", ".py", ".ts", ".tsx", ".toml", ".txt", ".sh", ".cmake", ".in", ".csv", "")
-PATTERNS = {"<name>", "<kind>", "<room>", "..."}  # stand for any name
+PATTERNS = {"<name>", "<kind>", "<module>", "..."}  # stand for any name
 
 
 def files():
