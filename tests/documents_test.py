@@ -1,7 +1,7 @@
-"""Files, classes and functions that the documents on the structure name exist. Usage: documents_test.py [FOLDER]
+"""Checks that the files, classes and functions that the pages on the structure name exist. Usage: documents_test.py [FOLDER]
 
-Names are what stands between backticks in ARCHITECTURE.md, docs/design.md and docs/NOTATION.md: a path, with or without its
-ending, below one of the folders of sources, or words that occur in a source file.
+Names are the texts between backticks in ARCHITECTURE.md, docs/design.md and docs/NOTATION.md. Each must be a path below one
+of the source folders, with or without its ending, or consist of words that occur in a source file.
 """
 
 import pathlib
