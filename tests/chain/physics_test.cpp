@@ -199,7 +199,6 @@ TEST(ChainPhysics, CoulombFrictionSticksAndAPowerOfOneIsViscous) {
   stuck.advance_to(50);
   for (const double u : stuck.window(0, p.grid.sites).u) EXPECT_NEAR(u, 0.03, 1e-3);
 
-  // Viscous and power laws with exponent 1 are the same law.
   Problem viscous = line(-20, 20, 0.1), power = viscous;
   viscous.friction = friction::viscous(0.2);
   power.friction = friction::power(0.2, 1);
