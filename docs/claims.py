@@ -85,7 +85,7 @@ def percent(value, reference):
 
 
 def verdict(statement, holds, range_):
-    say(f"**{'Confirmed' if holds else 'Refuted'}**: {statement}, for {range_}.")
+    say(f"**{'Confirmed' if holds else 'Refuted'}**: {statement}. Range: {range_}.")
     say()
 
 
@@ -93,8 +93,8 @@ def closure(axes_slip, axes_trend):
     runs = {c: compare(friction(c), SCALES) for c in COEFFICIENTS}
     say("## The consistent closure, not the paper's, is what the dislocations do")
     say()
-    say(f"Slip at x = 0 by t = 2 pi, in b / (2 pi); step of 0.855 into an empty interface. The chain follows every dislocation and knows no closure. "
-        f"In brackets: from the chain at scale {SCALES[-1]}.")
+    say(f"The table gives the slip at x = 0 by t = 2 pi, in b / (2 pi), for a step of stress 0.855 into an empty interface. The chain follows every dislocation and "
+        f"needs no closure. In brackets: the difference from the chain at scale {SCALES[-1]}.")
     say()
     rows, worst, paper_off = [], 0, {}
     for c, r in runs.items():
@@ -104,18 +104,18 @@ def closure(axes_slip, axes_trend):
         rows.append([f"{c:g}"] + [f"{r[f'chain-{s}']['slip_at_origin']:.5f}" for s in SCALES] +
                     [f"{right:.5f} ({percent(right, chain)})", f"{paper:.5f} ({percent(paper, chain)})"])
     table(["C"] + [f"chain, scale {s}" for s in SCALES] + ["consistent", "paper"], rows)
-    verdict(f"The pulse with the consistent closure is within {100 * worst:.2f} % of the chain in every row, with the paper's up to "
-            f"{100 * max(paper_off.values()):.0f} % above it", worst < 0.01, f"C = {COEFFICIENTS[0]:g} to {COEFFICIENTS[-1]:g} (Gamma = C t to "
+    verdict(f"The pulse with the consistent closure is within {100 * worst:.2f} % of the chain in every row. The pulse with the paper's closure is up to "
+            f"{100 * max(paper_off.values()):.0f} % above the chain", worst < 0.01, f"C = {COEFFICIENTS[0]:g} to {COEFFICIENTS[-1]:g} (Gamma = C t to "
             f"{COEFFICIENTS[-1] * runs[0]['time']:.1f}), scale {SCALES[-1]}")
-    say("How the chain's difference from the consistent closure falls with scale: exponent p of scale^-p fitted to all four scales, and what is left of it at "
-        "infinite scale (Richardson, from the two largest):")
+    say("The chain's difference from the consistent closure falls with scale. We fit the exponent p of scale^-p to all four scales, and extrapolate the difference to "
+        "infinite scale from the two largest (Richardson):")
     say()
-    table(["C", "p of the slip", "left at infinite scale", "p of the leading front", "left, in b / A"],
+    table(["C", "p of the slip", "difference at infinite scale", "p of the leading front", "difference, in b / A"],
           [[f"{c:g}", f"{r['trend']['slip_at_origin']['exponent']:.2f}",
             percent(r["trend"]["slip_at_origin"]["extrapolated"], r["pulse-consistent"]["slip_at_origin"]),
             f"{r['trend']['leading_front']['exponent']:.2f}", f"{r['trend']['leading_front']['difference']:+.5f}"] for c, r in runs.items()])
-    say("The difference of the front, a single dislocation, falls steadily. The slip is a mean over one spacing of the initial train: where the last dislocation that "
-        "passed stands in it adds up to half a dislocation, of the size of the difference itself and of either sign.")
+    say("The difference of the front, a single dislocation, falls steadily. The slip is a mean over one spacing of the initial train. The last dislocation that passed "
+        "adds up to half a dislocation to this mean, of either sign, depending on its position in the spacing. That is as much as the difference itself.")
     say()
     many = [0.02 * i * i for i in range(11)]
     for name, style in (("consistent", "-"), ("paper", "--")):
@@ -123,7 +123,7 @@ def closure(axes_slip, axes_trend):
         axes_slip.plot(*zip(*((c, slip) for c, slip in slips.items() if slip is not None)), color="black", linestyle=style, label=f"pulse, {name}")
         failed = [f"{c:g}" for c, slip in slips.items() if slip is None]
         if failed:
-            say(f"The picture lacks C = {', '.join(failed)} with closure {name}: the pulse stopped there with an error.")
+            say(f"The figure lacks C = {', '.join(failed)} with closure {name}, because the `pulse` run ended with an error.")
             say()
     axes_slip.plot(COEFFICIENTS, [runs[c][FINEST]["slip_at_origin"] for c in COEFFICIENTS], "o", color="C1", label=f"chain, scale {SCALES[-1]}")
     axes_slip.set(xlabel="friction coefficient C", ylabel="slip u at x = 0, b/(2π)", title="Slip by t = 2π", ylim=(0, None))
@@ -143,8 +143,9 @@ def rupture_velocity(runs, axes):
     say()
     exact = relations("--stress", "0.855")[0]
     time = runs[0]["time"]
-    say("Mean velocities over t = 2 pi in c, step of 0.855 into an empty interface. *Trailing* is the fast front, the foot of the slip velocity as measured; the "
-        "characteristic that it starts on runs into a state at rest, where friction has nothing to act on. Observers see the outermost x at which the slip velocity is above 2 % or 20 % of its peak.")
+    say("The table gives mean velocities over t = 2 pi, in c, for a step of 0.855 into an empty interface. *Trailing* is the fast front, measured as the foot of the slip "
+        "velocity. It starts on a characteristic that runs into a state at rest, where friction has nothing to act on. Observers see the outermost x at which the slip "
+        "velocity is above 2 % or 20 % of its peak.")
     say()
     observed = {share: {c: compare(friction(c, pulse__threshold=share)) for c in COEFFICIENTS} for share in (0.02, 0.2)}
     rows = []
@@ -176,7 +177,7 @@ def rupture_velocity(runs, axes):
 def slip_velocity(runs, axes):
     say("## Slip velocity depends on friction")
     say()
-    say("W at x = 0 at t = 2 pi, in c A / pi, and as a share of that without friction; the same step.")
+    say("The table gives W at x = 0 and t = 2 pi, in c A / pi, for the same step. In brackets: its ratio to W without friction.")
     say()
     names = {"pulse-consistent": "consistent", FINEST: f"chain, scale {SCALES[-1]}", "pulse-paper": "paper"}
     share = {(c, k): runs[c][k]["slip_velocity_at_origin"] / runs[0][k]["slip_velocity_at_origin"] for c in COEFFICIENTS for k in names}
@@ -197,8 +198,9 @@ def slip_velocity(runs, axes):
 def stress_left(axes):
     say("## Weak dependence on Sigma-")
     say()
-    say("Read as: the factor by which friction lowers the slip velocity hardly depends on the initial stress. W(0) at t = 2 pi, C = 0.5, over W(0) without friction, "
-        f"into an empty interface; chain at scale {SWEEP}. With less stress a chain needs a larger scale to hold enough moving dislocations for an average.")
+    say("We read this statement as follows: the factor by which friction lowers the slip velocity hardly depends on the initial stress. The factor is W(0) at t = 2 pi "
+        f"with C = 0.5, divided by W(0) without friction, into an empty interface. The chain has scale {SWEEP}. With less stress a chain needs a larger scale, so that "
+        "enough dislocations move for an average.")
     say()
     stresses = (0.6, 0.7, 0.855, 1.03, 1.3, 1.6)
     factors, rows = {}, []
@@ -214,8 +216,8 @@ def stress_left(axes):
 
     free = relations("--stress", str(stresses[0]), "--stress", str(stresses[-1]))
     velocity = free[1]["slip_velocity"] / free[0]["slip_velocity"]
-    verdict(f"The factor changes {span(1):.2f} times on the chain ({span(0):.2f} consistent, {span(2):.2f} paper) while W(0) changes {velocity:.0f} times",
-            span(1) < 1.25, f"Sigma- = {stresses[0]:g} to {stresses[-1]:g}, C = 0.5, taking less than a quarter as weak")
+    verdict(f"The factor changes {span(1):.2f} times on the chain ({span(0):.2f} consistent, {span(2):.2f} paper), while W(0) changes {velocity:.0f} times",
+            span(1) < 1.25, f"Sigma- = {stresses[0]:g} to {stresses[-1]:g}, C = 0.5. We call a change of less than a quarter weak")
     near = [factors[s] for s in (0.855, 1.03)]
     say(f"Between the paper's two states, Sigma- = 0.855 and 1.03, the factor changes by {100 * abs(near[1][1] / near[0][1] - 1):.0f} % on the chain and by "
         f"{100 * abs(near[1][2] / near[0][2] - 1):.0f} % with the paper's closure.")
@@ -230,8 +232,9 @@ def stress_left(axes):
 def stress_right(axes):
     say("## No dependence on Sigma+ for stress drops of 35 to 100 %")
     say()
-    say("W(0) at t = 2 pi in c A / pi, and slip by then in b / (2 pi), for Sigma- = 0.855 and a drop of "
-        "(Sigma- - Sigma+) / Sigma-; in brackets as a share of that at 100 %. Without friction by the closed form (exact Riemann problem), with C = 0.5 by pulse (consistent) and chain.")
+    say("The table gives W(0) at t = 2 pi in c A / pi, and the slip by then in b / (2 pi), for Sigma- = 0.855. The stress drop is (Sigma- - Sigma+) / Sigma-. In brackets: "
+        "the ratio to the value at a drop of 100 %. Values without friction come from the closed form (exact Riemann problem), and those with C = 0.5 from pulse "
+        "(consistent closure) and chain.")
     say()
     drops = (100, 90, 79, 60, 50, 42, 35)
     values, rows = {}, []
@@ -243,11 +246,12 @@ def stress_right(axes):
         values[drop] += [damped[k]["slip_at_origin"] for k in ("pulse-consistent", f"chain-{SWEEP}")]
         rows.append([f"{drop} %", f"{right:.3f}"] + [f"{v:.5f} ({v / values[100][i]:.3f})" for i, v in enumerate(values[drop])])
     table(["drop", "Sigma+", "closed form, C = 0", "consistent, C = 0.5", f"chain, scale {SWEEP}", "slip(0): consistent", "chain"], rows)
-    say("Phonons behind the shock, which C = 0.5 has not yet damped, sway W(0) of the chain at one time; its slip, an integral, shows them less.")
+    say("Friction with C = 0.5 has not yet damped the phonons behind the shock. They change W(0) of the chain, a value at one time. They change its slip less, because "
+        "that is an integral.")
     say()
     share = [[values[d][i] / values[100][i] for d in drops] for i in range(5)]
-    verdict(f"W(0) at 35 % is {share[0][-1]:.2f} of that at 100 % without friction, and the slip on the chain with C = 0.5 {share[4][-1]:.2f} of it; at 42 % it has fallen by "
-            f"{100 * (1 - share[0][drops.index(42)]):.0f} % without friction", min(share[0]) > 0.95, "drops of 35 to 100 %, Sigma- = 0.855")
+    verdict(f"Without friction, W(0) at a drop of 35 % is {share[0][-1]:.2f} of that at 100 %. With C = 0.5, the slip on the chain is {share[4][-1]:.2f} of that at 100 %. "
+            f"Without friction, W(0) is {100 * (1 - share[0][drops.index(42)]):.0f} % lower at a drop of 42 % than at 100 %", min(share[0]) > 0.95, "drops of 35 to 100 %, Sigma- = 0.855")
     looks = (("W(0), closed form, C = 0", {"color": "black", "linestyle": "-"}), ("slip(0), pulse, C = 0.5", {"color": "black", "linestyle": "--"}),
              (f"slip(0), chain at {SWEEP}, C = 0.5", {"color": "C1", "marker": "o", "linestyle": "none"}))
     for i, (label, look) in enumerate(looks):
@@ -260,13 +264,13 @@ def ratio_of_fronts():
     say()
     rows = relations("--stress", "0.05:50:60:log")
     least = min(rows, key=lambda r: r["velocity_ratio"])
-    say("Into an empty interface |V- / V+| = K / E, without friction:")
+    say("Without friction, |V- / V+| = K / E for a pulse into an empty interface:")
     say()
     picked = rows[::10] + [rows[-1]]
     columns = {"stress": ".4g", "rupture_velocity": ".4g", "leading_velocity": ".4g", "velocity_ratio": ".4f"}
     table(["Sigma-", "V-, c", "V+, c", "ratio"],
           [[f"{r[key]:{digits}}" for key, digits in columns.items()] for r in picked])
-    say("Into a stressed side V+ is that of the shock (closed form), Sigma- = 0.855:")
+    say("Into a stressed side, V+ is the velocity of the shock (closed form, Sigma- = 0.855):")
     say()
     shocks = []
     for right in (0.05, 0.179, 0.4, 0.6, 0.8, 0.85):
@@ -274,8 +278,9 @@ def ratio_of_fronts():
         shocks.append((right, -exact["trailing_front"] / exact["leading_front"]))
     table(["Sigma+"] + [f"{r:g}" for r, _ in shocks], [["V- / V+"] + [f"{q:.4f}" for _, q in shocks]])
     verdict(f"The smallest ratio is {least['velocity_ratio']:.6f} into an empty interface (at Sigma- = {least['stress']:.3g}) and {min(q for _, q in shocks):.4f} into a "
-            "stressed one", least["velocity_ratio"] > 1 and min(q for _, q in shocks) > 1, "Sigma- = 0.05 to 50 into empty, Sigma- = 0.855 into Sigma+ = 0.05 to 0.85; "
-            "it tends to 1 in the dense limit and as the stress drop vanishes, where the paper's \"practically equal\" holds. Friction slows V+ alone (above), and widens it")
+            "stressed one", least["velocity_ratio"] > 1 and min(q for _, q in shocks) > 1, "Sigma- = 0.05 to 50 into an empty interface, Sigma- = 0.855 into "
+            "Sigma+ = 0.05 to 0.85. The ratio tends to 1 in the dense limit and as the stress drop vanishes; there the paper's \"practically equal\" holds. Friction slows "
+            "only V+ (see above), so it raises the ratio")
 
 
 def stressed_side():
@@ -290,19 +295,19 @@ def stressed_side():
                 names = [n.decode() for n in data.name.values]
                 slip = data.slip_at_origin.values
                 gains[c] = {name: (slip[i, 2] - slip[i, 1], data.slip_velocity_at_origin.values[i, 2]) for i, name in enumerate(names)}
-    say("Sigma- = 0.855, Sigma+ = 0.179: slip gained at x = 0 between t = pi / 2 and 2 pi, in b / (2 pi).")
+    say("The table gives the slip at x = 0 between t = pi / 2 and 2 pi, in b / (2 pi), for Sigma- = 0.855 and Sigma+ = 0.179.")
     say()
     names = list(gains[0])
     table(["C"] + names, [[f"{c:g}"] + [f"{gains[c][n][0]:.4f}" if n in gains[c] else "-" for n in names] for c in gains])
     damped, free = gains[0.5], gains[0]
     off = damped["pulse-consistent"][0] / damped[FINEST][0] - 1
-    verdict(f"With C = 0.5 the pair (k, P) of the consistent closure is within {100 * abs(off):.2f} % of the chain, the paper's closure "
+    verdict(f"With C = 0.5 the pair (k, P) of the consistent closure is within {100 * abs(off):.2f} % of the chain, and the paper's closure is "
             f"{100 * (damped['pulse-paper'][0] / damped[FINEST][0] - 1):.0f} % above it", abs(off) < 0.01, f"scale {SCALES[-1]}")
     mean = free[FINEST][0] / (1.5 * math.pi)
-    say(f"Without friction the energy that the shock takes from the averaged motion has nowhere to go: it rides behind it as phonons, a second phase that no "
-        f"single-phase theory has. The mean slip velocity on the chain is {mean:.4f} for {free['closed-form'][1]:.4f} in the closed form "
+    say(f"Without friction, nothing dissipates the energy that the shock takes from the averaged motion. The energy follows the shock as phonons, a second phase that a "
+        f"single-phase theory lacks. The mean slip velocity is {mean:.4f} on the chain and {free['closed-form'][1]:.4f} in the closed form "
         f"({percent(mean, free['closed-form'][1])} at scale {SCALES[-1]}, "
-        f"{percent(free['chain-1000'][0] / (1.5 * math.pi), free['closed-form'][1])} at 1000): more dislocations do not bring the two together.")
+        f"{percent(free['chain-1000'][0] / (1.5 * math.pi), free['closed-form'][1])} at 1000). More dislocations do not bring the two together.")
     say()
 
 
@@ -320,8 +325,9 @@ def page(axes):
     """Writes the page's lines and draws its six panels."""
     say("# The paper's statements, tested")
     say()
-    say("Made by `docs/claims.py`: every number comes from a run of `slipfront compare`, `pulse` or `relations` in it. All is dimensionless "
-        "(docs/NOTATION.md). \"Chain\" is every dislocation directly, at the scale given: so many times the dislocations. Closures: docs/theory.md 3.3.")
+    say("This page tests the paper's statements one by one and gives a verdict on each. `docs/claims.py` writes it: every number comes from a run of `slipfront "
+        "compare`, `pulse` or `relations`. All quantities are dimensionless (docs/NOTATION.md). \"Chain\" means that every dislocation is computed directly. A chain of "
+        "scale S has S times as many dislocations. docs/theory.md 3.3 defines the closures.")
     say()
     say("![Slip, convergence of the leading edge, fronts, profile, and slip velocity against stress](claims.png)")
     say()

@@ -1,7 +1,7 @@
-"""Files, classes and functions that the documents on the structure name exist. Usage: documents_test.py [FOLDER]
+"""Checks that the files, classes and functions that the pages on the structure name exist. Usage: documents_test.py [FOLDER]
 
-Names are what stands between backticks in ARCHITECTURE.md, docs/design.md and docs/NOTATION.md: a path, with or without its
-ending, below one of the folders of sources, or words that occur in a source file.
+Names are the texts between backticks in ARCHITECTURE.md, docs/design.md and docs/NOTATION.md. Each must be a path below one
+of the source folders, with or without its ending, or consist of words that occur in a source file.
 """
 
 import pathlib
@@ -13,7 +13,7 @@ ROOT = ROOT if ROOT.is_dir() else ROOT.parents[1]
 DOCUMENTS = ["ARCHITECTURE.md", "docs/design.md", "docs/NOTATION.md"]
 FOLDERS = ["", "src", "include/slipfront", "apps", "apps/slipfront", "python", "python/slipfront", "tests", "docs", "tools", "fuzz"]
 SOURCES = (".cpp", ".hpp", ".py", ".ts", ".tsx", ".toml", ".txt", ".sh", ".cmake", ".in", ".csv", "")
-PATTERNS = {"<name>", "<kind>", "<room>", "..."}  # stand for any name
+PATTERNS = {"<name>", "<kind>", "<module>", "..."}  # stand for any name
 
 
 def files():

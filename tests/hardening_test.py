@@ -1,7 +1,7 @@
-"""What is built loads its libraries from fixed places alone, and is hardened. Usage: hardening_test.py BUILD_DIR HARDENED.
+"""Checks that programs and libraries load their libraries only from fixed folders, and are hardened.
 
-A path in the dynamic section that is empty or relative is looked up where the user stands: a library that somebody left
-there would run."""
+Usage: hardening_test.py BUILD_DIR HARDENED. The loader looks up an empty or relative path in the dynamic section in the current
+folder of the user. A library that somebody has put there would run."""
 
 import pathlib
 import subprocess

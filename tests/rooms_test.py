@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Checks that no room of the library includes another that it may not use (ARCHITECTURE.md).
+"""Checks that no module of the library includes another that it may not use (ARCHITECTURE.md).
 
-A new room is one line in ROOMS. With arguments, the test looks at another checkout:
+A new module is one line in MODULES. With an argument, the test checks another checkout:
 tests/rooms_test.py [FOLDER]."""
 
 import os
@@ -9,9 +9,9 @@ import re
 import sys
 import unittest
 
-# Each room with the rooms that it may include, from the bottom up: only rooms above it in this table. All may include
-# `foundation`.
-ROOMS = {
+# Each module, from the bottom up, with the modules that it may include: only modules above it in this table. All modules
+# may include `foundation`.
+MODULES = {
     "foundation": "",
     "elliptic": "",
     "medium": "",
@@ -33,8 +33,8 @@ ROOMS = {
     "run": "record friction setup results finite_fault inference catalogue scenario chain pulse output medium",
 }
 
-# The folders of a module, from the bottom up, with the folders next to them that they may include; "." are the files at
-# the root of the module, which may include all of its folders.
+# The folders of a module, from the bottom up, with the folders of the same module that they may include. "." stands for the
+# files at the root of the module, which may include all of its folders.
 FOLDERS = {
     "catalogue": {"csv": ".", "fsp": ".", "toml": "."},
     "record": {"files": "", "netcdf": "files", "pulses": "netcdf files", "events": "pulses netcdf files"},
@@ -74,25 +74,25 @@ def sources_in(folder):
         yield from (os.path.join(where, name) for name in sorted(names) if name.endswith((".cpp", ".hpp")))
 
 
-class Rooms(unittest.TestCase):
+class Modules(unittest.TestCase):
     def setUp(self):
         self.include, self.src = os.path.join(SOURCE, "include", "slipfront"), os.path.join(SOURCE, "src")
-        self.rooms = folders(self.include) | folders(self.src)
+        self.modules = folders(self.include) | folders(self.src)
 
-    def room_of(self, path):
-        """The room of a file of the library; "" for what belongs to all rooms."""
+    def module_of(self, path):
+        """The module of a file of the library; "" for a file that belongs to no module."""
         top = self.include if path.startswith(self.include) else self.src
         return os.path.relpath(path, top).rpartition("/")[0].partition("/")[0]
 
-    def included_rooms(self, path):
-        """Pairs of a line and the room that it includes ("" for what belongs to all rooms)."""
+    def included_modules(self, path):
+        """Pairs of an included name and its module ("" for a file that belongs to no module)."""
         with open(path, encoding="utf-8") as file:
             text = file.read()
         for name in INCLUDE.findall(text):
             if name.startswith("slipfront/"):
-                yield name, self.room_of(os.path.join(self.include, name.removeprefix("slipfront/")))
+                yield name, self.module_of(os.path.join(self.include, name.removeprefix("slipfront/")))
             else:  # by its path below src
-                yield name, self.room_of(os.path.join(self.src, name))
+                yield name, self.module_of(os.path.join(self.src, name))
 
     def folder_of(self, path):
         """The folder of a file within its module; "" at the module's root, and for public headers."""
@@ -101,38 +101,38 @@ class Rooms(unittest.TestCase):
     def test_no_folder_of_a_module_includes_one_that_it_may_not_use(self):
         wrong = []
         for path in sources_in(self.src):
-            room, folder = self.room_of(path), self.folder_of(path)
+            module, folder = self.module_of(path), self.folder_of(path)
             if not folder:
                 continue
-            if folder not in FOLDERS.get(room, {}):
-                wrong.append(f"unknown folder {room}/{folder}: add it to FOLDERS of tests/rooms_test.py")
+            if folder not in FOLDERS.get(module, {}):
+                wrong.append(f"unknown folder {module}/{folder}: add it to FOLDERS of tests/rooms_test.py")
                 continue
-            allowed = {folder, *("" if used == "." else used for used in FOLDERS[room][folder].split())}
+            allowed = {folder, *("" if used == "." else used for used in FOLDERS[module][folder].split())}
             with open(path, encoding="utf-8") as file:
                 names = INCLUDE.findall(file.read())
             for name in names:
                 used = os.path.join(self.src, name)
-                if not name.startswith("slipfront/") and self.room_of(used) == room and self.folder_of(used) not in allowed:
+                if not name.startswith("slipfront/") and self.module_of(used) == module and self.folder_of(used) not in allowed:
                     wrong.append(f"{os.path.relpath(path, SOURCE)} includes {name}")
         self.assertEqual(sorted(set(wrong)), [], "\n" + "\n".join(wrong))
 
-    def test_every_room_is_in_the_table_and_in_the_architecture(self):
-        for room in sorted(self.rooms - set(ROOMS)):
-            self.fail(f"unknown room {room}: add it to the table ROOMS of tests/rooms_test.py, with the rooms that it "
+    def test_every_module_is_in_the_table_and_in_the_architecture(self):
+        for module in sorted(self.modules - set(MODULES)):
+            self.fail(f"unknown module {module}: add it to the table MODULES of tests/rooms_test.py, with the modules that it "
                       "may include, and to ARCHITECTURE.md")
-        for room in sorted(set(ROOMS) - self.rooms):
-            self.fail(f"room {room} has neither include/slipfront/{room} nor src/{room}: take it out of ROOMS")
+        for module in sorted(set(MODULES) - self.modules):
+            self.fail(f"module {module} has neither include/slipfront/{module} nor src/{module}: remove it from MODULES")
         with open(os.path.join(SOURCE, "ARCHITECTURE.md"), encoding="utf-8") as file:
             architecture = file.read()
-        for room in sorted(self.rooms):
-            self.assertRegex(architecture, rf"\b{room}\b", f"ARCHITECTURE.md does not name the room {room}")
+        for module in sorted(self.modules):
+            self.assertRegex(architecture, rf"\b{module}\b", f"ARCHITECTURE.md does not name the module {module}")
 
-    def test_the_table_points_down(self):
+    def test_modules_use_only_modules_above_them_in_the_table(self):
         below = set()
-        for room, uses in ROOMS.items():
+        for module, uses in MODULES.items():
             for used in uses.split():
-                self.assertIn(used, below, f"ROOMS: {room} may not use {used}, which is not above it in the table")
-            below.add(room)
+                self.assertIn(used, below, f"MODULES: {module} may not use {used}, which is not above it in the table")
+            below.add(module)
 
     def test_public_headers_include_only_public_ones(self):
         wrong = []
@@ -142,16 +142,16 @@ class Rooms(unittest.TestCase):
                           for name in INCLUDE.findall(file.read()) if not name.startswith("slipfront/")]
         self.assertFalse(wrong, "\n" + "\n".join(wrong))
 
-    def test_no_room_includes_one_that_it_may_not_use(self):
+    def test_no_module_includes_one_that_it_may_not_use(self):
         wrong = []
         for path in [*sources_in(self.include), *sources_in(self.src)]:
-            room = self.room_of(path)
-            allowed = {"", "foundation", room, *ROOMS.get(room, "").split()}
-            for name, used in self.included_rooms(path):
+            module = self.module_of(path)
+            allowed = {"", "foundation", module, *MODULES.get(module, "").split()}
+            for name, used in self.included_modules(path):
                 if used in allowed:
                     continue
-                where = f"room {room}" if room else "which belongs to all rooms"
-                wrong.append(f"{os.path.relpath(path, SOURCE)} ({where}) includes {name} of room {used}")
+                where = f"module {module}" if module else "which belongs to no module"
+                wrong.append(f"{os.path.relpath(path, SOURCE)} ({where}) includes {name} of module {used}")
         self.assertEqual(wrong, [], "\n" + "\n".join(wrong))
 
 

@@ -1,4 +1,4 @@
-// Reader of finite-fault models: what it makes of them.
+// The reader of finite-fault models (.fsp): values that it reads, and warnings.
 
 #include "fsp_texts.hpp"
 
@@ -31,14 +31,14 @@ TEST(Fsp, ReadsASingleUsgsSegment) {
   EXPECT_EQ(o.date, "2031-02-29T01:02:03");
   EXPECT_EQ(o.citation, "EventTAG 2031-02-29T01:02:03");
   expect_value(o.rupture_velocity_m_s, 1500);
-  expect_value(o.rise_time, 4);  // of the header, although there is a column RISE
+  expect_value(o.rise_time, 4);  // from the header, although there is a column RISE
   expect_value(o.slip_velocity_m_s, 0.625);
   expect_value(o.shear_modulus, 36.75e9);
   EXPECT_TRUE(o.warnings.empty());
 }
 
 TEST(Fsp, WeightsSegmentsByTheirArea) {
-  // Subfaults of 2 km x 3 km, although LEN x WID is larger: 24 km^2 of 2.5 m; 60 km^2 of 1 m; 16 km^2 of 2.5 m.
+  // Subfaults have 2 km x 3 km, although LEN x WID is larger: 24 km^2 with 2.5 m, 60 km^2 with 1 m, 16 km^2 with 2.5 m.
   const Observation o = read(text_of("fsp_srcmod_segments"));
   expect_value(o.slip, (24 * 2.5 + 60 * 1 + 16 * 2.5) / 100);
   const Observation usgs = read(text_of("fsp_usgs_segments"));
@@ -51,7 +51,7 @@ TEST(Fsp, WeightsSegmentsByTheirArea) {
 }
 
 TEST(Fsp, WeightsSubfaultsEquallyWithoutAnArea) {
-  // Header: 15 km x 10 km a subfault, two in either segment.
+  // The header gives 15 km x 10 km for a subfault, and two subfaults for each segment.
   std::string text = edited(text_of("fsp_usgs_segments"), "% LEN = 30 km WID = 20 km\n", "");
   expect_value(read(text).slip, (300 * 1.5 + 200 * 0.5) / 500);
   text = edited(text, "% Invs : Dx = 15 km  Dz = 10 km\n", "");
@@ -108,7 +108,7 @@ TEST(Fsp, RejectsOtherUnits) {
   EXPECT_EQ(c.allowed, "km/s");
 }
 
-TEST(Fsp, ReadsADirtyFile) {
+TEST(Fsp, ReadsAFileWithDefectsAndWarns) {
   const Observation o = read(text_of("fsp_dirty"));
   EXPECT_EQ(o.name, "Lost Isle");
   expect_value(o.rupture_velocity_m_s, 3000);
@@ -143,7 +143,7 @@ TEST(Fsp, ReadsColumnNamesWithoutCommentSign) {
   EXPECT_TRUE(o.warnings.empty());
 }
 
-TEST(Fsp, MakesNamesValidText) {
+TEST(Fsp, ConvertsNamesToValidText) {
   EXPECT_EQ(read(single("Northern   Nowhere", "S\xf8r\tland")).name, "S\xc3\xb8r land (Calif.)");
   EXPECT_EQ(read(single("Northern   Nowhere", "S\xc3\xb8rland\x01")).name, "S\xc3\xb8rland (Calif.)");
   EXPECT_EQ(read(single("Northern   Nowhere (Calif.) ", "")).name, "s1901NOWHERnobo");
@@ -168,8 +168,8 @@ TEST(Fsp, AcceptsOneWrongCountOfTwo) {
   EXPECT_EQ(warnings_with(read(neither), "no Nsbfs"), 1U);
 }
 
-TEST(Fsp, RejectsATableBetweenTwoWrongCounts) {
-  // Six rows, where one count says less and the other more.
+TEST(Fsp, RejectsARowCountBetweenTwoWrongCounts) {
+  // There are six rows; one count is smaller and the other larger.
   const Complaint c = refusal(edited(single("Nsbfs =      6", "Nsbfs = 2"), "Nx  =    3", "Nx  = 4"));
   EXPECT_EQ(c.key, "Nx*Nz");
   EXPECT_EQ(c.value, "8");
@@ -203,7 +203,7 @@ TEST(Fsp, TakesTheLayerAtTheHypocentre) {
   expect_no_elastic_constants(read(no_depth));
 }
 
-TEST(Fsp, TakesDepthsThatBeginBelowTheSurfaceAsBottoms) {
+TEST(Fsp, ReadsDepthsAsBottomsIfTheyBeginBelowTheSurface) {
   const std::string text = single("%     0.00       3.00", "%     1.00       3.00");
   const Observation o = read(text);
   expect_value(o.s_wave_speed, 4500);  // 7 km: between the bottoms 4 km and 16 km
@@ -233,7 +233,7 @@ TEST(Fsp, IgnoresUnphysicalLayers) {
 }
 
 TEST(Fsp, IgnoresADamagedVelocityTable) {
-  // Published once: the rows lost, only their comment signs and the last layer kept.
+  // A published file had lost these rows. Only their comment signs and the last layer were left.
   const Observation lost =
       read(single("%     0.00       3.00       1.50        2.00       70     35\n%     4.00", "% % 4.00"));
   expect_no_elastic_constants(lost);

@@ -28,7 +28,7 @@ inline std::string text_of(const std::string& name) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// The text with the one place where `from` stands replaced; an edit that finds nothing would test nothing.
+/// Replaces `from`, which must occur exactly once. An edit that finds nothing would test nothing.
 inline std::string edited(std::string text, std::string_view from, std::string_view to) {
   const std::size_t at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
@@ -43,7 +43,7 @@ inline std::string single(std::string_view from, std::string_view to) {
 
 inline Observation read(const std::string& text) { return read_fsp(text, "m.fsp"); }
 
-/// The complaint about a text that must be refused.
+/// The complaint about a text that the reader must refuse.
 inline Complaint refusal(const std::string& text) {
   try {
     read(text);
@@ -86,7 +86,7 @@ inline void expect_no_elastic_constants(const Observation& o) {
   EXPECT_FALSE(o.p_wave_speed || o.s_wave_speed || o.density || o.poisson_ratio || o.shear_modulus);
 }
 
-/// Where the last row begins and where its last number ends.
+/// Positions in the text: the beginning of the last row, and the end of its last number.
 struct LastRow {
   std::size_t begin, end;
 };

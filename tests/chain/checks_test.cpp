@@ -29,8 +29,8 @@ output::Schedule until(const ScaledProblem& s, double end, int cells = 40) {
   return when;
 }
 
-/// A few dislocations under a force that changes within a few steps: work of the force and of friction is taken at
-/// every level. Sampled every 32 levels it was -473 where the energy rose by 121.
+/// A force on a few dislocations changes within a few steps. The chain sums the work of force and friction at every
+/// time level. When it did so every 32 levels, the work was -473 while the energy rose by 121.
 TEST(ChainChecks, WorkOfAFastForceBalances) {
   for (const friction::Friction& f :
        {friction::Friction{}, friction::viscous(0.1), friction::coulomb(0.02), friction::power(0.05, 1.5)}) {
@@ -49,7 +49,7 @@ TEST(ChainChecks, WorkOfAFastForceBalances) {
   }
 }
 
-/// Viscous friction alone, one dislocation in a chain: its work is taken at every level.
+/// Only viscous friction acts on a few dislocations; the chain sums its work at every time level.
 TEST(ChainChecks, ViscousFrictionOfAFewDislocationsBalances) {
   ScaledProblem s = uniform(0, 60, 1);
   s.stress = [](double x) { return x < -20 ? 0.6 : 0; };
@@ -59,7 +59,8 @@ TEST(ChainChecks, ViscousFrictionOfAFewDislocationsBalances) {
   EXPECT_LT(run.balance().energy_drift, 1e-3);
 }
 
-/// U is the velocity of dislocations: below c where there are any, else no number. It was -428 ... 75.
+/// U is the velocity of dislocations. It is below c where there are dislocations, and not a number elsewhere. It was
+/// -428 ... 75.
 TEST(ChainChecks, DislocationsAreSlowerThanC) {
   ScaledProblem s = uniform(0.855, 3, 200);
   s.stress = [](double x) { return x < 0 ? 0.855 : 0; };
@@ -78,7 +79,8 @@ TEST(ChainChecks, DislocationsAreSlowerThanC) {
   EXPECT_GT(moving, 10);
 }
 
-/// A scale at which the answer is a share of one dislocation says so, and what would do; a large one does not.
+/// A run warns, and names a sufficient scale, if its scale is so small that the answer is a fraction of one
+/// dislocation. A run with a large scale does not warn.
 TEST(ChainChecks, WarnsOfTooFewDislocations) {
   for (const double scale : {1.0, 1000.0}) {
     ScaledProblem s = uniform(0.855, 3, scale);
@@ -91,8 +93,9 @@ TEST(ChainChecks, WarnsOfTooFewDislocations) {
   }
 }
 
-/// A smooth step of little stress moves slowly. A grid that holds slow dislocations says so, and what would do.
-TEST(ChainChecks, WarnsWhereTheGridHoldsDislocations) {
+/// A smooth step of small stress moves slowly. If the grid pins slow dislocations, the run warns and names a sufficient
+/// spacing.
+TEST(ChainChecks, WarnsIfTheGridPinsDislocations) {
   for (const double spacing : {default_spacing, 0.5, 0.6}) {
     ScaledProblem s = uniform(0, 2, 1000);
     s.stress = [](double x) { return 0.533 + 0.148 * (1 - std::tanh(x / 0.5)) / 2; };
@@ -106,8 +109,9 @@ TEST(ChainChecks, WarnsWhereTheGridHoldsDislocations) {
   }
 }
 
-/// A force without friction accelerates a ring until its dislocations are too narrow: the message says that.
-TEST(ChainChecks, NarrowDislocationsAreNamed) {
+/// A force without friction accelerates a ring until its dislocations are too narrow for the grid. The error names
+/// them.
+TEST(ChainChecks, NamesNarrowDislocationsInTheError) {
   ScaledProblem s = uniform(0.8, 1, 50);
   s.boundary = {.periodic = true};
   s.forcing = [](double, double) { return 0.5; };
@@ -121,7 +125,7 @@ TEST(ChainChecks, NarrowDislocationsAreNamed) {
   }
 }
 
-/// No front is faster than c or warned of, whatever the step.
+/// Fronts are slower than c and cause no warning, for any step of stress.
 TEST(ChainChecks, FrontsAreSlowerThanC) {
   for (const double stress : {0.7, 0.855, 2.0, 4.0}) {
     ScaledProblem s = uniform(stress, 4, 200);
@@ -136,8 +140,9 @@ TEST(ChainChecks, FrontsAreSlowerThanC) {
   }
 }
 
-/// A grid too coarse for what runs into its mirror image: the energy drifts, and that is no result.
-TEST(ChainChecks, EnergyThatDriftsIsAnError) {
+/// At free ends, dislocations run into their mirror images. The grid is too coarse for that, so the energy drifts, and
+/// the run ends with an error.
+TEST(ChainChecks, FailsIfTheEnergyDrifts) {
   ScaledProblem s = uniform(1.5, 3, 200);
   s.spacing = 0.6;
   s.boundary = {.left = End::free, .right = End::free};
@@ -147,15 +152,15 @@ TEST(ChainChecks, EnergyThatDriftsIsAnError) {
     ADD_FAILURE() << run.balance().energy_drift;
   } catch (const NumericsError& error) {
     EXPECT_NE(std::string(error.what()).find("energy"), std::string::npos) << error.what();
-    EXPECT_TRUE(run.can_checkpoint());  // to be kept
+    EXPECT_TRUE(run.can_checkpoint());
     EXPECT_EQ(run.snapshots().size(), 2u);
-    EXPECT_THROW(run.go(), NumericsError);  // as it is after --resume
+    EXPECT_THROW(run.go(), NumericsError);  // a run resumed with --resume fails again
   }
 }
 
-/// The saved state of a run, in which u rises by two turns and falls again three times: six pairs of an antidislocation
-/// and a dislocation, less those that dislocations there cancel. Levels stand last: their number, then u at both, each
-/// after the number of sites (Run::saved).
+/// Changes the saved state of a run so that u rises by two turns and falls again, three times. This makes six pairs of
+/// an antidislocation and a dislocation, except those that cancel with existing dislocations. The levels are at the end
+/// of the state: their number, then u at both levels, each after the number of sites (Run::saved).
 std::string with_pairs(std::string saved, std::size_t sites) {
   const std::size_t level = (sites + 1) * sizeof(double);
   for (const std::size_t back : {level, 2 * level}) {
@@ -172,8 +177,8 @@ std::string with_pairs(std::string saved, std::size_t sites) {
   return saved;
 }
 
-/// Between fixed ends the charge is what it was, whatever happens between them: dislocations are counted.
-TEST(ChainChecks, PairsOutOfNothingAreCounted) {
+/// Fixed ends conserve the charge, so the charge does not reveal false pairs. The check counts dislocations.
+TEST(ChainChecks, DetectsFalsePairsOfDislocations) {
   const ScaledProblem s = uniform(0.855, 80, 1);
   chain::Run cut(s, until(s, 5), {});
   EXPECT_FALSE(cut.go([] { return true; }));

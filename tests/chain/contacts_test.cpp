@@ -1,4 +1,5 @@
-// Contacts that age and pores that dilate, against another method (tests/reference/contacts.py), exact limits, budgets.
+// Contacts that age and pores that dilate, compared with another method (tests/reference/contacts.py), exact limits and
+// energy budgets.
 
 #include <gtest/gtest.h>
 
@@ -25,7 +26,7 @@ using chain::ImplicitChain;
 using chain::Motion;
 using chain::Problem;
 
-/// Of contacts: beta, theta_c, E, t_p, p_0.
+/// The parameters of the contacts are beta, theta_c, E, t_p and p_0.
 friction::Friction rate_and_state(std::vector<double> law, const std::vector<double>& contacts, double theta = 0) {
   law.insert(law.end(), {theta, 0});
   law.insert(law.end(), contacts.begin(), contacts.end());
@@ -57,7 +58,7 @@ struct Block {
   std::vector<double> contacts;
   At at[3];
 };
-/// Of tests/reference/contacts.py.
+/// Values that tests/reference/contacts.py prints.
 const Block blocks[] = {
     {{0, 0, 0, 0, 0},
      {{10, 19.0755396844, 2.45183542676, 7.9805683737, 0},
@@ -77,7 +78,7 @@ const Block blocks[] = {
       {60, 145.946396319, 3.36849654546, 1.81958624921, 0.0540773366387}}},  // both
 };
 
-/// A block that F = 0.06 pushes over its substrate, from u = 0 at a velocity of 2.5: every site the same.
+/// A force F = 0.06 pushes a block over its substrate. All sites start at u = 0 with a velocity of 2.5.
 std::unique_ptr<Chain> moving_block(const Block& block, double spacing, bool implicit, double tolerance) {
   Problem p = with_contacts(rate_and_state({0.05, 0.01, 0.015, 6, 0.05}, block.contacts));
   p.grid = {0, spacing, 8};
@@ -90,7 +91,7 @@ std::unique_ptr<Chain> moving_block(const Block& block, double spacing, bool imp
   });
 }
 
-TEST(Contacts, BlockByExplicitStepsIsThatOfAnotherMethod) {
+TEST(Contacts, ExplicitStepsOfABlockAgreeWithAnotherMethod) {
   for (const Block& block : blocks) {
     double last = 0;
     for (const double h : {0.05, 0.025}) {
@@ -111,7 +112,7 @@ TEST(Contacts, BlockByExplicitStepsIsThatOfAnotherMethod) {
   }
 }
 
-TEST(Contacts, BlockByImplicitStepsIsThatOfAnotherMethod) {
+TEST(Contacts, ImplicitStepsOfABlockAgreeWithAnotherMethod) {
   for (const Block& block : blocks) {
     const auto chain = moving_block(block, 0.5, true, 1e-7);
     const double first = chain::totals(*chain).energy();
@@ -129,7 +130,7 @@ TEST(Contacts, BlockByImplicitStepsIsThatOfAnotherMethod) {
   }
 }
 
-/// A smooth block on a spring: growth of a small disturbance of steady sliding.
+/// The growth rate of a small disturbance of steady sliding, for a block on a spring without a substrate.
 double growth(double stiffness, const std::vector<double>& contacts) {
   const double f0 = 0.05, a = 0.01, b = 0.015, D = 1, w0 = 0.01, v = 0.001;
   Problem p;
@@ -142,13 +143,14 @@ double growth(double stiffness, const std::vector<double>& contacts) {
   p.forcing = [steady](double, double) { return steady; };
   p.tolerance = 2e-9 * v;
   ImplicitChain chain(p, {std::vector<double>(8, 0.0), std::vector<double>(8, 1.01 * v)});
-  // The first two peaks are those of the start and of inertia.
+  // The first two peaks come from the start and from inertia.
   return growth_of_peaks(chain, v, 10 * 2 * std::numbers::pi * D / v, 2);
 }
 
-/// Dilatancy stabilises: between ((1 - p_0)(b - a) - E f) / D where pores do not drain and (1 - p_0)(b - a) / D where
-/// they do (Segall & Rice 1995); in between by the eigenvalues of tests/reference/contacts.py.
-TEST(Contacts, CriticalStiffnessWithDilatancyIsThatOfTheEigenvalues) {
+/// Dilatancy stabilises. The critical stiffness is ((1 - p_0)(b - a) - E f) / D for pores that do not drain and
+/// (1 - p_0)(b - a) / D for pores that drain at once (Segall & Rice 1995). For slow drainage we compare with the
+/// eigenvalues of tests/reference/contacts.py.
+TEST(Contacts, CriticalStiffnessWithDilatancyAgreesWithTheEigenvalues) {
   const struct {
     double E, drainage, p0, critical;
   } cases[] = {{0.03, 0, 0, 0.0031548807}, {0.03, 1000, 0, 0.0044774273}, {0.03, 1000, 0.4, 0.0025290860}};
@@ -161,8 +163,8 @@ TEST(Contacts, CriticalStiffnessWithDilatancyIsThatOfTheEigenvalues) {
   }
 }
 
-/// Against the numbers that tests/reference/contacts.py prints.
-TEST(Contacts, LimitCycleWithDilatancyIsThatOfAHighOrderIntegration) {
+/// The reference numbers are those that tests/reference/contacts.py prints.
+TEST(Contacts, LimitCycleWithDilatancyAgreesWithAHighOrderIntegration) {
   const struct { double drainage, period, peak; } cases[] = {{1e3, 119814.01, 1.9352069}, {1e5, 117955.84, 1.8858962}};
   for (const auto& c : cases) {
     Problem p;
@@ -191,7 +193,7 @@ chain::ScaledProblem step(const std::vector<double>& contacts) {
   return s;
 }
 
-TEST(Contacts, PoresThatNeverDrainFollowTheLogarithmOfTheta) {
+TEST(Contacts, PressureInUndrainedPoresFollowsTheLogarithmOfTheta) {
   chain::Run run(step({0, 0, 0.02, 0, 0.3}), until(2), {});
   const std::vector<double> first = levels_of(run).state;
   ASSERT_TRUE(run.go());
@@ -209,7 +211,7 @@ TEST(Contacts, PoresThatDrainAtOnceKeepTheirPressure) {
   ASSERT_TRUE(drained.go());
   for (std::size_t j = 0; j < drained.chain().problem().grid.sites; ++j)
     EXPECT_NEAR(drained.chain().effective_stress(j), 0.7, 1e-5);
-  // A pressure that stays is weaker friction on weaker contacts.
+  // A constant pore pressure acts like weaker friction on weaker contacts.
   chain::ScaledProblem weak = step({0, 0, 0, 0, 0});
   weak.friction = rate_and_state({0.035, 0.007, 0.0105, 0.05, 0.05}, {});
   weak.contact = [](double) { return 0.7; };
@@ -220,7 +222,7 @@ TEST(Contacts, PoresThatDrainAtOnceKeepTheirPressure) {
   EXPECT_NEAR(drained.snapshots().back().slip_at_origin / slip, 1, 1e-3);
 }
 
-TEST(Contacts, EnergyThatContactsGiveClosesTheBudget) {
+TEST(Contacts, EnergyFromContactsClosesTheBudget) {
   for (const std::vector<double>& contacts :
        {std::vector<double>{0.1, 0.2, 0, 0, 0}, {0, 0, 0.02, 0.5, 0.1}, {0.1, 0.2, 0.02, 0.5, 0.1}}) {
     chain::Run run(step(contacts), until(2), {});
@@ -249,8 +251,8 @@ TEST(Contacts, ThreadsAndStopsChangeNoBits) {
     EXPECT_EQ(alone.snapshots()[i].profile.W, resumed.snapshots()[i].profile.W);
 }
 
-/// A run that is stopped before its first step, as by a signal right after the first checkpoint.
-TEST(Contacts, ResumeFromTheStartToTheSameBits) {
+/// The run stops before its first step, as after a signal that follows the first checkpoint.
+TEST(Contacts, ResumingFromTheStartGivesTheSameBits) {
   for (const std::vector<double>& contacts : {std::vector<double>{0.1, 0.2, 0, 0, 0},
                                               {0.05, 0.1, 0, 0, 0},
                                               {0, 0, 0.02, 0.5, 0.1},
@@ -265,7 +267,7 @@ TEST(Contacts, ResumeFromTheStartToTheSameBits) {
 }
 
 /// A train under a pulled end, by implicit steps.
-TEST(Contacts, ImplicitStepsKeepEnergyAndBits) {
+TEST(Contacts, ImplicitStepsConserveEnergyAndResumeToTheSameBits) {
   Problem p = with_contacts(rate_and_state({0.05, 0.01, 0.015, 3, 0.05}, {0.1, 10, 0.02, 30, 0.1}));
   p.grid = {0, 0.3, 401};
   p.boundary = {.left = chain::End::free, .right = chain::End::fixed};
@@ -288,8 +290,8 @@ TEST(Contacts, ImplicitStepsKeepEnergyAndBits) {
   EXPECT_EQ(one.window(0, 401).velocity, resumed.window(0, 401).velocity);
 }
 
-/// Contacts at rest heal as ln(1 + t / theta), and with them rises the pressure of pores that do not drain.
-TEST(Contacts, StatesWhereThePorePressureReachesTheNormalStress) {
+/// Contacts at rest heal as ln(1 + t / theta). In pores that do not drain, the pressure rises with them.
+TEST(Contacts, ReportsThePositionWhereThePorePressureReachesTheNormalStress) {
   for (const bool implicit : {false, true}) {
     Problem p = with_contacts(rate_and_state({0.05, 0.01, 0.015, 1, 1}, {0, 0, 0.2, 0, 0.5}));
     p.grid = {0, 0.25, 64};
@@ -300,15 +302,15 @@ TEST(Contacts, StatesWhereThePorePressureReachesTheNormalStress) {
       chain->advance_to(1000);
       FAIL();
     } catch (const NumericsError& error) {
-      const std::string said = error.what();
-      EXPECT_NE(said.find("effective normal stress is -"), std::string::npos) << said;
-      EXPECT_NE(said.find("x = 0"), std::string::npos) << said;
-      EXPECT_NEAR(chain->time(), std::exp(2.5) - 1, 0.2 * std::exp(2.5)) << said;
+      const std::string text = error.what();
+      EXPECT_NE(text.find("effective normal stress is -"), std::string::npos) << text;
+      EXPECT_NE(text.find("x = 0"), std::string::npos) << text;
+      EXPECT_NEAR(chain->time(), std::exp(2.5) - 1, 0.2 * std::exp(2.5)) << text;
     }
   }
 }
 
-TEST(Contacts, RejectsConditionsThatContactsDoNotSupport) {
+TEST(Contacts, RejectsOptionsThatContactsDoNotSupport) {
   const auto refuses = [](const Problem& p, const std::string& key) {
     try {
       chain::make_chain(p, at_rest);
@@ -327,7 +329,7 @@ TEST(Contacts, RejectsConditionsThatContactsDoNotSupport) {
   refuses(p, "friction.contact_ageing");
   p.implicit = false;
   p.substrate = true;
-  p.grid.spacing = 0.62;  // enough for a = 1, too coarse for what it may grow to
+  p.grid.spacing = 0.62;  // enough for a = 1, too coarse for the largest a that ageing can reach
   refuses(p, "spacing");
 }
 

@@ -1,5 +1,5 @@
-// Every law that a scenario can name, on the averages and on chains of two scales: the same problem, and so the same
-// slip. A law that is added to friction::laws() is tested here as it is.
+// Every law that a scenario can name must give the same slip for the same problem on a pulse and on chains of two
+// scales. The test covers each law that is added to friction::laws(), without a change here.
 
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ std::vector<std::pair<double, double>> curve_table(const std::string&, const std
   return {{0, 0}, {0.02, 0.1}, {0.1, 0.3}, {1, 0.9}, {100, 1}};
 }
 
-/// A step of stress into the empty side under a law whose forces have the size `force`.
+/// A step of stress next to the empty side, under a law whose forces have the size `force`.
 scenario::Scenario step_under(const Definition& law, std::size_t word, double force) {
   std::string text = "[initial]\nstress_left = 0.855\nstress_right = 0\n[pulse]\ncells = 60\n[friction]\nlaw = \"" +
                      std::string(law.name) + "\"\n";
@@ -82,7 +82,7 @@ TEST(Laws, SlipEquallyOnThePulseAndOnChainsOfTwoScales) {
       setup::run_levels(
           setup::comparison_of(s, {small_scale, large_scale}), 1, levels, [] {},
           [](const std::string&, double, long) { return false; });
-      // Where the last dislocation that passed is in its train adds up to half a dislocation to the slip of a chain.
+      // The position of the last dislocation that passed adds up to half a dislocation to the slip of a chain.
       const double pulse = slip_of(levels, "pulse-consistent"), share_of_dislocation = 0.3 * 2 * std::numbers::pi;
       EXPECT_NEAR(slip_of(levels, "chain-100"), pulse, share_of_dislocation / small_scale);
       EXPECT_NEAR(slip_of(levels, "chain-300"), pulse, share_of_dislocation / large_scale);

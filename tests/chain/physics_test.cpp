@@ -28,7 +28,7 @@ Problem line(double left, double right, double h) {
           .contact = {}};
 }
 
-/// The dislocation density follows the stress, and a uniform train is the formula of Eq. 4.
+/// The dislocation density follows the stress, and a uniform train has the fields of Eq. (4).
 TEST(ChainInitial, TrainFollowsTheStress) {
   const Grid grid{-200, 0.25, 1601};
   const auto stress = [](double x) { return x < -150 || x > 100 ? 0.0 : 0.6 + 0.4 * std::tanh(x / 40); };
@@ -42,7 +42,7 @@ TEST(ChainInitial, TrainFollowsTheStress) {
   const double spacing = 2 * pi / 0.855;
   for (const double x : {-100.0, -31.5, -2.0}) {
     const auto j = static_cast<std::size_t>(std::lround((x - grid.left) / grid.spacing));
-    // Half a spacing from the last dislocation to the edge at the site x = 0.
+    // The last dislocation is half a spacing away from the edge of the train at x = 0.
     const auto exact = [&] {
       double low = 1e-3, high = 1;
       for (int i = 0; i < 100; ++i) (train::stress_at_rest((low + high) / 2) < 0.855 ? low : high) = (low + high) / 2;
@@ -53,8 +53,8 @@ TEST(ChainInitial, TrainFollowsTheStress) {
   EXPECT_THROW(static_train([](double) { return -1.0; }, grid), InputError);
 }
 
-/// A train made piece by piece, in any order, is the same to the bit.
-TEST(ChainInitial, PiecesAreThoseOfTheWhole) {
+/// A train that is created piece by piece, in any order, has the bits of one that is created as a whole.
+TEST(ChainInitial, PiecesHaveTheBitsOfTheWhole) {
   const Grid grid{-2000, 0.4, 10000};
   const auto stress = [](double x) {
     return x < -1500 || x > 100 || (x > -800 && x < -700) ? 0.0 : 0.6 + 0.4 * std::tanh(x / 40);
@@ -71,7 +71,7 @@ TEST(ChainInitial, PiecesAreThoseOfTheWhole) {
   }
 }
 
-/// Where one stress jumps to another, u is as smooth as within either train, whatever lies to the right.
+/// At a jump of the stress, u is as smooth as within either train, for any length of the right train.
 TEST(ChainInitial, JumpsOfStressLieBetweenDislocations) {
   for (const double right : {100.0, 101.3, 103.7, 106.1, 110.9}) {
     const Grid grid{-100, 0.25, static_cast<std::size_t>((right + 100) / 0.25) + 1};
@@ -83,7 +83,7 @@ TEST(ChainInitial, JumpsOfStressLieBetweenDislocations) {
   }
 }
 
-/// A train at rest stays at rest: the initial state is an equilibrium to the order of the grid.
+/// A train at rest stays at rest, because the initial state is an equilibrium to the order of the grid.
 TEST(ChainInitial, UniformTrainStaysAtRest) {
   Problem p = line(0, 20 * 2 * pi, 20 * 2 * pi / 320);
   p.grid.sites = 320;
@@ -95,7 +95,8 @@ TEST(ChainInitial, UniformTrainStaysAtRest) {
   for (std::size_t j = 0; j < 320; ++j) ASSERT_NEAR(w.u[j], m.u[j], 2e-3) << j;
 }
 
-/// So it does where the contact ratio is another: psi is that of the stress in local units, k / a.
+/// A train at rest also stays at rest for other contact ratios a. Its psi follows from the stress in local units, k /
+/// a.
 TEST(ChainInitial, UniformTrainStaysAtRestInStrongerOrWeakerContact) {
   for (const double a : {0.7, 1.3}) {
     Problem p = line(0, 20 * 2 * pi, 20 * 2 * pi / 480);
@@ -110,15 +111,16 @@ TEST(ChainInitial, UniformTrainStaysAtRestInStrongerOrWeakerContact) {
   }
 }
 
-/// Trains with the same J = (4 / pi) a cosh(psi) E are in equilibrium with each other on a slope of a(x), whatever
-/// their stress (docs/theory.md 6): little moves, and a train laid with psi of k moves at once.
-TEST(ChainInitial, EquilibriumOnASlopeOfContactStaysAtRest) {
+/// Trains with the same J = (4 / pi) a cosh(psi) E are in equilibrium with each other on a slope of a(x), for any
+/// stress (docs/theory.md 6). Such a train hardly moves. A train that is created with psi of k, without a, moves at
+/// once.
+TEST(ChainInitial, TrainInEquilibriumOnASlopeOfContactStaysAtRest) {
   const double length = 300;
   Problem p = line(0, length, 0.25);
   p.grid.sites -= 1;  // a ring
   const auto a = [length](double x) { return 1 + 0.05 * std::sin(2 * pi * x / length); };
   const double J0 = train::averages(train::at_rest(1.2)).J;
-  // Of each place, the stress a k(psi) of the psi with a J(psi) = J0.
+  // The stress at x is a k(psi), for the psi that satisfies a J(psi) = J0.
   const auto stress = [&](double x) {
     double low = 1e-3, high = 3;
     for (int i = 0; i < 60; ++i) {
@@ -127,8 +129,8 @@ TEST(ChainInitial, EquilibriumOnASlopeOfContactStaysAtRest) {
     }
     return a(x) * train::stress_at_rest(low);
   };
-  const auto drift = [&](const std::function<double(double)>& laid_with) {
-    const StaticTrain train(stress, p.grid, true, laid_with);
+  const auto drift = [&](const std::function<double(double)>& contact_of_train) {
+    const StaticTrain train(stress, p.grid, true, contact_of_train);
     p.contact = a;
     const double fall = train(0, 1).u[0] - train(p.grid.sites - 1, p.grid.sites).u[0];
     p.boundary = {.periodic = true, .charge = std::lround(fall / (2 * pi))};
@@ -145,9 +147,9 @@ TEST(ChainInitial, EquilibriumOnASlopeOfContactStaysAtRest) {
   EXPECT_GT(wrong, 30 * right);
 }
 
-/// The grid of the continuum equation holds a dislocation too, up to its Peierls-Nabarro barrier: (40 pi / h^2)
-/// exp(-pi^2 / h), 2.5e-5 at h = 0.6 (docs/chain.md).
-TEST(ChainPhysics, GridHoldsADislocationBelowItsBarrier) {
+/// The grid of the continuum equation also pins a dislocation, up to its Peierls-Nabarro barrier (40 pi / h^2)
+/// exp(-pi^2 / h). The barrier is 2.5e-5 at h = 0.6 (docs/chain.md).
+TEST(ChainPhysics, GridPinsADislocationBelowItsBarrier) {
   const double h = 0.6, barrier = 40 * pi / (h * h) * std::exp(-pi * pi / h);
   const auto moved = [&](double share) {
     Problem p = line(-24, 24, h);
@@ -158,12 +160,14 @@ TEST(ChainPhysics, GridHoldsADislocationBelowItsBarrier) {
     run.advance_to(3000);
     return std::fabs(dislocations(run).at(0).x);
   };
-  EXPECT_LT(moved(0.9), 0.75 * h);  // from a site to the place between two where it is held, and half way to the next
+  EXPECT_LT(
+      moved(0.9),
+      0.75 * h);  // from a site to the middle between two sites, where it is pinned, and half way to the next middle
   EXPECT_GT(moved(1.2), h);
 }
 
-/// On a lattice a dislocation is pinned until the force reaches the Peierls-Nabarro threshold; on the grid of the
-/// continuum equation a thousand times less does.
+/// A lattice pins a dislocation until the force reaches the Peierls-Nabarro threshold. On the grid of the continuum
+/// equation, the threshold is a thousand times lower.
 TEST(ChainPhysics, LatticePinsDislocations) {
   const auto moved = [](double A, double F, Model model) {
     Problem p = line(-24, 24, A);
@@ -184,8 +188,9 @@ TEST(ChainPhysics, LatticePinsDislocations) {
   EXPECT_GT(moved(0.5, 0.005, Model::sine_gordon), 0.8);
 }
 
-/// Coulomb friction holds a chain that is pushed less than it can bear, and slows uniform slip at the rate f.
-TEST(ChainPhysics, CoulombFrictionSticksAndSlows) {
+/// Coulomb friction stops a chain as long as the force is below f. A power law with exponent 1 acts like viscous
+/// friction.
+TEST(ChainPhysics, CoulombFrictionSticksAndAPowerOfOneIsViscous) {
   Problem p = line(-20, 20, 0.4);
   p.friction = friction::coulomb(0.05);
   Motion rest;
@@ -194,7 +199,6 @@ TEST(ChainPhysics, CoulombFrictionSticksAndSlows) {
   stuck.advance_to(50);
   for (const double u : stuck.window(0, p.grid.sites).u) EXPECT_NEAR(u, 0.03, 1e-3);
 
-  // Viscous and power laws with exponent 1 are the same law.
   Problem viscous = line(-20, 20, 0.1), power = viscous;
   viscous.friction = friction::viscous(0.2);
   power.friction = friction::power(0.2, 1);
@@ -205,7 +209,7 @@ TEST(ChainPhysics, CoulombFrictionSticksAndSlows) {
   EXPECT_NEAR(dislocations(a).at(0).x, dislocations(b).at(0).x, 2e-3);
 }
 
-/// Contact: x and t scaled by a give the equation with a = 1.
+/// With a uniform contact ratio a, scaling x and t by a gives the equation with a = 1.
 TEST(ChainPhysics, UniformContactIsAScale) {
   Problem plain = line(-20, 20, 0.2), strong = line(-10, 10, 0.1);
   strong.contact = [](double) { return 2.0; };
@@ -220,7 +224,7 @@ TEST(ChainPhysics, UniformContactIsAScale) {
   EXPECT_EQ(b.contact_squared(7), 4);
 }
 
-/// A dislocation leaves through an absorbing end and little comes back.
+/// A dislocation leaves through an absorbing end, which reflects little energy.
 TEST(ChainPhysics, AbsorbingEndLetsDislocationsOut) {
   Problem p = line(-15, 15, 0.25);
   p.boundary = {End::absorbing, End::absorbing, false, 0};
@@ -231,18 +235,18 @@ TEST(ChainPhysics, AbsorbingEndLetsDislocationsOut) {
   EXPECT_LT(totals(run).energy(), 0.05 * first);
 }
 
-/// Time shift of one dislocation passing through another, against 2 ln(U) / (gamma U): to 1e-6 on a fine grid.
-TEST(ChainPhysics, PhaseShiftOfACollision) {
+/// The time shift when one dislocation passes through another is 2 ln(U) / (gamma U), to 1e-6 on a fine grid.
+TEST(ChainPhysics, TimeShiftOfACollisionAgreesWithTheExactSolution) {
   const double U = 0.6, g = 1 / std::sqrt(1 - U * U);
   const Problem p = line(-25, 25, 0.02);
   const auto u = exact::kink_kink(U);
   chain::ExplicitChain run(p, exact::motion_of(u, p.grid, -12));
   run.advance_to(24);
-  // Two that repel: after it, each stands where g (x -+ U t) = -+ ln U.
+  // The two repel. Long after the collision, they are at g (x -+ U t) = -+ ln U.
   const double t = run.time() - 12;
   const auto found = dislocations(run);
   ASSERT_EQ(found.size(), 2u);
-  // As they are at finite distance: u = -pi and pi exactly, U sinh(g x) = cosh(g U t).
+  // At a finite distance, u = -pi and pi exactly at U sinh(g x) = cosh(g U t).
   const double exact = std::asinh(std::cosh(g * U * t) / U) / g;
   EXPECT_NEAR(found[1].x, exact, 1e-6);
   EXPECT_NEAR(found[0].x, -exact, 1e-6);
@@ -259,7 +263,7 @@ void refused(const Problem& p, const Motion& m, const std::string& what) {
   }
 }
 
-TEST(ChainInput, RejectsBadNumbersInOneLine) {
+TEST(ChainInput, RejectsInvalidNumbers) {
   const Problem good = line(-20, 20, 0.4);
   const Motion kink = exact::motion_of(exact::kink(0), good.grid, 0);
   Problem p = good;

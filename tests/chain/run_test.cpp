@@ -40,7 +40,7 @@ TEST(ChainRun, FrictionlessStepTendsToTheClosedForm) {
     EXPECT_LT(error * 2 * pi * exact.slip_velocity, 0.001 + 2 * pi / scale);  // one dislocation
     EXPECT_LT(run.balance().energy_drift, 1e-5);
     EXPECT_EQ(run.balance().charge_error, 0);
-    // Nothing moves before the trailing edge.
+    // Nothing moves ahead of the trailing edge.
     for (std::size_t i = 0; i < 40; ++i)
       if (run.schedule().x_edges[i + 1] < -2 * pi * exact.rupture_velocity - 0.2) {
         EXPECT_NEAR(s.profile.W[i], 0, 5e-3);
@@ -48,7 +48,7 @@ TEST(ChainRun, FrictionlessStepTendsToTheClosedForm) {
   }
 }
 
-TEST(ChainRun, ScaleChangesTheNumberOfDislocationsOnly) {
+TEST(ChainRun, ScaleChangesOnlyTheNumberOfDislocations) {
   chain::Run small(step(200, 0.5), schedule({0, 1}), {}), large(step(400, 0.5), schedule({0, 1}), {});
   small.go();
   large.go();
@@ -57,8 +57,9 @@ TEST(ChainRun, ScaleChangesTheNumberOfDislocationsOnly) {
   EXPECT_NEAR(small.snapshots().back().slip_at_origin, large.snapshots().back().slip_at_origin, 2 * pi / 200);
 }
 
-/// The train of a scenario is laid with its contact ratio: nothing moves (it was psi of k: energy grew 1300 times).
-TEST(ChainRun, UniformTrainInAnotherContactIsAtRest) {
+/// The train of a scenario is created with its contact ratio, so that it stays at rest. When psi followed from k
+/// without the contact ratio, the energy grew 1300 times.
+TEST(ChainRun, UniformTrainWithAnotherContactRatioStaysAtRest) {
   chain::ScaledProblem s = step(300);
   s.stress = [](double) { return 0.8; };
   s.contact = [](double) { return 1.3; };

@@ -13,7 +13,7 @@ namespace {
 using namespace slipfront;
 using friction::LocalState;
 
-/// Friction that weakens with the slip of a place: f = C sign(w) (1 - min(slip / L, 1) / 2).
+/// Friction that weakens with the slip at a position: f = C sign(w) (1 - min(slip / L, 1) / 2).
 class Weakening : public friction::Law {
  public:
   explicit Weakening(const std::vector<double>& values) : C_(values[0]), L_(values[1]) {}
@@ -59,7 +59,7 @@ TEST(ChainState, FrictionFollowsTheSlipOfEachSite) {
   const std::vector<double> slip = levels_of(run).state;
   ASSERT_EQ(slip.size(), after.u.size());
   EXPECT_GT(*std::max_element(slip.begin(), slip.end()), 6);
-  // z = u + eps sin u differs from u by little; waves go to and fro.
+  // The slip of a site is at least its displacement, because waves move it to and fro. z = u + eps sin u is close to u.
   for (std::size_t j = 0; j < slip.size(); ++j) EXPECT_GE(slip[j], after.u[j] - before.u[j] - 0.05) << j;
   EXPECT_LT(run.balance().energy_drift, 2e-4);
   chain::ScaledProblem strong = step();

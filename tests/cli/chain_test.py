@@ -1,4 +1,4 @@
-"""slipfront chain as a user meets it."""
+"""The command `slipfront chain` as a user runs it."""
 
 import json
 import math
@@ -14,7 +14,7 @@ CHAIN = ["time", "scale", "slip_at_origin", "dislocations", "sites", "steps", "s
 
 
 class Chain(CommandLine):
-    def test_too_few_sites_name_the_key_and_the_file(self):
+    def test_an_error_of_too_few_sites_names_key_and_file(self):
         case = self.file("short.toml", "[initial]\nstress_left = 1\nstress_right = 1\n[domain]\nleft = -1\nright = 1\n"
                                        "[chain]\nscale = 0.5\nspacing = 0.5\n")
         self.refused(2, "chain", case, says=("short.toml: chain.scale = '0.5': makes a chain of 3 sites",))
@@ -47,7 +47,7 @@ class Chain(CommandLine):
         self.assertLess(abs(lattice["slip_at_origin"] / 0.3029 - 1), 0.02)
 
     def test_forced_ring(self):
-        """A force without friction accelerates dislocations for ever: by t = 2 pi they are 2.7 times narrower than at rest."""
+        """A force without friction accelerates dislocations without limit. By t = 2 pi they are 2.7 times narrower than at rest."""
         text = ("[initial]\nprofile = 'formula'\nformula = '0.8'\n[domain]\nleft = -1\nright = 1\n"
                 "[chain]\nscale = 50\nperiodic = true\n[pulse]\nperiodic = true\n[forcing]\nformula = '0.5'\n")
         case = self.file("ring.toml", text)
@@ -57,11 +57,11 @@ class Chain(CommandLine):
         self.assertLess(fine["energy_drift"], 1e-4)
         self.assertLess(fine["energy_drift"], ring["energy_drift"] / 50)
         self.assertLess(abs(ring["slip_at_origin"] / fine["slip_at_origin"] - 1), 1e-2)
-        # The pulse has a stress of 0.8 where 13 dislocations make 0.817.
+        # The pulse has a stress of 0.8, but the chain has 13 whole dislocations, which give 0.817.
         self.assertLess(abs(fine["slip_at_origin"] * 0.8 / 0.8168 / self.pulse(case)["slip_at_origin"] - 1), 0.01)
 
     def slider(self, *settings):
-        """A block pulled through springs; tests/reference/spring_slider.py has the same numbers."""
+        """A block that springs pull. tests/reference/spring_slider.py uses the same numbers."""
         text = ("[initial]\nstress_left = 0\nstress_right = 0\n[interface]\ncontact = 0\n[domain]\nleft = -2\nright = 2\n"
                 "[friction]\nlaw = 'rate-and-state'\nstrength = 0.05\ndirect_effect = 0.01\nevolution_effect = 0.015\n"
                 "reference_velocity = 0.01\ncharacteristic_slip = 1\n[loading]\nstiffness = 0.0025\nvelocity = 0.001\n"
@@ -77,22 +77,22 @@ class Chain(CommandLine):
         self.assertLess(abs((events[3]["onset"] - events[2]["onset"]) / 51684.606 - 1), 2e-3)
         self.assertIsNone(events[3]["rupture_velocity"])
         self.assertLess(whole["energy_drift"], 1e-10)
-        # Left alone and interrupted: the same file.
+        # An interrupted and resumed run writes the same file as an uninterrupted one.
         longer = ["--set", "time.end=4e6", "--set", "output.every=4e5"]
-        cut, left_alone = case + ".cut.nc", case + ".alone.nc"
+        cut, uninterrupted = case + ".cut.nc", case + ".alone.nc"
         self.interrupted(cut, "chain", case, *longer)
         self.ok("chain", case, *longer, "--resume", cut)
-        self.ok("chain", case, *longer, "-o", left_alone)
-        with open(cut, "rb") as one, open(left_alone, "rb") as other:
+        self.ok("chain", case, *longer, "-o", uninterrupted)
+        with open(cut, "rb") as one, open(uninterrupted, "rb") as other:
             self.assertEqual(one.read(), other.read())
         self.assertIn("4 events", self.ok("chain", case))
         self.assertIn("implicit", self.ok("chain", case, "--check"))
-        # A finer one has the scale in its units alone: kappa / s^2, f / s, slip and time times s.
+        # The scale s of a chain changes only its units: kappa / s^2, f / s, and s times slip and time.
         scaled = self.chain(case, "--set", "chain.scale=3")["events"]
         for key in ("onset", "slip", "stress_drop", "peak_velocity", "duration"):
             self.assertLess(abs(scaled[2][key] / events[2][key] - 1), 5e-3, key)
 
-    def test_loading_refuses(self):
+    def test_invalid_loading_is_refused(self):
         case, _ = self.slider()
         for setting, said in (("loading.stiffness=0", "loading.stiffness"), ("loading.stiffness=-1", "> 0"), ("loading.velocity=nan", "not finite"),
                               ("loading.velocity=inf", "not finite"), ("loading.stifness=1", "'stiffness'"), ("loading.where=top", "where"),
@@ -109,10 +109,10 @@ class Chain(CommandLine):
             self.assertEqual(done.returncode, 2)
             self.assertIn("slipfront chain", done.stderr)
 
-    def test_phonons_hold_what_a_shock_loses(self):
+    def test_phonons_have_the_energy_that_a_shock_loses(self):
         case = os.path.join(SOURCE, "cases/shock.toml")
         lost = 3.925e-4  # elastic and kinetic energy of `slipfront pulse` at the start less that at the end
-        # What the window leaves of the train's ripple is a quarter of it at such scales (docs/chain.md).
+        # At such scales, the window leaves an error of a quarter of this value from the train's ripple (docs/chain.md).
         self.assertLess(abs(self.chain(case, "--set", "chain.scale=1500")["energy_phonons"] / lost - 1), 0.3)
 
     @unittest.skipUnless(shutil.which("mpirun"), "no mpirun")
@@ -149,7 +149,7 @@ class Chain(CommandLine):
         self.ok("pulse", case, "-o", made)
         self.refused(2, "chain", case, "--resume", made, says=["resume"])
 
-    def test_killed_and_resumed_is_the_same_file(self):
+    def test_a_killed_and_resumed_run_writes_the_same_file(self):
         self.killed_and_resumed("chain", 6)
 
 

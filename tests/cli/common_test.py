@@ -1,4 +1,4 @@
-"""What every command shares: help, version, a full disk."""
+"""Behaviour that all commands share: help, version, a full disk."""
 
 import subprocess
 import unittest

@@ -1,4 +1,4 @@
-"""slipfront event as a user meets it."""
+"""The command `slipfront event` as a user runs it."""
 
 import csv
 import io
@@ -28,7 +28,7 @@ class Event(CommandLine):
         self.assertIsNone(parkfield["observed_slip_velocity"])
         self.assertIsNone(parkfield["damping_number"])
 
-    def test_bad_rows_keep_the_good_ones(self):
+    def test_bad_rows_do_not_lose_the_good_ones(self):
         path = self.file("c.csv", "name,rupture_velocity_km_s\ngood,2.8\nfast,9\nword,x\ngood too,3\n")
         done = run("event", path, "--json")
         self.assertEqual(done.returncode, 2)
@@ -67,7 +67,7 @@ class Event(CommandLine):
         self.assertFalse(any(None in row or None in row.values() for row in rows))
 
     def test_one_answer_everywhere(self):
-        """A bound is a bound in table, JSON, CSV and file, with every error in its interval."""
+        """If a quantity has only a bound, table, JSON, CSV and file all give the bound. Its interval includes every error."""
         path = self.file("t.toml", '[event]\nname = "Tohoku 2011"\nrupture_velocity = "2.0 +- 0.4 km/s"\nslip = "12 */ 1.5 m"\nrise_time = "40 */ 1.4 s"\n'
                          '[medium]\nshear_modulus = "40 GPa"\n')
         event, = json.loads(self.ok("event", path, "--json"))["events"]
@@ -128,7 +128,7 @@ class Event(CommandLine):
             self.assertGreater(event["stress"], 0, name)
 
     def fault(self, slip):
-        """A .fsp of 9 columns of two subfaults, that slip by slip(column), ruptured from the middle at 2.5 km/s."""
+        """A .fsp file with 9 columns of two subfaults, which slip by slip(column). Rupture starts in the middle and runs at 2.5 km/s."""
         with open(os.path.join(SOURCE, "tests/data/fsp_srcmod_single.fsp")) as file:
             head = [line for line in file.read().split("\n") if line.startswith("%")]
         text = "\n".join(head).replace("Nx  =    3", "Nx  =    9").replace("Nsbfs =      6", "Nsbfs =     18")
@@ -168,7 +168,7 @@ class Event(CommandLine):
         self.assertIn("finite-fault", none["pulse_reason"])
         self.assertNotIn("pulse", self.ok("event", path, "--csv").split("\n")[0])
 
-    def test_pulse_says_what_is_missing(self):
+    def test_the_reason_for_no_pulse_is_given(self):
         for name, reason in (("tests/data/fsp_srcmod_single.fsp", "rupture times"), ("tests/data/fsp_usgs_single.fsp", "2 columns"),
                              ("tests/data/fsp_srcmod_segments.fsp", "no rupture velocity"), ("cases/ets.toml", "finite-fault")):
             path = os.path.join(SOURCE, name)
@@ -177,17 +177,17 @@ class Event(CommandLine):
             self.assertIn("no pulse: ", self.ok("event", path, "--pulse", "--quiet"))
 
     def catalogue(self, rows):
-        """Rows that are sampled, of rupture velocities over seven decades; every tenth is bad."""
+        """A catalogue whose rows need samples, with rupture velocities over seven decades. Every tenth row is bad."""
         kinds = ["{0:.6g} +- {1:.3g} m/s,{2:.3g} */ 1.5 m/s,", "{0:.6g} +- {1:.3g} m/s,,1e-3 */ 2"]
         lines = ["9 km/s,,0.01 +- 0.001" if i % 10 == 9 else kinds[i % 2].format(v, v / 10, v * 1e-4)
                  for i in range(rows) for v in [10 ** (-3.5 + 7 * i / rows)]]
         return self.file("catalogue.csv", "name,rupture_velocity,slip_velocity,contact_ratio\n" + "".join(f"E{i},{line}\n" for i, line in enumerate(lines)))
 
-    def test_written_to_a_file(self):
+    def test_output_files_have_the_results_that_are_printed(self):
         case = self.catalogue(100)
         beside = lambda name: os.path.join(os.path.dirname(case), name)
         whole = run("event", case, "-o", beside("a.nc"))
-        self.assertEqual(whole.returncode, 2)  # of the bad rows
+        self.assertEqual(whole.returncode, 2)  # because of the bad rows
         self.assertIn(f"100 events, 10 of them with errors, written to {beside('a.nc')}", whole.stdout)
         self.assertNotIn("E3", whole.stdout)
         for arguments in (["--threads", "1", "-o"], ["--threads", "2", "--json", "-o"], ["--population", "-o"]):
@@ -203,7 +203,7 @@ class Event(CommandLine):
         with open(one, "rb") as a, open(other, "rb") as b:
             self.assertTrue(a.read() == b.read(), (one, other))
 
-    def test_refuses_names_of_files(self):
+    def test_unusable_file_names_are_refused(self):
         case = os.path.join(SOURCE, "cases/ets.toml")
         self.refused(2, "event", case, "-o", "out.txt", says=["-o = 'out.txt'", "OUT.nc or OUT.csv"])
         self.refused(2, "event", case, "--resume", "out.csv", says=["--resume = 'out.csv'", "OUT.nc"])
@@ -215,7 +215,7 @@ class Event(CommandLine):
         self.refused(3, "event", case, "--resume", "/nowhere/a.nc", says=["/nowhere/a.nc"])
         self.refused(3, "event", case, "--resume", self.file("a.nc", "text"), says=["not a NetCDF-4 file"])
 
-    def test_resumes_the_same_catalogue_only(self):
+    def test_only_the_same_catalogue_can_be_resumed(self):
         case = self.file("a.csv", "name,rupture_velocity\nA,3 +- 0.1 km/s\nB,2 km/s\n")
         path = os.path.join(os.path.dirname(case), "a.nc")
         self.ok("event", case, "-o", path)
@@ -234,7 +234,7 @@ class Event(CommandLine):
     def test_killed_and_resumed(self):
         case = self.catalogue(1500)
         quiet = subprocess.DEVNULL
-        slowly = ["--samples", "3000"]  # so that there are checkpoints on the way, however long each takes
+        slowly = ["--samples", "3000"]  # so many that the run writes several checkpoints on any machine
         folder = os.path.dirname(case)
         cut, reference = os.path.join(folder, "cut.nc"), os.path.join(folder, "reference.nc")
         run("event", case, *slowly, "-o", reference)
@@ -242,12 +242,12 @@ class Event(CommandLine):
         self.wait_for(cut, process)
         empty = os.stat(cut).st_size
         while process.poll() is None and os.stat(cut).st_size == empty:
-            pass  # until some events are in it
+            pass  # wait until the file has some events
         process.kill()
         process.wait()
         grown = os.stat(cut).st_size
         self.assertTrue(empty < grown < os.stat(reference).st_size)
-        # Ctrl-C on the way keeps what there is; then to the end, to the bits of a run left alone.
+        # Ctrl-C leaves the completed events in the file. The resumed run ends with the bits of an uninterrupted one.
         process = subprocess.Popen([PROGRAM, "event", case, *slowly, "--resume", cut, "--threads", "1"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         while process.poll() is None and os.stat(cut).st_size == grown:
             pass

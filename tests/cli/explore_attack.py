@@ -1,7 +1,8 @@
-"""Attacks `slipfront explore` from all sides at once, by hand: python3 tests/cli/explore_attack.py PROGRAM PAGE [SECONDS].
+"""Attacks `slipfront explore` in several ways at once. Usage: python3 tests/cli/explore_attack.py PROGRAM PAGE [SECONDS].
 
-300 slow connections, bodies of 1 GB, requests with 10,000 ranges and for hosts that are not this machine. Meanwhile
-another client asks for the largest file of the page. Prints the slowest answer to it, and the most memory.
+You start this test manually. It opens 300 slow connections, and sends bodies of 1 GB, requests with 10,000 ranges, and
+requests for hosts other than this machine. Meanwhile another client requests the largest file of the page. The script prints
+the slowest answer to this client, and the largest memory use of the server.
 """
 
 import contextlib
@@ -21,7 +22,7 @@ def address(process):
 
 
 def request(server, method, path, fields, body=()):
-    """Sends a request, then pieces of a body. Returns the answer's status, None if the server has closed before."""
+    """Sends a request, then pieces of a body. Returns the status of the answer, or None if the server closed the connection."""
     with contextlib.suppress(OSError, http.client.HTTPException):
         connection = http.client.HTTPConnection(server, timeout=60)
         connection.putrequest(method, path, skip_host=True)

@@ -1,4 +1,4 @@
-"""slipfront pulse as a user meets it."""
+"""The command `slipfront pulse` as a user runs it."""
 
 import json
 import math
@@ -32,19 +32,19 @@ class Pulse(CommandLine):
         self.assertEqual(out["warnings"], [])
 
     def test_check_estimates_the_steps_and_the_time(self):
-        told = self.ok("pulse", os.path.join(SOURCE, "cases/step.toml"), "--check")
-        steps = float(re.search(r"about (\S+) steps and \S+ s\.", told).group(1))
+        text = self.ok("pulse", os.path.join(SOURCE, "cases/step.toml"), "--check")
+        steps = float(re.search(r"about (\S+) steps and \S+ s\.", text).group(1))
         self.assertLess(abs(math.log(steps / 400)), math.log(3))
 
-    def test_tolerance_gives_up_with_what_it_reached(self):
+    def test_tolerance_stops_with_the_error_that_it_reached(self):
         """No number of cells resolves a corner to 1e-9."""
         case = self.file("slow.toml", "[initial]\nprofile = 'step'\nstress_left = 0.8\nstress_right = 0.2\n"
                                       "[friction]\nlaw = 'viscous'\ncoefficient = 0.5\n[pulse]\ncells = 25600\n"
                                       "[time]\nend = 1e-3\n[domain]\nleft = -1\nright = 1\n")
         self.refused(4, "pulse", case, "--tolerance", "1e-9", says=("is not reached with ", "pulse.cells = "))
 
-    def test_streams_that_cross_are_told(self):
-        """Dislocations at rest on a slope of a(x) roll down and overtake each other: values stay possible, and it is told."""
+    def test_warns_if_dislocations_overtake_each_other(self):
+        """Dislocations at rest on a slope of a(x) move down and overtake each other. Values stay physical, and the run warns."""
         case = self.file("bump.toml", """[initial]
 stress_left = 0.5
 stress_right = 0.2
@@ -77,7 +77,7 @@ cells = 200
             self.assertTrue(np.isfinite(W).all() and (abs(W) <= k).all() and (abs(U) < 1).all())
 
     def test_stated_errors_hold_against_four_times_the_cells(self):
-        """Two smooth steps of stress: the front was stated as -1.499 +- 0.009 with 200 cells, and -1.588 with 800."""
+        """The stress has two smooth steps. Before a correction, the front was -1.499 +- 0.009 with 200 cells and -1.588 with 800."""
         case = self.file("two.toml", """[initial]
 profile = "formula"
 formula = "0.7522+1.599*0.5*(1-tanh((x+0.09676)/0.08963))-0.7522*0.5*(1-tanh((x-0.09676)/0.08963))"
@@ -106,7 +106,7 @@ cells = 200
                 continue
             case = os.path.join(folder, name)
             with self.subTest(case=name), open(case, encoding="utf-8") as file:
-                if "[loading]" in file.read():  # for the chain alone
+                if "[loading]" in file.read():  # only chains support loading
                     self.refused(2, "pulse", case, says=["loading.stiffness", "slipfront chain"])
                     self.assertIn("OK. This scenario would run", self.ok("chain", case, "--check"))
                     self.assertEqual(len(self.chain(case, "--set", "domain.left=-13", "domain.right=13", "time.end=3e5")["events"]), 1)
@@ -114,7 +114,7 @@ cells = 200
                 self.assertIn("OK. This scenario would run", self.ok("pulse", case, "--check"))
                 self.assertGreater(self.pulse(case, "--set", "pulse.cells=50")["steps"], 0)
 
-    def test_what_the_cells_do_not_resolve_has_no_error_but_a_warning(self):
+    def test_a_number_that_the_cells_do_not_resolve_has_a_warning_instead_of_an_error(self):
         case = os.path.join(SOURCE, "cases/step.toml")
         narrow = ("--set", "initial.stress_left=0.373", "initial.stress_right=0.0066", "friction.law=power",
                   "friction.coefficient=5.74", "friction.exponent=0.5", "domain.left=-4.25", "domain.right=5.07", "time.end=2.83")
@@ -125,7 +125,7 @@ cells = 200
         self.assertEqual(out["warnings"], [])
         self.assertLess(out["errors"]["slip_at_origin"], 0.02 * out["slip_at_origin"])
 
-    def test_closures_are_both_there_and_named(self):
+    def test_both_closures_run_and_are_named(self):
         case = os.path.join(SOURCE, "cases/fig-08.toml")
         paper = self.pulse(case)
         right = self.pulse(case, "--set", "friction.closure=consistent")
@@ -187,15 +187,15 @@ cells = 200
         case = os.path.join(SOURCE, "cases/step.toml")
         output = os.path.join(os.path.dirname(self.file("unused", "")), "out.nc")
         change = ("--set", "friction.law=viscous", "--set", "friction.coefficient=0.5", "--set", "forcing.formula=0 * x")
-        said = self.ok("pulse", case, "-o", output, *change)
+        text = self.ok("pulse", case, "-o", output, *change)
         title = "Frictionless step (with forcing.formula=0 * x, friction.coefficient=0.5, friction.law=viscous)"
-        self.assertEqual(said.split("\n")[0], title)
+        self.assertEqual(text.split("\n")[0], title)
         with netCDF4.Dataset(output) as data:
             self.assertEqual(data.title, title)
             self.assertEqual(data.history, f"slipfront pulse {case} --set friction.law=viscous --set friction.coefficient=0.5 "
                                            "--set 'forcing.formula=0 * x'")
 
-    def test_killed_and_resumed_is_the_same_file(self):
+    def test_a_killed_and_resumed_run_writes_the_same_file(self):
         self.killed_and_resumed("pulse", 20)
 
     def test_interrupted_leaves_a_checkpoint(self):

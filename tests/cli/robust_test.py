@@ -1,4 +1,4 @@
-"""What goes wrong around a run: names of outputs, leftovers, signals, text that a terminal would obey, odd inputs."""
+"""Unusual conditions around a run: names of outputs, leftovers, signals, text with control codes, unusual inputs."""
 
 import fcntl
 import os
@@ -24,14 +24,14 @@ def content(path):
 
 
 class Outputs(CommandLine):
-    def test_names_that_are_none(self):
+    def test_unusable_output_names_are_refused(self):
         events = os.path.join(SOURCE, "cases/parkfield-2004.toml")
         for command in (["pulse", STEP], ["chain", STEP], ["compare", STEP], ["event", events]):
             self.refused(2, *command, "-o", "", says=["the file name is empty"])
             self.refused(2, *command, "-o", "x.txt", says=["x.txt"])
         self.refused(2, "pulse", STEP, "-o", "x.csv", says=["unsupported file type", ".nc"])
 
-    def test_what_stdout_was_redirected_to_is_not_replaced(self):
+    def test_the_file_behind_stdout_is_not_replaced(self):
         folder = os.path.dirname(self.file("x", ""))
         where = os.path.join(folder, "said.nc")
         for name in ("/dev/stdout", "/proc/self/fd/1", "/dev/fd/1"):
@@ -61,7 +61,7 @@ class Outputs(CommandLine):
         self.assertNotEqual(content(out), old)
         self.assertFalse(os.path.exists(unfinished))
 
-    def test_help_to_a_full_device(self):
+    def test_help_to_a_full_device_is_an_error(self):
         for arguments in (["--help"], ["pulse", "--help"], ["--version"], ["plot", "--help"]):
             with open("/dev/full", "w", encoding="ascii") as full:
                 done = subprocess.run([PROGRAM, *arguments], stdout=full, stderr=subprocess.PIPE, text=True)
@@ -79,7 +79,7 @@ class Outputs(CommandLine):
         self.assertEqual(sorted(os.listdir(folder)), ["mine.nc.part", "out.nc", "out.nc.part18-0"])
 
     def test_leftovers_of_checkpoints_are_removed_by_every_command(self):
-        """A run that begins anew, or ends before its first checkpoint, has no OUT.unfinished.nc of its own."""
+        """A new run, or one that ends before its first checkpoint, does not write OUT.unfinished.nc. It removes old leftovers."""
         events = self.file("events.csv", "name,rupture_velocity,slip_velocity\na,3 km/s,0.5 m/s\n")
         folder = os.path.dirname(events)
         out, left = os.path.join(folder, "out.nc"), os.path.join(folder, "out.unfinished.nc.part17-0")
@@ -94,28 +94,28 @@ class Outputs(CommandLine):
 
 
 class Sizes(CommandLine):
-    def said_by_check(self, *arguments):
-        """(GB of memory, GB on the disk) that --check speaks of."""
+    def sizes_by_check(self, *arguments):
+        """(GB of memory, GB on the disk) that --check prints."""
         text = self.ok(*arguments, "--check")
         return tuple(float(x) for x in re.search(r"([\d.e+-]+) GB of memory, ([\d.e+-]+) GB on the disk with -o[.,]", text).groups())
 
-    def test_every_check_tells_memory_and_disk(self):
+    def test_every_check_prints_memory_and_disk(self):
         for command in (["pulse", STEP], ["chain", STEP], ["compare", STEP, "--scale", "20"]):
-            few = self.said_by_check(*command)
-            many = self.said_by_check(*command, "--set", "output.every=0.02")
+            few = self.sizes_by_check(*command)
+            many = self.sizes_by_check(*command, "--set", "output.every=0.02")
             self.assertTrue(all(20 * a < b for a, b in zip(few, many)), (command, few, many))
 
-    def test_the_disk_that_check_speaks_of_is_what_a_file_needs(self):
+    def test_check_prints_the_size_of_the_file(self):
         for command, file in (("pulse", "p.nc"), ("chain", "c.nc"), ("compare", "l.nc")):
             words = [command, STEP, *SMALL, *(["--scale", "20"] if command == "compare" else []), "--set", "pulse.cells=60", "--set", "output.every=0.005"]
             out = os.path.join(os.path.dirname(self.file("x", "")), file)
             self.ok(*words, "-o", out)
-            self.assertAlmostEqual(self.said_by_check(*words)[1] * 1e9 / os.path.getsize(out), 1, delta=0.25, msg=command)
+            self.assertAlmostEqual(self.sizes_by_check(*words)[1] * 1e9 / os.path.getsize(out), 1, delta=0.25, msg=command)
 
-    def test_what_does_not_fit_is_refused_before_it_is_begun(self):
+    def test_runs_that_do_not_fit_are_refused_before_they_start(self):
         events = self.file("e.csv", "name,rupture_velocity,slip_velocity\n" + "a,3 +- 0.1 km/s,0.5 m/s\n" * 100)
         draws = os.path.join(os.path.dirname(events), "d.nc")
-        # AddressSanitizer needs more than any limit: what a machine of any size refuses is asked of it then.
+        # AddressSanitizer needs more memory than any limit. Then we test only a run that every machine refuses.
         limited = subprocess.run([PROGRAM, "--version"], preexec_fn=little_memory, capture_output=True).returncode == 0
         for says, command in (("pulse.cells", ["pulse", STEP, "--set", "pulse.cells=10000000"]),
                               ("output.every", ["pulse", STEP, "--set", "output.every=1e-5"]),
@@ -134,7 +134,7 @@ class Sizes(CommandLine):
 
 class Signals(CommandLine):
     def ended_by(self, number, arguments, before, environment=None):
-        """What a run says that gets a signal some seconds after its start; it must end soon after."""
+        """Sends a signal to a run after before(process), and returns its messages. The run must end soon after the signal."""
         cores = os.cpu_count()
         before_all = processor_time()
         process = subprocess.Popen([PROGRAM, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment)
@@ -143,7 +143,7 @@ class Signals(CommandLine):
         used = processor_time_of(process)
         process.send_signal(number)
         _, errors = process.communicate(timeout=PATIENCE)
-        self.assertLess(processor_time() - before_all - used, 6 * cores, errors)  # a second, and an end
+        self.assertLess(processor_time() - before_all - used, 6 * cores, errors)  # one second, and the time to end
         self.assertEqual((process.returncode, errors.count("\n")), (130, 1), errors)
         return errors
 
@@ -155,7 +155,7 @@ class Signals(CommandLine):
             self.assertIn("--resume", errors)
             os.remove(out)
 
-    def test_while_a_large_chain_is_set_up(self):
+    def test_a_large_chain_ends_during_its_setup(self):
         errors = self.ended_by(signal.SIGINT, ["chain", STEP, "--set", "chain.scale=1e6"], lambda process: until_it_has_worked(process, 0.5))
         self.assertIn("interrupted", errors)
 
@@ -165,13 +165,13 @@ class Signals(CommandLine):
         errors = self.ended_by(signal.SIGINT, ["chain", STEP, "--set", "chain.scale=1e6", "-o", out], lambda process: until_it_has_worked(process, 0.5))
         self.assertEqual("--resume" in errors, os.path.exists(out), errors)
 
-    def test_one_event_of_many_samples(self):
+    def test_one_event_with_many_samples_ends(self):
         events = self.file("e.csv", "name,rupture_velocity,slip_velocity\na,3 +- 0.1 km/s,0.5 m/s\n")
         out = os.path.join(os.path.dirname(events), "out.nc")
         for where in (["-o", out], []):
             self.ended_by(signal.SIGINT, ["event", events, "--samples", "9000000", *where], lambda process: until_it_has_worked(process, 0.7))
 
-    def test_python_commands(self):
+    def test_python_commands_end(self):
         folder = os.path.dirname(self.file("x", ""))
         self.ended_by(signal.SIGTERM, ["reproduce", "-o", os.path.join(folder, "r")], lambda process: until_it_has_worked(process, 1))
         self.ok("pulse", STEP, *SMALL, "-o", os.path.join(folder, "p.nc"))
@@ -201,7 +201,7 @@ class Text(CommandLine):
         self.assert_harmless(run("pulse", "/no\x1b[31m.toml").stderr)
         self.assert_harmless(run("plot", "/no\x1b[31m.nc").stderr)
 
-    def test_spreadsheets_run_nothing(self):
+    def test_csv_holds_no_text_that_a_spreadsheet_would_execute(self):
         events = self.file("e.csv", "name,note,rupture_velocity\n=1+cmd|x,@sum,3 km/s\n")
         row = self.ok("event", events, "--csv").splitlines()[1]
         self.assertTrue(row.startswith("\"'=1+cmd|x\""), row)
@@ -209,19 +209,19 @@ class Text(CommandLine):
 
 
 class Inputs(CommandLine):
-    def test_several_settings_behind_one_set(self):
+    def test_one_set_option_takes_several_settings(self):
         together = self.pulse(STEP, "--set", "pulse.cells=16", "time.end=0.5")
         self.assertEqual((together["cells"], together["time"]), (16, 0.5))
         self.assertEqual(self.pulse("--set", "pulse.cells=16", "time.end=0.5", STEP)["cells"], 16)
         self.refused(2, "pulse", STEP, STEP, says=["a second scenario file"])
 
-    def test_a_result_is_no_scenario(self):
+    def test_a_result_file_is_refused_as_a_scenario(self):
         out = os.path.join(os.path.dirname(self.file("x", "")), "out.nc")
         self.ok("pulse", STEP, *SMALL, "-o", out)
         self.refused(2, "pulse", out, says=["a NetCDF file"])
         self.refused(2, "event", out, says=["NetCDF"])
 
-    def test_tables_are_regular_files(self):
+    def test_tables_that_are_not_regular_files_are_refused(self):
         folder = os.path.dirname(self.file("x", ""))
         os.mkfifo(os.path.join(folder, "pipe.csv"))
         os.symlink("/dev/zero", os.path.join(folder, "zero.nc"))
@@ -245,31 +245,32 @@ class Inputs(CommandLine):
             self.assertEqual(done.stderr.count("\n"), int(done.returncode != 0), (at, done.stderr))
 
     def test_a_table_that_is_read_without_an_end_is_refused(self):
-        """Damage makes HDF5 go round in a circle. The limit is that of this process, which has less than the program allows."""
+        """This damage makes HDF5 loop without end. The process has a lower limit of processor time than the program would allow."""
         case = self.file("case.toml", f"[initial]\nprofile = 'table'\nfile = '{SOURCE}/tests/data/stress_endless.nc'\n[domain]\nleft = -1\nright = 1\n"
                          "[pulse]\ncells = 16\n[time]\nend = 0.1\n")
         done = subprocess.run(["prlimit", "--cpu=2", PROGRAM, "pulse", case], capture_output=True, text=True)
         self.assertEqual((done.returncode, done.stderr.count("\n")), (3, 1), done.stderr)
         self.assertIn("stress_endless.nc: cannot be read: the NetCDF library did not end within 1 s of processor time", done.stderr)
 
-    def test_a_bad_medium_is_said_once(self):
+    def test_an_invalid_medium_is_reported_once(self):
         for option, value in (("--poisson-ratio", "0.7"), ("--shear-modulus", "-3 GPa"), ("--p-wave-speed", "0 km/s")):
             self.refused(2, "event", f"{option}={value}", says=[option, "out of range"])
 
-    def test_many_columns(self):
+    def test_too_many_columns_are_refused(self):
         wide = self.file("wide.csv", ",".join(f"c{i}" for i in range(300000)) + "\n")
         with self.takes_at_most(10):
             self.refused(2, "event", wide, says=["wide.csv:1: more than 10000 columns"])
 
     def test_a_ring_is_observed_at_its_very_end(self):
-        """Turned back by whole periods, the end of the domain stays beyond the ring's by a rounding: it was turned for ever."""
+        """The end of the domain, moved back by whole periods, lies past the end of the ring by a rounding error. The loop that moves
+        it back did not end."""
         case = self.file("ring.toml", "[initial]\nprofile = 'step'\nstress_left = 4\nstress_right = 0.1\n[friction]\nlaw = 'power'\ncoefficient = 1\n"
                          "[time]\nend = 0.855\n[pulse]\ncells = 30\nperiodic = true\n[output]\nevery = 0.7\n")
         done = run("pulse", case, "--quiet")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
 
-    def test_files_without_an_end(self):
-        """Devices and pipes may be read as events and scenarios; not more of them than the memory holds."""
+    def test_files_without_an_end_are_refused(self):
+        """Devices and pipes may be read as events and scenarios, but not more of them than fits into memory."""
         for command in ("event", "pulse"):
             done = subprocess.run(["prlimit", f"--as={4 << 30}", PROGRAM, command, "/dev/zero"], capture_output=True, text=True)
             self.assertEqual((done.returncode, done.stderr.count("\n")), (3, 1), done.stderr)

@@ -1,4 +1,4 @@
-"""What the tests of the command line share. They run the program named by $SLIPFRONT."""
+"""Helpers that the tests of the command line share. They run the program that $SLIPFRONT names."""
 
 import contextlib
 import json
@@ -13,7 +13,7 @@ import unittest
 
 PROGRAM = os.environ["SLIPFRONT"]
 SOURCE = os.environ["SLIPFRONT_SOURCE"]
-PATIENCE = 1200  # seconds that nothing takes, however busy the machine is: who waits longer, waits for what hangs
+PATIENCE = 1200  # seconds; longer than any run on a busy machine, so a run that takes longer does not end
 SANITIZED = os.environ.get("SLIPFRONT_SANITIZED") == "ON"  # then everything takes ten times longer
 
 
@@ -22,26 +22,26 @@ def run(*arguments, stdin=""):
 
 
 def processor_time():
-    """Seconds of the processor, in all child processes that have been waited for."""
+    """Seconds of processor time that all ended child processes have used."""
     used = resource.getrusage(resource.RUSAGE_CHILDREN)
     return used.ru_utime + used.ru_stime
 
 
 def processor_time_of(process):
-    """The same of a process that runs, without its children."""
+    """Seconds of processor time that a running process has used, without its children."""
     with open(f"/proc/{process.pid}/stat", encoding="utf-8") as file:
         fields = file.read().rpartition(")")[2].split()
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
 def until_it_has_worked(process, seconds):
-    """Waits until the program has used the processor for some seconds, however long that takes on a busy machine."""
+    """Waits until the program has used the processor for some seconds. On a busy machine that takes longer."""
     while process.poll() is None and processor_time_of(process) < seconds:
         time.sleep(0.001)
 
 
 def until_it_answers(process, number):
-    """Waits until the program answers a signal, or has blocked it; before that it dies of it."""
+    """Waits until the program handles a signal or has blocked it. Before that, the signal would end it."""
     while process.poll() is None:
         with open(f"/proc/{process.pid}/status", encoding="utf-8") as file:
             masks = [int(line.split()[1], 16) for line in file if line.startswith(("SigCgt:", "SigBlk:"))]
@@ -86,18 +86,18 @@ class CommandLine(unittest.TestCase):
 
     @contextlib.contextmanager
     def takes_at_most(self, seconds):
-        """Of the processor, in processes that are waited for: a busy machine changes nothing."""
+        """Limits the processor time of the child processes. That time does not depend on how busy the machine is."""
         begun = processor_time()
         yield
         self.assertLess(processor_time() - begun, seconds)
 
     def wait_for(self, path, process):
-        """Until the process has written the file, or has ended."""
+        """Waits until the process has written the file or has ended."""
         while not os.path.exists(path) and process.poll() is None:
             time.sleep(1e-4)
 
     def interrupted(self, path, *arguments):
-        """What a run says that gets Ctrl-C once its file is there."""
+        """Sends Ctrl-C to a run as soon as its file exists, and returns its messages."""
         process = subprocess.Popen([PROGRAM, *arguments, "-o", path], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
         self.wait_for(path, process)
         process.send_signal(signal.SIGINT)
@@ -106,7 +106,7 @@ class CommandLine(unittest.TestCase):
         return errors
 
     def killed_and_resumed(self, command, trials):
-        """Kills a run at random moments and resumes it: the file must be that of a run left alone."""
+        """Kills a run at random moments and resumes it. The file must have the bytes of an uninterrupted run."""
         case = self.slow_case()
         folder = os.path.dirname(case)
         cut, reference = os.path.join(folder, "cut.nc"), os.path.join(folder, "reference.nc")
@@ -119,7 +119,7 @@ class CommandLine(unittest.TestCase):
             if os.path.exists(cut):
                 os.remove(cut)
             process = subprocess.Popen([PROGRAM, command, case, "-o", cut], stdout=subprocess.DEVNULL)
-            if trial % 2:  # every other one has a checkpoint for sure, however long the machine took to start it
+            if trial % 2:  # every second run certainly has a checkpoint, even if the machine starts it slowly
                 self.wait_for(cut, process)
             try:
                 process.wait(chance.uniform(0, whole))
@@ -127,7 +127,7 @@ class CommandLine(unittest.TestCase):
                 process.kill()
             process.wait()
             if not os.path.exists(cut):
-                continue  # killed before the first checkpoint: nothing was written, and nothing half-written either
+                continue  # killed before the first checkpoint, so there is no file, complete or incomplete
             resumed += 1
             self.ok(command, case, "--resume", cut, "--threads", str(1 + trial % 2))
             with open(cut, "rb") as a, open(reference, "rb") as b:

@@ -1,25 +1,25 @@
-// The page in a browser: served by the program, shown by Debian's chromium.
+// Helpers for tests of the page in a browser. The program serves the page, and Debian's chromium shows it.
 
 import { spawn } from 'node:child_process';
 import { createRequire } from 'node:module';
 import { once } from 'node:events';
 import { after } from 'node:test';
 
-const patience = 300000; // ms that nothing takes, however busy the machine is
+const patience = 300000; // ms; longer than any wait on a busy machine
 const require = createRequire(`${process.env.SLIPFRONT_NODE_MODULES}/`);
 const { chromium } = require('playwright-core');
 export const axe = require.resolve('axe-core/axe.min.js');
 
 const server = spawn(process.env.SLIPFRONT, ['explore', '--no-open', '--json', '--port', '0', '--folder', process.env.SLIPFRONT_PAGE]);
-const [said] = await once(server.stdout, 'data');
-export const url = JSON.parse(String(said)).url;
+const [line] = await once(server.stdout, 'data');
+export const url = JSON.parse(String(line)).url;
 export const browser = await chromium.launch({ executablePath: '/usr/bin/chromium', args: ['--no-sandbox'] });
 after(async () => {
   await browser.close();
   server.kill();
 });
 
-/** A page at a place of the address. Errors of its console and requests that leave it are kept in `complaints`. */
+/** Opens the page at a fragment of its address, as #/pulse. `complaints` collects console errors and requests to other servers. */
 export async function open(hash, options = {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, ...options });
   await context.grantPermissions(['clipboard-read', 'clipboard-write'], { origin: url.slice(0, -1) });
@@ -33,7 +33,7 @@ export async function open(hash, options = {}) {
   return page;
 }
 
-/** Repeats a check until it passes: how long that takes depends on the machine. */
+/** Repeats a check until it passes. The time that this takes depends on the machine. */
 export async function eventually(check) {
   for (const began = Date.now(); ; await new Promise((resolve) => setTimeout(resolve, 50))) {
     try {
@@ -44,13 +44,13 @@ export async function eventually(check) {
   }
 }
 
-/** Waits until what is computed stands there. */
+/** Waits until the page shows the computed result. */
 export async function ready(page) {
   await page.locator('.plot canvas').first().waitFor();
   await page.waitForFunction(() => !document.querySelector('.busy'), null);
 }
 
-/** Like a user: the text of a field is replaced. */
+/** Replaces the text of a field, as a user would. */
 export async function type(page, label, text) {
   const field = page.getByLabel(label, { exact: true }).first();
   await field.fill(text);

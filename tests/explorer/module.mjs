@@ -1,4 +1,4 @@
-// The WebAssembly module under node, and the program beside it. $SLIPFRONT_WASM is the folder of the module.
+// Runs the WebAssembly module under node, and the program for comparison. $SLIPFRONT_WASM is the folder of the module.
 
 import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
@@ -7,7 +7,7 @@ import { join } from 'node:path';
 
 const folder = process.env.SLIPFRONT_WASM;
 const bytes = readFileSync(join(folder, 'slipfront.wasm'));
-// Not by its file: under node the module would try to fetch it.
+// We pass the bytes, because under node the module would try to fetch its file.
 const make = (await import(join(folder, 'slipfront.mjs'))).default;
 const module = await make({
   instantiateWasm(imports, receive) {
@@ -47,10 +47,10 @@ export function file(name, text) {
   return path;
 }
 
-/** What the program prints, as JSON. */
+/** The JSON that the program prints. */
 export const program = (...args) => JSON.parse(execFileSync(process.env.SLIPFRONT, [...args, '--json'], { encoding: 'utf8', maxBuffer: 1e9 }));
 
-/** What it says when it refuses. */
+/** The error message of a run that must fail. */
 export function refusal(...args) {
   try {
     execFileSync(process.env.SLIPFRONT, args, { encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe'] });

@@ -1,4 +1,4 @@
-// The module against the program and the reference tables: the page has their numbers.
+// Compares the module with the program and the reference tables: the page must show the same numbers.
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
@@ -30,7 +30,7 @@ test('relations are those of the program to 1e-13, over 300 decades', () => {
       for (const row of program('relations', option, text).relations) {
         const asked = [row.stress, row.rupture_velocity, row.slip_velocity][given];
         const mine = call('relations', given, asked);
-        // Close to V = 1 the question itself loses digits: 1 / (1 - V) of them.
+        // Close to V = 1 the problem is ill-conditioned, by a factor of 1 / (1 - V).
         const condition = given === 1 ? 1 / (1 - row.rupture_velocity) : 1;
         for (const [name, value] of Object.entries(row)) {
           near(mine[name], value, 1e-13 * Math.max(1, condition / 100), `${name} at ${option} ${asked}`);
@@ -50,8 +50,8 @@ test('the Riemann problem is that of the table of 25 digits', () => {
       return [stress, Math.tanh(row[`phi_${name}`])];
     };
     const mine = call('riemann', ...side('left'), ...side('right'), 10);
-    if (mine.error) continue; // beyond what the panel takes
-    // The states go in as stress and velocity, so their own rounding counts.
+    if (mine.error) continue; // outside the range of the panel
+    // The module takes stress and velocity, so their rounding limits the accuracy.
     near(mine.star.Sigma, Number(row.k_star), 1e-12, 'k*');
     worst = Math.max(worst, relative(mine.star.Sigma, Number(row.k_star)));
     assert.equal(mine.left_wave.kind, row.left_kind);
@@ -60,7 +60,7 @@ test('the Riemann problem is that of the table of 25 digits', () => {
   console.log(`# largest difference of k* from the table: ${worst}`);
 });
 
-/** The stress at rest of a psi, by bisection of the module's own relations. */
+/** The stress at rest for a psi, by bisection of the module's own relations. */
 function train(psi) {
   let [low, high] = [0.0045, 60];
   for (let i = 0; i < 200; ++i) {
@@ -71,7 +71,7 @@ function train(psi) {
   return (low + high) / 2;
 }
 
-test('the founding rows of the Riemann problem', () => {
+test('the Riemann problem has the values of the reference rows', () => {
   const a = call('riemann', 0.855, 0, 0.179, 0, 10);
   near(a.star.psi, 0.0286532627, 2e-9, 'psi*');
   near(a.star.W, 0.0458180779, 2e-9, 'W*');
@@ -103,17 +103,17 @@ for (const [name, toml] of Object.entries(scenarios))
       near(last(key), theirs[key], 1e-9, key);
       worst = Math.max(worst, relative(last(key), theirs[key]));
     }
-    // A share of the elastic energy, which it was.
+    // We compare with the elastic energy, from which these energies come.
     for (const key of ['energy_kinetic', 'energy_dissipated']) assert.ok(Math.abs(last(key) - theirs[key]) <= 1e-9 * theirs.energy_elastic, key);
-    // The fast front is where the slip velocity leaves zero: its place is known no better than rounding leaves zero.
+    // At the fast front the slip velocity departs from zero. Rounding errors of that zero limit the accuracy of its position.
     if (theirs.trailing_front !== null) near(last('trailing_front'), theirs.trailing_front, 1e-6, 'trailing_front');
     assert.equal(mine.steps, theirs.steps);
-    // Null where friction is not viscous: it has no such numbers.
+    // Both are null unless friction is viscous, because other laws have no such numbers.
     for (const key of ['friction_coefficient', 'damping_number']) assert.equal(mine[key], theirs[key], key);
     console.log(`# ${name}: largest difference ${worst}`);
   });
 
-test('a run in pieces is the run at once', () => {
+test('a run in pieces gives the slip of a run in one piece', () => {
   call('pulse_begin', 1, scenarios.viscous, 11, 0, 0);
   const whole = call('pulse_go', 1, 1e9, 0);
   call('pulse_begin', 2, scenarios.viscous, 11, 0, 0);
@@ -148,7 +148,7 @@ test('a typed event is that of the program', () => {
     const theirs = program('event', file('event.toml', toml)).events[0];
     const mine = call('event', toml, 1000);
     assert.ok(!mine.error, mine.error?.message);
-    // Sampled answers go through a library of sines and logarithms of another machine.
+    // We compare no sampled answers: they depend on the sines and logarithms of the mathematical library.
     for (const key of ['c_m_s', 'rupture_velocity', 'stress', 'frictionless_slip_velocity', 'contact_ratio', 'contact_ratio_bound', 'stress_pa_bound', 'slip_velocity_ratio'])
       if (theirs[key] !== null) near(mine[key], theirs[key], 1e-9, `${key} of ${theirs.name}`);
     assert.deepEqual(mine.warnings, theirs.warnings);

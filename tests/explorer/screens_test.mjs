@@ -1,5 +1,5 @@
-// What the panels look like, loosely: the mean light of 24 by 16 fields of a screenshot, beside that of pictures which a person has looked at.
-// SLIPFRONT_SCREENS=new writes them anew, and the pictures into $SLIPFRONT_SCREENS_FOLDER.
+// Checks roughly how the panels look. It compares the mean brightness of 24 by 16 fields of a screenshot with that of pictures that a person has checked.
+// SLIPFRONT_SCREENS=new stores new values, and writes the pictures into $SLIPFRONT_SCREENS_FOLDER.
 
 import assert from 'node:assert/strict';
 import { existsSync, readFileSync, writeFileSync } from 'node:fs';
@@ -15,7 +15,7 @@ const screens = {
   stress: ['#/stress?event=Kobe+1995', {}], riemann: ['#/riemann', {}], paper_7: ['#/paper?fig=7', {}], paper_10: ['#/paper?fig=10', {}], dislocations: ['#/dislocations?beads=30', {}],
 };
 
-/** Mean light, 0 to 100, of fields of a picture; decoded by the browser itself. */
+/** Mean brightness, 0 to 100, of the fields of a picture. The browser decodes it. */
 const fieldsOf = (page, png) => page.evaluate(async (data) => {
   const image = new Image();
   image.src = `data:image/png;base64,${data}`;
@@ -29,7 +29,7 @@ const fieldsOf = (page, png) => page.evaluate(async (data) => {
 }, png.toString('base64'));
 
 for (const [name, [hash, look]] of Object.entries(screens))
-  test(`the screen ${name} is as it was`, async () => {
+  test(`the screen ${name} looks as before`, async () => {
     const page = await open(hash, { reducedMotion: 'reduce', ...look });
     await ready(page);
     const decoder = await open('#/none', { bypassCSP: true });
@@ -43,7 +43,7 @@ for (const [name, [hash, look]] of Object.entries(screens))
       return;
     }
     const differenceOf = (now) => now.reduce((sum, light, i) => sum + Math.abs(light - known[name][i]), 0) / now.length;
-    // Another font moves lines by more than rounding; an empty plot, another theme or a lost panel moves far more.
+    // Another font shifts lines a little. An empty plot, another theme or a missing panel changes far more.
     await eventually(async () => {
       const difference = differenceOf(await fields());
       console.log(`# ${name}: mean difference ${difference.toFixed(2)} of 100`);

@@ -1,4 +1,4 @@
-// How fast the page is, by hand: a busy machine is slower than the limits. Prints what it measures.
+// Measures and prints the speed of the page. You start this test manually, because a busy machine misses the limits.
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
@@ -41,7 +41,7 @@ const rate = (page, seconds) => page.evaluate((s) => new Promise((resolve) => {
   requestAnimationFrame(step);
 }), seconds);
 
-test('play moves', async () => {
+test('the player shows more than 5 frames a second', async () => {
   const bare = await open('#/nothing');
   const most = await rate(bare, 2);
   const page = await open('#/pulse?pulse.cells=200');

@@ -1,9 +1,11 @@
-"""The n-th call fails, n = 1, 2, ... until a run succeeds: the output is the old file or the new one, nothing else is left,
-and the run says one line with the contract's exit code. Usage: fail_each_call.py [--places [--one-of=K] | --all] [COMMAND...]
+"""Lets the n-th allocation or file operation of a run fail, for n = 1, 2, ... until a run succeeds, and checks each run. The output
+must be the old file or the new one, and no other file may be left. The run must print one line and return the documented exit
+code. Usage: fail_each_call.py [--places [--one-of=K] | --all] [COMMAND...]
 
-Without an option only allocations of 16 kB or more are failed; with --all, every one (hours); with --places, those of every
-place in the code (a stack of functions): the first, second, fourth ... and last that comes from it; with --one-of=K beside it,
-every K-th of those. Environment: SLIPFRONT (the program), SLIPFRONT_SOURCE, FAILING_CALLS (the library of failing_calls.c)."""
+Without an option, only allocations of 16 kB or more fail. With --all, every allocation fails in turn, which takes hours. With
+--places, the script chooses calls by call site (a stack of functions): the first, second, fourth ... and last call of each.
+With --one-of=K in addition, it takes every K-th of those. Environment: SLIPFRONT (the program), SLIPFRONT_SOURCE, FAILING_CALLS
+(the library of failing_calls.c)."""
 
 import concurrent.futures
 import itertools
@@ -16,11 +18,11 @@ import tempfile
 
 PROGRAM, SOURCE, SHIM = os.environ["SLIPFRONT"], pathlib.Path(os.environ["SLIPFRONT_SOURCE"]), os.environ["FAILING_CALLS"]
 KINDS = ("open", "write", "fsync", "rename", "close", "malloc")
-#: A word without quotes, as here the law, is first tried as TOML.
+#: The law has no quotes. The program first tries such a word as TOML.
 SMALL = ["--set", "pulse.cells=16", "--set", "chain.scale=20", "--set", "time.end=0.5", "--set", "friction.law=none"]
 STEP = str(SOURCE / "cases/step.toml")
 EVENT = "name,rupture_velocity,slip_velocity\na,3 km/s,0.5 m/s\n"
-#: Command -> arguments without the output. "TABLE", "EVENTS" and "UNFINISHED" stand for files of the folder.
+#: Command -> arguments. "OUT", "TABLE", "EVENTS" and "UNFINISHED" stand for files of the folder.
 JOBS = {
     "pulse": ["pulse", STEP, *SMALL, "-o", "OUT"],
     "table": ["pulse", "TABLE", *SMALL, "-o", "OUT"],
@@ -33,7 +35,7 @@ JOBS = {
 
 
 def by_places(trace):
-    """Which calls of a trace (FAIL_TRACE) to fail: of each place those numbered 1, 2, 4, 8 ... and the last."""
+    """The calls of a trace (FAIL_TRACE) that must fail: numbers 1, 2, 4, 8 ... and the last of each call site."""
     places = {}
     for line in trace.read_text().splitlines():
         n, place = line.split()
@@ -47,7 +49,7 @@ def one_of(arguments):
 
 
 class Job:
-    """One command in a folder of its own."""
+    """A command that runs in its own folder."""
 
     def __init__(self, command):
         self.command, self.folder = command, pathlib.Path(tempfile.mkdtemp(prefix="slipfront-faults-"))
@@ -75,7 +77,7 @@ class Job:
         return done
 
     def places(self, kind):
-        """The numbers of calls to fail, from a run in which none fails."""
+        """The numbers of the calls that must fail. A run in which no call fails gives them."""
         trace = self.folder.with_suffix(".trace")
         self.run({"LD_PRELOAD": SHIM, "FAIL_CALL": kind, "FAIL_TRACE": str(trace)}, check=True)
         numbers = by_places(trace) if trace.exists() else []
@@ -83,7 +85,7 @@ class Job:
         return numbers
 
     def fail(self, kind, n, least):
-        """Runs with the n-th call failed. Returns (whether there was one, what was wrong)."""
+        """Runs a command whose n-th call fails. Returns (whether there was such a call, a list of faults)."""
         report = self.folder.with_suffix(".report")
         report.unlink(missing_ok=True)
         old = b"an old result"
@@ -92,20 +94,20 @@ class Job:
         done = self.run({"LD_PRELOAD": SHIM, "FAIL_CALL": kind, "FAIL_AT": str(n), "FAIL_LEAST": str(least), "FAIL_REPORT": str(report)})
         failed = not report.exists() or "failed" in report.read_text()
         wrong = []
-        # 2 says that the input is wrong, which no want of memory is.
+        # Exit code 2 means that the input is wrong. That is false if only memory is short.
         if done.returncode not in ((0, 3, 4) if failed and kind == "malloc" else (0, 2, 3, 4) if failed else (0,)):
             wrong.append(f"exit code {done.returncode}")
         lines = [line for line in done.stderr.splitlines() if not line.startswith("slipfront: warning: ")]
         if done.returncode and (len(lines) != 1 or not lines[0].startswith("slipfront: ")):
-            wrong.append(f"said {done.stderr[-300:]!r}")
-        # A catalogue that cannot be read is written with the reason in its place, and the exit code says so.
+            wrong.append(f"printed {done.stderr[-300:]!r}")
+        # If a catalogue cannot be read, the output holds the reason instead of its events, and the exit code reports that.
         with_reason = self.command == "event" and done.returncode in (2, 3) and self.bytes()[:4] == b"\x89HDF"
         if self.new and self.bytes() not in (old, self.new) and not with_reason:
             wrong.append("the output is neither the old nor the new file")
         if self.new and done.returncode == 0 and self.bytes() != self.new:
             wrong.append("the output is not the new file")
         if self.command == "compare" and done.returncode:
-            (self.folder / "out.unfinished.nc").unlink(missing_ok=True)  # the levels that were done
+            (self.folder / "out.unfinished.nc").unlink(missing_ok=True)  # it holds the completed levels
         if sorted(os.listdir(self.folder)) != self.rest:
             wrong.append(f"left {sorted(set(os.listdir(self.folder)) - set(self.rest))}")
             for name in set(os.listdir(self.folder)) - set(self.rest):
@@ -119,7 +121,7 @@ def fail_all(command, kinds, least, by_place):
         for n in job.places(kind) if by_place else itertools.count(1):
             failed, more = job.fail(kind, n, least)
             wrong += more
-            if not failed and not by_place:  # threads come to their calls in another order: by place, some runs have fewer
+            if not failed and not by_place:  # threads make their calls in varying order, so some runs have fewer calls of a site
                 break
             count += failed
     shutil.rmtree(job.folder)

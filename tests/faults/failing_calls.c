@@ -1,13 +1,12 @@
-/* Makes the n-th call of a kind fail, as an empty memory or a full or broken disk would. To be preloaded:
+/* Makes the n-th call of a kind fail, as if memory ran out, or the disk were full or broken. Preload this library:
      LD_PRELOAD=libfailing_calls.so FAIL_CALL=malloc FAIL_AT=3 program ...
-   FAIL_CALL   malloc (calloc, realloc and the aligned ones too), open, write, fsync, rename, close
-   FAIL_AT     which of them, from 1; FAIL_ON=1: and all behind it, as on a disk that stays full
-   FAIL_LEAST  of malloc: smaller ones are neither counted nor failed (bytes)
-   FAIL_TRACE  a file that gets a line for each call while none is to fail: its number, and one for the places (functions)
-               that it came from
-   FAIL_REPORT a file that gets the number of calls that were seen, and "failed" if one was failed
-   A program may call fail_calls(kind, n) itself, to count from there. Calls on standard input, output and error count
-   like others, where they come by these functions: stdio's own do not. */
+   FAIL_CALL   malloc (also calloc, realloc and the aligned ones), open, write, fsync, rename, close
+   FAIL_AT     number of the call that fails, from 1. With FAIL_ON=1 all later calls fail too, as on a full disk.
+   FAIL_LEAST  smallest allocation that is counted and may fail, in bytes
+   FAIL_TRACE  file that gets a line for each call if no call is to fail: its number, and a hash of its stack
+   FAIL_REPORT file that gets the number of counted calls, and "failed" if one of them failed
+   A program may call fail_calls(kind, n) to count from there. Calls on standard input, output and error count like
+   others if they use these functions; those within stdio do not. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -27,15 +26,15 @@ extern void* __libc_calloc(size_t, size_t);
 extern void* __libc_realloc(void*, size_t);
 extern void* __libc_memalign(size_t, size_t);
 
-/* Shared with the processes that this one forks: the n-th call of them all fails. */
+/* All forked processes share this state, so the n-th call of all processes together fails. */
 struct state {
   char wanted[16];
   long fail_at, seen, failed;
 };
 static struct state before_mapping, *state = &before_mapping;
-static int counted; /* this process, and those that it forks: not the one that waits for them */
+static int counted; /* whether calls of this process and its forks count; those of the waiting parent do not */
 static int fail_on;
-size_t least; /* of malloc */
+size_t least; /* smallest allocation that may fail */
 static int trace = -1;
 static __thread int tracing; /* backtrace allocates too */
 
@@ -91,9 +90,9 @@ static int fails(const char* kind) {
   return 1;
 }
 
-/* The OpenMP runtime, libgomp or libomp, ends the program by itself where it gets no memory, or cannot read /proc, and the
-   dynamic loader where it gets none for what a thread has of its own: not this program's doing. To look a caller up takes
-   longer than most programs need between two calls: answers are kept. */
+/* The OpenMP runtime (libgomp or libomp) ends the program if it gets no memory or cannot read /proc. The dynamic loader
+   does so if it gets no memory for thread-local data. Our program cannot prevent that, so these calls do not fail. A
+   search for the caller takes longer than most programs need between two calls, so we store the answers. */
 static int ends_the_program(const void* caller) {
   static unsigned long answers[4096]; /* the caller, and in the lowest bit the answer */
   static __thread int asking;

@@ -1,8 +1,9 @@
-"""Kills runs at random moments: nothing is lost, nothing is left over once the next run is done, and what is resumed has the
-bits of a run that was left alone. Usage: kills.py [COUNT [COMMAND[:SCENARIO]...]], COUNT kills of each (default: 200; many
-hours). A COMMAND without a SCENARIO is one case of pulse, chain, event, compare, sweep, reproduce, plot or animate; `laws` is
-pulse and chain with every law of friction, contacts that age, pores, loading, forcing and implicit steps; `all` is everything.
-Environment: SLIPFRONT (the program), SLIPFRONT_SOURCE; PYTHONPATH with the package and its interpreter for sweep; SLIPFRONT_SEED.
+"""Kills runs at random moments. No result may be lost, no other file may be left after the next run, and a resumed run must have
+the bits of an uninterrupted one. Usage: kills.py [COUNT [COMMAND[:SCENARIO]...]], for COUNT kills of each (default: 200, which
+takes many hours). A COMMAND without a SCENARIO is one case of pulse, chain, event, compare, sweep, reproduce, plot or animate.
+`laws` is pulse and chain with every law of friction, contacts that age, pores, loading, forcing and implicit steps. `all` is
+everything. Environment: SLIPFRONT (the program), SLIPFRONT_SOURCE; PYTHONPATH with the package and its interpreter for sweep;
+SLIPFRONT_SEED.
 """
 
 import os
@@ -21,7 +22,7 @@ STATE = "law = 'rate-and-state'\nstrength = 0.05\ndirect_effect = 0.01\nevolutio
 RING = ("[initial]\nstress_left = 2\nstress_right = 2\n[interface]\ncontact = '1 + 0.05*cos(0.02*x)'\n[domain]\nleft = -157.07963267948966\nright = 157.07963267948966\n"
         "[friction]\nlaw = 'rate-and-state'\nstrength = 5e-4\ndirect_effect = 1e-4\nevolution_effect = 1.5e-4\nreference_velocity = 1e-3\ncharacteristic_slip = 1\n"
         "[pulse]\ncells = 50\n[chain]\nspacing = 0.5\n")
-#: Keys of [friction] by the name of a scenario.
+#: Name of a scenario -> keys of [friction].
 LAWS = {
     "none": "law = 'none'\n", "viscous": "law = 'viscous'\ncoefficient = 0.5\n", "coulomb": "law = 'coulomb'\ncoefficient = 0.03\n",
     "paper": "law = 'power'\ncoefficient = 0.5\nexponent = 2\nclosure = 'paper'\n", "power": "law = 'power'\ncoefficient = 0.5\nexponent = 1.5\n",
@@ -31,7 +32,7 @@ LAWS = {
     "slip-weakening": "law = 'slip-weakening'\nstrength = 0.05\nresidual = 0.03\ncharacteristic_slip = 0.3\n",
     "rate-and-state": STATE, "slip-law": STATE + "state = 'slip'\n",
 }
-#: Only of chains.
+#: Like LAWS, but for chains only.
 CHAINS = {"contact-ageing": STATE + "contact_ageing = 0.003\ncontact_time = 1\n", "dilatancy": STATE + "dilatancy = 0.01\ndrainage_time = 1\npore_pressure = 0.3\n"}
 LOADED = {
     "loading": RING.replace("[chain]\n", "[chain]\nperiodic = true\n") + "[loading]\nstiffness = 4e-5\nvelocity = 1e-4\n[time]\nend = 4e5\n[output]\nevery = 1e4\n",
@@ -42,7 +43,7 @@ STEP = "[initial]\nstress_left = 0.855\nstress_right = 0\n[domain]\nleft = -7\nr
 
 
 def scenario(command, name):
-    """TOML of a named scenario, of such a size that the command takes a second or so."""
+    """The TOML of a named scenario. Its size is such that the command takes about one second."""
     if name in LOADED:
         return LOADED[name]
     size = "[pulse]\ncells = 800\n" if command == "pulse" else "[chain]\nscale = 200\n"
@@ -52,7 +53,7 @@ def scenario(command, name):
 
 
 def scenarios():
-    """COMMAND:SCENARIO of all laws."""
+    """The names COMMAND:SCENARIO for all laws."""
     return [f"pulse:{name}" for name in (*LAWS, "forcing")] + [f"chain:{name}" for name in (*LAWS, *CHAINS, "forcing", *LOADED)]
 
 
@@ -65,7 +66,7 @@ slipfront.sweep(case, axes, set={"pulse.cells": 60}, threads=2, **({"resume": ou
 
 
 class Work:
-    """A command that is killed and begun again in one folder."""
+    """A command that this script kills and starts again in one folder."""
 
     def __init__(self, name):
         self.name, _, variant = name.partition(":")
@@ -98,13 +99,13 @@ class Work:
         return [*command, "--resume", str(self.out)]
 
     def content(self):
-        """What must not change: of a reproduction the files that hold no time, but only their presence is asked for here."""
+        """The content that must not change. A reproduction contains times, so here we compare only the names of its files."""
         if self.name == "reproduce":
             return sorted(os.listdir(self.out)) if self.out.exists() else None
         return self.out.read_bytes() if self.out.exists() else None
 
     def run(self, arguments, seconds=None, until=None):
-        """Runs to the end, or is killed after some seconds, or when until(process) returns. Returns the exit code."""
+        """Runs to the end, or kills the process after some seconds or when until(process) returns. Returns the exit code."""
         process = subprocess.Popen(arguments, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, cwd=self.folder)
         if until:
             until(process)
@@ -120,7 +121,7 @@ class Work:
 
 
 def until_a_checkpoint(work, process, chance):
-    """Waits until the first one is there, and a little more."""
+    """Waits until the first checkpoint exists, and a little longer."""
     while process.poll() is None and not (work.unfinished.exists() or work.out.exists()):
         time.sleep(1e-4)
     time.sleep(chance.choice([0, 0, 1e-3, 1e-2]))
@@ -136,7 +137,7 @@ def kill(name, count):
     kills = resumed = 0
     while kills < count:
         if chance.random() < 0.3 and work.out.exists() and work.name != "reproduce":
-            work.out.unlink()  # else a finished result stands there, which must outlive the kill
+            work.out.unlink()  # otherwise there is a finished result, which the kill must not destroy
         old = work.content()
         arguments = work.begin(resumable)
         early = resumable and chance.random() < 0.3
@@ -153,13 +154,13 @@ def kill(name, count):
             work.run(work.begin(not resumable and work.name != "sweep"))
             resumed += resumable
             if work.content() != new:
-                raise SystemExit(f"{name}: kill {kills}: what was {'resumed' if resumable else 'begun again'} is another result")
+                raise SystemExit(f"{name}: kill {kills}: the {'resumed' if resumable else 'repeated'} run has another result")
     work.unfinished.unlink(missing_ok=True)
     work.run(work.begin(True))
     if sorted(os.listdir(work.folder)) != rest:
-        raise SystemExit(f"{name}: left {sorted(set(os.listdir(work.folder)) ^ set(rest))}")
+        raise SystemExit(f"{name}: unexpected or missing files: {sorted(set(os.listdir(work.folder)) ^ set(rest))}")
     shutil.rmtree(work.folder)
-    print(f"{name}: {kills} kills, {resumed} resumed to the same bits, nothing lost, nothing left over", flush=True)
+    print(f"{name}: {kills} kills, {resumed} runs resumed to the same bits, no result lost, no file left over", flush=True)
 
 
 if __name__ == "__main__":

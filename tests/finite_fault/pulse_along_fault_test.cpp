@@ -15,14 +15,14 @@ using namespace slipfront::finite_fault;
 constexpr double speed = 5000;  // c
 constexpr int columns = 21, rows = 4;
 
-/// A vertical fault along x whose rupture runs from column `start` at `velocity`; slip(i) of column i.
+/// A vertical fault along x. Its rupture runs from column `start` at `velocity`, and column i slips by slip(i).
 template <class Slip>
 std::vector<LocalState> fault(int start, double velocity, const Slip& slip) {
   std::vector<LocalState> states;
   for (int i = 0; i < columns; ++i)
     for (int j = 0; j < rows; ++j) {
       LocalState s;
-      s.along_strike = 2000.0 * (i - columns / 2) + 3 * j;  // places are not exact
+      s.along_strike = 2000.0 * (i - columns / 2) + 3 * j;  // subfaults of a column differ slightly
       s.subfault = {.x = s.along_strike,
                     .z = 1000.0 * j,
                     .slip = slip(i),
@@ -33,8 +33,9 @@ std::vector<LocalState> fault(int start, double velocity, const Slip& slip) {
   return states;
 }
 
-/// Even slip: the closed form's front, and its slip from the step at the hypocentre (Eqs. 8-10).
-TEST(PulseAlongFault, FollowsAnEvenFaultAtTheClosedFormsVelocity) {
+/// With uniform slip, the front has the velocity of the closed form, and the slip follows from the step at the
+/// hypocentre (Eqs. 8-10).
+TEST(PulseAlongFault, HasTheVelocityOfTheClosedFormForUniformSlip) {
   const rupture::Relations r = rupture::from_stress(0.9);
   const double velocity = r.rupture_velocity * speed;
   const FaultPulse p = pulse_along_fault(fault(7, velocity, [](int) { return 1.5; }), 0.9, speed);
@@ -49,11 +50,11 @@ TEST(PulseAlongFault, FollowsAnEvenFaultAtTheClosedFormsVelocity) {
   }
   // At the hypocentre the slip velocity is W(0) c A / pi from the first moment on.
   EXPECT_NEAR(p.pulse_slip[7], r.slip_velocity * *p.contact_ratio * speed / M_PI * p.end, 2e-3 * p.pulse_slip[7]);
-  EXPECT_NEAR(p.pulse_slip[5], p.pulse_slip[9], 1e-2 * p.pulse_slip[7]);  // the same to both sides
+  EXPECT_NEAR(p.pulse_slip[5], p.pulse_slip[9], 1e-2 * p.pulse_slip[7]);  // equal on both sides
 }
 
-/// The front slows down where there is less slip; ahead of it the load holds the uneven stress at rest.
-TEST(PulseAlongFault, HoldsUnevenStressUntilTheFrontComes) {
+/// The front slows down where the slip is smaller. Ahead of it, the load holds the nonuniform stress at rest.
+TEST(PulseAlongFault, HoldsNonuniformStressUntilTheFrontArrives) {
   const auto slip = [](int i) { return 1 + 0.5 * std::sin(0.9 * i); };
   const FaultPulse p = pulse_along_fault(fault(10, 20000, slip), 0.9, speed);
   ASSERT_EQ(p.reason, "");
@@ -69,7 +70,7 @@ TEST(PulseAlongFault, HoldsUnevenStressUntilTheFrontComes) {
   }
 }
 
-TEST(PulseAlongFault, StopsWhereNothingWasStored) {
+TEST(PulseAlongFault, StopsWhereTheStressIsZero) {
   const FaultPulse p = pulse_along_fault(fault(10, 2000, [](int i) { return i == 14 ? 0.0 : 1.0; }), 0.9, speed);
   ASSERT_EQ(p.reason, "");
   EXPECT_EQ(p.stress[14], 0);
@@ -79,7 +80,7 @@ TEST(PulseAlongFault, StopsWhereNothingWasStored) {
   EXPECT_FALSE(p.model_time[14]);
 }
 
-TEST(PulseAlongFault, StartsFromAnEnd) {
+TEST(PulseAlongFault, StartsFromAnEndOfTheFault) {
   const FaultPulse p = pulse_along_fault(fault(0, 2000, [](int) { return 1.0; }), 0.9, speed);
   EXPECT_EQ(p.x.front(), 0);
   EXPECT_GT(p.pulse_slip[0], p.pulse_slip[3]);
@@ -95,7 +96,7 @@ TEST(PulseAlongFault, ScalesStressWithSlip) {
   EXPECT_EQ(stress_by_slip(0.9, 1e9), 5);
 }
 
-TEST(PulseAlongFault, NamesWhatTheModelLacks) {
+TEST(PulseAlongFault, GivesTheReasonIfTheModelIsUnsuitable) {
   const auto reason = [](const std::vector<LocalState>& states) {
     return pulse_along_fault(states, 0.9, speed).reason;
   };

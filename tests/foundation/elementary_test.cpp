@@ -15,7 +15,7 @@ namespace {
 using namespace slipfront;
 using namespace slipfront::pulse;
 
-TEST(BranchFree, IsTheStandardLibraryToAFewUlp) {
+TEST(BranchFree, AgreesWithTheStandardLibraryToAFewUlp) {
   for (double x = 1e-300; x < 300; x *= 1.37) {
     for (const double signed_x : {x, -x}) {
       EXPECT_LE(error_in_eps(expm1_branch_free(signed_x), std::expm1(signed_x)), 4) << signed_x;
@@ -40,8 +40,8 @@ TEST(BranchFree, IsTheStandardLibraryToAFewUlp) {
   EXPECT_EQ(expm1_branch_free(0), 0);
 }
 
-/// K and E as polynomials are those of the library, over all that they are made for.
-TEST(Kernels, PolynomialsAreKAndE) {
+/// The polynomials for K and E agree with the library over their whole range.
+TEST(Kernels, PolynomialsAgreeWithKAndE) {
   double most_K = 0, most_E = 0;
   for (double s = 1e-160; s <= fit::largest_s; s *= s < 1e-3 ? 1.37 : 1.0007) {
     const double m1 = s * s, minus_log = -2 * std::log(s);
@@ -61,9 +61,9 @@ TEST(Kernels, PolynomialsAreKAndE) {
   EXPECT_LE(most_E, 3);
 }
 
-/// The vector route agrees with the scalar one to rounding, from a guess that is 0.2 % off, and says so where it
-/// cannot. What rounding the spacing does to ln psi is K ulp.
-TEST(Kernels, ResolveAllIsResolve) {
+/// From a guess that is 0.2 % off, the vector code agrees with the scalar code to rounding, or reports that it has not
+/// solved the cell. Rounding the spacing changes ln psi by K ulp.
+TEST(Kernels, VectorCodeAgreesWithScalarCode) {
   for (const double phi : {-6.0, -1.5, -0.3, 0.0, 1e-200, 1e-7, 0.02, 0.4, 3.0, 12.0})
     for (double psi = 1e-292; psi < 3; psi *= psi < 1e-3 ? 7.3 : 1.03) {
       const auto c = slipfront::modulation::lagrangian_state({phi, psi});
@@ -76,11 +76,11 @@ TEST(Kernels, ResolveAllIsResolve) {
       if (psi < 0.9e-290 || psi > 1.5) {
         EXPECT_EQ(solved, 0) << phi << " " << psi;
       }
-      if (solved == 0 || psi > 1.3) continue;  // beyond that the problem itself magnifies rounding
+      if (solved == 0 || psi > 1.3) continue;  // the problem itself magnifies rounding for larger psi
       const double K = 1.4 + std::fabs(std::log(psi));
       const auto check = [&](const char* what, double got, double wanted, double condition) {
         const double error = error_in_eps(got, wanted) / condition;
-        // Fast and dense, the two equations become nearly one.
+        // In fast and dense trains the two equations are nearly dependent.
         EXPECT_LE(error, std::fabs(phi) > 2 && psi > 0.3 ? 100 : 12) << what << " " << phi << " " << psi;
       };
       check("psi", got_psi, want.state.psi, K);
@@ -92,8 +92,8 @@ TEST(Kernels, ResolveAllIsResolve) {
     }
 }
 
-/// Nonsense is left to the scalar route, which says what is wrong.
-TEST(Kernels, ResolveAllRefusesNonsense) {
+/// The vector code leaves invalid values to the scalar code, which reports the error.
+TEST(Kernels, VectorCodeLeavesInvalidValuesUnsolved) {
   for (const double spacing : {-2.0, 0.0, double{NAN}, HUGE_VAL, 2.0})
     for (const double momentum : {0.0, double{NAN}, HUGE_VAL, -1e200}) {
       if (spacing == 2 && momentum == 0) continue;

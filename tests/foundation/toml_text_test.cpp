@@ -25,7 +25,7 @@ l = -9223372036854775807
   EXPECT_EQ(*again["all"].as_table(), table);
 }
 
-TEST(TomlText, IsTheShortestForm) {
+TEST(TomlText, WritesTheShortestForm) {
   const auto written = [](const char* value) {
     return toml_text(*parse_toml(std::string("x = ") + value, "a.toml").get("x"));
   };

@@ -32,17 +32,18 @@ bool mentions(const std::vector<std::string>& warnings, const std::string& word)
   return false;
 }
 
-/// docs/theory.md 5, the rows without friction. The paper works with rounded c, V and Sigma-; so does the second half.
+/// The values are the rows without friction in docs/theory.md 5. The paper uses rounded c, V and Sigma-, and so does
+/// the second half of this test.
 TEST(Estimate, ReproducesParkfield) {
   const Estimate e = estimate(from_case("parkfield-2004.toml"), {});
   EXPECT_NEAR(e.speed, 5421.0, 0.05);
   EXPECT_NEAR(e.rupture_velocity->value, 0.5534, 5e-5);
   const double W = rupture::from_rupture_velocity(e.rupture_velocity->value).slip_velocity;
   EXPECT_NEAR(e.contact_ratio->value, pi * 0.5 / (e.speed * W), 1e-15);
-  EXPECT_FALSE(e.stress_pa);  // a bound only
+  EXPECT_FALSE(e.stress_pa);  // only a bound is known
   EXPECT_EQ(e.contact_ratio_bound->value, e.contact_ratio->value);
   EXPECT_NEAR(e.stress_pa_bound->value, 30e9 * e.contact_ratio->value * e.stress->value / pi, 1);
-  EXPECT_FALSE(e.observed_slip_velocity);  // without an independent A it would only repeat the frictionless one
+  EXPECT_FALSE(e.observed_slip_velocity);  // without an independent A it would only repeat the frictionless value
   const double paper_A = pi * 0.5 / (5400 * rupture::from_stress(1.03).slip_velocity);
   EXPECT_NEAR(paper_A, 0.0029, 5e-5);
   EXPECT_NEAR(30e9 * paper_A * 1.03 / pi / 1e6, 29, 0.5);
@@ -69,8 +70,8 @@ TEST(Estimate, TurnsRangesIntoExactQuantiles) {
   EXPECT_DOUBLE_EQ(e.contact_ratio->interval->low, pi * 0.5 / (e.speed * at(2900).slip_velocity));
   o.slip_velocity_m_s = Measured{0.4, 0.6};
   const Estimate both = estimate(o, {});
-  EXPECT_DOUBLE_EQ(both.stress->interval->low, at(1100).stress);  // moved by the rupture velocity alone
-  EXPECT_FALSE(both.contact_ratio->interval);                     // moved by both
+  EXPECT_DOUBLE_EQ(both.stress->interval->low, at(1100).stress);  // depends only on the rupture velocity
+  EXPECT_FALSE(both.contact_ratio->interval);                     // depends on both
   EXPECT_TRUE(mentions(both.warnings, "several observed errors change"));
 }
 

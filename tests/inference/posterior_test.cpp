@@ -27,7 +27,7 @@ const double plastic = medium::plastic_contact_ratio(defaults.poisson_ratio);
 Measured exact(double x) { return {x, x}; }
 Measured lognormal(double x, double factor) { return {x, x, Shape::lognormal, factor}; }
 
-/// The state of a fault, and what it makes of the slip velocity.
+/// The state of a fault, with its stress and slip velocity.
 struct Truth {
   double V, A, damping;
   double stress() const { return rupture::from_rupture_velocity(V / c).stress; }
@@ -49,7 +49,7 @@ struct Random {
   }
 };
 
-/// Drawn from the prior of the sampler.
+/// A state drawn from the sampler's prior distribution.
 Truth drawn(Random& random) {
   return {c * std::exp(random.uniform(std::log(1e-6), std::log(0.8))),
           std::exp(random.uniform(std::log(1e-6), std::log(0.3))),
@@ -65,7 +65,7 @@ void expect_ninety_percent(const std::vector<std::pair<const char*, int>>& insid
 
 bool holds(const std::optional<Quantiles>& q, double truth) { return q && q->low <= truth && truth <= q->high; }
 
-TEST(Posterior, CoversTheTruthInNineOfTenEventsOfKnownContact) {
+TEST(Posterior, CoversTheTruthInNineOfTenEventsWithKnownContact) {
   constexpr int events = 1000;
   int stress = 0, contact = 0, damping = 0, pascal = 0;
   for (int n = 0; n < events; ++n) {
@@ -82,7 +82,7 @@ TEST(Posterior, CoversTheTruthInNineOfTenEventsOfKnownContact) {
     Posterior p;
     try {
       p = *posterior(o, defaults, {.samples = 500});
-    } catch (const InputError&) {  // the noise has made it impossible: counted as a miss
+    } catch (const InputError&) {  // the noise has made the event impossible; it counts as a miss
       continue;
     }
     EXPECT_TRUE(p.friction_identified);
@@ -95,7 +95,7 @@ TEST(Posterior, CoversTheTruthInNineOfTenEventsOfKnownContact) {
                         events);
 }
 
-TEST(Posterior, CoversTheTruthInNineOfTenEventsOfKnownFriction) {
+TEST(Posterior, CoversTheTruthInNineOfTenEventsWithKnownFriction) {
   constexpr int events = 1000;
   int contact = 0, damping = 0, pascal = 0;
   for (int n = 0; n < events; ++n) {
@@ -123,7 +123,7 @@ TEST(Posterior, CoversTheTruthInNineOfTenEventsOfKnownFriction) {
   expect_ninety_percent({{"contact_ratio", contact}, {"damping", damping}, {"stress_pa", pascal}}, events);
 }
 
-/// The same posterior by brute force: likelihood times prior on a grid over (ln V, ln A, u).
+/// The posterior by brute force: likelihood times prior on a grid over (ln V, ln A, u).
 struct OnGrid {
   std::vector<std::pair<double, double>> A, u;
   static Quantiles quantiles(std::vector<std::pair<double, double>> values) {
@@ -176,7 +176,7 @@ TEST(Posterior, AgreesWithIntegrationOverAGrid) {
   EXPECT_GT(p.effective_samples, 3000);
 }
 
-/// Exact observations have one state of the fault.
+/// Exact observations determine a single state of the fault.
 TEST(Posterior, SolvesExactObservations) {
   const Truth truth{3000, 0.01, 12.5};
   Observation o;

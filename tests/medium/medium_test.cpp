@@ -19,7 +19,7 @@ const medium::Interface rock{
 const medium::Interface soft{
     .shear_modulus = 30e9, .density = 2700, .poisson_ratio = 0.3, .asperity_spacing = 1e-3, .contact_ratio = 0.05};
 
-TEST(Medium, HasTheSpeedOfThePaper) {  // of its example of Parkfield (docs/worked_examples.md)
+TEST(Medium, HasTheSpeedOfThePaper) {  // the paper's example of Parkfield (docs/worked_examples.md)
   EXPECT_NEAR(medium::speed_from_p_wave(6000, 0.3), 5421.0, 0.05);
 }
 
@@ -40,9 +40,9 @@ TEST(Medium, FindsTheConstantsOfEquation1) {
   EXPECT_NEAR(chain.substrate_force, 30e9 * 1e-6 / (2 * pi) * 1e-4 / 0.375, 1e-9);
 }
 
-/// The map to Eq. (3): with these units every term of Eq. (1) is measured by the same force, and the lattice spacing is
-/// A. That fixes F_d = K_b b A^2 / (2 pi) at the derived form of A_plastic, which is where the paper's mu b^2 (A /
-/// A_plastic)^2 / 2 pi comes from.
+/// The units map Eq. (1) to Eq. (3): every term of Eq. (1) has the same unit of force, and the lattice spacing is A.
+/// This requires F_d = K_b b A^2 / (2 pi) with the derived form of A_plastic. The paper's mu b^2 (A / A_plastic)^2 / 2
+/// pi is equal to that.
 TEST(Medium, HasUnitsThatTurnEquation1IntoEquation3) {
   const medium::ChainConstants chain = medium::chain_constants(rock);
   const medium::Units u = medium::units(rock.shear_modulus, chain.speed, rock.contact_ratio, rock.asperity_spacing);
@@ -58,8 +58,8 @@ TEST(Medium, HasUnitsThatTurnEquation1IntoEquation3) {
   EXPECT_EQ(u.velocity, chain.speed);
 }
 
-/// Terminal velocity, over c, of one dislocation on the lattice of Eq. (1) in SI units, pushed by a traction (Pa) on
-/// the nominal area against a drag (N s/m) of each asperity: leapfrog steps, free ends.
+/// The terminal velocity, over c, of one dislocation on the lattice of Eq. (1) in SI units. A traction (Pa) on the
+/// nominal area pushes it against a drag (N s/m) on each asperity. We use leapfrog steps and free ends.
 double pushed_dislocation(double traction, double drag) {
   const medium::ChainConstants chain = medium::chain_constants(soft);
   const double b = soft.asperity_spacing, width = b / soft.contact_ratio;  // b / A
@@ -70,14 +70,14 @@ double pushed_dislocation(double traction, double drag) {
   std::vector<double> now(sites), before(sites), next(sites);
   for (std::size_t i = 0; i < sites; ++i)
     before[i] = now[i] = tilt + b / (2 * pi) * 4 * std::atan(std::exp((double(middle) - double(i)) * b / width));
-  const auto place = [&] {  // where slip is half a spacing
+  const auto position = [&] {  // x at which the slip is half a spacing
     std::size_t i = 0;
     while (now[i] > tilt + b / 2) ++i;
     return b * (double(i) - (tilt + b / 2 - now[i]) / (now[i - 1] - now[i]));
   };
   double halfway = 0;
   for (int n = 0; n < steps; ++n) {
-    if (n == steps / 2) halfway = place();
+    if (n == steps / 2) halfway = position();
     for (std::size_t i = 0; i < sites; ++i) {
       const double bonds = (i > 0 ? now[i - 1] - now[i] : 0) + (i + 1 < sites ? now[i + 1] - now[i] : 0);
       const double force = chain.spring * bonds - chain.substrate_force * std::sin(2 * pi * now[i] / b) + push;
@@ -86,11 +86,12 @@ double pushed_dislocation(double traction, double drag) {
     }
     before.swap(now), now.swap(next);
   }
-  return (place() - halfway) / (steps / 2 * dt) / chain.speed;
+  return (position() - halfway) / (steps / 2 * dt) / chain.speed;
 }
 
-/// The unit of F by another route: the lattice in SI units knows it from Eq. (1) alone, and the textbook result for one
-/// dislocation (McLaughlin & Scott 1978) is stated in F and C. With mu A / (2 pi) F would be 7 times too small.
+/// Checks the unit of F in another way. The lattice in SI units follows only from Eq. (1), and the textbook result for
+/// one dislocation (McLaughlin & Scott 1978) is given in F and C. With mu A / (2 pi) as the unit, F would be 7 times
+/// too small.
 TEST(Medium, HasATractionUnitThatMovesADislocation) {
   const medium::ChainConstants chain = medium::chain_constants(soft);
   const double unit = medium::traction_unit(soft.shear_modulus, soft.poisson_ratio, soft.contact_ratio);

@@ -1,4 +1,4 @@
-// Against UDUNITS-2, whose names the table holds.
+// Compares the table of units with UDUNITS-2, from which it has its names.
 #include "medium/units.hpp"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ ut_system* database() {
   return system;
 }
 
-/// The same by UDUNITS-2: its factor to the unit of those powers; not a number where it is none of them.
+/// The factor by which UDUNITS-2 converts `text` to the SI unit with these powers. Not a number if it cannot.
 double factor_by_udunits(const std::string& text, const std::array<int, 3>& powers) {
   std::string si;
   const char* const base[] = {"m", "kg", "s"};
@@ -43,7 +43,7 @@ double factor_by_udunits(const std::string& text, const std::array<int, 3>& powe
 
 constexpr std::array<int, 3> kinds[] = {{1, 0, -1}, {1, 0, 0}, {0, 0, 1}, {-1, 1, -2}, {-3, 1, 0}, {0, 0, 0}};
 
-/// Whether `text` is a unit of mechanics; in any case UDUNITS-2 has to agree.
+/// Checks that UDUNITS-2 agrees about `text`. Returns whether it is a unit of mechanics.
 bool expect_same(const std::string& text) {
   const std::optional<medium::Unit> unit = medium::parse_unit(text);
   const bool mechanical = unit && unit->factor != 0 && std::isfinite(unit->factor);
@@ -56,7 +56,7 @@ bool expect_same(const std::string& text) {
   return mechanical;
 }
 
-/// Those of mechanics.
+/// The names of all units of mechanics.
 std::vector<std::string> names() {
   std::vector<std::string> all;
   for (const auto table : {medium::unit_names, medium::unit_symbols})
@@ -95,7 +95,7 @@ TEST(Units, MatchUdunitsForProducts) {
     std::string text = one_of(prefixes) + one_of(all) + one_of(exponents);
     for (std::size_t more = random() % 4; more > 0; --more)
       text += one_of(joints) + one_of(prefixes) + one_of(all) + one_of(exponents);
-    // Behind a blank UDUNITS reads "percent" as "per cent".
+    // After a blank, UDUNITS reads "percent" as "per cent".
     if (text.find(" per") == std::string::npos) expect_same(text);
   }
 }

@@ -1,4 +1,4 @@
-// A contact ratio that varies along the interface: where the pulse stops, and what stays at rest.
+// A contact ratio that varies along the interface: equilibrium, motion of dilute trains, and arrest of the pulse.
 
 #include <gtest/gtest.h>
 
@@ -19,10 +19,10 @@ using namespace slipfront::pulse;
 using friction::Friction;
 using std::numbers::pi;
 
-/// Energy of a dislocation in a train at rest under contact 1, over that of one alone: cosh psi E.
+/// The energy of a dislocation in a train at rest with contact ratio 1, over that of an isolated one: cosh psi E.
 double energy(double psi) { return std::cosh(psi) * elliptic::at_psi(psi).E; }
 
-/// Trains at rest are in equilibrium where a cosh psi E, their wave action flux, is the same.
+/// Trains at rest are in equilibrium if they have the same wave action flux a cosh psi E.
 double psi_of_energy(double wanted) {
   double low = 1e-12, high = 3;
   for (int i = 0; i < 200; ++i) {
@@ -77,8 +77,8 @@ TEST(Contact, EquilibriumStaysAtRestUnderStrongFriction) {
   }
 }
 
-/// Where the place of a dislocation that starts at rest is after a time, if it is alone: H = ((8 a)^2 + p^2)^(1/2).
-double place_after(double x, double time, const std::function<double(double)>& contact) {
+/// The position after a time of an isolated dislocation that starts at rest: H = ((8 a)^2 + p^2)^(1/2).
+double position_after(double x, double time, const std::function<double(double)>& contact) {
   constexpr int steps = 2000;
   constexpr double h = 1e-5;
   double p = 0;
@@ -95,8 +95,8 @@ double place_after(double x, double time, const std::function<double(double)>& c
   return x;
 }
 
-/// Dislocations far from each other slide down a contact ratio as if each were alone, also where the stress changes
-/// and phi is much larger than psi.
+/// Dislocations that are far apart slide down a slope of the contact ratio like isolated ones, even where the stress
+/// changes and phi is much larger than psi.
 TEST(Contact, DiluteTrainSlidesLikeSingleDislocations) {
   const auto contact = [](double x) { return 1 + 0.139 * std::exp(-std::pow((x - 0.724) / 0.824, 2)); };
   const auto stress = [](double x) { return 0.261 + 0.434 / (1 + std::exp(2 * x / 0.58)); };
@@ -111,14 +111,14 @@ TEST(Contact, DiluteTrainSlidesLikeSingleDislocations) {
                  .cells = 400});
   solver.advance_to(end);
   for (const double from : {1.1, 1.2, 1.3, 1.5, 1.7}) {
-    const double x = place_after(from, end, contact);
+    const double x = position_after(from, end, contact);
     double passed = 0;  // slip at x: 2 pi for each dislocation that started between
     for (int i = 0; i < 100; ++i) passed += stress(from + (i + 0.5) / 100 * (x - from)) * (x - from) / 100;
     EXPECT_NEAR(solver.slip_at(solver.view(), x), passed, 2e-3 * passed) << x;
   }
 }
 
-/// So does the last of them, where the stress falls to nothing.
+/// The last dislocation of such a train, where the stress falls to zero, also slides like an isolated one.
 TEST(Contact, EdgeOfADiluteTrainSlidesLikeOneDislocation) {
   const auto contact = [](double x) { return 1 + 0.566 * std::tanh((x + 0.6) / 1.54); };
   for (const int cells : {100, 200}) {
@@ -136,16 +136,16 @@ TEST(Contact, EdgeOfADiluteTrainSlidesLikeOneDislocation) {
                    .cells = cells});
     const double edge = solver.view().faces.back();
     solver.advance_to(0.524);
-    EXPECT_NEAR(solver.view().faces.back(), place_after(edge, 0.524, contact), 1e-3) << cells;
+    EXPECT_NEAR(solver.view().faces.back(), position_after(edge, 0.524, contact), 1e-3) << cells;
     const auto view = solver.view();
     for (std::size_t i = solver.size() - 10; i < solver.size(); ++i)
       EXPECT_LE(std::fabs(view.states[i].phi - view.states[i - 1].phi), 0.01) << cells << " cells, cell " << i;
   }
 }
 
-/// Under strong friction a dense train and a sparse one beside it, which pushes nothing back, creep down a slope of the
-/// contact: what has come to x = 0 is the sparse one, long before a cell shows it. 12,800 cells have -7.674e-5.
-TEST(Contact, SparseTrainThatCreepsBesideADenseOne) {
+/// Under strong friction, a dense train creeps down a slope of the contact next to a sparse one, which hardly resists.
+/// The sparse train reaches x = 0 long before the cells resolve this. The slip at x = 0 is -7.674e-5 with 12,800 cells.
+TEST(Contact, SparseTrainNextToADenseOneCreepsWithTheRightSlip) {
   for (const int cells : {50, 100, 200}) {
     Solver s({.stress = [](double x) { return x < 0 ? 0.255 : 0.0463; },
               .forcing = {},
@@ -161,8 +161,8 @@ TEST(Contact, SparseTrainThatCreepsBesideADenseOne) {
   }
 }
 
-/// A pulse whose free edge runs over a slope of the contact: slip(0) of chains at scale 1000 and 4000 is 0.07926 and
-/// 0.07954.
+/// The free edge of this pulse runs over a slope of the contact. slip(0) of chains at scale 1000 and 4000 is 0.07926
+/// and 0.07954.
 TEST(Contact, FreeEdgeOnASlopeConverges) {
   double slip[3];
   int i = 0;
@@ -181,8 +181,8 @@ TEST(Contact, FreeEdgeOnASlopeConverges) {
   EXPECT_NEAR(slip[2], 0.07963, 2e-5);
 }
 
-/// At the end all is at rest in equilibrium near the barrier, and the edge of the empty side stands where a dislocation
-/// alone needs the energy that each one has behind it: a(x) there is a cosh psi E anywhere else.
+/// At the end the train is at rest, in equilibrium near the barrier. At the edge of the empty side, an isolated
+/// dislocation has the energy of each one behind it: a(x) there equals a cosh psi E elsewhere.
 TEST(Contact, BarrierArrestsThePulse) {
   const auto contact = [](double x) { return 1 + 0.5 * (1 + std::tanh((x - 0.3) / 0.05)); };
   for (const double C : {2.0, 1e4}) {
@@ -202,13 +202,13 @@ TEST(Contact, BarrierArrestsThePulse) {
   }
 }
 
-TEST(Contact, JumpsAndWhatLeavesNoStateAreRefused) {
+TEST(Contact, RefusesJumpsAndContactWithoutAState) {
   Problem p = equilibrium(0, 50);
   p.contact = [](double x) { return x > 0.3 ? 2.0 : 1.0; };
   EXPECT_THROW(Solver{p}, InputError);
   p.contact = [](double) { return 1e4; };
   EXPECT_THROW(Solver{p}, InputError);
-  p.contact = [](double x) { return 1 + std::fabs(x); };  // a corner is none
+  p.contact = [](double x) { return 1 + std::fabs(x); };  // a corner is not a jump
   EXPECT_NO_THROW(Solver{p});
 }
 

@@ -1,6 +1,6 @@
-// Gamma = C t >> 1: what is left of Eqs. (7) is nonlinear diffusion (docs/theory.md 3.5), whose solution from a step
-// into the empty side depends on q / sqrt(t / C) alone. Solved here as an ordinary differential equation, apart from
-// the product's scheme.
+// For Gamma = C t >> 1, Eqs. (7) reduce to nonlinear diffusion (docs/theory.md 3.5). Its solution from a step next to
+// the empty side depends only on q / sqrt(t / C). We solve it here as an ordinary differential equation, independently
+// of the library's scheme.
 
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ struct Diffusion {
     return {1, -understated * std::sinh(at.psi) / (2 * e.E * at.g), -at.zeta / 2 * l_slope};
   }
 
-  /// From the edge with speed g0 until psi, or until g = 0. Steps shrink towards psi, where zeta goes to infinity.
+  /// Integrates from the edge with speed g0 until psi, or until g = 0. Steps shrink towards psi, where zeta diverges.
   std::vector<Point> from_edge(double g0, double psi) const {
     constexpr int steps = 16000;
     std::vector<Point> path{{1e-9 * psi, 0, g0}};
@@ -103,7 +103,7 @@ TEST(Diffusion, IsTheLimitOfStrongFriction) {
 }
 
 TEST(Diffusion, ErrorFallsAsOneOverGamma) {
-  const double limit = computed(1e8, Closure::consistent, 200).W;  // of the same cells
+  const double limit = computed(1e8, Closure::consistent, 200).W;  // with the same number of cells
   double last = 0;
   for (const double gamma : {1e2, 1e3, 1e4, 1e5}) {
     const double error = std::fabs(computed(gamma, Closure::consistent, 200).W / limit - 1);
@@ -113,7 +113,7 @@ TEST(Diffusion, ErrorFallsAsOneOverGamma) {
   }
 }
 
-TEST(Diffusion, ASmoothedStepIntoTheEmptySideTendsToTheStep) {
+TEST(Diffusion, SmoothStepNextToTheEmptySideTendsToTheStep) {
   const double C = 1e4, reach = 20 / std::sqrt(2 * pi * C);
   const auto slip = [&](double width) {
     Solver s({.stress =
@@ -150,8 +150,8 @@ Problem steep_at_rest(double exponent, double coefficient, double stress, int ce
           .cells = cells};
 }
 
-/// Friction times are shorter than any step here, and the slope at rest tells nothing of the force at the end of a
-/// step: implicit steps of 1e-36 would follow each other.
+/// Friction times are shorter than any step here, and the slope of friction at rest does not predict the force at the
+/// end of a step. A solver that relied on it would take implicit steps of 1e-36.
 TEST(SteepAtRest, NeedsFewSteps) {
   for (const double exponent : {0.1, 0.2, 0.3, 0.5})
     for (const int cells : {4, 40}) {
@@ -164,8 +164,8 @@ TEST(SteepAtRest, NeedsFewSteps) {
     }
 }
 
-/// As many steps as the error needs give what a hundred times as many give.
-TEST(SteepAtRest, StepsAreAsGoodAsShortOnes) {
+/// The number of steps that the error control chooses gives the same result as many more steps.
+TEST(SteepAtRest, LongStepsAreAsAccurateAsShortOnes) {
   Problem p = steep_at_rest(0.5, 50, 0.855, 100);
   Solver free(p);
   free.advance_to(6);

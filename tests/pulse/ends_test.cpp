@@ -1,4 +1,4 @@
-// What the ends of the domain do to a train.
+// The effects of the ends of the domain on a train.
 
 #include <gtest/gtest.h>
 
@@ -28,14 +28,14 @@ Problem loaded(double C) {
 
 double W(const Solver& s, double x) { return averages_of(s.view(), state_at(s.view(), x), x).W; }
 
-/// A uniform train under F stays uniform: M' = 2 pi F - C M, whatever the pressure.
+/// A uniform train under F stays uniform: M' = 2 pi F - C M, independent of the pressure.
 double slip_velocity_of_uniform_train(double C, double t) {
   const double momentum = C > 0 ? 2 * pi * 0.05 / C * (1 - std::exp(-C * t)) : 2 * pi * 0.05 * t;
   const State state = modulation::state_of({2 * pi / 0.8, momentum}, 0.1);
   return 0.8 * std::tanh(state.phi);
 }
 
-TEST(Ends, ATrainThatGoesOnBeyondDoesNotRunOut) {
+TEST(Ends, ContinuedEndsSupplyDislocationsToATrain) {
   for (const double C : {0.0, 0.3, 20.0}) {  // the last with momenta at the faces
     Solver continued(loaded(C));
     continued.advance_to(20);
@@ -45,7 +45,7 @@ TEST(Ends, ATrainThatGoesOnBeyondDoesNotRunOut) {
   }
 }
 
-TEST(Ends, ARingIsATrainWithoutEnds) {
+TEST(Ends, RingIsATrainWithoutEnds) {
   Problem p = loaded(0.3);
   p.periodic = true;
   Solver ring(p);
@@ -54,7 +54,7 @@ TEST(Ends, ARingIsATrainWithoutEnds) {
   double charge = 0;
   for (const double q : ring.charge()) charge += q;
   EXPECT_NEAR(charge, 8 * 0.8 / (2 * pi), 1e-12);
-  // A wave goes round as if the stress were repeated beyond the ends.
+  // A wave travels around the ring as if the stress were repeated outside the ends.
   p.forcing = {};
   p.stress = [](double x) { return 0.8 + 0.05 * std::cos(pi * x / 4); };
   Solver round(p);
@@ -68,7 +68,7 @@ TEST(Ends, ARingIsATrainWithoutEnds) {
   for (const double x : {-3.0, 0.0, 2.0})
     EXPECT_NEAR(round.slip_at(round.view(), x), three.slip_at(three.view(), x), 1e-5);
   p.periodic = true;
-  p.friction = friction::power(0.3, 0.5);  // its steps would have to be implicit
+  p.friction = friction::power(0.3, 0.5);  // this law needs implicit steps, which rings do not have
   EXPECT_THROW(Solver{p}, InputError);
   p.friction = friction::coulomb(0.3);
   EXPECT_NO_THROW(Solver{p});
@@ -86,15 +86,15 @@ TEST(Ends, NothingPassesAWall) {
     const auto view = s.view();
     EXPECT_GE(view.faces.front(), -4 - 1e-9);
     EXPECT_NEAR(view.faces.back(), 4, 1e-9);
-    // At rest in the end, where the pressure balances the load: dJ/dx = F, J = (4 / pi) cosh(psi) E.
-    if (C < 1) {  // the other still flows
+    // At last the train is at rest, and the pressure balances the load: dJ/dx = F, J = (4 / pi) cosh(psi) E.
+    if (C < 1) {  // with C = 20 it still moves
       EXPECT_NEAR(W(s, 0), 0, 1e-3);
     }
     EXPECT_GT(averages_of(view, state_at(view, 3), 3).k, averages_of(view, state_at(view, -3), -3).k);
   }
 }
 
-TEST(Ends, AtAFreeEndDislocationsLeave) {
+TEST(Ends, DislocationsLeaveThroughAFreeEnd) {
   Problem p = loaded(0.3);
   p.forcing = {};
   p.left_end = p.right_end = End::free;
@@ -105,7 +105,7 @@ TEST(Ends, AtAFreeEndDislocationsLeave) {
   EXPECT_NEAR(s.slip_at(s.view(), 0), 0, 1e-6);
 }
 
-TEST(Ends, ARunWhoseCellsCameInResumesToTheSameBits) {
+TEST(Ends, RunWithCellsThatEnteredResumesToTheSameBits) {
   const output::Schedule schedule{.times = {0, 10}, .x_edges = {-4, 0, 4}};
   pulse::Run whole(loaded(20), schedule), cut(loaded(20), schedule);
   whole.go();
@@ -116,7 +116,7 @@ TEST(Ends, ARunWhoseCellsCameInResumesToTheSameBits) {
   EXPECT_EQ(whole.saved(), resumed.saved());
 }
 
-TEST(Ends, StressAtOneSampleIsNoStretch) {
+TEST(Ends, StressAtASinglePointIsNotATrain) {
   Problem p = loaded(0);
   p.forcing = {};
   p.right = 0;
@@ -127,7 +127,7 @@ TEST(Ends, StressAtOneSampleIsNoStretch) {
   EXPECT_EQ(Solver(p).view().faces.front(), std::nextafter(1.0, 2.0));
 }
 
-TEST(Ends, StressTooNarrowToBeLaidIsRefused) {
+TEST(Ends, RefusesStressOnTooNarrowARange) {
   Problem p = loaded(0);
   p.forcing = {};
   const double h = (p.right - p.left) / 4096, at = p.left + 1000.3 * h;

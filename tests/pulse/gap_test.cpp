@@ -1,4 +1,4 @@
-// Empty gaps between stressed blocks: free edges that meet.
+// Empty gaps between stressed blocks, whose free edges meet.
 
 #include <gtest/gtest.h>
 
@@ -30,8 +30,8 @@ Problem two_sides(double gap, int cells, double C = 0) {
           .cells = cells};
 }
 
-/// Until they meet, both sides are as if alone.
-TEST(Gap, SidesAreAloneUntilTheyMeet) {
+/// Until they meet, both sides move as if there were only one.
+TEST(Gap, SidesAreIndependentUntilTheyMeet) {
   const auto alone = rupture::from_stress(0.855);
   Solver s(two_sides(1, 200));
   const double t = 0.45 / alone.leading_velocity;
@@ -45,8 +45,9 @@ TEST(Gap, SidesAreAloneUntilTheyMeet) {
   }
 }
 
-/// The contact has nothing to act on in a gap; a slope of it moves both edges as it moves that of a single side.
-TEST(Gap, SidesOnASlopeOfTheContactAreAlone) {
+/// In a gap, the contact has nothing to act on. A slope of the contact moves each edge as it moves that of a single
+/// side.
+TEST(Gap, SidesOnASlopeOfTheContactAreIndependent) {
   Problem both = two_sides(1, 200);
   both.contact = [](double x) { return 1 + 0.1 * std::tanh(x); };
   Problem left = both;
@@ -59,12 +60,12 @@ TEST(Gap, SidesOnASlopeOfTheContactAreAlone) {
   EXPECT_NEAR(with.slip_at(with.view(), -0.5), without.slip_at(without.view(), -0.5), 1e-4);
 }
 
-TEST(Gap, ClosesAndTheCollisionIsSymmetric) {
+TEST(Gap, ClosesWithASymmetricCollision) {
   const auto after = [](int cells) {
     Solver s(two_sides(0.4, cells));
     s.advance_to(2 * pi);
     EXPECT_LE(s.size(), static_cast<std::size_t>(cells));
-    EXPECT_LT(s.cells().steps, cells);  // small cells at the edges do not rule the steps for ever
+    EXPECT_LT(s.cells().steps, cells);  // small cells at the edges limit the steps only for a short time
     double charge = 0;
     for (const double q : s.charge()) charge += q;
     EXPECT_NEAR(charge, 7.6 * 0.855 / (2 * pi), 1e-12);
@@ -89,9 +90,9 @@ TEST(Gap, ClosesUnderStrongFrictionToo) {
   EXPECT_NEAR(after(100), after(400), 2e-3);
 }
 
-/// The train beside a free edge is no denser than in the cells beside it, also where rounding chooses which of two
-/// cells that is: a mirror shows the same peak.
-TEST(Gap, PeakBesideTheEdgesIsTheSameInAMirror) {
+/// The train next to a free edge is no denser than in the adjacent cells. Rounding may decide which of two cells is
+/// adjacent, so we check that a mirrored problem has the same peak.
+TEST(Gap, PeakNextToTheEdgesIsTheSameInAMirroredProblem) {
   const auto peak = [](double sign) {
     Problem p{.stress = [=](double x) { return std::fabs(sign * x - 0.113) < 1.11 ? 0 : 0.159; },
               .forcing = [=](double, double) { return sign * 0.0359; },
@@ -107,7 +108,7 @@ TEST(Gap, PeakBesideTheEdgesIsTheSameInAMirror) {
   EXPECT_NEAR(peak(-1) / peak(1), 1, 2e-5);
 }
 
-/// Straight lines between points (x, stress).
+/// Linear interpolation between points (x, stress).
 struct Points {
   std::vector<double> x, stress;
   double operator()(double at) const {
@@ -117,7 +118,7 @@ struct Points {
   }
 };
 
-/// Two to six stretches of stress between points at random, some of them empty.
+/// Linear interpolation between random points, with some empty regions.
 Points random_points(std::mt19937& chance) {
   const auto between = [&](double low, double high) { return std::uniform_real_distribution<>(low, high)(chance); };
   Points points{{-3.6}, {chance() % 4 == 0 ? 0.0 : 1.2}};
@@ -129,7 +130,7 @@ Points random_points(std::mt19937& chance) {
   return points;
 }
 
-/// Widths are positive, and the dislocations are those at t = 0 and those that came in.
+/// Checks that widths are positive, and that the dislocations are those at t = 0 and those that entered.
 void expect_sound(const Solver& s, double at_first) {
   double charge = 0;
   for (std::size_t i = 0; i < s.size(); ++i) {
@@ -144,8 +145,8 @@ void expect_sound(const Solver& s, double at_first) {
   EXPECT_GT(s.charge().back(), 0);
 }
 
-/// Few cells are left when gaps have closed: joining the small ones may reach the first and the last cell.
-TEST(Gap, FewCellsAndEveryKindOfEndKeepAllDislocations) {
+/// Few cells remain when gaps have closed, so the joining of small cells may reach the first and the last cell.
+TEST(Gap, ConservesDislocationsWithFewCellsAndEveryKindOfEnd) {
   std::mt19937 chance(26);
   constexpr std::array<End, 3> ends{End::continued, End::fixed, End::free};
   int ran = 0, closed = 0;
@@ -167,7 +168,7 @@ TEST(Gap, FewCellsAndEveryKindOfEndKeepAllDislocations) {
       ++ran;
       closed += s.size() < cells ? 1 : 0;
       expect_sound(s, at_first);
-    } catch (const InputError&) {  // a ring or an end without stress
+    } catch (const InputError&) {  // an end has no stress
     } catch (const NumericsError&) {
     }
   }
@@ -175,7 +176,7 @@ TEST(Gap, FewCellsAndEveryKindOfEndKeepAllDislocations) {
   EXPECT_GT(closed, 15);
 }
 
-/// The cells to the left of a closed gap are all small, so that joining them reaches the first cell.
+/// All cells to the left of a closed gap are small, so joining them reaches the first cell.
 TEST(Gap, JoinsUpToTheFirstCell) {
   const Points points{{-4, -2.532701194467415, -2.4726732772599416, -0.6367292433644893, -0.49426282527591114,
                        -0.48891112430626826, 1.1153443564011116, 1.9799118410055883, 4},
@@ -217,7 +218,7 @@ TEST(Gap, ResumedRunHasTheSameBits) {
   }
 }
 
-TEST(Gap, ProfileKnowsTheGap) {
+TEST(Gap, ProfileIsZeroInTheGap) {
   std::vector<double> edges;
   for (int i = -40; i <= 40; ++i) edges.push_back(i * 0.1);
   pulse::Run run(two_sides(1, 100), {.times = {0, 0.5}, .x_edges = edges});
@@ -235,9 +236,9 @@ TEST(Gap, ProfileKnowsTheGap) {
   EXPECT_NEAR(counted, right - left, 1e-12);
 }
 
-/// A gap holds no energy. The energy that two trains without friction lose where they meet is half of that of their
-/// motion: streams cross there (docs/pulse.md). Friction has stopped most of it before.
-TEST(Gap, StreamsThatMeetAreFoundAndCostEnergy) {
+/// A gap has no energy. Where two trains without friction meet, streams cross, and half of the kinetic energy is lost
+/// (docs/pulse.md). With friction, most of the motion stops before.
+TEST(Gap, StreamsThatCrossAreReportedAndLoseEnergy) {
   for (const double C : {0.0, 0.3}) {
     Problem p = two_sides(0.6, 200);
     if (C > 0) p.friction = friction::viscous(C);

@@ -42,7 +42,7 @@ output::Schedule until(double end) {
 
 double slip(const friction::Friction& friction, int cells, double end) {
   pulse::Run run(step(friction, cells), until(end));
-  EXPECT_TRUE(run.go());  // with its own checks: slip by two routes, energy
+  EXPECT_TRUE(run.go());  // the run checks itself: slip computed in two ways, energy
   return run.snapshots().back().slip_at_origin;
 }
 
@@ -58,8 +58,8 @@ double chain_slip(const friction::Friction& friction, double scale, double end) 
   return run.snapshots().back().slip_at_origin;
 }
 
-/// The average is the limit of many dislocations: the difference falls with the scale.
-TEST(PulseMemory, IsThatOfTheChain) {
+/// The pulse is the limit of many dislocations, so its difference from the chain falls with the scale.
+TEST(PulseState, SlipAgreesWithTheChain) {
   for (const auto& friction : {rate_and_state(), slip_law(), slip_weakening()}) {
     const double average = slip(friction, 200, 2);
     const double few = chain_slip(friction, 100, 2), many = chain_slip(friction, 400, 2);
@@ -68,7 +68,7 @@ TEST(PulseMemory, IsThatOfTheChain) {
   }
 }
 
-TEST(PulseMemory, ConvergesWithTheCells) {
+TEST(PulseState, ConvergesWithTheCells) {
   for (const auto& friction : {rate_and_state(), slip_weakening()}) {
     const double coarse = slip(friction, 100, 2), middle = slip(friction, 200, 2), fine = slip(friction, 400, 2);
     EXPECT_LT(std::fabs(fine - middle), 0.5 * std::fabs(middle - coarse)) << friction.name();
@@ -76,14 +76,14 @@ TEST(PulseMemory, ConvergesWithTheCells) {
   }
 }
 
-/// With f_s = f_d nothing is left to remember, and the friction is Coulomb's: two solvers of one problem.
-TEST(PulseMemory, WithoutWeakeningIsCoulombFriction) {
+/// With f_s = f_d the state has no effect, and the law is Coulomb friction. Two solvers must agree on the same problem.
+TEST(PulseState, SlipWeakeningWithoutWeakeningIsCoulombFriction) {
   const double implicit = slip(law("slip-weakening", {0.05, 0.05, 1}), 200, 2);
   const double by_events = slip(friction::coulomb(0.05), 200, 2);
   EXPECT_NEAR(implicit / by_events, 1, 2e-3);
 }
 
-TEST(PulseMemory, StopsChangeNoBits) {
+TEST(PulseState, StopsChangeNoBits) {
   pulse::Run alone(step(rate_and_state(), 40), until(0.5)), stopped(step(rate_and_state(), 40), until(0.5));
   ASSERT_TRUE(alone.go());
   int steps = 0;
@@ -94,8 +94,9 @@ TEST(PulseMemory, StopsChangeNoBits) {
   EXPECT_NE(alone.saved().find("state: theta"), std::string::npos);
 }
 
-/// A step that squeezes cells of the sparse train is tried again, shorter: it was taken, and the next one crashed.
-TEST(PulseMemory, DenseTrainsRunIntoSparseOnes) {
+/// If a step compresses cells of the sparse train too much, the solver repeats it with a shorter step. Once it accepted
+/// the step, and the next one crashed.
+TEST(PulseState, DenseTrainsRunIntoSparseOnes) {
   for (const auto& friction :
        {law("rate-and-state", {0.0125, 0.003, 0, 1, 0.05, 0, 0}), friction::power(0.0125, 0.7)}) {
     pulse::Problem p = step(friction, 200);
@@ -106,16 +107,16 @@ TEST(PulseMemory, DenseTrainsRunIntoSparseOnes) {
     EXPECT_TRUE(solver.advance_to(0.483));
     const double slip = solver.slip_at(solver.view(), 0);
     EXPECT_GT(slip, 0);
-    EXPECT_LT(slip, 4e-3);  // without friction 1.3e-3, of which 200 cells have 0.7e-3
+    EXPECT_LT(slip, 4e-3);  // the slip without friction is 1.3e-3; 200 cells give 0.7e-3
   }
 }
 
-TEST(PulseMemory, RefusesWhatItHasNoAverageFor) {
+TEST(PulseState, RefusesTheClosureForWhichThereIsNoAverage) {
   EXPECT_THROW(pulse::Solver(step(rate_and_state().with(friction::Closure::paper), 40)), InputError);
 }
 
-/// What is pushed less than its strength does not move; the fluxes of a smooth stress leak a little.
-TEST(PulseMemory, HoldsWhatIsPushedTooLittle) {
+/// Nothing moves under a force below the strength. The fluxes of a smooth stress leak a little.
+TEST(PulseState, DoesNotMoveUnderAForceBelowTheStrength) {
   const auto slip_with = [](const friction::Friction& friction) {
     pulse::Problem p = step(friction, 40);
     p.stress = [](double x) { return 0.3 - 0.1 * std::tanh(x); };

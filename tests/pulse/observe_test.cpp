@@ -35,8 +35,8 @@ output::Schedule schedule(double end) {
   return s;
 }
 
-/// Before a shock forms, what friction takes is what H loses; the imbalance is small against what it takes.
-TEST(Observe, EnergyIsAccountedFor) {
+/// Before a shock forms, the energy loss equals the dissipation. The imbalance is small compared with the dissipation.
+TEST(Observe, EnergyBudgetClosesBeforeAShock) {
   for (const friction::Closure closure : {friction::Closure::consistent, friction::Closure::paper}) {
     Problem problem = smooth(0.5, closure);
     problem.cells = 800;
@@ -49,7 +49,7 @@ TEST(Observe, EnergyIsAccountedFor) {
   }
 }
 
-/// Also with few cells, between whose nodes the slip velocity at x = 0 lies.
+/// This must hold even with few cells, when the slip velocity at x = 0 lies between the values of two nodes.
 TEST(Observe, PeakIsNotBelowTheOrigin) {
   for (const int cells : {4, 5, 6, 7, 8})
     for (const double end : {1e-9, 1e-3, 0.1}) {
@@ -65,8 +65,9 @@ TEST(Observe, PeakIsNotBelowTheOrigin) {
     }
 }
 
-/// Also of a hump narrower than a cell, beside which every cell counts as one of a shock.
-TEST(Observe, PeakOfANarrowPulse) {
+/// The peak of a hump that is narrower than a cell must not be lost. Next to such a hump, every cell counts as part of
+/// a shock.
+TEST(Observe, FindsThePeakOfANarrowPulse) {
   Problem problem{.stress = [](double x) { return 0.107 + 0.154 * std::exp(-std::pow((x + 0.834) / 0.242, 2)); },
                   .forcing = [](double, double) { return 0.00129; },
                   .friction = friction::viscous(0.184, friction::Closure::paper),
@@ -86,15 +87,14 @@ TEST(Observe, PeakOfANarrowPulse) {
 TEST(Observe, CountsDislocations) {
   pulse::Run run(smooth(0.1, friction::Closure::consistent), schedule(2 * pi));
   run.go();
-  const double error = conservation_error(run.solver());  // of the states: not zero
+  const double error = conservation_error(run.solver());  // this counts the states, so it is not zero
   EXPECT_GT(error, 1e-12);
   EXPECT_LT(error, 1e-4);  // a shock begins to form
   EXPECT_TRUE(run.warnings().empty());
 }
 
-/// The count does not telescope: where the states of cells and faces no longer fit each other, dislocations are
-/// missing.
-TEST(Observe, CountsWrongWhereCellsAreWrong) {
+/// The count does not telescope. If the states of cells and faces do not match, dislocations are missing.
+TEST(Observe, ConservationErrorRevealsWrongCells) {
   Solver solver(smooth(0.1, friction::Closure::consistent));
   solver.advance_to(0.5);
   EXPECT_LT(conservation_error(solver), 1e-5);
@@ -104,9 +104,9 @@ TEST(Observe, CountsWrongWhereCellsAreWrong) {
   EXPECT_GT(conservation_error(solver), 5e-4);
 }
 
-/// Energy that the train beyond brings in, by its push and with its dislocations, closes the budget of a domain whose
-/// ends a train passes.
-TEST(Observe, EnergyThroughTheEndsIsAccountedFor) {
+/// A train passes through the ends of the domain. The budget closes with the energy that the train outside brings in,
+/// by its pressure and with its dislocations.
+TEST(Observe, EnergyThroughTheEndsClosesTheBudget) {
   for (const double C : {0.0, 2.0}) {
     Problem p{.stress = [](double) { return 0.8; },
               .forcing = [](double, double) { return 0.05; },
@@ -123,8 +123,9 @@ TEST(Observe, EnergyThroughTheEndsIsAccountedFor) {
   }
 }
 
-/// The exact Riemann problem knows what a shock takes: its energy jumps by more than what crosses it.
-TEST(Observe, ShockTakesWhatTheRiemannProblemSays) {
+/// The exact Riemann problem gives the energy that a shock takes: the jump of energy is larger than the flux through
+/// it.
+TEST(Observe, ShockTakesTheEnergyOfTheRiemannProblem) {
   Problem p{.stress = [](double x) { return x < 0 ? 3 : 0.5; },
             .forcing = {},
             .friction = {},
@@ -136,16 +137,16 @@ TEST(Observe, ShockTakesWhatTheRiemannProblemSays) {
   run.go();
   const train::Averages behind = train::averages(solution.star), ahead = train::averages(solution.right);
   const double speed = rupture::edges_of(solution).right;
-  // Energy flows at p U per unit of time through a place that moves with the dislocations, H x_t with that place.
+  // The energy flux through a surface that moves with the dislocations is p U; the surface itself carries H x_t.
   const double flux = modulation::pressure(solution.star.psi) * modulation::velocity(solution.star.phi) +
                       behind.H * (std::tanh(solution.star.phi) - speed) + ahead.H * speed;
   const double lost = (run.snapshots()[2].energy.shocks - run.snapshots()[1].energy.shocks) / 2;
   EXPECT_NEAR(lost, flux, 0.03 * flux);
 }
 
-/// A smooth stress has no corner where slip begins: the front is where a thousandth of the largest slip velocity is
-/// felt, whatever the cells, and none at rest.
-TEST(Observe, TrailingFrontOfASmoothStressIsWhereItIsFelt) {
+/// A smooth stress has no corner where slip begins. The front is where the slip velocity is a thousandth of its peak,
+/// for any number of cells. At rest there is no front.
+TEST(Observe, TrailingFrontOfASmoothStressConverges) {
   const auto fronts = [](int cells) {
     Problem problem = smooth(0.5, friction::Closure::consistent);
     problem.cells = cells;
@@ -160,8 +161,9 @@ TEST(Observe, TrailingFrontOfASmoothStressIsWhereItIsFelt) {
   EXPECT_LT(fine, -2);
 }
 
-/// From the first cells that a fan fills to the many that it fills later, its foot stays beside the characteristic.
-TEST(Observe, TrailingFrontOfANarrowFan) {
+/// The foot of a fan stays next to the characteristic, from the first few cells of the fan to the many that it fills
+/// later.
+TEST(Observe, TrailingFrontOfANarrowFanFollowsTheCharacteristic) {
   const double stresses[][2] = {{0.973, 1.94}, {0.703, 0.502}, {0.655, 1.06}, {0.4, 0.3}};
   for (const auto& both : stresses)
     for (const double C : {0.0, 0.3}) {
@@ -186,8 +188,8 @@ TEST(Observe, TrailingFrontOfANarrowFan) {
     }
 }
 
-/// The trailing edge moves at |V-| for every C; an observer with a threshold sees it fall behind.
-TEST(Observe, TrailingEdgeDoesNotKnowFriction) {
+/// The trailing edge moves at |V-| for every C. An observer with a threshold sees a slower edge.
+TEST(Observe, TrailingEdgeDoesNotDependOnFriction) {
   for (const double C : {0.0, 0.5, 2.0}) {
     Problem p{.stress = [](double x) { return x < 0 ? 0.855 : 0.0; },
               .forcing = {},
@@ -202,18 +204,19 @@ TEST(Observe, TrailingEdgeDoesNotKnowFriction) {
     const output::Fronts f = run.snapshots().back().fronts;
     const double characteristic = -rupture::from_stress(0.855).rupture_velocity * 2 * pi;
     EXPECT_NEAR(f.trailing_characteristic, characteristic, 1e-12);
-    // Measured: within two cells of it as long as friction leaves the foot, e^(-C t / 2), above a thousandth.
+    // The measured front is within two cells of it as long as the foot, which falls as e^(-C t / 2), is above a
+    // thousandth.
     EXPECT_NEAR(f.trailing, characteristic, 0.02) << C;
     EXPECT_GT(f.trailing_observed, f.trailing);
-    // Without friction the closed form; with it what a first-order scheme gave that is older than this solver.
+    // The value without friction is the closed form. Those with friction come from an older, first-order scheme.
     const double frictionless = rupture::from_stress(0.855).leading_velocity * 2 * pi;
     const double leading = C == 0 ? frictionless : C == 0.5 ? 0.286 : 0.15;
     EXPECT_NEAR(f.leading, leading, 0.005);
   }
 }
 
-/// What is stressed on the right is the same thing in a mirror.
-TEST(Observe, MirroredScenarioKeepsFrontNames) {
+/// A problem with the stress on the right is the mirror image of one with the stress on the left.
+TEST(Observe, MirroredScenarioHasMirroredFronts) {
   for (const double right : {0.0, 0.179}) {
     Problem p = smooth(0.3, friction::Closure::consistent), mirrored = p;
     p.left = mirrored.left = -4;
@@ -228,13 +231,13 @@ TEST(Observe, MirroredScenarioKeepsFrontNames) {
     EXPECT_LT(a.trailing, -0.7);
     EXPECT_NEAR(a.trailing, -b.trailing, 1e-9);
     EXPECT_NEAR(a.leading, -b.leading, 1e-9);
-    // Where W is a thousandth of its peak, rounding (cells are counted from the left) moves it more.
+    // Observed fronts are where W is a thousandth of its peak. Rounding moves them more, as cells are counted from the
+    // left.
     EXPECT_NEAR(a.trailing_observed, -b.trailing_observed, 1e-7);
     EXPECT_NEAR(a.leading_observed, -b.leading_observed, 1e-7);
   }
 }
 
-/// Fronts do not depend on how often one looks.
 TEST(Observe, FrontsDoNotDependOnOutputTimes) {
   output::Schedule often = schedule(2);
   for (double t = 1.9; t > 0.05; t -= 0.1) often.times.insert(often.times.begin() + 1, t);
@@ -247,8 +250,7 @@ TEST(Observe, FrontsDoNotDependOnOutputTimes) {
   EXPECT_NEAR(a.leading, b.leading, 1e-6);
 }
 
-/// A front that is followed through a state that is not uniform is looked up between steps; that must leave no trace in
-/// the solves.
+/// In a nonuniform state, the solver evaluates the state at the front between steps. That must not change later solves.
 TEST(Run, SavedBetweenStepsContinuesToTheSameBits) {
   for (const double C : {0.3, 1e4}) {
     Problem problem = smooth(C, friction::Closure::consistent);
@@ -280,8 +282,8 @@ TEST(Run, RefusesStateOfAnotherRun) {
   EXPECT_TRUE(again.finished());
 }
 
-/// Pushed out of the domain, a train leaves nothing to measure.
-TEST(Observe, NothingIsLeftInTheDomain) {
+/// A force pushes the train out of the domain. There is nothing left to measure.
+TEST(Observe, EmptyDomainHasNoPeakAndNoFronts) {
   Problem p;
   p.stress = [](double x) { return std::fabs(x) < 0.5 ? 0.8 : 0.0; };
   p.forcing = [](double, double) { return 0.5; };

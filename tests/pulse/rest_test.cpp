@@ -1,4 +1,4 @@
-// Cells that nothing has reached yet.
+// Cells at rest, which no wave has reached yet.
 
 #include <gtest/gtest.h>
 
@@ -23,9 +23,9 @@ Problem step(const friction::Friction& friction) {
           .cells = 200};
 }
 
-/// Rounding moves no cell ahead of the wave: widths keep their bits. Without the limit on pressure differences each
-/// cell had a momentum after a few steps.
-TEST(CellsAtRest, StayAsTheyAre) {
+/// Rounding moves no cell ahead of the wave, so widths have the same bits as at the start. Without the limit on
+/// pressure differences, each cell had a momentum after a few steps.
+TEST(CellsAtRest, StayAtRestToTheBit) {
   Solver solver(step(friction::coulomb(0.03)));
   const Cells start = solver.cells();
   solver.advance_to(1);
@@ -33,12 +33,12 @@ TEST(CellsAtRest, StayAsTheyAre) {
   while (solver.cells().momentum(resting) == 0 && solver.cells().width(resting) == start.width(resting)) ++resting;
   EXPECT_GT(resting, 80u);
   EXPECT_LT(resting, 180u);
-  // And only those that the wave cannot have reached: it goes as fast as the characteristic, at most 1.
+  // Only cells that the wave cannot have reached are at rest. It is as fast as the characteristic, at most 1.
   EXPECT_GT(solver.view().faces[resting], -1.0);
 }
 
-/// Cells that are left alone for a step have the rates that they have if looked at, to the bit.
-TEST(CellsAtRest, NeedNoLooking) {
+/// A step may skip cells at rest. They have the same rates, to the bit, as in a step that computes them.
+TEST(CellsAtRest, HaveTheSameRatesIfAStepSkipsThem) {
   Solver solver(step(friction::viscous(0.1)));
   for (const double time : {0.0, 1e-3, 0.1, 2.0}) {
     if (time > 0) solver.advance_to(time);
@@ -66,8 +66,9 @@ TEST(CellsAtRest, NeedNoLooking) {
   }
 }
 
-/// Trains so sparse that waves never cross a cell, under friction that is steep at rest: the time step was no number.
-TEST(CellsAtRest, StayFiniteWhereTrainsAreSparse) {
+/// The trains are so sparse that waves never cross a cell, and friction is steep at rest. The time step was not a
+/// number.
+TEST(CellsAtRest, StayFiniteInSparseTrains) {
   Problem problem = step(friction::power(1e-8, 0.5));
   problem.stress = [](double x) { return x < 0 ? 0.004703 : 0.0045001; };
   problem.left = -1e-287;
@@ -78,8 +79,8 @@ TEST(CellsAtRest, StayFiniteWhereTrainsAreSparse) {
   EXPECT_TRUE(std::isfinite(run.snapshots().back().slip_at_origin));
 }
 
-/// Runs begin at t = 0, and a forcing such as sqrt(t) is not defined before.
-TEST(CellsAtRest, AskForNoForcingBeforeTheBeginning) {
+/// Runs begin at t = 0, and a forcing such as sqrt(t) is not defined for t < 0.
+TEST(CellsAtRest, EvaluateNoForcingBeforeTimeZero) {
   for (const double C : {0.0, 0.2, 1e4}) {
     Problem problem = step(friction::viscous(C));
     double earliest = 0;
@@ -92,8 +93,8 @@ TEST(CellsAtRest, AskForNoForcingBeforeTheBeginning) {
   }
 }
 
-/// A stretch of stress that begins at a step, but for rounding, has no cell of that width.
-TEST(CellsAtRest, NoneIsAsNarrowAsRounding) {
+/// The train begins at x = 0 except for a rounding error. No cell may have the width of that error.
+TEST(CellsAtRest, AreWiderThanRoundingErrors) {
   Problem problem = step(friction::viscous(0));
   problem.stress = [](double x) { return x < -1e-16 ? 0.0 : 0.855; };
   problem.corner = 0;

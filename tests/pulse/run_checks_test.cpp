@@ -1,4 +1,4 @@
-// What a run finds wrong in its own results, and what it must not.
+// The checks of a run on its own results: correct runs must pass, and known errors must not recur.
 
 #include <gtest/gtest.h>
 
@@ -29,8 +29,9 @@ output::Snapshot end_of(const Problem& p, double end) {
   return run.snapshots().back();
 }
 
-/// x = 0 is a place that does not slip: what its two slips differ by is small compared with the slip elsewhere.
-TEST(RunChecks, AcceptsARunWhoseOriginDoesNotSlip) {
+/// The interface does not slip at x = 0. The two ways to compute that slip differ by little compared with the slip
+/// elsewhere.
+TEST(RunChecks, AcceptsARunWithoutSlipAtTheOrigin) {
   const Problem p{.stress =
                       [](double x) {
                         return 1.272 + 1.494 * 0.5 * (1 - std::tanh((x + 1.748) / 1.419)) -
@@ -47,7 +48,7 @@ TEST(RunChecks, AcceptsARunWhoseOriginDoesNotSlip) {
   EXPECT_GT(std::fabs(s.peak_slip_velocity), 0.04);
 }
 
-/// Friction that holds all cells in every step leaves no motion to compare with: only rounding changes the energy.
+/// Friction holds all cells in every step, so only rounding changes the energy. There is no motion to compare with.
 TEST(RunChecks, AcceptsARunInWhichNothingMoves) {
   for (const int cells : {300, 400}) {
     const std::string text = R"toml([initial]
@@ -78,9 +79,9 @@ cells = )toml" + std::to_string(cells) +
   }
 }
 
-/// Profiles held at rest by a load: what moves is the truncation error of the cells, whose slip and energy balance no
-/// better than the forces do.
-TEST(RunChecks, AcceptsAHeldProfile) {
+/// A load holds the profiles at rest. The only motion is the truncation error of the cells. Its slip and energy balance
+/// only as well as the forces do.
+TEST(RunChecks, AcceptsAProfileThatALoadHolds) {
   const std::string held = "hold = true\nprofile = \"formula\"\n";
   const std::string dry =
       "[initial]\n" + held +
@@ -128,9 +129,9 @@ cells = 200
   }
 }
 
-/// Without friction all energy released is kinetic, however slow: 1e-17 of an elastic energy of 0.6. It once was lost
-/// in the truncation error of the elastic energy, and "100 % of the energy of motion" with it.
-TEST(RunChecks, EnergyOfASlowPulseIsAccountedFor) {
+/// Without friction all released energy is kinetic, even in a slow pulse: here 1e-17 of an elastic energy of 0.6. Once
+/// the truncation error of the elastic energy hid it, and the run reported a loss of "100 % of the energy of motion".
+TEST(RunChecks, EnergyBudgetOfASlowPulseCloses) {
   const Problem p{.stress = [](double x) { return x < 0 ? 0.1598 : 0.04344; },
                   .forcing = {},
                   .friction = {},
@@ -142,10 +143,10 @@ TEST(RunChecks, EnergyOfASlowPulseIsAccountedFor) {
   EXPECT_LT(std::fabs(e.shocks), 0.1 * e.kinetic);
 }
 
-/// By the closure of the paper friction hardly slows the dislocations at a free edge, and they leave the others far
-/// behind. A cell next to one that is a hundred times wider had next to no width at its centre, and the pressure of
-/// that threw its neighbours away: to x = 13.3 by the end with these cells, with energy from nothing.
-TEST(RunChecks, AFreeEdgeIsNotThrownAway) {
+/// With the paper's closure, friction hardly slows the dislocations at a free edge, and they leave the others far
+/// behind. A cell next to one that is a hundred times wider had almost no width at its centre. The pressure from that
+/// error displaced its neighbours, with these cells to x = 13.3 by the end, and created energy.
+TEST(RunChecks, FreeEdgeIsNotDisplaced) {
   const Problem p{.stress = [](double x) { return x < 0 ? 0.6161 : 0.0; },
                   .forcing = {},
                   .friction = friction::power(1.931, 1.956, friction::Closure::paper),
@@ -159,8 +160,8 @@ TEST(RunChecks, AFreeEdgeIsNotThrownAway) {
   EXPECT_GT(s.energy.shocks, -1e-3 * (s.energy.kinetic + s.energy.dissipated));
 }
 
-/// A strong step under friction that is steep at rest but does not rule what moves: no spike at the foot of the fan,
-/// by either closure. The peak was 1.036 by the closure of the paper.
+/// A strong step with friction that is steep at rest but weak for moving cells. The foot of the fan must have no spike.
+/// With the paper's closure, the peak was 1.036.
 TEST(RunChecks, FrictionSteepAtRestMakesNoSpike) {
   const Problem p{.stress = [](double x) { return x < 0 ? 3.732 : 1.505; },
                   .forcing = {},
@@ -171,8 +172,9 @@ TEST(RunChecks, FrictionSteepAtRestMakesNoSpike) {
   EXPECT_NEAR(end_of(p, 1.888).peak_slip_velocity, 0.9045, 4e-3);
 }
 
-/// Friction whose mean is not tabulated, on a train that ends in a stress so small that its psi is hardly a double.
-TEST(RunChecks, StepsWhereATrainIsAlmostEmpty) {
+/// The mean of this friction is not tabulated. The train ends in a stress so small that its psi is close to the
+/// smallest double.
+TEST(RunChecks, RunsWithAnAlmostEmptyTrain) {
   const auto& laws = friction::laws();
   const auto is_n_shaped = [](const friction::Definition* law) { return law->name == "n-shaped"; };
   const friction::Definition& n_shaped = **std::find_if(laws.begin(), laws.end(), is_n_shaped);
@@ -191,8 +193,8 @@ TEST(RunChecks, StepsWhereATrainIsAlmostEmpty) {
   EXPECT_TRUE(run.go());
 }
 
-/// The front of a smooth stress does not depend on whether the cells show a corner: -1.499 with 200 cells once, where
-/// 800 gave -1.588.
+/// The front of a smooth stress does not depend on whether the cells show a corner. Once it was -1.499 with 200 cells
+/// and -1.588 with 800.
 TEST(RunChecks, TrailingFrontOfASmoothStressConverges) {
   const auto front = [](int cells) {
     const Problem p{.stress =

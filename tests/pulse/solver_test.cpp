@@ -37,7 +37,7 @@ Origin origin_of(const Solver& s) {
   return {train::averages(state_at(view, 0)).W, s.slip_at(view, 0)};
 }
 
-TEST(Pulse, FrictionlessStepIsTheClosedForm) {
+TEST(Pulse, FrictionlessStepAgreesWithTheClosedForm) {
   double last = 1;
   for (const int cells : {50, 100, 200, 400}) {
     Solver s(step(0.855, 0, 0, Closure::consistent, cells));
@@ -55,7 +55,7 @@ TEST(Pulse, FrictionlessStepIsTheClosedForm) {
   EXPECT_LT(last, 1e-5);
 }
 
-TEST(Pulse, WholeProfileIsTheClosedForm) {
+TEST(Pulse, WholeProfileAgreesWithTheClosedForm) {
   Solver s(step(0.855, 0, 0, Closure::consistent, 400));
   s.advance_to(2 * pi);
   const auto view = s.view();
@@ -67,9 +67,9 @@ TEST(Pulse, WholeProfileIsTheClosedForm) {
   }
 }
 
-/// Slip at x = 0 by t = 2 pi with both closures (docs/theory.md 3.3). The numbers come from a first-order scheme that
-/// is older than this solver, and are wrong by up to 1e-3.
-TEST(Pulse, SlipWithFrictionIsThatOfTheFoundingTable) {
+/// Slip at x = 0 by t = 2 pi with both closures (docs/theory.md 3.3). The numbers come from an older, first-order
+/// scheme and have errors of up to 1e-3.
+TEST(Pulse, SlipWithFrictionAgreesWithTheReferenceTable) {
   const struct {
     double C, consistent, paper;
   } rows[] = {{0.1, 0.26443, 0.28284}, {0.5, 0.16960, 0.21897}, {2.0, 0.08912, 0.12132}};
@@ -81,7 +81,7 @@ TEST(Pulse, SlipWithFrictionIsThatOfTheFoundingTable) {
     }
 }
 
-TEST(Pulse, ShocksAreThoseOfTheRiemannProblem) {
+TEST(Pulse, ShocksAgreeWithTheRiemannProblem) {
   const struct {
     double left, right, k, W, shock;
   } rows[] = {{0.855, 0.179, 0.6378761420, 0.0458180779, 0.0998484639},
@@ -94,11 +94,11 @@ TEST(Pulse, ShocksAreThoseOfTheRiemannProblem) {
     const auto star = train::averages(state_at(view, middle));
     EXPECT_NEAR(star.k, row.k, 1e-3);
     EXPECT_NEAR(star.W, row.W, 1e-3 * row.W);
-    for (std::size_t i = 0; i < view.states.size(); ++i)  // does not ring behind the shock
+    for (std::size_t i = 0; i < view.states.size(); ++i)  // no oscillation behind the shock
       if (view.centres[i] > middle) {
         EXPECT_LT(train::averages(view.states[i]).W, 1.015 * row.W);
       }
-    // The shock stands where the velocity falls through half, at one place; within a cell.
+    // The velocity falls through half of its value once, within a cell of the exact shock.
     int shocks = 0;
     for (std::size_t i = 0; i + 1 < view.states.size(); ++i) {
       const double half = std::atanh(row.W / row.k) / 2;
@@ -111,8 +111,8 @@ TEST(Pulse, ShocksAreThoseOfTheRiemannProblem) {
   }
 }
 
-/// The train between the two waves, on the mean over its outer half up to the shock: with few cells single places
-/// there are off by twice as much, the trace of the first moments of the shock.
+/// Compares the train between the two waves, as a mean over its outer half up to the shock. With few cells, single
+/// positions there have twice the error, which comes from the start of the shock.
 TEST(Pulse, DenseTrainsRunIntoSparseOnes) {
   for (const auto& [left, right] : {std::pair{0.855, 0.05}, {3.0, 0.06}, {10.0, 0.3}})
     for (const auto& [cells, allowed] : {std::pair{75, 0.08}, {100, 0.035}, {200, 0.008}}) {
@@ -122,12 +122,12 @@ TEST(Pulse, DenseTrainsRunIntoSparseOnes) {
       s.advance_to(1);
       const auto exact = rupture::solve_riemann({0, train::psi_of_stress(left)}, {0, train::psi_of_stress(right)}).star;
       const auto view = s.view();
-      constexpr int places = 91;
+      constexpr int positions = 91;
       double phi = 0, psi = 0;
-      for (int j = 0; j < places; ++j) {
-        const State at = state_at(view, (0.5 + 0.45 * j / (places - 1)) * std::tanh(exact.phi));
-        phi += std::fabs(at.phi / exact.phi - 1) / places;
-        psi += std::fabs(at.psi / exact.psi - 1) / places;
+      for (int j = 0; j < positions; ++j) {
+        const State at = state_at(view, (0.5 + 0.45 * j / (positions - 1)) * std::tanh(exact.phi));
+        phi += std::fabs(at.phi / exact.phi - 1) / positions;
+        psi += std::fabs(at.psi / exact.psi - 1) / positions;
       }
       EXPECT_LT(phi, allowed / 2) << left << " " << cells;
       EXPECT_LT(psi, allowed) << left << " " << cells;
@@ -138,7 +138,7 @@ TEST(Pulse, DenseTrainsRunIntoSparseOnes) {
     }
 }
 
-/// The centre of a cell lies within it, also where cells are compressed and have wide ones beside them.
+/// The centre of a cell lies within the cell, even if the cell is compressed and next to wide ones.
 TEST(Pulse, CentresLieInTheirCells) {
   Problem p = step(0.855, 0.05, 0, Closure::consistent, 75, 1);
   p.left = -2;
@@ -153,7 +153,7 @@ TEST(Pulse, CentresLieInTheirCells) {
 }
 
 /// The values are limits of the slow solver, which has another scheme: tests/reference/slow_values.py.
-TEST(Pulse, TanhWithFriction) {
+TEST(Pulse, TanhStepWithFrictionAgreesWithTheSlowSolver) {
   for (const Closure closure : {Closure::consistent, Closure::paper}) {
     Problem p = step(0.855, 0.179, 0.5, closure, 200);
     p.stress = [](double x) { return 0.179 + 0.676 * (1 - std::tanh(x)) / 2; };
@@ -162,15 +162,15 @@ TEST(Pulse, TanhWithFriction) {
     p.corner = HUGE_VAL;
     Solver s(p);
     s.advance_to(2 * pi);
-    // Between the slow solver's limits for an error of first and of second order, 0.0093396 and 0.0093221 with closure
-    // consistent, 0.0152543 and 0.0152502 with closure paper.
+    // These values are between the slow solver's limits for errors of first and of second order: 0.0093396 and
+    // 0.0093221 with closure consistent, 0.0152543 and 0.0152502 with closure paper.
     const bool paper = closure == Closure::paper;
     EXPECT_NEAR(origin_of(s).W, paper ? 0.015250 : 0.009331, paper ? 6e-6 : 2e-5);
   }
 }
 
-/// A uniform train under F and C settles where force and friction balance; dilute, at McLaughlin & Scott's fluxon
-/// velocity.
+/// A uniform train under F and C reaches the velocity at which force and friction balance. For a dilute train this is
+/// McLaughlin & Scott's fluxon velocity.
 TEST(Pulse, UniformTrainReachesItsTerminalVelocity) {
   for (const double F : {0.01, 0.1, 0.5}) {
     Problem p;
@@ -185,9 +185,9 @@ TEST(Pulse, UniformTrainReachesItsTerminalVelocity) {
   }
 }
 
-/// A push that makes dislocations a thousand times narrower leaves them so far apart for their width that a double does
-/// not hold psi, in a stage of the first step. The average over such a train had no end.
-TEST(Pulse, StepsEndWhereNoDoubleHoldsTheDistanceOfDislocations) {
+/// The force makes dislocations a thousand times narrower. In a stage of the first step, they are so far apart compared
+/// with their width that psi underflows. The average over such a train did not end.
+TEST(Pulse, StepsEndIfPsiUnderflows) {
   Problem p;
   p.stress = [](double) { return 0.8; };
   p.forcing = [](double x, double) { return 1e5 * std::sin(40 * x); };
@@ -205,7 +205,7 @@ TEST(Pulse, StepsEndWhereNoDoubleHoldsTheDistanceOfDislocations) {
   for (const State& state : s.view().states) EXPECT_TRUE(std::isfinite(state.phi) && state.psi > 0);
 }
 
-TEST(Pulse, SlowIsLikeFast) {  // Sigma- = 0.05, V ~ 1e-26
+TEST(Pulse, SlowPulseIsAsAccurateAsAFastOne) {  // Sigma- = 0.05, V ~ 1e-26
   const auto exact = rupture::from_stress(0.05);
   EXPECT_LT(exact.rupture_velocity, 1e-24);
   double relative[2];
@@ -256,9 +256,9 @@ TEST(Pulse, MirroredProblemHasTheMirroredSolution) {
   }
 }
 
-/// The paper's closure is unstable where friction is strong: the last cell of the leading edge was squeezed to less
-/// than nothing in a step whose error did not count it, at some C and numbers of cells.
-TEST(Pulse, StepsDoNotSqueezeACellToNothing) {
+/// The paper's closure is unstable for strong friction. At some C and numbers of cells, a step gave the last cell of
+/// the leading edge a negative width, because the error of the step did not count that cell.
+TEST(Pulse, StepsKeepCellWidthsPositive) {
   for (const double C : {1.5, 1.62, 3.0}) {
     Solver s(step(0.855, 0, C, Closure::paper, 400));
     EXPECT_NO_THROW(s.advance_to(3.5)) << C;
@@ -293,7 +293,7 @@ TEST(Pulse, InterruptedBetweenStepsContinuesToTheSameBits) {
   EXPECT_EQ(whole.cells().unknowns, resumed.cells().unknowns);
 }
 
-TEST(Pulse, RefusesWhatIsNoProblem) {
+TEST(Pulse, RefusesInvalidProblems) {
   Problem p = step(0.855, 0, 0, Closure::consistent, 100);
   const auto refused = [](Problem bad) { EXPECT_THROW(Solver{bad}, InputError); };
   Problem bad = p;

@@ -27,7 +27,8 @@ Problem forced(double stress, double C, double reach, std::function<double(doubl
           .corner = HUGE_VAL};
 }
 
-/// Slip of a uniform train, the integral of k U, from M' = 2 pi F - C M alone: with McLaughlin & Scott's speed at last.
+/// The slip of a uniform train: the integral of k U, where M' = 2 pi F - C M. The train approaches McLaughlin & Scott's
+/// speed.
 double slip_of_uniform_train(double stress, double C, double end, const std::function<double(double)>& F) {
   const int steps = 200000;
   const double h = end / steps;
@@ -40,9 +41,9 @@ double slip_of_uniform_train(double stress, double C, double end, const std::fun
   return slip;
 }
 
-/// Friction time and run are alike here, the time in which a wave crosses a cell is a thousand times longer: momenta
-/// never come to balance with the pressure, and the faces may not assume that they have.
-TEST(UnderLoad, SmoothSlowStressBeforeItsMomentumHasRelaxed) {
+/// Here the friction time is about as long as the run, and the time in which a wave crosses a cell is a thousand times
+/// longer. Momenta never balance the pressure, and the scheme must not assume at the faces that they do.
+TEST(UnderLoad, SlipConvergesBeforeTheMomentumRelaxes) {
   const auto slip = [](int cells) {
     Solver s({.stress = [](double x) { return 0.2 + 0.1 * (1 - std::tanh(x)) / 2; },
               .forcing = {},
@@ -67,30 +68,30 @@ TEST(UnderLoad, SmoothSlowStressBeforeItsMomentumHasRelaxed) {
   EXPECT_NEAR(slip(400) / 2.228e-8, 1, 5e-4);
 }
 
-TEST(UnderLoad, AForcedSparseTrainMovesAsOneDislocation) {
+TEST(UnderLoad, ForcedSparseTrainMovesLikeOneDislocation) {
   Solver s(forced(0.3, 2, 10, [](double, double) { return 0.05; }));
   s.advance_to(20);
   const double want = slip_of_uniform_train(0.3, 2, 20, [](double) { return 0.05; });
   EXPECT_NEAR(slip_at_origin(s) / want, 1, 1e-4);
 }
 
-TEST(UnderLoad, StepsFollowAForcingThatIsQuickerThanTheWaves) {
+TEST(UnderLoad, StepsFollowAForcingThatIsFasterThanTheWaves) {
   for (const double C : {0.0, 1.0}) {
     const auto F = [](double t) { return 0.05 * std::cos(5 * t); };
     Solver s(forced(0.2, C, 10, [&](double, double t) { return F(t); }));
     s.advance_to(12);
     const double want = slip_of_uniform_train(0.2, C, 12, F);
     EXPECT_NEAR(slip_at_origin(s), want, 1e-3 * std::fabs(want) + 1e-7) << C;
-    // What F has supplied is what friction took and what moves now.
+    // The energy that F has supplied is the dissipated plus the kinetic energy.
     const State now = state_at(s.view(), 0);
     const double energy = 20 * 0.2 / (2 * pi) * 8 * (std::cosh(now.phi) - 1);
     EXPECT_NEAR(s.supplied() - s.dissipated(), energy, 1e-3 * s.supplied() + 1e-7) << C;
   }
 }
 
-/// Two opinions: the same scenario by explicit steps with momenta in the cells and by implicit ones with momenta at the
-/// faces. The size of the cells chooses between them.
-TEST(UnderLoad, BothWaysOfSteppingAgree) {
+/// Compares two independent schemes on the same scenario: explicit steps with momenta in the cells, and implicit steps
+/// with momenta at the faces. The size of the cells decides which one the solver uses.
+TEST(UnderLoad, BothSchemesAgree) {
   double slip[2];
   for (const int i : {0, 1}) {
     Solver s({.stress = [](double x) { return 0.3 + 0.3 * (1 - std::tanh(x)) / 2; },
@@ -107,8 +108,8 @@ TEST(UnderLoad, BothWaysOfSteppingAgree) {
   EXPECT_NEAR(slip[0] / slip[1], 1, 2e-3);
 }
 
-/// A law like w^(1/2) damps what hardly moves at any rate, so that no explicit step from rest is short enough, and what
-/// creeps is thrown to and fro by the slope of the law where it is now. It once took 200,000 steps.
+/// A law like w^(1/2) damps slow motion at an unlimited rate, so that no explicit step from rest is short enough. A
+/// step with the slope of the law at the present speed makes creeping cells oscillate. The run once took 200,000 steps.
 TEST(UnderLoad, FrictionSteepAtRestTakesFewSteps) {
   Problem p{.stress =
                 [](double x) {
@@ -125,9 +126,9 @@ TEST(UnderLoad, FrictionSteepAtRestTakesFewSteps) {
   EXPECT_TRUE(run.go([&] { return run.solver().cells().steps > 2000; }));
 }
 
-/// A dense train under a load that turns round: the slope of friction is found by differences that pressure's rounding
-/// does not reach. It once took 16,000 steps to t = 0.1, where the load is 0.
-TEST(UnderLoad, FrictionSteepAtRestFollowsALoadThatTurns) {
+/// A dense train under a load that changes its sign. The solver finds the slope of friction by differences that are
+/// larger than the rounding error of the pressure. The run once took 16,000 steps to t = 0.1, when the load is 0.
+TEST(UnderLoad, FrictionSteepAtRestFollowsALoadThatChangesSign) {
   Problem p = forced(1.5, 0, 10, [](double, double t) { return 0.0375 * std::cos(15.1 * t); });
   p.friction = friction::power(53, 0.5);
   p.cells = 50;
@@ -153,8 +154,8 @@ TEST(UnderLoad, FrictionSteepAtRestConverges) {
     EXPECT_NEAR(slip(200, closure) / slip(400, closure), 1, 2e-3);
 }
 
-/// After a push all cells slow down together and stop within a moment of each other; each is held then, instead of
-/// being sent to and fro by its friction in steps that shrink with what still moves.
+/// After a push, all cells slow down together and stop almost at the same time. Friction must then hold each cell. Once
+/// it made cells oscillate, in steps that shrank with the remaining motion.
 TEST(UnderLoad, DryFrictionHoldsCellsThatStopTogether) {
   Problem p;
   p.stress = [](double x) { return 0.303 + 0.041 * (1 - std::tanh(x / 1.23)) / 2; };
@@ -168,7 +169,7 @@ TEST(UnderLoad, DryFrictionHoldsCellsThatStopTogether) {
   Solver s(p);
   s.advance_to(12);
   EXPECT_LT(s.cells().steps, 500);
-  // Dislocations of mass 8, pushed for 0.314 and then stopped by dry friction alone, go this far.
+  // The force pushes dislocations of mass 8 for 0.314, and then only dry friction acts. They move by this distance.
   const double gained = 2 * pi * (0.0543 - 0.00448) * 0.314 / 8, lost = 2 * pi * 0.00448 / 8;
   const double way = gained * 0.314 / 2 + gained * gained / (2 * lost);
   EXPECT_NEAR(s.slip_at(s.view(), 0) / (-way * 0.3235), 1, 5e-3);

@@ -15,7 +15,7 @@ try:
     from distributed import Client, LocalCluster
 except ImportError:
     Client = None
-logging.getLogger("distributed").setLevel(logging.CRITICAL)  # it tells at length of what is done to it here
+logging.getLogger("distributed").setLevel(logging.CRITICAL)  # it would log the errors that these tests provoke
 
 
 @unittest.skipIf(Client is None, "needs the Debian package python3-distributed")
@@ -27,7 +27,7 @@ class Cluster(unittest.TestCase):
         self.addCleanup(client.close)
         return cluster, client
 
-    def test_is_what_one_machine_gives_also_when_a_worker_dies(self):
+    def test_a_cluster_gives_the_results_of_one_machine_even_if_a_worker_dies(self):
         cluster, client = self.cluster()
         here = slipfront.sweep(SCENARIO, MANY)
         self.assertTrue(slipfront.sweep(SCENARIO, MANY, client=client).identical(here))
@@ -42,7 +42,7 @@ class Cluster(unittest.TestCase):
         self.assertTrue(slipfront.sweep(SCENARIO, MANY, client=client, progress=kill).identical(here))
         self.assertTrue(killed.is_set())
 
-    def test_a_point_that_no_worker_survives_costs_no_other(self):
+    def test_a_point_that_ends_every_worker_does_not_lose_other_points(self):
         _, client = self.cluster(processes=False)
         real = _cluster._task
 
@@ -66,7 +66,7 @@ class Cluster(unittest.TestCase):
         whole = slipfront.sweep(SCENARIO, MANY)
         self.assertTrue(data.slip_at_origin.where(data.failure == "").broadcast_equals(whole.slip_at_origin.where(data.failure == "")))
 
-    def test_a_cluster_that_is_gone_is_an_error(self):
+    def test_a_closed_cluster_is_an_error(self):
         cluster, client = self.cluster(processes=False)
 
         def leave(*_):

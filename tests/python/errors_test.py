@@ -1,4 +1,4 @@
-"""What the package refuses, and how."""
+"""Errors of the package: invalid input that it refuses, and their messages."""
 
 import math
 import os
@@ -21,7 +21,7 @@ def python(code, **environment):
 
 
 class Errors(CommandLine):
-    def test_the_line_of_the_command_line(self):
+    def test_messages_are_those_of_the_command_line(self):
         for key, value in [("pulse.cells", 3), ("time.end", 0), ("time.end", math.nan), ("initial.stress_left", -1), ("initial.strss_left", 1),
                            ("domain.left", 9), ("friction.law", "sticky"), ("initial.profile", "formula"), ("pulse.cells", 1.5),
                            ("friction.coefficient", -1), ("nonsense", 1), ("no.such", 1), ("title", 3)]:
@@ -39,7 +39,7 @@ class Errors(CommandLine):
 
     def test_refuses(self):
         good = {"initial": {"stress_left": 1.0, "stress_right": 0}}
-        slipfront.check(good)  # so that what is wrong is what the table says
+        slipfront.check(good)  # so that the only fault is the one in the table
 
         def initial(**change):
             return {"initial": {**good["initial"], **change}}
@@ -80,8 +80,8 @@ class Errors(CommandLine):
         self.assertTrue(issubclass(slipfront.FileError, OSError))
         self.assertTrue(issubclass(slipfront.NumericsError, RuntimeError))
 
-    def test_numerics_that_give_up(self):
-        """Dislocations thrown at each other until no state exists; what was computed is kept."""
+    def test_a_run_that_fails_leaves_its_results(self):
+        """A force pushes dislocations against each other until no state exists. The output has the results up to then."""
         case = {"initial": {"stress_left": 0.855, "stress_right": 0.855}, "domain": {"left": -2, "right": 2}, "forcing": {"formula": "1e300*x"},
                 "time": {"end": 50}, "pulse": {"cells": 40}}
         output = os.path.join(os.path.dirname(self.file("x", "")), "o.nc")
@@ -143,7 +143,7 @@ def nested(kind, depth):
 
 
 class Nested(unittest.TestCase):
-    """Values that hold values that hold values ..., deeper than Python can follow, are bad input like any other."""
+    """Values that are nested more deeply than Python can follow are refused like other invalid input."""
 
     def test_are_refused_everywhere(self):
         endless = {}
@@ -162,13 +162,13 @@ class Nested(unittest.TestCase):
 
 
 class Commands(CommandLine):
-    def test_python_subcommands_are_handed_over(self):
+    def test_the_program_runs_subcommands_written_in_python(self):
         help = self.ok("--help")
         for name in ("plot", "reproduce", "animate"):
             self.assertIn("\n  " + name, help)
         self.refused(3, "plot", "/nowhere.nc")
 
-    def test_without_the_package(self):
+    def test_the_program_reports_a_missing_package(self):
         folder = os.path.dirname(self.file("x", ""))
         os.makedirs(os.path.join(folder, "bin"))
         alone = shutil.copy(PROGRAM, os.path.join(folder, "bin"))
@@ -186,7 +186,7 @@ class Commands(CommandLine):
         done = subprocess.run([PROGRAM, "plot", "/nowhere.nc"], capture_output=True, text=True, cwd=folder)
         self.assertEqual(done.returncode, 3)
 
-    def test_module_alone_says_what_it_knows(self):
+    def test_the_module_lists_its_commands(self):
         done = subprocess.run([sys.executable, "-m", "slipfront", "walk"], capture_output=True, text=True)
         self.assertEqual(done.returncode, 2)
         self.assertIn("reproduce, plot, animate", done.stderr)

@@ -1,16 +1,16 @@
-"""A page of HTML, read as a browser would and held to account: what it loads, where its links lead, whether it is well formed."""
+"""Reads a page of HTML like a browser, and lists what it loads, the targets of its links, and errors of its form."""
 
 from html.parser import HTMLParser
 
-#: Elements without an end.
+#: Elements without an end tag.
 VOID = {"area", "base", "br", "col", "embed", "hr", "img", "input", "link", "meta", "source", "track", "wbr"}
 
-#: The only place outside the page that a link may lead to.
+#: The only address outside the page to which a link may lead.
 DOI = "https://doi.org/10.3390/lubricants3020311"
 
 
 class Page(HTMLParser):
-    """loads: (tag, attribute, value) of what would come from elsewhere. errors: what is not well formed. figures: id -> texts of its <pre>."""
+    """loads: (tag, attribute, value) of resources outside the page. errors: faults of its form. figures: id -> texts of its <pre>."""
 
     def __init__(self, text):
         super().__init__()
@@ -19,7 +19,7 @@ class Page(HTMLParser):
         self.feed(text)
         self.close()
         self.errors += [f"<{tag}> is not closed" for tag in self._open]
-        self.errors += [f"id {name} stands {self.names.count(name)} times" for name in set(self.names) if self.names.count(name) > 1]
+        self.errors += [f"id {name} occurs {self.names.count(name)} times" for name in set(self.names) if self.names.count(name) > 1]
         self.errors += [f"no id for link {link}" for link in self.links if link.startswith("#") and link[1:] not in self.names]
 
     def handle_startendtag(self, tag, attrs):
@@ -36,7 +36,7 @@ class Page(HTMLParser):
 
     def handle_endtag(self, tag):
         if not self._open or self._open[-1] != tag:
-            # <p> and <li> may end without a mark; this page marks all.
+            # HTML allows <p> and <li> without an end tag, but this page has all end tags.
             self.errors.append(f"</{tag}> closes {self._open[-1:]} at {self.getpos()}")
         else:
             self._open.pop()
@@ -48,7 +48,7 @@ class Page(HTMLParser):
             self._figure[-1] += data
 
     def look(self, tag, attrs):
-        """What an element names or asks for."""
+        """Records the id of an element, its links, and the resources that it loads."""
         if "id" in attrs:
             self.names.append(attrs["id"])
         for name in ("src", "srcset", "href", "xlink:href", "data", "action"):

@@ -1,4 +1,4 @@
-"""slipfront plot and slipfront.plots: what is drawn from what, labels with units, what is refused."""
+"""slipfront plot and slipfront.plots: the kinds of figures for each Dataset, labels with units, and refused input."""
 
 import os
 import unittest
@@ -25,11 +25,11 @@ def samples(count=200):
 
 class Figures(CommandLine):
     def labels(self, figure):
-        """Texts on the axes; none is without, unless the axes next to it say it."""
+        """The texts on the axes. Every axes must have a label, or share one with axes next to it."""
         shown = [axes for axes in figure.axes if axes.axison]
         for axes in shown:
-            beside = axes.get_shared_x_axes().get_siblings(axes)
-            self.assertTrue(any(other.get_xlabel() for other in beside), axes)
+            siblings = axes.get_shared_x_axes().get_siblings(axes)
+            self.assertTrue(any(other.get_xlabel() for other in siblings), axes)
         return [axes.get_xlabel() for axes in shown] + [axes.get_ylabel() for axes in shown]
 
     def test_pulse(self):
@@ -48,17 +48,17 @@ class Figures(CommandLine):
             self.assertEqual({text.get_text() for text in axes.texts}, {"V−", "V+"})
 
     def test_a_map_follows_the_fronts_between_outputs(self):
-        """Without friction the fields depend on x / t alone: what lies between two outputs is known."""
+        """Without friction the fields depend only on x / t, so the values between two outputs are known."""
         pulse = slipfront.pulse(STEP, set={"output.every": 1.5})
-        times, places = np.array([2.25, 3.75, 5.0]), np.linspace(-1.5, 0.4, 40)
-        values = between(pulse, "W", times, places)
+        times, positions = np.array([2.25, 3.75, 5.0]), np.linspace(-1.5, 0.4, 40)
+        values = between(pulse, "W", times, positions)
         last = pulse.isel(time=-1)
         for time, row in zip(times, values):
-            exact = np.interp(places * float(last["time"]) / time, last["x"], last["W"])
+            exact = np.interp(positions * float(last["time"]) / time, last["x"], last["W"])
             self.assertLess(np.abs(row - exact).max(), 0.03 * float(last["W"].max()))
         np.testing.assert_allclose(between(pulse, "W", pulse["time"].values, pulse["x"].values)[:-1], pulse["W"][:-1], atol=1e-12)
 
-    def test_a_bad_cell_spoils_itself_alone(self):
+    def test_a_bad_cell_affects_no_other_cell(self):
         pulse = slipfront.pulse(CASE)
         whole = pulse.copy(deep=True)
         pulse["W"][8, 200], pulse["W"][4, 220] = np.nan, 1e9
@@ -130,7 +130,7 @@ class Figures(CommandLine):
     def test_corner(self):
         figure = plots.corner(samples())
         self.assertEqual(sum(axes.axison for axes in figure.axes), 3)
-        self.assertEqual(figure.axes[3].get_xscale(), "log")  # spreads over decades
+        self.assertEqual(figure.axes[3].get_xscale(), "log")  # its values span decades
         titles = [axes.get_title(loc="left").split("\n")[0] for axes in figure.axes]
         self.assertEqual([titles[0], titles[3]], ["initial stress Σ−, μA/π", "damping number Γ"])
         with self.assertRaisesRegex(ValueError, "too few"):
@@ -155,7 +155,7 @@ class Figures(CommandLine):
         self.assertEqual(label(pulse["slip"]), "slip u, b/(2π)")
         self.assertEqual(label(pulse["time"]), "time t, b/(cA)")
 
-    def test_saving_leaves_a_layout_alone(self):
+    def test_saving_does_not_change_the_layout(self):
         figure = Figure(layout="none")
         axes = figure.add_axes((0.2, 0.3, 0.4, 0.5))
         for ending in ("svg", "png"):
@@ -163,7 +163,7 @@ class Figures(CommandLine):
             np.testing.assert_allclose(axes.get_position().bounds, (0.2, 0.3, 0.4, 0.5))
         self.assertIsNone(figure.get_layout_engine())
 
-    def test_style_stays_inside(self):
+    def test_drawing_does_not_change_the_global_style(self):
         import matplotlib
 
         before = dict(matplotlib.rcParams)
@@ -197,7 +197,7 @@ class Command(CommandLine):
             again = os.path.join(os.path.dirname(path), "again.svg")
             self.ok("plot", path, "--kind", kinds[0], "-o", again)
             with open(again, "rb") as a, open(out, "rb") as b:
-                self.assertEqual(a.read(), b.read())  # the same bytes each time
+                self.assertEqual(a.read(), b.read())  # each run writes the same bytes
 
     def test_refuses(self):
         csv = self.file("r.csv", self.ok("relations", "--stress", "1", "--csv"))

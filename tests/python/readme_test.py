@@ -1,4 +1,6 @@
-"""README.md: every command runs as written, from a folder as a fresh clone and a build have it; what it shows of their output is what they print."""
+"""Checks that every command of README.md runs as written, and prints the output that README.md shows.
+
+The commands run in a folder like that of a fresh clone with a build."""
 
 import os
 import pathlib
@@ -42,7 +44,7 @@ def blocks(text) -> list:
 
 
 def commands(text) -> list:
-    """The commands of a block: lines ended with a backslash go on, comments are left out."""
+    """The commands of a block, without comments. A backslash at the end of a line continues the command."""
     lines = text.replace("\\\n", " ").splitlines()
     return [command for command in (re.sub(r"\s+#.*", "", line).strip() for line in lines) if command]
 
@@ -99,7 +101,7 @@ class Readme(unittest.TestCase):
         for picture in ("map.png", "pulse.gif", "docs/events.png", "docs/slip-pulse.gif"):
             self.assertGreater((self.root / picture).stat().st_size, 5000, picture)
 
-    def test_is_narrow(self):
+    def test_lines_have_at_most_100_columns(self):
         wide = [line for line in self.text.splitlines() if len(line) > WIDEST]
         self.assertEqual(wide, [])
 

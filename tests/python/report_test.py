@@ -1,5 +1,6 @@
-"""report.html: one file that needs no other, well formed, with the command of each figure; and in a browser, values under the cursor. The browser's part is
-skipped where there is no chromium."""
+"""Checks report.html: one self-contained, well formed file with the command of each figure. In a browser, it shows values under the cursor.
+
+The tests in a browser are skipped if chromium is not installed."""
 
 import json
 import pathlib
@@ -70,8 +71,8 @@ class Report(unittest.TestCase):
     def tearDownClass(cls):
         cls.temporary.cleanup()
 
-    def told(self, picture):
-        """What the page knows of the axes of a figure."""
+    def axes_in_page(self, picture):
+        """The data on the axes of a figure that the page has."""
         return report_hover.axes_of(picture.figure, (self.folder / f"{picture.name}.svg").read_text(encoding="utf-8"))
 
     def test_is_well_formed(self):
@@ -91,26 +92,26 @@ class Report(unittest.TestCase):
         for name, _ in report.SECTIONS:
             self.assertIn("#" + name, self.page.links)
 
-    def test_says_what_was_printed_and_what_is_computed(self):
+    def test_has_printed_and_computed_values(self):
         self.assertTrue(re.search(r"slope</td><td[^>]*>2\.1</td><td[^>]*>2</td>", self.text))
         self.assertTrue("2 printed numbers. Same: 1; the paper is wrong: 1." in self.text)
         self.assertTrue('class=bad data-name="verdict">Refuted' in self.text)
         self.assertTrue("u &lt; 1 &amp; more" in self.text)
 
-    def test_surfaces_in_space_are_read_too(self):
+    def test_surfaces_in_space_have_values(self):
         picture = solid("fig-07")
         outputs.write_picture(self.folder, picture)
-        (axes,) = self.told(picture)
+        (axes,) = self.axes_in_page(picture)
         surface = axes["surface"]
         np.testing.assert_allclose(surface["z"], np.array(surface["x"]) * surface["y"], atol=1e-4)
         self.assertEqual([axes[name]["name"] for name in "xyz"], ["x", "t", "value"])
         highest, lowest = np.argmax(surface["z"]), np.argmin(surface["z"])
-        self.assertLess(surface["top"][highest], surface["top"][lowest])  # seen higher up
+        self.assertLess(surface["top"][highest], surface["top"][lowest])  # drawn higher up
         self.assertTrue(all(0 < share < 1 for side in ("left", "top") for share in surface[side]))
 
     def test_values_under_the_cursor_are_those_drawn(self):
-        lines, map_ = self.told(self.pictures[0])
-        self.assertEqual(lines["lines"], [{"name": "twice", "x": [1, 10, 100], "y": [2, 20, 200]}])  # without the rule across
+        lines, map_ = self.axes_in_page(self.pictures[0])
+        self.assertEqual(lines["lines"], [{"name": "twice", "x": [1, 10, 100], "y": [2, 20, 200]}])  # without the vertical rule
         self.assertTrue(lines["x"]["log"] and lines["y"]["log"])
         self.assertEqual((lines["x"]["name"], map_["y"]["name"]), ("stress", "t"))
         at = map_["map"]
@@ -121,7 +122,7 @@ class Report(unittest.TestCase):
 @unittest.skipUnless(CHROMIUM, "no chromium here")
 class Browser(Report):
     def ends_with(self, script, width):
-        """What a script at the page's end makes of the title, in a window of this width, the page alone in a folder."""
+        """The value of a script at the end of the page, in a window of this width. The page is the only file in its folder."""
         with tempfile.TemporaryDirectory() as folder:
             page = pathlib.Path(folder) / "moved.html"
             page.write_text(self.text.replace("</body>", f"<script>document.title=JSON.stringify({script})</script></body>"), encoding="utf-8")
@@ -136,18 +137,18 @@ class Browser(Report):
             self.assertLessEqual(scroll, inner)
 
     def test_pointing_reads_a_value(self):
-        """At the middle of the logarithmic line, (10, 20), and at a place of the map."""
-        lines, map_ = self.told(self.pictures[0])
+        """Points at the middle of the logarithmic line, (10, 20), and at a point of the map."""
+        lines, map_ = self.axes_in_page(self.pictures[0])
         shares = {"line": (lines["box"], (np.log(10 / lines["x"]["ends"][0]) / np.log(lines["x"]["ends"][1] / lines["x"]["ends"][0]),
                                           np.log(20 / lines["y"]["ends"][0]) / np.log(lines["y"]["ends"][1] / lines["y"]["ends"][0]))),
                   "map": (map_["box"], (0.55, 0.525))}
-        said = {}
+        shown = {}
         for name, ((left, top, width, height), (across, up)) in shares.items():
-            said[name] = self.ends_with(f"""(()=>{{const p=document.querySelector('.picture'), r=p.getBoundingClientRect();
+            shown[name] = self.ends_with(f"""(()=>{{const p=document.querySelector('.picture'), r=p.getBoundingClientRect();
                 p.dispatchEvent(new PointerEvent('pointermove',{{clientX:r.left+{left + across * width}*r.width,clientY:r.top+{top + (1 - up) * height}*r.height}}));
                 return document.getElementById('value').textContent}})()""", 1400)
-        self.assertEqual(said["line"], "twice\nstress: 10\nvelocity: 20")
-        value = float(said["map"].split("value: ")[1])
+        self.assertEqual(shown["line"], "twice\nstress: 10\nvelocity: 20")
+        value = float(shown["map"].split("value: ")[1])
         self.assertLess(abs(value - (0.55 + 10 * 1.05)), 0.02)
 
 

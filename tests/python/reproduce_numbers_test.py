@@ -1,4 +1,4 @@
-"""What slipfront reproduce computes: verdicts that follow from the numbers, statements, and the data of the figures."""
+"""Checks the results of slipfront reproduce: verdicts that follow from the numbers, statements, and the data of the figures."""
 
 import json
 import math
@@ -20,7 +20,7 @@ from support import PATIENCE, PROGRAM, SOURCE, CommandLine
 PAPER = os.path.join(SOURCE, "python/slipfront/reproduce/paper.toml")
 SAME, FOLLOWS, READING, WRONG = "same", "follows from a printed number that differs", "the paper rounds or misreads", "the paper is wrong"
 
-#: The verdicts that are not "same", with the paper's arithmetic on its own printed digits where a row follows from them.
+#: The verdicts other than "same". If a row follows from printed numbers, also the paper's arithmetic on their digits.
 ROWS = {
     "dislocation_stress": (WRONG, None), "parkfield_stress": (READING, None), "parkfield_slip_velocity_0.1": (READING, None), "ets_friction": (READING, None),
     "parkfield_contact_ratio_0.1": (FOLLOWS, math.pi * 0.5 / (5400 * 0.083)), "parkfield_contact_ratio_2.0": (FOLLOWS, math.pi * 0.5 / (5400 * 0.02)),
@@ -29,7 +29,7 @@ ROWS = {
     "ets_slip_velocity": (FOLLOWS, float(slipfront.relations(stress=0.213)["slip_velocity"])),
 }
 
-#: Every statement that PHYSICS lists (section 7) and those of docs/claims.md, by words of its row.
+#: Words of the row of each statement of the paper, including those of docs/claims.md.
 STATEMENTS = [
     "|V−| of the trailing edge does not depend on friction", "observer who sees slip above 2 %", "observer who sees slip above 20 %", "fixed threshold", "V+ of the leading edge does not depend on friction",
     "Slip velocity depends on friction", "amplitude of the slip velocity falls", "depends weakly on Σ−", "slightly larger at larger Σ−", "35 to 100 %", "more than 40 %", "As the stress drop goes to 0",
@@ -105,8 +105,8 @@ class Numbers(CommandLine):
         self.assertEqual([found.count(verdict) for verdict in (SAME, FOLLOWS, READING, WRONG)], [20, 7, 3, 1])
         self.assertEqual(len(self.out["inputs"]), len(self.paper["input"]))
 
-    def test_numbers_are_what_the_mathematics_gives(self):
-        """Values that an independent derivation gives (docs/theory.md; quadrature, other schemes), not those of this code."""
+    def test_numbers_agree_with_an_independent_derivation(self):
+        """The expected values come from an independent derivation (docs/theory.md; quadrature, other schemes), not from this code."""
         expected = {"c": (5.4210, 1e-5), "parkfield_rupture_velocity": (0.5534, 1e-4), "parkfield_stress": (1.03653, 1e-5), "parkfield_slip_velocity": (0.1000039, 1e-6),
                     "ets_rupture_velocity": (2.135e-5, 1e-4), "ets_stress": (0.211727, 3e-6), "ets_observed_slip_velocity": (4.79e-8, 1e-3), "dislocation_stress": (2, 1e-9)}
         for key, (value, tolerance) in expected.items():
@@ -124,7 +124,7 @@ class Numbers(CommandLine):
                 self.assertRegex(row["found"], r"\d", row["statement"])
                 self.assertTrue(row["command"] and row["range"], row["statement"])
 
-    def test_what_is_true_by_construction_is_not_sold_as_found(self):
+    def test_statements_that_hold_by_construction_are_marked_as_such(self):
         verdicts = {row["statement"]: row["verdict"] for row in self.out["statements"]}
         self.assertEqual(verdicts["|V−| of the trailing edge does not depend on friction"], "Exact by construction")
         self.assertEqual(verdicts["V+ of the leading edge does not depend on friction"], "Refuted")

@@ -1,12 +1,12 @@
-"""The rules by which a printed number is judged, on numbers made up for it; and that all numbers of the paper are listed."""
+"""Tests the rules for the verdict on a printed number with invented numbers, and checks that all numbers of the paper are listed."""
 
 import unittest
 
 from slipfront.reproduce import derived, numbers
 from slipfront.reproduce.verdicts import FOLLOWS, READING, SAME, WRONG, Printed, rounded, verdict
 
-#: Every number of the paper's text, in its order: section, as it stands there, key in paper.toml. References, numbers of equations and
-#: figures, and constants within formulas (2 pi, 1/2) are left out; formulas have a table of their own.
+#: Every number of the paper's text, in its order: section, text in the paper, key in paper.toml. References, numbers of equations and
+#: figures, and constants within formulas (2 pi, 1/2) are left out; formulas have a separate table.
 TEXT = [
     ("abstract", "up to 7 orders", "orders_of_range"), ("2.1", "r^-3", "range_of_forces"), ("2.1", "at least 8 times", "neighbours"), ("2.2", "stress amplitude μA/π", "dislocation_stress"),
     ("2.2", "from 10^2", "width_least"), ("2.2", "to 10^4", "width_most"), ("3.1", "seven orders", "orders_of_velocity"), ("Fig. 5", "more than six orders", "orders_of_velocity_caption"),
@@ -38,7 +38,7 @@ class Verdicts(unittest.TestCase):
         self.assertEqual(verdict(8.0, Printed("8", "at least")), SAME)
         self.assertEqual(verdict(5.0, Printed("6", "more than")), WRONG)
 
-    def test_follows_only_by_a_way_that_gives_the_digits(self):
+    def test_follows_only_from_arithmetic_that_gives_the_digits(self):
         self.assertEqual(verdict(28.49, Printed("29"), [28.52]), FOLLOWS)
         self.assertEqual(verdict(20.0, Printed("29"), [28.4]), WRONG)
         self.assertEqual(verdict(29.2, Printed("29"), [20.0]), SAME)

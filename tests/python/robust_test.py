@@ -1,4 +1,4 @@
-"""What goes wrong around the package: locales, missing numbers, titles that are no mathematics, leftovers, damaged files."""
+"""Unusual conditions around the package: locales, missing numbers, titles with mathematical markup, leftovers, damaged files."""
 
 import os
 import pathlib
@@ -23,7 +23,7 @@ SMALL = {"pulse.cells": 16, "time.end": 0.5}
 
 
 class Numbers(unittest.TestCase):
-    def test_nan_gives_nan_and_spoils_no_other(self):
+    def test_nan_gives_nan_and_affects_no_other_value(self):
         whole = slipfront.relations(stress=[0.5, 1.0, 2.0])
         holed = slipfront.relations(stress=[0.5, np.nan, 2.0])
         for name in whole.data_vars:
@@ -60,19 +60,19 @@ for refused in (lambda: slipfront.train.fields(0.5, -1.5, 0.5), lambda: slipfron
         print(error)
 """
 
-        def said(text):
+        def printed_by(text):
             done = subprocess.run([sys.executable, "-c", text], env={**os.environ, "LOCPATH": folder}, capture_output=True, text=True)
             self.assertEqual(done.returncode, 0, done.stderr)
             return done.stdout
-        plain = said("\n".join(code.splitlines()[3:]))
-        self.assertEqual(said(code), plain)
+        plain = printed_by("\n".join(code.splitlines()[3:]))
+        self.assertEqual(printed_by(code), plain)
         self.assertNotIn("not refused", plain)
 
 
 class Pictures(CommandLine):
     TITLE = "costs $5 or $\\frac{1$ \x1b[31m\u202e"
 
-    def test_titles_are_no_mathematics(self):
+    def test_titles_are_not_read_as_mathematics(self):
         pulse = slipfront.pulse(STEP, set=SMALL).assign_attrs(title=self.TITLE)
         folder = os.path.dirname(self.file("x", ""))
         for name, figure in (("a", plots.space_time(pulse)), ("b", plots.profiles(pulse))):
@@ -82,7 +82,7 @@ class Pictures(CommandLine):
         plots.save(plots.comparison(levels), os.path.join(folder, "c.svg"))
         self.assertIn("costs $5", (pathlib.Path(folder) / "c.svg").read_text())
 
-    def test_one_bad_cell_stops_no_picture(self):
+    def test_a_bad_cell_does_not_prevent_a_picture(self):
         pulse = slipfront.pulse(STEP, set={**SMALL, "output.every": 0.1})
         for bad in (np.nan, np.inf, -np.inf):
             damaged = pulse.copy(deep=True)
@@ -94,7 +94,7 @@ class Pictures(CommandLine):
             for figure in (plots.space_time(damaged), plots.profiles(damaged)):
                 figure.canvas.draw()
 
-    def test_output_is_the_name_that_was_given(self):
+    def test_output_has_the_given_name(self):
         folder = os.path.dirname(self.file("x", ""))
         source, picture = os.path.join(folder, "p.nc"), os.path.join(folder, "name.png")
         slipfront.pulse(STEP, set={**SMALL, "output.every": 0.1}, output=source)
@@ -107,7 +107,7 @@ class Files(CommandLine):
     def setUp(self):
         self.folder = pathlib.Path(self.file("unused", "")).parent
 
-    def test_a_dataset_comes_back(self):
+    def test_a_written_dataset_reads_back_equal(self):
         data = xr.Dataset({"a": (("x", "y"), np.arange(6.0).reshape(2, 3)), "flag": ("x", [True, False]), "text": ("x", np.array(["", "é=1"], dtype=object)),
                            "scalar": 3.5}, {"x": ["u", "v"], "y": [1, 2, 3], "z": ("x", [0.5, np.nan])}, {"title": "t", "long": "é" * 100000, "n": 3, "f": 0.1})
         path = self.folder / "d.nc"
@@ -129,7 +129,7 @@ class Files(CommandLine):
             slipfront.open(path)
 
     def test_threads_write_and_read_at_once(self):
-        """The processes that write are started while no thread is in the NetCDF library; each would wait for ever for that thread's lock."""
+        """Forks that write must start while no thread uses the NetCDF library. Otherwise each would wait forever for that thread's lock."""
         code = ("import pathlib, sys, threading, warnings, slipfront\n"
                 "warnings.simplefilter('ignore')\n"
                 "folder, table = map(pathlib.Path, sys.argv[1:])\n"
@@ -149,7 +149,7 @@ class Files(CommandLine):
         self.assertEqual(done.stdout, "16 16\n", done.stderr[-2000:])
 
     def test_a_full_disk_is_a_file_error(self):
-        """No file may grow beyond 4 kB: what a full disk does, without one."""
+        """No file may become larger than 4 kB. This imitates a full disk."""
         for name, output in (("sweep", "s.nc"), ("pulse", "p.nc"), ("plots.save", "f.png")):
             call = {"sweep": f"slipfront.sweep({STEP!r}, {{'friction.coefficient': [0.1]}}, set={SMALL | {'friction.law': 'viscous'}!r}, output='s.nc')",
                     "pulse": f"slipfront.pulse({STEP!r}, set={SMALL!r}, output='p.nc')",
@@ -159,7 +159,7 @@ class Files(CommandLine):
             self.assertEqual((done.returncode, done.stdout), (0, f"{output}: cannot be written: File too large\n"), done.stderr)
             self.assertEqual(set(os.listdir(self.folder)) - {"unused", "s.nc.part"}, set())
 
-    def test_what_a_fork_did_not_send_whole_is_no_file(self):
+    def test_an_incomplete_result_of_a_fork_is_a_file_error(self):
         def half():
             def send(descriptor, mode):
                 os.write(descriptor, b"dhalf")
@@ -176,35 +176,35 @@ class Files(CommandLine):
             with self.assertRaisesRegex(slipfront.FileError, f"^name: cannot be written: .*{says}"):
                 _files.isolated("name", make)
 
-    def test_an_interruption_waits_for_no_fork(self):
+    def test_an_interruption_does_not_wait_for_a_fork(self):
         def interrupt(*_):
             raise KeyboardInterrupt
 
         self.addCleanup(signal.signal, signal.SIGALRM, signal.signal(signal.SIGALRM, interrupt))
-        signal.setitimer(signal.ITIMER_REAL, 0.3)  # of this process alone
+        signal.setitimer(signal.ITIMER_REAL, 0.3)  # only in this process
         begun = time.monotonic()
         with self.assertRaises(KeyboardInterrupt):
             _files.isolated("name", lambda: time.sleep(1000))
         self.assertLess(time.monotonic() - begun, 900)
-        with self.assertRaises(ChildProcessError):  # none is left
+        with self.assertRaises(ChildProcessError):  # no child process is left
             os.waitpid(-1, os.WNOHANG)
 
-    def test_pictures_have_formats(self):
+    def test_unknown_formats_of_pictures_are_refused(self):
         figure = plots.relations(slipfront.relations(stress=[1.0, 2.0]))
         for name in ("a.nc", "a"):
             with self.assertRaisesRegex(ValueError, f"^{name}: .*allowed: .*png"):
                 plots.save(figure, name)
 
-    def test_what_a_killed_reproduction_left(self):
+    def test_leftovers_of_a_killed_reproduction_are_removed(self):
         for name in (".r.new-17", ".r.old-17", ".r.new-18", ".r.new-x", ".other.new-17"):
             (self.folder / name).mkdir()
             (self.folder / name / "report.html").write_text(name)
-        with outputs.locked(self.folder / ".r.new-18"):  # a living one
+        with outputs.locked(self.folder / ".r.new-18"):  # this process still runs
             outputs.tidy(self.folder / "r")
         self.assertEqual((self.folder / "r" / "report.html").read_text(), ".r.old-17")
         self.assertEqual(sorted(os.listdir(self.folder)), [".other.new-17", ".r.new-18", ".r.new-x", "r", "unused"])
 
-    def test_threads_are_clamped(self):
+    def test_more_threads_than_cores_are_accepted(self):
         self.assertEqual(float(slipfront.relations(stress=[1.0] * 1000, threads=4096).stress[0]), 1.0)
 
 

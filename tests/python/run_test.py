@@ -1,4 +1,4 @@
-"""slipfront.pulse, chain and compare against the command line and its files."""
+"""Compares slipfront.pulse, chain and compare with the command line and its files."""
 
 import json
 import math
@@ -33,7 +33,7 @@ class Run(CommandLine):
             for key, value in asked.items():
                 if key == "warnings":
                     self.assertEqual(got[key], "\n".join(value))
-                elif "second" not in key and key != "errors":  # which only the command line runs a second time for
+                elif "second" not in key and key != "errors":  # times differ; attrs has each error as KEY_error
                     np.testing.assert_equal(got[key], np.nan if value is None else value, key)
 
     def test_file_and_dataset_are_those_of_the_command_line(self):
@@ -104,13 +104,13 @@ class Run(CommandLine):
             self.assertEqual(data.attrs[key], out[key])
         self.assertEqual(data.attrs["notes"].split("\n"), out["notes"])
 
-    def test_check_runs_nothing_and_says_what_would(self):
+    def test_check_reports_sizes_without_a_run(self):
         self.assertEqual(slipfront.check(CASE)["cells"], 400)
         self.assertGreater(slipfront.check(CASE, command="chain", set={"chain.scale": 1e6})["sites"], 1e7)
         self.assertEqual(slipfront.check(STEP, command="compare", scales=[10])["levels"], 4)
 
-    def test_errors_are_stated_and_held(self):
-        """The error stated of W(0) holds the exact value; a tolerance chooses the cells that reach it."""
+    def test_stated_errors_hold_and_a_tolerance_is_reached(self):
+        """The stated error of W(0) covers the exact value. A tolerance chooses the number of cells that reaches it."""
         plain = slipfront.pulse(STEP, set={"pulse.cells": 100}).attrs
         self.assertLess(abs(plain["slip_velocity_at_origin"] - 0.0482084186), plain["slip_velocity_at_origin_error"])
         self.assertNotIn("slip_at_origin_error", slipfront.pulse(STEP, set={"pulse.cells": 100}, errors=False).attrs)
@@ -121,11 +121,11 @@ class Run(CommandLine):
             with self.assertRaises(slipfront.InputError):
                 slipfront.pulse(STEP, **wrong)
 
-    def test_progress_is_told_and_may_stop_the_run(self):
-        told = []
-        slipfront.pulse(self.slow_case(), set={"pulse.cells": 2000}, progress=lambda *at: told.append(at))
-        self.assertGreater(len(told), 2)
-        done, end, steps, level = zip(*told)
+    def test_progress_is_reported_and_may_stop_the_run(self):
+        reports = []
+        slipfront.pulse(self.slow_case(), set={"pulse.cells": 2000}, progress=lambda *at: reports.append(at))
+        self.assertGreater(len(reports), 2)
+        done, end, steps, level = zip(*reports)
         self.assertTrue(all(a < b for a, b in zip(done, done[1:])) and all(a < b for a, b in zip(steps, steps[1:])))
         self.assertEqual((set(end), set(level)), ({2 * math.pi}, {""}))
 
@@ -145,8 +145,8 @@ class Run(CommandLine):
         self.ok("chain", case, "--set", "chain.scale=2000", "--threads", "1", "-o", whole)
         self.same(output, whole)
 
-    def test_others_run_meanwhile(self):
-        """The GIL is free: Python goes on while another thread computes."""
+    def test_other_threads_run_during_a_computation(self):
+        """A computation releases the GIL, so Python continues while another thread computes."""
         case, rounds = self.slow_case(), 0
 
         def work():
@@ -158,9 +158,9 @@ class Run(CommandLine):
             time.sleep(0.001)
             rounds += 1
         thread.join()
-        self.assertGreater(rounds, 20)  # hundreds on an idle machine; one or two where the thread keeps the GIL
+        self.assertGreater(rounds, 20)  # hundreds on an idle machine; one or two if the thread held the GIL
 
-    def test_two_threads_at_once_give_what_one_gives(self):
+    def test_two_threads_at_once_give_the_results_of_one(self):
         results = [None, None]
 
         def work(i):

@@ -1,4 +1,4 @@
-"""slipfront.sweep: every point is the pulse it stands for; nothing is lost when it is killed."""
+"""slipfront.sweep: each point equals the pulse with its parameters, and a killed sweep loses no completed point."""
 
 import os
 import signal
@@ -23,7 +23,7 @@ class Sweep(CommandLine):
     def setUp(self):
         self.output = os.path.join(os.path.dirname(self.file("unused", "")), "sweep.nc")
 
-    def test_each_point_is_the_pulse_that_it_stands_for(self):
+    def test_each_point_equals_the_pulse_with_its_parameters(self):
         data = slipfront.sweep(SCENARIO, AXES, set={"friction.law": "viscous"})
         self.assertEqual(data.sizes, {key: len(values) for key, values in AXES.items()})
         self.assertNotIn("wall_seconds", data)
@@ -43,12 +43,12 @@ class Sweep(CommandLine):
             self.assertEqual(float(data.slip_at_origin.sel({"chain.scale": scale})), alone["slip_at_origin"])
             self.assertEqual(float(data.dislocations.sel({"chain.scale": scale})), alone["dislocations"])
 
-    def test_threads_change_nothing_and_progress_is_told(self):
-        told = []
-        one = slipfront.sweep(SCENARIO, MANY, threads=1, progress=lambda *at: told.append(at))
+    def test_threads_change_nothing_and_progress_is_reported(self):
+        reports = []
+        one = slipfront.sweep(SCENARIO, MANY, threads=1, progress=lambda *at: reports.append(at))
         self.assertTrue(one.identical(slipfront.sweep(SCENARIO, MANY, threads=3)))
-        self.assertEqual(told[-1], (600, 600))
-        self.assertTrue(all(a[0] < b[0] for a, b in zip(told, told[1:])))
+        self.assertEqual(reports[-1], (600, 600))
+        self.assertTrue(all(a[0] < b[0] for a, b in zip(reports, reports[1:])))
 
     def test_a_failed_point_is_a_nan_with_a_reason(self):
         axes = {"friction.coefficient": [-1, 0.5]}
@@ -76,7 +76,7 @@ class Sweep(CommandLine):
                 slipfront.sweep(**{"scenario": SCENARIO, "axes": AXES, **change})
         with self.assertRaises(slipfront.InputError):
             slipfront.sweep(SCENARIO, {"friction.coefficient": [-1, -2]}, output=self.output)
-        self.assertEqual(os.listdir(os.path.dirname(self.output)), ["unused"])  # nothing is left of a sweep that never began
+        self.assertEqual(os.listdir(os.path.dirname(self.output)), ["unused"])  # a sweep that never began leaves no file
 
     def begin(self):
         code = f"import slipfront\nslipfront.sweep({SCENARIO!r}, {MANY!r}, output={self.output!r}, threads=1)"
@@ -102,26 +102,26 @@ class Sweep(CommandLine):
             with open(self.output + ".part", "rb") as store:
                 kept = sum(len(slipfront._store._content(line) or []) for line in store.readlines()[1:])
             self.assertTrue(0 < kept < 600, kept)
-            with open(self.output + ".part", "ab") as store:  # as if it had been killed while it wrote
+            with open(self.output + ".part", "ab") as store:  # imitates a kill during a write
                 store.write([b"", b"0a1b2c3d [[17", b"0a1b2c3d [[17, [1.0], \"\"]]\n"][trial])
-            told = []
-            resumed = slipfront.sweep(SCENARIO, MANY, resume=self.output, progress=lambda *at: told.append(at))
-            self.assertGreater(told[0][0], kept)  # what was done is not done again
+            reports = []
+            resumed = slipfront.sweep(SCENARIO, MANY, resume=self.output, progress=lambda *at: reports.append(at))
+            self.assertGreater(reports[0][0], kept)  # completed points do not run again
             self.assertTrue(resumed.identical(whole))
             self.assertTrue(slipfront.open(self.output).identical(whole))
             self.assertFalse(os.path.exists(self.output + ".part"))
-            self.assertTrue(slipfront.sweep(SCENARIO, MANY, resume=self.output).identical(whole))  # a finished one
+            self.assertTrue(slipfront.sweep(SCENARIO, MANY, resume=self.output).identical(whole))  # a finished sweep can be resumed too
             with self.assertRaises(slipfront.InputError):
                 slipfront.sweep(SCENARIO, AXES, resume=self.output)
             os.remove(self.output)
 
-    def test_interrupted_keeps_what_is_done(self):
+    def test_an_interrupted_sweep_can_be_resumed(self):
         process = self.begin()
         self.wait_for_rows(process, 1)
         process.send_signal(signal.SIGINT)
         errors = process.communicate(timeout=PATIENCE)[1]
         self.assertIn("KeyboardInterrupt", errors)
-        with self.assertRaises(slipfront.InputError) as caught:  # an unfinished sweep is not written over
+        with self.assertRaises(slipfront.InputError) as caught:  # an unfinished sweep is not overwritten
             slipfront.sweep(SCENARIO, MANY, output=self.output)
         self.assertIn("unfinished", str(caught.exception))
         with self.assertRaises(slipfront.InputError) as caught:
@@ -137,7 +137,7 @@ class Sweep(CommandLine):
             slipfront.sweep(SCENARIO, MANY, output=self.output, progress=stop)
         self.assertTrue(slipfront.sweep(SCENARIO, MANY, resume=self.output).identical(slipfront.sweep(SCENARIO, MANY)))
 
-    def test_two_do_not_write_one_store(self):
+    def test_two_processes_do_not_write_the_same_store(self):
         process = self.begin()
         self.wait_for_rows(process, 1)
         process.send_signal(signal.SIGSTOP)

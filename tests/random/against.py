@@ -1,4 +1,4 @@
-"""The pulse against its second opinions: the slow solvers of tests/reference, and the library's chain."""
+"""Compares the pulse with independent solvers: the slow solvers of tests/reference, and the library's chain."""
 
 import math
 import pathlib
@@ -15,8 +15,8 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "reference"
 import slow_chain  # noqa: E402
 import slow_pulse  # noqa: E402
 
-SPARSEST = 0.0045  # stress that the program takes for none
-# A coarser grid pins dislocations (Peierls & Nabarro, exp(-pi^2 / h)) that a gradual change of stress pushes.
+SPARSEST = 0.0045  # the program treats a smaller stress as zero
+# A coarser grid would pin dislocations (Peierls & Nabarro, exp(-pi^2 / h)) that a gradual change of stress moves.
 FINE = {"chain_spacing": 0.35}
 
 
@@ -53,7 +53,7 @@ def contact_of(s):
 
 
 def mean(values, count):
-    """Running mean with the weight 1 + cos over 2 count + 1 values; nothing changes beyond the ends."""
+    """Running mean with the weight 1 + cos over 2 count + 1 values. Outside the ends, the values are those of the ends."""
     weight = 1 + np.cos(np.pi * np.arange(-count, count + 1) / (count + 1))
     return np.convolve(np.pad(values, count, mode="edge"), weight / weight.sum(), "valid")
 
@@ -64,31 +64,31 @@ def distance(a, b, least=1e-12):
 
 
 def final(s, command="pulse"):
-    """Places and slips at the end, bounds of the cells, and the run."""
+    """Positions and slips at the end of a run, bounds of the cells, and the run."""
     seen = run(scenarios.changed(s, output_variables=["slip"]), command, profiles=True)
     return seen.fields["x"], seen.fields["slip"][-1], seen.fields["x_bounds"], seen
 
 
-def slow_slip(s, places, left, right, parcels):
+def slow_slip(s, positions, left, right, parcels):
     solver = slow_pulse.SlowPulse(stress_of(s), left, right, parcels, slow_pulse.Friction(**s["friction"]), forcing_of(s),
                                   contact_of(s))
-    return solver.slip(solver.run([0, s["time"]["end"]], 1e-5)[-1], places)
+    return solver.slip(solver.run([0, s["time"]["end"]], 1e-5)[-1], positions)
 
 
 def seen_from_ends(s, x, left, right):
-    """Places that what happens at the ends has not reached: all of them where the stress is even there."""
+    """Whether each position is free of effects of the ends. If the stress is uniform near the ends, all positions are."""
     stress, end = stress_of(s), s["time"]["end"]
     margin = 0.05 * (right - left)
     even = all(abs(stress(a) - stress(b)) <= 0.01 * stress(a)
                for a, b in ((left + 1e-9, left + margin), (right - 1e-9, right - margin)))
     inside = (x > left + end) & (x < right - end)
     if not even and np.mean(inside) < 0.2:
-        raise slow_pulse.Unsuitable("the ends are felt everywhere")
+        raise slow_pulse.Unsuitable("the ends affect all positions")
     return inside | even
 
 
 def with_slow_pulse(s, parcels=100):
-    """Slip along the interface with the default number of cells, to 1 % beside the slow solver's own error."""
+    """Slip along the interface with the default number of cells, to 1 % plus the slow solver's own error."""
     s = scenarios.changed(s, pulse_cells=400)
     x, slip, bounds, _ = final(s)
     _, half, *_ = final(scenarios.changed(s, pulse_cells=s["pulse"]["cells"] // 2))
@@ -102,15 +102,15 @@ def with_slow_pulse(s, parcels=100):
 
 
 def cells_of(spacings, s, scale, bounds):
-    """Output cells, at least two, in so many spacings of the sparser train."""
+    """The number of output cells, at least two, in a given number of spacings of the sparser train."""
     sparse = min(s["initial"]["stress_left"], s["initial"]["stress_right"])
     return 2 + int(spacings * 2 * math.pi / sparse / scale / (bounds[0, 1] - bounds[0, 0]))
 
 
 def with_chain(s):
-    """Slip along the interface, both averaged over four spacings of the sparser train, to 1 % beside what half the
-    dislocations change on the chain. Under a load without the outer tenths: the train of the pulse goes on beyond its
-    ends, that of the chain stops there."""
+    """Slip along the interface, averaged over four spacings of the sparser train on both sides. Allowed is 1 % plus the
+    change on a chain with half the dislocations. Under a load we leave out the outer tenths: the train of a pulse continues
+    outside its ends, but that of the chain stops there."""
     plain = s["friction"]["law"] == "viscous" and "forcing" not in s and "interface" not in s
     scale = 1500 if plain else 400
     x, pulse, bounds, averaged = final(s)
@@ -128,7 +128,7 @@ def with_chain(s):
 
 
 def with_slow_chain(s, scale=200):
-    """The library's chain against the slow one, the same number of dislocations."""
+    """Compares the library's chain with the slow chain, for the same number of dislocations."""
     x, chain, bounds, _ = final(scenarios.changed(s, chain_scale=scale), "chain")
     law = {key: value for key, value in s["friction"].items() if key != "closure"}
     slow = slow_chain.SlowChain(stress_of(s), float(bounds[0, 0]), float(bounds[-1, 1]), scale, forcing=forcing_of(s),
@@ -141,8 +141,8 @@ def with_slow_chain(s, scale=200):
 
 
 def with_more_cells(s, most=3200):
-    """Every scalar against the number of cells: what the last doubling changes is small, or half of what two doublings
-    before did (first order would leave a quarter)."""
+    """Convergence of every scalar with the number of cells. The change by the last doubling must be small, or at most half of
+    the change two doublings before (first order gives a quarter)."""
     counts = [100 * 2**i for i in range(int(math.log2(most / 100)) + 1)]
     runs = [run(scenarios.changed(s, pulse_cells=n)).summary for n in counts]
     reach = s["time"]["end"]

@@ -1,5 +1,5 @@
-"""What must hold of every pulse, whatever the scenario. A check yields (name, value, allowed, note); it has failed where
-the value is not at most what is allowed."""
+"""Properties that every pulse must have, in any scenario. A check yields (name, value, allowed, note). It has failed if the
+value is not at most the allowed one."""
 
 import math
 
@@ -8,19 +8,19 @@ import numpy as np
 import scenarios
 from program import RESUME_CHECK, Failed, resumes_to_the_same_bits, run
 
-INTERVALS = 128  # of the output times; a multiple of 4
-ROUNDING = 1e-6  # what two runs of one problem may differ by, relative
-LEAST_SLIP = 1e-6  # slips are differences of numbers of dislocations, known to 1e-12 or so
+INTERVALS = 128  # intervals between output times; a multiple of 4
+ROUNDING = 1e-6  # allowed relative difference between two runs of one problem
+LEAST_SLIP = 1e-6  # slips are differences of numbers of dislocations, with errors of about 1e-12
 MAY_BE_ABSENT = {"trailing_characteristic", "leading_front", "trailing_front", "trailing_front_observed",
                  "leading_front_observed", "first_crossing_time", "first_crossing_position"}
 ODD = {"slip_velocity_at_origin", "slip_at_origin", "peak_slip_velocity", "peak_position", "trailing_front",
-       "leading_front", "trailing_front_observed", "leading_front_observed"}  # change sign in a mirror
+       "leading_front", "trailing_front_observed", "leading_front_observed"}  # these change sign in a mirrored problem
 EVEN = {"stress_at_origin", "energy_elastic", "energy_kinetic", "energy_dissipated", "energy_supplied", "cells"}
 PLACES = {"peak_position", "trailing_front", "leading_front", "trailing_front_observed", "leading_front_observed"}
 
 
 def dense(s):
-    """The scenario with output times that crowd at t = 0, where velocities jump."""
+    """The scenario with output times that are denser near t = 0, where velocities jump."""
     end = s["time"]["end"]
     times = [end * (i / INTERVALS)**3 for i in range(1, INTERVALS)]
     return scenarios.changed(s, output_times=times, output_variables=["k", "U", "W", "slip"])
@@ -41,16 +41,16 @@ def integral(rate):
 
 
 def size_of(seen):
-    """Scales to measure differences by."""
+    """Scales with which differences are compared."""
     f = seen.fields
     end = f["time"][-1]
-    fastest = max(float(np.max(np.abs(f["W"]))), abs(seen.summary["peak_slip_velocity"]))  # may be between the grid's centres
+    fastest = max(float(np.max(np.abs(f["W"]))), abs(seen.summary["peak_slip_velocity"]))  # the peak may be between the centres of cells
     return {"slip": max(float(np.max(np.abs(f["slip"]))), LEAST_SLIP), "W": fastest, "end": float(end),
             "k": float(np.max(f["k"]))}
 
 
 class Case:
-    """A scenario and its runs, each made when first asked for."""
+    """A scenario and its runs. Each run starts when it is first needed."""
 
     def __init__(self, s):
         self.s = s
@@ -89,17 +89,17 @@ class Case:
         return float(edges.max() - edges.min()) / self.s["pulse"]["cells"]
 
     def grid_error(self, of_fields):
-        """Of a number or an array got from the fields, by three grids, as the program states its errors."""
+        """The error of a number or an array computed from the fields. We use three grids, like the program for its errors."""
         fine, half, quarter = (of_fields(seen.fields) for seen in (self.seen, self.half, self.quarter))
         return 1.25 * np.maximum(np.abs(fine - half), np.abs(half - quarter) / 2)
 
     def stated_error(self, key, other=None):
-        """Of the difference between two runs, each with the error that it states."""
+        """The stated error of the difference between two runs: the sum of the errors that both state."""
         errors = (run.errors.get(key, math.nan) for run in (self.plain, other or self.plain))
         return sum(0 if math.isnan(error) else error for error in errors)
 
     def profile_error(self, key):
-        """Of the difference between profiles of two runs at the end."""
+        """The error of the difference between the final profiles of two runs."""
         x = self.seen.fields["x"]
         return 2 * self.grid_error(lambda fields: np.interp(x, fields["x"], fields[key][-1]))
 
@@ -118,8 +118,8 @@ def bounds(case):
     f = case.seen.fields
     yield "|U| < 1", float(np.max(np.abs(f["U"]))), 1 - 1e-12, "largest |U|"
     k = f["k"]
-    beside = np.maximum(k, np.maximum(np.pad(k, ((0, 0), (1, 0)))[:, :-1], np.pad(k, ((0, 0), (0, 1)))[:, 1:]))
-    ratio = float(np.max(np.abs(f["W"]) - beside * (1 + 1e-9)))
+    largest_near = np.maximum(k, np.maximum(np.pad(k, ((0, 0), (1, 0)))[:, :-1], np.pad(k, ((0, 0), (0, 1)))[:, 1:]))
+    ratio = float(np.max(np.abs(f["W"]) - largest_near * (1 + 1e-9)))
     yield "|W| <= k", ratio, 0, "largest |W| - k"
     yield "k >= 0", float(-np.min(k)), 1e-12, "least k, negative"
 
@@ -131,8 +131,8 @@ def slip_is_integral(case):
     end = case.s["time"]["end"]
     slip = case.seen.summary["slip_at_origin"]
     largest = max(rate * end, float(np.max(np.abs(f["slip_at_origin"]))), LEAST_SLIP)
-    # The error of slip as the run states it; that of the integral of W, of which it states only the last value, in the
-    # same way.
+    # The run states the error of slip. Of W it states only the error of the last value, so we compute the error of its
+    # integral in the same way.
     stated = case.seen.errors.get("slip_at_origin", math.nan)
     of_velocity = case.grid_error(lambda fields: integral(fields["slip_velocity_at_origin"])[0])
     allowed = ROUNDING + (2 * error * end + (0 if math.isnan(stated) else stated) + of_velocity * end) / largest
@@ -143,7 +143,7 @@ def slip_is_integral(case):
 
 
 def outputs_change_nothing(case):
-    """A run that stops at 128 times sees what happens between natural steps."""
+    """The results of a run that stops at 128 times must agree with those of a run with its natural steps."""
     a, b = case.plain.summary, case.seen.summary
     scale, least = size_of(case.seen), 1e-9 * a["energy_elastic"]
     for key, unit in (("slip_at_origin", scale["slip"]), ("slip_velocity_at_origin", scale["W"]),
@@ -158,7 +158,7 @@ def outputs_change_nothing(case):
 
 
 def has_one_peak(case):
-    """Of |W| at the end, seen on the output grid and above what is rounding of the fastest."""
+    """Whether |W| at the end has a single peak on the output grid, above the rounding error of the largest velocity."""
     f = case.seen.fields
     if np.max(np.abs(f["W"][-1])) < 1e-9 * np.max(np.abs(f["W"])):
         return False
@@ -171,14 +171,14 @@ def same_in_a_mirror(case):
     mine, other, scale = case.plain.summary, mirrored.summary, size_of(case.seen)
     unit = {"slip_velocity_at_origin": scale["W"], "peak_slip_velocity": scale["W"], "slip_at_origin": scale["slip"]}
     first = case.seen.fields["k"][0]
-    names_fronts = abs(first[0] - first[-1]) > 0.01 * max(first[0], first[-1])  # else either side may be the stressed one
+    names_fronts = abs(first[0] - first[-1]) > 0.01 * max(first[0], first[-1])  # otherwise either side may be the stressed one
     for key in sorted(ODD | EVEN):
         if key not in mine or key == "peak_position" and not has_one_peak(case) or "front" in key and not names_fronts:
             continue
         a, b = mine[key], -other[key] if key in ODD else other[key]
         if math.isnan(a) and math.isnan(b) or a == b:
             continue
-        if math.isnan(a) != math.isnan(b):  # as a front at the limit of what the cells resolve, by its stated error
+        if math.isnan(a) != math.isnan(b):  # such as a front at the limit of resolution, which its stated error covers
             error = mirrored.errors.get(key, math.nan) if math.isnan(a) else case.plain.errors.get(key, math.nan)
             yield f"mirror: {key} is absent", case.cell, error if math.isfinite(error) else 0, f"{a:.9g}, mirrored {b:.9g}"
             continue
@@ -213,26 +213,26 @@ def fronts(case):
         known = np.isfinite(x)
         if not known.any():
             continue
-        # Free edges run out of the domain, at less than c; the train that follows them does not leave it otherwise.
+        # Free edges leave the domain, more slowly than c. Other fronts stay in the domain.
         out = np.maximum(left - x, x - right)[known] - np.where(empty_side(case, x[known]), t[known], 0)
         yield f"front in the domain: {key}", float(np.max(out)), 1e-9 * (right - left), f"{x[known][np.argmax(out)]:.6g}"
-        # Where all of the interface moves at once, what is felt first is no signal.
+        # If the whole interface moves at once, the first motion is not a signal.
         if key != "trailing_front" or case.s["initial"]["profile"] != "step" or "forcing" in case.s or "interface" in case.s:
             continue
-        way = np.maximum(np.abs(np.diff(x[known])) - 3 * cell, 0)  # a foot is read from three cells
+        way = np.maximum(np.abs(np.diff(x[known])) - 3 * cell, 0)  # the foot is computed from three cells
         late = np.diff(t[known]) > 1e-3 * end
         if late.any():
             yield f"front slower than c: {key}", float(np.max((way / np.diff(t[known]))[late])), 1, ""
 
 
 def empty_side(case, x):
-    """Whether a front at x may have run into an empty region beyond the domain."""
+    """Whether a front at x may have run into an empty region outside the domain."""
     k = case.seen.fields["k"][0]
     return np.where(x > case.seen.fields["x"][-1], k[-1] == 0, np.where(x < case.seen.fields["x"][0], k[0] == 0, False))
 
 
 def dislocations_are_counted(case):
-    """The loss of density left of each place is the slip there: number from k against number from slip."""
+    """The loss of dislocations to the left of x is the slip at x. Compares the number from k with the number from slip."""
     f = case.seen.fields
     width = f["x_bounds"][:, 1] - f["x_bounds"][:, 0]
     lost = np.cumsum((f["k"][0] - f["k"][-1]) * width)[:-1]
@@ -240,17 +240,17 @@ def dislocations_are_counted(case):
     at_faces = (slip[1:] + slip[:-1]) / 2 - slip[0]
     curve = np.max(np.abs(np.diff(slip, 2)), initial=0)
     scale = size_of(case.seen)["slip"]
-    rounding = 1e-8 * float(np.max(f["k"][0])) * float(width[0])  # of psi, which k is got from
-    rounding += float(np.max(case.profile_error("k"))) * float(width[0])  # and of where it lies within a cell
+    rounding = 1e-8 * float(np.max(f["k"][0])) * float(width[0])  # rounding of psi, from which k is computed
+    rounding += float(np.max(case.profile_error("k"))) * float(width[0])  # and of the distribution within a cell
     difference = float(np.max(np.abs(lost - (f["k"][0][0] - f["k"][-1][0]) * width[0] / 2 - at_faces)))
     yield "dislocations counted", difference / scale, 1e-6 + (3 * float(curve) + rounding) / scale, "k against slip"
     error = case.plain.summary["conservation_error"]
-    told = any("dislocations than there are" in text for text in case.plain.warnings)
-    yield "conservation_error", error, math.inf if told else 0.01, "a warning" if told else ""
+    warned = any("dislocations than there are" in text for text in case.plain.warnings)
+    yield "conservation_error", error, math.inf if warned else 0.01, "a warning" if warned else ""
 
 
 def energy(case):
-    """Energy may leave with a shock, never appear. Only where nothing happens at the ends."""
+    """Energy may be lost in a shock, but not created. The check needs a problem in which nothing moves at the ends."""
     f = case.seen.fields
     if max(abs(f["W"][:, [0, -1]]).max(), abs(f["slip"][:, [0, -1]]).max()) > 1e-9 * max(1e-300, abs(f["W"]).max()):
         return
@@ -259,8 +259,8 @@ def energy(case):
     if moved > 0:
         gained = float(np.max(total - total[0])) / moved
         error = abs(f["energy_elastic"][0] - case.half.fields["energy_elastic"][0]) + case.stated_error("energy_shocks")
-        told = any("energy was created" in text for text in case.plain.warnings)
-        yield "energy made from nothing", gained, math.inf if told else 1e-3 + 2 * error / moved, f"of {moved:.3g} that moved"
+        warned = any("energy was created" in text for text in case.plain.warnings)
+        yield "energy made from nothing", gained, math.inf if warned else 1e-3 + 2 * error / moved, f"of {moved:.3g} that moved"
 
 
 def resumes(case):
@@ -273,7 +273,7 @@ ALL = [resumes, finite, bounds, slip_is_integral, outputs_change_nothing, same_i
 
 
 def results_of(s, wanted=ALL):
-    """All results of one scenario; a run that fails is a result."""
+    """All results of one scenario. A run that fails counts as a result."""
     case = Case(s)
     found = []
     for check in wanted:
@@ -281,7 +281,7 @@ def results_of(s, wanted=ALL):
             found += list(check(case))
         except Failed:
             pass
-    # A run that finds itself wrong has said so: code 4.
+    # Exit code 4 is allowed: the run has found its own error and reported it.
     found += [(f"exit {ended.code}, run {name}", math.inf, math.inf if ended.code == 4 else 0, str(ended))
               for name, ended in case.runs.items() if isinstance(ended, Failed)]
     return found

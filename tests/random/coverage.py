@@ -1,12 +1,12 @@
 #!/usr/bin/python3
-"""How often the errors that pulse runs state hold, and which runs end with exit code 4.
+"""Measures how often the stated errors of pulse runs hold, and lists the runs that end with exit code 4.
 
 Usage: coverage.py [--count 200] [--seed 1] [--jobs N] [--misses KEY] [--number N]
 
-Scenario i of a seed has the number seed * 1000000 + i and is drawn by `scenarios.make_wide`, with 100 to 200 cells. Each
-runs with its cells and with four times as many. A stated error holds where it is at least the difference of the two
-values. Prints for every scalar how many of its stated errors hold. With --refusals, runs each scenario once and lists the
-runs that end with exit code 4, and whether four times the cells end so too.
+Scenario i of a seed has the number seed * 1000000 + i. `scenarios.make_wide` makes it, with 100 to 200 cells. Each scenario
+runs with its cells and with four times as many. A stated error holds if it is at least the difference of the two values. The
+script prints for every scalar how many of its stated errors hold. With --refusals it runs each scenario once. It lists the
+runs that do not end with exit code 0, and how those with exit code 4 end with four times the cells.
 """
 
 import argparse
@@ -22,11 +22,11 @@ import scenarios
 from program import Failed, run
 
 OF_THE_COMPUTATION = {"closure", "cells", "steps", "time", "solve_seconds", "wall_seconds", "conservation_error"}
-ROUNDING = 1e-12  # of the value; of all energy for energies
+ROUNDING = 1e-12  # relative to the value; for energies, to the elastic energy
 
 
 def both(number):
-    """The scenario, its run, and the run with four times the cells; the text of a failure instead of a run."""
+    """The scenario, its run, and the run with four times the cells. A failed run is replaced by the text of its error."""
     s = scenarios.make_wide(number)
     runs = []
     for more in (1, 4):
@@ -40,7 +40,7 @@ def both(number):
 
 
 def ending(number):
-    """How the run of a scenario ends, and where that is exit code 4, how the run with four times the cells ends."""
+    """How the run of a scenario ends and, if it ends with exit code 4, how the run with four times the cells ends."""
     s = scenarios.make_wide(number)
     for more in (1, 4):
         try:

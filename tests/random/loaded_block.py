@@ -1,8 +1,8 @@
-"""A block with rate-and-state friction, pulled through a spring, against scipy's Radau (tests/reference/spring_slider.py).
+"""Compares a block with rate-and-state friction that a spring pulls with scipy's Radau (tests/reference/spring_slider.py).
 
-The ratio of strength to direct effect, f0 / a, is that of gels (5) to that of rock (100) and more; a - b has both signs, and
-the stiffness is 0.3 to 1.5 of the critical one. The chain is shorter than a third of the length that slips alone, so that it
-moves as one block.
+The ratio of strength to direct effect, f0 / a, ranges from that of gels (5) to that of rock (100) and more. a - b has both
+signs, and the stiffness is 0.3 to 1.5 of the critical one. The chain is shorter than a third of the nucleation length, so that
+it moves as one block.
 """
 
 import math
@@ -52,12 +52,14 @@ def relative(values, expected):
 
 
 def of_largest(values, expected):
-    """Between large events may be small ones, whose peaks are hardly above the threshold and follow from the large ones."""
+    """The largest difference over the largest value. Small events may occur between large ones; their peaks are close to the
+    threshold and follow from the large events, so they need no smaller tolerance."""
     return max((abs(value - right) for value, right in zip(values, expected)), default=0.0) / max(expected, default=1.0)
 
 
 def with_radau(s):
-    """Events and slip at two tolerances. Peaks are compared with the largest; an event in which the run ends has none yet."""
+    """Events and slip at two tolerances. Differences of peaks are relative to the largest peak. If the run ends during an event,
+    that event has no peak yet."""
     end = s["time"]["end"]
     onsets, peaks, complete, slip, _ = block_of(s).run(end)
     settled = complete and not (onsets and onsets[-1] > 0.99 * end)
@@ -75,7 +77,7 @@ def with_radau(s):
 
 
 def with_other_outputs(s):
-    """Steps, and so events, do not depend on when output is written."""
+    """Steps, and therefore events, must not depend on the output times."""
     end = s["time"]["end"]
     few, many = (run(changed(s, output_every=end / count), "chain").summary for count in (1, 97))
     yield "events: same bits with other outputs", float(few["events"] != many["events"] or few["slip_at_origin"] != many["slip_at_origin"]), 0, ""

@@ -1,4 +1,4 @@
-"""Runs of the program, and what they give."""
+"""Runs the program and reads its results."""
 
 import json
 import math
@@ -19,11 +19,11 @@ import scenarios
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = os.environ.get("SLIPFRONT", str(ROOT / "build/dev/bin/slipfront"))
 RESUME_CHECK = pathlib.Path(PROGRAM).with_name("resume_check")
-CPU_LIMIT = int(os.environ.get("SLIPFRONT_CPU_LIMIT", "20"))  # seconds of the processor, for one run
+CPU_LIMIT = int(os.environ.get("SLIPFRONT_CPU_LIMIT", "20"))  # seconds of processor time for one run
 
 
 class Failed(Exception):
-    """The program ended with another code than 0, or did not end."""
+    """The program ended with an exit code other than 0, or did not end."""
 
     def __init__(self, code, message):
         super().__init__(message)
@@ -39,7 +39,7 @@ def number(value):
 
 
 def run(s, command="pulse", profiles=False, arguments=()):
-    """What a run of the scenario says: `summary`, a dict; `errors` of its numbers; `warnings`, a list; with `profiles` also
+    """The results of a run of the scenario: `summary`, a dict; `errors` of its numbers; `warnings`, a list. With `profiles` also
     `fields`, a dict of arrays over time and x, or over time."""
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "scenario.toml")
@@ -49,19 +49,19 @@ def run(s, command="pulse", profiles=False, arguments=()):
         done = subprocess.run(words + (["-o", output] if profiles else []), capture_output=True, text=True,
                               preexec_fn=limit_time, check=False)
         if done.returncode == -signal.SIGXCPU:
-            raise Failed("too slow", f"not done after {CPU_LIMIT} s of the processor")
+            raise Failed("too slow", f"not finished after {CPU_LIMIT} s of processor time")
         if done.returncode != 0:
             raise Failed(done.returncode, done.stderr.strip().split("\n")[-1].replace(path, "scenario.toml"))
-        told = json.loads(done.stdout)
-        errors = {key: number(value) for key, value in told.pop("errors", {}).items()}
-        warnings = told.pop("warnings", [])
-        summary = {key: number(value) for key, value in told.items()}
+        printed = json.loads(done.stdout)
+        errors = {key: number(value) for key, value in printed.pop("errors", {}).items()}
+        warnings = printed.pop("warnings", [])
+        summary = {key: number(value) for key, value in printed.items()}
         fields = read_fields(output) if profiles else {}
         return SimpleNamespace(summary=summary, errors=errors, fields=fields, warnings=warnings)
 
 
 def resumes_to_the_same_bits(s):
-    """Whether a run in pieces ends like a run at once; so does one that takes too long to tell."""
+    """Whether a run in pieces ends like a run in one piece. A run that exceeds the time limit counts as equal."""
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder, "scenario.toml")
         path.write_text(scenarios.text(s), encoding="utf-8")
@@ -76,17 +76,17 @@ def read_fields(path):
 
 
 def ends_well(s, command):
-    """What is wrong with how a run of the scenario ends, or None: it finishes, is refused (2), or gives up with a reason (4);
-    no number that it prints is infinite or none where it should be one, and it does not run into the limit of time."""
+    """None if a run of the scenario ends well, and otherwise a text that describes the fault. A run ends well if it finishes, is
+    refused (exit code 2) or stops with a reason (4). It must do so within the time limit, and its message must have no nan."""
     with tempfile.TemporaryDirectory() as folder:
         path = scenarios.write(s, pathlib.Path(folder))
         done = subprocess.run([PROGRAM, command, path, "--json", "--threads", "1"], capture_output=True, text=True,
                               preexec_fn=limit_time, check=False)
-    said = done.stderr.strip().split("\n")[-1]
+    message = done.stderr.strip().split("\n")[-1]
     if done.returncode == -signal.SIGXCPU:
-        return f"not done after {CPU_LIMIT} s of the processor"
+        return f"not finished after {CPU_LIMIT} s of processor time"
     if done.returncode not in (0, 2, 4):
         return f"exit {done.returncode}: " + " ".join(line for line in done.stderr.split("\n") if "ERROR" in line or "SUMMARY" in line)
-    if re.search(r"\bnan\b", said):
-        return f"exit {done.returncode}: {said}"
+    if re.search(r"\bnan\b", message):
+        return f"exit {done.returncode}: {message}"
     return None

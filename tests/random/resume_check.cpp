@@ -1,5 +1,5 @@
-// Runs each scenario of a pulse named on the command line twice: at once, and in pieces that are saved and continued
-// after every third of its steps. Prints a line for each whose end is not the same to the last bit; exit code 1 then.
+// Runs each scenario of a pulse that the command line names twice: in one piece, and in three pieces that are saved and
+// resumed. If the two final states differ in any bit, it prints a line for that scenario and returns exit code 1.
 
 #include <cstdio>
 #include <exception>
@@ -19,7 +19,7 @@ using namespace slipfront;
 
 namespace {
 
-/// The state at the end, or what stopped the run; both must come out alike.
+/// The state at the end, or the error that stopped the run. Both must be the same for whole and resumed runs.
 std::string end_of(pulse::Run& run, const std::function<bool()>& interrupted, bool& finished) {
   try {
     finished = run.go(interrupted);
@@ -32,7 +32,7 @@ std::string end_of(pulse::Run& run, const std::function<bool()>& interrupted, bo
 
 bool resumes(const char* path) {
   const scenario::Scenario s = scenario::read_scenario(record::read_text(path), path, {}, record::read_table);
-  if (s.loading.acts()) return true;  // of a chain alone
+  if (s.loading.acts()) return true;  // only chains support loading
   const pulse::Problem problem = setup::pulse_problem(s);
   const output::Schedule schedule = setup::pulse_schedule(s, problem);
   bool finished = false;
@@ -56,7 +56,7 @@ int main(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     try {
       if (resumes(argv[i])) continue;
-      std::printf("%s: resumed, it ends differently\n", argv[i]);
+      std::printf("%s: the resumed run ends in another state\n", argv[i]);
     } catch (const std::exception& error) {
       std::printf("%s: %s\n", argv[i], error.what());
     }

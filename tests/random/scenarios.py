@@ -1,6 +1,6 @@
-"""Random scenarios, each made from a number: the same number makes the same scenario on every machine.
+"""Random scenarios. Each is made from a number, and the same number makes the same scenario on every machine.
 
-A scenario is a dict of tables, as in TOML. `mirror` and `shift` give the same physics seen in another coordinate.
+A scenario is a dict of tables, as in TOML. `mirrored` and `shifted` give the same physics in other coordinates.
 """
 
 import copy
@@ -12,7 +12,7 @@ SMALLEST = 0.0045  # stress: smaller values count as zero
 
 
 def short(value):
-    """Three digits are enough for a random number, and make a scenario that a person can read."""
+    """Rounds to three digits. They are enough for a random number, and the scenario stays readable."""
     return float(f"{value:.3g}")
 
 
@@ -21,14 +21,14 @@ def between(chance, low, high):
 
 
 def decades(chance, low, high):
-    """Evenly distributed logarithm."""
+    """A number whose logarithm has a uniform distribution."""
     return short(math.exp(chance.uniform(math.log(low), math.log(high))))
 
 
 # --- the parts of a scenario --------------------------------------------------------------------------------------
 
 def stress_of(chance):
-    """A dense train, or a slow one whose state differs from a stressed vacuum by 1e-7 and less."""
+    """The stress of a dense train, or of a slow one whose state differs from a stressed vacuum by 1e-7 and less."""
     return between(chance, 0.15, 0.4) if chance.random() < 0.4 else decades(chance, 0.4, 2.0)
 
 
@@ -119,7 +119,7 @@ def make(number):
 
 
 def any_friction(chance):
-    """Every law that a scenario can name without a file: most often one of those that `friction` draws."""
+    """Any law that a scenario can name without a file. Most often it is one of those that `friction` draws."""
     kind = chance.random()
     if kind < 0.6:
         return friction(chance)
@@ -150,7 +150,7 @@ def smooth_sum(chance):
 
 
 def make_wide(number):
-    """A scenario that a user may well run: any law, held profiles, two steps of stress, waves far inside the domain."""
+    """A scenario that a user might run: any law, held profiles, two steps of stress, and waves far inside the domain."""
     chance = random.Random(f"wide {number}")
     s = {"title": f"random {number} of any law", "initial": initial(chance), "friction": any_friction(chance)}
     if chance.random() < 0.25:
@@ -170,8 +170,8 @@ def make_wide(number):
 
 
 def make_for_chain(number):
-    """A scenario that the chain can check: moderate stress, waves that do not reach the ends, no strong friction, and
-    a contact ratio that changes too little for dislocations to overtake each other."""
+    """A scenario for comparison with the chain: moderate stress, waves that do not reach the ends, and no strong friction.
+    The contact ratio changes so little that dislocations do not overtake each other."""
     chance = random.Random(f"chain {number}")
     high = decades(chance, 0.5, 1.4)
     low = short(high * chance.uniform(0.25, 0.9))
@@ -182,7 +182,7 @@ def make_for_chain(number):
                      "width": decades(chance, 0.2, 1)},
          "time": {"end": end}}
     law = chance.choice(["viscous", "viscous", "coulomb", "power"])
-    if law != "viscous":  # only viscous friction damps what a shock radiates, so no shock
+    if law != "viscous":  # only viscous friction damps the waves that a shock radiates, so we avoid shocks
         i = s["initial"]
         i.update(width=between(chance, 0.8, 1.5), stress_left=max(left, short(0.6 * right)),
                  stress_right=max(right, short(0.6 * left)))
@@ -196,8 +196,8 @@ def make_for_chain(number):
     if chance.random() < 0.3:
         s["forcing"] = {"formula": f"{between(chance, -0.02, 0.03)}*exp(-(x/{between(chance, 1, 3)})^2)"
                                    f"*cos({between(chance, 0, 2)}*t)"}
-    reach = 0.8 * end + 4 * s["initial"]["width"]  # at 0.8 c, more than any wave on a train of stress 1.4
-    if chance.random() < 0.25:  # even at the ends, which the chain holds and the pulse continues
+    reach = 0.8 * end + 4 * s["initial"]["width"]  # waves on a train of stress 1.4 are slower than 0.8 c
+    if chance.random() < 0.25:  # uniform at the ends, which are fixed on the chain and continued on the pulse
         place, width = between(chance, -1, 1), between(chance, 0.8, 1.2)
         s["interface"] = {"contact": f"1 + ({between(chance, -0.15, 0.2)})*exp(-((x - ({place}))/{width})^2)"}
         reach = max(reach, abs(place) + 3 * width + 0.8 * end)
@@ -209,17 +209,17 @@ def make_for_chain(number):
 # --- the same physics in other coordinates ------------------------------------------------------------------------
 
 def of_x(formula, x):
-    """The formula with another expression in place of x."""
+    """The formula with another expression instead of x."""
     return re.sub(r"\bx\b", f"({x})", formula)
 
 
 def number(value):
-    """With all its digits, in brackets where it is negative."""
+    """The number with all its digits, in brackets if it is negative."""
     return repr(value) if value >= 0 else f"({value!r})"
 
 
 def as_formula(s):
-    """The same initial stress as a formula of x."""
+    """The scenario with its initial stress as a formula of x."""
     s = copy.deepcopy(s)
     i = s["initial"]
     if i["profile"] == "formula":
@@ -243,7 +243,7 @@ def substituted(s, x, sign=""):
 
 
 def mirrored(s):
-    """x -> -x, u -> -u: stress keeps its sign, F, slip and slip velocity change theirs."""
+    """The scenario with x -> -x and u -> -u. Stress does not change its sign, but F, slip and slip velocity do."""
     m = substituted(s, "-x", "-")
     i = m["initial"]
     if "stress_left" in i:
@@ -260,14 +260,14 @@ def mirrored(s):
 
 
 def shifted(s, by):
-    """Everything moved along x by a distance; the initial stress must be a formula."""
+    """The scenario, moved along x by a distance. Its initial stress must be a formula."""
     moved = substituted(s, f"x - {number(by)}")
     moved["domain"] = {end: x + by for end, x in s["domain"].items()}
     return moved
 
 
 def changed(s, **values):
-    """With other values, named table_key."""
+    """The scenario with other values. Their names are table_key."""
     s = copy.deepcopy(s)
     for name, value in values.items():
         table, key = name.split("_", 1)
@@ -288,7 +288,7 @@ def toml_value(value):
 
 
 def text(s):
-    """The rows of a table are a file of their own."""
+    """The TOML of a scenario, without the rows of its table. Those belong in a separate file."""
     lines = [f"{key} = {toml_value(value)}" for key, value in s.items() if not isinstance(value, dict)]
     for name, table in s.items():
         if isinstance(table, dict):
@@ -297,7 +297,7 @@ def text(s):
 
 
 def write(s, folder):
-    """The scenario, and its table if it has one, as files in a folder; returns the scenario's path."""
+    """Writes the scenario, and its table if it has one, into a folder. Returns the path of the scenario."""
     path = folder / "scenario.toml"
     path.write_text(text(s), encoding="utf-8")
     if "rows" in s["initial"]:

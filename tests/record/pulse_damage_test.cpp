@@ -1,5 +1,5 @@
-// What is no pulse file is refused with one line that says why. Files with a good seal and a wrong content do not
-// happen by damage; they are made here with the library's own parts.
+// The reader refuses files that are not valid pulse files, with a message of one line that gives the reason. Damage
+// does not produce files with a valid seal and wrong content. We make such files with the library's own parts.
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ std::string refusal(const std::string& path) {
   return message_of<FileError>([&] { slipfront::record::read_checkpoint(path); });
 }
 
-/// Reason, after the path that every message begins with.
+/// The reason in the message, after the path with which every message begins.
 std::string refusal_of(const std::string& bytes) {
   const TemporaryFolder folder;
   const std::string path = folder / "a.nc";
@@ -42,7 +42,7 @@ std::string good_file() {
   return read_bytes(folder / "a.nc");
 }
 
-TEST(PulseDamage, RejectsWhatIsNoFile) {
+TEST(PulseDamage, RejectsMissingFilesFoldersAndDevices) {
   const TemporaryFolder folder;
   EXPECT_NE(refusal(folder / "none.nc").find("cannot be opened: No such file"), std::string::npos);
   EXPECT_NE(refusal(folder.path().string()).find("is a directory"), std::string::npos);
@@ -61,7 +61,7 @@ TEST(PulseDamage, RejectsOtherFiles) {
   EXPECT_NE(refusal_of(std::string(image.bytes())).find("has no seal"), std::string::npos);
 }
 
-TEST(PulseDamage, RejectsCutFiles) {
+TEST(PulseDamage, RejectsTruncatedFiles) {
   const std::string file = good_file();
   for (std::size_t size = 0; size < file.size(); size += 1 + file.size() / 50)
     EXPECT_NE(refusal_of(file.substr(0, size)), "");
@@ -78,7 +78,7 @@ TEST(PulseDamage, DetectsEveryChangedByte) {
   }
 }
 
-/// A file of the right form, with one thing in it changed.
+/// The description of a file that is correct except for one change.
 struct Form {
   std::string format = "pulse 1";
   int finished = 1;
@@ -86,7 +86,7 @@ struct Form {
   std::vector<double> time = {0, 1};
   std::function<bool(const std::string&)> left_out = [](const std::string&) { return false; };
   std::string wrong_shape = {}, wrong_type = {};
-  std::size_t far_row = 0;  ///< write the last field there: all before it is a hole that takes no room
+  std::size_t far_row = 0;  ///< row of the last field; everything before it is a hole that needs no disk space
 };
 
 std::string made(const Form& form) {
@@ -160,7 +160,7 @@ TEST(PulseDamage, RejectsWrongValues) {
   EXPECT_NE(refusal_of(form).find("its slipfront_format is 'chain 1'"), std::string::npos);
 }
 
-TEST(PulseDamage, AllocatesNoAbsurdSizes) {
+TEST(PulseDamage, RejectsSizesThatCannotBeAllocated) {
   Form form;
   form.times = 0;  // unlimited
   form.time = {};

@@ -1,4 +1,4 @@
-// Files are written whole or not at all.
+// Files are written completely or not at all.
 
 #include "record/files/whole_file.hpp"
 
@@ -30,7 +30,7 @@ std::string failure(const std::string& path, std::size_t cells = 3) {
   return message_of<slipfront::FileError>(write);
 }
 
-/// No file may grow beyond `size`: what a full disk does, without one.
+/// No file may become larger than `size`. This imitates a full disk.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t size) : old_handler_(signal(SIGXFSZ, SIG_IGN)) {
@@ -50,8 +50,8 @@ class FileSizeLimit {
   void (*old_handler_)(int);
 };
 
-/// Another thread may start a process while a file is written: it inherits the descriptor, and with it the lock.
-TEST(WholeFile, LeavesNoLockToAProcessThatWasStartedMeanwhile) {
+/// Another thread may start a process while we write a file. That process inherits the descriptor and with it the lock.
+TEST(WholeFile, LeavesNoLockToAProcessStartedDuringTheWrite) {
   const TemporaryFolder folder;
   const std::string path = folder / "a.txt";
   pid_t other = -1;
@@ -71,7 +71,7 @@ TEST(WholeFile, LeavesNoLockToAProcessThatWasStartedMeanwhile) {
   waitpid(other, nullptr, 0);
 }
 
-TEST(WholeFile, KeepsTheOldFileIfAWriteFails) {
+TEST(WholeFile, PreservesTheOldFileIfAWriteFails) {
   const TemporaryFolder folder;
   const std::string path = folder / "a.nc";
   ASSERT_EQ(failure(path), "");
@@ -106,7 +106,7 @@ TEST(WholeFile, ReplacesNoDevices) {
   EXPECT_TRUE(fs::is_fifo(folder / "pipe"));
 }
 
-TEST(WholeFile, FollowsLinksAndKeepsModes) {
+TEST(WholeFile, FollowsLinksAndPreservesModes) {
   const TemporaryFolder folder;
   fs::create_directory(folder / "deep");
   fs::create_symlink("deep/target.nc", folder / "link.nc");
@@ -117,7 +117,7 @@ TEST(WholeFile, FollowsLinksAndKeepsModes) {
   EXPECT_EQ(fs::status(folder / "deep/target.nc").permissions(), fs::perms::owner_read | fs::perms::owner_write);
 }
 
-TEST(WholeFile, TakesNamesLiterallyThatTheNetcdfLibraryWouldInterpret) {
+TEST(WholeFile, UsesNamesLiterallyThatTheNetcdfLibraryWouldInterpret) {
   const TemporaryFolder folder;
   for (const char* name : {" a b.nc", "a#mode=zarr", "s3:a.nc", "a\\b.nc", "a%20.nc", "[x=1]a.nc", "\xff.nc"}) {
     EXPECT_EQ(failure(folder / name), "") << name;

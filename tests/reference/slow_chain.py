@@ -1,10 +1,10 @@
-"""The sine-Gordon equation by the plainest scheme there is, a second opinion on the library's chain:
+"""Solves the sine-Gordon equation with the simplest scheme, to check the library's chain:
 
     u_tt - u_xx + a(x)^2 sin u = F - f(u_t)
 
-Leapfrog on a grid, friction by the mean of old and new velocity (viscous) or on the old one (other laws); second order.
-The first state is laid dislocation by dislocation, each with the psi of its own length times a(x) there; the library
-integrates a phase instead. Lengths and times are the scenario's, stretched by `scale`; friction and F divided by it.
+The scheme is leapfrog on a grid, of second order. Viscous friction uses the mean of the old and the new velocity, and other
+laws the old one. The first state is created dislocation by dislocation, each with the psi of its length times a(x); the library
+integrates a phase instead. Lengths and times are those of the scenario times `scale`; friction and F are divided by it.
 """
 
 import numpy as np
@@ -13,7 +13,7 @@ from scipy.special import ellipj, ellipkm1
 
 
 def psi_of_length(length):
-    """psi of a train at rest whose dislocations are `length` apart: length cosh psi = 2 K."""
+    """psi of a train at rest whose dislocations have a spacing `length`: length cosh psi = 2 K."""
     def excess(z):
         psi = np.exp(z)
         K = np.log(4 / psi) if psi < 1e-8 else float(ellipkm1(np.tanh(psi)**2))
@@ -22,23 +22,23 @@ def psi_of_length(length):
 
 
 def one_dislocation(share, psi):
-    """u from 2 pi down to 0 over one dislocation, at shares 0 ... 1 of its length: u = pi - 2 am(K (2 share - 1))."""
+    """u falls from 2 pi to 0 over one dislocation. At the fraction `share` of its length, u = pi - 2 am(K (2 share - 1))."""
     K = np.log(4 / psi) if psi < 1e-8 else float(ellipkm1(np.tanh(psi)**2))
     z = K * (2 * share - 1)
-    if psi < 1e-6:  # dislocations apart: the kink itself
+    if psi < 1e-6:  # the dislocations are far apart, so each is a kink
         return np.pi - 2 * (2 * np.arctan(np.exp(z)) - np.pi / 2)
     return np.pi - 2 * ellipj(z, 1 / np.cosh(psi)**2)[3]
 
 
 def lay(x, number, contact):
-    """u on the grid where `number` is the number of dislocations left of each place, a function of x that ascends."""
+    """u on the grid x. `number` is an increasing function: the number of dislocations to the left of x."""
     q = np.array([number(v) for v in x])
     u = np.empty_like(x)
     for j in range(int(np.floor(q[0])), int(np.floor(q[-1])) + 1):
         here = np.flatnonzero((q >= j) & (q < j + 1))
         if len(here) == 0:
             continue
-        # Its ends, where q is a whole number, seen from the grid; the outermost ones are cut by the domain.
+        # The ends of the dislocation are where q is a whole number. The ends of the domain cut the outermost dislocations.
         i = here[len(here) // 2]
         density = (q[min(i + 1, len(q) - 1)] - q[i - 1]) / (x[min(i + 1, len(x) - 1)] - x[i - 1]) if i > 0 else 0
         left, right = np.interp([j, j + 1], q, x)
@@ -49,7 +49,7 @@ def lay(x, number, contact):
 
 
 class SlowChain:
-    """The ends are fixed: waves must not reach them."""
+    """A chain with fixed ends. Waves must not reach them."""
 
     def __init__(self, stress, left, right, scale, law="none", coefficient=0.0, exponent=1.0, forcing=None, contact=None,
                  spacing=0.1):
@@ -81,7 +81,7 @@ class SlowChain:
         return out
 
     def run(self, end):
-        """u at the end, less u at the start, over the scale: slip at the sites."""
+        """The slip at the sites: u at the end minus u at the start, divided by the scale."""
         dt = 0.9 * self.h
         steps = int(np.ceil(end * self.scale / dt))
         dt = end * self.scale / steps

@@ -1,11 +1,11 @@
-"""The modulation equations per dislocation, by another route than the library's: a second opinion for tests.
+"""Solves the modulation equations per dislocation with another method than the library, to check its pulse:
 
     x_t = U    M_t = -p_q + 2 pi F - friction - l <1 - cos u> (a^2)_x    p = 2 a^2 sinh^2 psi    q counts dislocations
     l = x_q = 2 K / (a cosh phi cosh psi)    M = 8 a sinh phi cosh psi E
 
-Places x and momenta M live on the faces between parcels, spacing and pressure in the parcels between them: a staggered
-grid, plain central differences, an artificial viscosity at shocks (von Neumann & Richtmyer), and scipy's LSODA in time.
-The library has finite volumes, WENO, Riemann invariants and Rodas instead. Second order where smooth.
+The grid is staggered: positions x and momenta M belong to the faces between parcels, spacing and pressure to the parcels. The
+scheme uses central differences, an artificial viscosity at shocks (von Neumann & Richtmyer), and scipy's LSODA in time. It is
+of second order for smooth solutions. The library uses finite volumes, WENO, Riemann invariants and Rodas instead.
 """
 
 import numpy as np
@@ -15,12 +15,12 @@ from scipy.special import ellipe, ellipkm1
 
 _S, _WEIGHT = np.polynomial.legendre.leggauss(48)
 _S, _WEIGHT = (_S + 1) / 2, _WEIGHT / 2
-_SIN2 = np.sin(np.pi * _S**4 / 2)**2  # sin^2(u / 2) at points u in 0 ... pi that crowd at u = 0
+_SIN2 = np.sin(np.pi * _S**4 / 2)**2  # sin^2(u / 2) at points u in 0 ... pi, which are denser near u = 0
 _WEIGHT = _WEIGHT * 4 * _S**3  # the mean over u
 
 
 class Unsuitable(ValueError):
-    """A scenario that the slow solver is not made for."""
+    """The slow solver does not support the scenario."""
 
 
 def complete(psi):
@@ -48,7 +48,7 @@ def find_psi(spacing, momentum, psi):
 
 
 class Friction:
-    """Loss of momentum of one dislocation: 2 pi <f>, the mean over u (closure consistent) or over x (paper)."""
+    """Loss of momentum of one dislocation: 2 pi <f>, with a mean over u (closure consistent) or over x (closure paper)."""
 
     def __init__(self, law="none", coefficient=0.0, exponent=1.0, closure="consistent"):
         self.C = coefficient if law != "none" else 0.0
@@ -72,19 +72,19 @@ class Friction:
 
 
 class SlowPulse:
-    """One stressed stretch. `ends`: for each end "free" (empty beyond), "continued" or "fixed"."""
+    """A single stressed region. `ends` is "free" (empty outside), "continued" or "fixed" for each end."""
 
     def __init__(self, stress, left, right, parcels=400, friction=None, forcing=None, contact=None):
         self.friction = friction or Friction()
         self.forcing = forcing or (lambda x, t: 0 * x)
         self.contact = contact or (lambda x: 1 + 0 * x)
         x = np.linspace(left, right, 40001)
-        if left < 0 < right:  # a step stands on a point
+        if left < 0 < right:  # a step is on a point of the grid
             x = np.concatenate([np.linspace(left, 0, 20001), np.linspace(0, right, 20001)[1:]])
         k = np.array([stress(v) for v in (x[1:] + x[:-1]) / 2])
         inside = np.flatnonzero(k > 0)
         if len(inside) < 2 or inside[-1] - inside[0] + 1 != len(inside):
-            raise Unsuitable("the slow solver wants one stressed stretch")
+            raise Unsuitable("the slow solver needs a single stressed region")
         self.ends = ["free" if inside[0] > 0 else "continued", "free" if inside[-1] < len(k) - 1 else "continued"]
         x, k = x[inside[0]:inside[-1] + 2], k[inside[0]:inside[-1] + 1]
         number = np.concatenate([[0], np.cumsum(k * np.diff(x))]) / (2 * np.pi)
@@ -98,7 +98,7 @@ class SlowPulse:
         self.friction.at_rest = min(self.friction.at_rest, 1e-4)
 
     def lay(self, x, k, parcels):
-        """Faces: even in x, with half of them where the stress changes, and finer towards free edges."""
+        """The faces. Half of them are uniform in x, the other half are where the stress changes. They are denser at free edges."""
         k = np.interp(x, (x[1:] + x[:-1]) / 2, k)
         box = np.ones(len(x) // 16) / (len(x) // 16)
         smooth = np.convolve(np.pad(k, len(box), mode="edge"), box, "same")[len(box):-len(box)]
@@ -109,7 +109,7 @@ class SlowPulse:
         s = s * s * (3 - 2 * s) if all(free) else s * s if free[0] else 1 - (1 - s)**2 if free[1] else s
         faces = np.interp(s * share[-1], share, x)
         jump = np.argmax(np.abs(np.diff(k)))
-        if abs(k[jump + 1] - k[jump]) > 0.02 * k.max():  # a step: a face on it
+        if abs(k[jump + 1] - k[jump]) > 0.02 * k.max():  # at a step, we place a face on it
             step = x[jump] if abs(x[jump]) < abs(x[jump + 1]) else x[jump + 1]
             faces[1 + np.argmin(np.abs(faces[1:-1] - step))] = step
         return faces
@@ -154,10 +154,10 @@ class SlowPulse:
         return self.ends[end] == "fixed"
 
     def run(self, times, tolerance=1e-7):
-        """States at the times, as an array of [x, M, x, M ...] of the faces."""
+        """The states at the times, as an array with [x, M, x, M ...] of the faces."""
         y = np.zeros(2 * len(self.faces))
         y[0::2] = self.faces
-        # A wave needs 8 psi^2 of momentum to be seen.
+        # A visible wave has a momentum of 8 psi^2 or more. Tolerances are relative to the width of a parcel and to psi.
         scale = np.empty_like(y)
         scale[0::2] = np.interp(np.arange(len(self.faces)), np.arange(len(self.dq)) + 0.5, np.diff(self.faces))
         scale[1::2] = max(float(np.max(self.psi)), 1e-12)
@@ -168,21 +168,21 @@ class SlowPulse:
             raise ArithmeticError(done.message)
         return done.y.T
 
-    def slip(self, y, places):
-        """2 pi times the number of dislocations that have passed these places."""
+    def slip(self, y, positions):
+        """2 pi times the number of dislocations that have passed these positions."""
         now = PchipInterpolator(y[0::2], self.q)
-        places = np.asarray(places, float)
+        positions = np.asarray(positions, float)
 
         def count(curve, faces):
-            return np.where(places <= faces[0], self.q[0], np.where(places >= faces[-1], self.q[-1], curve(places)))
+            return np.where(positions <= faces[0], self.q[0], np.where(positions >= faces[-1], self.q[-1], curve(positions)))
 
         return 2 * np.pi * (count(self.q0, self.faces) - count(now, y[0::2]))
 
-    def slip_velocity(self, y, place):
-        """W = U k between the faces around a place."""
+    def slip_velocity(self, y, position):
+        """W = U k, interpolated between the faces next to a position."""
         x, _, _, _, spacing, _, _, _, phi = self.parts(y)
-        if not x[0] < place < x[-1]:
+        if not x[0] < position < x[-1]:
             return 0.0
-        i = np.searchsorted(x, place) - 1
+        i = np.searchsorted(x, position) - 1
         middle = (x[1:] + x[:-1]) / 2
-        return float(np.interp(place, x, np.tanh(phi)) * np.interp(place, middle, 2 * np.pi / spacing)) if i >= 0 else 0.0
+        return float(np.interp(position, x, np.tanh(phi)) * np.interp(position, middle, 2 * np.pi / spacing)) if i >= 0 else 0.0

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Prints the slip velocity at x = 0 that the test Pulse.TanhWithFriction expects, from the slow solver (slow_pulse.py).
+"""Prints the slip velocity at x = 0 that the test Pulse.TanhStepWithFrictionAgreesWithTheSlowSolver expects, from the slow solver (slow_pulse.py).
 
 Each line has the values with 200, 400 and 800 parcels, and the limits if the error falls as 1 / parcels and as its square.
 Usage: tests/reference/slow_values.py        (a minute)"""

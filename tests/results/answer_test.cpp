@@ -1,4 +1,4 @@
-/// One answer an event: a median and its interval, or a bound written as a bound (docs/events.md).
+/// Each event has one answer: a median with its interval, or a bound that is marked as a bound (docs/events.md).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,8 +42,9 @@ double width(const EventResult& r) {
   return i ? std::log(i->high / i->low) : 0;
 }
 
-/// The bound's distribution by another sampler: plain Monte Carlo over what was observed, ln V even before.
-TEST(Answer, CountsEveryErrorInTheBoundOfTohoku) {
+/// Computes the distribution of the bound with another sampler: plain Monte Carlo over the observed quantities, with a
+/// uniform prior in ln V.
+TEST(Answer, IncludesEveryErrorInTheBoundOfTohoku) {
   const EventResult r = result_of(tohoku("12 */ 1.5 m", "40 */ 1.4 s", "40 GPa"), {.sampling = {.samples = 20000}});
   ASSERT_TRUE(r.estimate) << r.error;
   EXPECT_FALSE(r.estimate->stress_pa);
@@ -82,8 +83,8 @@ TEST(Answer, CountsEveryErrorInTheBoundOfTohoku) {
   EXPECT_GT(all, 1.1 * of_V);
 }
 
-/// An answer is the same in both places that JSON, CSV, NetCDF and Python have of it.
-TEST(Answer, IsThatOfThePosterior) {
+/// JSON, CSV, NetCDF and Python hold each answer twice, in estimate and posterior. Both must be equal.
+TEST(Answer, AgreesWithThePosterior) {
   const EventResult r = result_of(
       "[event]\nrupture_velocity = \"3.0 +- 0.2 km/s\"\nslip_velocity = \"0.5 */ 1.2 m/s\"\n[medium]\ncontact_ratio = "
       "{ mean = 0.01, sd = 0.002 }\n");
@@ -94,7 +95,7 @@ TEST(Answer, IsThatOfThePosterior) {
   EXPECT_EQ(e.damping_number->interval->low, r.posterior->damping_number->low);
   EXPECT_TRUE(e.slip_velocity_ratio->interval && e.observed_slip_velocity->interval && e.rupture_velocity->interval);
   EXPECT_FALSE(e.stress_pa_bound || e.contact_ratio_bound);
-  // Medians of what V alone moves keep the closed form.
+  // The medians of quantities that depend only on V satisfy the closed form.
   EXPECT_NEAR(rupture::from_rupture_velocity(e.rupture_velocity->value).stress, e.stress->value, 1e-5);
 }
 
@@ -109,7 +110,7 @@ TEST(Answer, BoundsTheStressWithoutARuptureVelocity) {
 }
 
 TEST(Answer, DoublesSamplesUntilTheySuffice) {
-  // Two standard deviations above c: a few per cent of the samples are below.
+  // V is two standard deviations above c, so a few per cent of the samples are below c.
   const EventResult r = result_of("[event]\nrupture_velocity = \"6.0 +- 0.3 km/s\"\nslip_velocity = \"0.5 m/s\"\n");
   ASSERT_TRUE(r.estimate) << r.error;
   EXPECT_GT(r.posterior->samples, 1000u);
@@ -129,7 +130,7 @@ TEST(Answer, SamplesAContactAbovePlasticIfItsErrorReachesBelow) {
   EXPECT_NE(result_of(head + "contact_ratio = 0.7\n").error, "");
 }
 
-TEST(Answer, HasNoIntervalFromAFewSamples) {
+TEST(Answer, HasNoIntervalIfFewSamplesHaveWeight) {
   // Contact ratio and stress drop disagree by three standard deviations, and the drop is sharp.
   const EventResult r = result_of(
       "[event]\nrupture_velocity = \"3 km/s\"\nslip_velocity = \"0.5 m/s\"\nstress_drop = \"69.5 +- 0.2 MPa\"\n"
@@ -155,7 +156,7 @@ TEST(Answer, DrawsFromThePosterior) {
   EXPECT_NEAR(values[25] / r.posterior->stress_pa_bound->low, 1, 0.1);
 }
 
-/// T is the duration, where rise time and duration are both known.
+/// If rise time and duration are both known, T is the duration.
 TEST(Answer, AveragesFrictionOverTheDuration) {
   const auto with = [](const std::string& times) {
     return result_of("[event]\nrupture_velocity = \"3 km/s\"\nslip = \"0.5 m\"\n" + times +
@@ -169,7 +170,7 @@ TEST(Answer, AveragesFrictionOverTheDuration) {
   EXPECT_NEAR(rise.estimate->friction_coefficient->value / both.estimate->friction_coefficient->value, 7, 1e-9);
 }
 
-TEST(Answer, WarnsWhereSourcesDisagree) {
+TEST(Answer, WarnsIfSourcesDisagree) {
   std::vector<Entry> entries;
   const auto sink = [&](Entry&& entry) { entries.push_back(std::move(entry)); };
   read_events(

@@ -31,15 +31,15 @@ TEST(Riemann, MatchesTheTable) {
     const train::Averages star = train::averages(s.star);
     const std::string where =
         row.text("phi_left") + "," + row.text("psi_left") + " | " + row.text("phi_right") + "," + row.text("psi_right");
-    // Differences of the given states limit what can be known of a weak wave: errors count against the larger of the
-    // two.
+    // The rounding of the given states limits the accuracy of a weak wave, so we compare errors with the size of the
+    // states.
     const double size = std::fabs(left.phi) + std::fabs(right.phi) + left.psi + right.psi;
     EXPECT_LE(std::fabs(s.star.psi - row["psi_star"]), 64 * DBL_EPSILON * (row["psi_star"] + size)) << where;
     EXPECT_LE(std::fabs(s.star.phi - row["phi_star"]), 64 * DBL_EPSILON * size) << where;
     EXPECT_NEAR(star.k, row["k_star"], 1e-12 * row["k_star"]) << where;
     const auto distinct = [&](double psi) {
       return std::fabs(psi - row["psi_star"]) > 1e-14 * psi;
-    };  // else rounding decides
+    };  // otherwise rounding decides
     if (distinct(left.psi)) {
       EXPECT_EQ(s.left_wave.kind, kind(row.text("left_kind"))) << where;
     }
@@ -54,9 +54,9 @@ TEST(Riemann, MatchesTheTable) {
   }
 }
 
-/// The project's founding table of the Riemann problem, to all digits; its U* of the first row was cut, not rounded,
-/// and its fan edge of the second row is misprinted
-/// (-0.2007656747): psi* and U* of that row give -0.2007657047.
+/// Reproduces the reference table of the Riemann problem to all its digits, with two corrections. U* of the first row
+/// was truncated, not rounded. The fan edge of the second row was misprinted as -0.2007656747; psi* and U* of that row
+/// give -0.2007657047.
 TEST(Riemann, ReproducesTheTableOfTheTheory) {
   const struct {
     double left, right, psi, U, k, W, edge, shock;
@@ -85,7 +85,7 @@ void expect_jump(const State& ahead, const State& behind, double speed) {  // s 
       1e-12 * (std::fabs(fa.momentum) + std::fabs(fb.momentum) + std::fabs(a.momentum) + std::fabs(b.momentum)));
 }
 
-RC_GTEST_PROP(Riemann, HoldsJumpsFansAndSymmetry, ()) {
+RC_GTEST_PROP(Riemann, SatisfiesJumpsFansAndSymmetry, ()) {
   const auto rapidity = [] { return *rc::gen::inRange(-2000, 2000) / 1000.0; };
   const auto density = [] { return std::pow(10.0, *rc::gen::inRange(-6000, 500) / 1000.0); };
   const State left{rapidity(), density()}, right{rapidity(), density()};
@@ -106,13 +106,13 @@ RC_GTEST_PROP(Riemann, HoldsJumpsFansAndSymmetry, ()) {
   RC_ASSERT(s.right_wave.inner <= s.right_wave.outer + 1e-14);
 }
 
-/// Both routes to the speed of a shock, just on either side of the switch between them.
-TEST(Riemann, JoinsWeakShocksToTheGeneralRegime) {
+/// There are two formulas for the speed of a shock. They must agree just below and just above the switch between them.
+TEST(Riemann, IsContinuousAtTheSwitchToWeakShocks) {
   for (const State right : {State{0, 0.1}, State{0.4, 1e-7}, State{-0.5, 1.2}}) {
     double speeds[2];
     for (const int side : {0, 1}) {
       const double strength =
-          6e-6 * (side == 0 ? 0.999 : 1.001) * right.psi;  // of the 2-shock into `right`: psi and phi rise alike
+          6e-6 * (side == 0 ? 0.999 : 1.001) * right.psi;  // across the 2-shock into `right`, psi and phi rise equally
       const RiemannSolution s = rupture::solve_riemann({right.phi + strength, right.psi + strength}, right);
       ASSERT_EQ(s.right_wave.kind, Wave::Kind::shock);
       const double mean =
@@ -149,7 +149,7 @@ TEST(Riemann, FansSolveTheModulationEquations) {
   }
 }
 
-TEST(Riemann, HasAResidualThatDetectsAWrongField) {
+TEST(Riemann, ResidualDetectsAWrongField) {
   const PdeResidual r = pde_residual(
       [](double x, double t) {
         return State{0.1 * x / t, 0.2 + 0.01 * x};
@@ -184,15 +184,15 @@ TEST(Riemann, RejectsInvalidStates) {
   EXPECT_THROW(rupture::solve_riemann({0, -1}, {}), InputError);
   EXPECT_THROW(rupture::solve_riemann({0, std::nan("")}, {}), InputError);
   EXPECT_THROW(rupture::solve_riemann({}, {HUGE_VAL, 0.1}), InputError);
-  // Stresses whose squares overflow held the root finder for ever; rapidities beyond 18 gave phi = 3.7 for 0.
+  // For stresses whose squares overflow, the root finder did not end. Rapidities above 18 gave phi = 3.7 instead of 0.
   EXPECT_THROW(rupture::solve_riemann({0, 340}, {0, 1}), InputError);
   EXPECT_THROW(rupture::solve_riemann({0, 700}, {0, 699}), InputError);
   EXPECT_THROW(rupture::solve_riemann({50, 1e-3}, {-50, 1e-3}), InputError);
 }
 
-/// Dense trains carry d'Alembert waves: both phi + psi and phi - psi stay, through the shock too. The other rows were
-/// solved by bisection with 120 digits.
-TEST(Riemann, SolvesUpToTheEndsOfItsRange) {
+/// Dense trains carry d'Alembert waves, which conserve phi + psi and phi - psi, even through a shock. The other values
+/// come from bisection with 120 digits.
+TEST(Riemann, SolvesAtTheLimitsOfItsRange) {
   const RiemannSolution dense = rupture::solve_riemann({0, 300}, {0, 290});
   EXPECT_NEAR(dense.star.phi, 5, 1e-9);
   EXPECT_NEAR(dense.star.psi, 295, 1e-9);
@@ -224,7 +224,7 @@ TEST(SlipPulse, ProfileAgreesWithTheRelations) {
   }
 }
 
-/// What has left x < 0 has slipped past the origin: the integral of k over x > 0 at t = 1 is W(0).
+/// All dislocations that have left x < 0 have passed the origin, so the integral of k over x > 0 at t = 1 is W(0).
 TEST(SlipPulse, ConservesDislocations) {
   const RiemannSolution pulse = rupture::slip_pulse(0.855);
   const double edge = pulse.left_wave.inner;

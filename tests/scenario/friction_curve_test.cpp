@@ -37,7 +37,7 @@ TEST(FrictionCurve, InterpolatesTheTableMonotonically) {
   EXPECT_TRUE(contains(beyond.problem, "2.1")) << beyond.problem;
 }
 
-TEST(FrictionCurve, RejectsWhatIsNoForce) {
+TEST(FrictionCurve, RejectsCurvesThatAreNotForces) {
   EXPECT_TRUE(contains(refused_text(formula("1/w")).problem, "inf at the slip velocity w = 0"));
   EXPECT_TRUE(contains(refused_text(formula("w - 0.1")).problem, "-0.1"));
   EXPECT_TRUE(contains(refused_text(formula("w > 0 ? 0.1 : 0")).allowed, "coulomb"));
@@ -50,14 +50,14 @@ TEST(FrictionCurve, RejectsWhatIsNoForce) {
   EXPECT_TRUE(contains(refused_text(table, {{0, 1}, {1, -1}}).problem, "f = -1"));
 }
 
-/// However steep: a jump is one at the smallest velocities too.
+/// Steep curves are accepted; only a curve that jumps at w = 0 is refused.
 TEST(FrictionCurve, AcceptsSteepCurvesAtRest) {
   EXPECT_NEAR(read(formula("0.02*w^0.1")).friction.law().strength(1e-10, {}), 0.002, 1e-12);
   EXPECT_NEAR(read(formula("0.02*w^0.02")).friction.law().strength(1, {}), 0.02, 1e-12);
   EXPECT_TRUE(contains(refused_text(formula("w > 0 ? 0.1 + w : 0")).problem, "jumps from 0 at w = 0 to 0.1"));
 }
 
-/// A formula's parser is not to be called by two threads; the curve is.
+/// Two threads must not call the parser of a formula at the same time, but they may call the curve.
 TEST(FrictionCurve, MayBeCalledByThreads) {
   const friction::Friction f = read(formula("0.1*w/(1 + w^2)")).friction;
   std::vector<std::thread> threads;
@@ -82,7 +82,7 @@ TEST(FrictionCurve, AcceptsWordsForNumbers) {
   EXPECT_EQ(refused_text(text + "characteristic_slip = -1\n").key, "friction.characteristic_slip");
 }
 
-// Rock and interface of the worked examples: the units of the model, by hand.
+// Rock and interface are those of the worked examples. The test computes the units of the model without the library.
 TEST(FrictionUnits, FollowFromTheMedium) {
   const std::string rock =
       "[medium]\nshear_modulus = \"30 GPa\"\np_wave_speed = \"6 km/s\"\npoisson_ratio = 0.3\ncontact_ratio = "
@@ -102,7 +102,7 @@ TEST(FrictionUnits, FollowFromTheMedium) {
   is("characteristic_slip", 10e-6 / (b / pi));
   is("reference_velocity", 1e-6 / (c * A / pi));
   is("initial_state", 2 / (b / (c * A)));
-  // V / D_c is a rate: the units of slip, velocity and time belong together.
+  // V / D_c is a rate, so the units of slip, velocity and time must be consistent.
   const double rate = s.friction.parameter("reference_velocity") / s.friction.parameter("characteristic_slip");
   EXPECT_NEAR(rate / (b / (c * A)), 1e-6 / 10e-6, 1e-13);
 }
@@ -111,7 +111,7 @@ TEST(FrictionUnits, NameMissingConstants) {
   const std::string law = "law = \"slip-weakening\"\nstrength = ";
   EXPECT_TRUE(contains(refused_text(friction(law + "\"30 MPa\"\n")).problem, "medium.contact_ratio"));
   const std::string rock = "[medium]\ncontact_ratio = 0.01\n";
-  EXPECT_EQ(read(friction(law + "\"0.3 MPa\"\n") + rock).warnings.size(), 1u);  // the constants it took
+  EXPECT_EQ(read(friction(law + "\"0.3 MPa\"\n") + rock).warnings.size(), 1u);  // names the assumed constants
   EXPECT_TRUE(contains(refused_text(friction(law + "0.1\ncharacteristic_slip = \"1 mm\"\n") + rock).problem,
                        "medium.asperity_spacing"));
   EXPECT_TRUE(contains(refused_text(friction(law + "\"3 km\"\n") + rock).problem, "km"));
@@ -128,10 +128,10 @@ std::vector<std::string> strength_warnings(const std::string& text, const Rows& 
   return found;
 }
 
-/// Of Eq. (3): sin u is at most 1, and a^2 sin u at most a^2.
-TEST(FrictionStrength, WarnsWhereItExceedsThatOfTheSubstrate) {
+/// In Eq. (3) the force of the substrate, a^2 sin u, is at most a^2.
+TEST(FrictionStrength, WarnsIfItExceedsTheStrengthOfTheSubstrate) {
   const std::string contact =
-      "[interface]\ncontact = \"1 + x^2 / 10\"\n[domain]\nleft = -4\nright = 3\n";  // 2.6 at most
+      "[interface]\ncontact = \"1 + x^2 / 10\"\n[domain]\nleft = -4\nright = 3\n";  // the contact ratio is at most 2.6
   for (const char* law : {"coulomb\"\ncoefficient = ", "flash-heating\"\nstrength = ", "slip-weakening\"\nstrength = ",
                           "rate-and-state\"\nstrength = ", "formula\"\nformula = \"1\"\ncoefficient = "}) {
     const std::string text = friction("law = \"" + std::string(law));
@@ -140,7 +140,7 @@ TEST(FrictionStrength, WarnsWhereItExceedsThatOfTheSubstrate) {
     EXPECT_TRUE(strength_warnings(text + "6.7\n" + contact).empty()) << law;
     EXPECT_EQ(strength_warnings(text + "6.8\n" + contact).size(), 1u) << law;
   }
-  // The top of a force that falls again is a strength; a force that rises with the velocity for ever has none.
+  // If a force falls again with velocity, its maximum is its strength. A force that always rises has no strength.
   const std::string n_shaped = friction("law = \"n-shaped\"\nvelocity = 1e-3\ncoefficient = ");
   EXPECT_TRUE(strength_warnings(n_shaped + "1.99\n").empty());
   EXPECT_EQ(strength_warnings(n_shaped + "2.1\n").size(), 1u);
@@ -150,8 +150,8 @@ TEST(FrictionStrength, WarnsWhereItExceedsThatOfTheSubstrate) {
                   .empty());
 }
 
-/// A laboratory: f_0 = 0.4 at 5 MPa, on an interface whose unit of force is 0.23 MPa.
-TEST(FrictionStrength, WarnsOfThatOfALaboratory) {
+/// Laboratory friction: f_0 = 0.4 at 5 MPa, on an interface whose unit of force is 0.23 MPa.
+TEST(FrictionStrength, WarnsForLaboratoryFriction) {
   const std::string text = friction("law = \"rate-and-state\"\nnormal_stress = \"5 MPa\"\nstrength = 0.4\n") +
                            "[medium]\nshear_modulus = \"30 GPa\"\npoisson_ratio = 0.3\np_wave_speed = \"6 km/s\"\n"
                            "contact_ratio = 0.0041\nasperity_spacing = \"1 mm\"\n";

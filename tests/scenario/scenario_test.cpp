@@ -6,7 +6,7 @@
 namespace slipfront::scenario {
 namespace {
 
-/// A table after [initial]: the key stands on line 5.
+/// The complaint about a key in a table after [initial]; the key is on line 5.
 Complaint refused_setting(const std::string& table, const std::string& key, const std::string& value) {
   const Complaint c = refused(step + "[" + table + "]\n" + key + " = " + value + "\n");
   EXPECT_EQ(c.file, "dir/s.toml");
@@ -198,13 +198,13 @@ TEST(ScenarioFile, RejectsUnknownNamesAndContradictions) {
   EXPECT_EQ(read(step + "[friction]\nlaw = \"viscous\"\n").warnings.size(), 1u);  // and no coefficient
 }
 
-TEST(ScenarioFile, NamesTheKeyOfANumberThatTomlRejects) {
+TEST(ScenarioFile, NamesTheKeyOfANumberThatIsInvalidToml) {
   const Complaint c = refused(step + "[output]\ntimes = [1,\n  1e400]\n");
   EXPECT_EQ(c.line, 6u);
   EXPECT_EQ(c.key, "output.times");
   EXPECT_EQ(refused("[initial\n").line, 1u);
-  EXPECT_EQ(refused("[initial]\nprofile = t\nwidth = 1\n").line, 2u);  // the parser's words quote the line break
-  EXPECT_GT(refused("[\x06").line, 0u);                                // once an abort inside the parser
+  EXPECT_EQ(refused("[initial]\nprofile = t\nwidth = 1\n").line, 2u);  // the parser's message quotes the line break
+  EXPECT_GT(refused("[\x06").line, 0u);                                // this once aborted inside the parser
 }
 
 TEST(ScenarioFile, SurvivesDeepNesting) {  // 400 kB of "a." overflow the stack of the TOML parser
@@ -216,7 +216,7 @@ TEST(ScenarioFile, SurvivesDeepNesting) {  // 400 kB of "a." overflow the stack 
   EXPECT_EQ(read("title = \"........... [[[[[[[[[[[[[[[[[[ \"  # ...........\n" + step).stress(-1), 1);
 }
 
-TEST(ScenarioFile, KeepsTextsBeyondAscii) {  // the TOML parser itself does not survive them everywhere
+TEST(ScenarioFile, ReadsTextsOutsideAscii) {  // the TOML parser itself crashes on some of them
   const std::string letter = "\xC3\x94";
   EXPECT_EQ(refused(step + letter + " = 1\n").line, 4u);
   EXPECT_EQ(refused(step + "x = " + letter + "\n").line, 4u);

@@ -1,5 +1,5 @@
 #pragma once
-// What tests of chains share.
+// Cases and measurements that several tests of chains share.
 
 #include <cmath>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace slipfront {
 
-/// A step of 0.855 into the empty side at scale 60, without friction yet.
+/// A step of stress 0.855 next to the empty side, at scale 60. The caller adds friction.
 inline chain::ScaledProblem small_step() {
   chain::ScaledProblem s;
   s.scale = 60;
@@ -19,7 +19,7 @@ inline chain::ScaledProblem small_step() {
   return s;
 }
 
-/// Outputs over its domain at 0, half the time and the end.
+/// Output times 0, end / 2 and end, in cells over the domain of `small_step`.
 inline output::Schedule until(double end) {
   output::Schedule schedule;
   schedule.times = {0, end / 2, end};
@@ -32,8 +32,8 @@ inline chain::Levels levels_of(const chain::Run& run) {
   return dynamic_cast<const chain::ExplicitChain&>(run.chain()).levels();
 }
 
-/// Growth rate of a small disturbance of a block that slides at v, from the peaks of its velocity until `end`; as many
-/// as `skipped` at the start do not count.
+/// The growth rate of a small disturbance of a block that slides at v, from the peaks of its velocity until `end`. The
+/// first `skipped` peaks do not count.
 inline double growth_of_peaks(chain::Chain& chain, double v, double end, std::size_t skipped) {
   std::vector<double> times, peaks;
   double v1 = 0, v2 = 0, t1 = 0;

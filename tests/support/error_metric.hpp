@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-/// The one error metric of all tables: |got - want| / |want| in units of the machine epsilon. Two NaNs agree, equal
-/// infinities agree, a zero agrees with zero alone; any other mixture of those is infinitely wrong. Below the normal
-/// range, where a double has fewer digits, the error counts in units of the smallest normal number.
+/// The error metric of all tables: |got - want| / |want| in units of the machine epsilon. Two NaNs agree, equal
+/// infinities agree, and zero agrees only with zero. Any other mixture of those has an infinite error. Below the normal
+/// range a double has fewer digits, so we divide by the smallest normal number there.
 inline double error_in_eps(double got, double want) {
   if (std::isnan(got) || std::isnan(want))
     return std::isnan(got) && std::isnan(want) ? 0 : std::numeric_limits<double>::infinity();

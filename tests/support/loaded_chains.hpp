@@ -1,5 +1,5 @@
 #pragma once
-// Chains for tests of loading and of implicit steps.
+// Chains for the tests of loading and of implicit steps.
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +36,7 @@ inline slipfront::friction::Friction rate_and_state(double f0, double a, double 
   throw std::logic_error("no such law");
 }
 
-/// A block under friction of a laboratory, pulled by a spring that makes it stick and slip.
+/// A block with laboratory friction. A spring pulls it, and it sticks and slips.
 inline Problem block_of_laboratory() {
   Problem p = smooth_block();
   p.friction = rate_and_state(0.6, 0.01, 0.015, 1, 0.01, 100);
@@ -44,7 +44,7 @@ inline Problem block_of_laboratory() {
   return p;
 }
 
-/// What is missing in the balance of energy and work, relative. `first` is the energy at the start.
+/// The relative error of the balance of energy and work. `first` is the energy at the start.
 inline double budget(const Chain& chain, double first) {
   const slipfront::chain::Flows flows = chain.flows();
   const double energy = slipfront::chain::totals(chain).energy();

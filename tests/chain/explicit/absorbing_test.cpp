@@ -32,17 +32,19 @@ Result run_step(double left_stress, double right_stress, double left, double rig
   return {last.slip_at_origin, run.balance().energy_drift, 1 - (last.energy.elastic + last.energy.kinetic) / before};
 }
 
-/// A uniform train loses nothing through absorbing ends: it goes on beyond them. It lost 8 to 13 % of its energy.
-TEST(ChainAbsorbing, StressedTrainAtRestStays) {
+/// A uniform train loses nothing through absorbing ends, because the ends assume that the train continues outside.
+/// Before a correction it lost 8 to 13 % of its energy.
+TEST(ChainAbsorbing, StressedTrainStaysAtRest) {
   for (const double stress : {0.3, 0.855, 3.0}) {
     const Result r = run_step(stress, stress, -2, 2, End::absorbing, 100, 20);
-    EXPECT_NEAR(r.slip, 0, 0.05 * 2 * pi / 100) << stress;  // of a dislocation
+    EXPECT_NEAR(r.slip, 0, 0.05 * 2 * pi / 100) << stress;  // 5 % of a dislocation
     EXPECT_NEAR(r.energy_lost, 0, 3e-3) << stress;
   }
 }
 
-/// What leaves a step goes out at ends as near as a third of its way: the slip at x = 0 is that of ends far away, while
-/// fixed ends at the same place change it. Ahead of it lies nothing, a train with little stress, and one with more.
+/// The waves of a step leave through absorbing ends that are as near as a third of their path. The slip at x = 0 is the
+/// same as with distant ends, while fixed ends at the same positions change it. The side ahead is empty, or has a train
+/// of low or higher stress.
 TEST(ChainAbsorbing, PulseLeaves) {
   for (const double right : {0.0, 0.179, 0.5}) {
     const Result far = run_step(0.855, right, -3, 1.5, End::fixed, 400);
@@ -51,7 +53,7 @@ TEST(ChainAbsorbing, PulseLeaves) {
     const double reflected = std::fabs(near.slip - far.slip) / std::fabs(held.slip - far.slip);
     RecordProperty("reflected_" + std::to_string(right), std::to_string(reflected));
     EXPECT_LT(reflected, 0.1) << right << ": " << near.slip << ", " << far.slip << ", " << held.slip;
-    EXPECT_LT(near.drift, 5e-3) << right;  // what leaves is counted
+    EXPECT_LT(near.drift, 5e-3) << right;  // the budget counts the energy that leaves
   }
 }
 

@@ -1,9 +1,9 @@
-// Run by mpirun with any number of ranks (tests/CMakeLists.txt):
-//     ranks_check same              a shared chain has the bits of one process alone; errors reach all ranks
-//     ranks_check save FILE         runs half the way
-//     ranks_check resume FILE       and on, to the same bits
-//     ranks_check lost              rank 1 fails alone: all ranks end, code 3
-// Prints what is wrong and returns 1.
+// Checks chains that several processes (ranks) share. mpirun starts it with any number of ranks (tests/CMakeLists.txt):
+//     ranks_check same              A shared chain has the bits of a single process. Errors reach all ranks.
+//     ranks_check save FILE         Runs the first half and saves the state.
+//     ranks_check resume FILE       Runs the second half and compares the bits with a run in one piece.
+//     ranks_check lost              Only rank 1 fails. All ranks end with exit code 3.
+// If a check fails, it prints the difference and returns 1.
 
 #include <algorithm>
 #include <cstdio>
@@ -43,7 +43,7 @@ bool same(const std::vector<double>& a, const std::vector<double>& b) {
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
 }
 
-/// All that is measured on a chain, in one row.
+/// All measurements on a chain, in one row.
 std::vector<double> measured(const ExplicitChain& chain) {
   std::vector<double> row;
   const Window w = chain.window(3, chain.problem().grid.sites - 1, chain.time() + chain.dt() / 3);
@@ -53,7 +53,7 @@ std::vector<double> measured(const ExplicitChain& chain) {
                            t.supplied_rate, t.dissipated_rate})
     row.push_back(sum);
   for (const Dislocation& d : dislocations(chain)) row.insert(row.end(), {d.x, static_cast<double>(d.sign)});
-  const Average a = average(chain, 290, 80, chain.time());  // across the ranks' edges
+  const Average a = average(chain, 290, 80, chain.time());  // the window crosses the boundaries between ranks
   row.insert(row.end(), {a.u, a.velocity, a.stress});
   return row;
 }
@@ -96,18 +96,18 @@ void same_bits(const Ranks& ranks) {
         },
         "kind " + std::to_string(kind));
   }
-  // A train that opens into an empty stretch, made by each rank for itself.
+  // Each rank creates its own part of a train next to an empty region.
   for (const int kind : {0, 2, 5}) {
     const Problem p = cases::problem(sites, kind);
     compare(ranks, p, StaticTrain([](double x) { return x < 300 ? 0.855 : 0.0; }, p.grid),
             "train, kind " + std::to_string(kind));
   }
-  // Long enough for true threads.
+  // This chain is long enough to run on several threads.
   const Problem p = cases::problem(9000, 2);
   compare(ranks, p, StaticTrain([](double x) { return x < 1500 ? 0.7 : 0.0; }, p.grid), "9000 sites");
 }
 
-/// What every rank throws.
+/// Checks that every rank throws the same error, whose text contains `part`.
 template <class Error>
 void expect_error(const Ranks& ranks, const std::function<void()>& task, const std::string& part) {
   std::string text = "nothing thrown";
@@ -117,7 +117,7 @@ void expect_error(const Ranks& ranks, const std::function<void()>& task, const s
     text = error.what();
   }
   expect(text.find(part) != std::string::npos, "error '" + part + "', but: " + text);
-  // One after the other, all ranks have the same text.
+  // The joined texts of all ranks must be copies of this one.
   std::vector<double> letters(text.begin(), text.end());
   std::vector<double> all = ranks.joined(letters), expected;
   for (int r = 0; r < ranks.size(); ++r) expected.insert(expected.end(), letters.begin(), letters.end());
@@ -163,7 +163,7 @@ void save(const Ranks& ranks, const std::string& path) {
     const Problem p = cases::problem(sites, kind);
     ExplicitChain chain(p, cases::bumpy(p), {.ranks = &ranks});
     chain.advance(half_way);
-    for (std::size_t begin = 0; begin < sites; begin += 400) {  // a piece at a time
+    for (std::size_t begin = 0; begin < sites; begin += 400) {  // in pieces
       const Levels piece = chain.levels(begin, std::min(begin + 400, sites));
       if (ranks.rank() != 0) continue;
       for (std::size_t j = 0; j < piece.now.size(); ++j) write(file, {piece.now[j], piece.before[j]});
@@ -176,7 +176,7 @@ void resume(const Ranks& ranks, const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   for (int kind = 0; kind < cases::kinds; ++kind) {
     const Problem p = cases::problem(sites, kind);
-    const auto read = [&](std::size_t begin, std::size_t end) {  // every rank its own
+    const auto read = [&](std::size_t begin, std::size_t end) {  // each rank reads its own sites
       std::vector<double> pairs(2 * (end - begin));
       file.seekg(static_cast<std::streamoff>(2 * sizeof(double) * (static_cast<std::size_t>(kind) * sites + begin)));
       file.read(reinterpret_cast<char*>(pairs.data()), static_cast<std::streamsize>(pairs.size() * sizeof(double)));

@@ -1,4 +1,5 @@
-// The spring-slider of the field, against eigenvalues and another integration (tests/reference/spring_slider.py).
+// A spring-slider, the standard model of stick-slip, compared with eigenvalues and with an independent integration
+// (tests/reference/spring_slider.py).
 
 #include <gtest/gtest.h>
 
@@ -14,7 +15,7 @@ using namespace slipfront;
 using namespace loaded;
 using chain::ImplicitChain;
 
-/// Growth rate of a small disturbance of steady sliding.
+/// The growth rate of a small disturbance of steady sliding.
 double growth(double stiffness, double v) {
   const double f0 = 0.05, a = 0.01, b = 0.015, D = 1, w0 = 0.01;
   Problem p = smooth_block();
@@ -29,9 +30,9 @@ double growth(double stiffness, double v) {
   return growth_of_peaks(chain, v, 12 * turn * D / v, 1);
 }
 
-/// With inertia, kappa_c = ((b - a) / D)(1 + v^2 / (a D)): where the roots of the disturbance's equation are imaginary
-/// (tests/reference/spring_slider.py).
-TEST(SpringSlider, CriticalStiffnessIsThatOfTheEigenvalues) {
+/// With inertia, the critical stiffness is kappa_c = ((b - a) / D)(1 + v^2 / (a D)). There the characteristic equation
+/// of a small disturbance has imaginary roots (tests/reference/spring_slider.py).
+TEST(SpringSlider, CriticalStiffnessAgreesWithTheEigenvalues) {
   for (const double v : {0.001, 0.05}) {
     const double exact = 0.005 * (1 + v * v / 0.01);
     const double low = growth(0.99 * exact, v), high = growth(1.01 * exact, v);
@@ -42,8 +43,8 @@ TEST(SpringSlider, CriticalStiffnessIsThatOfTheEigenvalues) {
   }
 }
 
-/// Against the numbers that tests/reference/spring_slider.py prints.
-TEST(SpringSlider, LimitCycleIsThatOfAHighOrderIntegration) {
+/// The reference numbers are those that tests/reference/spring_slider.py prints.
+TEST(SpringSlider, LimitCycleAgreesWithAHighOrderIntegration) {
   const struct {
     double stiffness, period, peak;
   } cases[] = {{0.0025, 51684.606, 1.0796389}, {0.0012, 107252.6, 2.0393604}};
@@ -59,15 +60,17 @@ TEST(SpringSlider, LimitCycleIsThatOfAHighOrderIntegration) {
     const output::SlipEvent &last = events[7], &before = events[6];
     EXPECT_NEAR((last.onset - before.onset) / c.period, 1, 1e-3);
     EXPECT_NEAR(last.peak_velocity / c.peak, 1, 1e-3);
-    EXPECT_NEAR(last.stress_drop / (c.stiffness * last.slip), 1, 5e-3);  // the far end moves a little meanwhile
+    EXPECT_NEAR(last.stress_drop / (c.stiffness * last.slip), 1,
+                5e-3);  // the far end of the spring moves a little during the event
     EXPECT_LT(budget(chain, 0), 1e-10);
-    EXPECT_LT(chain.steps(), 20000);  // of which each crosses some 30 time units: explicit steps would be 0.5
+    EXPECT_LT(chain.steps(), 20000);  // a step covers about 30 time units; an explicit one would cover 0.5
   }
 }
 
-/// Strength over direct effect as in a laboratory, against the numbers that tests/reference/spring_slider.py prints. At
-/// rest such a block creeps at 1e-26 and less; a solver that looks at absolute velocities never lets it slip.
-TEST(SpringSlider, LaboratoryFrictionSlipsAsInAHighOrderIntegration) {
+/// The ratio of strength to direct effect is that of laboratory friction. The reference numbers are those that
+/// tests/reference/spring_slider.py prints. At rest such a block creeps at 1e-26 and less, so a solver with an absolute
+/// tolerance of velocity never lets it slip.
+TEST(SpringSlider, LaboratoryFrictionFromRestAgreesWithAHighOrderIntegration) {
   const struct {
     friction::Friction friction;
     double stiffness, velocity, end;
@@ -95,10 +98,10 @@ TEST(SpringSlider, LaboratoryFrictionSlipsAsInAHighOrderIntegration) {
   }
 }
 
-/// Steady sliding with a disturbance of 1 % dies out or grows into stick-slip, by the numbers that
-/// tests/reference/spring_slider.py prints. The chain starts with slack springs; a force that balances friction
-/// replaces their stretch.
-TEST(SpringSlider, LaboratoryFrictionFromSlidingIsThatOfAHighOrderIntegration) {
+/// A disturbance of steady sliding by 1 % dies out or grows into stick-slip, with the numbers that
+/// tests/reference/spring_slider.py prints. The chain starts with slack springs. A constant force that balances
+/// friction replaces their tension.
+TEST(SpringSlider, LaboratoryFrictionFromSlidingAgreesWithAHighOrderIntegration) {
   const double f0 = 0.6, a = 0.01, D = 1, w0 = 0.01, v = 0.001, w = 0.00101;
   const struct {
     double b;

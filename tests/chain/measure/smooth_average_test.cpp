@@ -17,14 +17,15 @@ using namespace slipfront;
 using namespace slipfront::chain;
 using std::numbers::pi;
 
-/// A uniform train in motion between free ends, which it does not feel yet.
+/// A uniform train that moves between free ends. The ends are so far away that they do not affect it yet.
 ExplicitChain moving_train(double U, double stress) {
   const State state{std::atanh(U), train::psi_of_stress(stress)};
   Problem problem;
   problem.grid = {-100, 0.25, 801};
   Motion motion;
   for (std::size_t j = 0; j < problem.grid.sites; ++j) {
-    // One period about its centre, pi at a dislocation: u falls by a turn from each to the next.
+    // The fields of one period, centred at a dislocation (u = pi). u falls by one turn from each dislocation to the
+    // next.
     const double period = train::spacing(state), x = problem.grid.x(j), turns = std::round(x / period);
     const train::Fields f = train::fields(state, x - turns * period);
     motion.u.push_back(f.u - 2 * pi * turns);
@@ -33,8 +34,9 @@ ExplicitChain moving_train(double U, double stress) {
   return {problem, motion};
 }
 
-/// Wherever the window stands: in a box of the same width, the ripple is a hundred times that.
-TEST(ChainSmooth, AverageOfATrainIsThatOfTheoryWhereverTheWindow) {
+/// The position of the window must not matter. With a box average of the same width, the ripple is a hundred times the
+/// tolerance.
+TEST(ChainSmooth, AverageOfATrainAgreesWithTheoryForAnyWindow) {
   const double U = 0.3, stress = 0.855;
   const ExplicitChain chain = moving_train(U, stress);
   const State state{std::atanh(U), train::psi_of_stress(stress)};
@@ -50,7 +52,7 @@ TEST(ChainSmooth, AverageOfATrainIsThatOfTheoryWhereverTheWindow) {
   EXPECT_THROW(smooth_average(chain, 1000, 8, 0), InputError);
 }
 
-/// The site at a fixed end has no velocity, wherever in its train it is held.
+/// The site at a fixed end has zero velocity at any position relative to the dislocations.
 TEST(ChainSmooth, AFixedEndDoesNotMove) {
   for (const double left : {-100.0, -101.3, -102.9}) {
     Problem problem;
