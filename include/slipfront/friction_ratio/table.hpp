@@ -30,7 +30,7 @@ struct Ratio {
 };
 
 /// The ratio for `stress` = Sigma- in 0.05 ... 3 and `damping_number` >= 0. Above 1e8 it is the diffusion limit, which
-/// falls as Gamma^(-1/2). Relative error: see `uncertainty`. \throws InputError.
+/// falls as Gamma^(-1/2). Relative error: see `uncertainty`. \throws InputError if an argument is out of range.
 Ratio evaluate(Measure measure, friction::Closure closure, double stress, double damping_number);
 
 /// Relative error of the ratio: 1e-4, but 1e-2 for closure "paper" and 3 < Gamma < 1e5. That closure is unstable where
@@ -50,7 +50,8 @@ struct Reading {
 };
 
 /// The damping number for `stress` = Sigma- in 0.05 ... 3 and the `ratio` of W to the frictionless W(0). The ratio is
-/// above 0 and at most that of `measure` without friction (1 for `origin` and `time_mean`). \throws InputError.
+/// above 0 and at most that of `measure` without friction (1 for `origin` and `time_mean`). \throws InputError if an
+/// argument is out of range.
 Reading damping_number(Measure measure, friction::Closure closure, double stress, double ratio);
 
 }  // namespace slipfront::friction_ratio

@@ -14,7 +14,7 @@ namespace slipfront::inference {
 
 /// The state of the fault by the closed forms. A quantity is absent if the observations do not determine it. A warning
 /// then names the missing observation.
-struct Estimate : FaultQuantities<std::optional<Inferred>> {
+struct Estimate : InferredQuantities {
   double speed = 0;                                     ///< c, m/s
   std::optional<double> observed_rupture_velocity_m_s;  ///< m/s, middle of the observed range, like the next
   std::optional<double> observed_slip_velocity_m_s;     ///< m/s

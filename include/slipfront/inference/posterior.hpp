@@ -39,7 +39,7 @@ struct TradeOff {
 
 /// A quantity is absent if the observations do not determine it, or if there are too few samples. `notes` give the
 /// reason and name the observation that would help.
-struct Posterior : FaultQuantities<std::optional<Quantiles>> {
+struct Posterior : QuantileQuantities {
   bool friction_identified = false;  ///< if false, only a combination of damping_number and contact_ratio is known
   /// Width of the 90 % interval of ln A and of ln(1 + Gamma), divided by that of the prior. Near 1, the data add
   /// nothing to the prior.

@@ -48,6 +48,8 @@ struct FaultQuantities {
 
 /// One state of the fault. A quantity is NaN if the observations do not determine it.
 using FaultState = FaultQuantities<double>;
+using InferredQuantities = FaultQuantities<std::optional<Inferred>>;
+using QuantileQuantities = FaultQuantities<std::optional<Quantiles>>;
 
 /// A quantity and its members in a state, in an estimate and in a posterior.
 struct Quantity {
@@ -63,8 +65,8 @@ struct Quantity {
   Role role;
   bool in_posterior;  ///< also shown as a quantity of the posterior
   double FaultState::*state;
-  std::optional<Inferred> FaultQuantities<std::optional<Inferred>>::*inferred;
-  std::optional<Quantiles> FaultQuantities<std::optional<Quantiles>>::*quantiles;
+  std::optional<Inferred> InferredQuantities::*inferred;
+  std::optional<Quantiles> QuantileQuantities::*quantiles;
   std::string_view label = {};  ///< short name on the axis of a figure; empty: the long name
 };
 

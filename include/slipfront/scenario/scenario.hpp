@@ -110,8 +110,8 @@ using TableReader = std::function<std::vector<std::pair<double, double>>(const s
 
 /// Reads a scenario and applies `overrides` ("table.key=value", in order). A value that is not valid TOML counts as
 /// text. Unknown keys, tables and values are errors that name the nearest known one. An [event] table is ignored.
-/// \throws InputError with file ("--set" for an override), line, key, value and allowed. Exceptions of `tables` pass
-/// through.
+/// Exceptions of `tables` pass through. \throws InputError that names file ("--set" for an override), line, key, value
+/// and what is allowed.
 Scenario read_scenario(std::string_view text, const std::string& file, const std::vector<std::string>& overrides,
                        const TableReader& tables);
 
