@@ -1,13 +1,13 @@
-/* Makes the n-th call of a kind fail, as an empty memory or a full or broken disk would. To be preloaded:
+/* Makes the n-th call of a kind fail, as it would if memory ran out, or if a disk were full or broken. Preload it:
      LD_PRELOAD=libfailing_calls.so FAIL_CALL=malloc FAIL_AT=3 program ...
-   FAIL_CALL   malloc (calloc, realloc and the aligned ones too), open, write, fsync, rename, close
-   FAIL_AT     which of them, from 1; FAIL_ON=1: and all behind it, as on a disk that stays full
-   FAIL_LEAST  of malloc: smaller ones are neither counted nor failed (bytes)
-   FAIL_TRACE  a file that gets a line for each call while none is to fail: its number, and one for the places (functions)
-               that it came from
-   FAIL_REPORT a file that gets the number of calls that were seen, and "failed" if one was failed
-   A program may call fail_calls(kind, n) itself, to count from there. Calls on standard input, output and error count
-   like others, where they come by these functions: stdio's own do not. */
+   FAIL_CALL   kind of call: malloc (with calloc, realloc and the aligned ones), open, write, fsync, rename or close
+   FAIL_AT     number of the call that fails, from 1
+   FAIL_ON     if set, all later calls fail too, as on a disk that stays full
+   FAIL_LEAST  size in bytes; smaller allocations neither count nor fail
+   FAIL_TRACE  file that gets a line for each call, if no call shall fail: its number, and a hash of its call stack
+   FAIL_REPORT file that gets the number of counted calls, and "failed" if one has failed
+   A program may also call fail_calls(kind, n), which counts from then on. Calls on standard input, output and error
+   count if they use these functions. The internal calls of stdio do not count. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -27,15 +27,15 @@ extern void* __libc_calloc(size_t, size_t);
 extern void* __libc_realloc(void*, size_t);
 extern void* __libc_memalign(size_t, size_t);
 
-/* Shared with the processes that this one forks: the n-th call of them all fails. */
+/* The state is shared with the processes that this one forks. The n-th call of all of them fails. */
 struct state {
   char wanted[16];
   long fail_at, seen, failed;
 };
 static struct state before_mapping, *state = &before_mapping;
-static int counted; /* this process, and those that it forks: not the one that waits for them */
+static int counted; /* whether calls of this process count; forked processes inherit it, their parent does not get it */
 static int fail_on;
-size_t least; /* of malloc */
+size_t least; /* smallest allocation that counts, in bytes */
 static int trace = -1;
 static __thread int tracing; /* backtrace allocates too */
 
@@ -91,11 +91,11 @@ static int fails(const char* kind) {
   return 1;
 }
 
-/* The OpenMP runtime, libgomp or libomp, ends the program by itself where it gets no memory, or cannot read /proc, and the
-   dynamic loader where it gets none for what a thread has of its own: not this program's doing. To look a caller up takes
-   longer than most programs need between two calls: answers are kept. */
+/* The OpenMP runtime (libgomp or libomp) ends the program if it gets no memory or cannot read /proc. The dynamic loader
+   does so if it gets no memory for thread-local data. The program cannot prevent either, so calls from these libraries
+   do not fail. The look-up of a caller is slow, so the answers are cached. */
 static int ends_the_program(const void* caller) {
-  static unsigned long answers[4096]; /* the caller, and in the lowest bit the answer */
+  static unsigned long answers[4096]; /* address of the caller; the lowest bit is the answer */
   static __thread int asking;
   if (asking || state->wanted[0] == 0) return 0;
   const unsigned long address = (unsigned long)caller << 1;
@@ -237,7 +237,7 @@ int rename(const char* from, const char* to) {
 }
 
 int close(int file) {
-  const int bad = fails("close"); /* the descriptor is gone nevertheless, as after a write-back that failed */
+  const int bad = fails("close"); /* the descriptor is closed nevertheless, as after a failed write-back */
   const int result = REAL(close)(file);
   if (!bad) return result;
   errno = EIO;
