@@ -1,4 +1,4 @@
-"""Builds the Python package with CMake, into the wheel: module, library, Python files and scenarios."""
+"""Builds the Python package with CMake and puts it into the wheel: module, library, Python files and scenarios."""
 
 import re
 import subprocess
@@ -15,8 +15,8 @@ version = re.search(r"project\(slipfront VERSION ([\d.]+)", (source / "CMakeList
 
 class CMakeBuild(build_ext):
     def build_extension(self, extension):
-        # Of an editable install, the folder that will be on the path is a build folder of setuptools as well.
-        place = Path(self.get_ext_fullpath(extension.name)).resolve().parent.parent
+        # The folder that contains the package. setuptools makes it a build folder in an editable install, too.
+        folder = Path(self.get_ext_fullpath(extension.name)).resolve().parent.parent
         with tempfile.TemporaryDirectory() as build:
             def cmake(*arguments):
                 subprocess.run(["cmake", *arguments], check=True)
@@ -24,8 +24,8 @@ class CMakeBuild(build_ext):
             cmake("-S", str(source), "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DSLIPFRONT_TESTS=OFF", "-DSLIPFRONT_BENCH=OFF",
                   "-DSLIPFRONT_PYTHON=ON", f"-DPython3_EXECUTABLE={sys.executable}", "-DSLIPFRONT_PYTHON_DIR=.")
             cmake("--build", build, "--target", "slipfront_python", *(["-j", str(self.parallel)] if self.parallel else []))
-            cmake("--install", build, "--component", "python", "--prefix", str(place))
-            cmake("--install", build, "--component", "wheel", "--prefix", str(place))
+            cmake("--install", build, "--component", "python", "--prefix", str(folder))
+            cmake("--install", build, "--component", "wheel", "--prefix", str(folder))
 
 
 setup(version=version, packages=[], ext_modules=[Extension("slipfront._slipfront", sources=[])], cmdclass={"build_ext": CMakeBuild})

@@ -1,5 +1,5 @@
-// Site updates a second of a chain, beside what the machine does at most: the polynomial of the sine alone, and
-// multiply-adds in registers. Run with --benchmark_filter=chain.
+// Site updates per second of a chain, compared with two limits of the machine: only the polynomial of the sine, and
+// multiply-adds in registers. Run it with --benchmark_filter=chain.
 
 #include <benchmark/benchmark.h>
 
@@ -20,8 +20,8 @@ namespace {
 using namespace slipfront;
 using namespace slipfront::chain;
 
-/// Multiplications and additions that a site takes, a fused pair counted once: 3 to reduce, 1 to square, 8 for the
-/// polynomial, 4 for y and the local part, 2 for the neighbours.
+/// Multiplications and additions per site, where a fused pair counts once: 3 to reduce the argument, 1 to square it, 8
+/// for the polynomial, 4 for y and the local part, 2 for the neighbours.
 constexpr double operations_a_site = 18;
 
 SLIPFRONT_CLONES void sines(const PeriodicForce& force, const double* z, double* S, std::size_t n) {
@@ -30,7 +30,7 @@ SLIPFRONT_CLONES void sines(const PeriodicForce& force, const double* z, double*
   for (std::size_t j = 0; j < n; ++j) S[j] = f(z[j]);
 }
 
-/// 32 multiply-adds a value, in four chains that do not wait for each other.
+/// 32 multiply-adds per value, in four independent sequences.
 SLIPFRONT_CLONES void multiply_adds(double* v, std::size_t n, double a, double b) {
   SLIPFRONT_INDEPENDENT
   for (std::size_t j = 0; j < n; ++j) {
@@ -88,7 +88,7 @@ Motion rough_train(std::size_t sites) {
   return m;
 }
 
-/// Sites, threads. 1e8 sites lie in DRAM.
+/// The arguments are the numbers of sites and threads. 1e8 sites do not fit into the caches.
 void chain_sites(benchmark::State& state) {
   const auto sites = static_cast<std::size_t>(state.range(0));
   chain::ExplicitChain run(damped_train(sites), rough_train(sites), {.threads = static_cast<int>(state.range(1))});
@@ -107,15 +107,15 @@ BENCHMARK(chain_sites)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 
-/// Ageing contacts under which a train as rough as the one above goes on moving.
+/// Rate-and-state friction that is weak enough for the train of rough_train to keep moving.
 friction::Friction weak_rate_and_state() {
   for (const friction::Definition* law : friction::laws())
     if (law->name == "rate-and-state") return {*law, {1e-4, 2e-5, 3e-5, 50, 0.05, 0, 0}};
   return {};
 }
 
-/// Level by level: contact, forcing (that changes with time, or not), dry friction, viscous friction of a chain so
-/// short that its work is metered, and friction with state.
+/// Chains that advance level by level: with a contact profile, with a forcing (that changes with time, or not), with
+/// dry friction, with viscous friction on a chain short enough for the work meter, and with friction that has a state.
 void chain_general(benchmark::State& state) {
   const char* const kinds[] = {"contact",
                                "forcing",
@@ -138,7 +138,8 @@ void chain_general(benchmark::State& state) {
 }
 BENCHMARK(chain_general)->DenseRange(0, 5)->Unit(benchmark::kMillisecond);
 
-/// The step of stress of docs/friction.md to t = 2 pi at scale 300, under rate-and-state friction; many sites rest.
+/// The step of stress of docs/friction.md to t = 2 pi at scale 300, with rate-and-state friction. Many sites are at
+/// rest.
 void chain_rate_and_state(benchmark::State& state) {
   const scenario::Scenario scenario = scenario::read_scenario(
       "[initial]\nprofile = 'step'\nstress_left = 0.855\nstress_right = 0\n", "step",

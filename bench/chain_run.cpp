@@ -1,6 +1,7 @@
-// The lattice of Eq. 1 from a given state, for peers/lammps_chain.py: slipfront's chain, or the same leapfrog as a
-// plain loop with the library's sine. Usage: chain_run FILE SPACING STEP STEPS chain|plain. FILE holds u, then u_t, of
-// every site as binary doubles; u at the end goes to FILE.out. Prints the processor time of the steps, in seconds.
+// Runs the lattice of Eq. (1) from a given state, for peers/lammps_chain.py: with slipfront's chain, or with leapfrog
+// as a plain loop with the sine of the C library. Usage: chain_run FILE SPACING STEP STEPS chain|plain. FILE contains
+// u, then u_t, of every site as binary doubles. The program writes u at the end to FILE.out, and prints the processor
+// time of the steps in seconds.
 
 #include <cmath>
 #include <cstdio>
@@ -30,7 +31,7 @@ std::vector<double> read(const std::string& path) {
   return values;
 }
 
-/// Seconds of a processor that a plain loop takes for these steps of `u`.
+/// Advances `u` by a plain loop. Returns the processor time in seconds.
 double plain(std::vector<double>& u, std::vector<double>& velocity, double spacing, double dt, long steps) {
   const std::size_t n = u.size();
   const std::clock_t begun = std::clock();
@@ -41,7 +42,7 @@ double plain(std::vector<double>& u, std::vector<double>& velocity, double spaci
   return static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC;
 }
 
-/// The same steps by the library.
+/// Advances `u` with the library. Returns the processor time in seconds.
 double by_library(std::vector<double>& u, const std::vector<double>& velocity, double spacing, double dt, long steps) {
   using namespace slipfront::chain;
   const std::size_t n = u.size();
@@ -76,8 +77,7 @@ int main(int argc, char** argv) {
   std::vector<double> velocity(std::next(u.begin(), static_cast<std::ptrdiff_t>(n)), u.end());
   u.resize(n);
 
-  // Velocities half a step before the start, with which leapfrog takes the steps of velocity Verlet. The ends are
-  // fixed.
+  // With velocities half a step before the start, leapfrog does the same steps as velocity Verlet. The ends are fixed.
   for (std::size_t j = 1; j + 1 < n; ++j) velocity[j] -= dt / 2 * acceleration(u, j, spacing);
 
   const double seconds = argv[5] == std::string("plain") ? plain(u, velocity, spacing, dt, steps)

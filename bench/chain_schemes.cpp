@@ -1,4 +1,4 @@
-// Error against cost of the schemes that were weighed for the chain (docs/chain.md), in one run.
+// Compares error and cost of the schemes that were considered for the chain (docs/chain.md), in one run.
 //
 // Problems: exact solutions of Eq. 3 (travelling kink, breather, kink through kink, kink through antikink), and a
 // damped train, step 0.855 into an empty interface. Schemes: chain_schemes.hpp.
@@ -24,7 +24,7 @@ using Make = std::function<std::unique_ptr<Scheme>(const Start&, double h)>;
 
 struct Entry {
   const char* name;
-  std::vector<double> spacings;  ///< in the problem of the damped train
+  std::vector<double> spacings;  ///< for the damped train
   bool checkerboard;
   Make make;
 };
@@ -60,7 +60,7 @@ const std::vector<Entry> entries{
      [](const Start& s, double h) { return std::make_unique<Library>(s, h); }},
 };
 
-/// Processor time: others may use the machine.
+/// Processor time in seconds, which other programs on the machine hardly change.
 double now_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 void against_exact(const char* name, const Exact& u, double reach, double end) {
@@ -81,7 +81,7 @@ void against_exact(const char* name, const Exact& u, double reach, double end) {
   }
 }
 
-/// A train at rest near t = 0: Taylor in t with u_x by differences of the initial state.
+/// A train at rest near t = 0: a Taylor series in t, with derivatives in x from differences of the initial state.
 Exact at_rest(const Exact& u0, double C) {
   return [u0, C](double x, double t) {
     if (t == 0) return u0(x, 0);
@@ -131,7 +131,7 @@ std::vector<double> history(Scheme& s, double per, double end, double width, dou
     const double from = now_seconds();
     s.many(std::max(0L, static_cast<long>((target - s.time) / per - 1e-6)));
     *seconds += now_seconds() - from;
-    // Cubic in time through four levels would do; slip is smooth on this scale: linear between two steps.
+    // Linear interpolation between two steps suffices, because slip is smooth on this scale.
     before_time = s.time;
     before = mean();
     const double again = now_seconds();
@@ -145,7 +145,7 @@ std::vector<double> history(Scheme& s, double per, double end, double width, dou
 
 void target(double scale) {
   const double C = 0.5 / scale, end = 2 * pi * scale, k = 0.855, left = -4.2 * scale, right = 0.6 * scale;
-  // The same initial state for every grid: the train in closed form, sampled finely once and then asked for by x.
+  // All grids have the same initial state, the train in closed form. It is evaluated at each x.
   const auto stress = [k](double x) { return x < 0 ? k : 0.0; };
   const Exact u0 = [&](double x, double) {
     static std::function<double(double)> f = nullptr;

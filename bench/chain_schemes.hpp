@@ -1,5 +1,6 @@
 #pragma once
-// The schemes that were weighed for the chain: the same loops over the same polynomial for the sine; damping is C u_t.
+// The schemes that were considered for the chain. All use similar loops and the same polynomial for the sine. Damping
+// is C u_t.
 
 #include <cmath>
 #include <functional>
@@ -23,7 +24,7 @@ using namespace slipfront::chain;
 using std::numbers::pi;
 using Exact = std::function<double(double x, double t)>;
 
-/// What every scheme is built from: u(x, t) near t = 0 on [left, right], whose ends stay as they are.
+/// The start of every scheme: u(x, t) near t = 0 on [left, right]. u is constant at both ends.
 struct Start {
   Exact u;
   double left, right, C;
@@ -41,7 +42,7 @@ class Scheme {
   virtual std::vector<double> u() const = 0;  // radians, at x
 };
 
-/// Two levels on the full grid.
+/// A scheme with two levels in time on the full grid.
 class FullGrid : public Scheme {
  public:
   FullGrid(const Start& s, double h, double step_size) {
@@ -99,8 +100,8 @@ CLONES inline void drift(std::size_t n, double* u, const double* v, double dt) {
   for (std::size_t j = 0; j < n; ++j) u[j] += dt * v[j];
 }
 
-/// Fourth-order composition (Yoshida 1990) of drift and kick, five points in space; damping as exp(-C dt) halves
-/// around.
+/// Fourth-order composition (Yoshida 1990) of drift and kick, with five points in space. Damping by exp(-C dt / 2)
+/// comes before and after.
 class Yoshida : public FullGrid {
  public:
   Yoshida(const Start& s, double h) : FullGrid(s, h, 0.6 * h), f(substrate_force(0)), C(s.C), e(1 / (12 * h * h)) {
@@ -137,7 +138,7 @@ CLONES inline void seen_step(std::size_t n, const double* now, double* old, doub
   for (std::size_t j = 1; j + 1 < n; ++j) old[j] += e * (y[j - 1] + y[j + 1] - 2 * y[j]);
 }
 
-/// The diamond rule, near the light cone.
+/// The diamond rule of the library, with dt near the spacing h.
 class Diamond : public FullGrid {
  public:
   Diamond(const Start& s, double h, double c = 1.0 / 12) : FullGrid(s, h, h * std::sqrt(1 - c * h * h)) {
@@ -180,8 +181,8 @@ CLONES inline void checkerboard_step(std::size_t n, const double* west, double* 
   }
 }
 
-/// Half the sites of dt = dx: Ablowitz-Kruskal-Ladik (sine of the mean of E and W) or Hirota's, as one function of that
-/// mean.
+/// Half of the grid with dt = dx, in a checkerboard pattern. The scheme is that of Ablowitz, Kruskal and Ladik (sine of
+/// the mean of the east and west neighbours) or that of Hirota. Both are a function of that mean.
 class Checkerboard : public Scheme {
  public:
   Checkerboard(const Start& s, double h, bool hirota, bool static_exact) {
@@ -216,7 +217,7 @@ class Checkerboard : public Scheme {
   double e, b;
 };
 
-/// The library: the diamond rule with tiles in cache.
+/// The chain of the library: the diamond rule, with tiles that fit into the cache.
 class Library : public Scheme {
  public:
   Library(const Start& s, double h) : chain_(problem(s, h), motion(s, h)) {

@@ -1,12 +1,12 @@
-// Where the chain's time step keeps the energy: the largest drift of runs of many densities, ends, spacings and scales
-// (docs/chain.md, "Stability"). Each run has a stress on the left of x = 0 and none, a third of it or the same on the
-// right, and ends so near that all that leaves x = 0 meets them.
+// Measures how well the time step of the chain conserves energy: the largest drift for many densities, ends, spacings
+// and scales (docs/chain.md, "Stability"). Each run has a stress on the left of x = 0. The stress on the right is zero,
+// a third of it, or equal to it. The ends are so near that all waves from x = 0 reach them.
 //
 // Usage: chain_stability [--mass M0 M1] [--quick] [--only ENDS] [--stress K]... [--spacing H]... [--scale S]...
-// With --mass the step is that of mass^2 = M0 a^2 + M1 a k, k the largest stress (chain/model/problem.cpp), instead of
-// the chosen one. Prints a table in Markdown: the largest drift over all scales and right-hand stresses, a row a
-// stress, a column an end and a spacing. ">" is a run that ended early, with a drift of more than 1e-2 or a
-// NumericsError.
+// With --mass the step is that for mass^2 = M0 a^2 + M1 a k, where k is the largest stress (chain/model/problem.cpp),
+// instead of the default. The program prints tables in Markdown, one per spacing: the largest drift over all scales and
+// right-hand stresses, with one row per stress and one column per kind of end. Drifts of 1e-2 or more are in bold. A
+// run may end early with a NumericsError; a drift that is not a number then counts as infinite.
 
 #include <cmath>
 #include <cstdio>
@@ -36,7 +36,7 @@ struct Kind {
 };
 
 struct Mass {
-  double fixed, crossing;  // mass^2 = fixed a^2 + crossing a k; negative: as the library chooses
+  double fixed, crossing;  // mass^2 = fixed a^2 + crossing a k; if `fixed` is negative, the library chooses the step
 };
 
 struct Outcome {
@@ -87,7 +87,7 @@ void print_table(const std::vector<Kind>& kinds, const std::vector<double>& stre
       double worst = 0;
       for (const double scale : scales)
         for (const double share : {0.0, 1.0 / 3, 1.0}) {
-          // Of a train that falls into nothing around a ring both steps are hard; of one that is even nothing moves.
+          // A ring with a step to zero stress has a second such step at its ends. With equal stresses, nothing moves.
           const Outcome one = run(kind, stress, share * stress, scale, spacing, mass);
           worst = std::fmax(worst, one.drift);
           steps += one.steps;

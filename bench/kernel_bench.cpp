@@ -11,11 +11,12 @@
 #include "pulse/space/semidiscrete.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
 
-// The cell stage of a pulse run, alone and by its two costliest loops, beside the limit of the arithmetic units: what a
-// loop of nothing but independent fused multiply-adds reaches, same vector width, same run. Operations are those of the
-// AVX-512 loops that g++ 12 makes (an addition or multiplication is one, fused two; a comparison, choice, conversion or
-// division none; two in single precision count as one in double, as in the units); bytes are arrays read and written,
-// 8 a number, all in the first two caches.
+// Measures the cell stage of a `pulse` run and its two costliest loops. It compares them with the limit of the
+// arithmetic units, which is the rate of a loop of independent fused multiply-adds with the same vector width in the
+// same run. Operations are those of the AVX-512 loops that g++ 12 makes. An addition or multiplication counts as one, a
+// fused pair as two, and comparisons, selections, conversions and divisions as none. Two operations in single precision
+// count as one in double. Bytes are those of the arrays that are read and written, 8 per number, all in the first two
+// caches.
 
 namespace {
 
@@ -23,7 +24,7 @@ using namespace slipfront;
 
 constexpr std::size_t cells = 400;
 
-/// Ten chains of one 64-byte vector each hide the latency of the units.
+/// Ten independent sequences of one 64-byte vector each hide the latency of the units.
 SLIPFRONT_CLONES void multiply_add(double* x, std::size_t repeats) {
   constexpr std::size_t width = 80;
   double sum[width];
@@ -35,7 +36,7 @@ SLIPFRONT_CLONES void multiply_add(double* x, std::size_t repeats) {
   for (std::size_t j = 0; j < width; ++j) x[j] = sum[j];
 }
 
-/// Operations a second.
+/// Largest number of operations per second.
 double fma_limit() {
   static const double limit = [] {
     double x[80] = {}, best = 0;
@@ -52,7 +53,7 @@ double fma_limit() {
   return limit;
 }
 
-/// Runs the kernel and says what share of the limit it reaches.
+/// Runs the kernel and reports which fraction of the limit it reaches.
 template <class Kernel>
 void measure(benchmark::State& state, double operations, int divisions, int numbers, Kernel kernel) {
   const double limit = fma_limit();

@@ -25,7 +25,7 @@ pulse::Problem tanh_step(int cells, friction::Closure closure) {
           .cells = cells};
 }
 
-/// The row "tanh width 1, C = 0.5" to t = 2 pi; the label tells what W(0) came out.
+/// The case "tanh width 1, C = 0.5" of docs/pulse.md to t = 2 pi. The label shows the resulting W(0).
 void pulse_tanh(benchmark::State& state) {
   const pulse::Problem problem = tanh_step(static_cast<int>(state.range(0)), friction::Closure::consistent);
   double W = 0;
@@ -41,7 +41,8 @@ void pulse_tanh(benchmark::State& state) {
 }
 BENCHMARK(pulse_tanh)->Arg(50)->Arg(75)->Arg(100)->Arg(200)->Arg(400)->Unit(benchmark::kMillisecond);
 
-/// Conserved to primitive, the costliest part of a cell: started from 1 % off, as from one stage to the next.
+/// The state of a cell from its conserved quantities, which is the costliest part of a cell. The first guess has an
+/// error of 1 %, as from one stage to the next.
 void solve_state(benchmark::State& state) {
   const auto c = modulation::lagrangian_state({0.1, 0.05});
   for (auto _ : state) benchmark::DoNotOptimize(modulation::solve_state(c, 0.0505));
@@ -49,7 +50,7 @@ void solve_state(benchmark::State& state) {
 }
 BENCHMARK(solve_state);
 
-/// Friction so strong that the pulse diffuses; steps are implicit.
+/// Friction so strong that the pulse diffuses and the steps are implicit.
 void pulse_overdamped(benchmark::State& state) {
   const double gamma = static_cast<double>(state.range(0));
   pulse::Problem problem{.stress = [](double x) { return x < 0 ? 0.855 : 0.0; },
@@ -97,7 +98,7 @@ const std::vector<LawCase>& law_cases() {
   return cases;
 }
 
-/// A step of stress with 400 cells to t = 2 pi under each kind of friction.
+/// A step of stress with 400 cells to t = 2 pi with each kind of friction.
 void pulse_laws(benchmark::State& state) {
   const LawCase& law = law_cases()[static_cast<std::size_t>(state.range(0))];
   std::vector<std::string> settings{"pulse.cells=400"};

@@ -1,6 +1,8 @@
 """Draws docs/friction-plane.png, -pulse.png, -fronts.png and -contacts.png, and prints their numbers (docs/friction.md).
 
-Usage: PYTHONPATH=build/release/python friction_figures.py [plane] [pulse] [fronts] [contacts]. Needs python3-matplotlib; some minutes.
+Usage: PYTHONPATH=build/release/python friction_figures.py [plane] [pulse] [fronts] [contacts]
+
+The script needs python3-matplotlib and runs for some minutes.
 """
 
 import math
@@ -19,15 +21,15 @@ HERE = pathlib.Path(__file__).parent
 STYLE = HERE.parent / "python" / "slipfront" / "slipfront.mplstyle"
 CASE = HERE.parent / "cases" / "rate-and-state.toml"
 END = 2 * math.pi
-A = 0.01  # direct effect of the case
+A = 0.01  # direct effect a of the scenario CASE
 AT_END = {"output.every": END}
 KEPT = ["slip_velocity_at_origin", "peak_slip_velocity", "trailing_front_observed", "slip_at_origin"]
-HEALED = 0.1  # of the largest slip velocity: slower than that, x = 0 is left behind
-STOPPED = 0.01  # of the frictionless slip velocity at x = 0: slower than that everywhere, the rupture has come to rest
+HEALED = 0.1  # fraction of the largest slip velocity. If x = 0 slips more slowly, it has healed and the rupture is a pulse.
+STOPPED = 0.01  # fraction of the frictionless slip velocity at x = 0. If every cell slips more slowly, the rupture has stopped.
 
 
 def swept(axes, **settings):
-    """Results at the end on a grid of settings, and what slip velocity there would be without friction."""
+    """Runs a sweep. Returns the results at the end of each run, and the slip velocity without friction for comparison."""
     data = slipfront.sweep(CASE, axes, variables=KEPT, set=AT_END | settings)
     if (data["failure"] != "").any():
         print("failed:", sorted(set(data["failure"].values.ravel()) - {""}))
@@ -39,7 +41,7 @@ def swept(axes, **settings):
 
 
 def plane():
-    """Crack or pulse by a - b and stress, slow or fast by strength and stress."""
+    """Draws friction-plane.png: crack or pulse against a - b and stress, slow or fast against strength and stress."""
     stress = np.linspace(0.7, 1.6, 37)
     by_b = swept({"initial.stress_left": stress, "friction.evolution_effect": np.linspace(0, 0.06, 31)})
     by_strength = swept({"initial.stress_left": stress, "friction.strength": np.linspace(0, 0.15, 31)}, **{"friction.evolution_effect": 0.015})
@@ -69,11 +71,11 @@ def plane():
         crack = moves & (row["share"].values > HEALED)
         pulses = stress[moves & ~crack]
         told = f"a pulse from {pulses.min():.3f} to {pulses.max():.3f}" if pulses.size else "no pulse"
-        print(f"a - b = {A - b:+.3f}: moves still from Sigma = {stress[moves].min():.3f} on; {told}")
+        print(f"a - b = {A - b:+.3f}: moves until the end if Sigma is at least {stress[moves].min():.3f}; {told}")
 
 
 def pulse():
-    """The slip velocity in space at some times, of a crack and of a pulse."""
+    """Draws friction-pulse.png: the slip velocity along the interface at several times, of a crack and of a pulse."""
     figure, axes = plt.subplots(1, 2, figsize=(9, 3.6), sharey=True, layout="constrained")
     for axis, b, name in zip(axes, (0.005, 0.04), ("crack", "pulse")):
         data = slipfront.pulse(CASE, set={"friction.evolution_effect": b, "pulse.cells": 200}, errors=False)
@@ -88,7 +90,8 @@ def pulse():
 
 
 def fronts():
-    """Where the fast front is, beside the frictionless |V-| t, for three laws of rising strength."""
+    """Draws friction-fronts.png: the position of the fast front over the frictionless |V-| t, for three laws of friction of increasing
+    strength."""
     laws = {
         "viscous": ("friction.coefficient", np.geomspace(0.02, 3, 14), {}),
         "coulomb": ("friction.coefficient", np.geomspace(0.001, 0.1, 14), {}),
@@ -108,7 +111,7 @@ def fronts():
         line, = axis.plot(slip, -foot / free, marker=marker, label=f"{law}: first felt")
         axis.plot(slip, -seen / free, marker=marker, color=line.get_color(), linestyle="--", markerfacecolor="white", label=f"{law}: seen at 0.001 of the largest W")
         for s, f, o in points[::4]:
-            print(f"{law}: slip {s:.3f} of the frictionless, first felt at {-f / free:.3f} of |V-| t, seen at {-o / free:.3f}")
+            print(f"{law}: slip {s:.3f} of the frictionless slip, front first felt at {-f / free:.3f} |V-| t, seen at {-o / free:.3f} |V-| t")
     axis.set(xlabel="slip at x = 0 over that without friction", ylabel="place of the fast front over $|V_-| t$", ylim=(0, 1.05))
     axis.legend(fontsize="small")
     figure.savefig(HERE / "friction-fronts.png")
@@ -129,7 +132,8 @@ STEP = {"initial.stress_left": 1.1, "friction.evolution_effect": 0.015, "frictio
 
 
 def contacts():
-    """A block whose pores dilate, from earthquakes to slow slip to creep; and ruptures where contacts age or pores dilate."""
+    """Draws friction-contacts.png: a block with dilating pores, whose slip changes from earthquakes to slow slip to creep; and ruptures with
+    ageing contacts or dilating pores."""
     figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.8), layout="constrained")
     for E, colour in zip((0, 0.04, 0.08), ("0.2", "tab:blue", "tab:red")):
         data = slipfront.chain(BLOCK, set={"friction.dilatancy": E, "friction.drainage_time": 3000} if E else {})

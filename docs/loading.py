@@ -1,7 +1,8 @@
 """Draws docs/loading-cycles.png, loading-recurrence.png and loading-fronts.png, and prints their numbers (docs/loading.md).
 
-Usage: loading.py PROGRAM [cycles] [recurrence] [fronts]   (build/release/bin/slipfront). Needs python3-matplotlib and python3-xarray;
-takes some five minutes on one core.
+Usage: loading.py PROGRAM [cycles] [recurrence] [fronts]
+
+PROGRAM is build/release/bin/slipfront. The script needs python3-matplotlib and python3-xarray, and runs for some five minutes on one core.
 """
 
 import json
@@ -22,10 +23,10 @@ PROGRAM = sys.argv[1]
 HERE = pathlib.Path(__file__).parent
 STYLE = HERE.parent / "python" / "slipfront" / "slipfront.mplstyle"
 CASE = str(HERE.parent / "cases" / "stick-slip.toml")
-SMALL = {"domain.left": -4 * math.pi, "domain.right": 4 * math.pi, "interface.contact": 1, "chain.tolerance": 1e-4}  # eight: all move at once
-RING = {"domain.left": -100 * math.pi, "domain.right": 100 * math.pi, "interface.contact": "1 + 0.05*cos(x/100)"}  # 200 dislocations
+SMALL = {"domain.left": -4 * math.pi, "domain.right": 4 * math.pi, "interface.contact": 1, "chain.tolerance": 1e-4}  # a ring of eight dislocations, which all move at once
+RING = {"domain.left": -100 * math.pi, "domain.right": 100 * math.pi, "interface.contact": "1 + 0.05*cos(x/100)"}  # a ring of 200 dislocations
 STIFFNESS, VELOCITY = 4e-5, 1e-4
-TAKE_PART = 8  # dislocations on each place that is watched for events
+TAKE_PART = 8  # number of dislocations in each part of the chain that is observed for events
 
 
 def run(case, settings, output=None):
@@ -36,7 +37,7 @@ def run(case, settings, output=None):
 
 
 def cycles(folder):
-    """Load and slip velocity in time, and one event in space and time."""
+    """Draws loading-cycles.png: load and slip velocity over time, and one event over position and time."""
     end, file = 6e5, str(folder / "cycles.nc")
     events = run(CASE, RING | {"time.end": end, "output.every": end})["events"]
     for e in events:
@@ -47,7 +48,7 @@ def cycles(folder):
     text = pathlib.Path(CASE).read_text(encoding="utf-8").replace("every = 2.56e5", f"times = {sorted({*near.tolist(), *even.tolist()})}")
     case = folder / "near.toml"
     case.write_text(text, encoding="utf-8")
-    event = min(run(str(case), RING | {"time.end": end}, file)["events"], key=lambda e: abs(e["onset"] - event["onset"]))  # stops for output change steps
+    event = min(run(str(case), RING | {"time.end": end}, file)["events"], key=lambda e: abs(e["onset"] - event["onset"]))  # output times change the steps, and so the onset
     everything = xarray.open_dataset(file)
     whole, close = everything.sel(time=even), everything.sel(time=near)
     times, slip = whole["time"].values, whole["slip"].mean("x").values
@@ -70,10 +71,10 @@ def cycles(folder):
 
 
 def recurrence(folder):
-    """Time between events, and stress drop, against the velocity of the springs."""
+    """Draws loading-recurrence.png: time between events and stress drop against the velocity of the springs."""
     rows = []
     for velocity in (1e-5, 3e-5, 1e-4, 3e-4, 1e-3):
-        once = 30 / velocity  # more than a recurrence
+        once = 30 / velocity  # longer than the time between two events
         settings = SMALL | {"loading.velocity": velocity,
                             "loading.event_velocity": max(10 * velocity, 2e-3), "time.end": 6 * once, "output.every": 3 * once}
         events = run(CASE, settings)["events"][2:]
@@ -88,7 +89,7 @@ def recurrence(folder):
     left.set(xlabel="velocity of the springs, c A / π", ylabel="time between events, b / (c A)")
     left.legend()
     right.semilogx(velocity, 1e4 * drop, "o-")
-    slope, level = np.polyfit(np.log(velocity[:3]), drop[:3], 1)  # where inertia and the threshold play no part
+    slope, level = np.polyfit(np.log(velocity[:3]), drop[:3], 1)  # inertia and the threshold have no effect at these velocities
     legend = f"{-slope / 5e-5:.2f} (b - a) a factor e, of the slow three"
     right.semilogx(velocity, 1e4 * (slope * np.log(velocity) + level), color="0.5", linestyle=":", label=legend)
     right.set(xlabel="velocity of the springs, c A / π", ylabel="stress drop, $10^{-4}$ F")
@@ -141,11 +142,12 @@ every = 100
 [pulse]
 cells = 100
 """
-SHARE = 0.3  # of the largest slip velocity, at which a front is seen
+SHARE = 0.3  # threshold at which a front is seen, as a fraction of the largest slip velocity
 
 
 def fan(stress):
-    """Closed form: velocity c of the front, and of the place where the slip velocity is SHARE of that at its origin (docs/theory.md 4)."""
+    """Returns the closed form (docs/theory.md, 4): the velocity of the front and of the position where the slip velocity is SHARE times that at
+    the origin, both in c, and the slip velocity at the origin in c A / pi."""
     from scipy.special import ellipkm1, ellipe
 
     def K(psi):
@@ -165,7 +167,8 @@ def fan(stress):
 
 
 def fronts(folder):
-    """Precursors of a pulled chain; velocity of a front that runs from a free end into a chain under stress, against the stress."""
+    """Draws loading-fronts.png: the precursors of a pulled chain, and the velocity of a front that runs from a free end into a chain under
+    stress, against the stress."""
     figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.6))
     pulled, file = folder / "pulled.toml", str(folder / "pulled.nc")
     pulled.write_text(PULLED, encoding="utf-8")

@@ -1,29 +1,31 @@
-"""Writes cases/synthetic-fault.fsp: a finite-fault model of an earthquake that never was, in the format of SRCMOD, to try `slipfront event` on.
+"""Writes cases/synthetic-fault.fsp: a finite-fault model of an invented earthquake, in the format of SRCMOD, as an example for `slipfront event`.
 
-Usage: synthetic_fault.py. A vertical fault of 20 km by 8 km strikes north. It slips most, by 1 m, 3 km south of the hypocentre; the rupture spreads from the
-hypocentre at 2.6 km/s, and every place slips for 1.2 s.
+Usage: synthetic_fault.py
+
+A vertical fault of 20 km by 8 km strikes north. The largest slip, 1 m, is 3 km south of the hypocentre. The rupture spreads from the
+hypocentre at 2.6 km/s, and every subfault slips for 1.2 s.
 """
 
 import math
 import pathlib
 
-ALONG, DOWN = 20, 8  # subfaults of 1 km
+ALONG, DOWN = 20, 8  # numbers of subfaults along strike and down dip, each 1 km by 1 km
 HYPOCENTRE = (12.5, 4.5)  # km along strike from the southern end, km below the top
-CENTRE = (9.5, 4.5)  # of the slip
+CENTRE = (9.5, 4.5)  # km, of the largest slip
 RUPTURE_VELOCITY, RISE_TIME, MOST_SLIP = 2.6, 1.2, 1.0  # km/s, s, m
-TOP = 2.0  # km
-LAYERS = ((0.0, 5.0, 2.9, 2.6), (4.0, 6.0, 3.5, 2.7), (12.0, 6.8, 3.9, 2.9))  # km, km/s, km/s, g/cm^3
-RIGIDITY = 2700 * 3500**2  # Pa, of the layer of the hypocentre
+TOP = 2.0  # depth of the top of the fault, km
+LAYERS = ((0.0, 5.0, 2.9, 2.6), (4.0, 6.0, 3.5, 2.7), (12.0, 6.8, 3.9, 2.9))  # depth of the top, P speed, S speed and density, in km, km/s, km/s and g/cm^3
+RIGIDITY = 2700 * 3500**2  # Pa, shear modulus of the layer of the hypocentre
 
 
 def slip_at(along, down) -> float:
-    """Slip in m at a place of the fault: half an ellipsoid, nowhere less than 0.02 m."""
+    """Returns the slip in m at a point of the fault (km along strike, km below the top): half an ellipsoid, but at least 0.02 m."""
     away = ((along - CENTRE[0]) / 9) ** 2 + ((down - CENTRE[1]) / 4.5) ** 2
     return max(MOST_SLIP * math.sqrt(max(0.0, 1 - away)), 0.02)
 
 
 def subfaults():
-    """(X, Y, Z, slip, rupture time) of each: km east, north and down of the epicentre, m, s."""
+    """Yields (X, Y, Z, slip, rupture time) of each subfault: km east, north and down of the epicentre, m, s."""
     for j in range(DOWN):
         for i in range(ALONG):
             along, down = i + 0.5, j + 0.5

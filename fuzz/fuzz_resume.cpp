@@ -1,6 +1,6 @@
-// libFuzzer target: no bytes may crash the reader of checkpoints. Raw bytes show the seal; HDF5 itself is not for
-// hostile files, so beyond the seal the bytes direct how a NetCDF file is made: what is left out, of which type, shape
-// and value.
+// libFuzzer target: no bytes may crash the reader of checkpoints. Raw bytes test the seal. HDF5 itself does not
+// tolerate hostile files. Behind the seal, the bytes therefore determine how a valid NetCDF file is made: which
+// variables it lacks, and their types, shapes and values.
 
 #include <fuzzer/FuzzedDataProvider.h>
 #include <sys/mman.h>
@@ -24,7 +24,7 @@ namespace {
 
 using slipfront::record::netcdf::Writer;
 
-/// A file in memory with a path.
+/// The path of a file in memory with these bytes.
 const std::string& file_of(std::string_view bytes) {
   static const int descriptor = memfd_create("fuzz", MFD_CLOEXEC);
   static const std::string path = "/proc/self/fd/" + std::to_string(descriptor);
@@ -69,8 +69,8 @@ std::string made(FuzzedDataProvider& data) {
   const std::vector<std::size_t> sizes = {size(), size(), size()};
   const std::vector<int> dimensions = {file.dimension("time", sizes[0]), file.dimension("x", sizes[1]),
                                        file.dimension("bytes", sizes[2])};
-  std::vector<std::pair<int, std::size_t>> vectors;  // of doubles, with the dimension of each
-  std::vector<int> open_fields;                      // over time without end
+  std::vector<std::pair<int, std::size_t>> vectors;  // variables with one dimension, and its size
+  std::vector<int> open_fields;                      // fields over an unlimited time dimension
   const auto add = [&](const std::string& name, std::vector<int> shape, bool bytes) {
     if (!usual()) return;
     if (!usual()) shape.push_back(dimensions[data.ConsumeIntegralInRange<std::size_t>(0, 2)]);
@@ -98,7 +98,7 @@ std::string made(FuzzedDataProvider& data) {
       values.push_back(usual() ? static_cast<double>(i) : data.ConsumeFloatingPoint<double>());
     file.write(id, values);
   }
-  for (const int id : open_fields)  // far beyond what there is data for
+  for (const int id : open_fields)  // rows far after the last one with data
     if (!usual()) file.write_row(id, data.ConsumeIntegral<std::size_t>() >> 8, std::vector<double>(sizes[1]));
   const auto image = file.finish();
   return std::string(image.bytes()) + slipfront::record::seal(image.bytes());
@@ -112,7 +112,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   std::string file;
   try {
     file = made(data);
-  } catch (const slipfront::FileError&) {  // what cannot be made need not be read
+  } catch (const slipfront::FileError&) {  // the writer rejects this file
     return 0;
   }
   read(file);

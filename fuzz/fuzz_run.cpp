@@ -1,8 +1,8 @@
-// libFuzzer target: whatever scenario is let through can be checked and run, at few cells and for a few steps, as a
-// pulse and as a chain. The input chooses from what scenarios are made of: profiles with stress at one point only,
-// empty ends, laws, forcings, contact profiles, domains; now and then a value of its own. fuzz/random does so with
-// random inputs: with SLIPFRONT_COUNT in the environment the program says at its end how many scenarios ran,
-// with SLIPFRONT_PRINT it prints each.
+// libFuzzer target: every scenario that the reader accepts can be checked and run, with few cells and for a few steps,
+// as a `pulse` run and as a `chain` run. The input chooses the parts of the scenario: profiles with stress at one point
+// only, empty ends, laws, forcings, contact profiles and domains. Some values are random. fuzz/random uses random
+// inputs. With SLIPFRONT_COUNT in the environment the program prints at its end how many scenarios ran. With
+// SLIPFRONT_PRINT it prints each scenario.
 
 #include <fuzzer/FuzzedDataProvider.h>
 
@@ -40,7 +40,7 @@ std::string number(FuzzedDataProvider& data) {
                     {"0", "1", "0.8", "0.855", "0.5", "-4", "4", "1e-3", "1e-9", "0.0045", "20", "-1", "0.1", "3"});
 }
 
-/// A number that is mostly allowed: few scenarios would run else.
+/// A number that is allowed in most cases. Otherwise few scenarios would run.
 template <std::size_t n>
 std::string mostly(FuzzedDataProvider& data, const std::array<std::string_view, n>& words) {
   return data.ConsumeIntegralInRange(0, 15) == 0 ? number(data) : one_of<n>(data, words);
@@ -78,7 +78,7 @@ std::string initial(FuzzedDataProvider& data) {
   }
 }
 
-/// A law with the keys that it has.
+/// A friction law with its own keys.
 std::string friction(FuzzedDataProvider& data) {
   const std::string law = one_of<9>(data, {"none", "viscous", "coulomb", "power", "formula", "n-shaped",
                                            "flash-heating", "slip-weakening", "rate-and-state"});
@@ -96,7 +96,7 @@ std::string friction(FuzzedDataProvider& data) {
   if (law == "slip-weakening" || law == "rate-and-state") add("characteristic_slip");
   if (law == "rate-and-state") {
     add("reference_velocity");
-    // Strength over direct effect: 40 to 100 in laboratories.
+    // In laboratory experiments, strength over direct effect is 40 to 100.
     text += "direct_effect = " + mostly<4>(data, {"1e-3", "1e-2", "1e-5", "0.1"}) + "\n";
     text += "evolution_effect = " + mostly<4>(data, {"1.5e-3", "5e-3", "1e-5", "0.3"}) + "\n";
     if (data.ConsumeIntegralInRange(0, 7) == 0)
@@ -139,10 +139,9 @@ std::string random_scenario(FuzzedDataProvider& data) {
 
 long scenarios = 0, pulses = 0, chains = 0;
 
-void say_counts() { std::printf("%ld scenarios: %ld pulses and %ld chains ran\n", scenarios, pulses, chains); }
+void say_counts() { std::printf("%ld scenarios: %ld pulse runs and %ld chain runs\n", scenarios, pulses, chains); }
 
-/// Runs a few steps; the slip at x = 0 that comes out is a number at all times or, where there is no such place, at
-/// none.
+/// Runs a few steps. The slip at x = 0 must be a number at all times, or at no time if x = 0 is outside the domain.
 template <class Run>
 void go(Run& run) {
   static const int most = std::getenv("SLIPFRONT_COUNT") ? 60 : 20;

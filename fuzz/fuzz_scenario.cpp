@@ -1,5 +1,5 @@
-// libFuzzer target: no text and no overrides may crash the scenario reader, and what it lets through is a stress. What
-// stands after the first byte 0xFF, which no TOML has, is taken as overrides, one a line.
+// libFuzzer target: no text and no overrides may crash the scenario reader, and the stress of an accepted scenario is
+// valid. The text after the first byte 0xFF, which TOML never contains, is a list of overrides, one per line.
 
 #include <cmath>
 #include <cstddef>
@@ -42,7 +42,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       again = slipfront::scenario::read_scenario(scenario.text, "fuzz.toml", {}, small_table);
     } catch (const slipfront::InputError&) {
     }
-    require(again.has_value());  // what a run keeps can be run again, and is the same
+    require(again.has_value());  // the text that a run stores must give the same scenario again
     require(again->end == scenario.end && again->pulse.cells == scenario.pulse.cells &&
             again->friction.parameter("coefficient") == scenario.friction.parameter("coefficient") &&
             again->forcing == scenario.forcing);

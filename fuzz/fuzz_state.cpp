@@ -1,5 +1,5 @@
-// libFuzzer target: no change of a saved state may crash a run that is to go on from it. The first byte says which run;
-// the rest directs what is changed in what such a run saved: three bytes each, where (two) and to what.
+// libFuzzer target: no change of a saved state may crash a run that resumes from it. The first byte selects the run.
+// Every three of the other bytes describe one change of the saved state: two give the offset, the third the new value.
 
 #include <algorithm>
 #include <cstddef>
@@ -52,7 +52,7 @@ std::string saved_pulse() {
   return run.saved();
 }
 
-/// With contacts that age and pores that dilate, which a state knows too.
+/// A chain with ageing contacts and dilating pores, whose state is also saved.
 chain::ScaledProblem contacts_problem(bool implicit) {
   chain::ScaledProblem small = chain_problem();
   for (const friction::Definition* law : friction::laws())
@@ -86,7 +86,7 @@ std::string saved_events() {
   return results::serialize(results);
 }
 
-/// Results of what was saved, looked at as files do.
+/// Evaluates events from saved results, and reads all columns that a file would contain.
 void go_on_with_events(const std::string& state) {
   std::vector<results::SavedResult> found = results::deserialize(state);
   for (catalogue::Entry& entry : entries()) {

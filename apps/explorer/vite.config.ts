@@ -3,7 +3,7 @@ import preact from '@preact/preset-vite';
 import katex from 'katex';
 import { defineConfig, type Plugin } from 'vite';
 
-/** Formulas become HTML and MathML when the page is built: no reader has to wait for that. */
+/** Renders formulas as HTML and MathML when the page is built, so that no reader has to wait for that. */
 function formulas(): Plugin {
   return {
     name: 'formulas',
@@ -19,7 +19,7 @@ function formulas(): Plugin {
   };
 }
 
-/** Of the fonts of formulas only the format that every browser of today reads. */
+/** Keeps only woff2, which every current browser reads, of the font formats of the formulas. */
 function onlyWoff2(): Plugin {
   return {
     name: 'only-woff2',

@@ -18,13 +18,14 @@ void describe(const scenario::Scenario& s, const run::ChainPlan& plan, const std
   const chain::Problem p = chain::problem_of(plan.chain);
   record::require_disk_space(output, plan.need.disk);
   if (p.implicit) {
-    put(fmt::format(
-        "{}: fine. Would run {} sites, {:.6g} apart, at scale {:.6g} by implicit steps of tolerance {:.6g}, {}.\n",
-        s.title.empty() ? s.file : s.title, p.grid.sites, p.grid.spacing, plan.chain.scale, p.tolerance,
-        in_words(plan.need)));
+    put(
+        fmt::format("{}: OK. This scenario would run {} sites, {:.6g} apart, at scale {:.6g} by implicit steps of "
+                    "tolerance {:.6g}, {}.\n",
+                    s.title.empty() ? s.file : s.title, p.grid.sites, p.grid.spacing, plan.chain.scale, p.tolerance,
+                    in_words(plan.need)));
     return;
   }
-  put(fmt::format("{}: fine. Would run {} sites, {:.6g} apart, at scale {:.6g} for {:.0f} steps, {}.\n",
+  put(fmt::format("{}: OK. This scenario would run {} sites, {:.6g} apart, at scale {:.6g} for {:.0f} steps, {}.\n",
                   s.title.empty() ? s.file : s.title, p.grid.sites, p.grid.spacing, plan.chain.scale,
                   s.end * plan.chain.scale / chain::chosen_step(p), in_words(plan.need)));
 }
@@ -34,7 +35,7 @@ int run_chain(const ScenarioArguments& a) {
   scenario::Scenario s;
   run::ChainPlan plan;
   std::optional<record::Checkpoint> saved;
-  the_ranks->together([&] {  // so that what is wrong is said once
+  the_ranks->together([&] {  // so that an error is reported only once
     s = read_scenario_of(a);
     plan = run::plan_chain(s, the_ranks->share_of_machine());
     if (!a.resume.empty()) saved = run::checkpoint_of(a.resume, s);
@@ -58,7 +59,8 @@ int run_chain(const ScenarioArguments& a) {
 
 Runner add_chain(CLI::App& app) {
   auto a = std::make_shared<ScenarioArguments>();
-  CLI::App* command = app.add_subcommand("chain", "Every dislocation, directly: Eqs. (1) and (3), on a scenario");
+  CLI::App* command =
+      app.add_subcommand("chain", "The chain, which follows every dislocation: Eqs. (1) and (3), on a scenario");
   add_scenario_options(*command, *a);
   return [a] { return run_chain(*a); };
 }

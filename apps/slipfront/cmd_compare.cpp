@@ -26,7 +26,7 @@ void describe(const scenario::Scenario& s, const Comparison& c, const std::strin
   const Estimate need = estimate_of(s, c);
   record::require_disk_space(output, need.disk);
   check_cells(s, c.problem);
-  std::string text = fmt::format("{}: fine. Would compare {}pulse (consistent, paper)",
+  std::string text = fmt::format("{}: OK. The comparison would run {}pulse (consistent, paper)",
                                  s.title.empty() ? s.file : s.title, c.exact ? "the closed form, " : "");
   for (const auto& chain : c.chains)
     text += fmt::format(", chain at scale {:.6g} ({} sites)", chain.scale, chain::problem_of(chain).grid.sites);
@@ -43,8 +43,7 @@ int run_compare(const Arguments& a) {
   }
   const record::Output output(a.output, "");
   record::require_disk_space(a.output, estimate_of(s, comparison).disk);
-  if (output.wanted())
-    interrupted_means("; the levels that were done are in " + output.unfinished(), output.unfinished());
+  if (output.wanted()) interrupted_means("; the finished levels are in " + output.unfinished(), output.unfinished());
   const WatchInterrupts watch;
   std::vector<Level> levels;
   std::optional<Progress> progress;
@@ -57,7 +56,7 @@ int run_compare(const Arguments& a) {
       });
   progress.reset();
   if (!reached) {
-    complain(fmt::format("interrupted; {} of {} levels were done{}", levels.size(), comparison.levels(),
+    complain(fmt::format("interrupted; {} of {} levels are finished{}", levels.size(), comparison.levels(),
                          a.output.empty() ? "" : " and are in " + output.unfinished()));
     return exit_interrupted;
   }

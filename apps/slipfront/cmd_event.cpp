@@ -14,7 +14,7 @@ int run_event(const EventArguments& a) {
     throw slipfront::InputError({.file = "command line",
                                  .key = "--draws",
                                  .value = std::to_string(a.draws),
-                                 .problem = "nowhere to write the draws",
+                                 .problem = "there is no file to write the draws to",
                                  .allowed = "with -o OUT.nc"});
   return to_file ? write_events(a) : print_events(a);
 }
@@ -23,23 +23,28 @@ void add_medium_options(CLI::App* command, slipfront::medium::StatedDefaults& me
   command
       ->add_option("--p-wave-speed", medium.p_wave_speed, "For events that give no elastic constants (default: 6 km/s)")
       ->type_name("SPEED");
-  command->add_option("--poisson-ratio", medium.poisson_ratio, "Likewise (default: 0.3)")->type_name("RATIO");
-  command->add_option("--shear-modulus", medium.shear_modulus, "Likewise (default: 30 GPa)")->type_name("MODULUS");
+  command
+      ->add_option("--poisson-ratio", medium.poisson_ratio, "For events that give no elastic constants (default: 0.3)")
+      ->type_name("RATIO");
+  command
+      ->add_option("--shear-modulus", medium.shear_modulus,
+                   "For events that give no elastic constants (default: 30 GPa)")
+      ->type_name("MODULUS");
 }
 
 void add_sampling_options(CLI::App* command, EventArguments& arguments) {
   command
       ->add_option("--samples", arguments.samples,
                    "Sample every event with this many states of the fault (default: 1000 for events that carry an "
-                   "uncertainty, a contact ratio, a stress drop or a friction coefficient; 0: none). They double until "
-                   "they suffice for intervals")
+                   "uncertainty, a contact ratio, a stress drop or a friction coefficient; 0: none). Their number is "
+                   "doubled until it suffices for intervals")
       ->check(CLI::Range(0, 10000000));
   command
       ->add_option("--draws", arguments.draws,
                    "Write this many states of the posterior of each sampled event too (with -o OUT.nc)")
       ->check(CLI::Range(1, 100000));
-  command->add_option("--seed", arguments.seed, "Of the samples (default: 1)");
-  command->add_option("--closure", arguments.closure, "Of the friction: consistent (default) or paper")
+  command->add_option("--seed", arguments.seed, "Seed of the samples (default: 1)");
+  command->add_option("--closure", arguments.closure, "Closure of the friction: consistent (default) or paper")
       ->check(CLI::IsMember({"consistent", "paper"}));
 }
 
@@ -55,17 +60,18 @@ Runner add_event(CLI::App& app) {
   add_medium_options(command, arguments->medium);
   add_sampling_options(command, *arguments);
   command->add_flag("--pulse", arguments->pulse,
-                    "Run a frictionless pulse through the slip distribution of a .fsp; its front and slip beside the "
-                    "model's");
-  command->add_flag("--population", arguments->population,
-                    "Decades of rupture velocity instead of events (with --json: besides): how many events each has, "
-                    "medians and 5-95 % of what is known of them, and the closed form");
+                    "Run a frictionless pulse through the slip distribution of a .fsp, and compare its front and slip "
+                    "with those of the model");
+  command->add_flag(
+      "--population", arguments->population,
+      "Print statistics by decade of rupture velocity instead of events (with --json: in addition): number "
+      "of events, medians and 5-95 % ranges of the known quantities, and the closed form");
   command
       ->add_option("-o,--output", arguments->output,
-                   "File to write instead of the table: NetCDF, or CSV rows by its ending")
-      ->check([](const std::string& path) { return path.empty() ? "no name of a file" : ""; })
+                   "File to write instead of the table: NetCDF, or CSV rows if the name ends in .csv")
+      ->check([](const std::string& path) { return path.empty() ? "the file name is empty" : ""; })
       ->type_name("OUT.nc");
-  command->add_option("--resume", arguments->resume, "Go on from an unfinished file of these events, and write to it")
+  command->add_option("--resume", arguments->resume, "Resume from an unfinished file of these events, and write to it")
       ->type_name("OUT.nc");
   add_common_options(*command, arguments->common);
   return [arguments] { return run_event(*arguments); };

@@ -44,7 +44,7 @@ std::filesystem::path page(const Arguments& a) {
   std::filesystem::path folder = a.folder.empty() ? shipped_page() : std::filesystem::path(a.folder);
   std::error_code error;
   if (std::filesystem::is_regular_file(std::filesystem::symlink_status(folder / "index.html", error))) return folder;
-  if (!a.folder.empty()) throw FileError(a.folder + ": no page is there (index.html is missing)");
+  if (!a.folder.empty()) throw FileError(a.folder + ": the folder contains no page (index.html is missing)");
   throw FileError("the page has not been built; ./run explore builds it and serves it");
 }
 

@@ -47,10 +47,10 @@ std::string duration_of(const run::PulsePlan& plan) {
 void describe(const scenario::Scenario& s, const run::PulsePlan& plan, const std::string& output) {
   const pulse::Problem& problem = plan.problem;
   record::require_disk_space(output, plan.need.disk);
-  put(fmt::format("{}: fine. Would run {} cells over x = {:.6g} ... {:.6g} to t = {:.6g}, {} (closure {}), {}{}.\n",
-                  s.title.empty() ? s.file : s.title, problem.cells, problem.left, problem.right, s.end,
-                  parameters_in_words(s.friction), name_of(s.friction.closure()), in_words(plan.need),
-                  duration_of(plan)));
+  put(fmt::format(
+      "{}: OK. This scenario would run {} cells over x = {:.6g} ... {:.6g} to t = {:.6g}, {} (closure {}), {}{}.\n",
+      s.title.empty() ? s.file : s.title, problem.cells, problem.left, problem.right, s.end,
+      parameters_in_words(s.friction), name_of(s.friction.closure()), in_words(plan.need), duration_of(plan)));
 }
 
 int run_pulse(ScenarioArguments a, std::optional<double> tolerance) {
@@ -86,8 +86,9 @@ Runner add_pulse(CLI::App& app) {
   add_scenario_options(*command, *a);
   auto tolerance = std::make_shared<std::optional<double>>();
   command
-      ->add_option("--tolerance", *tolerance,
-                   "Relative error of slip, slip velocity and stress at x = 0: doubles pulse.cells until reached")
+      ->add_option(
+          "--tolerance", *tolerance,
+          "Relative error of slip, slip velocity and stress at x = 0; pulse.cells is doubled until it is reached")
       ->type_name("ERROR");
   return [a, tolerance] { return run_pulse(*a, *tolerance); };
 }

@@ -14,7 +14,7 @@
 #include "commands.hpp"
 #include "slipfront/error.hpp"
 
-/// Subcommands that live in the Python package: handed over with their arguments as they are.
+/// Subcommands of the Python package. They receive their arguments unchanged.
 
 namespace {
 
@@ -28,7 +28,8 @@ constexpr std::array<PythonCommand, 3> commands = {{
     {"animate", "A slip pulse as a moving picture"},
 }};
 
-/// The package of this executable, in the build tree or installed. Empty: neither.
+/// The folder of the Python package that belongs to this executable, in the build tree or installed. Empty if neither
+/// exists.
 std::filesystem::path package_folder() {
   std::error_code error;
   const auto here = std::filesystem::read_symlink("/proc/self/exe", error).parent_path().parent_path();
@@ -38,7 +39,7 @@ std::filesystem::path package_folder() {
   return {};
 }
 
-/// The program that Python runs. Signals that ask it to end are blocked until it can answer them.
+/// The program that Python runs. Signals that ask it to end are blocked until it can handle them.
 constexpr const char* launch =
     "import os, signal, sys\n"
     "ending = {signal.SIGINT, signal.SIGTERM, signal.SIGHUP}\n"
@@ -52,7 +53,7 @@ constexpr const char* launch =
     "from slipfront.__main__ import end, main\n"
     "end(main())\n";
 
-/// Python answers signals only some time after it has started. The mask passes through exec.
+/// Python handles signals only some time after its start, so we block them first. exec keeps the signal mask.
 void block_interrupts() {
   sigset_t ending;
   sigemptyset(&ending);
@@ -65,12 +66,12 @@ void block_interrupts() {
   const std::filesystem::path folder = package_folder();
   if (folder.empty())
     throw slipfront::FileError(name +
-                               ": the Python package slipfront is not beside this program; install the Debian packages "
-                               "pybind11-dev and python3-dev, and build again");
+                               ": the Python package slipfront is missing next to this program; install the Debian "
+                               "packages pybind11-dev and python3-dev, and build again");
   std::string path = folder.string();
   if (const char* others = std::getenv("PYTHONPATH"); others && *others) path += std::string(":") + others;
   setenv("PYTHONPATH", path.c_str(), 1);
-  setenv("PYTHONSAFEPATH", "1", 1);  // a folder `slipfront` where the user stands is not the package
+  setenv("PYTHONSAFEPATH", "1", 1);  // else a folder `slipfront` in the working directory would hide the package
   std::string interpreter = SLIPFRONT_PYTHON_INTERPRETER, option = "-c", code = launch;
   std::vector<char*> arguments = {interpreter.data(), option.data(), code.data(), name.data()};
   arguments.insert(arguments.end(), first, last);

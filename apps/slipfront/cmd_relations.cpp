@@ -18,7 +18,7 @@ using slipfront::rupture::Relations;
 using slipfront::rupture::relations_quantities;
 using slipfront::rupture::RelationsQuantity;
 
-/// What a state may be given by.
+/// An option that gives states, such as --stress.
 struct Given {
   const char* option;
   Relations (*solve)(double);
@@ -123,7 +123,7 @@ std::vector<State> states_asked_for(const CLI::App& command, std::array<Given, 3
                           .key = given.option,
                           .value = "-",
                           .problem = "stdin was already read",
-                          .allowed = "one - in all"});
+                          .allowed = "only one -"});
       stdin_taken = stdin_taken || from_stdin;
       for (const StateValue& at : state_values(text, given.option)) states.push_back({&given, at});
     }
@@ -131,7 +131,7 @@ std::vector<State> states_asked_for(const CLI::App& command, std::array<Given, 3
   if (states.empty())
     throw InputError(
         {.file = "command line",
-         .problem = "relations: nothing was asked for",
+         .problem = "relations: no state is given",
          .allowed = "--stress S, --rupture-velocity V or --slip-velocity W; see slipfront relations --help"});
   return states;
 }
@@ -149,8 +149,8 @@ Runner add_relations(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand(
       "relations",
-      "Stress, rupture velocity and slip velocity of a frictionless slip pulse, each from any other (Eqs. 8-10); what "
-      "friction leaves of the slip velocity, and the friction coefficient from that (Fig. 10)");
+      "Stress, rupture velocity and slip velocity of a frictionless slip pulse, each from any other (Eqs. 8-10). With "
+      "friction: the ratio of slip velocities from the friction coefficient, or the reverse (Fig. 10)");
   const std::array<const char*, 3> help = {"Stress before the rupture, in mu A / pi",
                                            "Velocity of the fast front, in c", "Slip velocity at x = 0, in c A / pi"};
   for (std::size_t i = 0; i < 3; ++i) {

@@ -11,6 +11,7 @@ using AddCommand = Runner(CLI::App& app);
   COMMAND(pulse)                    \
   COMMAND(chain)                    \
   COMMAND(compare)                  \
+  COMMAND(keys)                     \
   COMMAND(explore)
 
 #define DECLARE(name) AddCommand add_##name;

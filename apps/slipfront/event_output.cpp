@@ -21,7 +21,8 @@ using slipfront::results::event_numbers;
 using slipfront::results::EventResult;
 using slipfront::results::joined;
 
-/// A cell of text. A spreadsheet runs one that begins like a formula: it gets an apostrophe before it (docs/events.md).
+/// A CSV cell with text. A spreadsheet would run text that begins like a formula, so we put an apostrophe before it
+/// (docs/events.md).
 std::string quoted(const std::string& text) {
   const bool like_formula = !text.empty() && std::string_view("=+-@\t").find(text[0]) != std::string_view::npos;
   std::string out = like_formula ? "\"'" : "\"";
@@ -88,7 +89,7 @@ Json pulse_json(const FaultPulse& p) {
             {"pulse_slip_m", p.pulse_slip},
             {"end_s", p.end},
             {"columns_reached", p.reached}};
-  for (const auto& q : pulse_quantities())  // without "pulse_", which the object says
+  for (const auto& q : pulse_quantities())  // without the prefix "pulse_", because the object is named "pulse"
     if (!q.is_count) j[std::string(q.about.name.substr(6))] = json_of(q.get(p));
   return j;
 }

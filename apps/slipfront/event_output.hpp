@@ -5,22 +5,22 @@
 
 #include "results/columns.hpp"
 
-/// One object of `{"events": [...]}`; null where not identifiable.
+/// One object of `{"events": [...]}`. Quantities that are not identifiable are null.
 std::string event_json(const slipfront::results::EventResult& result);
 
-/// Full-precision CSV with the same names; empty where not identifiable. What a pulse through a finite-fault model is
-/// summed up by has columns of its own `with_pulse`.
+/// CSV in full precision with the names of the JSON object. Quantities that are not identifiable are empty. With
+/// `with_pulse` there are also columns that summarise a pulse through a finite-fault model.
 std::string event_csv_head(bool with_pulse);
 std::string event_csv_row(const slipfront::results::EventResult& result, bool with_pulse);
 
-/// "2.8 m/s", "0.3 mm/day", "-".
+/// Text of a slip velocity: "2.8 m/s", "0.3 mm/day", "-".
 std::string speed_text(const std::optional<double>& metres_per_second);
-/// The same of a rupture front: slow ones in km/day.
+/// Text of the velocity of a rupture front. Slow fronts are in km/day.
 std::string front_text(const std::optional<double>& metres_per_second);
 
-/// A table for people: a line an event, and below it the ends of the intervals, where there are any.
+/// A table for the terminal: one line per event, and below it the ends of the intervals, if there are any.
 std::string event_table_head();
 std::string event_table_row(const slipfront::results::EventResult& result);
-/// Two lines on the pulse through a finite-fault model, or one with the reason why there is none; nothing if it was
-/// not asked for.
+/// Two lines about the pulse through a finite-fault model, or one line with the reason why there is no pulse. Empty if
+/// the user did not request a pulse.
 std::string event_pulse_lines(const slipfront::results::EventResult& result);

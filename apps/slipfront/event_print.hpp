@@ -10,17 +10,17 @@
 #include "commands.hpp"
 #include "results/evaluate.hpp"
 
-/// What of the events is printed.
+/// The parts of the results that are printed.
 struct EventShown {
-  bool rows = true;  ///< one an event, in a table; JSON and CSV have them always, CSV unless there is a population
+  bool rows = true;  ///< table rows, one per event; JSON always has rows, CSV has them unless there is a population
   bool population = false;  ///< decades of rupture velocity
   bool pulse = false;       ///< columns of a pulse through each finite-fault model
 };
 
-/// Prints results one by one as they come, and at the end what is to be said of them all.
+/// Prints results one by one as they arrive, and at the end the warnings and the population.
 class EventPrinter {
  public:
-  /// One event, ready to print: made on any thread.
+  /// One event, ready to print. Any thread may make it.
   struct Printed {
     std::string row, error;
     std::vector<std::string> warnings;
@@ -31,7 +31,7 @@ class EventPrinter {
   Printed printed(const slipfront::results::EventResult& result) const;
   void take(Printed&& printed);
 
-  /// `written`: to which file, if any.
+  /// Ends the output. `written` is the file that was written, or empty.
   void finish(const std::vector<std::string>& ignored_columns, const std::string& written);
   std::size_t errors() const { return errors_; }
 

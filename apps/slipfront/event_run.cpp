@@ -21,7 +21,7 @@ using slipfront::run::EventText;
 
 namespace {
 
-/// The texts of all files; of one that cannot be read, the reason.
+/// The texts of all files. A file that cannot be read has the reason instead.
 std::vector<EventText> texts_of(const EventArguments& a) {
   if (a.files.empty()) return {{"catalogue.csv", std::string(shipped_catalogue)}};
   std::vector<EventText> all;
@@ -35,7 +35,7 @@ std::vector<EventText> texts_of(const EventArguments& a) {
   return all;
 }
 
-/// All events are sampled if the user says how often; those of --json are looked at along the fault.
+/// With --samples all events are sampled. With --json the results also have quantities along the fault.
 slipfront::run::CatalogueScenario scenario_of(const EventArguments& a) {
   std::string line = "slipfront event";
   for (const std::string& file : a.files) line += " " + file;
@@ -51,7 +51,8 @@ slipfront::run::CatalogueScenario scenario_of(const EventArguments& a) {
           .command_line = line};
 }
 
-/// Ends the output; columns that the shipped catalogue has besides are no news.
+/// Ends the output. It does not report the ignored columns of the shipped catalogue, because the user did not write
+/// them.
 int finish(EventPrinter& printer, const EventArguments& a, const slipfront::run::CatalogueColumns& columns,
            const std::string& path) {
   printer.finish(a.files.empty() ? std::vector<std::string>{} : columns.ignored, path);
@@ -60,20 +61,17 @@ int finish(EventPrinter& printer, const EventArguments& a, const slipfront::run:
 
 bool is_csv(const std::string& path) { return std::string_view(path).ends_with(".csv"); }
 
-/// \throws InputError for a file that is neither NetCDF nor CSV by its name, or that the events are read from.
+/// \throws InputError for an output file whose name is neither NetCDF nor CSV, or that is also an input file.
 void check_names(const EventArguments& a) {
   const auto refuse = [](const char* option, const std::string& value, const char* allowed) {
-    throw slipfront::InputError({.file = "command line",
-                                 .key = option,
-                                 .value = value,
-                                 .problem = "cannot be such a file",
-                                 .allowed = allowed});
+    throw slipfront::InputError(
+        {.file = "command line", .key = option, .value = value, .problem = "cannot be used here", .allowed = allowed});
   };
   const auto is_netcdf = [](const std::string& path) { return std::string_view(path).ends_with(".nc"); };
   if (!a.output.empty() && !is_netcdf(a.output) && !is_csv(a.output)) refuse("-o", a.output, "OUT.nc or OUT.csv");
   std::error_code not_there;
   for (const std::string& file : a.files)
-    if (std::filesystem::equivalent(file, a.output, not_there)) refuse("-o", a.output, "another file than those read");
+    if (std::filesystem::equivalent(file, a.output, not_there)) refuse("-o", a.output, "a file other than those read");
   if (!a.resume.empty() && !is_netcdf(a.resume)) refuse("--resume", a.resume, "OUT.nc, as -o wrote it");
   if (a.draws > 0 && is_csv(a.output)) refuse("-o", a.output, "OUT.nc, with --draws");
   if (!a.resume.empty() && is_csv(a.output)) refuse("-o", a.output, "OUT.nc, with --resume");
@@ -85,11 +83,11 @@ void write_rows(const std::string& path, const std::vector<EventResult>& results
   slipfront::record::write_text(path, text);
 }
 
-/// Runs the catalogue with a line of progress and heed to Ctrl-C.
+/// Runs the catalogue with a progress line. Ctrl-C interrupts it.
 slipfront::run::CatalogueResult run_watched(const EventArguments& a, slipfront::run::CataloguePlan&& plan,
                                             const slipfront::record::Output& output) {
-  interrupted_means(output.wanted() ? "; what was written last stays: go on with " + output.how_to_resume()
-                                    : "; nothing was written: -o OUT.nc could be resumed",
+  interrupted_means(output.wanted() ? "; the last checkpoint is saved: continue with " + output.how_to_resume()
+                                    : "; nothing was written (a run with -o OUT.nc can be resumed)",
                     output.wanted() ? output.unfinished() : "");
   const WatchInterrupts watch;
   std::optional<Progress> progress;
@@ -110,7 +108,7 @@ slipfront::run::CatalogueResult run_watched(const EventArguments& a, slipfront::
 }  // namespace
 
 int print_events(const EventArguments& a) {
-  std::optional<EventPrinter> printer;  // once the arguments have been checked
+  std::optional<EventPrinter> printer;  // starts to print after the arguments have been checked
   const auto columns =
       slipfront::run::stream_catalogue(scenario_of(a), a.common.threads, [&](std::vector<EventResult>&& results) {
         if (!printer)
@@ -127,14 +125,14 @@ int write_events(const EventArguments& a) {
   slipfront::run::CataloguePlan plan = slipfront::run::plan_catalogue(scenario_of(a), a.common.threads, true);
   const std::string& path = a.output.empty() ? a.resume : a.output;
   const slipfront::record::Output output(is_csv(path) ? "" : path, a.resume);
-  if (is_csv(path)) slipfront::record::require_disk_space(path, plan.disk);  // of NetCDF, run::catalogue does
+  if (is_csv(path)) slipfront::record::require_disk_space(path, plan.disk);  // for NetCDF, run::catalogue checks
   const slipfront::run::CatalogueColumns columns = plan.columns;
   const std::size_t total = plan.entries.size();
   const slipfront::run::CatalogueResult result = run_watched(a, std::move(plan), output);
   if (!result.finished) {
-    complain(fmt::format(
-        "interrupted after {} of {} events; {}", result.events.size(), total,
-        is_csv(path) ? "nothing was written: -o OUT.nc could be resumed" : "go on with " + output.how_to_resume()));
+    complain(fmt::format("interrupted after {} of {} events; {}", result.events.size(), total,
+                         is_csv(path) ? "nothing was written (a run with -o OUT.nc can be resumed)"
+                                      : "continue with " + output.how_to_resume()));
     return exit_interrupted;
   }
   if (is_csv(path)) write_rows(path, result.events, a.pulse);

@@ -15,7 +15,7 @@ using slipfront::results::EventResult;
 constexpr const char* table_layout = "{} {:>12} {:>9} {:>9} {:>12} {:>12} {:>12} {:>11} {:>9} {:>9}\n";
 constexpr std::size_t name_width = 34;
 
-/// The first `width` characters (code points) of a UTF-8 text, padded.
+/// The first `width` characters (code points) of a UTF-8 text, padded with blanks.
 std::string clipped(const std::string& text, std::size_t width) {
   std::string out;
   std::size_t count = 0;
@@ -36,7 +36,7 @@ std::string line_of(const Cells& cells) {
                      cells[6], cells[7], cells[8], cells[9]);
 }
 
-/// What is inferred, by its column; or a lower bound of it, if there is but that.
+/// An inferred quantity and its column. If only a lower bound is known, the column shows `bound`.
 struct Column {
   std::size_t cell;
   std::optional<Inferred> Estimate::*value;
@@ -55,7 +55,7 @@ constexpr std::array<Column, 7> columns = {{{2, &Estimate::rupture_velocity},
                                             {8, &Estimate::stress_pa, 1e6, 4, &Estimate::stress_pa_bound},
                                             {9, &Estimate::damping_number, 1, 3}}};
 
-/// One end of the intervals, below the values; nothing where there is none.
+/// A line with one end of each interval, printed below the values. Empty if there are no intervals.
 std::string interval_line(const Estimate& e, const char* label, double slipfront::inference::Interval::*end) {
   Cells cells;
   cells[0] = fmt::format("{:>{}}", label, name_width);

@@ -3,19 +3,20 @@
 #include <string>
 #include <string_view>
 
-/// Ctrl-C (SIGINT), SIGTERM and SIGHUP.
+/// Handling of the signals SIGINT (Ctrl-C), SIGTERM and SIGHUP.
 
-/// From the start of the program: such a signal ends it at once with exit code 130 and one line, "interrupted" and what
-/// interrupted_means says.
+/// The program calls this at its start. From then on, such a signal ends the program at once with exit code 130. It
+/// prints one line: "interrupted", followed by the text of interrupted_means.
 void end_on_interrupts();
 
-/// Sets what an interruption means from now on, such as "; nothing was written". At most 400 bytes are kept. A text
-/// that speaks of a file is replaced by "; nothing has been written yet" while `file` does not exist.
+/// Sets the text that follows "interrupted" from now on, such as "; nothing was written". Text after 400 bytes is cut.
+/// While `file` does not exist, the text is replaced by "; nothing has been written yet".
 void interrupted_means(std::string_view text, const std::string& file = {});
 
-/// While it lives the first signal is seen by interrupted_by_user(), and the work has a second to come to its end:
-/// then, unless a file is being written, or at a second signal, the program ends like above, leaving what was written
-/// last. `patient`: it has all the time it takes (a rank that waits for the one which writes).
+/// While this object exists, the first signal only makes interrupted_by_user() true, and the work has a second to end.
+/// After that second, or at a second signal, the program ends as above, and the last complete file remains. It does not
+/// end while it writes a file. If `patient`, the time is not limited: this is for a rank that waits for the writing
+/// rank.
 class WatchInterrupts {
  public:
   explicit WatchInterrupts(bool patient = false);

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int most_words = 1000;
 
-/// The scenario, and what stands behind one --set as if it had its own: --set a.b=1 c.d=2.
+/// Divides the positional arguments into the scenario and further values of one --set, as in --set a.b=1 c.d=2.
 void take_words(ScenarioArguments& a, const std::vector<std::string>& words) {
   for (const std::string& word : words) {
     std::error_code none;
@@ -26,11 +26,11 @@ void take_words(ScenarioArguments& a, const std::vector<std::string>& words) {
     else if (a.scenario.empty())
       a.scenario = word;
     else
-      a.one_too_many = word;  // said later: an option that is unknown is the better reason
+      a.one_too_many = word;  // reported later, because an unknown option is the better explanation
   }
 }
 
-/// What is wrong with the name of an output, for CLI11.
+/// The error in the name of an output, as a text for CLI11. Empty if there is none.
 std::string netcdf_name(const std::string& path) {
   try {
     record::require_netcdf_name(path, "-o");
@@ -49,16 +49,17 @@ void add_scenario_options(CLI::App& command, ScenarioArguments& a, bool with_res
       ->required()
       ->expected(1, most_words)
       ->type_name("");
-  command.add_option("-o,--output", a.output, "NetCDF file to write; what stands there is replaced when all is done")
+  command
+      .add_option("-o,--output", a.output, "NetCDF file to write; an existing file is replaced at the end of the run")
       ->check(netcdf_name)
       ->type_name("OUT.nc");
   if (with_resume)
-    command.add_option("--resume", a.resume, "Go on from a file of this scenario, and write to it")
+    command.add_option("--resume", a.resume, "Resume from a file of this scenario, and write to it")
         ->type_name("OUT.nc");
-  command.add_option("--set", a.set, "table.key=value, in place of the scenario's; repeatable")
+  command.add_option("--set", a.set, "table.key=value, which replaces that of the scenario; repeatable")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
-  command.add_flag("--check", a.check, "Read, validate, say what would run, and stop");
+  command.add_flag("--check", a.check, "Read and check the scenario, print what would run, and stop");
   add_common_options(command, a.common, false);
 }
 
@@ -67,7 +68,7 @@ scenario::Scenario read_scenario_of(const ScenarioArguments& a) {
     throw InputError({.file = "command line",
                       .key = "SCENARIO",
                       .value = a.one_too_many,
-                      .problem = a.scenario.empty() ? "missing" : "one too many",
+                      .problem = a.scenario.empty() ? "missing" : "a second scenario file",
                       .allowed = "one file"});
   std::vector<std::string> set = a.set;
   set.insert(set.end(), a.more_set.begin(), a.more_set.end());
@@ -101,7 +102,7 @@ Json json_of(const std::vector<output::SlipEvent>& events) {
   return all;
 }
 
-/// Three digits: an error is not known better.
+/// Rounds to three digits, because an error is not known more precisely.
 double rounded(double error) { return std::strtod(fmt::format("{:.3g}", error).c_str(), nullptr); }
 
 std::string summary_json(const std::vector<run::SummaryValue>& summary, const std::vector<double>& errors,
@@ -132,7 +133,7 @@ std::string parameters_in_words(const friction::Friction& friction) {
   std::string text;
   for (const friction::Parameter& p : friction.definition().parameters) {
     const double value = friction.parameter(p.name);
-    if (value == 0 && p.value == 0 && p.words.empty() && !text.empty()) continue;  // has no effect
+    if (value == 0 && p.value == 0 && p.words.empty() && !text.empty()) continue;  // it has no effect
     const std::string words =
         p.words.empty() ? fmt::format("{:.6g}", value) : std::string(p.words.at(static_cast<std::size_t>(value)));
     text += fmt::format("{}{} = {}", text.empty() ? " with " : ", ", p.name, words);
@@ -169,7 +170,7 @@ LongRun::LongRun(const ScenarioArguments& arguments, const scenario::Scenario& s
   const auto open = [&] { output_ = record::Output(a_.output.empty() ? a_.resume : a_.output, a_.resume); };
   ranks_ ? ranks_->together(open) : open();
   if (output_.wanted())
-    interrupted_means("; what was written last stays: go on with " + output_.how_to_resume(), output_.unfinished());
+    interrupted_means("; the last checkpoint is saved: continue with " + output_.how_to_resume(), output_.unfinished());
   watch_.emplace(!first_);
 }
 
@@ -196,7 +197,8 @@ int LongRun::end(bool finished) {
   watch_.reset();
   if (finished) return exit_done;
   if (first_)
-    complain(output_.wanted() ? fmt::format("interrupted at t = {:.6g}; go on with {}", time_, output_.how_to_resume())
-                              : "interrupted; no checkpoint, as there is no -o FILE");
+    complain(output_.wanted()
+                 ? fmt::format("interrupted at t = {:.6g}; continue with {}", time_, output_.how_to_resume())
+                 : "interrupted; there is no checkpoint, because -o was not given");
   return exit_interrupted;
 }

@@ -16,39 +16,41 @@
 #include "run/summary.hpp"
 #include "slipfront/scenario/scenario.hpp"
 
-/// What the subcommands that run a scenario have in common.
+/// Arguments of the subcommands that run a scenario.
 struct ScenarioArguments {
   CommonOptions common;
   std::string scenario, output, resume;
-  std::vector<std::string> set, more_set;  ///< the second: behind one --set
-  std::string one_too_many;                ///< a second scenario
+  std::vector<std::string> set, more_set;  ///< values of --set; `more_set` are the further values of one --set
+  std::string one_too_many;                ///< a second scenario, which is an error
   bool check = false;
 };
 
 void add_scenario_options(CLI::App& command, ScenarioArguments& arguments, bool with_resume = true);
 
-/// The scenario; its warnings are said.
+/// Reads the scenario and prints its warnings.
 slipfront::scenario::Scenario read_scenario_of(const ScenarioArguments& arguments);
 
 /// The law of friction with its parameters: "slip-weakening friction with strength = 0.08, residual = 0.02".
 std::string parameters_in_words(const slipfront::friction::Friction& friction);
-/// Prints the summary of a run as a table or as one JSON object on stdout. `warnings`, a sentence each, are in the
-/// JSON; those that `read_scenario_of` has not printed go to stderr. `errors`: of each row, NaN where there is none;
-/// empty: none at all. `events`: of a loaded chain; else null.
+/// Prints the summary of a run as a table or as one JSON object on stdout. `warnings`, one sentence each, are in the
+/// JSON. Those that `read_scenario_of` has not printed go to stderr. `errors` has one error per row, NaN if a row has
+/// none; it is empty if no row has an error. `events` are those of a loaded chain, else null.
 void print_summary(const slipfront::scenario::Scenario& scenario,
                    const std::vector<slipfront::run::SummaryValue>& summary, const std::vector<double>& errors,
                    const std::vector<std::string>& warnings, const ScenarioArguments& arguments,
                    const std::vector<slipfront::output::SlipEvent>* events = nullptr);
 
-/// A run (of pulse or chain) of the program: its progress, its output, and heed to Ctrl-C while this lives.
+/// The progress line and the output file of a `pulse` or `chain` run. While this object exists, Ctrl-C interrupts the
+/// run.
 class LongRun {
  public:
-  /// `ranks` that share the run; null: none.
+  /// `ranks` are the processes that share the run; null if there is only this one.
   LongRun(const ScenarioArguments& arguments, const slipfront::scenario::Scenario& scenario,
           const slipfront::Ranks* ranks);
-  /// How to carry the run out: with its output, from the checkpoint if any. `begun`: when the command was.
+  /// Options of the run: its output, the checkpoint to resume from, if any, and the time `begun` when the command
+  /// began.
   slipfront::run::Options options(std::optional<slipfront::record::Checkpoint> checkpoint, Clock::time_point begun);
-  /// After the run; says where it was interrupted. Returns the exit code.
+  /// Ends the run. If it was interrupted, prints at which time. Returns the exit code.
   int end(bool finished);
 
  private:

@@ -14,7 +14,7 @@ using namespace slipfront::results;
 
 namespace {
 
-/// The spread of a quantity of this name.
+/// The spread of the quantity with this name.
 const Spread& spread_of(const Decade& decade, std::string_view name) {
   const auto quantities = population_quantities();
   for (std::size_t i = 0; i < quantities.size(); ++i)
@@ -22,7 +22,7 @@ const Spread& spread_of(const Decade& decade, std::string_view name) {
   throw std::logic_error("no such quantity of a population");
 }
 
-/// "median (5 % to 95 %)" in `unit`; one event has but its value.
+/// Text "median (5 % to 95 %)" in `unit`. For one event it is only the value.
 std::string spread_text(const Spread& s, double unit = 1) {
   if (s.events == 0) return "-";
   const auto text = [unit](double value) { return fmt::format("{:.3g}", value / unit); };
@@ -30,7 +30,7 @@ std::string spread_text(const Spread& s, double unit = 1) {
   return fmt::format("{} ({} to {})", text(s.of.median), text(s.of.low), text(s.of.high));
 }
 
-/// The same of velocities in m/s, with the unit that suits the median.
+/// Text of the spread of velocities in m/s, in a unit that suits the median.
 std::string velocities_text(const Spread& s) {
   if (s.events == 0) return "-";
   if (s.of.median >= 1e-3) return spread_text(s) + " m/s";
@@ -38,7 +38,7 @@ std::string velocities_text(const Spread& s) {
   return spread_text(s, 1e-3 / 86400) + " mm/day";
 }
 
-/// Stress in MPa: known values, and ">=" the lower bounds.
+/// Text of stresses in MPa: the known values, and the lower bounds after ">=".
 std::string stress_text(const Spread& known, const Spread& bound) {
   if (bound.events == 0) return spread_text(known, 1e6);
   return (known.events > 0 ? spread_text(known, 1e6) + ", " : "") + ">= " + spread_text(bound, 1e6);
@@ -89,9 +89,8 @@ std::string population_table(const std::vector<Decade>& decades, std::size_t eve
   std::size_t binned = 0;
   for (const Decade& d : decades) binned += d.events;
   std::string text = fmt::format(
-      "{} of {} events have a rupture velocity{}. Medians (5 % to 95 %) over the events of a decade; the closed form "
-      "is "
-      "in its middle.\n\n",
+      "{} of {} events have a rupture velocity{}. Medians (5 % to 95 %) are over the events of a decade. "
+      "The closed form is that in the middle of the decade.\n\n",
       binned, events, errors > 0 ? fmt::format(" ({} refused)", errors) : "");
   text += fmt::format("{:<13} {:>7} {:>16} {:>11}\n", "", "", "rupture", "stress by");
   text += fmt::format(layout, "V / c", "events", "velocity", "closed form", "stress, mu A / pi", "slip velocity",

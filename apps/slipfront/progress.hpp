@@ -9,19 +9,19 @@
 
 #include "foundation/clock.hpp"
 
-/// What long work shows: a line of progress.
+/// The progress line of long computations.
 
 using slipfront::Clock;
 using slipfront::seconds_since;
 
-/// How a line of progress speaks of what is done.
+/// Words shown in the progress line.
 struct ProgressWords {
   const char* before = "t = ";
   const char* steps = "steps";
-  int digits = 4;  ///< of what is done, and of the end
+  int digits = 4;  ///< digits of the current and the final value
 };
 
-/// A line on a terminal, renewed five times a second: share done, rate, time left.
+/// A line on a terminal that shows the finished fraction, the rate and the remaining time, five times a second.
 class Progress {
  public:
   Progress(double end, bool wanted, std::string label = {}, const ProgressWords& words = {})
@@ -57,7 +57,7 @@ class Progress {
   }
 
  private:
-  std::string label_;  ///< of what runs, where a command runs several
+  std::string label_;  ///< name of the current run, if a command has several
   ProgressWords words_;
   double end_;
   bool on_, drawn_ = false;

@@ -23,7 +23,7 @@ struct Row {
   double ratio, ratio_error, damping_number, coefficient, coefficient_error, slip_velocity;
 };
 
-/// The numbers of a row, under the names that JSON and CSV give them; the closure stands before them.
+/// The numbers of a row, with their names in JSON and CSV. The closure is in front of them.
 struct Column {
   const char* name;
   double Row::*value;
@@ -105,7 +105,7 @@ void print_table(const std::vector<Row>& rows, const FrictionOptions& friction) 
                   friction.measure, friction.time));
 }
 
-/// Names the command line where a number is out of range.
+/// Adds "command line" to an error for a number out of range.
 template <class Make>
 auto of_command_line(Make&& make) {
   try {
@@ -131,12 +131,13 @@ void check(const char* option, double value, bool zero_too) {
 void add_friction_options(CLI::App& command, FrictionOptions& options) {
   const auto one_each = [](CLI::Option* option) { option->allow_extra_args(false)->type_name("VALUE"); };
   one_each(command.add_option("--slip-velocity-ratio", options.ratios,
-                              "Slip velocity with viscous friction over the frictionless one: gives the friction "
-                              "coefficient C, by both closures; repeatable"));
+                              "Ratio of the slip velocity with viscous friction to the frictionless one; prints the "
+                              "friction coefficient C for both closures; repeatable"));
   one_each(command.add_option("--friction-coefficient", options.coefficients,
-                              "C of viscous friction f = C w: gives that ratio; repeatable"));
+                              "Coefficient C of viscous friction f = C w; prints that ratio; repeatable"));
   command
-      .add_option("--time", options.time, "T since the rupture began, in b / (c A): only C T matters (default: 2 pi)")
+      .add_option("--time", options.time,
+                  "Time T since the rupture began, in b / (c A); only C T matters (default: 2 pi)")
       ->type_name("T");
   command
       .add_option("--measure", options.measure,

@@ -6,19 +6,19 @@
 #include "commands.hpp"
 #include "slipfront/rupture/relations.hpp"
 
-/// What `relations` reads off with friction, as the paper does off its Fig. 10: C from a ratio of slip velocities, or
-/// the ratio from C, for both closures.
+/// Options of `relations` for friction. With them it computes C from a ratio of slip velocities, or the ratio from C,
+/// for both closures. The paper reads these numbers from its Fig. 10.
 struct FrictionOptions {
   std::vector<double> ratios;        ///< W over the frictionless W(0)
   std::vector<double> coefficients;  ///< C of f = C w
-  double time = 6.283185307179586;   ///< T, in b / (c A): only C T matters
-  std::string measure = "origin";    ///< which slip velocity: docs/friction_ratio.md
+  double time = 6.283185307179586;   ///< T, in b / (c A); only C T matters
+  std::string measure = "origin";    ///< which slip velocity, see docs/friction_ratio.md
 
   bool wanted() const { return !ratios.empty() || !coefficients.empty(); }
 };
 
 void add_friction_options(CLI::App& command, FrictionOptions& options);
 
-/// One row for each state, ratio or coefficient, and closure. \throws InputError
+/// Prints one row for each state, ratio or coefficient, and closure. \throws InputError.
 void print_friction(const std::vector<slipfront::rupture::Relations>& states, const FrictionOptions& friction,
                     const CommonOptions& options);

@@ -6,10 +6,11 @@
 
 struct StateValue {
   double value;
-  std::size_t line;  ///< of stdin, 0 from the command line
+  std::size_t line;  ///< line of stdin; 0 for the command line
 };
 
-/// The numbers meant by one value of --stress, --rupture-velocity or --slip-velocity: a number, a range `a:b:n` (n
-/// values, both ends included, evenly spaced), `a:b:n:log` (evenly spaced in the logarithm), or `-` for one number a
-/// line on stdin (blank lines and what follows a '#' are skipped). \throws InputError naming the option or the line.
+/// The numbers that one value of --stress, --rupture-velocity or --slip-velocity stands for. It may be a number or a
+/// range `a:b:n` of n evenly spaced values that includes both ends. The values of `a:b:n:log` are evenly spaced in the
+/// logarithm. `-` reads one number per line from stdin, without blank lines and comments after '#'. \throws InputError
+/// that names the option or the line.
 std::vector<StateValue> state_values(const std::string& text, const std::string& option);

@@ -1,5 +1,5 @@
-// Memory that ends where nobody catches it, in a library's static objects before main or on a thread of OpenMP, ends
-// the program like any other want of memory: with one line and its exit code.
+// Memory can run out where no code catches the exception: in static objects of a library before main, or on a thread of
+// OpenMP. The program must then end as in any other lack of memory, with one line and the usual exit code.
 
 #include <unistd.h>
 
@@ -30,7 +30,8 @@ std::terminate_handler handler_of_library = nullptr;
 void heed_uncaught() { handler_of_library = std::set_terminate(end_in_one_line); }
 
 #if !SLIPFRONT_SANITIZED && defined(__linux__)
-// Called before the constructors of all libraries. AddressSanitizer, which has to come before us, does without.
+// The system calls this before the constructors of all libraries. AddressSanitizer must come first, so builds with it
+// install the handler later.
 __attribute__((section(".preinit_array"), used)) void (*const before_libraries)() = heed_uncaught;
 #else
 [[maybe_unused]] const bool heeds_uncaught = (heed_uncaught(), true);

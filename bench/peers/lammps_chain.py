@@ -1,9 +1,10 @@
-"""The lattice of Eq. 1 in LAMMPS and in slipfront, one core each, in one run: do they agree, and how many sites a second.
+"""Compare the lattice of Eq. (1) in LAMMPS and in slipfront, on one core each: differences and site updates per second.
 
-u_tt = (u_{j+1} - 2 u_j + u_{j-1}) / A^2 - sin u_j, A = 0.5, ends fixed, no friction; kinks at U = 0.3 and antikinks at
-U = -0.3, 20 apart, which meet again and again. Velocity Verlet there and leapfrog here are the same steps, dt = 0.05. LAMMPS:
-bonds of rest length 0 are linear, so that the x coordinate of a site may be u itself; several ways to have the substrate are
-tried, the fastest counts. Rates are per second of processor time (LAMMPS: loop time x CPU use), best of several.
+The equation is u_tt = (u_{j+1} - 2 u_j + u_{j-1}) / A^2 - sin u_j with A = 0.5, fixed ends and no friction. The initial state
+has kinks with U = 0.3 and antikinks with U = -0.3, 20 apart, which collide repeatedly. Velocity Verlet in LAMMPS and leapfrog
+in slipfront are identical, with dt = 0.05. In LAMMPS, bonds of rest length 0 are linear, so that the x coordinate of a site
+may be u itself. We try several ways to define the substrate and count the fastest. Rates are per second of processor time
+(LAMMPS: loop time x CPU use), the best of several runs.
 
 Usage: lammps_chain.py [CHAIN_RUN] [LMP].   Needs the Debian package lammps.
 """
@@ -20,8 +21,8 @@ A, DT, U, APART, MARGIN = 0.5, 0.05, 0.3, 20, 100
 SIZES = ((10_000, 4000), (100_000, 400), (1_000_000, 40))  # sites, steps
 REPEATS, OURS_LONGER = 5, 20
 TURN = 2 * math.pi
-ANCHOR, BLOCK = 16.0, 64  # table bonds: distance to where u = 0, sites to an anchor
-REACH, POINTS = 60.0, 20000  # of the table
+ANCHOR, BLOCK = 16.0, 64  # table bonds: distance of an anchor from u = 0, number of sites per anchor
+REACH, POINTS = 60.0, 20000  # largest distance in the table, number of its points
 
 # name, pitch of the sites along x, substrate
 VARIANTS = (
@@ -35,7 +36,7 @@ LEAN = "atom_modify sort 0 0\ncomm_modify cutoff 1\nneigh_modify once yes\n"
 
 
 def start(sites):
-    """u and u_t: a sum of kinks and antikinks."""
+    """Return u and u_t of a sum of kinks and antikinks."""
     g = 1 / math.sqrt(1 - U * U)
     kinks = int((sites * A - 2 * MARGIN) / APART) // 2 * 2
     u, v = array.array("d"), array.array("d")
@@ -43,7 +44,7 @@ def start(sites):
         nearest = (j * A - MARGIN) / APART
         first, last = max(0, math.ceil(nearest - 2.5)), min(kinks, math.floor(nearest + 2.5) + 1)
         near = [(-1 if k % 2 else 1, math.exp(-g * (j * A - MARGIN - k * APART))) for k in range(first, max(first, last))]
-        beyond = -TURN if last > 0 and last % 2 else 0  # those to the right: pairs, but for one
+        beyond = -TURN if last > 0 and last % 2 else 0  # kinks and antikinks to the right cancel in pairs; one may remain
         u.append(beyond + sum(sign * 4 * math.atan(e) for sign, e in near))
         v.append(sum(4 * g * U * e / (1 + e * e) for _, e in near))
     return u, v
@@ -72,7 +73,7 @@ def write_data(folder, u, v, pitch, table):
 
 
 def lammps(program, folder, u, v, steps, pitch, substrate):
-    """LAMMPS's first line, seconds of each repeat, u at the end."""
+    """Return the first line that LAMMPS prints, the seconds of each repeat, and u at the end."""
     n, table = len(u), substrate is None
     write_data(folder, u, v, pitch, table)
     K = 1 / (2 * A * A)  # energy K (r - r0)^2
@@ -125,7 +126,7 @@ def main():
             longer = steps * OURS_LONGER
             rate = sites * longer / min(ours(chain_run, folder, u, v, longer)[0] for _ in range(REPEATS))
             print(f"{sites} sites, {steps} steps, in which u changes by up to {difference(u, plain):.1f}. Largest difference of u\n"
-                  "from slipfront's and from that of a plain leapfrog loop with the C library's sine:")
+                  "from slipfront and from a plain leapfrog loop with the sine of the C library:")
             print(f"{'':<42}{'slipfront':>10}{'plain':>10}{'M sites/s':>11}{'slipfront is':>14}")
             print(f"{'slipfront':<42}{'':>10}{difference(chain, plain):>10.1e}{rate / 1e6:>11.1f}")
             best = 0
@@ -137,7 +138,7 @@ def main():
                       f"{rate / theirs:>8.0f} times")
             print(f"{'plain leapfrog':<42}{difference(chain, plain):>10.1e}{'':>10}"
                   f"{sites * steps / plain_seconds / 1e6:>11.1f}")
-            print(f"{version}: slipfront is {rate / best:.0f} times its fastest\n", flush=True)
+            print(f"{version}: slipfront is {rate / best:.0f} times as fast as its fastest variant\n", flush=True)
 
 
 if __name__ == "__main__":

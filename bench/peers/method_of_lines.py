@@ -1,7 +1,8 @@
-"""The paper's route to Eqs. (7) beside ours, in one run: method of lines on the non-conservative form, integrated by a general ODE solver
-(scipy.integrate.solve_ivp), upwind and central differences, against `slipfront pulse`.
+"""Compare the paper's way to solve Eqs. (7) with `slipfront pulse`, in one run.
 
-Problem: tanh profile of width 1, Sigma- = 0.855, Sigma+ = 0.179, C = 0.5 (closure consistent), to t = 2 pi; the number is W at x = 0.
+The paper's way is the method of lines on the non-conservative form, with a general ODE solver (scipy.integrate.solve_ivp). We use upwind and
+central differences. The problem is a tanh profile of width 1 with Sigma- = 0.855, Sigma+ = 0.179 and C = 0.5 (closure consistent) to
+t = 2 pi. The result is W at x = 0.
 Usage: method_of_lines.py PATH_OF_SLIPFRONT.   Needs python3-scipy.
 """
 
@@ -18,7 +19,7 @@ from scipy.special import ellipe, ellipkm1
 
 LEFT, RIGHT, END, C = -7.5, 5.5, 2 * np.pi, 0.5
 REFERENCE = 0.0093369823  # slipfront, 1600 cells
-ROBUST = 97  # slipfront's error is below 1e-3 for every number of cells from here on (tried up to 160)
+ROBUST = 97  # the error of slipfront is below 1e-3 for this and every larger number of cells (tried up to 160)
 SLIPFRONT_CELLS = (50, 75, ROBUST, 150, 200)
 
 
@@ -32,7 +33,7 @@ def stress(x):
 
 
 def rates(t, y, dx, central):
-    """phi +- psi travel at lambda_pm (docs/theory.md 3.1); friction takes M at the rate C at constant spacing l."""
+    """Rates of phi and psi: phi +- psi travel at lambda_pm (docs/theory.md 3.1), and friction reduces M at the rate C at constant spacing l."""
     n = y.size // 2
     phi, psi = y[:n], np.maximum(y[n:], 1e-12)
     K, E = k_e(psi)

@@ -1,7 +1,8 @@
-"""Step 3: a pulse with friction, from a stress profile of your own.
+"""Step 3: run a pulse with friction, from your own stress profile.
 
-A scenario is a dict nested like the TOML files of docs/scenario.md. The interface here is stressed on its left, most
-in a patch that has not slipped for long; where the stress falls, dislocations push each other on, and friction brakes them.
+A scenario is a dict nested like the TOML files of docs/scenario.md. Here the left side of the interface is stressed,
+most of all in a patch that has not slipped for a long time. Where the stress falls, dislocations push each other
+forward, and friction slows them.
 """
 
 import slipfront
@@ -17,12 +18,12 @@ scenario = {
 }
 pulse = slipfront.pulse(scenario)
 
-# Variables carry their units and equations; results at the end of the run are attributes.
+# Variables have their units and equations as attributes. Results at the end of the run are attributes of the Dataset.
 print(pulse.W.attrs["long_name"], "in", pulse.W.attrs["dimensional_unit"])
 print(f"damping number {pulse.attrs['damping_number']:.2f}, peak slip velocity {pulse.attrs['peak_slip_velocity']:.4f}")
 print(f"energy: {100 * float(pulse.energy_dissipated[-1] / pulse.energy_elastic[0]):.2f} % of the elastic energy went into friction")
 
-# The same with other values: no need to write the scenario again.
+# `set` replaces values, so you need not write the scenario again.
 for closure in ("consistent", "paper"):
     other = slipfront.pulse(scenario, set={"friction.closure": closure, "friction.coefficient": 1})
     print(f"C = 1, closure {closure}: peak slip velocity {other.attrs['peak_slip_velocity']:.4f}")

@@ -1,7 +1,7 @@
-"""Step 4: is it true? Every dislocation, directly.
+"""Step 4: test the pulse against a chain that resolves every dislocation.
 
-The pulse averages over dislocations. The chain does not: it steps the sine-Gordon equation itself. `scale` says how many
-times more dislocations it has; the more, the closer to the average.
+The pulse averages over dislocations. The chain does not: it solves the sine-Gordon equation. `scale` is the factor by
+which it has more dislocations. The larger the scale, the closer is the chain to the average.
 """
 
 import slipfront
@@ -18,7 +18,7 @@ exact = float(slip.sel(name="pulse-consistent"))
 for name, value in zip(levels.name.values, slip.values):
     print(f"{name:18} slip at x = 0: {value:.4f}  ({100 * (value / exact - 1):+.2f} %)")
 
-# The chain knows no closure, and sides with "consistent".
+# The chain uses no closure, and it agrees with "consistent".
 chain, paper = (float(slip.sel(name=name)) for name in ("chain-400", "pulse-paper"))
 print("nearer to the chain:", "consistent" if abs(chain - exact) < abs(chain - paper) else "paper")
 plots.save(plots.comparison(levels), "4_chain.png")

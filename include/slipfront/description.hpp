@@ -1,17 +1,17 @@
 #pragma once
 /// \file
-/// What is said of a quantity wherever it goes: files, tables, other languages.
+/// The description of a quantity that files, tables and other languages show.
 
 #include <string_view>
 
 namespace slipfront {
 
-/// What CF asks to be said of a variable; values are dimensionless.
+/// Attributes that the CF conventions require of a variable. Its values are dimensionless.
 struct Description {
   std::string_view name;
   std::string_view long_name;
-  std::string_view dimensional_unit;  ///< multiply by this for a dimensional value; empty: none
-  std::string_view reference;         ///< where in the paper
+  std::string_view dimensional_unit;  ///< multiply by this for a dimensional value; empty if there is none
+  std::string_view reference;         ///< equation or section of the paper
 };
 
 }  // namespace slipfront

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// The three ways a call can fail. Each carries one line for a person; the command line maps them to exit codes.
+/// The three ways in which a call can fail. Each exception has a message of one line for the user. The program maps
+/// exceptions to exit codes.
 
 #include <cstddef>
 #include <stdexcept>
@@ -8,18 +9,18 @@
 
 namespace slipfront {
 
-/// What is wrong with one value, and where it stands. Empty or zero fields are left out of the text.
+/// An error in one value, with its location. The message omits empty and zero fields.
 struct Complaint {
   std::string file = {};     ///< path, "stdin" or "command line"
   std::size_t line = 0;      ///< counted from 1
   std::string key = {};      ///< key, column or option
-  std::string value = {};    ///< as it was written
-  std::string problem = {};  ///< what is wrong
-  std::string allowed = {};  ///< what would be accepted
+  std::string value = {};    ///< as the user wrote it
+  std::string problem = {};  ///< the error
+  std::string allowed = {};  ///< accepted values
 };
 
-/// One line: `file:line: key = 'value': problem; allowed: ...`. Control characters are shown as '?', long values are
-/// cut.
+/// The message, one line: `file:line: key = 'value': problem; allowed: ...`. It shows control characters as '?' and
+/// cuts long values.
 std::string one_line(const Complaint& complaint);
 
 /// Bad usage or input (exit code 2).
@@ -38,7 +39,7 @@ class FileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The numerics gave up (exit code 4).
+/// A computation failed numerically (exit code 4).
 class NumericsError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

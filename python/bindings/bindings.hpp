@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The compiled half of the Python package: one bind_ function a room. What it takes and gives is for the pure-Python
-/// half, which checks shapes and builds Datasets.
+/// The compiled part of the Python package, with one bind_ function for each module of the library. Only the Python
+/// part of the package calls it: that part checks the shapes of arrays and builds the Datasets.
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -10,7 +10,7 @@
 
 namespace py = pybind11;
 
-/// Contiguous doubles, one-dimensional.
+/// Array of doubles, contiguous. The Python part passes arrays of one dimension.
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
 void bind_errors(py::module_& m);
@@ -25,7 +25,7 @@ void bind_event(py::module_& m);
 void bind_sweep(py::module_& m);
 void bind_files(py::module_& m);
 
-/// (name, long_name, dimensional_unit, reference)
+/// The tuple (name, long_name, dimensional_unit, reference).
 inline py::tuple described(const slipfront::Description& about) {
   return py::make_tuple(py::str(about.name.data(), about.name.size()),
                         py::str(about.long_name.data(), about.long_name.size()),

@@ -4,7 +4,8 @@
 
 #include "bindings.hpp"
 
-/// Columns of N numbers, one an element of `make(i)`, all as long as the first input.
+/// Calls make(i), which returns N numbers, for i = 0 ... count - 1. Returns a list of N arrays of length `count`; array
+/// k holds the k-th number of each call.
 template <std::size_t N, class Make>
 py::list columns(py::ssize_t count, Make&& make) {
   py::list result;
@@ -22,7 +23,7 @@ py::list columns(py::ssize_t count, Make&& make) {
   return result;
 }
 
-/// What is said of each of them.
+/// The descriptions as a list of tuples; see described().
 template <std::size_t N>
 py::list all(const std::array<slipfront::Description, N>& about) {
   py::list result;

@@ -18,7 +18,8 @@ namespace {
 
 using namespace slipfront;
 
-/// Name, dimensions, values, attributes. Values: an array of float64, int64 or int8, or a list of texts.
+/// A variable of a NetCDF file: name, dimensions, values and attributes. The values are an array of float64, int64 or
+/// int8, or a list of texts.
 using Variable = std::tuple<std::string, std::vector<std::string>, py::object, record::Attributes>;
 
 template <class T>
@@ -50,8 +51,8 @@ void write_dataset(const std::string& path, std::vector<std::pair<std::string, s
   record::write_dataset(path, dataset);
 }
 
-/// Held in a `with` block by Python code that calls the NetCDF library. The GIL is free while it waits: who holds the
-/// lock may need it.
+/// Context manager for Python code that calls the NetCDF library. It waits for the lock without the GIL, because the
+/// thread that holds the lock may need the GIL.
 class NetcdfLock {
  public:
   void enter() {

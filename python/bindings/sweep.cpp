@@ -27,14 +27,14 @@ using namespace slipfront;
 using Overrides = std::vector<std::string>;
 using Variables = std::vector<std::string>;
 
-/// What came of one point: numbers, or the reason why there are none.
+/// The result of one point: its numbers, or the reason why it has none.
 struct Outcome {
   std::size_t point;
   std::vector<double> values;
   std::string reason;
 };
 
-/// Keys of a summary that are numbers, with what they mean.
+/// Returns (key, meaning) of each item of a summary that is a number.
 template <class End>
 py::list number_keys(std::span<const run::SummaryItem<End>> items) {
   py::list keys;
@@ -57,10 +57,10 @@ std::vector<double> numbers(const std::vector<run::SummaryValue>& summary, const
   return values;
 }
 
-/// Memory that points which run at the same time share: each waits until there is room for it beside the others.
+/// The memory that the running points share. A point waits until its need fits in next to that of the others.
 class SharedMemory {
  public:
-  /// Holds some of it while it lives.
+  /// Reserves memory, and releases it when it is destroyed.
   class Share {
    public:
     Share(SharedMemory& memory, double bytes) : memory_(memory), bytes_(bytes) {}
@@ -78,7 +78,7 @@ class SharedMemory {
     double bytes_;
   };
 
-  /// Waits for room, or for nobody else to hold any, or for `stopped`.
+  /// Reserves memory. Waits until there is enough, until no other share exists, or until `stopped`.
   Share take(double bytes, const std::atomic<bool>& stopped) {
     std::unique_lock lock(mutex_);
     while (shares_ > 0 && used_ + bytes > all_ && !stopped) changed_.wait_for(lock, std::chrono::milliseconds(50));
@@ -95,7 +95,7 @@ class SharedMemory {
   std::condition_variable changed_;
 };
 
-/// The points of a sweep, each on one thread; nothing here needs the GIL.
+/// Runs the points of a sweep, each on one thread and without the GIL.
 class Sweep {
  public:
   Sweep(std::string command, const RunRequest& scenario, std::vector<Overrides> points, Variables variables)
@@ -105,11 +105,11 @@ class Sweep {
         points_(std::move(points)),
         variables_(std::move(variables)) {}
 
-  /// Runs points until none is left or stop() was called. For any number of threads at once.
+  /// Runs points until none remains or stop() is called. Several threads may call it at the same time.
   void work() noexcept {
     try {
       run_points();
-    } catch (...) {  // no memory to note what a point gave
+    } catch (...) {  // there is no memory to store the result of a point
       const std::lock_guard lock(mutex_);
       failure_ = std::current_exception();
       stopped_ = true;
@@ -120,10 +120,11 @@ class Sweep {
   }
   void stop() { stopped_ = true; }
 
-  /// What ended the work, if anything did; once the workers rest.
+  /// The error that ended the work, if any. Valid after all workers have finished.
   std::exception_ptr failure() const { return failure_; }
 
-  /// What has finished since the last call; waits a while for `threads` workers to come to rest, and says if they have.
+  /// Returns the points that have finished since the last call, and whether all `threads` workers have ended. Waits up
+  /// to 50 ms for that.
   std::pair<std::vector<Outcome>, bool> collect(std::size_t threads) {
     std::unique_lock lock(mutex_);
     const bool all = changed_.wait_for(lock, std::chrono::milliseconds(50), [&] { return at_rest_ >= threads; });
@@ -143,7 +144,7 @@ class Sweep {
       } catch (const std::exception& error) {
         outcome.reason = error.what();
       }
-      if (stopped_) break;  // it may have been cut short
+      if (stopped_) break;  // the run may have been interrupted
       const std::lock_guard lock(mutex_);
       finished_.push_back(std::move(outcome));
     }
@@ -175,13 +176,14 @@ class Sweep {
   std::exception_ptr failure_;
 };
 
-/// Calls deliver([(point, values, reason), ...]) now and then, with all that has finished meanwhile. What it raises,
-/// or Ctrl-C, stops the sweep.
+/// Runs a sweep. Calls deliver([(point, values, reason), ...]) several times a second with the points that have
+/// finished since the last call. The sweep stops if `deliver` raises an error, and at Ctrl-C.
 void sweep(const std::string& command, const py::dict& arguments, std::vector<Overrides> points, Variables variables,
            int threads, const py::object& deliver) {
   Sweep work(command, request_of(arguments), std::move(points), std::move(variables));
   std::exception_ptr raised;
-  /// Whether `call` came back; else the sweep stops, and ends with the first error.
+  /// Returns whether `call` returned without an error. After an error the sweep stops; it throws the first one at its
+  /// end.
   const auto comes_back = [&](const auto& call) {
     try {
       call();

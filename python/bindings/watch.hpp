@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a long run without the GIL looks out for: Ctrl-C, and somebody who wants to know how far it is.
+/// Stops a long run at Ctrl-C and reports its progress to Python. The run does not hold the GIL.
 
 #include <chrono>
 #include <exception>
@@ -11,10 +11,10 @@
 
 class Watch {
  public:
-  /// `progress`: None, or called now and then with (time, end, steps, level).
+  /// `progress` is None, or a function of (time, end, steps, level) that is called at most ten times a second.
   Watch(py::object progress, double end) : progress_(std::move(progress)), end_(end) {}
 
-  /// RunRequest after each step, without the GIL. Whether to stop: then finish() throws.
+  /// To be called after each step, without the GIL. Returns whether the run must stop; finish() then throws the reason.
   bool operator()(double time, long steps, const std::string& level = {}) {
     return look([&](Clock::time_point now) {
       if (progress_.is_none() || now < tell_) return;
@@ -22,12 +22,12 @@ class Watch {
       tell_ = Clock::now() + std::chrono::milliseconds(100);
     });
   }
-  /// The same for work beside the run, which tells no progress.
+  /// Like operator(), but for work that reports no progress, such as the estimate of errors.
   bool interrupted() {
     return look([](auto) {});
   }
 
-  /// With the GIL: raises what stopped the run, if anything did.
+  /// Throws the error that stopped the run, if any. The caller holds the GIL.
   void finish() const {
     if (raised_) std::rethrow_exception(raised_);
   }

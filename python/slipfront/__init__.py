@@ -1,22 +1,26 @@
-"""Slip pulses on frictional interfaces: from the stress stored along an interface to how fast it slips, and back.
+"""Slip pulses on frictional interfaces.
 
-Functions have the names of the command line and give xarray Datasets. Everything is dimensionless unless `units` says
-otherwise; the attribute `dimensional_unit` of a variable is what to multiply it by, `references` the equation of the
-paper (Gershenzon, Bambakidis and Skinner 2015, doi 10.3390/lubricants3020311).
+slipfront computes how fast an interface slips from the stress that is stored along it, and the stress from the slip.
+
+The functions have the names of the commands of the program and return xarray Datasets. A variable is dimensionless
+unless its attribute `units` gives a unit. Multiply a dimensionless variable by its attribute `dimensional_unit`. The
+attribute `references` gives its equation in the paper (Gershenzon, Bambakidis and Skinner 2015, doi
+10.3390/lubricants3020311).
 
     relations   stress, rupture velocity and slip velocity of a frictionless pulse, each from any other (Eqs. 8-10)
     friction_ratio
-                what friction leaves of the slip velocity (Fig. 10)
+                share of the slip velocity that remains under viscous friction (Fig. 10)
     damping_number
-                the damping number from that: Fig. 10, read the other way
+                inverse of friction_ratio: the damping number for a given share
     train       the uniform train of dislocations (Eqs. 4-5) and the closed-form profile of a pulse
     medium      constants of rock and interface (Eqs. 1-3)
-    pulse       the modulation equations with friction (Eqs. 7), on a scenario
-    chain       every dislocation, directly (Eqs. 1 and 3)
-    compare     closed form, pulse and chain side by side
-    sweep       pulse or chain over a grid of settings, on all cores or a Dask cluster
+    pulse       runs a scenario with the modulation equations and friction (Eqs. 7)
+    chain       runs a scenario with every dislocation (Eqs. 1 and 3)
+    compare     runs a scenario with closed form, pulse and chain, and compares them
+    sweep       runs a pulse or a chain over a grid of settings, on all cores or on a Dask cluster
     event       stress and contact ratio of observed events
-    check, open a scenario without running it; a file that was written
+    check       checks a scenario without running it
+    open        reads a file that slipfront has written
     cases       folder of the scenarios that come with slipfront
 """
 

@@ -1,5 +1,8 @@
-"""`python3 -m slipfront NAME ARGS...`: the subcommands of the command line that are written in Python. Each is a module
-cmd_NAME.py with `main(argv) -> int`, argv without the name; what it raises becomes one line and an exit code."""
+"""Runs the subcommands of the command line that are written in Python: `python3 -m slipfront NAME ARGS...`.
+
+Each subcommand is a module cmd_NAME.py with a function `main(argv) -> int`, where argv are the arguments after the name. An
+error that it raises becomes one line on stderr and an exit code.
+"""
 
 import atexit
 import contextlib
@@ -14,7 +17,7 @@ NAMES = ("reproduce", "plot", "animate")
 
 def complain(error):
     text = " ".join(str(error).split()) or type(error).__name__
-    with contextlib.suppress(ImportError):  # then the complaint is that
+    with contextlib.suppress(ImportError):  # without the compiled module, that is the error to print
         from ._slipfront import printable
 
         text = printable(text.encode("utf-8", "surrogateescape"))
@@ -23,30 +26,33 @@ def complain(error):
 
 
 class Interruption:
-    """Whether the user has asked the program to end. Libraries may turn the KeyboardInterrupt into another error."""
+    """Records whether the user has interrupted the program. We need it because libraries may turn the KeyboardInterrupt into
+    another error."""
 
     seen = False
 
 
 def interrupted(_signal, _frame):
-    """Answers Ctrl-C and other requests to end: the work is left where it can be; a second request ends the program at once."""
+    """Handles Ctrl-C and the other signals that end the program. It raises KeyboardInterrupt; a second signal ends the program at
+    once."""
     Interruption.seen = True
     for number in ENDING:
         signal.signal(number, lambda *_: os._exit(INTERRUPTED))
     signal.signal(signal.SIGALRM, end_now)
-    signal.alarm(1)  # for what is running to come to its end
+    signal.alarm(1)  # gives the running code a second to end
     raise KeyboardInterrupt
 
 
 def end_now(*_):
-    """Ends a second after an interruption: something waits, or the exception was lost in a place that cannot raise it."""
+    """Ends the program one second after an interruption, if it still runs. Some code may be waiting, or the exception was lost
+    where Python cannot raise it."""
     undo_unfinished()
     os.write(2, b"slipfront: interrupted\n")
     os._exit(INTERRUPTED)
 
 
 def undo_unfinished():
-    """Removes what has been written in part."""
+    """Removes files that are only written in part."""
     from ._files import UNFINISHED
 
     for undo in list(UNFINISHED):
@@ -54,11 +60,11 @@ def undo_unfinished():
 
 
 def end(code):
-    """Ends the program. From here on a signal changes nothing: while the interpreter ends, Python would let it kill the process."""
+    """Ends the program. It first ignores all signals, because one that arrives while the interpreter ends would kill the process."""
     signal.alarm(0)
     for number in ENDING:
         signal.signal(number, signal.SIG_IGN)
-    if code == INTERRUPTED:  # threads may still compute, and the interpreter would wait for them
+    if code == INTERRUPTED:  # the interpreter would wait for threads that still compute
         atexit._run_exitfuncs()
         sys.stderr.flush()
         os._exit(code)
@@ -70,12 +76,12 @@ ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 def heed_signals():
     for number in ENDING:
-        if signal.getsignal(number) != signal.SIG_IGN:  # nohup
+        if signal.getsignal(number) != signal.SIG_IGN:  # nohup has ignored it
             signal.signal(number, interrupted)
 
 
 def run(name, argv):
-    """Runs a subcommand. Returns its exit code; prints an error as one line."""
+    """Runs a subcommand. Prints an error as one line, and returns the exit code."""
     try:
         return _run(name, argv)
     except BaseException:
@@ -108,7 +114,7 @@ def _run(name, argv):
 
 
 def _code_of(error, name, numerics_error):
-    """Prints an error as one line. Returns its exit code."""
+    """Prints an error as one line, and returns its exit code."""
     try:
         raise error
     except (numerics_error, MemoryError) as error:
@@ -129,13 +135,13 @@ def _code_of(error, name, numerics_error):
 
 def main():
     if len(sys.argv) < 2 or sys.argv[1] not in NAMES:
-        complain(f"python3 -m slipfront: which subcommand? allowed: {', '.join(NAMES)}")
+        complain(f"python3 -m slipfront: the subcommand is missing or unknown; allowed: {', '.join(NAMES)}")
         return INPUT
     heed_signals()
     code = run(sys.argv[1], sys.argv[2:])
     try:
         sys.stdout.flush()
-    except OSError as error:  # a closed pipe; the interpreter would complain again at its end
+    except OSError as error:  # a closed pipe: without devnull, the interpreter would report it again at its end
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         complain(f"stdout: {error.strerror}")
         return FILE

@@ -24,7 +24,7 @@ class Arguments(argparse.ArgumentParser):
 def file_name(text):
     """The name of a file or folder to write."""
     if not text:
-        raise argparse.ArgumentTypeError("no name of a file")
+        raise argparse.ArgumentTypeError("the file name is empty")
     return text
 
 

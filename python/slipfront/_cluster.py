@@ -1,4 +1,4 @@
-"""Points of a sweep: on this machine, and on the workers of a Dask cluster."""
+"""Runs the points of a sweep on this machine or on the workers of a Dask cluster."""
 
 import pickle
 
@@ -7,21 +7,23 @@ from ._optional import import_optional
 from ._slipfront import NumericsError
 
 _most_points_a_task = 256
-_tasks_a_thread = 4  # of what is left
+_tasks_a_thread = 4  # into which the remaining points are divided
 _most_tasks_a_thread = 256
 _tries = 3
 
 
 def run_points(command, request, work, variables, threads, deliver):
-    """Runs `work`, [(point, overrides), ...], on threads without the GIL; deliver([(point, numbers, reason), ...]) is
-    called here, several times a second. Results come in any order."""
+    """Runs `work`, [(point, overrides), ...], on threads without the GIL.
+
+    Calls deliver([(point, numbers, reason), ...]) in this thread several times a second. The results come in any order.
+    """
     numbers = [point for point, _ in work]
     _slipfront.sweep(command, request, [overrides for _, overrides in work], variables, min(threads, len(work)),
                      lambda rows: deliver([(numbers[i], values, reason) for i, values, reason in rows]))
 
 
 def _task(packed):
-    """Points and results travel as bytes: Dask would look into every text of them."""
+    """Runs points on a worker. Points and results are sent as bytes, because Dask would search every text in them."""
     command, request, work, variables = pickle.loads(packed)
     rows: list[tuple] = []
     run_points(command, request, work, variables, 1, rows.extend)
@@ -29,7 +31,7 @@ def _task(packed):
 
 
 def _parts(work, threads):
-    """Tasks of many points, smaller and smaller: few messages, and workers that end together."""
+    """Divides `work` into tasks of decreasing size, so that there are few messages and the workers end at the same time."""
     parts, begin, least = [], 0, max(1, len(work) // (_most_tasks_a_thread * threads))
     while begin < len(work):
         size = max(least, min(_most_points_a_task, (len(work) - begin) // (_tasks_a_thread * threads)))
@@ -39,8 +41,11 @@ def _parts(work, threads):
 
 
 def on_cluster(client, command, request, work, variables, deliver):
-    """The same on a cluster, in tasks of many points. A task whose worker dies is tried again by Dask, then point by
-    point, so that one deadly point costs none of its neighbours. Raises NumericsError if the cluster is gone."""
+    """Like run_points, but on a cluster, in tasks of many points.
+
+    If the worker of a task dies, Dask tries the task again. Then we submit its points one by one, so that a point that
+    crashes its worker does not affect the others. Raises NumericsError if the connection to the cluster is lost.
+    """
     distributed = import_optional("distributed")
     gone = (distributed.client.CancelledError, OSError, TimeoutError)
     threads = sum(client.nthreads().values()) or 1
@@ -66,7 +71,7 @@ def on_cluster(client, command, request, work, variables, deliver):
                     continue
                 rows = [(part[0][0], [], f"{type(error).__name__}: {' '.join(str(error).split())}")]
             deliver(rows)
-    except NumericsError:  # nobody is left to be told
+    except NumericsError:  # there is no cluster to cancel the tasks
         raise
     except BaseException:
         client.cancel(list(running.futures))

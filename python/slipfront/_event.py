@@ -1,4 +1,4 @@
-"""slipfront.event"""
+"""The function slipfront.event."""
 
 import csv
 import io
@@ -17,19 +17,19 @@ _shipped = pathlib.Path(__file__).parent / "cases" / "catalogue.csv"
 
 
 def _row(event):
-    """A flat dict as a catalogue of one row, named by columns as docs/events.md has them."""
+    """Returns a flat dict as the CSV text of a catalogue of one row. The keys are column titles (docs/events.md)."""
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(event)
     try:
         writer.writerow(["" if value is None or value != value else value for value in event.values()])
     except RecursionError:
-        raise InputError("events: a value that is nested too deeply; allowed: numbers and texts") from None
+        raise InputError("events: a value is nested too deeply; allowed: numbers and texts") from None
     return out.getvalue()
 
 
 def _source(event, name):
-    """(text, name or path, whether it is a path) of one item that a user gives."""
+    """Returns (text, name or path, whether it is a path) of one item of `events`."""
     if isinstance(event, Mapping):
         nested = any(isinstance(value, Mapping) for value in event.values())
         return (to_toml(event) if nested else _row(event)), name, False
@@ -54,60 +54,71 @@ def _default(value):
 
 def event(events=None, *, p_wave_speed=None, poisson_ratio=None, shear_modulus=None, samples=None, seed=1, closure="consistent",
           pulse=False, draws=0, output=None, resume=None, progress=None, threads=None):
-    """Stress, contact ratio, slip velocity and friction of observed events, by the closed forms (Eqs. 8-10) and by samples.
+    """Computes stress, contact ratio, slip velocity and friction of observed events.
+
+    The closed forms (Eqs. 8-10) give the values of an event without uncertainties. Samples of the posterior distribution
+    give the others (docs/events.md).
 
     Parameters
     ----------
     events : path, text, dict, DataFrame or list of these, optional
-        A .toml, .csv or .fsp file or its text (docs/events.md); a dict nested like the TOML, {"event": {...}, "medium":
-        {...}}, or flat with the columns of a catalogue, {"name": ..., "rupture_velocity": "3 km/s", ...}; a DataFrame
-        with these columns. Nothing: the shipped catalogue.
+        A .toml, .csv or .fsp file, or its text (docs/events.md). A dict is either nested like the TOML, {"event": {...},
+        "medium": {...}}, or flat with the columns of a catalogue, {"name": ..., "rupture_velocity": "3 km/s", ...}. A
+        DataFrame has these columns. The default is the catalogue that comes with slipfront.
     p_wave_speed, poisson_ratio, shear_modulus : str or float, optional
-        Of events that give none, such as "6 km/s", 0.3, "30 GPa" (the defaults).
+        Elastic constants for events that give none, by default "6 km/s", 0.3 and "30 GPa".
     samples : int, optional
-        Samples of the state of every event, friction and errors included (docs/events.md); without it, 1000 for events that
-        carry an uncertainty, a contact ratio, a stress drop or a friction coefficient. They double until they suffice. 0: none.
+        Number of samples for every event, including its friction and errors; 0 for none. By default, 1000 for each event
+        that has an uncertainty, a contact ratio, a stress drop or a friction coefficient, and none for the others. The
+        number is doubled until the diagnostics pass, up to 64 times the first number.
     seed : int, optional
-        Of the samples.
+        Seed of the samples, >= 0.
     closure : "consistent" or "paper", optional
-        Of the friction.
+        How friction is averaged over the dislocations of a train.
     pulse : bool, optional
-        A frictionless pulse through the slip of each finite-fault model: adds pulse_front_velocity_ratio, pulse_correlation_of_slip,
-        pulse_columns, pulse_columns_reached, pulse_slip_error, pulse_contact_ratio, and pulse_reason where there is none.
+        Whether to run a frictionless pulse through the slip of each finite-fault model. This adds the variables
+        pulse_front_velocity_ratio, pulse_correlation_of_slip, pulse_columns, pulse_columns_reached, pulse_slip_error,
+        pulse_contact_ratio, and pulse_reason, which states why there is no pulse.
     draws : int, optional
-        States of the posterior of each sampled event to return, alike in weight: `draw_<name>` over `draw`.
+        Number of posterior states to return for each sampled event, all of equal weight. They are the variables
+        `draw_<name>` over the dimension `draw`.
     output : path, optional
-        NetCDF file to write, as `slipfront event -o` does: results, population, and a checkpoint now and then. A file
-        that stands there is replaced at the end alone; until then the checkpoint of `a.nc` is in `a.unfinished.nc`.
+        NetCDF file to write, as `slipfront event -o` does: results, population, and at intervals a checkpoint. An existing
+        file is replaced at the end only. Until then, the checkpoint of `a.nc` is in `a.unfinished.nc`.
     resume : path, optional
-        File of an interrupted catalogue, of this function or of the program, to go on from; the events and settings must be the same.
-        It is written to, unless an output is given.
+        File of an interrupted catalogue to resume, written by this function or by the program. The events and settings must
+        be the same. The results are written to this file unless there is an `output`.
     progress : bool or callable, optional
-        True for a line on stderr; or called with (events done, all events, events done, "").
+        True shows a line on stderr. A function is called with (events done, all events, events done, "").
     threads : int, optional
-        All cores unless given; results do not depend on it.
+        Number of threads, by default all cores. Results do not depend on it.
 
     Returns
     -------
-    xarray.Dataset over `event`: name, c_m_s, rupture_velocity (V / c), stress (mu A / pi), frictionless_slip_velocity and
-    observed_slip_velocity (c A / pi), slip_velocity_ratio, contact_ratio, stress_pa (Pa), damping_number,
-    friction_coefficient, and `<name>_interval` = [5 %, 95 %] of each: by the closed forms, and of sampled events the median
-    and interval of the samples. Where friction is not known contact_ratio is a lower bound and stress_pa NaN:
-    contact_ratio_bound and stress_pa_bound say what they are at least, if friction took nothing; stress_bound likewise where
-    there is no rupture velocity. Of sampled events `posterior_<name>` over `quantile` (5 %, 50 %, 95 %), effective_samples,
-    pareto_k, samples and friction_identified (1 or 0). NaN where not identifiable; and `warnings`. One bad event of several
-    does not lose the others: its `error` says why, and is "" for the rest.
+    xarray.Dataset with the dimension `event`. Its variables are name, c_m_s (m/s), rupture_velocity (V / c), stress
+    (mu A / pi), frictionless_slip_velocity and observed_slip_velocity (c A / pi), slip_velocity_ratio, contact_ratio,
+    stress_pa (Pa), damping_number and friction_coefficient. `<name>_interval` holds [5 %, 95 %] of each. Values of sampled
+    events are the median and the interval of the samples, and other values are those of the closed forms.
+
+    If friction is not known, contact_ratio is a lower bound and stress_pa is NaN. contact_ratio_bound and stress_pa_bound
+    are then the smallest possible values, those without friction. stress_bound is the smallest possible stress of an event
+    without rupture velocity. A quantity that cannot be identified is NaN.
+
+    Sampled events also have `posterior_<name>` over `quantile` (5 %, 50 %, 95 %), effective_samples, pareto_k, samples and
+    friction_identified (1 or 0). `warnings` holds the warnings of each event. If some events are wrong, the others have
+    results; `error` gives the reason of each wrong event, and is "" for the others.
 
     Raises
     ------
-    InputError if all events are bad, FileError. KeyboardInterrupt leaves a checkpoint in the output.
+    InputError if all events are wrong or a parameter is out of range; FileError if a file cannot be read or written. A
+    KeyboardInterrupt leaves a checkpoint in the output.
     """
     if events is None:
         events = _shipped
     sources = ([_source(item, f"events[{i}]") for i, item in enumerate(events)] if isinstance(events, (list, tuple))
                else [_source(events, "events")])
     if not sources:
-        raise InputError("events: none; allowed: one or more")
+        raise InputError("events: the list is empty; allowed: one event or more")
     with showing(progress) as call:
         columns = _slipfront.event(sources, {
             "p_wave_speed": _default(p_wave_speed), "poisson_ratio": _default(poisson_ratio), "shear_modulus": _default(shear_modulus),
@@ -119,7 +130,7 @@ def event(events=None, *, p_wave_speed=None, poisson_ratio=None, shear_modulus=N
     if errors and all(errors):
         raise InputError(errors[0])
     if not errors:
-        raise InputError("events: none in the text; allowed: one or more")
+        raise InputError("events: the text contains no event; allowed: one event or more")
 
     variables = {name: ("event", np.array(values, dtype=object), {"long_name": long_name}) for name, (values, long_name) in texts.items()}
     for name, dimensions, values, long_name, unit, dimensional_unit, reference in columns["numbers"]:

@@ -1,4 +1,4 @@
-"""Writing files: all of them by the code that writes the program's own, whole or not at all (src/record)."""
+"""Writes files with the code of the program (src/record). A file is written completely, or not at all."""
 
 import contextlib
 import numbers as kinds
@@ -9,17 +9,17 @@ from collections.abc import Callable
 from . import _slipfront
 from ._optional import import_optional
 
-#: Functions that undo what has been written in part. They may be called twice; a program that has to end at once calls them.
+#: Functions that remove files that are only written in part. A program that must end at once calls them. They may be called twice.
 UNFINISHED: set[Callable[[], object]] = set()
 
 
 def write_bytes(path, content):
-    """Writes a file of these bytes. Raises FileError: path and reason."""
+    """Writes these bytes to a file. Raises FileError with the path and the reason."""
     _slipfront.write_file(os.fsencode(path), content)
 
 
 def write_text(path, text):
-    """The same of a text, as UTF-8."""
+    """Writes a text to a file, as UTF-8. Raises FileError like write_bytes."""
     write_bytes(path, text.encode("utf-8"))
 
 
@@ -32,7 +32,7 @@ def _attribute(value):
 
 
 def _values(array):
-    """What the compiled half takes: float64, int64 or int8, or a list of texts."""
+    """Returns the values as the bindings accept them: a flat array of float64, int64 or int8, or a list of texts."""
     if array.dtype.kind in "OUS":
         return [str(text) for text in array.ravel().tolist()]
     kind = "int8" if array.dtype.name == "int8" else {"f": "float64", "i": "int64", "u": "int64"}[array.dtype.kind]
@@ -40,7 +40,7 @@ def _values(array):
 
 
 def write_dataset(data, path):
-    """Writes an xarray.Dataset as NetCDF, by the CF conventions as xarray has them. Raises FileError: path and reason."""
+    """Writes an xarray.Dataset as NetCDF. xarray encodes it by the CF conventions. Raises FileError with the path and the reason."""
     conventions = import_optional("xarray.conventions")
     variables, attributes = conventions.cf_encoder(*conventions.encode_dataset_coordinates(data))
     sizes = {name: size for variable in variables.values() for name, size in zip(variable.dims, variable.shape)}
@@ -51,7 +51,8 @@ def write_dataset(data, path):
 
 
 def isolated(path, make):
-    """The bytes that make() gives, made in a fork of this process: for libraries that crash where memory ends. Raises FileError."""
+    """Returns the bytes that make() returns. Calls it in a fork of this process, because drawing libraries can crash when memory
+    runs out. Raises FileError."""
     with told_of(path):
         return _of_fork(path, make)
 
@@ -64,7 +65,7 @@ def _of_fork(path, make):
     try:
         os.close(writer)
         reply = b"".join(iter(lambda: os.read(reader, 1 << 20), b""))
-    except BaseException:  # Ctrl-C too: nobody reads what it still sends
+    except BaseException:  # also at Ctrl-C: nobody would read what the fork still sends
         os.kill(child, signal.SIGKILL)
         raise
     finally:
@@ -72,18 +73,18 @@ def _of_fork(path, make):
         os.close(reader)
     if status or reply[:1] != b"d":
         reason = "" if status else " ".join(reply[1:].decode().split())
-        raise _slipfront.FileError(f"{path}: cannot be written: {reason or 'the library that draws it gave up'}")
+        raise _slipfront.FileError(f"{path}: cannot be written: {reason or 'the drawing library crashed'}")
     return reply[1:]
 
 
 def _live_as_fork(reader, writer, make):
-    """Sends what make() gives, or why it gives nothing; the exit status is 0 only where all was sent."""
+    """Runs the fork: sends the result of make(), or the reason of its failure. The exit status is 0 only if everything was sent."""
     unsent = 1
     try:
         os.close(reader)
         try:
             reply = b"d" + make()
-        except Exception as error:  # of any kind: the other libraries know none of ours
+        except Exception as error:  # other libraries raise errors of any class
             reply = f"f{error or type(error).__name__}".encode("utf-8", "replace")
         with os.fdopen(writer, "wb") as pipe:
             pipe.write(reply)
@@ -94,7 +95,7 @@ def _live_as_fork(reader, writer, make):
 
 @contextlib.contextmanager
 def told_of(path):
-    """Errors of reading or writing `path` say its name: an OSError without it gets it."""
+    """Context manager that turns an OSError into a FileError with the name of the file, which is `path` unless the error has one."""
     try:
         yield
     except _slipfront.FileError:

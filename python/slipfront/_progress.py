@@ -1,4 +1,4 @@
-"""How far long work is."""
+"""Reports the progress of long work."""
 
 import sys
 import time
@@ -8,19 +8,19 @@ from ._slipfront import InputError
 
 
 def watcher(progress):
-    """What to call now and then for a `progress` argument: None or False for nothing, True for a line on stderr, or any
-    callable."""
+    """Returns the function that reports progress, for a `progress` argument. None and False give None, True gives a Line, and a
+    callable is returned unchanged. Raises InputError for other values."""
     if progress is None or progress is False:
         return None
     if progress is True:
         return Line()
     if callable(progress):
         return progress
-    raise InputError(f"progress = '{shown(progress)}': neither a callable nor a bool; allowed: True, or a function of (done, total, steps, level)")
+    raise InputError(f"progress = '{shown(progress)}': neither a bool nor a function; allowed: True, or a function of (done, total, steps, level)")
 
 
 class Line:
-    """A bar with the time left, on one line of stderr. Called with (done, total, ...)."""
+    """A bar with the remaining time, on one line of stderr. It is called with (done, total, ...)."""
 
     def __init__(self):
         self._start = self._label = None
@@ -42,7 +42,7 @@ class Line:
 
 
 class showing:
-    """Context in which work tells `progress` how far it is; a Line is wiped at the end."""
+    """Context manager that gives the function to call with the progress. It clears a Line at the end."""
 
     def __init__(self, progress):
         self._call = watcher(progress)

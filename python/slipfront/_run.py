@@ -1,4 +1,4 @@
-"""Runs of scenarios: slipfront.pulse, chain, compare, check, and open for the files that they write."""
+"""The functions that run scenarios, slipfront.pulse, chain, compare and check, and slipfront.open, which reads their files."""
 
 import os
 import warnings
@@ -24,7 +24,7 @@ def _axes(result):
 
 
 def _dataset(result, front=()):
-    """The Dataset that the NetCDF file of this run holds, its summary as attributes."""
+    """Returns the Dataset that the NetCDF file of this run holds. The summary and its errors are attributes."""
     for warning in result["warnings"]:
         warnings.warn(warning, stacklevel=3)
     coordinates, variables = _axes(result)
@@ -39,38 +39,44 @@ def _dataset(result, front=()):
 
 
 def pulse(scenario, *, set=None, output=None, resume=None, progress=None, threads=None, tolerance=None, errors=True):
-    """The modulation equations with friction, Eqs. (7), on a scenario (docs/scenario.md).
+    """Runs a scenario with the modulation equations and friction, Eqs. (7) (docs/pulse.md).
 
     Parameters
     ----------
     scenario : path, str or dict
-        Path of a TOML file; TOML text (a str with a line break); or a dict nested like the TOML.
+        Path of a TOML file, TOML text (a str with a line break), or a dict nested like the TOML (docs/scenario.md).
     set : dict, optional
-        Values in place of the scenario's, such as {"friction.coefficient": 0.5}.
+        Values that replace those of the scenario, such as {"friction.coefficient": 0.5}.
     output : path, optional
-        NetCDF file to write: whole or not at all, and now and then during the run, so that it can be resumed.
+        NetCDF file to write. It is written at intervals during the run, so that the run can be resumed, and at the end. The
+        file is always complete.
     resume : path, optional
-        File of an unfinished run of this scenario to go on from; written to unless there is an output.
+        File of an unfinished run of this scenario to resume. The results are written to this file unless there is an
+        `output`.
     progress : bool or callable, optional
-        True for a line on stderr; or called some ten times a second with (time, end, steps, "").
+        True shows a line on stderr. A function is called at most ten times a second with (time, end, steps, "").
     threads : int, optional
-        Accepted as on the command line; changes nothing (docs/pulse.md).
+        Accepted as on the command line, without effect (docs/pulse.md).
     tolerance : float, optional
-        Relative error, 1e-9 to 1, of slip, slip velocity and stress at x = 0 and of the peak: `pulse.cells` doubles from
-        the scenario's until it is reached. Not with `resume`.
+        Relative error, 1e-9 to 1, of slip, slip velocity and stress at x = 0 and of the peak. The number of cells is doubled
+        from that of the scenario until the error is reached. Not allowed with `resume`.
     errors : bool, optional
-        Whether to estimate the errors, by runs with half and a quarter of the cells that take a third of the time.
+        Whether to estimate the errors of the results. This runs the scenario again with half and with a quarter of the cells,
+        which takes a third of the time.
 
     Returns
     -------
-    xarray.Dataset with what the NetCDF file holds, its checkpoint apart: dimensions time and x; k, Sigma, U, W, slip and
-    stress_drop over both; fronts, energies and values at x = 0 over time. Attributes closure, friction_coefficient,
-    damping_number (Gamma = C t; both NaN unless friction is viscous), ..., wall_seconds are those of `slipfront pulse --json`: at the end of the run; NaN where
-    there is none. With `errors`, slip_at_origin_error and the like are their estimated errors.
+    xarray.Dataset with the contents of the NetCDF file except its checkpoint. The dimensions are time, in b / (c A), and x,
+    in b / A. k, Sigma, U, W, slip and stress_drop depend on both. Fronts, energies and values at x = 0 depend on time. The
+    attributes are the values that `slipfront pulse --json` prints for the end of the run: closure, friction_coefficient,
+    damping_number, ..., wall_seconds. A value that does not exist is NaN, such as friction_coefficient and damping_number
+    (Gamma = C t) unless friction is viscous. With `errors`, the attributes slip_at_origin_error and so on are their
+    estimated errors.
 
     Raises
     ------
-    InputError, FileError, NumericsError as the command line's. KeyboardInterrupt leaves a checkpoint in the output.
+    InputError if the scenario or a parameter is wrong; FileError if a file cannot be read or written; NumericsError if the
+    computation fails. A KeyboardInterrupt leaves a checkpoint in the output.
     """
     thread_count(threads)
     if tolerance is not None:
@@ -81,11 +87,29 @@ def pulse(scenario, *, set=None, output=None, resume=None, progress=None, thread
 
 
 def chain(scenario, *, set=None, output=None, resume=None, progress=None, threads=None):
-    """Every dislocation, directly: Eqs. (1) and (3), on a scenario (docs/chain.md).
+    """Runs a scenario with a chain that resolves every dislocation, Eqs. (1) and (3) (docs/chain.md).
 
-    Parameters, exceptions and the Dataset are those of `pulse`; `threads` (all cores unless given) share the sites and
-    change no bits. Attributes time, scale, ..., dislocations, energy_drift, charge_error, wall_seconds are those of
-    `slipfront chain --json`. With [loading], slip events have variables event_onset, event_duration, ... over `event`.
+    Parameters
+    ----------
+    scenario : path, str or dict
+        Path of a TOML file, TOML text (a str with a line break), or a dict nested like the TOML (docs/scenario.md).
+    set : dict, optional
+        Values that replace those of the scenario, such as {"chain.scale": 300}.
+    output, resume, progress
+        As in `pulse`.
+    threads : int, optional
+        Number of threads that share the sites, by default all cores. Results are identical to the bit for any number.
+
+    Returns
+    -------
+    xarray.Dataset with the variables of `pulse`. The attributes are the values that `slipfront chain --json` prints: time,
+    scale, ..., dislocations, energy_drift, charge_error, wall_seconds. With a table [loading], slip events have the
+    variables event_onset, event_duration, ... over the dimension `event`.
+
+    Raises
+    ------
+    InputError if the scenario or a parameter is wrong; FileError if a file cannot be read or written; NumericsError if the
+    computation fails. A KeyboardInterrupt leaves a checkpoint in the output.
     """
     with showing(progress) as call:
         return _dataset(_slipfront.chain(arguments(scenario, set=set, output=output, resume=resume, progress=call),
@@ -97,22 +121,30 @@ def _scales(scales):
 
 
 def compare(scenario, *, scales=(), set=None, output=None, progress=None, threads=None):
-    """Closed form, pulse with both closures and chain, side by side on a scenario.
+    """Runs a scenario at each level of theory and compares the results.
+
+    The levels are the closed form, if there is one, the pulse with both closures, and a chain for each scale.
 
     Parameters
     ----------
     scales : sequence of float, optional
-        Of the chains; the scenario's unless given, or 100, 300 and 1000.
+        Scales of the chains, each > 0. By default that of the scenario, or 100, 300 and 1000.
     scenario, set, output, progress, threads
-        As of `pulse` and `chain`; the output is written level by level and cannot be resumed.
+        As in `pulse` and `chain`. The output is written level by level and cannot be resumed.
 
     Returns
     -------
-    xarray.Dataset with the variables of `pulse` for each level, by name: `result.sel(name="chain-1000")`. `closure`,
-    `scale`, `window`, `smooth_window` and `wall_seconds` tell of the level, `difference` (by level and quantity) how far
-    its end is from that of pulse-consistent, `trend_exponent`, `trend_extrapolated` and `trend_difference` (by quantity)
-    how the chain tends to it. Attributes time, friction_coefficient, damping_number (NaN unless friction is viscous),
-    reference and notes.
+    xarray.Dataset with the variables of `pulse` for each level, which has a name: `result.sel(name="chain-1000")`. The
+    variables `closure`, `scale`, `window`, `smooth_window` (averaging windows of a chain, in b / A) and `wall_seconds` (s)
+    describe a level. `difference` is the value at the end of the run minus that of the level pulse-consistent, for each
+    level and quantity. `trend_exponent`, `trend_extrapolated` and `trend_difference` describe how the chain approaches
+    that level with increasing scale. The attributes are time, friction_coefficient, damping_number (both NaN unless friction
+    is viscous), reference and notes.
+
+    Raises
+    ------
+    InputError if the scenario or a parameter is wrong; FileError if a file cannot be read or written; NumericsError if the
+    computation fails.
     """
     with showing(progress) as call:
         result = _slipfront.compare(arguments(scenario, set=set, output=output, progress=call), _scales(scales), thread_count(threads))
@@ -131,13 +163,13 @@ def compare(scenario, *, scales=(), set=None, output=None, progress=None, thread
     one = {"units": "1"}
     data = data.assign({
         "closure": ("level", [level["closure"] for level in levels], {"long_name": "how friction is averaged"}),
-        "window": of_level("window", "of a chain: of the slip at x = 0", "b / A"),
-        "smooth_window": of_level("smooth_window", "of a chain: of velocities and stresses", "b / A"),
-        "wall_seconds": of_level("wall_seconds", "time that the level took, in seconds"),
-        "difference": (("level", "quantity"), last - reference, {**one, "long_name": "end of the run less that of pulse-consistent"}),
-        "trend_exponent": ("quantity", [t[1] for t in trends], {**one, "long_name": "p: the chain's difference falls as scale^-p"}),
-        "trend_extrapolated": ("quantity", [t[2] for t in trends], {**one, "long_name": "of the chain, at infinite scale"}),
-        "trend_difference": ("quantity", [t[3] for t in trends], {**one, "long_name": "of that from pulse-consistent"}),
+        "window": of_level("window", "averaging window of the slip at x = 0, of a chain", "b / A"),
+        "smooth_window": of_level("smooth_window", "averaging window of velocities and stresses, of a chain", "b / A"),
+        "wall_seconds": of_level("wall_seconds", "wall-clock time of the level"),
+        "difference": (("level", "quantity"), last - reference, {**one, "long_name": "value at the end of the run minus that of pulse-consistent"}),
+        "trend_exponent": ("quantity", [t[1] for t in trends], {**one, "long_name": "p: the difference of the chain from pulse-consistent falls as scale^-p"}),
+        "trend_extrapolated": ("quantity", [t[2] for t in trends], {**one, "long_name": "value of the chain, extrapolated to infinite scale"}),
+        "trend_difference": ("quantity", [t[3] for t in trends], {**one, "long_name": "extrapolated value minus that of pulse-consistent"}),
     })
     scale = of_level("scale", "")[:2] + (attributes(result["scale_about"]),)
     data = data.assign_coords(name=("level", names, {"long_name": "level of theory"}), scale=scale, quantity=quantities)
@@ -145,10 +177,27 @@ def compare(scenario, *, scales=(), set=None, output=None, progress=None, thread
 
 
 def check(scenario, *, set=None, command="pulse", scales=()):
-    """Reads and validates a scenario and does all set-up of a run, but runs nothing.
+    """Checks a scenario without running it.
 
-    `command` is what would run: "pulse", "chain" or "compare" (with `scales`). Returns a dict that says it: cells, sites
-    or levels, left and right end of the domain, end of time, ... Raises what the run would before its first step.
+    The function reads and validates the scenario and sets up the run.
+
+    Parameters
+    ----------
+    scenario, set
+        As in `pulse`.
+    command : "pulse", "chain" or "compare", optional
+        The run to check.
+    scales : sequence of float, optional
+        Scales of the chains of "compare".
+
+    Returns
+    -------
+    dict that describes the run: title; cells, sites or levels; left and right end of the domain; end of time; memory_bytes
+    and disk_bytes (estimated, in bytes); and more, depending on the command.
+
+    Raises
+    ------
+    InputError, FileError or NumericsError, as the run would before its first step.
     """
     request = arguments(scenario, set=set)
     if command == "pulse":
@@ -161,29 +210,40 @@ def check(scenario, *, set=None, command="pulse", scales=()):
 
 
 def open(file):
-    """The Dataset of a file that pulse, chain, compare, sweep or event (-o) has written, read whole; a checkpoint in it is left out.
+    """Reads a NetCDF file that pulse, chain, compare, sweep or event has written.
 
-    Raises FileError unless it is one.
+    Parameters
+    ----------
+    file : path
+        The file, written by the program (`-o`) or by this package (`output`).
+
+    Returns
+    -------
+    xarray.Dataset with the contents of the file except its checkpoint. All values are in memory, and the file is closed.
+
+    Raises
+    ------
+    InputError if `file` is not a path; FileError if the file cannot be read or slipfront has not written it.
     """
     return read(path("file", file))
 
 
 def read(name, any_file=False):
-    """The same, or the Dataset of any NetCDF file."""
+    """Like `open`, but also reads other NetCDF files if `any_file` is true."""
     xarray = import_optional("xarray")
     import_optional("netCDF4")
-    _slipfront.require_readable_netcdf(os.fsencode(name))  # what is damaged would crash the library, and Python with it
+    _slipfront.require_readable_netcdf(os.fsencode(name))  # a damaged file would crash the NetCDF library, and Python with it
     try:
-        # The library is not made for threads, and a process that is started while a thread is in it waits for ever.
+        # The NetCDF library is not thread-safe. A process that is forked while another thread uses it would wait for ever.
         with _slipfront.NetcdfLock(), xarray.open_dataset(name, engine="netcdf4") as stored:
             if not (any_file or "slipfront_format" in stored.attrs):
-                raise FileError(f"{name}: not a file of slipfront")
+                raise FileError(f"{name}: not a file that slipfront has written")
             data = stored.drop_vars(["checkpoint", "scenario_text", "done"], errors="ignore").load()
     except OSError as error:
         if isinstance(error, FileError):
             raise
         raise FileError(f"{name}: {error.strerror or error}") from error
-    except (RuntimeError, ValueError) as error:  # damaged inside
+    except (RuntimeError, ValueError) as error:  # its contents are damaged
         raise FileError(f"{name}: {' '.join(str(error).split())}") from error
     if "name" in data.coords and data["name"].dtype.kind == "S":
         data = data.assign_coords(name=(data["name"].dims, np.char.decode(data["name"].values, "utf-8"), data["name"].attrs)).set_xindex("name")

@@ -1,4 +1,4 @@
-"""Scenarios as users give them: the path of a TOML file, TOML text, or a dict nested like it."""
+"""Reads scenarios as users give them: the path of a TOML file, TOML text, or a dict nested like the TOML."""
 
 import json
 import os
@@ -10,14 +10,14 @@ from ._shown import shown
 from ._slipfront import InputError
 
 
-#: Tables and lists within each other; a scenario needs three.
+#: Largest depth of nested tables and lists. A scenario needs three.
 _most_nested = 100
 
 
 def _value(key, value, depth=0):
-    """A value as TOML. Raises InputError for what TOML does not have."""
+    """Returns a value as TOML. Raises InputError for a type that TOML does not have."""
     if depth > _most_nested:
-        raise InputError(f"{shown(key)}: tables or lists that are nested {_most_nested} deep or hold themselves; allowed: a number, a text, a list or a dict of them")
+        raise InputError(f"{shown(key)}: tables or lists are nested more than {_most_nested} deep or contain themselves; allowed: a number, a text, a list or a dict of them")
     if isinstance(value, (np.generic, np.ndarray)):
         value = value.tolist()
     if isinstance(value, bool):
@@ -36,7 +36,7 @@ def _value(key, value, depth=0):
 
 
 def to_toml(tables):
-    """TOML text of a dict of values and of dicts of values."""
+    """Returns the TOML text of a dict. Its items are values or dicts of values."""
     lines, later = [], []
     for name, table in tables.items():
         if isinstance(table, Mapping):
@@ -48,17 +48,17 @@ def to_toml(tables):
 
 def _name(key):
     if not isinstance(key, str):
-        raise InputError(f"'{shown(key)}': a key that is a {type(key).__name__}; allowed: a text")
+        raise InputError(f"'{shown(key)}': the key is a {type(key).__name__}; allowed: a text")
     return key if re.fullmatch("[A-Za-z0-9_-]+", key) else _value(key, key)
 
 
 def is_path(source):
-    """Whether this is the path of a file: a str without line breaks, or os.PathLike."""
+    """Returns whether `source` is the path of a file: a str without line breaks, or os.PathLike."""
     return isinstance(source, os.PathLike) or (isinstance(source, str) and "\n" not in source)
 
 
 def overrides(settings):
-    """{"table.key": value} as the command line's --set has it."""
+    """Returns the texts "table.key=value" of a dict {"table.key": value}, as --set on the command line takes them."""
     if settings is None:
         return []
     if not isinstance(settings, Mapping):
@@ -67,7 +67,7 @@ def overrides(settings):
 
 
 def path(name, value):
-    """A path as str; "" for None."""
+    """Returns a path as str, or "" for None. Raises InputError for other types; `name` is that of the parameter."""
     if value is None:
         return ""
     try:
@@ -80,7 +80,7 @@ def path(name, value):
 
 
 def arguments(scenario, *, set=None, output=None, resume=None, progress=None):
-    """What the compiled half takes."""
+    """Returns the arguments of a run as the bindings take them."""
     text = source = ""
     if isinstance(scenario, Mapping):
         text = to_toml(scenario)
@@ -103,4 +103,4 @@ def _encodable(key, text):
     try:
         text.encode()
     except UnicodeEncodeError:
-        raise InputError(f"{key}: holds half a surrogate pair; allowed: text that UTF-8 can hold") from None
+        raise InputError(f"{key}: contains half of a surrogate pair; allowed: text that UTF-8 can encode") from None

@@ -1,5 +1,7 @@
-"""Results of a sweep on disk while it runs: lines that are appended whole, each with its checksum, so that a killed sweep
-loses at most the line that it was writing."""
+"""Stores the results of a sweep on disk while it runs.
+
+Each line is appended in one piece and has a checksum. A sweep that is killed therefore loses at most its last line.
+"""
 
 import contextlib
 import fcntl
@@ -16,7 +18,7 @@ def _line(content):
 
 
 def _content(line):
-    """What a line holds; None for one that is cut or damaged."""
+    """Returns the content of a line, or None if the line is truncated or damaged."""
     if not line.endswith(b"\n") or line[8:9] != b" ":
         return None
     text = line[9:-1]
@@ -24,15 +26,18 @@ def _content(line):
 
 
 class Store:
-    """Rows of the sweep that `about` (JSON) describes, in `path`. Raises FileError where that cannot be read or written,
-    InputError if it holds another sweep, or an unfinished one that is not to be resumed."""
+    """The file `path` with the finished rows of a sweep. Its first line is `about`, the description of the sweep as JSON.
+
+    Raises FileError if the file cannot be read or written. Raises InputError if it holds another sweep, or if it holds an
+    unfinished sweep and `resume` is false.
+    """
 
     def __init__(self, path, about, resume):
         self.path, self.rows, self.rows_written = path, [], False
         try:
             self._file = os.open(path, os.O_RDWR | os.O_APPEND | (0 if resume else os.O_CREAT | os.O_EXCL), 0o666)
         except FileExistsError:
-            raise InputError(f"{path}: holds an unfinished sweep; allowed: resume it, or remove the file") from None
+            raise InputError(f"{path}: contains an unfinished sweep; allowed: resume it, or remove the file") from None
         except OSError as error:
             raise FileError(f"{path}: {error.strerror}") from error
         try:
@@ -53,7 +58,7 @@ class Store:
 
     def _close(self):
         with contextlib.suppress(OSError):
-            fcntl.flock(self._file, fcntl.LOCK_UN)  # a process that was started meanwhile has the descriptor too
+            fcntl.flock(self._file, fcntl.LOCK_UN)  # a process that was forked in the meantime also has the descriptor
         os.close(self._file)
 
     def _read(self, about):
@@ -64,7 +69,7 @@ class Store:
                 if content is None:
                     break
                 if whole == 0 and content != about:
-                    raise InputError(f"{self.path}: was written by another sweep; allowed: the scenario, axes, variables and version that began it")
+                    raise InputError(f"{self.path}: was written by another sweep; allowed: the scenario, axes, variables and version of that sweep")
                 if whole > 0:
                     self.rows += content
                 whole += len(line)
@@ -74,20 +79,20 @@ class Store:
             self.append(about)
 
     def append(self, content):
-        """Adds a line; a full disk leaves none of it."""
+        """Appends a line. If that fails, for example on a full disk, the file is as before."""
         line, end = _line(content), os.lseek(self._file, 0, os.SEEK_END)
         try:
             if os.write(self._file, line) == len(line):
                 self.rows_written = self.rows_written or isinstance(content, list)
                 return
-            reason = "cannot be written whole"
+            reason = "cannot be written completely"
         except OSError as error:
             reason = error.strerror
         os.ftruncate(self._file, end)
         raise FileError(f"{self.path}: {reason}")
 
     def close(self, remove=False):
-        """Ends it; one that is removed has its rows elsewhere, and needs no more of the disk."""
+        """Closes the file, and removes it if `remove` is true. Errors of a removal are ignored, because the rows are no longer needed."""
         try:
             if remove:
                 os.unlink(self.path)

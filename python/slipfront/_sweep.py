@@ -1,4 +1,4 @@
-"""slipfront.sweep"""
+"""The function slipfront.sweep."""
 
 import itertools
 import json
@@ -23,13 +23,13 @@ _not_by_default = {"time", "wall_seconds", "solve_seconds", "site_updates_per_se
 
 
 def _axes(axes):
-    """{key: list of values}, each list one-dimensional and without repetition."""
+    """Returns {key: list of values}. Raises InputError unless each list has one dimension and different values."""
     if not hasattr(axes, "items") or not axes:
         raise InputError(f"axes = '{shown(axes)}': not a dict; allowed: {{'friction.coefficient': [0.1, 0.5], ...}}")
     checked = {}
     for key, values in axes.items():
         if not isinstance(key, str):
-            raise InputError(f"axes: '{shown(key)}' is no key; allowed: texts such as 'friction.coefficient'")
+            raise InputError(f"axes: '{shown(key)}' is not a key; allowed: texts such as 'friction.coefficient'")
         try:
             array = np.asarray(values)
         except ValueError as error:
@@ -57,7 +57,8 @@ def _variables(variables, command):
 
 
 def _check_some(scenario, settings, points, command):
-    """Raises the first point's error if no point can run: a wrong key is said at once, a wrong value in its own place."""
+    """Raises the error of the first point if no point can run, as with a wrong key. Otherwise the sweep itself reports the points
+    that fail."""
     errors = []
     for point in points:
         try:
@@ -74,34 +75,37 @@ def sweep(scenario, axes, *, variables=None, set=None, command="pulse", output=N
     Parameters
     ----------
     scenario, set
-        As of `pulse`.
+        As in `pulse`.
     axes : dict
-        Key of the scenario -> its values, such as {"friction.coefficient": [0.1, 0.5], "friction.closure": ["paper",
-        "consistent"]}. Every combination is run.
+        The values of each key of the scenario to vary, such as {"friction.coefficient": [0.1, 0.5], "friction.closure":
+        ["paper", "consistent"]}. The sweep runs every combination.
     variables : list of str, optional
-        Numbers of `slipfront pulse --json` (or chain) to keep, at the end of each run; all but clocks unless given.
-    command : str
-        "pulse" or "chain".
+        Numbers of `slipfront pulse --json` (or chain) to return, at the end of each run. By default all of them except
+        the time, the clocks and the numbers of threads and ranks.
+    command : "pulse" or "chain", optional
+        What to run.
     output : path, optional
-        NetCDF file to write when all is done. Until then results are appended to `<output>.part`.
+        NetCDF file to write at the end. Until then results are appended to `<output>.part`.
     resume : path, optional
-        Output of a killed or interrupted sweep, the same in all else, to go on with; a finished one is given back.
+        Output of an interrupted sweep to resume. Scenario, axes, variables and version must be the same. A finished sweep is
+        returned without running it again.
     client : distributed.Client, optional
-        Dask cluster to run on, where slipfront must be installed; tables of initial stress are read by its workers. Points
-        whose worker dies are tried again.
+        Dask cluster to run on. slipfront must be installed there, and the workers read tables of initial stress. Points whose
+        worker dies are tried again.
     progress : bool or callable, optional
-        True for a line on stderr; or called with (points done, all points).
+        True shows a line on stderr. A function is called with (points done, all points).
     threads : int, optional
-        Without a client: points at a time; all cores unless given. Results do not depend on it.
+        Number of points that run at the same time if there is no client, by default all cores. Results do not depend on it.
 
     Returns
     -------
-    xarray.Dataset with the axes as dimensions, by their full keys; `data.sel({"friction.coefficient": 0.5})`. A point that
-    failed is NaN, and `failure` holds the reason ("" elsewhere).
+    xarray.Dataset with the axes as dimensions. Their names are the full keys: `data.sel({"friction.coefficient": 0.5})`. A
+    point that failed is NaN, and `failure` gives the reason ("" for the others).
 
     Raises
     ------
-    InputError for what is wrong with every point, or with the axes; FileError. KeyboardInterrupt keeps what is done.
+    InputError if the axes are wrong or no point can run; FileError if a file cannot be read or written; NumericsError if the
+    cluster is lost. After a KeyboardInterrupt, `<output>.part` holds the finished points.
     """
     if command not in ("pulse", "chain"):
         raise InputError(f"command = '{shown(command)}': unknown; allowed: pulse, chain")
@@ -159,16 +163,16 @@ def sweep(scenario, axes, *, variables=None, set=None, command="pulse", output=N
         raise
     if store:
         store.close(remove=True)
-    failed = sum(reason != "" for reason in reasons)  # NumPy's != gives one False for all where it gets no memory
+    failed = sum(reason != "" for reason in reasons)  # NumPy's != returns a single False if it cannot allocate memory
     if failed:
         first = next(reason for reason in reasons if reason)
-        warnings.warn(f"{failed} of {len(points)} points failed (see `failure`), the first: {first}", stacklevel=2)
+        warnings.warn(f"{failed} of {len(points)} points failed (see `failure`). The first error: {first}", stacklevel=2)
     return data
 
 
 def _dataset(about, axes, kept, values, reasons):
     variables = {name: (tuple(axes), array, {"long_name": meaning or name, "units": "1"}) for (name, meaning), array in zip(kept.items(), values)}
-    variables["failure"] = (tuple(axes), reasons, {"long_name": "why there is no result; empty where there is one"})
+    variables["failure"] = (tuple(axes), reasons, {"long_name": "reason why there is no result; empty for a point that succeeded"})
     return dataset(variables, {key: (key, array) for key, array in axes.items()},
                    {"Conventions": "CF-1.10", "source": f"slipfront {__version__}", "history": f"slipfront.sweep of {about['command']}",
                     "version": __version__, "scenario": about["scenario"], "set": "\n".join(about["set"]), "slipfront_format": _format,
@@ -178,5 +182,5 @@ def _dataset(about, axes, kept, values, reasons):
 def _finished(file, about):
     data = open(file)
     if data.attrs.get("sweep") != json.dumps(about):
-        raise InputError(f"{file}: was written by another sweep; allowed: the scenario, axes, variables and version that began it")
+        raise InputError(f"{file}: was written by another sweep; allowed: the scenario, axes, variables and version of that sweep")
     return data

@@ -1,4 +1,4 @@
-"""slipfront animate: slip pulses as moving pictures."""
+"""The command slipfront animate, which draws slip pulses as moving pictures."""
 
 import json
 import pathlib
@@ -9,40 +9,40 @@ from ._optional import import_optional
 
 FRAMES = 75
 
-#: The rock of the SI scales: P-wave speed in m/s, Poisson's ratio, shear modulus in Pa; the paper's.
+#: The rock for scales in SI units, as in the paper: P-wave speed in m/s, Poisson's ratio, shear modulus in Pa.
 ROCK = {"p_wave_speed": 6000.0, "poisson_ratio": 0.3, "shear_modulus": 30e9}
 
 
 def run(scenario):
-    """The pulse of a scenario file, with output times for smooth motion unless it names its own."""
+    """Runs the pulse of a scenario file. The output times give a smooth animation unless the scenario has its own."""
     import slipfront
 
     try:
         with open(scenario, "rb") as file:
             own = "times" in tomllib.load(file).get("output", {})
     except (OSError, tomllib.TOMLDecodeError, AttributeError, UnicodeDecodeError):
-        own = False  # what is wrong with it, the reader of scenarios says
+        own = False  # slipfront.check below reports the error
     plan = slipfront.check(scenario)
     pulse = slipfront.pulse(scenario, set={} if own else {"output.every": plan["end"] / (FRAMES - 1)})
-    return pulse.assign_attrs(title=plan["title"])  # the output times are ours: the title does not name them
+    return pulse.assign_attrs(title=plan["title"])  # the title of the run names the output times that we have set
 
 
 def pulse_of(source):
-    """The pulse of a scenario, which is run, or of a file."""
+    """Returns the pulse of a file. A scenario is run first."""
     from .plots import files
 
     pulse = run(source) if source.lower().endswith(".toml") else files.read(source)
     if not {"W", "Sigma", "k", "x_bounds"} <= set(pulse.variables) or set(pulse["k"].dims) != {"time", "x"} or pulse.sizes["time"] < 2:
-        raise ValueError(f"{source}: no pulse over two or more times in it; allowed: a file of pulse or chain, or a scenario")
+        raise ValueError(f"{source}: contains no pulse with two or more output times; allowed: a file of pulse or chain, or a scenario")
     return pulse
 
 
 def si_units(options):
-    """SI values of the units, from --contact-ratio and --asperity-spacing; None without."""
+    """Returns the SI values of the units from --contact-ratio and --asperity-spacing, or None if both are missing."""
     from . import medium
 
     if (options.contact_ratio is None) != (options.asperity_spacing is None):
-        raise ValueError("--contact-ratio and --asperity-spacing: one is missing; the scales in m, s, m/s and MPa need both")
+        raise ValueError("--contact-ratio and --asperity-spacing: one is missing; scales in m, s, m/s and MPa need both")
     if options.contact_ratio is None:
         return None
     speed = float(medium.speed_from_p_wave(ROCK["p_wave_speed"], ROCK["poisson_ratio"]))
@@ -50,19 +50,20 @@ def si_units(options):
 
 
 def arguments(argv):
-    """The options of the command line."""
-    parser = Arguments("animate", "Slip pulses as moving pictures: the averaged slip velocity and stress, and the dislocations that carry them.")
+    """Returns the options of the command line."""
+    parser = Arguments("animate", "Draws slip pulses as moving pictures: the averaged slip velocity and stress, and the dislocations that carry them.")
     parser.add_argument("sources", metavar="FILE", nargs="+",
                         help="NetCDF of pulse or chain (a frame for each output time), or a scenario (TOML) to run; several are drawn side by side")
     parser.add_argument("-o", "--output", metavar="PICTURE", type=file_name, required=True, help="its ending is the format: gif, webp, mp4")
-    parser.add_argument("--contact-ratio", metavar="A", type=float, help="contact ratio, for scales in SI units beside the dimensionless ones")
+    parser.add_argument("--contact-ratio", metavar="A", type=float, help="contact ratio; adds scales in SI units to the dimensionless ones")
     parser.add_argument("--asperity-spacing", metavar="METRES", type=float,
-                        help="asperity spacing b in m, for the same; the rock is the paper's: P waves of 6 km/s, Poisson's ratio 0.3, 30 GPa")
+                        help="asperity spacing b in m, for the scales in SI units; the rock is that of the paper: P waves of 6 km/s, Poisson's ratio 0.3, 30 GPa")
     return parser.parse_args(argv)
 
 
 def main(argv) -> int:
-    """Writes the animation. Returns the exit code; raises ValueError (bad input), OSError (files), ImportError (a library)."""
+    """Writes the animation and returns the exit code. Raises ValueError for bad input, OSError for files, and ImportError for a
+    missing library."""
     options = arguments(argv)
     for module in ("xarray", "matplotlib", "PIL"):
         import_optional(module)
@@ -71,7 +72,7 @@ def main(argv) -> int:
 
     output = pathlib.Path(options.output)
     if output.suffix.lower().lstrip(".") not in movie.FORMATS:
-        raise ValueError(f"-o {output}: '{output.suffix}' is no moving picture; allowed endings: {', '.join(movie.FORMATS)}")
+        raise ValueError(f"-o {output}: '{output.suffix}' is not a format of moving pictures; allowed endings: {', '.join(movie.FORMATS)}")
     si = si_units(options)
     scene, frames = Scene([pulse_of(source) for source in options.sources], si), []
     for row in range(scene.times.size):

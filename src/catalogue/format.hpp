@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a format of catalogues is: each reader defines one, and read.cpp lists them.
+/// The interface of a catalogue format. Each reader defines one format, and read.cpp lists them all.
 
 #include <string>
 #include <string_view>
@@ -11,13 +11,13 @@
 namespace slipfront::catalogue {
 
 struct Format {
-  std::string_view ending;                    ///< of a file's name, such as ".toml"
-  bool (*looks_like)(std::string_view text);  ///< whether a text under another name is of this format
-  /// Hands on the entries; returns the columns that carry no observation.
+  std::string_view ending;                    ///< file name extension, such as ".toml"
+  bool (*looks_like)(std::string_view text);  ///< detects the format if the extension is unknown
+  /// Passes each entry to `sink`. Returns the titles of the columns that hold no observation.
   std::vector<std::string> (*read)(std::string_view text, const std::string& file, const Sink& sink);
 };
 
-/// The first character that is no blank; 0 if there is none.
+/// Returns the first character that is not white space, or 0 if there is none.
 inline char first_character(std::string_view text) {
   const auto first = text.find_first_not_of(" \t\r\n");
   return first == std::string_view::npos ? '\0' : text[first];

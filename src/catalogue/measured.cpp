@@ -18,13 +18,14 @@ using Shape = Measured::Shape;
 
 constexpr const char* forms = "such as 3.0 +- 0.2 km/s, 3.0 */ 1.2 km/s, 2.8..3.2 km/s, lognormal(3.0, 1.2) km/s";
 
-/// What a text says, before numbers and unit are read.
+/// The parts of a text such as "3.0 +- 0.2 km/s", before its numbers and its unit are read.
 struct Parts {
   std::string_view first, second, unit;
   Shape shape;
 };
 
-/// Splits "b unit" behind the number b, where a blank or a unit begins and not inside of a number ("1e400").
+/// Splits "b unit" after the number b. The split is where a blank or a unit begins, never inside a number such as
+/// "1e400".
 std::pair<std::string_view, std::string_view> number_and_unit(std::string_view text) {
   const std::size_t end = std::min(text.find_first_not_of("+-.0123456789eE"), text.size());
   if (medium::number(text.substr(0, end))) return {text.substr(0, end), trimmed(text.substr(end))};

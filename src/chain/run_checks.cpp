@@ -15,8 +15,8 @@ namespace {
 using output::Findings;
 constexpr double turn = 2 * std::numbers::pi;
 
-/// Whether there are only the dislocations of the start. A force makes others anywhere, a free end lets them in, and
-/// around a ring they return.
+/// Whether the chain contains only the dislocations of the start. A force can create others anywhere. At a free end
+/// they can enter, and around a ring they return.
 bool only_starting_dislocations(const ScaledProblem& s) {
   const bool fixed = !s.boundary.periodic && s.boundary.left == End::fixed && s.boundary.right == End::fixed;
   return !s.forcing && !s.loading.acts() && fixed;
@@ -37,7 +37,7 @@ RunChecks::RunChecks(const RunObserver& observer, const std::vector<output::Snap
 void RunChecks::check_energy(const Balance& balance, Findings& found) const {
   std::string sentence = "chain: energy and work differ by " + digits(balance.energy_drift) + " of the energy";
   if (scaled_.model == Model::sine_gordon) {
-    const double sites = 2 / balance.steepest;  // a dislocation has the slope 2 over its width
+    const double sites = 2 / balance.steepest;  // the slope of a dislocation is 2 over its width
     if (sites < least_sites_per_width)
       sentence += ". The narrowest dislocation, made so by its speed or by others, has only " + digits(sites, 2) +
                   " sites to its width; " + digits(least_sites_per_width) + " are needed";
@@ -56,7 +56,7 @@ void RunChecks::check_fronts(Findings& found) const {
       found.violation(1, std::string("chain: the ") + name + " front at " + digits(x) + " is outside the domain");
 }
 
-/// Nothing is faster than c.
+/// No front is faster than c.
 void RunChecks::check_speed_of_fronts(Findings& found) const {
   if (!only_starting_dislocations(scaled_)) return;
   const double site = chain_.problem().grid.spacing / scaled_.scale;
@@ -70,7 +70,8 @@ void RunChecks::check_speed_of_fronts(Findings& found) const {
   }
 }
 
-/// A step in a train that is even on either side moves first at x = 0; other profiles move everywhere at once.
+/// If the stress is a step between two uniform trains, motion begins at x = 0 and spreads no faster than c. Other
+/// profiles move everywhere at once.
 void RunChecks::check_observed_fronts(Findings& found) const {
   if (!only_starting_dislocations(scaled_) || !is_step(scaled_)) return;
   const output::Snapshot& last = snapshots_.back();
@@ -85,8 +86,8 @@ void RunChecks::check_observed_fronts(Findings& found) const {
                                 " of the peak slip velocity");
 }
 
-/// A grid holds a dislocation that is pushed too little. Where the push is 20 times what the grid holds, the velocity
-/// is some 0.1 % low.
+/// Warns if the forces at the start are too weak for the barrier of the grid, which holds slow dislocations. At 20
+/// times the barrier, dislocations are some 0.1 % too slow.
 void RunChecks::check_barrier(Findings& found) const {
   constexpr double enough = 20;
   const ScaledProblem& s = scaled_;
@@ -102,51 +103,54 @@ void RunChecks::check_barrier(Findings& found) const {
       " are needed. Try chain.spacing = " + digits(spacing_with_barrier_below(force / enough, spacing)));
 }
 
-/// Slip is u now less u at t = 0. The velocity at x = 0 was sampled independently during the run.
+/// Compares the slip at x = 0, u minus u at t = 0, with the integral of the velocity there. The run sampled this
+/// velocity independently.
 void RunChecks::check_slip(Findings& found) const {
   if (!observer_.sees_origin()) return;
   const RunObserver::OriginSlip slip = observer_.origin_slip();
   if (slip.samples <= 7) return;
-  const double quarter = turn / 4;  // of a dislocation
+  const double quarter = turn / 4;  // the slip of a quarter of a dislocation
   const double excess = std::fabs(slip.by_displacement - slip.by_velocity) - (3 * slip.error + quarter);
   found.violation(excess / std::fmax(std::fabs(slip.by_displacement), turn),
                   "chain: slip at x = 0 is " + digits(slip.by_displacement / scaled_.scale) +
-                      ", the integral of the slip velocity there " + digits(slip.by_velocity / scaled_.scale));
+                      ", but the integral of the slip velocity there is " + digits(slip.by_velocity / scaled_.scale));
 }
 
-/// Where nothing makes antidislocations: dislocations counted where u passes pi, against those that the ends hold
-/// apart, and |W| <= k.
+/// Makes two checks if nothing creates antidislocations. The number of dislocations, counted where u passes pi, must
+/// agree with the charge of the ends. And |W| <= k must hold.
 void RunChecks::check_one_sign(const Balance& balance, Findings& found) const {
   const ScaledProblem& s = scaled_;
   const bool closed = s.boundary.periodic || (s.boundary.left == End::fixed && s.boundary.right == End::fixed);
   if (!closed || s.forcing || s.loading.acts()) return;
   const auto counted = static_cast<double>(balance.dislocations);
   const double charge = std::fabs(observer_.charge_at_start() + balance.charge_error);
-  const double more = std::fabs(counted - charge) - 1.5;  // at a fixed end a part of one
+  const double more = std::fabs(counted - charge) - 1.5;  // a fixed end may hold a part of one
   found.violation(more / std::fmax(charge, 100),
-                  "chain: " + digits(counted) + " dislocations where the ends hold " + digits(charge));
+                  "chain: " + digits(counted) + " dislocations, but the ends require " + digits(charge));
   const output::Profile& last = snapshots_.back().profile;
   double k_most = 0, excess = 0;
   for (std::size_t i = 0; i < last.k.size(); ++i) {
     k_most = std::fmax(k_most, std::fabs(last.k[i]));
     excess = std::fmax(excess, std::fabs(last.W[i]) - std::fabs(last.k[i]));
   }
-  // Waves alone have a mean velocity of either sign, of the size of a share of a dislocation in the window.
+  // Waves have a mean velocity of either sign even without dislocations. It is as large as that of a fraction of a
+  // dislocation in the window.
   const double one = turn / (s.scale * observer_.smooth_window());
   found.violation((excess - 0.1 * one) / std::fmax(k_most, one),
                   "chain: the slip velocity is larger than the stress by " + digits(excess));
 }
 
-/// The slip at x = 0 is a whole number of dislocations.
+/// Warns if so few dislocations passed x = 0 that the slip there, a whole number of them, is inaccurate.
 void RunChecks::check_dislocations(Findings& found) const {
   const double last_slip = snapshots_.back().slip_at_origin, scale = scaled_.scale;
   if (!observer_.sees_origin() || last_slip == 0) return;
   const double step = turn / scale, slip = std::fabs(last_slip);
   if (!(step / 4 > 0.01 * slip && slip > 1e-3 * step)) return;
-  found.sentences.push_back(
-      "chain: " + digits(static_cast<double>(observer_.dislocations_at_start())) + " dislocations at scale " +
-      digits(scale) + ", of which " + digits(slip / step) + " passed x = 0; each is a slip of " + digits(step) +
-      ". For 1 % try chain.scale = " + digits(std::pow(10, std::ceil(2 * std::log10(25 * turn / slip)) / 2)));
+  found.sentences.push_back("chain: " + digits(static_cast<double>(observer_.dislocations_at_start())) +
+                            " dislocations at scale " + digits(scale) + ", of which " + digits(slip / step) +
+                            " passed x = 0; each adds a slip of " + digits(step) +
+                            ". For an error of 1 %, try chain.scale = " +
+                            digits(std::pow(10, std::ceil(2 * std::log10(25 * turn / slip)) / 2)));
 }
 
 Findings RunChecks::findings() const {

@@ -8,13 +8,13 @@
 
 namespace slipfront::chain {
 
-/// Conditions that every chain run should meet. A run that misses one warns, or ends with a NumericsError.
+/// Checks the conditions that every chain run should meet. If one is not met, the run warns or throws a NumericsError.
 class RunChecks {
  public:
-  /// Of a run that has made these snapshots. Both outlive the checks.
+  /// Checks a run that has made these snapshots. Both arguments must outlive the checks.
   RunChecks(const RunObserver& observer, const std::vector<output::Snapshot>& snapshots);
 
-  /// (all) Looks at every site.
+  /// (all) Makes all checks. Reads every site.
   output::Findings findings() const;
 
  private:

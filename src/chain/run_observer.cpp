@@ -21,24 +21,24 @@ namespace {
 using output::Snapshot;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// In the window of velocities and stresses (smooth_average): their ripple is some 0.1 % then.
+/// Number of dislocations in the window of velocities and stresses (smooth_average). Their ripple is then some 0.1 %.
 constexpr double dislocations_in_window = 8;
 
-/// Dislocations are wider than that; a chain that has more of them has diverged.
+/// Dislocations are much wider than 1/8 of a site. A chain with more dislocations has diverged.
 constexpr double most_dislocations_a_site = 8;
 
-/// The train's spacing just left of x = 0, or anywhere if it is empty there.
+/// Spacing of the train just left of x = 0. If there is no train, the spacing at an end, or else a default.
 double spacing_of_train(const ScaledProblem& s) {
   for (const double x : {-1e-9 * (s.right - s.left), s.left, s.right})
     if (const double k = s.stress(x); k > 0) return 2 * std::numbers::pi / k / s.scale;
   return (s.right - s.left) / 16;
 }
 
-/// The first step after `steps` at which rates are sampled: one somewhere in each `every` steps. A train passes x = 0
-/// with a period of its own, and regular samples, of any pattern, can see the same phase of it again and again.
+/// The first step after `steps` at which the run samples rates. There is one sample at a random step in each `every`
+/// steps. A train passes x = 0 periodically, and samples in a regular pattern could repeatedly meet the same phase.
 long sample_after(long steps, long every) {
   const auto sample = [every](long n) {
-    std::uint64_t z = static_cast<std::uint64_t>(n) * 0x9e3779b97f4a7c15u;  // splitmix64, of the number of the sample
+    std::uint64_t z = static_cast<std::uint64_t>(n) * 0x9e3779b97f4a7c15u;  // splitmix64 of the number of the sample
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
     return n * every + static_cast<long>((z ^ (z >> 31)) % static_cast<std::uint64_t>(every));
@@ -47,7 +47,7 @@ long sample_after(long steps, long every) {
   return sample(n) > steps ? sample(n) : sample(n + 1);
 }
 
-/// A dislocation in a train at rest feels the force dJ/dx (docs/theory.md 6) and F.
+/// The largest force on a dislocation in the initial train at rest: dJ/dx (docs/theory.md 6) plus F.
 double driving_force(const ScaledProblem& s, double end) {
   constexpr int samples = 2000;
   const double dx = (s.right - s.left) / samples;
@@ -94,7 +94,7 @@ void RunObserver::choose_windows() {
   if (!step) return;
   const double steps = schedule_.times.back() * scaled_.scale / *step;
   sample_every_ = std::max(32L, 32 * std::lround(steps / 200 / 32));
-  // The slip velocity at x = 0 of so few sites can be followed even where one dislocation passes.
+  // In a short chain we sample often enough to resolve the slip velocity while a single dislocation passes x = 0.
   if (chain_.problem().grid.sites < 5000) sample_every_ = std::clamp(sample_every_ / 16, 2L, 32L);
 }
 
@@ -103,8 +103,8 @@ double RunObserver::middle_of_cell(std::size_t i) const {
 }
 
 double RunObserver::centre_of_cell(std::size_t i) const {
-  const double half = width_of_cell(i) / 2 * (1 + 1e-9);  // the window stays on the chain
-  const Grid& grid = chain_.problem().grid;               // a ring's last site is a spacing before its end
+  const double half = width_of_cell(i) / 2 * (1 + 1e-9);  // so that the window does not leave the chain
+  const Grid& grid = chain_.problem().grid;               // the last site of a ring is a spacing before its end
   return std::clamp(middle_of_cell(i), scaled_.left + half, grid.x(grid.sites - 1) / scaled_.scale - half);
 }
 
@@ -117,7 +117,7 @@ long RunObserver::steps_to_sample() const {
   return chain_.constant_step() ? sample_after(chain_.steps(), sample_every_) - chain_.steps() : 1;
 }
 
-/// Where the chain meters all that takes energy, its rate is not needed.
+/// The rate of friction is sampled only if the chain does not measure this work itself.
 void RunObserver::sample() {
   if (chain_.problem().friction.acts() && !chain_.meters_friction()) work_.sample(totals(chain_));
   if (!sees_origin()) return;
@@ -149,7 +149,7 @@ Snapshot RunObserver::snapshot(double time) const {
   return s;
 }
 
-/// Averages over the output cells, their peak, and the energy of phonons.
+/// Adds averages over the output cells, their peak, and the energy of phonons.
 void RunObserver::add_profile(Snapshot& s, double time) const {
   const double c = scaled_.scale;
   std::size_t peak = 0;
@@ -160,12 +160,12 @@ void RunObserver::add_profile(Snapshot& s, double time) const {
     const SmoothAverage a = smooth_average(chain_, c * middle, c * wide, c * time);
     s.profile.k.push_back(a.stress);
     s.profile.W.push_back(a.velocity);
-    // Where others than dislocations of one sign move, waves or antidislocations too, U is none of theirs.
+    // If waves or antidislocations move as well, W / k is not the velocity U of any dislocation.
     const bool of_one_sign = std::fabs(a.velocity) < a.stress;
     s.profile.U.push_back(a.stress < train::smallest_stress ? 0 : of_one_sign ? a.velocity / a.stress : none);
     s.profile.H.push_back(a.energy);
     s.profile.slip.push_back((u - first_u_[i]) / c);
-    // At an end the window is cut, and its average is not that of a uniform train.
+    // A window that an end cuts does not give the average of a uniform train.
     const bool whole = middle - wide / 2 >= scaled_.left && middle + wide / 2 <= scaled_.right;
     const double contact = contact_at(middle);
     if (whole) s.energy.phonons += cell * (a.energy - energy_of_train(a.stress, a.velocity, contact));
@@ -201,7 +201,7 @@ void RunObserver::add_energy(Snapshot& s, const Totals& now) const {
   s.further["pore_pressure_at_origin"] = pore_pressure_at_origin();
 }
 
-/// From the profile, and from the outermost dislocation where one side is empty.
+/// Finds fronts in the profile, and the leading front also from the outermost dislocation if one side is empty.
 void RunObserver::find_fronts(Snapshot& s) const {
   s.fronts = {none, none, none, none, none};
   const double stress_left = scaled_.stress(scaled_.left), stress_right = scaled_.stress(scaled_.right);
@@ -210,7 +210,8 @@ void RunObserver::find_fronts(Snapshot& s) const {
     const auto all = chain::dislocations(chain_);
     if (!all.empty()) s.fronts.leading = (stressed_left ? all.back() : all.front()).x / scaled_.scale;
   }
-  // At an end the window is cut, and contains phonons that a whole one averages away: no front is sought there.
+  // We seek no front where an end cuts the window, because such an average contains phonons that a whole window would
+  // average out.
   const double half = std::min(smooth_window_ / 2, (scaled_.right - scaled_.left) / 4);
   std::vector<double> x, speed;
   for (std::size_t i = 0; i < s.profile.W.size(); ++i) {
@@ -224,7 +225,7 @@ void RunObserver::find_fronts(Snapshot& s) const {
   s.fronts.leading_observed = stressed_left ? seen.right : seen.left;
 }
 
-/// a at a position of the scenario, at present.
+/// The present a at position x of the scenario.
 double RunObserver::contact_at(double x) const {
   const Grid& grid = chain_.problem().grid;
   if (!chain_.problem().friction.changes_contacts()) return scaled_.contact ? scaled_.contact(x) : 1.0;
@@ -233,7 +234,7 @@ double RunObserver::contact_at(double x) const {
   return std::sqrt(chain_.contact_squared(static_cast<std::size_t>(std::lround(site))));
 }
 
-/// p, on the mean over the window of the slip at x = 0.
+/// The mean pore pressure p over the window that averages the slip at x = 0.
 double RunObserver::pore_pressure_at_origin() const {
   if (!sees_origin()) return none;
   const Grid& grid = chain_.problem().grid;

@@ -11,10 +11,10 @@
 
 namespace slipfront::chain {
 
-/// Measures the chain of a run in the scenario's units, and compares with its state at t = 0.
+/// Measures the chain of a run in the scenario's units, and compares it with its state at t = 0.
 class RunObserver {
  public:
-  /// Of a chain at t = 0, which outlives it.
+  /// Observes a chain, which must be at t = 0 and must outlive the observer.
   RunObserver(const ScaledProblem& scaled, const output::Schedule& schedule, const Chain& chain);
 
   const ScaledProblem& scaled() const { return scaled_; }
@@ -27,20 +27,21 @@ class RunObserver {
   long steps_to_sample() const;
   /// Samples the rates that are integrated over time.
   void sample();
-  /// At `time` of the scenario, which the chain has reached. \throws NumericsError if the chain has diverged.
+  /// Returns a snapshot at `time` of the scenario, which the chain must have reached. \throws NumericsError if the
+  /// chain has diverged.
   output::Snapshot snapshot(double time) const;
   Balance balance() const;
 
-  /// The start, for checks.
+  /// The charge and the number of dislocations at t = 0, for checks.
   double charge_at_start() const { return first_charge_; }
   long dislocations_at_start() const { return first_dislocations_; }
   /// The largest force on a dislocation at t = 0, as a force F of the scenario.
   double driving_force_at_start() const { return driving_force_; }
-  /// Whether there is a window at x = 0; not if the domain ends there.
+  /// Whether the window at x = 0 is inside the domain.
   bool sees_origin() const;
   /// Slip at x = 0 on the chain, in its own units, from the displacement and from the sampled velocity.
   struct OriginSlip {
-    double by_displacement, by_velocity, error;  ///< of the integral of the velocity
+    double by_displacement, by_velocity, error;  ///< `error` is that of the integral of the velocity
     long samples;
   };
   OriginSlip origin_slip() const;
@@ -49,7 +50,7 @@ class RunObserver {
   void resume(bytes::Reader& reader);
 
  private:
-  /// The numbers that a checkpoint holds, in its order. The count of samples follows.
+  /// The numbers that a checkpoint stores, in the order of the file. The number of samples follows them.
   template <class Observer>
   static auto numbers(Observer& o) {
     auto& work = o.work_;
@@ -61,7 +62,7 @@ class RunObserver {
   void choose_windows();
   double width_of_cell(std::size_t i) const;
   double middle_of_cell(std::size_t i) const;
-  double centre_of_cell(std::size_t i) const;  ///< of the window for its slip, which stays on the chain
+  double centre_of_cell(std::size_t i) const;  ///< centre of the window of its slip, which must not leave the chain
   Work work_until(const Totals& now) const;
   void add_profile(output::Snapshot& snapshot, double time) const;
   void add_origin(output::Snapshot& snapshot, double time) const;
@@ -74,14 +75,14 @@ class RunObserver {
   output::Schedule schedule_;
   const Chain& chain_;
   double window_ = 0, smooth_window_ = 0;
-  long sample_every_ = 1;  ///< steps; each step if they have no constant length
-  // At t = 0.
+  long sample_every_ = 1;  ///< steps between samples; 1 if steps have no constant length
+  // Values at t = 0.
   std::vector<double> first_u_;  ///< averages over the output cells
   double first_u_at_origin_ = 0, first_energy_ = 0, first_charge_ = 0;
   long first_dislocations_ = 0;
   double driving_force_ = 0;
-  Work work_;  ///< since then, of viscous friction that the chain itself does not meter
-  /// Integral of the velocity at x = 0 over the window of the slip. Its first sample is that of t = 0.
+  Work work_;  ///< work since t = 0 of viscous friction, if the chain does not measure it
+  /// Time integral of the velocity at x = 0, averaged over the window of the slip. Its first sample is at t = 0.
   output::SampledIntegral slip_{.samples = -1};
 };
 

@@ -6,14 +6,15 @@
 namespace slipfront::finite_fault {
 namespace {
 
-/// Of the largest slip. Published tables give times to all subfaults; where hardly anything slips they are arbitrary.
+/// Rupture times of subfaults with a smaller fraction of the largest slip are ignored. Published tables give times for
+/// all subfaults, but times of subfaults that hardly slip are arbitrary.
 constexpr double least_share = 0.05;
 
 bool timed(const LocalState& s, double least_slip) { return s.subfault.rupture_time && s.subfault.slip > least_slip; }
 
 double time_of(const LocalState& s) { return *s.subfault.rupture_time; }
 
-/// One column from its subfaults, [from, to). Without a time of its own it gets none: NaN.
+/// Makes one column from its subfaults, [from, to). Its time is NaN if none of them has a time that counts.
 FaultColumn column_of(const std::vector<LocalState>& states, std::size_t from, std::size_t to, double origin,
                       double begin, double least_slip) {
   const double n = static_cast<double>(to - from);
@@ -26,7 +27,7 @@ FaultColumn column_of(const std::vector<LocalState>& states, std::size_t from, s
   return c;
 }
 
-/// The subfault that slipped first; null: none has a time.
+/// The subfault that slipped first, or null if none has a time.
 const LocalState* first_of(const std::vector<LocalState>& states, double least_slip) {
   const LocalState* first = nullptr;
   for (const LocalState& s : states)
@@ -34,7 +35,7 @@ const LocalState* first_of(const std::vector<LocalState>& states, double least_s
   return first;
 }
 
-/// The subfaults of a segment, along strike.
+/// The subfaults of a segment, sorted along strike.
 std::vector<LocalState> segment_of(const std::vector<LocalState>& states, std::size_t number) {
   std::vector<LocalState> segment;
   for (const LocalState& s : states)
@@ -44,8 +45,9 @@ std::vector<LocalState> segment_of(const std::vector<LocalState>& states, std::s
   return segment;
 }
 
-/// Divides a segment into columns. Within a column subfaults are close up to rounding; between columns they are apart
-/// by the length of a subfault, at most `widest`. Returns why it cannot be divided, or an empty text.
+/// Divides a segment into columns. Subfaults of one column have the same position along strike, up to rounding. Columns
+/// are apart by the length of a subfault, which is at most `widest`. Returns the reason if the segment cannot be
+/// divided, and otherwise an empty text.
 std::string divide(const std::vector<LocalState>& segment, double origin, double begin, double least_slip,
                    double widest, std::vector<FaultColumn>& columns) {
   double broadest = 0;
@@ -58,18 +60,19 @@ std::string divide(const std::vector<LocalState>& segment, double origin, double
     alike = alike && to - from == rows;
     broadest = std::fmax(broadest, segment[to - 1].along_strike - segment[from].along_strike);
     columns.push_back(column_of(segment, from, to, origin, begin, least_slip));
-    // Positions are given to metres: a column this near is the hypocentre's, and belongs to both sides.
+    // Files give positions to a metre. A column this close to the hypocentre is at the hypocentre, and belongs to both
+    // sides.
     if (std::fabs(columns.back().x) < 0.01 * widest) columns.back().x = 0;
   }
-  if (!alike || broadest > widest / 2) return "the subfaults do not stand in columns along strike";
-  if (columns.size() < 3) return std::to_string(columns.size()) + " columns along strike, at least 3 are needed";
+  if (!alike || broadest > widest / 2) return "the subfaults do not form columns along strike";
+  if (columns.size() < 3) return std::to_string(columns.size()) + " columns along strike, but at least 3 are needed";
   return {};
 }
 
 }  // namespace
 
 FaultColumns columns_of(const std::vector<LocalState>& states) {
-  if (states.empty()) return {{}, 0, "the file gives no places of subfaults"};
+  if (states.empty()) return {{}, 0, "the file gives no positions of subfaults"};
   double least_slip = 0;
   for (const LocalState& s : states) least_slip = std::fmax(least_slip, least_share * s.subfault.slip);
   const LocalState* first = first_of(states, least_slip);
@@ -87,7 +90,7 @@ FaultColumns columns_of(const std::vector<LocalState>& states) {
     latest = std::fmax(latest, time_of(s) - begin);
     out.end = std::fmax(out.end, time_of(s) - begin + s.subfault.rise_time.value_or(0));
   }
-  if (!(latest > 0)) return {{}, 0, "all rupture times (TRUP) are alike"};
+  if (!(latest > 0)) return {{}, 0, "all rupture times (TRUP) are equal"};
   origin /= beginning;
 
   const std::string reason = divide(segment, origin, begin, least_slip, widest, out.columns);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// One side of the hypocentre: stress that a load holds until the pulse comes. Private to src/finite_fault.
+/// One side of the hypocentre, where a load holds the stress until the pulse comes. Private to src/finite_fault.
 
 #include <vector>
 
@@ -8,30 +8,30 @@
 
 namespace slipfront::finite_fault {
 
-/// What the solver bears; less counts as none.
+/// Smallest stress that the solver supports. Smaller values are treated as zero.
 inline constexpr double least_stress = 0.005;
 
-/// Places and stresses (mu A / pi) by their distance from the hypocentre: ascending, the first at 0. Linear between
-/// them, constant beyond.
+/// The stress (mu A / pi) at given distances from the hypocentre, which ascend from 0. The stress is linear between
+/// them, and constant after the last.
 struct SideStress {
   std::vector<double> distance, stress;
   double at(double distance) const;
 };
 
-/// Fine nodes along one side, out to where its front can be by `end`.
+/// One side on fine nodes, which extend as far as its front can come by the time `end`.
 class HeldSide {
  public:
   HeldSide(SideStress stress, double end);
-  /// When the front comes to this distance, at the local speed of the closed form, c0(psi) (Eq. 8): the state ahead is
-  /// at rest. Infinite beyond an unstressed place.
+  /// The time at which the front comes to this distance. It moves with the local speed c0(psi) of Eq. 8, because the
+  /// state ahead is at rest. The time is infinite if the stress is zero anywhere on the way.
   double front_time(double distance) const;
   /// The stressed side lies at x < 0. The load F(x) = p_x / k keeps it at rest: P_t + Q_x = F k with U = 0, Q = p.
   pulse::Problem problem() const;
 
  private:
   SideStress stress_;
-  double length_ = 0, node_ = 0;         ///< last distance, spacing of the nodes
-  std::vector<double> pressure_, time_;  ///< at the nodes
+  double length_ = 0, node_ = 0;         ///< distance of the last node, spacing of the nodes
+  std::vector<double> pressure_, time_;  ///< pressure and front time at the nodes
 };
 
 }  // namespace slipfront::finite_fault

@@ -15,8 +15,8 @@ namespace {
 
 constexpr double most_stress = 5;
 
-/// The stress on one side of the hypocentre (`sign` -1 or 1), in units of `length`; at the hypocentre as between its
-/// neighbours, beyond the last column constant.
+/// The stress on one side of the hypocentre (`sign` is -1 or 1), with distances in units of `length`. The stress at the
+/// hypocentre is interpolated between its neighbours. After the last column it is constant.
 SideStress side_of(const FaultPulse& p, double sign, double length) {
   const std::size_t n = p.x.size();
   SideStress all;
@@ -41,14 +41,14 @@ SideStress side_of(const FaultPulse& p, double sign, double length) {
   return side;
 }
 
-/// Runs one side and fills front time and slip (in b / 2 pi) of its columns; the column at the hypocentre gets the mean
-/// of both sides. Distances in `length`, times in length / c.
+/// Computes one side, and fills the front time and the slip (in b / 2 pi) of its columns. The column at the hypocentre
+/// gets the mean slip of both sides. The pulse has distances in units of `length` and times in length / c.
 void run_side(FaultPulse& p, double sign, double length, double speed) {
   const SideStress stress = side_of(p, sign, length);
   if (stress.distance.size() < 2) return;
   const double end = p.end * speed / length;
   const HeldSide side(stress, end);
-  const bool starts = stress.stress[0] >= least_stress;  // else there is no drop for a pulse to start from
+  const bool starts = stress.stress[0] >= least_stress;  // otherwise there is no stress drop that could start a pulse
   std::optional<pulse::Solver> solver;
   if (starts) {
     solver.emplace(side.problem());
@@ -76,8 +76,8 @@ std::optional<double> correlation(const std::vector<double>& a, const std::vecto
   return ab / std::sqrt(aa * bb);
 }
 
-/// Scales the slip of the pulse to the model's by least squares. With lengths in units of `length`, u = 1 is
-/// A length / pi of slip between both faces: so the factor tells A.
+/// Scales the slip of the pulse to that of the model by least squares. With lengths in units of `length`, u = 1 is a
+/// slip of A length / pi between both faces, so we obtain A from the factor.
 void fit_slip(FaultPulse& p, double length) {
   p.correlation_of_slip = correlation(p.model_slip, p.pulse_slip);
   double both = 0, square = 0;
@@ -89,7 +89,7 @@ void fit_slip(FaultPulse& p, double length) {
   p.contact_ratio = 2 * std::numbers::pi * factor / (medium::face_factor * length);
 }
 
-/// Ahead of the front nothing moves: what slips there all the same is the solver's error.
+/// The exact slip ahead of the front is 0, so any slip there is the error of the solver.
 void measure_error(FaultPulse& p) {
   double ahead = 0, largest = 0;
   for (std::size_t i = 0; i < p.x.size(); ++i) {
@@ -100,7 +100,8 @@ void measure_error(FaultPulse& p) {
   if (largest > 0) p.slip_error = ahead / largest;
 }
 
-/// Mean rupture times, weighted with slip, over the columns that have both: the ratio of mean velocities.
+/// Computes the ratio of mean front velocities from the mean rupture times, weighted with slip, over the columns that
+/// have both times.
 void compare_fronts(FaultPulse& p) {
   double model = 0, pulse = 0;
   for (std::size_t i = 0; i < p.x.size(); ++i) {
@@ -143,7 +144,7 @@ FaultPulse pulse_along_fault(const std::vector<LocalState>& states, double stres
     for (const double sign : {-1.0, 1.0}) run_side(p, sign, length, speed);
   } catch (const NumericsError& error) {
     FaultPulse none;
-    none.reason = std::string("the pulse solver gave up: ") + error.what();
+    none.reason = std::string("the pulse solver failed: ") + error.what();
     return none;
   }
   measure_error(p);
@@ -161,12 +162,12 @@ std::span<const PulseQuantity> pulse_quantities() {
       {{"pulse_columns", "columns of the model along strike", "", ""},
        [](const FaultPulse& p) { return std::optional(static_cast<double>(p.x.size())); },
        true},
-      {{"pulse_columns_reached", "of these, reached by the pulse's front", "", ""},
+      {{"pulse_columns_reached", "columns that the front of the pulse has reached", "", ""},
        [](const FaultPulse& p) { return std::optional(static_cast<double>(p.reached)); },
        true},
-      {{"pulse_slip_error", "largest slip ahead of the front, exactly 0, over the largest slip", "", ""},
+      {{"pulse_slip_error", "largest slip ahead of the front (exactly 0) over the largest slip", "", ""},
        [](const FaultPulse& p) { return p.slip_error; }},
-      {{"pulse_contact_ratio", "A that the size of the model's slip says", "", "Eq. 1"},
+      {{"pulse_contact_ratio", "A from the size of the slip in the model", "", "Eq. 1"},
        [](const FaultPulse& p) { return p.contact_ratio; }},
   };
   return quantities;

@@ -1,7 +1,8 @@
 #pragma once
 /// \file
-/// A pulse through the slip distribution of a finite-fault model: stress along strike from slip, the frictionless
-/// modulation equations on it, and its front and slip beside the model's. Assumptions: docs/events.md.
+/// Computes a pulse along the slip distribution of a finite-fault model. The slip gives the stress along strike. The
+/// frictionless modulation equations then give front and slip, to be compared with the model. docs/events.md lists the
+/// assumptions.
 
 #include <optional>
 #include <span>
@@ -13,24 +14,24 @@
 
 namespace slipfront::finite_fault {
 
-/// One entry a column along strike, in the order of x.
+/// A pulse along strike. The vectors have an element for each column, in the order of x.
 struct FaultPulse {
-  std::string reason;                               ///< one line, why there is no pulse; then all else is empty
-  std::vector<double> x;                            ///< m, from the hypocentre
-  std::vector<double> stress;                       ///< before the rupture, mu A / pi
-  std::vector<std::optional<double>> model_time;    ///< s, first rupture time in the column; none: it hardly slips
-  std::vector<std::optional<double>> front_time;    ///< s, of the pulse's front; none: unstressed on the way
+  std::string reason;          ///< one line that states why there is no pulse; all else is empty then
+  std::vector<double> x;       ///< m, from the hypocentre
+  std::vector<double> stress;  ///< stress before the rupture, mu A / pi
+  std::vector<std::optional<double>> model_time;    ///< s, first rupture time in the column; absent if it hardly slips
+  std::vector<std::optional<double>> front_time;    ///< s, when the front arrives; absent if the stress is 0 on its way
   std::vector<double> model_slip;                   ///< m, mean over depth
-  std::vector<double> pulse_slip;                   ///< m, at `end`, times the one factor that fits best
-  double end = 0;                                   ///< s, when the model's last subfault has slipped
-  std::size_t reached = 0;                          ///< columns that the front reaches by then
-  std::optional<double> front_velocity_ratio = {};  ///< of the pulse, over the model's
-  std::optional<double> correlation_of_slip = {};   ///< Pearson's, over the columns
-  std::optional<double> slip_error = {};     ///< largest |slip| ahead of the front, exactly 0, over the largest slip
-  std::optional<double> contact_ratio = {};  ///< A that the factor between slips says
+  std::vector<double> pulse_slip;                   ///< m, at time `end`, times the one factor that fits best
+  double end = 0;                                   ///< s, when the last subfault of the model has slipped
+  std::size_t reached = 0;                          ///< number of columns that the front reaches by `end`
+  std::optional<double> front_velocity_ratio = {};  ///< mean front velocity of the pulse over that of the model
+  std::optional<double> correlation_of_slip = {};   ///< Pearson's coefficient over the columns
+  std::optional<double> slip_error = {};     ///< largest |slip| ahead of the front (exactly 0) over the largest slip
+  std::optional<double> contact_ratio = {};  ///< A from the factor between the slips
 };
 
-/// What such a pulse is summed up by.
+/// A number that summarizes such a pulse.
 struct PulseQuantity {
   Description about;
   std::optional<double> (*get)(const FaultPulse&);
@@ -38,7 +39,7 @@ struct PulseQuantity {
 };
 std::span<const PulseQuantity> pulse_quantities();
 
-/// Calls `visit` with each member, always in the same order: for what writes and reads a pulse. `Pulse` may be const.
+/// Calls `visit` with each member, always in the same order, to write or read a pulse. `Pulse` may be const.
 template <class Visit, class Pulse>
 void visit_members(Visit& visit, Pulse& p) {
   visit(p.reason), visit(p.x), visit(p.stress), visit(p.model_time), visit(p.front_time), visit(p.model_slip);
@@ -46,11 +47,12 @@ void visit_members(Visit& visit, Pulse& p) {
   visit(p.slip_error), visit(p.contact_ratio);
 }
 
-/// `stress` is that of the event, `speed` its c in m/s; both > 0.
+/// Computes the pulse. `stress` is that of the event and `speed` its c in m/s; both must be > 0.
 FaultPulse pulse_along_fault(const std::vector<LocalState>& states, double stress, double speed);
 
-/// Initial stress where a column slips `share` times the (slip-weighted) mean slip of an event: W(0) of the closed
-/// form (Eqs. 8-10) is that share of the event's, for one rise time. 0 where that is below 0.005; at most 5.
+/// Initial stress of a column that slips `share` times the slip-weighted mean slip of an event. Its W(0) by the closed
+/// form (Eqs. 8-10) is `share` times that of the event, because all columns have one rise time. A stress below 0.005 is
+/// set to 0, and a stress above 5 to 5.
 double stress_by_slip(double event_stress, double share);
 
 }  // namespace slipfront::finite_fault

@@ -16,7 +16,8 @@ namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// Groups of digits in a date such as 2004-09-28 or 09/28/2004; what follows a blank or a T is a time.
+/// Groups of digits in a date such as 2004-09-28 or 09/28/2004, up to a blank or a T, after which comes the time of
+/// day.
 std::vector<std::string> digit_groups(std::string_view date) {
   std::vector<std::string> groups(1);
   for (const char c : date.substr(0, date.find_first_of(" T"))) {
@@ -31,7 +32,7 @@ std::vector<std::string> digit_groups(std::string_view date) {
 
 std::string two_digits(const std::string& number) { return number.size() == 1 ? "0" + number : number; }
 
-/// "2004-09-28", or "2004" where no more is known; empty for what is neither.
+/// The date as "2004-09-28", or as "2004" if only the year is known. It is empty if the text is neither.
 std::string day_of(std::string_view date) {
   std::vector<std::string> g = digit_groups(date);
   if (g.size() == 1 && g[0].size() == 4) return g[0];
@@ -40,7 +41,7 @@ std::string day_of(std::string_view date) {
   return g[0].size() == 4 ? g[0] + "-" + two_digits(g[1]) + "-" + two_digits(g[2]) : std::string();
 }
 
-/// Letters and digits of a name, small; up to the first other character if only a `word` is wanted.
+/// The letters and digits of a name in lower case. With `word`, only those before the first other character.
 std::string plain(std::string_view name, bool word) {
   std::string out;
   for (const char c : name) {
@@ -53,7 +54,7 @@ std::string plain(std::string_view name, bool word) {
   return out;
 }
 
-/// Equal for entries of one earthquake; empty where there is nothing to tell it by.
+/// A key that is equal for all entries of one earthquake. It is empty if an entry has no name or no date.
 std::string earthquake_of(const Observation& o) {
   const std::string day = day_of(o.date), name = plain(o.name, day.size() > 4);
   return day.empty() || name.empty() ? std::string() : name + ", " + day + ",";
@@ -68,7 +69,7 @@ void Sources::add(const Observation& o, const medium::Defaults& defaults) try {
   const auto& stress = e.stress_pa ? e.stress_pa : e.stress_pa_bound;
   if (!stress) return;
   by_earthquake_[earthquake].push_back({o.file + ":" + std::to_string(o.line), stress->value});
-} catch (const InputError&) {  // an error row of its own
+} catch (const InputError&) {  // the result of this entry reports the error
 }
 
 void Sources::warn(Observation& o) const {

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The processes ("ranks") among which a chain is shared, on one machine or many. Under mpirun they are MPI's; else
-/// there is one, and MPI is not touched.
+/// The processes ("ranks") that share a chain, on one machine or many. Under mpirun they are the ranks of MPI. Without
+/// mpirun there is one rank, and MPI is not used.
 
 #include <functional>
 #include <span>
@@ -10,46 +10,47 @@
 
 namespace slipfront {
 
-/// One process by itself, or all that mpirun started. Calls marked (all) have to be made by all ranks in the same
-/// order. None is for several threads at a time.
+/// A single process, or all processes that mpirun started. All ranks must make the calls marked (all), in the same
+/// order. No member may be called from several threads at a time.
 class Ranks {
  public:
-  /// One process by itself.
+  /// A single process.
   Ranks() = default;
-  /// Starts MPI if mpirun (or srun) started this process, and ends it when destroyed: one object a program, which
-  /// catches errors while it lives (failed). \throws InputError if there are several processes and the library was
-  /// built without MPI.
+  /// Starts MPI if mpirun (or srun) started this process. The destructor ends MPI, so a program must create only one
+  /// such object and catch its errors (see `failed`) before the object is destroyed. \throws InputError if there are
+  /// several processes and the library was built without MPI.
   static Ranks of_mpirun();
-  /// Ends MPI; the other ranks too, by force, if an exception that they do not know of is on its way.
+  /// Ends MPI. If an exception is in flight that the other ranks do not know of, it also aborts the other ranks.
   ~Ranks();
   Ranks(const Ranks&) = delete;
   Ranks& operator=(const Ranks&) = delete;
 
   int rank() const { return rank_; }  ///< 0 ... size() - 1; rank 0 prints and writes
   int size() const { return size_; }
-  /// The part of the ranks that runs on this machine, 0 to 1.
+  /// The fraction of the ranks that run on this machine, 0 to 1.
   double share_of_machine() const { return share_of_machine_; }
   /// Whether the library was built with MPI.
   static bool available();
 
-  /// (all) Does `task`, which makes no call marked (all) itself. If it throws on any rank, all ranks throw the error of
-  /// the lowest of them: InputError, FileError or NumericsError as it was, any other as NumericsError.
+  /// (all) Runs `task`, which must not make calls marked (all). If it throws on any rank, all ranks throw the error of
+  /// the lowest rank that failed. InputError, FileError and NumericsError keep their type; other errors become
+  /// NumericsError.
   void together(const std::function<void()>& task) const;
-  /// (all) \throws InputError on all ranks unless all give the same text, which `what` names.
+  /// (all) \throws InputError on all ranks unless all give the same text. `what` names the text in the message.
   void require_same(const char* what, std::string_view text) const;
   /// (all) Whether `mine` is true on any rank.
   bool any(bool mine) const;
-  /// (all) What the ranks have, one after the other, on every rank. At most 2^31 - 1 numbers.
+  /// (all) Joins the numbers of all ranks in the order of the ranks. Every rank gets them; at most 2^31 - 1 numbers.
   std::vector<double> joined(const std::vector<double>& mine) const;
-  /// (all) The same on rank 0; empty on others.
+  /// (all) Like `joined`, but only rank 0 gets the numbers. The result is empty on the others.
   std::vector<double> joined_at_first(const std::vector<double>& mine) const;
-  /// (all) Each rank gives as many numbers to the rank before and to the one behind, and gets theirs. Where there is
-  /// none (at the ends, unless `around`) what is received stays as it is.
+  /// (all) Exchanges equally many numbers with the previous and with the next rank. A rank without such a neighbour (at
+  /// an end, unless `around`) leaves the numbers to receive unchanged.
   void exchange(std::span<const double> to_left, std::span<const double> to_right, std::span<double> from_left,
                 std::span<double> from_right, bool around) const;
 
-  /// For the last catch of a program. An error that all ranks threw together: rank 0 calls `say`; all return `code`.
-  /// One of this rank alone: calls `say`, then ends all ranks with `code` and does not return.
+  /// For the last catch block of a program. If all ranks threw the error together, rank 0 calls `say` and all return
+  /// `code`. If only this rank threw it, the function calls `say`, ends all ranks with `code` and does not return.
   int failed(int code, const std::function<void()>& say) const;
 
  private:
@@ -59,7 +60,7 @@ class Ranks {
   int rank_ = 0, size_ = 1;
   double share_of_machine_ = 1;
   bool ends_mpi_ = false;
-  mutable bool agreed_ = false;  ///< the last error was thrown by all ranks
+  mutable bool agreed_ = false;  ///< all ranks threw the last error
 };
 
 }  // namespace slipfront

@@ -31,26 +31,34 @@ Parameter coefficient_in(std::string_view unit) {
   return {.name = "coefficient",
           .symbol = "C",
           .unit = unit,
+          .meaning = "factor of the force",
           .dimension = Dimension::force,
           .if_missing = "counts as 0: there is no friction"};
 }
 
-Parameter strength_in(std::string_view unit, std::string_view symbol) {
+Parameter strength_in(std::string_view unit, std::string_view symbol, std::string_view meaning) {
   Parameter strength = coefficient_in(unit);
   strength.name = "strength";
   strength.symbol = symbol;
+  strength.meaning = meaning;
   strength.if_missing = "counts as 0";
   return strength;
 }
 
-Parameter force_named(std::string_view name, std::string_view symbol, double value) {
-  return {.name = name, .symbol = symbol, .unit = force_unit, .value = value, .dimension = Dimension::force};
+Parameter force_named(std::string_view name, std::string_view symbol, std::string_view meaning, double value) {
+  return {.name = name,
+          .symbol = symbol,
+          .unit = force_unit,
+          .meaning = meaning,
+          .value = value,
+          .dimension = Dimension::force};
 }
 
-Parameter velocity_named(std::string_view name, std::string_view symbol) {
+Parameter velocity_named(std::string_view name, std::string_view symbol, std::string_view meaning) {
   return {.name = name,
           .symbol = symbol,
           .unit = "c A / pi",
+          .meaning = meaning,
           .value = 1,
           .without_least = true,
           .dimension = Dimension::velocity};
@@ -60,6 +68,7 @@ Parameter characteristic_slip() {
   return {.name = "characteristic_slip",
           .symbol = "D_c",
           .unit = "b / (2 pi)",
+          .meaning = "slip that renews the contacts, or over which friction weakens",
           .value = 1,
           .without_least = true,
           .dimension = Dimension::slip};

@@ -1,4 +1,4 @@
-// Made by tools/friction_ratio. Do not edit.
+// tools/friction_ratio generates this file. Do not edit it.
 
 #include "friction_ratio/coefficients.hpp"
 

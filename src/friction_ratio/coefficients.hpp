@@ -4,7 +4,7 @@
 
 namespace slipfront::friction_ratio {
 
-/// Made by tools/friction_ratio.
+/// tools/friction_ratio generates these tables.
 extern const layout::Table coefficients;
 extern const layout::Corners corners;
 

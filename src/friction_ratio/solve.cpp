@@ -14,7 +14,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// W and slip at one place.
+/// W and slip at x.
 struct Point {
   double x, W, slip;
 };
@@ -33,8 +33,8 @@ std::vector<Point> points_of(const pulse::Solver::View& view, double stress) {
   return points;
 }
 
-/// The largest W up to the top that is reached uphill from x = 0, by a parabola through three points. Not beyond it:
-/// at the free edge the last few cells of a strongly damped pulse are not resolved.
+/// Finds the largest W up to the maximum that is reached uphill from x = 0, by a parabola through three points. Cells
+/// past that maximum do not count: the last few cells at the free edge of a strongly damped pulse are not resolved.
 double peak_of(const std::vector<Point>& points) {
   auto top = std::find_if(points.begin() + 1, points.end() - 2, [](const Point& p) { return p.x >= 0; });
   while (top != points.begin() + 1 && top[-1].W > top->W) --top;
@@ -57,7 +57,7 @@ double slip_weighted_mean_of(const std::vector<Point>& points) {
 
 pulse::Solver solver_of(const Question& question) {
   const double V = rupture::from_stress(question.stress).rupture_velocity;
-  // What moves ends at the trailing edge, V T; late, in diffusion, far inside it.
+  // The moving part ends at the trailing edge, V T. At late times, when slip diffuses, it ends far inside this edge.
   const double reach = V * std::fmin(1.02, 9 / std::sqrt(question.damping_number));
   return pulse::Solver({.stress = [stress = question.stress](double x) { return x < 0 ? stress : 0.0; },
                         .forcing = {},

@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// Slip velocity of one pulse with viscous friction, from the pulse solver: what the table of
-/// `friction_ratio/table.hpp` is made from and checked against. True step of stress, from Sigma- into the empty
-/// interface.
+/// Slip velocity of a pulse with viscous friction, computed by the pulse solver. The table of
+/// `friction_ratio/table.hpp` is generated from these values and checked against them. The initial stress is a true
+/// step, from Sigma- to the empty interface.
 
 #include <vector>
 
@@ -10,12 +10,12 @@
 
 namespace slipfront::friction_ratio {
 
-/// Slip velocities in c A / pi, at the time T where the damping number C T is the one that was asked for.
+/// Slip velocities in c A / pi at the time T at which the damping number C T has the requested value.
 struct SlipVelocities {
   double origin;     ///< W(0)
   double mean;       ///< integral of W slip dx over integral of slip dx
-  double peak;       ///< the largest W(x) up to the top that is reached uphill from x = 0
-  double time_mean;  ///< slip at x = 0 over T, by the dislocations that have passed
+  double peak;       ///< largest W(x) up to the maximum that is reached uphill from x = 0
+  double time_mean;  ///< slip at x = 0 over T, from the number of dislocations that have passed
 };
 
 struct Question {
@@ -28,7 +28,8 @@ struct Question {
 /// \throws InputError, NumericsError as the solver does.
 SlipVelocities solve(const Question& question);
 
-/// The same at each of `damping_numbers`, ascending and > 0, in one run to the last of them.
+/// Like `solve`, but for each of `damping_numbers`, which must be > 0 and ascending. One run to the last of them gives
+/// all results.
 std::vector<SlipVelocities> solve_each(double stress, friction::Closure closure, int cells,
                                        const std::vector<double>& damping_numbers);
 

@@ -61,12 +61,12 @@ Ratio evaluate(Measure measure, friction::Closure closure, double stress, double
     by_t += in_y.slope[i] * along;
   }
   const double by_u = by_v * v.slope[0] / length;
-  // Where the ends of the piece move with y, so does a point between them.
+  // The ends of the piece move with y, so a derivative at constant u has a term for this motion.
   const double by_y = by_t * y_range.unit_slope() - by_u * std::lerp(ends.slope[piece], ends.slope[piece + 1], x);
   Ratio r{std::exp(sum), 0, 0};
   r.by_stress = r.value * by_y * layout::y_slope(stress);
   r.by_damping = r.value * by_u / (1 + damping);
-  if (damping > layout::most_damping) {  // nonlinear diffusion: W ~ Gamma^(-1/2), and so its mean in time
+  if (damping > layout::most_damping) {  // nonlinear diffusion: W and its mean in time fall as Gamma^(-1/2)
     const double fall = std::sqrt(layout::most_damping / damping);
     r = {r.value * fall, -r.value * fall / (2 * damping), r.by_stress * fall};
   }

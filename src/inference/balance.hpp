@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The one relation between what is observed and what is not: pi w / (c A) = W(Sigma-, Gamma).
+/// Solves the relation between observed and inferred quantities, pi w / (c A) = W(Sigma-, Gamma).
 
 #include <optional>
 
@@ -9,31 +9,32 @@
 
 namespace slipfront::inference {
 
-/// One pulse of known rupture velocity, whatever its friction.
+/// A pulse of known rupture velocity and unknown friction.
 struct Pulse {
-  double stress;        ///< Sigma-, within the table's range
+  double stress;        ///< Sigma-, within the range of the table
   double frictionless;  ///< W(0) without friction
   catalogue::Measure measure;
   friction::Closure closure;
 
-  /// W with friction, and its slope d ln W / d ln(1 + Gamma), <= 0.
+  /// W with friction, and its slope d ln W / d ln(1 + Gamma), which is <= 0.
   struct At {
     double W, slope;
   };
   At at(double u) const;
 };
 
-/// W without friction. Of all but the mean over the fault it is the closed form's W(0); that is a share of it, which
-/// the table has for 0.05 <= Sigma- <= 3 (beyond, that of its end).
+/// W without friction. For every measure except the mean over the fault, it is W(0) of the closed form. The mean is a
+/// fraction of W(0), which the table has for 0.05 <= Sigma- <= 3. Outside this range we use the value at its end.
 double frictionless(catalogue::Measure measure, double stress, double W_at_origin);
 
-/// u = ln(1 + Gamma) at which the pulse slips with W; absent where no 0 <= Gamma <= 1e8 does.
+/// u = ln(1 + Gamma) at which the pulse slips with W. It is absent if there is none for 0 <= Gamma <= 1e8.
 struct Damped {
   double u, slope;
 };
 std::optional<Damped> damping_at(const Pulse& pulse, double W);
 
-/// Contact ratio A with A W(Gamma = A per_contact) = `product`, and u there; absent unless `least` <= A <= `most`.
+/// The contact ratio A with A W(Gamma) = `product` and Gamma = A `per_contact`, and u at that Gamma. It is absent if
+/// there is none with `least` <= A <= `most`.
 struct Balanced {
   double contact_ratio, u, slope;
 };

@@ -22,7 +22,7 @@ using medium::elastic;
 
 namespace {
 
-/// The observed quantities that enter, as single numbers.
+/// The observed quantities that the estimate uses, as single numbers.
 struct Observed {
   std::optional<double> V, w, slip, time, drop, strength;
 
@@ -33,7 +33,7 @@ struct Observed {
   }
 };
 
-/// What is finite of a number; a slip of 1e306 m, say, leaves none.
+/// Replaces a number that is not finite by NaN. Such numbers arise from a slip of 1e306 m, for example.
 void reset_unless_finite(double& x) {
   if (!std::isfinite(x)) x = std::numeric_limits<double>::quiet_NaN();
 }
@@ -67,12 +67,13 @@ FaultState infer(const Observed& observed, const Elastic& e, std::optional<doubl
   return s;
 }
 
-/// What follows from the 5 % and 95 % quantiles of one observed quantity, all else at the middle.
+/// The states at the 5 % and 95 % quantiles of one observed quantity. All other quantities are at their middles.
 struct Spread {
   FaultState at_5, at_95;
 };
 
-/// An inferred quantity with its interval, where exactly one observed error moves it; `blurred` where several do.
+/// An inferred quantity. It has an interval if exactly one observational error changes it. Sets `blurred` if several
+/// errors do.
 std::optional<Inferred> inferred(const FaultState& middle, const std::vector<Spread>& spreads,
                                  double FaultState::*member, bool& blurred) {
   if (std::isnan(middle.*member)) return std::nullopt;
@@ -91,12 +92,13 @@ std::optional<Inferred> inferred(const FaultState& middle, const std::vector<Spr
   return result;
 }
 
-/// Whether the errors of a quantity may reach below `limit` from a middle that does not.
+/// Whether the error of a quantity, whose middle is not below `limit`, reaches below it.
 bool may_reach_below(const Measured& m, double limit) {
   return m.shape == Measured::Shape::range ? m.low < limit : true;
 }
 
-/// What is wrong with a given A or V, unless samples may mend it: then a warning.
+/// Rejects an observed A or V that is out of range. If the event is sampled and the error reaches into the range, it
+/// warns instead.
 void check_reach(const Observation& o, const Elastic& e, double plastic, bool is_sampled,
                  std::vector<std::string>& warnings) {
   const Measured* contact = nullptr;
@@ -108,7 +110,7 @@ void check_reach(const Observation& o, const Elastic& e, double plastic, bool is
                         .value = digits(*o.contact_ratio),
                         .problem = "out of range",
                         .allowed = "0 < contact_ratio <= " + digits(plastic) + " (plastic contact)"});
-    warnings.push_back("contact_ratio exceeds plastic contact: only what its error leaves below counts");
+    warnings.push_back("contact_ratio exceeds plastic contact: only the part of its distribution below counts");
   }
   if (!o.rupture_velocity_m_s || o.rupture_velocity_m_s->high < e.speed) return;
   if (!is_sampled || !may_reach_below(*o.rupture_velocity_m_s, e.speed))
@@ -116,10 +118,11 @@ void check_reach(const Observation& o, const Elastic& e, double plastic, bool is
                       .value = digits(o.rupture_velocity_m_s->high) + " m/s",
                       .problem = "not below the speed c of the model",
                       .allowed = "rupture_velocity < c = " + digits(e.speed) + " m/s"});
-  warnings.push_back("rupture_velocity is not below the speed c of the model: only what its error leaves below counts");
+  warnings.push_back(
+      "rupture_velocity is not below the speed c of the model: only the part of its distribution below c counts");
 }
 
-/// The observed quantities at their middles, and those that carry an error.
+/// The observed quantities at their middles, and those that have an error.
 struct ObservedNumbers {
   Observed middle;
   std::vector<std::pair<std::optional<double> Observed::*, Measured>> uncertain;
@@ -147,7 +150,7 @@ ObservedNumbers observed_numbers(const Observation& o, const Elastic& e) {
   return n;
 }
 
-/// The states at both quantiles of each uncertain observation.
+/// The states at both quantiles of each uncertain observed quantity.
 std::vector<Spread> spreads_of(const ObservedNumbers& numbers, const Observation& o, const Elastic& e) {
   std::vector<Spread> spreads;
   for (const auto& [member, measured] : numbers.uncertain) {
@@ -163,13 +166,14 @@ std::vector<Spread> spreads_of(const ObservedNumbers& numbers, const Observation
   return spreads;
 }
 
-/// Whether constants of the medium carry errors: they move all quantities at once, and only samples can tell.
+/// Whether constants of the medium have errors. They change all quantities at once, so only samples give intervals.
 bool has_uncertain_constants(const Observation& o) {
   return !o.uncertain_constants.empty() || (o.normal_stress && !o.normal_stress->is_exact()) ||
          (o.hardness && !o.hardness->is_exact());
 }
 
-/// Fills the answer from the state at the middles and from the spreads. Returns whether several errors move a quantity.
+/// Fills the result from the state at the middles and from the spreads. Returns whether several errors change a
+/// quantity.
 bool fill(Estimate& result, const FaultState& middle, const std::vector<Spread>& spreads, bool with_intervals) {
   bool blurred = false;
   for (const Quantity& q : quantities()) {
@@ -177,7 +181,7 @@ bool fill(Estimate& result, const FaultState& middle, const std::vector<Spread>&
     answer = inferred(middle, spreads, q.state, blurred);
     if (answer && !with_intervals) answer->interval.reset();
   }
-  // Where only a bound is known, it is the answer.
+  // If only a bound is known, the bound is the result.
   if (result.contact_ratio_bound) result.contact_ratio = result.contact_ratio_bound;
   if (result.stress_bound) result.stress = result.stress_bound;
   return blurred;
@@ -187,20 +191,19 @@ void add_warnings(Estimate& result, const Observation& o, double plastic, bool i
   auto& warnings = result.warnings;
   if (!o.rupture_velocity_m_s) {
     warnings.push_back(result.stress
-                           ? "no rupture_velocity: stress from the slip velocity, a lower bound, as if friction "
-                             "took nothing"
+                           ? "no rupture_velocity: stress is a lower bound, from the slip velocity without friction"
                            : "no rupture_velocity: stress is not identifiable");
   } else if (result.rupture_velocity && !result.contact_ratio) {
     warnings.push_back("no slip velocity and no contact_ratio: stress in Pa is not identifiable");
   } else if (result.contact_ratio_bound &&
              !(is_sampled && o.friction_coefficient && o.asperity_spacing && o.damping_time())) {
-    warnings.push_back("contact_ratio and stress_pa have lower bounds only, as if friction took nothing");
+    warnings.push_back("contact_ratio and stress_pa have only lower bounds, the values without friction");
   }
   if (result.contact_ratio && result.contact_ratio->value > plastic)
     warnings.push_back("contact_ratio " + digits(result.contact_ratio->value) + " exceeds plastic contact, " +
                        digits(plastic) + ": slip velocity too high for this rupture velocity");
   if (result.slip_velocity_ratio && result.slip_velocity_ratio->value > 1)
-    warnings.push_back("slips faster than without friction: contact_ratio or the velocities are off");
+    warnings.push_back("slips faster than without friction: contact_ratio or the velocities are inaccurate");
 }
 
 }  // namespace
@@ -224,7 +227,8 @@ Estimate estimate(const Observation& o, const Defaults& defaults, bool is_sample
   const bool blurred =
       fill(result, infer(numbers.middle, e, o.contact_ratio, o.measure()), spreads_of(numbers, o, e), !moved);
   if (!is_sampled && (blurred || moved))
-    result.warnings.push_back("moved by several observed errors: the middle of each, no interval without samples");
+    result.warnings.push_back(
+        "several observed errors change a quantity: values are at the middle of each, and intervals need samples");
   add_warnings(result, o, plastic, is_sampled);
   return result;
 } catch (const InputError& error) {

@@ -4,13 +4,13 @@
 
 namespace slipfront::inference {
 
-/// Shape k of the generalised Pareto distribution of the largest importance weights, of which min(n / 5, 3 sqrt n) are
-/// taken: the diagnosis of Pareto-smoothed importance sampling (Vehtari, Simpson, Gelman, Yao & Gabry 2024, J. Mach.
-/// Learn. Res. 25(72)), fitted as by Zhang & Stephens (2009, Technometrics 51, 316). 0 where those weights
-/// are alike within a factor of two, infinite for fewer than 25 weights.
+/// Shape k of the generalised Pareto distribution of the min(n / 5, 3 sqrt n) largest of n importance weights. It is
+/// the diagnostic of Pareto-smoothed importance sampling (Vehtari, Simpson, Gelman, Yao & Gabry 2024, J. Mach. Learn.
+/// Res. 25(72)), fitted with the method of Zhang & Stephens (2009, Technometrics 51, 316). It is 0 if these weights
+/// differ by less than a factor of two, and infinite for fewer than 25 weights.
 double pareto_k(std::vector<double> weights);
 
-/// Above this k a mean over `samples` weights is not to be trusted (their Eq. 13).
+/// The largest k at which a mean over `samples` weights is reliable (Eq. 13 of Vehtari et al.).
 double most_pareto_k(double samples);
 
 }  // namespace slipfront::inference

@@ -22,25 +22,27 @@ namespace {
 [[noreturn]] void refuse_event(const Observation& o, const Sampler& sampler) {
   static constexpr std::array<std::array<const char*, 2>, refusals> reasons = {{
       {"rupture velocity not between 0 and c", "rupture_velocity < c"},
-      {"the stress that this rupture velocity means is outside the table of friction",
+      {"the stress that follows from this rupture velocity is outside the table of friction",
        "stress in 0.05 ... 3 mu A / pi"},
-      {"the slip velocity is above what any friction leaves at this rupture velocity and contact ratio",
+      {"the slip velocity is above that without friction at this rupture velocity and contact ratio",
        "a lower slip_velocity or a larger contact_ratio"},
-      {"the slip velocity is below what a damping number of 1e8 leaves",
+      {"the slip velocity is below that at a damping number of 1e8",
        "a higher slip_velocity or a smaller contact_ratio"},
-      {"no contact ratio between 1e-8 and plastic contact agrees", "a lower slip_velocity, or another friction"},
+      {"no contact ratio between 1e-8 and plastic contact agrees with the observations",
+       "a lower slip_velocity, or another friction"},
       {"constants of the medium out of range", "-1 < poisson_ratio < 0.5, the others > 0"},
-      {"the observations exclude each other", "observations within each other's errors"},
+      {"the observations contradict each other", "observations that agree within their errors"},
   }};
   const auto& refused = sampler.refused();
   const auto why = static_cast<std::size_t>(std::max_element(refused.begin(), refused.end()) - refused.begin());
   throw InputError({.file = o.file,
                     .line = o.line,
-                    .problem = std::string("no state of the fault agrees with what was observed: ") + reasons[why][0],
+                    .problem = std::string("no state of the fault agrees with the observations: ") + reasons[why][0],
                     .allowed = reasons[why][1]});
 }
 
-/// Whether only a contact ratio above plastic contact rules the event out: a warning, with errors or without.
+/// Whether the only reason to reject the event is a contact ratio above plastic contact. Such an event gets a note
+/// instead.
 bool only_contact_refused(const Sampler& sampler) {
   const auto& refused = sampler.refused();
   return !sampler.fixes_friction() && !sampler.knows_contact() && refused[bad_contact] > 0 &&
@@ -50,10 +52,10 @@ bool only_contact_refused(const Sampler& sampler) {
 std::string why_no_interval(double effective, double k, std::size_t samples) {
   const std::string of = " of " + std::to_string(samples);
   if (effective < least_effective_samples)
-    return "no intervals: only " + digits(effective, 3) + " effective samples" + of + ", " +
-           digits(least_effective_samples) + " needed; what was observed hardly agrees with itself";
+    return "no intervals: only " + digits(effective, 3) + " effective samples" + of + ", but " +
+           digits(least_effective_samples) + " are needed; the observations hardly agree with each other";
   return "no intervals: Pareto k-hat of the weights is " + digits(k, 3) + " with" + of.substr(3) +
-         " samples, above 0.7: a few samples decide";
+         " samples, above 0.7: a few samples dominate";
 }
 
 void add_trade_off(Posterior& p, const Observation& o, const medium::Defaults& defaults, friction::Closure closure) {
@@ -72,29 +74,29 @@ void add_trade_off(Posterior& p, const Observation& o, const medium::Defaults& d
   }
 }
 
-/// How much of an interval is the prior's, in words.
+/// States in words how much of an interval comes from the prior.
 std::string share_in_words(const char* name, double share) {
   const std::string text(name);
   if (share > 0.5)
     return text +
-           ": mostly the prior speaks (its share of the interval is above 50 %): smaller errors of slip_velocity "
-           "and contact_ratio needed";
-  if (share > 0.1) return text + ": data and prior speak (the prior's share of the interval is 10 to 50 %)";
-  return text + ": the data speak (the prior's share of the interval is below 10 %)";
+           ": the prior determines most of the interval (its share is above 50 %); smaller errors of slip_velocity "
+           "and contact_ratio are needed";
+  if (share > 0.1) return text + ": data and prior determine the interval (the share of the prior is 10 to 50 %)";
+  return text + ": the data determine the interval (the share of the prior is below 10 %)";
 }
 
 void add_notes(Posterior& p, const Observation& o, const Sampler& s, friction::Closure closure) {
   constexpr const char* cure =
       "contact_ratio, normal_stress with hardness, stress_drop, or friction_coefficient with asperity_spacing and "
-      "duration would settle it";
+      "duration would separate them";
   if (!s.knows_slip_velocity() && !s.fixes_friction())
     p.notes.push_back("damping_number is not identifiable without a slip velocity");
   if (!s.knows_contact() && !s.knows_slip_velocity())
     p.notes.push_back("contact_ratio and stress_pa are not identifiable without a slip velocity");
   if (o.rupture_velocity_m_s && s.knows_slip_velocity() && !s.fixes_friction())
     p.notes.push_back(
-        "contact_ratio and damping_number trade off: the velocities fix one of them when the other is known, and above "
-        "the bounds only the prior speaks; " +
+        "contact_ratio and damping_number trade off: the velocities fix one of them if the other is known, and above "
+        "the bounds only the prior decides; " +
         std::string(cure));
   if (p.damping_number_prior_share && p.damping_number && s.is_uncertain())
     p.notes.push_back(share_in_words("damping_number", *p.damping_number_prior_share));
@@ -102,7 +104,8 @@ void add_notes(Posterior& p, const Observation& o, const Sampler& s, friction::C
     p.notes.push_back(share_in_words("contact_ratio", *p.contact_ratio_prior_share));
   if (s.fixes_friction() && !(s.knows_duration() && o.asperity_spacing))
     p.notes.push_back(std::string("friction_coefficient needs ") +
-                      (!o.asperity_spacing ? "asperity_spacing" : "duration or rise_time") + " beside damping_number");
+                      (!o.asperity_spacing ? "asperity_spacing" : "duration or rise_time") +
+                      " in addition to damping_number");
   if (o.contact_ratio && o.stress_drop && o.stress_drop->is_exact())
     p.notes.push_back("stress_drop not used: with a contact_ratio it needs an uncertainty");
   if (s.knows_contact() && s.knows_slip_velocity() && s.knows_friction() && o.friction_coefficient->is_exact())
@@ -112,7 +115,7 @@ void add_notes(Posterior& p, const Observation& o, const Sampler& s, friction::C
     p.notes.push_back("closure paper is unstable at this damping number: its slip velocities are known to 1 %");
 }
 
-/// Samples in hand, and whether they are enough.
+/// The accepted samples, and whether they are enough.
 struct Samples {
   std::vector<Sample> accepted;
   double effective = 0, pareto_k = 0;
@@ -135,7 +138,8 @@ void weigh(Samples& s) {
   s.pareto_k = pareto_k(std::move(weights));
 }
 
-/// Doubles the samples until they suffice, or cannot be more, or none can be.
+/// Doubles the number of samples until they suffice or the limit is reached. It also stops when even the limit would
+/// not give enough effective samples.
 Samples drawn(Sampler& sampler, std::size_t first, std::size_t& count) {
   const std::size_t most = std::max(first, std::min(most_growth * first, most_samples));
   Samples s;
@@ -148,13 +152,15 @@ Samples drawn(Sampler& sampler, std::size_t first, std::size_t& count) {
       return s;
     }
     if (!s.accepted.empty()) weigh(s);
-    // Effective samples grow with their number; a factor 4 for those that the first few misjudge.
+    // The number of effective samples grows with the number of samples. We allow a factor of 4 for events that the
+    // first few samples misjudge.
     const double promised = 4 * s.effective * static_cast<double>(most) / static_cast<double>(count);
     if (s.suffice() || count == most || (count >= 8 * first && promised < least_effective_samples)) return s;
   }
 }
 
-/// Quantiles of all quantities that are known. Most rise or fall together with the one before, so the order is kept.
+/// Sets the quantiles of all known quantities. Most rise or fall together with the one before, so we sort the samples
+/// again only if their order changes.
 void set_quantiles(Posterior& p, const std::vector<Sample>& samples) {
   std::vector<const Sample*> order;
   order.reserve(samples.size());
@@ -169,7 +175,7 @@ void set_quantiles(Posterior& p, const std::vector<Sample>& samples) {
   }
 }
 
-/// States alike in weight, by systematic resampling.
+/// States of equal weight, by systematic resampling.
 std::vector<FaultState> draws_of(const std::vector<Sample>& samples, std::size_t count) {
   double total = 0, below = 0;
   for (const Sample& s : samples) total += s.weight;
@@ -217,7 +223,7 @@ std::optional<Posterior> posterior(const Observation& o, const medium::Defaults&
   if (samples.accepted.empty()) {
     if (!only_contact_refused(sampler)) refuse_event(o, sampler);
     p.notes.push_back(
-        "no contact ratio up to plastic contact explains this slip velocity, errors included: no interval");
+        "no intervals: no contact ratio up to plastic contact explains this slip velocity, even within its errors");
     return p;
   }
   p.effective_samples = samples.effective;

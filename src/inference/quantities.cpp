@@ -11,12 +11,13 @@ namespace {
 
 using Role = Quantity::Role;
 
-/// The same member of a state, an estimate and a posterior.
+/// The members with this name in a state, an estimate and a posterior.
 #define MEMBER(name)                                                               \
   &FaultQuantities<double>::name, &FaultQuantities<std::optional<Inferred>>::name, \
       &FaultQuantities<std::optional<Quantiles>>::name
 
-// Name, long name, unit to multiply by, equation; long name in an answer; role; in the posterior; members; axis label.
+// The first four entries are name, long name, unit to multiply by, and equation. Then follow the long name in the
+// result of an event, the role, whether the posterior shows it, the members, and the axis label.
 constexpr Quantity declarations[] = {
     {{"rupture_velocity_m_s", "rupture velocity, in m/s", "", "Eqs. 8-10"},
      "",
@@ -35,13 +36,13 @@ constexpr Quantity declarations[] = {
      true,
      MEMBER(stress),
      "initial stress Σ−"},
-    {{"frictionless_slip_velocity", "slip velocity W(0) as if there were no friction", "c A / pi", "Eqs. 8-10"},
+    {{"frictionless_slip_velocity", "slip velocity W(0) without friction", "c A / pi", "Eqs. 8-10"},
      "",
      Role::closed_form,
      false,
      MEMBER(frictionless_slip_velocity)},
     {{"observed_slip_velocity", "observed slip velocity", "c A / pi", "Eqs. 8-10"},
-     "observed slip velocity; needs a contact ratio that is given",
+     "observed slip velocity; needs an observed contact ratio",
      Role::closed_form,
      false,
      MEMBER(observed_slip_velocity)},
@@ -51,7 +52,7 @@ constexpr Quantity declarations[] = {
      false,
      MEMBER(slip_velocity_ratio)},
     {{"contact_ratio", "A, real to nominal contact area", "", "Eq. 1"},
-     "A, real to nominal contact area: given, or as if there were no friction",
+     "A, real to nominal contact area: observed, or inferred without friction",
      Role::closed_form,
      true,
      MEMBER(contact_ratio),
@@ -68,21 +69,21 @@ constexpr Quantity declarations[] = {
      true,
      MEMBER(friction_coefficient)},
     {{"stress_pa", "stress before the rupture, in Pa", "", "Eqs. 8-10"},
-     "stress before the rupture, in Pa; none where only a bound is known",
+     "stress before the rupture, in Pa; absent if only a bound is known",
      Role::closed_form,
      true,
      MEMBER(stress_pa)},
-    {{"stress_bound", "least Sigma-, if friction took nothing", "mu A / pi", "Eqs. 8-10"},
+    {{"stress_bound", "lower bound of Sigma-, without friction", "mu A / pi", "Eqs. 8-10"},
      "",
      Role::lower_bound,
      false,
      MEMBER(stress_bound)},
-    {{"contact_ratio_bound", "least A, if friction took nothing", "", "Eq. 1"},
+    {{"contact_ratio_bound", "lower bound of A, without friction", "", "Eq. 1"},
      "",
      Role::lower_bound,
      false,
      MEMBER(contact_ratio_bound)},
-    {{"stress_pa_bound", "least stress before the rupture, in Pa, if friction took nothing", "", "Eqs. 8-10"},
+    {{"stress_pa_bound", "lower bound of the stress before the rupture, in Pa, without friction", "", "Eqs. 8-10"},
      "",
      Role::lower_bound,
      false,
@@ -90,7 +91,7 @@ constexpr Quantity declarations[] = {
 };
 #undef MEMBER
 
-/// The quantities of these roles, one role after the other, with their long names in an answer.
+/// The quantities with these roles, one role after the other, with their long names in the result of an event.
 std::vector<Quantity> of_roles(std::initializer_list<Role> roles) {
   std::vector<Quantity> chosen;
   for (const Role role : roles)

@@ -50,7 +50,8 @@ bool Sampler::draw_constants() {
   return true;
 }
 
-/// A from whichever observation gives it. Flat in ln A, so the weight loses what was drawn.
+/// Draws A from the observation that gives it. The prior is uniform in ln A, so `weight_of_draw` corrects for the
+/// density of the draw.
 bool Sampler::draw_contact(Sample& s) {
   switch (contact_from_) {
     case ContactFrom::ratio:
@@ -72,11 +73,11 @@ bool Sampler::draw_contact(Sample& s) {
   return (s.state.contact_ratio >= least_contact_ratio && s.state.contact_ratio <= plastic_) || refuse(bad_contact);
 }
 
-/// The damping number, and A where it is not known yet, from the slip velocity w.
+/// Computes the damping number from the slip velocity w, and also A if it is not known yet.
 bool Sampler::draw_friction(Sample& s, double w) {
   const double unit = medium::slip_velocity_unit(elastic_.speed, 1);
   const double most_u = std::log1p(most_damping_number);
-  if (knows_contact()) {  // (V, w, A) -> Gamma; the prior is flat in u, the draw was in w
+  if (knows_contact()) {  // (V, w, A) -> Gamma; the prior is uniform in u, but we drew w
     const auto found = damping_at(pulse_, w / (unit * s.state.contact_ratio));
     if (!found) return refuse(w > unit * s.state.contact_ratio * pulse_.at(0).W ? slips_too_fast : slips_too_slowly);
     s.u = found->u;
@@ -104,10 +105,10 @@ bool Sampler::is_uncertain() const {
   return !o_.uncertain_constants.empty();
 }
 
-/// Observations that were not drawn from weigh the sample.
+/// Multiplies the weight by the likelihood of the observations that were not drawn from.
 bool Sampler::agrees(Sample& s) const {
   const auto weigh = [&](const Measured& m, double value) {
-    if (m.is_exact()) return;  // cannot weigh: a note says that it was not used
+    if (m.is_exact()) return;  // it has no likelihood; a note states that it was not used
     s.weight *= m.likelihood(value);
   };
   if (contact_from_ == ContactFrom::ratio && o_.stress_drop && o_.rupture_velocity_m_s)
@@ -147,7 +148,7 @@ std::optional<double> Sampler::draw_slip_velocity(Sample& s) {
   return o_.slip_velocity_m_s ? drawn : drawn / slipping_;
 }
 
-/// Gamma, and A where it is not known yet.
+/// Computes Gamma, and A if it is not known yet.
 bool Sampler::find_friction(Sample& s, std::optional<double> w) {
   const auto range = friction_ratio::stress_range();
   if (!(s.state.stress >= range.least && s.state.stress <= range.most)) return refuse(off_table);
@@ -166,7 +167,8 @@ bool Sampler::find_friction(Sample& s, std::optional<double> w) {
   return true;
 }
 
-/// What must be at least, since friction only slows: A where the rupture velocity is known, Sigma- where A is.
+/// Computes a lower bound, which exists because friction can only slow slip. It is the bound of A if the rupture
+/// velocity is known, and of Sigma- if A is known.
 bool Sampler::find_bound(Sample& s, double w) {
   FaultState& state = s.state;
   if (o_.rupture_velocity_m_s) {

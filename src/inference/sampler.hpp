@@ -10,7 +10,7 @@
 
 namespace slipfront::inference {
 
-/// Why a sample cannot be.
+/// Why a sample was rejected.
 enum Refusal : std::size_t {
   too_fast,
   off_table,
@@ -22,24 +22,25 @@ enum Refusal : std::size_t {
   refusals
 };
 
-/// One state of the fault with its weight: prior times likelihood over the density that it was drawn from.
+/// One state of the fault. weight = prior x likelihood / proposal density.
 struct Sample {
   double weight, u;  ///< u = ln(1 + Gamma)
   FaultState state;
 };
 
-/// What of an event enters, and how its samples are drawn. Coordinates of the Sobol points: 0 V, 1 slip velocity or
-/// slip, 2 T, 3 what gives A, 4 hardness, 5 C, from 6 constants of the medium, 12 rise time where T is the duration.
+/// Chooses the observations of an event that matter, and draws its samples. The coordinates of the Sobol points are: 0
+/// V, 1 slip velocity or slip, 2 T, 3 the observation that gives A, 4 hardness, 5 C, 6 and up the constants of the
+/// medium, 12 the rise time if T is the duration.
 class Sampler {
  public:
   Sampler(const catalogue::Observation& o, const medium::Defaults& defaults, const Sampling& sampling);
 
   bool knows_contact() const { return contact_from_ != ContactFrom::nothing; }
   bool knows_slip_velocity() const { return o_.has_slip_velocity(); }
-  /// C, spacing and duration: then C A is known as well as Gamma / A.
+  /// Whether C, spacing and duration are known, and therefore Gamma / A.
   bool knows_friction() const { return o_.friction_coefficient && o_.asperity_spacing && time_; }
   bool knows_duration() const { return time_ != nullptr; }
-  /// Two of slip velocity, A and friction tell the third.
+  /// Whether two of slip velocity, A and friction are known; they determine the third.
   bool fixes_friction() const {
     return o_.rupture_velocity_m_s && knows_slip_velocity() + knows_contact() + knows_friction() >= 2;
   }
@@ -47,9 +48,9 @@ class Sampler {
   /// Whether samples differ at all.
   bool is_uncertain() const;
 
-  /// Makes room for `samples`; those drawn already stay the same.
+  /// Makes room for `samples` samples. It does not change those that were drawn already.
   void grow(std::size_t samples) { points_.grow(samples); }
-  /// Draws sample i; weight 0 and a refusal counted where it cannot be.
+  /// Draws sample i. A rejected sample has weight 0, and its refusal is counted.
   Sample draw(std::size_t i);
   const std::array<std::size_t, refusals>& refused() const { return refused_; }
   std::uint64_t seed() const { return seed_; }
@@ -64,7 +65,7 @@ class Sampler {
   bool draw_rupture_velocity(Sample& s);
   bool draw_contact(Sample& s);
   bool draw_times();
-  /// w, m/s; none where it is not positive.
+  /// Draws w in m/s. It is absent if it is not positive.
   std::optional<double> draw_slip_velocity(Sample& s);
   bool draw_friction(Sample& s, double w);
   bool find_friction(Sample& s, std::optional<double> w);
@@ -81,12 +82,12 @@ class Sampler {
   std::uint64_t seed_;
   ShiftedSobol points_;
   const catalogue::Measured* time_;                        ///< T of Gamma = C T; null: unknown
-  const catalogue::Measured* slip_time_;                   ///< of slip / time; null: unknown, or not needed
-  const catalogue::Measured* contact_measured_ = nullptr;  ///< of contact_ratio, where it was stated with an error
+  const catalogue::Measured* slip_time_;                   ///< the time in slip / time; null: unknown, or not needed
+  const catalogue::Measured* contact_measured_ = nullptr;  ///< contact_ratio if it has an error
   ContactFrom contact_from_ = ContactFrom::nothing;
   std::array<std::size_t, refusals> refused_{};
 
-  // Of the sample in hand.
+  // The present sample.
   std::size_t point_ = 0;
   medium::Constants constants_;
   medium::Elastic elastic_{};

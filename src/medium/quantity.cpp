@@ -14,7 +14,7 @@ namespace slipfront::medium {
 namespace {
 
 struct Kind {
-  std::array<int, 3> powers;  // of metre, kilogram and second
+  std::array<int, 3> powers;  // exponents of metre, kilogram and second
   const char* name;
   const char* example;
 };

@@ -1,5 +1,5 @@
-// Made by tools/units/make.py from the database of UDUNITS-2, copyright 2008, 2009 University Corporation for
-// Atmospheric Research, whose notice is:
+// tools/units/make.py generates this file from the database of UDUNITS-2, copyright 2008, 2009 University Corporation
+// for Atmospheric Research. Its notice is:
 //
 // Access and use of this software shall impose the following obligations and understandings on the user. The user is
 // granted the right, without any fee or cost, to use, copy, modify, alter, enhance and distribute this software, and

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The names of units, as UDUNITS-2 has them.
+/// The names and symbols of the units of UDUNITS-2.
 
 #include <span>
 #include <string_view>
@@ -14,7 +14,8 @@ struct NamedUnit {
   Unit unit;
 };
 
-/// Sorted by name. Capital letters are like small ones in names, which are kept small, and differ in symbols.
+/// Both tables are sorted. Names do not distinguish capital and small letters, and are stored in small letters. Symbols
+/// do distinguish them.
 extern const std::span<const NamedUnit> unit_names, unit_symbols;
 
 }  // namespace slipfront::medium

@@ -11,7 +11,7 @@
 namespace slipfront::modulation {
 namespace {
 
-/// Range of psi that a double and its functions hold.
+/// Range of psi in which a double can represent psi and the functions of psi.
 constexpr double psi_least = 1e-303, psi_most = 700;
 
 [[noreturn]] void give_up(const LagrangianState& c) {
@@ -29,26 +29,26 @@ LagrangianState lagrangian_state(const State& state) {
 
 namespace {
 
-/// Newton in ln psi, for any density.
+/// Solves for the state by Newton's method in ln psi, for any density.
 SolvedState solve_in_psi(const LagrangianState& c, double psi) {
   const double half = c.spacing / 2;
   for (int iteration = 0; iteration < 80; ++iteration) {
     const elliptic::AtPsi at = elliptic::at_psi(psi);
-    const double wide = half * std::cosh(psi);  // cosh itself, not its square, which overflows first
+    const double wide = half * std::cosh(psi);  // cosh, because its square would overflow earlier
     const double rapid = c.momentum * half / (8 * at.E * wide), rapid_square = rapid * rapid;
     const double length = wide * std::sqrt(1 + rapid_square);
-    // K - length is linear in ln psi where psi is small, ln(K / length) in psi where it is large.
+    // For small psi, K - length is linear in ln psi. For large psi, ln(K / length) is linear in psi.
     const double slope_K = -at.above_m1 / at.s * at.K;
     double slope_length = wide * (wide / length) * at.s * (1 - rapid_square * (1 / at.ratio - 1));
-    // K - length falls wherever it may be 0. Where it rises, far from there, K alone says which way to go.
+    // K - length falls near its zero. It may rise far from the zero; there we use only the slope of K.
     if (psi < 1 && slope_length < slope_K) slope_length = 0;
     const double step = psi < 1 ? (at.K - length) / (psi * (slope_length - slope_K))
                                 : std::log(at.K / length) / (psi * (slope_length / length - slope_K / at.K));
     if (!std::isfinite(step)) give_up(c);
-    const double most = step > 2 ? std::fmax(2, -std::log(psi)) : 2;  // where it is linear, up to psi = 1 at once
+    const double most = step > 2 ? std::fmax(2, -std::log(psi)) : 2;  // in the linear range, one step may reach psi = 1
     const double limited = std::fmin(std::fmax(step, -40.0), most), before = psi;
     psi *= std::fabs(limited) < 0.1 ? 1 + std::expm1(limited) : std::exp(limited);
-    if (psi < psi_least) {  // E = 1, and K from the spacing
+    if (psi < psi_least) {  // here E = 1, and the spacing gives K
       const double phi = std::asinh(c.momentum / 8);
       return {{phi, 0}, 0, half * std::cosh(phi)};
     }
@@ -57,7 +57,7 @@ SolvedState solve_in_psi(const LagrangianState& c, double psi) {
       psi = psi_most;
     }
     if (std::fabs(step) < 1e-8) {
-      // To the last step by derivatives; what is left is of the order of its square.
+      // Derivatives correct for the last step. The remaining error is of the order of step^2.
       const double last = psi - before, c0 = at.s / at.ratio;
       const double E = at.E + at.s * (at.K - at.E) * last;
       const double sound = c0 * (1 + at.deficit * at.above_m1 / (at.s * at.ratio) * last);
@@ -72,8 +72,8 @@ SolvedState solve_in_psi(const LagrangianState& c, double psi) {
 SolvedState solve_state(const LagrangianState& c, double psi_guess) {
   if (!(c.spacing > 0) || !std::isfinite(c.spacing) || !std::isfinite(c.momentum)) give_up(c);
   const double psi = psi_guess > 0 && std::isfinite(psi_guess) ? psi_guess : 1;
-  // The same in ln s, s = tanh psi, where cosh^2 psi = 1 / (1 - s^2) needs no hyperbolic function: half the cost.
-  // Anything out of the ordinary goes the general way.
+  // Newton's method in ln s, s = tanh psi, costs half as much as in ln psi, because cosh^2 psi = 1 / (1 - s^2) needs no
+  // hyperbolic function. If a step is large or s leaves its range, we solve in ln psi instead.
   const double half = c.spacing / 2;
   double s = std::tanh(psi);
   for (int iteration = 0; iteration < 8 && s < 0.9 && s > 1e-290; ++iteration) {
@@ -110,8 +110,8 @@ double interaction_energy(double psi) {
 
 namespace {
 
-/// Integral of p(l) - p from the spacing of a train that moves to the one that it has in its own frame, where its
-/// pressure is p.
+/// Integral of p(l) - p over the spacing l, from the spacing of a moving train to the spacing in its own frame, where
+/// its pressure is p.
 double compression_energy(const State& state) {
   constexpr double short_way = 0.1;
   const double half = std::sinh(state.phi / 2), own_spacing = lagrangian_state({0, state.psi}).spacing;
@@ -120,7 +120,7 @@ double compression_energy(const State& state) {
   if (std::fabs(state.phi) > short_way)
     return interaction_energy(psi_at(own_spacing - way)) - interaction_energy(state.psi) - own_pressure * way;
   constexpr double at[3] = {0.1127016653792583, 0.5, 0.8872983346207417}, weight[3] = {5.0 / 18, 4.0 / 9, 5.0 / 18};
-  double sum = 0;  // Gauss
+  double sum = 0;  // Gauss-Legendre quadrature
   for (int i = 0; i < 3; ++i) sum += weight[i] * (pressure(psi_at(own_spacing - at[i] * way)) - own_pressure);
   return sum * way;
 }

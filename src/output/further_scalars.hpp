@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// Numbers of a snapshot without a member of their own: declared once for files, tables, JSON and Python. To add one,
-/// add its line to further_scalars.cpp. There it is computed too if it follows from the rest of a snapshot, at any
-/// level; else it is set, by its name, where a run is observed (pulse/observe, chain/run_observer.cpp).
+/// Numbers of a snapshot that are not members of Snapshot. Each is declared once, for files, tables, JSON and Python.
+/// To add one, add its line to further_scalars.cpp. Compute it there too if it follows from the rest of a snapshot at
+/// every level of theory. Otherwise set it by name where a run is observed (pulse/observe, chain/run_observer.cpp).
 
 #include <span>
 #include <string_view>
@@ -17,7 +17,7 @@ std::span<const Description> further_scalars();
 /// The value in a snapshot; NaN if it has none.
 double further_scalar(const Snapshot& snapshot, std::string_view name);
 
-/// Adds those that follow from the rest of the snapshot.
+/// Adds the numbers that follow from the rest of the snapshot.
 void add_further_scalars(Snapshot& snapshot, const Schedule& schedule);
 
 }  // namespace slipfront::output

@@ -21,7 +21,7 @@
 namespace slipfront::pulse {
 namespace {
 
-/// A step ends on each output time, and the one before it is shortened.
+/// Expected number of steps. Each output time adds two, because a step must end on it and the step before is shortened.
 double expected_steps(const Solver& start, const output::Schedule& schedule) {
   return start.expected_steps(schedule.times.back()) + 2 * static_cast<double>(schedule.times.size());
 }
@@ -37,7 +37,7 @@ struct Run::Parts {
   StoredEnergy first_energy;
   SlipRecord slip;  ///< at x = 0
   std::vector<output::Snapshot> snapshots;
-  std::optional<output::Findings> final_findings;  ///< of a run that is finished
+  std::optional<output::Findings> final_findings;  ///< findings of a finished run
 
   Parts(Problem problem, output::Schedule given)
       : schedule(std::move(given)),
@@ -111,7 +111,7 @@ bool Run::Parts::advance_to(double target, const std::function<bool()>& interrup
     const Cells& cells = solver.cells();
     trailing_characteristic.advance(solver, cells.time - before);
     before = cells.time;
-    // An implicit step costs as much as ten samples, an explicit one as a few.
+    // We sample implicit steps more often: one costs as much as ten samples, an explicit step only as much as a few.
     const bool begins = cells.steps < 64, is_explicit = cells.face_momentum.empty();
     if (cells.steps % (is_explicit ? begins ? 4 : 16 : begins ? 1 : 2) == 0) slip.sample(solver);
     if (budget.exhausted(cells.steps))

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Results of events as columns, said once for files and other languages: docs/events.md.
+/// Defines the columns of event results once, for files and for other languages (docs/events.md).
 
 #include <functional>
 #include <span>
@@ -12,45 +12,45 @@
 
 namespace slipfront::results {
 
-/// What an event's numbers in a column lie along.
+/// The axis along which the numbers of an event lie in a column.
 enum class Axis {
   none,      ///< one number
   bound,     ///< 5 %, 95 %
   quantile,  ///< 5 %, 50 %, 95 %
-  draw,      ///< states of the posterior, alike in weight
+  draw,      ///< states of the posterior, with equal weights
 };
 
-/// Numbers of each event; NaN where not known.
+/// A column of numbers for each event. Unknown numbers are NaN.
 struct NumberColumn {
   std::string name, long_name;
-  std::string_view unit;              ///< SI, "1" for a pure number
-  std::string_view dimensional_unit;  ///< of a dimensionless value; may be empty
-  std::string_view reference;         ///< where in the paper; may be empty
+  std::string_view unit;              ///< SI unit; "1" for a pure number
+  std::string_view dimensional_unit;  ///< unit of a dimensionless value; may be empty
+  std::string_view reference;         ///< section or equation of the paper; may be empty
   Axis axis;
-  std::size_t count;                                         ///< numbers of an event
-  std::function<void(const EventResult&, double* out)> get;  ///< writes as many as `count` says
+  std::size_t count;                                         ///< how many numbers an event has
+  std::function<void(const EventResult&, double* out)> get;  ///< writes `count` numbers
 };
 
-/// Which columns there are beside those of every catalogue.
+/// The optional columns, in addition to those of every catalogue.
 struct ColumnChoice {
-  bool pulse = false;     ///< of a pulse through each finite-fault model
-  std::size_t draws = 0;  ///< of the posterior
+  bool pulse = false;     ///< columns of a pulse along each finite-fault model
+  std::size_t draws = 0;  ///< number of draws of the posterior
 };
 
-/// A text of each event; may be empty.
+/// A column with a text for each event. A text may be empty.
 struct TextColumn {
   std::string_view name, long_name;
   std::string (*get)(const EventResult&);
 };
 
-/// In the order of output.
+/// The columns in the order of output.
 std::vector<NumberColumn> number_columns(const ColumnChoice& choice);
 std::vector<TextColumn> text_columns(bool with_pulse);
 
-/// SI unit of a quantity, by what its name ends with (`_m_s`, `_pa`, `_pa_bound`); "1" where it is a pure number.
+/// The SI unit of a quantity, from the ending of its name (`_m_s`, `_pa`, `_pa_bound`). It is "1" for a pure number.
 std::string_view unit_of(std::string_view name);
 
-/// One text of several, "; " between them.
+/// Joins several texts with "; ".
 std::string joined(const std::vector<std::string>& parts);
 
 }  // namespace slipfront::results

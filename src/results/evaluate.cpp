@@ -32,19 +32,19 @@ std::vector<std::string> EventResult::warnings() const {
 
 namespace {
 
-/// The interval of samples; none where nothing moved.
+/// The interval of samples. It is absent if all samples are equal.
 std::optional<Interval> interval_of(const Quantiles& q) {
   if (!(q.low < q.high)) return {};
   return Interval{q.low, q.high};
 }
 
-/// The posterior's answer instead of that of the closed forms.
+/// Replaces the results of the closed forms by those of the posterior.
 void fill(Estimate& e, const Posterior& p) {
   const auto set = [](std::optional<Inferred>& to, const std::optional<Quantiles>& from) {
     if (from) to = Inferred{from->median, interval_of(*from)};
   };
   for (const Quantity& q : quantities()) set(e.*q.inferred, p.*q.quantiles);
-  // Where only a bound is known, it is the answer.
+  // If only a bound is known, the bound is the result.
   if (!p.contact_ratio) set(e.contact_ratio, p.contact_ratio_bound);
   set(e.stress, p.stress_bound);
   if (p.suffices && p.friction_identified) e.contact_ratio_bound.reset(), e.stress_pa_bound.reset();
@@ -60,16 +60,16 @@ bool is_sampled(const EvaluationOptions& options, const Observation& o) {
 FaultPulse pulse_of(const EventResult& result, const medium::Defaults& defaults) {
   FaultPulse none;
   if (result.observation.subfaults.empty())
-    none.reason = "no finite-fault model that gives the places of its subfaults";
+    none.reason = "no finite-fault model with positions of its subfaults";
   else if (!result.estimate->stress)
-    none.reason = "no rupture velocity, so no stress of the event";
+    none.reason = "no rupture velocity, so the stress of the event is unknown";
   if (!none.reason.empty()) return none;
   const std::vector<LocalState>& known = result.along_fault;
   return pulse_along_fault(known.empty() ? along_fault(result.observation, defaults) : known,
                            result.estimate->stress->value, result.estimate->speed);
 }
 
-/// What takes long comes from `posterior_of` and `pulse_of`.
+/// Evaluates an entry. `posterior_of` and `pulse_of` supply the results that take long to compute.
 template <class PosteriorOf, class PulseOf>
 EventResult evaluate(Entry&& entry, const medium::Defaults& defaults, const EvaluationOptions& options,
                      const PosteriorOf& posterior_of, const PulseOf& pulse_of) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Entries of a file put through the theory, and the names of what comes out.
+/// Applies the theory to the entries of a file.
 
 #include <optional>
 #include <span>
@@ -15,30 +15,30 @@
 
 namespace slipfront::results {
 
-/// One event of a file, after the theory: an estimate or the reason why there is none.
+/// The result for one event of a file: an estimate, or the reason why there is none.
 struct EventResult {
   catalogue::Observation observation;
-  /// One answer: by the closed forms at the middle of what was observed; where the event was sampled and the samples
-  /// suffice, the median and the interval of the posterior.
+  /// The result. If the event was sampled and the samples suffice, it is the median and the interval of the posterior.
+  /// Otherwise it follows from the closed forms at the middles of the observed quantities.
   std::optional<inference::Estimate> estimate;
-  std::optional<inference::Posterior> posterior;      ///< where the event was sampled
-  std::vector<finite_fault::LocalState> along_fault;  ///< of a finite-fault model, if asked for
-  std::optional<finite_fault::FaultPulse> pulse;      ///< through its slip distribution, if asked for
-  std::string error;                                  ///< one line; empty when there is an estimate
+  std::optional<inference::Posterior> posterior;      ///< present if the event was sampled
+  std::vector<finite_fault::LocalState> along_fault;  ///< subfaults of a finite-fault model, if requested
+  std::optional<finite_fault::FaultPulse> pulse;      ///< pulse along its slip distribution, if requested
+  std::string error;                                  ///< one line; empty if there is an estimate
 
-  /// Those of the closed forms, then what the samples say.
+  /// The warnings of the closed forms, then the notes of the posterior.
   std::vector<std::string> warnings() const;
 };
 
-/// What is done with an event besides the closed forms.
+/// Evaluations of an event in addition to the closed forms.
 struct EvaluationOptions {
-  inference::Sampling sampling;  ///< no samples: none
-  bool sample_all = false;       ///< sample all events, or those that speak of friction or of their errors
-  bool along_fault = false;      ///< the closed forms subfault by subfault
-  bool pulse = false;            ///< a pulse through the slip distribution of a finite-fault model
+  inference::Sampling sampling;  ///< with 0 samples, no event is sampled
+  bool sample_all = false;       ///< if false, sample only events with errors or with observations of friction
+  bool along_fault = false;      ///< apply the closed forms to each subfault
+  bool pulse = false;            ///< compute a pulse along the slip distribution of a finite-fault model
 };
 
-/// Never throws InputError: what is wrong with the entry is in the result.
+/// Evaluates an entry. It never throws InputError; the result contains the error instead.
 EventResult evaluate(catalogue::Entry&& entry, const medium::Defaults& defaults, const EvaluationOptions& options);
 
 }  // namespace slipfront::results

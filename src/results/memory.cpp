@@ -21,14 +21,14 @@ using inference::ShiftedSobol;
 
 namespace {
 
-constexpr double result_itself = 4096;  // bytes of one result without its draws: texts, notes, quantiles
+constexpr double result_itself = 4096;  // bytes of the texts, notes and quantiles of one result, without its draws
 constexpr double texts_in_file = 400;
 
 double draws_of(const EvaluationOptions& options) {
   return static_cast<double>(options.sampling.draws * sizeof(FaultState));
 }
 
-/// Samples of one event, as many as they may become.
+/// The largest number of samples of one event.
 double most_of(const Sampling& sampling) {
   return static_cast<double>(std::max(sampling.samples, std::min(most_growth * sampling.samples, most_samples)));
 }
@@ -36,8 +36,9 @@ double most_of(const Sampling& sampling) {
 }  // namespace
 
 double memory_needed(const EvaluationOptions& options, std::size_t events, int at_once) {
-  // Samples double: the vector that holds them does as well, and while it grows its old half is there too. Beside it
-  // their weights and their order. The sequences that they are drawn from stay, each twice as long as the one before.
+  // The number of samples doubles. So does the vector that holds them, and while it grows, its old half exists too. In
+  // addition there are the weights and the order of samples. All Sobol sequences stay in memory, each twice as
+  // long as the one before.
   const double of_sample = 3 * sizeof(Sample) + 4 * sizeof(double);
   const double most = most_of(options.sampling);
   const double kept = most > static_cast<double>(options.sampling.samples) ? 2 : 1;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What the events of a catalogue need of memory and disk.
+/// Estimates the memory and the disk space that the events of a catalogue need.
 
 #include <cstddef>
 
@@ -8,11 +8,11 @@
 
 namespace slipfront::results {
 
-/// Bytes that it takes to evaluate `events` events, `at_once` of them at a time, and to keep their results.
+/// Bytes of memory to evaluate `events` events, `at_once` of them at a time, and to store their results.
 double memory_needed(const EvaluationOptions& options, std::size_t events, int at_once);
-/// Bytes of a file of them, which is made in memory.
+/// Bytes of the file of these results, which is created in memory.
 double disk_needed(const EvaluationOptions& options, std::size_t events);
-/// \throws InputError, which says both, if that is more memory than this process may have.
+/// \throws InputError if this needs more memory than this process may have. The error states both numbers.
 void require_memory(const EvaluationOptions& options, std::size_t events, int at_once, bool with_file = false);
 
 }  // namespace slipfront::results

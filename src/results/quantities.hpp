@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Numbers of an event besides the quantities of its fault's state, and what a population sums up.
+/// The numbers of an event that are not quantities of the state of its fault, and the quantities of a population.
 
 #include <optional>
 #include <span>
@@ -16,18 +16,18 @@ namespace slipfront::results {
 /// One number of an event, declared once for all outputs.
 struct EventNumber {
   Description about;
-  bool in_population;  ///< a population sums it up
+  bool in_population;  ///< whether population statistics include it
   std::optional<double> (*get)(const EventResult&);
 };
-/// In the order of output: before the quantities of the state.
+/// The numbers in the order of output, in which they precede the quantities of the state.
 std::span<const EventNumber> event_numbers();
 
-/// The answers of an event, and then lower bounds: a quantity and its value, absent where there is none.
+/// The value of a quantity in the result of an event. It is absent if the quantity has none.
 std::optional<inference::Inferred> answer_of(const EventResult& result, const inference::Quantity& quantity);
 
-/// What a population sums up: measured and inferred quantities, in the order of output.
+/// The quantities of population statistics: observed and inferred quantities, in the order of output.
 std::vector<Description> population_quantities();
-/// An event as a member of a population: its value of each of them. None of an event without a rupture velocity.
+/// The values of these quantities for one event. They are absent for an event without a rupture velocity.
 std::optional<catalogue::Member> member_of(const EventResult& result);
 
 }  // namespace slipfront::results

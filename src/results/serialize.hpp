@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What of a result takes time to find, as bytes, for a catalogue that is to go on where it was stopped.
+/// Stores, as bytes, the parts of a result that take time to compute, so that an interrupted catalogue can resume.
 
 #include <span>
 #include <string>
@@ -11,21 +11,21 @@
 
 namespace slipfront::results {
 
-/// The rest of a result follows from its entry at once.
+/// The parts of a result that take time to compute. The rest follows quickly from its entry.
 struct SavedResult {
   std::optional<inference::Posterior> posterior = {};
   std::optional<finite_fault::FaultPulse> pulse = {};
   std::string error = {};
 };
 
-/// The result of an entry of which this was found before, to the same bits.
+/// Evaluates an entry with the saved parts of its result. The result is identical to that of the first evaluation.
 EventResult evaluate(catalogue::Entry&& entry, const medium::Defaults& defaults, const EvaluationOptions& options,
                      SavedResult&& found);
 
-/// What was found of these results.
+/// The saved parts of these results.
 std::string serialize(std::span<const EventResult> results);
 
-/// The same, back. \throws InputError where it is not what `saved` made.
+/// Reads the output of `serialize`. \throws InputError if `saved` is not such output.
 std::vector<SavedResult> deserialize(std::string_view saved);
 
 }  // namespace slipfront::results

@@ -13,32 +13,32 @@
 
 namespace slipfront::run {
 
-/// Where a run is written to, and by whom.
+/// The output of a run, and the ranks that write it.
 struct CheckpointOptions {
   record::Output output;
   record::PulseMetadata metadata;
-  double disk = 0;               ///< bytes that the file will need, about
-  bool resumed = false;          ///< what the run went on from is in a file
-  const Ranks* ranks = nullptr;  ///< that share the run, if any: all of them call
+  double disk = 0;               ///< approximate number of bytes of the file
+  bool resumed = false;          ///< the run was resumed, so its start is in a file already
+  const Ranks* ranks = nullptr;  ///< ranks that share the run, if any; all of them must make each call
 };
 
-/// Appends what a finished run reports to what was known of its scenario.
+/// Appends the warnings of a finished run to those of its scenario.
 inline void add_warnings(const std::vector<std::string>& of_run, record::PulseMetadata& metadata) {
   metadata.warnings.insert(metadata.warnings.end(), of_run.begin(), of_run.end());
 }
 
-/// Writes a run to its output, whole: as unfinished until it has ended.
+/// Writes the whole run to its output. Until the run has ended, the file is marked as unfinished.
 template <class Run>
 class Checkpoints {
  public:
   Checkpoints(const Run& run, const CheckpointOptions& options) : run_(run), options_(options) {}
 
-  /// A checkpoint is the whole file: writing it must stay a small part of the work.
+  /// Whether it is time for a checkpoint. Each writes the whole file, so we limit writing to a small part of the work.
   bool due() const {
     return options_.output.wanted() &&
            any(is_first() && seconds_since(written_) > 0.05 && seconds_since(written_) > 20 * cost_);
   }
-  /// What one rank wants, all do.
+  /// Whether `mine` is true on any rank.
   bool any(bool mine) const { return options_.ranks ? options_.ranks->any(mine) : mine; }
 
   void require_disk_space() const {
@@ -49,10 +49,10 @@ class Checkpoints {
   void write() {
     if (!options_.output.wanted()) return;
     const auto begun = Clock::now();
-    const std::string state = run_.saved();  // ranks send their parts to the first
+    const std::string state = run_.saved();  // all ranks send their parts to the first rank
     record::PulseMetadata metadata = options_.metadata;
     if constexpr (requires { run_.events(); }) metadata.events = run_.events();
-    if (run_.finished()) add_warnings(run_.warnings(), metadata);  // which asks all ranks
+    if (run_.finished()) add_warnings(run_.warnings(), metadata);  // warnings() needs all ranks
     on_first([&] {
       const record::Output& output = options_.output;
       record::write_pulse(run_.finished() ? output.finished() : output.unfinished(), metadata, run_.snapshots(), state,
@@ -65,7 +65,7 @@ class Checkpoints {
 
  private:
   bool is_first() const { return !options_.ranks || options_.ranks->rank() == 0; }
-  /// On the first rank; if it throws, all do.
+  /// Does `work` on the first rank. If it throws, all ranks throw.
   template <class Work>
   void on_first(const Work& work) const {
     const auto mine = [&] { is_first() ? work() : void(); };
@@ -75,13 +75,13 @@ class Checkpoints {
   const Run& run_;
   const CheckpointOptions& options_;
   Clock::time_point written_ = Clock::now();
-  double cost_ = 0;  ///< seconds of the last one
+  double cost_ = 0;  ///< seconds that the last checkpoint took
 };
 
-/// Carries `run` on until its end or until `after_step` says to stop, and writes it: at the start (a path that cannot
-/// be written, or a disk too small, is known before the work), now and then, and at the end, wherever that is. What
-/// stands at the output is replaced at the end of the run alone. Returns whether the end was reached. \throws
-/// NumericsError, after what was computed has been written; FileError.
+/// Continues `run` until its end, or until `after_step` returns true. It writes the file at the start, so that a bad
+/// path or a full disk fails before the work. It writes again from time to time, and when the run stops. An existing
+/// file at the output is replaced only at the end of the run. Returns whether the run has reached its end. \throws
+/// NumericsError, after writing the results so far; FileError.
 template <class Run>
 bool carry_out(Run& run, const CheckpointOptions& options, const std::function<bool()>& after_step) {
   Checkpoints<Run> checkpoints(run, options);
@@ -94,7 +94,7 @@ bool carry_out(Run& run, const CheckpointOptions& options, const std::function<b
       if (checkpoints.due()) checkpoints.write();
       return checkpoints.any(stop);
     });
-  } catch (const NumericsError& error) {  // the run stands at its last good step, or the last checkpoint does
+  } catch (const NumericsError& error) {  // the run or its last checkpoint has a valid state
     if (run.can_checkpoint()) checkpoints.write();
     std::error_code none;
     if (options.output.wanted() && std::filesystem::exists(options.output.unfinished(), none))

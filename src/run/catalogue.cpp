@@ -21,7 +21,7 @@ using catalogue::Entry;
 using results::EvaluationOptions;
 using results::EventResult;
 
-/// The entries of all texts; of one that could not be read, an entry with the reason.
+/// Reads the entries of all texts. A text that could not be read gives one entry, with the reason.
 CatalogueColumns read_all(const std::vector<EventText>& texts, const catalogue::Sink& sink) {
   CatalogueColumns columns;
   auto& ignored = columns.ignored;
@@ -41,7 +41,7 @@ CatalogueColumns read_all(const std::vector<EventText>& texts, const catalogue::
   return columns;
 }
 
-/// The settings that make the results what they are; threads do not.
+/// The settings on which the results depend. The number of threads is not one of them.
 std::vector<std::pair<std::string, std::string>> settings_of(const CatalogueScenario& scenario) {
   const EvaluationOptions& e = scenario.evaluation;
   const auto stated = [](const std::string& text) { return text.empty() ? "default" : text; };
@@ -50,7 +50,7 @@ std::vector<std::pair<std::string, std::string>> settings_of(const CatalogueScen
     inputs = record::checksum_of_inputs(inputs, t.name, t.error.empty() ? t.text : t.error);
   return {{"seed", std::to_string(e.sampling.seed)},
           {"samples", std::to_string(e.sampling.samples)},
-          {"sampled_events", e.sample_all ? "all" : "those that speak of friction or errors"},
+          {"sampled_events", e.sample_all ? "all" : "those with errors or observations of friction"},
           {"closure", name_of(e.sampling.closure)},
           {"pulse", e.pulse ? "yes" : "no"},
           {"posterior_draws", std::to_string(e.sampling.draws)},
@@ -60,7 +60,7 @@ std::vector<std::pair<std::string, std::string>> settings_of(const CatalogueScen
           {"input_checksum", inputs}};
 }
 
-/// A catalogue while it is evaluated.
+/// Evaluates a catalogue, and writes its file.
 class Evaluation {
  public:
   Evaluation(CataloguePlan&& plan, const CatalogueOptions& options)
@@ -76,7 +76,7 @@ class Evaluation {
     });
   }
 
-  /// Evaluates as many of the next events as a tenth of a second allows, one at least.
+  /// Evaluates as many of the next events as a tenth of a second allows, but at least one.
   void advance() {
     const auto start = Clock::now();
     const std::size_t next = std::min<std::size_t>(4096, results_.size() - done_);
@@ -106,7 +106,7 @@ class Evaluation {
     cost_ = seconds_since(begun);
   }
 
-  /// A checkpoint is the whole file: writing it must stay a small part of the work.
+  /// Whether it is time for a checkpoint. Each writes the whole file, so we limit writing to a small part of the work.
   bool checkpoint_due() const { return seconds_since(written_) > std::max(0.2, 20 * cost_); }
   bool finished() const { return done_ == results_.size(); }
   std::size_t done() const { return done_; }
@@ -120,7 +120,7 @@ class Evaluation {
   CataloguePlan plan_;
   const CatalogueOptions& options_;
   std::vector<EventResult> results_;
-  std::vector<char> is_done_;  ///< a few beyond the first `done_` may be
+  std::vector<char> is_done_;  ///< some events after the first `done_` may be done as well
   std::size_t done_ = 0;
   Clock::time_point written_ = Clock::now();
   double cost_ = 0;
@@ -150,7 +150,7 @@ CatalogueResult catalogue(CataloguePlan&& plan, const CatalogueOptions& options)
   if (!options.resume.empty())
     evaluation.resume();
   else if (!options.output.replaces())
-    evaluation.write();  // a path that cannot be written is known before the work
+    evaluation.write();  // so that a path that cannot be written fails before the work
   const auto stopped = [&] { return options.after_step && options.after_step(evaluation.done()); };
   bool stop = stopped();
   while (!evaluation.finished() && !stop) {
@@ -167,7 +167,8 @@ CatalogueColumns stream_catalogue(const CatalogueScenario& scenario, int threads
                                   const std::function<void(std::vector<EventResult>&&)>& take) {
   constexpr std::size_t most_waiting = 4096;
   const medium::Defaults defaults = medium::defaults_of(scenario.medium);
-  finite_fault::Sources sources;  // read twice: whether sources of one earthquake disagree is known when all are
+  // We read the texts twice, because a warning that sources of one earthquake disagree needs all of them.
+  finite_fault::Sources sources;
   std::size_t count = 0;
   read_all(scenario.texts, [&](Entry&& entry) {
     ++count;

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// The one way from texts of events to their results, for the program and the Python package: plan, run or resume.
+/// Evaluates texts of events: plans, runs or resumes a catalogue. The program and the Python package both use this
+/// file.
 
 #include <cstddef>
 #include <functional>
@@ -15,11 +16,11 @@
 
 namespace slipfront::run {
 
-/// A file of events.
+/// The text of a file of events.
 struct EventText {
   std::string name;
   std::string text;
-  std::string error = {};  ///< why it could not be read; empty: it was
+  std::string error = {};  ///< why the file could not be read; empty if it was read
 };
 
 /// Events, and how each is evaluated.
@@ -27,50 +28,50 @@ struct CatalogueScenario {
   std::vector<EventText> texts;
   medium::StatedDefaults medium = {};
   results::EvaluationOptions evaluation = {};
-  std::string command_line = {};  ///< history of the file
+  std::string command_line = {};  ///< stored as the history of the output file
 };
 
-/// Entries of a catalogue and what its readers left out.
+/// The columns of a catalogue that were ignored, and whether a file could not be read.
 struct CatalogueColumns {
-  std::vector<std::string> ignored;  ///< titles of columns that carry no observation
-  bool unreadable = false;           ///< a file could not be read; an entry says why
+  std::vector<std::string> ignored;  ///< titles of columns without observations
+  bool unreadable = false;           ///< a file could not be read; an entry has the reason
 };
 
-/// All that is known of a catalogue before the work.
+/// A catalogue that has been read and checked, but not evaluated.
 struct CataloguePlan {
-  std::vector<catalogue::Entry> entries;  ///< with warnings where sources of one earthquake disagree
+  std::vector<catalogue::Entry> entries;  ///< with warnings if sources of one earthquake disagree
   CatalogueColumns columns;
   medium::Defaults defaults;
   results::EvaluationOptions evaluation;
-  record::EventMetadata metadata;  ///< with the settings that make the results what they are
-  double disk = 0;                 ///< bytes of the file, about
+  record::EventMetadata metadata;  ///< with the settings on which the results depend
+  double disk = 0;                 ///< approximate number of bytes of the file
 };
-/// `with_file`: the results are to be written. \throws InputError for constants out of range and for catalogues that
-/// need more memory than this process may have.
+/// Reads and checks a catalogue. Set `with_file` if its results will be written to a file. \throws InputError for
+/// constants out of range, and for catalogues that need more memory than this process may have.
 CataloguePlan plan_catalogue(const CatalogueScenario& scenario, int threads, bool with_file);
 
-/// How a catalogue is carried out.
+/// How to run a catalogue.
 struct CatalogueOptions {
-  record::Output output = {};  ///< NetCDF; default: none, and an interrupted catalogue is lost
-  std::string resume = {};     ///< file of an interrupted catalogue; empty: begin anew
+  record::Output output = {};  ///< NetCDF file; by default none, and an interrupted catalogue is lost
+  std::string resume = {};     ///< file of an interrupted catalogue; empty: start from the beginning
   int threads = 1;
-  /// Called now and then with how many events are done, first with those of `resume`; returning true stops the
-  /// catalogue. Null: it goes on to its end.
+  /// A function that the catalogue calls from time to time with the number of finished events, first with that of
+  /// `resume`. Return true to stop the catalogue. If it is null, the catalogue runs to its end.
   std::function<bool(std::size_t done)> after_step = {};
 };
 
 struct CatalogueResult {
-  std::vector<results::EventResult> events;  ///< of all entries, or of the first ones where it was stopped
+  std::vector<results::EventResult> events;  ///< all events, or the first ones if the catalogue was stopped
   bool finished = false;
 };
 
-/// Evaluates all entries, in parallel, and writes them: at the start, now and then, and at the end, wherever that is.
-/// Results and file have the same bits however often the work was stopped and resumed. \throws InputError if `resume`
-/// is another catalogue's, FileError.
+/// Evaluates all entries in parallel. It writes the file at the start, from time to time, and when the catalogue stops.
+/// Stopping and resuming do not change a bit of the results or of the file. \throws InputError if `resume` is the file
+/// of another catalogue, FileError.
 CatalogueResult catalogue(CataloguePlan&& plan, const CatalogueOptions& options);
 
-/// Evaluates the events some at a time, in order, and hands them on: a catalogue of a million rows is never held whole.
-/// \throws as plan_catalogue.
+/// Evaluates the events in order, some at a time, and passes them to `take`, so that a catalogue of a million rows need
+/// not fit into memory. \throws as plan_catalogue.
 CatalogueColumns stream_catalogue(const CatalogueScenario& scenario, int threads,
                                   const std::function<void(std::vector<results::EventResult>&&)>& take);
 

@@ -19,27 +19,27 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// Given, or of the computation and not of the physics.
+/// Rows without an error: they are inputs, or they describe the computation and not the physics.
 constexpr std::array<std::string_view, 6> without_error{"friction_coefficient", "damping_number", "time",
                                                         "conservation_error",   "solve_seconds",  "wall_seconds"};
-/// Factors of safety where three grids converge, and where they do not (Eca & Hoekstra, 2014, J. Comput. Phys.
+/// Safety factors if the values on three grids converge, and if they do not (Eca & Hoekstra, 2014, J. Comput. Phys.
 /// 262:104).
 constexpr double safety = 1.5, safety_unordered = 3;
 constexpr int fewest_cells = 4, most_cells = 25600;
-/// A doubling of the cells doubles the steps too. --tolerance makes no run of more steps times cells than this, which
-/// is a minute or so of one processor.
+/// The largest product of steps and cells in a run that --tolerance makes: about a minute on one processor. Doubling
+/// the cells also doubles the steps, so it costs four times as much.
 constexpr double most_cost = 1e8, cost_of_doubling = 4;
 
-/// Rows that a tolerance holds for.
+/// Rows to which a tolerance applies.
 constexpr std::array<std::string_view, 4> held_to_tolerance{"slip_velocity_at_origin", "stress_at_origin",
                                                             "slip_at_origin", "peak_slip_velocity"};
 
-/// Places of which each is read from a few cells.
+/// Rows with a position that is read from a few cells.
 constexpr std::array<std::string_view, 2> read_from_cells{"peak_position", "first_crossing_position"};
 
 constexpr std::array<std::string_view, 2> observed_fronts{"trailing_front_observed", "leading_front_observed"};
 
-/// Measured where a number of cells show them.
+/// Rows with the position of a front, which is measured only if several cells show it.
 constexpr std::array<std::string_view, 4> fronts{"trailing_front", "leading_front", "trailing_front_observed",
                                                  "leading_front_observed"};
 
@@ -53,8 +53,9 @@ double real(const Value& value) {
   return number ? *number : none;
 }
 
-/// The summary of a run of `cells` cells to the end, with steps so many times coarser and no outputs on the way; empty
-/// if `interrupted` said so. `cost`, if any, is what the run took.
+/// Runs the scenario to its end with `cells` cells, tolerances that are `coarser` times larger, and no outputs before
+/// the end. Returns its summary, which is empty if `interrupted` returned true. `cost`, unless null, gets steps times
+/// cells.
 std::vector<SummaryValue> summary_with(int cells, const scenario::Scenario& scenario,
                                        const std::function<bool()>& interrupted, double coarser = 4,
                                        double* cost = nullptr) {
@@ -70,14 +71,14 @@ std::vector<SummaryValue> summary_with(int cells, const scenario::Scenario& scen
   try {
     if (!run.go(interrupted)) return {};
   } catch (const NumericsError&) {
-    if (!run.finished()) throw;  // it has reached the end and is too coarse: so much the larger are the errors
+    if (!run.finished()) throw;  // the run has reached its end but is too coarse, which makes the errors larger
   }
   if (cost) *cost = static_cast<double>(run.solver().cells().steps) * cells;
   return summary(pulse_summary(), {other, run, 0});
 }
 
-/// The error of the finest of three values, of which each has twice the cells of the next; without the last (NaN) as if
-/// they did not converge, and NaN without the second. `factor` is that of values that converge.
+/// Estimates the error of `fine` from the values with half and a quarter of the cells. If `quarter` is NaN, the values
+/// count as not converging. If `half` is NaN, so is the error. `factor` is the safety factor for values that converge.
 double estimated(double fine, double half, double quarter, double factor) {
   const double last = fine - half, before = half - quarter;
   if (std::isnan(last)) return none;
@@ -86,13 +87,14 @@ double estimated(double fine, double half, double quarter, double factor) {
   return safety_unordered * std::fmax(std::fabs(last), std::isnan(before) ? 0 : std::fabs(before));
 }
 
-/// The errors of the finest of three runs, from what each doubling of the cells changed.
+/// Estimates the errors of the finest of three runs from the changes at each doubling of the cells.
 std::vector<double> estimated(const std::vector<SummaryValue>& fine, const std::vector<SummaryValue>& half,
                               const std::vector<SummaryValue>& quarter) {
   std::vector<double> errors(fine.size(), none);
   for (std::size_t i = 0; i < std::min(fine.size(), half.size()); ++i) {
     if (among(without_error, fine[i].key)) continue;
-    // A tail that an observer sees is drawn out by the cells, less than in proportion to their size.
+    // Cells lengthen the tail that an observer sees, by less than in proportion to their size. So we use the larger
+    // factor.
     const double factor = among(observed_fronts, fine[i].key) ? safety_unordered : safety;
     const double coarsest = i < quarter.size() ? real(quarter[i].value) : none;
     errors[i] = estimated(real(fine[i].value), real(half[i].value), coarsest, factor);
@@ -100,13 +102,14 @@ std::vector<double> estimated(const std::vector<SummaryValue>& fine, const std::
   return errors;
 }
 
-/// Whether each doubling of the cells more than doubles a value: it is that of a pulse narrower than a cell.
+/// Whether each doubling of the cells more than doubles a value, as for a pulse that is narrower than a cell.
 bool grows(double fine, double half, double quarter) {
   constexpr double rounding = 1e-14;
   return std::fabs(quarter) > rounding && half / quarter > 2 && fine / half > 2;
 }
 
-/// The largest of `errors` over the size of what it belongs to. Sizes are at least a thousandth of the stress at x = 0.
+/// The largest relative error of the rows to which a tolerance applies. We divide by at least a thousandth of the
+/// stress at x = 0.
 double largest_relative(const std::vector<SummaryValue>& fine, const std::vector<double>& errors) {
   double stress = 0, largest = 0;
   for (const SummaryValue& row : fine)
@@ -122,8 +125,8 @@ std::size_t row_of(std::string_view key, const std::vector<SummaryValue>& rows) 
   return static_cast<std::size_t>(std::find_if(rows.begin(), rows.end(), is_it) - rows.begin());
 }
 
-/// The largest slip velocity is known no better than that at x = 0, and the peak may be anywhere where it is as large
-/// but for its error, also where it has the other sign.
+/// Corrects the errors of the peak. Its slip velocity is known no better than that at x = 0. Its position may be that
+/// of any cell that slips as fast within this error, also with the other sign.
 void correct_peak(const Result<pulse::Run>& fine, std::vector<double>& errors) {
   const std::size_t height = row_of("peak_slip_velocity", fine.summary), place = row_of("peak_position", fine.summary);
   const double at_origin = errors[row_of("slip_velocity_at_origin", fine.summary)];
@@ -138,8 +141,9 @@ void correct_peak(const Result<pulse::Run>& fine, std::vector<double>& errors) {
   }
 }
 
-/// What the cells leave open of places: rounding of all, two cells of a front that half the cells do not show, one
-/// of a peak or a crossing. A front that an observer sees at an end of the domain may be anywhere outside.
+/// Corrects the errors of positions for the size of the cells. Every position has a rounding error. A front that half
+/// the cells do not show has an error of two cells. A peak or a crossing has an error of at least one cell. A front
+/// that an observer sees at an end of the domain may be anywhere outside, so its error is unknown.
 void correct_places(const Result<pulse::Run>& fine, std::vector<double>& errors) {
   constexpr double rounding = 1e-9;
   const pulse::Problem& problem = fine.run->solver().problem();
@@ -161,7 +165,7 @@ void correct_places(const Result<pulse::Run>& fine, std::vector<double>& errors)
 
 Errors errors_of(const Result<pulse::Run>& fine, const scenario::Scenario& scenario,
                  const std::function<bool()>& interrupted) {
-  // With a part of the cells; empty where that is no run, so that its share of the errors is not known.
+  // The summary with a part of the cells. It is empty if such a run fails; its effect on the errors is then unknown.
   const auto coarse = [&](int part, double coarser) -> std::vector<SummaryValue> {
     const int cells = scenario.pulse.cells / part;
     if (cells < fewest_cells) return {};
@@ -174,7 +178,8 @@ Errors errors_of(const Result<pulse::Run>& fine, const scenario::Scenario& scena
     }
   };
   const std::vector<SummaryValue> half = coarse(2, 4);
-  const std::vector<SummaryValue> quarter = half.empty() ? half : coarse(4, 16);  // without a half no error is known
+  const std::vector<SummaryValue> quarter =
+      half.empty() ? half : coarse(4, 16);  // without `half`, no error can be estimated
   std::vector<double> errors = estimated(fine.summary, half, quarter);
   std::vector<std::string> warnings;
   if (!half.empty()) correct_places(fine, errors);
@@ -189,7 +194,7 @@ Errors errors_of(const Result<pulse::Run>& fine, const scenario::Scenario& scena
     warnings.push_back("pulse: " + std::string(fine.summary[i].key) + " grows with the cells: " + digits(values[0], 3) +
                        ", " + digits(values[1], 3) + ", " + digits(values[2], 3) + " with " +
                        std::to_string(cells / 4) + ", " + std::to_string(cells / 2) + ", " + std::to_string(cells) +
-                       "; what moves is narrower than a cell, more pulse.cells help");
+                       "; the pulse is narrower than a cell: increase pulse.cells");
   }
   return {std::move(errors), std::move(warnings)};
 }
@@ -201,7 +206,7 @@ int cells_for(double tolerance, bool resumed, const scenario::Scenario& scenario
         {.key = "tolerance", .value = digits(tolerance), .problem = "out of range", .allowed = "1e-9 to 1"});
   if (resumed)
     throw InputError({.key = "tolerance",
-                      .problem = "chooses the cells of a run that has begun",
+                      .problem = "cannot choose the cells of a run that has started",
                       .allowed = "tolerance without resume"});
   const int given = scenario.pulse.cells;
   std::vector<SummaryValue> quarter = summary_with(std::max(given / 4, fewest_cells), scenario, interrupted, 16),
@@ -219,11 +224,11 @@ int cells_for(double tolerance, bool resumed, const scenario::Scenario& scenario
   }
   if (quarter.empty() || half.empty()) return given;
   const std::string why = cells > most_cells
-                              ? "; that many cells is the most it tries"
+                              ? "; more cells are not tried"
                               : "; " + std::to_string(cells) + " cells would take about " +
-                                    digits(cost_of_doubling * cost / cells, 2) + " steps, more than it spends";
+                                    digits(cost_of_doubling * cost / cells, 2) + " steps, which is too many";
   throw NumericsError("tolerance " + digits(tolerance, 3) + " is not reached with " + std::to_string(cells / 2) +
-                      " cells: " + digits(reached, 3) + " is" + why +
+                      " cells: the error is " + digits(reached, 3) + why +
                       ". Without --tolerance, pulse.cells = " + std::to_string(cells / 2) + " gives that result");
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How far the scalars of a pulse may be from those of infinitely many cells.
+/// Estimates the discretisation errors of the scalars of a pulse.
 
 #include <functional>
 #include <string>
@@ -11,28 +11,36 @@
 
 namespace slipfront::run {
 
-/// How far the rows of a summary may be from those of infinitely many cells.
+/// The errors of the rows of a summary, relative to infinitely many cells.
 struct Errors {
-  std::vector<double> of;             ///< each row; NaN where no error is known
+  std::vector<double> of;             ///< error of each row; NaN if unknown
   std::vector<std::string> warnings;  ///< a sentence for each row that the cells do not resolve
 };
 
-/// For each row of a finished run's summary an estimate of its error, from runs with half and a quarter of the cells
-/// and coarser steps, which are made here and take a third of the time: what the last doubling of the cells changed, or
-/// half of what the doubling before did if that is more, as for a scheme of first order, times 1.5; and where the three
-/// values do not converge, three times the larger change (Eca & Hoekstra, 2014, J. Comput. Phys. 262:104). Slip at
-/// x = 0 is known twice: its error is no less than what the difference of the two says of the cells there. A front that
-/// half the cells do not show is known to one of their cells. The position of the peak is known to a cell at
-/// best, and no better than how far other places are that slip as fast but for the error. NaN for what has no error of
-/// this kind, for a front that an observer sees at an end of the domain, for what each doubling of the cells more than
-/// doubles, with a warning, and where the run or the one with half the cells has no value or `interrupted` said to
-/// stop.
+/// Estimates the error of each row in the summary of a finished run. For this it makes runs with half and a quarter of
+/// the cells and with coarser steps, which together take a third of the time.
+///
+/// If the three values converge, the error is 1.5 times the larger of two changes. One is that of the last doubling of
+/// the cells. The other is half of the change at the doubling before, as for a scheme of first order. If they do not
+/// converge, the error is three times the larger change (Eca & Hoekstra, 2014, J. Comput. Phys. 262:104). Some rows
+/// have a larger error:
+/// - Slip at x = 0 is computed in two ways. Its error is at least the one that their difference implies for the cells
+///   there.
+/// - A front that half the cells do not show has an error of one of their cells.
+/// - The position of the peak has an error of at least a cell. The error also covers all other positions that slip as
+///   fast within the error of slip velocity.
+///
+/// An error is NaN for rows without an error of this kind. It is NaN for a front that an observer sees at an end of the
+/// domain. It is NaN, with a warning, for a value that each doubling of the cells more than doubles. It is also NaN if
+/// the run, or the run with half the cells, has no value, or if `interrupted` returned true.
 Errors errors_of(const Result<pulse::Run>& fine, const scenario::Scenario& scenario,
                  const std::function<bool()>& interrupted);
 
-/// The cells that a relative tolerance (1e-9 to 1) of slip, slip velocity and stress at x = 0 and of the peak needs,
-/// from the scenario's on in doublings; those of the scenario where `interrupted` said to stop. \throws InputError for
-/// another tolerance, or one for a run that is `resumed`; NumericsError where 25,600 cells do not reach it.
+/// The number of cells for a relative tolerance, 1e-9 to 1. It applies to slip, slip velocity and stress at x = 0, and
+/// to the peak slip velocity. The function doubles the cells of the scenario until the tolerance is reached. If
+/// `interrupted` returns true, it returns the cells of the scenario. \throws InputError for another tolerance, or for a
+/// run that is `resumed`; NumericsError if 25,600 cells do not reach the tolerance or the next doubling would take too
+/// many steps.
 int cells_for(double tolerance, bool resumed, const scenario::Scenario& scenario,
               const std::function<bool()>& interrupted);
 

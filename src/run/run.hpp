@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The one way from a scenario to a result, for the program, the Python package and sweeps: plan, run or resume, sum
-/// up.
+/// Turns a scenario into a result: plans it, runs or resumes it, and summarizes it. The program, the Python package and
+/// sweeps all use this file.
 
 #include <functional>
 #include <memory>
@@ -22,26 +22,28 @@
 
 namespace slipfront::run {
 
-/// How a run is carried out.
+/// How to run a scenario.
 struct Options {
-  record::Output output = {};                         ///< default: none
-  std::optional<record::Checkpoint> checkpoint = {};  ///< to go on from, as checkpoint_of reads it
-  int threads = 1;                                    ///< of a chain
-  const Ranks* ranks = nullptr;                       ///< processes that share a chain, if any: all of them call
-  /// Called after each step with where the run stands; returning true stops it. Null: it goes on to its end.
+  record::Output output = {};                         ///< by default none
+  std::optional<record::Checkpoint> checkpoint = {};  ///< state to resume from, read by checkpoint_of
+  int threads = 1;                                    ///< threads of a chain
+  const Ranks* ranks = nullptr;                       ///< processes that share a chain, if any; all must make each call
+  /// A function that the run calls after each step with its time and number of steps. Return true to stop the run. If
+  /// it is null, the run continues to its end.
   std::function<bool(double time, long steps)> after_step = {};
-  Clock::time_point begun = Clock::now();  ///< wall_seconds count from here
+  Clock::time_point begun = Clock::now();  ///< wall_seconds are counted from this time
 };
 
-/// The state of an unfinished run in a file. \throws FileError, InputError if another scenario or version wrote it.
+/// Reads the state of an unfinished run from a file. \throws FileError; InputError if the file is from another scenario
+/// or version.
 record::Checkpoint checkpoint_of(const std::string& path, const scenario::Scenario& scenario);
 
-/// What a file says of a run of `command`.
+/// The metadata for the file of a run of `command`.
 record::PulseMetadata metadata_of(const scenario::Scenario& scenario, const std::string& command,
                                   const std::vector<double>& x_edges, const std::vector<double>& scales = {});
 
-/// What there is to run, and what that needs. Problems and schedules are checked: what is wrong is known before the
-/// work.
+/// A problem to solve, its output times, and the memory and disk that it needs. A plan has been checked, so errors
+/// appear before the work.
 struct PulsePlan {
   pulse::Problem problem;
   output::Schedule schedule;
@@ -53,26 +55,27 @@ struct ChainPlan {
   setup::Estimate need;
 };
 
-/// \throws InputError.
+/// Plans a pulse run. \throws InputError.
 PulsePlan plan_pulse(const scenario::Scenario& scenario);
-/// `share_of_machine`: of a chain that several processes share, what is on this machine. \throws InputError.
+/// Plans a chain run. If several processes share the chain, `share_of_machine` is the part on this machine. \throws
+/// InputError.
 ChainPlan plan_chain(const scenario::Scenario& scenario, double share_of_machine = 1);
 
-/// What came of a run. The summary is empty unless it is finished.
+/// The result of a run. The summary is empty unless the run is finished.
 template <class Run>
 struct Result {
   std::unique_ptr<Run> run;
-  record::PulseMetadata metadata;  ///< with the warnings of a finished run
+  record::PulseMetadata metadata;  ///< includes the warnings of a finished run
   std::vector<SummaryValue> summary = {};
   bool finished() const { return run->finished(); }
 };
 
-/// \throws NumericsError, after what was computed has been written; InputError, FileError.
+/// Runs a pulse or a chain. \throws NumericsError, after writing the results so far; InputError, FileError.
 Result<pulse::Run> pulse(const scenario::Scenario& scenario, const PulsePlan& plan, const Options& options);
 Result<chain::Run> chain(const scenario::Scenario& scenario, const ChainPlan& plan, const Options& options);
 
-/// Runs a comparison and writes each level when it is done. `levels` holds those that were; `scales` are as given by
-/// the user. Returns whether all were. \throws as setup::run_levels, FileError.
+/// Runs a comparison, and writes each level when it is finished. `levels` gets the finished levels. `scales` are those
+/// that the user stated. Returns whether all levels are finished. \throws as setup::run_levels, FileError.
 bool compare(const scenario::Scenario& scenario, const setup::Comparison& comparison, const std::vector<double>& scales,
              const record::Output& output, int threads, std::vector<setup::Level>& levels,
              const std::function<void()>& next_level,

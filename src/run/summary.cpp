@@ -13,12 +13,12 @@ const output::Snapshot& last(const FinishedPulse& end) { return end.run.snapshot
 const output::Snapshot& last(const FinishedChain& end) { return end.run.snapshots().back(); }
 const chain::Grid& grid(const FinishedChain& end) { return end.run.chain().problem().grid; }
 
-/// C of f = C w; not a number for other laws.
+/// C of f = C w; NaN for other laws.
 double viscous_coefficient(const FinishedPulse& end) {
   return end.scenario.friction.linear_coefficient().value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
-/// With what the last snapshot has beside its members.
+/// Adds rows for the further scalars of the last snapshot.
 template <class End>
 std::vector<SummaryItem<End>> with_further(std::vector<SummaryItem<End>> items) {
   for (const Description& about : output::further_scalars()) {
@@ -30,7 +30,7 @@ std::vector<SummaryItem<End>> with_further(std::vector<SummaryItem<End>> items) 
   return items;
 }
 
-/// Settings, and what is at x = 0 and at the peak.
+/// Rows for settings, for x = 0 and for the peak.
 std::vector<SummaryItem<FinishedPulse>> pulse_at_origin() {
   return {
       {"closure", [](const FinishedPulse& e) -> Value { return name_of(e.scenario.friction.closure()); },
@@ -48,7 +48,8 @@ std::vector<SummaryItem<FinishedPulse>> pulse_at_origin() {
        "u at x = 0 since t = 0, in b / (2 pi)"},
       {"peak_slip_velocity", [](const FinishedPulse& e) -> Value { return last(e).peak_slip_velocity; },
        "largest W, in c A / pi"},
-      {"peak_position", [](const FinishedPulse& e) -> Value { return last(e).peak_position; }, "its x, in b / A"},
+      {"peak_position", [](const FinishedPulse& e) -> Value { return last(e).peak_position; },
+       "x of the peak, in b / A"},
   };
 }
 
@@ -58,42 +59,44 @@ std::vector<SummaryItem<FinishedPulse>> pulse_fronts_and_energy() {
        "x of the fast front, the foot of the slip velocity, in b / A"},
       {"trailing_characteristic",
        [](const FinishedPulse& e) -> Value { return last(e).fronts.trailing_characteristic; },
-       "x of the fast front as a characteristic: its place without friction"},
+       "x of the fast front as a characteristic, its position without friction"},
       {"leading_front", [](const FinishedPulse& e) -> Value { return last(e).fronts.leading; },
        "x of the slow front, in b / A"},
       {"trailing_front_observed", [](const FinishedPulse& e) -> Value { return last(e).fronts.trailing_observed; },
-       "as an observer with a threshold sees it"},
+       "x of the fast front for an observer with a threshold"},
       {"leading_front_observed", [](const FinishedPulse& e) -> Value { return last(e).fronts.leading_observed; },
-       "as an observer with a threshold sees it"},
+       "x of the slow front for an observer with a threshold"},
       {"energy_elastic", [](const FinishedPulse& e) -> Value { return last(e).energy.elastic; },
-       "of the state at rest"},
-      {"energy_kinetic", [](const FinishedPulse& e) -> Value { return last(e).energy.kinetic; }, "the rest of H"},
+       "energy of the state at rest with the same density"},
+      {"energy_kinetic", [](const FinishedPulse& e) -> Value { return last(e).energy.kinetic; },
+       "energy less the elastic energy"},
       {"energy_dissipated", [](const FinishedPulse& e) -> Value { return last(e).energy.dissipated; },
-       "by friction since t = 0"},
-      {"energy_supplied", [](const FinishedPulse& e) -> Value { return last(e).energy.supplied; }, "by F since t = 0"},
+       "energy lost to friction since t = 0"},
+      {"energy_supplied", [](const FinishedPulse& e) -> Value { return last(e).energy.supplied; },
+       "energy supplied by F since t = 0"},
       {"energy_through_ends", [](const FinishedPulse& e) -> Value { return last(e).energy.through_ends; },
-       "come in through the ends of the domain"},
+       "energy that came in through the ends of the domain"},
       {"energy_shocks", [](const FinishedPulse& e) -> Value { return last(e).energy.shocks; },
-       "lost where trains run into each other"},
+       "energy lost where trains run into each other"},
   };
 }
 
-/// How the solver went.
+/// Rows that describe the computation.
 std::vector<SummaryItem<FinishedPulse>> pulse_solver() {
   return {
       {"first_crossing_time", [](const FinishedPulse& e) -> Value { return e.run.solver().cells().crossing_time; },
-       "when dislocations first overtake each other"},
+       "time at which dislocations first overtake each other"},
       {"first_crossing_position",
        [](const FinishedPulse& e) -> Value { return e.run.solver().cells().crossing_position; },
-       "and where; the averages are an approximation behind it"},
+       "x at which they do; averages are approximate behind it"},
       {"conservation_error", [](const FinishedPulse& e) -> Value { return pulse::conservation_error(e.run.solver()); },
-       "of the dislocation number, relative"},
+       "relative error of the number of dislocations"},
       {"cells", [](const FinishedPulse& e) -> Value { return static_cast<long>(e.run.solver().problem().cells); },
-       "over the domain at t = 0; others come in and leave through its ends"},
+       "cells in the domain at t = 0; others come in and leave through its ends"},
       {"steps", [](const FinishedPulse& e) -> Value { return e.run.solver().cells().steps; }, ""},
       {"solve_seconds", [](const FinishedPulse& e) -> Value { return e.run.stepping_seconds(); },
-       "of the time steps alone"},
-      {"wall_seconds", [](const FinishedPulse& e) -> Value { return e.wall; }, "of the whole command"},
+       "seconds of the time steps only"},
+      {"wall_seconds", [](const FinishedPulse& e) -> Value { return e.wall; }, "seconds of the whole command"},
   };
 }
 
@@ -113,40 +116,44 @@ std::vector<SummaryItem<FinishedChain>> chain_items() {
   return {
       {"time", [](const FinishedChain& e) -> Value { return last(e).time; }, "in b / (c A)"},
       {"scale", [](const FinishedChain& e) -> Value { return e.run.scale(); },
-       "x and t are stretched by it, friction divided"},
+       "factor by which x and t are multiplied and friction is divided"},
       {"slip_at_origin", [](const FinishedChain& e) -> Value { return last(e).slip_at_origin; },
        "u at x = 0 since t = 0 over the scale, in b / (2 pi)"},
       {"slip_velocity_at_origin", [](const FinishedChain& e) -> Value { return last(e).slip_velocity_at_origin; },
        "weighted mean of u_t, in c A / pi"},
       {"stress_at_origin", [](const FinishedChain& e) -> Value { return last(e).stress_at_origin; },
        "weighted mean of -u_x, in mu A / pi"},
-      {"window", [](const FinishedChain& e) -> Value { return e.run.window(); }, "of the slip at x = 0, in b / A"},
+      {"window", [](const FinishedChain& e) -> Value { return e.run.window(); },
+       "width of the average of the slip at x = 0, in b / A"},
       {"smooth_window", [](const FinishedChain& e) -> Value { return e.run.smooth_window(); },
-       "of velocities and stresses, in b / A"},
+       "width of the averages of velocity and stress, in b / A"},
       {"peak_slip_velocity", [](const FinishedChain& e) -> Value { return last(e).peak_slip_velocity; },
-       "largest of the profile, in c A / pi"},
-      {"peak_position", [](const FinishedChain& e) -> Value { return last(e).peak_position; }, "its x, in b / A"},
+       "largest W of the profile, in c A / pi"},
+      {"peak_position", [](const FinishedChain& e) -> Value { return last(e).peak_position; },
+       "x of the peak, in b / A"},
       {"leading_front", [](const FinishedChain& e) -> Value { return last(e).fronts.leading; },
        "x of the last dislocation, in b / A"},
       {"trailing_front_observed", [](const FinishedChain& e) -> Value { return last(e).fronts.trailing_observed; },
-       "as an observer with a threshold sees it"},
+       "x of the fast front for an observer with a threshold"},
       {"leading_front_observed", [](const FinishedChain& e) -> Value { return last(e).fronts.leading_observed; },
-       "as an observer with a threshold sees it"},
-      {"dislocations", [](const FinishedChain& e) -> Value { return e.balance.dislocations; }, "at the end"},
+       "x of the slow front for an observer with a threshold"},
+      {"dislocations", [](const FinishedChain& e) -> Value { return e.balance.dislocations; },
+       "number of dislocations at the end"},
       {"energy_phonons", [](const FinishedChain& e) -> Value { return last(e).energy.phonons; },
-       "energy that uniform trains of the same averages lack"},
+       "energy less that of uniform trains with the same averages"},
       {"energy_drift", [](const FinishedChain& e) -> Value { return e.balance.energy_drift; },
-       "energy and work since t = 0, relative"},
+       "relative error of the balance of energy and work since t = 0"},
       {"charge_error", [](const FinishedChain& e) -> Value { return e.balance.charge_error; },
-       "dislocations that left through the ends; none can where they are held or joined"},
+       "dislocations that left through the ends; 0 if these are fixed or periodic"},
       {"sites", [](const FinishedChain& e) -> Value { return static_cast<long>(grid(e).sites); }, ""},
-      {"spacing", [](const FinishedChain& e) -> Value { return grid(e).spacing; }, "of the sites, on the chain"},
+      {"spacing", [](const FinishedChain& e) -> Value { return grid(e).spacing; },
+       "spacing of the sites, in the chain's own x"},
       {"steps", [](const FinishedChain& e) -> Value { return e.run.chain().steps(); }, ""},
       {"ranks", [](const FinishedChain& e) -> Value { return static_cast<long>(e.ranks); }, ""},
-      {"threads", [](const FinishedChain& e) -> Value { return static_cast<long>(e.threads); }, "of each rank"},
+      {"threads", [](const FinishedChain& e) -> Value { return static_cast<long>(e.threads); }, "threads of each rank"},
       {"site_updates_per_second", [](const FinishedChain& e) -> Value { return site_updates_per_second(e); },
-       "output included"},
-      {"wall_seconds", [](const FinishedChain& e) -> Value { return e.wall; }, "of the whole command"},
+       "site updates per second, including output"},
+      {"wall_seconds", [](const FinishedChain& e) -> Value { return e.wall; }, "seconds of the whole command"},
   };
 }
 

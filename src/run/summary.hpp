@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a finished run is summed up by: the keys that `--json` prints and that Python attaches to a result.
+/// The summary of a finished run: the keys that `--json` prints and that Python attaches to a result.
 
 #include <functional>
 #include <span>
@@ -14,10 +14,10 @@
 
 namespace slipfront::run {
 
-/// A double that is not finite says that there is none.
+/// A value of a summary. A double that is not finite means that the value is absent.
 using Value = std::variant<double, long, std::string>;
 
-/// A key, how it is got from a finished run, and what it means.
+/// A key, the function that computes its value from a finished run, and its meaning.
 template <class End>
 struct SummaryItem {
   std::string key;
@@ -29,16 +29,16 @@ struct SummaryItem {
 struct FinishedPulse {
   const scenario::Scenario& scenario;
   const pulse::Run& run;
-  double wall;  ///< seconds, set-up and output included
+  double wall;  ///< seconds, including set-up and output
 };
 std::span<const SummaryItem<FinishedPulse>> pulse_summary();
 
 /// A chain that has reached its end, and how it was run.
 struct FinishedChain {
   const chain::Run& run;
-  chain::Balance balance;  ///< run.balance(), which all ranks take part in
-  double stepping, wall;   ///< seconds: of the run alone, of everything
-  long steps;              ///< of these seconds
+  chain::Balance balance;  ///< result of run.balance(), in which all ranks take part
+  double stepping, wall;   ///< seconds of the run only, and of everything
+  long steps;              ///< steps in these seconds
   int ranks, threads;
 };
 std::span<const SummaryItem<FinishedChain>> chain_summary();

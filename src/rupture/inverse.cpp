@@ -15,7 +15,7 @@ using std::numbers::pi;
 }  // namespace
 
 double psi_of_sound_speed(double V) {
-  if (V > 0.5) {  // 1 - V is exact here, and 1 - c0 = m^2 / 16 carries what c0 has lost
+  if (V > 0.5) {  // 1 - V is exact here, and 1 - c0 = m^2 / 16 keeps the digits that c0 loses
     const double rest = 1 - V;
     const auto residual = [rest](double psi) {
       const modulation::Sound c = modulation::sound(psi);

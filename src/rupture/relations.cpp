@@ -17,11 +17,12 @@ namespace {
 
 using std::numbers::pi;
 
-/// Smallest inputs for which every output is a normal double; psi_at_origin, about V / (ln V)^2, goes first.
+/// Smallest inputs for which every output is a normal double. The first output to become too small is psi_at_origin,
+/// about V / (ln V)^2.
 constexpr double least_stress = 0.00447;
 constexpr double least_rupture_velocity = 2e-302;
 constexpr double least_slip_velocity = 7.2e-308;
-/// Largest inputs for which none overflows.
+/// Largest inputs for which no output overflows.
 constexpr double most_stress = 1e308;
 constexpr double most_slip_velocity = 5e307;
 
@@ -32,18 +33,18 @@ struct Range {
 };
 
 void check(double value, const Range& range) {
-  if (value >= range.least && value <= range.most) return;  // false for NaN
+  if (value >= range.least && value <= range.most) return;  // NaN fails both comparisons
   const char* problem = std::isnan(value)     ? "not a number"
                         : value <= 0          ? "not positive"
-                        : value < range.least ? "too small: some result would be below the smallest double"
+                        : value < range.least ? "too small: a result would be below the smallest double"
                                               : "too large";
   throw InputError({.key = range.key, .value = digits(value, 17), .problem = problem, .allowed = range.allowed});
 }
 
-/// Eqs. 8-10 from psi on both sides of the fan: phi + psi = psi- throughout it.
+/// Evaluates Eqs. 8-10 from psi on the stressed side and psi at x = 0. Throughout the fan, phi + psi = psi-.
 Relations assemble(double psi, double psi_at_origin) {
   const elliptic::AtPsi left = elliptic::at_psi(psi), origin = elliptic::at_psi(psi_at_origin);
-  const double phi0 = modulation::sound(psi_at_origin).rapidity;  // the ray x = 0: lambda_- = 0
+  const double phi0 = modulation::sound(psi_at_origin).rapidity;  // lambda_- = 0 on the ray x = 0
   const double cosh_psi0 = std::cosh(psi_at_origin);
   Relations r{};
   r.stress = pi * std::cosh(psi) / left.K;

@@ -12,20 +12,19 @@
 #include "slipfront/error.hpp"
 #include "slipfront/modulation/characteristics.hpp"
 
-// The 2-wave is the 1-wave of the mirrored problem (x -> -x, phi -> -phi), so only the 1-wave is written out.
+// The 2-wave is the 1-wave of the mirrored problem (x -> -x, phi -> -phi), so this file computes only the 1-wave.
 
 namespace slipfront::rupture {
 namespace {
 
 State mirrored(const State& s) { return {-s.phi, s.psi}; }
 
-/// Spacing l and momentum M = momentum_unit * sinh(phi) of one dislocation (docs/theory.md 3.4: the Lagrangian form l_t
-/// = U_q, M_t + p_q = 0, p = 2 sinh^2 psi). Between two trains the jump conditions read [p][l] + [U][M] = 0.
+/// The spacing l and the momentum M of one dislocation. The Lagrangian form of the equations (docs/theory.md 3.4) is
+/// l_t = U_q, M_t + p_q = 0 with p = 2 sinh^2 psi. Hence the jump condition between two trains is [p][l] + [U][M] = 0.
 struct PerDislocation {
   double spacing_unit;   ///< l cosh(phi) = 2 K / cosh(psi)
   double momentum_unit;  ///< M / sinh(phi) = 8 cosh(psi) E
-  double
-      momentum_rest;  ///< momentum_unit - 8, which keeps the digits that the mass of a lone dislocation would swallow
+  double momentum_rest;  ///< momentum_unit - 8, without cancellation; 8 is the mass of an isolated dislocation
 };
 PerDislocation per_dislocation(double psi) {
   const elliptic::AtPsi at = elliptic::at_psi(psi);
@@ -33,11 +32,12 @@ PerDislocation per_dislocation(double psi) {
   return {2 * at.K / cosh_psi, 8 * cosh_psi * at.E, 8 * (2 * half * half * at.E + at.E_rest)};
 }
 
-/// Rapidity drop phi_left - phi_star > 0 across a 1-shock from `left` up to psi_star > psi_left. [p][l] + [U][M] is
-/// negative at zero drop and has exactly one zero below (two sign changes as a quartic in exp(phi): Descartes).
+/// The drop of rapidity phi_left - phi_star > 0 across a 1-shock from `left` up to psi_star > psi_left. [p][l] + [U][M]
+/// is negative at zero drop and has exactly one zero at a positive drop. This follows from Descartes' rule, because the
+/// quartic in exp(phi) has two sign changes.
 double shock_drop(const State& left, double psi_star) {
   const PerDislocation a = per_dislocation(left.psi), b = per_dislocation(psi_star);
-  // Both products are of the order of psi_star^2, which may underflow: each factor is taken over psi_star.
+  // Both products are of the order of psi_star^2, which may underflow. So we divide each factor by psi_star.
   const double jump_p = modulation::pressure_jump(left.psi, psi_star, psi_star);
   const double l_left = a.spacing_unit / std::cosh(left.phi);
   const double jump_unit = (b.momentum_rest - a.momentum_rest) * std::sinh(left.phi);
@@ -48,47 +48,49 @@ double shock_drop(const State& left, double psi_star) {
     const double jump_M = (b.momentum_unit * jump_sinh + jump_unit) / psi_star;
     return jump_p * (b.spacing_unit / std::cosh(phi) - l_left) + jump_U * jump_M;
   };
-  // The fan's continuation psi_star - psi_left is the root for weak shocks; widen around it.
+  // For weak shocks the root is psi_star - psi_left, which continues the fan. We widen a bracket around it.
   double low = psi_star - left.psi, high = low;
   while (mismatch(low) > 0 && low > DBL_MIN) low /= 2;
   while (mismatch(high) < 0) {
     high *= 2;
-    if (!(high < 1400)) throw NumericsError("shock from psi = " + digits(left.psi) + " too strong for a double");
+    if (!(high < 1400))
+      throw NumericsError("the shock from psi = " + digits(left.psi) + " is too strong for double precision");
   }
   return root_in_bracket(low, high, mismatch);
 }
 
-/// phi_left - phi_star along the 1-wave curve: fan (phi + psi constant) below psi_left, shock above.
+/// phi_left - phi_star along the 1-wave curve, which is a fan (phi + psi constant) below psi_left and a shock above.
 double drop_along_curve(const State& left, double psi_star) {
   return psi_star <= left.psi ? psi_star - left.psi : shock_drop(left, psi_star);
 }
 
-/// psi where the two wave curves meet: phi_left - drop_left = phi_right + drop_right, increasing in psi.
+/// The psi at which the two wave curves meet: phi_left - drop_left = phi_right + drop_right. The drops increase with
+/// psi.
 double meeting_psi(const State& left, const State& right) {
   const State back = mirrored(right);
-  const double closing = left.phi - right.phi;  // > 0: the trains run into each other
+  const double closing = left.phi - right.phi;  // > 0 if the trains run into each other
   const auto excess = [&](double psi) { return drop_along_curve(left, psi) + drop_along_curve(back, psi) - closing; };
   double low = std::fmin(left.psi, right.psi), high = std::fmax(left.psi, right.psi);
   if (excess(high) == 0) return high;
-  if (excess(low) >= 0) {  // two fans: both curves are straight lines
+  if (excess(low) >= 0) {  // for two fans, both curves are straight lines
     return (left.psi + right.psi + closing) / 2;
   }
   while (excess(high) < 0) {
     low = high;
     high *= 2;
-    if (!(high < 700)) throw NumericsError("Riemann problem: no double holds the star state");
+    if (!(high < 700)) throw NumericsError("Riemann problem: the star state is outside the range of double precision");
   }
   return root_in_bracket(low, high, excess);
 }
 
-/// Asymptotic regime of weak shocks: the speed is the mean of the characteristic speeds on both sides, up to the square
-/// of the strength; the quotient of jumps would lose eps / strength.
+/// Weaker shocks get their asymptotic speed, the mean of the characteristic speeds on both sides. Its error is of the
+/// order of the squared strength. The quotient of jumps would have the larger error eps / strength.
 constexpr double weak_below = 6e-6;
 
 /// The 1-wave between `left` and `star`.
 Wave first_wave(const State& left, const State& star) {
   if (left.empty()) return {};
-  if (star.empty()) {  // fan down to the edge of the empty region, which moves with the last dislocation
+  if (star.empty()) {  // a fan down to the edge of the empty region, which moves with the last dislocation
     return {Wave::Kind::fan, modulation::characteristic_speeds(left).minus, modulation::velocity(star.phi)};
   }
   if (star.psi == left.psi) {
@@ -103,7 +105,7 @@ Wave first_wave(const State& left, const State& star) {
         (modulation::characteristic_speeds(left).minus + modulation::characteristic_speeds(star).minus) / 2;
     return {Wave::Kind::shock, speed, speed};
   }
-  // s = U - j / k with the flux j of dislocations through the shock, j [1/k] = -[U].
+  // The speed of the shock is s = U - j / k. The flux j of dislocations through it follows from j [1/k] = -[U].
   const double l_left = per_dislocation(left.psi).spacing_unit / std::cosh(left.phi);
   const double l_star = per_dislocation(star.psi).spacing_unit / std::cosh(star.phi);
   const double slowed = modulation::velocity_jump(star.phi, left.phi - star.phi);
@@ -113,7 +115,7 @@ Wave first_wave(const State& left, const State& star) {
 
 Wave mirrored(const Wave& w) { return {w.kind, -w.outer, -w.inner}; }
 
-/// Inside the left fan: phi + psi = r and x/t = tanh(phi - atanh c0), so psi + atanh c0 = r - atanh(x/t).
+/// The state in the left fan. There phi + psi = r and x/t = tanh(phi - atanh c0), so psi + atanh c0 = r - atanh(x/t).
 State in_left_fan(const State& left, double x_over_t) {
   const double r = left.phi + left.psi;
   const double above = r - std::atanh(x_over_t);
@@ -122,7 +124,7 @@ State in_left_fan(const State& left, double x_over_t) {
   return {r - psi, psi};
 }
 
-/// Squares of stresses above overflow; a jump between faster trains loses more than half of its digits.
+/// Squares of larger stresses overflow. A jump between faster trains loses more than half of its digits.
 constexpr double most_psi = 300, most_phi = 18;
 
 void check(const State& state, const char* side) {
@@ -152,7 +154,7 @@ RiemannSolution solve_riemann(const State& left, const State& right) {
     return s;
   }
   s.star.psi = left.phi == right.phi && left.psi == right.psi ? left.psi : meeting_psi(left, right);
-  // Both curves give phi_star; the shorter path loses less.
+  // Both curves give phi_star. We take the one with the smaller drop, because it loses fewer digits.
   const double from_left = drop_along_curve(left, s.star.psi),
                from_right = drop_along_curve(mirrored(right), s.star.psi);
   s.star.phi = std::fabs(from_left) <= std::fabs(from_right) ? left.phi - from_left : right.phi + from_right;

@@ -9,12 +9,12 @@
 namespace slipfront::scenario {
 
 void read_loading(const Document& document, chain::Loading& loading) {
-  const Section section(document, "loading", {"stiffness", "velocity", "where", "event_velocity"});
-  const auto stiffness = section.number("stiffness", positive), velocity = section.number("velocity", {});
+  const Section section(document, "loading");
+  const auto stiffness = section.number("stiffness"), velocity = section.number("velocity");
   const auto where = section.choice<chain::Pulled>(
       "where",
       {{"everywhere", chain::Pulled::everywhere}, {"left", chain::Pulled::left}, {"right", chain::Pulled::right}});
-  const auto event_velocity = section.number("event_velocity", positive);
+  const auto event_velocity = section.number("event_velocity");
   if (!stiffness && !velocity && !where && !event_velocity) return;
   if (!stiffness) throw section.refuse("stiffness", "missing", "> 0: the force of the springs over their stretch");
   if (!velocity) throw section.refuse("velocity", "missing", "a finite number: of the springs' far ends");

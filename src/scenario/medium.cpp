@@ -6,9 +6,7 @@
 
 namespace slipfront::scenario {
 void read_medium(const Document& document, medium::Constants& options) {
-  std::vector<std::string_view> names;
-  for (const medium::Constant& constant : medium::constants()) names.push_back(constant.name);
-  const Section section(document, "medium", names);
+  const Section section(document, "medium");
   for (const medium::Constant& constant : medium::constants()) {
     const Value* const value = section.find(constant.name);
     if (!value) continue;

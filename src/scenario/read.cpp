@@ -47,7 +47,7 @@ Scenario read_scenario(std::string_view text, const std::string& file, const std
                        const TableReader& tables) {
   try {
     return read(text, file, overrides, tables);
-  } catch (const InputError& error) {  // of the parser or a table: it does not know the file
+  } catch (const InputError& error) {  // an error of the parser or of a table does not name the file
     Complaint complaint = error.complaint();
     if (!complaint.file.empty()) throw;
     complaint.file = file;

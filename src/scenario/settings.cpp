@@ -25,7 +25,7 @@ std::vector<double> read_times(const Section& section, double end) {
 }
 
 std::vector<std::string> read_variables(const Section& section) {
-  static const std::vector<std::string_view> known = {"k", "Sigma", "U", "W", "H", "slip", "stress_drop"};
+  const std::vector<std::string_view>& known = section.words("variables");
   std::vector<std::string> variables;
   const Value* const array = section.array("variables", "an array of names, such as [\"Sigma\", \"slip\"]");
   if (!array) return variables;
@@ -44,23 +44,22 @@ std::vector<std::string> read_variables(const Section& section) {
 }  // namespace
 
 void read_domain(const Document& document, Domain& domain) {
-  const Section section(document, "domain", {"left", "right"});
-  domain.left = section.number("left", position);
-  domain.right = section.number("right", position);
+  const Section section(document, "domain");
+  domain.left = section.number("left");
+  domain.right = section.number("right");
   if (domain.left && domain.right && !(*domain.left < *domain.right))
     throw section.refuse("right", "not to the right of domain.left", "> " + shortest(*domain.left));
 }
 
 double read_end(const Document& document, double otherwise) {
-  return Section(document, "time", {"end"}).number("end", positive).value_or(otherwise);
+  return Section(document, "time").number("end").value_or(otherwise);
 }
 
 void read_pulse(const Document& document, PulseOptions& pulse) {
-  const Section section(document, "pulse", {"cells", "tolerance", "threshold", "left", "right", "periodic"});
-  pulse.cells = section.whole_number("cells", 4, 10'000'000).value_or(pulse.cells);
-  pulse.tolerance = section.number("tolerance", {.least = 1e-12, .most = 0.1}).value_or(pulse.tolerance);
-  const Limits fraction{.least = 0, .most = 1, .without_least = true, .without_most = true};
-  pulse.threshold = section.number("threshold", fraction).value_or(pulse.threshold);
+  const Section section(document, "pulse");
+  pulse.cells = section.whole_number("cells").value_or(pulse.cells);
+  pulse.tolerance = section.number("tolerance").value_or(pulse.tolerance);
+  pulse.threshold = section.number("threshold").value_or(pulse.threshold);
   const auto end = [&](const char* key, pulse::End otherwise) {
     return section
         .choice<pulse::End>(
@@ -73,10 +72,9 @@ void read_pulse(const Document& document, PulseOptions& pulse) {
 }
 
 void read_chain(const Document& document, ChainOptions& chain) {
-  const Section section(document, "chain",
-                        {"scale", "spacing", "model", "left", "right", "periodic", "window", "steps", "tolerance"});
-  chain.scale = section.number("scale", positive);
-  chain.spacing = section.number("spacing", positive);
+  const Section section(document, "chain");
+  chain.scale = section.number("scale");
+  chain.spacing = section.number("spacing");
   chain.model = section
                     .choice<chain::Model>(
                         "model", {{"sine-gordon", chain::Model::sine_gordon}, {"lattice", chain::Model::lattice}})
@@ -90,18 +88,18 @@ void read_chain(const Document& document, ChainOptions& chain) {
   chain.left = end("left", chain.left);
   chain.right = end("right", chain.right);
   chain.periodic = section.truth("periodic").value_or(chain.periodic);
-  chain.window = section.number("window", positive);
+  chain.window = section.number("window");
   chain.implicit = section.choice<bool>("steps", {{"explicit", false}, {"implicit", true}}).value_or(chain.implicit);
   if (section.has("tolerance") && section.has("steps") && !chain.implicit)
     throw section.refuse("tolerance", "is of implicit steps", "with chain.steps = \"implicit\" or [loading]");
-  chain.tolerance = section.number("tolerance", {.least = 1e-12, .most = 0.1}).value_or(chain.tolerance);
+  chain.tolerance = section.number("tolerance").value_or(chain.tolerance);
 }
 
 Output read_output(const Document& document, double end) {
-  const Section section(document, "output", {"times", "every", "variables"});
+  const Section section(document, "output");
   Output output;
   output.times = read_times(section, end);
-  output.every = section.number("every", positive);
+  output.every = section.number("every");
   if (output.every && section.has("times"))
     throw section.refuse("every", "output.times is given too", "one of the two");
   if (output.every && end / *output.every > most_outputs)

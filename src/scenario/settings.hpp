@@ -5,7 +5,7 @@
 
 namespace slipfront::scenario {
 
-// Each reads its table, checks it, and leaves the defaults where the table says nothing. \throws InputError.
+// Each function reads and checks its table. Missing keys retain their defaults. \throws InputError.
 
 void read_friction(const Document& document, const TableReader& tables, Scenario& scenario);
 void read_medium(const Document& document, medium::Constants& medium);

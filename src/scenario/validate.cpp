@@ -18,7 +18,8 @@ InputError refusal(Complaint where, const std::string& problem, const std::strin
   return InputError(std::move(where));
 }
 
-/// 0 where the state is beyond doubles: that of dislocations so far apart, in units of their width 1 / a.
+/// The initial stress, checked at each call. It is 0 if a double cannot hold the state, because dislocations would be
+/// too far apart in units of their width 1 / a.
 std::function<double(double)> validated_stress(const RawStress& raw, const std::function<double(double)>& contact) {
   return [raw, contact](double x) {
     const double stress = raw.at(x);
@@ -30,7 +31,7 @@ std::function<double(double)> validated_stress(const RawStress& raw, const std::
   };
 }
 
-/// The formula under "table.formula" or the like, with its place in the file for later complaints.
+/// Reads a formula. Returns it with its file, line and key, for later error messages.
 std::pair<Formula, Complaint> read_formula(const Section& section, std::string_view key, const std::string& text,
                                            const std::vector<std::string_view>& variables) {
   try {
@@ -41,7 +42,7 @@ std::pair<Formula, Complaint> read_formula(const Section& section, std::string_v
 }
 
 void make_forcing(const Document& document, Scenario& scenario) {
-  const Section section(document, "forcing", {"formula"});
+  const Section section(document, "forcing");
   const auto text = section.formula("formula");
   if (!text) return;
   scenario.forcing = *text;
@@ -58,7 +59,7 @@ void make_forcing(const Document& document, Scenario& scenario) {
 }
 
 void make_contact(const Document& document, Scenario& scenario) {
-  const Section section(document, "interface", {"contact"});
+  const Section section(document, "interface");
   const auto text = section.formula("contact");
   if (!text) return;
   scenario.contact = *text;
@@ -75,7 +76,7 @@ void make_contact(const Document& document, Scenario& scenario) {
   };
 }
 
-/// Contacts that age, and pores under pressure, have another contact ratio at t = 0 than [interface] says.
+/// Ageing contacts and pore pressure change the contact ratio at t = 0 from the value in [interface].
 void add_contacts_at_start(Scenario& scenario) {
   if (!scenario.friction.changes_contacts() || !scenario.substrate) return;
   const double at_start = scenario.friction.contact_at_start();
@@ -84,8 +85,9 @@ void add_contacts_at_start(Scenario& scenario) {
   };
 }
 
-/// The largest force that holds a place still, or nearly so: at rest at t = 0, the law's nominal strength, and the top
-/// of a force that falls again at higher speeds. Curves are not followed: a table may end.
+/// The largest friction force at rest or nearly at rest. It is the greatest of three values: the strength at rest at
+/// t = 0, the nominal strength of the law, and the peak of a force that falls again at higher speeds. We do not search
+/// a curve for a peak, because a table may end.
 double holding_force(const friction::Friction& friction) {
   double held = std::fmax(friction.strength_at_rest(), friction.parameter("strength"));
   if (friction.definition().curve != friction::CurveSource::none) return held;
@@ -113,7 +115,7 @@ void warn_of_strength(double largest_contact, Scenario& scenario) {
                               "); friction acts in addition to these contacts (docs/friction.md, In SI units)");
 }
 
-/// Where to try the functions: the domain, or what a solver may be expected to choose for it.
+/// The range of x in which to try the functions: the domain, or an estimate of the domain that a solver will choose.
 std::pair<double, double> trial_range(const Scenario& scenario, const RawStress& raw) {
   const double reach = scenario.initial.reach > 0 ? 2 * scenario.initial.reach : 7;
   const auto [left, right] = raw.covers.value_or(std::pair(-reach, reach));
@@ -146,13 +148,13 @@ void try_out(const Document& document, const RawStress& raw, Scenario& scenario)
   warn_of_strength(largest_contact, scenario);
   const std::string quantity = scenario.contact_at ? "initial stress over contact ratio" : "initial stress";
   if (first_small && !stressed && scenario.contact_at)
-    throw refusal(Section(document, "interface", {"contact"}).where("contact"),
+    throw refusal(Section(document, "interface").where("contact"),
                   quantity + " is below " + shortest(smallest_stress) + " everywhere",
                   "at least " + shortest(smallest_stress) + " somewhere");
   if (first_small)
     scenario.warnings.push_back(quantity + " between 0 and " + shortest(smallest_stress) +
-                                " counts as 0, for no double holds its state: first at x = " + shortest(*first_small) +
-                                ", last at x = " + shortest(last_small));
+                                " counts as 0, because a double cannot hold its state: first at x = " +
+                                shortest(*first_small) + ", last at x = " + shortest(last_small));
 }
 
 }  // namespace
@@ -164,7 +166,7 @@ void make_functions(const Document& document, const RawStress& raw, Scenario& sc
   if (!scenario.substrate &&
       (scenario.initial.profile == ProfileKind::formula || scenario.initial.profile == ProfileKind::table ||
        scenario.initial.stress_left > 0 || scenario.initial.stress_right > 0))
-    throw refusal(Section(document, "interface", {"contact"}).where("contact"),
+    throw refusal(Section(document, "interface").where("contact"),
                   "without a substrate there are no dislocations, and so no initial stress",
                   "with initial.stress_left = 0 and stress_right = 0, or a contact > 0");
   scenario.stress = validated_stress(raw, scenario.contact_at);

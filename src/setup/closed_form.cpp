@@ -19,7 +19,8 @@ train::Averages at(const RiemannSolution& solution, double x_over_t) {
 
 double speed(const RiemannSolution& solution, double x_over_t) { return std::fabs(at(solution, x_over_t).W); }
 
-/// x/t of the greatest slip velocity: the best of many samples, then the golden section between its neighbours.
+/// x/t of the greatest slip velocity. We take the best of many samples, and refine it by golden-section search between
+/// its neighbours.
 double peak_of(const RiemannSolution& solution, const Edges& edges) {
   constexpr int samples = 2000;
   const double width = edges.right - edges.left;
@@ -39,7 +40,8 @@ double peak_of(const RiemannSolution& solution, const Edges& edges) {
   return (low + high) / 2;
 }
 
-/// Between a place at rest and the peak: where the slip velocity passes `level`. It is monotone in each wave.
+/// x/t between a position at rest and the peak, at which the slip velocity passes `level`. The slip velocity is
+/// monotone in each wave.
 double passes(const RiemannSolution& solution, double resting, double peak, double level) {
   for (int i = 0; i < 100; ++i) {
     const double middle = (resting + peak) / 2;
@@ -48,7 +50,7 @@ double passes(const RiemannSolution& solution, double resting, double peak, doub
   return (resting + peak) / 2;
 }
 
-/// Adds what has no closed form for all times: where the slip velocity is largest, and what an observer with a
+/// Adds the values without a closed form: the peak of the slip velocity, and the fronts that an observer with a
 /// threshold sees. `fast` and `slow` are x/t of the fronts.
 void add_observed(output::Snapshot& s, const RiemannSolution& solution, double threshold, double fast, double slow) {
   const double peak = peak_of(solution, rupture::edges_of(solution)), most = speed(solution, peak);
@@ -58,7 +60,7 @@ void add_observed(output::Snapshot& s, const RiemannSolution& solution, double t
   s.fronts.leading_observed = s.time * passes(solution, slow, peak, threshold * most);
 }
 
-/// Nothing is dissipated or supplied without friction and forcing; the other energies are not computed.
+/// The energies without friction and forcing. Nothing is dissipated or supplied; the other energies are not computed.
 output::Energy energy_without_forces() {
   return {.elastic = none,
           .kinetic = none,
@@ -73,7 +75,7 @@ output::Snapshot snapshot_of(const RiemannSolution& solution, const output::Sche
   output::Snapshot s{};
   s.time = time;
   const double left = train::averages(solution.left).k, right = train::averages(solution.right).k;
-  // k_t + W_x = 0 and k, W of x/t alone: slip = t (W + (k0 - k) x/t), k0 the density at t = 0.
+  // k and W depend only on x/t, and k_t + W_x = 0. Hence slip = t (W + (k0 - k) x/t), with the density k0 at t = 0.
   const auto slip = [&](const train::Averages& a, double x) { return time * a.W + x * ((x < 0 ? left : right) - a.k); };
   const auto state = [&](double x) {
     return time > 0 ? rupture::sample(solution, x / time) : (x < 0 ? solution.left : solution.right);
@@ -111,7 +113,7 @@ output::Snapshot snapshot_of(const RiemannSolution& solution, const output::Sche
 
 std::optional<Level> closed_form(const scenario::Scenario& s, const output::Schedule& schedule) {
   if (!s.initial.jumps || s.friction.acts() || s.forcing_at || s.contact_at) return {};
-  if (s.initial.stress_left == s.initial.stress_right) return {};  // nothing moves: no wave to compare
+  if (s.initial.stress_left == s.initial.stress_right) return {};  // nothing moves, so there is no wave to compare
   const RiemannSolution solution =
       rupture::solve_riemann(train::at_rest(s.initial.stress_left), train::at_rest(s.initial.stress_right));
   const Edges edges = rupture::edges_of(solution);

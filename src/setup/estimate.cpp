@@ -12,14 +12,14 @@ namespace slipfront::setup {
 namespace {
 
 constexpr double size = sizeof(double);
-constexpr double observed_fields = 5;   // of output::Profile
-constexpr double written_fields = 8;    // of a file, at most
-constexpr double scalars = 16;          // of a snapshot
-constexpr double solver_per_cell = 66;  // doubles: states, fluxes, the stages of a step and its Jacobian
-constexpr double state_per_cell = 6;    // of these, to resume from; the edges of x among them
-constexpr double state_per_site = 2;    // levels of a chain
+constexpr double observed_fields = 5;   // fields in output::Profile
+constexpr double written_fields = 8;    // fields in a file, at most
+constexpr double scalars = 16;          // scalars in a snapshot
+constexpr double solver_per_cell = 66;  // doubles for states, fluxes, the stages of a step and its Jacobian
+constexpr double state_per_cell = 6;    // doubles in the saved state, including the edges of x
+constexpr double state_per_site = 2;    // doubles in the saved state of a chain: two time levels
 
-/// What is observed of a run, whatever runs.
+/// Estimates outputs, memory and disk for the observations of a run, which are the same for a pulse and a chain.
 Estimate observed(const scenario::Scenario& s) {
   const double cells = s.pulse.cells;
   double outputs = 2 + static_cast<double>(s.output.times.size());
@@ -33,7 +33,7 @@ Estimate observed(const scenario::Scenario& s) {
 double sites_of(const chain::ScaledProblem& c) { return c.scale * (c.right - c.left) / c.spacing + 1; }
 
 double memory_of(const chain::ScaledProblem& c) {
-  chain::Problem p;  // as far as its memory depends on it
+  chain::Problem p;  // only the members on which memory depends
   p.friction = c.friction;
   p.forcing = c.forcing;
   p.contact = c.contact;
@@ -75,7 +75,7 @@ Estimate estimate_of(const scenario::Scenario& s, const Comparison& comparison) 
   const double levels = 3 + static_cast<double>(comparison.chains.size());  // the closed form, if any, comes later
   double largest = size * solver_per_cell * s.pulse.cells;
   for (const chain::ScaledProblem& chain : comparison.chains) largest = std::max(largest, memory_of(chain));
-  // A level in progress hands what it observed to the comparison as a copy.
+  // The level that runs now has its own copy of its observations, in addition to that of the comparison.
   return {one.outputs, (levels + 1) * one.memory + largest, levels * one.disk};
 }
 

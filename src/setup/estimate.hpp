@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a run will take, before anything is allocated.
+/// Estimates the memory and the disk space that a run needs, before it allocates anything.
 
 #include <string>
 
@@ -12,24 +12,24 @@
 namespace slipfront::setup {
 
 struct Estimate {
-  double outputs;  ///< output times, t = 0 and the end among them
-  double memory;   ///< bytes: the solver, and all that is observed
-  double disk;     ///< bytes of the file, with the state to resume from
+  double outputs;  ///< number of output times, including t = 0 and the end
+  double memory;   ///< bytes for the solver and all observations
+  double disk;     ///< bytes of the file, including the state to resume from
 
-  /// Bytes while the file is written: it is made in memory, by a copy of the process.
+  /// Bytes of memory while the file is written. A copy of the process creates the file in memory.
   double memory_with_file() const { return memory + 2 * disk; }
 };
 
 Estimate estimate_of(const scenario::Scenario& scenario, const pulse::Problem& problem);
 Estimate estimate_of(const scenario::Scenario& scenario, const chain::ScaledProblem& chain);
-/// Levels run one after the other; what each observed is kept until the end.
+/// Levels of a comparison run one after the other. The observations of all levels stay in memory until the end.
 Estimate estimate_of(const scenario::Scenario& scenario, const Comparison& comparison);
 
-/// "12 snapshots: 0.1 GB of memory, 0.02 GB on the disk with -o".
+/// A text such as "12 snapshots: 0.1 GB of memory, 0.02 GB on the disk with -o".
 std::string in_words(const Estimate& estimate);
 
-/// \throws InputError, which says both, if a run needs more memory than this process may have. Of a chain that several
-/// processes share, `share_of_machine` is on this machine.
+/// \throws InputError if a run needs more memory than this process may have. The error states both numbers. If several
+/// processes share a chain, `share_of_machine` is the part on this machine.
 void require_memory(const scenario::Scenario& scenario, const pulse::Problem& problem);
 void require_memory(const scenario::Scenario& scenario, const chain::ScaledProblem& chain, double share_of_machine = 1);
 void require_memory(const scenario::Scenario& scenario, const Comparison& comparison);

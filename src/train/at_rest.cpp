@@ -10,7 +10,8 @@ namespace slipfront::train {
 using std::numbers::pi;
 
 double psi_of_stress(double stress) {
-  // From a slow state K = ln(4/psi) = pi/Sigma at once; from a dense one K = pi/2 and Sigma = 2 cosh(psi).
+  // Newton's method starts from the limit of a sparse or a dense train. For small stress, K = ln(4/psi) = pi/Sigma. For
+  // large stress, K = pi/2 and Sigma = 2 cosh(psi).
   if (stress > 20) {
     const auto dense = [stress](double psi) {
       const elliptic::AtPsi at = elliptic::at_psi(psi);
@@ -18,10 +19,10 @@ double psi_of_stress(double stress) {
                       psi * (std::tanh(psi) - elliptic::log_slope_of_K(at))};
     };
     const double guess = std::log(stress);
-    if (guess > elliptic::psi_dense_above + 1) return guess;  // Sigma = 2 cosh(psi) = exp(psi), exactly to rounding
+    if (guess > elliptic::psi_dense_above + 1) return guess;  // Sigma = 2 cosh(psi) = exp(psi) up to rounding
     return newton_in_log(guess, dense, "psi of a stress");
   }
-  const auto residual = [stress](double psi) {  // K - pi cosh(psi) / Sigma, linear in ln(psi) where psi is small
+  const auto residual = [stress](double psi) {  // K - pi cosh(psi) / Sigma, linear in ln(psi) for small psi
     const elliptic::AtPsi at = elliptic::at_psi(psi);
     return Residual{at.K - pi * std::cosh(psi) / stress,
                     psi * (elliptic::log_slope_of_K(at) * at.K - pi * std::sinh(psi) / stress)};

@@ -46,7 +46,7 @@ Averages averages(const State& state) {
   a.sigma3 = 2 * pi * beta * beta * beta * (1 + at.s * at.s) / at.K;  // (2 beta)^3 pi (2 - m) / (4 K)
   a.one_minus_cos = 2 * cosh_psi * cosh_psi * at.above_m1;            // (2 / m)(E/K - m1)
   a.P = U * a.sigma2;
-  a.Q = U * a.P + 2 * sinh_psi * sinh_psi;  // = (1 + U^2)/2 <sigma^2> - <1 - cos u>, without the difference
+  a.Q = U * a.P + 2 * sinh_psi * sinh_psi;  // (1 + U^2)/2 <sigma^2> - <1 - cos u> without cancellation
   a.H = (1 + U * U) / 2 * a.sigma2 + a.one_minus_cos;
   a.I = 4 / pi * sinh_phi * cosh_psi * at.E;  // P / k
   a.J = 4 / pi * beta * at.E;
@@ -58,7 +58,7 @@ Averages averages(const State& state, double a) {
   for (double* first : {&v.k, &v.W, &v.I, &v.J}) *first *= a;
   for (double* second : {&v.sigma2, &v.P, &v.Q, &v.H}) *second *= a * a;
   v.sigma3 *= a * a * a;
-  return v;  // <1 - cos u> has no unit
+  return v;  // <1 - cos u> does not depend on the units
 }
 
 double stress_at_rest(double psi) { return pi * std::cosh(psi) / elliptic::at_psi(psi).K; }

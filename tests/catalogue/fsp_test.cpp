@@ -57,7 +57,7 @@ TEST(Fsp, WeightsSubfaultsEquallyWithoutAnArea) {
   text = edited(text, "% Invs : Dx = 15 km  Dz = 10 km\n", "");
   const Observation o = read(text);
   expect_value(o.slip, 1);
-  EXPECT_EQ(warnings_with(o, "count alike"), 1U);
+  EXPECT_EQ(warnings_with(o, "equal weight"), 1U);
 }
 
 TEST(Fsp, TakesRiseTimeFromItsColumnIfTheHeaderHasNone) {

@@ -177,14 +177,14 @@ TEST(ChainChecks, PairsOutOfNothingAreCounted) {
   const ScaledProblem s = uniform(0.855, 80, 1);
   chain::Run cut(s, until(s, 5), {});
   EXPECT_FALSE(cut.go([] { return true; }));
-  for (const std::string& sentence : cut.warnings()) EXPECT_EQ(sentence.find("the ends hold"), std::string::npos);
+  for (const std::string& sentence : cut.warnings()) EXPECT_EQ(sentence.find("the ends require"), std::string::npos);
   const std::size_t sites = cut.chain().problem().grid.sites;
   chain::Run broken(s, until(s, 5), {}, with_pairs(cut.saved(), sites), cut.snapshots());
   EXPECT_NEAR(broken.balance().charge_error, 0, 1e-12);
   EXPECT_GE(broken.balance().dislocations - cut.balance().dislocations, 6);
   std::string all;
   for (const std::string& sentence : broken.warnings()) all += sentence + "\n";
-  EXPECT_NE(all.find("dislocations where the ends hold"), std::string::npos) << all;
+  EXPECT_NE(all.find("dislocations, but the ends require"), std::string::npos) << all;
   EXPECT_THROW(broken.go(), NumericsError);
 }
 

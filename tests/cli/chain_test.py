@@ -28,7 +28,7 @@ class Chain(CommandLine):
         self.assertLess(abs(out["slip_at_origin"] / (2 * math.pi * 0.0482084) - 1), 0.01)
         self.assertLess(out["energy_drift"], 1e-4)
         self.assertEqual(out["charge_error"], 0)
-        self.assertIn("fine", self.ok("chain", case, "--check"))
+        self.assertIn("OK. This scenario would run", self.ok("chain", case, "--check"))
 
     def test_tends_to_the_consistent_pulse(self):
         case = os.path.join(SOURCE, "cases/step.toml")

@@ -56,7 +56,7 @@ class Event(CommandLine):
         self.assertTrue(known["posterior"]["friction_identified"])
         self.assertIsNone(unknown["damping_number"])
         self.assertGreater(len(unknown["posterior"]["trade_off"]), 3)
-        for event, says in ((impossible, "above what any friction leaves"), (word, "unknown distribution"), (zero, "uncertainty is 0")):
+        for event, says in ((impossible, "above that without friction"), (word, "unknown distribution"), (zero, "uncertainty is 0")):
             self.assertIn(says, event["error"])
         one, two = (run("event", path, "--json", "--threads", n).stdout for n in "12")
         self.assertEqual(one, two)
@@ -209,7 +209,7 @@ class Event(CommandLine):
         self.refused(2, "event", case, "--resume", "out.csv", says=["--resume = 'out.csv'", "OUT.nc"])
         self.refused(2, "event", case, "--resume", "a.nc", "-o", "out.csv", says=["-o = 'out.csv'"])
         rows = self.file("rows.csv", "name,rupture_velocity\nA,3 km/s\n")
-        self.refused(2, "event", case, rows, "-o", rows, says=["-o", "another file than those read"])
+        self.refused(2, "event", case, rows, "-o", rows, says=["-o", "a file other than those read"])
         self.refused(3, "event", case, "-o", "/nowhere/a.nc", says=["/nowhere/a.nc", "does not exist"])
         self.refused(3, "event", case, "-o", "/nowhere/a.csv", says=["/nowhere/a.csv", "does not exist"])
         self.refused(3, "event", case, "--resume", "/nowhere/a.nc", says=["/nowhere/a.nc"])
@@ -254,7 +254,7 @@ class Event(CommandLine):
         process.send_signal(signal.SIGINT)
         out, errors = process.communicate(timeout=PATIENCE)
         self.assertEqual((process.returncode, out), (130, ""), errors)
-        self.assertRegex(errors, "interrupted after [0-9]+ of 1500 events; go on with --resume ")
+        self.assertRegex(errors, "interrupted after [0-9]+ of 1500 events; continue with --resume ")
         self.assertGreater(os.stat(cut).st_size, grown)
         self.assertEqual(run("event", case, *slowly, "--resume", cut).returncode, 2)
         self.same(cut, reference)

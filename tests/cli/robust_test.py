@@ -27,7 +27,7 @@ class Outputs(CommandLine):
     def test_names_that_are_none(self):
         events = os.path.join(SOURCE, "cases/parkfield-2004.toml")
         for command in (["pulse", STEP], ["chain", STEP], ["compare", STEP], ["event", events]):
-            self.refused(2, *command, "-o", "", says=["no name of a file"])
+            self.refused(2, *command, "-o", "", says=["the file name is empty"])
             self.refused(2, *command, "-o", "x.txt", says=["x.txt"])
         self.refused(2, "pulse", STEP, "-o", "x.csv", says=["unsupported file type", ".nc"])
 
@@ -213,7 +213,7 @@ class Inputs(CommandLine):
         together = self.pulse(STEP, "--set", "pulse.cells=16", "time.end=0.5")
         self.assertEqual((together["cells"], together["time"]), (16, 0.5))
         self.assertEqual(self.pulse("--set", "pulse.cells=16", "time.end=0.5", STEP)["cells"], 16)
-        self.refused(2, "pulse", STEP, STEP, says=["one too many"])
+        self.refused(2, "pulse", STEP, STEP, says=["a second scenario file"])
 
     def test_a_result_is_no_scenario(self):
         out = os.path.join(os.path.dirname(self.file("x", "")), "out.nc")

@@ -71,7 +71,7 @@ TEST(Estimate, TurnsRangesIntoExactQuantiles) {
   const Estimate both = estimate(o, {});
   EXPECT_DOUBLE_EQ(both.stress->interval->low, at(1100).stress);  // moved by the rupture velocity alone
   EXPECT_FALSE(both.contact_ratio->interval);                     // moved by both
-  EXPECT_TRUE(mentions(both.warnings, "several observed errors"));
+  EXPECT_TRUE(mentions(both.warnings, "several observed errors change"));
 }
 
 TEST(Estimate, WarnsOfAssumedConstants) {

@@ -69,8 +69,8 @@ class Reproduce(CommandLine):
 
     def test_will_not_replace_what_is_not_its_own(self):
         mine = self.file("letter.txt", "dear")
-        self.refused(2, "reproduce", "-o", os.path.dirname(mine), says=["something else is there"])
-        self.refused(2, "reproduce", "-o", mine, says=["something else is there"])
+        self.refused(2, "reproduce", "-o", os.path.dirname(mine), says=["not a reproduction"])
+        self.refused(2, "reproduce", "-o", mine, says=["not a reproduction"])
         self.refused(2, "reproduce", "--nonsense", says=["--nonsense"])
         self.assertEqual(os.listdir(os.path.dirname(mine)), ["letter.txt"])
 

@@ -172,7 +172,7 @@ class Files(CommandLine):
             os.kill(os.getpid(), signal.SIGSEGV)
 
         self.assertEqual(_files.isolated("name", lambda: b"all"), b"all")
-        for make, says in ((half, "gave up"), (crash, "gave up"), (lambda: 1 / 0, "division by zero")):
+        for make, says in ((half, "crashed"), (crash, "crashed"), (lambda: 1 / 0, "division by zero")):
             with self.assertRaisesRegex(slipfront.FileError, f"^name: cannot be written: .*{says}"):
                 _files.isolated("name", make)
 

@@ -115,7 +115,7 @@ def with_chain(s):
     scale = 1500 if plain else 400
     x, pulse, bounds, averaged = final(s)
     if not math.isnan(averaged.summary["first_crossing_time"]):
-        return  # one train at a place is not enough, and the run says so
+        return  # one train per position is not enough, and the run warns about it
     _, half, *_ = final(scenarios.changed(s, chain_scale=scale // 2, **FINE), "chain")
     _, chain, _, seen = final(scenarios.changed(s, chain_scale=scale, **FINE), "chain")
     count, wide = (cells_of(8, s, n, bounds) for n in (scale, scale // 2))

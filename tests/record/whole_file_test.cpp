@@ -93,7 +93,7 @@ TEST(WholeFile, NamesWrongPaths) {
             (folder / "none/a.nc") + ": cannot be written: folder " + (folder / "none") + " does not exist");
   EXPECT_EQ(failure(folder.path().string()), folder.path().string() + ": cannot be written: is a directory");
   EXPECT_NE(failure(folder / std::string(300, 'a')).find("File name too long"), std::string::npos);
-  EXPECT_EQ(failure(""), "cannot write a file without a name");
+  EXPECT_EQ(failure(""), "the name of the output file is empty");
   write_bytes(folder / "file", "");
   EXPECT_NE(failure(folder / "file/a.nc").find("Not a directory"), std::string::npos);
   EXPECT_EQ(folder.files(), 1u);

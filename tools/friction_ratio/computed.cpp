@@ -20,7 +20,8 @@ Logarithms logarithms(const Question& question) {
   return {std::log(w.origin / unit), std::log(w.mean / unit), std::log(w.peak / unit), std::log(w.time_mean / unit)};
 }
 
-/// Where closure "paper" is unstable: the median of a few coarse runs, which the instability has not yet spoilt.
+/// The median of a few coarse runs, for damping numbers at which closure "paper" is unstable. The instability hardly
+/// affects coarse runs.
 Logarithms median_of_coarse_runs(Question question) {
   std::vector<Logarithms> found;
   for (const int cells : {120, 150, 180, 210, 240, 270, 300}) {
@@ -31,7 +32,7 @@ Logarithms median_of_coarse_runs(Question question) {
     } catch (const NumericsError&) {
     }
   }
-  if (found.empty()) throw NumericsError("no run of closure paper came through");
+  if (found.empty()) throw NumericsError("all runs with closure paper failed");
   Logarithms median{};
   for (std::size_t m = 0; m < layout::measures; ++m) {
     std::sort(found.begin(), found.end(), [m](const Logarithms& a, const Logarithms& b) { return a[m] < b[m]; });
@@ -40,12 +41,12 @@ Logarithms median_of_coarse_runs(Question question) {
   return median;
 }
 
-/// Cells that keep the error of the solver below 3e-5: more where it meets its switch to implicit steps, and where the
-/// stress is high and friction young.
+/// Number of cells for which the error of the solver is below 3e-5. It is larger near the switch to implicit steps, and
+/// below Gamma = 30, where errors at high stress are largest.
 int cells_for(double damping) { return damping < 30 || (damping >= 1000 && damping < 1e5) ? 800 : 400; }
 
-/// Closure "paper" would lose more to its instability with 800 cells than it gains, and some runs of 400 fail
-/// (docs/friction_ratio.md).
+/// Values for closure "paper". With 800 cells its instability would cost more than the resolution gains, and some runs
+/// with 400 cells fail (docs/friction_ratio.md).
 Logarithms by_paper(double stress, double damping) {
   for (const int cells : {400, 360, 330}) try {
       return logarithms({stress, damping, Closure::paper, cells});

@@ -12,7 +12,7 @@ namespace slipfront::friction_ratio {
 
 namespace {
 
-/// Index, on an even grid of ln(1 + Gamma), where the second derivative of `y` jumps up most.
+/// The index, on an even grid of ln(1 + Gamma), at which the second derivative of `y` has its largest upward jump.
 std::size_t sharpest(const std::vector<double>& y) {
   std::size_t at = 0;
   double jump = 0;
@@ -23,8 +23,8 @@ std::size_t sharpest(const std::vector<double>& y) {
   return at;
 }
 
-/// Where the parabola through y[from - 4], y[from - 2], y[from] meets that through y[to], y[to + 2], y[to + 4], counted
-/// from `from`.
+/// The position, counted from `from`, at which the parabola through y[from - 4], y[from - 2] and y[from] meets that
+/// through y[to], y[to + 2] and y[to + 4].
 double meeting(const std::vector<double>& y, std::size_t from, std::size_t to) {
   const auto parabola = [&](const double* v, std::ptrdiff_t direction,
                             double x) {  // v[0], v[2 direction], v[4 direction]
@@ -40,7 +40,8 @@ double meeting(const std::vector<double>& y, std::size_t from, std::size_t to) {
   return low;
 }
 
-/// ln(1 + Gamma) at the corners of ln W(0), whose slope turns there, and of the peak, where one top overtakes another.
+/// ln(1 + Gamma) at the corners of the table. The slope of ln W(0) changes at the first. At the second, another maximum
+/// of W(x) becomes the peak.
 struct CornersAt {
   double origin, peak;
 };
@@ -71,7 +72,7 @@ layout::Corners find_corners() {
     };
     corners[0][static_cast<std::size_t>(Measure::origin)][i] = term(&CornersAt::origin);
     corners[0][static_cast<std::size_t>(Measure::peak)][i] = term(&CornersAt::peak);
-    // The slope of W(0) turns there, and with it the curvature of its mean in time.
+    // The slope of W(0) changes there, and with it the curvature of its mean in time.
     corners[0][static_cast<std::size_t>(Measure::time_mean)][i] = term(&CornersAt::origin);
   }
   return corners;

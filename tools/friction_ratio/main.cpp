@@ -1,6 +1,7 @@
-// Makes src/friction_ratio/coefficients.cpp from the pulse solver, and checks the table against it at random points.
+// Makes src/friction_ratio/coefficients.cpp with the pulse solver, and compares the table with the solver at random
+// points.
 //   friction_ratio_table make > src/friction_ratio/coefficients.cpp
-//   friction_ratio_table check POINTS        exit code 1 where the table is off by more than it says
+//   friction_ratio_table check POINTS        exit code 1 if an error exceeds the stated one
 
 #include <cstdio>
 #include <cstdlib>

@@ -16,7 +16,7 @@ namespace slipfront::friction_ratio {
 
 namespace {
 
-/// Where the solver is to be run.
+/// The closure, stress and damping number of one run of the solver.
 struct Node {
   friction::Closure closure;
   double stress, damping;
@@ -24,7 +24,7 @@ struct Node {
 };
 using Solved = std::map<Node, Logarithms>;
 
-/// A place in the table.
+/// The indices of an entry of the table.
 struct Place {
   std::size_t closure, measure, piece, i, j;
 };
@@ -38,7 +38,7 @@ Node node_at(const layout::Corners& corners, const Place& p) {
   return {closures[p.closure], stress_node(p.i), std::fmin(std::expm1(u), layout::most_damping)};
 }
 
-/// All nodes, once each: measures share those that no corner moves.
+/// All nodes, each once. Measures share the nodes that do not depend on a corner.
 Solved nodes_of(const layout::Corners& corners) {
   Solved all;
   for (std::size_t c = 0; c < layout::closures; ++c)
@@ -49,7 +49,7 @@ Solved nodes_of(const layout::Corners& corners) {
   return all;
 }
 
-/// Returns what went wrong; nothing if nothing did.
+/// Solves at all nodes. Returns an error message, or an empty text.
 std::string solve_all(Solved& solved) {
   std::vector<Solved::value_type*> work;
   for (auto& entry : solved) work.push_back(&entry);
@@ -73,7 +73,7 @@ void print_row(const std::vector<double>& numbers, const char* after) {
   std::printf("}}%s\n", after);
 }
 
-/// Coefficient of T_a(y) T_b(u) in a piece.
+/// The coefficient of T_a(y) T_b(u) in a piece of the table.
 double coefficient_at(const Solved& solved, const layout::Corners& corners, const Place& p, std::size_t a,
                       std::size_t b) {
   return coefficient(a, layout::y_nodes, [&](std::size_t i) {
@@ -121,7 +121,7 @@ int make() {
     std::fprintf(stderr, "friction_ratio_table: %s\n", failed.c_str());
     return 1;
   }
-  std::puts("// Made by tools/friction_ratio. Do not edit.\n");
+  std::puts("// tools/friction_ratio generates this file. Do not edit it.\n");
   std::puts("#include \"coefficients.hpp\"\n\nnamespace slipfront::friction_ratio {\n\n// clang-format off");
   print_table(solved, corners);
   std::puts("// clang-format on\n\n}  // namespace slipfront::friction_ratio");

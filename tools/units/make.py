@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes the names of units that UDUNITS-2 knows as the table of src/medium/unit_names.cpp: make.py > unit_names.cpp.
 
-Needs the library and its database (Debian: libudunits2-0, libudunits2-data). Names are those of letters alone, and "%"."""
+It needs the library and its database (Debian: libudunits2-0, libudunits2-data). It keeps only names of letters, and "%"."""
 
 import ctypes
 import glob
@@ -9,8 +9,8 @@ import re
 import xml.etree.ElementTree as ElementTree
 
 LIBRARY = ctypes.CDLL("libudunits2.so.0")
-HEAD = """// Made by tools/units/make.py from the database of UDUNITS-2, copyright 2008, 2009 University Corporation for
-// Atmospheric Research, whose notice is:
+HEAD = """// tools/units/make.py generates this file from the database of UDUNITS-2, copyright 2008, 2009 University Corporation
+// for Atmospheric Research. Its notice is:
 //
 // Access and use of this software shall impose the following obligations and understandings on the user. The user is
 // granted the right, without any fee or cost, to use, copy, modify, alter, enhance and distribute this software, and
@@ -56,7 +56,7 @@ SYSTEM = read(None)
 
 
 def words():
-    """What may be a name: the database's own, and its plurals."""
+    """Possible names: those of the database, and their plurals."""
     for path in glob.glob("/usr/share/xml/udunits/udunits2-*.xml"):
         for element in ElementTree.parse(path).iter():
             if element.tag in ("singular", "plural", "symbol"):
@@ -65,7 +65,7 @@ def words():
 
 
 def mechanical(unit):
-    """(factor to SI, (power of metre, kilogram, second)), or a factor of 0 where the unit has others, an offset or a logarithm."""
+    """(factor to SI, (power of metre, kilogram, second)). The factor is 0 if the unit has other base units, an offset or a logarithm."""
     buffer = ctypes.create_string_buffer(300)
     text_of(unit, buffer, len(buffer), 8)  # as a number and a product of the base units
     text = buffer.value.decode()

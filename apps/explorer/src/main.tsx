@@ -1,4 +1,4 @@
-/** The page: its head, its routes, and what is said aloud. */
+/** The page: its header, its routes, and the announcements for screen readers. */
 
 import './style.css';
 import { render, type ComponentType } from 'preact';
@@ -33,19 +33,19 @@ interface Page {
 const pages: Record<string, Page> = {
   pulse: {
     name: 'Pulse', heading: 'A slip pulse', view: lazily(async () => (await import('./panels/pulse')).PulsePanel),
-    about: 'Stress is stored on one side. A pulse of slip opens between two fronts: a fast one that eats into the stressed side, and a slow one ahead. Change the stress, change the friction, and press play.',
+    about: 'Stress is stored on one side. A pulse of slip opens between two fronts: a fast one that runs into the stressed side, and a slow one ahead. Change the stress, change the friction, and press play.',
   },
   dislocations: {
     name: 'Dislocations', heading: 'Every dislocation', view: lazily(async () => (await import('./panels/dislocations')).DislocationsPanel),
     about: 'The same scenario without any average. Each bead is one dislocation: where it passes, the interface slips by one spacing of its asperities.',
   },
   stress: {
-    name: 'Stress and velocity', heading: 'What velocities say about stress', view: lazily(async () => (await import('./panels/stress')).StressPanel),
+    name: 'Stress and velocity', heading: 'Stress from observed velocities', view: lazily(async () => (await import('./panels/stress')).StressPanel),
     about: 'Without friction, the stress before a rupture fixes how fast it spreads and how fast it slips. Read backwards, observed velocities give the stress. Six decades of velocity are less than one decade of stress.',
   },
   riemann: {
     name: 'Riemann', heading: 'Two trains meet', view: lazily(async () => (await import('./panels/riemann')).RiemannPanel),
-    about: 'Left and right of one point lie two uniform trains of dislocations. What happens next depends on x/t alone: fans, where they spread, and shocks, where they run into each other.',
+    about: 'Left and right of one point lie two uniform trains of dislocations. What happens next depends only on x/t: fans, where they spread, and shocks, where they run into each other.',
   },
   paper: {
     name: 'The paper', heading: 'The figures of the paper, live', view: lazily(async () => (await import('./panels/paper')).PaperPanel),

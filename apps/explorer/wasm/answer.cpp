@@ -10,7 +10,7 @@
 namespace slipfront::explorer {
 namespace {
 
-/// Arrays of the present call, one after the other.
+/// The arrays of the present call, one after the other.
 std::vector<double>& pool() {
   static std::vector<double> all;
   return all;
@@ -57,7 +57,7 @@ Object caught(const std::function<Object()>& body) {
   } catch (const NumericsError& error) {
     return error_object("numerics", error.what());
   } catch (const std::bad_alloc&) {
-    return error_object("memory", "this takes more memory than a page may have; ask for fewer cells or dislocations");
+    return error_object("memory", "this needs more memory than a page may use; choose fewer cells or dislocations");
   } catch (const std::exception& error) {
     return error_object("numerics", error.what());
   }
@@ -120,7 +120,7 @@ const char* answer(const std::function<Object()>& body) {
   return text.c_str();
 }
 
-/// Where the arrays of the last answer lie.
+/// The address of the arrays of the last answer.
 SLIPFRONT_EXPORT const double* numbers() { return pool().data(); }
 
 }  // namespace slipfront::explorer

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How this module answers the page: a JSON object, whose arrays of numbers lie beside it as doubles.
+/// The answers of this module to the page: JSON objects, with their arrays of numbers as doubles in a separate array.
 
 #include <functional>
 #include <optional>
@@ -9,12 +9,12 @@
 #include <string_view>
 #include <vector>
 
-/// What the page may call. Every function returns the address of a JSON text that is good until the next call.
+/// A function that the page may call. It returns the address of a JSON text that is valid until the next call.
 #define SLIPFRONT_EXPORT extern "C" __attribute__((used, visibility("default")))
 
 namespace slipfront::explorer {
 
-/// A JSON object. Numbers that are none become null; arrays of numbers become {"$": [offset, count]}, a place in
+/// A JSON object. Numbers that are not finite become null. Arrays of numbers become {"$": [offset, count]}, a range of
 /// `numbers()` of this call.
 class Object {
  public:
@@ -37,7 +37,7 @@ class Object {
   std::string text_;
 };
 
-/// Calls `body` and gives its answer as text; what it throws becomes {"error": {...}} with the parts of the complaint.
+/// Calls `body` and returns its answer as text. An exception becomes {"error": {...}} with the parts of its message.
 const char* answer(const std::function<Object()>& body);
 
 }  // namespace slipfront::explorer

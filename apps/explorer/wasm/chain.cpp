@@ -1,5 +1,5 @@
 /// \file
-/// Panel "Dislocations": every dislocation of a scenario, live.
+/// The functions of panel "Dislocations", which shows every dislocation of a scenario while the chain runs.
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +24,7 @@ namespace {
 constexpr std::size_t most_sites = 200000;
 constexpr int average_points = 200;
 
-/// The chain that the panel shows, in the scenario's units.
+/// The chain that the panel shows. Lengths and times are in the units of the scenario.
 struct Live {
   double scale = 1, left = 0, right = 0, end = 0, window = 0;
   std::unique_ptr<chain::Chain> chain;
@@ -47,14 +47,14 @@ std::unique_ptr<chain::Chain> started(const chain::ScaledProblem& s) {
 
 }  // namespace
 
-/// Lays the chain of a scenario so that about `dislocations` lie in its domain, by the scale; 0: the scenario's own
-/// scale. `window` dislocations make an average.
+/// Starts the chain of a scenario, with a scale that gives about `dislocations` dislocations in the domain. If that is
+/// 0, the scale is that of the scenario. Averages are over `window` dislocations.
 SLIPFRONT_EXPORT const char* chain_begin(const char* toml, int dislocations, double window) {
   return answer([=] {
     const scenario::Scenario s = scenario_of(toml);
     chain::ScaledProblem problem = setup::chain_problem(s);
     constexpr int samples = 2000;
-    double number = 0;  // of dislocations at scale 1
+    double number = 0;  // number of dislocations at scale 1
     for (int i = 0; i < samples; ++i)
       number += s.stress(problem.left + (problem.right - problem.left) * (i + 0.5) / samples) / samples;
     number *= (problem.right - problem.left) / (2 * std::numbers::pi);
@@ -76,12 +76,13 @@ SLIPFRONT_EXPORT const char* chain_begin(const char* toml, int dislocations, dou
   });
 }
 
-/// Goes on to a time of the scenario, for at most so many milliseconds: where the dislocations are. Where `half` is
-/// above 0 also their averages, and what the single sites within `half` of x = 0 do: displacement, stress and velocity.
+/// Advances the chain to a time of the scenario, for at most so many milliseconds. Returns the positions of the
+/// dislocations. If `half` > 0, it also returns averages, and the stress and velocity of the sites within `half` of x =
+/// 0.
 SLIPFRONT_EXPORT const char* chain_go(double time, double milliseconds, double half) {
   return answer([=] {
     Live& now = live();
-    if (!now.chain) throw InputError({.key = "chain", .problem = "there is none"});
+    if (!now.chain) throw InputError({.key = "chain", .problem = "no chain was started"});
     chain::Chain& c = *now.chain;
     const auto begun = Clock::now();
     bool reached = c.advance_to(time * now.scale, 32);

@@ -1,6 +1,6 @@
 /// \file
-/// Panel "Pulse" and the live figures of the paper: runs of the modulation equations that go on piece by piece, so that
-/// the page can stop them and show what there is.
+/// The functions of panel "Pulse" and of the figures of the paper. They run the modulation equations piece by piece, so
+/// that the page can stop a run and show its results so far.
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +23,7 @@ namespace {
 
 struct Session {
   std::unique_ptr<pulse::Run> run;
-  std::vector<std::string> warnings;  ///< of the scenario
+  std::vector<std::string> warnings;  ///< warnings about the scenario
   std::optional<double> coefficient;
 };
 
@@ -40,7 +40,7 @@ Session& session(int handle) {
 
 constexpr int most_frames = 2000;
 
-/// One number of each snapshot from `first` on.
+/// One number of each snapshot, beginning with number `first`.
 template <class Get>
 std::vector<double> series(const std::vector<output::Snapshot>& all, std::size_t first, const Get& get) {
   std::vector<double> values;
@@ -48,7 +48,7 @@ std::vector<double> series(const std::vector<output::Snapshot>& all, std::size_t
   return values;
 }
 
-/// A field of each snapshot, one after the other.
+/// Puts a field of all snapshots, one after the other, beginning with number `first`.
 void put_field(Object& object, const char* name, const std::vector<output::Snapshot>& all, std::size_t first,
                std::vector<double> output::Profile::*field) {
   std::vector<double> values;
@@ -80,9 +80,9 @@ void put_series(Object& object, const std::vector<output::Snapshot>& all, std::s
 
 }  // namespace
 
-/// Begins a run under a number. `frames` > 0: that many snapshots at even times instead of those of the scenario.
-/// `look` > 0: t = 0 and that time alone, to answer a slider at once. `closure`: 0 the scenario's, 1 consistent, 2
-/// paper.
+/// Starts a run with the number `handle`. If `frames` > 1, the run has that many evenly spaced snapshots instead of
+/// those of the scenario. If `look` > 0, it has only snapshots at t = 0 and at that time, so that a slider gets an
+/// answer at once. `closure` is 0 for that of the scenario, 1 for "consistent", 2 for "paper".
 SLIPFRONT_EXPORT const char* pulse_begin(int handle, const char* toml, int frames, double look, int closure) {
   return answer([=] {
     const scenario::Scenario s = scenario_of(toml);
@@ -92,7 +92,7 @@ SLIPFRONT_EXPORT const char* pulse_begin(int handle, const char* toml, int frame
     if (!problem.friction.defined_by(problem.friction.closure()))
       throw InputError({.key = "friction.closure",
                         .value = "paper",
-                        .problem = "the paper's closure knows no memory",
+                        .problem = "the paper's closure is not defined for laws with state variables",
                         .allowed = "consistent"});
     output::Schedule schedule = setup::pulse_schedule(s, problem);
     if (look > 0) {
@@ -114,8 +114,8 @@ SLIPFRONT_EXPORT const char* pulse_begin(int handle, const char* toml, int frame
   });
 }
 
-/// Goes on for about so many milliseconds, and gives the snapshots from number `first` on. An error after some
-/// snapshots comes with them.
+/// Continues the run for about so many milliseconds. Returns the snapshots, beginning with number `first`. If the run
+/// fails, the answer contains the error and the snapshots before it.
 SLIPFRONT_EXPORT const char* pulse_go(int handle, double milliseconds, int first) {
   return answer([=] {
     Session& s = session(handle);

@@ -1,5 +1,5 @@
 /// \file
-/// Panel "Stress and velocity": the closed form (Eqs. 8-10).
+/// The functions of panel "Stress and velocity": the closed form (Eqs. 8-10).
 
 #include "slipfront/rupture/relations.hpp"
 
@@ -24,7 +24,7 @@ constexpr int most_points = 20000;
 
 }  // namespace
 
-/// All quantities of one pulse. `given`: 0 stress, 1 rupture velocity, 2 slip velocity.
+/// All quantities of one pulse. `given` is 0 for stress, 1 for rupture velocity, 2 for slip velocity.
 SLIPFRONT_EXPORT const char* relations(int given, double value) {
   return answer([=] {
     Object object;
@@ -34,7 +34,7 @@ SLIPFRONT_EXPORT const char* relations(int given, double value) {
   });
 }
 
-/// What the quantities are.
+/// The names, units and references of the quantities.
 SLIPFRONT_EXPORT const char* relations_quantities() {
   return answer([] {
     std::vector<Object> all;
@@ -48,8 +48,8 @@ SLIPFRONT_EXPORT const char* relations_quantities() {
   });
 }
 
-/// A column for each quantity over `points` values of the given one from `from` to `to`, even in the logarithm if
-/// asked for. A value outside of the range leaves its row out.
+/// One array per quantity, for `points` values of the given quantity from `from` to `to`. With `by_logarithm`, the
+/// values are evenly spaced in the logarithm. Values outside the allowed range are omitted.
 SLIPFRONT_EXPORT const char* relations_curve(int given, double from, double to, int points, int by_logarithm) {
   return answer([=] {
     if (points < 2 || points > most_points)

@@ -50,12 +50,12 @@ scenario::Scenario scenario_of(const char* toml) {
     if (table().empty())
       throw InputError({.key = "initial.file",
                         .problem = "the page has no such table",
-                        .allowed = "a CSV file with columns x and stress, dropped onto the page beside the scenario"});
+                        .allowed = "a CSV file with columns x and stress, dropped onto the page with the scenario"});
     return table();
   });
 }
 
-/// Rows of the table that a scenario may name.
+/// Sets the rows of the table that a scenario may name.
 SLIPFRONT_EXPORT const char* set_table(const double* x, const double* y, int rows) {
   return answer([=] {
     table().clear();
@@ -64,8 +64,8 @@ SLIPFRONT_EXPORT const char* set_table(const double* x, const double* y, int row
   });
 }
 
-/// The keys of a scenario as the page's address has them, "friction.coefficient" and their values, after all checks;
-/// what the program says of it, and its initial stress.
+/// Checks a scenario. Returns its keys and values as in the address of the page, such as "friction.coefficient", its
+/// warnings, and its initial stress.
 SLIPFRONT_EXPORT const char* scenario(const char* toml) {
   return answer([=] {
     const scenario::Document document = scenario::read_document(toml, "", {});

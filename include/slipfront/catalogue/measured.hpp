@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A measured quantity with what is known of its error, and the quantiles that sum up a distribution.
+/// A measured quantity with its uncertainty, and the quantiles that summarise a distribution.
 
 #include <optional>
 #include <string_view>
@@ -9,12 +9,12 @@
 
 namespace slipfront::catalogue {
 
-/// In SI units. `low` == `high` but for a range.
+/// A measured value in SI units. `low` and `high` differ only for a range.
 struct Measured {
   enum class Shape {
-    range,      ///< anything from low to high alike; an exact number where low == high
-    normal,     ///< about low == high with standard deviation `spread`
-    lognormal,  ///< median low == high, `spread` > 1 the factor of one standard deviation
+    range,      ///< uniform from low to high; an exact number if low == high
+    normal,     ///< mean low == high, standard deviation `spread`
+    lognormal,  ///< median low == high; one standard deviation is the factor `spread` > 1
   };
   double low = 0;
   double high = 0;
@@ -24,18 +24,18 @@ struct Measured {
   double middle() const { return low + (high - low) / 2; }
   bool is_range() const { return low < high; }
   bool is_exact() const { return shape == Shape::range && low == high; }
-  /// The value below which it lies with `probability`, 0 < probability < 1.
+  /// The quantity is below this value with the given probability, 0 < probability < 1.
   double quantile(double probability) const;
-  /// Of the true value x, given what was measured; largest 1. Not for an exact number.
+  /// Likelihood of the true value x, scaled so that its maximum is 1. An exact number has none.
   double likelihood(double x) const;
-  /// What a value that `quantile` gave at an even probability weighs where ln x is even before the measurement.
+  /// Importance weight of the draw x = quantile(p) with uniformly distributed p, if the prior is uniform in ln x.
   double weight_of_draw(double x) const;
 };
 
-/// "3.0 km/s", "3.0 +- 0.2 km/s" (or the sign for it), "3.0 */ 1.2 km/s", "2.8..3.2 km/s", "2.8-3.2 km/s",
-/// "normal(3.0, 0.2) km/s", "lognormal(3.0, 1.2) km/s", "uniform(2.8, 3.2) km/s". \throws InputError (value, problem
-/// and allowed only), as parse_quantity does and for an uncertainty that is not positive, a factor not above 1, a
-/// distribution that is not one of these.
+/// Reads "3.0 km/s", "3.0 +- 0.2 km/s" (or the plus-minus sign), "3.0 */ 1.2 km/s", "2.8..3.2 km/s", "2.8-3.2 km/s",
+/// "normal(3.0, 0.2) km/s", "lognormal(3.0, 1.2) km/s" or "uniform(2.8, 3.2) km/s". \throws InputError (value, problem
+/// and allowed only) like parse_quantity, and if the uncertainty is not positive, the factor is not above 1, or the
+/// distribution is not one of these.
 Measured parse_measured(std::string_view text, medium::Dimension dimension, std::string_view default_unit);
 
 struct Quantiles {

@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// A chain run on a scenario: x and t stretched by a scale, friction divided by it (docs/chain.md), and reported back
-/// in the scenario's own units. Yields the same snapshots as a pulse run, and can be saved and continued to the same
-/// bits.
+/// Runs a chain for a scenario. The run multiplies x and t by a scale and divides friction by it (docs/chain.md), but
+/// reports its results in the scenario's units. It makes the same kind of snapshots as a pulse run. A run that is saved
+/// and continued gives the same results, to the last bit.
 
 #include <functional>
 #include <memory>
@@ -19,37 +19,39 @@ namespace slipfront::chain {
 
 /// A problem in the scenario's units.
 struct ScaledProblem {
-  double scale = 1;                                   ///< x and t are stretched by it
-  double left = -1, right = 1;                        ///< of the scenario
-  std::function<double(double)> stress;               ///< initial stress at x; everything at rest
+  double scale = 1;                                   ///< factor by which x and t are multiplied
+  double left = -1, right = 1;                        ///< the domain, in the scenario's x
+  std::function<double(double)> stress;               ///< initial stress at x; all is at rest at the start
   std::function<double(double x, double t)> forcing;  ///< F; null: none
   bool steady_forcing = false;                        ///< F does not depend on t
-  double end = 0;  ///< how long F is looked at, and contacts age, for the step; 0: F may be strong
+  double end = 0;  ///< time until which F is sampled and contacts age, to choose the step; 0: assume a strong F
   std::function<double(double)> contact;  ///< a(x) at t = 0; null: 1
-  friction::Friction friction;            ///< of the scenario; the closure does not matter
+  friction::Friction friction;            ///< the scenario's friction; its closure is not used
   Boundary boundary;
   Model model = Model::sine_gordon;
-  double spacing = default_spacing;  ///< of the grid or lattice, in the chain's own (stretched) x
-  Loading loading = {};              ///< in the scenario's units: force over slip, or stress over slip at a pulled end
-  bool substrate = true;             ///< false: none
-  bool implicit = false;             ///< steps; docs/loading.md
-  double tolerance = 5e-5;           ///< of implicit steps
-  double step = 0;                   ///< of time, in the chain's own t; 0: chosen (chosen_step)
-  double window = 0;  ///< of averages at x = 0, in the scenario's x; 0: spacings of the train left of it, one for the
-                      ///< slip, eight for velocity and stress
+  double spacing = default_spacing;  ///< spacing of the grid or lattice, in the chain's own (scaled) x
+  Loading loading = {};              ///< in the scenario's units
+  bool substrate = true;             ///< see Problem, like the next two
+  bool implicit = false;
+  double tolerance = 5e-5;
+  double step = 0;  ///< time step, in the chain's own t; 0: chosen_step
+  /// Width of the averages at x = 0, in the scenario's x. With 0, the slip is averaged over one spacing of the train
+  /// left of x = 0, and velocity and stress over eight.
+  double window = 0;
 };
 
-/// The same problem in the chain's own units. `share_of_machine` of it runs on this one. \throws InputError as check
-/// does.
+/// Converts a problem to the chain's own units and checks it. `share_of_machine` is the part of the chain that runs on
+/// this machine. \throws InputError as check does.
 Problem problem_of(const ScaledProblem& scaled, double share_of_machine = 1);
 
-/// What should not have changed since t = 0, and the present dislocations.
+/// Errors of the quantities that a run conserves, and the present dislocations.
 struct Balance {
-  /// |energy + dissipated + outflow - supplied - by contacts - that at t = 0|, over the largest of them. Works are
-  /// integrated level by level, but that of viscous friction alone over 200 samples or more.
+  /// |energy + dissipated + outflow - supplied - by_contacts - energy at t = 0|, divided by the largest of these terms.
+  /// The run integrates work at every level. If viscous friction is the only force on a long chain, it integrates over
+  /// 200 samples or more.
   double energy_drift;
-  double charge_error;  ///< charge less that at t = 0
-  long dislocations;    ///< of either sign
+  double charge_error;  ///< charge minus charge at t = 0
+  long dislocations;    ///< number of dislocations and antidislocations
   double steepest;      ///< largest difference of u between neighbouring sites
 };
 
@@ -58,15 +60,15 @@ class RunObserver;
 class Run {
  public:
   Run(const ScaledProblem& scaled, output::Schedule schedule, const Execution& execution);
-  /// Continues a saved run. \throws InputError if it is of another.
+  /// Continues a saved run. \throws InputError if another scenario was saved.
   Run(const ScaledProblem& scaled, output::Schedule schedule, const Execution& execution, std::string_view saved,
       std::vector<output::Snapshot> snapshots);
   ~Run();
   Run(const Run&) = delete;
   Run& operator=(const Run&) = delete;
 
-  /// Continues to the end, or until `interrupted` returns true; it is called every tenth of a second or so. Returns
-  /// whether the end was reached.
+  /// Continues to the end, or until `interrupted` returns true. The run calls `interrupted` about every tenth of a
+  /// second. Returns whether the run has reached its end.
   bool go(const std::function<bool()>& interrupted = {});
 
   const Chain& chain() const { return *chain_; }
@@ -76,23 +78,26 @@ class Run {
   bool finished() const { return snapshots_.size() == schedule_.times.size(); }
   std::string saved() const;
 
-  double time() const { return chain_->time() / scale_; }  ///< of the scenario
+  double time() const { return chain_->time() / scale_; }  ///< in the scenario's units
   double scale() const { return scale_; }
-  /// Windows at x = 0, in the scenario's x: of the slip (a box), and of velocity and stress (smooth_average), which the
-  /// profiles share unless two output cells are wider.
+  /// Width of the average of the slip at x = 0, a box, in the scenario's x.
+
   double window() const;
+  /// Width of the average of velocity and stress at x = 0 (smooth_average), in the scenario's x. Profiles use the same
+  /// width, or two output cells if these are wider.
   double smooth_window() const;
-  /// Looks at every site.
+  /// Reads every site.
   Balance balance() const;
 
-  /// Slip events of a loaded chain so far, in the scenario's units. The stress drop is of the force F on a site, or of
-  /// the stress at a pulled end.
+  /// The slip events of a loaded chain so far, in the scenario's units. Their stress drop is the drop of the force F on
+  /// a site, or of the stress at a pulled end.
   std::vector<output::SlipEvent> events() const;
 
-  /// A sentence for each thing that is wrong or doubtful in the results so far: invariants that do not hold (energy,
-  /// slip at x = 0 against the integral of the velocity there, dislocations that none of the ends explains, |W| <= k,
-  /// fronts inside the domain and slower than c), a grid that holds slow dislocations, and too few dislocations. Above
-  /// 1 % `go` ends with a NumericsError that states the reason.
+  /// Returns a sentence for each wrong or doubtful result so far. The run checks energy, slip at x = 0 against the
+  /// integral of the velocity there, and the number of dislocations against the charge of the ends. It also checks that
+  /// |W| <= k, and that fronts are inside the domain and slower than c. It warns of a grid that holds slow
+  /// dislocations, and of too few dislocations. If an error is above 1 %, `go` throws a NumericsError that states the
+  /// reason.
   std::vector<std::string> warnings() const;
 
  private:
@@ -104,7 +109,7 @@ class Run {
   std::unique_ptr<Chain> chain_;
   std::unique_ptr<RunObserver> observer_;
   std::vector<output::Snapshot> snapshots_;
-  std::optional<output::Findings> final_findings_;  ///< of a run that is finished
+  std::optional<output::Findings> final_findings_;  ///< set when the run is finished
 };
 
 }  // namespace slipfront::chain

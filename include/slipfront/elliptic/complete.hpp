@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Complete elliptic integrals of the parameter m = 1 - m1, from the complementary side: no information about m1 is
-/// lost.
+/// Complete elliptic integrals of the parameter m = 1 - m1. The functions take m1 or a function of it, so that they
+/// keep full precision where m is near 1.
 
 namespace slipfront::elliptic {
 
@@ -14,8 +14,8 @@ struct Complete {
 /// K and E of the parameter m = 1 - m1, to 4 ulp for 1e-308 <= m1 <= 1. \throws InputError outside (0, 1].
 Complete complete(double m1);
 
-/// K, E and the differences that the modulation theory needs, at sqrt(m1) = tanh(psi). Each field keeps full relative
-/// precision for every psi from the smallest normal double to 1e300; none is formed by cancellation.
+/// K, E and the differences that the modulation theory needs, at sqrt(m1) = tanh(psi). Each field has full relative
+/// precision for every psi from the smallest normal double to 1e300, because no field is a difference of near numbers.
 struct AtPsi {
   double K;
   double E;
@@ -33,17 +33,16 @@ AtPsi at_psi(double psi);
 /// d(ln K) / d(psi) = -(E/K - m1) / s.
 inline double log_slope_of_K(const AtPsi& at) { return -at.above_m1 / at.s; }
 
-/// The same at the complementary modulus s = sqrt(m1) = tanh(psi), for 0 < s <= 0.97, where 1 - s has lost nothing. No
-/// checks.
+/// The fields of AtPsi from the complementary modulus s = sqrt(m1) = tanh(psi). The caller ensures 0 < s <= 0.97, where
+/// 1 - s is precise.
 AtPsi at_modulus(double s);
 
-/// Asymptotic regime psi -> 0, the almost empty interface: K = ln(4/psi), E = 1. Exact to rounding for psi < 1e-9; the
-/// only route where m1 = psi^2 would underflow.
+/// Limit psi -> 0, the almost empty interface: K = ln(4/psi), E = 1. Exact to rounding for psi < 1e-9. No other formula
+/// serves where m1 = psi^2 underflows.
 AtPsi at_psi_empty(double psi);
 inline constexpr double psi_empty_below = 1e-9;
 
-/// Asymptotic regime psi -> infinity, dislocations packed densely: m = 4 exp(-2 psi), K = E = pi/2. Exact to rounding
-/// for psi > 20.
+/// Limit psi -> infinity, densely packed dislocations: m = 4 exp(-2 psi), K = E = pi/2. Exact to rounding for psi > 20.
 AtPsi at_psi_dense(double psi);
 inline constexpr double psi_dense_above = 20.0;
 

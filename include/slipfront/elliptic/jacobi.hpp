@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Jacobi's amplitude and elliptic functions of the parameter m = 1 - m1, from the complementary side.
+/// Jacobi's amplitude and elliptic functions of the parameter m = 1 - m1. The functions take m1, so that they keep full
+/// precision where m is near 1.
 
 #include "slipfront/elliptic/complete.hpp"
 
@@ -16,11 +17,11 @@ struct Jacobi {
   double dn;
 };
 
-/// The functions at any finite z for 1e-308 <= m1 <= 1. Relative to the conditioning of z mod 2K, a few ulp each, dn
-/// and cn included where they are as small as sqrt(m1). \throws InputError outside.
+/// The functions at any finite z for 1e-308 <= m1 <= 1. Their relative error is a few ulp times the conditioning of
+/// z mod 2K. This holds for dn and cn too where they are as small as sqrt(m1). \throws InputError outside.
 Jacobi jacobi(double z, double m1);
 
-/// The same at sqrt(m1) = tanh(psi), for any psi that at_psi accepts.
+/// Like jacobi(z, m1) with sqrt(m1) = tanh(psi), for any psi that at_psi accepts.
 Jacobi jacobi(double z, const AtPsi& at);
 
 }  // namespace slipfront::elliptic

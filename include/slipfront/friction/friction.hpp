@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The friction of a problem: a law, its numbers, and the closure of its average. Copied freely.
+/// The friction of a problem: a law, its parameters, and the closure of its average. Copies are cheap.
 
 #include <memory>
 #include <optional>
@@ -17,8 +17,8 @@ class Friction {
  public:
   /// No friction.
   Friction();
-  /// `values` are those of the definition's parameters, in their order; `curve` is for laws that take one.
-  /// \throws InputError if there is a force although no parameter that is declared a force is > 0.
+  /// `values` are those of the definition's parameters, in their order. `curve` is for laws that take one.
+  /// \throws InputError if the law has a force although no parameter with Dimension::force is > 0.
   Friction(const Definition& definition, std::vector<double> values, Closure closure = Closure::consistent,
            Curve curve = {});
 
@@ -30,46 +30,47 @@ class Friction {
   const StateEvolution& evolution() const { return law_->evolution(); }
   Closure closure() const { return closure_; }
   Friction with(Closure closure) const;
-  /// Whether an average by this closure is defined: that of the paper knows no state.
+  /// Whether an average by this closure is defined. The paper's closure is undefined for laws with state variables.
   bool defined_by(Closure closure) const { return closure == Closure::consistent || state_size() == 0; }
 
-  /// The value of a parameter; 0 if the law has none of that name.
+  /// The value of a parameter, or 0 if the law has no parameter of that name.
   double parameter(std::string_view name) const;
-  /// The same friction on a chain whose x and t are scaled up by `scale`.
-  /// \throws InputError if the force does not scale, because a parameter of the law states a wrong Dimension.
+  /// This friction on a chain whose x and t are scaled up by `scale`.
+  /// \throws InputError if the force does not scale, because a parameter of the law has a wrong Dimension.
   Friction scaled_by(double scale) const;
   /// \throws InputError for a parameter out of its range.
   void check() const;
 
   /// Whether there is any force.
   bool acts() const { return acts_; }
-  /// C where f = C w (0 without friction). No other law has a coefficient C or a damping number C t.
+  /// C of the law f = C w (0 without friction). Other laws have no coefficient C and no damping number C t.
   std::optional<double> linear_coefficient() const { return law_->facts().linear_coefficient; }
-  /// f_0 where f = f_0 sign(w).
+  /// f_0 of the law f = f_0 sign(w).
   std::optional<double> constant_strength() const { return law_->facts().constant_strength; }
   /// Whether a position at rest can withstand a force.
   bool sticks() const { return at_rest_ > 0; }
   /// The largest force that holds a position at rest at t = 0.
   double strength_at_rest() const { return at_rest_; }
-  /// Whether f jumps or rises so steeply from rest that a step must end, not pass through, rest.
+  /// Whether f jumps or rises so steeply from rest that a time step must end at rest instead of reversing the slip.
   bool steep_at_rest() const { return sticks() || law_->facts().steep_at_rest; }
   /// Number of state variables of each position.
   std::size_t state_size() const { return definition_->state.size(); }
-  /// Their values at t = 0.
+  /// Values of the state variables of one position at t = 0.
   std::vector<double> state_at_start() const;
 
   /// The effect of the law's state on contacts and pores (friction/state/contacts.hpp).
   const Contacts& contacts() const { return *contacts_; }
-  /// Whether there is one; not for most friction.
+  /// Whether the state changes contacts or pores. It does not for most laws.
   bool changes_contacts() const;
-  /// The contact ratio at t = 0 over that of contacts without age and pores without pressure. 1 for most friction.
+  /// The contact ratio at t = 0 over that of contacts without age and pores without pressure. It is 1 for most laws.
   double contact_at_start() const;
   /// The largest factor by which a contact ratio may rise within a time, at slip velocities up to 10 c A / pi.
   double contact_growth(double time) const;
 
   /// f at the slip velocity w = `velocity`, with the sign of w.
   double force(double velocity, LocalState state = {}) const;
-  /// The velocity that friction leaves of `free` in a time step: v + weight f(v) = free.
+  /// The velocity v at the end of an implicit time step, v + weight f(v) = free. `free` is the velocity without
+  /// friction.
   double velocity_after(double free, double weight, LocalState state = {}) const;
 
   /// Loss of momentum per unit length, with the sign of U. Zero for the empty state.
@@ -90,7 +91,7 @@ class Friction {
   double at_rest_ = 0;
 };
 
-/// Laws by their numbers.
+/// The laws f = C w, f = C sign(w) and f = C |w|^(n-1) w, from their parameters.
 Friction viscous(double coefficient, Closure closure = Closure::consistent);
 Friction coulomb(double coefficient, Closure closure = Closure::consistent);
 Friction power(double coefficient, double exponent, Closure closure = Closure::consistent);

@@ -21,7 +21,7 @@ namespace slipfront::friction {
 /// How f enters the momentum law P_t + Q_x = F k - loss.
 enum class Closure {
   consistent,  ///< loss = <f(w) sigma>, the exact average
-  paper,       ///< loss = k <f(w)>, as the paper's Eqs. (7) have it; understates friction
+  paper,       ///< loss = k <f(w)>, as in Eqs. (7) of the paper; understates friction
 };
 
 /// "consistent" or "paper", and back. \throws InputError (key "closure") for any other word.
@@ -31,41 +31,42 @@ Closure closure_named(std::string_view name);
 /// The unit of F and f, as text.
 inline constexpr std::string_view force_unit = "mu A^2 / (pi (1 - nu))";
 
-/// What a parameter is. On a chain whose x and t are scaled up, forces are divided by the scale, slips and times
-/// multiplied by it. A factor of the force is a force, whatever it multiplies: C of f = C w^n too. `Friction` compares
-/// what is stated here with the force of the law, and refuses a law that does not scale.
+/// The kind of a parameter. On a chain whose x and t are scaled up, forces are divided by the scale, and slips and
+/// times are multiplied by it. Every factor of the force counts as a force, such as C of f = C w^n. `Friction` compares
+/// these dimensions with the force of the law, and rejects a law that does not scale.
 enum class Dimension { number, force, slip, time, velocity, pressure };  // pressure: over the normal stress
 
 /// A number that a law takes, and the key of table [friction] that gives it.
 struct Parameter {
   std::string_view name, symbol, unit;
-  double value = 0;  ///< if none is given
+  std::string_view meaning = {};  ///< in a few words, for the reference of keys
+  double value = 0;               ///< if none is given
   double least = 0, most = std::numeric_limits<double>::infinity();
   bool without_least = false;
   Dimension dimension = Dimension::number;
-  std::vector<std::string_view> words = {};  ///< what may be given instead of a number; the value is the word's index
-  std::string_view if_missing = {};          ///< a warning that says what its absence means
-  bool only_on_chain = false;                ///< averages over a train do not know it
+  std::vector<std::string_view> words = {};  ///< words accepted instead of a number; the value is the word's index
+  std::string_view if_missing = {};          ///< a warning that explains the effect of its absence
+  bool only_on_chain = false;                ///< averages over a train do not take it into account
 };
 
-/// C of a law whose force is proportional to it. `unit` is that of F, over what C multiplies.
+/// C of a law whose force is proportional to C. `unit` is the unit of F divided by that of the factor of C.
 Parameter coefficient_in(std::string_view unit);
 /// "strength": the friction at rest, or at the reference velocity.
-Parameter strength_in(std::string_view unit, std::string_view symbol);
+Parameter strength_in(std::string_view unit, std::string_view symbol, std::string_view meaning);
 /// A force of any name.
-Parameter force_named(std::string_view name, std::string_view symbol, double value = 0);
+Parameter force_named(std::string_view name, std::string_view symbol, std::string_view meaning, double value = 0);
 /// A velocity > 0 of any name; 1 if none is given.
-Parameter velocity_named(std::string_view name, std::string_view symbol);
+Parameter velocity_named(std::string_view name, std::string_view symbol, std::string_view meaning);
 /// "characteristic_slip" > 0; 1 if none is given.
 Parameter characteristic_slip();
 
-/// f as a curve that the user draws: the force >= 0 at the speed |w| >= 0. May be called by several threads at once.
+/// f as a curve that the user gives: the force >= 0 at the speed |w| >= 0. Several threads may call it at once.
 using Curve = std::function<double(double speed)>;
 
 /// How a scenario gives a law its curve: not at all, by the key "formula", or by a table in the file that "file" names.
 enum class CurveSource { none, formula, table };
 
-/// A quantity that belongs to each position and changes as it slips, such as the age of its contacts.
+/// A quantity that each position has and that changes as the position slips, such as the age of its contacts.
 struct StateVariable {
   std::string_view name, symbol, unit;
 };
@@ -81,8 +82,8 @@ struct LocalStates {
   LocalStates from(std::size_t i) const { return {values + i * each, each}; }
 };
 
-/// The slip of a position during a time: its mean velocity; and the velocity whose logarithm is the mean of ln |w| over
-/// slip, which is a sinh |phi| e^psi where dislocations of a train pass.
+/// The slip of a position during a time step. `mean` is its mean velocity. `typical` is exp(<ln |w|>), where <> is the
+/// mean over slip. If dislocations of a train pass, `typical` is a sinh |phi| e^psi.
 struct Slip {
   double mean, typical;
   static Slip at(double velocity) { return {velocity, velocity}; }
@@ -98,18 +99,18 @@ struct Slips {
 class StateEvolution {
  public:
   virtual ~StateEvolution() = default;
-  /// Sets a position's state at t = 0, where nothing has slipped.
+  /// Sets the state of a position at t = 0, before any slip.
   virtual void start(std::span<double> state) const = 0;
-  /// Changes it over a time in which the position slips.
+  /// Advances the state over a time in which the position slips.
   virtual void advance(const Slip& slip, double time, std::span<double> state) const = 0;
-  /// `advance` of `size` positions of `each` values.
+  /// Calls `advance` for `size` positions, each with `each` values.
   virtual void advance_all(std::size_t size, const Slips& slips, double time, std::size_t each, double* state) const;
 };
 
 class Law;
 
-/// The force at many positions at once. A law derives from this class to have vector loops; each of its functions calls
-/// that of the law for one position otherwise.
+/// The force at many positions at once. By default, each function calls that of the law for one position after the
+/// other. A law with vectorised loops derives from this class.
 class ForceLoops {
  public:
   explicit ForceLoops(const Law& law) : law_(law) {}
@@ -119,8 +120,8 @@ class ForceLoops {
   /// `speed_after` of each speed.
   virtual void speeds_after(std::size_t size, const double* free, double weight, LocalStates states,
                             double* speed) const;
-  /// The same where the normal stress on each position is a share > 0 of what the law's numbers are for: v + weight
-  /// share f(v) = free.
+  /// Like `speeds_after`, but the normal stress on each position is a fraction `share` > 0 of the one that the
+  /// parameters of the law assume: v + weight share f(v) = free.
   virtual void speeds_after_under(std::size_t size, const double* share, const double* free, double weight,
                                   LocalStates states, double* speed) const;
 
@@ -128,40 +129,41 @@ class ForceLoops {
   const Law& law_;
 };
 
-/// Many uniform trains at once, an entry of each array for each.
+/// Many uniform trains at once. Each array has one entry per train.
 struct Trains {
   std::size_t size = 0;
-  const double* fastest = nullptr;  ///< the largest slip velocity in it, 2 a sinh |phi| cosh psi
-  const double* s = nullptr;        ///< the least slip velocity over the largest, tanh psi, 0 < s < 1
+  const double* fastest = nullptr;  ///< largest slip velocity in the train, 2 a sinh |phi| cosh psi
+  const double* s = nullptr;        ///< smallest slip velocity over the largest, tanh psi, 0 < s < 1
   LocalStates states = {};
 };
 
-/// Rate at which friction relaxes the momentum of uniform trains, loss / P, with its limit at rest. An object may keep
-/// tables that fill as they are used: it serves one thread.
+/// Rate at which friction relaxes the momentum of uniform trains, loss / P, with its limit at rest. An object may fill
+/// tables when it is called, so that each thread needs its own.
 class RelaxationRate {
  public:
   virtual ~RelaxationRate() = default;
-  /// The train lies in a contact ratio a; it is given in the local units a x, a t.
+  /// The rate of one train, in the local units a x and a t, where the relative contact ratio is `contact` = a.
   virtual double operator()(const State& train, double contact, LocalState state) const = 0;
-  /// The same in many trains, of these largest slip velocities 2 a sinh |phi| cosh psi, of a law without state.
+  /// The rates of many trains, for a law without state. `fastest` are their largest slip velocities,
+  /// 2 a sinh |phi| cosh psi.
   virtual void rates(std::size_t size, const double* fastest, const double* psi, double* rate) const;
-  /// Whether there is a table, or a closed form.
+  /// Whether the rate comes from a table or a closed form.
   virtual bool tabulated() const { return false; }
 };
 
-/// Averages of the force over a uniform train. Positions that one dislocation spans have the same state.
+/// Averages of the force over a uniform train. The positions that one dislocation spans have equal states.
 class TrainAverage {
  public:
   virtual ~TrainAverage() = default;
   /// Mean of f >= 0; the loss of momentum is k times this. The mean is over slip (consistent) or length (paper).
   virtual double mean_strength(const State& train, double contact, Closure closure, LocalState state) const = 0;
-  /// `mean_strength` of each train, to 3e-10 of itself where it is smooth in ln w; and, unless `slope` is null, its
-  /// derivative with respect to ln(fastest).
+  /// `mean_strength` of each train. Unless `slope` is null, also its derivative with respect to ln(fastest). The
+  /// relative error is 3e-10 if the force is smooth in ln w.
   virtual void mean_strengths(const Trains& trains, Closure closure, double* mean, double* slope) const = 0;
   virtual std::unique_ptr<RelaxationRate> relaxation_rate(Closure closure) const = 0;
 };
 
-/// The averages of any law, from its force.
+/// The averages of any law, by numerical integration of its force.
 class QuadratureAverage : public TrainAverage {
  public:
   explicit QuadratureAverage(const Law& law) : law_(law) {}
@@ -175,12 +177,12 @@ class QuadratureAverage : public TrainAverage {
 
 /// Properties of a force that solvers use.
 struct ForceFacts {
-  std::optional<double> linear_coefficient = {};  ///< C where f = C w, which the time steps of pulse and chain have
-  std::optional<double> constant_strength = {};   ///< f_0 where f = f_0 sign(w), the same at every speed
-  bool steep_at_rest = false;  ///< f rises so steeply, without a jump, that a step centred on rest would reverse slip
+  std::optional<double> linear_coefficient = {};  ///< C if f = C w; the time steps of pulse and chain use it
+  std::optional<double> constant_strength = {};   ///< f_0 if f = f_0 sign(w)
+  bool steep_at_rest = false;  ///< f rises so steeply, without a jump, that a step through rest would reverse slip
 };
 
-/// A law with its numbers: the force at a position, and how to find what else the law offers.
+/// A law with its parameters: the force at a position, and the loops, averages and state evolution that follow from it.
 class Law {
  public:
   explicit Law(const ForceFacts& facts = {}) : facts_(facts) {}
@@ -190,8 +192,8 @@ class Law {
 
   /// f at the slip velocity |w| = `speed` >= 0. Its limit at 0 is the largest force that holds a position at rest.
   virtual double strength(double speed, LocalState state) const = 0;
-  /// The speed v >= 0 that friction leaves of `free` >= 0 in a time step: v + weight f(v) = free; 0 where friction
-  /// holds the position.
+  /// The speed v >= 0 at the end of an implicit time step, v + weight f(v) = free; 0 if friction holds the position.
+  /// `free` >= 0 is the speed without friction.
   virtual double speed_after(double free, double weight, LocalState state) const;
 
   virtual const ForceLoops& loops() const { return loops_; }
@@ -207,16 +209,16 @@ class Law {
   QuadratureAverage average_{*this};
 };
 
-/// What is known of a law before its numbers are.
+/// The properties of a law that do not depend on its parameters.
 struct Definition {
-  std::string_view name;       ///< of friction.law in a scenario
+  std::string_view name;       ///< the value of friction.law in a scenario
   std::string_view adjective;  ///< precedes "friction" in a sentence
   std::string_view equation;
   std::string_view source;
   std::vector<Parameter> parameters = {};
   std::vector<StateVariable> state = {};
   CurveSource curve = CurveSource::none;
-  /// From the parameters' values, in their order, and the curve if the law takes one.
+  /// Makes the law from the values of its parameters, in their order, and from the curve if the law takes one.
   std::shared_ptr<const Law> (*make)(const std::vector<double>& values, const Curve& curve);
 
   /// Null if the law has no such parameter.

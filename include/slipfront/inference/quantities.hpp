@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The quantities of a fault's state, each declared once: files, tables, Python and figures read the declarations.
+/// The quantities of a fault's state. Each is declared once; files, tables, Python and figures use these declarations.
 
 #include <optional>
 #include <span>
@@ -14,73 +14,73 @@ namespace slipfront::inference {
 
 using catalogue::Quantiles;
 
-/// [5 %, 95 %] of an inferred quantity.
+/// The 5 % and 95 % quantiles of an inferred quantity.
 struct Interval {
   double low;
   double high;
 };
 
-/// An inferred number. By the closed forms `interval` is there when exactly one observed error moves it (a range is
-/// read as uniform): every inferred quantity is monotone in each observed one, so its quantiles are those of the
-/// observed one, exactly. Where the event is sampled, see EventResult.
+/// An inferred number. The closed forms give an `interval` only if exactly one observational error changes the number
+/// (a range counts as a uniform distribution). Every inferred quantity is monotone in each observed one, so its
+/// quantiles follow exactly from those of the observed one. For an event that is sampled, see EventResult.
 struct Inferred {
   double value;
   std::optional<Interval> interval;
 };
 
-/// One value of each quantity: a number of a state, an inferred number of an estimate, quantiles of a posterior.
+/// One value of each quantity: a number in a state, an inferred number in an estimate, quantiles in a posterior.
 template <class T>
 struct FaultQuantities {
   T rupture_velocity_m_s{};        ///< V, m/s
   T rupture_velocity{};            ///< V / c
   T stress{};                      ///< Sigma-, in mu A / pi
   T frictionless_slip_velocity{};  ///< W(0) without friction, in c A / pi
-  T observed_slip_velocity{};      ///< in c A / pi; needs a contact ratio that is given, not inferred
-  T slip_velocity_ratio{};         ///< observed over frictionless; 1 - ratio is what friction took
+  T observed_slip_velocity{};      ///< in c A / pi; needs an observed contact ratio, not an inferred one
+  T slip_velocity_ratio{};         ///< observed over frictionless; friction reduces it by 1 - ratio
   T contact_ratio{};               ///< A: given, or pi w / (c W(0)) as if there were no friction
   T damping_number{};              ///< Gamma = C T; needs the posterior, like the next
   T friction_coefficient{};        ///< C
-  T stress_pa{};                   ///< mu A Sigma- / pi, Pa; absent where only a bound is known
-  /// Lower bounds, if friction took nothing: of A and the stress in Pa where only velocities are known, of both
-  /// stresses where there is a contact ratio and no rupture velocity.
+  T stress_pa{};                   ///< mu A Sigma- / pi, Pa; absent if only a bound is known
+  /// Lower bounds: the values without friction. A and the stress in Pa have bounds if only velocities are known. Both
+  /// stresses have bounds if a contact ratio is known but no rupture velocity.
   T stress_bound{}, contact_ratio_bound{}, stress_pa_bound{};
 };
 
-/// One state of the fault; NaN where the observations do not identify a quantity.
+/// One state of the fault. A quantity is NaN if the observations do not determine it.
 using FaultState = FaultQuantities<double>;
 
-/// A quantity and where it stands in a state, in an estimate and in a posterior.
+/// A quantity and its members in a state, in an estimate and in a posterior.
 struct Quantity {
-  /// Where an event's answer has it.
+  /// The source of a quantity in the result of an event.
   enum class Role {
-    sample,       ///< nowhere: samples alone have it
+    sample,       ///< not in the result; only the samples have it
     closed_form,  ///< from the closed forms or from samples
-    friction,     ///< from samples, where friction is known
-    lower_bound,  ///< a lower bound, if friction took nothing
+    friction,     ///< from samples, if friction is known
+    lower_bound,  ///< a lower bound, the value without friction
   };
   Description about;
-  std::string_view answer;  ///< long name in an event's answer; empty: that of `about`
+  std::string_view answer;  ///< long name in the result of an event; empty: that of `about`
   Role role;
-  bool in_posterior;  ///< shown as a quantity of the posterior too
+  bool in_posterior;  ///< also shown as a quantity of the posterior
   double FaultState::*state;
   std::optional<Inferred> FaultQuantities<std::optional<Inferred>>::*inferred;
   std::optional<Quantiles> FaultQuantities<std::optional<Quantiles>>::*quantiles;
   std::string_view label = {};  ///< short name on the axis of a figure; empty: the long name
 };
 
-/// All of them.
+/// All quantities.
 std::span<const Quantity> quantities();
-/// Those of an event's answer, in the order of output: closed forms, friction.
+/// The quantities in the result of an event, in the order of output: closed forms, then friction.
 std::span<const Quantity> answer_quantities();
-/// Those of an event's answer that are lower bounds.
+/// The lower bounds in the result of an event.
 std::span<const Quantity> bound_quantities();
-/// Those that the posterior shows beside the answer.
+/// The quantities that are shown for the posterior, in addition to the result.
 std::span<const Quantity> posterior_quantities();
 
-/// A state of which nothing is known yet.
+/// A state in which every quantity is NaN.
 FaultState unknown_state();
-/// Computes the quantities that follow from the others of a state. `slip_velocity` (m/s) is absent where the contact
-/// ratio was inferred from it.
+/// Computes the quantities of a state that follow from its other quantities. `slip_velocity` (m/s) must be absent if
+/// the contact ratio was inferred from it.
 void derive(FaultState& state, const medium::Elastic& elastic, std::optional<double> slip_velocity);
 
 }  // namespace slipfront::inference

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// From the constants of rock and interface to those of the model (docs/theory.md 1, Eqs. 1-3). SI units throughout.
+/// Converts the constants of rock and interface to those of the model (docs/theory.md 1, Eqs. 1-3). All are in SI
+/// units.
 
 namespace slipfront::medium {
 
@@ -13,7 +14,7 @@ struct Interface {
   double contact_ratio = 0;     ///< A, real to nominal contact area, 0 < A <= A_plastic
 };
 
-/// Which of the paper's two expressions for A is in use: it derives the first and then rounds it to the second.
+/// The two expressions for A in the paper. The paper derives the first and then rounds it to the second.
 enum class ContactForm {
   derived,  ///< A = A_plastic Sigma_N / sigma_p
   rounded,  ///< A = Sigma_N / sigma_p
@@ -22,7 +23,8 @@ enum class ContactForm {
 /// A_plastic = sqrt((1 - nu) / 2), the contact ratio at which the interface yields. \throws InputError for a bad nu.
 double plastic_contact_ratio(double poisson_ratio);
 
-/// A from normal stress Sigma_N and penetration hardness sigma_p (same unit, both > 0). \throws InputError.
+/// A from the normal stress Sigma_N and the penetration hardness sigma_p (in the same unit, both > 0).
+/// \throws InputError.
 double contact_ratio(double normal_stress, double hardness, double poisson_ratio, ContactForm form);
 
 /// Constants of the Frenkel-Kontorova chain, Eq. (1).
@@ -32,15 +34,15 @@ struct ChainConstants {
   double substrate_force;  ///< F_d = (mu b^2 / 2 pi)(A / A_plastic)^2, N
   double speed;            ///< c = b sqrt(K_b / M), m/s
 };
-/// \throws InputError naming the constant that is out of its range.
+/// \throws InputError that names the constant out of its range.
 ChainConstants chain_constants(const Interface& interface);
 
-/// The speed c of Eq. (3), from whichever constants are known: c^2 = 2 mu / (rho (1 - nu)). \throws InputError.
+/// The speed c of Eq. (3), c^2 = 2 mu / (rho (1 - nu)), from the constants that are known. \throws InputError.
 double speed_from_shear_modulus(double shear_modulus, double density, double poisson_ratio);
 double speed_from_p_wave(double p_wave_speed, double poisson_ratio);  ///< c = c_l sqrt(1 - 2 nu) / (1 - nu)
 double speed_from_s_wave(double s_wave_speed, double poisson_ratio);  ///< c = c_s sqrt(2 / (1 - nu))
 
-/// Poisson ratio from the two wave speeds; for vp > 2 vs / sqrt(3). \throws InputError otherwise.
+/// Poisson's ratio from the two wave speeds, for vp > 2 vs / sqrt(3). \throws InputError otherwise.
 double poisson_ratio(double p_wave_speed, double s_wave_speed);
 
 /// The unit of each dimensionless quantity. Dimensional = dimensionless * unit.
@@ -54,25 +56,25 @@ struct Units {
   double velocity;       ///< c, for U, V and x/t. The unit of F and f needs nu too: see traction_unit
 };
 
-/// The paper's unit of slip velocity, c A / pi, is twice what differentiating u gives (c A / 2 pi): both faces move. It
-/// is the default everywhere; this is the one place that says so.
+/// The paper's unit of slip velocity, c A / pi, is twice the unit that follows from u_t (c A / 2 pi), because both
+/// faces move. It is the default everywhere.
 inline constexpr double face_factor = 2;
 
 /// \throws InputError for constants out of range.
 Units units(double shear_modulus, double speed, double contact_ratio, double asperity_spacing);
 
-/// The two units that do not need the asperity spacing, which is seldom known.
+/// The units of stress and slip velocity. They do not need the asperity spacing, which is seldom known.
 double stress_unit(double shear_modulus, double contact_ratio);
 double slip_velocity_unit(double speed, double contact_ratio);
 
-/// The unit of F and f in Eq. (3), as a traction on the nominal area, Pa. Dividing Eq. (1) by F_d makes F = 1 the force
-/// F_d = mu b^2 A^2 / (pi (1 - nu)) on each asperity (`ChainConstants::substrate_force`), and there is one asperity to
-/// an area b^2: mu A^2 / (pi (1 - nu)). \throws InputError.
+/// The unit of F and f in Eq. (3), as a traction on the nominal area, Pa: mu A^2 / (pi (1 - nu)). Eq. (3) is Eq. (1)
+/// divided by F_d. Thus F = 1 is the force F_d = mu b^2 A^2 / (pi (1 - nu)) on each asperity
+/// (`ChainConstants::substrate_force`), and each area b^2 has one asperity. \throws InputError.
 double traction_unit(double shear_modulus, double poisson_ratio, double contact_ratio);
 
-/// The unit of F and f that the paper prints, mu A / (2 pi), Pa: F_d over the real contact area A b^2, with A_plastic
-/// rounded to 1. It is not what Eq. (1) gives for a traction on the nominal area, such as the stress that loads a
-/// fault: at A = 0.003 and nu = 0.3 it is 117 times too large. \throws InputError.
+/// The unit of F and f that the paper prints, mu A / (2 pi), Pa. It is F_d over the real contact area A b^2, with
+/// A_plastic rounded to 1. For a traction on the nominal area, such as the stress that loads a fault, Eq. (1) gives
+/// another unit: at A = 0.003 and nu = 0.3 the printed one is 117 times too large. \throws InputError.
 double printed_traction_unit(double shear_modulus, double contact_ratio);
 
 }  // namespace slipfront::medium

@@ -8,10 +8,10 @@
 
 namespace slipfront::medium {
 
-/// What a quantity may be. The first of its units is the SI one.
+/// The dimension of a quantity. The first of its units is the SI unit.
 enum class Dimension { velocity, length, time, pressure, density, ratio };
 
-/// "a velocity, such as 3.0 km/s or 10 km/day": for the `allowed` part of an error.
+/// Text for the `allowed` part of an error, such as "a velocity, such as 3.0 km/s or 10 km/day".
 std::string_view example(Dimension dimension);
 
 /// A number or a closed range of numbers, in SI units.
@@ -20,15 +20,16 @@ struct Span {
   double high;
 };
 
-/// A finite number, the whole text and nothing else, independent of the locale; nothing if it is none (1e400 is none).
+/// The finite number that the whole text is, in any locale. Nothing if the text is no finite number, such as 1e400.
 std::optional<double> number(std::string_view text);
 
-/// Factor from `unit` to the SI unit of `dimension`. \throws InputError (problem and allowed only) for an unknown unit
-/// or one of another dimension.
+/// Factor that converts from `unit` to the SI unit of `dimension`. \throws InputError (problem and allowed only) for an
+/// unknown unit or one of another dimension.
 double unit_factor(std::string_view unit, Dimension dimension);
 
-/// "3.0 km/s" -> 3000; a range "2-15 km/day" keeps both ends. A number alone takes `default_unit`, and is an error
-/// where that is empty (except for a ratio). \throws InputError (value, problem and allowed only).
+/// Reads "3.0 km/s" as 3000 m/s, and a range such as "2-15 km/day" with both ends. A number without a unit has
+/// `default_unit`. If that is empty, the number is an error, except for a ratio. \throws InputError (value, problem and
+/// allowed only).
 Span parse_quantity(std::string_view text, Dimension dimension, std::string_view default_unit = {});
 
 }  // namespace slipfront::medium

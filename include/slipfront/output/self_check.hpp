@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// How a run checks itself: what it finds wrong in its own results, and the integral of a velocity that it samples on
-/// its way, with an estimate of the error.
+/// Checks that a run makes of its own results: a list of the errors found, and the integral of a sampled velocity with
+/// an estimate of its error.
 
 #include <cmath>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace slipfront::output {
 
-/// What a run finds wrong or doubtful in its own results: sentences for the user, and the worst violation among them.
+/// Errors and doubts that a run finds in its own results: sentences for the user, and the largest violation among them.
 struct Findings {
   static constexpr double worth_a_warning = 1e-3, wrong = 1e-2;  ///< relative sizes of a violation
 
@@ -18,7 +18,7 @@ struct Findings {
   double size = 0;
 
   void violation(double relative, const std::string& sentence) {
-    if (relative <= worth_a_warning) return;  // NaN is a violation
+    if (relative <= worth_a_warning) return;  // false for NaN, which counts as a violation
     sentences.push_back(sentence);
     if (relative <= size) return;
     size = std::isnan(relative) ? HUGE_VAL : relative;
@@ -27,15 +27,15 @@ struct Findings {
   bool wrong_results() const { return size > wrong; }
 };
 
-/// Integral over time by the trapezoidal rule over samples, and over every other of them: slow errors of the sum show
-/// as the difference of the two, and waves faster than the samples by the spread of the samples.
+/// Integral over time by the trapezoidal rule, once with all samples and once with every other sample. Slow changes
+/// show as the difference of the two sums. Waves faster than the samples show in the scatter of the samples.
 struct SampledIntegral {
-  double time = 0, velocity = 0;  ///< of the last sample
+  double time = 0, velocity = 0;  ///< time and velocity of the last sample
   double integral = 0;
-  double early_time = 0, early_velocity = 0;  ///< of the last sample that the coarse sum has
+  double early_time = 0, early_velocity = 0;  ///< time and velocity of the last sample in the coarse sum
   double coarse_integral = 0;
-  double spread = 0;  ///< sum of squares of what each sample leaves open
-  long samples = 0;   ///< behind t = 0
+  double spread = 0;  ///< sum of squares of the uncertainties of the intervals between samples
+  long samples = 0;   ///< number of samples after t = 0
 
   void add(double now, double velocity_now) {
     const double elapsed = now - time, change = elapsed * (velocity_now - velocity) / 2;
@@ -49,11 +49,11 @@ struct SampledIntegral {
     time = now;
     velocity = velocity_now;
   }
-  /// The integral up to a time behind the last sample.
+  /// The integral up to `now`, a time after the last sample.
   double up_to(double now, double velocity_now) const {
     return integral + (now - time) * (velocity_now + velocity) / 2;
   }
-  /// How far it is from the truth, about, for the samples that it is made of.
+  /// Estimated error of the integral because of the finite number of samples.
   double error() const { return std::fabs(integral - coarse_integral) + std::sqrt(spread); }
 };
 

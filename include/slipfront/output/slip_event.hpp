@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Slip events of a run: what is known of each, declared once for files, tables, JSON and Python.
+/// Slip events of a run. Files, tables, JSON and Python all use the quantities declared here.
 
 #include <limits>
 #include <span>
@@ -10,23 +10,23 @@
 
 namespace slipfront::output {
 
-/// One event: from when the slip velocity of some place rises above a threshold until those of all places have fallen
-/// below half of it.
+/// One slip event of a chain, which is divided into equal parts (docs/loading.md). It begins when the mean slip
+/// velocity of any part exceeds a threshold. It ends when the velocities of all parts are below half the threshold.
 struct SlipEvent {
-  double onset = 0, duration = 0;  ///< of an event in progress: so far
-  double slip = 0;                 ///< mean over all places
-  double largest_slip = 0;         ///< of one place
-  double stress_drop = 0;          ///< of the mean force that loads a place, or of the stress at a pulled end
-  double peak_velocity = 0;        ///< of one place
-  double origin = 0;               ///< x of the place that moved first
-  double length = 0;               ///< of the places that moved
-  /// |dx / dt| of the front, by least squares through the places that moved, from `origin`. NaN where fewer than three
-  /// did, or all at once.
+  double onset = 0, duration = 0;  ///< `duration` of an event in progress is that so far
+  double slip = 0;                 ///< mean over the chain
+  double largest_slip = 0;         ///< slip of the part that slips most
+  double stress_drop = 0;          ///< fall of the mean force that loads a site, or of the stress at a pulled end
+  double peak_velocity = 0;        ///< largest mean slip velocity of a part
+  double origin = 0;               ///< x of the part that moved first
+  double length = 0;               ///< total length of the parts that moved
+  /// |dx / dt| of the front, by least squares through the parts that moved, from `origin`. NaN if fewer than three
+  /// parts moved, or if all moved at once.
   double rupture_velocity = std::numeric_limits<double>::quiet_NaN();
-  double complete = 0;  ///< 1; 0 where the run ended within it
+  double complete = 0;  ///< 1, or 0 if the run ended during the event
 };
 
-/// About a member, by the name that it has in files and JSON.
+/// A member of SlipEvent, with its description. `about.name` is its name in files and JSON.
 struct SlipEventColumn {
   Description about;
   double SlipEvent::*value;

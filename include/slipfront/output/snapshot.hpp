@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a pulse run yields at one output time.
+/// The results of a run at one output time.
 
 #include <functional>
 #include <map>
@@ -9,36 +9,36 @@
 
 namespace slipfront::output {
 
-/// When and where to look at a run.
+/// The output times and the output grid of a run.
 struct Schedule {
-  std::vector<double> times;    ///< ascending, from 0; a snapshot each
-  std::vector<double> x_edges;  ///< output grid
-  double threshold = 1e-3;      ///< of the observed fronts, as a share of the peak slip velocity
+  std::vector<double> times;    ///< ascending, from 0; one snapshot each
+  std::vector<double> x_edges;  ///< edges of the cells of the output grid
+  double threshold = 1e-3;      ///< slip velocity at an observed front, as a fraction of the peak slip velocity
 };
 
 /// Averaged fields on the scenario's output grid, cell by cell; all dimensionless (docs/NOTATION.md).
 struct Profile {
   std::vector<double> k;     ///< dislocation density = stress Sigma
   std::vector<double> U;     ///< velocity of the dislocations, 0 where there are none
-  std::vector<double> W;     ///< slip velocity, at the centre; |W| <= k
+  std::vector<double> W;     ///< slip velocity at the centre of the cell; |W| <= k
   std::vector<double> H;     ///< energy density
   std::vector<double> slip;  ///< slip since t = 0 (u, in b / 2 pi)
 };
 
-/// Fronts at one time. NaN where there is no such front, or where it has left the domain. The trailing front runs into
-/// the more stressed side, the left one if both are alike; the leading front into the other. Where neither end of the
-/// domain is stressed there is no trailing front.
+/// Positions x of the fronts at one time. NaN if there is no such front, or if it has left the domain. The trailing
+/// front runs into the side with the larger stress, or into the left side if the stresses are equal. The leading front
+/// runs into the other side. If neither end of the domain is stressed, there is no trailing front.
 struct Fronts {
-  double trailing;  ///< fast front: where the slip velocity first departs from that ahead of it
-  double leading;   ///< slow front: the free edge, or where the slip velocity falls through half of its largest
-  double trailing_characteristic;  ///< place that the fast front would have if its foot moved as a characteristic
-  double trailing_observed;        ///< where |W| first exceeds the observer's threshold, from the stressed side
-  double leading_observed;         ///< and from the other
+  double trailing;  ///< fast front: x at which the slip velocity first differs from that ahead of the front
+  double leading;   ///< slow front: the free edge, or x at which the slip velocity falls through half of its maximum
+  double trailing_characteristic;  ///< x of the fast front if its foot moved along a characteristic
+  double trailing_observed;        ///< first x, from the stressed side, at which |W| exceeds the threshold
+  double leading_observed;         ///< first x, from the other side, at which |W| exceeds the threshold
 };
 
-/// What an observer with a threshold sees: the outermost places, from the left and from the right, where `speed`
-/// (|W| at `x`, ascending) passes `level`; `left` or `right` where already the first or last of them moves. NaN where
-/// nothing does.
+/// The fronts that an observer with a threshold sees: the first x from the left and from the right at which `speed`
+/// (|W| at `x`, ascending) passes `level`. If the first or last of `speed` exceeds it already, that front is `left` or
+/// `right`. NaN if none exceeds it.
 struct Observed {
   double left, right;
 };
@@ -47,13 +47,13 @@ Observed observed_fronts(const std::vector<double>& x, const std::vector<double>
 
 /// Energy over the domain per unit width, in units of the scenario (H of docs/theory.md 3.2).
 struct Energy {
-  double elastic;       ///< of the state at rest with the same density
-  double kinetic;       ///< H less that
-  double dissipated;    ///< by friction since t = 0
-  double supplied;      ///< by the forcing F since t = 0
-  double through_ends;  ///< come in through the ends of the domain since t = 0; NaN for a chain
-  double shocks;        ///< lost where trains run into each other since t = 0: what closes the budget; NaN for a chain
-  double phonons;       ///< of a chain, H less that of the uniform train with the same k and W; NaN for other runs
+  double elastic;       ///< energy of the state at rest with the same density
+  double kinetic;       ///< H less `elastic`
+  double dissipated;    ///< energy that friction dissipated since t = 0
+  double supplied;      ///< energy that the forcing F supplied since t = 0
+  double through_ends;  ///< energy that entered through the ends of the domain since t = 0; NaN for a chain
+  double shocks;        ///< energy lost in collisions of trains since t = 0, the rest of the budget; NaN for a chain
+  double phonons;       ///< H of a chain, less that of the uniform train with the same k and W; NaN for other runs
 };
 
 struct Snapshot {
@@ -66,7 +66,7 @@ struct Snapshot {
   double slip_at_origin;
   double peak_slip_velocity;
   double peak_position;
-  std::map<std::string, double, std::less<>> further = {};  ///< by the names of further_scalars()
+  std::map<std::string, double, std::less<>> further = {};  ///< further values, by their names in further_scalars()
 };
 
 }  // namespace slipfront::output

@@ -9,28 +9,28 @@
 
 namespace slipfront::pulse {
 
-/// What an end of the domain does where the stress reaches it.
+/// Boundary condition at an end of the domain. It matters as soon as the stress reaches the end.
 enum class End {
-  continued,  ///< the train goes on beyond, as it is at the end: dislocations come in and leave
-  fixed,      ///< nothing passes
-  free,       ///< no stress: dislocations leave, none comes in
+  continued,  ///< the train at the end continues outside the domain: dislocations enter and leave
+  fixed,      ///< a wall that no dislocation passes
+  free,       ///< no stress outside: dislocations leave, none enters
 };
 
-/// What to solve.
+/// The initial value problem and the numerical settings of a pulse run.
 struct Problem {
-  std::function<double(double)> stress;               ///< initial stress at x, >= 0; the interface is at rest
+  std::function<double(double)> stress;               ///< initial stress at x, >= 0; the interface is at rest at t = 0
   std::function<double(double x, double t)> forcing;  ///< F; null: none
   std::function<double(double)> contact = {};         ///< relative contact ratio a(x) > 0; null: 1
   friction::Friction friction;
   double left = -1, right = 1;  ///< domain at t = 0
-  double corner = 0;            ///< x of a step of stress: a face is laid there
+  double corner = 0;            ///< x of a step of stress, where a cell face is placed; HUGE_VAL: smooth stress
   End left_end = End::continued, right_end = End::continued;
-  bool periodic = false;             ///< a ring of the domain's length, stressed at both ends, which then do not count
-  int cells = 400;                   ///< over the parts of the domain that are not empty, >= 4
-  double tolerance = 1e-6;           ///< relative, of the implicit steps
-  double explicit_tolerance = 1e-4;  ///< of the explicit steps, which the size of the cells mostly sets
-  double longest_step = HUGE_VAL;    ///< a forcing may change while waves hardly move
-  double cfl = 1.0;                  ///< of the explicit steps; smooth problems bear 1.4, steps of stress do not
+  bool periodic = false;    ///< the domain is a ring, stressed at both ends; left_end and right_end are then ignored
+  int cells = 400;          ///< number of cells, >= 4, shared among the stressed parts of the domain
+  double tolerance = 1e-6;  ///< relative tolerance of the implicit steps
+  double explicit_tolerance = 1e-4;  ///< relative tolerance of the explicit steps; mostly the cell size limits them
+  double longest_step = HUGE_VAL;    ///< longest time step: a forcing may change while waves hardly move
+  double cfl = 1.0;  ///< Courant number of the explicit steps: smooth problems tolerate 1.4, steps of stress do not
 };
 
 }  // namespace slipfront::pulse

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// One pulse run: a problem, the times to look at it, and what was seen so far. Can be saved at any step and continued
-/// to the same bits.
+/// One pulse run: a problem, its output times, and the snapshots so far. A run can be saved after any step. The resumed
+/// run gives bitwise identical results.
 
 #include <functional>
 #include <memory>
@@ -25,33 +25,33 @@ struct SlipTwice;
 class Run {
  public:
   Run(Problem problem, output::Schedule schedule);
-  /// Continues a saved run of the same problem and schedule. \throws InputError if it is of another.
+  /// Resumes a saved run. \throws InputError if it was saved for another problem or schedule.
   Run(Problem problem, output::Schedule schedule, std::string_view saved, std::vector<output::Snapshot> snapshots);
   ~Run();
   Run(Run&&) noexcept;
   Run& operator=(Run&&) noexcept;
 
-  /// Advances until the end, or until `interrupted`, asked after every step, returns true; the run may be saved from
-  /// there. Returns whether the end was reached. \throws NumericsError where the solver gives up, where the steps that
-  /// the run may take are used up, or where results miss an invariant by more than 1 %.
+  /// Advances to the end, or until `interrupted` returns true; it is called after every step. The run can be saved at
+  /// that point. Returns whether the end was reached. \throws NumericsError if the solver fails, if the step budget is
+  /// exhausted, or if results violate an invariant by more than 1 %.
   bool go(const std::function<bool()>& interrupted = {});
 
   const Solver& solver() const;
   const output::Schedule& schedule() const;
   const std::vector<output::Snapshot>& snapshots() const;
-  /// The steps that it may take.
+  /// Limit on the number of steps.
   const StepBudget& budget() const;
-  /// Wall time that the steps have taken, without the time for the cells at t = 0 and for outputs.
+  /// Wall time of the steps in seconds, without the time for the initial cells and for outputs.
   double stepping_seconds() const;
-  /// A run may be saved even after a NumericsError: a step that fails changes nothing.
+  /// A run can be saved even after a NumericsError, because a failed step changes nothing.
   bool can_checkpoint() const { return true; }
   bool finished() const;
-  /// Sentences about what is wrong or doubtful in the results so far.
+  /// Sentences that describe wrong or doubtful results so far.
   std::vector<std::string> warnings() const;
-  /// Slip at x = 0 by the two routes that should agree (pulse/checks/slip_record.hpp). Nothing where x = 0 is not
-  /// within the domain or the run is too short to tell.
+  /// Slip at x = 0, computed in two ways that should agree (pulse/checks/slip_record.hpp). Empty if x = 0 is outside
+  /// the domain, or if the run has too few samples.
   std::optional<SlipTwice> slip_twice() const;
-  /// The state of the run as bytes, for a checkpoint on the same kind of machine.
+  /// The state of the run as bytes, for a checkpoint that the same kind of machine can read.
   std::string saved() const;
 
  private:

@@ -1,7 +1,8 @@
 #pragma once
 /// \file
-/// The frictionless slip pulse from a step of stress into an empty interface (Eqs. 8-10): any one of stress, rupture
-/// velocity and slip velocity gives all the others. Velocities in c, stress in mu A / pi, slip velocity in c A / pi.
+/// The frictionless slip pulse from a step of stress into an empty interface (Eqs. 8-10). Stress, rupture velocity or
+/// slip velocity determines all other quantities. Velocities are in units of c, stress in mu A / pi, slip velocity in
+/// c A / pi.
 
 #include <span>
 
@@ -9,7 +10,7 @@
 
 namespace slipfront::rupture {
 
-/// One pulse. Speeds are positive; "origin" is x = 0, where the step of stress was.
+/// One pulse. Speeds are positive; the origin x = 0 is the position of the initial step of stress.
 struct Relations {
   double stress;                          ///< Sigma-, stress before the rupture
   double rupture_velocity;                ///< |V-|, fast front, into the stressed side
@@ -22,15 +23,15 @@ struct Relations {
   double psi_at_origin;                   ///< psi(0)
 };
 
-/// Closed forms (8)-(10) in (phi, psi): every output to a few ulp times the conditioning of the question, pi / Sigma
-/// from a small stress, 1 / (1 - V) from a velocity near 1. The range is where all nine outputs are normal doubles:
-/// stress above about 0.00447, velocities above about 1e-302. \throws InputError outside it, with key, value and what
-/// is allowed.
+/// Closed forms (8)-(10) in (phi, psi). The error of every output is a few ulp times the conditioning of the problem,
+/// which is pi / Sigma for a small stress and 1 / (1 - V) for a velocity near 1. The allowed range is that in which all
+/// nine outputs are normal doubles: stress above about 0.00447, velocities above about 1e-302. \throws InputError (key,
+/// value and allowed) outside that range.
 Relations from_stress(double stress);
 Relations from_rupture_velocity(double rupture_velocity);
 Relations from_slip_velocity(double slip_velocity);
 
-/// The nine members, named as they are, in their order.
+/// The nine members of Relations, with their descriptions, in the order of their declaration.
 struct RelationsQuantity {
   Description about;
   double Relations::*value;

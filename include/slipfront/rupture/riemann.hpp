@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// The exact Riemann problem of the modulation equations, by the jump conditions of (k, P): two uniform trains meet at
-/// x = 0. Every scheme is tested against it. The slip pulse of Eqs. 8-9 is its special case with an empty right side;
-/// Figs. 4-6 draw its profiles over x/t.
+/// The exact solution of the Riemann problem of the modulation equations, by the jump conditions of (k, P): two uniform
+/// trains meet at x = 0. Every scheme is tested against it. The slip pulse of Eqs. 8-9 is the special case with an
+/// empty right side; Figs. 4-6 show its profiles over x/t.
 
 #include "slipfront/train/train.hpp"
 
@@ -12,25 +12,26 @@ namespace slipfront::rupture {
 struct Wave {
   enum class Kind { none, fan, shock };
   Kind kind = Kind::none;
-  double outer = 0;  ///< x/t of its edge on the side of the given state
-  double inner = 0;  ///< x/t of its edge on the side of the star state
+  double outer = 0;  ///< x/t of the edge next to the given state
+  double inner = 0;  ///< x/t of the edge next to the star state
 };
 
 /// The solution for all x/t.
 struct RiemannSolution {
   State left, right;
-  State star;  ///< uniform state between the waves; empty when the trains part or either side is empty
+  State star;  ///< uniform state between the waves; empty if the trains separate or either side is empty
   Wave left_wave, right_wave;
 };
 
-/// Solves for any left and right states, empty ones included (psi = 0: no dislocations; its phi is ignored).
-/// \throws InputError unless 0 <= psi <= 300 (stresses of up to 2e130, whose squares a double holds) and |phi| <= 18
-/// (where U = tanh(phi) differs from 1). Relative error of the star state: 1e-8 at |phi| = 18 on both sides, where the
-/// momentum of two trains that collide cancels; 1e-12 below |phi| = 5.
+/// Solves for any left and right states. An empty state (psi = 0) has no dislocations, and its phi is ignored.
+/// The relative error of the star state is 1e-12 if |phi| < 5. It is 1e-8 if |phi| = 18 on both sides, where the
+/// momenta of two colliding trains cancel. \throws InputError unless 0 <= psi <= 300 and |phi| <= 18. The bound of psi
+/// allows stresses of up to 2e130, whose squares a double can represent. Up to that |phi|, U = tanh(phi) differs
+/// from 1.
 RiemannSolution solve_riemann(const State& left, const State& right);
 
-/// x/t of the left and right edge of what moves: of the outermost waves, or of the last dislocation where a side is
-/// empty.
+/// x/t of the left and right edges of the moving region. An edge is that of the outermost wave, or the last dislocation
+/// if that side is empty.
 struct Edges {
   double left, right;
 };
@@ -40,8 +41,8 @@ Edges edges_of(const RiemannSolution& solution);
 State sample(const RiemannSolution& solution, double x_over_t);
 
 /// The pulse from a step of stress `Sigma- = stress` into an empty interface: a fan from the trailing edge at
-/// left_wave.outer = V- to the leading edge at left_wave.inner = V+. Take its states with sample(pulse, x/t).
-/// \throws InputError as from_stress.
+/// left_wave.outer = V- to the leading edge at left_wave.inner = V+. sample(pulse, x/t) gives its states.
+/// \throws InputError like from_stress.
 RiemannSolution slip_pulse(double stress);
 
 /// Averages at one x/t.

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// A scenario file, read and checked: what is on the interface at t = 0, what acts on it, where, how long, and what to
-/// write.
+/// A scenario file after reading and checks: the initial stress, friction, forcing and loading, the domain, the end
+/// time, numerical settings and the output.
 
 #include <functional>
 #include <numbers>
@@ -20,27 +20,30 @@
 
 namespace slipfront::scenario {
 
-/// The least stress above 0 and the greatest that are accepted.
+/// The smallest stress above 0 and the largest stress that a scenario may have.
 using train::smallest_stress;
 inline constexpr double largest_stress = 1e6;
 
+/// The largest |x| that is accepted. Differences of positions then neither overflow nor lose the cells between them.
+inline constexpr double farthest = 1e9;
+
 enum class ProfileKind { step, tanh, formula, table };
 
-/// [initial]: stress along x at t = 0, everything at rest.
+/// [initial]: stress along x at t = 0. The interface is at rest.
 struct Initial {
   ProfileKind profile = ProfileKind::step;
-  double stress_left = 0;   ///< of step and tanh; >= 0
-  double stress_right = 0;  ///< 0 is the empty interface
-  double width = 1;         ///< of tanh, > 0: right + (left - right)(1 - tanh(x / width))/2
-  bool even_ends = true;    ///< goes on beyond the change around x = 0 at stress_left and stress_right
-  bool jumps = true;        ///< at x = 0
-  double reach = 0;         ///< how far from x = 0 a smooth change is felt
-  std::string formula;      ///< of x
-  bool hold = false;        ///< a static load keeps at rest what is not in equilibrium
+  double stress_left = 0;   ///< for step and tanh; >= 0
+  double stress_right = 0;  ///< for step and tanh; 0 is the empty interface
+  double width = 1;         ///< for tanh, > 0: right + (left - right)(1 - tanh(x / width))/2
+  bool even_ends = true;    ///< far from x = 0 the stress is uniform: stress_left and stress_right
+  bool jumps = true;        ///< the stress jumps at x = 0
+  double reach = 0;         ///< distance from x = 0 up to which a smooth profile counts as changing
+  std::string formula;      ///< stress as a formula of x
+  bool hold = false;        ///< a static load balances the initial stress, so that it stays at rest
   std::string file;         ///< CSV or NetCDF with columns / variables x and stress, relative to the scenario file
 };
 
-/// [domain]; either end may be left to the solver.
+/// [domain]. The solver chooses an end that is not given.
 struct Domain {
   std::optional<double> left, right;
 };
@@ -48,41 +51,41 @@ struct Domain {
 /// [pulse]
 struct PulseOptions {
   int cells = 400;          ///< >= 4
-  double tolerance = 1e-6;  ///< of the adaptive time steps, where the source is stiff
-  double threshold = 1e-3;  ///< of the observer who sees fronts, in units of the peak slip velocity
+  double tolerance = 1e-6;  ///< tolerance of the adaptive time steps, which serve a stiff source
+  double threshold = 1e-3;  ///< slip velocity at an observed front, as a fraction of the peak slip velocity
   pulse::End left = pulse::End::continued, right = pulse::End::continued;
-  bool periodic = false;  ///< a ring: `left` and `right` do not count
+  bool periodic = false;  ///< a ring; `left` and `right` are ignored
 };
 
 /// [chain]
 struct ChainOptions {
-  std::optional<double> scale;    ///< > 0: x and t stretched by it, friction divided by it; 1 where none is asked for
-  std::optional<double> spacing;  ///< of the grid or lattice, > 0, in the chain's own (stretched) x
+  std::optional<double> scale;    ///< > 0: x and t are multiplied by it, friction is divided by it; 1 if absent
+  std::optional<double> spacing;  ///< spacing of the grid or lattice, > 0, in the scaled x of the chain
   chain::Model model = chain::Model::sine_gordon;
   chain::End left = chain::End::fixed, right = chain::End::fixed;
-  bool periodic = false;         ///< a ring: `left` and `right` do not count
-  bool implicit = false;         ///< steps of any length; with [loading] they always are
-  double tolerance = 5e-5;       ///< of implicit steps, 1e-12 to 0.1
-  std::optional<double> window;  ///< of averages at x = 0, > 0, in the scenario's x
+  bool periodic = false;         ///< a ring; `left` and `right` are ignored
+  bool implicit = false;         ///< implicit steps of any length; [loading] always uses them
+  double tolerance = 5e-5;       ///< tolerance of implicit steps, 1e-12 to 0.1
+  std::optional<double> window;  ///< averaging window at x = 0, > 0, in the x of the scenario
 };
 
-/// [output]: either a list of times or an interval; the end is always written.
+/// [output]: either a list of times or an interval. The end is always written.
 struct Output {
   std::vector<double> times;
   std::optional<double> every;
-  std::vector<std::string> variables;  ///< empty: all
+  std::vector<std::string> variables;  ///< all if empty
 };
 
 struct Scenario {
-  std::string title;  ///< with overrides, goes on to name them
-  std::string file;   ///< as named by the user
-  std::string text;   ///< the TOML that was read; with overrides, the TOML they make of it. Reads back as this scenario
+  std::string title;  ///< followed by the overrides, if any
+  std::string file;   ///< as the user gave it
+  std::string text;   ///< the TOML of this scenario: as read, or with the overrides applied
   Initial initial;
   friction::Friction friction;
-  std::string forcing;  ///< formula F(x, t); empty: none
+  std::string forcing;  ///< formula F(x, t); no forcing if empty
   chain::Loading loading = {};
-  std::string contact;    ///< formula a(x); empty: 1
-  bool substrate = true;  ///< false where [interface] contact is 0: nothing but friction, forces and springs
+  std::string contact;    ///< formula a(x); 1 if empty
+  bool substrate = true;  ///< false if [interface] contact is 0: only friction, forces and springs act
   Domain domain;
   double end = 2 * std::numbers::pi;
   PulseOptions pulse;
@@ -90,28 +93,30 @@ struct Scenario {
   medium::Constants medium;  ///< [medium]
   Output output;
   std::vector<std::string> overrides;  ///< "table.key=value", as given
-  std::vector<std::string> warnings;   ///< what the user should know before the run, one line each
+  std::vector<std::string> warnings;   ///< warnings for the user before the run, one line each
 
-  // Made from the above, checked, ready to call (not from two threads at once where they are formulas). They were tried
-  // over the domain, but a call may still throw InputError where a formula fails or a table does not reach.
+  // The following functions are made from the members above. They were checked over the domain, but a call may still
+  // throw InputError if a formula fails or a table does not extend to x. Two threads must not call a formula at once.
   std::function<double(double)> stress;                  ///< initial stress at x: 0, or smallest to largest_stress
-  std::function<double(double x, double t)> forcing_at;  ///< finite; null: no forcing
+  std::function<double(double x, double t)> forcing_at;  ///< finite; null if there is no forcing
   bool steady_forcing = true;                            ///< forcing_at, if any, does not depend on t
-  std::function<double(double)> contact_at;              ///< at t = 0; finite, > 0; null: 1 everywhere
+  std::function<double(double)> contact_at;              ///< a(x) at t = 0; finite, > 0; null if it is 1 everywhere
 };
 
-/// Gives two columns of a table file named in a scenario (record/ knows files; this room does not).
+/// Returns two columns of a table file that a scenario names. The module record implements it, so that this module does
+/// not depend on file formats.
 using TableReader = std::function<std::vector<std::pair<double, double>>(const std::string& path, const std::string& x,
                                                                          const std::string& y)>;
 
-/// Reads a scenario and applies `overrides` ("table.key=value", in order; a value that is no TOML is taken as a text).
-/// Unknown keys, tables and values are errors that name the nearest known one. An [event] table is not looked at.
-/// \throws InputError with file ("--set" for an override), line, key, value and what is allowed; what `tables` throws.
+/// Reads a scenario and applies `overrides` ("table.key=value", in order). A value that is not valid TOML counts as
+/// text. Unknown keys, tables and values are errors that name the nearest known one. An [event] table is ignored.
+/// \throws InputError with file ("--set" for an override), line, key, value and allowed. Exceptions of `tables` pass
+/// through.
 Scenario read_scenario(std::string_view text, const std::string& file, const std::vector<std::string>& overrides,
                        const TableReader& tables);
 
-/// The command that runs the scenario, for a file's history, in words that a shell reads back: "slipfront pulse a.toml
-/// --set friction.coefficient=0.5". `scales` are those asked of compare.
+/// The command that runs the scenario, quoted for a shell, for the history attribute of a file: "slipfront pulse a.toml
+/// --set friction.coefficient=0.5". `scales` are those of the `compare` command.
 std::string command_line(const Scenario& scenario, std::string_view command, const std::vector<double>& scales = {});
 
 }  // namespace slipfront::scenario

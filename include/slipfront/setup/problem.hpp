@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// From a scenario to what the solvers of pulse and chain run.
+/// Converts a scenario to the problems that the pulse solver and the chain solver solve.
 
 #include "slipfront/chain/run.hpp"
 #include "slipfront/pulse/run.hpp"
@@ -8,24 +8,24 @@
 
 namespace slipfront::setup {
 
-/// The problem that a scenario poses to pulse and chain alike: its domain, where the scenario leaves it open, holds
-/// everything that moves until the end. \throws InputError where that takes a domain which is not given.
+/// The problem of a scenario that pulse and chain share. If the scenario gives no domain, we choose one that contains
+/// all waves until the end. \throws InputError if that is impossible, so that the scenario must give the domain.
 pulse::Problem stated_problem(const scenario::Scenario& scenario);
 
-/// The same for the pulse. \throws InputError also for what the averages over a train do not have and the chain does:
-/// springs that load every place, for nothing says where and when dislocations are born under them, and a surface
-/// without a substrate.
+/// The problem for the pulse solver. \throws InputError also for scenarios that need the chain solver, because averages
+/// over a train do not describe them. Such a scenario has springs that load every site, friction that changes contacts
+/// or pores, or no substrate. (Under springs, dislocations are created; the averaged equations conserve them.)
 pulse::Problem pulse_problem(const scenario::Scenario& scenario);
 
-/// When and where to look at it: t = 0, the output times, the end. \throws InputError if what is to be looked at would
-/// not fit into the memory.
+/// Output times and output grid: t = 0, the output times of the scenario, and the end. \throws InputError if the
+/// results would not fit into memory.
 output::Schedule pulse_schedule(const scenario::Scenario& scenario, const pulse::Problem& problem);
 
-/// Lays the cells of a problem and forgets them; of very many, some tell what is wrong. \throws InputError as
+/// Checks the cells of a problem by a trial run without steps, with at most 100000 cells. \throws InputError like
 /// pulse::Run.
 void check_cells(const scenario::Scenario& scenario, const pulse::Problem& problem);
 
-/// The chain that a scenario asks for, over the same domain as its pulse. \throws InputError where that is none.
+/// The chain problem of a scenario, on the same domain as its pulse. \throws InputError if the scenario has none.
 chain::ScaledProblem chain_problem(const scenario::Scenario& scenario);
 
 }  // namespace slipfront::setup

@@ -1,14 +1,15 @@
 #pragma once
 /// \file
-/// The uniform train of dislocations: the two numbers that fix it, its fields and averages over a period (Eqs. 4-5),
-/// and the train at rest under a stress. All quantities are dimensionless: x in b/A, stress in mu A / pi, slip velocity
-/// in c A / pi.
+/// The uniform train of dislocations: the two variables that determine it, its fields and averages over a period
+/// (Eqs. 4-5), and the train at rest under a stress. All quantities are dimensionless: x in b/A, stress in mu A / pi,
+/// slip velocity in c A / pi.
 
 namespace slipfront {
 
-/// A uniform train: dislocations move at U = tanh(phi); sqrt(m1) = tanh(psi) tells how densely they are packed. psi ->
-/// 0 is the empty interface, psi -> infinity the dense limit. In these variables the modulation equations (6) are
-/// diagonal, and slow slip (psi ~ 1e-6 and far below) loses no digits; the elliptic parameter m itself is never stored.
+/// A uniform train. Its dislocations move at U = tanh(phi), and sqrt(m1) = tanh(psi) measures their density. psi -> 0
+/// is the empty interface, psi -> infinity the dense limit. The modulation equations (6) are diagonal in these
+/// variables. Slow slip (psi ~ 1e-6 and far below) keeps full precision, because the elliptic parameter m itself is
+/// never stored.
 struct State {
   double phi = 0;  ///< rapidity of the dislocations
   double psi = 0;  ///< density variable; 0 means empty
@@ -22,7 +23,8 @@ namespace slipfront::train {
 
 /// Displacement, stress and slip velocity at one point of a train.
 struct Fields {
-  double u;  ///< slip in b / (2 pi); falls by 2 pi at each dislocation as x grows (Eq. 4, with the 2 the print lacks)
+  /// Slip in b / (2 pi). It falls by 2 pi at each dislocation as x grows. The print of Eq. (4) lacks a factor 2.
+  double u;
   double sigma;  ///< stress -u_x, in mu A / pi
   double w;      ///< slip velocity u_t = U sigma, in c A / pi
 };
@@ -33,7 +35,7 @@ Fields fields(const State& state, double xi);
 /// Length of one period, 2 pi / k. \throws InputError for an empty state.
 double spacing(const State& state);
 
-/// Averages over a period; the densities and fluxes of the four conservation laws among them.
+/// Averages over a period, with the densities and fluxes of the four conservation laws.
 struct Averages {
   double k;              ///< Sigma = <sigma> = 2 pi N, N dislocations per unit length (Eq. 5)
   double W;              ///< <w> = U k (Eq. 5; the printed U N / 2 pi is a misprint)
@@ -47,14 +49,14 @@ struct Averages {
   double J;              ///< wave action flux
 };
 
-/// All averages, each to a few ulp. The empty state has none but J, whose limit 4 cosh(phi) / pi does not vanish.
+/// All averages, each to a few ulp. For the empty state all are zero except J, whose limit is 4 cosh(phi) / pi.
 Averages averages(const State& state);
 
-/// The same where the relative contact ratio is `contact` = a (docs/theory.md 6: a^2 sin u in Eq. 3). The averages
-/// above hold in the local units a x and a t; here they are in those of the interface.
+/// The averages where the relative contact ratio is `contact` = a (docs/theory.md 6: a^2 sin u in Eq. 3). They are in
+/// the units of the interface; averages(state) would be in the local units a x and a t.
 Averages averages(const State& state, double contact);
 
-/// The least stress above 0 that a state can hold in doubles: psi, 4 exp(-pi / stress) there, underflows below.
+/// The smallest stress above 0 of a state in doubles. At smaller stresses psi = 4 exp(-pi / stress) underflows.
 inline constexpr double smallest_stress = 0.0045;
 
 /// Stress of a train at rest, pi cosh(psi) / K: the initial state of a rupture. \throws InputError unless psi > 0.
@@ -63,7 +65,7 @@ double stress_at_rest(double psi);
 /// psi with pi cosh(psi) / K = stress, stress > 0, to full relative precision: the inverse of stress_at_rest.
 double psi_of_stress(double stress);
 
-/// The interface at rest under this stress, >= 0; without stress it is empty.
+/// The interface at rest under this stress >= 0. It is empty if the stress is 0.
 inline State at_rest(double stress) { return stress > 0 ? State{0, psi_of_stress(stress)} : State{}; }
 
 }  // namespace slipfront::train

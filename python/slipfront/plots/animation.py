@@ -1,4 +1,4 @@
-"""Slip pulses as moving pictures: the averaged fields, their fronts, and the dislocations under them."""
+"""Draws slip pulses as moving pictures: the averaged fields, their fronts, and the dislocations that carry them."""
 
 import numpy
 import xarray
@@ -9,12 +9,12 @@ from .dislocations import positions
 from .pulse_parts import extent, finite, fronts_of, title_of, window
 from .style import label, styled
 
-SHOWN = 30  #: dislocations in the picture at the first time, about
+SHOWN = 30  #: approximate number of dislocations in the picture at the first time
 FIELDS = (("W", "C1"), ("Sigma", "C0"))
 
 
 def metres(value: float) -> str:
-    """A length or time with a prefix of SI, as '3.3 m' or '0.61 ms' needs it: number and prefix."""
+    """Returns a length or time as a number and an SI prefix, to which the caller appends the unit: '3.3 ' or '610 μ'."""
     for power, prefix in ((0, ""), (-3, "m"), (-6, "μ"), (-9, "n")):
         if abs(value) >= 10.0**power:
             return f"{value / 10.0**power:.3g} {prefix}"
@@ -22,14 +22,15 @@ def metres(value: float) -> str:
 
 
 def scale_of(pulse, left, right) -> float:
-    """How many times as dense the dislocations are drawn, so that about SHOWN lie between two places at the first time."""
+    """Returns the factor by which the density of dislocations is multiplied in the picture, so that about SHOWN of them lie between
+    x = left and x = right at the first time."""
     seen = pulse.isel(time=0)["k"].where((pulse["x"] > left) & (pulse["x"] < right))
     count = float((seen * (pulse["x_bounds"][:, 1] - pulse["x_bounds"][:, 0])).sum()) / (2 * numpy.pi)
     return SHOWN / count if count > 0 else 1.0
 
 
 class Column:
-    """One pulse of a scene: its lines in three panels, W, stress and dislocations."""
+    """One pulse of a scene, with three panels: slip velocity W, stress and dislocations."""
 
     def __init__(self, panels, pulse, scale):
         self.pulse, self.places = pulse, positions(pulse, scale)
@@ -45,7 +46,7 @@ class Column:
                 self.fronts.append((front.values, lines, symbol, text))
 
     def show(self, row) -> None:
-        """Moves the lines to one time; a front that is not there then is hidden."""
+        """Moves the lines to one output time. A front that does not exist then is hidden."""
         now = self.pulse.isel(time=row)
         for line, (name, _) in zip(self.lines, FIELDS):
             line.set_ydata(now[name])
@@ -56,17 +57,17 @@ class Column:
                 artist.set_visible(there)
             if there:
                 text.set_x(places[row])
-                left, right = text.axes.get_xlim()  # a name at the right end stands left of its line
+                left, right = text.axes.get_xlim()  # near the right end, the symbol is left of its line
                 text.set_horizontalalignment("left" if symbol == "V+" and places[row] < right - (right - left) / 10 else "right")
                 for line in lines:
                     line.set_xdata([places[row]] * 2)
 
 
 class Scene:
-    """A figure of one pulse, or of several side by side, that moves from time to time.
+    """A figure that shows one pulse, or several side by side, at one output time after another.
 
-    pulses: Dataset, or a list of them with the same output times. si: SI values of the units of length, time, stress and slip_velocity
-    (`slipfront.medium.units`), for a second scale; none without.
+    pulses: a Dataset, or a list of Datasets with the same output times. si: SI values of the units of length, time, stress and
+    slip_velocity (`slipfront.medium.units`), for a second scale; None for no second scale.
     """
 
     @styled
@@ -94,10 +95,10 @@ class Scene:
         self.clock = self.figure.suptitle(" ")
         self.show(0)
         self.figure.canvas.draw()
-        self.figure.set_layout_engine("none")  # else the axes would move with the clock's width
+        self.figure.set_layout_engine("none")  # otherwise the axes would move when the width of the clock changes
 
     def add_si(self) -> None:
-        """Scales in SI units: slip velocity and stress on the right, position above."""
+        """Adds scales in SI units: slip velocity and stress on the right, position at the top."""
         for axes, unit, text in ((self.panels[0, -1], self.si["slip_velocity"], "m/s"), (self.panels[1, -1], self.si["stress"] / 1e6, "MPa")):
             axes.secondary_yaxis("right", functions=(lambda y, unit=unit: y * unit, lambda y, unit=unit: y / unit)).set_ylabel(text)
         for axes in self.panels[0]:
@@ -107,7 +108,7 @@ class Scene:
 
     @styled
     def show(self, row) -> numpy.ndarray:
-        """Draws one time. Returns the picture, height by width by red, green, blue (0 to 255)."""
+        """Draws one output time. Returns the picture as an array of height x width x 3 (red, green, blue; 0 to 255)."""
         time = float(self.times[row])
         for column in self.columns:
             column.show(row)

@@ -1,16 +1,16 @@
-"""Fields of a pulse at places and times between those of its file."""
+"""Interpolates the fields of a pulse between the positions and times of its file."""
 
 import numpy
 
-#: The fronts that carry the field along; both have to be known at both ends of an interval.
+#: Fronts with which the field moves between two outputs. Both must be known at both outputs.
 CARRIERS = ("trailing_front", "leading_front")
 
 
 def anchors(pulse, row) -> numpy.ndarray:
-    """Places that move along between output `row` and the next: the domain's ends and the fronts, where these are known and outrun no strain
-    wave (a measured front may jump).
+    """Returns the positions that the interpolation follows from output `row` to the next: the ends of the domain and the fronts.
 
-    Returns an array of 2 (this output, the next) by places, ascending in x (b / A).
+    The fronts are left out unless they are known and no faster than strain waves, because an observed front may jump. The result
+    is an array of 2 (this output, the next) x number of positions, ascending in x (b / A).
     """
     bounds = pulse["x_bounds"].values
     ends = numpy.array([[bounds.min()] * 2, [bounds.max()] * 2])
@@ -23,12 +23,12 @@ def anchors(pulse, row) -> numpy.ndarray:
 
 
 def between(pulse, name: str, times, places) -> numpy.ndarray:
-    """Values of a field at any times and places within those of the file, as an array over time and place.
+    """Returns the values of a field at given times and positions within the range of the file, as an array over time and position.
 
-    Between two outputs the field moves with the fronts and changes evenly in time from the one to the other, so that a front stays a line and
-    is no staircase. A cell that is not finite makes a gap as wide as itself and an interval between outputs, no more.
+    Between two outputs the field moves with the fronts and changes linearly in time. A front is therefore a line in the picture and
+    not a staircase. A cell that is not finite makes a gap as wide as the cell and as long as the interval between two outputs.
 
-    pulse: Dataset over time and x with x_bounds. times, places: ascending.
+    pulse: Dataset over time and x with x_bounds. times (b / (c A)) and `places` (positions x, b / A): ascending.
     """
     field = pulse[name].transpose("time", "x").values
     x, outputs = pulse["x"].values, pulse["time"].values
@@ -39,7 +39,7 @@ def between(pulse, name: str, times, places) -> numpy.ndarray:
         before, after = anchors(pulse, row)
         now = (1 - share) * before + share * after
         first, second = (numpy.interp(numpy.interp(places, now, then), x, field[row + side]) for side, then in enumerate((before, after)))
-        if len(before) == 4 and before[1] == before[2]:  # both fronts start in one place: between them there is no earlier field
+        if len(before) == 4 and before[1] == before[2]:  # both fronts start at the same x, so there is no earlier field between them
             first = numpy.where((places > now[1]) & (places < now[2]), second, first)
         mixed = (1 - share) * first + share * second
         values[i] = numpy.where(numpy.isfinite(mixed), mixed, first if share < 0.5 else second)

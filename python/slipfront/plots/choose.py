@@ -1,8 +1,8 @@
-"""Which pictures a Dataset affords."""
+"""Chooses the pictures that can be drawn of a Dataset."""
 
 import importlib
 
-#: Kind of picture -> (function of this package, dimensions and variables that a Dataset must have).
+#: For each kind of picture: the function of this package, and the dimensions and variables that a Dataset must have.
 KINDS = {
     "comparison": ("comparison", {"level", "time", "x", "slip_at_origin", "name"}),
     "space-time": ("space_time", {"time", "x", "x_bounds"}),
@@ -14,7 +14,8 @@ KINDS = {
 
 
 def kinds_of(dataset) -> list:
-    """Kinds of picture that the Dataset has all variables for, the most telling first. A comparison is drawn as such alone."""
+    """Returns the kinds of picture for which the Dataset has all variables, the most informative first. A comparison has
+    only the first kind."""
     there = set(dataset.variables) | set(dataset.dims)
     kinds = [kind for kind, (_, wanted) in KINDS.items() if wanted <= there]
     if {"draw", "draw_rupture_velocity"} <= there and dataset.sizes["event"] == 1:
@@ -25,14 +26,14 @@ def kinds_of(dataset) -> list:
 
 
 def draw(dataset, kind: str):
-    """The picture of a kind in kinds_of(dataset), as a Figure."""
+    """Draws a picture of a kind in kinds_of(dataset). Returns a Figure."""
     function = KINDS[kind][0]
     drawing = getattr(importlib.import_module(f".{function}", __package__), function)
     return drawing(dataset, line_through(dataset)) if kind == "events" else drawing(dataset)
 
 
 def line_through(events):
-    """The closed form from a tenth of the slowest event to close above the fastest."""
+    """Returns the closed form for rupture velocities from a tenth of the slowest event's to just above the fastest event's."""
     import numpy
 
     from .. import relations

@@ -1,4 +1,4 @@
-"""Corner plots of samples: every quantity alone, and every pair."""
+"""Draws corner plots of samples: a histogram of every quantity, and one of every pair."""
 
 import numpy
 import xarray
@@ -7,32 +7,33 @@ from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 
 from .style import label, plain, styled, unit
 
-#: Which draws of an event state the fault, in the order of the plot.
+#: Quantities that describe the state of the fault, in the order of the plot.
 STATES = ("stress", "contact_ratio", "stress_pa", "damping_number", "friction_coefficient")
 
 
 def levels_of(counts, shares=(0.9, 0.5)) -> list:
-    """Counts of a histogram above which lie these shares of all samples (largest share first), strictly increasing."""
+    """Returns the levels of a histogram. The bins with counts at or above a level hold one of the shares of all samples. Equal levels
+    are merged, and the result ascends."""
     ordered = numpy.sort(counts.ravel())[::-1]
     held = numpy.cumsum(ordered) / ordered.sum()
     return sorted({float(ordered[min(numpy.searchsorted(held, share), ordered.size - 1)]) for share in shares})
 
 
 def scale_of(values) -> str:
-    """Axis of a quantity: logarithmic where it is positive and spreads over a factor of 30 or more."""
+    """Returns the scale of a quantity's axis: "log" if all values are positive and the largest is more than 30 times the smallest."""
     return "log" if values.min() > 0 and values.max() > 30 * values.min() else "linear"
 
 
 def bins_of(values, count):
-    """Edges of the bins of a quantity, even on its axis."""
+    """Returns the edges of a quantity's bins. The bins are equally wide on its axis."""
     ends = values.min(), values.max()
     return numpy.geomspace(*ends, count + 1) if scale_of(values) == "log" else numpy.linspace(*ends, count + 1)
 
 
 def drawn(dataset):
-    """The draws of the one event of a file that `slipfront event --draws` wrote, as samples: what states the fault, where it varies.
+    """Returns as samples the draws of an event, from a file that `slipfront event --draws` wrote.
 
-    Raises ValueError where the file holds draws of several events.
+    The samples have those quantities of STATES that vary. Raises ValueError unless the file holds draws of exactly one event.
     """
     with_draws = [i for i in range(dataset.sizes["event"]) if bool(dataset["draw_rupture_velocity"][i].notnull().any())]
     if len(with_draws) != 1:
@@ -43,12 +44,12 @@ def drawn(dataset):
 
 
 def in_megapascal(variable):
-    """A stress in Pa in MPa; any other quantity as it is."""
+    """Converts a stress from Pa to MPa. Returns any other quantity unchanged."""
     return (variable / 1e6).assign_attrs(units="MPa").rename(variable.name) if unit(variable) == "Pa" else variable
 
 
 def smoothed(counts):
-    """Counts of a histogram averaged with their neighbours (weights 1, 2, 1 each way), so that lines through them are no lace."""
+    """Returns the counts of a histogram, averaged with their neighbours (weights 1, 2, 1 in both directions) for smooth contour lines."""
     for axis in (0, 1):
         padded = numpy.pad(counts, [(1, 1) if a == axis else (0, 0) for a in (0, 1)], mode="edge")
         n = counts.shape[axis]
@@ -57,7 +58,7 @@ def smoothed(counts):
 
 
 def alone(axes, values, edges, name) -> None:
-    """The histogram of one quantity, with its median and 5-95 % as lines and above."""
+    """Draws the histogram of one quantity. Lines and the title give its median and the interval from 5 % to 95 %."""
     axes.hist(values, edges, color="C0", alpha=0.6)
     low, middle, high = numpy.percentile(values, (5, 50, 95))
     for value, line in ((low, ":"), (middle, "-"), (high, ":")):
@@ -67,7 +68,10 @@ def alone(axes, values, edges, name) -> None:
 
 
 def pair(axes, across, up) -> None:
-    """The density of a pair of quantities with the regions that hold half and nine tenths of it. across, up: (values, edges)."""
+    """Draws the density of a pair of quantities and the contours that enclose 50 % and 90 % of the samples.
+
+    across, up: (values, edges of the bins) of the quantity on the horizontal and on the vertical axis.
+    """
     counts, *edges = numpy.histogram2d(across[0], up[0], (across[1], up[1]))
     axes.pcolormesh(*edges, counts.T, cmap="Blues", rasterized=True)
     counts = smoothed(counts)
@@ -76,7 +80,7 @@ def pair(axes, across, up) -> None:
 
 
 def ticks(axis, scale) -> None:
-    """Few numbers on an axis, so that they do not run into each other."""
+    """Reduces the number of labels on an axis, so that they do not overlap."""
     if scale == "linear":
         axis.set_major_locator(MaxNLocator(4))
     else:
@@ -86,21 +90,28 @@ def ticks(axis, scale) -> None:
 
 @styled
 def corner(samples, names=None, bins: int = 30) -> Figure:
-    """Histograms of each quantity with median and the interval from 5 % to 95 %, and of each pair with the regions that hold 50 % and 90 %.
+    """Draws a corner plot of samples.
+
+    The histogram of each quantity shows its median and the interval from 5 % to 95 %. That of each pair of quantities shows the regions that
+    hold 50 % and 90 % of the samples.
 
     Parameters
     ----------
     samples : xarray.Dataset
-        Variables over one common dimension (more are taken as one), 20 samples or more; or the draws of one event (`slipfront event --draws`).
-        Samples not finite in all variables chosen are left out.
+        Variables that have their dimensions in common, with 20 samples or more; or the draws of one event, which
+        `slipfront event --draws` wrote. Samples in which one of the variables is not finite are left out.
     names : sequence of str, optional
-        Which variables, in which order; default all that are numbers.
-    bins : int
-        Of each histogram.
+        The variables to draw, in this order. By default all that are numbers.
+    bins : int, optional
+        Number of bins of each histogram.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
 
     Raises
     ------
-    ValueError where too few samples are left or a quantity has but one value.
+    ValueError if there are fewer than 20 finite samples, or if a quantity has the same value in all of them.
     """
     title = f"{plain(samples['name'].values.ravel()[0])}, posterior\n" if "draw" in samples.dims and "name" in samples else ""
     samples = drawn(samples) if "draw" in samples.dims else samples
@@ -121,7 +132,8 @@ def corner(samples, names=None, bins: int = 30) -> Figure:
 
 
 def fill(panels, table, labels, bins) -> None:
-    """Draws all panels. table: samples by quantity; labels: name and unit of each, on the outer axes and over each histogram."""
+    """Draws all panels. table: array of quantities x samples. labels: name and unit of each quantity, for the outer axes and above
+    each histogram."""
     edges = [bins_of(values, bins) for values in table]
     for (row, column), axes in numpy.ndenumerate(panels):
         if column > row:

@@ -1,4 +1,4 @@
-"""Profiles of fields along the interface at several times."""
+"""Draws profiles of fields along the interface at several times."""
 
 import numpy
 from matplotlib.figure import Figure
@@ -8,23 +8,27 @@ from .style import label, styled, unit
 
 
 def room(lowest, highest, below) -> tuple:
-    """Limits of an axis around a range of values, with room below (a share of the range) and a little above."""
+    """Returns the limits of an axis for a range of values. The space below is a share `below` of the range, the space above 6 %."""
     height = highest - lowest or abs(highest) or 1
     return lowest - below * height, highest + 0.06 * height
 
 
 @styled
 def profiles(pulse, fields=("W", "Sigma", "slip"), times: int = 5) -> Figure:
-    """Profiles of fields at several times, one panel a field.
+    """Draws profiles of fields along the interface at several times, with one panel for each field.
 
     Parameters
     ----------
     pulse : xarray.Dataset
-        Over time and x: what `slipfront.pulse` and `slipfront.chain` give.
-    fields : sequence of str
-        Variables over time and x; those that are not in it are left out.
-    times : int
-        How many, spread evenly over the outputs, the first and the last among them.
+        Result of `slipfront.pulse` or `slipfront.chain`, with the dimensions time and x.
+    fields : sequence of str, optional
+        Variables that depend on time and x. Those that the Dataset does not have are left out.
+    times : int, optional
+        Number of output times to draw. They are spread evenly and include the first and the last.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
     """
     pulse = finite(pulse)
     fields = [name for name in fields if name in pulse]

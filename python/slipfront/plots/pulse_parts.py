@@ -1,4 +1,4 @@
-"""What the pictures of a pulse share: its title, the stretch to show, the lines of its fronts."""
+"""Common parts of the pictures of a pulse: its title, the range of x to show, the lines of its fronts."""
 
 import numpy
 import matplotlib
@@ -6,7 +6,7 @@ from matplotlib.patheffects import withStroke
 
 from .style import plain
 
-#: The fronts of a file, with the lines, names and symbols that they get.
+#: The fronts of a file, each with its line style, name and symbol.
 FRONTS = {
     "trailing_front": ("-", "trailing edge, fast (V−)", "V−"),
     "leading_front": ("--", "leading edge, slow (V+)", "V+"),
@@ -14,27 +14,28 @@ FRONTS = {
     "leading_front_observed": (":", None, None),
 }
 
-#: A value this many times larger than any other is taken for a bad cell, which sets no scale.
+#: A value that is more than this many times larger than any other is taken for a bad cell and ignored in the limits of axes.
 OUTLIER = 4
 
 
 def title_of(dataset) -> str:
-    """Title of the scenario that a Dataset holds, and which closure, where the scenario says so."""
+    """Returns the title of the scenario of a Dataset, without characters that a picture cannot show."""
     return plain(dataset.attrs.get("title", ""))
 
 
 def finite(dataset):
-    """The Dataset with NaN for what is infinite: no axis reaches so far."""
+    """Returns the Dataset with NaN for each infinite value, because no axis can show it."""
     return dataset.map(lambda values: values.where(abs(values) < numpy.inf) if values.dtype.kind == "f" else values, keep_attrs=True)
 
 
 def fronts_of(dataset) -> list:
-    """(variable, line, name, symbol) of the fronts that are there at some time."""
+    """Returns (variable, line style, name, symbol) of each front that exists at some time."""
     return [(dataset[front], *look) for front, look in FRONTS.items() if front in dataset and bool(dataset[front].notnull().any())]
 
 
 def extent(values) -> tuple[float, float]:
-    """The least and the largest finite value, without a single bad cell: one that is OUTLIER times larger than every other. (0, 0) of none."""
+    """Returns the smallest and the largest finite value, or (0, 0) if there is none. A single value that is more than OUTLIER times larger
+    than all others is ignored."""
     values = values[numpy.isfinite(values)]
     magnitudes = numpy.sort(numpy.abs(values))
     if magnitudes.size > 1 and magnitudes[-1] > OUTLIER * magnitudes[-2] > 0:
@@ -43,13 +44,14 @@ def extent(values) -> tuple[float, float]:
 
 
 def backward(dataset, name) -> str:
-    """What a picture says of a slip or slip velocity that goes below zero by more than the ripples of a chain; else empty."""
+    """Returns the remark of a picture on backward slip: a slip or slip velocity below -2 % of its maximum, which is more than the ripples of
+    a chain. Otherwise returns an empty text."""
     lowest, highest = extent(dataset[name].values)
     return "below 0: slips backward, where stress rises with x" if name in ("slip", "W") and lowest < -0.02 * highest else ""
 
 
 def window(dataset) -> tuple:
-    """The stretch of x to show: what the fronts cross and a fifth more on either side, within the domain."""
+    """Returns the range of x to show: the range that the fronts cross, and a fifth of it more on either side, within the domain."""
     ends = dataset["x_bounds"].values if "x_bounds" in dataset else dataset["x"].values
     reached = [float(extreme) for front, *_ in fronts_of(dataset) for extreme in (front.min(), front.max())]
     left, right = float(ends.min()), float(ends.max())
@@ -60,12 +62,12 @@ def window(dataset) -> tuple:
 
 
 def shades(count: int) -> list:
-    """Colours of a sequence (times, scales) from light to dark; told apart in grey too."""
+    """Returns the colours of a sequence (times, scales), from light to dark. They also differ in grey."""
     return [matplotlib.colormaps["viridis_r"](share) for share in numpy.linspace(0.1, 1, count)]
 
 
 def mark_fronts(axes, pulse) -> None:
-    """Marks where the fronts are at the last time, at the foot of a panel."""
+    """Marks the positions of the fronts at the last time, at the bottom of a panel."""
     for front, _, _, symbol in fronts_of(pulse):
         if symbol and numpy.isfinite(front[-1]):
             side = 1 if symbol == "V+" else -1

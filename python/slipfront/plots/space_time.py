@@ -1,4 +1,4 @@
-"""Maps of fields over space and time."""
+"""Draws maps of fields over position and time."""
 
 import numpy
 from matplotlib.figure import Figure
@@ -9,12 +9,13 @@ from .between import between
 from .pulse_parts import backward, extent, finite, fronts_of, title_of, window
 from .style import label, styled
 
-#: Points of a map across and upwards.
+#: Number of points of a map, along x and along time.
 POINTS = (600, 400)
 
 
 def colours(values) -> dict:
-    """Colours of a map: white at zero where the field goes both ways, the style sheet's from its least value where it goes one."""
+    """Returns the colours of a map. A field of both signs has white at zero. Other fields have the colours of the style sheet, from zero
+    or from their smallest value."""
     lowest, highest = extent(values)
     largest = max(-lowest, highest)
     if lowest < -0.05 * largest:
@@ -23,7 +24,8 @@ def colours(values) -> dict:
 
 
 def name_fronts(axes, pulse) -> None:
-    """Draws the fronts of a pulse as lines and writes their symbols beside those that have one, where the line is most often inside the window."""
+    """Draws the fronts of a pulse as lines, with their symbols next to them. The symbol is at a late time of the front, where
+    the line is usually inside the window."""
     for front, line, text, symbol in fronts_of(pulse):
         axes.plot(front, pulse["time"], color="C6", linestyle=line, label=text, linewidth=1.3)
         inside = numpy.flatnonzero(front.notnull().values & (pulse["time"].values > 0))
@@ -37,21 +39,27 @@ def name_fronts(axes, pulse) -> None:
 
 @styled
 def space_time(pulse, fields=("W", "Sigma")) -> Figure:
-    """Maps of fields over position (across) and time (upwards), with the lines of the fronts. Cells that are not finite are grey.
+    """Draws maps of fields over position (horizontal) and time (vertical), with the lines of the fronts.
+
+    Cells that are not finite are grey.
 
     Parameters
     ----------
     pulse : xarray.Dataset
-        Over time (two or more) and x, with x_bounds: what `slipfront.pulse` and `slipfront.chain` give.
-    fields : sequence of str
-        Variables over time and x; those that are not in it are left out.
+        Result of `slipfront.pulse` or `slipfront.chain` with two or more output times. It has the dimensions time and x, and x_bounds.
+    fields : sequence of str, optional
+        Variables that depend on time and x. Those that the Dataset does not have are left out.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
     """
     pulse = finite(pulse)
     fields = [name for name in fields if name in pulse]
     figure = Figure(figsize=(3.7 * len(fields), 4.2))
     panels = figure.subplots(1, len(fields), sharey=True, squeeze=False)[0]
     (left, right), outputs = window(pulse), pulse["time"].values
-    # Corners of the map's points; values belong to their middles.
+    # These are the edges of the map's points. The values are computed at their centres.
     across, up = numpy.linspace(left, right, POINTS[0] + 1), numpy.linspace(outputs[0], outputs[-1], POINTS[1] + 1)
     for axes, name in zip(panels, fields):
         scale = colours(pulse[name].values)

@@ -1,4 +1,4 @@
-"""The look that all pictures share, and the labels of their axes."""
+"""Style of all pictures, and the labels of their axes."""
 
 import functools
 import io
@@ -13,7 +13,7 @@ from .._slipfront import event_quantities, printable
 
 SHEET = pathlib.Path(__file__).resolve().parent.parent / "slipfront.mplstyle"
 
-#: Short names of quantities on axes; any other has its long_name. Symbols: docs/NOTATION.md.
+#: Short names of quantities for axes. Other quantities have their long_name. docs/NOTATION.md lists the symbols.
 NAMES = {
     "x": "position x",
     "time": "time t",
@@ -35,7 +35,7 @@ NAMES = {
     "friction_coefficient": "friction coefficient C",
 }
 
-#: Units of quantities whose variable does not say (rows of CSV files).
+#: Units of quantities whose variable has none, as in CSV files.
 UNITS = {
     "stress_at_origin": "mu A / pi",
     "leading_velocity": "c",
@@ -43,7 +43,7 @@ UNITS = {
     "stress_pa": "Pa",
 }
 
-# Those of events are declared with the quantities (src/inference/quantities.cpp).
+# src/inference/quantities.cpp declares the names and units of events.
 for _name, _unit, _label in event_quantities():
     if _label:
         NAMES[_name] = _label
@@ -52,7 +52,7 @@ for _name, _unit, _label in event_quantities():
 
 
 def styled(draw):
-    """Makes a function that returns a Figure draw it with the style sheet."""
+    """Decorator of a function that draws a Figure. It applies the style sheet."""
 
     @functools.wraps(draw)
     def drawn(*arguments, **options):
@@ -63,10 +63,22 @@ def styled(draw):
 
 
 def save(figure: Figure, path, **options) -> None:
-    """Writes a picture; its format is the name's ending. The file is whole or not there.
+    """Writes a picture to a file. The file is written completely, or not at all.
 
-    It is drawn in a fork of this process, because matplotlib and NumPy crash where memory ends.
-    Raises FileError where it cannot be drawn or written, ValueError for an ending that matplotlib does not write.
+    The picture is drawn in a fork of this process, because matplotlib and NumPy can crash when memory runs out.
+
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+        The picture.
+    path : path
+        Name of the file. Its ending chooses the format, such as .png, .svg or .pdf.
+    options
+        Further options of `Figure.savefig`.
+
+    Raises
+    ------
+    FileError if the picture cannot be drawn or written; ValueError if matplotlib does not write files with this ending.
     """
     kind, formats = pathlib.Path(path).suffix.lower().lstrip("."), figure.canvas.get_supported_filetypes()
     if kind not in formats:
@@ -74,7 +86,7 @@ def save(figure: Figure, path, **options) -> None:
 
     def drawn():
         picture = io.BytesIO()
-        # matplotlib 3.6 lays a figure out anew while it saves, by these settings, if it has no layout of its own.
+        # matplotlib 3.6 would change the layout of a figure that has no layout engine while it saves the figure.
         with matplotlib.rc_context(fname=SHEET), matplotlib.rc_context({"figure.constrained_layout.use": False}):
             figure.savefig(picture, format=kind, metadata={"Date": None} if kind == "svg" else None, **options)
         return picture.getvalue()
@@ -83,12 +95,12 @@ def save(figure: Figure, path, **options) -> None:
 
 
 def plain(text) -> str:
-    """Text of a file or a user as it may stand in a picture: no control characters, and no mathematics between dollars."""
+    """Returns a text of a file or a user as a picture can show it: without control characters, and with $ as an ordinary character."""
     return printable(str(text).encode("utf-8", "replace")).replace("$", r"\$")
 
 
 def unit(variable) -> str:
-    """The unit of a DataArray, as it is printed on an axis; empty for a pure number."""
+    """Returns the unit of a DataArray as an axis shows it. It is empty for a pure number."""
     si = variable.attrs.get("units", "")
     text = plain(variable.attrs.get("dimensional_unit") or (si if si != "1" else "") or UNITS.get(variable.name, ""))
     for written, printed in ((" ", ""), ("mu", "μ"), ("nu", "ν"), ("pi", "π"), ("^2", "²")):
@@ -97,12 +109,13 @@ def unit(variable) -> str:
 
 
 def label(variable, name: str = "") -> str:
-    """Name (the quantity's own unless given) and unit of a DataArray."""
+    """Returns the label of a DataArray: `name`, by default that of the quantity, and the unit."""
     name = name or NAMES.get(variable.name) or plain(variable.attrs.get("long_name") or str(variable.name).replace("_", " "))
     return f"{name}, {unit(variable)}" if unit(variable) else name
 
 
 def plain_numbers(axis) -> None:
-    """Numbers such as 0.1 and 100 in place of powers of ten on a logarithmic axis; between the decades only where few of these are seen."""
+    """Labels a logarithmic axis with numbers such as 0.1 and 100 instead of powers of ten. Numbers between the decades have labels only
+    if the axis shows few decades."""
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axis.set_minor_formatter(LogFormatter(labelOnlyBase=False, minor_thresholds=(1.2, 0.5)))

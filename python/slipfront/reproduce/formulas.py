@@ -1,4 +1,4 @@
-"""Formulas that are printed with a slip, and what each form gives."""
+"""Table of the misprinted formulas, with the numbers that the printed and the corrected form give."""
 
 import math
 
@@ -10,18 +10,20 @@ from .numbers import taken
 
 
 def unit_of_force(paper) -> tuple:
-    """Traction of F = 1 in MPa, at the contact ratio that the paper finds for Parkfield without friction."""
+    """Returns the traction of F = 1 in MPa by the printed and by the corrected formula, at the contact ratio that the paper finds for
+    Parkfield without friction."""
     given = taken(paper)
     contact_ratio, modulus, nu = given["parkfield_contact_ratio_0"], 1e9 * given["shear_modulus_gpa"], given["poisson_ratio"]
     return medium.printed_traction_unit(modulus, contact_ratio) / 1e6, medium.traction_unit(modulus, nu, contact_ratio) / 1e6
 
 
 def table(paper) -> list:
-    """Rows: where, printed, mended (formulas), check, by_printed, by_mended (numbers, or None where there is none to give)."""
+    """Returns the rows of the table: where, printed and `mended` (the corrected formula), check, by_printed and by_mended (the numbers that the
+    two give, or None if there is none)."""
     stress = taken(paper)["parkfield_stress"]
     velocity, density = (relation(key, stress=stress) for key in ("dislocation_velocity_at_origin", "stress_at_origin"))
     per_length = density / (2 * math.pi)  # N
-    cn = numpy.array([1.0, -1.0])  # from one side of a dislocation to the other, half a period of cn
+    cn = numpy.array([1.0, -1.0])  # cn on the two sides of a dislocation, half a period apart
     across = -numpy.diff(numpy.arcsin(cn))[0] / (2 * math.pi)
     both = {
         "slip_of_one": (across, 2 * across),

@@ -1,4 +1,4 @@
-"""Every number that the paper prints, computed, and a verdict on each."""
+"""Computes every number that the paper prints, and gives a verdict on each."""
 
 import math
 import pathlib
@@ -12,47 +12,47 @@ from .derived import relation
 
 PAPER = pathlib.Path(__file__).with_name("paper.toml")
 
-#: C of the paper's figures, by which its numbers are named.
+#: Friction coefficients C of the paper's figures. The names of its numbers contain them.
 FRICTION = (0.1, 0.5, 2.0)
 
-#: The slowest rupture that the paper names, in c: where its range of velocities begins.
+#: Velocity of the slowest rupture in the paper, in c. The paper's range of velocities begins here.
 SLOWEST = 1e-7
 
 
 def printed() -> dict:
-    """paper.toml: the paper's inputs, numbers and formulas as printed."""
+    """Returns the content of paper.toml: the paper's inputs, numbers and formulas as printed."""
     return tomllib.loads(PAPER.read_text(encoding="utf-8"))
 
 
 def texts(paper) -> dict:
-    """key -> digits printed, of inputs and numbers. The Σ− of the stresses in MPa is that of Fig. 5."""
+    """Returns {key: printed digits} of the inputs and numbers. The Σ− of the stresses in MPa is that of Fig. 5."""
     found = {row["key"]: row["printed"] for row in paper["input"] + paper["number"] if "key" in row}
     return found | {"parkfield_stress_used": found["parkfield_stress"]}
 
 
 def taken(paper) -> dict:
-    """The same as numbers, where they are plain numbers."""
+    """Returns {key: value} of those inputs and numbers that are plain numbers."""
     return {key: float(text) for key, text in texts(paper).items() if key not in ("range_of_forces", "time")}
 
 
 def event(name, key) -> float:
-    """A quantity of the one event in a case file."""
+    """Returns a quantity of the event in a case file."""
     return float(slipfront.event(str(slipfront.cases / name))[key].values.ravel()[0])
 
 
 def orders(key, stress) -> float:
-    """Orders of magnitude of a velocity over the decade of stress that begins at `stress`."""
+    """Returns the orders of magnitude by which a velocity changes over the decade of stress that begins at `stress`."""
     return math.log10(relation(key, stress=10 * stress) / relation(key, stress=stress))
 
 
 def peak_stress(stress=1e-1) -> float:
-    """Greatest stress of one dislocation of a train at rest whose neighbours are far (Eq. 4)."""
+    """Returns the largest stress of one dislocation in a train at rest whose dislocations are far apart (Eq. 4)."""
     psi = float(slipfront.train.psi_at_rest(stress))
     return float(slipfront.train.fields(0.0, psi, [0.0])["sigma"].max())
 
 
 def closed_forms(paper) -> dict:
-    """Numbers that need no friction. Readings take the place on the axis that the paper names."""
+    """Returns the numbers without friction. A number that the paper reads off a figure is computed from the value on the other axis that the paper prints."""
     given = taken(paper)
     decade = relation("stress", rupture_velocity=SLOWEST)
     parkfield = event("parkfield-2004.toml", "rupture_velocity")
@@ -73,7 +73,7 @@ def closed_forms(paper) -> dict:
 
 
 def figure_8(factors, width) -> dict:
-    """Factors of Fig. 8 at the nearest width, and what its range of widths gives. factors: of widths.py."""
+    """Returns the factors of Fig. 8 at the best width, and those at the ends of the range of widths. factors: from widths.py."""
     by_width = factors["factor"].sel(closure="paper")
     strongest = by_width.sel(coefficient=FRICTION[-1])
     values = {f"fig_8_factor_{c}": float(by_width.sel(coefficient=c, width=width)) for c in FRICTION[1:]}
@@ -82,12 +82,15 @@ def figure_8(factors, width) -> dict:
 
 
 def list_of(values) -> str:
-    """Three ratios in a remark."""
+    """Returns several ratios as a text for a remark."""
     return ", ".join(f"{float(value):.3f}" for value in values)
 
 
 def figure_10(ratio, curves, without) -> dict:
-    """What is read off Fig. 10, with friction. ratio: of ratios.py, curves: of sweeps.ratios, without: W(0) of Parkfield at C = 0."""
+    """Returns the numbers that the paper reads off Fig. 10, with friction.
+
+    ratio: from ratios.py. curves: from sweeps.ratios. without: W(0) of Parkfield at C = 0.
+    """
     at = {"closure": "paper", "friction_coefficient": list(FRICTION)}
     smooth = ratio["smooth"].sel(at)
     values = {f"parkfield_slip_velocity_{c}": without * float(smooth.sel(friction_coefficient=c)) for c in FRICTION}
@@ -99,28 +102,28 @@ def figure_10(ratio, curves, without) -> dict:
 
 
 def read_friction(stress, ratio, closure="paper") -> float:
-    """C at which a curve of Fig. 10, from a true step, has a ratio: at t = 2π."""
+    """Returns the C at which a curve of Fig. 10 has a given ratio, for a true step and at t = 2π."""
     return float(slipfront.damping_number(stress, ratio, closure=closure)["damping_number"]) / (2 * math.pi)
 
 
 def friction_of_event(share) -> dict:
-    """C at the Σ− of the ETS event for its ratio at t = 2π, with both closures."""
+    """Returns the C of the ETS event at its Σ−, from its ratio `share` at t = 2π, for both closures."""
     return {f"ets_friction_{closure}": read_friction(event("ets.toml", "stress"), share, closure) for closure in ("paper", "consistent")}
 
 
 def computed(paper, factors, width, ratio, curves) -> dict:
-    """key of paper.toml -> value, and the facts that its remarks quote."""
+    """Returns {key of paper.toml: value}, and the values that its remarks quote."""
     values = taken(paper) | closed_forms(paper)
     values |= figure_8(factors, width)
     values |= figure_10(ratio, curves, values["parkfield_slip_velocity"])
     for key, rules in derived.rules().items():
-        if key not in ("ets_slip_velocity",):  # a reading, done above
+        if key not in ("ets_slip_velocity",):  # closed_forms has computed it as a reading
             values[key] = derived.apply(rules[0], values)
     return values | friction_of_event(values["ets_share"])
 
 
 def by_printed(key, paper) -> list:
-    """(value, remark) of each way that leads from printed numbers to this one."""
+    """Returns (value, remark) of each rule that gives this number from other printed numbers."""
     given, digits = taken(paper), texts(paper)
     found = []
     for rule in derived.rules().get(key, ()):
@@ -130,8 +133,8 @@ def by_printed(key, paper) -> list:
 
 
 def row_of(number, value, paper, facts) -> dict:
-    """A row of the table: what, where, unit, printed (text), computed, printed_digits (the computed value rounded as the printed one),
-    difference (relative), verdict, remark."""
+    """Returns a row of the table: what, where, unit, printed (text), computed, printed_digits (the computed value rounded like the printed
+    one), difference (relative), verdict, remark."""
     how = verdicts.Printed(number["printed"], number.get("bound", ""), tuple(number.get("axis", ())), number.get("log", False))
     ways = by_printed(number["key"], paper)
     verdict = verdicts.verdict(value, how, [other for other, _ in ways])
@@ -144,10 +147,10 @@ def row_of(number, value, paper, facts) -> dict:
 
 
 def table(paper, values) -> list:
-    """The rows of all numbers."""
+    """Returns the rows of all numbers."""
     return [row_of(number, values[number["key"]], paper, values) for number in paper["number"]]
 
 
 def counts(rows) -> dict:
-    """Verdict -> number of rows."""
+    """Returns {verdict: number of rows}."""
     return {verdict: sum(row["verdict"] == verdict for row in rows) for verdict in (verdicts.SAME, verdicts.FOLLOWS, verdicts.READING, verdicts.WRONG)}

@@ -1,4 +1,4 @@
-"""The folder of a reproduction: pictures, their data, the table of numbers."""
+"""Writes the folder of a reproduction: pictures, their data, the tables."""
 
 import contextlib
 import csv
@@ -15,7 +15,7 @@ from ..plots.style import save
 
 @contextlib.contextmanager
 def locked(folder):
-    """Holds the lock of a folder; yields whether it was free."""
+    """Context manager that locks a folder. It yields whether the lock was free."""
     descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW)
     try:
         try:
@@ -26,13 +26,16 @@ def locked(folder):
         yield free
     finally:
         with contextlib.suppress(OSError):
-            fcntl.flock(descriptor, fcntl.LOCK_UN)  # a process that was started meanwhile has the descriptor too
+            fcntl.flock(descriptor, fcntl.LOCK_UN)  # a process that was forked in the meantime also has the descriptor
         os.close(descriptor)
 
 
 def tidy(path):
-    """What a killed reproduction left beside `path`: an earlier one that it had moved away comes back, all else goes. What a
-    living process writes is locked and stays."""
+    """Cleans up after a reproduction that was killed while it wrote `path`.
+
+    An earlier reproduction that it had moved away is restored, and its other folders are removed. Folders that a running process
+    writes are locked and are not touched.
+    """
     if not path.parent.is_dir():
         return
     for kind in ("old", "new"):
@@ -50,21 +53,22 @@ def tidy(path):
 
 @contextlib.contextmanager
 def whole_folder(path):
-    """A folder beside `path` to write into, that takes its place when all is done; whatever fails leaves nothing, and an earlier one as it was.
+    """Context manager that yields a temporary folder next to `path`, which replaces `path` at the end.
 
-    Raises ValueError where something stands there that is no earlier reproduction, OSError where it cannot be written.
+    After an error nothing remains of the temporary folder, and an earlier reproduction is unchanged. Raises ValueError if `path` exists and is
+    neither an earlier reproduction nor an empty folder, OSError if it cannot be written.
     """
     path = pathlib.Path(os.path.abspath(path))
     with told_of(path):
         tidy(path)
     if path.exists() and not (path / "report.html").is_file() and (not path.is_dir() or any(path.iterdir())):
-        raise ValueError(f"-o {path}: something else is there; allowed: a new name, an empty folder or an earlier reproduction")
+        raise ValueError(f"-o {path}: exists and is not a reproduction; allowed: a new name, an empty folder or an earlier reproduction")
     beside, old = (path.with_name(f".{path.name}.{kind}-{os.getpid()}") for kind in ("new", "old"))
 
     def undo():
         if old.exists() and not path.exists():
             old.rename(path)
-        for folder in (beside, old, old):  # once more, where something failed on the way
+        for folder in (beside, old, old):  # a second time, in case rmtree failed
             with contextlib.suppress(OSError):
                 shutil.rmtree(folder, ignore_errors=True)
 
@@ -85,7 +89,7 @@ def whole_folder(path):
 
 
 def write_picture(folder, picture) -> None:
-    """A picture as SVG and PNG, its data as NetCDF and CSV. What has several dimensions has one row for each combination."""
+    """Writes a picture as SVG and PNG, and its data as NetCDF and CSV. The CSV has one row for each combination of the coordinates."""
     for ending in ("svg", "png"):
         save(picture.figure, folder / f"{picture.name}.{ending}")
     write_dataset(picture.data, folder / f"{picture.name}.nc")
@@ -93,7 +97,7 @@ def write_picture(folder, picture) -> None:
 
 
 def write_rows(path, rows) -> None:
-    """A table as CSV."""
+    """Writes a table as CSV."""
     file = io.StringIO(newline="")
     writer = csv.DictWriter(file, rows[0].keys())
     writer.writeheader()

@@ -1,4 +1,4 @@
-"""What a figure of the reproduction is."""
+"""A figure of the reproduction, with its caption and its data."""
 
 import dataclasses
 import functools
@@ -13,24 +13,24 @@ CAPTIONS = pathlib.Path(__file__).with_name("captions.toml")
 
 @dataclasses.dataclass
 class Picture:
-    """A figure, what it says, and the numbers drawn in it."""
+    """A figure, its texts, and the numbers drawn in it."""
 
-    name: str  #: of its files, without ending, and in captions.toml
+    name: str  #: name of its files without the ending, and its key in captions.toml
     title: str
     caption: str
     figure: Figure
     data: xarray.Dataset
-    command: str = ""  #: what computes it again
-    printed: list = dataclasses.field(default_factory=list)  #: (what, printed, computed) that the paper reads off it
+    command: str = ""  #: command that computes the data again
+    printed: list = dataclasses.field(default_factory=list)  #: (quantity, printed, computed) of each value that the paper reads off the figure
 
 
 @functools.cache
 def captions() -> dict:
-    """Name of a picture -> {"title", "text", "command"}, with braces in the text where facts go."""
+    """Returns {name of a picture: {"title", "text", "command"}}. Names in braces in the texts are replaced by values of the run."""
     return tomllib.loads(CAPTIONS.read_text(encoding="utf-8"))
 
 
 def picture(name, figure, data, printed=(), **facts) -> Picture:
-    """A figure with its words. printed: what the paper reads off it. facts: what the words quote."""
+    """Returns a figure with its texts. printed: values that the paper reads off it. facts: values that the texts quote."""
     words = captions()[name]
     return Picture(name, words["title"].format(**facts), words["text"].format(**facts), figure, data, words["command"].format(**facts), list(printed))

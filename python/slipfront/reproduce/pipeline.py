@@ -1,4 +1,4 @@
-"""All of the reproduction, in order."""
+"""Runs the steps of the reproduction in order."""
 
 from typing import Any
 
@@ -10,7 +10,7 @@ from .runs import Runs
 
 
 def pictures_of(runs, paper, found) -> list:
-    """Every figure. found: what `computed` has gathered on the way."""
+    """Returns all figures. found: the result of `computed`."""
     values, given = found["values"], numbers.taken(paper)
     factors = {c: given[f"fig_8_factor_{c}"] for c in numbers.FRICTION[1:]}
     return [schematics.contact(), schematics.sliding(), schematics.initial(runs), closed_form.ratio(values), closed_form.rupture(values, given),
@@ -19,7 +19,7 @@ def pictures_of(runs, paper, found) -> list:
 
 
 def computed(runs, paper) -> dict:
-    """What tables and figures share: values of the numbers, sweeps, the nearest widths."""
+    """Returns the results that both tables and figures use: values of the numbers, sweeps, and the best widths of the profile."""
     given = numbers.taken(paper)
     found: dict[str, Any] = {"factors": widths.factors(runs), "curves": sweeps.ratios(runs), "ratio": ratios.ratios(runs, sweeps.READ), "drops": sweeps.drops(runs)}
     found["width"] = widths.nearest(found["factors"], {c: given[f"fig_8_factor_{c}"] for c in numbers.FRICTION[1:]})
@@ -28,9 +28,9 @@ def computed(runs, paper) -> dict:
 
 
 def reproduce(folder, threads, tell, seconds) -> dict:
-    """Computes all and writes it into a folder that is there. Returns the tables: numbers, formulas, statements, inputs.
+    """Computes everything and writes it into an existing folder. Returns the tables: numbers, formulas, statements, inputs.
 
-    tell: called with a text as the work goes on. seconds: called for the time spent so far.
+    `tell`: function that is called with a text to report progress. `seconds`: function that returns the time spent so far.
     """
     paper = numbers.printed()
     runs = Runs(threads, tell)

@@ -1,4 +1,4 @@
-// The value under the cursor of each figure, and a larger view on a click of its button. Nothing is loaded.
+// Shows the value under the cursor of each figure, and enlarges a figure when its button is clicked. The script loads nothing.
 "use strict";
 (() => {
   const say = document.createElement("div");
@@ -7,14 +7,14 @@
   document.body.append(say);
 
   const short = value => value === null ? "not finite" : Number(value.toPrecision(4)).toString();
-  // Share of an axis -> value, and back.
+  // `at` converts a fraction of an axis to a value, and `shareOf` a value to a fraction.
   const at = (axis, share) => axis.log ? axis.ends[0] * Math.pow(axis.ends[1] / axis.ends[0], share)
                                        : axis.ends[0] + share * (axis.ends[1] - axis.ends[0]);
   const shareOf = (axis, value) => axis.log ? Math.log(value / axis.ends[0]) / Math.log(axis.ends[1] / axis.ends[0])
                                             : (value - axis.ends[0]) / (axis.ends[1] - axis.ends[0]);
   const nearest = (values, wanted) => values.reduce((best, value, i) => Math.abs(value - wanted) < Math.abs(values[best] - wanted) ? i : best, 0);
 
-  // The point of a line nearest to the pointer: [distance in pixels, name, x, y, share across, share up].
+  // Returns the point of a line that is nearest to the pointer: [distance in pixels, name, x, y, fraction of the x axis, of the y axis].
   function closest(axes, across, up, width, height) {
     let best = [Infinity];
     for (const line of axes.lines) {
@@ -40,7 +40,7 @@
     return {text, shares: [across, up]};
   }
 
-  // The point of a surface that is seen nearest to the pointer.
+  // Returns the point of a surface that appears nearest to the pointer, or null if none is near.
   function onSurface(axes, x, y, frame) {
     const {left, top} = axes.surface;
     const distance = i => Math.hypot((left[i] - x) * frame.width, (top[i] - y) * frame.height);
@@ -49,7 +49,7 @@
     return {text: ["x", "y", "z"].map(name => `${axes[name].name}: ${short(axes.surface[name][i])}`).join("\n"), left: left[i], top: top[i]};
   }
 
-  // What a place of flat axes says, and where its mark stands.
+  // Returns the text and the position of the mark for a point of flat axes, or null outside the axes.
   function onPlane(axes, x, y, frame) {
     const [left, top, width, height] = axes.box;
     const across = (x - left) / width, up = 1 - (y - top) / height;

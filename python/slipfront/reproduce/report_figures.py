@@ -1,4 +1,4 @@
-"""A figure of report.html: picture, words, what the paper reads off it beside what is computed, command, data."""
+"""Figures of report.html: picture, caption, the values that the paper reads off it next to the computed ones, command, data."""
 
 import base64
 import html
@@ -7,23 +7,23 @@ import re
 
 from . import report_hover
 
-#: A table of values larger than this stays in its file alone; smaller ones travel in the page.
+#: The page contains tables of values up to this size. Larger tables are only in their files.
 MOST_BYTES = 150_000
 
-#: How verdicts for and against the paper begin; all others are open.
+#: First words of the verdicts for and against the paper. All other verdicts are open.
 VERDICTS = {"good": ("same", "confirmed", "exact"), "bad": ("refuted", "the paper is wrong")}
 
 
 def number(value) -> str:
-    """A computed number, to four digits; a text as it is."""
+    """Formats a computed number with four digits. Returns a text unchanged, and a dash for None."""
     return "–" if value is None or value == "" else value if isinstance(value, str) else f"{value:.4g}"
 
 
 def table(heading, rows, numeric=(), verdict=None, name="") -> str:
-    """An HTML table; on a narrow page each row becomes a card (report.css), so cells carry their heading.
+    """Returns an HTML table. On a narrow page each row becomes a card (report.css), so each cell contains its heading.
 
-    rows: of texts, or (text, command) for a text with a command below. numeric: columns of numbers. verdict: the column of verdicts, coloured as
-    VERDICTS has them. name: the class that gives columns their widths.
+    rows: lists of cells. A cell is a text, or (text, command) for a text with a command below it. numeric: indices of the columns of numbers.
+    verdict: index of the column of verdicts, which is coloured by VERDICTS. name: CSS class that gives the columns their widths.
     """
     head = "".join(f'<th scope="col">{html.escape(text)}</th>' for text in heading)
 
@@ -34,18 +34,18 @@ def table(heading, rows, numeric=(), verdict=None, name="") -> str:
         return f'<td{f" class={kind}" if kind else ""} data-name="{html.escape(heading[i])}">{html.escape(str(content))}{below}</td>'
 
     body = "".join("<tr>" + "".join(cell(i, content) for i, content in enumerate(row)) + "</tr>\n" for row in rows)
-    name = name or ("small" if len(heading) < 4 else "")  # small stays a table on a narrow page
+    name = name or ("small" if len(heading) < 4 else "")  # a table of class small remains a table on a narrow page
     return f"<table{f' class={name}' if name else ''}><thead><tr>{head}</tr></thead>\n<tbody>\n{body}</tbody></table>\n"
 
 
 def heading_of(picture) -> str:
-    """'Fig. 4. Title' for the paper's figures, the title for others."""
+    """Returns the heading: 'Fig. 4. Title' for a figure of the paper, the title for others."""
     number_ = picture.name.replace("fig-0", "Fig. ").replace("fig-", "Fig. ")
     return f"{number_}. {picture.title}" if picture.name.startswith("fig-") else picture.title
 
 
 def inline(svg, name, title) -> str:
-    """An SVG file as an element of the page: names in it begin with the figure's, so that no two figures share one."""
+    """Returns an SVG file as an element of the page. Its ids get the name of the figure as a prefix, so that they are unique."""
     svg = svg[svg.index("<svg") :]
     svg = re.sub(r'\bid="', f'id="{name}-', svg)
     svg = re.sub(r'((?:xlink:)?href="#|url\(#)', rf"\g<1>{name}-", svg)
@@ -54,7 +54,7 @@ def inline(svg, name, title) -> str:
 
 
 def files(folder, picture) -> str:
-    """Where the values are: beside the page, and where they are few in the page itself."""
+    """Returns the note on the files of a figure. A small table of values is also in the page, as a link."""
     csv = folder / f"{picture.name}.csv"
     names = ", ".join(f"{picture.name}.{ending}" for ending in ("nc", "csv", "svg", "png"))
     text = f"In the folder of this page: {names}."
@@ -65,11 +65,11 @@ def files(folder, picture) -> str:
 
 
 def figure(folder, picture) -> str:
-    """A figure of the page. picture: whose SVG is in `folder`."""
+    """Returns a figure of the page. The SVG of `picture` must be in `folder`."""
     title = heading_of(picture)
     svg = (folder / f"{picture.name}.svg").read_text(encoding="utf-8")
     told = json.dumps(report_hover.axes_of(picture.figure, svg), separators=(",", ":"), ensure_ascii=False).replace("</", "<\\/")
-    beside = table(("read off it by the paper", "printed", "computed"), [(what, printed, number(value)) for what, printed, value in picture.printed], (1, 2))
+    beside = table(("value read off by the paper", "printed", "computed"), [(what, printed, number(value)) for what, printed, value in picture.printed], (1, 2))
     return (f'<figure id="{picture.name}"><h3>{html.escape(title)}</h3>\n<button type=button>larger</button>\n'
             f'<div class=wide><div class=picture>{inline(svg, picture.name, title)}</div></div>\n<script type="application/json">{told}</script>\n'
             f"<figcaption><p>{html.escape(picture.caption)}</p>\n{beside if picture.printed else ''}"

@@ -1,4 +1,4 @@
-"""What a drawn figure tells the page's script: where its axes are, and the values drawn in them."""
+"""Collects the data that the script of the page needs for each figure: the positions of its axes, and the values drawn in them."""
 
 import math
 import re
@@ -8,24 +8,24 @@ from matplotlib.collections import QuadMesh
 from mpl_toolkits.mplot3d import proj3d
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
-#: Points of a line, cells of a map across and up, and points of a surface that go into the page.
+#: Largest numbers of points of a line, of cells of a map in each direction, and of points of a surface in the page.
 POINTS = 240
 CELLS = 60
 SURFACE = 1200
 
 
 def rounded(values) -> list:
-    """Numbers to five digits, None for what is not finite."""
+    """Returns numbers rounded to five digits, and None for those that are not finite."""
     return [float(f"{value:.5g}") if math.isfinite(value) else None for value in numpy.ravel(values).astype(float)]
 
 
 def thinned(count: int, most: int) -> numpy.ndarray:
-    """Indices of at most `most` of `count` points, evenly, the first and the last among them."""
+    """Returns at most `most` of the indices 0 ... count - 1, evenly spread and with the first and the last."""
     return numpy.unique(numpy.linspace(0, count - 1, min(count, most)).round().astype(int))
 
 
 def line(drawn) -> dict | None:
-    """Name and points of a line; None for one that shows no data (a rule across the axes, an empty line)."""
+    """Returns the name and the points of a line, or None for a line without data (a rule across the axes, an empty line)."""
     x, y = (numpy.asarray(values, float) for values in drawn.get_data(orig=False))
     if drawn.get_transform() != drawn.axes.transData or x.size < 2:
         return None
@@ -35,7 +35,8 @@ def line(drawn) -> dict | None:
 
 
 def mesh(drawn) -> dict | None:
-    """Values of a map on straight rows and columns, thinned: x and y of the cells' middles, and the values row by row. None for any other map."""
+    """Returns the values of a map, thinned: x and y of the centres of its cells, and the values row by row. Returns None for a map whose rows and
+    columns are not straight."""
     corners, values = drawn.get_coordinates(), drawn.get_array()
     across, up = corners[0, :, 0], corners[:, 0, 1]
     if values is None or not (numpy.allclose(corners[..., 0], across) and numpy.allclose(corners[..., 1], up[:, None])):
@@ -47,8 +48,9 @@ def mesh(drawn) -> dict | None:
 
 
 def surface(drawn, figure) -> dict:
-    """Points of a surface in space: where each is seen, as shares of the figure from its upper left corner, and its three coordinates."""
-    corners = numpy.asarray(drawn._vec)[:3, ::4]  # one of each facet; matplotlib offers no other way to them
+    """Returns points of a surface in space: the position of each in the picture, as fractions of the figure from its upper left corner, and its
+    three coordinates."""
+    corners = numpy.asarray(drawn._vec)[:3, ::4]  # one corner of each facet; matplotlib has no public function for them
     corners = corners[:, thinned(corners.shape[1], SURFACE)]
     flat = drawn.axes.transData.transform(numpy.transpose(proj3d.proj_transform(*corners, drawn.axes.get_proj())[:2]))
     seen = flat / [figure.bbox.width, figure.bbox.height]
@@ -56,7 +58,7 @@ def surface(drawn, figure) -> dict:
 
 
 def in_space(axes, figure) -> list:
-    """The surfaces of axes in space, each as an entry of `axes_of` with "surface" in place of lines and map."""
+    """Returns the surfaces of axes in space. Each is an entry of `axes_of` with "surface" instead of lines and map."""
     names = {name: {"name": plain(getattr(axes, f"get_{name}label")()) or {"z": "value"}.get(name, name)} for name in "xyz"}
     about = axes.get_position()
     return [{"box": rounded([about.x0, 1 - about.y1, about.width, about.height]), **names, "surface": surface(drawn, figure)}
@@ -64,22 +66,23 @@ def in_space(axes, figure) -> list:
 
 
 def plain(text) -> str:
-    """A label without the marks of matplotlib's mathematics."""
+    """Returns a label without the markup of matplotlib's mathematics."""
     return re.sub(r"[${}\\]", "", str(text)).replace("\n", " ")
 
 
 def frames(svg) -> list:
-    """The rectangles of all axes in a figure's SVG: left, top, width, height as shares of the figure, from its upper left corner."""
+    """Returns the rectangles of all axes in the SVG of a figure: left, top, width, height as fractions of the figure, from its upper left
+    corner."""
     wide, high = (float(number) for number in re.findall(r'viewBox="0 0 ([\d.]+) ([\d.]+)"', svg)[0])
     corners = re.findall(r'<g id="axes_\d+">\s*<g id="patch_\d+">\s*<path d="M ([\d.]+) ([\d.]+) \nL ([\d.]+) [\d.]+ \nL [\d.]+ ([\d.]+) ', svg)
     return [(x0 / wide, y0 / high, (x1 - x0) / wide, (y1 - y0) / high) for x0, y1, x1, y0 in (map(float, found) for found in corners)]
 
 
 def axes_of(figure, svg) -> list:
-    """The axes of a figure with what is drawn in them; where flat ones are is read from its SVG, as another format lays them out a little differently.
+    """Returns the axes of a figure with the data drawn in them.
 
-    box: of `frames`. x, y: {"name", "ends", "log"}. lines: of `line`. map: of `mesh`, or None.
-    Surfaces in space are those of `in_space`.
+    Each entry has box (from `frames`), x and y ({"name", "ends", "log"}), lines (from `line`) and map (from `mesh`, or None). `in_space` gives the
+    entries of surfaces in space. The positions of flat axes are read from the SVG, because the layout of other formats differs slightly.
     """
     found, boxes = [], frames(svg)
     for axes in figure.axes:
@@ -100,7 +103,7 @@ def axes_of(figure, svg) -> list:
 
 
 def label_of(axes, name) -> str:
-    """Label of an axis, or that of the axes which share it."""
+    """Returns the label of an axis, or of an axis that is shared with it, or its name."""
     label = getattr(axes, f"get_{name}label")()
     shared = getattr(axes, f"get_shared_{name}_axes")().get_siblings(axes)
     return label or next((text for text in (getattr(other, f"get_{name}label")() for other in shared) if text), name)

@@ -1,4 +1,4 @@
-"""Pulses and chains that the reproduction needs: each is run once, side by side on all cores."""
+"""Runs the pulses and chains of the reproduction. Each is run once, and the runs share all cores."""
 
 import concurrent.futures
 import math
@@ -8,44 +8,44 @@ import slipfront
 CASES = slipfront.cases
 CLOSURES = ("paper", "consistent")
 
-#: Scale of the chains: so many times the dislocations, which takes half a second each.
+#: Scale of the chains, the factor by which they have more dislocations. A run takes half a second.
 SCALE = 400
 
 
 def frozen(case, changes):
-    """The key of a run."""
+    """Returns the key of a run."""
     return case, tuple(sorted(changes.items()))
 
 
 def pulse_of(case, changes):
-    """A run of the pulse solver."""
+    """Runs the pulse solver."""
     return slipfront.pulse(str(CASES / case), set=changes, errors=False)
 
 
 def chain_of(case, changes):
-    """A run that follows every dislocation, on one core."""
+    """Runs the chain, which resolves every dislocation, on one core."""
     return slipfront.chain(str(CASES / case), set={"chain.scale": SCALE} | changes, threads=1)
 
 
 class Runs:
-    """Runs by case file and changes, kept.
+    """Runs scenarios and stores the results by case file and changes.
 
-    threads: how many at the same time. tell: called with a text before each group of runs.
+    `threads`: number of runs at the same time. `tell`: function that is called with a text before each group of runs.
     """
 
     def __init__(self, threads, tell):
         self.threads, self.tell, self.done, self.swept = threads, tell, {}, 0
 
     def pulse(self, case, changes=None):
-        """One run of a file of cases/, with {"table.key": value} changed."""
+        """Runs a scenario of cases/. changes: {"table.key": value}, values that replace those of the scenario."""
         return self.many("", [(case, changes or {})])[0]
 
     def many(self, what, wanted):
-        """Runs of the pulse solver, in the order of `wanted`: (case, changes) each."""
+        """Returns runs of the pulse solver. wanted: a list of (case, changes), which gives their order."""
         return self._each(what, "pulses", pulse_of, wanted)
 
     def chains(self, what, wanted):
-        """Runs of the chain, in the order of `wanted`. Its friction knows no closure."""
+        """Returns runs of the chain, like `many`. The friction of a chain has no closure."""
         return self._each(what, "chains", chain_of, wanted)
 
     def _each(self, what, kind, solve, wanted):
@@ -55,12 +55,13 @@ class Runs:
             workers = concurrent.futures.ThreadPoolExecutor(self.threads)
             try:
                 self.done.update(zip(missing, workers.map(lambda run: solve(*run), missing.values())))
-            finally:  # after an error or an interruption nothing is left to wait for
+            finally:  # after an error or an interruption we do not wait for the other runs
                 workers.shutdown(wait=False, cancel_futures=True)
         return [self.done[(kind, *frozen(*run))] for run in wanted]
 
     def sweep(self, what, case, axes, changes, variables):
-        """Numbers at the end of the runs of a grid, {"table.key": values}. Raises NumericsError if one failed: the paper is reproduced whole."""
+        """Returns numbers at the end of each run of a grid. axes: {"table.key": values}. Raises NumericsError if a run failed, because a
+        reproduction must be complete."""
         self.tell(f"{what}: {math.prod(len(values) for values in axes.values())} pulses")
         data = slipfront.sweep(CASES / case, axes, variables=variables, set=changes, threads=self.threads)
         failures = [text for text in data["failure"].values.ravel() if text]
@@ -71,5 +72,5 @@ class Runs:
 
 
 def at_origin(pulse, name="slip_velocity_at_origin"):
-    """A quantity over time, at the last time."""
+    """Returns the value of a quantity at the last output time."""
     return float(pulse[name][-1])

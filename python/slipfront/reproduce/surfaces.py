@@ -1,4 +1,4 @@
-"""Figs. 7 and 11: slip velocity over x and t, a surface for each state."""
+"""Draws Figs. 7 and 11: slip velocity over x and t, with a surface for each state."""
 
 import numpy
 import xarray
@@ -11,21 +11,21 @@ from .numbers import FRICTION
 from .picture import Picture, picture
 from .runs import CLOSURES
 
-#: Where the surfaces of Figs. 7 and 11 are drawn, in b / A.
+#: Positions x of the surfaces of Figs. 7 and 11, in b / A.
 PLACES = numpy.linspace(-4.5, 2.5, 141)
 WIDER = numpy.linspace(-5.5, 4.5, 141)
 
-#: Sigma+ of Fig. 11; the last one is close to Sigma- = 0.855.
+#: Sigma+ of Fig. 11. The last value is close to Sigma- = 0.855.
 RIGHT = (0.05, 0.427, 0.8)
 
 
 def surface(pulse, places) -> xarray.DataArray:
-    """W of a run over time and places."""
+    """Returns W of a run over time and x. `places`: the positions x."""
     return pulse["W"].interp(x=places).assign_coords(x=("x", places, pulse["x"].attrs))
 
 
 def surfaces(runs, what, case, key, values, places, dimension) -> xarray.Dataset:
-    """W over closure, `dimension`, time and x: a run for each value of the scenario's `key`."""
+    """Returns W over closure, `dimension`, time and x, from a run for each closure and each value of the scenario's `key`."""
     wanted = [(case, {"friction.closure": closure, key: value}) for closure in CLOSURES for value in values]
     found = [surface(run, places) for run in runs.many(what, wanted)]
     rows = [xarray.concat(found[i:i + len(values)], xarray.DataArray(list(values), dims=dimension.dims, name=dimension.name, attrs=dimension.attrs))
@@ -34,7 +34,7 @@ def surfaces(runs, what, case, key, values, places, dimension) -> xarray.Dataset
 
 
 def draw_one(axes, W, top, title):
-    """One surface."""
+    """Draws one surface."""
     x, t = numpy.meshgrid(W["x"].values, W["time"].values)
     axes.plot_surface(x, t, W.values, cmap="viridis", vmin=-0.25 * top, vmax=top, rcount=W.sizes["time"], ccount=W.sizes["x"] // 2, linewidth=0.15, edgecolor=(0, 0, 0, 0.35), rasterized=True)
     axes.set(zlim=(0, top), xlim=(x.min(), x.max()), ylim=(0, 2 * numpy.pi), xticks=[-4, -2, 0, 2], yticks=[0, numpy.pi, 2 * numpy.pi])
@@ -47,12 +47,15 @@ def draw_one(axes, W, top, title):
     axes.zaxis.set_major_locator(MaxNLocator(3, prune="lower"))
     axes.view_init(elev=28, azim=-60)
     axes.set_box_aspect((1.3, 1, 0.9), zoom=0.98)
-    axes.patch.set_visible(False)  # it would hide the numbers of the axes to its left
+    axes.patch.set_visible(False)  # it would cover the numbers of the axes on its left
 
 
 @styled
 def draw(data, dimension, words, one_scale) -> Figure:
-    """Surfaces: a row a closure, a column a value of `dimension`. words: formats a value. one_scale: whether all share the vertical axis."""
+    """Draws the surfaces, with a row for each closure and a column for each value of `dimension`.
+
+    words: function that formats a value. one_scale: whether all surfaces share the vertical axis.
+    """
     values = data[dimension].values
     figure = Figure(figsize=(7.2, 5.6), layout="none")
     for row, closure in enumerate(CLOSURES):
@@ -66,7 +69,7 @@ def draw(data, dimension, words, one_scale) -> Figure:
 
 
 def with_friction(runs) -> Picture:
-    """Fig. 7."""
+    """Draws Fig. 7."""
     axis = xarray.DataArray([0.0], dims="friction_coefficient", name="friction_coefficient", attrs=look.FRICTION)
     data = surfaces(runs, "Fig. 7", "fig-07.toml", "friction.coefficient", FRICTION, PLACES, axis)
     top = data["W"].isel(time=-1).max("x")
@@ -75,7 +78,7 @@ def with_friction(runs) -> Picture:
 
 
 def with_right_stress(runs) -> Picture:
-    """Fig. 11."""
+    """Draws Fig. 11."""
     axis = xarray.DataArray([0.0], dims="stress_right", name="stress_right", attrs=look.STRESS_RIGHT)
     data = surfaces(runs, "Fig. 11", "fig-11.toml", "initial.stress_right", RIGHT, WIDER, axis)
     words = {right: f"Σ+ = {right:g}, drop {100 * (1 - right / 0.855):.0f} %" for right in RIGHT}

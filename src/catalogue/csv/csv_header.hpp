@@ -7,7 +7,7 @@
 
 namespace slipfront::catalogue {
 
-/// What one column of a catalogue holds.
+/// One column of a catalogue: its title and the meaning of its cells.
 struct Column {
   enum class Role {
     ignored,
@@ -23,13 +23,14 @@ struct Column {
     slip_velocity_is
   };
   Role role = Role::ignored;
-  std::string title;         ///< as the header has it
-  const Key* key = nullptr;  ///< of a quantity, a range end or its provenance
-  std::string unit;          ///< default unit of its cells; empty: each cell must carry its own
+  std::string title;         ///< as written in the header
+  const Key* key = nullptr;  ///< the quantity of a value, of an end of a range or of a provenance; else null
+  std::string unit;          ///< default unit of its cells; if empty, each cell must give its own
 };
 
-/// Reads a header cell: `rupture_velocity_km_s`, `rupture_velocity [km/s]`, `rv_min_km_day`, `name`, ... A title that
-/// is no quantity is free text and ignored, unless it nearly is one. \throws InputError (key, problem, allowed).
+/// Reads a header cell, such as `rupture_velocity_km_s`, `rupture_velocity [km/s]`, `rv_min_km_day` or `name`. Other
+/// titles are free text, and their columns are ignored. A title that nearly names a quantity is an error instead.
+/// \throws InputError (key, problem, allowed).
 Column parse_column(const std::string& title);
 
 }  // namespace slipfront::catalogue

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The parts of the .fsp reader, one .cpp each: text, header lines, velocity table, subfault tables. Private to
-/// src/catalogue.
+/// The parts of the .fsp reader: text, header lines, velocity table and subfault tables, with one .cpp file each.
+/// Private to src/catalogue.
 
 #include <cstddef>
 #include <optional>
@@ -13,9 +13,9 @@
 
 namespace slipfront::catalogue::fsp {
 
-// Text (fsp_text.cpp). Every control character counts as a blank; nothing depends on the locale.
+// Text (fsp_text.cpp). Control characters count as blanks. No function depends on the locale.
 
-/// Where the reader stands.
+/// The file and the line that the reader has reached, for error messages.
 struct Place {
   const std::string& file;
   std::size_t line;
@@ -24,34 +24,35 @@ struct Place {
 using Words = std::vector<std::string_view>;
 
 std::string_view trimmed(std::string_view text);
-/// A line without the comment signs it begins with; some published files repeat them.
+/// The line without its leading comment signs. Some published files repeat the sign.
 std::string_view uncommented(std::string_view line);
 Words words(std::string_view text);
-/// Equal, whatever the case of ASCII letters.
+/// Compares two texts without regard to the case of ASCII letters.
 bool same(std::string_view a, std::string_view b);
 bool begins(std::string_view text, std::string_view with);
 std::optional<std::size_t> index_of(const Words& words, std::string_view word);
 
-/// The number that is all of a word: not finite if it overflows or underflows double, absent if the word is no number.
+/// Reads a word as a number. The result is infinite if the number overflows or underflows a double, and absent if the
+/// word is not a number as a whole.
 std::optional<double> number(std::string_view word);
-/// Text for a person: single blanks, no control characters, valid UTF-8 (anything else is read as Latin-1).
+/// Text for display: single blanks, no control characters, valid UTF-8. Text that is not UTF-8 is read as Latin-1.
 std::string tidy(std::string_view text);
 
-/// What stands after `key =`.
+/// The value after `key =`.
 struct Value {
   std::string_view text;         ///< first word; empty if the line ends or the next key follows
-  std::optional<double> number;  ///< of that word, finite
-  std::string_view unit;         ///< glued to the number or the word after it
+  std::optional<double> number;  ///< that word as a finite number
+  std::string_view unit;         ///< attached to the number, or the word after it
 };
 
-/// The value of a key, if the line has it. \throws InputError for a number outside double.
+/// The value of a key, if the line has it. \throws InputError for a number outside the range of a double.
 std::optional<Value> value_of(std::string_view text, std::string_view key, const Place& place);
-/// The same for a size in km: absent unless positive and not a placeholder.
+/// Like `value_of`, but for a size in km. It is absent unless positive, and absent for the placeholder 999.
 std::optional<double> size_of(std::string_view text, std::string_view key, const Place& place);
-/// The same for a count: absent unless a positive whole number.
+/// Like `value_of`, but for a count. It is absent unless it is a positive whole number.
 std::optional<std::size_t> count_of(std::string_view text, std::string_view key, const Place& place);
 
-/// A later line overrides an earlier one only where it says something.
+/// A later line overrides an earlier one only if it gives the value.
 template <class T>
 void keep(std::optional<T>& field, const std::optional<T>& found) {
   if (found) field = found;
@@ -59,7 +60,7 @@ void keep(std::optional<T>& field, const std::optional<T>& found) {
 
 // Header (fsp_header.cpp)
 
-/// A velocity or time of the `Rupt` line, kept until it is known whether it is a placeholder.
+/// A velocity or a time of the `Rupt` line. It is stored as read, because it may be a placeholder.
 struct Field {
   bool present = false;
   std::string text;
@@ -69,27 +70,27 @@ struct Field {
 /// The `label : key = value` lines that open a file.
 struct Header {
   std::string name, date, reference, tag;
-  std::size_t event_line = 0, tag_line = 0;  ///< 0: not seen yet
+  std::size_t event_line = 0, tag_line = 0;  ///< line numbers; 0: not read yet
   Field rupture_velocity_km_s;               ///< avVr, km/s
   Field rise_time;                           ///< avTr, s
-  std::optional<double> depth, down_dip;     ///< of the hypocentre, km
+  std::optional<double> depth, down_dip;     ///< position of the hypocentre, km
   std::optional<std::size_t> along_strike_cells, down_dip_cells, segments;
   std::optional<double> dx, dz;  ///< km
 
-  /// Takes a line if it begins with a label of the header.
+  /// Reads a line if it begins with a label of the header. Returns whether it did.
   bool take(std::string_view text, const Place& place);
   std::string citation() const;
-  /// Depth of the hypocentre in km: DEP, else HypZ.
+  /// Depth of the hypocentre in km: DEP, or HypZ if DEP is absent.
   std::optional<double> hypocentre_depth() const;
 };
 
 // Velocity table (fsp_layers.cpp)
 
-/// VELOCITY-DENSITY STRUCTURE: layers, or an assumed shear modulus alone.
+/// The table VELOCITY-DENSITY STRUCTURE: either layers, or only an assumed shear modulus.
 class VelocityTable {
  public:
   void take(std::string_view text, const Place& place);
-  /// Elastic constants at a depth in km; where the table does not give them, a warning.
+  /// Sets the elastic constants at a depth in km. Adds a warning if the table does not give them.
   void fill(std::optional<double> depth, Observation& out) const;
 
  private:
@@ -115,7 +116,7 @@ class VelocityTable {
 
 // Subfault tables (fsp_table.cpp)
 
-/// Slip of the subfaults, summed over each segment while its rows are read.
+/// Slip of the subfaults. The reader sums it over each segment row by row.
 class SubfaultTables {
  public:
   static bool is_heading(const Words& words);
@@ -127,13 +128,13 @@ class SubfaultTables {
 
   bool empty() const { return segments_.empty(); }
   bool awaits_heading() const { return announced_ > 0; }
-  /// Refuses tables that are not whole. \throws InputError
+  /// \throws InputError if a table is incomplete.
   void check(const Header& header, const Place& end, std::vector<std::string>& warnings) const;
-  /// Mean slip, m, weighted with the areas of the subfaults.
+  /// Mean slip in m, weighted by the areas of the subfaults.
   double mean_slip(const Header& header, std::vector<std::string>& warnings) const;
-  /// The rows one by one, of segments that give X, Y and Z.
+  /// The single rows of those segments that give X, Y and Z.
   const std::vector<Subfault>& subfaults() const { return subfaults_; }
-  /// Mean of column RISE, s, weighted with slip, over rows where both are given.
+  /// Mean of column RISE in s, weighted by slip, over the rows that give both.
   std::optional<double> mean_rise_time() const;
 
  private:
@@ -154,9 +155,9 @@ class SubfaultTables {
 
   std::vector<Segment> segments_;
   std::vector<Subfault> subfaults_;
-  Segment next_;                ///< what has been said of the segment whose column header is still to come
-  std::size_t announced_ = 0;   ///< line of its `SEGMENT #`, 0 if there was none
-  std::size_t stray_rows_ = 0;  ///< rows with words that are no numbers
+  Segment next_;                ///< the segment whose line of column names is still to come
+  std::size_t announced_ = 0;   ///< line number of its `SEGMENT #`; 0 if there was none
+  std::size_t stray_rows_ = 0;  ///< rows that hold words other than numbers
   std::size_t negative_rows_ = 0;
 };
 

@@ -6,7 +6,7 @@
 namespace slipfront::catalogue::fsp {
 namespace {
 
-constexpr double longest_rise_time = 900;  // s; placeholders lie above
+constexpr double longest_rise_time = 900;  // s; larger values are placeholders
 
 [[noreturn]] void refuse_heading(std::size_t line, const std::string& file, const std::string& segment) {
   throw InputError({.file = file,
@@ -16,7 +16,7 @@ constexpr double longest_rise_time = 900;  // s; placeholders lie above
                     .allowed = "a line of column names and the rows it announces"});
 }
 
-/// The numbers of a row, without words that are none.
+/// The numbers of a row; other words are skipped.
 std::vector<double> numbers(const Words& row, const Place& place) {
   std::vector<double> out;
   for (const std::string_view word : row) {
@@ -148,7 +148,8 @@ void SubfaultTables::check(const Header& header, const Place& end, std::vector<s
   }
 }
 
-/// Both Nsbfs and Nx*Nz can be wrong in a whole file. A table is whole if it agrees with either, or goes beyond both.
+/// Both Nsbfs and Nx*Nz can be wrong in a complete file. A table counts as complete if its number of rows equals one of
+/// them or exceeds both.
 void SubfaultTables::check_rows(std::size_t index, const Header& header, const Place& end,
                                 std::vector<std::string>& warnings) const {
   const Segment& segment = segments_[index];
@@ -159,7 +160,7 @@ void SubfaultTables::check_rows(std::size_t index, const Header& header, const P
 
   const std::string found = label(index) + " has " + std::to_string(segment.rows) + " subfaults";
   if (stated == 0 && grid == 0) {
-    warnings.push_back(found + ", and no Nsbfs to tell whether they are all");
+    warnings.push_back(found + ", but there is no Nsbfs to check that none is missing");
   } else if (segment.rows != stated && segment.rows != grid && segment.rows < std::max(stated, grid)) {
     throw InputError({.file = end.file,
                       .line = index + 1 == segments_.size() ? end.line : segments_[index + 1].line,
@@ -191,7 +192,7 @@ double SubfaultTables::mean_slip(const Header& header, std::vector<std::string>&
   const bool one = segments_.size() == 1;
   const auto has_area = [&](const Segment& s) { return s.area(header).has_value(); };
   const bool areas = !one && std::all_of(segments_.begin(), segments_.end(), has_area);
-  if (!one && !areas) warnings.push_back("segments without area: all subfaults count alike");
+  if (!one && !areas) warnings.push_back("segments without area: all subfaults have equal weight");
 
   double potency = 0, total = 0;
   for (const Segment& segment : segments_) {

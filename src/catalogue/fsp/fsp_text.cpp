@@ -13,14 +13,14 @@ char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + '
 
 bool is_letter(char c) { return lower(c) >= 'a' && lower(c) <= 'z'; }
 
-/// A number at the start of `text`, and how many characters it takes.
+/// A number at the start of a text, and its length in characters.
 struct Leading {
   std::optional<double> value;
   std::size_t length = 0;
 };
 
 Leading leading_number(std::string_view text) {
-  // from_chars takes no '+', and after one it must not take a second sign.
+  // from_chars does not accept '+', so we skip it. A second sign after it is an error.
   const bool plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
   const char* const begin = text.data() + (plus ? 1 : 0);
   double value = 0;
@@ -30,8 +30,8 @@ Leading leading_number(std::string_view text) {
   return {value, static_cast<std::size_t>(end - text.data())};
 }
 
-/// Bytes of the UTF-8 character at `at`, 0 if there is none. Overlong forms and surrogates are not told apart by length
-/// alone, so the second byte is checked against the bounds of the Unicode table 3-7.
+/// Length in bytes of the UTF-8 character at `at`, or 0 if there is none. The length does not reveal overlong forms and
+/// surrogates, so we check the second byte against the bounds of Table 3-7 of the Unicode standard.
 std::size_t utf8_length(std::string_view text, std::size_t at) {
   const auto byte = [&](std::size_t k) {
     return at + k < text.size() ? static_cast<unsigned char>(text[at + k]) : static_cast<unsigned char>(0);
@@ -71,7 +71,8 @@ std::string from_latin1(std::string_view text) {
   return out;
 }
 
-/// The word that ends just before `end`; an earlier '=' ends the search, so that a line of '=' is read in linear time.
+/// The word that ends just before `end`. The search stops at an earlier '=', so that a line of many '=' takes linear
+/// time.
 std::string_view word_before(std::string_view text, std::size_t end) {
   while (end > 0 && is_blank(text[end - 1])) --end;
   std::size_t begin = end;
@@ -79,7 +80,7 @@ std::string_view word_before(std::string_view text, std::size_t end) {
   return text.substr(begin, end - begin);
 }
 
-/// Cuts the first word off `text`; '=' and ',' end it too.
+/// Removes the first word from `text` and returns it. A word ends at a blank, '=' or ','.
 std::string_view next_word(std::string_view& text) {
   text = trimmed(text);
   std::size_t size = 0;
@@ -95,7 +96,7 @@ Value value_at(std::string_view rest, std::string_view key, const Place& place) 
   if (begins(rest, "=")) return out;
   out.text = word;
   const auto [value, length] = leading_number(word);
-  // `4.2s` is a number with its unit, `2004/09` is none.
+  // `4.2s` is a number with its unit, but `2004/09` is not a number.
   if (!value || (length < word.size() && !is_letter(word[length]))) return out;
   if (!std::isfinite(*value)) {
     throw InputError({.file = place.file,

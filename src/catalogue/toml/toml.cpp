@@ -48,7 +48,7 @@ void read_measure(Observation& o, const std::string& full_key, const toml::node&
   }
 }
 
-/// Reads one table: quantities on the wanted side (observed or of the medium), texts if it is [event].
+/// Reads the table [event], with the observed quantities and texts, or the table [medium], with the elastic constants.
 void read_table(Observation& o, const toml::table& table, const std::string& name, bool observed) {
   std::vector<std::string_view> known;
   if (observed) known = {"name", "date", "kind", "citation", "note", "slip_velocity_is"};
@@ -79,7 +79,7 @@ void read_table(Observation& o, const toml::table& table, const std::string& nam
   }
 }
 
-/// Tables of a scenario: one file can be both, an event and what `pulse` makes of it.
+/// One file can be both an event and the scenario of a `pulse` run, so we accept the tables of a scenario.
 bool belongs_to_scenario(std::string_view table) {
   for (const std::string_view name :
        {"initial", "friction", "forcing", "interface", "domain", "time", "pulse", "chain", "output"})

@@ -12,7 +12,7 @@ namespace {
 
 using Shape = Measured::Shape;
 
-/// Which two keys make a distribution.
+/// A kind of distribution and the two keys that define it.
 struct Form {
   const char *first, *second;
   Shape shape;
@@ -45,7 +45,7 @@ const Form& form_of(const toml::table& table, const std::string& full_key) {
                     .allowed = allowed});
 }
 
-/// One plain number of the distribution.
+/// One number of the distribution, which must not be uncertain itself.
 double number_of(const toml::table& table, const char* name, const std::string& full_key, medium::Dimension dimension) {
   const toml::node& node = *table.get(name);
   const std::string text = quantity_text(node);
@@ -91,7 +91,7 @@ Measured read_distribution(const toml::table& table, const std::string& full_key
       if (!(second > 0)) refuse("the uncertainty is not positive", "> 0");
       return {first, first, Shape::normal, second};
     case Shape::lognormal:
-      if (!(second > 1)) refuse("no factor of a lognormal distribution", "> 1");
+      if (!(second > 1)) refuse("not a valid factor of a lognormal distribution", "> 1");
       return {first, first, Shape::lognormal, second};
     case Shape::range:
       break;

@@ -33,8 +33,8 @@ ContactField::ContactField(const Problem& p, long first, const std::vector<doubl
   }
   excess_.assign(p.grid.sites, 0);
   share_.assign(a2.size(), 1 - contacts_.ambient);
-  // The contacts at t = 0 follow from the state by the same operations as later ones: a run that resumes from there has
-  // nothing else to compute them from.
+  // We compute the contacts at t = 0 from the state, with the same operations as later. A resumed run has only the
+  // state to compute them from, and must get the same bits.
   std::vector<double> theta(p.grid.sites);
   for (double& age : theta) p.friction.evolution().start({&age, 1});
   advance(0, 0, theta, theta);
@@ -52,14 +52,14 @@ void ContactField::advance(long first, double time, std::span<const double> thet
     a2[i] *= base_[from + i];
     share_[at(first) + i] = contacts_.share(excess_[from + i]);
   }
-  // What holds an end holds its contact too: else u would move there with a^2, as z is what is held.
+  // A fixed end keeps its a^2. The scheme fixes z = u + eps a^2 sin u there, so u would move if a^2 changed.
   const Boundary& ends = problem_->boundary;
   if (first == 0 && !ends.periodic && ends.left == End::fixed) a2[0] = *now(0);
   if (first + static_cast<long>(size) == sites_ && !ends.periodic && ends.right == End::fixed)
     a2[size - 1] = *now(sites_ - 1);
 }
 
-/// Extrapolates the next level, for use before it is computed, and fills the arrays past the ends.
+/// Extrapolates a^2 to the next level, for use until `advance` computes it, and fills the arrays past the ends.
 void ContactField::look_ahead() {
   for (std::size_t i = 0; i < now_.size(); ++i) next_[i] = 2 * now_[i] - before_[i];
   const long last = first_ + static_cast<long>(now_.size());
@@ -80,7 +80,7 @@ void ContactField::check(double time) const {
     throw NumericsError("t = " + digits(time) + ": at x = " + digits(problem_->grid.x(static_cast<std::size_t>(j))) +
                         ' ' + problem);
   };
-  const double limit = 1.01 * limit_;  // of a step with room to spare
+  const double limit = 1.01 * limit_;  // 1 % more, because the step has a margin
   std::size_t bad = 0;
   for (long j = 0; j < sites_; ++j) bad += *share(j) > 0 && *now(j) <= limit ? 0u : 1u;
   for (long j = 0; bad != 0 && j < sites_; ++j) {

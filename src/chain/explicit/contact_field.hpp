@@ -10,42 +10,43 @@
 
 namespace slipfront::chain {
 
-/// Site j of the problem's grid, also past its ends.
+/// The site of the grid that j means. A j past an end is reflected there, or counted around a periodic chain.
 std::size_t folded(const Problem& problem, long j);
 
-/// Names of the state variables of a site, in the order of Levels::state: those of the friction law, and where contacts
-/// age or pores dilate the pressure above the ambient one, and a^2 at the level before.
+/// Names of the state variables of a site, in the order of Levels::state. The state variables of the friction law come
+/// first. If contacts age or pores dilate, the excess pore pressure and a^2 at the level before follow.
 std::vector<std::string_view> state_names(const Problem& problem);
 
-/// a^2 of sites whose contacts change with the state of friction, at three levels of explicit steps, and the pressure
-/// of their pores. Arrays reach from site `first` to `last`, past the ends of the chain too.
+/// Contacts that change with the state of friction: a^2 of every site at three time levels, and the pressure of its
+/// pores. The arrays begin at site `first` and extend past both ends of the chain.
 class ContactField {
  public:
-  /// `a2` is that at t = 0.
+  /// `a2` is a^2 at t = 0.
   ContactField(const Problem& problem, long first, const std::vector<double>& a2);
 
   bool acts() const { return contacts_.act(); }
-  /// Whether pores have a pressure, and so a say in friction.
+  /// Whether pores have a pressure, which then changes friction.
   bool have_pressure() const { return contacts_.dilatancy > 0 || contacts_.ambient > 0; }
   const double* before(long j) const { return before_.data() + at(j); }
   const double* now(long j) const { return now_.data() + at(j); }
   const double* next(long j) const { return next_.data() + at(j); }
-  /// 1 - p from site j on.
+  /// 1 - p, from site j on.
   const double* share(long j) const { return share_.data() + at(j); }
 
-  /// Of sites from `first` on at the next level, where theta has changed.
+  /// Computes a^2 and the pore pressure at the next level, for the sites from `first` on. Their theta changed from
+  /// `theta_before` to `theta` in a step of length `time`.
   void advance(long first, double time, std::span<const double> theta_before, std::span<const double> theta);
-  /// To the next level.
+  /// Moves to the next level.
   void proceed();
-  /// \throws NumericsError where the pressure of pores has reached the normal stress, or contacts have become stronger
-  /// than what the time step allows.
+  /// \throws NumericsError if the pressure of pores has reached the normal stress, or if contacts have become too
+  /// strong for the time step.
   void check(double time) const;
 
-  /// Numbers in the state of a site besides theta.
+  /// How many numbers the state of a site has in addition to theta.
   static constexpr std::size_t columns = 2;
   void save(std::size_t site, double* to) const;
   void resume(std::size_t site, double theta, const double* from);
-  /// After all sites are resumed.
+  /// Call this after all sites are resumed.
   void resumed() { look_ahead(); }
 
  private:
@@ -55,8 +56,8 @@ class ContactField {
   const Problem* problem_;
   friction::Contacts contacts_;
   long first_, sites_;
-  double limit_ = 0;            ///< of a^2
-  std::vector<double> base_;    ///< a^2 of contacts without age and pores without pressure, of the chain's sites
+  double limit_ = 0;            ///< largest a^2 for which the time step was chosen
+  std::vector<double> base_;    ///< a^2 without ageing and pore pressure, for the chain's sites
   std::vector<double> excess_;  ///< p - p_0
   std::vector<double> before_, now_, next_, share_;
 };

@@ -10,9 +10,9 @@ namespace slipfront::chain {
 namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
-constexpr std::size_t together = 64;  ///< sites that friction's loops take at once: those at rest cost little
+constexpr std::size_t together = 64;  ///< sites in one pass of the friction loops; a pass with no moving site is cheap
 
-/// a(x)^2 on sites [first, last); none where it is 1.
+/// a(x)^2 on sites [first, last). It is empty if a is 1 everywhere and does not change.
 std::vector<double> a2_of(const Problem& p, long first, long last) {
   std::vector<double> a2;
   const bool changes = p.friction.changes_contacts();
@@ -52,7 +52,7 @@ Forces::Forces(const Problem& problem, const Scheme& scheme, long level, std::si
 }
 
 void Forces::evaluate_forcing(long level, std::vector<double>& F) const {
-  if (level < 0) {  // before the start, where F need not be defined: by extrapolation
+  if (level < 0) {  // F need not be defined before the start, so we extrapolate
     std::vector<double> zero = F, one = F, two = F;
     evaluate_forcing(0, zero);
     evaluate_forcing(1, one);
@@ -143,7 +143,7 @@ void Forces::level(const EndConditions& ends, long offset, std::size_t size, con
   } else {
     local_part(scheme_.rule, now - 1, before - 1, next - 1, y - 1, 0, (size + 2 + lanes - 1) / lanes * lanes);
   }
-  // Counted from two sites before, so that a seam's other side has an index.
+  // Indices count from two sites before the first, so that they are not negative on the other side of a seam.
   const EndSites bare = before_neighbours(ends, next - 2, 2, size + 1);
   add_neighbours(scheme_.rule.spread, y, next, 0, (size + lanes - 1) / lanes * lanes);
   const auto given = [](EndCondition side) { return side == EndCondition::fixed || side == EndCondition::absorbing; };
@@ -168,8 +168,8 @@ void Forces::add_friction(long offset, std::size_t begin, std::size_t end, const
     shorten_steps(dt_ * dt_ * *strength / turn, now + begin, next + begin, end - begin);
     return;
   }
-  // Centred on the level where that is stable. Laws that are steep at rest act on the half step after it: they can stop
-  // a site but not throw it back.
+  // Friction is centred on the level if that is stable. A law that is steep at rest acts on the half step after the
+  // level instead. It can then stop a site, but not reverse its velocity.
   const bool centred = !f.steep_at_rest();
   const double time = centred ? 2 * dt_ : dt_, weight = dt_ * dt_ / time;
   double free[together], speed[together];

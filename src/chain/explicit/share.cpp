@@ -12,12 +12,13 @@
 namespace slipfront::chain {
 namespace {
 
-/// A chain whose only force is viscous friction advances level by level and meters its work up to this number of sites.
-/// That costs about a nanosecond a site and level more; 200 samples of a run cost as much as 13 000 such levels.
+/// Up to this number of sites, a chain with only viscous friction advances by one level at a time and measures the
+/// work. This costs about a nanosecond more for each site and level. The alternative, 200 samples in a run, costs as
+/// much as 13 000 such levels.
 constexpr std::size_t metered_sites = 10000;
 
-/// Cuts sites [begin, end) into pieces that stay in the innermost cache with the forces on them and their works: as
-/// many whole blocks as fit, or some sites of a longer block.
+/// Cuts sites [begin, end) into pieces that fit into the innermost cache together with their forces and works. A piece
+/// is as many whole blocks as fit, or a part of a longer block.
 std::vector<std::size_t> pieces_of(const Blocks& blocks, std::size_t begin, std::size_t end) {
   constexpr std::size_t piece = WorkMeter::piece;
   std::vector<std::size_t> cuts{begin};
@@ -117,7 +118,7 @@ void Share::make_slabs() {
   depth_ = level_by_level_ ? 1 : std::min(halo, end_ - begin_);
   if (!level_by_level_) return;
   for (const Slab& slab : slabs_) {
-    constexpr std::size_t room = 2 * WorkMeter::piece + 4 * lanes;  // of the longest piece, and next to it
+    constexpr std::size_t room = 2 * WorkMeter::piece + 4 * lanes;  // the longest piece and the sites next to it
     by_level_.push_back({pieces_of(blocks_, slab.begin(), slab.begin() + slab.size()), Aligned(room), Aligned(room),
                          WorkMeter::Room(meter_.active() ? room : 0)});
   }
@@ -200,7 +201,8 @@ void Share::advance_by_one_level(std::size_t i) {
     const double *now = slab.now() + at, *before = slab.old() + at;
     forces_.level(here, static_cast<long>(first), size, before, now, next, y, slab.outflow,
                   meter_.active() ? room.work.friction.data() : nullptr);
-    // The displacements of the next level contain the contacts of that level, if these change. Friction has acted.
+    // Contacts that change must be advanced first, because the displacement at the next level depends on them. Friction
+    // has acted already. Other state variables are advanced after the work of friction is measured.
     const bool changes = forces_.contacts().acts();
     if (changes) forces_.age(static_cast<long>(first), size, now, next);
     if (meter_.active()) meter_.add(forces_, first, first + size, before, now, next, room.work);
@@ -210,10 +212,10 @@ void Share::advance_by_one_level(std::size_t i) {
   slab.swap();
 }
 
-/// Calls each(i) for every slab on a thread of its own. `levels` is the number of levels that the slabs advance by.
+/// Calls each(i) for every slab, on a thread for each slab. `levels` is the number of levels that the slabs advance.
 template <class Each>
 void Share::for_slabs(std::size_t levels, const Each& each) {
-  const bool worth = (end_ - begin_) * levels > 50000;  // fewer site updates take less time than waking a thread
+  const bool worth = (end_ - begin_) * levels > 50000;  // waking a thread takes longer than fewer site updates
   for_each_on_team(slabs_.size(), worth ? static_cast<int>(slabs_.size()) : 1, each);
 }
 
@@ -256,7 +258,7 @@ std::pair<double, double> Share::site(long j) const {
   } else if (j >= n) {
     reflect(n - 1, problem_.boundary.right);
   }
-  std::size_t i = 0;  // sites before the first slab and behind the last are in their halos
+  std::size_t i = 0;  // sites before the first slab and after the last one are in the halos of these slabs
   while (i + 1 < slabs_.size() && j >= static_cast<long>(slabs_[i + 1].begin())) ++i;
   const long k = j - static_cast<long>(slabs_[i].begin());
   return {sign * slabs_[i].now()[k] + now_shift, sign * slabs_[i].old()[k] + old_shift};
@@ -278,7 +280,7 @@ Levels Share::levels(std::size_t begin, std::size_t end) const {
 
 std::vector<double> Share::flow_sums() const {
   std::vector<double> sums = ranks_.joined(meter_.sums);
-  double left = 0, right = 0;  // each of one slab of one rank
+  double left = 0, right = 0;  // only one slab of one rank has each end
   for (const Slab& slab : slabs_) {
     left += slab.outflow.left;
     right += slab.outflow.right;

@@ -15,11 +15,11 @@
 
 namespace slipfront::chain {
 
-/// The sites of a chain that one rank has, cut into slabs, a thread each. Calls marked (all) are messages between
+/// The sites of one rank, divided into slabs with a thread for each. Calls marked (all) exchange messages between
 /// ranks.
 class Share {
  public:
-  /// At t = level dt. \throws InputError for more threads or ranks than the chain can have.
+  /// Creates the arrays for t = level dt. \throws InputError for more threads or ranks than the chain can have.
   Share(const Problem& problem, const Execution& execution, const Ranks& ranks, long level);
   Share(const Share&) = delete;
   Share& operator=(const Share&) = delete;
@@ -28,34 +28,37 @@ class Share {
   const Scheme& scheme() const { return scheme_; }
   const EndConditions& ends() const { return ends_; }
   const Forces& forces() const { return forces_; }
-  std::size_t end() const { return end_; }  ///< of this rank's sites
+  std::size_t end() const { return end_; }  ///< one past the last site of this rank
   long level() const { return level_; }
   double time() const { return static_cast<double>(level_) * scheme_.dt; }
-  std::size_t depth() const { return depth_; }  ///< levels between exchanges
-  /// Whether it advances level by level and meters works; otherwise by 32 levels at a time, tile by tile.
+  std::size_t depth() const { return depth_; }  ///< largest number of levels between two exchanges
+  /// Whether the share advances by one level at a time and measures works. Otherwise each tile advances by 32 levels at
+  /// a time.
   bool level_by_level() const { return level_by_level_; }
 
-  /// Sets the levels from `source`, a piece at a time.
+  /// Reads the levels from `source`, in pieces.
   void fill(const LevelsOf& source);
-  /// (all) `count` <= depth levels.
+  /// (all) Advances by `count` levels, at most `depth`.
   void advance(std::size_t count);
   /// \throws NumericsError
   void check_numbers() const;
 
-  /// (all) Gets halos from neighbours, around a periodic chain too; across its seam the values stay as they are.
+  /// (all) Gets the halos from neighbours, also around a periodic chain. Values from across its seam are not changed by
+  /// the turns of its charge.
   void exchange();
-  /// z / 2 pi of site j at both levels, also past the ends; in this rank's halo after an exchange.
+  /// z / 2 pi of site j, now and at the level before. The site may be past an end or, after an exchange, in the halo of
+  /// this rank.
   std::pair<double, double> site(long j) const;
 
-  /// Those of sites [begin, end) that this rank has. Without state if there are several ranks.
+  /// The levels of those sites of [begin, end) that this rank has. They have no state if there are several ranks.
   Levels levels(std::size_t begin, std::size_t end) const;
-  /// (all) Works of all ranks, block by block, and the outflow through the two ends.
+  /// (all) The works of all ranks, block by block, and the outflow through the two ends.
   std::vector<double> flow_sums() const;
   void continue_flows(const std::vector<double>& sums);
   Flows flows() const;  ///< (all)
 
  private:
-  /// The arrays with which a slab advances by one level, and the sites at which its pieces begin and end.
+  /// The arrays that a slab needs to advance by one level, and the sites at which its pieces begin and end.
   struct ByLevel {
     std::vector<std::size_t> cuts;
     Aligned next, y;
@@ -76,8 +79,8 @@ class Share {
   EndConditions ends_;
   Execution execution_;
   Blocks blocks_;
-  std::size_t first_block_, end_block_;  ///< of this rank
-  std::size_t begin_, end_;              ///< their sites
+  std::size_t first_block_, end_block_;  ///< blocks of this rank
+  std::size_t begin_, end_;              ///< sites of these blocks
   Forces forces_;
   bool level_by_level_;
   WorkMeter meter_;

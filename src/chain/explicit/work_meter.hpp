@@ -9,40 +9,43 @@
 
 namespace slipfront::chain {
 
-/// Work of the forcing and of friction on the sites of one rank, level by level and block by block, to the fourth order
-/// of the scheme. Over a step from u to u + D, with B the second difference of u over levels,
+/// Measures the work of the forcing and of friction on the sites of one rank, for each level and block. It has the
+/// fourth order of the scheme. For a step from u to u + D, with the second difference B of u over levels, the work
+/// follows from
 ///     int F u_t dt = F_mean D + (F_next - F_before) B / 12,     int u_t^2 dt = (D^2 + B^2 / 12) / dt,
 /// up to terms that cancel from step to step.
 class WorkMeter {
  public:
-  /// Meters nothing unless `active`.
+  /// Measures nothing unless `active`.
   WorkMeter(const Problem& problem, bool active, const Scheme& scheme, const Blocks& blocks, std::size_t first_block,
             std::size_t end_block);
 
   bool active() const { return !u_.empty(); }
-  /// Where this rank starts from: z of `size` sites from `begin` on.
+  /// Sets the start: z of `size` sites from `begin` on.
   void start(const Forces& forces, std::size_t begin, std::size_t size, const double* z);
-  /// Arrays for the work on one piece of the chain: one for each thread.
+  /// Scratch arrays for the work on one piece of the chain. Each thread needs its own.
   struct Room {
     explicit Room(std::size_t size) : u(size), S(size), D(size), B(size), friction(size) {}
     Aligned u, S, D, B;
-    Aligned friction;  ///< the forces that it applied
+    Aligned friction;  ///< the friction forces that were applied
   };
-  /// Meters a step of sites [begin, end) from level `now`, that of the forces, to `next`. The arrays hold z from site
-  /// `begin` on. Pieces end where blocks do, or a multiple of `piece` sites behind the beginning of their block.
+  /// Measures a step of sites [begin, end) from level `now`, which must be the level of the forces, to `next`. The
+  /// arrays hold z from site `begin` on. A piece must end with a block, or at a multiple of `piece` sites after the
+  /// beginning of its block.
   void add(const Forces& forces, std::size_t begin, std::size_t end, const double* before, const double* now,
            const double* next, Room& room);
-  static constexpr std::size_t piece = 1024;  ///< sites that fit the innermost cache with all that belongs to them
+  static constexpr std::size_t piece = 1024;  ///< sites whose arrays all fit into the innermost cache
 
-  /// Kinds of energy that are metered: supplied by the forcing, dissipated by friction, and where contacts change what
-  /// they give to the substrate.
+  /// Number of kinds of energy that are measured. The forcing supplies energy, and friction dissipates it. If contacts
+  /// change, they give energy to the substrate.
   static std::size_t kinds(const Problem& problem) { return problem.friction.changes_contacts() ? 3 : 2; }
-  /// That of each block of this rank, one after the other.
+  /// The energies of each block of this rank, one block after the other.
   std::vector<double> sums;
 
  private:
-  /// Adds to supplied (0), dissipated (1) or the contacts' energy (2) of each block `strength` times the work on its
-  /// sites of [begin, end), where work(at, size) is the sum over `size` sites from begin + at on.
+  /// Adds `strength` times the work on sites [begin, end) to the sums of their blocks. `which` is 0 for supplied, 1 for
+  /// dissipated and 2 for the energy of contacts. work(at, size) must return the sum over `size` sites from begin + at
+  /// on.
   template <class Work>
   void add_to_blocks(std::size_t begin, std::size_t end, std::size_t which, double strength, const Work& work);
 
@@ -50,8 +53,8 @@ class WorkMeter {
   double dt_;
   Blocks blocks_;
   std::size_t first_block_, begin_;
-  std::vector<std::size_t> begins_;  ///< of the blocks of this rank, and the end of the last
-  std::vector<double> u_;            ///< u / 2 pi now
+  std::vector<std::size_t> begins_;  ///< first sites of the blocks of this rank, and the end of the last block
+  std::vector<double> u_;            ///< u / 2 pi at the present level
 };
 
 }  // namespace slipfront::chain

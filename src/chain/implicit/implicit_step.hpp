@@ -9,28 +9,29 @@
 
 namespace slipfront::chain {
 
-/// A step of any length that is tried from a moment. With p = (v + v') / 2 the mean velocity of a step,
-///     u' = u + dt p,    (v' - v) / dt + S + f - F = springs((u + u') / 2),    S = a^2 (cos u - cos u') / (u' - u):
-/// this is the midpoint rule with a discrete gradient. Forces that have an energy neither give nor take any, whatever
-/// dt, so work and energy balance to the residual of Newton's method. Friction acts at the state of the middle of the
-/// step and at
+/// A trial step of any length from a moment. With the mean velocity p = (v + v') / 2 of the step, it solves
+///     u' = u + dt p,    (v' - v) / dt + S + f - F = springs((u + u') / 2),    S = a^2 (cos u - cos u') / (u' - u).
+/// This is the midpoint rule with a discrete gradient. Conservative forces conserve energy for every dt, so work and
+/// energy balance up to the residual of Newton's method. Friction is evaluated with the state at the middle of the step
+/// and at the velocity
 ///     w = p + (eta / 2)(v' - v - dt a),
-/// with a the acceleration of the step before. The bracket is of second order, as the rule is. It damps the velocity
-/// that the rule would leave at a site held by friction, and that would change its sign with every step. There eta is
-/// 1/3; where friction is slow eta is 0. Where contacts change with the state, a^2 is the mean of its values at both
-/// ends of the step, and the energy given to the substrate, (a'^2 - a^2)(1 - (cos u + cos u') / 2), is counted.
+/// with the acceleration a of the step before. The bracket is of second order, like the rule. At a site that friction
+/// holds, the midpoint rule would leave a velocity that changes its sign at every step. The bracket damps it. There eta
+/// is 1/3; it is 0 if friction is slow. If contacts change with the state, a^2 is the mean of its values at both ends
+/// of the step. The step then also adds up the energy given to the substrate, (a'^2 - a^2)(1 - (cos u + cos u') / 2).
 class ImplicitStep {
  public:
-  /// Allocates all that its steps need. `forces` outlives it.
+  /// Allocates all memory that the steps need. `forces` must outlive this object.
   ImplicitStep(const SiteForces& forces, int threads);
 
-  /// Finds the velocities at the end of a step by Newton's method. Returns whether it has found them.
+  /// Finds the velocities at the end of a step with Newton's method. Returns whether the method converged.
   bool solve(const Moment& from, double dt);
-  /// The largest error of the step that was found, in tolerances: of u, u_t and the logarithm of the state variables.
+  /// The largest error of the step that `solve` found, divided by the tolerance. It considers u, u_t and the logarithm
+  /// of the state variables.
   double error(const Moment& from, double dt);
-  /// Takes the step that was found: `m`, from which it was tried, becomes its end, all but its time.
+  /// Takes the step that `solve` found: advances `m`, from which it was tried, to the end of the step, except its time.
   void take(Moment& m, double dt) const;
-  /// Of a step that was not found: the first site without a finite force, or else the fastest.
+  /// After `solve` has failed: the first site without a finite force, or the fastest site if all forces are finite.
   std::size_t hardest_site() const;
 
  private:
@@ -48,7 +49,7 @@ class ImplicitStep {
   template <class Each>
   void for_sites(const Each& each) const;
 
-  /// v' - v where friction feels w.
+  /// v' - v if friction is evaluated at the velocity w.
   double gain(std::size_t j, double w) const { return (w - from_->v[j] + shift_[j]) / weight_[j]; }
   double mean_velocity(std::size_t j) const { return from_->v[j] + gain(j, w_[j]) / 2; }
   double next_velocity(std::size_t j) const { return from_->v[j] + gain(j, w_[j]); }
@@ -57,13 +58,13 @@ class ImplicitStep {
   const SiteForces& forces_;
   const CompactSprings& springs_;
   const friction::Friction& friction_law_;
-  [[maybe_unused]] int threads_;  ///< of OpenMP
+  [[maybe_unused]] int threads_;  ///< number of OpenMP threads
   const Moment* from_ = nullptr;
-  double rounding_ = 0;  ///< of the force on a site
-  // Site by site.
-  std::vector<double> w_;                          ///< velocity that friction feels
+  double rounding_ = 0;  ///< rounding error of the force on a site
+  // These have an element for each site.
+  std::vector<double> w_;                          ///< velocity at which friction is evaluated
   std::vector<double> weight_, shift_;             ///< w = v + weight (v' - v) - shift
-  std::vector<double> force_, slope_, middle_;     ///< all forces but the springs', their slope in w; (u + u') / 2
+  std::vector<double> force_, slope_, middle_;     ///< all forces except springs, their slope in w; (u + u') / 2
   std::vector<double> friction_, friction_slope_;  ///< f, and its slope in w
   std::vector<double> forcing_, right_, errors_;
   Tridiagonal matrix_;

@@ -6,7 +6,7 @@
 
 namespace slipfront::chain {
 
-/// The motion between two implicit steps, with all that the next step depends on.
+/// The motion between two implicit steps, and everything else that the next step depends on.
 struct Moment {
   double time = 0;
   long steps = 0;
@@ -15,15 +15,15 @@ struct Moment {
   double supplied = 0, dissipated = 0, by_contacts = 0;
   std::vector<double> u, v;
   std::vector<double> state;                  ///< the friction law's state variables, site by site
-  std::vector<double> w, slope;               ///< velocity that friction felt in the last step, slope of friction there
-  std::vector<double> acceleration, earlier;  ///< of the last two steps
+  std::vector<double> w, slope;               ///< velocity and slope of friction in the last step
+  std::vector<double> acceleration, earlier;  ///< accelerations of the last step and of the step before it
   std::vector<double> excess;                 ///< p - p_0 of the pores; empty unless contacts change
-  std::vector<double> a2;                     ///< follows from the state; empty where a is the same everywhere
+  std::vector<double> a2;                     ///< follows from the state; empty if a is the same everywhere
   EventLog log;
 };
 
-/// The list of what a checkpoint holds of a moment, in its order: calls number(member), then column(member). The log of
-/// events follows.
+/// Calls number(member) and then column(member) for the members that a checkpoint stores, in the order of the file. The
+/// log of events follows them in the file.
 template <class AMoment, class Number, class Column>
 void each_saved(AMoment& m, const Number& number, const Column& column) {
   number(m.time);

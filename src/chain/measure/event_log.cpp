@@ -12,7 +12,7 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// When a velocity passed `threshold` between two times, if its logarithm is a straight line there.
+/// The time at which a velocity passed `threshold` between two times, if its logarithm is linear in time.
 double crossing(double t0, double v0, double t1, double v1, double threshold) {
   if (!(v0 > 0) || !(v0 < threshold) || !(v1 > v0)) return t1;
   return t0 + (t1 - t0) * std::log(threshold / v0) / std::log(v1 / v0);
@@ -70,9 +70,9 @@ void EventLog::follow(double time, double load, const ChainParts& parts, double 
   within_ = false;
 }
 
-/// Distance from the origin against time, over the parts that moved.
+/// The slope of distance from the origin against time, by least squares over the parts that moved.
 double EventLog::front_velocity() const {
-  constexpr double at_once = 1e-3;  // of the duration
+  constexpr double at_once = 1e-3;  // fraction of the duration
   double count = 0, mean_t = 0, mean_d = 0, tt = 0, td = 0, first = HUGE_VAL, last = -HUGE_VAL;
   const auto each = [&](const auto& take) {
     for (std::size_t i = 0; i < x_.size(); ++i)

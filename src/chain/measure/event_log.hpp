@@ -8,27 +8,27 @@
 
 namespace slipfront::chain {
 
-/// Equal parts of a chain, and their means after a step.
+/// Means over equal parts of a chain after a step.
 struct ChainParts {
-  std::vector<double> x;            ///< of their middles
-  std::vector<double> u, velocity;  ///< u at the end of the step; the velocity that friction felt in it
-  double length = 0;                ///< of each
+  std::vector<double> x;            ///< the middle of each part
+  std::vector<double> u, velocity;  ///< u at the end of the step; velocity at which friction was evaluated
+  double length = 0;                ///< length of each part
 };
 
-/// Finds the slip events of a loaded chain while it moves (docs/loading.md). All in the units of the chain.
+/// Finds the slip events of a loaded chain while it moves (docs/loading.md). All values are in the units of the chain.
 class EventLog {
  public:
   EventLog() = default;
   explicit EventLog(double threshold) : threshold_(threshold) {}
 
   bool active() const { return threshold_ > 0; }
-  /// After a step that ended at `time`; `load` is the mean force of the springs then.
+  /// Call this after each step. `time` is the end of the step, and `load` the mean force of the springs at that time.
   void look(double time, double load, const ChainParts& parts);
   const std::vector<output::SlipEvent>& events() const { return events_; }
 
-  /// All that it needs to continue, to the same bits.
+  /// Returns all that the log needs to continue exactly.
   std::vector<double> saved() const;
-  /// \throws InputError unless `saved` is of such a log.
+  /// Continues from a saved log. \throws InputError if `saved` is not one.
   void resume(const std::vector<double>& saved);
 
  private:
@@ -36,7 +36,7 @@ class EventLog {
   void follow(double time, double load, const ChainParts& parts, double largest);
   double front_velocity() const;
 
-  /// The numbers and rows that a checkpoint holds, in its order.
+  /// The numbers and rows that a checkpoint stores, in the order of the file.
   template <class Log>
   static auto numbers(Log& log) {
     return std::array{&log.last_time_, &log.last_load_, &log.last_largest_, &log.first_load_};
@@ -50,7 +50,7 @@ class EventLog {
   bool within_ = false;
   double last_time_ = 0, last_load_ = 0, last_largest_ = 0, first_load_ = 0;
   std::vector<double> x_, last_u_, last_velocity_, first_u_;
-  std::vector<double> arrivals_;  ///< when each part passed the threshold, in this event; NaN: not yet
+  std::vector<double> arrivals_;  ///< time at which each part passed the threshold in this event; NaN: not yet
   std::vector<output::SlipEvent> events_;
 };
 

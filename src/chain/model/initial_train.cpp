@@ -27,7 +27,8 @@ double checked(const Stress& stress, double x) {
   return k;
 }
 
-/// Integral of the stress over [a, b]: Gauss-Legendre with three points, halved where the stress jumps or bends.
+/// Integral of the stress over [a, b] by the Gauss-Legendre rule with three points. If the stress jumps or bends, we
+/// halve the interval.
 double integral(const Stress& stress, double a, double b, int depth = 0) {
   const double middle = (a + b) / 2, half = (b - a) / 2, node = std::sqrt(0.6) * half;
   const double f0 = checked(stress, middle - node), f1 = checked(stress, middle), f2 = checked(stress, middle + node);
@@ -38,8 +39,8 @@ double integral(const Stress& stress, double a, double b, int depth = 0) {
 
 }  // namespace
 
-/// u of the train with stress k, in local units (stress / a), where the phase (2 pi a dislocation, 0 at its centre) is
-/// theta: Eq. 4 with beta x = K theta / pi.
+/// u of the train with stress k, in local units (stress / a), at the phase theta: Eq. 4 with beta x = K theta / pi. The
+/// phase is 0 at the centre of a dislocation and grows by 2 pi from one to the next.
 class LocalTrain {
  public:
   double operator()(double k, double theta) {
@@ -47,7 +48,7 @@ class LocalTrain {
       at_ = elliptic::at_psi(train::psi_of_stress(k));
       stress_ = k;
     }
-    const double turn = std::nearbyint(theta / (2 * pi));  // the period by itself: exact whatever the phase
+    const double turn = std::nearbyint(theta / (2 * pi));  // reduced separately, so that whole periods are exact
     return 2 * elliptic::jacobi(at_.K * (theta / pi - 2 * turn), at_).coamplitude - 2 * pi * turn;
   }
 
@@ -70,7 +71,7 @@ StaticTrain::StaticTrain(Stress stress, const Grid& grid, bool whole, std::funct
   };
   const std::size_t n = grid_.sites;
   Charge charge;
-  double last_stress = 0, hardest_jump = 0.1;  // of the stress, as a share of it
+  double last_stress = 0, hardest_jump = 0.1;  // relative jump of the stress; smaller jumps do not count
   for (std::size_t j = 0; j < n; ++j) {
     const double before = charge.sum;
     if (j > 0) charge.add(integral(stress_, grid_.x(j - 1), grid_.x(j)) / (2 * pi));
@@ -105,7 +106,8 @@ double StaticTrain::u(const Segment& s, std::size_t site, double charge, LocalTr
   const double charge_of_it = s.to - s.from, count = closed ? std::nearbyint(charge_of_it) : charge_of_it;
   if (s.empty || (closed && count == 0)) return 2 * pi * s.wells;
   const double factor = closed ? count / charge_of_it : 1;
-  // Half a spacing between the last dislocation and the right edge; from the left edge where that alone is empty.
+  // The last dislocation is half a spacing from the right edge. If only the left side is empty, the first dislocation
+  // is half a spacing from the left edge instead.
   const bool from_left = s.begin > 0 && s.end == grid_.sites && !whole_;
   const bool stressed_throughout = s.begin == 0 && s.end == grid_.sites && !whole_;
   const double anchor = stressed_throughout && jump_at_ ? *jump_at_ : s.to;

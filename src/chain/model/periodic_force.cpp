@@ -13,8 +13,9 @@ using std::numbers::pi;
 }  // namespace
 
 PeriodicForce fit(const std::function<double(double)>& f) {
-  // f = r (1/4 - r^2) q(r^2); q by interpolation at the Chebyshev nodes of 0 ... 1/4, which is near-minimax.
-  constexpr int degree = PeriodicForce::terms - 1, nodes = degree;  // of q: degree - 1
+  // f = r (1/4 - r^2) q(r^2). We interpolate q at the Chebyshev nodes of 0 ... 1/4, which is nearly the best fit in the
+  // maximum norm.
+  constexpr int degree = PeriodicForce::terms - 1, nodes = degree;  // q has the degree `degree` - 1
   std::array<double, nodes> q{}, x{};
   for (int i = 0; i < nodes; ++i) {
     const auto at = static_cast<std::size_t>(i);
@@ -22,7 +23,8 @@ PeriodicForce fit(const std::function<double(double)>& f) {
     const double z = (x[at] + 1) / 8, r = std::sqrt(z);
     q[at] = f(r) / (r * (0.25 - z));
   }
-  // Chebyshev coefficients, then monomials of y = 8 z - 1 by the recurrence, then of z.
+  // We compute the Chebyshev coefficients, convert them to powers of y = 8 z - 1 by the recurrence, and then to powers
+  // of z.
   std::array<double, nodes> y_coefficients{}, t0{}, t1{};
   t0[0] = 1;
   t1[1] = 1;

@@ -7,12 +7,12 @@
 
 namespace slipfront::chain {
 
-/// `start(begin, end)`. \throws InputError if it has not as many sites.
+/// Calls `start(begin, end)`. \throws InputError if the result does not have end - begin sites.
 Motion sites_of(const MotionOf& start, const Problem& problem, std::size_t begin, std::size_t end);
-/// The same of a motion that a caller holds whole. It must outlive the result.
+/// Makes a MotionOf from the motion of the whole chain. `start` must outlive the result.
 MotionOf pieces_of(const Motion& start, std::size_t sites);
 
-/// Checks an initial motion while it is read.
+/// Checks an initial motion while a chain reads it.
 class StartCheck {
  public:
   /// \throws InputError for a number that is not finite.
@@ -21,7 +21,7 @@ class StartCheck {
   void finish(const Problem& problem, const Ranks& ranks) const;
 
  private:
-  double steepest_ = 0, at_ = 0;  ///< rise between two neighbours, and its x
+  double steepest_ = 0, at_ = 0;  ///< largest difference of u between two neighbours, and its x
 };
 
 /// \throws InputError if the ends of a periodic chain do not differ by its charge.

@@ -11,11 +11,11 @@ namespace slipfront {
 ///     for (root.aim(); !done; root.aim()) root.take(f(root.x));
 struct Bracket {
   double low, high;
-  double at_low = 0, at_high = 0;  ///< the function there, or a part of it: at_low < 0 < at_high
+  double at_low = 0, at_high = 0;  ///< the function at the ends, perhaps halved: at_low < 0 < at_high
   double x = 0;
-  int side = 0;  ///< of the end that moved last: -1 low, 1 high
+  int side = 0;  ///< the end that moved last: -1 low, 1 high, 0 neither
 
-  /// Moves the end of the side on which the function at x lies.
+  /// Moves one end to x. `at` is the function at x, and its sign selects the end.
   void take(double at) {
     const int now = at > 0 ? 1 : -1;
     (at > 0 ? high : low) = x;
@@ -23,8 +23,9 @@ struct Bracket {
     if (side == now) (at > 0 ? at_low : at_high) /= 2;
     side = now;
   }
-  /// Chooses x by a secant from the end nearer to the root, or half way where the function is infinite: a secant would
-  /// stay at the other end for ever. With a `margin`, x lies no nearer to an end: then the other end follows at once.
+  /// Chooses x by a secant from the end nearer to the root. If the function is infinite at an end, x is the middle,
+  /// because a secant would stay at the other end for ever. With a `margin`, x is at least this far from both ends, so
+  /// that the other end follows at once.
   void aim(double margin = 0) {
     const double rise = at_high - at_low;
     if (!std::isfinite(rise))
@@ -39,8 +40,8 @@ struct Bracket {
   }
 };
 
-/// Root of a rising f between 0 < low < high with f(low) <= 0 <= f(high): bisection in the logarithm down to a factor
-/// 4, then secants. Ends at the resolution of a double.
+/// Finds the root of a rising f between 0 < low < high, where f(low) <= 0 <= f(high). It bisects the logarithm until
+/// high <= 4 low, then takes secants down to the resolution of a double.
 template <class Function>
 double root_in_bracket(double low, double high, Function&& f) {
   while (high > 4 * low) {

@@ -4,7 +4,7 @@
 
 namespace slipfront::pulse {
 
-/// Value at x of the polynomial through n points (at[j], f[j]) with different places.
+/// Value at x of the polynomial through n points (at[j], f[j]) with distinct at[j].
 inline double lagrange(std::size_t n, const double* at, const double* f, double x) {
   double sum = 0;
   for (std::size_t j = 0; j < n; ++j) {

@@ -5,14 +5,14 @@
 #include <cstddef>
 #include <cstdint>
 
-/// Elementary functions without branches or calls, so that a loop over them becomes vector code. A few ulp each (asinh:
-/// 70), also for tiny arguments.
+/// Elementary functions without branches or calls, so that the compiler vectorises loops over them. Their errors are a
+/// few ulp (asinh: 70 ulp), also for tiny arguments.
 namespace slipfront {
 
 inline double at_least(double x, double least) { return x > least ? x : least; }
 inline double at_most(double x, double most) { return x < most ? x : most; }
 
-/// c_k + c_k+1 x + ...
+/// Returns c_k + c_(k+1) x + ...
 template <std::size_t k = 0, class Real, std::size_t terms>
 inline Real polynomial(const Real (&c)[terms], Real x) {
   if constexpr (k + 1 < terms)
@@ -21,8 +21,9 @@ inline Real polynomial(const Real (&c)[terms], Real x) {
     return c[k];
 }
 
-/// The same in pairs, pairs of pairs and so on: a few operations more, but a processor need not wait for each before it
-/// begins the next. For one polynomial in a long loop; several beside each other keep it busy as they are.
+/// Like `polynomial`, but sums pairs, then pairs of pairs, and so on. This takes a few more operations, but the
+/// processor need not wait for one before it begins the next. Use it for a single polynomial in a long loop. Several
+/// polynomials in one loop keep the processor busy without it.
 template <std::size_t first, std::size_t size, class Real, std::size_t terms>
 inline Real sum_of_pairs(const Real (&c)[terms], const Real (&powers)[4]) {
   if constexpr (size == 1) {
@@ -40,19 +41,20 @@ inline Real polynomial_by_pairs(const Real (&c)[terms], Real x) {
   return sum_of_pairs<0, terms>(c, powers);
 }
 
-/// 2 atanh(h) / h - 2 over h^2, for h^2 < 0.0413; error 1.9e-17 (tests/reference/fit_elliptic.py, atanh_tail).
+/// Coefficients of (2 atanh(h) / h - 2) / h^2 in powers of h^2, for h^2 < 0.0413. The error is 1.9e-17
+/// (tests/reference/fit_elliptic.py, atanh_tail).
 inline constexpr double twice_atanh_tail[] = {
     6.6666666666674268e-1, 3.9999999995325112e-1, 2.8571429543072803e-1, 2.2222126616831090e-1,
     1.8186835381100079e-1, 1.5240743789841894e-1, 1.5440542329346171e-1,
 };
 
-/// ln(a / b) / 2 for a >= b > 0 and a caller that knows a - b without cancellation, but for the division, which he may
-/// share: half_log(1 / below).
+/// Computes ln(a / b) / 2 for a >= b > 0. The caller gives a - b without cancellation. The caller also passes 1 / below
+/// to half_log, so that it can compute this and another quotient with one division.
 struct LogRatio {
   double above, below, halvings;
   LogRatio(double a, double b, double a_less_b) {
-    // The difference of two doubles' bits is their ratio's logarithm, to 9 %: rounded it is e in a / b = 2^e f,
-    // f in [2/3, 3/2].
+    // The difference between the bit patterns of two doubles approximates the binary logarithm of their ratio, to 0.09.
+    // Rounded, it is the exponent e in a / b = 2^e f with f in [2/3, 3/2].
     const std::uint64_t e =
         (std::bit_cast<std::uint64_t>(a) - std::bit_cast<std::uint64_t>(b) + 0x0008000000000000u) >> 52;
     const double lifted = std::bit_cast<double>(std::bit_cast<std::uint64_t>(b) + (e << 52));
@@ -82,7 +84,7 @@ inline ExpParts exp_parts(double x) {
   return {power, e};
 }
 
-/// For |x| < 700.
+/// exp(x) for |x| < 700.
 inline double exp_branch_free(double x) {
   const ExpParts at = exp_parts(x);
   return at.power + at.power * at.e;
@@ -104,8 +106,8 @@ inline double log_branch_free(double x) {
   return e * 6.93147180369123816490e-01 + (log_f + e * 1.90821492927058770002e-10);
 }
 
-/// Parts of asinh x = 2 half_log(1 / below) for 0 <= x < 1e150, also where x is tiny, from root = (1 + x^2)^(1/2): ln(1
-/// + up), up = x + (root - 1).
+/// Parts of asinh x = 2 half_log(1 / below) for 0 <= x < 1e150, precise also for tiny x. The caller gives
+/// root = (1 + x^2)^(1/2). We use asinh x = ln(1 + up) with up = x + (root - 1).
 inline LogRatio asinh_ratio(double x, double root) {
   constexpr double c[] = {1.0 / 2, -1.0 / 8, 1.0 / 16, -5.0 / 128}, few = 1.0 / 4096;
   const double z = x * x, small = z < few ? z : few;

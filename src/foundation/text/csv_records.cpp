@@ -10,15 +10,16 @@
 namespace slipfront {
 namespace {
 
-/// More than any table has; what looks columns up in each other takes time with their square.
+/// More columns than any table has. The limit exists because looking up columns takes a time that grows with the square
+/// of their number.
 constexpr std::size_t most_columns = 10000;
 
 struct Records {
   const std::function<void(std::vector<std::string>&&, std::size_t)>& take;
   std::vector<std::string> fields = {};
-  std::size_t line = 0;               ///< being fed
-  std::size_t first = 0;              ///< of the record being read; 0 between records
-  std::exception_ptr exception = {};  ///< must not pass through C
+  std::size_t line = 0;               ///< number of the line that the parser gets
+  std::size_t first = 0;              ///< line on which the current record begins; 0 between records
+  std::exception_ptr exception = {};  ///< stored, because it must not pass through C code
 };
 
 void on_field(void* data, std::size_t size, void* self) {
@@ -63,7 +64,7 @@ std::size_t for_each_record(std::string_view text,
                             const std::function<void(std::vector<std::string>&&, std::size_t)>& take) {
   Parser parser;
   Records records{take};
-  // libcsv does not count lines; fed one line at a time, it need not.
+  // libcsv does not count lines, so we pass it one line at a time.
   while (!text.empty() && !records.exception) {
     const std::size_t end = text.find('\n');
     const std::size_t size = end == std::string_view::npos ? text.size() : end + 1;
@@ -74,7 +75,7 @@ std::size_t for_each_record(std::string_view text,
     if (records.fields.empty() && parser.raw.quoted == 0) records.first = 0;  // a blank line
     text.remove_prefix(size);
   }
-  csv_set_opts(&parser.raw, CSV_STRICT | CSV_STRICT_FINI);  // from here on a quote still open is an error
+  csv_set_opts(&parser.raw, CSV_STRICT | CSV_STRICT_FINI);  // report a quote that is still open at the end
   const bool open_quote = !records.exception && csv_fini(&parser.raw, on_field, on_record, &records) != 0;
   if (records.exception) std::rethrow_exception(records.exception);
   return open_quote ? records.first : 0;

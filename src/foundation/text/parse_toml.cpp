@@ -11,7 +11,7 @@ namespace {
 constexpr int most_dots = 8;
 constexpr int most_brackets = 32;
 
-/// Where the string or comment that begins at `at` ends; `at` itself if none begins there.
+/// Returns the end of the string or comment that begins at `at`, or `at` if none begins there.
 std::size_t past_text(std::string_view text, std::size_t at) {
   const char quote = text[at];
   if (quote == '#') return std::min(text.find('\n', at), text.size());
@@ -25,14 +25,14 @@ std::size_t past_text(std::string_view text, std::size_t at) {
     } else if (text.substr(i, close.size()) == close) {
       return i + close.size();
     } else if (!spans_lines && text[i] == '\n') {
-      return i;  // never closed; the parser will say so
+      return i;  // the quote is never closed; the parser reports it
     }
   }
   return text.size();
 }
 
-/// toml++ keeps "a.a.a.a..." as tables within tables and recurses through them: 400 kB of it overflow the stack.
-/// Nothing that is read here needs more than a few levels.
+/// toml++ stores "a.a.a.a..." as nested tables and recurses through them, so that 400 kB of it overflow the stack. The
+/// files that we read need only a few levels.
 void refuse_deep_nesting(std::string_view text, const std::string& file) {
   std::size_t line = 1;
   int dots = 0;
@@ -64,7 +64,8 @@ toml::table parse_toml(std::string_view text, const std::string& file) {
                       .problem = text.substr(0, 4) == "\x89HDF" ? "a NetCDF file" : "not a text: it holds a zero byte",
                       .allowed = "TOML 1.0"});
   refuse_deep_nesting(text, file);
-  toml::parse_result result = toml::parse(text);  // without a name, which the reader would keep where it must not throw
+  // We do not pass the file name: toml++ would store it in a function that must not throw.
+  toml::parse_result result = toml::parse(text);
   if (result) return std::move(result).table();
   throw InputError({.file = file,
                     .line = result.error().source().begin.line,

@@ -6,7 +6,7 @@
 namespace slipfront {
 namespace {
 
-/// The character that these bytes, which are one, encode.
+/// The code point of the single UTF-8 character in `bytes`.
 std::uint32_t code_point(std::string_view bytes) {
   const auto at = [&](std::size_t i) { return static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[i])); };
   if (bytes.size() == 1) return at(0);
@@ -19,8 +19,8 @@ bool is_shown(std::uint32_t code) {
   struct Range {
     std::uint32_t first, last;
   };
-  // C0 and C1 controls; marks, separators, embeddings, overrides and isolates of direction; no width; annotations;
-  // tags.
+  // Control characters (C0 and C1); marks, embeddings, overrides and isolates that set the writing direction;
+  // separators; characters without width; annotations; tags.
   constexpr Range hidden[] = {{0x00, 0x1f},     {0x7f, 0x9f},     {0xad, 0xad},      {0x61c, 0x61c},
                               {0x180e, 0x180e}, {0x200b, 0x200f}, {0x2028, 0x202e},  {0x2060, 0x206f},
                               {0xfeff, 0xfeff}, {0xfff0, 0xfffb}, {0xe0000, 0xe0fff}};
@@ -59,7 +59,7 @@ std::size_t utf8_length(std::string_view text) {
   if (first < 0xc2 || first > 0xf4 || text.size() < length) return 0;
   for (std::size_t i = 1; i < length; ++i)
     if ((at(i) & 0xc0) != 0x80) return 0;
-  // Overlong forms, surrogates, and beyond U+10FFFF.
+  // Reject overlong forms, surrogates, and code points above U+10FFFF.
   if ((first == 0xe0 && at(1) < 0xa0) || (first == 0xed && at(1) > 0x9f)) return 0;
   if ((first == 0xf0 && at(1) < 0x90) || (first == 0xf4 && at(1) > 0x8f)) return 0;
   return length;

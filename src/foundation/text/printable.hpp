@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Text from files and users as it may be shown to a person.
+/// Makes text from files and users safe to show on a terminal.
 
 #include <cstddef>
 #include <string>
@@ -11,12 +11,12 @@ namespace slipfront {
 /// Length of the UTF-8 character at the front of `text` (RFC 3629), or 0 if there is none.
 std::size_t utf8_length(std::string_view text);
 
-/// `text` with '?' for all that a terminal would obey instead of showing it: control characters (escape sequences begin
-/// with one), what turns the direction of writing or has no width, and bytes that are not UTF-8. Cut between characters
-/// to at most `most` bytes, with "..." behind.
+/// Returns `text` with '?' for each character that a terminal obeys instead of showing it. These are control characters
+/// (escape sequences begin with one), characters that turn the writing direction or have no width, and bytes that are
+/// not UTF-8. A longer result is cut between characters to at most `most` bytes, followed by "...".
 std::string printable(std::string_view text, std::size_t most = static_cast<std::size_t>(-1));
 
-/// The same of several lines: their breaks, and tabs, stay.
+/// Like `printable`, but for several lines: line breaks and tabs stay.
 std::string printable_lines(std::string_view text);
 
 }  // namespace slipfront

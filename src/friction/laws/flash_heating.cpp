@@ -17,7 +17,9 @@ const Definition& flash_heating_law() {
       .adjective = "flash-heating",
       .equation = "f = f_w + (f_0 - f_w) / (1 + w / w_w), with the sign of w; positions stick below f_0",
       .source = "after Rice (2006), J. Geophys. Res. 111:B05311, with a smooth onset",
-      .parameters = {strength_in(force_unit, "f_0"), force_named("weakened", "f_w"), velocity_named("velocity", "w_w")},
+      .parameters = {strength_in(force_unit, "f_0", "friction at rest"),
+                     force_named("weakened", "f_w", "friction of fast slip"),
+                     velocity_named("velocity", "w_w", "slip velocity that halves the excess of friction over f_w")},
       .make = make_law<ForceOfSpeed<FlashHeating>>};
   return definition;
 }

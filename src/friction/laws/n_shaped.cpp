@@ -20,7 +20,8 @@ const Definition& n_shaped_law() {
       .adjective = "n-shaped",
       .equation = "f = C (w / w_p) / (1 + (w / w_p)^2): rises to C / 2 at w_p, and falls as C w_p / w",
       .source = "Brener & Marchenko (2002), J. Exp. Theor. Phys. Lett. 76:211; docs/friction.md",
-      .parameters = {coefficient_in(force_unit), velocity_named("velocity", "w_p")},
+      .parameters = {coefficient_in(force_unit),
+                     velocity_named("velocity", "w_p", "slip velocity of the largest friction")},
       .make = make_law<ForceOfSpeed<NShaped>>};
   return definition;
 }

@@ -192,7 +192,13 @@ const Definition& power_law() {
       .equation = "f = C |w|^(n-1) w",
       .source = "docs/theory.md 3.3",
       .parameters = {coefficient_in("mu A^2 / (pi (1 - nu)) over the unit of w to the power n"),
-                     {.name = "exponent", .symbol = "n", .unit = "1", .value = 1, .most = 20, .without_least = true}},
+                     {.name = "exponent",
+                      .symbol = "n",
+                      .unit = "1",
+                      .meaning = "power of the slip velocity",
+                      .value = 1,
+                      .most = 20,
+                      .without_least = true}},
       .make = make_law<Power>};
   return definition;
 }

@@ -1,4 +1,4 @@
-// Rate-and-state friction. Each position has a state theta, the age of its contacts.
+// Rate-and-state friction. Each position has a state variable theta, the age of its contacts.
 
 #include <algorithm>
 #include <cmath>
@@ -37,8 +37,8 @@ class RateAndStateLoops final : public ForceLoops {
     }
   }
 
-  /// Under a share s, v = s v' obeys v' + weight a asinh(G s v') = free / s, and b ln(theta) has s G as well: theta
-  /// s^(a / b) in place of theta.
+  /// If the normal stress is a share s, the speed v = s v' obeys v' + weight a asinh(s G v') = free / s. Because G is
+  /// proportional to theta^(b / a), the factor s has the same effect as theta s^(a / b) in place of theta.
   void speeds_after_under(std::size_t size, const double* share, const double* free, double weight, LocalStates theta,
                           double* speed) const override {
     constexpr double most_power = 20;
@@ -75,15 +75,15 @@ class RateAndState final : public Law {
         evolution_(v[kind] != 0 ? ContactAge::Kind::slip : ContactAge::Kind::ageing, v[age] > 0 ? v[age] : D_ / v0_,
                    D_) {}
 
-  /// a asinh((w / 2 w_0) exp(E)), E = (f_0 + b ln(theta w_0 / D_c)) / a, without overflow.
+  /// Computes a asinh((w / 2 w_0) exp(E)), E = (f_0 + b ln(theta w_0 / D_c)) / a, without overflow.
   double strength(double speed, LocalState theta) const override {
     if (!(speed > 0)) return 0;
-    const double log_twice = std::log(speed / v0_) + exponent(theta);  // of 2 x, with f = a asinh x
+    const double log_twice = std::log(speed / v0_) + exponent(theta);  // ln(2 x), where f = a asinh x
     return a_ * (log_twice > large ? log_twice : std::asinh(std::exp(log_twice) / 2));
   }
 
-  /// v + weight f(v) = free. In s = f / a it is convex with its root below the start, so that Newton's steps fall to
-  /// it.
+  /// Solves v + weight f(v) = free by Newton's method in s = f / a. The equation is convex in s and the start is above
+  /// its root, so the steps descend to the root.
   double speed_after(double free, double weight, LocalState theta) const override {
     if (!(free > 0)) return 0;
     const double E = exponent(theta);
@@ -95,9 +95,9 @@ class RateAndState final : public Law {
       const double v = speed(s), slope = s > large ? v : 2 * v0_ * std::cosh(s) * std::exp(-E);
       const double step = (v + weight * a_ * s - free) / (slope + weight * a_);
       s -= step;
-      if (std::fabs(step) <= 1e-9 * s) break;  // the error left is of the order of its square
+      if (std::fabs(step) <= 1e-9 * s) break;  // the remaining error is of the order of step^2
     }
-    // The difference free - weight f has the digits where friction is weak, the speed itself where it is strong.
+    // The difference free - weight f is more precise if friction is weak, and the speed at s if friction is strong.
     const double slowed = free - weight * a_ * s;
     return slowed > free / 2 ? slowed : speed(s);
   }
@@ -107,7 +107,7 @@ class RateAndState final : public Law {
   const StateEvolution& evolution() const override { return evolution_; }
 
  private:
-  static constexpr double large = 18;  // asinh(e^x / 2) is x to 1e-16 above it
+  static constexpr double large = 18;  // above it, asinh(e^x / 2) = x to 1e-16
 
   double exponent(LocalState theta) const { return (f0_ + b_ * std::log(theta[0] * v0_ / D_)) / a_; }
   AsinhForce asinh_force() const {
@@ -124,8 +124,13 @@ class RateAndState final : public Law {
 
 const Definition& rate_and_state_law() {
   static const auto on_chain = [](std::string_view name, std::string_view symbol, std::string_view unit,
-                                  Dimension dimension) {
-    return Parameter{.name = name, .symbol = symbol, .unit = unit, .dimension = dimension, .only_on_chain = true};
+                                  Dimension dimension, std::string_view meaning) {
+    return Parameter{.name = name,
+                     .symbol = symbol,
+                     .unit = unit,
+                     .meaning = meaning,
+                     .dimension = dimension,
+                     .only_on_chain = true};
   };
   static const auto with = [](Parameter parameter, auto member, auto value) {
     parameter.*member = value;
@@ -140,18 +145,34 @@ const Definition& rate_and_state_law() {
       .source =
           "Dieterich (1979), J. Geophys. Res. 84:2161; Ruina (1983), J. Geophys. Res. 88:10359; regularised as by "
           "Rice & Ben-Zion (1996), Proc. Natl. Acad. Sci. 93:3811",
-      .parameters = {strength_in(force_unit, "f_0"),
-                     with(force_named("direct_effect", "a", 0.01), &Parameter::without_least, true),
-                     force_named("evolution_effect", "b"),
+      .parameters = {strength_in(force_unit, "f_0", "friction at the reference velocity in steady slip"),
+                     with(force_named("direct_effect", "a", "growth of friction with ln w at a constant state", 0.01),
+                          &Parameter::without_least, true),
+                     force_named("evolution_effect", "b", "growth of friction with ln theta"),
                      characteristic_slip(),
-                     velocity_named("reference_velocity", "w_0"),
-                     {.name = "initial_state", .symbol = "theta_0", .unit = "b / (c A)", .dimension = Dimension::time},
-                     {.name = "state", .symbol = "", .unit = "1", .most = 1, .words = {"ageing", "slip"}},
-                     on_chain("contact_ageing", "beta", "1", Dimension::number),
-                     on_chain("contact_time", "theta_c", "b / (c A)", Dimension::time),
-                     on_chain("dilatancy", "epsilon / b_p", "normal stress", Dimension::pressure),
-                     on_chain("drainage_time", "t_p", "b / (c A)", Dimension::time),
-                     with(on_chain("pore_pressure", "p_0", "normal stress", Dimension::pressure), &Parameter::most, 1)},
+                     velocity_named("reference_velocity", "w_0", "slip velocity at which steady friction is f_0"),
+                     {.name = "initial_state",
+                      .symbol = "theta_0",
+                      .unit = "b / (c A)",
+                      .meaning = "age theta of the contacts at t = 0; 0 means D_c / w_0",
+                      .dimension = Dimension::time},
+                     {.name = "state",
+                      .symbol = "",
+                      .unit = "1",
+                      .meaning = "law by which the age of the contacts evolves",
+                      .most = 1,
+                      .words = {"ageing", "slip"}},
+                     on_chain("contact_ageing", "beta", "1", Dimension::number,
+                              "growth of the contacts' strength a^2 with ln(1 + theta / theta_c)"),
+                     on_chain("contact_time", "theta_c", "b / (c A)", Dimension::time,
+                              "age theta_c from which on the contacts strengthen"),
+                     on_chain("dilatancy", "epsilon / b_p", "normal stress", Dimension::pressure,
+                              "change of pore pressure with ln theta, without drainage"),
+                     on_chain("drainage_time", "t_p", "b / (c A)", Dimension::time,
+                              "time in which the pore pressure returns; 0 means never"),
+                     with(on_chain("pore_pressure", "p_0", "normal stress", Dimension::pressure,
+                                   "ambient pore pressure"),
+                          &Parameter::most, 1)},
       .state = {{.name = "theta", .symbol = "theta", .unit = "b / (c A)"}},
       .make = make_law<RateAndState>};
   return definition;

@@ -7,7 +7,7 @@
 namespace slipfront::friction {
 namespace {
 
-constexpr double most_exponent = 300;  ///< of G: asinh(x) is taken from x below 1e150
+constexpr double most_exponent = 300;  ///< limit of |ln G|, because asinh_branch_free needs x < 1e150
 
 }  // namespace
 
@@ -31,27 +31,29 @@ bool within_exponents(const AsinhForce& law, double theta) {
 
 namespace {
 
-constexpr std::size_t together = 64;  ///< positions
-/// Squares of less would be subnormal, which takes processors a hundred times longer; below it all is linear.
+constexpr std::size_t together = 64;  ///< positions in one pass
+/// Smallest speed in the loops. Squares of smaller numbers would be subnormal, which takes a processor a hundred times
+/// longer. Below this speed the solution is linear in the speed.
 constexpr double slowest = 1e-100;
 
-/// The progress of solves.
+/// State of the solves at up to `together` positions.
 struct Solves {
   double s[together];  ///< asinh(G v)
   double G[together];
-  double late[together];  ///< 1 where there is more to do, else 0
+  double late[together];  ///< 1 if the position is not solved yet, else 0
 };
 
-/// The numbers of a solve by series.
+/// Quantities that start_series computes and sum_series uses.
 struct SeriesStart {
   double root[together], step[together], inverse[together];
 };
 
-/// v + d asinh(G v) = F, with s = asinh(G v): F / c = sinh s + (d / c) s, c = 1 / G. s is asinh(F G) less delta, with
-///     R sinh(delta) + d delta - F (cosh(delta) - 1) = d asinh(F G),    R = (F^2 + c^2)^(1/2),
-/// whose solution is a series in delta_1 = d asinh(F G) / (R + d): this finds asinh(F G) and delta_1.
-/// The loops are short, over at most `together` positions, so that a processor has many iterations under way at once:
-/// in one long loop each operation would wait for the one before it.
+/// Prepares the solution of v + d asinh(G v) = F by a series. With s = asinh(G v) and c = 1 / G, the equation becomes
+/// F / c = sinh s + (d / c) s. We write s = asinh(F G) - delta, where delta obeys
+///     R sinh(delta) + d delta - F (cosh(delta) - 1) = d asinh(F G),    R = (F^2 + c^2)^(1/2).
+/// The solution is a series in delta_1 = d asinh(F G) / (R + d). This function computes asinh(F G) and delta_1.
+/// The loops are short, over at most `together` positions, so that a processor works on many iterations at once. In one
+/// long loop, each operation would wait for the one before it.
 SLIPFRONT_CLONES void start_series(const AsinhForce& law, std::size_t size, const double* free, double weight,
                                    const double* theta, Solves& at, SeriesStart& start) {
   const AsinhForce r = law;
@@ -72,15 +74,15 @@ SLIPFRONT_CLONES void start_series(const AsinhForce& law, std::size_t size, cons
   for (std::size_t j = 0; j < size; ++j) {
     const double G = G_out[j], x = at_least(at_least(free[j], slowest) * G, slowest), slowed = root[j] + d * G;
     const LogRatio ratio = asinh_ratio(x, root[j]);
-    const double both = 1 / (ratio.below * slowed);                                     // one division for two
-    const double s0 = 2 * ratio.half_log(both * slowed), inverse = both * ratio.below;  // times G: over R + d
+    const double both = 1 / (ratio.below * slowed);                                     // one division instead of two
+    const double s0 = 2 * ratio.half_log(both * slowed), inverse = both * ratio.below;  // inverse * G = 1 / (R + d)
     s[j] = s0;
     inverse_at[j] = inverse;
     step_at[j] = d * G * s0 * inverse;
   }
 }
 
-/// Sums the series. Returns whether it was enough for all positions.
+/// Sums the series. Returns whether it is precise enough at all positions.
 SLIPFRONT_CLONES bool sum_series(double d, std::size_t size, const double* free, const SeriesStart& start,
                                  double* speed, Solves& at) {
   const double per_d = 1 / d;
@@ -107,8 +109,8 @@ SLIPFRONT_CLONES bool sum_series(double d, std::size_t size, const double* free,
   return more == 0;
 }
 
-/// A step of Newton's method in s, from above the root or near it: the left side is convex. Returns whether any
-/// position is late after it.
+/// Takes a step of Newton's method in s, from above the root or near it, which converges because the left side is
+/// convex. Returns whether any position is still unsolved.
 SLIPFRONT_CLONES bool newton_step(double d, std::size_t size, const double* free, double* speed, double* s,
                                   const double* G, double* late) {
   std::size_t more = 0;
@@ -118,7 +120,8 @@ SLIPFRONT_CLONES bool newton_step(double d, std::size_t size, const double* free
     const double up = expm1_branch_free(at_least(at_most(at, 650.0), 0.0)), down = up / (1 + up);
     const double v = half * (up + down), slope = half * (2 + up - down);
     const double step = (v + d * at - F) / (slope + d), next = at - step;
-    // The difference has the digits where friction is weak, the speed itself, taken on to `next`, where it is strong.
+    // The difference `rest` is more precise if friction is weak. The speed, extrapolated to `next`, is more precise if
+    // friction is strong.
     const double rest = F - d * next, moved = v - step * (slope - step / 2 * v);
     const bool waits = late[j] != 0, near = std::fabs(step) <= 1e-8 * at;
     const double found = (rest > F / 2 ? rest : moved) * (free[j] < slowest ? free[j] * (1 / slowest) : 1.0);

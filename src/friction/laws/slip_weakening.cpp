@@ -107,7 +107,8 @@ const Definition& slip_weakening_law() {
       .adjective = "slip-weakening",
       .equation = "f = f_d + (f_s - f_d) max(0, 1 - slip / D_c), with the sign of w; positions stick below it",
       .source = "Andrews (1976), J. Geophys. Res. 81:5679",
-      .parameters = {strength_in(force_unit, "f_s"), force_named("residual", "f_d"), characteristic_slip()},
+      .parameters = {strength_in(force_unit, "f_s", "friction before any slip"),
+                     force_named("residual", "f_d", "friction after the slip D_c"), characteristic_slip()},
       .state = {{.name = "slipped", .symbol = "s", .unit = "b / (2 pi)"}},
       .make = make_law<SlipWeakening>};
   return definition;

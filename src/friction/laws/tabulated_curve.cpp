@@ -15,13 +15,14 @@ namespace slipfront::friction {
 namespace {
 
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
-constexpr int bits_of_place = 48;  ///< the 4 bits of a double above them, and the exponent, are the piece
-constexpr double slowest = 0x1p-84, fastest = 0x1p6;  // what rounding moves is not far below 1e-20
+constexpr int bits_of_place = 48;  ///< bits within a piece; its index is the exponent and the 4 bits above these
+constexpr double slowest = 0x1p-84, fastest = 0x1p6;  // rounding causes speeds not far below 1e-20
 
 std::uint64_t piece_of(double speed) { return std::bit_cast<std::uint64_t>(speed) >> bits_of_place; }
 double start_of(std::uint64_t piece) { return std::bit_cast<double>(piece << bits_of_place); }
 
-/// Coefficients of the piece that begins at `from`; not a number where they would not do.
+/// Fits a polynomial to the curve between `from` and `to`. Sets c[0] to NaN if the polynomial is not precise enough or
+/// the curve fails.
 template <std::size_t n>
 void fit(const ChebyshevFit<n>& through, const Curve& curve, double from, double to, double (&c)[n]) {
   constexpr double precision = 1e-12;
@@ -31,18 +32,18 @@ void fit(const ChebyshevFit<n>& through, const Curve& curve, double from, double
     double f[n];
     for (std::size_t i = 0; i < n; ++i) f[i] = curve(speed_at(ChebyshevFit<n>::extremum(i)));
     through(f, c);
-    for (std::size_t i = 0; i + 1 < n && fits; ++i) {  // between the points
+    for (std::size_t i = 0; i + 1 < n && fits; ++i) {  // check between the nodes
       const double t = std::cos(std::numbers::pi * (static_cast<double>(i) + 0.5) / (n - 1)),
                    value = curve(speed_at(t));
       fits = std::fabs(polynomial_by_pairs(c, t) - value) <= precision * std::fabs(value);
     }
-  } catch (const InputError&) {  // the curve ends, maybe at speeds that never come
+  } catch (const InputError&) {  // the curve ends; the run may never reach such speeds
     fits = false;
   }
   if (!fits) c[0] = no_number;
 }
 
-// Not as vector code: gathering coefficients would take longer than the polynomials.
+// This loop is not vectorised, because gathering the coefficients would take longer than the polynomials.
 SLIPFRONT_CLONES std::size_t evaluate(std::size_t size, const double* speed, const TabulatedCurve::Piece* pieces,
                                       std::uint64_t first, std::uint64_t count, double* value) {
   std::size_t others = 0;

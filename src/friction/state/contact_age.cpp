@@ -10,9 +10,10 @@ namespace slipfront::friction {
 namespace {
 
 constexpr std::size_t together = 64;
-constexpr double short_step = 1.0 / 16;  ///< of the slip over D_c
+constexpr double short_step = 1.0 / 16;  ///< limit of the slip over D_c in age_little
 
-/// Steps in which positions slip little, to 1e-17; returns whether all did. It does not change the others.
+/// Advances theta, to 1e-17, at positions that slip less than short_step. The others stay unchanged. Returns whether
+/// there are no others.
 SLIPFRONT_CLONES bool age_little(std::size_t size, const double* velocity, double per_D, double time, double* theta) {
   constexpr double c[] = {1.0,        -1.0 / 2,   1.0 / 6,      -1.0 / 24,    1.0 / 120,
                           -1.0 / 720, 1.0 / 5040, -1.0 / 40320, 1.0 / 362880, -1.0 / 3628800};

@@ -9,7 +9,7 @@
 namespace slipfront::friction {
 namespace {
 
-/// Adds the asinh at one node of phase to the sums over nodes, for many A.
+/// Adds the term of one phase node to the sums over the nodes, for many values of A.
 SLIPFRONT_CLONES void add_asinh(std::size_t size, const double* A, double r, double weight, double* sum) {
   SLIPFRONT_INDEPENDENT
   for (std::size_t i = 0; i < size; ++i) {
@@ -43,7 +43,7 @@ AsinhMeanTable::AsinhMeanTable() {
     double r[terms], weight[terms], s[terms], weights[terms] = {};
     for (std::size_t k = 0; k < terms; ++k) s[k] = exp_of_node(first_s, column, k);  // < 1
     const PhaseNodes phases(terms, s);
-    // Above these the mean is logarithmic.
+    // In the rows above these, the mean is logarithmic.
     const std::size_t needed = std::min(rows, patches_in(std::log(largest_As / s[terms - 1]) - least_log_A));
     for (std::vector<double>& sum : sums) sum.assign(needed * terms, 0);
     for (std::size_t p = 0; p < phases.count(); ++p) {
@@ -53,7 +53,7 @@ AsinhMeanTable::AsinhMeanTable() {
         add_asinh(needed * terms, A.data(), r[k], weight[k], sums[k].data());
       }
     }
-    for (std::size_t k = 0; k < terms; ++k)  // the difference, times the weights
+    for (std::size_t k = 0; k < terms; ++k)  // the table holds the difference from asinh(x)
       add_asinh(needed * terms, A.data(), (1 + s[k]) / 2, -weights[k], sums[k].data());
     for (std::size_t row = 0; row < needed; ++row) {
       ChebyshevPatch::Values values;
@@ -66,12 +66,12 @@ AsinhMeanTable::AsinhMeanTable() {
 
 namespace {
 
-/// Positions in the table of at most `most` trains.
+/// Positions of at most `most` trains in the table.
 struct PositionsInTable {
   static constexpr std::size_t most = 64;
   double x_A[most], x_s[most];  ///< -1 to 1 within the patch
   int patch[most];
-  double difference[most], by_A[most];  ///< what the table has there, and its slope
+  double difference[most], by_A[most];  ///< value of the table at this position, and its slope over x_A
 };
 
 SLIPFRONT_CLONES void find_positions(std::size_t size, std::size_t columns, double first_s, double first_A, double side,
@@ -88,7 +88,7 @@ SLIPFRONT_CLONES void find_positions(std::size_t size, std::size_t columns, doub
   }
 }
 
-/// Train by train: gathering coefficients for many trains would take longer.
+/// Interpolates for one train after the other, because gathering coefficients for many trains would take longer.
 SLIPFRONT_CLONES void interpolate_all(std::size_t size, const ChebyshevPatch* patches, PositionsInTable& at) {
   for (std::size_t i = 0; i < size; ++i) {
     const ValueAndSlope found = interpolate(patches[at.patch[i]], at.x_A[i], at.x_s[i]);

@@ -11,7 +11,7 @@ template <std::size_t n>
 class ChebyshevFit {
  public:
   ChebyshevFit() {
-    double in_powers[n][n] = {{1}, {0, 1}};  // of T_k
+    double in_powers[n][n] = {{1}, {0, 1}};  // coefficients of the T_k
     for (std::size_t k = 2; k < n; ++k)
       for (std::size_t j = 0; j < n; ++j)
         in_powers[k][j] = (j > 0 ? 2 * in_powers[k - 1][j - 1] : 0) - in_powers[k - 2][j];
@@ -25,7 +25,7 @@ class ChebyshevFit {
   /// Extremum i, from 1 down to -1.
   static double extremum(std::size_t i) { return std::cos(std::numbers::pi * static_cast<double>(i) / (n - 1)); }
 
-  /// Coefficients of the powers of t.
+  /// Computes the coefficients of the powers of t from the values at the extrema.
   void operator()(const double (&values)[n], double (&c)[n]) const {
     for (std::size_t j = 0; j < n; ++j) {
       c[j] = 0;

@@ -13,13 +13,14 @@ namespace slipfront::friction {
 namespace {
 
 constexpr std::size_t terms = ChebyshevPatch::terms;
-constexpr double side = 0.25;                             ///< of a patch, in either logarithm
-constexpr double first_row = -138.5, first_column = -14;  ///< where the patches begin
-constexpr std::size_t rows = 571, columns = 56;           ///< to ln(fastest) = 4.25 and s = 1
-constexpr double slowest = 1e-60, fastest_of_all = 64, least_s = 1e-6, largest_s = 0.9999999;  ///< within them
-constexpr double precision = 2e-11;                                                            ///< of a mean
+constexpr double side = 0.25;                             ///< size of a patch in ln(fastest) and in ln s
+constexpr double first_row = -138.5, first_column = -14;  ///< logarithms at which the patches begin
+constexpr std::size_t rows = 571, columns = 56;           ///< they end at ln(fastest) = 4.25 and s = 1
+constexpr double slowest = 1e-60, fastest_of_all = 64, least_s = 1e-6,
+                 largest_s = 0.9999999;  ///< limits, inside the patches
+constexpr double precision = 2e-11;      ///< largest relative error of a mean
 
-/// Positions in the table of at most `most` trains.
+/// Positions of at most `most` trains in the table.
 struct Positions {
   static constexpr std::size_t most = PhaseNodes::most;
   double row[most], column[most];  ///< -1 outside the table
@@ -43,7 +44,7 @@ SLIPFRONT_CLONES void find_positions(std::size_t size, const double* fastest, co
   }
 }
 
-/// Train by train: gathering coefficients for many trains would take longer.
+/// Interpolates for one train after the other, because gathering coefficients for many trains would take longer.
 SLIPFRONT_CLONES void interpolate_all(std::size_t size, Positions& at) {
   for (std::size_t i = 0; i < size; ++i) {
     const ValueAndSlope found = interpolate(*at.patch[i], at.x[i], at.y[i]);
@@ -52,7 +53,7 @@ SLIPFRONT_CLONES void interpolate_all(std::size_t size, Positions& at) {
   }
 }
 
-/// Trains on a grid of speeds and s, by means_by_phase.
+/// Computes the means of trains at `count` points of a patch. `node(i)` gives the coordinates of point i, from -1 to 1.
 template <std::size_t count, class Node>
 void means_at(const ForceLoops& loops, std::size_t row, std::size_t column, const Node& node, double* mean) {
   double fastest[count], s[count];
@@ -82,7 +83,7 @@ TabulatedAverage::Patch TabulatedAverage::made(std::size_t row, std::size_t colu
       },
       &values[0][0]);
   patch.polynomial.fit(through, values);
-  // Between the nodes, along both diagonals.
+  // Check the polynomial between the nodes, along both diagonals.
   constexpr std::size_t between = 2 * (terms - 1);
   const auto node = [](std::size_t i) {
     const std::size_t pair = i / 2;
@@ -106,7 +107,7 @@ const ChebyshevPatch* TabulatedAverage::good_patch(std::size_t row, std::size_t 
   Patch found{};
   try {
     found = made(row, column);
-  } catch (const InputError&) {  // the curve ends: quadrature reports the speed, if a train has it
+  } catch (const InputError&) {  // the curve ends; quadrature reports the speed if a train reaches it
     found.good = false;
   }
   const std::lock_guard<std::mutex> lock(making_);
@@ -120,7 +121,7 @@ void TabulatedAverage::mean_strengths(const Trains& trains, Closure closure, dou
   static constexpr ChebyshevPatch none{};
   std::call_once(once_, [this] { patches_ = std::vector<std::atomic<const Patch*>>(rows * columns); });
   Positions at;
-  thread_local std::vector<std::size_t> others;  // kept between calls, so that steps allocate nothing
+  thread_local std::vector<std::size_t> others;  // reused, so that steps allocate nothing
   others.clear();
   for (std::size_t begin = 0; begin < trains.size; begin += Positions::most) {
     const std::size_t some = std::min(Positions::most, trains.size - begin);

@@ -14,7 +14,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// Share of the energy of motion that is lost where streams cross, above which the averages are doubtful.
+/// If streams that cross lose more than this share of the energy of motion, the averages are reported as doubtful.
 constexpr double much = 0.05;
 
 }  // namespace
@@ -43,7 +43,7 @@ double Checks::contact_doubt() const {
 }
 
 double Checks::energy_doubt() const {
-  constexpr double rounding = 1e-12;  // of the states, which each step solves for anew
+  constexpr double rounding = 1e-12;  // relative rounding error of the states, which each step solves for again
   const StoredEnergy now = stored_energy(solver_);
   return std::fabs(now.correction - at_start_.correction) + 2 * now.unresolved +
          (rounding + contact_doubt()) * std::fmax(now.all(), at_start_.all());
@@ -73,7 +73,8 @@ void Checks::check_slip(output::Findings& found) const {
 }
 
 void Checks::check_count(output::Findings& found) const {
-  // Densities may be coarse where streams have piled up, while the dislocations themselves are all there.
+  // If streams have piled up, densities can be inaccurate although no dislocation is missing: this is only a
+  // warning.
   const double uncounted = conservation_error(solver_);
   if (!(uncounted <= output::Findings::wrong))
     found.sentences.push_back("pulse: the states of the cells hold " + digits(100 * uncounted) +
@@ -82,12 +83,12 @@ void Checks::check_count(output::Findings& found) const {
 
 void Checks::check_energy(output::Findings& found) const {
   const output::Energy& e = snapshots_.back().energy;
-  constexpr double worth = 0.01;  // results are wrong where as much appeared as moves
+  constexpr double worth = 0.01;  // results count as wrong if more energy is created than moves
   const double motion = energy_of_motion(), created = -e.shocks - energy_doubt();
-  const bool moved = motion > 0;  // friction may hold all cells in every step: then all energy is the measure
+  const bool moved = motion > 0;  // if friction held all cells in every step, the measure is the stored energy
   const double share_created = created / (moved ? motion : at_start_.all());
-  found.violation(worth * share_created, "pulse: energy came from nothing, " + digits(100 * share_created) +
-                                             (moved ? " % of that of the motion" : " % of that which is stored") +
+  found.violation(worth * share_created, "pulse: energy was created, " + digits(100 * share_created) +
+                                             (moved ? " % of the energy of motion" : " % of the stored energy") +
                                              "; more pulse.cells help");
 
   const double lost = std::fmax(e.shocks - energy_doubt(), 0.0), share = lost > 0 ? lost / (motion + lost) : 0;
@@ -95,7 +96,7 @@ void Checks::check_energy(output::Findings& found) const {
   if (!std::isnan(cells.crossing_time) && (solver_.problem().contact || share > much))
     found.sentences.push_back("pulse: dislocations overtake each other from t = " + digits(cells.crossing_time) +
                               " at x = " + digits(cells.crossing_position) +
-                              " on, where one train at a place is not enough; " + digits(100 * share) +
+                              " on, where one train per position is not enough; " + digits(100 * share) +
                               " % of the energy of motion is lost there. Compare with slipfront chain");
 }
 

@@ -7,9 +7,9 @@
 namespace slipfront::pulse {
 namespace {
 
-/// By how much the slip velocity at x may be wrong: what the curve between the centre and the face beside it adds to a
-/// straight line, and a hundredth of what W changes by between them. Where a pulse is narrower than a cell, the cells
-/// do not resolve it.
+/// Estimates the error of the slip velocity W at x. It is the distance of W from the straight line between the cell
+/// centre and the face on the same side as x, plus 1 % of the change of W between the two. Such an error arises if a
+/// pulse is narrower than a cell, because the cells then do not resolve it.
 double unresolved_at(const View& v, double x, double W) {
   const auto right = std::upper_bound(v.faces.begin() + 1, v.faces.end() - 1, x);
   const auto cell = static_cast<std::size_t>(right - v.faces.begin() - 1);

@@ -8,36 +8,37 @@
 
 namespace slipfront::pulse {
 
-/// Slip at x = 0 by the two routes that should agree. Nothing where x = 0 is not within the domain or the run is too
-/// short to tell.
+/// Slip at x = 0, computed in two ways that should agree.
 struct SlipTwice {
-  double by_place;     ///< from where the dislocations are
-  double by_velocity;  ///< the integral of the slip velocity
-  double sampling;     ///< how far the integral may be off for the samples that it is made of
-  double of_velocity;  ///< and for what the slip velocity is in the cells around
-  /// Their difference, as far as it does not come from sampling or is no more than the cells around leave open.
+  double by_place;     ///< from the positions of the dislocations
+  double by_velocity;  ///< from the integral of the slip velocity over time
+  double sampling;     ///< possible error of the integral due to its sampling in time
+  double of_velocity;  ///< possible error of the integral due to errors of the slip velocity
+  /// The part of their difference that sampling does not explain. It is at least the part that errors of the slip
+  /// velocity may explain.
   double error() const;
 };
 
-/// The integral of the slip velocity at x = 0, sampled during a run.
+/// Samples the slip velocity at x = 0 during a run, and integrates it.
 class SlipRecord {
  public:
   void sample(const Solver& solver);
+  /// Empty if x = 0 is outside the domain, or if there are too few samples.
   std::optional<SlipTwice> compare(const Solver& solver) const;
-  /// Integral of the size of the slip velocity.
+  /// Integral of |slip velocity| over time.
   double size() const { return size_; }
 
   void save(bytes::Writer& writer) const;
   void restore(bytes::Reader& reader);
 
  private:
-  /// The numbers of a checkpoint, in their order.
+  /// Calls `each` with every number of a checkpoint, in the order in which they are stored.
   template <class Record, class Each>
   static void for_each_number(Record& record, const Each& each);
 
   output::SampledIntegral integral_;
   double size_ = 0;
-  double doubt_ = 0;  ///< integral of how wrong the slip velocity may be, from its values in the cells around
+  double doubt_ = 0;  ///< integral of the possible error of the slip velocity, estimated in the cell at x = 0
 };
 
 }  // namespace slipfront::pulse

@@ -11,8 +11,8 @@
 
 namespace slipfront::pulse {
 
-/// Friction on the cells over a step, at the state of the interface in the middle of the step. Its arrays serve step
-/// after step.
+/// Computes friction on the cells over one step, with the state variables in the middle of the step. The arrays are
+/// reused from step to step.
 class CellFriction {
  public:
   CellFriction(const Problem& problem, std::size_t cells);
@@ -21,18 +21,18 @@ class CellFriction {
   void start(const Cells& cells, const CellStates& trains, CellRange awake, const StateGrid& grid);
 
   const std::vector<double>& x() const { return x_; }  ///< centres
-  /// Slip velocities at the centres for cells of these widths, from the velocities of the last call.
+  /// Finds the slip velocities at the centres of `cells` from the velocities of the last call.
   void find_passing(const Cells& cells, StateGrid::Passing& passing) const;
-  /// Takes the state at the centres of the cells in the middle of a step of `dt`.
+  /// Looks up the state variables where the cell centres are in the middle of a step of length `dt`.
   void take_state(const StateGrid& grid, const std::vector<double>& values, double dt);
-  /// Ars443::Friction.
+  /// Has the signature of Ars443::Friction.
   void operator()(const double* y, const double* free, double time, double* momentum, double* velocity);
-  /// Mean forces of the last call.
+  /// Mean friction forces from the last call.
   const std::vector<double>& forces() const { return force_; }
-  /// Error of a step of `time` whose forces were `forces_before`, if the state last taken is right: in units of
-  /// `scale`, root mean square over some of the cells.
+  /// Error of a step of length `time` that used the forces `forces_before`, if the state variables last looked up are
+  /// right. It is the root mean square over a sample of the cells, in units of `scale`.
   double state_error(const std::vector<double>& forces_before, double time, const std::vector<double>& scale);
-  /// Goes back to the start of the step, for another attempt.
+  /// Returns to the start of the step, for another attempt.
   void restart();
 
  private:
@@ -44,12 +44,12 @@ class CellFriction {
   SlowedTrains solve_;
   CellRange awake_{0, 0};
   std::vector<double> charge_, x_, contact_, state_;
-  // Of one dislocation, at the start of the step and in the last call.
+  // Values per dislocation, at the start of the step and from the last call.
   std::vector<double> start_, start_s_, start_typical_, start_momentum_, start_force_, start_slope_;
   std::vector<double> s_, momentum_, velocity_, typical_, force_, slope_;
-  std::vector<double> strength_at_rest_, held_;  ///< friction on cells at rest, as a force and as a momentum
+  std::vector<double> strength_at_rest_, held_;  ///< friction strength at rest, as a force and as a momentum
   std::vector<double> free_, guess_, moves_, spacing_, middle_;
-  std::vector<double> fastest_;  ///< largest slip velocities
+  std::vector<double> fastest_;  ///< largest slip velocity in each cell
   std::vector<std::size_t> slipping_;
   std::vector<double> slipping_fastest_, slipping_s_, slipping_state_, slipping_force_, slipping_slope_;
 };

@@ -12,10 +12,10 @@ namespace slipfront::pulse {
 namespace {
 
 constexpr std::size_t lanes = 8;
-constexpr double precision = 1e-12;  ///< of the momentum, or of the force where friction takes nearly all
+constexpr double precision = 1e-12;  ///< relative, of the momentum; of the force if friction takes nearly all momentum
 constexpr double at_rest_below = SlowedTrains::at_rest_below;
 
-/// The root of excess(size e^x): over x, the force of a regularised law changes evenly.
+/// Finds x with excess(size e^x) = 0. We search in x, over which the force of a regularised law changes evenly.
 template <class Excess>
 double root_between(double low, double high, double at_low, double at_high, double size, const Excess& excess) {
   Bracket root{.low = low, .high = high, .at_low = at_low, .at_high = at_high, .x = high};
@@ -51,7 +51,7 @@ SlowedTrain::Result SlowedTrain::after(double free, double time) const {
 
 SlowedTrains::SlowedTrains(const friction::Friction& friction, std::size_t most)
     : friction_(friction), variables_(friction.state_size()), state_values_((most + lanes) * friction.state_size()) {
-  states_.resize(most + lanes);  // room for whole vectors
+  states_.resize(most + lanes);  // padding for whole vectors
   cell_.resize(most + lanes);
   for (auto* array : {&contact_, &free_, &momentum_, &fastest_, &force_, &slope_, &next_, &velocity_, &typical_,
                       &next_force_, &last_})
@@ -69,7 +69,7 @@ void SlowedTrains::copy(std::size_t from, std::size_t to) {
     state_values_[to * variables_ + v] = state_values_[from * variables_ + v];
 }
 
-/// States, mean forces and their slopes of the trains at their momenta.
+/// Finds the states of the trains from their momenta, the mean forces and the slopes of the forces.
 void SlowedTrains::evaluate() {
   std::size_t size = count_;
   for (; size % lanes != 0; ++size) copy(size - 1, size);
@@ -91,7 +91,7 @@ SlowedTrain::Result SlowedTrains::solve_alone(std::size_t i, double time) const 
 
 void SlowedTrains::solve(double time, const Results& results) {
   constexpr int most_steps = 60;
-  constexpr double last_step = 3e-5;  // of ln M: what is left is of the order of its square
+  constexpr double last_step = 3e-5;  // last change of ln M; the remaining error is of the order of its square
   const double weight = 2 * std::numbers::pi * time;
   const auto finish = [&](std::size_t i, const SlowedTrain::Result& as, double force) {
     const std::size_t cell = cell_[i];

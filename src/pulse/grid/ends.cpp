@@ -10,9 +10,9 @@
 namespace slipfront::pulse {
 namespace {
 
-constexpr std::size_t fewest = 8;   ///< cells that are kept, wherever they are
-constexpr std::size_t reach = 3;    ///< cells beyond a continued end, for the faces inside
-constexpr int most_at_once = 5000;  ///< cells that come in after one step; more is no step that waves allow
+constexpr std::size_t fewest = 8;   ///< cells are removed only while more than this remain
+constexpr std::size_t reach = 3;    ///< cells outside a continued end that the faces inside need
+constexpr int most_at_once = 5000;  ///< most cells that may enter after one step; waves never need as many
 
 double energy_in(const Problem& problem, const Cells& cells, std::size_t cell) {
   const double x = cells.centre(cell), a = problem.contact ? problem.contact(x) : 1;
@@ -21,11 +21,11 @@ double energy_in(const Problem& problem, const Cells& cells, std::size_t cell) {
   return train::averages(state, a).H * width;
 }
 
-/// The train outside is as it is at the end of the domain: a cell like the last one comes in.
+/// Adds a copy of the last cell, because the train outside is the same as at the end of the domain.
 void fill_end(const Problem& problem, Cells& cells, bool left) {
   const Cells::Cell last = cells.cell(left ? 0 : cells.size() - 1);
   cells.insert(left ? 0 : cells.size(), last);
-  if (!cells.face_momentum.empty()) {  // around the face at an end there is half a cell
+  if (!cells.face_momentum.empty()) {  // the face at an end has only half a cell around it
     double& half = left ? cells.face_momentum.front() : cells.face_momentum.back();
     const double outer = half;
     half *= 2;
@@ -36,7 +36,7 @@ void fill_end(const Problem& problem, Cells& cells, bool left) {
   cells.values().through_ends() += energy_in(problem, cells, left ? 0 : cells.size() - 1);
 }
 
-/// Removes the last cell, which is outside the domain.
+/// Removes the last cell at one end, which is outside the domain.
 void drop_outside(const Problem& problem, Cells& cells, bool left) {
   const std::size_t end = left ? 0 : cells.size() - 1;
   const double width = cells.width(end);
@@ -52,10 +52,10 @@ void drop_outside(const Problem& problem, Cells& cells, bool left) {
   if (left) cells.left_edge() += width;
 }
 
-/// A free edge that comes back to a wall stops there.
+/// Stops a free edge at the wall when it returns there.
 void stop_at_walls(const Problem& problem, Cells& cells) {
   double& x = cells.left_edge();
-  const double near = 1e-6;  // of a cell, as where a gap closes
+  const double near = 1e-6;  // fraction of a cell within which an edge counts as at the wall
   if (problem.left_end == End::fixed && x < problem.left + near * cells.width(0)) {
     cells.width(0) -= problem.left - x;
     x = problem.left;
@@ -77,20 +77,20 @@ bool adjust_ends(const Problem& problem, FreeEdges free, Cells& cells) {
     const bool continued = end == End::continued;
     if (continued && (left ? free.left : free.right)) continue;  // the stress ends inside the domain
     const double edge = left ? cells.left_edge() : cells.left_face(cells.size());
-    // A train at rest moves by rounding: a sliver is no place that has to be filled.
+    // Rounding moves a train at rest. We do not fill a space narrower than this fraction of a cell.
     const double sliver = continued ? 1e-3 * cells.width(left ? 0 : cells.size() - 1) : 0;
     double inside = (left ? edge - problem.left : problem.right - edge) - sliver;
     for (int i = 0; continued && inside > 0; ++i) {
       if (i == most_at_once)
-        throw NumericsError("t = " + digits(cells.time) + ": the train has left an end of the domain by " +
-                            digits(inside) + " in a step; more pulse.cells or a larger domain help");
+        throw NumericsError("t = " + digits(cells.time) + ": the train moved away from an end of the domain by " +
+                            digits(inside) + " in one step; more pulse.cells or a larger domain help");
       fill_end(problem, cells, left);
       changed = true;
       inside -= cells.width(left ? 0 : cells.size() - 1);
     }
     const std::size_t margin = continued ? reach : 0;
     while (cells.size() > fewest + margin) {
-      double first = 0;  // width of the cells that must lie beyond
+      double first = 0;  // total width of the cells that must be outside the domain
       for (std::size_t i = 0; i <= margin; ++i) first += cells.width(left ? i : cells.size() - 1 - i);
       const bool alone = cells.charge[left ? 1 : cells.size() - 2] == 0;
       if (inside + first > 0 || alone) break;

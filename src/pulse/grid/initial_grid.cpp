@@ -23,7 +23,8 @@ InitialGrid::InitialGrid(const Problem& problem, const Cells& at_start, FreeEdge
 
 double InitialGrid::position_of(double charge) const {
   const double rounding = 1e-12 * (charges.back() - charges.front());
-  if (charge < charges.front() - rounding)  // came in through an end: the train beyond was as at the end
+  // A dislocation that entered through an end comes from a train with the stress of that end.
+  if (charge < charges.front() - rounding)
     return faces.front() + (charge - charges.front()) * 2 * pi / stress(faces.front());
   if (charge > charges.back() + rounding)
     return faces.back() + (charge - charges.back()) * 2 * pi / stress(faces.back());
@@ -31,7 +32,7 @@ double InitialGrid::position_of(double charge) const {
   return charge - charges[i] < charges[i + 1] - charge ? faces[i] : faces[i + 1];
 }
 
-/// Whole cells are known; the parts at either end are integrated.
+/// Adds up the whole cells, and integrates the stress over the parts of cells at either end.
 double InitialGrid::charge_between(double from, double to) const {
   if (from > to) return -charge_between(to, from);
   const auto beyond = [&](double a, double b, double end) {
@@ -61,7 +62,7 @@ bool InitialGrid::fits(const Cells& cells, std::size_t state_values) const {
   for (std::size_t i = 0; i < n && fits; ++i) {
     left += cells.charge[i];
     const auto near = std::lower_bound(charges.begin(), charges.end(), left - 1e-9 * all);
-    const bool outside = left < -1e-9 * all || left > (1 + 1e-9) * all;  // came in through an end
+    const bool outside = left < -1e-9 * all || left > (1 + 1e-9) * all;  // entered through an end
     fits = cells.charge[i] >= 0 && (outside || (near != charges.end() && *near <= left + 1e-9 * all));
   }
   return fits && std::fabs(left - all - cells.entered_right) <= 1e-9 * (all + std::fabs(cells.entered_right));

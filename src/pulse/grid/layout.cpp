@@ -25,7 +25,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// Boundary of the stressed stretch between an empty point and a stressed one, by bisection.
+/// Finds the boundary of a stressed stretch between an empty point and a stressed one, by bisection.
 double edge_between(const std::function<double(double)>& stress, double empty, double stressed) {
   for (int i = 0; i < 200; ++i) {
     const double middle = empty + (stressed - empty) / 2;
@@ -35,7 +35,7 @@ double edge_between(const std::function<double(double)>& stress, double empty, d
   return stressed;
 }
 
-/// From 0 to 1, with vanishing slope at the free ends.
+/// Maps 0 ... 1 to itself, with zero slope at the free ends.
 double graded(double s, bool left_free, bool right_free) {
   if (left_free && right_free) return s * s * (3 - 2 * s);
   if (left_free) return s * s;
@@ -43,8 +43,8 @@ double graded(double s, bool left_free, bool right_free) {
   return s;
 }
 
-/// Where cells should be small: 1 far from everything, more where the stress changes. Its integral, as a share of the
-/// whole, is the coordinate in which cells are even.
+/// Density of cells over x: 1 far from any change of stress, larger near changes. The coordinate in which all cells are
+/// equally wide is the integral of this density, divided by its total.
 class Monitor {
  public:
   static constexpr int points = 4096;
@@ -56,10 +56,10 @@ class Monitor {
     const auto [low, high] = std::minmax_element(value.begin(), value.end());
     const double range = *high - *low;
     const bool stepped = corner > from && corner < to;
-    // A large contrast makes shocks, and they stand where the stress was steep.
+    // A large contrast of stress creates shocks, and these occur where the stress was steep.
     const double pull = std::fmin(4.5 * range / (*high + *low), most_pull);
     for (int i = 1; i < points && range > 0 && !stepped; ++i) {
-      // sqrt(1 + slope^2), levelling off: smooth where the stress is.
+      // The density is sqrt(1 + slope^2), bounded smoothly near `most`, so that it is smooth if the stress is.
       const double slope = pull * points * (value[at(i + 1)] - value[at(i - 1)]) / (2 * range);
       density[at(i)] = std::sqrt(1 + slope * slope / (1 + slope * slope / (most * most)));
     }
@@ -73,7 +73,7 @@ class Monitor {
     density_ = std::move(density);
   }
 
-  /// x at a share of the integral: cubic Hermite in it, so that neighbouring cells change smoothly.
+  /// Returns x at a given share of the integral, by cubic Hermite interpolation: cell widths then vary smoothly.
   double x_at(double share) const {
     const double target = share * integral_.back();
     const auto above = std::upper_bound(integral_.begin() + 1, integral_.end() - 1, target);
@@ -90,14 +90,15 @@ class Monitor {
   }
 
  private:
-  // These and the smoothing were chosen by the error of W(0) with 60 to 120 cells, tanh profiles of width 0.1 to 2,
-  // C = 0 to 2, both closures.
-  static constexpr double most = 32;  ///< finest cells, times finer than the coarsest (before smoothing)
-  static constexpr double most_pull =
-      3;  ///< of slopes; 1: cells even along the curve of stress over x, both scaled to 1
+  // We chose these constants and the smoothing by the error of W(0) with 60 to 120 cells, tanh profiles of width 0.1 to
+  // 2, C = 0 to 2, and both closures.
+  static constexpr double most = 32;  ///< ratio of the coarsest cell width to the finest, before smoothing
+  /// Largest weight of slopes. With 1, cells have equal lengths on the curve of stress over x, both scaled to 1.
+  static constexpr double most_pull = 3;
 
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
-  /// Mean over 12 % of the stretch: neighbouring cells must differ little for the scheme to keep its order.
+  /// Replaces f by its mean over 12 % of the stretch. The scheme has its full order only if neighbouring cells differ
+  /// little.
   static void smooth(std::vector<double>& f) {
     constexpr int half = 3 * points / 50;
     std::vector<double> sum(f.size() + 1, 0.0);
@@ -112,7 +113,7 @@ class Monitor {
   std::vector<double> integral_, density_;
 };
 
-/// Faces from `from` to `to`, even in the monitor's coordinate but graded towards free ends.
+/// Appends faces from `from` to `to`, equidistant in the monitor's coordinate but graded towards free ends.
 void fill(std::vector<double>& faces, const Monitor& monitor, double from, double to, int cells, bool left_free,
           bool right_free) {
   const double a = monitor.share_at(from), b = monitor.share_at(to);
@@ -125,14 +126,14 @@ void fill(std::vector<double>& faces, const Monitor& monitor, double from, doubl
 
 namespace {
 
-/// Where there is stress, seen at `samples` places: the ends of each stretch.
+/// The ends of a stretch that has stress at the sampled points.
 struct Stressed {
   double from, to;
 };
 constexpr int samples = 4096;
 
-/// Between two neighbouring samples without stress, at fifteen more places: no such stretch is laid, and none may be
-/// lost unseen.
+/// Checks fifteen more points between two neighbouring samples without stress. A stretch of stress there would get no
+/// cells, so it is an error.
 void refuse_narrow_stress(const std::function<double(double)>& stress, double from, double to) {
   constexpr int finer = 16;
   for (int i = 1; i < finer; ++i) {
@@ -157,7 +158,7 @@ std::vector<Stressed> stressed_stretches(const std::function<double(double)>& st
     if (!now && !before && i > 0) refuse_narrow_stress(stress, place(i - 1), place(i));
     before = now;
   }
-  // A single value, such as that of a step at the end of the domain, is no stretch.
+  // Remove stretches of a single point, such as the value of a step at the end of the domain.
   const auto point = [h](const Stressed& s) { return !(s.to - s.from > 1e-9 * h); };
   found.erase(std::remove_if(found.begin(), found.end(), point), found.end());
   if (found.empty())
@@ -182,7 +183,8 @@ Layout lay_cells(const std::function<double(double)>& stress, double left, doubl
     if (layout.faces.back() < s.from) layout.faces.push_back(s.from);  // a gap is one cell
     const int share = std::max(4, static_cast<int>(std::lround(cells * (s.to - s.from) / length)));
     const Monitor monitor(stress, s.from, s.to, corner);
-    // A corner at an end of the stretch, but for rounding, would make a cell that only rounding has made.
+    // If the corner is within rounding of an end of the stretch, it gets no face: rounding would decide the width
+    // of the cell between them.
     const double sliver = 1e-9 * (s.to - s.from);
     if (corner - s.from > sliver && s.to - corner > sliver) {
       const int before = std::clamp(static_cast<int>(std::lround(share * monitor.share_at(corner))), 1, share - 1);
@@ -192,7 +194,7 @@ Layout lay_cells(const std::function<double(double)>& stress, double left, doubl
       fill(layout.faces, monitor, s.from, s.to, share, left_free, right_free);
     }
   }
-  const auto empty = [&](double x) {  // between two stretches
+  const auto empty = [&](double x) {  // whether x is between two stretches
     for (const Stressed& s : stretches)
       if (x > s.from && x < s.to) return false;
     return true;

@@ -5,23 +5,25 @@
 
 namespace slipfront::pulse {
 
-/// By the ten-point Gauss rule: exact to rounding for smooth stress in one cell.
+/// Integrates f from a to b by the ten-point Gauss rule, which is exact to rounding for smooth stress in one cell.
 double integral(const std::function<double(double)>& f, double a, double b);
 
-/// Cells at t = 0: faces in x and the dislocations between them, none in the cell of a gap.
+/// The cells at t = 0. The cell of a gap holds no dislocations.
 struct Layout {
-  std::vector<double> faces;   ///< x, cells + 1
+  std::vector<double> faces;   ///< x of the faces, one more than cells
   std::vector<double> charge;  ///< dislocations in each cell, the integral of stress / 2 pi
-  bool left_free, right_free;  ///< the stress ends inside the domain: a free edge
+  bool left_free, right_free;  ///< whether the stress ends inside the domain, in a free edge
 };
 
-/// Cells over the stretches of [left, right] that carry stress, `cells` of them shared out by length (but 4 at least
-/// each), and one for each gap between two. Finer where the stress changes and quadratically graded towards free edges
-/// (where a fan opens from a point); `corner` inside a stretch becomes a face (a step of stress). \throws InputError
-/// for no stress at all.
+/// Ends of the domain that are free edges even if the stress reaches them.
 struct FreeEnds {
-  bool left = false, right = false;  ///< of the domain
+  bool left = false, right = false;
 };
+/// Creates the cells at t = 0 in the stretches of [left, right] that have stress. They share `cells` cells in
+/// proportion to their lengths, but each gets at least 4. Each gap between two stretches is one more cell. Cells are
+/// finer where the stress changes, and graded quadratically towards free edges, where a fan opens from a point. If
+/// `corner`, the x of a step of stress, is inside a stretch, it becomes a face. \throws InputError if there is no
+/// stress, or if a stretch is too narrow to sample.
 Layout lay_cells(const std::function<double(double)>& stress, double left, double right, int cells, double corner,
                  FreeEnds free = {});
 

@@ -22,22 +22,23 @@ void check(const Problem& p) {
   if (!(p.tolerance > 0 && p.tolerance < 1)) refuse("pulse.tolerance", p.tolerance, "0 < tolerance < 1");
   p.friction.check();
   if (!p.friction.defined_by(p.friction.closure()))
-    throw InputError({.key = "friction.closure",
-                      .value = "paper",
-                      .problem = "is not defined for a law that remembers, such as " + std::string(p.friction.name()),
-                      .allowed = "consistent"});
+    throw InputError(
+        {.key = "friction.closure",
+         .value = "paper",
+         .problem = "is not defined for a law with state variables, such as " + std::string(p.friction.name()),
+         .allowed = "consistent"});
   if (p.friction.state_size() > 0 && p.periodic)
     throw InputError({.key = "pulse.periodic",
                       .value = "true",
-                      .problem = "a ring of places that remember is not among what pulse can do",
-                      .allowed = "false, or a run of the chain"});
+                      .problem = "a pulse run does not support state variables of friction on a ring",
+                      .allowed = "false, or a chain run"});
   if (p.periodic && p.friction.acts() && p.friction.steep_at_rest() && !p.friction.sticks())
     throw InputError({.key = "pulse.periodic",
                       .value = "true",
                       .problem =
                           "friction whose slope is infinite at rest, as of exponents below 1, leaves no time step "
                           "short enough on a ring",
-                      .allowed = "false, or a run of the chain"});
+                      .allowed = "false, or a chain run"});
 }
 
 namespace {

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Names for the numbers that time steps advance. A step sees a vector; only this file knows what its entries mean.
+/// Names for the unknowns that time steps advance. Integrators see a plain vector; only this file gives its entries a
+/// meaning.
 
 #include <cstddef>
 
@@ -16,9 +17,9 @@ class NamedValues {
   Number& width(std::size_t cell) const { return values_[cell]; }
   Number& momentum(std::size_t cell) const { return values_[cells_ + cell]; }
   Number& left_edge() const { return values_[2 * cells_]; }         ///< x of the first face
-  Number& dissipated() const { return values_[2 * cells_ + 1]; }    ///< energy that friction has taken
-  Number& supplied() const { return values_[2 * cells_ + 2]; }      ///< energy that the forcing has given
-  Number& through_ends() const { return values_[2 * cells_ + 3]; }  ///< energy that came in through the ends
+  Number& dissipated() const { return values_[2 * cells_ + 1]; }    ///< energy that friction has dissipated
+  Number& supplied() const { return values_[2 * cells_ + 2]; }      ///< energy that the forcing has supplied
+  Number& through_ends() const { return values_[2 * cells_ + 3]; }  ///< energy that has entered through the ends
 
   Number* widths() const { return values_; }
   Number* momenta() const { return values_ + cells_; }
@@ -33,8 +34,8 @@ class NamedValues {
 using Values = NamedValues<double>;
 using ConstValues = NamedValues<const double>;
 
-/// The same where momenta live at the faces: of each face the width of the cell to its left (of the first face: its x),
-/// of each face the momentum around it, then the totals.
+/// Like NamedValues, but with momenta at the faces. Each face has an entry for the width of the cell to its left; the
+/// entry of the first face is its x. The momenta around the faces follow, then the totals.
 template <class Number>
 class NamedFaceValues {
  public:
@@ -42,7 +43,7 @@ class NamedFaceValues {
 
   Number& left_edge() const { return values_[0]; }
   Number& width(std::size_t cell) const { return values_[cell + 1]; }
-  /// The entry of a face beside its momentum: its x of the first face, the width of the cell to its left of others.
+  /// The first entry of a face: the width of the cell to its left, or for the first face its x.
   Number& width_left_of(std::size_t face) const { return values_[face]; }
   Number& momentum(std::size_t face) const { return values_[faces_ + face]; }
   Number& dissipated() const { return values_[2 * faces_]; }

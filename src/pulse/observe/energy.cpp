@@ -14,12 +14,12 @@ using output::Energy;
 using std::numbers::pi;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// A sum over the dislocations from values at the centres of cells, fourth order in the cells' own coordinate where
-/// these are smooth there, and second order next to a jump or a free edge.
+/// Sums values per dislocation, given at the cell centres, over all dislocations. The sum is of fourth order in the
+/// coordinate of the cells where the values are smooth, and of second order next to a jump or a free edge.
 struct SumOverCells {
   const std::vector<double>& charge;
-  double corrections = 0;  ///< of all sums
-  double rough = 0;        ///< part of the last sum, in cells where values are not smooth
+  double corrections = 0;  ///< total of the corrections in all sums
+  double rough = 0;        ///< part of the last sum that comes from cells where the values are not smooth
 
   double operator()(const std::vector<double>& f) {
     double sum = 0;
@@ -58,7 +58,7 @@ StoredEnergy stored_energy(const Solver& solver, const View& v) {
     const double contact = v.contact ? v.contact(v.centres[i]) : 1;
     isolated[i] = 8 * contact;
     kinetic[i] = contact * modulation::kinetic_energy(v.states[i]);
-    if (v.states[i].empty()) continue;  // too far apart to feel each other
+    if (v.states[i].empty()) continue;  // dislocations too far apart to interact
     const double spacing = modulation::lagrangian_state(v.states[i]).spacing;
     interaction[i] = contact * modulation::interaction_energy(modulation::state_of({spacing, 0}, v.states[i].psi).psi);
   }

@@ -5,26 +5,27 @@
 
 namespace slipfront::pulse {
 
-/// Energy of the interface now. An isolated dislocation has 8 a(x), which nothing changes without a contact profile, so
-/// that small changes of the rest are no differences of large numbers.
+/// Energy of the interface now. The energy 8 a(x) of each isolated dislocation is summed separately. Without a contact
+/// profile it is constant, and rounding of this large number then does not affect small changes of the others.
 struct StoredEnergy {
-  double isolated;     ///< of the dislocations as if each were isolated and at rest
-  double interaction;  ///< elastic energy in addition to that
+  double isolated;     ///< energy of the dislocations if each were isolated and at rest
+  double interaction;  ///< elastic energy in excess of that
   double kinetic;
-  double correction;  ///< part of the sum that comes from differences between cells: its truncation error is less
-  double unresolved;  ///< kinetic energy of the cells where it is not smooth, as of a pulse narrower than a cell
+  double correction;  ///< part of the sums that comes from differences between cells; the truncation error is smaller
+  double unresolved;  ///< kinetic energy of cells where it is not smooth, as for a pulse narrower than a cell
 
   double elastic() const { return isolated + interaction; }
   double all() const { return elastic() + kinetic; }
 };
 StoredEnergy stored_energy(const Solver& solver);
 
-/// Energies of a snapshot, but for those that are known from others.
+/// Energies of a snapshot, except `shocks` and `phonons`, which are NaN.
 output::Energy energy_of(const Solver& solver, const View& view);
 
-/// |dislocations counted - those there must be|, over the latter. Counted by Simpson's rule over the density that the
-/// states of cells and faces mean; there must be those at t = 0 and those that came in. It is the error of the states,
-/// not only rounding: 1e-6 for smooth profiles of 400 cells, more where shocks or free edges lie within few cells.
+/// Relative error of the number of dislocations, |counted - expected| / expected. We count with Simpson's rule over the
+/// densities at the faces and centres of the cells. Expected are the dislocations at t = 0 and those that have entered.
+/// The error is that of the states and not only rounding: 1e-6 for smooth profiles with 400 cells, more if shocks or
+/// free edges span few cells.
 double conservation_error(const Solver& solver);
 
 }  // namespace slipfront::pulse

@@ -14,8 +14,9 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// Where a shock stands that W falls through in cell `in`, seen from the front: what slips in the cells from there
-/// outwards, in units of the slip velocity behind it, is the way that it has come into them.
+/// Position of a shock at which W falls in cell `in`, seen from the front. We add up the widths of this cell and up to
+/// six cells outwards, each times its slip velocity in units of that behind the shock. The sum is the distance of the
+/// shock from the inner face of `in`.
 double shock_near(const View& v, const std::vector<double>& W, std::size_t in, bool to_right) {
   constexpr std::size_t behind = 3, beyond = 6;
   const std::size_t n = W.size();
@@ -53,7 +54,7 @@ double leading_front(const View& v, const std::vector<double>& W, bool to_right)
 
 namespace {
 
-/// Slip velocities seen from the more stressed end inwards: how far each differs from that at the end.
+/// Slip velocities from the more stressed end inwards, as differences from the value at that end.
 struct Inwards {
   const View& v;
   const std::vector<double>& W;
@@ -62,12 +63,12 @@ struct Inwards {
   std::size_t index(std::size_t i) const { return stressed_left ? i : W.size() - 1 - i; }
   double x(std::size_t i) const { return v.centres[index(i)]; }
   double change(std::size_t i) const { return W[index(i)] - W[index(0)]; }
-  /// Where the size of the change passes `level` between the cells i - 1 and i.
+  /// Position between the centres of the cells i - 1 and i at which the size of the change equals `level`.
   double place(std::size_t i, double level) const {
     const double before = std::fabs(change(i - 1)), after = std::fabs(change(i));
     return std::lerp(x(i - 1), x(i), (level - before) / (after - before));
   }
-  /// The same in a tail that falls by a factor from cell to cell: its logarithm is nearly a straight line.
+  /// Like `place`, but for a tail that falls by a factor from cell to cell: the logarithm is nearly linear in x.
   double place_in_tail(std::size_t i, double level) const {
     const double before = std::fabs(change(i - 1)), after = std::fabs(change(i));
     if (!(before > 0) || before * after < 0) return place(i, level);
@@ -75,8 +76,8 @@ struct Inwards {
   }
 };
 
-/// The foot of a fan that rises within a few cells from `first` on to `top`: its quarter and three quarters, which the
-/// rounding of its corners moves least, on a straight line.
+/// Foot of a fan that rises to `top` within a few cells of `first`. We draw a straight line through its points at a
+/// quarter and at three quarters of `top`, which the smeared corners of the fan affect least.
 double foot_of_narrow_fan(const Inwards& in, std::size_t first, double top) {
   std::size_t i = first;
   const auto place_of = [&](double level) {
@@ -91,7 +92,7 @@ double foot_of_narrow_fan(const Inwards& in, std::size_t first, double top) {
 
 double trailing_front(const View& v, const std::vector<double>& W, bool stressed_left, bool smooth) {
   constexpr double felt = 1e-3;
-  constexpr std::size_t behind = 4, apart = 3, last = behind + 2 * apart;  // cells: a fan's corner is round by two
+  constexpr std::size_t behind = 4, apart = 3, last = behind + 2 * apart;  // a fan's corner is smeared over 2 cells
   const std::size_t n = W.size();
   if (free_at(v, !stressed_left)) return none;
   const Inwards in{v, W, stressed_left};
@@ -99,7 +100,7 @@ double trailing_front(const View& v, const std::vector<double>& W, bool stressed
   for (const double w : W) most = std::fmax(most, std::fabs(w));
   std::size_t first = 0;
   while (first < n && !(std::fabs(in.change(first)) > felt * most)) ++first;
-  if (first <= 1 || first + last + behind >= n) return none;  // it has reached the end, or nothing moves
+  if (first <= 1 || first + last + behind >= n) return none;  // the front has reached the end, or nothing moves
   if (smooth) return in.place_in_tail(first, felt * most);
   double top = 0;
   for (std::size_t i = first; i <= first + last + behind; ++i) top = std::fmax(top, std::fabs(in.change(i)));
@@ -111,7 +112,7 @@ double trailing_front(const View& v, const std::vector<double>& W, bool stressed
   const bool narrow = std::fabs(w[2]) > 0.85 * top && top > 10 * felt * most;
   if (narrow) return foot_of_narrow_fan(in, first, top);
   const bool rises = std::fabs(w[0]) > 0 && w[1] / w[0] > 1.2 && w[2] / w[1] > 1.1;
-  const bool tail = w[0] * w[2] > 0.95 * w[1] * w[1];  // exponential, as of a smooth stress: it has no foot
+  const bool tail = w[0] * w[2] > 0.95 * w[1] * w[1];  // an exponential tail, as from a smooth stress, has no foot
   if (!rises || tail) return in.place_in_tail(first, felt * most);
   const auto [slope, curve] = parabola_through(w[1] - w[0], x[1] - x[0], w[2] - w[0], x[2] - x[0]);
   const double foot = x[0] - w[0] * (slope - curve * w[0]);

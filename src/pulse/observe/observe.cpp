@@ -27,7 +27,8 @@ std::vector<double> slip_velocities(const View& v) {
   return W;
 }
 
-/// A place of the domain as it is, on a ring the same one within it; NaN for what has left it.
+/// Returns x if it is in the domain, and NaN if it is outside. On a ring, returns the equivalent position in the
+/// domain.
 double in_domain(const Problem& p, double x) {
   if (p.periodic) return x - std::floor((x - p.left) / (p.right - p.left)) * (p.right - p.left);
   const double rounding = 1e-12 * (p.right - p.left);
@@ -35,7 +36,7 @@ double in_domain(const Problem& p, double x) {
 }
 
 /// Slip velocities at the faces and centres of the cells, from left to right. A pulse that is still narrower than a
-/// cell shows at its face alone.
+/// cell appears only at its face.
 struct Points {
   std::vector<double> x, W;
   std::vector<bool> shocked;
@@ -47,8 +48,8 @@ struct Points {
   }
 };
 
-/// Slip velocity in a cell as the mean over a ripple: behind a shock that runs from cell to cell W oscillates by some
-/// thousandths, with six to seven cells to a wave.
+/// Slip velocity in a cell, averaged over the ripple if there is one. Behind a shock that runs from cell to cell, W
+/// oscillates by a few thousandths, with six to seven cells to a wave.
 double without_ripple(const std::vector<double>& W, std::size_t i) {
   constexpr std::size_t half = 3;
   constexpr double small = 0.02;
@@ -60,7 +61,8 @@ double without_ripple(const std::vector<double>& W, std::size_t i) {
   return std::accumulate(begin, end, 0.0) / (2 * half + 1);
 }
 
-/// Of the domain, as some cells lie beyond an end where the train goes on; `W` are those at the centres.
+/// Collects the points in the domain: some cells are outside an end at which the train continues. `W` are the slip
+/// velocities at the cell centres.
 Points points_of(const Problem& problem, const View& v, const std::vector<double>& W) {
   Points points;
   const std::size_t n = W.size();
@@ -80,7 +82,7 @@ Points points_of(const Problem& problem, const View& v, const std::vector<double
   return points;
 }
 
-/// Cells beside a shock exceed both sides by some per cent, a pulse by more.
+/// Cells next to a shock exceed the values on both sides by a few per cent, and a pulse exceeds them by more.
 constexpr double overshoot = 1.2;
 
 void find_peak(const Points& p, Snapshot& s) {
@@ -97,7 +99,7 @@ void find_peak(const Points& p, Snapshot& s) {
   if (calm < n && size(peak) < overshoot * size(calm)) peak = calm;
   s.peak_slip_velocity = p.W[peak];
   s.peak_position = p.x[peak];
-  // Top of the parabola through three points; beside a shock there is none.
+  // We take the top of the parabola through three points. Next to a shock there is none.
   const bool smooth = peak > 0 && peak + 1 < n && std::fmin(size(peak - 1), size(peak + 1)) > 0.9 * size(peak);
   if (!smooth) return;
   const double a = p.x[peak - 1] - p.x[peak], b = p.x[peak + 1] - p.x[peak];
@@ -108,7 +110,7 @@ void find_peak(const Points& p, Snapshot& s) {
   s.peak_position += top;
 }
 
-/// From the cells of the domain, with a threshold relative to the peak.
+/// Finds the observed fronts from the cells in the domain. `threshold` is relative to the peak slip velocity.
 void find_observed_fronts(const Problem& problem, const View& v, std::vector<double> W, double threshold, bool to_right,
                           Snapshot& s) {
   for (std::size_t i = 0; i < W.size(); ++i) W[i] = std::isnan(in_domain(problem, v.centres[i])) ? 0 : std::fabs(W[i]);
@@ -118,7 +120,7 @@ void find_observed_fronts(const Problem& problem, const View& v, std::vector<dou
   s.fronts.leading_observed = in_domain(problem, to_right ? seen.right : seen.left);
 }
 
-/// Means and values in the cells of the grid whose edges are given.
+/// Profile on the grid with the edges `x_edges`: k is the mean over a grid cell, all else is the value at its centre.
 output::Profile profile_of(const Solver& solver, const View& v, const std::vector<double>& x_edges) {
   output::Profile profile;
   double left = charge_left_of(v, x_edges[0]);
@@ -129,7 +131,7 @@ output::Profile profile_of(const Solver& solver, const View& v, const std::vecto
     const double k = 2 * pi * (right - left) / (x_edges[i + 1] - x_edges[i]);
     profile.k.push_back(k);
     profile.U.push_back(state.empty() ? 0.0 : std::tanh(state.phi));
-    // Where k changes much within a cell of the grid, its value at the centre is not its mean.
+    // The size of W cannot exceed k. If k changes much within a grid cell, W at its centre can exceed the mean of k.
     profile.W.push_back(std::clamp(a.W, -k, k));
     profile.H.push_back(a.H);
     profile.slip.push_back(solver.slip_at(v, x));
@@ -159,7 +161,7 @@ Snapshot observe(const Solver& solver, const std::vector<double>& x_edges, const
   const Problem& problem = solver.problem();
   const double characteristic = free_at(v, !to_right) ? none : in_domain(problem, trailing.position());
   s.fronts.trailing_characteristic = characteristic;
-  // At rest the front of a step is where it stands; a smooth stress has none yet.
+  // At t = 0 the front of a step of stress is at the step, and a smooth stress has no front yet.
   const bool smooth = !(problem.corner < HUGE_VAL);
   const double at_rest = smooth ? none : characteristic;
   s.fronts.trailing = s.time == 0 ? at_rest : in_domain(problem, trailing_front(v, W, to_right, smooth));
@@ -167,7 +169,7 @@ Snapshot observe(const Solver& solver, const std::vector<double>& x_edges, const
   find_peak(points_of(problem, v, W), s);
   const double beyond = v.shocked[interval(v.faces, 0)] != 0 ? overshoot : 1;
   if (std::fabs(s.slip_velocity_at_origin) > beyond * std::fabs(s.peak_slip_velocity)) {
-    s.peak_slip_velocity = s.slip_velocity_at_origin;  // between nodes of few cells
+    s.peak_slip_velocity = s.slip_velocity_at_origin;  // the peak is at x = 0, between the points of a coarse grid
     s.peak_position = 0;
   }
   s.peak_position = in_domain(problem, s.peak_position);

@@ -11,21 +11,21 @@ namespace slipfront::pulse {
 TrailingCharacteristic::TrailingCharacteristic(const Solver& start) {
   const View v = start.view();
   const std::size_t n = v.states.size();
-  constexpr double rounding = 1e-9;  // the left end of two that are stressed alike, whatever the cells
-  // Cells stop at a free edge: there it is the face that is empty.
+  constexpr double rounding = 1e-9;  // if both ends have equal stress, we take the left one on any grid
+  // Free edges are tested first: there the stress falls to zero at the face, and not in the last cell.
   stressed_left_ = v.right_free || (!v.left_free && v.states.front().psi >= (1 - rounding) * v.states.back().psi);
   const auto from_stressed = [&](std::size_t i) { return stressed_left_ ? i : n - 1 - i; };
   const auto stress = [&](double x) { return start.problem().stress(x) / (v.contact ? v.contact(x) : 1); };
   const double end = v.faces[stressed_left_ ? 0 : n];
   const double stressed = stress(std::lerp(end, v.centres[from_stressed(0)], rounding));
   double low = stressed, high = stressed;
-  constexpr int samples = 512;  // whatever the cells
+  constexpr int samples = 512;  // independent of the number of cells
   for (int i = 0; i < samples; ++i) {
     const double at = stress(std::lerp(v.faces.front(), v.faces.back(), (i + 0.5) / samples));
     low = std::fmin(low, at);
     high = std::fmax(high, at);
   }
-  const bool uniform = high - low <= 1e-12 * high;  // up to a free edge: the front starts there
+  const bool uniform = high - low <= 1e-12 * high;  // uniform up to a free edge, where the front starts
   const auto departs = [&](double x, double share) {
     return !uniform && std::fabs(stress(x) - stressed) > share * (high - low);
   };
@@ -52,8 +52,8 @@ double TrailingCharacteristic::speed_into(const State& ahead) const {
   return stressed_left_ ? speeds.minus : speeds.plus;
 }
 
-/// Speed at the present place: between the cells of a smooth stress, and ahead of a corner by more than a
-/// reconstruction reaches, so that the front itself is not seen.
+/// Speed at the present position. For a smooth stress we interpolate between cells. For a corner we take a cell that is
+/// farther ahead than a reconstruction reaches, so that the front itself has no effect.
 double TrailingCharacteristic::speed_at(const Solver& now) const {
   const Cells& cells = now.cells();
   const std::size_t last = now.size() - 1;

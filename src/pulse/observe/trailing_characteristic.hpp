@@ -4,15 +4,16 @@
 
 namespace slipfront::pulse {
 
-/// The characteristic that left the outermost change of stress at t = 0 on the more stressed side (the left one if
-/// both are alike): where the trailing edge of what moves would be without any error, and without friction is.
+/// The characteristic that leaves the outermost change of stress at t = 0 on the more stressed side (the left one if
+/// both are equal). Without numerical errors, the trailing edge of the motion would follow it, and without friction it
+/// does.
 class TrailingCharacteristic {
  public:
-  /// Starts where the initial stress first departs from its value at the stressed end by 1 % of its range: at the
-  /// corner of a step.
+  /// Starts where the initial stress first departs from its value at the stressed end by 1 % of its range. For a step
+  /// of stress, this is the corner.
   explicit TrailingCharacteristic(const Solver& start);
-  /// Follows dx/dt = lambda_- (to the left) or lambda_+ (to the right) of the state just ahead of it over one step;
-  /// exact where that state is uniform and at rest.
+  /// Follows dx/dt = lambda_- (to the left) or lambda_+ (to the right) over one step, with the state just ahead. It is
+  /// exact if that state is uniform and at rest.
   void advance(const Solver& now, double dt);
   double position() const { return position_; }
   bool stressed_left() const { return stressed_left_; }
@@ -25,8 +26,8 @@ class TrailingCharacteristic {
 
   double position_;
   bool stressed_left_;
-  bool steady_ = false;  ///< the state ahead is uniform and stays so: its speed never changes
-  double speed_ = 0;     ///< now
+  bool steady_ = false;  ///< the state ahead stays uniform, so the speed is constant
+  double speed_ = 0;     ///< present speed
 };
 
 }  // namespace slipfront::pulse

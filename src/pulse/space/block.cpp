@@ -24,7 +24,7 @@ void middles(const std::vector<Block>& blocks, const std::vector<double>& faces,
       const bool inside = i >= block.begin + 2 && i + 2 < block.end;
       const double smooth = inside ? (150 * (f[0] + f[1]) - 25 * (f[-1] + f[2]) + 3 * (f[-2] + f[3])) / 256
                                    : (9 * (f[0] + f[1]) - (f[-1] + f[2])) / 16;
-      // Beside much wider cells, as at a shock, that would be outside the cell.
+      // Next to a much wider cell, as at a shock, the smooth value could be outside the cell.
       const double middle = centres[i], quarter = (f[1] - f[0]) / 4;
       centres[i] = std::clamp(smooth, middle - quarter, middle + quarter);
     }

@@ -1,4 +1,4 @@
-// What is at the faces: by WENO on the Riemann invariants.
+// The states at the faces, by WENO on the Riemann invariants.
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ void Semidiscrete::find_faces() {
   for (const Block& r : blocks_) find_faces(r);
 }
 
-/// A train that has left a wall ends in a free edge.
+/// A train that has moved away from a wall ends in a free edge.
 void Semidiscrete::find_edges(const double* y) {
   const std::size_t n = size();
   const ConstValues values(y, n);
@@ -31,8 +31,8 @@ void Semidiscrete::find_edges(const double* y) {
   blocks_.back().right = edge_at_wall(x, setup_.right_wall, values.width(size() - 1));
 }
 
-/// What lies beyond the ends of a block, for the faces near them: beyond a free edge psi = 0, and the edge moves at
-/// the invariant that reaches it; a wall is a mirror, which changes the sign of phi.
+/// Fills the ghost cells outside the ends of a block. Outside a free edge psi = 0, and the edge moves at the invariant
+/// that reaches it. A wall is a mirror, which changes the sign of phi.
 void Semidiscrete::fill_ghosts(const Block& block, double* plus, double* minus) const {
   const auto n = static_cast<std::ptrdiff_t>(block.end - block.begin);
   for (std::ptrdiff_t g = 1; g <= static_cast<std::ptrdiff_t>(ghosts); ++g) {
@@ -82,7 +82,7 @@ void Semidiscrete::find_faces(const Block& block) {
              face_psi + awake.begin);
   flatten_shocks(block, plus, minus, scale);
   // At a free edge psi = 0; phi + psi (or phi - psi) is the invariant that reaches it. A train that moves away from a
-  // wall leaves it.
+  // wall ends in a free edge.
   if (block.left == Edge::free || block.left == Edge::wall) {
     const double away = weno5(minus[2], minus[1], minus[0], minus[-1], minus[-2]) * scale;
     if (block.left == Edge::free || away > 0) {
@@ -102,16 +102,17 @@ void Semidiscrete::find_faces(const Block& block) {
       face_phi[n] = 0;
     }
   }
-  if (block.left == Edge::ring) {  // one face
+  if (block.left == Edge::ring) {  // both ends are the same face
     face_phi[n] = face_phi[0];
     face_psi[n] = face_psi[0];
   }
 }
 
-/// Where trains collide so hard that a shock stands, high order rings behind it: there faces fall back on the plain
-/// values of the cells, as in the PPM of Colella & Woodward (1984). `plus` and `minus` are the scaled invariants.
+/// Lowers the order near hard collisions of trains. There a shock forms, and behind it a scheme of high order
+/// oscillates. Faces near it take the plain values of the cells, as in the PPM of Colella & Woodward (1984). `plus` and
+/// `minus` are the scaled invariants.
 void Semidiscrete::flatten_shocks(const Block& block, const double* plus, const double* minus, double scale) {
-  constexpr double weak = 0.5, strong = 1;  // fall of phi over two cells, beside the mean of psi
+  constexpr double weak = 0.5, strong = 1;  // fall of phi over two cells, divided by the sum of psi
   constexpr std::ptrdiff_t reach = 5;
   if (!(hardest_collision(block.end - block.begin, plus, minus, weak) > 0)) return;
   const auto n = static_cast<std::ptrdiff_t>(block.end - block.begin);
@@ -132,9 +133,9 @@ void Semidiscrete::flatten_shocks(const Block& block, const double* plus, const 
   }
 }
 
-/// Two cells over which phi falls by more than the psi of both are further apart in velocity than any wave between them
-/// is fast. In a dilute train that alone is nothing yet. They have met where they are on the way to do so in less time
-/// than has passed, and psi has risen to the size of the fall.
+/// If phi falls over two cells by more than the sum of their psi, their velocities differ by more than the speed of any
+/// wave between them. In a dilute train this is not yet a crossing. Streams have met if they can close their distance
+/// in less time than has passed, and if psi has risen to a tenth of the fall.
 std::size_t Semidiscrete::crossing(double t, const double* y) const {
   constexpr double met = 0.1, faint = 0.05;
   const ConstValues values(y, size());

@@ -42,7 +42,7 @@ Semidiscrete::Semidiscrete(Setup setup)
     centre_values(r.end - r.begin, awake_in(r), setup_.charge.data() + r.begin, centres_.charge.data() + r.begin);
   for (std::size_t i = 0; i < n; ++i) {
     if (gap(i)) {
-      centres_.train.EK[i] = HUGE_VAL;  // no friction there
+      centres_.train.EK[i] = HUGE_VAL;  // no friction in a gap
       continue;
     }
     centres_.per_charge[i] = 1 / centres_.charge[i];
@@ -88,7 +88,7 @@ void Semidiscrete::find_places(double t, const double* y) {
   for (std::size_t i = 0; i < n; ++i) {
     faces_.x[i + 1] = faces_.x[i] + values.width(i);
     if (!(values.width(i) > 0) && !gap(i))
-      throw NumericsError("t = " + digits(t) + ", cell " + std::to_string(i) + ": squeezed to nothing");
+      throw NumericsError("t = " + digits(t) + ", cell " + std::to_string(i) + ": compressed to zero width");
   }
   middles(blocks_, faces_.x, centres_.x);
   if (!setup_.contact) return;
@@ -99,7 +99,7 @@ void Semidiscrete::find_places(double t, const double* y) {
 void Semidiscrete::operator()(double t, const double* y, double* dy) {
   const std::size_t n = size();
   const Values rates(dy, n);
-  // What only rounding moves stays at rest, unless something else might move it as little.
+  // Motion within rounding counts as rest, unless a forcing or the contact might cause motion as slow.
   const double rounding = setup_.forcing || setup_.contact ? 0 : 64 * 2.2e-16;
   if (setup_.forcing || setup_.contact) find_places(t, y);
   find_states(t, y);
@@ -145,7 +145,8 @@ double Semidiscrete::crossing_time(const double* y, const double* dy) const {
     least = std::fmin(least, least_crossing_time(r.end - i, values.widths() + i, rates.widths() + i,
                                                  &centres_.train.velocity[i], &centres_.train.sound_speed[i]));
   }
-  if (setup_.contact)  // which may not throw a cell, of mass 8 a dislocation, farther than a part of its width
+  // The contact force may move a cell, of mass 8 per dislocation, by at most a quarter of its width.
+  if (setup_.contact)
     for (std::size_t i = 0; i < size(); ++i)
       if (sources_.contact_force[i] != 0)
         least =

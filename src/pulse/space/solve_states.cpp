@@ -11,7 +11,7 @@
 namespace slipfront::pulse {
 namespace {
 
-/// K and E at m1 = s^2 from `minus_log` = -ln m1.
+/// The complete elliptic integrals K and E at m1 = s^2, from `minus_log` = -ln m1.
 struct KandE {
   double K, E;
   KandE(double m1, double minus_log)
@@ -25,15 +25,16 @@ struct KandEFloat {
         E(1 + m1 * (polynomial(fit::E_float, m1) + minus_log * polynomial(fit::E_float_log, m1))) {}
 };
 
-/// The step in ln s that solves K = L, L = (l / 2) sqrt(1 / m + (M / 8E)^2), m = 1 - s^2: Halley's, third order. K is
-/// nearly linear in ln s. A root is avoided: K - L = K (1 - sqrt(1 - 2x)), x = (1 - L^2 / K^2) / 2, small near the end.
+/// The step in ln s that solves K = L, L = (l / 2) sqrt(1 / m + (M / 8E)^2), m = 1 - s^2, by Halley's method of third
+/// order. K is nearly linear in ln s. We avoid a square root: K - L = K (1 - sqrt(1 - 2x)), where x = (1 - L^2 / K^2) /
+/// 2 is small near the solution.
 template <class Real>
 struct HalleyStep {
   Real slope_K, slope_E, curve_K, curve_E, slope, curve, step;
   HalleyStep(Real K, Real E, Real m1, Real half, Real eighth) {
-    const Real m = 1 - m1, inverse = 1 / (K * E * m);  // one division for three
+    const Real m = 1 - m1, inverse = 1 / (K * E * m);  // one division, not three
     const Real per_K = E * m * inverse, per_E = K * m * inverse, per_m = K * E * inverse;
-    // Derivatives by ln s.
+    // Derivatives with respect to ln s.
     const Real up = m1 * per_m;
     slope_K = -(E - m1 * K) * per_m;
     slope_E = up * (K - E);
@@ -43,7 +44,7 @@ struct HalleyStep {
     const Real e = slope_E * per_E;
     const Real x = (1 - half_square * (per_m + rapid_square) * per_K * per_K) / 2;
     const Real off = K * x * (1 + x / 2 * (1 + x)), per_L = per_K * (1 + x * (1 + x + x / 2));
-    // L L', and L L'' = (L L')' - L'^2.
+    // slope_square is L L', and curve_square is its derivative. L L'' = (L L')' - L'^2.
     const Real slope_square = half_square * (up * per_m - rapid_square * e);
     const Real curve_square =
         half_square * (2 * (1 + m1) * up * per_m * per_m - rapid_square * (curve_E * per_E - 3 * e * e));
@@ -65,9 +66,9 @@ inline float log_float(double s) {
 
 inline double clamp(double x, double low, double high) { return x > low ? (x < high ? x : high) : low; }
 
-constexpr double least = 1e-290, most = fit::largest_s;  // of s
+constexpr double least = 1e-290, most = fit::largest_s;  // range of s
 
-/// Brings the guess near the solution in single precision, which has twice as many lanes; ln s goes to `psi`.
+/// Improves the guess in single precision, which has twice as many lanes. Stores ln s in `psi`.
 SLIPFRONT_CLONES void approach(const StateArrays& a) {
   const double *spacing = a.spacing, *momentum = a.momentum, *s_in = a.s;
   double* psi = a.psi;
@@ -76,14 +77,14 @@ SLIPFRONT_CLONES void approach(const StateArrays& a) {
     const auto half = static_cast<float>(spacing[i] / 2), eighth = static_cast<float>(momentum[i] / 8);
     const double guess = clamp(s_in[i], least, most);
     const auto s = static_cast<float>(guess);
-    const float log_s = log_float(guess), m1 = s * s;  // below 1e-19 m1 is 0, and all depends on ln s alone
+    const float log_s = log_float(guess), m1 = s * s;  // below s = 1e-19, m1 is 0 and the result depends only on ln s
     const KandEFloat at(m1, -2 * log_s);
     psi[i] = static_cast<double>(log_s + HalleyStep<float>(at.K, at.E, m1, half, eighth).step);
   }
 }
 
-/// Finds s from ln s in `psi`. The arrays of sound speed, EK and velocity hold K, E and once more s, also where they
-/// are not fine.
+/// Finds s from ln s in `psi`. On return, the arrays of sound speed, EK and velocity hold K, E and s, also for cells
+/// without a solution.
 SLIPFRONT_CLONES void solve_from_logarithm(const StateArrays& a) {
   const std::size_t n = a.size;
   const double *spacing = a.spacing, *momentum = a.momentum;
@@ -101,11 +102,11 @@ SLIPFRONT_CLONES void solve_from_logarithm(const StateArrays& a) {
     const double half = spacing[i] / 2, eighth = momentum[i] / 8, K_from = sound[i], E_from = EK[i], from = U[i];
     const HalleyStep<double> halley(K_from, E_from, from * from, half, eighth);
     const double step = halley.step;
-    // All to this step by derivatives; what is left is of the order of its third power.
+    // K, E and s after the step follow by their derivatives. The error is of the order of the third power of the step.
     const double K = K_from + step * (halley.slope_K + step / 2 * halley.curve_K);
     const double E = E_from + step * (halley.slope_E + step / 2 * halley.curve_E);
     const double s = from + from * (step * (1 + step * (0.5 + step * (1.0 / 6))));
-    // Single precision comes this near; what third order leaves is then a few ulp.
+    // Single precision brings the guess this close. A step of third order then leaves an error of a few ulp.
     const bool near = std::fabs(step) * (halley.slope + std::fabs(halley.curve)) < (4e-6 + 5e-7 * K) * halley.slope;
     const bool fine = near && half > 0 && s > least && s < most;
     sound[i] = K;
@@ -129,12 +130,12 @@ SLIPFRONT_CLONES void find_rapidities(const StateArrays& a) {
   for (std::size_t i = 0; i < n; ++i) {
     const double half = spacing[i] / 2, eighth = momentum[i] / 8, K = sound[i], E = EK[i], s = U[i];
     const double m = 1 - s * s, push = half * eighth, forth = std::fabs(push), both = E * K;
-    // psi = ln((1 + s) / (1 - s)) / 2; tanh phi = push / E K, and so phi = ln(m (EK + forth)^2 / (E half)^2) / 2, as
-    // m ((EK)^2 - push^2) = (E half)^2.
+    // psi = ln((1 + s) / (1 - s)) / 2. From tanh phi = push / E K and m ((EK)^2 - push^2) = (E half)^2 follows phi =
+    // ln(m (EK + forth)^2 / (E half)^2) / 2.
     const double sum = both + forth, steep = m * sum;
     const LogRatio for_psi(1 + s, 1 - s, 2 * s);
     const LogRatio for_phi(steep * sum, (E * half) * (E * half), 2 * steep * forth);
-    const double psi_phi = for_psi.below * for_phi.below, inverse = 1 / (both * psi_phi);  // one division for three
+    const double psi_phi = for_psi.below * for_phi.below, inverse = 1 / (both * psi_phi);  // one division, not three
     const double per_both = psi_phi * inverse, per_psi = both * for_phi.below * inverse,
                  per_phi = both * for_psi.below * inverse;
     sound[i] = s * K * K * per_both;
@@ -159,7 +160,7 @@ SLIPFRONT_CLONES void find_slip(const StateArrays& a, double* fastest) {
 
 }  // namespace
 
-// In several loops: one that did all would be too long for a processor to have some turns of it under way at once.
+// We use several short loops, because a processor can overlap several iterations of a short loop but not of a long one.
 void solve_states(const StateArrays& a) {
   solve(a);
   find_rapidities(a);

@@ -1,4 +1,4 @@
-// What changes the momentum of a cell beside its faces: friction, forcing and the slope of the contact.
+// Sources of momentum other than the fluxes at the faces: friction, forcing and the slope of the contact ratio.
 
 #include <algorithm>
 #include <cmath>
@@ -11,21 +11,22 @@
 namespace slipfront::pulse {
 namespace {
 
-/// Dry friction on one cell that is pushed by `push`: opposes motion with `most`, or holds a cell that is at rest.
+/// Dry friction on a cell on which the force `push` acts. It opposes motion with `most`, or holds a cell that is at
+/// rest.
 double dry_friction(double momentum, double push, double most) {
   if (momentum != 0) return -std::copysign(most, momentum);
   return -std::copysign(std::fmin(std::fabs(push), most), push);
 }
 
-/// <1 - cos u>, 2 cosh^2 psi (E/K - m1).
+/// The average <1 - cos u>, which is 2 cosh^2 psi (E/K - m1).
 double substrate(double psi) {
   if (psi == 0) return 0;
   const double cosh_psi = std::cosh(psi);
   return 2 * cosh_psi * cosh_psi * elliptic::at_psi(psi).above_m1;
 }
 
-/// Values at the n + 1 faces of a block from those at its centres; fourth order inside, third where nothing is known
-/// beyond an end.
+/// Finds values at the n + 1 faces of a block from those at its centres: fourth order inside, third order next to an
+/// end outside which no value is known.
 void between_centres(const Block& block, const double* centre, double* face) {
   const auto n = static_cast<std::ptrdiff_t>(block.end - block.begin);
   const auto beyond = [&](Edge edge, std::ptrdiff_t first, std::ptrdiff_t step, std::ptrdiff_t distance) {
@@ -43,10 +44,12 @@ void between_centres(const Block& block, const double* centre, double* face) {
 
 }  // namespace
 
-/// Momentum that the contact gives to a cell, -integral of <1 - cos u> d(a^2), from both faces and the centre: fourth
-/// order, and no derivative of a is needed. In a dilute train <1 - cos u> goes as 1 / ln psi, and a psi that the
-/// invariants leave at a face, much smaller than phi, has no digits: faces take it from the centres around them. Beside
-/// a free edge, where the density falls to nothing within a cell, what is smooth is the energy of one dislocation.
+/// Adds the force of the contact on each cell, -integral of <1 - cos u> d(a^2), from values at both faces and the
+/// centre. This has fourth order and needs no derivative of a.
+///
+/// In a dilute train <1 - cos u> varies as 1 / ln psi. A psi that follows from the invariants at a face has no accurate
+/// digits if it is much smaller than phi. Faces therefore take <1 - cos u> from the centres around them. Next to a free
+/// edge the density falls to zero within a cell, and the energy of one dislocation is the smooth quantity.
 void Semidiscrete::add_contact_force(const double* y, double* dy) {
   const ConstValues values(y, size());
   const Values rates(dy, size());
@@ -61,7 +64,7 @@ void Semidiscrete::add_contact_force(const double* y, double* dy) {
       sources_.contact_force[i] = modulation::contact_source({face[i], centre[i], face[i + 1]}, {a, b, c});
   }
   for (const Block& r : blocks_) {
-    const auto of_one = [&](std::size_t i) {  // energy of a dislocation times their number, evenly over the cell
+    const auto of_one = [&](std::size_t i) {  // energy of a dislocation times their number, uniform over the cell
       const double number = setup_.charge[i] * centres_.train.spacing[i] / (centres_.contact[i] * values.width(i));
       sources_.contact_force[i] = -centre[i] * number * (square(faces_.contact[i + 1]) - square(faces_.contact[i]));
     };
@@ -79,7 +82,7 @@ void Semidiscrete::add_sources(double t, const double* y, double* dy) {
   const std::optional<double> C = friction.linear_coefficient();
   const bool linear = frictional && C && friction.closure() == friction::Closure::consistent;
   if (!frictional && !setup_.forcing) return;
-  if (linear && !setup_.forcing) {  // the plain case, without the detour over point values
+  if (linear && !setup_.forcing) {  // the simplest case needs no point values
     rates.dissipated() = damp(size(), *C, values.momenta(), centres_.train.velocity.data(), rates.momenta());
     return;
   }
@@ -89,7 +92,7 @@ void Semidiscrete::add_sources(double t, const double* y, double* dy) {
   double dissipation = powers.dissipation;
   for (std::size_t i = 0; i < size(); ++i) {
     rates.momentum(i) += means_.source[i];
-    if (frictional && friction.sticks()) {  // no detour over point values, as of a constant force there is none
+    if (frictional && friction.sticks()) {  // a constant force needs no point values
       const double force =
           dry_friction(values.momentum(i), rates.momentum(i),
                        modulation::force_per_dislocation(sources_.friction_strength[i]) * setup_.charge[i]);
@@ -99,13 +102,13 @@ void Semidiscrete::add_sources(double t, const double* y, double* dy) {
       rates.momentum(i) -= *C * values.momentum(i);
     }
   }
-  // M = 2 pi P / k and 2 pi q_s = k x_s: the sums are over P dx = M q_s ds.
+  // M = 2 pi P / k and 2 pi q_s = k x_s: these are sums of P dx = M q_s ds over the cells.
   rates.dissipated() = dissipation;
   rates.supplied() = powers.supply;
 }
 
-/// Forces at the centres of the cells, in a unit of s: the load and, if it is `in_force`, friction that has a rate.
-/// Returns the power of the load, and that of friction if it is `rated`.
+/// Finds the forces at the cell centres per unit of s: the load and, if `in_force`, friction that has a rate. Returns
+/// the power of the load, and that of friction if it is `rated`.
 Semidiscrete::Powers Semidiscrete::find_forces(double t, bool rated, bool in_force) {
   Powers powers;
   for (std::size_t i = 0; i < size(); ++i) {
@@ -132,7 +135,7 @@ void Semidiscrete::find_rates() {
     if (f.closure() == friction::Closure::consistent) {
       std::fill(sources_.friction_rate.begin(), sources_.friction_rate.end(), *C);
       sources_.largest_friction_rate = *C;
-    } else {  // with the E K that are known already
+    } else {  // the values of E K are known already
       sources_.largest_friction_rate = paper_rates(size(), *C, centres_.train.EK.data(), sources_.friction_rate.data());
     }
     return;
@@ -147,7 +150,7 @@ void Semidiscrete::find_rates() {
     return;
   }
   find_strengths();
-  if (f.sticks()) return;  // such friction relaxes nothing, but stops it
+  if (f.sticks()) return;  // such friction stops motion, and has no relaxation rate
   for (std::size_t i = 0; i < size(); ++i) {
     if (gap(i)) continue;
     sources_.friction_rate[i] =
@@ -156,16 +159,19 @@ void Semidiscrete::find_rates() {
   }
 }
 
-/// Mean of f over the train in each cell that has one; and its momentum, but for a cell at rest of a law that does not
-/// stick those of a slow train, whose ratio is the limit. A cell that stays at rest as it is keeps them. Trains that
-/// only rounding moves have the force at one speed.
+/// Finds the mean of f over the train in each cell that has one, and the momentum per dislocation. A cell at rest, for
+/// a law that does not stick, gets the values of a slow train, whose ratio is at the limit. A cell that
+/// stays at rest with the same s keeps its values. Trains whose motion is within rounding get the force at one slip
+/// velocity.
 void Semidiscrete::find_strengths() {
   const friction::Friction& f = setup_.friction;
   const CellStates& train = centres_.train;
   Sources& o = sources_;
   constexpr double rounding = 1e-14;
   fastest_slip(size(), train.phi.data(), train.psi.data(), o.fastest.data());
-  std::size_t count = 0, rounded = size();  // those from the front of the arrays, these from their end
+  // The arrays are filled from both ends: trains whose motion is within rounding go to the end, all others to the
+  // front.
+  std::size_t count = 0, rounded = size();
   for (std::size_t i = 0; i < size(); ++i) {
     const double a = setup_.contact ? centres_.contact[i] : 1, s = train.s[i], M = std::fabs(train.momentum[i]);
     const bool rests = M == 0;

@@ -7,19 +7,19 @@
 
 namespace slipfront::pulse {
 
-/// The equations in space on the present cells, in both forms: with reconstructed faces, and staggered, where friction
-/// rules.
+/// The equations in space on the present cells, in both forms: with reconstructed faces, and staggered for strong
+/// friction.
 class Equations {
  public:
   Equations(const Problem& problem, FreeEdges free) : problem_(problem), free_(free) {}
 
-  /// Sets them up for other cells.
+  /// Sets up the equations for other cells.
   void rebuild(const Cells& cells) {
     semidiscrete_ = std::make_unique<Semidiscrete>(setup_of(problem_, cells, free_));
     staggered_.reset();
   }
   Semidiscrete& semidiscrete() { return *semidiscrete_; }
-  /// Made when it is first asked for: most runs never need it.
+  /// Creates the staggered equations on first use, because most runs never need them.
   Staggered& staggered(const Cells& cells) {
     if (!staggered_) staggered_ = std::make_unique<Staggered>(setup_of(problem_, cells, free_));
     return *staggered_;

@@ -19,7 +19,7 @@ namespace {
 using std::numbers::pi;
 
 [[noreturn]] void give_up(double t, std::size_t cell) {
-  throw NumericsError("t = " + digits(t) + ", cell " + std::to_string(cell) + ": squeezed to nothing");
+  throw NumericsError("t = " + digits(t) + ", cell " + std::to_string(cell) + ": compressed to zero width");
 }
 
 }  // namespace
@@ -48,7 +48,8 @@ void Staggered::face_momenta(const double* cell_momenta, double* momenta) const 
   if (setup_.right == Edge::wall) momenta[faces() - 1] = 0;
 }
 
-/// Means over the cells of the cubic through four faces, and of the line through two in the last cells of a block.
+/// Finds means over the cells of the cubic through four faces, or of the line through two faces in the end cells of a
+/// block.
 void Staggered::cell_momenta(const double* face_momenta, double* momenta) const {
   std::fill_n(momenta, setup_.charge.size(), 0.0);
   const auto of_one = [&](std::size_t f) { return face_momenta[f] / charge_around(f); };
@@ -94,7 +95,8 @@ void Staggered::find_cells(double t, const double* z) {
   }
 }
 
-/// Of pressure and contact on the dislocations around a face; the train beyond an end pushes back.
+/// Force of pressure and contact on the dislocations around a face. It is 0 at a continued end, where the train outside
+/// pushes back.
 double Staggered::force_on(std::size_t f) const {
   const bool left = charge_left(f) > 0, right = charge_right(f) > 0;
   if (edge_at(f) == Edge::continued) return 0;
@@ -106,8 +108,8 @@ double Staggered::force_on(std::size_t f) const {
   return -2 * pi * rise / run * charge_around(f);
 }
 
-/// What lies beyond a face that is an end; free for all others, which need not ask. A train that has left a wall ends
-/// in a free edge.
+/// Boundary condition at the first or last face. Returns Edge::free for all other faces, which do not use it. A train
+/// that has moved away from a wall ends in a free edge.
 Edge Staggered::edge_at(std::size_t f) const {
   if (f > 0 && f + 1 < faces()) return Edge::free;
   const Edge end = f == 0 ? setup_.left : setup_.right;
@@ -123,14 +125,14 @@ const std::vector<double>& Staggered::face_phi() {
 
 double Staggered::creep() const { return setup_.friction.steep_at_rest() ? creep_ : 0; }
 
-/// What friction takes of the momentum at a face, a unit of time.
+/// Friction rate at a face: loss of momentum per unit of time and momentum.
 double Staggered::loss_rate(std::size_t f, double phi) const {
-  if (const auto C = setup_.friction.linear_coefficient())  // with the E K that are known already
+  if (const auto C = setup_.friction.linear_coefficient())  // the values of E K are known already
     return setup_.friction.closure() == friction::Closure::consistent ? *C : *C * pi * pi / (4 * beside(cells_.EK, f));
   return (*relaxation_rate_)({std::hypot(phi, creep()), beside(cells_.psi, f)}, contact_at(f), {});
 }
 
-/// The same at all faces.
+/// Finds the friction rates at all faces.
 void Staggered::find_loss_rates() {
   const friction::Friction& friction = setup_.friction;
   if (friction.linear_coefficient()) {
@@ -182,12 +184,12 @@ void Staggered::find_masses(double t, const double* z) {
   }
 }
 
-/// Force of the forcing on all dislocations around a face.
+/// Force of the load on all dislocations around a face.
 double Staggered::push_on(std::size_t f, double t) const {
   return setup_.forcing ? modulation::force_per_dislocation(setup_.forcing(place_[f], t)) * charge_around(f) : 0;
 }
 
-/// Energy that comes in through a face at velocity U, in a unit of time.
+/// Power that enters through a face at velocity U.
 double Staggered::power_through(std::size_t f, double U) const {
   if (!is_edge(f) || edge_at(f) != Edge::continued) return 0;
   const std::size_t cell = f == 0 ? 0 : f - 1;
@@ -195,7 +197,7 @@ double Staggered::power_through(std::size_t f, double U) const {
   return f == 0 ? work : -work;
 }
 
-/// A wall holds what presses against it.
+/// A wall balances the force of a train that presses against it.
 double Staggered::held_by_wall(std::size_t f, double force) const {
   if (edge_at(f) != Edge::wall) return force;
   return f == 0 ? std::fmax(force, 0) : std::fmin(force, 0);

@@ -12,42 +12,43 @@
 
 namespace slipfront::pulse {
 
-/// The equations in space where friction damps a wave before it has crossed a cell: widths live in the cells, momenta
-/// at the faces, so that the force on a face is the difference of the pressures beside it and nothing has to be
-/// reconstructed,
+/// The equations in space for friction that damps a wave before it has crossed a cell. We store widths in the cells and
+/// momenta at the faces. The force on a face is then the difference of the pressures on its two sides, and nothing has
+/// to be reconstructed:
 ///     X_t = [U] over the cell's faces,   Y_t = -[p] over the face's cells + q_f (2 pi F - loss).
-/// Second order. A face carries the flux of Darcy, M = -p_q / C, where the momentum has relaxed, and its own momentum
-/// where it has not: both limits hold for any size of cell. With a contact ratio a(x) the force is
-/// -2 pi g_x / cosh(phi), g = (4 / pi) a cosh(psi) E, which vanishes exactly for trains in equilibrium.
+/// The scheme has second order. A face has the Darcy flux, M = -p_q / C, if the momentum has relaxed, and its own
+/// momentum if it has not. Both limits hold for any size of cell. With a contact ratio a(x) the force is -2 pi g_x /
+/// cosh(phi), g = (4 / pi) a cosh(psi) E, which vanishes exactly for trains in equilibrium.
 class Staggered {
  public:
   explicit Staggered(Setup setup);
 
-  /// Of its unknowns (NamedFaceValues); the momentum Y around a face is that from the middle of one cell to that of the
-  /// next.
+  /// Number of unknowns (NamedFaceValues). The momentum Y around a face is that between the middles of its two cells.
   std::size_t size() const { return FaceValues::size(faces()); }
   std::size_t faces() const { return setup_.charge.size() + 1; }
-  /// Entries to either side that a rate depends on, widths taken as places.
+  /// Number of entries on either side that a rate depends on, if positions replace the widths.
   static constexpr std::size_t reach = 3;
 
   void operator()(double t, const double* z, double* dz);
 
-  /// A step of the semi-implicit Euler method: the momenta first, with friction implicit and face by face, then the
-  /// widths by the new velocities. First order, and stable under any friction where no wave crosses a cell in `dt`.
-  /// Friction that is steep at rest needs no small steps here, as its force at the end of the step is solved for.
+  /// Takes one step of the semi-implicit Euler method, of first order. It advances first the momenta, with implicit
+  /// friction at each face, and then the widths with the new velocities. The step is stable under any friction if no
+  /// wave crosses a cell in `dt`. Friction that is steep at rest needs no small steps, because we solve for its force
+  /// at the end of the step.
   void split_step(double t, double dt, const double* z, double* next);
-  /// tanh(psi) of the cells: where the next solves start, and what the last found.
+  /// tanh(psi) of the cells: the initial guess of the next solve, and the result of the last.
   void start_from(const std::vector<double>& s) { cells_.s = s; }
   const std::vector<double>& s() const { return cells_.s; }
 
-  /// Friction that is steep at rest, like powers below 1, changes to a viscous one at velocities of this size and less:
-  /// there its force is rounding of what else acts.
+  /// Sets the velocity below which friction that is steep at rest, such as a power below 1, is replaced by viscous
+  /// friction. At such velocities its force is within rounding of the other forces.
   void viscous_below(double velocity) { creep_ = velocity; }
 
-  /// What a dislocation moves at where friction takes all of the largest force on one, of those in `rates` from rest.
+  /// Terminal motion under the largest force on a dislocation: the momentum and the velocity at which friction balances
+  /// this force. The forces are those in `rates`, found at rest.
   struct Terminal {
     double momentum, velocity;
-    double rate;  ///< at which friction takes such a momentum
+    double rate;  ///< friction rate at that momentum
   };
   Terminal terminal(const double* rates) const;
 
@@ -74,10 +75,10 @@ class Staggered {
   Edge edge_at(std::size_t face) const;
   double loss_rate(std::size_t face, double phi) const;
   void find_loss_rates();
-  /// Below this velocity friction that is steep at rest is viscous; 0 for others.
+  /// Velocity below which friction that is steep at rest is viscous; 0 for other laws.
   double creep() const;
   double contact_at(std::size_t face) const { return setup_.contact ? setup_.contact(place_[face]) : 1; }
-  /// Mean over the cells beside a face that hold dislocations.
+  /// Mean over the cells with dislocations on either side of a face.
   double beside(const std::vector<double>& values, std::size_t face) const;
 
   struct FaceBracket : Bracket {
@@ -89,15 +90,15 @@ class Staggered {
   std::unique_ptr<friction::RelaxationRate> relaxation_rate_;
   std::vector<Block> blocks_;
   CellStates cells_;
-  std::vector<double> width_, pressure_, balance_, a_;  ///< of the cells, where gaps have no pressure
+  std::vector<double> width_, pressure_, balance_, a_;  ///< values in the cells; gaps have no pressure
   std::vector<double> mass_;                            ///< cosh(psi) E, an eighth of M / sinh(phi)
-  // At the faces.
+  // Values at the faces.
   std::vector<double> charge_, place_, face_a_;
   std::vector<double> on_one_, face_mass_, sinh_phi_, cosh_phi_, U_,
-      face_phi_;                                     ///< momentum of a dislocation, M / sinh
-  std::vector<double> free_, free_on_one_, pushes_;  ///< of split steps
+      face_phi_;                                     ///< on_one_: momentum per dislocation; face_mass_: M / sinh(phi)
+  std::vector<double> free_, free_on_one_, pushes_;  ///< work arrays of split steps
   std::vector<FaceBracket> brackets_;
-  std::vector<double> psi_, fastest_, s_, per_momentum_, mean_, loss_rate_;  ///< of the trains there
+  std::vector<double> psi_, fastest_, s_, per_momentum_, mean_, loss_rate_;  ///< the trains at the faces
 };
 
 }  // namespace slipfront::pulse

@@ -71,9 +71,9 @@ std::string Stepper::reason_of_short_steps(const Cells& cells) {
     return "cell " + std::to_string(i) + " of " + std::to_string(cells.size()) + ", at x = " + digits(cells.centre(i));
   };
   if (cells.step >= crossing / 4)
-    return "The steps are those in which waves cross the narrowest cell, which is " + at(narrowest) + ", " +
+    return "Each step is the time in which a wave crosses the narrowest cell: " + at(narrowest) + ", " +
            digits(cells.width(narrowest), 3) + " wide";
-  return "The error of a step allows steps of " + digits(cells.step, 3) + " only, where waves would allow " +
+  return "The error of a step allows steps of " + digits(cells.step, 3) + " only, although waves would allow " +
          digits(crossing, 3) + "; the largest force is on " + at(pushed);
 }
 

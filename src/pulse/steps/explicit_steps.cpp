@@ -9,10 +9,12 @@
 namespace slipfront::pulse {
 namespace {
 
-/// Dry friction cannot reverse a cell: one that would have is at rest, and moves on only if pushed hard enough. So is
-/// one that `friction` (that of a dislocation) holds, as it has turned it back in a stage of the step and nothing else
-/// acts as strongly: what the step would have made of its momentum is no error then, nor what its friction does in the
-/// means over the cells beside it.
+/// Dry friction cannot reverse the motion of a cell. If a step has reversed it, the cell is at rest, and moves again
+/// only if the push is large enough.
+///
+/// A cell is also at rest if a stage of the step has turned it back and no other force is as strong as `friction` (per
+/// dislocation). The momentum that the step would have given it is then no error. Neither is the effect of its friction
+/// on the means over neighbouring cells.
 void stop_reversals(const Ssprk54& step, double friction, const std::vector<double>& charge,
                     const std::vector<double>& before, std::vector<double>& after, std::vector<double>& scale) {
   for (std::size_t cell = 0; cell < charge.size(); ++cell) {
@@ -28,7 +30,7 @@ void stop_reversals(const Ssprk54& step, double friction, const std::vector<doub
   }
 }
 
-/// Cells that were left alone in a step keep their bits: its sums of a width with itself are rounded.
+/// Restores the exact values of cells that the step skipped: its weighted sums of an unchanged width are rounded.
 void keep_others(CellRange awake, const std::vector<double>& before, std::vector<double>& after, std::size_t cells) {
   const auto copy = [&](std::size_t begin, std::size_t end) {
     for (std::size_t first : {begin, cells + begin})

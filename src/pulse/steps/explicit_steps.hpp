@@ -13,7 +13,7 @@ class ExplicitSteps {
  public:
   ExplicitSteps(const Problem& problem, const Measures& measures, std::size_t cells);
   /// Takes one step of at most `remaining` and returns its length. `rate` are the rates at the present time, `crossing`
-  /// is the time in which a wave crosses a cell. \throws NumericsError where no step is short enough.
+  /// is the time in which a wave crosses a cell. \throws NumericsError if no step is short enough.
   double take(Cells& cells, Semidiscrete& equations, const std::vector<double>& rate, double remaining,
               double crossing);
 

@@ -10,9 +10,11 @@
 namespace slipfront::pulse {
 namespace {
 
-/// Friction is taken as viscous below this fraction of the mean speed so far, which adds as little to slip.
+/// Below this fraction of the mean speed so far, friction is taken as viscous. Such motion adds at most this fraction
+/// to the slip.
 constexpr double creep = 1e-6;
-/// Linearised steps of steep friction are given up below this fraction of the time in which a wave crosses a cell.
+/// With steep friction, we give up linearised steps that are shorter than this fraction of the time in which a wave
+/// crosses a cell.
 constexpr double far_too_short = 1e-3;
 
 }  // namespace
@@ -36,7 +38,7 @@ double ImplicitSteps::friction_rate_from_rest(const Cells& cells, Staggered& sta
   return staggered.terminal(rate_.data()).rate;
 }
 
-/// Scales at the faces from those of the cells, and the rates at the present time.
+/// Finds the scales at the faces from those of the cells, and the rates at the present time.
 void ImplicitSteps::find_scale(const Cells& cells, Equations& equations, double crossing) {
   Semidiscrete& semidiscrete = equations.semidiscrete();
   Staggered& staggered = equations.staggered(cells);
@@ -71,7 +73,7 @@ double ImplicitSteps::take(Cells& cells, Equations& equations, double remaining,
   return length > 0 ? length : take_by_faces(cells, staggered, std::fmin(crossing, remaining));
 }
 
-/// Returns 0 where friction is so steep that linearised steps would be far too short.
+/// Returns 0 if friction is so steep that linearised steps would be far too short.
 double ImplicitSteps::take_by_linearisation(Cells& cells, Equations& equations, double remaining, double crossing) {
   Staggered& staggered = equations.staggered(cells);
   const Rates f = [&staggered](double t, const double* z, double* dz) { staggered(t, z, dz); };
@@ -98,12 +100,13 @@ double ImplicitSteps::take_by_linearisation(Cells& cells, Equations& equations, 
         const double next = dt * control.reduction(last);
         if (next < shortest) return true;
         if (!(cells.time + next > cells.time))
-          throw NumericsError("t = " + digits(cells.time) + ": the time step fell below rounding");
+          throw NumericsError("t = " + digits(cells.time) +
+                              ": the time step fell below the rounding error of the time");
         staggered.start_from(cells.s);
         return false;
       });
   if (step.length == 0) return 0;
-  // A step that was shortened to end on a given time says little about the next one.
+  // A step that was shortened to end on a given time is no measure of the next one.
   cells.step = step.length == first && first < wanted ? std::fmax(wanted, step.next) : step.next;
   cells_from_faces(staggered, next_, cells);
   cells.s = staggered.s();
@@ -130,7 +133,7 @@ StepAttempt ImplicitSteps::attempt_by_faces(const Cells& cells, Staggered& stagg
     sum += of_momentum_least * of_momentum_least * of_momentum * of_momentum;
   }
   const double error = std::sqrt(sum / static_cast<double>(2 * faces)) / problem_.explicit_tolerance;
-  bool compressed = false;  // a cell to nothing
+  bool compressed = false;  // whether a cell has lost nine tenths of its width
   for (std::size_t i = 1; i < faces; ++i)
     compressed = compressed || (!(next_[i] > unknowns_[i] / 10) && unknowns_[i] > 0);
   return {.succeeded = std::isfinite(error) && !compressed, .error = error};

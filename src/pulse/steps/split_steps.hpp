@@ -10,14 +10,13 @@
 
 namespace slipfront::pulse {
 
-/// Steps that take friction cell by cell, where it has state variables or is steep at rest. The state of the interface
-/// and the motion of the cells each advance with the other's values in the middle of the step.
+/// Steps that treat friction cell by cell, for laws with state variables or steep at rest. The state variables and the
+/// motion of the cells each advance with the values that the other has in the middle of the step.
 class SplitSteps {
  public:
   SplitSteps(const Problem& problem, const Measures& measures, const StateGrid& grid, std::size_t cells);
   /// Takes one step of at most `remaining` and returns its length. `rate` are the rates at the present time, without
-  /// friction; `crossing` is the time in which a wave crosses a cell. \throws NumericsError where no step is short
-  /// enough.
+  /// friction; `crossing` is the time in which a wave crosses a cell. \throws NumericsError if no step is short enough.
   double take(Cells& cells, Semidiscrete& equations, const std::vector<double>& rate, double remaining,
               double crossing);
 

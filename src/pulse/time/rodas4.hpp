@@ -11,18 +11,18 @@ namespace slipfront::pulse {
 /// Rodas4, a linearly implicit integrator of fourth order, L-stable and stiffly accurate (Hairer & Wanner 1996, Solving
 /// Ordinary Differential Equations II, section IV.10), with a banded Jacobian by differences.
 ///
-/// The vector y holds the widths of all cells, as many momenta, and then entries that only add up: these follow by
-/// Simpson's rule, with the step's own dense output in the middle. Linear systems are solved for positions, the sums of
-/// the widths, instead of the widths: a force that depends on the position couples a cell with all widths before it,
-/// but only with the positions next to it. Their order is position, momentum, position, ..., which keeps the band
-/// narrow.
+/// The vector y holds the widths of all cells, as many momenta, and then totals, on which no rate depends. The totals
+/// follow by Simpson's rule, with the dense output of the step in the middle. Linear systems are solved for positions,
+/// the sums of the widths, instead of the widths. A force that depends on the position couples a cell with all widths
+/// before it, but only with the positions next to it. The order of the unknowns is position, momentum, position, ...,
+/// which keeps the band narrow.
 class Rodas4 {
  public:
   /// Rates depend on `reach` entries to either side in that order.
   Rodas4(std::size_t cells, std::size_t size, std::size_t reach, bool depends_on_time);
 
-  /// What the error is measured by. Entry i of `scale` is the size of width or momentum i. An error of momentum lasts
-  /// for one friction time only, 1 / `friction_rate`, and counts for less in longer steps, though never less than a
+  /// Scales of the error. Entry i of `scale` is the size of width or momentum i. An error of momentum lasts for only
+  /// one friction time, 1 / `friction_rate`. It therefore counts for less in longer steps, but never for less than a
   /// twentieth.
   struct Tolerance {
     const std::vector<double>& scale;
@@ -35,8 +35,8 @@ class Rodas4 {
                          std::vector<double>& next);
 
   /// Evaluates the Jacobian at (t, y), for any number of attempts from there. Momenta below the fraction `slow` of
-  /// their scale have the slope from rest instead of that at y: friction that is steep at rest, like w^(1/2), is less
-  /// steep at y, and a step by that slope would move what creeps farther to the other side than it was.
+  /// their scale get the slope from rest instead of that at y. Friction that is steep at rest, like w^(1/2), is less
+  /// steep at y. A step with the slope at y would overshoot: a slow momentum would change its sign and grow.
   void linearise(const Rates& f, double t, const std::vector<double>& y, const std::vector<double>& rate,
                  const std::vector<double>& scale, double slow);
 

@@ -15,11 +15,12 @@ namespace {
 
 using std::numbers::pi;
 
-/// State at face f, inside a block or where the train goes on alike at an end, from the reconstructed phi and psi:
-/// between the states of the cells beside it, or beyond both as a smooth extremum is, by at most twice the eighth of
-/// what these differ by from the next cells. psi is half the difference of two invariants: where phi changes from cell
-/// to cell by as much as psi is, that is the pressure of the collision, or rounding, and the train at the face is taken
-/// from the cells.
+/// State at face f from the reconstructed phi and psi, for a face that is no free edge. psi is limited to the range of
+/// the two cells next to the face. As at a smooth extremum, it may exceed that range by a quarter of the difference
+/// from the next cells, twice the usual eighth.
+///
+/// psi is half the difference of two invariants. If phi changes from cell to cell by as much as psi, then psi at the
+/// face is the pressure of the collision, or rounding. We then take the train at the face from the cells.
 State state_between(const std::vector<State>& cells, std::size_t f, double phi, double psi) {
   const std::size_t n = cells.size(), left = f == 0 ? 0 : f - 1, right = f == n ? n - 1 : f;
   const double least = std::fmin(cells[left].psi, cells[right].psi),
@@ -36,10 +37,10 @@ State state_between(const std::vector<State>& cells, std::size_t f, double phi, 
   return {phi, std::sqrt(cells[left].psi) * std::sqrt(cells[right].psi)};
 }
 
-/// How often a ring must be turned back to bring x among its faces.
+/// Number of turns by which x must be moved back on a ring to be among its faces.
 double turns(const View& v, double x) { return std::floor((x - v.faces.front()) / v.period); }
 
-/// Centres and faces around a place, at most five that rise with x.
+/// Centres and faces around x, at most five, in rising order.
 struct Nodes {
   double x[5];
   State state[5];
@@ -51,8 +52,8 @@ struct Nodes {
   }
 };
 
-/// Whether the train in a cell ends at a face of it where another begins that is so much denser that this one pushes
-/// nothing back, and no fan of that one reaches into it: it is as it is up to the face.
+/// Whether the train in a cell ends at a face at which a much denser train begins, without a fan of the denser train in
+/// the cell. The dilute train then pushes back almost nothing, and its state is uniform up to the face.
 bool ends_at(const View& v, std::size_t cell, std::size_t face) {
   constexpr double denser = 100, fan = 0.1, apart = 0.5;
   const State &here = v.states[cell], &beyond = v.states[face == cell ? face - 1 : face];
@@ -61,9 +62,9 @@ bool ends_at(const View& v, std::size_t cell, std::size_t face) {
          std::fabs(beyond.phi - here.phi) < apart * beyond.psi;
 }
 
-/// The centre of the cell, its faces, and the centres of its neighbours in the same block. A step of stress, or a
-/// pulse that is still narrower than a cell, is known at a face long before the cells feel it. At the face itself, to
-/// rounding, neither side's state counts for more than the other's.
+/// The centre of the cell, its faces, and the centres of its neighbours in the same block. A step of stress, or a pulse
+/// that is still narrower than a cell, appears at a face long before it appears in the cells. Within rounding of the
+/// face itself, the states of both sides count equally.
 Nodes nodes_around(const View& v, std::size_t cell, double x) {
   Nodes nodes;
   const std::size_t n = v.states.size();
@@ -81,15 +82,15 @@ Nodes nodes_around(const View& v, std::size_t cell, double x) {
   return nodes;
 }
 
-/// Whether three values and the next one bend alike.
+/// Whether the curvatures at the first three of four points and at the last three are nearly equal.
 bool bends_alike(const double* x, const double* f) {
   const auto slope = [&](std::size_t j) { return (f[j + 1] - f[j]) / (x[j + 1] - x[j]); };
   const double bend = (slope(1) - slope(0)) / (x[2] - x[0]), next = (slope(2) - slope(1)) / (x[3] - x[1]);
   return std::fabs(next - bend) < 0.5 * (std::fabs(bend) + std::fabs(next));
 }
 
-/// The polynomial through all of `size` points. Where these are not smooth, there is no value beyond the two beside x;
-/// a smooth extremum lies beyond all of them by a part of their range.
+/// Value at x of the polynomial through `size` points. If the points are not smooth, the value is limited to the range
+/// of the two around x. If they are smooth, it may exceed the range of all by a quarter, as at an extremum.
 double bounded(std::size_t size, const double* at, const double* f, double x) {
   const std::size_t next =
       std::clamp<std::size_t>(static_cast<std::size_t>(std::upper_bound(at, at + size, x) - at), 1, size - 1);
@@ -126,7 +127,7 @@ View view_of(const Problem& problem, const Cells& cells, Equations& equations, b
   v.left_free = semidiscrete.blocks().front().left == Edge::free;
   v.right_free = semidiscrete.blocks().back().right == Edge::free;
   const std::vector<double>* face_phi = &semidiscrete.face_phi();
-  if (!cells.face_momentum.empty()) {  // where friction rules, velocities are those of the faces
+  if (!cells.face_momentum.empty()) {  // with strong friction, the momenta at the faces determine the velocities
     Staggered& staggered = equations.staggered(cells);
     staggered.start_from(cells.s);
     std::vector<double> unknowns, face_rate(staggered.size());
@@ -180,8 +181,8 @@ State state_at(const View& v, double place) {
   const double phi_here = bounded(nodes.size, nodes.x, phi, x);
   const bool decades = *least > 0 && *most > 100 * *least;
   if (!decades) return {phi_here, std::fmax(bounded(nodes.size, nodes.x, psi, x), 0.0)};
-  // Where psi changes by decades from cell to cell, either phi changes by as much, as in a fan, or the train is slow
-  // and the logarithm of psi is what is smooth.
+  // If psi changes by decades from cell to cell, there are two cases. In a fan, phi changes by as much. In a slow
+  // train, the logarithm of psi is smooth.
   const std::size_t j = interval(nodes.x, nodes.size, x);
   const double ratio = std::fabs(phi[j + 1] - phi[j]) / std::fabs(psi[j + 1] - psi[j]);
   if (ratio > 0.5 && ratio < 2) {
@@ -199,13 +200,14 @@ train::Averages averages_of(const View& v, const State& state, double x) {
 double charge_left_of(const View& v, double place) {
   const double whole = v.period > 0 ? turns(v, place) : 0, x = place - whole * v.period;
   const double before = whole * (v.charge_faces.back() - v.charge_faces.front());
-  // Between an end of the domain and the last face there, the train that goes on beyond may have come in a little.
+  // Some of the train outside may have entered between an end of the domain and the last face there.
   if (x <= v.faces.front())
     return before + v.charge_faces.front() - (v.left_free ? 0 : (v.faces.front() - x) * v.face_density.front());
   if (x >= v.faces.back())
     return before + v.charge_faces.back() + (v.right_free ? 0 : (x - v.faces.back()) * v.face_density.back());
   const std::size_t i = interval(v.faces, x);
-  // Cubic Hermite: the slopes k / 2 pi at the faces are known; limited so that it cannot fall (Fritsch & Carlson).
+  // Cubic Hermite interpolation with the known slopes k / 2 pi at the faces, limited to be monotone (Fritsch &
+  // Carlson).
   const double h = v.faces[i + 1] - v.faces[i], rise = v.charge_faces[i + 1] - v.charge_faces[i], mean = rise / h;
   const auto slope = [&](std::size_t f) { return std::fmin(v.face_density[f], 3 * mean); };
   const double s = (x - v.faces[i]) / h, r = 1 - s;

@@ -8,7 +8,7 @@
 
 namespace slipfront::pulse {
 
-/// What the interface looks like now, for interpolation and sums.
+/// State of the interface at one time, for interpolation and sums.
 struct View {
   std::vector<double> faces;         ///< x
   std::vector<double> charge_faces;  ///< dislocations left of each face
@@ -17,19 +17,19 @@ struct View {
   std::vector<double> centres;       ///< x
   std::vector<State> states;  ///< at the centres, in local units where there is a contact profile; empty in a gap
   std::function<double(double)> contact;
-  std::vector<double> shocked;                 ///< 1 in the cells near a shock, where values ring; 0 elsewhere
-  bool left_free = false, right_free = false;  ///< there is no stress beyond the first or last face
-  double period = 0;                           ///< of a ring: x and x + period are one place; 0: none
+  std::vector<double> shocked;                 ///< 1 in the cells near a shock, where values oscillate; 0 elsewhere
+  bool left_free = false, right_free = false;  ///< there is no stress outside the first or last face
+  double period = 0;  ///< length of a ring, on which x and x + period are equivalent; 0: no ring
 };
 
-/// The view of these cells now. Without `densities`, which take as long as the rest, face_density is empty.
+/// The view of these cells now. Without `densities`, which cost as much as the rest, face_density is empty.
 View view_of(const Problem& problem, const Cells& cells, Equations& equations, bool densities);
-/// State at the centre of one cell, as in the view, without making it. There is no contact profile.
+/// State at the centre of one cell, as in the view but without the cost of a view. There must be no contact profile.
 State state_in(const Cells& cells, std::size_t cell);
 
-/// State at x between the dislocations of a view; empty outside.
+/// State at x, interpolated in a view; empty where there are no dislocations.
 State state_at(const View& view, double x);
-/// Averages of a state at x, in the units of the interface whatever the contact there.
+/// Averages of a state at x. They are in the units of the interface, and not in the local units of the contact.
 train::Averages averages_of(const View& view, const State& state, double x);
 /// Number of dislocations left of x.
 double charge_left_of(const View& view, double x);

@@ -21,7 +21,7 @@ using results::EventResult;
 
 using Results = std::span<const EventResult>;
 
-/// Variables with what is to be written to them once all are defined.
+/// Collects variables and their values. It writes the values after all variables are defined.
 class Contents {
  public:
   explicit Contents(Writer& file) : file_(file) {}
@@ -48,7 +48,7 @@ class Contents {
 
   void write() {
     for (const auto& [id, values] : numbers_)
-      if (!values.empty()) file_.write_all(id, values);  // a dimension of size 0 is an unlimited one
+      if (!values.empty()) file_.write_all(id, values);  // NetCDF makes a dimension of size 0 unlimited
     for (const auto& [id, values] : texts_)
       if (!values.empty()) file_.write_all(id, values);
   }
@@ -102,13 +102,14 @@ void describe_file(Writer& file, const EventMetadata& metadata, bool finished) {
                                                   event_format))
     if (name != "scenario" && name != "comment") say(name, text);
   say("comment",
-      "Variables in units of 1 are dimensionless; multiply by dimensional_unit: A contact ratio, c speed of strain "
-      "waves, mu shear modulus. NaN where not known.");
+      "Variables in units of 1 are dimensionless. Multiply them by dimensional_unit, where A is the contact ratio, c "
+      "the "
+      "speed of strain waves and mu the shear modulus. Values that are not known are NaN.");
   for (const auto& [name, text] : metadata.settings) say(name, text);
   file.attribute(Writer::global, "finished", finished ? 1 : 0);
 }
 
-/// All of the file; `state` is what it takes to go on.
+/// Fills the whole file. `state` holds the results from which an interrupted run resumes.
 void fill(Writer& file, const EventMetadata& metadata, Results results, const std::vector<Decade>& population,
           bool finished, const std::string& state) {
   describe_file(file, metadata, finished);
@@ -120,7 +121,7 @@ void fill(Writer& file, const EventMetadata& metadata, Results results, const st
       file.attribute(id, "bounds", "decade_bounds");
   const int done =
       file.bytes(event_layout::state, {file.dimension(std::string(event_layout::state) + "_bytes", state.size())});
-  file.attribute(done, "long_name", "what the samples and pulses gave, to go on from");
+  file.attribute(done, "long_name", "results of the finished events, from which a run resumes");
   file.attribute(done, "units", "1");
   file.end_definitions();
   contents.write();

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The file of a catalogue: NetCDF-4 by the CF-1.10 conventions, dimension event, and what it takes to go on with an
-/// unfinished one.
+/// The file of a catalogue: NetCDF-4 by the CF-1.10 conventions, with the dimension event. It also holds the state from
+/// which an unfinished run resumes.
 
 #include <span>
 #include <string>
@@ -15,28 +15,29 @@
 
 namespace slipfront::record {
 
-inline constexpr const char* event_format = "event 2";  ///< slipfront_format
+inline constexpr const char* event_format = "event 2";  ///< value of the attribute slipfront_format
 
-/// What the file of a catalogue says besides the events.
+/// The attributes of the file of a catalogue.
 struct EventMetadata {
-  std::string version;       ///< of slipfront
-  std::string command_line;  ///< the file's history
-  /// Attributes that make the results what they are, such as seed and samples: names and values.
+  std::string version;       ///< version of slipfront
+  std::string command_line;  ///< stored as the file's history
+  /// Names and values of the settings that determine the results, such as seed and samples.
   std::vector<std::pair<std::string, std::string>> settings;
   results::ColumnChoice columns = {};
 };
 
-/// Writes `path` whole or not at all: the columns of `results`, their population and the closed form. Equal arguments
-/// make equal files, byte by byte. \throws FileError (one line: path and reason).
+/// Writes the columns of `results`, their population and the closed form to `path`, completely or not at all. Equal
+/// arguments give files that are equal byte by byte. \throws FileError (one line: path and reason).
 void write_events(const std::string& path, const EventMetadata& metadata, std::span<const results::EventResult> results,
                   const std::vector<catalogue::Decade>& population, bool finished);
 
-/// What write_events was given that results::deserialize understands: of the first events of a catalogue, as many as
-/// were done. \throws FileError if the file is not there, not of a catalogue, cut short, damaged, or changed by another
-/// program; InputError if its version or one of its settings is not that of `metadata`.
+/// Reads the finished events of a file by write_events, in the form for results::deserialize. They are the first events
+/// of the catalogue. \throws FileError if the file is missing, not of a catalogue, truncated, damaged, or changed by
+/// another program. \throws InputError if its version or one of its settings differs from `metadata`.
 std::string read_events_done(const std::string& path, const EventMetadata& metadata);
 
-/// A checksum of what a catalogue is read from: of the files before, and the next one's name and content.
+/// A checksum of the input files of a catalogue. It combines the checksum `before` of the previous files with the name
+/// and the content of the next one.
 std::string checksum_of_inputs(const std::string& before, std::string_view name, std::string_view content);
 
 }  // namespace slipfront::record

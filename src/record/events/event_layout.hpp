@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What stands in the file of a catalogue besides the events' own columns.
+/// The variables in the file of a catalogue that are not columns of the events.
 
 #include <limits>
 #include <vector>
@@ -14,15 +14,15 @@ namespace slipfront::record::event_layout {
 inline constexpr const char* state = "done";
 inline constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// A variable of numbers with all that it holds; `about.get` is not used.
+/// A variable of numbers with its values. `about.get` is not used.
 struct Variable {
   results::NumberColumn about;
   std::vector<int> dimensions;
   std::vector<double> values;
 };
 
-/// Decades of rupture velocity with their spreads (over `quantile`, a dimension of the file), and the closed form
-/// through them over a dimension of its own.
+/// The variables of the decades of rupture velocity, with quantiles over the dimension `quantile` of the file. It also
+/// has the closed form over these decades, on a separate dimension.
 std::vector<Variable> population_variables(netcdf::Writer& file, const std::vector<catalogue::Decade>& population,
                                            int quantile);
 

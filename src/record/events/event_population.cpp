@@ -23,7 +23,7 @@ std::vector<double> each(const std::vector<Row>& rows, Get&& get) {
   return values;
 }
 
-/// Of each quantity its quantiles over the events of a decade, and in how many of them it is known.
+/// Adds the quantiles of each quantity over the events of a decade, and the number of events in which it is known.
 void add_quantities(const std::vector<Decade>& population, int decade, int quantile, std::vector<Variable>& all) {
   std::size_t i = 0;
   for (const Description& about : results::population_quantities()) {
@@ -33,14 +33,14 @@ void add_quantities(const std::vector<Decade>& population, int decade, int quant
       const catalogue::Quantiles& q = d.spread[i].of;
       values.insert(values.end(), {q.low, q.median, q.high});
     }
-    all.push_back({described(name, "over the events of a decade: " + std::string(about.long_name),
+    all.push_back({described(name, "quantiles over the events of a decade: " + std::string(about.long_name),
                              about.dimensional_unit, about.reference, results::unit_of(about.name)),
                    {decade, quantile},
                    values});
-    all.push_back(
-        {described(name + "_events", "events in which this is known: " + std::string(about.long_name), "", ""),
-         {decade},
-         each(population, [&](const Decade& d) { return d.spread[i].events; })});
+    all.push_back({described(name + "_events",
+                             "number of events in which this is known: " + std::string(about.long_name), "", ""),
+                   {decade},
+                   each(population, [&](const Decade& d) { return d.spread[i].events; })});
     ++i;
   }
 }
@@ -58,10 +58,10 @@ std::vector<Variable> population_variables(netcdf::Writer& file, const std::vect
                  each(population, [](const Decade& d) { return d.middle; })});
   std::vector<double> bounds;
   for (const Decade& d : population) bounds.insert(bounds.end(), {d.low, d.high});
-  all.push_back({described("decade_bounds", "ends of a decade; the upper one is not in it", "c", closed_form),
+  all.push_back({described("decade_bounds", "ends of a decade; the upper end is excluded", "c", closed_form),
                  {decade, ends},
                  bounds});
-  all.push_back({described("population_events", "events with a rupture velocity in this decade", "", ""),
+  all.push_back({described("population_events", "number of events with a rupture velocity in this decade", "", ""),
                  {decade},
                  each(population, [](const Decade& d) { return d.events; })});
   all.push_back({described("population_closed_form_stress", "stress of the closed form in the middle of the decade",

@@ -16,7 +16,7 @@ std::string done_in(const netcdf::Reader& file, const std::string& path, const E
   };
   const std::string format = file.text("slipfront_format").value_or("");
   if (format != event_format)
-    fail("its slipfront_format is '" + format.substr(0, 40) + "', read here is '" + event_format + "'");
+    fail("its slipfront_format is '" + format.substr(0, 40) + "'; this version reads '" + event_format + "'");
   const auto require = [&](const std::string& name, const std::string& wanted) {
     const auto written = file.text(name);
     if (!written) fail("attribute " + name + " is missing");

@@ -1,21 +1,21 @@
 #pragma once
 /// \file
-/// A seal at the end of a file: magic, length and checksum of all that stands before it. HDF5 does not mind bytes after
-/// its own, so every NetCDF reader still opens the file; and a file that was cut, damaged or changed is refused before
-/// its bytes reach a library that trusts them.
+/// A seal at the end of a file: a magic number, and the length and checksum of all bytes before it. HDF5 ignores bytes
+/// after its own, so every NetCDF reader can still open the file. The NetCDF library trusts the bytes that it reads.
+/// The seal lets us reject a file that was truncated, damaged or changed before the library sees it.
 
 #include <string>
 #include <string_view>
 
 namespace slipfront::record {
 
-/// The seal that belongs behind `content`.
+/// Returns the seal to append to `content`.
 std::string seal(std::string_view content);
 
-/// What stands before the seal. \throws FileError with `name` if there is none or it is broken.
+/// Returns the content before the seal. \throws FileError with `name` if the seal is missing or broken.
 std::string_view sealed_content(std::string_view file, const std::string& name);
 
-/// The same of a file that others may have written: without a seal it is taken as it is.
+/// Like `sealed_content`, but for files that other programs may have written. A file without a seal is accepted whole.
 std::string_view without_broken_seal(std::string_view file, const std::string& name);
 
 }  // namespace slipfront::record

@@ -1,24 +1,25 @@
 #pragma once
 /// \file
-/// Whole files.
+/// Reads and writes whole files.
 
 #include <string>
 
 namespace slipfront::record {
 
-/// The content of a file. \throws FileError with path and reason: not there, a directory, not permitted, a read error.
+/// Reads a file. \throws FileError with path and reason if the file is missing, a directory, not permitted or not
+/// readable.
 std::string read_text(const std::string& path);
 
-/// The same of nothing but a regular file: a device may never end.
+/// Like `read_text`, but rejects everything except regular files, because a device may never end.
 std::string read_regular(const std::string& path);
 
-/// Writes a file whole or not at all. \throws FileError with path and reason.
+/// Writes a file completely or not at all. \throws FileError with path and reason.
 void write_text(const std::string& path, const std::string& text);
 
-/// Whether a file is being written now, by any thread. May be called by a signal handler.
+/// Whether any thread is writing a file now. A signal handler may call this.
 bool is_writing() noexcept;
 
-/// All of standard input. \throws FileError.
+/// Reads all of standard input. \throws FileError.
 std::string read_standard_input();
 
 }  // namespace slipfront::record

@@ -39,7 +39,7 @@ void require_netcdf_name(const std::string& path, const std::string& option) {
   throw InputError({.file = "command line",
                     .key = option,
                     .value = path,
-                    .problem = path.empty() ? "no name of a file" : "unsupported file type",
+                    .problem = path.empty() ? "the file name is empty" : "unsupported file type",
                     .allowed = "a name that ends in .nc"});
 }
 

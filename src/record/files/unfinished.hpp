@@ -1,38 +1,38 @@
 #pragma once
 /// \file
-/// Where a result goes until it is whole.
+/// The output file of a run, and the file that holds an unfinished result.
 
 #include <string>
 
 namespace slipfront::record {
 
-/// The output of a run. What stands there is not replaced before the run has reached its end: until then the result
-/// goes to a file beside it, OUT.unfinished.nc.
+/// The output of a run. An existing output file is not replaced before the run has reached its end. Until then, the
+/// result goes to OUT.unfinished.nc in the same folder.
 class Output {
  public:
-  Output() = default;  ///< none
-  /// `path`: empty for none. `resumed_from`: what the run goes on from, if anything; writing there destroys nothing.
-  /// \throws FileError if nothing can be written there, InputError if the file is not named as NetCDF.
+  Output() = default;  ///< no output
+  /// An empty `path` means no output. `resumed_from` is the file from which the run resumes, or empty; the run may
+  /// write over it, because nothing is lost. \throws FileError if `path` cannot be written.
   Output(std::string path, const std::string& resumed_from);
 
   bool wanted() const { return !path_.empty(); }
-  bool replaces() const { return !unfinished_.empty(); }  ///< something stands there
-  /// Where an unfinished result, and a finished one, is to be written.
+  bool replaces() const { return !unfinished_.empty(); }  ///< the output file exists already
+  /// The file for an unfinished result, and the file for a finished one.
   const std::string& unfinished() const { return unfinished_.empty() ? path_ : unfinished_; }
   const std::string& finished() const { return path_; }
-  /// How to go on with an unfinished result: "--resume FILE".
+  /// The option that resumes an unfinished result: "--resume FILE".
   std::string how_to_resume() const;
-  /// After the finished result has been written.
+  /// Removes the unfinished result. Call it after the finished result has been written.
   void clear() const;
 
  private:
   std::string path_, unfinished_;
 };
 
-/// \throws InputError unless `path`, an `option` of a user, has a name that ends in .nc.
+/// \throws InputError unless the name `path` ends in .nc. The user gave it with `option`.
 void require_netcdf_name(const std::string& path, const std::string& option);
 
-/// \throws FileError if the disk of `path`, if that is not empty, has not as many free bytes.
+/// \throws FileError if the disk of `path` has fewer than `bytes` free bytes. Does nothing if `path` is empty.
 void require_disk_space(const std::string& path, double bytes);
 
 }  // namespace slipfront::record

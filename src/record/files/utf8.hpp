@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What may stand in a text attribute: UTF-8 without NUL, not too long. Anything else breaks readers in other
+/// Makes text valid for a text attribute: UTF-8 without NUL, and not too long. Other text breaks readers in other
 /// languages.
 
 #include <cstddef>

@@ -31,16 +31,16 @@ namespace fs = std::filesystem;
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
-/// Where a link points to, be there a file or not.
+/// Follows symbolic links from `path` to the target, which need not exist.
 fs::path behind_links(const std::string& path) {
   fs::path target(path);
   std::error_code error;
-  for (int i = 0; i < 40; ++i) {  // as many as the system follows
+  for (int i = 0; i < 40; ++i) {  // the system follows 40 links at most
     const fs::path next = fs::read_symlink(target, error);
-    if (error) return target;  // no link, or nothing at all
-    // Such a link leads to the file that is open, which another file of its name would not be.
+    if (error) return target;  // not a link, or no such file
+    // A link in /proc leads to an open file. A new file of the same name would be a different file.
     const std::string folder = fs::canonical(target.has_parent_path() ? target.parent_path() : ".", error).string();
-    if (folder.rfind("/proc/", 0) == 0) fail(path, "is an open file, not the name of one");
+    if (folder.rfind("/proc/", 0) == 0) fail(path, "links to an open file, not to a file name");
     target = target.parent_path() / next;
   }
   fail(path, reason(ELOOP));
@@ -50,7 +50,7 @@ bool all_digits(std::string_view text) {
   return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
-/// Whether `name` is one that a PartFile gives itself beside `target`.
+/// Whether `name` is a name that PartFile uses for `target`.
 bool is_part(std::string_view name, const std::string& target) {
   const std::string begin = target + ".part";
   if (name.substr(0, begin.size()) != begin) return false;
@@ -59,21 +59,21 @@ bool is_part(std::string_view name, const std::string& target) {
   return dash != std::string_view::npos && all_digits(name.substr(0, dash)) && all_digits(name.substr(dash + 1));
 }
 
-/// Closes a file and gives back its lock, which would otherwise last as long as any process that was started meanwhile.
+/// Unlocks and closes a file. Without the explicit unlock, a process that was started meanwhile would keep the lock.
 int close_unlocked(int descriptor) {
   flock(descriptor, LOCK_UN);
   return close(descriptor);
 }
 
-/// Removes the part files beside `target` whose lock nobody holds. A process looks for each name once, because a folder
-/// may be large. Whatever stands in the way is not an error.
+/// Removes the part files of `target` that no process has locked. A process looks only once for each target, because a
+/// folder may be large. A file that cannot be removed is not an error.
 void remove_parts(const fs::path& target) {
   static std::mutex mutex;
   static std::set<fs::path> looked_at;
   const std::scoped_lock lock(mutex);
   if (looked_at.size() > 1000 || !looked_at.insert(fs::absolute(target)).second) return;
   const fs::path folder = target.has_parent_path() ? target.parent_path() : ".";
-  // Not by std::filesystem, whose iterators end the program where memory ends.
+  // We avoid the iterators of std::filesystem, which end the program if memory runs out.
   const std::unique_ptr<DIR, int (*)(DIR*)> entries(opendir(folder.c_str()), closedir);
   while (const dirent* entry = entries ? readdir(entries.get()) : nullptr) {
     if (!is_part(entry->d_name, target.filename().string())) continue;
@@ -84,7 +84,7 @@ void remove_parts(const fs::path& target) {
   }
 }
 
-/// A new file beside `target`, locked while it is written; gone again unless it was renamed.
+/// A new file in the folder of `target`. It is locked while it is written, and is removed unless it was renamed.
 class PartFile {
  public:
   PartFile(const std::string& path, const std::string& target) : path_(path) {
@@ -92,12 +92,13 @@ class PartFile {
     for (;;) {
       name_ = target + ".part" + std::to_string(getpid()) + "-" + std::to_string(made++);
       descriptor_ = open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-      if (descriptor_ < 0 && (errno == EEXIST || errno == EINTR)) continue;  // EEXIST: left by a killed process
+      if (descriptor_ < 0 && (errno == EEXIST || errno == EINTR)) continue;  // EEXIST: from a process that was killed
       if (descriptor_ < 0) fail(path_, reason(errno));
       struct stat now {};
-      const bool locked = flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;  // some have no locks
+      const bool locked =
+          flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;  // some file systems have no locks
       if (locked && fstat(descriptor_, &now) == 0 && now.st_nlink > 0) return;
-      close_unlocked(descriptor_);  // another process took it for a leftover before it was locked
+      close_unlocked(descriptor_);  // another process removed it before it was locked
     }
   }
   ~PartFile() {
@@ -112,7 +113,7 @@ class PartFile {
   }
 
   void write(std::string_view data) {
-    constexpr std::size_t most = std::size_t{1} << 30;  // the system takes no more at once
+    constexpr std::size_t most = std::size_t{1} << 30;  // the system accepts no more in one call
     while (!data.empty()) {
       const ssize_t size = ::write(descriptor_, data.data(), std::min(data.size(), most));
       if (size < 0 && errno == EINTR) continue;
@@ -123,7 +124,7 @@ class PartFile {
 
   void rename_to(const std::string& target) {
     if (fsync(descriptor_) != 0) fail(path_, reason(errno));
-    const int lock = dup(descriptor_);  // the lock stays until the name is the other one
+    const int lock = dup(descriptor_);  // holds the lock until the file has its new name
     const int descriptor = std::exchange(descriptor_, -1);
     const bool closed = close(descriptor) == 0;
     const int why = errno;
@@ -141,7 +142,8 @@ class PartFile {
   int descriptor_ = -1;
 };
 
-/// Brings the new name to the disk too. Not every file system can; the file itself is safe already.
+/// Writes the new name to the disk too. Not every file system can do this, so errors are ignored. The content is on the
+/// disk already.
 void sync_folder(const fs::path& folder) {
   const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return;
@@ -163,7 +165,7 @@ struct Counted {
   Counted& operator=(const Counted&) = delete;
 };
 
-/// The file that stands where `path` leads, and whether there is one.
+/// The file to which `path` leads, its folder, and whether the file exists.
 struct Place {
   fs::path target, folder;
   bool replaces = false;
@@ -171,8 +173,8 @@ struct Place {
 };
 
 Place place_of(const std::string& path) {
-  if (path.empty()) throw FileError("cannot write a file without a name");
-  if (path.find('\0') != std::string::npos) throw FileError("cannot write a file with a zero byte in its name");
+  if (path.empty()) throw FileError("the name of the output file is empty");
+  if (path.find('\0') != std::string::npos) throw FileError("the name of the output file contains a zero byte");
   Place place{behind_links(path), {}};
   place.folder = place.target.parent_path();
   if (place.folder.empty()) place.folder = ".";
@@ -186,7 +188,7 @@ Place place_of(const std::string& path) {
   if (place.replaces && S_ISDIR(old.st_mode)) fail(path, "is a directory");
   // Renaming over /dev/null would replace the device for everyone.
   if (place.replaces && !S_ISREG(old.st_mode)) fail(path, "is not a regular file");
-  // Renaming asks for the right to change the folder only; a file that is write-protected shall stay so.
+  // Renaming needs only the permission to change the folder, but we must not replace a write-protected file.
   if (place.replaces && access(place.target.c_str(), W_OK) != 0) fail(path, reason(errno));
   return place;
 }

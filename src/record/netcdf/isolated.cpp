@@ -29,10 +29,10 @@ std::recursive_mutex& library_mutex() {
 
 bool is_copy = false;
 
-/// What the copy sends first: how its work ended.
+/// The first byte that the copy sends: how its work ended.
 enum class End : char { done = 'd', input = 'i', file = 'f', memory = 'm' };
 
-/// Fields one after the other, each behind its length.
+/// A message of several fields, each preceded by its length.
 class Message {
  public:
   explicit Message(End end) { text_ += static_cast<char>(end); }
@@ -47,7 +47,7 @@ class Message {
   std::string text_;
 };
 
-/// The same read back; a field that is not there is empty, and `whole()` false.
+/// Reads the fields of a message. A missing field is empty, and `whole()` is then false.
 class Fields {
  public:
   explicit Fields(std::string_view text) : text_(text) {}
@@ -78,9 +78,9 @@ bool send(int pipe, std::string_view text) {
   return true;
 }
 
-/// The libraries print what goes wrong within them; the program says it in a line of its own.
+/// Discards the error messages of the libraries. The program prints an error as one line itself.
 void silence_libraries() {
-  if (SLIPFRONT_SANITIZED) return;  // its reports are wanted
+  if (SLIPFRONT_SANITIZED) return;  // the reports of the sanitizer must be seen
   const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
   if (nowhere < 0) return;
   dup2(nowhere, STDOUT_FILENO);
@@ -88,8 +88,8 @@ void silence_libraries() {
   close(nowhere);
 }
 
-/// Seconds of the processor that the copy may use: what is asked, unless this process may use less. The system kills a
-/// process at its hard limit, without a signal that says why.
+/// Seconds of processor time that the copy may use: `seconds`, or less if this process has a lower limit. The result is
+/// below the hard limit, where the system kills a process with a signal that does not give the reason.
 unsigned long processor_limit(unsigned long seconds) {
   rlimit own{};
   if (getrlimit(RLIMIT_CPU, &own) != 0) return seconds;
@@ -97,7 +97,7 @@ unsigned long processor_limit(unsigned long seconds) {
   return std::min({static_cast<rlim_t>(seconds), own.rlim_cur, most});
 }
 
-/// From now on the copy ends by SIGXCPU after some seconds of the processor, and leaves no core file.
+/// Makes SIGXCPU end the copy after `seconds` of processor time (0: no limit). The copy leaves no core file.
 void limit_processor(unsigned long seconds) {
   rlimit limit{};
   setrlimit(RLIMIT_CORE, &limit);
@@ -106,12 +106,12 @@ void limit_processor(unsigned long seconds) {
   setrlimit(RLIMIT_CPU, &limit);
 }
 
-/// The copy's life. It ends without the ends of this program: no destructor and nothing that stdio still holds.
+/// Runs the copy. It exits directly, without the destructors of this program and without flushing stdio.
 [[noreturn]] void live_as_copy(int pipe, const std::function<std::string()>& work, unsigned long seconds) {
   is_copy = true;
   limit_processor(seconds);
-  prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody is left to put the file in its place
-  sigset_t others;                   // Ctrl-C and the like are for the program to answer
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // without its parent, no process would rename the file
+  sigset_t others;                   // the parent handles Ctrl-C and similar signals
   sigfillset(&others);
   for (const int crash : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU}) {
     std::signal(crash, SIG_DFL);
@@ -133,7 +133,7 @@ void limit_processor(unsigned long seconds) {
     } catch (const std::exception& error) {
       sent = send(pipe, Message(End::file).add(error.what()).text());
     }
-  } catch (...) {  // not even memory to say why
+  } catch (...) {  // no memory left to send the reason
   }
   _exit(sent ? 0 : 1);
 }
@@ -154,10 +154,10 @@ std::string result_of(const std::string& text, const std::string& name, const st
     if (fields.whole()) return field;
   }
   if (seconds > 0 && WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
-    throw FileError(name + ": " + failed + ": the NetCDF library did not end within " +
-                    std::to_string(processor_limit(seconds)) +
-                    " s of processor time, which no file of this size takes; it is probably damaged");
-  std::string reason = "the NetCDF library gave up";
+    throw FileError(
+        name + ": " + failed + ": the NetCDF library did not end within " + std::to_string(processor_limit(seconds)) +
+        " s of processor time; it needs less for any intact file of this size, so the file is probably damaged");
+  std::string reason = "the NetCDF library failed";
   if (WIFSIGNALED(status)) reason += std::string(" (") + strsignal(WTERMSIG(status)) + ")";
   throw FileError(name + ": " + failed + ": " + reason);
 }

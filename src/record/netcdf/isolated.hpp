@@ -1,17 +1,17 @@
 #pragma once
 /// \file
-/// Work in a process of its own.
+/// Runs work in a separate process.
 
 #include <functional>
 #include <string>
 
 namespace slipfront::record {
 
-/// Does `work` in a copy of this process and gives back the bytes that it returns. The NetCDF and HDF5 libraries crash
-/// where an allocation fails and where a file is damaged; a copy crashes alone. What `work` throws is thrown here:
-/// InputError and FileError as they are, anything else as std::bad_alloc or FileError. It may write to descriptors that
-/// are open; all else that it does is lost with the copy. Where no process can be started it is done in this one.
-/// The copy may use the processor for `seconds`; 0: without a limit. Time in which a busy machine does not run it does
+/// Runs `work` in a copy of this process and returns the bytes that `work` returns. The NetCDF and HDF5 libraries crash
+/// if an allocation fails or a file is damaged; then only the copy crashes. Exceptions of `work` are thrown here too:
+/// InputError and FileError unchanged, others as std::bad_alloc or FileError. `work` may write to open descriptors. All
+/// its other effects are lost with the copy. If no process can be started, `work` runs in this process.
+/// The copy may use `seconds` of processor time; 0 means no limit. Time in which a busy machine does not run it does
 /// not count. \throws FileError with `name` and `failed` if the copy crashed or took longer.
 std::string isolated(const std::string& name, const std::string& failed, const std::function<std::string()>& work,
                      unsigned long seconds = 0);

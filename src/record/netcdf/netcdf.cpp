@@ -13,7 +13,7 @@ namespace {
 
 static_assert(Writer::global == NC_GLOBAL);
 
-/// A plain name that the library cannot take for a URL. No such file is made or looked for.
+/// A plain name, which the library cannot interpret as a URL. No file of this name is created or read.
 constexpr const char* plain_name = "slipfront-in-memory";
 
 bool is_number(nc_type type) {
@@ -31,7 +31,7 @@ Variable::Kind kind_of(nc_type type) {
 Handle::Handle(std::string name) : name_(std::move(name)), lock_(lock_netcdf()) {}
 
 Handle::~Handle() {
-  if (id_ >= 0) nc_close(id_);  // not nc_abort: it would delete a file of that name on the disk
+  if (id_ >= 0) nc_close(id_);  // nc_abort would delete a file of that name from the disk
 }
 
 void Handle::require(int status, std::string_view doing) const {
@@ -40,7 +40,7 @@ void Handle::require(int status, std::string_view doing) const {
 }
 
 Writer::Writer(std::string name, std::size_t expected_size) : Handle(std::move(name)) {
-  require(nc_create_mem(plain_name, NC_NETCDF4, expected_size, &id_), "cannot be made");
+  require(nc_create_mem(plain_name, NC_NETCDF4, expected_size, &id_), "cannot be created");
 }
 
 int Writer::dimension(const std::string& name, std::size_t size) {
@@ -54,7 +54,7 @@ int Writer::variable(const std::string& name, int type, const std::vector<int>& 
   require(nc_def_var(id_, name.c_str(), type, static_cast<int>(dimensions.size()), dimensions.data(), &id), name);
   if (type != NC_STRING)
     require(nc_def_var_fill(id_, id, NC_NOFILL, nullptr),
-            name);  // every value is written once: no need to write it twice
+            name);  // all values are written, so fill values are not needed
   return id;
 }
 
@@ -87,7 +87,7 @@ void Writer::attribute(int variable, const std::string& name, std::string_view t
     require(nc_put_att_text(id_, variable, name.c_str(), text.size(), text.data()), "attribute " + name);
     return;
   }
-  const std::string whole(text);  // a string of variable length lies elsewhere in the file
+  const std::string whole(text);  // HDF5 stores a string of variable length elsewhere in the file
   const char* pointer = whole.c_str();
   require(nc_put_att_string(id_, variable, name.c_str(), 1, &pointer), "attribute " + name);
 }
@@ -109,7 +109,7 @@ void Writer::fill_value(int variable, double value) {
   require(nc_put_att_double(id_, variable, "_FillValue", NC_DOUBLE, 1, &value), "attribute _FillValue");
 }
 
-void Writer::end_definitions() { require(nc_enddef(id_), "cannot be made"); }
+void Writer::end_definitions() { require(nc_enddef(id_), "cannot be created"); }
 
 void Writer::write(int variable, std::span<const double> values) {
   if (values.empty()) return;
@@ -156,13 +156,13 @@ Image Writer::finish() {
   NC_memio memory{};
   const int status = nc_close_memio(std::exchange(id_, -1), &memory);
   Image image{decltype(Image::memory)(memory.memory), memory.size};
-  require(status, "cannot be made");
+  require(status, "cannot be created");
   return image;
 }
 
 Reader::Reader(std::string name, std::string_view image, std::size_t most_bytes)
     : Handle(std::move(name)), most_bytes_(most_bytes) {
-  // The library promises not to write to what it was told not to write to, but its signature does not.
+  // With NC_NOWRITE the library does not write to the image, although its signature takes a non-const pointer.
   void* memory = const_cast<char*>(image.data());
   require(nc_open_mem(plain_name, NC_NOWRITE, image.size(), memory, &id_), "cannot be read");
 }
@@ -217,7 +217,9 @@ std::size_t Reader::count(const Variable& variable, std::size_t width) const {
   std::size_t product = 1;
   for (const std::size_t size : variable.shape) {
     if (size == 0) return 0;
-    if (size > most_bytes_ / width / product) throw FileError(name_ + ": " + variable.name + ": more data than can be");
+    if (size > most_bytes_ / width / product)
+      throw FileError(name_ + ": " + variable.name + ": more data than the limit of " + std::to_string(most_bytes_) +
+                      " bytes");
     product *= size;
   }
   return product;

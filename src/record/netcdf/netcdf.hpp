@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// NetCDF files as images in memory. The library never sees the user's path: it would read "http://", "#mode=" and
-/// blanks in it as more than a name, hide the reason when a disk is full, and hold locks that keep readers out.
+/// NetCDF files as images in memory. The library never gets the path that the user gave. It would interpret "http://",
+/// "#mode=" and blanks in it, hide the reason when a disk is full, and hold locks that exclude readers.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,10 +16,10 @@
 
 namespace slipfront::record::netcdf {
 
-/// Longest text that an attribute may hold. HDF5 takes 64 KiB with its own bookkeeping.
+/// Longest text of an attribute, in bytes. HDF5 allows 64 KiB, which includes its own bookkeeping.
 inline constexpr std::size_t longest_text = 60000;
 
-/// An open file. The C library is not thread-safe: whoever has a file open holds its lock.
+/// An open file. It holds the lock of the C library, which is not thread-safe.
 class Handle {
  public:
   explicit Handle(std::string name);
@@ -38,7 +38,7 @@ class Handle {
   std::unique_lock<std::recursive_mutex> lock_;
 };
 
-/// A finished file.
+/// The bytes of a finished file.
 struct Image {
   struct Free {
     void operator()(void* image) const { std::free(image); }
@@ -48,24 +48,25 @@ struct Image {
   std::string_view bytes() const { return {static_cast<const char*>(memory.get()), size}; }
 };
 
-/// Makes a NetCDF-4 file: dimensions, variables and attributes first, then `end_definitions`, then the data. Made in
-/// memory, the file lists its variables by the alphabet, and other programs can copy but not extend it.
+/// Writes a NetCDF-4 file: first dimensions, variables and attributes, then `end_definitions`, then the data. Because
+/// the file is created in memory, its variables are in alphabetical order, and other programs can copy but not extend
+/// it.
 class Writer : Handle {
  public:
   static constexpr int global = -1;  ///< the "variable" that global attributes belong to
 
-  /// `expected_size` in bytes spares growing the image step by step.
+  /// With an `expected_size` in bytes, the image need not grow step by step.
   explicit Writer(std::string name, std::size_t expected_size = 0);
 
-  /// A dimension of size 0 comes out as an unlimited one without records: NetCDF has no other.
+  /// A dimension of size 0 becomes an unlimited one without records, because NetCDF has no other kind.
   int dimension(const std::string& name, std::size_t size);
   int reals(const std::string& name, const std::vector<int>& dimensions);
-  int integers(const std::string& name, const std::vector<int>& dimensions);        ///< of 64 bits
-  int small_integers(const std::string& name, const std::vector<int>& dimensions);  ///< of 8 bits
+  int integers(const std::string& name, const std::vector<int>& dimensions);        ///< 64 bits each
+  int small_integers(const std::string& name, const std::vector<int>& dimensions);  ///< 8 bits each
   int bytes(const std::string& name, const std::vector<int>& dimensions);
   int characters(const std::string& name, const std::vector<int>& dimensions);
   int strings(const std::string& name, const std::vector<int>& dimensions);
-  /// A text of any length; one that is longer than `longest_text` must be without NUL.
+  /// Adds a text of any length. A text longer than `longest_text` must not contain NUL.
   void attribute(int variable, const std::string& name, std::string_view text);
   void attribute(int variable, const std::string& name, int value);
   void attribute(int variable, const std::string& name, std::int64_t value);
@@ -77,7 +78,7 @@ class Writer : Handle {
   void write(int variable, std::string_view values);
   void write_row(int variable, std::size_t row, std::span<const double> values);
 
-  /// Of any rank, all of it.
+  /// Writes all values of a variable of any rank.
   void write_all(int variable, const std::vector<double>& values);
   void write_all(int variable, const std::vector<std::int64_t>& values);
   void write_all(int variable, const std::vector<std::int8_t>& values);
@@ -90,7 +91,7 @@ class Writer : Handle {
   int variable(const std::string& name, int type, const std::vector<int>& dimensions);
 };
 
-/// What a file says of one of its variables.
+/// The name, type and shape of a variable in a file.
 struct Variable {
   enum class Kind { real, byte, number, other };  ///< double, unsigned byte, any other number, anything else
   std::string name;
@@ -99,10 +100,10 @@ struct Variable {
   std::vector<std::size_t> shape;
 };
 
-/// Reads any file that netCDF-C knows, of any content. Data are allocated only after their size has been checked.
+/// Reads any file that netCDF-C supports, with any content. It checks the size of data before it allocates memory.
 class Reader : Handle {
  public:
-  /// `image` must outlive the reader. Nothing bigger than `most_bytes` is read.
+  /// `image` must outlive the reader. Data larger than `most_bytes` are not read.
   Reader(std::string name, std::string_view image, std::size_t most_bytes);
 
   std::optional<Variable> find(const std::string& name) const;
@@ -110,15 +111,15 @@ class Reader : Handle {
   std::optional<double> number(const std::string& global_attribute) const;
   std::optional<double> number(const Variable& variable, const std::string& attribute) const;
 
-  /// All of a variable of numbers, as doubles. \throws FileError if it is none, too big, or out of range.
+  /// All values of a numeric variable, as doubles. \throws FileError if it is not numeric, too large, or out of range.
   std::vector<double> reals(const Variable& variable) const;
-  /// All of a variable of bytes. \throws FileError likewise.
+  /// All values of a variable of bytes. \throws FileError if it is not of bytes, or too large.
   std::string bytes(const Variable& variable) const;
-  /// What `reals` checks. \throws FileError.
+  /// Makes the checks of `reals` without reading the values. \throws FileError.
   void require_reals(const Variable& variable) const;
-  /// Reads all variables and attributes and forgets them. \throws FileError where one cannot be read.
+  /// Reads all variables and attributes and discards them. \throws FileError if one cannot be read.
   void read_everything() const;
-  /// After require_reals; values.size() must be the length of a row.
+  /// Reads a row. Call require_reals first; values.size() must be the length of a row.
   void read_row(const Variable& variable, std::size_t row, std::span<double> values) const;
 
  private:

@@ -19,7 +19,8 @@ void write_netcdf(const std::string& path, std::size_t expected_size,
         put_image(image.bytes());
         return seal(image.bytes());
       };
-      // Where memory ends, HDF5 may go on without what it could not hold. A file made twice alike has lost nothing.
+      // HDF5 can drop data silently when memory runs out. We write the file twice and accept it only if both copies are
+      // identical.
       const std::string rehearsal = sealed([](std::string_view) {});
       const std::string end = sealed(put);
       if (end != rehearsal) throw std::bad_alloc();
@@ -31,7 +32,7 @@ void write_netcdf(const std::string& path, std::size_t expected_size,
 
 std::string read_netcdf(const std::string& path, std::string_view image, std::size_t most_bytes,
                         const std::function<std::string(const netcdf::Reader&)>& take) {
-  // Damage can make the library read without an end. It usually reads 100 MB a second.
+  // A damaged file can make the library read endlessly. Normally it reads 100 MB a second.
   const unsigned long seconds = 30 + image.size() / 1000000;
   return isolated(
       path, "cannot be read", [&] { return take(netcdf::Reader(path, image, most_bytes)); }, seconds);

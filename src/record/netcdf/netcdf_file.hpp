@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// NetCDF files as they lie on the disk: the one place that writes them, and the one that reads them back.
+/// Writes NetCDF files to the disk and reads their bytes. All other code uses these functions.
 
 #include <cstddef>
 #include <functional>
@@ -11,12 +11,12 @@
 
 namespace slipfront::record {
 
-/// Writes what `fill` puts into a file, sealed (seal.hpp), whole or not at all. \throws FileError (one line: path and
-/// reason), also where the NetCDF library crashes.
+/// Writes a file that `fill` fills, with a seal (seal.hpp), completely or not at all. \throws FileError (one line: path
+/// and reason), also if the NetCDF library crashes.
 void write_netcdf(const std::string& path, std::size_t expected_size, const std::function<void(netcdf::Writer&)>& fill);
 
-/// The bytes that `take` makes of a NetCDF image. \throws what `take` throws; FileError where the library crashes, or
-/// uses the processor for longer than 30 s and a second for each megabyte.
+/// Returns the bytes that `take` produces from a NetCDF image. \throws what `take` throws, and FileError if the library
+/// crashes or uses more processor time than 30 s plus 1 s for each megabyte.
 std::string read_netcdf(const std::string& path, std::string_view image, std::size_t most_bytes,
                         const std::function<std::string(const netcdf::Reader&)>& take);
 

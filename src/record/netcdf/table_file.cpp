@@ -28,7 +28,7 @@ struct Names {
   std::string both() const { return x + " and " + y; }
 };
 
-/// Where they stand in a CSV file.
+/// The number of columns in a CSV file, and the indices of the two to read.
 struct Columns {
   std::size_t count, x, y;
 };
@@ -98,7 +98,7 @@ Table read_csv(std::string_view text, const Names& names, const std::string& pat
   return table;
 }
 
-/// A variable as it is meant: unpacked, nothing missing.
+/// Reads a variable. \throws InputError if it is packed, or if values are missing or not finite.
 std::vector<double> read_variable(const netcdf::Reader& file, const std::string& name, const Names& names,
                                   const std::string& path) {
   const auto fail = [&](const std::string& value, const std::string& problem, const std::string& allowed) {
@@ -115,7 +115,7 @@ std::vector<double> read_variable(const netcdf::Reader& file, const std::string&
   std::vector<double> values = file.reals(*variable);
   for (std::size_t i = 0; i < values.size(); ++i) {
     const std::string index = "value " + std::to_string(i + 1) + " of " + std::to_string(values.size());
-    if (values[i] == fill || values[i] == missing) fail(digits(values[i]), index + " is missing", "no gaps");
+    if (values[i] == fill || values[i] == missing) fail(digits(values[i]), index + " is missing", "no missing values");
     if (!std::isfinite(values[i])) fail(digits(values[i]), index + " is not finite", "a finite number");
   }
   return values;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Curves that stand in a file of their own: initial profiles, friction laws.
+/// Reads curves from separate files: initial profiles and friction laws.
 
 #include <string>
 #include <utility>
@@ -8,10 +8,11 @@
 
 namespace slipfront::record {
 
-/// Pairs (x, y) in the order of the file, at least one, all finite. By the ending of `path`: .csv has a header line
-/// with columns named `x` and `y`, others are ignored; .nc (any NetCDF) has one-dimensional variables of these names
-/// and of equal length. Whether x ascends and y may be negative is for the caller to say. \throws FileError if it
-/// cannot be read, InputError (file, line, key, value, allowed) for what it holds.
+/// Reads at least one pair (x, y), in the order of the file; all numbers are finite. The extension of `path` gives the
+/// format. A .csv file has a header line with columns named `x` and `y`; other columns are ignored. A .nc file (any
+/// NetCDF) has one-dimensional variables of these names and of equal length. The caller checks whether x ascends and
+/// whether y may be negative. \throws FileError if the file cannot be read, InputError (file, line, key, value,
+/// allowed) if its content is wrong.
 std::vector<std::pair<double, double>> read_table(const std::string& path, const std::string& x, const std::string& y);
 
 }  // namespace slipfront::record

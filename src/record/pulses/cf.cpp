@@ -86,8 +86,8 @@ std::vector<std::pair<std::string, std::string>> file_attributes(const PulseMeta
       {"history", metadata.command_line},
       {"references", std::string(cf::paper) + ", " + std::string(cf::paper_title)},
       {"comment",
-       "All values are dimensionless; multiply by dimensional_unit: A contact ratio, b asperity spacing, c speed of "
-       "strain waves, mu shear modulus, nu Poisson ratio."},
+       "All values are dimensionless. Multiply them by dimensional_unit, where A is the contact ratio, b the asperity "
+       "spacing, c the speed of strain waves, mu the shear modulus and nu the Poisson ratio."},
       {"version", metadata.version},
       {"warnings", warnings},
       {"scenario", metadata.scenario_text},

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What the CF-1.10 conventions ask of every file, in the words that all of slipfront's files share.
+/// Writes the parts of a file that the CF-1.10 conventions require and that all files of slipfront share.
 
 #include <cstddef>
 #include <vector>
@@ -11,7 +11,7 @@
 
 namespace slipfront::record::cf {
 
-/// A variable of numbers and what is to be said of it.
+/// Defines a variable of numbers and its attributes. Returns its id.
 int reals(netcdf::Writer& file, const Description& about, const std::vector<int>& dimensions);
 
 /// Dimensions and variables of time and of x, which has bounds.
@@ -23,8 +23,8 @@ Axes axes(netcdf::Writer& file, std::size_t times, std::size_t cells);
 void write_axes(netcdf::Writer& file, const Axes& axes, const std::vector<double>& times,
                 const std::vector<double>& x_edges);
 
-/// Attributes of the file; `format` counts up when old readers would fail. A scenario that no attribute can hold is
-/// cleaned and cut.
+/// Writes the attributes of the file. The number in `format` increases when old readers would fail. A scenario that no
+/// attribute can hold is cleaned and truncated.
 void describe_file(netcdf::Writer& file, const PulseMetadata& metadata, const char* format, bool finished);
 
 }  // namespace slipfront::record::cf

@@ -11,19 +11,19 @@
 
 namespace slipfront::record {
 
-inline constexpr const char* comparison_format = "comparison 1";  ///< slipfront_format
-inline constexpr Description scale_variable = {"scale", "of a chain: x and t stretched by it, friction divided", "",
-                                               "Eq. 3"};
+inline constexpr const char* comparison_format = "comparison 1";  ///< value of the attribute slipfront_format
+inline constexpr Description scale_variable = {
+    "scale", "scale of a chain: x and t are stretched by it, friction is divided by it", "", "Eq. 3"};
 
-/// One level of theory, run to its end.
+/// The results of one level of theory.
 struct ComparedLevel {
   std::string name;
-  std::optional<double> scale;  ///< of a chain
+  std::optional<double> scale;  ///< scale of a chain; absent for other levels
   std::vector<output::Snapshot> snapshots;
 };
 
-/// Writes `path` whole or not at all. Every level has a snapshot at each of `times`, or this throws
-/// std::invalid_argument. \throws FileError (one line: path and reason), InputError for an unknown variable.
+/// Writes `path` completely or not at all. Every level must have a snapshot at each of `times`. \throws FileError (one
+/// line: path and reason), InputError for an unknown variable, std::invalid_argument if a snapshot is missing.
 void write_comparison(const std::string& path, const PulseMetadata& metadata, const std::vector<double>& times,
                       const std::vector<ComparedLevel>& levels, bool finished);
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The file of a pulse run: NetCDF-4 by the CF-1.10 conventions, and the state from which the run can go on.
+/// The file of a `pulse` run: NetCDF-4 by the CF-1.10 conventions, with the state from which the run can resume.
 
 #include <cstddef>
 #include <string>
@@ -11,45 +11,47 @@
 
 namespace slipfront::record {
 
-/// Attribute slipfront_format; count up when old readers would fail.
+/// Value of the attribute slipfront_format. Increase the number when old readers would fail.
 inline constexpr const char* pulse_format = "pulse 1";
 
-/// What a pulse file says besides the snapshots.
+/// The content of a pulse file in addition to its snapshots.
 struct PulseMetadata {
   std::string title;
-  std::string scenario_text;                   ///< any bytes; comes back as it was
-  std::string version;                         ///< of slipfront
-  std::string command_line;                    ///< the file's history
-  std::vector<double> x_edges;                 ///< of the cells, ascending: one more than there are cells
-  std::vector<std::string> variables;          ///< names of pulse_variables(); empty: all
-  std::vector<std::string> warnings = {};      ///< of the scenario and the finished run, a sentence each
-  std::vector<output::SlipEvent> events = {};  ///< of a loaded chain so far: variables event_... over dimension event
+  std::string scenario_text;               ///< any bytes; read back unchanged
+  std::string version;                     ///< version of slipfront
+  std::string command_line;                ///< stored as the file's history
+  std::vector<double> x_edges;             ///< edges of the cells, ascending: one more than there are cells
+  std::vector<std::string> variables;      ///< names of pulse_variables(); empty: all
+  std::vector<std::string> warnings = {};  ///< warnings of the scenario and the finished run, a sentence each
+  /// Events of a loaded chain so far. The file holds them as variables event_... over the dimension event.
+  std::vector<output::SlipEvent> events = {};
 };
 
-/// A run in progress, or a finished one.
+/// An unfinished or a finished run.
 struct Checkpoint {
   std::string scenario_text;
   std::string version;
   std::string solver_state;                 ///< opaque
-  std::vector<output::Snapshot> snapshots;  ///< so far. A field of the profiles that the file was not to hold is empty
+  std::vector<output::Snapshot> snapshots;  ///< profile fields that the file does not hold are empty
   bool finished;
 };
 
-/// Names of the variables over time and x that a file can hold. Those over time alone are always there.
+/// Names of the variables over time and x that a file can hold. Variables over only time are always written.
 std::vector<std::string> pulse_variables();
 
-/// Writes `path` whole or not at all; an old file stays as it was when this fails. Equal arguments make equal files,
-/// byte by byte: no date, no host. Profiles must have as many cells as `x_edges` (fields that are not asked for may be
-/// empty) and times must ascend, or this throws std::invalid_argument. No snapshots are fine. \throws FileError (one
-/// line: path and reason), InputError for an unknown variable.
+/// Writes `path` completely or not at all; an old file is unchanged if this fails. Equal arguments give files that are
+/// equal byte by byte, because a file holds neither date nor host. Times must ascend, and profiles must have as many
+/// cells as `x_edges`; fields that are not requested may be empty. `snapshots` may be empty. \throws FileError (one
+/// line: path and reason), InputError for an unknown variable, std::invalid_argument for wrong times or profiles.
 void write_pulse(const std::string& path, const PulseMetadata& metadata, const std::vector<output::Snapshot>& snapshots,
                  const std::string& solver_state, bool finished);
 
-/// Reads back what write_pulse wrote, to the bit. \throws FileError if the file is not there, not of slipfront, cut
-/// short, damaged, or changed by another program.
+/// Reads a file by write_pulse, with every bit as it was written. \throws FileError if the file is missing, not by
+/// slipfront, truncated, damaged, or changed by another program.
 Checkpoint read_checkpoint(const std::string& path);
 
-/// The same, to go on from. \throws InputError if another scenario or version of slipfront wrote it.
+/// Like read_checkpoint, for a run that resumes. \throws InputError if another scenario or version of slipfront wrote
+/// the file.
 Checkpoint read_checkpoint_of(const std::string& path, const std::string& scenario_text, const std::string& version);
 
 }  // namespace slipfront::record

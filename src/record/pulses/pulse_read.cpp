@@ -25,12 +25,12 @@ using output::Snapshot;
   throw FileError(path + ": not a pulse file to resume from: " + reason);
 }
 
-/// A sealed file says what slipfront wrote; which slipfront, and whether a pulse, must still be checked.
+/// Reads a sealed file. The seal shows that slipfront wrote it, but not in which format and whether it holds a pulse.
 class PulseReader {
  public:
   PulseReader(const std::string& path, const Reader& file) : path_(path), file_(file) {
     if (const std::string format = text("slipfront_format"); format != pulse_format)
-      fail(path_, "its slipfront_format is '" + format.substr(0, 40) + "', read here is '" + pulse_format + "'");
+      fail(path_, "its slipfront_format is '" + format.substr(0, 40) + "'; this version reads '" + pulse_format + "'");
     times_ = require_rank("time", 1).shape[0];
     cells_ = require_rank("x", 1).shape[0];
   }
@@ -89,7 +89,7 @@ class PulseReader {
     return file_.bytes(variable);
   }
 
-  /// Snapshots that have but their times.
+  /// Returns snapshots in which only the times are set.
   std::vector<Snapshot> times() const {
     const std::vector<double> times = file_.reals(require_shape("time", {times_}));
     std::vector<Snapshot> snapshots(times.size());
@@ -127,7 +127,7 @@ class PulseReader {
   std::size_t times_ = 0, cells_ = 0;
 };
 
-/// A checkpoint as bytes, and back: from the process that reads the file to this one.
+/// Converts a checkpoint to bytes, in order to send it from the process that reads the file to this one.
 std::string packed(const Checkpoint& run) {
   bytes::Writer out;
   for (const std::string* text : {&run.scenario_text, &run.version, &run.solver_state}) out.put_text(*text);
@@ -170,7 +170,8 @@ Checkpoint read_checkpoint_of(const std::string& path, const std::string& scenar
     throw InputError(
         {.file = path, .key = "resume", .problem = std::string("was written by another ") + what, .allowed = wanted});
   };
-  if (saved.scenario_text != scenario_text) refuse("scenario", "the scenario that began it, with the same --set");
+  if (saved.scenario_text != scenario_text)
+    refuse("scenario", "the scenario that started the run, with the same --set");
   if (saved.version != version) refuse("version", "version " + version);
   return saved;
 }

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What stands in a pulse file, variable by variable: one line each.
+/// The variables of a pulse file, one line each.
 
 #include <span>
 #include <string>
@@ -20,28 +20,28 @@ struct AxisVariables {
 };
 const AxisVariables& axis_variables();
 
-/// What a file says of itself, attribute by attribute; `format` is its slipfront_format.
+/// Names and texts of the attributes of a file. `format` is the value of its slipfront_format.
 std::vector<std::pair<std::string, std::string>> file_attributes(const PulseMetadata& metadata,
                                                                  const std::string& format);
-/// What `references` says of a variable.
+/// The text of the attribute `references` of a variable.
 std::string reference_of(const Description& about);
 
-/// Over time and x.
+/// A variable over time and x.
 struct FieldVariable {
   Description about;
   std::vector<double> output::Profile::*values;
-  bool drop = false;  ///< written as the first snapshot less this one
+  bool drop = false;  ///< the file holds the first snapshot minus this one
 
-  /// What is written of a snapshot.
+  /// The values that the file holds for a snapshot.
   std::vector<double> of(const output::Snapshot& snapshot, const output::Snapshot& first) const;
 };
 
-/// Over time.
+/// A variable over time.
 struct ScalarVariable {
   Description about;
   double (*member)(const output::Snapshot&);  ///< null: one of output::further_scalars()
   void (*set_member)(output::Snapshot&, double);
-  bool may_be_absent = false;  ///< NaN where there is none
+  bool may_be_absent = false;  ///< NaN if it is absent
 
   double get(const output::Snapshot& snapshot) const;
   void set(output::Snapshot& snapshot, double value) const;
@@ -50,11 +50,12 @@ struct ScalarVariable {
 std::span<const FieldVariable> field_variables();
 std::span<const ScalarVariable> scalar_variables();
 
-/// Those of field_variables() that `names` asks for, all if it names none. The stress drop brings the stress that it is
-/// measured from: without that a run could not be resumed to the same bits. \throws InputError for an unknown name.
+/// The variables of field_variables() with these names, or all if `names` is empty. The stress drop adds the stress
+/// from which it is measured, because a run could not resume to the same bits without it. \throws InputError for an
+/// unknown name.
 std::vector<const FieldVariable*> chosen_fields(const std::vector<std::string>& names);
 
-/// The variable in `written` to read `values` from, or null.
+/// The variable in `written` from which to read `values`, or null.
 const FieldVariable* holder(const std::vector<const FieldVariable*>& written,
                             std::vector<double> output::Profile::*values);
 

@@ -43,7 +43,7 @@ int take_number(const char* text, int* position, double* value) {
 InputError refusal(const mu::Parser::exception_type& error) {
   const std::string token = error.GetToken().substr(0, 40);
   const std::string at = " at character " + std::to_string(std::max(0, error.GetPos()) + 1);
-  std::string problem = token.empty() ? "cannot be read" + at : "'" + token + "' cannot stand" + at;
+  std::string problem = token.empty() ? "cannot be read" + at : "'" + token + "' is not allowed" + at;
   if (error.GetCode() == mu::ecUNEXPECTED_EOF) problem = "ends too early";
   if (error.GetCode() == mu::ecEMPTY_EXPRESSION) problem = "empty";
   if (error.GetCode() == mu::ecTOO_MANY_PARAMS) problem = "too many arguments of " + token + at;

@@ -7,13 +7,13 @@
 
 namespace slipfront::scenario {
 
-/// A formula of x, or of x and t, as a scenario writes it: + - * / ^ ( ) < <= > >= == != && || and ?: with the
-/// constants pi and e and the functions of formula_functions(). Not to be called from two threads at once.
+/// A formula of x, or of x and t, in a scenario. It may contain + - * / ^ ( ) < <= > >= == != && || and ?:, the
+/// constants pi and e, and the functions of formula_functions(). Two threads must not call an object at the same time.
 class Formula {
  public:
-  /// \throws InputError (problem and allowed only) that names the position of what is wrong.
+  /// \throws InputError (problem and allowed only) that gives the position of the error.
   Formula(const std::string& text, const std::vector<std::string_view>& variables);
-  /// May be NaN or infinite: what that means is for the caller to say.
+  /// The value may be NaN or infinite; the caller must check it.
   double operator()(double x, double t = 0) const;
   /// Whether its value depends on the variable.
   bool has(std::string_view variable) const;
@@ -25,8 +25,9 @@ class Formula {
 
 const std::vector<std::string_view>& formula_functions();
 
-/// Refuses what the parser would accept in another sense (assignment, strings, several values), crash on (length,
-/// depth) or report less clearly (unknown names, numbers beyond a double). \throws InputError like Formula.
+/// Rejects text that the parser would accept with another meaning (assignment, strings, several values). Also rejects
+/// text on which it would crash (length, depth), or that it would report less clearly (unknown names, numbers outside
+/// the range of a double). \throws InputError like Formula.
 void scan_formula(const std::string& text, const std::vector<std::string_view>& variables);
 
 }  // namespace slipfront::scenario

@@ -16,7 +16,7 @@ InputError refusal(const std::string& problem, std::size_t at, std::string allow
   return InputError({.problem = problem + " at character " + std::to_string(at + 1), .allowed = std::move(allowed)});
 }
 
-/// Where the number that begins at `at` ends. "2e" is the number 2 and the name e.
+/// Returns the end of the number that begins at `at`. "2e" is the number 2 and the name e.
 std::size_t past_number(const std::string& text, std::size_t at) {
   const auto digits = [&](std::size_t i) {
     while (i < text.size() && is_digit(text[i])) ++i;
@@ -32,7 +32,7 @@ std::size_t past_number(const std::string& text, std::size_t at) {
   return end;
 }
 
-/// Refuses a '=' that is not part of a comparison: the parser takes it for an assignment to x.
+/// Rejects a '=' that is not part of a comparison, because the parser would assign to x.
 void check_equals(const std::string& text, std::size_t at) {
   const char before = at > 0 ? text[at - 1] : ' ';
   const char after = at + 1 < text.size() ? text[at + 1] : ' ';
@@ -40,7 +40,7 @@ void check_equals(const std::string& text, std::size_t at) {
   if (!second && after != '=') throw refusal("'='", at, "a formula without assignment; == compares");
 }
 
-/// Counts parentheses, and refuses a comma that separates values rather than the arguments of a function.
+/// Counts parentheses, and rejects a comma that separates values instead of the arguments of a function.
 void check_structure(const std::string& text, std::size_t at, int& depth) {
   if (text[at] == '(') ++depth;
   if (text[at] == ')') --depth;
@@ -63,7 +63,8 @@ void scan_formula(const std::string& text, const std::vector<std::string_view>& 
     const std::size_t at = i;
     if (is_digit(text[i]) || text[i] == '.') {
       i = past_number(text, i);
-      if (!medium::number(text.substr(at, i - at))) throw refusal("not a finite number", at, "numbers of a double");
+      if (!medium::number(text.substr(at, i - at)))
+        throw refusal("not a finite number", at, "numbers that a double can hold");
     } else if (is_letter(text[i])) {
       while (i < text.size() && (is_letter(text[i]) || is_digit(text[i]))) ++i;
       const std::string name = text.substr(at, i - at);
@@ -72,7 +73,7 @@ void scan_formula(const std::string& text, const std::vector<std::string_view>& 
       if (!known) throw refusal("unknown name '" + name.substr(0, 40) + "'", at, nearest_or_all(name, names));
     } else {
       if (signs.find(text[i]) == std::string_view::npos)
-        throw refusal("a character that means nothing here", at, "names, numbers and + - * / ^ ( ) , < > = ! & | ? :");
+        throw refusal("a character that is not allowed", at, "names, numbers and + - * / ^ ( ) , < > = ! & | ? :");
       if (text[i] == '=') check_equals(text, i);
       check_structure(text, i, depth);
       ++i;

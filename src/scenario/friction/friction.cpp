@@ -20,7 +20,8 @@ using friction::Parameter;
 
 namespace {
 
-/// "viscous", "coulomb" or "power": the laws with a parameter, or with any where `key` is empty.
+/// Lists the laws that have the parameter `key`, such as: "viscous", "coulomb" or "power". If `key` is empty, it lists
+/// all laws that have parameters.
 std::string laws_with(std::string_view key) {
   std::vector<std::string> names;
   for (const Definition* law : friction::laws())
@@ -32,7 +33,7 @@ std::string laws_with(std::string_view key) {
   return text;
 }
 
-/// Every key that some law has, once.
+/// The parameters of all laws, each name once.
 std::vector<const Parameter*> all_parameters() {
   std::vector<const Parameter*> all;
   for (const Definition* law : friction::laws())
@@ -42,19 +43,19 @@ std::vector<const Parameter*> all_parameters() {
   return all;
 }
 
-/// A key without effect is a misunderstanding, better said now than found in the results.
+/// Rejects a key without effect, because it is probably a mistake of the user.
 void refuse_keys_of_others(const Section& section, const Definition& law) {
   for (const Parameter* p : all_parameters()) {
     if (!section.has(p->name) || law.find(p->name) != nullptr) continue;
     const std::string key(p->name);
-    if (laws_with(key) == laws_with(""))  // any friction at all
+    if (laws_with(key) == laws_with(""))  // every law with parameters has this key
       throw section.refuse(key, "contradicts law = \"" + std::string(law.name) + '"',
                            "leave it out, or change friction.law");
     throw section.refuse(key, "contradicts friction.law, which has no " + key, "with law = " + laws_with(key));
   }
 }
 
-/// Whether it is a force, which a normal stress makes of a friction coefficient.
+/// Whether the parameter is a force, which the user may give as a friction coefficient and a normal stress.
 bool has_coefficient(const Parameter& p) { return p.unit == friction::force_unit; }
 
 double read_parameter(const Section& section, const Parameter& p, FrictionUnits& units) {
@@ -69,7 +70,7 @@ double read_parameter(const Section& section, const Parameter& p, FrictionUnits&
   return value;
 }
 
-/// What keys of contacts and pores ask of each other.
+/// Checks that keys of contacts and pores which need each other are given together.
 void check_contacts(const Section& section, const friction::Contacts& contacts, Scenario& scenario) {
   const auto needs = [&](std::string_view key, double value, std::string_view other, double other_value) {
     if (section.has(key) && !(value > 0)) throw section.refuse(key, "out of range", "> 0");
@@ -84,7 +85,7 @@ void check_contacts(const Section& section, const friction::Contacts& contacts, 
                          "less than the normal stress: a share >= 0 and < 1");
   if (contacts.ambient > 0) needs("pore_pressure", contacts.ambient, "dilatancy", contacts.dilatancy);
   if (contacts.ageing > 0 && !section.has("contact_time"))
-    throw section.refuse("contact_time", "missing", "> 0: the age theta_c that friction.contact_ageing is for");
+    throw section.refuse("contact_time", "missing", "> 0: the age theta_c to which friction.contact_ageing refers");
   if (contacts.dilatancy > 0 && !section.has("drainage_time"))
     scenario.warnings.push_back("friction.drainage_time is not given: the pores never drain");
 }
@@ -93,10 +94,7 @@ void check_contacts(const Section& section, const friction::Contacts& contacts, 
 
 void read_friction(const Document& document, const TableReader& tables, Scenario& scenario) {
   const std::vector<const Parameter*> parameters = all_parameters();
-  std::vector<std::string_view> keys = {"law"};
-  for (const Parameter* p : parameters) keys.push_back(p->name);
-  keys.insert(keys.end(), {"formula", "file", "closure", "normal_stress"});
-  const Section section(document, "friction", keys);
+  const Section section(document, "friction");
   FrictionUnits units(section, scenario.medium);
   std::vector<std::pair<std::string_view, const Definition*>> names;
   for (const Definition* law : friction::laws()) names.emplace_back(law->name, law);
@@ -119,7 +117,8 @@ void read_friction(const Document& document, const TableReader& tables, Scenario
     if (!p.if_missing.empty() && !section.has(p.name))
       scenario.warnings.push_back("friction." + std::string(p.name) + " is not given and " + std::string(p.if_missing));
   if (!units.assumed().empty())
-    scenario.warnings.push_back("friction in SI units took " + units.assumed() + ", which [medium] does not give");
+    scenario.warnings.push_back("friction in SI units was computed with " + units.assumed() +
+                                ", which [medium] does not give");
   scenario.friction = friction::Friction(law, std::move(values), closure, read_curve(section, tables, law.curve));
   check_contacts(section, scenario.friction.contacts(), scenario);
 }

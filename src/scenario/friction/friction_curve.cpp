@@ -19,7 +19,7 @@ InputError refusal(Complaint where, const std::string& problem, const std::strin
   return InputError(std::move(where));
 }
 
-/// A formula that several threads may call at once: as many copies as there are calls at the same time.
+/// A formula that several threads may call at once. It makes as many copies as there are simultaneous calls.
 class FormulaForThreads {
  public:
   explicit FormulaForThreads(std::string text) : text_(std::move(text)) { idle_.emplace_back(text_, variables()); }
@@ -50,7 +50,8 @@ class FormulaForThreads {
   std::vector<Formula> idle_;
 };
 
-/// What a chain or pulse may ask for: rest, and speeds from far below slow slip to far above earthquakes.
+/// Tries the curve at velocities that a `chain` or `pulse` run may need. These are rest, and velocities from far below
+/// slow slip to far above earthquakes.
 void try_out(const Section& section, const friction::Curve& curve, double fastest) {
   const double at_rest = curve(0);
   double greatest = 0;
@@ -58,12 +59,13 @@ void try_out(const Section& section, const friction::Curve& curve, double fastes
   constexpr double slowest = 1e-12;
   for (int i = 0; i <= samples; ++i)
     greatest = std::fmax(greatest, curve(slowest * std::pow(fastest / slowest, static_cast<double>(i) / samples)));
-  // A steep law, such as w^0.1, comes to f(0) at far smaller velocities; a jump remains at any.
+  // A steep law, such as w^0.1, approaches f(0) only at far smaller velocities. A jump remains at any velocity.
   constexpr double nearest_rest = 1e-300;
   const double near_rest = curve(nearest_rest);
   if (std::fabs(near_rest - at_rest) > 1e-3 * greatest)
-    throw section.refuse("formula", "f jumps from " + shortest(at_rest) + " at w = 0 to " + shortest(near_rest),
-                         "f(0) is the force that a place at rest withstands; for a constant force: law = \"coulomb\"");
+    throw section.refuse(
+        "formula", "f jumps from " + shortest(at_rest) + " at w = 0 to " + shortest(near_rest),
+        "f(0) is the force that the interface withstands at rest; for a constant force: law = \"coulomb\"");
 }
 
 friction::Curve from_formula(const Section& section) {
@@ -92,7 +94,7 @@ friction::Curve from_table(const Section& section, const TableReader& tables) {
   const auto curve = std::make_shared<const MonotoneCurve>(read_rows(section, tables, w, f));
   if (curve->first() != 0)
     throw section.refuse("file", "the table begins at w = " + shortest(curve->first()),
-                         "a first row with w = 0; its f is the force that a place at rest withstands");
+                         "a first row with w = 0; its f is the force that the interface withstands at rest");
   return [curve, where = section.where("file")](double speed) {
     if (speed <= curve->last()) return (*curve)(speed);
     throw refusal(

@@ -38,7 +38,7 @@ Role role(std::string_view key, ProfileKind kind) {
 }
 
 double read_stress(const Section& section, std::string_view key) {
-  const double stress = *section.number(key, {.least = 0, .most = largest_stress});
+  const double stress = *section.number(key);
   if (stress > 0 && stress < smallest_stress)
     throw section.refuse(key, "no double holds the state of so small a stress",
                          "0 (empty), or " + shortest(smallest_stress) + " to " + shortest(largest_stress));
@@ -46,7 +46,7 @@ double read_stress(const Section& section, std::string_view key) {
 }
 
 RawStress from_table(const Section& section, const TableReader& tables) {
-  const Column place{"x", position, "x within -1e9 and 1e9"};
+  const Column place{"x", {.least = -farthest, .most = farthest}, "x within -1e9 and 1e9"};
   const Column stress{"stress", {.least = 0, .most = largest_stress}, "a finite stress >= 0, at most 1e6"};
   const auto curve = std::make_shared<const MonotoneCurve>(read_rows(section, tables, place, stress));
   const Complaint where = section.where("file");
@@ -72,8 +72,7 @@ RawStress from_formula(const Section& section, const Initial& initial) {
 }  // namespace
 
 RawStress read_initial(const Document& document, const TableReader& tables, Initial& initial) {
-  const Section section(document, "initial",
-                        {"profile", "stress_left", "stress_right", "width", "file", "formula", "hold"});
+  const Section section(document, "initial");
   if (document.tables.count("initial") == 0)
     throw InputError({.file = document.file,
                       .problem = "there is no [initial] table",
@@ -104,8 +103,7 @@ RawStress read_initial(const Document& document, const TableReader& tables, Init
     throw section.refuse("hold", "no load holds a step of stress", "with a smooth profile, such as \"tanh\"");
   if (initial.profile == ProfileKind::step)
     return {.at = [left, right](double x) { return x < 0 ? left : right; }, .where = where};
-  const Limits widths{.least = 0, .most = farthest, .without_least = true};
-  const double width = initial.width = section.number("width", widths).value_or(initial.width);
+  const double width = initial.width = section.number("width").value_or(initial.width);
   initial.reach = 5 * width;
   return {.at = [=](double x) { return right + (left - right) * (1 - std::tanh(x / width)) / 2; }, .where = where};
 }

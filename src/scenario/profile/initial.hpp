@@ -10,11 +10,11 @@
 
 namespace slipfront::scenario {
 
-/// Initial stress as written, before it is known to be one.
+/// The initial stress as the user gave it, before any check.
 struct RawStress {
   std::function<double(double)> at;
-  Complaint where;                                       ///< the key that decides it
-  std::optional<std::pair<double, double>> covers = {};  ///< of a table: it is defined here only
+  Complaint where;                                       ///< the key that defines it, for error messages
+  std::optional<std::pair<double, double>> covers = {};  ///< for a table: the range in which it defines the stress
 };
 
 /// Reads [initial]. \throws InputError for keys that do not fit the profile; what `tables` throws.

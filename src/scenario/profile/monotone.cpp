@@ -6,8 +6,8 @@
 namespace slipfront::scenario {
 namespace {
 
-/// Slope at an inner point: 0 at an extremum, else the weighted harmonic mean of the chords before and after (Fritsch &
-/// Butland 1984), which stays within the region of Fritsch & Carlson 1980 where the cubic is monotone.
+/// Slope at an inner point. It is 0 at an extremum, and otherwise the weighted harmonic mean of the chords before and
+/// after (Fritsch & Butland 1984). This mean is in the region of Fritsch & Carlson (1980), where the cubic is monotone.
 double inner_slope(double width, double next_width, double chord, double next_chord) {
   if (!(chord * next_chord > 0)) return 0;
   const double weight = 2 * next_width + width;
@@ -15,7 +15,7 @@ double inner_slope(double width, double next_width, double chord, double next_ch
   return (weight + next_weight) / (weight / chord + next_weight / next_chord);
 }
 
-/// Slope at an end: that of the parabola through three points, cut back to the same region.
+/// Slope at an end: the slope of the parabola through three points, limited to the same region.
 double end_slope(double width, double next_width, double chord, double next_chord) {
   const double slope = ((2 * width + next_width) * chord - width * next_chord) / (width + next_width);
   if (!(slope * chord > 0)) return 0;
@@ -51,7 +51,7 @@ double MonotoneCurve::operator()(double x) const {
   const double r = 1 - s;
   const double y =
       r * r * ((1 + 2 * s) * y0 + s * h * slopes_[i]) + s * s * ((1 + 2 * r) * y1 - r * h * slopes_[i + 1]);
-  return std::clamp(y, std::min(y0, y1), std::max(y0, y1));  // rounding alone can leave the range
+  return std::clamp(y, std::min(y0, y1), std::max(y0, y1));  // rounding errors can leave the range
 }
 
 }  // namespace slipfront::scenario

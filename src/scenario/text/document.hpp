@@ -9,12 +9,12 @@
 
 namespace slipfront::scenario {
 
-/// One value of a scenario file, freed from its syntax.
+/// One value of a scenario file, independent of the TOML syntax.
 struct Value {
   enum class Kind { number, text, truth, array, other };
   Kind kind = Kind::other;
-  double number = 0;      ///< of a truth: 1 or 0
-  std::string text = {};  ///< the text, or a number as it is shown to people
+  double number = 0;      ///< the number; 1 or 0 for a truth value
+  std::string text = {};  ///< the text, or the number as messages show it
   std::vector<Value> items = {};
   std::size_t line = 0;
   bool overridden = false;  ///< came from the command line, not from the file
@@ -25,7 +25,7 @@ struct Table {
   std::map<std::string, Value, std::less<>> values = {};
 };
 
-/// A scenario file with its overrides applied; which keys are known and what they may hold is checked later.
+/// A scenario file with its overrides applied. Keys and values are checked later.
 struct Document {
   std::string file;
   std::string text;  ///< TOML that reads back as this document
@@ -33,10 +33,11 @@ struct Document {
   std::map<std::string, Table, std::less<>> tables;
 };
 
-/// Tables that a scenario may have; [event] is another command's.
+/// Tables that a scenario may have. The table [event] belongs to another command.
 const std::vector<std::string_view>& known_tables();
 
-/// \throws InputError for what is not TOML, an unknown table, or an override that is none.
+/// Reads a scenario and applies the overrides. \throws InputError for text that is not TOML, an unknown table, or an
+/// invalid override.
 Document read_document(std::string_view text, const std::string& file, const std::vector<std::string>& overrides);
 
 }  // namespace slipfront::scenario

@@ -6,7 +6,7 @@
 
 namespace slipfront::scenario {
 
-/// "table.key" that a parser's complaint about `line` is most likely about; "" where the text does not tell.
+/// Returns the "table.key" to which a parser's error in `line` most likely refers, or "" if the text does not show it.
 std::string key_near(std::string_view text, std::size_t line);
 
 }  // namespace slipfront::scenario

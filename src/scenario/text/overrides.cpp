@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* form = "table.key=value, such as friction.coefficient=0.5";
 
-/// An override becomes a comment of the text that is kept, and so must be one line of UTF-8.
+/// An override becomes a comment in the stored text of the scenario, so it must be one line of UTF-8.
 bool may_be_comment(const std::string& text) {
   for (const char c : text)
     if ((static_cast<unsigned char>(c) < 0x20 && c != '\t') || c == 0x7F) return false;
@@ -23,13 +23,13 @@ bool may_be_comment(const std::string& text) {
   }
 }
 
-/// A table whose one entry is the value.
+/// Returns a table whose only entry is the value.
 toml::table parse_value(const std::string& text) {
   try {
     const std::string line = "value = " + text;
     toml::table parsed = parse_toml(line, "--set");
     if (parsed.size() == 1 && parsed.contains("value")) return parsed;
-  } catch (const InputError&) {  // a word or a formula
+  } catch (const InputError&) {  // not TOML: a word or a formula
   }
   toml::table word;
   word.insert("value", text);
@@ -41,7 +41,7 @@ void put(toml::table& table, const std::string& key, const std::string& text) {
   parsed.get("value")->visit([&](const auto& value) { table.insert_or_assign(key, value); });
 }
 
-/// The table to put into, made where it is missing.
+/// Returns the table of this name, and creates it if it is missing.
 toml::table& table_named(toml::table& root, const std::string& name, const std::string& key, const std::string& text) {
   bool known = false;
   for (const std::string_view table : known_tables()) known = known || table == name;
@@ -57,7 +57,7 @@ toml::table& table_named(toml::table& root, const std::string& name, const std::
   return *node->as_table();
 }
 
-/// A title names what the file says: it goes on to name what was said instead.
+/// The title describes the file, so we append the overrides to it.
 void tell_in_title(toml::table& root, const Overridden& overridden) {
   const auto* const title = root.get_as<std::string>("title");
   if (!title || title->get().empty() || overridden.empty() || overridden.count("title") > 0) return;
@@ -87,7 +87,7 @@ Overridden apply_overrides(toml::table& root, const std::vector<std::string>& ov
     if (key == "title") {
       put(root, key, text);
     } else if (dot == std::string::npos || dot == 0 || dot + 1 == key.size()) {
-      throw refuse("it names no key");
+      throw refuse("the text before '=' is not table.key");
     } else {
       put(table_named(root, key.substr(0, dot), key, text), key.substr(dot + 1), text);
     }

@@ -1,34 +1,22 @@
 #include "scenario/text/section.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "foundation/text/digits.hpp"
 
 namespace slipfront::scenario {
 
-bool Limits::hold(double value) const {
-  return std::isfinite(value) && (without_least ? value > least : value >= least) &&
-         (without_most ? value < most : value <= most);
-}
-
-std::string Limits::text() const {
-  std::string text = "a finite number";
-  if (std::isfinite(least)) text += (without_least ? " > " : " >= ") + shortest(least);
-  if (std::isfinite(least) && std::isfinite(most)) text += " and";
-  if (std::isfinite(most)) text += (without_most ? " < " : " <= ") + shortest(most);
-  return text;
-}
-
-Section::Section(const Document& document, std::string_view name, const std::vector<std::string_view>& keys)
-    : document_(document), table_(nullptr), name_(name) {
+Section::Section(const Document& document, std::string_view name) : document_(document), table_(nullptr), name_(name) {
   const auto found = document.tables.find(name);
   if (found == document.tables.end()) return;
   table_ = &found->second;
-  for (const auto& [key, value] : table_->values) {
-    bool known = false;
-    for (const std::string_view candidate : keys) known = known || candidate == key;
-    if (!known) throw refuse(key, "unknown key", nearest_or_all(key, keys));
-  }
+  std::vector<std::string_view> known;
+  for (const Key* key : keys_of(name)) known.push_back(key->name);
+  for (const auto& [key, value] : table_->values)
+    if (std::find(known.begin(), known.end(), key) == known.end())
+      throw refuse(key, "unknown key", nearest_or_all(key, known));
 }
 
 const Value* Section::find(std::string_view key) const {
@@ -37,10 +25,16 @@ const Value* Section::find(std::string_view key) const {
   return found == table_->values.end() ? nullptr : &found->second;
 }
 
-std::optional<double> Section::number(std::string_view key, const Limits& limits) const {
+const Key& Section::key(std::string_view name) const {
+  for (const Key* known : keys_of(name_))
+    if (known->name == name) return *known;
+  throw std::logic_error("scenario/keys.cpp does not list " + name_ + "." + std::string(name));
+}
+
+std::optional<double> Section::number(std::string_view key) const {
   const Value* const value = find(key);
   if (!value) return std::nullopt;
-  check(key, *value, limits);
+  check(key, *value, this->key(key).limits);
   return value->number;
 }
 
@@ -50,12 +44,13 @@ void Section::check(std::string_view key, const Value& value, const Limits& limi
   if (!limits.hold(value.number)) throw refuse(key, value, "out of range", limits.text());
 }
 
-std::optional<int> Section::whole_number(std::string_view key, int least, int most) const {
-  const Limits limits{.least = static_cast<double>(least), .most = static_cast<double>(most)};
-  const std::optional<double> value = number(key, limits);
+std::optional<int> Section::whole_number(std::string_view key) const {
+  const std::optional<double> value = number(key);
   if (!value) return std::nullopt;
+  const Limits& limits = this->key(key).limits;
   if (*value != std::floor(*value))
-    throw refuse(key, "not a whole number", std::to_string(least) + " to " + std::to_string(most));
+    throw refuse(key, "not a whole number",
+                 std::to_string(std::lround(limits.least)) + " to " + std::to_string(std::lround(limits.most)));
   return static_cast<int>(*value);
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -10,46 +9,30 @@
 #include "foundation/text/nearest.hpp"
 #include "scenario/text/document.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/scenario/keys.hpp"
 
 namespace slipfront::scenario {
 
-/// What a number may be; it is finite in any case.
-struct Limits {
-  double least = -std::numeric_limits<double>::infinity();
-  double most = std::numeric_limits<double>::infinity();
-  bool without_least = false;
-  bool without_most = false;
-
-  bool hold(double value) const;
-  std::string text() const;  ///< "> 0 and <= 20"
-};
-
-inline constexpr Limits positive{.least = 0, .without_least = true};
-inline constexpr Limits not_negative{.least = 0};
-
-/// Positions, so that their differences neither overflow nor lose the cells between them.
-inline constexpr double farthest = 1e9;
-inline constexpr Limits position{.least = -farthest, .most = farthest};
-
-/// One table of a scenario and its known keys. Whatever it finds wrong it throws as an InputError that names file,
-/// line, key and value.
+/// One table of a scenario. It checks values against the list of keys (scenario/keys.hpp). If a value is wrong, it
+/// throws an InputError that names file, line, key and value.
 class Section {
  public:
   /// \throws InputError for a key that is not known.
-  Section(const Document& document, std::string_view name, const std::vector<std::string_view>& keys);
+  Section(const Document& document, std::string_view name);
 
   bool has(std::string_view key) const { return find(key) != nullptr; }
   const std::string& file() const { return document_.file; }
   const Value* find(std::string_view key) const;
 
-  std::optional<double> number(std::string_view key, const Limits& limits) const;
-  std::optional<int> whole_number(std::string_view key, int least, int most) const;
+  std::optional<double> number(std::string_view key) const;
+  std::optional<int> whole_number(std::string_view key) const;
   std::optional<std::string> text(std::string_view key) const;
   std::optional<bool> truth(std::string_view key) const;
   std::optional<std::string> formula(std::string_view key) const;  ///< a text, or a number as a constant formula
+  const std::vector<std::string_view>& words(std::string_view name) const { return key(name).words; }  ///< allowed
   const Value* array(std::string_view key, const char* allowed) const;
 
-  /// One of a few words.
+  /// Reads a value that must be one of these words.
   template <typename Enum>
   std::optional<Enum> choice(std::string_view key, const std::vector<std::pair<std::string_view, Enum>>& words) const {
     const Value* const value = find(key);
@@ -63,13 +46,16 @@ class Section {
                  nearest_or_all(value->text, names));
   }
 
-  /// Where a key stands, to be completed with what is wrong. A missing key stands at its table's first line.
+  /// The file, line and key of an error, to which the caller adds the problem. For a missing key, the line is the first
+  /// line of the table.
   Complaint where(std::string_view key) const;
   InputError refuse(std::string_view key, std::string problem, std::string allowed) const;
   InputError refuse(std::string_view key, const Value& item, std::string problem, std::string allowed) const;
   void check(std::string_view key, const Value& value, const Limits& limits) const;
 
  private:
+  const Key& key(std::string_view name) const;
+
   const Document& document_;
   const Table* table_;
   std::string name_;

@@ -1,8 +1,8 @@
-/** Calls into the WebAssembly module: texts and numbers in, an object out whose arrays are copies of its memory. */
+/** Calls functions of the WebAssembly module with texts and numbers. The answer is an object; its arrays are copies of the module's memory. */
 
 import type { AnswerOf, Calls, Name } from './protocol';
 
-/** What emscripten gives. */
+/** The parts of the module from emscripten that we use. */
 export interface Module {
   _malloc(bytes: number): number;
   _free(address: number): void;
@@ -44,7 +44,7 @@ export function call<N extends Name>(module: Module, name: N, args: Calls[N]['ar
   }
 }
 
-/** The buffers of all arrays in an answer, to be handed over between threads without a copy. */
+/** The buffers of all arrays in an answer, which threads can transfer without a copy. */
 export function buffersOf(value: unknown, found: ArrayBuffer[] = []): ArrayBuffer[] {
   if (value instanceof Float64Array) found.push(value.buffer as ArrayBuffer);
   else if (isObject(value)) Object.values(value).forEach((item) => buffersOf(item, found));

@@ -1,4 +1,4 @@
-/** What the page and the worker say to each other: the functions of the module with the types of their answers, and the messages. */
+/** The messages between the page and the worker, and the functions of the module with the types of their answers. */
 
 export interface Complaint {
   kind: 'input' | 'numerics' | 'memory';
@@ -10,7 +10,7 @@ export interface Complaint {
   line?: number;
 }
 
-/** An answer, or what the module complains of. */
+/** An answer, or the error that the module reports. */
 export type Reply<T> = (T & { error?: undefined }) | { error: Complaint };
 
 export type Argument = number | string | Float64Array;
@@ -64,7 +64,7 @@ export interface ScenarioAnswer {
   stress: Float64Array;
 }
 
-/** Quantities of an event; null where what was observed does not tell them. */
+/** Quantities of an event. A quantity that the observations do not determine is null. */
 export type EventKey =
   | 'rupture_velocity' | 'stress' | 'frictionless_slip_velocity' | 'stress_pa' | 'stress_pa_bound'
   | 'contact_ratio' | 'contact_ratio_bound' | 'damping_number';
@@ -101,7 +101,7 @@ export type PulseField = 'W' | 'Sigma' | 'U' | 'slip';
 export type PulseSeries =
   | 'time' | 'trailing_front' | 'leading_front' | 'slip_velocity_at_origin' | 'stress_at_origin' | 'slip_at_origin'
   | 'peak_slip_velocity' | 'peak_position' | 'energy_elastic' | 'energy_kinetic' | 'energy_dissipated' | 'energy_supplied' | 'potency';
-/** Snapshots since the last answer, fields one snapshot after the other. */
+/** Snapshots since the last answer. Each array of a field holds one snapshot after the other. */
 export type PulseMore = Record<PulseField | PulseSeries, Float64Array> & {
   now: number;
   steps: number;
@@ -137,22 +137,22 @@ export interface PulseQuestion {
   toml: string;
   table?: Table | null;
   frames?: number;
-  /** A single time to look at, if > 0. */
+  /** If > 0, the only output time besides t = 0. */
   look?: number;
-  /** 0: the scenario's, 1: consistent, 2: paper. */
+  /** 0: the closure of the scenario, 1: consistent, 2: paper. */
   closure?: number;
-  /** Runs of one slot replace each other. */
+  /** A new run replaces the earlier run in its slot. */
   slot: number;
 }
 
-/** From the page to the worker. */
+/** A message from the page to the worker. */
 export type Question =
   | { type: 'start'; wasm: WebAssembly.Module }
   | { type: 'call'; id: number; name: Name; args: Argument[] }
   | ({ type: 'pulse'; id: number } & Required<PulseQuestion>)
   | { type: 'cancel'; id: number };
 
-/** From the worker to the page; a question may have several answers, of which one is the last. */
+/** A message from the worker to the page. A question may have several answers; one of them is marked as the last. */
 export type News =
   | { type: 'answer'; answer: Reply<object> }
   | { type: 'begun'; begun: PulseBegun }

@@ -1,4 +1,4 @@
-/** The worker: the numerics, off the thread that draws. Runs go on in pieces, so that a newer question gets through. */
+/** The worker computes in its own thread, so that the page stays responsive. It divides runs into pieces and reads newer questions between them. */
 
 import make from '@wasm/slipfront.mjs';
 import { buffersOf, call, type Module } from './binding';
@@ -6,7 +6,7 @@ import type { Calls, Message, Name, News, Question, Table } from './protocol';
 
 const milliseconds = 12;
 let begin!: (made: Promise<Module>) => void;
-/** Questions may arrive before the module does: they wait for it. */
+/** Questions that arrive before the module wait for it. */
 const module = new Promise<Module>((resolve) => (begin = resolve));
 const cancelled = new Set<number>();
 const latest = new Map<number, number>();
@@ -16,7 +16,7 @@ function say(id: number, news: News, last: boolean) {
   postMessage(message, { transfer: buffersOf(message) });
 }
 
-/** Lets messages in. */
+/** Lets the worker receive messages before it continues. */
 const breathe = () =>
   new Promise<void>((resolve) => {
     const channel = new MessageChannel();

@@ -1,24 +1,24 @@
-/** A chain as far as it has come. */
+/** A chain with its positions and averages so far. */
 
 import type { ChainAnswer, ChainAverages, ChainBegun, ChainFrame } from '../engine/protocol';
 
 export interface Chain {
   begun: ChainBegun;
   frames: ChainFrame[];
-  /** The last averages, and the first. */
+  /** The latest averages; `first` are those at t = 0. */
   average: ChainAverages;
   first: ChainAverages;
 }
 
-/** Pictures of a whole run. */
+/** Number of pictures in a whole run. */
 export const pictures = 480;
-/** Half of the part around x = 0 whose single sites are shown. */
+/** Half the length of the part around x = 0 whose single sites are shown. */
 export const halfShown = ({ left, right }: ChainBegun) => 0.12 * (right - left);
 
 const averagesOf = (answer: ChainAnswer): ChainAverages | null => (answer.W ? (answer as ChainAverages) : null);
 const frameOf = ({ time, x, sign }: ChainAnswer): ChainFrame => ({ time, x, sign });
 
-/** Of the answer for t = 0, which has averages. */
+/** The chain at t = 0, from the answer for t = 0, which has averages. */
 export function begunChain(begun: ChainBegun, start: ChainAnswer): Chain {
   const average = averagesOf(start)!;
   return { begun, frames: [{ ...frameOf(start), time: 0 }], average, first: average };
@@ -31,7 +31,7 @@ export const advanced = (chain: Chain, more: ChainAnswer): Chain => ({
 export const lastFrame = (chain: Chain) => chain.frames[chain.frames.length - 1];
 export const isOver = (time: number, end: number) => time >= end - 1e-9;
 
-/** Of the dislocations in the last frame, from where they were a little before. */
+/** Speeds of the dislocations in the last frame, from their positions a few frames earlier. */
 export function speedsOf(frames: ChainFrame[]): number[] {
   const now = frames[frames.length - 1];
   const before = frames[Math.max(0, frames.length - 6)];
@@ -39,6 +39,6 @@ export function speedsOf(frames: ChainFrame[]): number[] {
   return Array.from(now.x, (x, i) => Math.abs(x - before.x[i]) / (now.time - before.time));
 }
 
-/** All positions, as CSV. */
+/** All positions of dislocations, as CSV. */
 export const csvOfPaths = (chain: Chain) =>
   ['t,dislocation,x', ...chain.frames.flatMap((frame) => Array.from(frame.x, (x, i) => `${frame.time},${i + 1},${x}`))].join('\n') + '\n';

@@ -1,10 +1,10 @@
-/** Events of the shipped catalogue and the one that somebody types, in one form. */
+/** Events of the shipped catalogue and the event that the user types, in one form. */
 
 import type { EventAnswer, EventKey, EventNumbers } from '../engine/protocol';
 
 export type Interval = [number, number];
 
-/** What `slipfront event --json` prints of an event. */
+/** An event as `slipfront event --json` prints it. */
 export type PublishedEvent = EventNumbers & Partial<Record<`${EventKey}_interval`, Interval | null>> & {
   name: string;
   citation?: string | null;
@@ -21,7 +21,7 @@ export interface FaultEvent {
   note: string;
   warnings: string[];
 }
-/** An event whose rupture velocity is known, and with it the stress. */
+/** An event with known rupture velocity, and therefore known stress. */
 export type LocatedEvent = FaultEvent & { numbers: { stress: number; rupture_velocity: number; rupture_velocity_m_s: number } };
 
 export const eventKeys: EventKey[] = [

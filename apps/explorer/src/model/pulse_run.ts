@@ -1,16 +1,16 @@
-/** A pulse run as far as it has come: what the worker has sent, and what lies between its snapshots. */
+/** A `pulse` run with the snapshots so far, and interpolation between them. */
 
 import type { PulseBegun, PulseField, PulseMore, PulseSeries } from '../engine/protocol';
 
 export interface PulseRun extends PulseBegun {
-  /** Of each snapshot so far, fields one snapshot after the other. */
+  /** One number per snapshot so far. `fields` hold one snapshot after the other. */
   series: Record<PulseSeries, Float64Array>;
   fields: Record<PulseField, Float64Array>;
-  /** Snapshots so far. */
+  /** Number of snapshots so far. */
   count: number;
   now: number;
   finished: boolean;
-  /** null where friction is not viscous. */
+  /** null if friction is not viscous. */
   frictionCoefficient?: number | null;
   gaveUp?: string;
 }
@@ -46,7 +46,7 @@ export function grown(run: PulseRun, more: PulseMore): PulseRun {
   };
 }
 
-/** The snapshot before a time, and the share of the way to the next one. */
+/** The index of the snapshot before a time, and the fraction of the interval to the next one that has passed. */
 function between(times: Float64Array, time: number): [number, number] {
   const last = times.length - 1;
   let i = 0;
@@ -54,7 +54,7 @@ function between(times: Float64Array, time: number): [number, number] {
   return [i, last < 1 ? 0 : Math.min(1, Math.max(0, (time - times[i]) / (times[i + 1] - times[i])))];
 }
 
-/** A field of a run at a time, between its snapshots. */
+/** A field of a run at any time, by linear interpolation between its snapshots. */
 export function fieldAt(run: PulseRun, name: PulseField, time: number): Float64Array {
   const n = run.x.length;
   const [i, share] = between(run.series.time, time);
@@ -69,6 +69,6 @@ export function seriesAt(run: PulseRun, name: PulseSeries, time: number): number
   return share === 1 ? values[i + 1] : share === 0 ? values[i] : values[i] * (1 - share) + values[i + 1] * share;
 }
 
-/** The last snapshot. */
+/** A field in the last snapshot. */
 export const last = (run: PulseRun, field: PulseField) => run.fields[field].subarray(run.fields[field].length - run.x.length);
 export const lastOf = (run: PulseRun, name: PulseSeries) => run.series[name][run.series[name].length - 1];

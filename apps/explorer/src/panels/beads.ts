@@ -68,5 +68,5 @@ export function paint(canvas: HTMLCanvasElement, paths: Paths, chain: Chain, end
   }
   ctx.fillStyle = color('quiet');
   ctx.font = '12px system-ui, sans-serif';
-  ctx.fillText('place to the right, time upwards', edge, strip + 14);
+  ctx.fillText('x to the right, time upwards', edge, strip + 14);
 }

@@ -1,4 +1,4 @@
-/** What is plotted of a chain: averages over several dislocations, and single ones near x = 0. */
+/** The plots of a chain: averages over several dislocations, and single dislocations near x = 0. */
 
 import type { Chain } from '../model/chain';
 import { scaleOf, type Quantity } from '../state/units';

@@ -70,7 +70,7 @@ export function DislocationsPanel() {
           <button type="button" onClick={restart}>Start again</button>
         </div>
         <CannotRun error={error} shown={Boolean(chain)} />
-        {!chain && !error && <p class="busy" role="status">Laying the dislocations …</p>}
+        {!chain && !error && <p class="busy" role="status">Placing the dislocations …</p>}
         {chain && now && (
           <div class={error ? 'stale' : ''}>
             <dl class="facts">
@@ -82,7 +82,7 @@ export function DislocationsPanel() {
             </dl>
             <figure class="plot">
               <figcaption>Dislocations and their paths <span class="legend"><span><i style={{ background: 'var(--slip)' }} /> moving</span><span><i style={{ background: 'var(--stress)' }} /> at rest</span></span></figcaption>
-              <canvas class="beads" style={{ height: '330px' }} ref={canvas} role="img" tabIndex={0} aria-label={`${now.x.length} dislocations at t = ${short(now.time, 3)}. The table below has their places.`} />
+              <canvas class="beads" style={{ height: '330px' }} ref={canvas} role="img" tabIndex={0} aria-label={`${now.x.length} dislocations at t = ${short(now.time, 3)}. The table below has their positions.`} />
               <Places chain={chain} />
             </figure>
             {averages && <div class="two">{averages.map((spec) => <Plot spec={spec} height={200} />)}</div>}
@@ -99,11 +99,11 @@ function Places({ chain }: { chain: Chain }) {
   const now = lastFrame(chain);
   return (
     <Data
-      of="places of the dislocations"
+      of="positions of the dislocations"
       buttons={() => <button type="button" onClick={() => save('paths.csv', csvOfPaths(chain), 'text/csv')}>CSV of all paths</button>}
       table={() => (
         <>
-          <caption>Places at t = {short(now.time)}</caption>
+          <caption>Positions at t = {short(now.time)}</caption>
           <thead><tr><th scope="col">dislocation</th><th scope="col">x, in b/A</th></tr></thead>
           <tbody>{Array.from(now.x, (x, i) => <tr><th scope="row">{i + 1}</th><td>{short(x, 6)}</td></tr>)}</tbody>
         </>

@@ -50,14 +50,14 @@ function profile(name: string, title: string, field: PulseField, quantity: Quant
   };
 }
 
-/** Where there is a look at the new scenario, it is shown; else the run. */
+/** Shows the quick look at the new scenario if there is one, else the run. */
 function runToShow(shown: Shown): PulseRun | null {
   return shown.look ?? shown.run;
 }
 
 function extentOf(run: PulseRun, field: PulseField): number {
   const steady = run.fields[field];
-  // The slip velocity of a step is largest at once; later ones would be flat beneath it.
+  // The slip velocity of a step is largest at the start. On its scale, all later profiles would look flat.
   if (field !== 'W') return largest(steady);
   const n = run.x.length;
   return largest(steady.subarray(Math.min(steady.length - n, n * Math.max(1, Math.round(run.count * 0.1)))));
@@ -69,7 +69,7 @@ function Facts({ run, time }: { run: PulseRun; time: number }) {
     const scale = scaleOf(quantity, number);
     return Number.isFinite(number) ? `${short(number * scale.factor, 4)} ${scale.unit}` : '–';
   };
-  const coefficient = run.frictionCoefficient; // null where friction is not viscous, and has no such number
+  const coefficient = run.frictionCoefficient; // null if friction is not viscous and has no coefficient C
   return (
     <dl class="facts" aria-label="Numbers at this time">
       <div><dt>Slip velocity at x = 0</dt><dd>{value('slip_velocity_at_origin', 'slipVelocity')}</dd></div>
@@ -100,7 +100,7 @@ function mapOf(run: PulseRun, now: number) {
   const t = scaleOf('t', run.end);
   const w = scaleOf('slipVelocity', largest(run.fields.W));
   return {
-    title: 'Slip velocity over place and time', name: 'space-time', x: run.x, t: run.series.time, values: run.fields.W, xFactor: x.factor, tFactor: t.factor, factor: w.factor,
+    title: 'Slip velocity over x and t', name: 'space-time', x: run.x, t: run.series.time, values: run.fields.W, xFactor: x.factor, tFactor: t.factor, factor: w.factor,
     xLabel: `x, in ${x.unit}`, tLabel: `t, in ${t.unit}`, label: `slip velocity, in ${w.unit}`, now,
     lines: [
       { x: run.series.trailing_front, color: 'fast', label: 'V−' },
@@ -211,7 +211,7 @@ export function PulsePanel() {
                 {energy && <Plot spec={energy} height={130} />}
               </div>
             </div>
-            {warnings.length > 0 && <ul class="warnings" aria-label="What the run says of itself">{warnings.map((w) => <li>{w}</li>)}</ul>}
+            {warnings.length > 0 && <ul class="warnings" aria-label="Warnings of the run">{warnings.map((w) => <li>{w}</li>)}</ul>}
           </div>
         ) : !main.error && <p class="busy" role="status">Computing …</p>}
       </section>

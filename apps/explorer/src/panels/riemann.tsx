@@ -104,7 +104,7 @@ export function RiemannPanel() {
             <div><dt>Edges</dt><dd>{short(answer.left_edge)} and {short(answer.right_edge)} c</dd></div>
           </dl>
           <div class="two">
-            <Plot spec={{ name: 'waves', title: 'Waves in place and time', x: [], xLabel: 'x', yLabel: 't', series: [], paths: rays(answer), xRange: [-width, width], yRange: [0, 1] }} height={290} />
+            <Plot spec={{ name: 'waves', title: 'Waves over x and t', x: [], xLabel: 'x', yLabel: 't', series: [], paths: rays(answer), xRange: [-width, width], yRange: [0, 1] }} height={290} />
             <Plot spec={planeSpec(answer)} height={290} />
             <Plot spec={profileSpec(answer, 'Sigma', 'Stress', 'Σ, in μA/π', 'stress')} height={190} />
             <Plot spec={profileSpec(answer, 'W', 'Slip velocity', 'W, in cA/π', 'slip')} height={190} />

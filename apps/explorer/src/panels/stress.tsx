@@ -189,7 +189,7 @@ export function StressPanel() {
           </div>
           <div>{event ? <EventCard event={event} /> : <p class="hint">Choose an event in the list or in a plot, or type your own.</p>}</div>
         </div>
-        {wantsUnits.value && <p class="hint">Stress in Pa and the contact ratio stand with each event; the curves stay dimensionless, because A differs from event to event.</p>}
+        {wantsUnits.value && <p class="hint">Stress in Pa and the contact ratio are given with each event; the curves stay dimensionless, because A differs from event to event.</p>}
         <Equations names={['fronts', 'train']} />
       </section>
     </div>

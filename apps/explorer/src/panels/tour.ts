@@ -14,7 +14,7 @@ const step: Params = { 'initial.profile': 'step', 'initial.stress_left': '0.855'
 export const stops: Stop[] = [
   {
     panel: 'dislocations', params: { ...step, 'friction.law': 'none', beads: '12' }, title: 'A dislocation',
-    text: 'Two rough surfaces touch at their asperities, which rest in each other’s wells. A dislocation is the place where one row has just jumped ahead: where it passes, the interface has slipped by one spacing.',
+    text: 'Two rough surfaces touch at their asperities, which rest in each other’s wells. A dislocation is the point where one row has just jumped ahead: where it passes, the interface has slipped by one spacing.',
   },
   {
     panel: 'paper', params: { fig: '2', stress: '0.4', velocity: '0.3' }, title: 'A train of dislocations',
@@ -30,11 +30,11 @@ export const stops: Stop[] = [
   },
   {
     panel: 'pulse', params: { ...step, 'friction.law': 'viscous', 'friction.coefficient': '0.5', play: '1' }, title: 'What friction changes, and what not',
-    text: 'Friction lowers the slip velocity and holds the slow front back. The fast front keeps its speed: it runs into a place at rest, where friction has nothing to act on.',
+    text: 'Friction lowers the slip velocity and holds the slow front back. The fast front keeps its speed: it runs into an interface at rest, where friction has nothing to act on.',
   },
   {
     panel: 'pulse', params: { ...step, 'friction.law': 'viscous', 'friction.coefficient': '0.5', compare: '1' }, title: 'A mistake in the average',
-    text: 'The paper averages friction over place, but dislocations feel it where they are, and that is more. The dashed curve is the paper’s: its slip is up to 37 % above what a chain of single dislocations does.',
+    text: 'The paper averages friction over x, but dislocations feel the friction at their own positions, which is larger. The dashed curve is the paper’s: its slip is up to 37 % above what a chain of single dislocations does.',
   },
   {
     panel: 'riemann', params: { left_stress: '0.855', right_stress: '0.179', left_velocity: '0', right_velocity: '0' }, title: 'When the other side is stressed too',
@@ -42,7 +42,7 @@ export const stops: Stop[] = [
   },
   {
     panel: 'stress', params: { range: 'fast', 'my.rupture_velocity': '3.0 +- 0.2 km/s', 'my.slip_velocity': '0.5 m/s' }, title: 'Parkfield, 2004',
-    text: 'It spread at 3 km/s and slipped at about half a metre a second. The rupture velocity alone fixes the stress over the contact ratio; the slip velocity gives the contact ratio, if friction took nothing, and so a least stress of about 28 MPa.',
+    text: 'It spread at 3 km/s and slipped at about half a metre a second. The rupture velocity determines the stress over the contact ratio. The slip velocity gives the contact ratio if friction took nothing, and so a lower bound of about 28 MPa for the stress.',
   },
   {
     panel: 'stress', params: { range: 'observed', 'my.rupture_velocity': '10 km/day', 'my.slip_velocity': '2 mm/week' }, title: 'Slow slip',
@@ -50,6 +50,6 @@ export const stops: Stop[] = [
   },
   {
     panel: 'pulse', params: { 'initial.profile': 'table', drawn: '-6:0.9,-4.5:0.9,-3.5:0.55,-2.5:0.9,-1:0.75,0:0.35,1:0.1,2:0,4:0', 'friction.law': 'viscous', 'friction.coefficient': '0.2', 'time.end': '9', play: '1' }, title: 'Your turn',
-    text: 'Draw your own stress in the plot below, choose a friction, and press play. What you see stands in the address of the page, so a link shows the same to anyone.',
+    text: 'Draw your own stress in the plot below, choose a friction, and press play. The address of the page contains all settings, so a link shows the same picture to anyone.',
   },
 ];

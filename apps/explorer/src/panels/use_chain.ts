@@ -1,4 +1,4 @@
-/** The chain of the scenario, live: it is begun again when the scenario changes, and goes on while it plays. */
+/** The chain of the scenario. It restarts when the scenario changes, and advances while the player runs. */
 
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { call } from '../engine/client';
@@ -37,7 +37,7 @@ export function useChain(toml: string, table: Table | null, count: number, end: 
     let alive = true;
     let shown = 0;
     let since = performance.now();
-    /** The next picture is computed while this one is drawn. */
+    /** Requests the next picture while the page draws this one. */
     const ask = (begun: Chain['begun'], frame: ChainFrame, count: number) => {
       const averaged = count % 3 === 0 || frame.time >= end * (1 - 2 / pictures);
       return call('chain_go', Math.min(end, frame.time + end / pictures), 14, averaged ? halfShown(begun) : 0);

@@ -1,4 +1,4 @@
-/** The run of the scenario in the address: a quick look while a control moves, all of it when it rests. */
+/** The run of the scenario in the address. While the user moves a control, the page computes only a quick look. */
 
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { runPulse } from '../engine/client';
@@ -8,10 +8,10 @@ import type { PulseRun } from '../model/pulse_run';
 export interface Shown {
   run: PulseRun | null;
   error?: Complaint;
-  /** Snapshots of the present scenario, t = 0 and one time, while the run is being made. */
+  /** Snapshots of the present scenario at t = 0 and one other time, while the run is computed. */
   look: PulseRun | null;
   busy: boolean;
-  /** Seconds that the run has taken so far, of those that it will take. */
+  /** Seconds that the run has taken so far; `share` is the finished fraction of the run. */
   elapsed: number;
   share: number;
   stop: () => void;
@@ -37,7 +37,7 @@ export function usePulse(toml: string, table: Table | null, slot: number, look: 
         runPulse({ toml, table, frames, closure, slot }, (run, error) => {
           const elapsed = (performance.now() - began) / 1000;
           const share = run && run.end > 0 ? Math.min(1, run.now / run.end) : 0;
-          // Where there is nothing new to show, the picture before stays.
+          // If there is nothing new to show, the previous picture stays.
           if (error) update({ error, look: null, busy: false, ...(run && run.count > 1 ? { run } : {}) });
           else if (run?.finished) update({ run, look: null, error: undefined, busy: false, elapsed, share: 1 });
           else update({ elapsed, share, busy: true });

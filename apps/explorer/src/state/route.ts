@@ -1,4 +1,4 @@
-/** The address of the page: `#/panel?key=value&...`. All that a picture depends on stands there. */
+/** The address of the page: `#/panel?key=value&...`. It contains everything that a picture depends on. */
 
 import { signal } from '@preact/signals';
 
@@ -18,7 +18,7 @@ function readable(text: string): string {
   }
 }
 
-/** The entry of a table under a name that a user typed; `constructor` and the like are entries of no table. */
+/** The entry of a table under a name that a user typed. Inherited names such as `constructor` are not entries. */
 export function entryOf<T>(table: Record<string, T>, name: string | undefined): T | undefined {
   return name !== undefined && Object.hasOwn(table, name) ? table[name] : undefined;
 }
@@ -47,7 +47,7 @@ export const route = signal<Route>(parse(location.hash));
 addEventListener('hashchange', () => (route.value = parse(location.hash)));
 
 let pending: number | undefined;
-/** Changes parameters of the present panel; null takes one out. Many changes in a row make one step in the history. */
+/** Changes parameters of the present panel; null removes one. The address changes only after a pause of 120 ms. */
 export function setParams(changes: Record<string, string | null>) {
   const params = { ...route.value.params };
   for (const [key, value] of Object.entries(changes))

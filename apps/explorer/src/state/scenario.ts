@@ -1,4 +1,4 @@
-/** A scenario as the address has it, "table.key" to text, and as TOML. What is allowed is for the module to say. */
+/** A scenario as in the address, which maps "table.key" to text, and as TOML. The module checks it. */
 
 import type { Params } from './route';
 
@@ -18,7 +18,7 @@ const isScenarioKey = (key: string) => tables.includes(key.split('.')[0]) && key
 export function scenarioOf(params: Params): Params {
   const scenario: Params = {};
   for (const [key, value] of Object.entries({ ...defaults, ...params })) if (isScenarioKey(key) && value !== '') scenario[key] = value;
-  // Of the other laws the form states all parameters.
+  // For the other laws, the form sets all parameters.
   if (scenario['friction.law'] === 'viscous') scenario['friction.coefficient'] ??= '0.5';
   const profile = scenario['initial.profile'];
   if (profile !== 'step' && profile !== 'tanh') {
@@ -35,7 +35,7 @@ export function scenarioOf(params: Params): Params {
   return scenario;
 }
 
-/** Texts stay texts, and what looks like a number, a list or a truth is one. */
+/** The TOML form of a value. Text that looks like a number, a list or a boolean becomes one, except for keys with texts. */
 function tomlValue(key: string, text: string): string {
   const bare = /^[-+]?(\d[\d_]*)(\.\d+)?([eE][-+]?\d+)?$/.test(text) || /^(true|false)$/.test(text) || /^\[[\d\s.,eE+-]*\]$/.test(text);
   const isText = ['profile', 'law', 'closure', 'formula', 'file', 'contact', 'model', 'state'].includes(key.split('.')[1]);
@@ -43,7 +43,7 @@ function tomlValue(key: string, text: string): string {
   return JSON.stringify(text).replace(/\u007f/g, '\\u007F');
 }
 
-/** What the others depend on stands first. */
+/** Keys that other keys depend on come first. */
 const rank = (key: string) => (/\.(profile|law)$/.test(key) ? 0 : 1);
 const byName = (a: string, b: string) => rank(a) - rank(b) || (a < b ? -1 : 1);
 
@@ -59,10 +59,10 @@ export function tomlOf(scenario: Params, title = ''): string {
   return lines.join('\n');
 }
 
-/** How far a drawn stress goes on beyond its ends, as it is there: dislocations come in from beyond the domain. */
+/** Distance by which a drawn stress is continued outside both ends with its end values, because dislocations enter the domain. */
 const beyond = 20;
 
-/** "x:stress" pairs of a drawn profile, as the address has them. */
+/** The table of a drawn profile, from its "x:stress" pairs in the address. */
 export function tableOf(params: Params): [number[], number[]] | null {
   if (!params.drawn) return null;
   const rows = params.drawn.split(',').map((pair) => pair.split(':').map(Number));
@@ -77,6 +77,6 @@ export const csvOfTable = ([x, y]: [number[], number[]]) => `x,stress\n${x.map((
 
 const quotedForShell = (text: string) => (/^[\w./=:,+-]+$/.test(text) ? text : `'${text.replace(/'/g, `'\\''`)}'`);
 
-/** The command that repeats the picture; the scenario lies beside it as `file`. */
+/** The command that repeats the picture, with the scenario in the file `file`. */
 export const commandOf = (command: string, file: string, more: string[] = []) =>
   ['slipfront', command, file, ...more].map(quotedForShell).join(' ');

@@ -1,4 +1,4 @@
-/** SI units on request: the constants stand in the address, their meaning comes from the module. */
+/** SI units on request. The address contains the constants, and the module computes the units from them. */
 
 import { computed, signal } from '@preact/signals';
 import { call } from '../engine/client';
@@ -41,7 +41,7 @@ const meanings: Record<Exclude<Quantity, 'none'>, { unit: keyof Units; kind: Kin
   slip: { unit: 'slip', kind: 'length', plain: 'b/2π' },
 };
 
-/** The name of the unit of an axis and the factor from the dimensionless number. */
+/** The name of the unit of an axis, and the factor that converts dimensionless numbers to it. */
 export function scaleOf(quantity: Quantity, largest: number): { unit: string; factor: number } {
   if (quantity === 'none') return { unit: '', factor: 1 };
   const meaning = meanings[quantity];

@@ -1,4 +1,4 @@
-/** What a screen reader says, politely, and everybody else sees for a moment. */
+/** A message that a screen reader reads out, and that the page shows for 2.5 seconds. */
 
 import { signal } from '@preact/signals';
 

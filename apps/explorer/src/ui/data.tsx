@@ -1,4 +1,4 @@
-// Export and table beside every picture, folded away; nothing of them is made before they are asked for.
+// Export and table of a picture, folded away. They are created only when the user opens them.
 
 import type { ComponentChildren } from 'preact';
 import { useState } from 'preact/hooks';

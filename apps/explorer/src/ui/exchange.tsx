@@ -1,4 +1,4 @@
-/** A scenario as text: to copy, to paste, to drop a file onto. */
+/** A scenario as text, which the user can copy, edit, paste, or replace by dropping a file. */
 
 import { useEffect, useState } from 'preact/hooks';
 import { call } from '../engine/client';
@@ -8,7 +8,7 @@ import { announce } from './announce';
 import { sentence } from './fields';
 import { copy, save } from './save';
 
-/** Parameters of the address from a TOML text; the module reads it, so that it means what it means to the program. */
+/** Parameters of the address from a TOML text. The module reads the text, so that it has the same meaning as in the program. */
 export async function paramsOfToml(toml: string, drawn?: string): Promise<{ params?: Params; problem?: string }> {
   if (drawn) {
     const table = tableOf({ drawn })!;
@@ -16,7 +16,7 @@ export async function paramsOfToml(toml: string, drawn?: string): Promise<{ para
   }
   const answer = await call('scenario', toml);
   if (answer.error) return { problem: `${answer.error.line ? `Line ${answer.error.line}: ` : ''}${answer.error.key ? `${answer.error.key}: ` : ''}${sentence(answer.error)}` };
-  const params: Params = { 'friction.law': 'none' }; // what the program takes where a file is silent
+  const params: Params = { 'friction.law': 'none' }; // the default of the program
   for (const { key, value } of answer.keys) params[key] = value;
   params['initial.stress_left'] ??= '0';
   params['initial.stress_right'] ??= '0';
@@ -26,7 +26,7 @@ export async function paramsOfToml(toml: string, drawn?: string): Promise<{ para
   return { params };
 }
 
-/** Rows "x,stress" of a CSV file, as the address has them. */
+/** Rows "x,stress" of a CSV file in the form of the address. Null if the file is not such a table. */
 export function drawnOfCsv(text: string): string | null {
   const rows = text.split(/\r?\n/).filter((line) => line.trim()).map((line) => line.split(/[,;\t]/).map((cell) => cell.trim().replace(/^"|"$/g, '')));
   const head = rows.shift()?.map((name) => name.toLowerCase()) ?? [];
@@ -38,25 +38,25 @@ export function drawnOfCsv(text: string): string | null {
 
 let lastCsv: string | undefined;
 
-/** Takes what was pasted or dropped; returns what is wrong with it. */
+/** Uses pasted or dropped texts. Returns an error message, or an empty text. */
 export async function take(texts: { name: string; text: string }[], panel: string): Promise<string> {
   for (const { name, text } of texts.filter((one) => one.name.endsWith('.csv'))) {
     const drawn = drawnOfCsv(text);
-    if (!drawn) return `${name} is no table of a stress. Allowed: columns x and stress, two rows or more, numbers.`;
+    if (!drawn) return `${name} is not a stress table. Allowed: columns x and stress with numbers, two rows or more.`;
     lastCsv = drawn;
   }
   const toml = texts.find((one) => !one.name.endsWith('.csv'));
   if (!toml) {
     if (!lastCsv) return 'Nothing to read. Allowed: a scenario (.toml) or a stress table (.csv).';
     go(panel, { ...route.value.params, 'initial.profile': 'table', drawn: lastCsv });
-    announce('Stress table taken');
+    announce('Stress table loaded');
     return '';
   }
   if (toml.text.length > 200000) return `${toml.name} is too long for a scenario. Allowed: a TOML text of up to 200 kB.`;
   const { params, problem } = await paramsOfToml(toml.text, lastCsv);
   if (problem) return problem;
   go(panel, params!);
-  announce('Scenario taken');
+  announce('Scenario loaded');
   return '';
 }
 
@@ -88,7 +88,7 @@ export function Exchange({ command }: { command: string }) {
         {table && <button type="button" onClick={() => save('stress.csv', csvOfTable(table), 'text/csv')}>Save stress.csv</button>}
         <label class="button">Open file<input type="file" accept=".toml,.csv" multiple onChange={(e) => files(e.currentTarget.files)} /></label>
       </p>
-      <p>The program gives the same numbers{table ? ' (with stress.csv beside the scenario)' : ''}:</p>
+      <p>The program gives the same numbers{table ? ' (with stress.csv in the folder of the scenario)' : ''}:</p>
       <p class="command"><code>{line}</code> <button type="button" onClick={() => copy(line, 'command')}>Copy</button></p>
     </details>
   );

@@ -1,10 +1,10 @@
-/** Controls of a form. Each has its label, its allowed values as the module states them, and its complaint beside it. */
+/** Controls of a form. Each has its label and, next to it, the error and the allowed values that the module reports. */
 
 import type { ComponentChildren } from 'preact';
 import { useEffect, useId, useState } from 'preact/hooks';
 import type { Complaint } from '../engine/protocol';
 
-/** The sentence beside a field. */
+/** The error sentence next to a field. */
 export function sentence(error: Complaint | undefined): string {
   if (!error) return '';
   const problem = error.problem || error.message;
@@ -12,13 +12,13 @@ export function sentence(error: Complaint | undefined): string {
   return error.allowed ? `${start}. Allowed: ${error.allowed}.` : `${start.replace(/\.$/, '')}.`;
 }
 
-/** Why a scenario cannot run, beside its pictures: a complaint may be about a key that has no field. */
+/** The reason why a scenario cannot run, shown above its pictures, because the error may be in a key that has no field. */
 export function CannotRun({ error, shown }: { error?: Complaint; shown: boolean }) {
   if (!error) return null;
-  return <p class="busy error" role="status">This scenario cannot run. {error.key ? `${error.key}: ` : ''}{sentence(error)}{shown ? ' The picture is the last one that could.' : ''}</p>;
+  return <p class="busy error" role="status">This scenario cannot run. {error.key ? `${error.key}: ` : ''}{sentence(error)}{shown ? ' The picture shows the last one that could.' : ''}</p>;
 }
 
-/** Whether a complaint is about this key. */
+/** The error if it is in this key, else undefined. */
 export const about = (error: Complaint | undefined, key: string) => (error && error.key === key ? error : undefined);
 
 interface FieldProps {
@@ -49,7 +49,7 @@ function valueAt(place: number, { least, most, log }: NumberProps): string {
   return String(+value.toPrecision(3));
 }
 
-/** A number by slider or by typing: the slider has the usual range, the box takes whatever is allowed. */
+/** A number that the user sets by a slider or by typing. The slider has the usual range, the box accepts any allowed number. */
 export function NumberField(props: NumberProps) {
   const { label, value, onInput, hint, error } = props;
   const id = useId();

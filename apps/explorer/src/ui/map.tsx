@@ -1,4 +1,4 @@
-/** A field over place and time as a picture, with the fronts on it. */
+/** A picture of a field over x and t, with the fronts on it. */
 
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { color, ramp, theme } from './colors';
@@ -13,7 +13,7 @@ export interface Field {
   name: string;
   x: ArrayLike<number>;
   t: ArrayLike<number>;
-  /** One row of x after the other. */
+  /** All x at the first time, then all x at the next time, and so on. */
   values: ArrayLike<number>;
   xLabel: string;
   tLabel: string;
@@ -27,7 +27,7 @@ export interface Field {
 
 const margin = { left: 58, right: 14, top: 6, bottom: 44 };
 
-/** The field alone, a pixel for each value: made once, however often lines move over it. */
+/** The field without lines, one pixel per value. It is drawn only once, although the lines move over it often. */
 interface Picture {
   of?: ArrayLike<number>;
   theme?: number;

@@ -140,7 +140,7 @@ function optionsOf(spec: () => Spec, width: number, height: number, moved: (i: n
   };
 }
 
-/** What stands at one place of the curves, as a sentence. */
+/** The values of all curves at one x, as a sentence. */
 function readout(spec: Spec, i: number): string {
   if (!spec.x.length) return '';
   return `${spec.xLabel}: ${short(spec.x[i])}; ${spec.series.map((s) => `${s.label}: ${short(s.y[i])}`).join('; ')}`;

@@ -1,11 +1,11 @@
-/** What a plot shows, apart from how it is drawn: on the screen, as SVG, as CSV and as a table. */
+/** The contents of a plot, which the page draws on the screen and exports as SVG, CSV and a table. */
 
 import { short } from './format';
 
 export interface Series {
   label: string;
   y: ArrayLike<number>;
-  /** The name of a colour of the style sheet, without its dashes. */
+  /** The name of a colour of the style sheet, without the leading dashes. */
   color: string;
   dash?: number[];
   width?: number;
@@ -25,7 +25,7 @@ export interface Point {
   label: string;
   color: string;
   chosen?: boolean;
-  /** Half-width of an interval, from and to. */
+  /** The two ends of an interval. */
   xInterval?: [number, number];
 }
 export interface Vertical {
@@ -34,7 +34,7 @@ export interface Vertical {
   color: string;
 }
 export interface Spec {
-  /** For files: "slip-velocity". */
+  /** Name for files, such as "slip-velocity". */
   name: string;
   title: string;
   x: ArrayLike<number>;
@@ -55,7 +55,7 @@ const finite = (value: number) => Number.isFinite(value);
 export const on = (value: number, log?: boolean) => (log ? (value > 0 ? Math.log10(value) : NaN) : value);
 export const off = (value: number, log?: boolean) => (log ? 10 ** value : value);
 
-/** The range of an axis in its own coordinate, a logarithm where it is logarithmic. */
+/** The range of an axis. On a logarithmic axis it is that of the decimal logarithm. */
 export function rangeOf(spec: Spec, axis: 'x' | 'y'): [number, number] {
   const log = axis === 'x' ? spec.xLog : spec.yLog;
   const given = axis === 'x' ? spec.xRange : spec.yRange;
@@ -82,7 +82,7 @@ export function rangeOf(spec: Spec, axis: 'x' | 'y'): [number, number] {
   return [least >= 0 && least < 0.3 * most ? 0 : least - room, most + room];
 }
 
-/** Even ticks at 1, 2 or 5 times a power of ten; whole decades on a logarithmic axis that spans enough of them. */
+/** Evenly spaced ticks at 1, 2 or 5 times a power of ten. A logarithmic axis over more than two decades has whole decades. */
 export function ticks([least, most]: [number, number], about: number, log?: boolean): number[] {
   const rough = (most - least) / Math.max(1, about);
   const power = 10 ** Math.floor(Math.log10(rough));
@@ -95,7 +95,7 @@ export function ticks([least, most]: [number, number], about: number, log?: bool
 
 export const tickText = (tick: number, log?: boolean) => (log ? short(10 ** tick, 3).replace(/^1·/, '') : short(tick, 6));
 
-/** Columns of the table and of the CSV. */
+/** Columns of the table and of the CSV file. */
 export function columns(spec: Spec): { head: string[]; rows: (number | string)[][] } {
   const head = [spec.xLabel, ...spec.series.map((series) => series.label)];
   const rows: (number | string)[][] = [];

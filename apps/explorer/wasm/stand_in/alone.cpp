@@ -1,5 +1,5 @@
 /// \file
-/// What the library asks of a machine, where there is one thread and the memory that a page may have.
+/// The machine functions of the library for a web page, which has one thread and limited memory.
 
 #include "foundation/machine.hpp"
 #include "foundation/parallel.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Included before every file of this build: what the C++ library of emscripten 3.1 lacks, std::bit_cast and numbers to
-/// and from text.
+/// Functions that the C++ library of emscripten 3.1 lacks: std::bit_cast, and conversion of numbers to and from text.
+/// The build includes this file before every other file.
 
 #include <charconv>
 #include <cmath>
@@ -21,8 +21,8 @@ inline to_chars_result to_chars(char* first, char* last, double value, chars_for
   return {first + length, errc{}};
 }
 
-/// The shortest form that reads back as the same number, up to 17 digits: as a decimal number, or with an exponent
-/// where that is shorter.
+/// The shortest form that reads back as the same number, with up to 17 digits. It has an exponent only if that is
+/// shorter than the decimal form.
 inline to_chars_result to_chars(char* first, char* last, double value) {
   char scientific[32], decimal[64];
   int digits = 1;
@@ -44,12 +44,12 @@ inline to_chars_result to_chars(char* first, char* last, double value) {
   return {first + length, errc{}};
 }
 
-/// For toml++, which names this form but is never asked here for a number in hexadecimal.
+/// toml++ refers to this overload, but we never ask it for a hexadecimal number.
 inline to_chars_result to_chars(char* first, char* last, double value, chars_format) {
   return to_chars(first, last, value);
 }
 
-/// A decimal number as std::from_chars reads it: no leading blank or plus, no hexadecimal form.
+/// Reads a decimal number like std::from_chars: without a leading blank or plus sign, and not in hexadecimal form.
 inline from_chars_result from_chars(const char* first, const char* last, double& value,
                                     chars_format = chars_format::general) {
   char text[512];

@@ -1,6 +1,6 @@
 /// \file
-/// In place of scenario/formula.cpp, whose parser is a library of the system: the same formulas, by recursive descent.
-/// What is wrong with a text is found before, by scan_formula, but for its grammar.
+/// Replaces scenario/formula/formula.cpp, whose parser is a library of the system. It reads the same formulas by
+/// recursive descent. scan_formula finds other errors before; this parser reports only errors of grammar.
 
 #include "scenario/formula/formula.hpp"
 
@@ -23,7 +23,7 @@ using Node = std::function<double(const Place&)>;
 
 struct Operator {
   std::string_view sign;
-  int rank;  ///< higher binds first
+  int rank;  ///< precedence: higher binds first
   double (*apply)(double, double);
 };
 constexpr Operator operators[] = {
@@ -59,7 +59,7 @@ class Reader {
     const bool ends = skip() >= text_.size();
     const std::string token(1, ends ? ' ' : text_[at_]);
     throw InputError(
-        {.problem = ends ? "ends too early" : "'" + token + "' cannot stand at character " + std::to_string(at_ + 1),
+        {.problem = ends ? "ends too early" : "'" + token + "' is not allowed at character " + std::to_string(at_ + 1),
          .allowed = "a formula such as max(0, 1 - x^2)"});
   }
   std::size_t skip() {

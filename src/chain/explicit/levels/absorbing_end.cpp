@@ -11,13 +11,13 @@ namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
 
-/// A train of dislocations at a position where its displacement is u: u_x^2 = 4 C (sinh^2 psi + sin^2(u / 2)),
-/// C = a^2 cosh^2 phi (Eq. 4), hence u_xx = C sin u.
+/// The slope of a train of dislocations as a function of its displacement u (Eq. 4):
+///     u_x^2 = 4 C (sinh^2 psi + sin^2(u / 2)),    C = a^2 cosh^2 phi,    hence u_xx = C sin u.
 struct Profile {
   double C, sinh_psi;
 
   double slope(double u) const { return -2 * std::sqrt(C) * std::hypot(sinh_psi, std::sin(u / 2)); }
-  /// What u changes by over a distance of a spacing or less, to its fifth power.
+  /// The change of u over a distance of at most a spacing, by a Taylor series to the fifth power of the distance.
   double change(double u, double distance) const {
     const double s = C * std::sin(u), c = C * std::cos(u), first = slope(u), first2 = first * first;
     const double fourth = s * (c - first2), fifth = first * (c * (c - first2) - 3 * s * s);
@@ -26,15 +26,15 @@ struct Profile {
   }
 };
 
-/// The steps in which shocks are tabled.
+/// The values of phi for which shocks are tabulated; they are evenly spaced in ln phi.
 constexpr double least_phi = 1e-12, most_phi = 2.7;
 constexpr int phi_steps = 400;
 const double log_step = std::log(most_phi / least_phi) / phi_steps;
 
-/// (p - p0)(l - l0) + U M of a state against the train at rest with psi0: 0 behind a shock (docs/theory.md 3.4).
+/// (p - p0)(l - l0) + U M for a state next to the train at rest with psi0. It is 0 behind a shock (docs/theory.md 3.4).
 double jump(double phi, double psi, double psi0) {
   const elliptic::AtPsi at = elliptic::at_psi(psi), at0 = elliptic::at_psi(psi0);
-  const double rise = 2 * std::sinh(psi - psi0) * std::sinh(psi + psi0);  // 2 sinh^2 psi less that of psi0
+  const double rise = 2 * std::sinh(psi - psi0) * std::sinh(psi + psi0);  // 2 sinh^2 psi minus 2 sinh^2 psi0
   const double l = 2 * at.K / (std::cosh(phi) * std::cosh(psi)), l0 = 2 * at0.K / std::cosh(psi0);
   return rise * (l - l0) + std::tanh(phi) * 8 * std::sinh(phi) * std::cosh(psi) * at.E;
 }
@@ -45,7 +45,7 @@ std::shared_ptr<const std::vector<double>> AbsorbingEnd::shocks_into(double psi0
   std::vector<double> gains;
   for (int i = 0; i <= phi_steps; ++i) {
     const double phi = least_phi * std::exp(i * log_step);
-    double low = 0, high = phi;  // a fan would gain phi
+    double low = 0, high = phi;  // psi - psi0 would be phi in a fan
     for (int k = 0; k < 60 && jump(phi, psi0 + high, psi0) < 0; ++k) {
       const double middle = (low + high) / 2;
       (jump(phi, psi0 + middle, psi0) > 0 ? low : high) = middle;
@@ -70,16 +70,16 @@ double AbsorbingEnd::displacement(double z) const {
   return u;
 }
 
-/// Velocity of the dislocations next to the end: each passes with u_t = -U u_x. 0 where there are none.
+/// Velocity U of the dislocations next to the end, from u_t = -U u_x. It is 0 if there are none.
 double AbsorbingEnd::velocity_of_train(const double* now, const double* next) const {
-  // From the second site on: the end itself has no next level yet.
+  // The sum begins at the second site from the end, because the end itself has no next level yet.
   double risen = 0, passed = 0;
   for (std::size_t i = 2; i <= reach; ++i) {
     const std::ptrdiff_t j = -outward * static_cast<std::ptrdiff_t>(i);
     risen += (next[j] - now[j]) * h / dt;
     passed += ((now[j - 1] + next[j - 1]) - (now[j + 1] + next[j + 1])) / 4;
   }
-  constexpr double few = 0.1;  // of a dislocation
+  constexpr double few = 0.1;  // a fraction of a dislocation; with fewer, U tends to 0
   const double U = risen * passed / (passed * passed + few * few);
   return std::fmax(-0.99, std::fmin(0.99, U));
 }
@@ -88,7 +88,8 @@ AbsorbingEnd::Step AbsorbingEnd::step(const double* now, const double* next) con
   const double z = turn * now[0], inner = turn * now[-outward], u = displacement(z);
   if (!(psi0 > 0)) {  // there is no train outside
     const double gained = dt / h * (inner - z), after = displacement(z + gained);
-    // The flux at the end itself, from slopes to second order: half a spacing inwards would be first order.
+    // The flux at the end uses one-sided slopes of second order. The slope half a spacing inwards would be of first
+    // order.
     const auto falls = [&](const double* level, double at_end) {
       return (4 * displacement(turn * level[-outward]) - 3 * at_end - displacement(turn * level[-outward - outward])) /
              (2 * h);

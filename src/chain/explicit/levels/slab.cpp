@@ -8,7 +8,7 @@ namespace {
 
 void copy(const double* from, double* to, std::size_t count) { std::memcpy(to, from, count * sizeof(double)); }
 
-/// Asks for sites of the next tile while this one is computed, a share each level.
+/// Asks the processor to load some sites of the next tile into its cache while it computes this one.
 void prefetch(const double* sites, std::size_t count) {
 #if defined(__GNUC__)
   for (std::size_t j = 0; j < count; j += 8) __builtin_prefetch(sites + j, 1, 2);
@@ -49,13 +49,13 @@ struct LevelAtEnd {
   const double *now, *y;
   double* next;
 
-  /// Energy that leaves.
+  /// Steps an absorbing end, and returns the energy that leaves.
   double absorb(const AbsorbingEnd& end, std::size_t j) const {
     const AbsorbingEnd::Step step = end.step(now + j, next + j);
     next[j] = step.next;
     return step.outflow;
   }
-  /// Across the seam: the site to the left of the first is the last, higher by a turn for each dislocation.
+  /// The site to the left of the first is the last, across the seam. We add a turn to it for each dislocation.
   void first_of_chain(std::size_t j, double bare) const { next[j] = bare + spread * ((y[j - 1] + turns) + y[j + 1]); }
   void last_of_chain(std::size_t j, double bare) const { next[j] = bare + spread * (y[j - 1] + (y[j + 1] - turns)); }
 };
@@ -102,7 +102,7 @@ void mend_right(const EndConditions& s, const EndSites& bare, const LevelAtEnd& 
   }
 }
 
-constexpr std::size_t pad = lanes;  // y is read one site outside the tile and its halos
+constexpr std::size_t pad = lanes;  // the second loop reads y one site outside the tile and its halos
 constexpr std::size_t tile_begin = pad + halo;
 
 }  // namespace
@@ -122,14 +122,15 @@ void Slab::advance(const LevelRule& rule, std::size_t count, std::size_t tile) {
   copy(old() - halo, tile_.left_old.data(), halo);
   for (std::size_t from = 0, width = 0; from < size_; from += width) {
     width = std::min(tile, size_ - from);
-    // The last tile is no smaller than a halo, so that the end of the chain is in no other tile's halo.
+    // The last tile is at least as wide as a halo, so that the end of the chain is in no other tile's halo.
     if (from + width < size_ && size_ - from - width < halo) width -= halo;
     load(from, width);
     advance_tile(rule, count, tile, from, width);
   }
 }
 
-/// Copies `width` sites and their halos from both levels, and keeps the sites left of the next tile.
+/// Copies `width` sites and their halos from both levels, and stores the sites left of the next tile, which this tile
+/// will overwrite.
 void Slab::load(std::size_t from, std::size_t width) {
   double *const z = tile_.now.data(), *const old_z = tile_.next.data();
   copy(tile_.left_now.data(), z + pad, halo);
@@ -148,7 +149,8 @@ void Slab::advance_tile(const LevelRule& rule, std::size_t count, std::size_t ti
   EndConditions ends = ends_;
   if (from > 0) ends.left = EndCondition::joined;
   if (from + width < size_) ends.right = EndCondition::joined;
-  // Where there is a halo the range shrinks by a site a level; rounded outwards to whole vectors, never past the pad.
+  // On a side with a halo, the range shrinks by one site at each level. We round it outwards to whole vectors, which
+  // never exceed the pad.
   const std::size_t share = (std::min(tile, size_ - from - width) / count + lanes) / lanes * lanes;
   for (std::size_t level = 0; level < count; ++level) {
     if (from + width < size_) {
