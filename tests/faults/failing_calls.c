@@ -1,13 +1,12 @@
-/* Makes the n-th call of a kind fail, as it would if memory ran out, or if a disk were full or broken. Preload it:
+/* Makes the n-th call of a kind fail, as if memory ran out, or the disk were full or broken. Preload this library:
      LD_PRELOAD=libfailing_calls.so FAIL_CALL=malloc FAIL_AT=3 program ...
-   FAIL_CALL   kind of call: malloc (with calloc, realloc and the aligned ones), open, write, fsync, rename or close
-   FAIL_AT     number of the call that fails, from 1
-   FAIL_ON     if set, all later calls fail too, as on a disk that stays full
-   FAIL_LEAST  size in bytes; smaller allocations neither count nor fail
-   FAIL_TRACE  file that gets a line for each call, if no call shall fail: its number, and a hash of its call stack
-   FAIL_REPORT file that gets the number of counted calls, and "failed" if one has failed
-   A program may also call fail_calls(kind, n), which counts from then on. Calls on standard input, output and error
-   count if they use these functions. The internal calls of stdio do not count. */
+   FAIL_CALL   malloc (also calloc, realloc and the aligned ones), open, write, fsync, rename, close
+   FAIL_AT     number of the call that fails, from 1. With FAIL_ON=1 all later calls fail too, as on a full disk.
+   FAIL_LEAST  smallest allocation that is counted and may fail, in bytes
+   FAIL_TRACE  file that gets a line for each call if no call is to fail: its number, and a hash of its stack
+   FAIL_REPORT file that gets the number of counted calls, and "failed" if one of them failed
+   A program may call fail_calls(kind, n) to count from there. Calls on standard input, output and error count like
+   others if they use these functions; those within stdio do not. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -27,15 +26,15 @@ extern void* __libc_calloc(size_t, size_t);
 extern void* __libc_realloc(void*, size_t);
 extern void* __libc_memalign(size_t, size_t);
 
-/* The state is shared with the processes that this one forks. The n-th call of all of them fails. */
+/* All forked processes share this state, so the n-th call of all processes together fails. */
 struct state {
   char wanted[16];
   long fail_at, seen, failed;
 };
 static struct state before_mapping, *state = &before_mapping;
-static int counted; /* whether calls of this process count; forked processes inherit it, their parent does not get it */
+static int counted; /* whether calls of this process and its forks count; those of the waiting parent do not */
 static int fail_on;
-size_t least; /* smallest allocation that counts, in bytes */
+size_t least; /* smallest allocation that may fail */
 static int trace = -1;
 static __thread int tracing; /* backtrace allocates too */
 
@@ -92,10 +91,10 @@ static int fails(const char* kind) {
 }
 
 /* The OpenMP runtime (libgomp or libomp) ends the program if it gets no memory or cannot read /proc. The dynamic loader
-   does so if it gets no memory for thread-local data. The program cannot prevent either, so calls from these libraries
-   do not fail. The look-up of a caller is slow, so the answers are cached. */
+   does so if it gets no memory for thread-local data. Our program cannot prevent that, so these calls do not fail. A
+   search for the caller takes longer than most programs need between two calls, so we store the answers. */
 static int ends_the_program(const void* caller) {
-  static unsigned long answers[4096]; /* address of the caller; the lowest bit is the answer */
+  static unsigned long answers[4096]; /* the caller, and in the lowest bit the answer */
   static __thread int asking;
   if (asking || state->wanted[0] == 0) return 0;
   const unsigned long address = (unsigned long)caller << 1;
@@ -237,7 +236,7 @@ int rename(const char* from, const char* to) {
 }
 
 int close(int file) {
-  const int bad = fails("close"); /* the descriptor is closed nevertheless, as after a failed write-back */
+  const int bad = fails("close"); /* the descriptor is gone nevertheless, as after a write-back that failed */
   const int result = REAL(close)(file);
   if (!bad) return result;
   errno = EIO;

@@ -1,13 +1,12 @@
-"""One block whose contacts age and whose pores dilate, integrated without slipfront.
+"""One block whose contacts age and whose pores dilate, by another method than slipfront's.
 
     u'' + a2 sin u = F + kappa (v t - u) - (1 - p) f(u', theta)
     theta' = 1 - |u'| theta / D,    p' = -(p - p0) / tp + E (ln theta)',    a2 = (1 - p)^2 (1 + beta ln(1 + theta / theta_c))
     f = a asinh((w / 2 w0) exp((f0 + b ln(theta w0 / D)) / a))
 
-scipy's Radau integrates u, u', ln(theta) and p of a block on a substrate. For a block with friction only, it integrates
-the stretch of the spring, f, ln(theta) and p. The script prints the numbers that tests/chain/contacts_test.cpp expects.
-They are the critical stiffness with dilatancy, from the eigenvalues of steady sliding, limit cycles, and the motion of a
-block over its substrate.
+integrated by scipy's Radau in u, u', ln(theta) and p (where there is a substrate), and in the stretch, f, ln(theta) and p
+(where the block only rubs). Knows nothing of slipfront. Prints the numbers of tests/chain/contacts_test.cpp: critical
+stiffness with dilatancy by the eigenvalues of steady sliding, limit cycles, and the motion of a block over its substrate.
 
 Usage: contacts.py [TOLERANCE]      (default 1e-11)
 """
@@ -26,11 +25,11 @@ def friction(w, log_theta, f0=F0, a=A, b=B, w0=W0, d=D):
 
 
 def growth(kappa, v, E, tp, p0):
-    """Largest growth rate of a disturbance of sliding at v, from the eigenvalues of a Jacobian by finite differences."""
+    """Largest growth rate of a disturbance of sliding at v: the eigenvalues of the equations' Jacobian, by differences."""
     force = (1 - p0) * friction(v, np.log(D / v))
 
     def rates(y):
-        u, w, q, p = y  # u is the deviation from steady sliding
+        u, w, q, p = y  # u is that beyond steady sliding
         heals = np.exp(-q) - w / D
         drained = -(p - p0) / tp if np.isfinite(tp) else 0
         return np.array([w - v, force - kappa * u - (1 - p) * friction(w, q), heals, drained + E * heals])
@@ -45,17 +44,17 @@ def critical_stiffness(v, E, tp, p0):
     low, high = 1e-6, 1.0
     for _ in range(100):
         kappa = np.sqrt(low * high)
-        # The tolerance is above 0, because pores that never drain have a disturbance that neither grows nor decays.
+        # pores that never drain have a neutral disturbance of their own
         low, high = (kappa, high) if growth(kappa, v, E, tp, p0) > 1e-11 else (low, kappa)
     return np.sqrt(low * high)
 
 
 def cycle(kappa, E, tp, p0=0.0, v=V, end=None):
-    """The last two periods, the largest velocity and the smallest p of the limit cycle."""
+    """Period, largest velocity, and least p of the limit cycle."""
     scale = lambda q: 2 * W0 * np.exp(-(F0 + B * (q + np.log(W0 / D))) / A)
 
     def slope(t, y):
-        stretch, s, q, p = y  # the friction is a s
+        stretch, s, q, p = y  # friction a s
         at = scale(q)
         w = at * np.sinh(s)
         heals = np.exp(-q) - abs(w) / D
@@ -73,7 +72,7 @@ def cycle(kappa, E, tp, p0=0.0, v=V, end=None):
 
 
 def block(F, beta, theta_c, E, tp, p0, law, times, start=(0.0, 0.0)):
-    """u, u', theta and p of a block that moves over its substrate."""
+    """u, u', theta and p of a block over its substrate."""
     f0, a, b, d, w0 = law
 
     def slope(t, y):

@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""Compares the posterior of `slipfront event` with that of emcee (affine-invariant ensemble) for the same density.
+"""The posterior of `slipfront event` by another sampler: emcee (affine-invariant ensemble) on the same density.
 
 Usage: emcee_posterior.py SLIPFRONT COEFFICIENTS     (src/friction_ratio/coefficients.cpp)
 Exit codes: 0 medians and 5/95 % points agree within Monte Carlo error; 1 they do not; 77 emcee is not installed.
 
-The script uses nothing of the library. It computes Eqs. (8-10) with scipy's elliptic integrals, and evaluates the friction
-ratio from the table in COEFFICIENTS with numpy.
+The relations of Eqs. 8-10 are those of scipy's elliptic integrals, the friction ratio is evaluated from the shipped table
+by numpy; nothing of the library is used.
 """
 
 import json
@@ -55,7 +55,7 @@ def sound_speed(psi):
 
 
 def closed_form(V):
-    """Sigma- and W(0) without friction, for the rupture velocity V in units of c."""
+    """Sigma- and W(0) without friction at rupture velocity V (in c)."""
     psi = brentq(lambda x: np.log(sound_speed(np.exp(x)) / V), -70, 3)
     psi = np.exp(psi)
     stress = np.pi * np.cosh(psi) / ellipkm1(np.tanh(psi) ** 2)
@@ -65,7 +65,7 @@ def closed_form(V):
 
 
 def ln_ratio(coefficients, corner, stress, u):
-    """ln of the friction ratio, for arrays of states."""
+    """Of arrays of states."""
     y = (2 * stress / (1 + stress) - STRESS.sum()) / (STRESS[1] - STRESS[0])
     ends = np.tile(ENDS, (len(y), 1))
     if corner[0] != 0:
@@ -81,14 +81,14 @@ def ln_ratio(coefficients, corner, stress, u):
 
 
 def sampled(event, coefficients, corners):
-    """Samples with emcee. Returns the 5, 50 and 95 % points of ln A and ln(1 + Gamma), and their Monte Carlo errors."""
+    """5, 50, 95 % of A and Gamma by emcee, and the Monte Carlo error of each in units of ln."""
     _, measure, (V0, sd), (w0, w_factor), (A0, A_factor) = event
     grid = np.linspace(np.log(max(V0 - 6 * sd, V0 / 30)), np.log(min(V0 + 6 * sd, 0.97 * C_SPEED)), 400)
     forms = np.array([closed_form(np.exp(v) / C_SPEED) for v in grid])
     index = ["origin", "mean", "peak", "time-mean"].index(measure)
 
     def ln_density(states):
-        """The ln of the density, for all states of a step of the ensemble at once."""
+        """Of all states of a step of the ensemble at once."""
         ln_V, ln_A, u = states.T
         allowed = (grid[0] < ln_V) & (ln_V < grid[-1]) & (np.log(1e-8) < ln_A) & (ln_A < np.log(PLASTIC)) & (0 < u) & (u < ENDS[-1])
         density = np.full(len(states), -np.inf)
@@ -128,7 +128,7 @@ def main(program, path):
         for row, key, scale in ((0, "contact_ratio", np.log), (1, "damping_number", np.log1p)):
             mine = scale([p[key + "_interval"][0], p[key], p[key + "_interval"][1]])
             spread = points[row][2] - points[row][0]
-            allowed = 4 * errors[row] + 0.01 * spread  # error of emcee; that of slipfront's 20,000 samples is below 1 %
+            allowed = 4 * errors[row] + 0.01 * spread  # Monte Carlo error of emcee; ours with 20,000 samples is below 1 %
             off = np.abs(mine - points[row])
             good &= bool(np.all(off <= allowed))
             print(f"{event[0]:16} {key:15} ln: ours {np.round(mine, 3)}  emcee {np.round(points[row], 3)}  off {np.round(off, 3)}"

@@ -1,11 +1,8 @@
-"""The Peierls-Nabarro barrier of the chain's grid, and of the lattice.
+"""The Peierls-Nabarro barrier of the chain's grid, and of the lattice: a dislocation at rest centred on a site has more energy
+than one between two sites; F = (difference) / (2 h) is the force that moves it over (src/chain/model/barrier.hpp).
 
-A dislocation at rest has more energy if its centre is on a site than if it is between two sites. The force
-F = (difference) / (2 h) moves it over this barrier (src/chain/model/barrier.hpp).
-
-At rest the diamond rule reads d2 u / h^2 = (1 + d2 / 12) sin u, and the lattice d2 u / h^2 = sin u. The script solves
-these equations by Newton's method with 40 digits, because the barrier is far below the error of h^4 in the energy itself.
-It prints a table, and takes a minute.
+At rest the diamond rule reads d2 u / h^2 = (1 + d2 / 12) sin u, the lattice d2 u / h^2 = sin u. Solved by Newton's method
+with 40 digits: the barrier is far below the error of h^4 in the energy itself. Prints a table; takes a minute.
 
 Usage: grid_barrier.py [SPACING]...
 """
@@ -18,7 +15,7 @@ mp.mp.dps = 40
 
 
 def tridiagonal(lower, middle, upper, right):
-    """Solves a tridiagonal system. Overwrites `middle` and `right`, and returns the solution in `right`."""
+    """Solves in place."""
     for j in range(1, len(right)):
         ratio = lower[j] / middle[j - 1]
         middle[j] -= ratio * upper[j - 1]
@@ -29,7 +26,7 @@ def tridiagonal(lower, middle, upper, right):
 
 
 def energy(h, share, between):
-    """The energy of a dislocation between two sites, or on a site. share is 1/12 for the diamond rule, 0 for the lattice."""
+    """Of a dislocation between two sites, or on one; share = 1/12 for the diamond rule, 0 for the lattice."""
     half = int(60 / h)
     sites = [j + mp.mpf(1) / 2 for j in range(-half - 1, half + 1)] if between else list(range(-half, half + 1))
     u = [4 * mp.atan(mp.exp(-j * h)) for j in sites]
@@ -40,7 +37,7 @@ def energy(h, share, between):
         error = [(a[j] - 2 * a[j + 1] + a[j + 2]) / h**2 - s[j + 1] - share * (s[j] - 2 * s[j + 1] + s[j + 2]) for j in range(n)]
         beside = [1 / h**2 - share * c for c in cosine]
         change = tridiagonal([0, *beside[:-1]], [-2 / h**2 - (1 - 2 * share) * c for c in cosine], [*beside[1:], 0], [-e for e in error])
-        odd = [(change[j] - change[n - 1 - j]) / 2 for j in range(n)]  # u equals 2 pi minus its mirror image
+        odd = [(change[j] - change[n - 1 - j]) / 2 for j in range(n)]  # u is 2 pi less its mirror image
         u = [v + d for v, d in zip(u, odd)]
         if max(map(abs, odd)) < mp.mpf(10) ** -34:
             break

@@ -1,16 +1,16 @@
 #!/usr/bin/python3
 """Makes the high-precision reference tables of slipfront's tests: make_tables.py [table ...] [--out DIR].
 
-Inputs are exact doubles, printed so that they read back as the same double. Results are computed from the exact value
-of the double (oracle.py), at two precisions that must agree to 28 digits, and printed to 25 digits. Most tables are
-also checked with a second method while they are made. A failed check stops the script.
+Inputs are exact doubles, printed so that they read back as the same double; results are computed from the double's
+exact value (oracle.py), at two precisions that must agree to 28 digits, and printed to 25. Every table is also
+checked against a second route, where there is one, as it is made: a failed check stops the script.
 """
 import argparse
 import math
 import pathlib
 import random
 import sys
-sys.dont_write_bytecode = True  # this folder must hold only sources and tables
+sys.dont_write_bytecode = True  # the tables' folder holds sources and tables only
 from mpmath import (asinh, atanh, cos, ellipe, ellipk, exp, log, mp, mpf, nstr, pi, quad, sech, sin, sinh, sqrt, tanh)
 from oracle import (DIGITS, amplitude, averages_by_formula, averages_by_quadrature, carlson_rf, complete, psi_of,
                     psi_of_stress, pulse, rapidity, riemann, slip_velocity, twice)
@@ -21,7 +21,7 @@ def decades(exponents):
 
 
 def table_complete():
-    """K and E as functions of m1. mpmath's ellipk and ellipe check them, with the digits that 1 - m1 needs."""
+    """K and E against m1; the AGM is checked against mpmath's ellipk and ellipe at the digits that 1 - m1 takes."""
     values = decades(range(-308, -12, 4)) + [10**(-n / 4) for n in range(48, 0, -1)]
     values += [n / 100 for n in range(40, 61)] + [2.2250738585072014e-308, 3.7e-155, 7.3e-17, 0.9, 0.99, 0.999]
     values += [1 - 1e-6, 1 - 1e-9, 1 - 1e-12, 1 - 2.0**-52, 1 - 2.0**-53, 1.0]
@@ -36,7 +36,7 @@ def table_complete():
 
 
 def table_psi():
-    """K, E and the sound speed as functions of psi. The digits grow with psi, because 1 - c0 ~ exp(-4 psi) cancels."""
+    """K, E and the sound speed against psi: 1 - c0 ~ exp(-4 psi) cancels, so digits grow with psi."""
     def row(psi):
         psi = mpf(psi)
         k, e = complete(tanh(psi)**2)
@@ -50,7 +50,7 @@ def table_psi():
 
 
 def table_jacobi():
-    """am, sn, cn and dn. F(am) = z, with Carlson's R_F, checks each amplitude."""
+    """am, sn, cn, dn; each amplitude is checked by F(am) = z with Carlson's R_F."""
     def row(z, m1):
         n, rest = amplitude(mpf(z), mpf(m1))
         sign = 1 - 2 * (n % 2)
@@ -70,7 +70,7 @@ def table_jacobi():
 
 
 def table_train():
-    """Averages over one period, by quadrature and checked with the closed forms. For tiny psi, only by the latter."""
+    """Averages over one period: by quadrature, checked against the closed forms; by those alone at tiny psi."""
     rows = []
     for psi in [1e-6, 1e-3, .03, .2, .8, 1.5, 3.0]:
         for phi in [-2.0, -.5, -1e-3, 0.0, .03, .7, 3.0]:
@@ -86,7 +86,7 @@ def table_train():
 
 
 def relations(given, values, psi_of_value):
-    """Rows of pulse() for values of the column `given`. Each row repeats the exact input in this column."""
+    """Rows of pulse() for values of column `given`, which is replaced by the exact input."""
     rows = []
     for value in sorted(set(values)):
         row = twice(lambda: pulse(psi_of_value(mpf(value))))
@@ -131,21 +131,21 @@ RIEMANN_CASES = [
     (-.1, .2, .1, .2), (-.05, .5, .5, .3), (-1.0, 1.5, 1.0, 2.0), (-1.5, .3, -1.2, .05),  # two fans
     (0.0, 1.5, 0.0, 1e-9), (0.0, 3.0, 0.0, .01), (0.0, .03, 0.0, 1e-200), (2.0, 2.0, 1.5, 1e-4),  # strong shocks
     (0.0, 1e-9, 0.0, 1e-10), (1e-9, 1e-9, -1e-9, 2e-9), (-1e-9, 3e-9, 1e-9, 1e-9), (0.0, 1e-30, 0.0, 3e-31),
-    (0.0, 1e-200, 0.0, 1e-205), (.3, 1e-30, .3, 1e-31), (-.3, 1e-200, -.3, 1e-201),  # slow slip, also on a moving train
+    (0.0, 1e-200, 0.0, 1e-205), (.3, 1e-30, .3, 1e-31), (-.3, 1e-200, -.3, 1e-201),  # slow slip, also riding along
     (.7, .4, .5, .1), (1.0, .05, .9, .3), (-.05, .5, .3, .1),  # moving
     (0.0, .1, 0.0, .1 - 1e-9), (.2, .5, .2 + 1e-10, .5), (.2, .5, .2 - 1e-10, .5)]  # weak
 
 
 def solve_riemann(case):
     """One row of riemann.csv."""
-    digits = DIGITS + int(-2 * math.log10(min(case[1], case[3])))  # phi* - phi may be as small as psi
+    digits = DIGITS + int(-2 * math.log10(min(case[1], case[3])))  # phi* may differ from phi by as little as psi
     result = twice(lambda: riemann(*map(mpf, case)), digits)
     left, right = ("shock" if result[1] > psi else "fan" for psi in (case[1], case[3]))
     return [*case, *result[:4], left, *result[4:], right]
 
 
 def table_riemann():
-    """Exact Riemann problems of the (k, P) system. Each is followed by its mirror image, whose solution must mirror it."""
+    """Exact Riemann problems of the (k, P) system, each followed by its mirror image, which must mirror."""
     rows = []
     for stresses, printed in RIEMANN_PRINTED.items():
         psi_left, psi_right = (float(psi_of_stress(mpf(s))) for s in stresses)
@@ -166,7 +166,7 @@ def table_riemann():
             "right_tail,right_head,right_kind"), both
 
 
-FORCES = {  # law of a scenario: f(w, parameters, state variable), and the ranges from which the parameters are drawn
+FORCES = {  # law of a scenario: f(w, its parameters, memory), and how its parameters are drawn
     "n-shaped": (lambda w, v, _: v[0] * (w / v[1]) / (1 + (w / v[1])**2), [(.01, 3), (.01, 3)]),
     "flash-heating": (lambda w, v, _: v[1] + (v[0] - v[1]) / (1 + w / v[2]), [(.01, 3), (.01, 3), (.01, 3)]),
     "power": (lambda w, v, _: v[0] * w**v[1], [(.01, 3), (.5, 4)]),
@@ -177,10 +177,7 @@ FORCES = {  # law of a scenario: f(w, parameters, state variable), and the range
 
 
 def table_friction():
-    """Mean <f>_u of the force over slip, for random laws and trains, as doubles.
-
-    The substitution u / 2 = pi / 2 - gd(y) checks it.
-    """
+    """Mean of the force over slip, <f>_u, of random laws in random trains, as doubles; checked by u / 2 = pi / 2 - gd(y)."""
     draw = random.Random(15)
     log_uniform = lambda low, high: math.exp(draw.uniform(math.log(low), math.log(high)))
     rows = []
@@ -210,7 +207,7 @@ TABLES = {name.removeprefix("table_"): f for name, f in list(globals().items()) 
 
 
 def text(value):
-    """Doubles in their shortest round-trip form, results with 25 digits, and kinds of waves as they are."""
+    """Doubles shortest-roundtrip, results to 25 digits, kinds as they are."""
     if isinstance(value, mpf):
         return nstr(value, 25, min_fixed=1, max_fixed=0)  # always with an exponent
     return value if isinstance(value, str) else repr(value)
@@ -219,7 +216,7 @@ def text(value):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("table", nargs="*", help=", ".join(TABLES) + " (default: all)")
-    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path(__file__).parent, help="default: this folder")
+    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path(__file__).parent, help="default: beside me")
     arguments = parser.parse_args()
     if unknown := set(arguments.table) - set(TABLES):
         parser.error(f"no table {', '.join(sorted(unknown))}; there are {', '.join(TABLES)}")

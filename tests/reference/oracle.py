@@ -1,7 +1,6 @@
-"""The mathematics of the reference tables, at any precision: it uses only mpmath, plain formulas and enough digits.
+"""The mathematics behind the reference tables, at any precision: mpmath only, naive formulas, enough digits.
 
-This module shares nothing with the library. Functions take mpf and use the current working precision. Symbols are those
-of NOTATION.md, and
+Shares nothing with the library. Functions take mpf and work at the precision in force. Symbols: NOTATION, and
     phi, psi   U = tanh(phi), sqrt(m1) = tanh(psi);  m = 1 - m1 is the elliptic parameter, never the modulus
     rapidity   atanh(c0), c0 = tanh(psi) K / E: the sound speed in the frame of the train
 """
@@ -9,13 +8,13 @@ from collections import namedtuple
 from functools import lru_cache
 from mpmath import agm, asin, atanh, cos, cosh, exp, log, mp, mpf, nint, nstr, pi, sin, sinh, sqrt, tanh
 
-DIGITS = 60  # working digits if nothing cancels; the second pass of `twice` has 40 more
+DIGITS = 60  # working digits where nothing cancels; the second pass of `twice` has 40 more
 
 
 # --- arithmetic ------------------------------------------------------------------------------------------------
 
 def twice(compute, digits=DIGITS):
-    """Returns the list of numbers of compute(), evaluated at two precisions that must agree to 28 digits."""
+    """The list of numbers that compute() returns, evaluated at two precisions that must agree to 28 digits."""
     with mp.workdps(digits):
         first = compute()
     with mp.workdps(digits + 40):
@@ -26,7 +25,7 @@ def twice(compute, digits=DIGITS):
 
 
 def zero(f, a, b):
-    """Finds the zero of f between a and b by bracketed secants (Anderson & Bjorck), to a relative step of 1e-45."""
+    """The zero of f between a and b: bracketed secants (Anderson & Bjorck), until a step is below 1e-45 of itself."""
     fa, fb = f(a), f(b)
     assert fa * fb <= 0, "no sign change"
     for _ in range(300):
@@ -55,7 +54,7 @@ def complete(m1):
 
 
 def carlson_rf(x, y, z):
-    """Carlson's R_F(x, y, z) by duplication. It gives F and K without the arithmetic-geometric mean."""
+    """Carlson's R_F(x, y, z) by duplication: a second route to F and K, sharing nothing with the AGM."""
     a0 = a = (x + y + z) / 3
     dx, dy, scale = a0 - x, a0 - y, mpf(1)
     reach = max(abs(a0 - v) for v in (x, y, z)) * (3 * mp.eps)**(-mpf(1) / 6)
@@ -69,9 +68,9 @@ def carlson_rf(x, y, z):
 
 
 def amplitude(z, m1):
-    """Returns am(z) = n pi + rest as (n, rest), |rest| <= pi/2, by descending Landen (Abramowitz & Stegun 16.4).
+    """am(z) = n pi + rest as (n, rest), |rest| <= pi/2, by descending Landen (Abramowitz & Stegun 16.4).
 
-    It is ill-conditioned near quarter periods, so the caller works with -2.2 log10(m1) extra digits."""
+    Ill-conditioned near quarter periods: the caller works with -2.2 log10(m1) extra digits."""
     steps, a, b = [], mpf(1), sqrt(m1)
     n = nint(z * agm(1, b) / pi)
     z -= n * pi / agm(1, b)
@@ -98,8 +97,8 @@ def averages_by_formula(phi, psi):
 
 
 @lru_cache(maxsize=None)
-def train_samples(psi, digits):  # digits = mp.dps is a parameter, so that the cache distinguishes precisions
-    """(dn, am) at equidistant points of one period, on which the trapezoidal rule converges like exp(-n pi K'/K)."""
+def train_samples(psi, digits):  # digits = mp.dps, named so that the cache tells precisions apart
+    """(dn, am) at equidistant points of one period: the trapezoidal rule then converges like exp(-n pi K'/K)."""
     m1 = tanh(psi)**2
     ratio = agm(1, 1 / cosh(psi)) / agm(1, tanh(psi))  # K / K'
     count = 8 + int(digits * log(10) * ratio / pi)
@@ -109,7 +108,7 @@ def train_samples(psi, digits):  # digits = mp.dps is a parameter, so that the c
 
 
 def averages_by_quadrature(phi, psi):
-    """The averages as means over one period of the fields u = pi - 2 am, sigma = 2 beta dn, w = U sigma."""
+    """The same averages as means over one period of the fields u = pi - 2 am, sigma = 2 beta dn, w = U sigma."""
     u = tanh(phi)
     beta = 1 / sqrt((1 - tanh(psi)**2) * (1 - u * u))
     fields = [(2 * beta * dn, u * 2 * beta * dn, 1 - cos(pi - 2 * am)) for dn, am in train_samples(psi, mp.dps)]
@@ -137,7 +136,7 @@ def slip_velocity(psi0):
 
 
 def psi_of(condition, low=-720, high=2.4):
-    """Finds the psi at which a monotonic condition vanishes, by a search in log(psi)."""
+    """The psi at which a monotonic condition vanishes, sought in log(psi)."""
     return exp(zero(lambda x: condition(exp(x)), mpf(low), mpf(high)))
 
 
@@ -169,8 +168,8 @@ def make_state(phi, psi):
 
 
 def wave(outer, psi, side):
-    """The state with this psi that a wave connects to `outer`: the left (1-) wave for side = -1, the right (2-) for +1."""
-    if psi - outer.psi <= mpf(10)**-40 * psi:  # a fan, or a shock so weak that it equals one
+    """The state of given psi that a wave joins to `outer`; side = -1 the left (1-) wave, +1 the right (2-) wave."""
+    if psi - outer.psi <= mpf(10)**-40 * psi:  # a fan (a shock this weak does not differ from one)
         return make_state(outer.phi + side * (psi - outer.psi), psi)
     k_, e_ = complete(tanh(psi)**2)
 
@@ -184,7 +183,7 @@ def wave(outer, psi, side):
 
 
 def speeds(outer, star, side):
-    """Outermost and innermost speed of a wave, which are equal for a shock. Checks the jump and Lax conditions."""
+    """Outermost and innermost speed of a wave; for a shock they are one; jump and Lax conditions checked."""
     head, tail = (tanh(s.phi + side * rapidity(s.psi)) for s in (outer, star))
     if star.psi <= outer.psi:
         return head, tail

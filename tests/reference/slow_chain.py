@@ -1,11 +1,10 @@
-"""Solves the sine-Gordon equation by the simplest scheme, with which tests compare the library's chain:
+"""The sine-Gordon equation by the plainest scheme there is, a second opinion on the library's chain:
 
     u_tt - u_xx + a(x)^2 sin u = F - f(u_t)
 
-The scheme is leapfrog on a grid, of second order. Viscous friction uses the mean of old and new velocity, other laws the
-old one. The initial state is built dislocation by dislocation. Each gets the psi that belongs to its length times the
-local a(x); the library integrates a phase instead. Lengths and times of the scenario are multiplied by `scale`, friction
-and F divided by it.
+Leapfrog on a grid, friction by the mean of old and new velocity (viscous) or on the old one (other laws); second order.
+The first state is laid dislocation by dislocation, each with the psi of its own length times a(x) there; the library
+integrates a phase instead. Lengths and times are the scenario's, stretched by `scale`; friction and F divided by it.
 """
 
 import numpy as np
@@ -23,27 +22,23 @@ def psi_of_length(length):
 
 
 def one_dislocation(share, psi):
-    """Returns u of one dislocation at the fraction `share` of its length: u = pi - 2 am(K (2 share - 1)).
-
-    u falls from 2 pi at share = 0 to 0 at share = 1.
-    """
+    """u from 2 pi down to 0 over one dislocation, at shares 0 ... 1 of its length: u = pi - 2 am(K (2 share - 1))."""
     K = np.log(4 / psi) if psi < 1e-8 else float(ellipkm1(np.tanh(psi)**2))
     z = K * (2 * share - 1)
-    if psi < 1e-6:  # the dislocations are so far apart that each is a kink of the sine-Gordon equation
+    if psi < 1e-6:  # dislocations apart: the kink itself
         return np.pi - 2 * (2 * np.arctan(np.exp(z)) - np.pi / 2)
     return np.pi - 2 * ellipj(z, 1 / np.cosh(psi)**2)[3]
 
 
 def lay(x, number, contact):
-    """Returns u on the grid. The increasing function `number` is the number of dislocations to the left of x."""
+    """u on the grid where `number` is the number of dislocations left of each place, a function of x that ascends."""
     q = np.array([number(v) for v in x])
     u = np.empty_like(x)
     for j in range(int(np.floor(q[0])), int(np.floor(q[-1])) + 1):
         here = np.flatnonzero((q >= j) & (q < j + 1))
         if len(here) == 0:
             continue
-        # A dislocation ends where q is a whole number. The domain cuts the outermost dislocations, so we extrapolate
-        # their lengths from the local density.
+        # Its ends, where q is a whole number, seen from the grid; the outermost ones are cut by the domain.
         i = here[len(here) // 2]
         density = (q[min(i + 1, len(q) - 1)] - q[i - 1]) / (x[min(i + 1, len(x) - 1)] - x[i - 1]) if i > 0 else 0
         left, right = np.interp([j, j + 1], q, x)
@@ -54,7 +49,7 @@ def lay(x, number, contact):
 
 
 class SlowChain:
-    """A chain with fixed ends, which waves must not reach."""
+    """The ends are fixed: waves must not reach them."""
 
     def __init__(self, stress, left, right, scale, law="none", coefficient=0.0, exponent=1.0, forcing=None, contact=None,
                  spacing=0.1):
@@ -62,7 +57,7 @@ class SlowChain:
         self.C = coefficient / scale if law != "none" else 0.0
         self.forcing, self.contact = forcing, contact or (lambda x: 1 + 0 * x)
         sites = int(np.ceil((right - left) * scale / spacing))
-        self.x = np.linspace(left, right, sites + 1)  # in units of the scenario
+        self.x = np.linspace(left, right, sites + 1)  # in the scenario's unit
         self.h = (right - left) * scale / sites
         middle = (self.x[1:] + self.x[:-1]) / 2
         k = np.array([stress(v) for v in middle])
@@ -86,7 +81,7 @@ class SlowChain:
         return out
 
     def run(self, end):
-        """Returns the slip of the sites: the change of u, divided by the scale."""
+        """u at the end, less u at the start, over the scale: slip at the sites."""
         dt = 0.9 * self.h
         steps = int(np.ceil(end * self.scale / dt))
         dt = end * self.scale / steps

@@ -1,12 +1,11 @@
-"""An independent solver of the modulation equations per dislocation, with which tests compare the library.
+"""The modulation equations per dislocation, by another route than the library's: a second opinion for tests.
 
     x_t = U    M_t = -p_q + 2 pi F - friction - l <1 - cos u> (a^2)_x    p = 2 a^2 sinh^2 psi    q counts dislocations
     l = x_q = 2 K / (a cosh phi cosh psi)    M = 8 a sinh phi cosh psi E
 
-The grid is staggered. Positions x and momenta M belong to the faces between parcels, spacings and pressures to the
-parcels. The scheme uses central differences, an artificial viscosity at shocks (von Neumann & Richtmyer), and scipy's
-LSODA in time. It has second order where the solution is smooth. The library uses finite volumes, WENO, Riemann
-invariants and Rodas instead.
+Places x and momenta M live on the faces between parcels, spacing and pressure in the parcels between them: a staggered
+grid, plain central differences, an artificial viscosity at shocks (von Neumann & Richtmyer), and scipy's LSODA in time.
+The library has finite volumes, WENO, Riemann invariants and Rodas instead. Second order where smooth.
 """
 
 import numpy as np
@@ -16,23 +15,23 @@ from scipy.special import ellipe, ellipkm1
 
 _S, _WEIGHT = np.polynomial.legendre.leggauss(48)
 _S, _WEIGHT = (_S + 1) / 2, _WEIGHT / 2
-_SIN2 = np.sin(np.pi * _S**4 / 2)**2  # sin^2(u / 2) at points u in 0 ... pi that are densest at u = 0
-_WEIGHT = _WEIGHT * 4 * _S**3  # weights of the mean over u
+_SIN2 = np.sin(np.pi * _S**4 / 2)**2  # sin^2(u / 2) at points u in 0 ... pi that crowd at u = 0
+_WEIGHT = _WEIGHT * 4 * _S**3  # the mean over u
 
 
 class Unsuitable(ValueError):
-    """The slow solver does not support the scenario."""
+    """A scenario that the slow solver is not made for."""
 
 
 def complete(psi):
-    """K and E for the complementary parameter m1 = tanh^2 psi."""
+    """K and E of m1 = tanh^2 psi."""
     m1 = np.tanh(psi)**2
     K = np.where(psi < 1e-8, np.log(4 / np.maximum(psi, 1e-300)), ellipkm1(np.maximum(m1, 1e-300)))
     return K, ellipe(1 - m1)
 
 
 def find_psi(spacing, momentum, psi):
-    """Solves l sqrt(cosh^2 psi + (M / 8E)^2) = 2 K for the psi of parcels, in local units, by Newton's method in ln psi."""
+    """psi of parcels by Newton's method in ln psi: l sqrt(cosh^2 psi + (M / 8E)^2) = 2 K, in local units."""
     z = np.log(psi)
     for _ in range(100):
         psi = np.exp(z)
@@ -49,16 +48,13 @@ def find_psi(spacing, momentum, psi):
 
 
 class Friction:
-    """The momentum 2 pi <f> that one dislocation loses per time.
-
-    The mean <f> is over u for the closure "consistent", and over x for the closure "paper".
-    """
+    """Loss of momentum of one dislocation: 2 pi <f>, the mean over u (closure consistent) or over x (paper)."""
 
     def __init__(self, law="none", coefficient=0.0, exponent=1.0, closure="consistent"):
         self.C = coefficient if law != "none" else 0.0
         self.n = {"viscous": 1.0, "coulomb": 0.0, "power": exponent}.get(law, 1.0)
         self.paper = closure == "paper"
-        self.at_rest = 0.0  # dry friction (n < 1) is regularised below this velocity
+        self.at_rest = 0.0  # below this rapidity dry friction (n < 1) grows smoothly
 
     def __call__(self, phi, psi, contact, momentum):
         if self.C == 0:
@@ -68,7 +64,7 @@ class Friction:
         w = 2 * contact * np.sinh(phi)
         size = np.sqrt(w * w + self.at_rest**2) if self.n < 1 else np.abs(w)
         S = np.sqrt(np.sinh(psi)[:, None]**2 + _SIN2)  # w(u) / (2 sinh phi)
-        if self.paper:  # dx = du / sigma, and the integral of 1 / S over a period is 4 K / cosh psi
+        if self.paper:  # du / sigma is dx, and the integral of 1 / S over a period is 4 K / cosh psi
             mean = (2 * np.pi * S**(self.n - 1)) @ _WEIGHT / (4 * complete(psi)[0] / np.cosh(psi))
         else:
             mean = S**self.n @ _WEIGHT
@@ -76,19 +72,19 @@ class Friction:
 
 
 class SlowPulse:
-    """A fault with one stressed region. Each of its `ends` is "free" (nothing outside), "continued" or "fixed"."""
+    """One stressed stretch. `ends`: for each end "free" (empty beyond), "continued" or "fixed"."""
 
     def __init__(self, stress, left, right, parcels=400, friction=None, forcing=None, contact=None):
         self.friction = friction or Friction()
         self.forcing = forcing or (lambda x, t: 0 * x)
         self.contact = contact or (lambda x: 1 + 0 * x)
         x = np.linspace(left, right, 40001)
-        if left < 0 < right:  # a point at x = 0, where the stress may jump
+        if left < 0 < right:  # a step stands on a point
             x = np.concatenate([np.linspace(left, 0, 20001), np.linspace(0, right, 20001)[1:]])
         k = np.array([stress(v) for v in (x[1:] + x[:-1]) / 2])
         inside = np.flatnonzero(k > 0)
         if len(inside) < 2 or inside[-1] - inside[0] + 1 != len(inside):
-            raise Unsuitable("the slow solver needs a single stressed region")
+            raise Unsuitable("the slow solver wants one stressed stretch")
         self.ends = ["free" if inside[0] > 0 else "continued", "free" if inside[-1] < len(k) - 1 else "continued"]
         x, k = x[inside[0]:inside[-1] + 2], k[inside[0]:inside[-1] + 1]
         number = np.concatenate([[0], np.cumsum(k * np.diff(x))]) / (2 * np.pi)
@@ -102,7 +98,7 @@ class SlowPulse:
         self.friction.at_rest = min(self.friction.at_rest, 1e-4)
 
     def lay(self, x, k, parcels):
-        """Puts half of the faces evenly in x and half where the stress changes, and refines them towards free edges."""
+        """Faces: even in x, with half of them where the stress changes, and finer towards free edges."""
         k = np.interp(x, (x[1:] + x[:-1]) / 2, k)
         box = np.ones(len(x) // 16) / (len(x) // 16)
         smooth = np.convolve(np.pad(k, len(box), mode="edge"), box, "same")[len(box):-len(box)]
@@ -113,7 +109,7 @@ class SlowPulse:
         s = s * s * (3 - 2 * s) if all(free) else s * s if free[0] else 1 - (1 - s)**2 if free[1] else s
         faces = np.interp(s * share[-1], share, x)
         jump = np.argmax(np.abs(np.diff(k)))
-        if abs(k[jump + 1] - k[jump]) > 0.02 * k.max():  # the stress jumps: move a face onto the jump
+        if abs(k[jump + 1] - k[jump]) > 0.02 * k.max():  # a step: a face on it
             step = x[jump] if abs(x[jump]) < abs(x[jump + 1]) else x[jump + 1]
             faces[1 + np.argmin(np.abs(faces[1:-1] - step))] = step
         return faces
@@ -158,10 +154,10 @@ class SlowPulse:
         return self.ends[end] == "fixed"
 
     def run(self, times, tolerance=1e-7):
-        """Returns the state at each time, as an array [x, M, x, M ...] of the faces."""
+        """States at the times, as an array of [x, M, x, M ...] of the faces."""
         y = np.zeros(2 * len(self.faces))
         y[0::2] = self.faces
-        # The tolerance must resolve the momentum of a wave, 8 psi^2.
+        # A wave needs 8 psi^2 of momentum to be seen.
         scale = np.empty_like(y)
         scale[0::2] = np.interp(np.arange(len(self.faces)), np.arange(len(self.dq)) + 0.5, np.diff(self.faces))
         scale[1::2] = max(float(np.max(self.psi)), 1e-12)
@@ -173,7 +169,7 @@ class SlowPulse:
         return done.y.T
 
     def slip(self, y, places):
-        """Returns 2 pi times the number of dislocations that have passed these x."""
+        """2 pi times the number of dislocations that have passed these places."""
         now = PchipInterpolator(y[0::2], self.q)
         places = np.asarray(places, float)
 
@@ -183,7 +179,7 @@ class SlowPulse:
         return 2 * np.pi * (count(self.q0, self.faces) - count(now, y[0::2]))
 
     def slip_velocity(self, y, place):
-        """Returns W = U k, interpolated between the faces around this x."""
+        """W = U k between the faces around a place."""
         x, _, _, _, spacing, _, _, _, phi = self.parts(y)
         if not x[0] < place < x[-1]:
             return 0.0

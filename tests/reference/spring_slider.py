@@ -1,13 +1,12 @@
-"""A spring-slider, the standard model of stick-slip: one block with rate-and-state friction, pulled through a spring.
+"""The spring-slider of the field: one block with rate-and-state friction, pulled through a spring.
 
     u'' = kappa (v t - u) - f(u', theta),    theta' = 1 - |u'| theta / D    or    -x ln x, x = |u'| theta / D,
     f = a asinh((w / 2 w0) exp((f0 + b ln(theta w0 / D)) / a)).
 
-scipy's Radau integrates the stretch of the spring, f / a and ln theta. These variables resolve all decades of the
-velocity: a block at rest with f0 / a = 60 creeps at 1e-26 and less. This file shares no code with slipfront.
-
-It prints the numbers that tests/chain/implicit/spring_slider_test.cpp expects. They are the critical stiffness, from the
-eigenvalues of steady sliding, the limit cycle at two stiffnesses, and the motion of blocks with laboratory friction.
+scipy's Radau integrates it in the stretch of the spring, f / a and ln theta. These variables resolve all decades of the
+velocity: a block at rest with f0 / a = 60 creeps at 1e-26 and less. This file shares no code with slipfront. It prints the
+critical stiffness, from the eigenvalues of steady sliding, the limit cycle at two stiffnesses, and blocks with friction as
+in a laboratory: the numbers of tests/chain/implicit/spring_slider_test.cpp.
 
 Usage: spring_slider.py [TOLERANCE]      (default 1e-10)
 """
@@ -19,12 +18,12 @@ import sys
 import numpy as np
 from scipy.integrate import Radau
 
-LARGEST = 300.0  # largest exponent; Newton's method may try states whose velocity would overflow
+LARGEST = 300.0  # exponent that Newton's method may try
 
 
 @dataclasses.dataclass
 class Block:
-    """Friction and loading. `theta` is the state at t = 0. An event begins when the velocity exceeds `event`."""
+    """Friction and loading. `theta` is the state at t = 0; an event begins where the velocity passes `event`."""
     f0: float
     a: float
     b: float
@@ -35,10 +34,10 @@ class Block:
     theta: float
     event: float
     state: str = "ageing"
-    sliding: float = 0.0  # velocity at t = 0, when the spring balances friction at the state theta
+    sliding: float = 0.0  # velocity at t = 0; the spring then balances friction at the state theta
 
     def logarithms(self, s, log_theta):
-        """Returns the logarithms of |w| and of dw / ds, where s = f / a."""
+        """Of |w| and of the slope of w over s = f / a."""
         scale = math.log(2 * self.w0) - (self.f0 + self.b * (log_theta + math.log(self.w0 / self.D))) / self.a
         size = max(abs(s), 1e-250)
         if size > 20:
@@ -66,7 +65,7 @@ class Block:
         return [self.a * s / self.kappa, s, log_theta]
 
     def steps(self, end, tolerance):
-        """Yields times, velocities and stretches, at five points of the interpolant in each step."""
+        """Times, velocities and stretches, with five points of the interpolant in each step."""
         solver = Radau(self.slope, 0.0, self.start(), end, rtol=tolerance, atol=tolerance)
         while solver.status == "running":
             message = solver.step()
@@ -78,7 +77,7 @@ class Block:
                 yield t, self.velocity(y), y[0]
 
     def run(self, end, tolerance=1e-9):
-        """Returns onsets and peak velocities of the events, whether the last is complete, and the final slip and velocity."""
+        """Onsets and peak velocities of the events, whether the last is complete, slip and velocity at the end."""
         onsets, peaks, within, last = [], [], False, (0.0, 0.0)
         t = w = stretch = 0.0
         for t, w, stretch in self.steps(end, tolerance):
@@ -95,21 +94,18 @@ class Block:
 
 
 LIMIT_CYCLES = [Block(0.05, 0.01, 0.015, 1, 0.01, kappa, 0.001, 100, 0.01) for kappa in (0.0025, 0.0012)]
-LABORATORY = [  # f0 / a is 60, 44 and 200; the second block slides steadily after its first event
+LABORATORY = [  # f0 / a of 60, 44 and 200; the second slides steadily after its first motion
     (Block(0.6, 0.01, 0.015, 1, 0.01, 0.004, 0.001, 100, 0.01), 450000),
     (Block(0.129, 0.00294, 0.002593, 0.06724, 0.001114, 0.003593, 0.0009073, 277.3, 0.009073, "slip"), 118714.24557756461),
     (Block(0.2, 0.001, 0.0015, 0.5, 0.001, 0.0007, 0.0001, 500, 0.001), 8e6)]
-SLIDING = [  # steady sliding, disturbed by 1 %: the first is stable, the others become stick-slip
+SLIDING = [  # steady sliding, disturbed by 1 %: a stable one, and two that become stick-slip
     (Block(0.6, 0.01, 0.008, 1, 0.01, 0.004, 0.001, 1000, 0.01, "ageing", 0.00101), 20000),
     (Block(0.6, 0.01, 0.015, 1, 0.01, 0.004, 0.001, 1000, 0.01, "ageing", 0.00101), 120000),
     (Block(0.6, 0.01, 0.015, 1, 0.01, 0.004, 0.001, 1000, 0.01, "slip", 0.00101), 120000)]
 
 
 def critical_stiffness(a=0.01, b=0.015, D=1.0, v=0.001):
-    """Finds by bisection the kappa at which the growth rate changes sign.
-
-    The growth rates lambda solve lambda^2 + kappa + (lambda / v)(a - b / (1 + lambda D / v)) = 0.
-    """
+    """Where growth changes sign: of lambda^2 + kappa + (lambda / v)(a - b / (1 + lambda D / v)) = 0, by bisection."""
     low, high = 1e-9, 1.0
     for _ in range(200):
         kappa = (low + high) / 2
