@@ -21,7 +21,8 @@ TEST(Complete, MatchesTheTableToFourUlp) {
   }
 }
 
-TEST(Complete, ObeysLegendresRelation) {  // independent of any table: E K' + E' K - K K' = pi / 2
+/// Legendre's relation E K' + E' K - K K' = pi / 2 is a test that needs no table.
+TEST(Complete, SatisfiesLegendresRelation) {
   for (double m1 = 0.01; m1 < 1; m1 += 0.01) {
     const Complete a = complete(m1), b = complete(1 - m1);
     EXPECT_NEAR(a.E * b.K + b.E * a.K - a.K * b.K, std::numbers::pi / 2, 2e-15) << m1;
@@ -43,7 +44,7 @@ TEST(AtPsi, MatchesTheTableOverAllDensities) {
   }
 }
 
-TEST(AtPsi, MatchesDefinitionsOfDifferencesWithoutCancellation) {
+TEST(AtPsi, DifferencesMatchTheirDefinitions) {
   for (const double psi : {1e-12, 1e-6, 0.01, 0.1, 0.2, 0.5, 1.0}) {
     const AtPsi at = at_psi(psi);
     EXPECT_NEAR(at.ratio, at.E / at.K, 1e-15);
@@ -53,7 +54,7 @@ TEST(AtPsi, MatchesDefinitionsOfDifferencesWithoutCancellation) {
   }
 }
 
-/// Fields of both sides of a switch, relative to each other.
+/// Expects that the fields on both sides of a switch agree, up to a relative difference of `eps` machine epsilons.
 void expect_same(const AtPsi& a, const AtPsi& b, double eps) {
   EXPECT_LE(error_in_eps(a.K, b.K), eps);
   EXPECT_LE(error_in_eps(a.E, b.E), eps);
@@ -64,8 +65,8 @@ void expect_same(const AtPsi& a, const AtPsi& b, double eps) {
   EXPECT_LE(error_in_eps(a.above_m1, b.above_m1), eps);
 }
 
-TEST(AtPsi, JoinsRegimesAtTheirSwitches) {
-  const double up = 1 + 1e-12;  // just on the other side, where the general route is taken
+TEST(AtPsi, IsContinuousAtTheSwitchesBetweenFormulas) {
+  const double up = 1 + 1e-12;  // steps from one side of a switch to the other
   expect_same(at_psi_empty(psi_empty_below * up), at_psi(psi_empty_below * up), 8);
   expect_same(at_psi_empty(psi_empty_below / up), at_psi(psi_empty_below / up), 0);
   expect_same(at_psi_dense(psi_dense_above / up), at_psi(psi_dense_above / up), 8);

@@ -18,7 +18,7 @@ TEST(Jacobi, MatchesTheTable) {
     const double m1 = row["m1"], z = row["z"];
     const Jacobi f = jacobi(z, m1);
     const std::string where = "m1 = " + row.text("m1") + ", z = " + row.text("z");
-    // An argument of size z carries eps |z|; sn, cn and dn answer by their derivatives.
+    // The rounding error of z is eps |z|. It changes sn, cn and dn in proportion to their derivatives.
     const double K = complete(m1).K;
     const double slack = 8 + 4 * std::fabs(z) + 2 * K;
     const auto within = [&](double got, double want, double slope) {
@@ -35,13 +35,13 @@ TEST(Jacobi, MatchesTheTable) {
     within(f.sn, row["sn"], row["cn"] * row["dn"]);
     within(f.cn, row["cn"], row["sn"] * row["dn"]);
     within(f.dn, row["dn"], (1 - m1) * row["sn"] * row["cn"]);
-    if (std::fabs(z) < 0.99 * K) {  // relative, tiny values too
+    if (std::fabs(z) < 0.99 * K) {  // a relative error, also for tiny values
       EXPECT_LE(error_in_eps(f.dn, row["dn"]), slack) << where;
     }
   }
 }
 
-TEST(Jacobi, ObeysItsAlgebra) {
+TEST(Jacobi, SatisfiesItsIdentities) {
   for (const double m1 : {1e-30, 1e-17, 1e-15, 1e-6, 0.02, 0.4, 0.999, 1.0})
     for (double z = -7; z < 7; z += 0.37) {
       const Jacobi f = jacobi(z, m1);
@@ -52,13 +52,13 @@ TEST(Jacobi, ObeysItsAlgebra) {
     }
 }
 
-TEST(Jacobi, JoinsTheHyperbolicToTheGeneralRegime) {
+TEST(Jacobi, IsContinuousAtTheSwitchToHyperbolicFunctions) {
   const double s = 1e-8;  // sqrt(m1) at the switch
   const double below = s * s * (1 - 1e-12), above = s * s * (1 + 1e-12);
   const double K = complete(s * s).K;
   for (const double part : {0.01, 0.2, 0.45, 0.499, 0.501, 0.7, 0.9}) {
     const Jacobi a = jacobi(part * K, below), b = jacobi(part * K, above);
-    EXPECT_LE(error_in_eps(a.cn, b.cn), 2e4) << part;  // m1 itself differs by 1e-12: 1e4 eps
+    EXPECT_LE(error_in_eps(a.cn, b.cn), 2e4) << part;  // m1 differs by 1e-12, about 1e4 eps
     EXPECT_LE(error_in_eps(a.dn, b.dn), 2e4) << part;
   }
 }

@@ -16,7 +16,7 @@ namespace {
 using namespace slipfront;
 using namespace slipfront::friction;
 
-/// <f(w) sigma> and <f(w)> by quadrature of the fields themselves.
+/// The test computes <f(w) sigma> and <f(w)> by quadrature over the fields.
 TEST(Friction, AveragesTheForceOverTheFields) {
   const State states[] = {{0.3, 0.2}, {-0.7, 0.9}, {1.1, 0.02}, {0.05, 2.5}};
   for (const State& s : states)
@@ -51,7 +51,7 @@ TEST(Friction, ReducesPowersOneAndTwoToClosedForms) {
   }
 }
 
-TEST(Friction, OpposesAndVanishesAtRest) {
+TEST(Friction, OpposesMotionAndVanishesAtRest) {
   for (const Friction& friction : {viscous(2), coulomb(2), power(2, 2)}) {
     EXPECT_EQ(friction.momentum_loss({0, 0.3}), 0);
     EXPECT_EQ(friction.momentum_loss({1, 0}), 0);
@@ -61,15 +61,15 @@ TEST(Friction, OpposesAndVanishesAtRest) {
   }
 }
 
-/// docs/theory.md 3.3: the ratio of the closures, I / W = 4 E K / pi^2.
-TEST(Friction, LosesLessByTheClosureOfThePaper) {
+/// The ratio of the closures is I / W = 4 E K / pi^2 (docs/theory.md 3.3).
+TEST(Friction, LosesLessMomentumWithTheClosureOfThePaper) {
   const State s{0.2, 1e-3};
   const train::Averages a = train::averages(s);
   EXPECT_NEAR(viscous(1, Closure::consistent).momentum_loss(s) / viscous(1, Closure::paper).momentum_loss(s), a.I / a.W,
               1e-14);
 }
 
-/// From the mean force, P / k = 8 sinh phi cosh psi E / 2 pi.
+/// The relaxation rate from the loss of momentum, where P / k = 8 sinh phi cosh psi E / (2 pi).
 double rate_of(const Friction& f, const State& s, double contact) {
   return f.momentum_loss(s, contact) / train::averages(s, contact).P;
 }
@@ -87,7 +87,7 @@ TEST(Friction, TabulatesTheRelaxationRateOfAPower) {
     }
 }
 
-/// A law that has only a force: f = C |w|^n.
+/// The law f = C |w|^n, which defines only its force. The library must compute all the rest numerically.
 class Bare : public Law {
  public:
   explicit Bare(const std::vector<double>& values) : C_(values[0]), n_(values[1]) {}
@@ -162,7 +162,7 @@ const Definition& law_named(const std::string& name) {
   throw std::runtime_error("no law " + name);
 }
 
-/// Means over slip by mpmath, of random laws in random trains.
+/// The reference values are means over slip by mpmath, for random laws and random trains.
 TEST(Friction, AgreesWithMeansOfHighPrecision) {
   for (const auto& row : reference_table("friction.csv")) {
     const Definition& law = law_named(row.text("law"));
@@ -182,8 +182,9 @@ Friction rate_and_state(double f0, double a, double b, double D, double w0, bool
   return {law_named("rate-and-state"), {f0, a, b, D, w0, 0, slip_law ? 1.0 : 0.0}};
 }
 
-/// The law is a logarithm where w is not small, and <ln w>_u = ln sinh phi + psi.
-TEST(Friction, AveragesRateAndStateToTheLawAtOneSpeed) {
+/// If w is not small, the force is linear in ln w, and <ln w>_u = ln sinh phi + psi. So the mean is the force at the
+/// speed sinh phi exp psi.
+TEST(Friction, MeanOfRateAndStateIsTheForceAtOneSpeed) {
   const Friction friction = rate_and_state(0.6, 0.01, 0.015, 0.1, 0.05);
   const double theta[] = {3.0};
   for (const double psi : {0.01, 0.3, 2.0})
@@ -200,7 +201,7 @@ TEST(Friction, AgesAtRestAndTendsToTheSteadyState) {
   for (const bool slip_law : {false, true}) {
     const Friction friction = rate_and_state(0.05, 0.01, 0.015, 0.1, 0.05, slip_law);
     double once[] = {0.7}, twice[] = {0.7};
-    friction.evolution().advance(Slip::at(-0.3), 0.5, once);  // exact, so that two steps are one
+    friction.evolution().advance(Slip::at(-0.3), 0.5, once);  // exact, so two steps equal one
     friction.evolution().advance(Slip::at(-0.3), 0.2, twice);
     friction.evolution().advance(Slip::at(-0.3), 0.3, twice);
     EXPECT_NEAR(once[0] / twice[0], 1, 1e-14);
@@ -212,7 +213,8 @@ TEST(Friction, AgesAtRestAndTendsToTheSteadyState) {
   }
 }
 
-/// One dislocation after the other: D_c is that of many, so that theta hardly changes while one passes.
+/// The reference lets one dislocation pass after the other. D_c is the slip of many dislocations, so theta hardly
+/// changes while one passes.
 TEST(Friction, AdvancesStateInATrainAsTheMeanOverDislocations) {
   const State train{0.4, 0.3};
   const double D = 500, typical = std::sinh(train.phi) * std::exp(train.psi), W = train::averages(train).W;
@@ -254,8 +256,8 @@ TEST(Friction, WeakensStrengthWithSlip) {
   EXPECT_DOUBLE_EQ(friction.force(1, slip), 0.1);
 }
 
-/// v = (free / C)^2 is no double there; the tails of dislocations are that slow.
-TEST(Friction, StopsTheSlowestUnderAPowerBelowOne) {
+/// The tails of dislocations are so slow that v = (free / C)^2 is too small for a double.
+TEST(Friction, StopsTheSlowestMotionIfTheExponentIsBelowOne) {
   for (const double free : {1e-300, 1e-170, 1e-160}) {
     const double v = power(0.1, 0.5).velocity_after(free, 1, {});
     EXPECT_GE(v, 0) << free;

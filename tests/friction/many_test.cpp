@@ -1,4 +1,4 @@
-// Vector loops over many positions and trains, compared with the functions for one.
+// Compares the vector loops over many positions or trains with the functions for a single one.
 
 #include <gtest/gtest.h>
 
@@ -41,7 +41,7 @@ std::vector<Friction> some_of_each(Closure closure = Closure::consistent) {
 }
 
 /// The normal stress differs from position to position.
-TEST(FrictionOfMany, SolvesUnderAShareOfNormalStressAsForOnePosition) {
+TEST(FrictionOfMany, SolvesUnderVariableNormalStressAsForOnePosition) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> u(0, 1);
   std::vector<Friction> all;
@@ -95,8 +95,8 @@ TEST(FrictionOfMany, FindsTheMeanOfEachTrain) {
     }
 }
 
-/// A resumed run finds the means of other trains together than an uninterrupted one: of cells that rest, each knows
-/// some already.
+/// A resumed run computes means for other groups of trains than an uninterrupted run, because each already has the
+/// means of some cells at rest. The bits must not depend on the group.
 TEST(FrictionOfMany, FindsMeansThatDoNotDependOnTheOtherTrains) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> u(0, 1);
@@ -121,7 +121,7 @@ TEST(FrictionOfMany, FindsMeansThatDoNotDependOnTheOtherTrains) {
     }
 }
 
-/// A curve with a kink, which also ends: tables of its means may reach neither over the kink nor past the end.
+/// The curve has a kink and an end. A table of its means must not cross the kink or pass the end.
 TEST(FrictionOfMany, FindsMeansOfACurveWithAKinkAndAnEnd) {
   constexpr double kink = 0.05, end = 0.1;
   const auto curve = [](double w) {
@@ -150,7 +150,7 @@ TEST(FrictionOfMany, FindsMeansOfACurveWithAKinkAndAnEnd) {
       if (fastest < kink) {
         EXPECT_NEAR(bent[i] / linear[i], 1, 3e-10) << fastest;
       }
-      if (fastest * (0.005 + 0.0099 * static_cast<double>(i)) > kink) {  // faster than the kink everywhere
+      if (fastest * (0.005 + 0.0099 * static_cast<double>(i)) > kink) {  // all of the train is faster than the kink
         EXPECT_NEAR(bent[i], kink, 1e-12);
       }
     }
@@ -212,7 +212,7 @@ TEST(FrictionOfMany, AdvancesStatesAsForOnePosition) {
   }
 }
 
-/// Rest, kinks, jumps, speeds above all others, and a curve that ends.
+/// The test covers rest, kinks, jumps, a speed above all previous ones, and a curve that ends.
 TEST(FrictionOfMany, FollowsACurveWhereItIsNotSmooth) {
   const Curve curves[] = {[](double w) { return 0.2 + std::fmin(w, 0.1); }, [](double w) { return std::fabs(w - 0.3); },
                           [](double w) { return w < 0.2 ? w : 0.5 * w; }, [](double w) { return 1 - std::exp(-w); },

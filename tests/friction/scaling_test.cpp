@@ -1,5 +1,6 @@
-// A chain of scale s is the same problem with friction divided by s. Every law that a scenario can name has to scale
-// so: a law that is added to friction::laws() is tested here as it is, and a parameter with a wrong Dimension fails.
+// A chain of scale s solves the same problem with friction divided by s. Every law that a scenario can name must scale
+// like this. The test covers each law that is added to friction::laws(), and it fails if a parameter has a wrong
+// Dimension.
 
 #include <gtest/gtest.h>
 
@@ -21,7 +22,7 @@ constexpr double scales[] = {0.3, 7, 1000};
 
 double curve(double speed) { return 0.2 + speed / (1 + speed * speed); }
 
-/// A law and the same on a chain of some scale, each with the state of a few positions.
+/// A law and its scaled version for a chain, each with the state variables at a few positions.
 class Pair {
  public:
   static constexpr std::size_t positions = 5;
@@ -36,7 +37,7 @@ class Pair {
       many.evolution().start(std::span(many_state_).subspan(i * each_, each_));
   }
 
-  /// Slips every position at its own speed for a time.
+  /// Lets every position slip at its own speed for a time.
   void slip(double time) {
     one.evolution().advance_all(positions, Slips::at(speed), time, each_, one_state_.data());
     many.evolution().advance_all(positions, Slips::at(speed), scale_ * time, each_, many_state_.data());
@@ -132,7 +133,8 @@ TEST(FrictionScaling, DividesTheForceOfEveryLawByTheScale) {
         }
 }
 
-/// f = f_0 + eta w, rising with slip: f_0 (1 + s / D). The dimensions of eta and D are those that a test gives.
+/// The law f = f_0 (1 + s / D) + eta w, whose strength rises with the slip s. Each test chooses the dimensions of the
+/// parameters.
 class Example final : public Law {
  public:
   explicit Example(const std::vector<double>& v) : f0_(v[0]), eta_(v[1]), D_(v[2]) {}
@@ -179,7 +181,7 @@ TEST(FrictionScaling, RejectsALawWithAWrongDimension) {
   const Definition right = example(Dimension::force, Dimension::force, Dimension::slip);
   EXPECT_EQ(refusal_of(right, values), "");
   Pair(Friction(right, values), 100).expect_equal_forces("with the right dimensions");
-  // A viscous term that is declared a number: the chain has 0.1 / 100 + 0.5 w in place of (0.1 + 0.5 w) / 100.
+  // If the viscosity is declared as a number, the chain has 0.1 / 100 + 0.5 w instead of (0.1 + 0.5 w) / 100.
   const Definition number = example(Dimension::force, Dimension::number, Dimension::slip);
   EXPECT_EQ(refusal_of(number, values),
             "on a chain of scale 100 its force at w = 10 is 5.001 in place of f / scale = 0.051");
@@ -189,7 +191,7 @@ TEST(FrictionScaling, RejectsALawWithAWrongDimension) {
     EXPECT_NE(refusal_of(example(wrong, Dimension::force, Dimension::slip), values), "");
 }
 
-/// Such friction would be left out, as if the law were "none".
+/// Without a positive parameter that is a force, the solvers would ignore friction, as if the law were "none".
 TEST(FrictionScaling, RejectsAForceWithoutAForceParameter) {
   const Definition law = example(Dimension::number, Dimension::number, Dimension::slip);
   EXPECT_THROW(Friction(law, {0, 0.5, 2}), InputError);

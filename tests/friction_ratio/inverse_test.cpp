@@ -23,8 +23,8 @@ TEST(DampingNumber, InvertsTheTable) {
         }
 }
 
-/// The error is what the table's own uncertainty moves the damping number by.
-TEST(DampingNumber, ErrorCoversTheTable) {
+/// The stated error is the shift of the damping number that the uncertainty of the table causes.
+TEST(DampingNumber, ErrorCoversTheUncertaintyOfTheTable) {
   for (const Closure closure : {Closure::consistent, Closure::paper})
     for (const double damping : {0.5, 5.0, 2e5}) {
       const Ratio at = evaluate(Measure::origin, closure, 0.855, damping);
@@ -35,7 +35,7 @@ TEST(DampingNumber, ErrorCoversTheTable) {
     }
 }
 
-TEST(DampingNumber, RejectsRatiosThatFrictionDoesNotLeave) {
+TEST(DampingNumber, RejectsRatiosThatFrictionCannotCause) {
   for (const double ratio : {0.0, -0.1, 1.001, 1e-200, std::numeric_limits<double>::quiet_NaN()})
     EXPECT_THROW(damping_number(Measure::origin, Closure::consistent, 0.855, ratio), InputError) << ratio;
   EXPECT_EQ(damping_number(Measure::origin, Closure::consistent, 0.855, 1).damping_number, 0);

@@ -18,7 +18,7 @@ using friction::Closure;
 constexpr Closure closures[] = {Closure::consistent, Closure::paper};
 constexpr auto& measures = all_measures;
 
-/// A few points of `friction_ratio_table check`, none of them a node.
+/// Checks a few points of `friction_ratio_table check`. None of them is a node of the table.
 TEST(FrictionRatio, AgreesWithThePulseSolver) {
   struct Point {
     double stress, damping;
@@ -36,7 +36,8 @@ TEST(FrictionRatio, AgreesWithThePulseSolver) {
     }
 }
 
-/// On both sides of the corners of W(0), 0.36 and 1.27, and of the peak, 1.68 and 2.58.
+/// The points are on both sides of the corners, in Gamma, of W(0) and of the peak. For a stress of 0.0623 these are
+/// 0.36 and 1.68, for 0.79 they are 1.27 and 2.58.
 TEST(FrictionRatio, FollowsTheCorners) {
   struct Point {
     double stress, damping;
@@ -60,8 +61,9 @@ TEST(FrictionRatio, FollowsTheCorners) {
   }
 }
 
-/// The table has slip over duration from the dislocations that have passed x = 0; here it is the integral of its own
-/// W(0), since only Gamma = C t counts: (1 / Gamma) times that of the ratio from 0 to Gamma, in u = ln(1 + Gamma).
+/// The table takes slip over duration from the number of dislocations that have passed x = 0. It must equal the mean of
+/// the table's own W(0). Only Gamma = C t matters, so this mean is (1 / Gamma) times the integral of the ratio from 0
+/// to Gamma. We integrate over u = ln(1 + Gamma).
 TEST(FrictionRatio, IntegratesTheSlipVelocityForTheTimeMean) {
   for (const Closure closure : closures)
     for (const double stress : {0.05, 0.2117, 0.855, 2.9})
@@ -80,15 +82,15 @@ TEST(FrictionRatio, IntegratesTheSlipVelocityForTheTimeMean) {
       }
 }
 
-/// A fifth of the frictionless slip velocity, as slip over duration of the paper's ETS event: not Gamma = 5.7, or 36
-/// with the paper's closure, which are of W at the end.
-TEST(FrictionRatio, IsAFifthInTheMeanOverTime) {
+/// In the paper's ETS event, slip over duration is a fifth of the frictionless slip velocity. This takes Gamma = 21.4,
+/// or 137 with the paper's closure. The values 5.7 and 36 belong to W at the end of the event.
+TEST(FrictionRatio, TimeMeanOfTheEtsEventIsAFifth) {
   EXPECT_NEAR(evaluate(Measure::time_mean, Closure::consistent, 0.2117, 21.4).value, 0.199, 3e-4);
   EXPECT_NEAR(evaluate(Measure::time_mean, Closure::paper, 0.2117, 137).value, 0.199, 1e-3);
   EXPECT_NEAR(evaluate(Measure::origin, Closure::consistent, 0.2117, 5.74).value, 0.199, 3e-4);
 }
 
-TEST(FrictionRatio, NeedsOneRunForManyDampingNumbers) {
+TEST(FrictionRatio, OneRunGivesManyDampingNumbers) {
   const std::vector<SlipVelocities> w = solve_each(0.855, Closure::consistent, 400, {0.5, 2});
   ASSERT_EQ(w.size(), 2u);
   EXPECT_NEAR(w[0].origin / solve({.stress = 0.855, .damping_number = 0.5}).origin, 1, 1e-5);
@@ -96,7 +98,7 @@ TEST(FrictionRatio, NeedsOneRunForManyDampingNumbers) {
   EXPECT_NEAR(w[0].time_mean / solve({.stress = 0.855, .damping_number = 0.5}).time_mean, 1, 2e-5);
 }
 
-/// W(0) sqrt(Gamma) of the step 0.855 solved apart from the scheme (docs/pulse.md).
+/// The reference values are W(0) sqrt(Gamma) of the step 0.855, solved independently of the scheme (docs/pulse.md).
 TEST(FrictionRatio, TendsToTheDiffusionLimit) {
   const double unit = rupture::from_stress(0.855).slip_velocity;
   const double damping = 1e12;

@@ -14,7 +14,7 @@ namespace {
 
 using namespace slipfront;
 
-/// Fluxes of the documented equations, compiled for the same processors as the loops of the solver.
+/// Computes the fluxes by the documented equations. It is compiled for the same processors as the loops of the solver.
 SLIPFRONT_CLONES void documented_fluxes(std::size_t size, const double* phi, const double* psi, double* U, double* p) {
   SLIPFRONT_INDEPENDENT
   for (std::size_t i = 0; i < size; ++i) {
@@ -37,7 +37,7 @@ Trains trains() {
   return all;
 }
 
-TEST(Equations, GiveTheSolverItsFluxesToTheLastBit) {
+TEST(Equations, AgreeWithTheFluxesOfTheSolverToTheLastBit) {
   const Trains t = trains();
   const std::size_t n = t.phi.size();
   std::vector<double> U(n), p(n), documented_U(n), documented_p(n);
@@ -60,7 +60,8 @@ TEST(Equations, AreTheHyperbolicFunctionsOfTheTheory) {
   }
 }
 
-TEST(Equations, GiveTheAverageMomentumFluxOfATrain) {  // (1 + U^2) <sigma^2> / 2 - <1 - cos u>
+/// The average momentum flux is (1 + U^2) <sigma^2> / 2 - <1 - cos u>.
+TEST(Equations, GiveTheAverageMomentumFluxOfATrain) {
   for (const State s : {State{0.3, 0.5}, State{-1.2, 2.0}, State{0.01, 1e-3}, State{2.0, 0.1}}) {
     const train::Averages a = train::averages(s);
     const double U = std::tanh(s.phi), averaged = (1 + U * U) / 2 * a.sigma2 - a.one_minus_cos;
@@ -79,7 +80,7 @@ TEST(Equations, GiveJumpsAsDifferencesOfTheFluxes) {
 }
 
 TEST(Equations, IntegrateTheContactForceOfAParabola) {
-  // a^2 = 1 + x + x^2 / 2 and <1 - cos u> = 2 - x over a cell from -1 to 1: -integral of (2 - x) (1 + x) dx.
+  // A cell from -1 to 1 has a^2 = 1 + x + x^2 / 2 and <1 - cos u> = 2 - x, so the force is -integral of (2 - x)(1 + x).
   const modulation::AcrossCell substrate{3, 2, 1}, a2{0.5, 1, 2.5};
   EXPECT_NEAR(modulation::contact_source(substrate, a2), -(4.0 - 2.0 / 3), 1e-14);
 }

@@ -20,7 +20,7 @@ TEST(Sound, MatchesTheTable) {
   }
 }
 
-TEST(Sound, HasSlopesThatAreDerivatives) {
+TEST(Sound, SlopesAreDerivatives) {
   for (const double psi : {1e-8, 1e-3, 0.05, 0.12, 0.13, 0.4, 0.9, 2.0, 6.0, 19.0, 30.0}) {
     const double h = 1e-3 * std::fmin(psi, 1.0);
     const auto rapidity = [&](int i) { return modulation::sound(psi + i * h).rapidity; };
@@ -33,12 +33,13 @@ TEST(Sound, HasSlopesThatAreDerivatives) {
   }
 }
 
-/// d(flux) = lambda d(density) along each characteristic direction: the diagonal form belongs to the conservation laws.
+/// Along each characteristic direction d(flux) = lambda d(density), so the diagonal form agrees with the conservation
+/// laws.
 TEST(Characteristics, AreEigenvaluesOfTheFluxes) {
   for (const State s : {State{0.0, 0.3}, State{0.5, 1e-4}, State{-1.0, 0.8}, State{0.2, 2.5}, State{2.0, 1e-9}}) {
     const modulation::Speeds lambda = modulation::characteristic_speeds(s);
     for (const int sign : {-1, 1}) {
-      // phi -+ psi stays constant along the direction that moves with lambda_pm.
+      // The invariant phi -+ psi is constant along the direction that moves with lambda_pm.
       const auto at = [&](double d) { return State{s.phi + sign * d, s.psi + d}; };
       const double h = 1e-4 * s.psi;
       const auto change = [&](auto&& quantity, auto member) {

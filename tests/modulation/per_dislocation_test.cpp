@@ -21,13 +21,14 @@ RC_GTEST_PROP(PerDislocation, RoundTrips, ()) {
   const double relative = *rc::gen::inRange(-3000, 3000) / 1000.0;
   const double phi = *rc::gen::arbitrary<bool>() ? relative * std::fmin(psi, 1.0) : relative * 6;
   const State back = state_of(lagrangian_state({phi, psi}), psi * (1 + *rc::gen::inRange(-900, 900) / 1000.0));
-  // A spacing of 2 ln(4 / psi) carries eps ln(4 / psi) in ln psi; a momentum of size cosh phi hides psi behind phi.
+  // The rounding of the spacing 2 ln(4 / psi) changes ln psi by eps ln(4 / psi). A large momentum, of the order of
+  // cosh phi, makes psi less certain still.
   const double condition = (1 + std::fabs(std::log(4 / psi))) * (1 + std::fabs(phi));
   RC_ASSERT(error_in_eps(back.psi, psi) <= 32 * condition);
   RC_ASSERT(std::fabs(back.phi - phi) <= DBL_EPSILON * 32 * (std::fabs(phi) + 1e-300) * (1 + condition * psi * psi));
 }
 
-/// Both routes of the solve, and what else it finds, against the direct functions.
+/// Compares the state, the sound speed and E K, from both methods of the solver, with the direct functions.
 TEST(PerDislocation, FindsSoundAndClosureWithTheState) {
   for (const double psi : {1e-295, 1e-20, 1e-3, 0.124, 0.126, 0.5, 1.4, 1.5, 3.0, 30.0})
     for (const double off : {0.5, 0.99, 1.01, 3.0}) {
@@ -47,8 +48,9 @@ TEST(PerDislocation, ConvergesFromAnyStart) {
       EXPECT_NEAR(state_of(lagrangian_state({0.1, psi}), guess).psi / psi, 1, 1e-11) << psi << " from " << guess;
 }
 
-/// Fast and far apart, K less the length is not monotone: Newton's method went to and fro between two states.
-TEST(PerDislocation, ConvergesFromAnyStartWhereDislocationsAreFastAndFarApart) {
+/// If dislocations are fast and far apart, K minus the length is not monotone. Newton's method once oscillated between
+/// two states.
+TEST(PerDislocation, ConvergesFromAnyStartIfDislocationsAreFastAndFarApart) {
   for (const double spacing : {500.0, 800.0, 1036.68, 1200.0})
     for (const double momentum : {-12.2072, 3.0, 50.0, 1000.0}) {
       const double spacing_at_rest = spacing * std::cosh(std::asinh(momentum / 8));
@@ -70,7 +72,7 @@ TEST(PerDislocation, ReachesTheEmptyStateAndRejectsInvalidInput) {
   EXPECT_THROW(state_of({std::nan(""), 0}, 1), NumericsError);
 }
 
-/// Against the energy density of the averages, where that is no small difference of large numbers.
+/// Compares with the energy density of the averages, for states in which it is no small difference of large numbers.
 TEST(PerDislocation, MatchesTheKineticEnergyOfTheAverages) {
   for (const double psi : {1e-5, 0.01, 0.3, 1.4, 3.0})
     for (const double phi : {0.03, 0.09, 0.11, 0.5, 2.0}) {
@@ -84,8 +86,8 @@ TEST(PerDislocation, MatchesTheKineticEnergyOfTheAverages) {
     }
 }
 
-/// Slow trains have half of momentum times velocity, to full precision; H had no digit of it left.
-TEST(PerDislocation, KeepsDigitsInTheKineticEnergyOfASlowTrain) {
+/// The kinetic energy of a slow train is half of its momentum times its velocity. The differences of H lose all digits.
+TEST(PerDislocation, KineticEnergyOfASlowTrainHasFullPrecision) {
   for (const double psi : {1e-300, 1e-17, 1e-4, 0.3, 3.0})
     for (const double phi : {1e-30, 1e-12, 1e-6}) {
       const State slow{phi, psi};

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs the build tree $1 below $2 and uses the package from there, with the interpreter $3.
+# Installs the build tree $1 in the folder $2 and uses the Python package from there, with the interpreter $3.
 set -euo pipefail
 build="$1" work="$2" python="$3"
 rm -rf "$work"
@@ -13,6 +13,7 @@ assert abs(float(slipfront.relations(stress=1.03).slip_velocity) - 0.1000039) < 
 assert slipfront.check(slipfront.cases / 'step.toml')['cells'] == 400
 assert slipfront.event().sizes['event'] > 40
 "
-# The program finds its package: what it says of a file that is not there is said by Python.
-if ./bin/slipfront plot /nowhere.nc 2>said; then exit 1; fi
-! grep -q pybind11-dev said
+# The program must find its Python package. If it does, the error about the missing file comes from Python, and the
+# program does not suggest to install pybind11-dev.
+if ./bin/slipfront plot /nowhere.nc 2>errors; then exit 1; fi
+! grep -q pybind11-dev errors
