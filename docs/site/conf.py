@@ -1,11 +1,13 @@
 """Sphinx configuration of the documentation site, which `docs/site/build` calls with the staged sources."""
 
 from matplotlib.figure import Figure
+from pygments.lexers.special import TextLexer
 from sphinx_gallery.scrapers import figure_rst
 
 project = "slipfront"
 copyright = "the authors of slipfront"
-extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx_copybutton", "sphinx_gallery.gen_gallery"]
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "breathe", "sphinx_copybutton",
+              "sphinx_gallery.gen_gallery"]
 root_doc = "index"
 exclude_patterns = ["docs/gallery"]  # Sphinx-Gallery writes its pages to gallery/
 
@@ -18,6 +20,9 @@ html_static_path = ["static"]
 html_css_files = ["site.css"]
 html_theme_options = {"navigation_with_keys": True}
 highlight_language = "none"
+
+breathe_projects = {"slipfront": "doxygen/xml"}
+breathe_default_project = "slipfront"
 
 myst_enable_extensions = ["colon_fence"]
 myst_heading_anchors = 4
@@ -68,4 +73,5 @@ def as_sphinx_reads_it(app, what, name, obj, options, lines):
 
 
 def setup(app):
+    app.add_lexer("csv", TextLexer)
     app.connect("autodoc-process-docstring", as_sphinx_reads_it, priority=400)  # before napoleon

@@ -19,7 +19,7 @@ struct Complaint {
   std::string allowed = {};  ///< accepted values
 };
 
-/// The message, one line: `file:line: key = 'value': problem; allowed: ...`. It shows control characters as '?' and
+/// The message, one line: `FILE:LINE: key = 'value': problem; allowed: ...`. It shows control characters as '?' and
 /// cuts long values.
 std::string one_line(const Complaint& complaint);
 
