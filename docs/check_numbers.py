@@ -211,13 +211,13 @@ cells = 4
 """
 MY_EVENT = """\
 [event]
-name = "My event"
-rupture_velocity = "3.0 +- 0.2 km/s"
+name = "My earthquake"
+rupture_velocity = "2.8 +- 0.2 km/s"
 slip_velocity = "0.5 */ 1.2 m/s"
 [medium]
 p_wave_speed = "6 km/s"
 poisson_ratio = 0.25
-shear_modulus = "30 GPa"
+shear_modulus = "32 GPa"
 """
 PULSE = ("slip_at_origin", "slip_velocity_at_origin", "peak_slip_velocity", "peak_position")
 VISCOUS = ("friction.law=viscous", "friction.coefficient=0.5")
@@ -247,7 +247,7 @@ def contact_table():
 
 
 def my_event(*keys, more=""):
-    """The event with which events.md begins; pressures in MPa."""
+    """The event of start/seismologist.md; pressures in MPa."""
     def values():
         event = run("event", MY_EVENT.replace("[medium]", more + "\n[medium]"))["events"][0]
         return [event[key] / (1e6 if "_pa" in key else 1) for key in keys]
@@ -314,9 +314,9 @@ ENTRIES = [
     Entry("../python/slipfront/reproduce/report.py", "within {} %, and the paper's closure is up to {} % above the chain (docs/claims.md)",
           lambda: numbers_on("claims.md", "The pulse with the consistent closure is within {} % of the chain in every row") +
           numbers_on("claims.md", "with the paper's closure is up to {} % above the chain")),
-    Entry("events.md", "My event 3 km/s {} {} 0.5 m/s {} - >={} >={} -",
+    Entry("start/seismologist.md", "My earthquake 2.8 km/s {} {} 0.5 m/s {} - >={} >={} -",
           my_event("rupture_velocity", "stress", "frictionless_slip_velocity", "contact_ratio_bound", "stress_pa_bound")),
-    Entry("events.md", "My event 3 km/s {} {} 0.5 m/s {} {} {} {} {} 5 %",
+    Entry("start/seismologist.md", "My earthquake 2.8 km/s {} {} 0.5 m/s {} {} {} {} {} 5 %",
           my_event("rupture_velocity", "stress", "frictionless_slip_velocity", "slip_velocity_ratio", "contact_ratio", "stress_pa", "damping_number",
                    more='stress_drop = "60 */ 1.5 MPa"')),
     Entry("events.md", "`cases/catalogue.csv`: {} published events", lambda: [catalogue_rows()]),
