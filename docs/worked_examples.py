@@ -96,7 +96,10 @@ Gershenzon, Bambakidis & Skinner (2015).
 
 To make this page again, run this command in the root of the repository:
 
-    python3 docs/worked_examples.py build/release/bin/slipfront > docs/worked_examples.md
+<!-- not run: it takes a minute, and the test docs_numbers repeats its numbers -->
+```sh
+python3 docs/worked_examples.py build/release/bin/slipfront > docs/worked_examples.md
+```
 
 The script computes the tables. The text around them was written for the numbers shown.
 
