@@ -1,13 +1,16 @@
 """Sphinx configuration of the documentation site, which `docs/site/build` calls with the staged sources."""
 
+import re
+
 from matplotlib.figure import Figure
 from sphinx_gallery.scrapers import figure_rst
+from sphinx_gallery.sorting import FileNameSortKey
 
 project = "slipfront"
 copyright = "the authors of slipfront"
 extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx_copybutton", "sphinx_gallery.gen_gallery"]
 root_doc = "index"
-exclude_patterns = ["docs/gallery"]  # Sphinx-Gallery writes its pages to gallery/
+exclude_patterns = ["docs/gallery", "docs/tutorials"]  # Sphinx-Gallery writes their pages to gallery/ and tutorials/
 
 html_theme = "furo"
 html_title = "slipfront"
@@ -44,8 +47,9 @@ def figures_of(block, block_vars, gallery_conf):
 
 
 sphinx_gallery_conf = {
-    "examples_dirs": ["docs/gallery"],
-    "gallery_dirs": ["gallery"],
+    "examples_dirs": ["docs/gallery", "docs/tutorials"],
+    "gallery_dirs": ["gallery", "tutorials"],
+    "within_subsection_order": FileNameSortKey,
     "image_scrapers": [figures_of],
     "min_reported_time": 1e9,
     "show_memory": False,
@@ -67,5 +71,11 @@ def as_sphinx_reads_it(app, what, name, obj, options, lines):
     lines[:] = out
 
 
+def as_the_site_names_it(app, docname, source):
+    """Leads links to scripts of the gallery and the tutorials, and to the list of them, to the pages made of them."""
+    source[0] = re.sub(r"\]\((gallery|tutorials)/(\w+)\.(rst|py)\)", lambda link: f"](../{link[1]}/{link[2].replace('README', 'index')}.rst)", source[0])
+
+
 def setup(app):
+    app.connect("source-read", as_the_site_names_it)
     app.connect("autodoc-process-docstring", as_sphinx_reads_it, priority=400)  # before napoleon
