@@ -14,6 +14,7 @@ from support import SOURCE
 #: What each prints, as its text quotes it, and how many pictures it draws.
 RESULTS = {
     "plot_1_my_earthquake": ("contact ratio                             0.18               0.13", 2),
+    "plot_2_slow_slip": ("stress           varies by a factor of 2.04", 1),
 }
 
 
