@@ -3,6 +3,7 @@
 import re
 
 from matplotlib.figure import Figure
+from slipfront.plots import save
 from sphinx_gallery.scrapers import figure_rst
 from sphinx_gallery.sorting import FileNameSortKey
 
@@ -41,7 +42,7 @@ def figures_of(block, block_vars, gallery_conf):
     for figure in [value for value in names.values() if isinstance(value, Figure) and id(value) not in saved]:
         saved.add(id(figure))
         path = next(block_vars["image_path_iterator"])
-        figure.savefig(path, bbox_inches="tight")
+        save(figure, path, bbox_inches="tight")
         paths.append(path)
     return figure_rst(paths, gallery_conf["src_dir"])
 

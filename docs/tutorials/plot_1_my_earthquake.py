@@ -20,6 +20,8 @@ other. slipfront relates both to the stress on the fault before the rupture.
 # known to a factor of 1.3. The last three lines describe the rock: the speed of P waves,
 # Poisson's ratio nu, and the shear modulus mu.
 
+import textwrap
+
 import numpy as np
 
 import slipfront
@@ -70,7 +72,8 @@ print(f"c = {float(velocities.c_m_s):.0f} m/s")
 # under more stress holds more of them, and the front of a dense train of dislocations is
 # faster. The relation has a closed form, which the upper panel shows.
 
-figure_relations = plots.relations(slipfront.relations(stress=np.linspace(0.05, 1.5, 200)))
+states = slipfront.relations(stress=np.linspace(0.05, 1.5, 200))
+figure_relations = plots.relations(states)
 
 # %%
 # The blue curve is steep: an error of 7 % in the rupture velocity becomes one of 4 % in
@@ -88,7 +91,7 @@ figure_relations = plots.relations(slipfront.relations(stress=np.linspace(0.05, 
 show(velocities, "frictionless_slip_velocity", "contact_ratio", "stress_pa_bound")
 show(velocities, "stress_pa")
 print()
-print(velocities.warnings.item().replace("; ", ";\n"))
+print(textwrap.fill(velocities.warnings.item(), 84))
 
 # %%
 # The stress in Pa is missing, and there is only a bound: 33 MPa or more. The warning gives
@@ -214,7 +217,7 @@ show(event, "slip_velocity_ratio", "damping_number")
 try:
     slipfront.event({**mine, "rupture_velocity": "5.8 km/s"})
 except slipfront.InputError as error:
-    print(error)
+    print(textwrap.fill(str(error), 84))
 
 # %%
 # **Limits.** The intervals hold for viscous friction. Friction with a strength can slow the

@@ -6,9 +6,9 @@ You have a table of slow slip events, with gaps and ranges, as published tables 
 end of this tutorial you have the stress of each event, a comparison with earthquakes by
 decades of rupture velocity, and files to keep.
 
-Two columns matter. The **rupture velocity** is that of the front, from its migration along the
-fault. The **slip velocity** is that of one side of the fault against the other. It may be
-missing, or follow from slip and duration.
+Two columns matter. The **rupture velocity** is that of the front, from its migration along
+the fault. The **slip velocity** is that of one side of the fault against the other. It may
+be missing, or follow from slip and duration.
 """
 
 # %%
@@ -21,6 +21,7 @@ missing, or follow from slip and duration.
 # describes how a velocity was found.
 
 import pathlib
+import textwrap
 
 import numpy as np
 
@@ -47,10 +48,10 @@ pathlib.Path("slow-slip.csv").write_text(TABLE, encoding="utf-8")
 slow = slipfront.event("slow-slip.csv", output="slow-slip.nc")
 
 columns = ["rupture_velocity", "stress", "contact_ratio", "stress_pa_bound"]
-print("event                    velocity, c   stress, mu A / pi   contact ratio   stress, kPa")
+print("event                   velocity, c  stress, mu A / pi  contact ratio  stress, kPa")
 for name, *values in zip(slow.name.values, *(slow[column].values for column in columns)):
     velocity, stress, contact, pascals = values
-    print(f"{name:25}{velocity:11.2e}{stress:20.3f}{contact:16.1e}{pascals / 1e3:14.0f}")
+    print(f"{name:24}{velocity:11.2e}{stress:19.3f}{contact:15.1e}{pascals / 1e3:13.0f}")
 
 # %%
 # Each row has what its observations allow:
@@ -67,7 +68,7 @@ for name, *values in zip(slow.name.values, *(slow[column].values for column in c
 # The table names no rock, and slipfront has assumed one. Every assumption is a warning of
 # its event:
 
-print(slow.isel(event=0).warnings.item().replace("; ", ";\n"))
+print(slow.isel(event=0).warnings.item().replace("; ", "\n"))
 
 # %%
 # Stress hardly depends on velocity
@@ -115,14 +116,14 @@ print(f"at a stress of {float(fifth.stress):.3f} the front is {slower:.0f} times
 
 slipfront.event(output="catalogue.nc")
 catalogue = slipfront.open("catalogue.nc")
-print("decade, c   events   median stress, mu A / pi   with slip velocity   median A        kPa")
+print("decade, c  events  median stress  with slip velocity  median A  median kPa")
 for i in range(catalogue.sizes["decade"]):
     decade = catalogue.isel(decade=i).sel(quantile=0.5)
     kilopascals = float(decade.population_stress_pa_bound) / 1e3
-    print(f"{float(decade.decade):9.0e} {int(decade.population_events):8}"
-          f" {float(decade.population_stress):26.3f}"
-          f" {int(decade.population_contact_ratio_events):20}"
-          f" {float(decade.population_contact_ratio):10.1e} {kilopascals:10.0f}")
+    print(f"{float(decade.decade):9.0e}{int(decade.population_events):8}"
+          f"{float(decade.population_stress):15.3f}"
+          f"{int(decade.population_contact_ratio_events):20}"
+          f"{float(decade.population_contact_ratio):10.1e}{kilopascals:12.0f}")
 
 # %%
 # The first column is the middle of a decade. Two decades are empty, and the fast tremor is
@@ -202,7 +203,7 @@ print(pathlib.Path("slow-slip-results.csv").read_text(encoding="utf-8"))
 mixed = slipfront.event([{"name": "good", "rupture_velocity": "4 km/day"},
                          {"name": "bad", "rupture_velocity": "4 km/dy"}])
 for name, stress, error in zip(mixed.name.values, mixed.stress.values, mixed.error.values):
-    print(f"{name:5} {stress:6.3f}  {error}")
+    print(name, "-", textwrap.fill(error, 80) if error else f"stress {stress:.3f}")
 
 # %%
 # **Limits.** A range without an error is taken as uniform. Length over duration is not a
