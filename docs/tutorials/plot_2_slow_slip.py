@@ -2,23 +2,23 @@
 A catalogue of slow slip: from a table to stress and contact
 ============================================================
 
-You have a table of slow slip events, with gaps and ranges, as published tables are. At the
-end of this tutorial you have the stress of each event, a comparison with earthquakes by
-decades of rupture velocity, and files to keep.
+You have a table of slow slip events, with gaps and ranges, as published tables are. At the end of
+this tutorial you have the stress of each event, a comparison with earthquakes by decades of rupture
+velocity, and files to keep.
 
-Two columns matter. The **rupture velocity** is that of the front, from its migration along
-the fault. The **slip velocity** is that of one side of the fault against the other. It may
-be missing, or follow from slip and duration.
+Two columns matter. The **rupture velocity** is that of the front, from its migration along the
+fault. The **slip velocity** is that of one side of the fault against the other. It may be missing,
+or follow from slip and duration.
 """
 
 # %%
 # Read a table
 # ------------
 #
-# This table has thirteen events of the catalogue that ships with slipfront. The column
-# titles give the units. A cell may have its own unit, such as ``30 m/s``, or a range, such
-# as ``2-15``. An empty cell means "not observed". The column ``rupture_velocity_how``
-# describes how a velocity was found.
+# This table has thirteen events of the catalogue that ships with slipfront. The column titles give
+# the units. A cell may have its own unit, such as ``30 m/s``, or a range, such as ``2-15``. An
+# empty cell means "not observed". The column ``rupture_velocity_how`` describes how a velocity was
+# found.
 
 import pathlib
 import textwrap
@@ -56,17 +56,15 @@ for name, *values in zip(slow.name.values, *(slow[column].values for column in c
 # %%
 # Each row has what its observations allow:
 #
-# - The velocity is in units of c, the speed of strain waves, and the stress in units of mu
-#   A / pi. Here mu is the shear modulus. A is the **contact ratio**, the real area of
-#   contact over the nominal area. The stress follows from the rupture velocity only.
-# - The contact ratio and the stress in kPa need a slip velocity too. Both are lower bounds,
-#   because friction may have slowed the slip. :doc:`plot_1_my_earthquake` explains this
-#   bound.
-# - ``nan`` means "cannot be known". Gisborne 2002 has no rupture velocity, and so it has no
-#   stress.
+# - The velocity is in units of c, the speed of strain waves, and the stress in units of mu A / pi.
+#   Here mu is the shear modulus. A is the **contact ratio**, the real area of contact over the
+#   nominal area. The stress follows from the rupture velocity only.
+# - The contact ratio and the stress in kPa need a slip velocity too. Both are lower bounds, because
+#   friction may have slowed the slip. :doc:`plot_1_my_earthquake` explains this bound.
+# - ``nan`` means "cannot be known". Gisborne 2002 has no rupture velocity, and so it has no stress.
 #
-# The table names no rock, and slipfront has assumed one. Every assumption is a warning of
-# its event:
+# The table names no rock, and slipfront has assumed one. Every assumption is a warning of its
+# event:
 
 print(slow.isel(event=0).warnings.item().replace("; ", "\n"))
 
@@ -82,19 +80,18 @@ for name in ("rupture_velocity", "stress"):
     print(f"{name:16} varies by a factor of {factor:.3g}")
 
 # %%
-# A factor of 4500 in velocity is a factor of 2 in stress. The closed form gives the reason,
-# here for six decades of velocity:
+# A factor of 4500 in velocity is a factor of 2 in stress. The closed form gives the reason, here
+# for six decades of velocity:
 
 decades = slipfront.relations(rupture_velocity=[1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 0.9])
 for velocity, stress in zip(decades.rupture_velocity.values, decades.stress.values):
     print(f"V / c = {velocity:7.0e}   stress {stress:.3f} mu A / pi")
 
 # %%
-# Dislocations carry the slip, and stress pushes them together. The force between two of
-# them falls exponentially with their distance. A fault with half the stress has
-# dislocations at twice the distance, and hardly any force is left to move them. So slow
-# slip needs no special process in this theory, only less stress. How much slower is the
-# front at a fifth of the stress of an earthquake?
+# Dislocations carry the slip, and stress pushes them together. The force between two of them falls
+# exponentially with their distance. A fault with half the stress has dislocations at twice the
+# distance, and hardly any force is left to move them. So slow slip needs no special process in this
+# theory, only less stress. How much slower is the front at a fifth of the stress of an earthquake?
 
 earthquake = slipfront.relations(rupture_velocity=[0.475])
 fifth = slipfront.relations(stress=earthquake.stress / 5)
@@ -102,17 +99,17 @@ slower = float(earthquake.rupture_velocity / fifth.rupture_velocity)
 print(f"at a stress of {float(fifth.stress):.3f} the front is {slower:.0f} times slower")
 
 # %%
-# **Be careful with this result.** Each stress here was computed from a velocity with the
-# closed form. The points are on the curve by construction. They show the consequences of
-# the theory for your events, and do not test it. A test needs a measurement of stress that
-# does not come from the velocity.
+# **Be careful with this result.** Each stress here was computed from a velocity with the closed
+# form. The points are on the curve by construction. They show the consequences of the theory for
+# your events, and do not test it. A test needs a measurement of stress that does not come from the
+# velocity.
 #
 # Compare with earthquakes
 # ------------------------
 #
-# Without an argument, ``event`` evaluates the shipped catalogue of 50 events, from creep to
-# great earthquakes. The file also holds the **population**: medians and 5 % to 95 % of
-# the events in each decade of velocity.
+# Without an argument, ``event`` evaluates the shipped catalogue of 50 events, from creep to great
+# earthquakes. The file also holds the **population**: medians and 5 % to 95 % of the events in
+# each decade of velocity.
 
 slipfront.event(output="catalogue.nc")
 catalogue = slipfront.open("catalogue.nc")
@@ -126,29 +123,28 @@ for i in range(catalogue.sizes["decade"]):
           f"{float(decade.population_contact_ratio):10.1e}{kilopascals:12.0f}")
 
 # %%
-# The first column is the middle of a decade. Two decades are empty, and the fast tremor is
-# between them. So earthquakes and slow slip are separate groups in this catalogue.
+# The first column is the middle of a decade. Two decades are empty, and the fast tremor is between
+# them. So earthquakes and slow slip are separate groups in this catalogue.
 
 line = slipfront.relations(rupture_velocity=np.geomspace(1e-7, 0.9, 300))
 figure_events = plots.events(catalogue, line)
 
 # %%
-# The left panel is the curve of the last section. The right panel has the lower bounds in
-# MPa. There the events are not on one curve, because their contact ratios differ. Dotted
-# lines show the closed form for contact ratios from 1e-5 to 1e-1. Arrows point up, since
-# friction can only raise a bound.
+# The left panel is the curve of the last section. The right panel has the lower bounds in MPa.
+# There the events are not on one curve, because their contact ratios differ. Dotted lines show the
+# closed form for contact ratios from 1e-5 to 1e-1. Arrows point up, since friction can only raise a
+# bound.
 #
-# So slow events and earthquakes differ in two ways. The stress over mu A / pi is a fifth.
-# The contact ratio is less too, by factors of 4 to 300 against the median of the
-# earthquakes. But the second statement is about bounds, and it rests on few events: only
-# four slow ones have both velocities.
+# So slow events and earthquakes differ in two ways. The stress over mu A / pi is a fifth. The
+# contact ratio is less too, by factors of 4 to 300 against the median of the earthquakes. But the
+# second statement is about bounds, and it rests on few events: only four slow ones have both
+# velocities.
 #
 # Find the share of friction
 # --------------------------
 #
-# A contact ratio turns the bound into a value. The paper that slipfront follows
-# (Gershenzon, Bambakidis & Skinner, 2015) has one for the typical tremor and slip event:
-# 4e-5.
+# A contact ratio turns the bound into a value. The paper that slipfront follows (Gershenzon,
+# Bambakidis & Skinner, 2015) has one for the typical tremor and slip event: 4e-5.
 
 certain = {"name": "Typical tremor and slip", "rupture_velocity": "10 km/day",
            "slip": "0.4 cm", "duration": "14 days", "contact_ratio": 4e-5}
@@ -158,12 +154,11 @@ print(f"friction leaves {float(typical.slip_velocity_ratio):.2f} of the slip vel
 print(f"damping number {float(typical.damping_number):.0f}")
 
 # %%
-# The stress is five times its bound of 16 kPa. Friction took four fifths of the slip
-# velocity. But it did not make this event slow: without any friction the front would have
-# the same velocity.
+# The stress is five times its bound of 16 kPa. Friction took four fifths of the slip velocity. But
+# it did not make this event slow: without any friction the front would have the same velocity.
 #
-# How certain is this? Suppose that rupture velocity and slip are known to 20 %, and the
-# contact ratio to a factor of 2.
+# How certain is this? Suppose that rupture velocity and slip are known to 20 %, and the contact
+# ratio to a factor of 2.
 
 errors = {"rupture_velocity": "10 */ 1.2 km/day", "slip": "0.4 */ 1.2 cm",
           "contact_ratio": "4e-5 */ 2"}
@@ -173,15 +168,14 @@ for name in ("stress_pa", "slip_velocity_ratio", "damping_number"):
     print(f"{name:20} {float(uncertain[name]):9.3g}   [{low:.3g}, {high:.3g}]")
 
 # %%
-# The contact ratio decides. Its 90 % interval spans a factor of 10, and so does that of
-# the stress. The damping number spans two decades.
+# The contact ratio decides. Its 90 % interval spans a factor of 10, and so does that of the
+# stress. The damping number spans two decades.
 #
 # Keep the results
 # ----------------
 #
-# ``slow-slip.nc`` already holds everything as NetCDF, with units and long names.
-# ``slipfront.open`` returns the same Dataset. For a spreadsheet, write the columns that you
-# need as CSV:
+# ``slow-slip.nc`` already holds everything as NetCDF, with units and long names. ``slipfront.open``
+# returns the same Dataset. For a spreadsheet, write the columns that you need as CSV:
 
 again = slipfront.open("slow-slip.nc")
 table = again[["name", "kind", *columns]].to_dataframe()
@@ -189,16 +183,16 @@ table.to_csv("slow-slip-results.csv", index=False, float_format="%.4g")
 print(pathlib.Path("slow-slip-results.csv").read_text(encoding="utf-8"))
 
 # %%
-# On the command line, ``slipfront event slow-slip.csv -o slow-slip.nc`` writes the same
-# NetCDF file. With ``-o results.csv`` it writes all columns as CSV, and ``--population``
-# prints the decades.
+# On the command line, ``slipfront event slow-slip.csv -o slow-slip.nc`` writes the same NetCDF
+# file. With ``-o results.csv`` it writes all columns as CSV, and ``--population`` prints the
+# decades.
 #
 # Your own table
 # --------------
 #
-# Replace ``TABLE`` by your rows, or give the name of your file to ``event``. Names of
-# columns that slipfront does not know, such as ``source``, are free text. A bad row does
-# not lose the others; its ``error`` gives the reason:
+# Replace ``TABLE`` by your rows, or give the name of your file to ``event``. Names of columns that
+# slipfront does not know, such as ``source``, are free text. A bad row does not lose the others;
+# its ``error`` gives the reason:
 
 mixed = slipfront.event([{"name": "good", "rupture_velocity": "4 km/day"},
                          {"name": "bad", "rupture_velocity": "4 km/dy"}])
@@ -206,8 +200,8 @@ for name, stress, error in zip(mixed.name.values, mixed.stress.values, mixed.err
     print(name, "-", textwrap.fill(error, 80) if error else f"stress {stress:.3f}")
 
 # %%
-# **Limits.** A range without an error is taken as uniform. Length over duration is not a
-# rupture velocity: an event that grows to both sides then seems twice as fast.
+# **Limits.** A range without an error is taken as uniform. Length over duration is not a rupture
+# velocity: an event that grows to both sides then seems twice as fast.
 #
 # You can read on in :doc:`/docs/events` for all columns and for large catalogues, and in
 # :doc:`/docs/friction_ratio` for the friction that events imply.

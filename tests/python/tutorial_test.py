@@ -15,6 +15,7 @@ from support import SOURCE
 RESULTS = {
     "plot_1_my_earthquake": ("contact ratio                             0.18               0.13", 2),
     "plot_2_slow_slip": ("stress           varies by a factor of 2.04", 1),
+    "plot_3_laboratory_block": ("half a period 0.71 ms", 2),
 }
 
 
