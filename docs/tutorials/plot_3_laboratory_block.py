@@ -18,6 +18,7 @@ also shows how to convert them.
 # All numbers are in SI units. The spring is that of the machine. Its stiffness is a stress over a
 # slip, so divide the stiffness in N/m by the area of the block.
 
+import pathlib
 import warnings
 
 import matplotlib.pyplot as plt
@@ -179,7 +180,7 @@ table(run)
 # The force of the spring per area is the stiffness times its stretch. We know the stretch: the far
 # end has moved by velocity times time, and the block by its slip.
 
-plt.style.use(slipfront.cases.parent / "slipfront.mplstyle")
+plt.style.use(pathlib.Path(slipfront.__file__).with_name("slipfront.mplstyle"))
 
 
 def force(run):
