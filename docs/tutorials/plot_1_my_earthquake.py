@@ -15,10 +15,10 @@ both to the stress on the fault before the rupture.
 # Write down what you measured
 # ----------------------------
 #
-# An event is a ``dict``. Every number is a text with a unit and, if you know it, an error. ``+-``
-# gives a standard deviation, and ``*/`` gives a factor. Here the slip velocity is known to a factor
-# of 1.3. The last three lines describe the rock: the speed of P waves, Poisson's ratio nu, and the
-# shear modulus mu.
+# An event is a ``dict``. A quantity is a text with its number, its unit and, if you know it, its
+# error. ``+-`` gives a standard deviation, and ``*/`` gives a factor. Here the slip velocity is
+# known to a factor of 1.3. The last three lines describe the rock: the speed of P waves, Poisson's
+# ratio nu, and the shear modulus mu.
 
 import textwrap
 
@@ -128,9 +128,8 @@ ALL = ("stress", "contact_ratio", "stress_pa", "slip_velocity_ratio", "damping_n
 show(with_drop.isel(event=0), *ALL)
 
 # %%
-# Every line now has a value, the median of the posterior distribution. Friction has taken about
-# half of the slip velocity. But the interval of that share is wide: it reaches from a fifth to
-# nearly all.
+# Every line now has a value, the median of the posterior distribution. Friction has left about half
+# of the slip velocity. But this share has a wide interval: from a fifth to nearly all.
 #
 # The corner plot shows the reason. Diagonal panels are histograms of one quantity. The other panels
 # show pairs, with the regions that hold 50 % and 90 % of the draws.
@@ -210,8 +209,9 @@ show(event, "slip_velocity_ratio", "damping_number")
 #   1.2;
 # - ``"2.8..3.2 km/s"``: any value in the range, all equally likely.
 #
-# You may give ``slip`` and ``rise_time`` in place of the slip velocity. A value that the theory
-# does not allow is an error, and the message gives the reason:
+# You may give ``slip`` and ``rise_time`` in place of the slip velocity. With ``duration`` and
+# ``asperity_spacing``, the result has the friction coefficient C too. A value that the theory does
+# not allow is an error, and the message gives the reason:
 
 try:
     slipfront.event({**mine, "rupture_velocity": "5.8 km/s"})

@@ -52,11 +52,12 @@ print(f"spring             {stiffness / 1e9:.1f} MPa/mm")
 # Convert to the units of the model
 # ---------------------------------
 #
-# slipfront has two lengths of its own, the asperity spacing and the contact ratio A. They make its
-# units. A smooth block has no asperities, so we are free to choose both. One choice matters: the
-# model moves a mass of rho b / 2 per area, with the density rho and the asperity spacing b. The
-# mass of our block per area is rho times its height. So b is twice the height. In this tutorial
-# ``spacing`` is b, to keep it apart from the evolution effect.
+# The rock, the contact ratio A and the asperity spacing b make the units of the model. A is the
+# real area of contact over the nominal area. A block without asperities has neither A nor b, so we
+# are free to choose both. One choice matters: the model moves a mass of rho b / 2 per area, with
+# the density rho and the asperity spacing b. The mass of our block per area is rho times its
+# height. So b is twice the height. In the code ``spacing`` is this b, to keep it apart from the
+# evolution effect.
 
 spacing = 2 * height
 contact_ratio = 0.5
