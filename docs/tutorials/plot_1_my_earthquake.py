@@ -134,6 +134,7 @@ show(with_drop.isel(event=0), *ALL)
 # The corner plot shows the reason. Diagonal panels are histograms of one quantity. The other panels
 # show pairs, with the regions that hold 50 % and 90 % of the draws.
 
+# sphinx_gallery_thumbnail_number = 2
 figure_corner = plots.corner(with_drop)
 
 # %%

@@ -87,6 +87,7 @@ print(f"friction in mu A^2/(pi (1 - nu)) {force / 1e6:.2g} MPa")
 pulse = slipfront.pulse(fault)
 slip, error = pulse.attrs["slip_at_origin"], pulse.attrs["slip_at_origin_error"]
 print(f"slip at x = 0 is {slip:.4f} +- {error:.4f} b / (2 pi)")
+# sphinx_gallery_thumbnail_number = 2
 figure_map = plots.space_time(pulse)
 
 # %%
