@@ -1,15 +1,19 @@
 """Sphinx configuration of the documentation site, which `docs/site/build` calls with the staged sources."""
 
+import re
+
 from matplotlib.figure import Figure
 from pygments.lexers.special import TextLexer
+from slipfront.plots import save
 from sphinx_gallery.scrapers import figure_rst
+from sphinx_gallery.sorting import FileNameSortKey
 
 project = "slipfront"
 copyright = "the authors of slipfront"
 extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "breathe", "sphinx_copybutton",
               "sphinx_gallery.gen_gallery"]
 root_doc = "index"
-exclude_patterns = ["docs/gallery"]  # Sphinx-Gallery writes its pages to gallery/
+exclude_patterns = ["docs/gallery", "docs/tutorials"]  # Sphinx-Gallery writes their pages to gallery/ and tutorials/
 
 html_theme = "furo"
 html_title = "slipfront"
@@ -43,18 +47,20 @@ def figures_of(block, block_vars, gallery_conf):
     for figure in [value for value in names.values() if isinstance(value, Figure) and id(value) not in saved]:
         saved.add(id(figure))
         path = next(block_vars["image_path_iterator"])
-        figure.savefig(path, bbox_inches="tight")
+        save(figure, path, bbox_inches="tight")
         paths.append(path)
     return figure_rst(paths, gallery_conf["src_dir"])
 
 
 sphinx_gallery_conf = {
-    "examples_dirs": ["docs/gallery"],
-    "gallery_dirs": ["gallery"],
+    "examples_dirs": ["docs/gallery", "docs/tutorials"],
+    "gallery_dirs": ["gallery", "tutorials"],
+    "within_subsection_order": FileNameSortKey,
     "image_scrapers": [figures_of],
     "min_reported_time": 1e9,
     "show_memory": False,
     "show_signature": False,
+    "capture_repr": (),
     "remove_config_comments": True,
     "abort_on_example_error": True,
 }
@@ -72,6 +78,12 @@ def as_sphinx_reads_it(app, what, name, obj, options, lines):
     lines[:] = out
 
 
+def as_the_site_names_it(app, docname, source):
+    """Leads links to scripts of the gallery and the tutorials, and to the list of them, to the pages made of them."""
+    source[0] = re.sub(r"\]\((gallery|tutorials)/(\w+)\.(rst|py)\)", lambda link: f"](../{link[1]}/{link[2].replace('README', 'index')}.rst)", source[0])
+
+
 def setup(app):
     app.add_lexer("csv", TextLexer)
+    app.connect("source-read", as_the_site_names_it)
     app.connect("autodoc-process-docstring", as_sphinx_reads_it, priority=400)  # before napoleon

@@ -59,7 +59,7 @@ class Readme(unittest.TestCase):
         (root / "build").mkdir()
         (root / "home").mkdir()
         os.symlink(os.path.join(SOURCE, "cases"), root / "cases")
-        os.symlink(os.path.join(SOURCE, "docs/tutorial"), root / "docs/tutorial")
+        os.symlink(os.path.join(SOURCE, "docs/tutorials"), root / "docs/tutorials")
         os.symlink(pathlib.Path(PROGRAM).resolve().parent.parent, root / "build/release")
         (root / "run").write_text(f'#!/bin/sh\nexec "{PROGRAM}" "$@"\n', encoding="utf-8")
         (root / "run").chmod(0o755)
