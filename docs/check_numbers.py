@@ -305,11 +305,11 @@ ENTRIES = [
     # Numbers that come from others on the pages.
     Entry("loading.md", "the drop falls by {} (b - a) for a factor e", recurrence_slope),
     Entry("loading.md", "the drop falls by {} (b - a) for a factor e", legend_slope),
-    Entry("../README.md", "its slip is up to {} % above that of the chain at scale {}",
+    Entry("trust.md", "at x = 0 is up to {} % above that of the chain at scale {}.",
           lambda: numbers_on("claims.md", "with the paper's closure is up to {} % above the chain. Range: C = 0 to 2 (Gamma = C t to 12.6), scale {}.")),
-    Entry("../README.md", "differs from that of the chain by {} % at most, for C from 0 to {}.",
+    Entry("trust.md", "slip within {} % for C = 0 to {}, at scale 4000",
           lambda: [*numbers_on("claims.md", "The pulse with the consistent closure is within {} % of the chain in every row"), 2]),
-    Entry("../README.md", "at C = 2 an observer with a fixed threshold sees it {} % slower, and the leading edge is {} % slower",
+    Entry("trust.md", "An observer with a fixed threshold sees that edge {} % slower at C = 2. The leading edge is {} % slower.",
           lambda: numbers_on("claims.md", "sees it: {} % slower on the chain") + numbers_on("claims.md", "Leading edge: {} % slower on the chain")),
     Entry("../python/slipfront/reproduce/report.py", "within {} %, and the paper's closure is up to {} % above the chain (docs/claims.md)",
           lambda: numbers_on("claims.md", "The pulse with the consistent closure is within {} % of the chain in every row") +

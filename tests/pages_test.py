@@ -144,11 +144,11 @@ class Page:
     def run_shell(self, block: Block) -> None:
         script = "trap 'echo \"line $LINENO\" >&2' ERR\nset -euo pipefail\n" + block.text
         done = subprocess.run(["bash", "-c", script], cwd=self.folder, env=self.environment, stdin=subprocess.DEVNULL,
-                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=PATIENCE)
-        self.output = done.stdout + done.stderr
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=PATIENCE)
+        self.output = done.stdout
         if done.returncode != 0:
-            at = re.search(r"line (\d+)\n?$", done.stderr)
-            self.fail(block.line + (int(at[1]) - 2 if at else 0), f"exit code {done.returncode}: {done.stderr[-1500:]}")
+            at = re.search(r"line (\d+)\n?$", done.stdout)
+            self.fail(block.line + (int(at[1]) - 2 if at else 0), f"exit code {done.returncode}: {done.stdout[-1500:]}")
 
     def run_python(self, block: Block) -> None:
         if self.python is None:

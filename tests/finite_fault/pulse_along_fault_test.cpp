@@ -101,12 +101,12 @@ TEST(PulseAlongFault, GivesTheReasonIfTheModelIsUnsuitable) {
     return pulse_along_fault(states, 0.9, speed).reason;
   };
   const auto one = [](int) { return 1.0; };
-  EXPECT_NE(reason({}).find("no places"), std::string::npos);
+  EXPECT_NE(reason({}).find("no positions"), std::string::npos);
   std::vector<LocalState> states = fault(10, 2000, one);
   states.resize(2 * rows);
   EXPECT_NE(reason(states).find("2 columns"), std::string::npos);
   for (LocalState& s : states) s.subfault.rupture_time = 3;
-  EXPECT_NE(reason(states).find("alike"), std::string::npos);
+  EXPECT_NE(reason(states).find("equal"), std::string::npos);
   for (LocalState& s : states) s.subfault.rupture_time.reset();
   EXPECT_NE(reason(states).find("TRUP"), std::string::npos);
   states = fault(10, 2000, one);

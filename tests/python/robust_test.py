@@ -100,7 +100,7 @@ class Pictures(CommandLine):
         slipfront.pulse(STEP, set={**SMALL, "output.every": 0.1}, output=source)
         self.ok("plot", source, "-o", picture)
         self.assertEqual(sorted(os.listdir(folder)), ["name.png", "p.nc", "x"])
-        self.refused(2, "plot", source, "-o", "", says=["no name"])
+        self.refused(2, "plot", source, "-o", "", says=["is empty"])
 
 
 class Files(CommandLine):
