@@ -327,7 +327,7 @@ def page(axes):
     say()
     say("This page tests the paper's statements one by one and gives a verdict on each. `docs/claims.py` writes it: every number comes from a run of `slipfront "
         "compare`, `pulse` or `relations`. All quantities are dimensionless (docs/NOTATION.md). \"Chain\" means that every dislocation is computed directly. A chain of "
-        "scale S has S times as many dislocations. docs/theory.md 3.3 defines the closures.")
+        "scale S has S times as many dislocations. docs/theory/3_modulation.md 3.3 defines the closures.")
     say()
     say("![Slip, convergence of the leading edge, fronts, profile, and slip velocity against stress](claims.png)")
     say()

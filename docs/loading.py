@@ -146,7 +146,7 @@ SHARE = 0.3  # threshold at which a front is seen, as a fraction of the largest 
 
 
 def fan(stress):
-    """Returns the closed form (docs/theory.md, 4): the velocity of the front and of the position where the slip velocity is SHARE times that at
+    """Returns the closed form (docs/theory/4_pulse.md): the velocity of the front and of the position where the slip velocity is SHARE times that at
     the origin, both in c, and the slip velocity at the origin in c A / pi."""
     from scipy.special import ellipkm1, ellipe
 

@@ -117,8 +117,9 @@ The script computes the tables. The text around them was written for the numbers
 | W, W(0) | slip velocity, and its value at x = 0 | c A / pi |
 | V, V- | rupture velocity, velocity of the fast front | c |
 
-The closures "paper" and "consistent" are two averages of friction ([theory.md](theory.md), 3.3).
-The closure "consistent" is exact, and the closure "paper" understates friction.
+The closures "paper" and "consistent" are two averages of friction
+([theory/3_modulation.md](theory/3_modulation.md), 3.3). The closure "consistent" is exact, and the
+closure "paper" understates friction.
 
 ## The verdict
 

@@ -89,6 +89,11 @@ class Prose(unittest.TestCase):
             with self.subTest(text=text):
                 self.assertNotIn("sentence", [kind for _, kind, _ in findings("a.md", text)])
 
+    def test_reads_a_formula_as_one_word(self):
+        formula = " ".join(["x"] * 20) + ". A room"
+        self.assertEqual(findings("a.md", f"The sum ${formula}$ is zero.\n\n$$\n{formula}\n$$\n"), [])
+        self.assertEqual(findings("a.md", "It costs 5 $ in a room, or 6 $."), [(1, "word", "room")])
+
     def test_finds_long_lines_of_pages(self):
         self.assertEqual(findings("a.md", "a\n" + 25 * "abcd " + "\n"), [(2, "line", "abcd abcd abcd abcd abcd abcd abcd abcd ...")])
         for text in ("- [a page](" + 110 * "b" + ").", "https://" + 110 * "b", "|" + 60 * " a" + "|", "text\n\n    " + 60 * " a", "# " + 60 * "a "):

@@ -33,7 +33,7 @@ def stress(x):
 
 
 def rates(t, y, dx, central):
-    """Rates of phi and psi: phi +- psi travel at lambda_pm (docs/theory.md 3.1), and friction reduces M at the rate C at constant spacing l."""
+    """Rates of phi and psi: phi +- psi travel at lambda_pm (docs/theory/3_modulation.md 3.2), and friction reduces M at the rate C at constant spacing l."""
     n = y.size // 2
     phi, psi = y[:n], np.maximum(y[n:], 1e-12)
     K, E = k_e(psi)

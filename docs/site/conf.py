@@ -2,6 +2,7 @@
 
 import re
 
+from docutils import nodes
 from matplotlib.figure import Figure
 from pygments.lexers.special import TextLexer
 from slipfront.plots import save
@@ -21,6 +22,7 @@ html_show_copyright = False
 html_show_sphinx = False
 html_copy_source = False
 html_static_path = ["static"]
+html_math_renderer = "katex"
 html_css_files = ["site.css"]
 html_theme_options = {"navigation_with_keys": True}
 highlight_language = "none"
@@ -28,7 +30,7 @@ highlight_language = "none"
 breathe_projects = {"slipfront": "doxygen/xml"}
 breathe_default_project = "slipfront"
 
-myst_enable_extensions = ["colon_fence"]
+myst_enable_extensions = ["colon_fence", "dollarmath"]
 myst_heading_anchors = 4
 copybutton_prompt_text = "$ "
 
@@ -83,7 +85,25 @@ def as_the_site_names_it(app, docname, source):
     source[0] = re.sub(r"\]\((gallery|tutorials)/(\w+)\.(rst|py)\)", lambda link: f"](../{link[1]}/{link[2].replace('README', 'index')}.rst)", source[0])
 
 
+def write_formula(translator, node):
+    """Leaves a formula to KaTeX, which typesets it in the reader's browser."""
+    tag, begin, end = ("div", r"\[", r"\]") if isinstance(node, nodes.math_block) else ("span", r"\(", r"\)")
+    translator.body.append(translator.starttag(node, tag, "", CLASS="math notranslate nohighlight"))
+    translator.body.append(f"{begin}{translator.encode(node.astext())}{end}</{tag}>")
+    raise nodes.SkipNode
+
+
+def load_katex(app, page, template, context, document):
+    """Loads KaTeX on the pages that have formulas, and on no other."""
+    if app.env.get_domain("math").has_equations(page):
+        app.add_css_file("katex/katex.min.css")
+        for script in ("katex/katex.min.js", "katex/auto-render.js", "formulas.js"):
+            app.add_js_file(script, loading_method="defer")
+
+
 def setup(app):
     app.add_lexer("csv", TextLexer)
     app.connect("source-read", as_the_site_names_it)
+    app.add_html_math_renderer("katex", (write_formula, None), (write_formula, None))
+    app.connect("html-page-context", load_katex)
     app.connect("autodoc-process-docstring", as_sphinx_reads_it, priority=400)  # before napoleon

@@ -47,7 +47,7 @@ long sample_after(long steps, long every) {
   return sample(n) > steps ? sample(n) : sample(n + 1);
 }
 
-/// The largest force on a dislocation in the initial train at rest: dJ/dx (docs/theory.md 6) plus F.
+/// The largest force on a dislocation in the initial train at rest: dJ/dx (docs/theory/6_contact.md) plus F.
 double driving_force(const ScaledProblem& s, double end) {
   constexpr int samples = 2000;
   const double dx = (s.right - s.left) / samples;

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The modulation equations with friction, written for one dislocation of a train (docs/theory.md 3.4). The coordinate
-/// q counts dislocations, l is their spacing, M = 2 pi P / k the momentum of one of them:
+/// The modulation equations with friction, written for one dislocation of a train (docs/theory/3_modulation.md 3.4).
+/// The coordinate q counts dislocations, l is their spacing, M = 2 pi P / k the momentum of one of them:
 ///     l_t = U_q,    M_t + p_q = 2 pi (F - <f>) - l <1 - cos u> (a^2)_x,
 /// with U = tanh phi and p = 2 sinh^2 psi. The solver of the pulse, the Riemann solver, the tests and the benchmarks
 /// all take their fluxes and sources from this file. The functions have no branches and no calls, so that loops over

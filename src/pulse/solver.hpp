@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// The modulation equations with friction, solved in the coordinate that counts dislocations (docs/theory.md 3.4):
+/// The modulation equations with friction, solved in the coordinate that counts dislocations
+/// (docs/theory/3_modulation.md 3.4):
 ///     l_t = U_q,   M_t + p_q = 2 pi F - friction,   p = 2 sinh^2 psi.
 /// We use finite volumes in a coordinate s, in which each cell has unit length, with q(s) fixed. The number of
 /// dislocations in a cell therefore never changes. An empty region needs no grid: its boundary is a free edge (p = 0).

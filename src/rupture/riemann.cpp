@@ -19,8 +19,9 @@ namespace {
 
 State mirrored(const State& s) { return {-s.phi, s.psi}; }
 
-/// The spacing l and the momentum M of one dislocation. The Lagrangian form of the equations (docs/theory.md 3.4) is
-/// l_t = U_q, M_t + p_q = 0 with p = 2 sinh^2 psi. Hence the jump condition between two trains is [p][l] + [U][M] = 0.
+/// The spacing l and the momentum M of one dislocation. The Lagrangian form of the equations
+/// (docs/theory/3_modulation.md 3.4) is l_t = U_q, M_t + p_q = 0 with p = 2 sinh^2 psi. Hence the jump condition
+/// between two trains is [p][l] + [U][M] = 0.
 struct PerDislocation {
   double spacing_unit;   ///< l cosh(phi) = 2 K / cosh(psi)
   double momentum_unit;  ///< M / sinh(phi) = 8 cosh(psi) E

@@ -58,7 +58,7 @@ std::vector<std::string> notes_on(const scenario::Scenario& s, const std::vector
       s.initial.stress_left != s.initial.stress_right)
     notes.emplace_back(
         "without friction the energy that a shock takes from the averaged motion stays behind it, as phonons: there no "
-        "scale brings chain and pulse together (docs/theory.md 3.2)");
+        "scale brings chain and pulse together (docs/theory/3_modulation.md 3.6)");
   notes.emplace_back(
       "* as an observer with a threshold sees it; on a chain with little friction phonons run ahead, and raising "
       "pulse.threshold hides them");

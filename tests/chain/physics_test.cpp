@@ -112,8 +112,8 @@ TEST(ChainInitial, UniformTrainStaysAtRestInStrongerOrWeakerContact) {
 }
 
 /// Trains with the same J = (4 / pi) a cosh(psi) E are in equilibrium with each other on a slope of a(x), for any
-/// stress (docs/theory.md 6). Such a train hardly moves. A train that is created with psi of k, without a, moves at
-/// once.
+/// stress (docs/theory/6_contact.md). Such a train hardly moves. A train that is created with psi of k, without a,
+/// moves at once.
 TEST(ChainInitial, TrainInEquilibriumOnASlopeOfContactStaysAtRest) {
   const double length = 300;
   Problem p = line(0, length, 0.25);

@@ -61,7 +61,7 @@ TEST(Friction, OpposesMotionAndVanishesAtRest) {
   }
 }
 
-/// The ratio of the closures is I / W = 4 E K / pi^2 (docs/theory.md 3.3).
+/// The ratio of the closures is I / W = 4 E K / pi^2 (docs/theory/3_modulation.md 3.3).
 TEST(Friction, LosesLessMomentumWithTheClosureOfThePaper) {
   const State s{0.2, 1e-3};
   const train::Averages a = train::averages(s);

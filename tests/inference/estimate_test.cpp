@@ -32,8 +32,8 @@ bool mentions(const std::vector<std::string>& warnings, const std::string& word)
   return false;
 }
 
-/// The values are the rows without friction in docs/theory.md 5. The paper uses rounded c, V and Sigma-, and so does
-/// the second half of this test.
+/// The values are the rows without friction in docs/worked_examples.md. The paper uses rounded c, V and Sigma-, and so
+/// does the second half of this test.
 TEST(Estimate, ReproducesParkfield) {
   const Estimate e = estimate(from_case("parkfield-2004.toml"), {});
   EXPECT_NEAR(e.speed, 5421.0, 0.05);

@@ -1,6 +1,6 @@
-// For Gamma = C t >> 1, Eqs. (7) reduce to nonlinear diffusion (docs/theory.md 3.5). Its solution from a step next to
-// the empty side depends only on q / sqrt(t / C). We solve it here as an ordinary differential equation, independently
-// of the library's scheme.
+// For Gamma = C t >> 1, Eqs. (7) reduce to nonlinear diffusion (docs/theory/3_modulation.md 3.5). Its solution from a
+// step next to the empty side depends only on q / sqrt(t / C). We solve it here as an ordinary differential equation,
+// independently of the library's scheme.
 
 #include <gtest/gtest.h>
 

@@ -67,8 +67,8 @@ TEST(Pulse, WholeProfileAgreesWithTheClosedForm) {
   }
 }
 
-/// Slip at x = 0 by t = 2 pi with both closures (docs/theory.md 3.3). The numbers come from an older, first-order
-/// scheme and have errors of up to 1e-3.
+/// Slip at x = 0 by t = 2 pi with both closures (docs/theory/3_modulation.md 3.3). The numbers come from an older,
+/// first-order scheme and have errors of up to 1e-3.
 TEST(Pulse, SlipWithFrictionAgreesWithTheReferenceTable) {
   const struct {
     double C, consistent, paper;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The problem that a chain run solves: Eqs. 1 and 3 in the units of docs/theory.md 1,
+/// The problem that a chain run solves: Eqs. 1 and 3 in the units of docs/theory/1_chain.md,
 ///     u_tt - u_xx + a(x)^2 sin u = F(x, t) - f(u_t).
 
 #include <cstddef>

@@ -1,9 +1,9 @@
 #pragma once
 /// \file
-/// A friction law is the force that opposes slip at a position (docs/theory.md 3.3). To add a law, write one file in
-/// src/friction/laws/ and add its line to src/friction/laws.cpp. The file gives the name, the parameters and the force.
-/// A law with state variables also gives their StateEvolution. Averages over a train, implicit solves and loops over
-/// many positions follow from the force, by quadrature and bracketing, unless the law knows closed forms.
+/// A friction law is the force that opposes slip at a position (docs/theory/5_friction.md). To add a law, write one
+/// file in src/friction/laws/ and add its line to src/friction/laws.cpp. The file gives the name, the parameters and
+/// the force. A law with state variables also gives their StateEvolution. Averages over a train, implicit solves and
+/// loops over many positions follow from the force, by quadrature and bracketing, unless the law knows closed forms.
 
 #include <functional>
 #include <limits>

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Converts the constants of rock and interface to those of the model (docs/theory.md 1, Eqs. 1-3). All are in SI
+/// Converts the constants of rock and interface to those of the model (docs/theory/1_chain.md, Eqs. 1-3). All are in SI
 /// units.
 
 namespace slipfront::medium {

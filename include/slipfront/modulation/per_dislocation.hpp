@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The modulation equations in a frame that moves with the dislocations (docs/theory.md 3.4). If q counts the
-/// dislocations, the equations are l_t = U_q and M_t + p_q = 2 pi F - friction. They describe a relativistic gas of
+/// The modulation equations in a frame that moves with the dislocations (docs/theory/3_modulation.md 3.4). If q counts
+/// the dislocations, the equations are l_t = U_q and M_t + p_q = 2 pi F - friction. They describe a relativistic gas of
 /// particles of mass 8 that repel each other with the pressure p = 2 sinh^2 psi.
 
 #include "slipfront/train/train.hpp"

@@ -45,7 +45,7 @@ struct Observed {
 Observed observed_fronts(const std::vector<double>& x, const std::vector<double>& speed, double level, double left,
                          double right);
 
-/// Energy over the domain per unit width, in units of the scenario (H of docs/theory.md 3.2).
+/// Energy over the domain per unit width, in units of the scenario (H of docs/theory/3_modulation.md 3.2).
 struct Energy {
   double elastic;       ///< energy of the state at rest with the same density
   double kinetic;       ///< H less `elastic`

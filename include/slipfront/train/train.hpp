@@ -52,8 +52,8 @@ struct Averages {
 /// All averages, each to a few ulp. For the empty state all are zero except J, whose limit is 4 cosh(phi) / pi.
 Averages averages(const State& state);
 
-/// The averages where the relative contact ratio is `contact` = a (docs/theory.md 6: a^2 sin u in Eq. 3). They are in
-/// the units of the interface; averages(state) would be in the local units a x and a t.
+/// The averages where the relative contact ratio is `contact` = a (docs/theory/6_contact.md: a^2 sin u in Eq. 3). They
+/// are in the units of the interface; averages(state) would be in the local units a x and a t.
 Averages averages(const State& state, double contact);
 
 /// The smallest stress above 0 of a state in doubles. At smaller stresses psi = 4 exp(-pi / stress) underflows.

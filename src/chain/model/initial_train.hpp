@@ -17,9 +17,9 @@ class LocalTrain;
 /// changed by the less than half a dislocation that this takes. If the whole chain is stressed and the stress jumps,
 /// the jump is midway between two dislocations, where u is smooth. With `whole` the entire chain holds a whole number,
 /// as a periodic chain must. With `contact`, a(x), psi at x is that of stress / a: the substrate is a^2 as strong, and
-/// the train of Eq. 4 holds in the local units a x (docs/theory.md 6). Sites are computed on demand, so no process need
-/// hold them all. The bits of a site do not depend on the range in which it is computed. A site costs some microseconds
-/// where the stress changes.
+/// the train of Eq. 4 holds in the local units a x (docs/theory/6_contact.md). Sites are computed on demand, so no
+/// process need hold them all. The bits of a site do not depend on the range in which it is computed. A site costs some
+/// microseconds where the stress changes.
 class StaticTrain {
  public:
   /// Integrates the stress over the chain once. A stress that is too small for a train (train::smallest_stress, of

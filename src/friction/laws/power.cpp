@@ -190,7 +190,7 @@ const Definition& power_law() {
       .name = "power",
       .adjective = "power",
       .equation = "f = C |w|^(n-1) w",
-      .source = "docs/theory.md 3.3",
+      .source = "docs/theory/5_friction.md",
       .parameters = {coefficient_in("mu A^2 / (pi (1 - nu)) over the unit of w to the power n"),
                      {.name = "exponent",
                       .symbol = "n",

@@ -14,9 +14,9 @@
 
 namespace slipfront::pulse {
 
-/// The equations in space, docs/theory.md 3.4: time derivatives of the widths X and momenta Y of the cells. They follow
-/// from the states in the cells (here), the states at the faces (reconstruction.cpp), the fluxes there (kernels,
-/// face_fluxes) and the sources (sources.cpp). This class is independent of the time integrator.
+/// The equations in space, docs/theory/3_modulation.md 3.4: time derivatives of the widths X and momenta Y of the
+/// cells. They follow from the states in the cells (here), the states at the faces (reconstruction.cpp), the fluxes
+/// there (kernels, face_fluxes) and the sources (sources.cpp). This class is independent of the time integrator.
 ///     X_t = [U] over the faces,   Y_t = -[p] + q_s (2 pi F - friction - l <1 - cos u> d(a^2)/dx)
 /// With a contact ratio a(x), phi and psi are those in the local units a x, a t.
 ///

@@ -47,7 +47,7 @@ constexpr ScalarVariable absentable(Description about) {
   return {about, get<path...>, set<path...>, true};
 }
 
-/// From docs/theory.md 1: F_d b / (2 pi) an asperity, 1 / A asperities in the unit of x, a chain of width b.
+/// From docs/theory/1_chain.md: F_d b / (2 pi) an asperity, 1 / A asperities in the unit of x, a chain of width b.
 constexpr std::string_view energy = "mu b^2 A / (2 pi^2 (1 - nu))";
 
 constexpr ScalarVariable members[] = {

@@ -31,7 +31,8 @@ constexpr double least_phi = 1e-12, most_phi = 2.7;
 constexpr int phi_steps = 400;
 const double log_step = std::log(most_phi / least_phi) / phi_steps;
 
-/// (p - p0)(l - l0) + U M for a state next to the train at rest with psi0. It is 0 behind a shock (docs/theory.md 3.4).
+/// (p - p0)(l - l0) + U M for a state next to the train at rest with psi0. It is 0 behind a shock
+/// (docs/theory/3_modulation.md 3.4).
 double jump(double phi, double psi, double psi0) {
   const elliptic::AtPsi at = elliptic::at_psi(psi), at0 = elliptic::at_psi(psi0);
   const double rise = 2 * std::sinh(psi - psi0) * std::sinh(psi + psi0);  // 2 sinh^2 psi minus 2 sinh^2 psi0

@@ -8,9 +8,9 @@ namespace slipfront::chain {
 
 /// An absorbing end, where the chain continues as a train at rest. Every disturbance of that train leaves without
 /// reflection. The train at the end moves with the mean velocity U = tanh phi of the dislocations next to it. Its psi
-/// is that of an outgoing wave with this phi (docs/theory.md 4). The wave is a fan if it pulls on the train outside,
-/// and a shock if it pushes. The deviation v from that train obeys v_t +- v_x = 0. If there is no train outside, u
-/// obeys it.
+/// is that of an outgoing wave with this phi (docs/theory/4_pulse.md). The wave is a fan if it pulls on the train
+/// outside, and a shock if it pushes. The deviation v from that train obeys v_t +- v_x = 0. If there is no train
+/// outside, u obeys it.
 struct AbsorbingEnd {
   double psi0 = 0;                                   ///< psi of the train outside; 0: no train
   std::shared_ptr<const std::vector<double>> shock;  ///< table of psi - psi0 behind shocks, evenly spaced in ln phi
