@@ -45,7 +45,7 @@ def problems(site: Path):
             target = (path.parent / unquote(parts.path)).resolve() if parts.path else path
             if not target.exists():
                 yield f"{where}:{line}: {address} leads to no file"
-            elif parts.fragment and target in pages and unquote(parts.fragment) not in pages[target].anchors:
+            elif parts.fragment and not parts.fragment.startswith("/") and target in pages and unquote(parts.fragment) not in pages[target].anchors:
                 yield f"{where}:{line}: {address} leads to no anchor"
 
 

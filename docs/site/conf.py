@@ -1,6 +1,8 @@
 """Sphinx configuration of the documentation site, which `docs/site/build` calls with the staged sources."""
 
+import pathlib
 import re
+import sys
 
 from docutils import nodes
 from matplotlib.figure import Figure
@@ -13,6 +15,10 @@ project = "slipfront"
 copyright = "the authors of slipfront"
 extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "breathe", "sphinx_copybutton",
               "sphinx_gallery.gen_gallery"]
+if pathlib.Path(__file__).with_name("extra").exists():  # the explorer is part of the site
+    sys.path.insert(0, str(pathlib.Path(__file__).parent))
+    extensions.append("explorer_links")
+    html_extra_path = ["extra"]
 root_doc = "index"
 exclude_patterns = ["docs/gallery", "docs/tutorials"]  # Sphinx-Gallery writes their pages to gallery/ and tutorials/
 

@@ -2,15 +2,72 @@
 
 It runs short cases and describes what the program writes: the variables of NetCDF files with their attributes, and the
 lines of the text, whose names are the keys of JSON."""
+import contextlib
+import io
+import json
 import pathlib
 import re
 import subprocess
 import sys
 import tempfile
+from typing import Iterator
 
 import xarray
 
 SHORT_LOADED_CHAIN = ["--set", "domain.left=-30", "domain.right=30", "time.end=1e5", "output.every=5e4"]
+LOADED_CHAIN_WITH_EVENTS = ["--set", "domain.left=-30", "domain.right=30", "time.end=1e6"]
+
+#: Keys that only JSON has: those of tables and lists, and of diagnostics. Others have the name of a variable or a line.
+JSON_ONLY = {
+    "errors": "estimated error of each number of a `pulse` run",
+    "friction": "results of `relations` with a friction coefficient or a ratio of slip velocities, one for each closure",
+    "measure": "the slip velocity that a ratio is about: origin, mean, peak or time-mean",
+    "slip_velocity_ratio_error": "error of the ratio, from the table",
+    "friction_coefficient_error": "error of the coefficient, from the table",
+    "events": "list of events: observed ones of `event`, slip events of a loaded `chain`",
+    "onset": "time at which a slip event begins, in b / (c A)",
+    "duration": "duration of a slip event, in b / (c A)",
+    "largest_slip": "slip of the part that slips most in a slip event, in b / (2 pi)",
+    "peak_velocity": "largest mean slip velocity of a part in a slip event, in c A / pi",
+    "origin": "x of the part that moves first in a slip event, in b / A",
+    "length": "length of all parts that move in a slip event, in b / A",
+    "complete": "0 if the run ended within the slip event",
+    "reference": "level with which `compare` compares the others",
+    "levels": "list of the levels of `compare`",
+    "level": "name of a level",
+    "difference": "value of a level minus that of the reference",
+    "trend": "how the differences of the chains change with their scale",
+    "exponent": "p, if a difference falls as scale^-p",
+    "extrapolated": "value of the chain extrapolated to infinite scale",
+    "notes": "remarks in words",
+    "posterior": "posterior distribution of an event",
+    "prior_share": "width of an interval over that of the prior; near 1 the data say nothing",
+    "trade_off": "contact ratio and stress at given damping numbers, if only velocities are known",
+    "suffices": "whether the diagnostics of the samples pass",
+    "seed": "seed of the samples",
+    "slip_velocity_is": "the observed slip velocity is that at the origin, a mean, a peak or a time mean",
+    "along_fault": "list of the subfaults of a finite-fault model",
+    "segment": "number of the segment of a subfault",
+    "along_strike_m": "position of a subfault along strike, in m",
+    "down_dip_m": "position of a subfault down dip, in m",
+    "depth_m": "depth of a subfault, in m",
+    "slip_m": "slip of a subfault, in m",
+    "x_m": "position of a column of subfaults, in m",
+    "model_rupture_time_s": "rupture time of the model at that position, in s",
+    "pulse_front_time_s": "time at which the front of the pulse passes, in s",
+    "model_slip_m": "slip of the model at that position, in m",
+    "pulse_slip_m": "slip of the pulse at that position, in m",
+    "end_s": "time at which the pulse ends, in s",
+    "columns_reached": "number of columns that the front of the pulse reaches",
+    "front_velocity_ratio": "velocity of the front, pulse over model",
+    "correlation_of_slip": "correlation of slip along strike, pulse and model",
+    "slip_error": "largest slip ahead of the front, over the largest slip",
+    "reason": "reason why there is no pulse",
+    "population": "statistics by decade of rupture velocity",
+    "rupture_velocity_from": "lower end of a decade, in c",
+    "rupture_velocity_to": "upper end of a decade, in c",
+    "closed_form": "values of the closed form in the middle of a decade",
+}
 
 
 class Program:
@@ -42,6 +99,36 @@ def unit_of(variable: xarray.DataArray) -> str:
     return variable.attrs.get("dimensional_unit", "") if unit == "1" else unit
 
 
+def keys_of(value: object) -> Iterator[str]:
+    """All keys in an object of JSON and in what it contains."""
+    if isinstance(value, dict):
+        for key, inside in value.items():
+            yield key
+            yield from keys_of(inside)
+    elif isinstance(value, list):
+        for inside in value:
+            yield from keys_of(inside)
+
+
+def describe_json(run: Program, page: str) -> None:
+    """Describes the keys that only JSON has, and stops if a key is on the page nowhere."""
+    print("## Further keys of JSON\n\nThese keys occur only in the output of `--json`. `<name>_interval` is the 90 % interval of a value, and")
+    print("`<name>_events` in a population is the number of events in which the value is known.\n")
+    print("| key | meaning |\n|---|---|")
+    for key, meaning in JSON_ONLY.items():
+        print(f"| `{key}` | {meaning} |")
+    listed = {*re.findall(r"`(\w+)`", page), *JSON_ONLY}
+    for command in [["relations", "--stress", "1", "--friction-coefficient", "0.1"],
+                    ["pulse", run.case("step-viscous.toml")],
+                    ["chain", run.case("stick-slip.toml"), *LOADED_CHAIN_WITH_EVENTS],
+                    ["compare", run.case("step-viscous.toml"), "--set", "chain.scale=30"],
+                    ["event", run.case("parkfield-2004.toml"), run.case("synthetic-fault.fsp"), "--pulse"],
+                    ["event", run.case("catalogue.csv"), "--samples", "0", "--population"]]:
+        keys = {re.sub("_(interval|events)$", "", key) for key in keys_of(json.loads(run.text(*command, "--json", "--quiet")))}
+        if missing := sorted(keys - listed):
+            sys.exit(f"docs/site/output_variables.py: add the keys {', '.join(missing)} of slipfront {command[0]} to JSON_ONLY")
+
+
 def describe_variables(title: str, command: str, datasets: list[xarray.Dataset]) -> None:
     print(f"## {title}\n\n`{command}` writes these variables.\n")
     print("| variable | meaning | unit | dimensions | source |\n|---|---|---|---|---|")
@@ -67,6 +154,13 @@ def describe_lines(title: str, command: str, text: str) -> None:
 
 
 def main() -> None:
+    page = io.StringIO()
+    with contextlib.redirect_stdout(page):
+        write_page(page)
+    print(page.getvalue(), end="")
+
+
+def write_page(page: io.StringIO) -> None:
     with tempfile.TemporaryDirectory() as folder:
         run = Program(sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(folder))
         print("# Output variables\n")
@@ -81,6 +175,7 @@ def main() -> None:
                            [run.file("compare", run.case("step-viscous.toml"), "--set", "chain.scale=30")])
         describe_variables("Files of `event`", "slipfront event FILE -o OUT.nc",
                            [run.file("event", run.case("ets.toml"), "--draws", "10"), run.file("event", run.case("synthetic-fault.fsp"), "--pulse")])
+        describe_json(run, page.getvalue())
 
 
 if __name__ == "__main__":

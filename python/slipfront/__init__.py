@@ -22,6 +22,7 @@ attribute `references` gives its equation in the paper (Gershenzon, Bambakidis a
     check       checks a scenario without running it
     open        reads a file that slipfront has written
     cases       folder of the scenarios that come with slipfront
+    __version__ version of the package
 """
 
 import pathlib
