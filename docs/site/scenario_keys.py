@@ -6,9 +6,9 @@ import sys
 TABLES = {
     "": ("At the top of the file", ""),
     "initial": ("[initial]", "The stress at t = 0, where everything is at rest. This is the only required table."),
-    "friction": ("[friction]", "The law of friction and its parameters. [friction.md](docs/friction.md) describes the laws."),
+    "friction": ("[friction]", "The law of friction and its parameters. [Choose a law of friction](docs/friction.md) describes the laws."),
     "forcing": ("[forcing]", "A force that acts on every position."),
-    "loading": ("[loading]", "Springs whose far ends move, for chains only. [loading.md](docs/loading.md) describes them."),
+    "loading": ("[loading]", "Springs whose far ends move, for chains only. [Load a chain](docs/loading.md) describes them."),
     "interface": ("[interface]", "The contact ratio along the interface."),
     "domain": ("[domain]", "The part of the interface that is computed."),
     "time": ("[time]", "The duration of the run."),
@@ -27,7 +27,7 @@ def main() -> None:
     keys = json.loads(subprocess.run([sys.argv[1], "keys", "--json"], check=True, capture_output=True, text=True).stdout)["keys"]
     print("# Scenario keys\n")
     print("This page lists every key that a scenario file may have, with its type, range, unit and default. The program makes")
-    print("the list from the code that checks scenarios; `slipfront keys` prints it too. [scenario.md](docs/scenario.md)")
+    print("the list from the code that checks scenarios; `slipfront keys` prints it too. [Write a scenario file](docs/scenario.md)")
     print("explains how to write a scenario.\n")
     for table, (title, text) in TABLES.items():
         print(f"## {title}\n\n{text}\n")
