@@ -19,7 +19,6 @@ also shows how to convert them.
 # slip, so divide the stiffness in N/m by the area of the block.
 
 import pathlib
-import warnings
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -143,10 +142,8 @@ for key, value in scenario["loading"].items():
 # --------------
 #
 # The chain takes steps of any length: tiny ones during an event, and long ones while the block
-# sticks. It also counts dislocations and warns that there are none. A smooth block has none, so we
-# switch this warning off.
+# sticks.
 
-warnings.filterwarnings("ignore", message="chain: 0 dislocations")
 run = slipfront.chain(scenario)
 print(f"{run.attrs['steps']} steps")
 

@@ -166,7 +166,10 @@ TEST(Toml, RejectsWithLineKeyAndNearestName) {
   EXPECT_EQ(refused("[event]\nrupture_velocity = 3.0\n").problem, "a number without a unit");
   EXPECT_EQ(refused("[event]\nrupture_velocity = [1, 2]\n").line, 2u);
   EXPECT_EQ(refused("[event]\nrupture_velocity = \"-1 km/s\"\n").problem, "not positive");
-  EXPECT_EQ(refused("[event]\np_wave_speed = \"6 km/s\"\n").key, "event.p_wave_speed");  // belongs to [medium]
+  const Complaint misplaced = refused("[event]\np_wave_speed = \"6 km/s\"\n");
+  EXPECT_EQ(misplaced.key, "event.p_wave_speed");
+  EXPECT_EQ(misplaced.allowed, "p_wave_speed in [medium]");
+  EXPECT_EQ(refused("[event]\n[medium]\nslip = \"1 m\"\n").allowed, "slip in [event]");
   EXPECT_EQ(refused("[event]\n[medium]\nshear_modulus = \"20-30 km\"\n").key, "medium.shear_modulus");
   EXPECT_EQ(refused("[evnt]\n").key, "evnt");
   EXPECT_EQ(refused("event = 3\n").problem, "not a table");

@@ -77,6 +77,8 @@ class Chain(CommandLine):
         self.assertLess(abs((events[3]["onset"] - events[2]["onset"]) / 51684.606 - 1), 2e-3)
         self.assertIsNone(events[3]["rupture_velocity"])
         self.assertLess(whole["energy_drift"], 1e-10)
+        # A block without a substrate has no dislocations, and needs no larger scale.
+        self.assertEqual(self.chain(case, "--set", "time.end=50000")["warnings"], [])
         # An interrupted and resumed run writes the same file as an uninterrupted one.
         longer = ["--set", "time.end=4e6", "--set", "output.every=4e5"]
         cut, uninterrupted = case + ".cut.nc", case + ".alone.nc"

@@ -101,8 +101,9 @@ Entry read_row(const std::vector<Column>& columns, const std::vector<std::string
     for (std::size_t i = 0; i < std::min(columns.size(), cells.size()); ++i)
       if (columns[i].role == Role::name && o.name.empty()) o.name = cells[i];
     if (cells.size() != columns.size())
-      throw InputError({.problem = "the row has " + std::to_string(cells.size()) + " cells",
-                        .allowed = std::to_string(columns.size()) + " cells, as in the header"});
+      throw InputError(
+          {.problem = "the row has " + std::to_string(cells.size()) + (cells.size() == 1 ? " cell" : " cells"),
+           .allowed = std::to_string(columns.size()) + " cells, as in the header"});
     for (std::size_t i = 0; i < columns.size(); ++i)
       if (!blank(cells[i])) read_into(o, ranges, columns[i], cells[i]);
     close_ranges(o, ranges);

@@ -73,8 +73,11 @@ void read_table(Observation& o, const toml::table& table, const std::string& nam
     } else if (observed && key == "slip_velocity_is") {
       read_measure(o, full_key, node);
     } else {
-      throw InputError(
-          {.line = line_of(node), .key = full_key, .problem = "unknown key", .allowed = nearest_or_all(key, known)});
+      const std::string other = observed ? "[medium]" : "[event]";
+      throw InputError({.line = line_of(node),
+                        .key = full_key,
+                        .problem = quantity ? "wrong table" : "unknown key",
+                        .allowed = quantity ? key + " in " + other : nearest_or_all(key, known)});
     }
   }
 }
