@@ -140,8 +140,8 @@ void RunChecks::check_one_sign(const Balance& balance, Findings& found) const {
                   "chain: the slip velocity is larger than the stress by " + digits(excess));
 }
 
-/// Warns if so few dislocations passed x = 0 that the slip there, a whole number of them, is inaccurate. A chain without
-/// a substrate has no dislocations, and its slip is not a whole number.
+/// Warns if so few dislocations passed x = 0 that the slip there, a whole number of them, is inaccurate. A chain
+/// without a substrate has no dislocations, and its slip is not a whole number.
 void RunChecks::check_dislocations(Findings& found) const {
   const double last_slip = snapshots_.back().slip_at_origin, scale = scaled_.scale;
   if (!observer_.sees_origin() || last_slip == 0 || !chain_.problem().substrate) return;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "foundation/text/digits.hpp"
 #include "slipfront/friction/friction.hpp"
@@ -13,7 +14,6 @@ namespace slipfront::scenario {
 namespace {
 
 using friction::Definition;
-using friction::force_unit;
 using friction::Parameter;
 using enum KeyType;
 
@@ -25,262 +25,167 @@ constexpr Limits stress{.least = 0, .most = largest_stress};
 constexpr Limits fraction{.least = 0, .most = 1, .without_least = true, .without_most = true};
 constexpr Limits tolerance{.least = 1e-12, .most = 0.1};
 
+/// A key whose value is a number.
+Key number_key(std::string_view table, std::string_view name, std::string_view unit, Limits limits,
+               std::string otherwise, std::string meaning) {
+  return {.table = table,
+          .name = name,
+          .meaning = std::move(meaning),
+          .unit = unit,
+          .otherwise = std::move(otherwise),
+          .limits = limits};
+}
+
+/// A key whose value is one of a few words.
+Key word_key(std::string_view table, std::string_view name, std::vector<std::string_view> words, std::string otherwise,
+             std::string meaning) {
+  return {.table = table,
+          .name = name,
+          .type = word,
+          .meaning = std::move(meaning),
+          .otherwise = std::move(otherwise),
+          .words = std::move(words)};
+}
+
+/// A key of another type: a formula, a text, a truth value.
+Key other_key(std::string_view table, std::string_view name, KeyType type, std::string otherwise, std::string meaning) {
+  return {.table = table, .name = name, .type = type, .meaning = std::move(meaning), .otherwise = std::move(otherwise)};
+}
+
 std::vector<Key> initial_keys() {
+  const std::string_view table = "initial";
+  const std::string step_or_tanh = "required by step and tanh";
+  const Limits widths{.least = 0, .most = farthest, .without_least = true};
   return {
-      {.table = "initial",
-       .name = "profile",
-       .type = word,
-       .meaning = "form of the initial stress",
-       .otherwise = "step",
-       .words = {"step", "tanh", "formula", "table"}},
-      {.table = "initial",
-       .name = "stress_left",
-       .meaning = "stress of a step or tanh at x < 0; 0 is an empty interface",
-       .unit = stress_unit,
-       .otherwise = "required by step and tanh",
-       .limits = stress},
-      {.table = "initial",
-       .name = "stress_right",
-       .meaning = "stress of a step or tanh at x > 0; 0 is an empty interface",
-       .unit = stress_unit,
-       .otherwise = "required by step and tanh",
-       .limits = stress},
-      {.table = "initial",
-       .name = "width",
-       .meaning = "width of a tanh: right + (left - right)(1 - tanh(x / width)) / 2",
-       .unit = position_unit,
-       .otherwise = "1",
-       .limits = {.least = 0, .most = farthest, .without_least = true}},
-      {.table = "initial",
-       .name = "formula",
-       .type = formula,
-       .meaning = "stress as a formula of x, in mu A / pi",
-       .otherwise = "required by the profile formula"},
-      {.table = "initial",
-       .name = "file",
-       .type = text,
-       .meaning = "CSV or NetCDF file with x and stress; relative to the scenario file",
-       .otherwise = "required by the profile table"},
-      {.table = "initial",
-       .name = "hold",
-       .type = truth,
-       .meaning = "a static load holds at rest the stress that is not in equilibrium",
-       .otherwise = "false"},
+      word_key(table, "profile", {"step", "tanh", "formula", "table"}, "step", "form of the initial stress"),
+      number_key(table, "stress_left", stress_unit, stress, step_or_tanh,
+                 "stress of a step or tanh at x < 0; 0 is an empty interface"),
+      number_key(table, "stress_right", stress_unit, stress, step_or_tanh,
+                 "stress of a step or tanh at x > 0; 0 is an empty interface"),
+      number_key(table, "width", position_unit, widths, "1",
+                 "width of a tanh: right + (left - right)(1 - tanh(x / width)) / 2"),
+      other_key(table, "formula", formula, "required by the profile formula", "stress as a formula of x, in mu A / pi"),
+      other_key(table, "file", text, "required by the profile table",
+                "CSV or NetCDF file with x and stress; relative to the scenario file"),
+      other_key(table, "hold", truth, "false", "a static load holds at rest the stress that is not in equilibrium"),
   };
 }
 
-/// The keys of [friction]. Parameters of the laws come from the laws themselves.
-std::vector<Key> friction_keys() {
-  Key law{.table = "friction", .name = "law", .type = word, .meaning = "law of friction", .otherwise = "none"};
-  for (const Definition* definition : friction::laws()) law.words.push_back(definition->name);
-  std::vector<Key> all = {law};
-  for (const Definition* definition : friction::laws()) {
-    for (const Parameter& p : definition->parameters) {
-      const auto known = std::find_if(all.begin(), all.end(), [&](const Key& key) { return key.name == p.name; });
-      if (known != all.end()) {
-        known->laws.push_back(definition->name);
-        if (known->meaning.find(p.meaning) == std::string::npos) known->meaning += "; " + std::string(p.meaning);
-        if (known->unit != p.unit && p.words.empty()) known->unit = "the unit that the law needs";
-        continue;
+Key key_of(const Parameter& p) {
+  const bool has_words = !p.words.empty();
+  return {.table = "friction",
+          .name = p.name,
+          .type = has_words ? word : number,
+          .meaning = std::string(p.meaning),
+          .unit = has_words ? "" : p.unit,
+          .otherwise = has_words ? std::string(p.words.at(static_cast<std::size_t>(p.value))) : shortest(p.value),
+          .limits = {.least = p.least, .most = p.most, .without_least = p.without_least},
+          .words = p.words};
+}
+
+/// Parameters of the laws, each once. A parameter of several laws has the meanings that it has in each.
+std::vector<Key> parameter_keys() {
+  std::vector<Key> all;
+  for (const Definition* law : friction::laws()) {
+    for (const Parameter& p : law->parameters) {
+      auto known = std::find_if(all.begin(), all.end(), [&](const Key& key) { return key.name == p.name; });
+      if (known == all.end()) {
+        all.push_back(key_of(p));
+        known = all.end() - 1;
       }
-      const bool has_words = !p.words.empty();
-      all.push_back(
-          {.table = "friction",
-           .name = p.name,
-           .type = has_words ? word : number,
-           .meaning = std::string(p.meaning),
-           .unit = has_words ? "" : p.unit,
-           .otherwise = has_words ? std::string(p.words.at(static_cast<std::size_t>(p.value))) : shortest(p.value),
-           .limits = {.least = p.least, .most = p.most, .without_least = p.without_least},
-           .words = p.words,
-           .laws = {definition->name}});
+      known->laws.push_back(law->name);
+      if (known->meaning.find(p.meaning) == std::string::npos) known->meaning += "; " + std::string(p.meaning);
+      if (known->unit != p.unit && p.words.empty()) known->unit = "the unit that the law needs";
     }
   }
-  const auto add_curve = [&](Key key, friction::CurveSource source) {
-    for (const Definition* definition : friction::laws())
-      if (definition->curve == source) key.laws.push_back(definition->name);
-    all.push_back(key);
-  };
-  add_curve({.table = "friction",
-             .name = "formula",
-             .type = formula,
-             .meaning = "force as a formula of the slip velocity w, which is multiplied by coefficient",
-             .otherwise = "required by the law formula"},
-            friction::CurveSource::formula);
-  add_curve({.table = "friction",
-             .name = "file",
-             .type = text,
-             .meaning = "CSV or NetCDF file with w and f; relative to the scenario file",
-             .otherwise = "required by the law table"},
-            friction::CurveSource::table);
-  all.push_back({.table = "friction",
-                 .name = "closure",
-                 .type = word,
-                 .meaning = "average of friction: the exact one, or the printed one, which understates friction",
-                 .otherwise = "consistent",
-                 .words = {"consistent", "paper"}});
-  all.push_back({.table = "friction",
-                 .name = "normal_stress",
-                 .type = quantity,
-                 .meaning = "with it, numbers for forces are friction coefficients",
-                 .otherwise = "forces are in the unit of F"});
   return all;
 }
 
-std::vector<Key> load_and_domain_keys() {
+/// Adds the laws that take their curve from this source.
+Key with_laws(Key key, friction::CurveSource source) {
+  for (const Definition* law : friction::laws())
+    if (law->curve == source) key.laws.push_back(law->name);
+  return key;
+}
+
+std::vector<Key> friction_keys() {
+  const std::string_view table = "friction";
+  std::vector<std::string_view> names;
+  for (const Definition* law : friction::laws()) names.push_back(law->name);
+  std::vector<Key> all = {word_key(table, "law", names, "none", "law of friction")};
+  const std::vector<Key> parameters = parameter_keys();
+  all.insert(all.end(), parameters.begin(), parameters.end());
+  all.push_back(with_laws(other_key(table, "formula", formula, "required by the law formula",
+                                    "force as a formula of the slip velocity w, which is multiplied by coefficient"),
+                          friction::CurveSource::formula));
+  all.push_back(with_laws(other_key(table, "file", text, "required by the law table",
+                                    "CSV or NetCDF file with w and f; relative to the scenario file"),
+                          friction::CurveSource::table));
+  all.push_back(word_key(table, "closure", {"consistent", "paper"}, "consistent",
+                         "average of friction: the exact one, or the printed one, which understates friction"));
+  all.push_back(other_key(table, "normal_stress", quantity, "forces are in the unit of F",
+                          "with it, numbers for forces are friction coefficients"));
+  return all;
+}
+
+std::vector<Key> load_keys() {
   return {
-      {.table = "forcing",
-       .name = "formula",
-       .type = formula,
-       .meaning = "force F(x, t) that pushes slip forward, in mu A^2 / (pi (1 - nu))",
-       .otherwise = "0"},
-      {.table = "loading",
-       .name = "stiffness",
-       .meaning = "force of the springs over their stretch; stress over stretch at a pulled end",
-       .unit = "unit of F over b / (2 pi)",
-       .otherwise = "required by [loading]",
-       .limits = positive},
-      {.table = "loading",
-       .name = "velocity",
-       .meaning = "velocity of the far ends of the springs",
-       .unit = velocity_unit,
-       .otherwise = "required by [loading]"},
-      {.table = "loading",
-       .name = "where",
-       .type = word,
-       .meaning = "sites that the springs pull",
-       .otherwise = "everywhere",
-       .words = {"everywhere", "left", "right"}},
-      {.table = "loading",
-       .name = "event_velocity",
-       .meaning = "slip velocity above which a part of the chain is in an event",
-       .unit = velocity_unit,
-       .otherwise = "10 times velocity",
-       .limits = positive},
-      {.table = "interface",
-       .name = "contact",
-       .type = formula,
-       .meaning = "contact ratio a(x) > 0 relative to A; 0 only for a chain without a substrate",
-       .otherwise = "1"},
-      {.table = "domain",
-       .name = "left",
-       .meaning = "x of the left end",
-       .unit = position_unit,
-       .otherwise = "chosen for a step or tanh",
-       .limits = position},
-      {.table = "domain",
-       .name = "right",
-       .meaning = "x of the right end",
-       .unit = position_unit,
-       .otherwise = "chosen for a step or tanh",
-       .limits = position},
-      {.table = "time",
-       .name = "end",
-       .meaning = "time at which the run ends",
-       .unit = time_unit,
-       .otherwise = "2 pi",
-       .limits = positive},
+      other_key("forcing", "formula", formula, "0",
+                "force F(x, t) that pushes slip forward, in mu A^2 / (pi (1 - nu))"),
+      number_key("loading", "stiffness", "unit of F over b / (2 pi)", positive, "required by [loading]",
+                 "force of the springs over their stretch; stress over stretch at a pulled end"),
+      number_key("loading", "velocity", velocity_unit, {}, "required by [loading]",
+                 "velocity of the far ends of the springs"),
+      word_key("loading", "where", {"everywhere", "left", "right"}, "everywhere", "sites that the springs pull"),
+      number_key("loading", "event_velocity", velocity_unit, positive, "10 times velocity",
+                 "slip velocity above which a part of the chain is in an event"),
+      other_key("interface", "contact", formula, "1",
+                "contact ratio a(x) > 0 relative to A; 0 only for a chain without a substrate"),
+  };
+}
+
+std::vector<Key> domain_and_time_keys() {
+  const std::string found = "chosen for a step or tanh";
+  return {
+      number_key("domain", "left", position_unit, position, found, "x of the left end"),
+      number_key("domain", "right", position_unit, position, found, "x of the right end"),
+      number_key("time", "end", time_unit, positive, "2 pi", "time at which the run ends"),
   };
 }
 
 std::vector<Key> pulse_keys() {
+  const std::string_view table = "pulse";
   const std::vector<std::string_view> ends = {"continued", "fixed", "free"};
+  Key cells = number_key(table, "cells", pure_number, {.least = 4, .most = 10'000'000}, "400",
+                         "number of cells over the stressed stretch");
+  cells.type = whole_number;
   return {
-      {.table = "pulse",
-       .name = "cells",
-       .type = whole_number,
-       .meaning = "number of cells over the stressed stretch",
-       .unit = pure_number,
-       .otherwise = "400",
-       .limits = {.least = 4, .most = 10'000'000}},
-      {.table = "pulse",
-       .name = "tolerance",
-       .meaning = "error of an implicit step",
-       .unit = pure_number,
-       .otherwise = "1e-06",
-       .limits = tolerance},
-      {.table = "pulse",
-       .name = "threshold",
-       .meaning = "slip velocity at which an observer sees a front, over the peak slip velocity",
-       .unit = pure_number,
-       .otherwise = "0.001",
-       .limits = fraction},
-      {.table = "pulse",
-       .name = "left",
-       .type = word,
-       .meaning = "condition at the left end",
-       .otherwise = "continued",
-       .words = ends},
-      {.table = "pulse",
-       .name = "right",
-       .type = word,
-       .meaning = "condition at the right end",
-       .otherwise = "continued",
-       .words = ends},
-      {.table = "pulse",
-       .name = "periodic",
-       .type = truth,
-       .meaning = "a ring, which is stressed at both ends of the domain",
-       .otherwise = "false"},
+      cells,
+      number_key(table, "tolerance", pure_number, tolerance, "1e-06", "error of an implicit step"),
+      number_key(table, "threshold", pure_number, fraction, "0.001",
+                 "slip velocity at which an observer sees a front, over the peak slip velocity"),
+      word_key(table, "left", ends, "continued", "condition at the left end"),
+      word_key(table, "right", ends, "continued", "condition at the right end"),
+      other_key(table, "periodic", truth, "false", "a ring, which is stressed at both ends of the domain"),
   };
 }
 
 std::vector<Key> chain_keys() {
+  const std::string_view table = "chain";
   const std::vector<std::string_view> ends = {"free", "fixed", "absorbing"};
   return {
-      {.table = "chain",
-       .name = "scale",
-       .meaning = "factor by which x and t are stretched and friction is divided",
-       .unit = pure_number,
-       .otherwise = "1",
-       .limits = positive},
-      {.table = "chain",
-       .name = "spacing",
-       .meaning = "spacing of the sites on the stretched chain; A on a lattice",
-       .unit = position_unit,
-       .otherwise = "0.4 of the width of a dislocation",
-       .limits = positive},
-      {.table = "chain",
-       .name = "model",
-       .type = word,
-       .meaning = "Eq. (3), or the lattice of Eq. (1)",
-       .otherwise = "sine-gordon",
-       .words = {"sine-gordon", "lattice"}},
-      {.table = "chain",
-       .name = "left",
-       .type = word,
-       .meaning = "condition at the left end",
-       .otherwise = "fixed",
-       .words = ends},
-      {.table = "chain",
-       .name = "right",
-       .type = word,
-       .meaning = "condition at the right end",
-       .otherwise = "fixed",
-       .words = ends},
-      {.table = "chain",
-       .name = "periodic",
-       .type = truth,
-       .meaning = "a ring of the length of the domain",
-       .otherwise = "false"},
-      {.table = "chain",
-       .name = "window",
-       .meaning = "length of the average at x = 0",
-       .unit = position_unit,
-       .otherwise = "one spacing of the train",
-       .limits = positive},
-      {.table = "chain",
-       .name = "steps",
-       .type = word,
-       .meaning = "time steps; always implicit with [loading]",
-       .otherwise = "explicit",
-       .words = {"explicit", "implicit"}},
-      {.table = "chain",
-       .name = "tolerance",
-       .meaning = "error of an implicit step",
-       .unit = pure_number,
-       .otherwise = "5e-05",
-       .limits = tolerance},
+      number_key(table, "scale", pure_number, positive, "1",
+                 "factor by which x and t are stretched and friction is divided"),
+      number_key(table, "spacing", position_unit, positive, "0.4 of the width of a dislocation",
+                 "spacing of the sites on the stretched chain; A on a lattice"),
+      word_key(table, "model", {"sine-gordon", "lattice"}, "sine-gordon", "Eq. (3), or the lattice of Eq. (1)"),
+      word_key(table, "left", ends, "fixed", "condition at the left end"),
+      word_key(table, "right", ends, "fixed", "condition at the right end"),
+      other_key(table, "periodic", truth, "false", "a ring of the length of the domain"),
+      number_key(table, "window", position_unit, positive, "one spacing of the train",
+                 "length of the average at x = 0"),
+      word_key(table, "steps", {"explicit", "implicit"}, "explicit", "time steps; always implicit with [loading]"),
+      number_key(table, "tolerance", pure_number, tolerance, "5e-05", "error of an implicit step"),
   };
 }
 
@@ -288,41 +193,27 @@ std::vector<Key> medium_keys() {
   std::vector<Key> all;
   for (const medium::Constant& constant : medium::constants()) {
     const bool pure = constant.dimension == medium::Dimension::ratio;
-    Key key{.table = "medium",
-            .name = constant.name,
-            .type = quantity,
-            .meaning = std::string(constant.meaning),
-            .unit = pure ? pure_number : "",
-            .limits = positive};
-    if (constant.name == "poisson_ratio")
-      key.limits = {.least = -1, .most = 0.5, .without_least = true, .without_most = true};
+    const bool poisson = constant.name == "poisson_ratio";
+    const Limits ratios{.least = -1, .most = 0.5, .without_least = true, .without_most = true};
+    Key key = number_key("medium", constant.name, pure ? pure_number : "", poisson ? ratios : positive, "",
+                         std::string(constant.meaning));
+    key.type = quantity;
     all.push_back(key);
   }
   return all;
 }
 
 std::vector<Key> output_keys() {
-  return {
-      {.table = "output",
-       .name = "times",
-       .type = numbers,
-       .meaning = "increasing times at which results are written; t = 0 and the end always are",
-       .unit = time_unit,
-       .otherwise = "none",
-       .limits = {.least = 0}},
-      {.table = "output",
-       .name = "every",
-       .meaning = "interval between the times of results, in place of times",
-       .unit = time_unit,
-       .otherwise = "none",
-       .limits = positive},
-      {.table = "output",
-       .name = "variables",
-       .type = KeyType::words,
-       .meaning = "variables in the output file",
-       .otherwise = "all",
-       .words = {"k", "Sigma", "U", "W", "H", "slip", "stress_drop"}},
-  };
+  Key times = number_key("output", "times", time_unit, {.least = 0}, "none",
+                         "increasing times at which results are written; t = 0 and the end always are");
+  times.type = numbers;
+  Key variables = word_key("output", "variables", {"k", "Sigma", "U", "W", "H", "slip", "stress_drop"}, "all",
+                           "variables in the output file");
+  variables.type = KeyType::words;
+  return {times,
+          number_key("output", "every", time_unit, positive, "none",
+                     "interval between the times of results, in place of times"),
+          variables};
 }
 
 }  // namespace
@@ -361,8 +252,8 @@ const std::vector<Key>& keys() {
   static const std::vector<Key> all = [] {
     std::vector<Key> some = {
         {.table = "", .name = "title", .type = text, .meaning = "title of the run", .otherwise = ""}};
-    for (const auto& part : {initial_keys(), friction_keys(), load_and_domain_keys(), pulse_keys(), chain_keys(),
-                             medium_keys(), output_keys()})
+    for (const auto& part : {initial_keys(), friction_keys(), load_keys(), domain_and_time_keys(), pulse_keys(),
+                             chain_keys(), medium_keys(), output_keys()})
       some.insert(some.end(), part.begin(), part.end());
     return some;
   }();

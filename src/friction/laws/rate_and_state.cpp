@@ -120,9 +120,34 @@ class RateAndState final : public Law {
   ContactAge evolution_;
 };
 
-}  // namespace
+template <typename T>
+Parameter with(Parameter parameter, T Parameter::*member, T value) {
+  parameter.*member = value;
+  return parameter;
+}
 
-const Definition& rate_and_state_law() {
+std::vector<Parameter> parameters_of_friction() {
+  return {strength_in(force_unit, "f_0", "friction at the reference velocity in steady slip"),
+          with(force_named("direct_effect", "a", "growth of friction with ln w at a constant state", 0.01),
+               &Parameter::without_least, true),
+          force_named("evolution_effect", "b", "growth of friction with ln theta"),
+          characteristic_slip(),
+          velocity_named("reference_velocity", "w_0", "slip velocity at which steady friction is f_0"),
+          {.name = "initial_state",
+           .symbol = "theta_0",
+           .unit = "b / (c A)",
+           .meaning = "age theta of the contacts at t = 0; 0 means D_c / w_0",
+           .dimension = Dimension::time},
+          {.name = "state",
+           .symbol = "",
+           .unit = "1",
+           .meaning = "law by which the age of the contacts evolves",
+           .most = 1,
+           .words = {"ageing", "slip"}}};
+}
+
+/// Parameters of contacts that age and of pores that dilate, which only a chain has.
+std::vector<Parameter> parameters_of_contacts() {
   static const auto on_chain = [](std::string_view name, std::string_view symbol, std::string_view unit,
                                   Dimension dimension, std::string_view meaning) {
     return Parameter{.name = name,
@@ -132,10 +157,28 @@ const Definition& rate_and_state_law() {
                      .dimension = dimension,
                      .only_on_chain = true};
   };
-  static const auto with = [](Parameter parameter, auto member, auto value) {
-    parameter.*member = value;
-    return parameter;
-  };
+  const std::string_view pressure = "normal stress", time = "b / (c A)";
+  return {
+      on_chain("contact_ageing", "beta", "1", Dimension::number,
+               "growth of the contacts' strength a^2 with ln(1 + theta / theta_c)"),
+      on_chain("contact_time", "theta_c", time, Dimension::time, "age theta_c from which on the contacts strengthen"),
+      on_chain("dilatancy", "epsilon / b_p", pressure, Dimension::pressure,
+               "change of pore pressure with ln theta, without drainage"),
+      on_chain("drainage_time", "t_p", time, Dimension::time, "time in which the pore pressure returns; 0 means never"),
+      with(on_chain("pore_pressure", "p_0", pressure, Dimension::pressure, "ambient pore pressure"), &Parameter::most,
+           1.0)};
+}
+
+std::vector<Parameter> all_parameters() {
+  std::vector<Parameter> all = parameters_of_friction();
+  const std::vector<Parameter> contacts = parameters_of_contacts();
+  all.insert(all.end(), contacts.begin(), contacts.end());
+  return all;
+}
+
+}  // namespace
+
+const Definition& rate_and_state_law() {
   static const Definition definition{
       .name = "rate-and-state",
       .adjective = "rate-and-state",
@@ -145,34 +188,7 @@ const Definition& rate_and_state_law() {
       .source =
           "Dieterich (1979), J. Geophys. Res. 84:2161; Ruina (1983), J. Geophys. Res. 88:10359; regularised as by "
           "Rice & Ben-Zion (1996), Proc. Natl. Acad. Sci. 93:3811",
-      .parameters = {strength_in(force_unit, "f_0", "friction at the reference velocity in steady slip"),
-                     with(force_named("direct_effect", "a", "growth of friction with ln w at a constant state", 0.01),
-                          &Parameter::without_least, true),
-                     force_named("evolution_effect", "b", "growth of friction with ln theta"),
-                     characteristic_slip(),
-                     velocity_named("reference_velocity", "w_0", "slip velocity at which steady friction is f_0"),
-                     {.name = "initial_state",
-                      .symbol = "theta_0",
-                      .unit = "b / (c A)",
-                      .meaning = "age theta of the contacts at t = 0; 0 means D_c / w_0",
-                      .dimension = Dimension::time},
-                     {.name = "state",
-                      .symbol = "",
-                      .unit = "1",
-                      .meaning = "law by which the age of the contacts evolves",
-                      .most = 1,
-                      .words = {"ageing", "slip"}},
-                     on_chain("contact_ageing", "beta", "1", Dimension::number,
-                              "growth of the contacts' strength a^2 with ln(1 + theta / theta_c)"),
-                     on_chain("contact_time", "theta_c", "b / (c A)", Dimension::time,
-                              "age theta_c from which on the contacts strengthen"),
-                     on_chain("dilatancy", "epsilon / b_p", "normal stress", Dimension::pressure,
-                              "change of pore pressure with ln theta, without drainage"),
-                     on_chain("drainage_time", "t_p", "b / (c A)", Dimension::time,
-                              "time in which the pore pressure returns; 0 means never"),
-                     with(on_chain("pore_pressure", "p_0", "normal stress", Dimension::pressure,
-                                   "ambient pore pressure"),
-                          &Parameter::most, 1)},
+      .parameters = all_parameters(),
       .state = {{.name = "theta", .symbol = "theta", .unit = "b / (c A)"}},
       .make = make_law<RateAndState>};
   return definition;
