@@ -61,6 +61,10 @@ Runner add_chain(CLI::App& app) {
   auto a = std::make_shared<ScenarioArguments>();
   CLI::App* command =
       app.add_subcommand("chain", "The chain, which follows every dislocation: Eqs. (1) and (3), on a scenario");
+  command->footer(
+      "Examples:"
+      "\n  slipfront chain cases/step-viscous.toml --set chain.scale=100 -o chain.nc"
+      "\n  slipfront chain cases/stick-slip.toml --check");
   add_scenario_options(*command, *a);
   return [a] { return run_chain(*a); };
 }

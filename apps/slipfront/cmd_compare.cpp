@@ -71,6 +71,9 @@ Runner add_compare(CLI::App& app) {
   auto a = std::make_shared<Arguments>();
   CLI::App* command =
       app.add_subcommand("compare", "Closed form, pulse with both closures and chain, side by side on a scenario");
+  command->footer(
+      "Examples:"
+      "\n  slipfront compare cases/step-viscous.toml");
   add_scenario_options(*command, *a, false);
   command->add_option("--scale", a->scales, "Scale of a chain; repeatable (default: the scenario's, or 100, 300, 1000)")
       ->allow_extra_args(false)

@@ -54,6 +54,11 @@ Runner add_event(CLI::App& app) {
   auto arguments = std::make_shared<EventArguments>();
   CLI::App* command =
       app.add_subcommand("event", "Stress, contact ratio and frictionless slip velocity of observed events");
+  command->footer(
+      "Examples:"
+      "\n  slipfront event"
+      "\n  slipfront event cases/parkfield-2004.toml cases/ets.toml"
+      "\n  slipfront event cases/catalogue.csv --population");
   command->add_option(
       "FILE", arguments->files,
       "Events: .toml (one), .csv (a catalogue), SRCMOD or USGS .fsp, - for stdin; none: the shipped catalogue");

@@ -12,6 +12,7 @@
 
 #include "batch.hpp"
 #include "commands.hpp"
+#include "installed.hpp"
 #include "interrupts.hpp"
 #include "json.hpp"
 #include "page_server.hpp"
@@ -32,13 +33,6 @@ struct Arguments {
   int port = 0;
   bool no_open = false, anyone = false;
 };
-
-/// The page next to this program, in the build tree or installed.
-std::filesystem::path shipped_page() {
-  std::error_code error;
-  const auto here = std::filesystem::read_symlink("/proc/self/exe", error).parent_path().parent_path();
-  return here / "share" / "slipfront" / "explorer";
-}
 
 std::filesystem::path page(const Arguments& a) {
   std::filesystem::path folder = a.folder.empty() ? shipped_page() : std::filesystem::path(a.folder);
@@ -97,6 +91,9 @@ Runner add_explore(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
       app.add_subcommand("explore", "The theory in the browser: serves the page on this machine, and opens it");
+  command->footer(
+      "Examples:"
+      "\n  slipfront explore --port 0 --no-open");
   CLI::Option* port = command->add_option("--port", arguments->port,
                                           fmt::format("Port (default: {}, or any that is free)", usual_port));
   command->add_flag("--no-open", arguments->no_open, "Do not open a browser");

@@ -81,6 +81,10 @@ int run_keys(const KeysArguments& arguments) {
 Runner add_keys(CLI::App& app) {
   auto arguments = std::make_shared<KeysArguments>();
   CLI::App* command = app.add_subcommand("keys", "All keys of a scenario file, with types, units, ranges and defaults");
+  command->footer(
+      "Examples:"
+      "\n  slipfront keys pulse"
+      "\n  slipfront keys --json");
   command->add_option("table", arguments->table, "A table of the scenario, such as pulse (default: all)")
       ->type_name("TABLE");
   command->add_flag("--json", arguments->json, "One JSON object on stdout, nothing else");

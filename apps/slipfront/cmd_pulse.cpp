@@ -83,6 +83,11 @@ int run_pulse(ScenarioArguments a, std::optional<double> tolerance) {
 Runner add_pulse(CLI::App& app) {
   auto a = std::make_shared<ScenarioArguments>();
   CLI::App* command = app.add_subcommand("pulse", "The modulation equations with friction, Eqs. (7), on a scenario");
+  command->footer(
+      "Examples:"
+      "\n  slipfront pulse cases/fig-08.toml -o pulse.nc"
+      "\n  slipfront pulse cases/fig-08.toml --set friction.coefficient=2 --json"
+      "\n  slipfront pulse cases/fig-08.toml --check");
   add_scenario_options(*command, *a);
   auto tolerance = std::make_shared<std::optional<double>>();
   command

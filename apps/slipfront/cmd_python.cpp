@@ -8,10 +8,10 @@
 #include <cstring>
 #include <filesystem>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "commands.hpp"
+#include "installed.hpp"
 #include "slipfront/error.hpp"
 
 /// Subcommands of the Python package. They receive their arguments unchanged.
@@ -27,17 +27,6 @@ constexpr std::array<PythonCommand, 3> commands = {{
     {"plot", "Figures of the files that pulse, chain and compare write"},
     {"animate", "A slip pulse as a moving picture"},
 }};
-
-/// The folder of the Python package that belongs to this executable, in the build tree or installed. Empty if neither
-/// exists.
-std::filesystem::path package_folder() {
-  std::error_code error;
-  const auto here = std::filesystem::read_symlink("/proc/self/exe", error).parent_path().parent_path();
-  if (error) return {};
-  for (const char* place : {"python", SLIPFRONT_PYTHON_DIR})
-    if (std::filesystem::exists(here / place / "slipfront" / "__main__.py", error)) return here / place;
-  return {};
-}
 
 /// The program that Python runs. Signals that ask it to end are blocked until it can handle them.
 constexpr const char* launch =

@@ -151,6 +151,11 @@ Runner add_relations(CLI::App& app) {
       "relations",
       "Stress, rupture velocity and slip velocity of a frictionless slip pulse, each from any other (Eqs. 8-10). With "
       "friction: the ratio of slip velocities from the friction coefficient, or the reverse (Fig. 10)");
+  command->footer(
+      "Examples:"
+      "\n  slipfront relations --stress 1.03"
+      "\n  slipfront relations --rupture-velocity 1e-9:0.9:6:log --csv"
+      "\n  slipfront relations --stress 0.855 --slip-velocity-ratio 0.5");
   const std::array<const char*, 3> help = {"Stress before the rupture, in mu A / pi",
                                            "Velocity of the fast front, in c", "Slip velocity at x = 0, in c A / pi"};
   for (std::size_t i = 0; i < 3; ++i) {

@@ -12,6 +12,7 @@ using AddCommand = Runner(CLI::App& app);
   COMMAND(chain)                    \
   COMMAND(compare)                  \
   COMMAND(keys)                     \
+  COMMAND(doctor)                   \
   COMMAND(explore)
 
 #define DECLARE(name) AddCommand add_##name;

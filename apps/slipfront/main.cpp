@@ -9,12 +9,14 @@
 #include <string>
 
 #include "batch.hpp"
+#include "build_facts.hpp"
 #include "commands.hpp"
 #include "foundation/machine.hpp"
 #include "foundation/ranks.hpp"
 #include "foundation/text/printable.hpp"
 #include "interrupts.hpp"
 #include "slipfront/error.hpp"
+#include "usage_error.hpp"
 
 const slipfront::Ranks* the_ranks = nullptr;
 
@@ -37,22 +39,15 @@ void add_common_options(CLI::App& command, CommonOptions& options, bool with_csv
 
 namespace {
 
-/// The text of a CLI11 error on one line, and where help is.
-std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
-  std::string text = error.what();
-  for (char& c : text)
-    if (c == '\n') c = ' ';
-  std::string help = "slipfront";
-  for (const CLI::App* command : app.get_subcommands()) help += " " + command->get_name();
-  return text + "; see " + help + " --help";
-}
-
 int run(int argc, char** argv) {
   CLI::App app{
       "slipfront: how an interface goes from stuck to sliding. Without a subcommand: `reproduce`, the paper "
       "in ./reproduction."};
   app.name("slipfront");
-  app.set_version_flag("--version", SLIPFRONT_VERSION);
+  bool version = false, json = false;
+  CLI::Option* const asked = app.add_flag("--version", version, "Print the version");
+  app.add_flag("--json", json, "With --version: the versions of the compiler and the libraries of this build")
+      ->needs(asked);
   app.require_subcommand(0, 1);
   app.failure_message(CLI::FailureMessage::simple);
   Runner chosen = run_default;
@@ -68,6 +63,11 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     if (the_ranks->rank() == 0) complain(usage_error(app, error));
     return exit_input;
+  }
+  if (version) {
+    if (the_ranks->rank() == 0) put(json ? text_of(build_facts()) + "\n" : SLIPFRONT_VERSION "\n");
+    finish_stdout();
+    return exit_done;
   }
   for (const Command& command : commands)
     if (app.got_subcommand(command.name)) chosen = command.run;

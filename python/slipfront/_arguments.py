@@ -7,11 +7,19 @@ import sys
 from ._slipfront import printable, sensible_threads
 
 
+class Help(argparse.HelpFormatter):
+    """Fills paragraphs, but keeps the lines of the examples."""
+
+    def _fill_text(self, text, width, indent):
+        return text if text.startswith("Examples:") else super()._fill_text(text, width, indent)
+
+
 class Arguments(argparse.ArgumentParser):
     """A parser whose errors are one line (ValueError: exit code 2), with the options that every subcommand takes."""
 
-    def __init__(self, name, description):
-        super().__init__(prog=f"slipfront {name}", description=description, allow_abbrev=False)
+    def __init__(self, name, description, examples):
+        super().__init__(prog=f"slipfront {name}", description=description, allow_abbrev=False,
+                         epilog="\n  ".join(["Examples:", *examples]), formatter_class=Help)
         self.add_argument("--json", action="store_true", help="one JSON object on stdout, nothing else")
         self.add_argument("--quiet", action="store_true", help="no notes, no progress")
         self.add_argument("--threads", type=threads, default=len(os.sched_getaffinity(0)), metavar="N",

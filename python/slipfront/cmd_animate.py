@@ -51,7 +51,8 @@ def si_units(options):
 
 def arguments(argv):
     """Returns the options of the command line."""
-    parser = Arguments("animate", "Draws slip pulses as moving pictures: the averaged slip velocity and stress, and the dislocations that carry them.")
+    parser = Arguments("animate", "Draws slip pulses as moving pictures: the averaged slip velocity and stress, and the dislocations that carry them.",
+                       ["slipfront animate cases/step.toml -o step.gif", "slipfront animate cases/step.toml cases/step-viscous.toml -o both.webp"])
     parser.add_argument("sources", metavar="FILE", nargs="+",
                         help="NetCDF of pulse or chain (a frame for each output time), or a scenario (TOML) to run; several are drawn side by side")
     parser.add_argument("-o", "--output", metavar="PICTURE", type=file_name, required=True, help="its ending is the format: gif, webp, mp4")

@@ -11,11 +11,12 @@ FORMATS = ("png", "svg", "pdf", "jpg", "webp")
 
 def main(argv) -> int:
     """Draws the pictures of a file. Returns the exit code; raises ValueError (bad input), OSError (files), ImportError (matplotlib)."""
-    parser = Arguments("plot", "Pictures of the NetCDF files of pulse, chain, compare and event, of the CSV of relations and event, and of samples.")
+    parser = Arguments("plot", "Pictures of the NetCDF files of pulse, chain, compare and event, of the CSV of relations and event, and of samples.",
+                       ["slipfront plot pulse.nc", "slipfront plot pulse.nc --kind profiles -o profiles.pdf"])
     parser.add_argument("file", metavar="FILE", help="NetCDF or CSV")
     parser.add_argument("-o", "--output", metavar="PICTURE", type=file_name,
-                        help="one picture, the most telling unless there is --kind; its ending is the format: " + ", ".join(FORMATS))
-    parser.add_argument("--kind", help="one picture alone (default without -o: all that the file affords, as FILE-KIND.png)")
+                        help="file of a single picture, the main kind unless --kind names another; the ending gives the format: " + ", ".join(FORMATS))
+    parser.add_argument("--kind", help="the only kind of picture to draw (default without -o: all kinds for which the file has data, as FILE-KIND.png)")
     options = parser.parse_args(argv)
     import_optional("xarray")
     import_optional("matplotlib")

@@ -24,7 +24,8 @@ def summary(tables) -> str:
 
 def main(argv) -> int:
     """Writes the folder and prints the table. Returns the exit code; raises ValueError (bad input), OSError (files), ImportError (a library)."""
-    parser = Arguments("reproduce", "Every figure, number and statement of the paper, with the data of each, and report.html, a page that needs nothing else.")
+    parser = Arguments("reproduce", "Every figure, number and statement of the paper, with the data of each, and report.html, a page that needs nothing else.",
+                       ["slipfront reproduce", "slipfront reproduce -o paper --threads 4"])
     parser.add_argument("-o", "--output", metavar="DIR", type=file_name, default="reproduction", help="folder to write: a new one, or an earlier reproduction, which it replaces (default: reproduction)")
     options = parser.parse_args(argv)
     for module in ("numpy", "xarray", "matplotlib", "netCDF4", "pandas"):

@@ -28,6 +28,11 @@ Variable::Kind kind_of(nc_type type) {
 
 }  // namespace
 
+std::string library_version() {
+  const std::string text = nc_inq_libvers();
+  return text.substr(0, text.find(' '));
+}
+
 Handle::Handle(std::string name) : name_(std::move(name)), lock_(lock_netcdf()) {}
 
 Handle::~Handle() {

@@ -19,6 +19,9 @@ namespace slipfront::record::netcdf {
 /// Longest text of an attribute, in bytes. HDF5 allows 64 KiB, which includes its own bookkeeping.
 inline constexpr std::size_t longest_text = 60000;
 
+/// The version of the NetCDF library, such as "4.9.0".
+std::string library_version();
+
 /// An open file. It holds the lock of the C library, which is not thread-safe.
 class Handle {
  public:

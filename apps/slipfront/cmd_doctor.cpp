@@ -1,0 +1,108 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "batch.hpp"
+#include "build_facts.hpp"
+#include "commands.hpp"
+#include "installed.hpp"
+#include "json.hpp"
+
+namespace {
+
+/// A part of slipfront on this machine.
+struct Check {
+  std::string name, use;
+  bool works = false;
+  std::string found;   ///< version or folder; empty if it does not work
+  std::string remedy;  ///< what to do if it does not work
+};
+
+struct Library {
+  const char *module, *use, *debian;
+};
+constexpr std::array<Library, 5> libraries = {{
+    {"numpy", "arrays", "python3-numpy"},
+    {"xarray", "results in Python", "python3-xarray"},
+    {"netCDF4", "files in xarray", "python3-netcdf4"},
+    {"matplotlib", "plot, animate and reproduce", "python3-matplotlib"},
+    {"distributed", "sweeps on a Dask cluster", "python3-distributed"},
+}};
+
+/// The first line that a Python program prints; empty if it fails.
+std::string python(const std::string& code) {
+  const std::string command = std::string("PYTHONSAFEPATH=1 exec '") + SLIPFRONT_PYTHON_INTERPRETER + "' -c '" + code +
+                              "' 2>/dev/null </dev/null";
+  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
+  std::array<char, 256> line{};
+  if (!pipe || !std::fgets(line.data(), line.size(), pipe.get())) return {};
+  std::string text = line.data();
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  return text;
+}
+
+Check check_of(const Library& library) {
+  // Debian's modules do not all know their own version.
+  const std::string version =
+      python(fmt::format("import {0}, importlib.metadata; print(importlib.metadata.version(\"{0}\"))", library.module));
+  return {library.module, library.use, !version.empty(), version,
+          fmt::format("apt-get install {}, or pip install {}", library.debian, library.module)};
+}
+
+std::vector<Check> all_checks() {
+  const Json facts = build_facts();
+  const std::string version = python("import sys; print(sys.version.split()[0])");
+  const std::filesystem::path package = package_folder(), page = shipped_page();
+  std::error_code error;
+  const bool has_page = std::filesystem::exists(page / "index.html", error);
+  const bool has_mpi = facts["mpi"].get<bool>();
+  std::vector<Check> checks = {
+      {"NetCDF", "output files", true, facts["netcdf"].get<std::string>(), ""},
+      {"MPI", "chains over several processes (mpirun)", has_mpi, has_mpi ? "built in" : "",
+       "install libopenmpi-dev and openmpi-bin, and build again"},
+      {"explorer", "slipfront explore", has_page, has_page ? page.string() : "", "build it with ./run explore"},
+      {"Python", "plot, animate and reproduce", !version.empty(), version, "apt-get install python3"},
+      {"slipfront", "the Python package of this program", !package.empty(), package.string(),
+       "install pybind11-dev and python3-dev, and build again"},
+  };
+  for (const Library& library : libraries) checks.push_back(check_of(library));
+  return checks;
+}
+
+int run_doctor(bool json) {
+  const std::vector<Check> checks = all_checks();
+  if (json) {
+    Json all;
+    all["build"] = build_facts();
+    for (const Check& check : checks)
+      all["checks"].push_back({{"name", check.name},
+                               {"use", check.use},
+                               {"works", check.works},
+                               {"found", check.found},
+                               {"remedy", check.works ? "" : check.remedy}});
+    put(text_of(all) + "\n");
+    return exit_done;
+  }
+  put(fmt::format("slipfront {}\n", SLIPFRONT_VERSION));
+  for (const Check& check : checks)
+    put(fmt::format("{:<12} {:<8} {:<40} {}\n", check.name, check.works ? "works" : "missing", check.use,
+                    check.works ? check.found : check.remedy));
+  return exit_done;
+}
+
+}  // namespace
+
+Runner add_doctor(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("doctor", "What works on this machine, and what to install for the rest");
+  command->footer("Examples:\n  slipfront doctor\n  slipfront doctor --json");
+  auto json = std::make_shared<bool>(false);
+  command->add_flag("--json", *json, "One JSON object on stdout, nothing else");
+  return [json] { return run_doctor(*json); };
+}

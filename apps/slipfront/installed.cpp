@@ -1,0 +1,24 @@
+#include "installed.hpp"
+
+#include <system_error>
+
+namespace {
+
+/// The folder above that of this executable; empty if the system does not tell it.
+std::filesystem::path prefix() {
+  std::error_code error;
+  return std::filesystem::read_symlink("/proc/self/exe", error).parent_path().parent_path();
+}
+
+}  // namespace
+
+std::filesystem::path package_folder() {
+  const std::filesystem::path above = prefix();
+  std::error_code error;
+  if (above.empty()) return {};
+  for (const char* folder : {"python", SLIPFRONT_PYTHON_DIR})
+    if (std::filesystem::exists(above / folder / "slipfront" / "__main__.py", error)) return above / folder;
+  return {};
+}
+
+std::filesystem::path shipped_page() { return prefix() / "share" / "slipfront" / "explorer"; }
