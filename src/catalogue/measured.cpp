@@ -16,12 +16,14 @@ namespace {
 
 using Shape = Measured::Shape;
 
-constexpr const char* forms = "such as 3.0 +- 0.2 km/s, 3.0 */ 1.2 km/s, 2.8..3.2 km/s, lognormal(3.0, 1.2) km/s";
+constexpr const char* forms =
+    "such as 3.0 +- 0.2 km/s, 3.0 +- 10 % km/s, 3.0 */ 1.2 km/s, 2.8..3.2 km/s, lognormal(3.0, 1.2) km/s";
 
 /// The parts of a text such as "3.0 +- 0.2 km/s", before its numbers and its unit are read.
 struct Parts {
   std::string_view first, second, unit;
   Shape shape;
+  bool percent = false;  ///< the second number is a percentage of the first
 };
 
 /// Splits "b unit" after the number b. The split is where a blank or a unit begins, never inside a number such as
@@ -57,8 +59,10 @@ std::optional<Parts> with_sign(std::string_view text) {
   for (const auto& [sign, shape] : signs) {
     const auto at = text.find(sign);
     if (at == std::string::npos) continue;
-    const auto [second, unit] = number_and_unit(trimmed(text.substr(at + sign.size())));
-    return Parts{trimmed(text.substr(0, at)), second, unit, shape};
+    auto [second, unit] = number_and_unit(trimmed(text.substr(at + sign.size())));
+    const bool percent = shape == Shape::normal && unit.starts_with('%');
+    if (percent) unit = trimmed(unit.substr(1));
+    return Parts{trimmed(text.substr(0, at)), second, unit, shape, percent};
   }
   return std::nullopt;
 }
@@ -70,6 +74,17 @@ double value_of(std::string_view number, std::string_view unit, medium::Dimensio
   return medium::parse_quantity(std::string(number) + " " + std::string(unit), dimension, default_unit).low;
 }
 
+/// A normal error that is given as a percentage of the value, as in "2.7 +- 10 % km/s".
+Measured in_percent(double value, const Parts& parts, medium::Dimension dimension) {
+  const auto percent = medium::number(parts.second);
+  if (!percent || !(*percent > 0))
+    throw InputError({.problem = "the uncertainty is " + std::string(parts.second) + " %", .allowed = "> 0 %"});
+  if (dimension == medium::Dimension::ratio)
+    throw InputError({.problem = "a percentage of a pure number has two readings",
+                      .allowed = "the uncertainty as a number, such as 0.30 +- 0.03"});
+  return {value, value, Shape::normal, *percent / 100 * std::fabs(value)};
+}
+
 Measured measured(const Parts& parts, medium::Dimension dimension, std::string_view default_unit) {
   const double first = value_of(parts.first, parts.unit, dimension, default_unit);
   if (parts.shape == Shape::lognormal) {
@@ -79,6 +94,7 @@ Measured measured(const Parts& parts, medium::Dimension dimension, std::string_v
           {.problem = "the factor of a lognormal distribution is " + std::string(parts.second), .allowed = "> 1"});
     return {first, first, Shape::lognormal, *factor};
   }
+  if (parts.percent) return in_percent(first, parts, dimension);
   const double second = value_of(parts.second, parts.unit, dimension, default_unit);
   if (parts.shape == Shape::range) {
     if (second < first) throw InputError({.problem = "the range runs downwards", .allowed = "low..high"});

@@ -66,6 +66,10 @@ std::optional<double> number(std::string_view text) {
 
 double unit_factor(std::string_view unit, Dimension dimension) {
   const Kind& wanted = kind(dimension);
+  // UDUNITS reads "% km/s" as a hundredth of km/s, which nobody means.
+  if (dimension != Dimension::ratio && unit.find('%') != std::string_view::npos)
+    throw InputError(
+        {.problem = "'%' is not part of the unit of " + std::string(wanted.name), .allowed = wanted.example});
   const std::optional<Unit> parsed = parse_unit(unit);
   if (!parsed) throw InputError({.problem = "unknown unit '" + std::string(unit) + "'", .allowed = wanted.example});
   if (parsed->powers != wanted.powers || !(parsed->factor > 0) || !std::isfinite(parsed->factor))

@@ -38,6 +38,23 @@ TEST(Measured, ReadsEveryForm) {
   EXPECT_TRUE(read("3 km/s").is_exact());
 }
 
+TEST(Measured, ReadsAPercentageAsAShareOfTheValue) {
+  for (const char* text : {"2.7 +- 10% km/s", "2.7 +- 10 % km/s", "2.7 +/- 10 %", "2.7 \xC2\xB1 10% km/s"}) {
+    const Measured m = read(text);
+    EXPECT_EQ(m.shape, Shape::normal) << text;
+    EXPECT_DOUBLE_EQ(m.middle(), 2700) << text;
+    EXPECT_DOUBLE_EQ(m.spread, 270) << text;
+  }
+}
+
+TEST(Measured, RejectsPercentagesThatItDoesNotUnderstand) {
+  for (const char* text :
+       {"2.7 +- -10 % km/s", "2.7 */ 10 % km/s", "2.7 % km/s", "2..3 % km/s", "normal(2.7, 10 %) km/s"})
+    EXPECT_THROW(read(text), InputError) << text;
+  EXPECT_THROW(parse_measured("0.3 +- 10 %", Dimension::ratio, ""), InputError);
+  EXPECT_DOUBLE_EQ(parse_measured("3 %", Dimension::ratio, "").middle(), 0.03);
+}
+
 TEST(Measured, RejectsWithTheReason) {
   const auto complaint = [](const char* text) {
     try {
