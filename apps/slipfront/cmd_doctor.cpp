@@ -22,7 +22,7 @@ struct Check {
   std::string name, use;
   bool works = false;
   std::string found;   ///< version or folder; empty if it does not work
-  std::string remedy;  ///< what to do if it does not work
+  std::string remedy;  ///< how to make it work; empty if nothing is missing
 };
 
 struct Library {

@@ -4,7 +4,7 @@
 
 namespace {
 
-/// The folder above that of this executable; empty if the system does not tell it.
+/// The folder above that of this executable; empty if the system does not report it.
 std::filesystem::path prefix() {
   std::error_code error;
   return std::filesystem::read_symlink("/proc/self/exe", error).parent_path().parent_path();

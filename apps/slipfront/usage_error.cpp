@@ -14,7 +14,7 @@ const CLI::App& chosen(const CLI::App& app) {
   return given.empty() ? app : chosen(*given.front());
 }
 
-/// What the user can have meant by `word`: options if it begins with a dash, otherwise subcommands.
+/// Names that the user can have meant by `word`: options if it begins with a dash, otherwise subcommands.
 std::vector<std::string> candidates(const CLI::App& command, const std::string& word) {
   std::vector<std::string> names;
   if (word.starts_with('-')) {
