@@ -16,6 +16,7 @@ def check(folder):
     return done.returncode, done.stderr
 
 
+@unittest.skipUnless(shutil.which("git"), "git is missing, which lists the files")
 class Reuse(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
