@@ -1,6 +1,8 @@
 """The check of a release passes on this checkout, and fails on copies in which version or changelog do not agree."""
 
+import json
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -8,7 +10,8 @@ import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
-FILES = ["CMakeLists.txt", "CITATION.cff", "CHANGELOG.md", "pyproject.toml", "setup.py", "apps/explorer/package.json", "README.md"]
+FILES = ["CMakeLists.txt", "CITATION.cff", "codemeta.json", "CHANGELOG.md", "pyproject.toml", "setup.py", "apps/explorer/package.json", "README.md",
+         "packaging/conda/recipe/meta.yaml", "packaging/spack/package.py"]
 
 
 def check(folder):
@@ -44,6 +47,30 @@ class Release(unittest.TestCase):
         self.replace("CITATION.cff", "\nversion: ", "\nversion: 9")
         self.replace("apps/explorer/package.json", '"version": "', '"version": "8')
         self.assert_refused("CITATION.cff has version 9", "package.json has version 8")
+
+    def test_refuses_another_version_in_a_recipe(self):
+        self.replace("packaging/conda/recipe/meta.yaml", 'version = "', 'version = "6')
+        self.replace("packaging/spack/package.py", 'version("', 'version("5')
+        self.assert_refused("meta.yaml has version 6", "package.py has version 5")
+
+    def test_refuses_another_version_in_codemeta(self):
+        self.replace("codemeta.json", '"version": "', '"version": "7')
+        self.assert_refused("codemeta.json has version 7")
+
+    def test_codemeta_agrees_with_the_citation(self):
+        meta = json.loads((ROOT / "codemeta.json").read_text(encoding="utf-8"))
+        citation = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
+        own, paper = citation.split("references:")
+
+        def one(key, text):
+            return re.search(rf"^[ -]*{key}: \"?([^\"\n]*)\"?$", text, re.MULTILINE)[1]
+
+        self.assertEqual(meta["name"], one("title", own))
+        self.assertEqual(meta["datePublished"], one("date-released", own))
+        self.assertEqual(meta["license"], "https://spdx.org/licenses/" + one("license", own))
+        self.assertEqual([author["name"] for author in meta["author"]], re.findall(r'^  - name: "(.*)"$', own, re.MULTILINE))
+        self.assertEqual(meta["referencePublication"]["@id"], "https://doi.org/" + one("doi", paper))
+        self.assertEqual(meta["referencePublication"]["name"], one("title", paper))
 
     def test_refuses_a_version_that_the_changelog_lacks(self):
         self.replace("CMakeLists.txt", "project(slipfront VERSION ", "project(slipfront VERSION 7")
