@@ -21,19 +21,23 @@ attribute `references` gives its equation in the paper (Gershenzon, Bambakidis a
     event       stress and contact ratio of observed events
     check       checks a scenario without running it
     open        reads a file that slipfront has written
+    dataset.slipfront.si
+                converts a Dataset to SI units
     cases       folder of the scenarios that come with slipfront
     __version__ version of the package
 """
 
 import pathlib
 
-from . import medium, train
+from . import _accessor, medium, train
 from ._event import event
 from ._friction_ratio import damping_number, friction_ratio
 from ._relations import relations
 from ._run import chain, check, compare, open, pulse
 from ._sweep import sweep
 from ._slipfront import FileError, InputError, NumericsError, __version__
+
+_accessor.register()
 
 cases = pathlib.Path(__file__).parent / "cases"
 
