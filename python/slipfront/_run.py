@@ -245,6 +245,9 @@ def read(name, any_file=False):
         raise FileError(f"{name}: {error.strerror or error}") from error
     except (RuntimeError, ValueError) as error:  # its contents are damaged
         raise FileError(f"{name}: {' '.join(str(error).split())}") from error
+    if data.attrs.get("slipfront_format") == "sweep 1":  # its dimensions have dots, as in friction.coefficient
+        names = {name: name.replace(".", "_") for name in data.dims}
+        data = data.drop_vars([new for old, new in names.items() if new != old], errors="ignore").rename(names)
     if "name" in data.coords and data["name"].dtype.kind == "S":
         data = data.assign_coords(name=(data["name"].dims, np.char.decode(data["name"].values, "utf-8"), data["name"].attrs)).set_xindex("name")
     return data
