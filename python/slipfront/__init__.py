@@ -28,6 +28,12 @@ attribute `references` gives its equation in the paper (Gershenzon, Bambakidis a
 """
 
 import pathlib
+import sys
+import types
+
+from ._optional import require_compiled
+
+require_compiled()
 
 from . import _accessor, medium, train
 from ._event import event
@@ -40,6 +46,17 @@ from ._slipfront import FileError, InputError, NumericsError, __version__
 _accessor.register()
 
 cases = pathlib.Path(__file__).parent / "cases"
+
+
+class _Package(types.ModuleType):
+    """The package. `import slipfront.cases` finds the folder of the scenarios and would replace the path in `cases` with a module."""
+
+    def __setattr__(self, name, value):
+        if name != "cases" or not isinstance(value, types.ModuleType):
+            super().__setattr__(name, value)
+
+
+sys.modules[__name__].__class__ = _Package
 
 __all__ = ["FileError", "InputError", "NumericsError", "__version__", "cases", "chain", "check", "compare", "damping_number", "event", "friction_ratio", "medium", "open",
            "pulse", "relations", "sweep", "train"]
