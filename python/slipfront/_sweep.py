@@ -116,6 +116,13 @@ def sweep(scenario, axes, *, variables=None, set=None, command="pulse", output=N
     ------
     InputError if the axes are wrong or no point can run; FileError if a file cannot be read or written; NumericsError if the
     cluster is lost. After a KeyboardInterrupt, `<output>.part` holds the finished points.
+
+    Examples
+    --------
+    >>> axes = {"initial.stress_left": [0.8, 0.9]}
+    >>> sweep = slipfront.sweep(slipfront.cases / "step.toml", axes)
+    >>> sweep.slip_at_origin.sel(initial_stress_left=0.9).round(2).item()
+    0.38
     """
     if command not in ("pulse", "chain"):
         raise InputError(f"command = '{shown(command)}': unknown; allowed: pulse, chain")

@@ -36,6 +36,13 @@ def sweep(data, variable: str = "") -> Figure:
     Raises
     ------
     ValueError if the Dataset has no such number, or if more than two dimensions are swept.
+
+    Examples
+    --------
+    >>> data = slipfront.sweep(slipfront.cases / "step.toml", {"initial.stress_left": [0.8, 0.9]})
+    >>> figure = slipfront.plots.sweep(data, "slip_at_origin")
+    >>> figure.axes[0].get_xlabel()
+    'initial stress left, μA/π'
     """
     numbers = [str(name) for name, values in data.data_vars.items() if values.dtype.kind in "fiu"]
     variable = variable or next((name for name in (*PREFERRED, *numbers) if name in numbers), "")
