@@ -33,11 +33,11 @@ def swept(axes, **settings):
     data = slipfront.sweep(CASE, axes, variables=KEPT, set=AT_END | settings)
     if (data["failure"] != "").any():
         print("failed:", sorted(set(data["failure"].values.ravel()) - {""}))
-    free = slipfront.relations(stress=data["initial.stress_left"].values)["slip_velocity"]
-    data["free"] = "initial.stress_left", free.values
+    free = slipfront.relations(stress=data["initial_stress_left"].values)["slip_velocity"]
+    data["free"] = "initial_stress_left", free.values
     data["stopped"] = np.abs(data["peak_slip_velocity"]) / data["free"]
     data["share"] = np.abs(data["slip_velocity_at_origin"] / data["peak_slip_velocity"])
-    return data.transpose("initial.stress_left", ...)
+    return data.transpose("initial_stress_left", ...)
 
 
 def plane():
@@ -46,7 +46,7 @@ def plane():
     by_b = swept({"initial.stress_left": stress, "friction.evolution_effect": np.linspace(0, 0.06, 31)})
     by_strength = swept({"initial.stress_left": stress, "friction.strength": np.linspace(0, 0.15, 31)}, **{"friction.evolution_effect": 0.015})
     figure, (left, right) = plt.subplots(1, 2, figsize=(9, 4.2), layout="constrained")
-    healing = A - by_b["friction.evolution_effect"].values
+    healing = A - by_b["friction_evolution_effect"].values
     moving = by_b["stopped"].values > STOPPED
     share = np.where(moving, by_b["share"].values, np.nan)
     left.set_facecolor("0.85")
@@ -57,7 +57,7 @@ def plane():
     figure.colorbar(seen, ax=left, label="$\\log_{10}$ of W at x = 0 over the largest W, $t = 2\\pi$")
     for text, x, y, color in (("crack", -0.02, 1.4, "0.2"), ("pulse", -0.025, 1.075, "white"), ("at rest again", -0.025, 0.85, "0.2")):
         left.text(x, y, text, color=color, ha="center", va="center", weight="bold")
-    strength = by_strength["friction.strength"].values
+    strength = by_strength["friction_strength"].values
     speed = np.log10(np.clip(np.abs(by_strength["peak_slip_velocity"].values), 1e-6, None))
     seen = right.pcolormesh(strength, stress, speed, shading="nearest", cmap="magma", rasterized=True)
     lines = right.contour(strength, stress, -by_strength["trailing_front_observed"].values / END, levels=[0.05, 0.1, 0.2, 0.3, 0.4], colors="white", linewidths=1)
@@ -66,7 +66,7 @@ def plane():
     figure.colorbar(seen, ax=right, label="$\\log_{10}$ of the largest W at $t = 2\\pi$")
     figure.savefig(HERE / "friction-plane.png")
     for b in (0.0, 0.015, 0.03, 0.06):
-        row = by_b.sel({"friction.evolution_effect": b}, method="nearest")
+        row = by_b.sel(friction_evolution_effect=b, method="nearest")
         moves = row["stopped"].values > STOPPED
         crack = moves & (row["share"].values > HEALED)
         pulses = stress[moves & ~crack]

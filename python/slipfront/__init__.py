@@ -21,13 +21,21 @@ attribute `references` gives its equation in the paper (Gershenzon, Bambakidis a
     event       stress and contact ratio of observed events
     check       checks a scenario without running it
     open        reads a file that slipfront has written
+    dataset.slipfront.si
+                converts a Dataset to SI units
     cases       folder of the scenarios that come with slipfront
     __version__ version of the package
 """
 
 import pathlib
+import sys
+import types
 
-from . import medium, train
+from ._optional import require_compiled
+
+require_compiled()
+
+from . import _accessor, medium, train
 from ._event import event
 from ._friction_ratio import damping_number, friction_ratio
 from ._relations import relations
@@ -35,7 +43,20 @@ from ._run import chain, check, compare, open, pulse
 from ._sweep import sweep
 from ._slipfront import FileError, InputError, NumericsError, __version__
 
+_accessor.register()
+
 cases = pathlib.Path(__file__).parent / "cases"
+
+
+class _Package(types.ModuleType):
+    """The package. `import slipfront.cases` finds the folder of the scenarios and would replace the path in `cases` with a module."""
+
+    def __setattr__(self, name, value):
+        if name != "cases" or not isinstance(value, types.ModuleType):
+            super().__setattr__(name, value)
+
+
+sys.modules[__name__].__class__ = _Package
 
 __all__ = ["FileError", "InputError", "NumericsError", "__version__", "cases", "chain", "check", "compare", "damping_number", "event", "friction_ratio", "medium", "open",
            "pulse", "relations", "sweep", "train"]

@@ -112,6 +112,12 @@ def event(events=None, *, p_wave_speed=None, poisson_ratio=None, shear_modulus=N
     ------
     InputError if all events are wrong or a parameter is out of range; FileError if a file cannot be read or written. A
     KeyboardInterrupt leaves a checkpoint in the output.
+
+    Examples
+    --------
+    >>> event = slipfront.event({"rupture_velocity": "3 km/s", "slip_velocity": "0.5 m/s"})
+    >>> round(float(event.contact_ratio), 4)
+    0.0028
     """
     if events is None:
         events = _shipped

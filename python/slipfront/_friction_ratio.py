@@ -32,6 +32,11 @@ def friction_ratio(stress, damping_number, *, measure="origin", closure="consist
     Raises
     ------
     InputError if an argument is out of range, or the shapes do not match.
+
+    Examples
+    --------
+    >>> round(float(slipfront.friction_ratio(0.855, 6.28).ratio), 3)
+    0.218
     """
     (stress, damping_number), *rest = flat(stress=stress, damping_number=damping_number)
     columns = past_nan(lambda s, d: _slipfront.friction_ratio(s, d, str(measure), str(closure)), stress, damping_number, instead=(1.0, 1.0))
@@ -64,6 +69,11 @@ def damping_number(stress, slip_velocity_ratio, *, measure="origin", closure="co
     Raises
     ------
     InputError if an argument is out of range, or the shapes do not match.
+
+    Examples
+    --------
+    >>> round(float(slipfront.damping_number(0.855, 0.5).damping_number), 3)
+    1.592
     """
     (stress, ratio), *rest = flat(stress=stress, slip_velocity_ratio=slip_velocity_ratio)
     columns = past_nan(lambda s, r: _slipfront.damping_number(s, r, str(measure), str(closure)), stress, ratio, instead=(1.0, 0.5))

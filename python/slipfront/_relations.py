@@ -32,6 +32,12 @@ def relations(*, stress=None, rupture_velocity=None, slip_velocity=None, threads
     Raises
     ------
     InputError unless exactly one quantity is given, all of it in its range or NaN. NaN gives NaN.
+
+    Examples
+    --------
+    >>> states = slipfront.relations(stress=[0.855, 1.03])
+    >>> states.rupture_velocity.round(4).values.tolist()
+    [0.3644, 0.5439]
     """
     given = [(name, values) for name, values in (("stress", stress), ("rupture_velocity", rupture_velocity),
                                                  ("slip_velocity", slip_velocity)) if values is not None]

@@ -77,6 +77,14 @@ def pulse(scenario, *, set=None, output=None, resume=None, progress=None, thread
     ------
     InputError if the scenario or a parameter is wrong; FileError if a file cannot be read or written; NumericsError if the
     computation fails. A KeyboardInterrupt leaves a checkpoint in the output.
+
+    Examples
+    --------
+    >>> pulse = slipfront.pulse(slipfront.cases / "step.toml", set={"pulse.cells": 200})
+    >>> dict(pulse.sizes)
+    {'x': 200, 'ends': 2, 'time': 2}
+    >>> round(pulse.attrs["slip_at_origin"], 2)
+    0.3
     """
     thread_count(threads)
     if tolerance is not None:
@@ -110,6 +118,12 @@ def chain(scenario, *, set=None, output=None, resume=None, progress=None, thread
     ------
     InputError if the scenario or a parameter is wrong; FileError if a file cannot be read or written; NumericsError if the
     computation fails. A KeyboardInterrupt leaves a checkpoint in the output.
+
+    Examples
+    --------
+    >>> chain = slipfront.chain(slipfront.cases / "step.toml", set={"chain.scale": 300})
+    >>> chain.attrs["dislocations"]
+    108
     """
     with showing(progress) as call:
         return _dataset(_slipfront.chain(arguments(scenario, set=set, output=output, resume=resume, progress=call),
@@ -145,6 +159,12 @@ def compare(scenario, *, scales=(), set=None, output=None, progress=None, thread
     ------
     InputError if the scenario or a parameter is wrong; FileError if a file cannot be read or written; NumericsError if the
     computation fails.
+
+    Examples
+    --------
+    >>> levels = slipfront.compare(slipfront.cases / "step.toml", scales=[300])
+    >>> levels.name.values.tolist()
+    ['closed-form', 'pulse-consistent', 'pulse-paper', 'chain-300']
     """
     with showing(progress) as call:
         result = _slipfront.compare(arguments(scenario, set=set, output=output, progress=call), _scales(scales), thread_count(threads))
@@ -198,6 +218,11 @@ def check(scenario, *, set=None, command="pulse", scales=()):
     Raises
     ------
     InputError, FileError or NumericsError, as the run would before its first step.
+
+    Examples
+    --------
+    >>> slipfront.check(slipfront.cases / "step.toml")["cells"]
+    400
     """
     request = arguments(scenario, set=set)
     if command == "pulse":
@@ -224,6 +249,15 @@ def open(file):
     Raises
     ------
     InputError if `file` is not a path; FileError if the file cannot be read or slipfront has not written it.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     pulse = slipfront.pulse(slipfront.cases / "step.toml", output=f"{folder}/pulse.nc")
+    ...     stored = slipfront.open(f"{folder}/pulse.nc")
+    >>> bool((stored.W == pulse.W).all())
+    True
     """
     return read(path("file", file))
 
@@ -245,6 +279,9 @@ def read(name, any_file=False):
         raise FileError(f"{name}: {error.strerror or error}") from error
     except (RuntimeError, ValueError) as error:  # its contents are damaged
         raise FileError(f"{name}: {' '.join(str(error).split())}") from error
+    if data.attrs.get("slipfront_format") == "sweep 1":  # its dimensions have dots, as in friction.coefficient
+        names = {name: name.replace(".", "_") for name in data.dims}
+        data = data.drop_vars([new for old, new in names.items() if new != old], errors="ignore").rename(names)
     if "name" in data.coords and data["name"].dtype.kind == "S":
         data = data.assign_coords(name=(data["name"].dims, np.char.decode(data["name"].values, "utf-8"), data["name"].attrs)).set_xindex("name")
     return data

@@ -1,5 +1,6 @@
 """The function slipfront.sweep."""
 
+import contextlib
 import itertools
 import json
 import math
@@ -17,8 +18,16 @@ from ._scenario import arguments, overrides
 from ._shown import shown
 from ._slipfront import InputError, __version__
 from ._store import Store
+from ._units import symbols
 
-_format = "sweep 1"
+_format = "sweep 2"  # 1 had dimensions with dots
+
+#: Units of numbers whose meaning does not have one, by the beginning or the end of the name.
+_units = {"energy_drift": "", "energy_": "mu b^2 A / (2 pi^2 (1 - nu))", "_front_observed": "b / A", "trailing_characteristic": "b / A",
+          "first_crossing_time": "b / (c A)", "first_crossing_position": "b / A"}
+#: Units of axes.
+_axis_units = {"initial.stress_left": "mu A / pi", "initial.stress_right": "mu A / pi", "initial.width": "b / A", "domain.left": "b / A", "domain.right": "b / A",
+               "time.end": "b / (c A)", "chain.window": "b / A"}
 _not_by_default = {"time", "wall_seconds", "solve_seconds", "site_updates_per_second", "ranks", "threads"}
 
 
@@ -99,13 +108,21 @@ def sweep(scenario, axes, *, variables=None, set=None, command="pulse", output=N
 
     Returns
     -------
-    xarray.Dataset with the axes as dimensions. Their names are the full keys: `data.sel({"friction.coefficient": 0.5})`. A
-    point that failed is NaN, and `failure` gives the reason ("" for the others).
+    xarray.Dataset with the axes as dimensions. Their names are the keys with `_` for each dot, so that attribute access works:
+    `data.sel(friction_coefficient=0.5)` and `data.friction_coefficient`. The attribute `key` of a coordinate has the key. An axis
+    replaces the variable of its name. A point that failed is NaN, and `failure` gives the reason ("" for the others).
 
     Raises
     ------
     InputError if the axes are wrong or no point can run; FileError if a file cannot be read or written; NumericsError if the
     cluster is lost. After a KeyboardInterrupt, `<output>.part` holds the finished points.
+
+    Examples
+    --------
+    >>> axes = {"initial.stress_left": [0.8, 0.9]}
+    >>> sweep = slipfront.sweep(slipfront.cases / "step.toml", axes)
+    >>> sweep.slip_at_origin.sel(initial_stress_left=0.9).round(2).item()
+    0.38
     """
     if command not in ("pulse", "chain"):
         raise InputError(f"command = '{shown(command)}': unknown; allowed: pulse, chain")
@@ -170,10 +187,34 @@ def sweep(scenario, axes, *, variables=None, set=None, command="pulse", output=N
     return data
 
 
+def _unit_of(name, meaning):
+    """Returns the unit of a number of a run, and its meaning without the unit."""
+    text, found, unit = meaning.rpartition("in ")
+    if found and (not text or text.endswith(", ")):
+        with contextlib.suppress(InputError):
+            symbols(unit)
+            return unit, text.removesuffix(", ")
+    return next((unit for ending, unit in _units.items() if name.endswith(ending) or name.startswith(ending)), ""), meaning
+
+
+def dimension_of(key):
+    """Returns the name of the dimension of an axis, which is an identifier: friction_coefficient for friction.coefficient."""
+    return key.replace(".", "_")
+
+
 def _dataset(about, axes, kept, values, reasons):
-    variables = {name: (tuple(axes), array, {"long_name": meaning or name, "units": "1"}) for (name, meaning), array in zip(kept.items(), values)}
-    variables["failure"] = (tuple(axes), reasons, {"long_name": "reason why there is no result; empty for a point that succeeded"})
-    return dataset(variables, {key: (key, array) for key, array in axes.items()},
+    dims = tuple(dimension_of(key) for key in axes)
+    variables = {}
+    for (name, meaning), array in zip(kept.items(), values):
+        if name not in dims:  # friction_coefficient is then the coordinate
+            unit, words = _unit_of(name, meaning)
+            variables[name] = (dims, array, {"long_name": words or name.replace("_", " "), "units": "1", "dimensional_unit": unit})
+    variables["failure"] = (dims, reasons, {"long_name": "reason why there is no result; empty for a point that succeeded"})
+    coordinates = {}
+    for dim, (key, array) in zip(dims, axes.items()):
+        unit = {"dimensional_unit": _axis_units[key]} if key in _axis_units else {}
+        coordinates[dim] = (dim, array, {"long_name": f"{key} of the scenario", "key": key, **unit})
+    return dataset(variables, coordinates,
                    {"Conventions": "CF-1.10", "source": f"slipfront {__version__}", "history": f"slipfront.sweep of {about['command']}",
                     "version": __version__, "scenario": about["scenario"], "set": "\n".join(about["set"]), "slipfront_format": _format,
                     "sweep": json.dumps(about)})

@@ -14,44 +14,72 @@ __all__ = ["averages", "fields", "jacobi", "profile", "psi_at_rest", "spacing", 
 
 def averages(phi, psi, contact=1.0):
     """Averages over a period: k (= stress Sigma), W, <sigma^2>, <sigma^3>, <1 - cos u>, and the densities and fluxes P,
-    Q, H, I, J of the conservation laws (Eqs. 5-7), where the relative contact ratio is `contact` > 0."""
+    Q, H, I, J of the conservation laws (Eqs. 5-7), where the relative contact ratio is `contact` > 0.
+
+    >>> round(float(slipfront.train.averages(0.1, 1.0).W), 4)
+    0.271
+    """
     (phi, psi, contact), *rest = flat(phi=phi, psi=psi, contact=contact)
     return of_columns(_slipfront.averages_described, _slipfront.averages(phi, psi, contact), *rest)
 
 
 def fields(phi, psi, xi):
-    """Slip u, stress sigma and slip velocity w at xi = x - U t from the centre of a dislocation (Eq. 4). psi > 0."""
+    """Slip u, stress sigma and slip velocity w at xi = x - U t from the centre of a dislocation (Eq. 4). psi > 0.
+
+    >>> round(float(slipfront.train.fields(0.1, 1.0, 0.0).sigma), 4)
+    3.1016
+    """
     (phi, psi, xi), *rest = flat(phi=phi, psi=psi, xi=xi)
     return of_columns(_slipfront.fields_described, _slipfront.fields(phi, psi, xi), *rest)
 
 
 def jacobi(z, psi):
-    """Jacobi's am, sn, cn and dn of z at sqrt(1 - m) = tanh(psi), psi > 0."""
+    """Jacobi's am, sn, cn and dn of z at sqrt(1 - m) = tanh(psi), psi > 0.
+
+    >>> round(float(slipfront.train.jacobi(0.5, 1.0).sn), 4)
+    0.4721
+    """
     (z, psi), *rest = flat(z=z, psi=psi)
     return of_columns(_slipfront.jacobi_described, _slipfront.jacobi(z, psi), *rest)
 
 
 def spacing(phi, psi):
-    """Length of a period, 2 pi / k, in b / A, as an array. psi > 0."""
+    """Length of a period, 2 pi / k, in b / A, as an array. psi > 0.
+
+    >>> round(float(slipfront.train.spacing(0.1, 1.0)), 4)
+    2.3106
+    """
     (phi, psi), shape, *_ = flat(phi=phi, psi=psi)
     return _slipfront.spacing(phi, psi)[0].reshape(shape)
 
 
 def psi_at_rest(stress):
-    """psi of a train at rest under a stress in mu A / pi (0, or 0.0045 to 1e6), as an array."""
+    """psi of a train at rest under a stress in mu A / pi (0, or 0.0045 to 1e6), as an array.
+
+    >>> round(float(slipfront.train.psi_at_rest(1.0)), 4)
+    0.1694
+    """
     (stress,), shape, *_ = flat(stress=stress)
     return _slipfront.psi_at_rest(stress)[0].reshape(shape)
 
 
 def stress_at_rest(psi):
-    """Stress of a train at rest, pi cosh(psi) / K, in mu A / pi, as an array. psi > 0."""
+    """Stress of a train at rest, pi cosh(psi) / K, in mu A / pi, as an array. psi > 0.
+
+    >>> round(float(slipfront.train.stress_at_rest(1.0)), 4)
+    2.7058
+    """
     (psi,), shape, *_ = flat(psi=psi)
     return _slipfront.stress_at_rest(psi)[0].reshape(shape)
 
 
 def profile(stress, x_over_t, stress_right=0.0):
     """The frictionless pulse that a step of stress becomes (Eqs. 8-9; the exact Riemann problem where the right side is
-    stressed): U, Sigma, W and P at x/t in c. Attributes left_edge and right_edge are x/t of the edges of what moves."""
+    stressed): U, Sigma, W and P at x/t in c. Attributes left_edge and right_edge are x/t of the edges of what moves.
+
+    >>> slipfront.train.profile(0.855, [-0.1, 0.0, 0.1]).W.round(4).values.tolist()
+    [0.0436, 0.0482, 0.026]
+    """
     left, right = one_number("stress", stress), one_number("stress_right", stress_right)
     (x,), *rest = flat(x_over_t=x_over_t)
     columns, left_edge, right_edge = _slipfront.profile(left, right, x)

@@ -99,9 +99,18 @@ class Errors(CommandLine):
 
     def test_missing_library_names_the_package(self):
         for library, code, package in [("xarray", "slipfront.relations(stress=1)", "python3-xarray"), ("numpy", "", "python3-numpy"),
-                                       ("netCDF4", f"slipfront.open({STEP!r})", "python3-netcdf4")]:
+                                       ("netCDF4", f"slipfront.open({STEP!r})", "python3-netcdf4"), ("matplotlib", "import slipfront.plots", "python3-matplotlib"),
+                                       ("distributed", f"slipfront.sweep({STEP!r}, {{'time.end': [1]}}, client=1)", "python3-distributed")]:
             done = python(f"import sys; sys.modules[{library!r}] = None\nimport slipfront\n{code}")
-            self.assertIn(f"ImportError: {library} is missing; install the Debian package {package}", done.stderr)
+            self.assertIn(f"ImportError: {library} is missing; install the Debian package {package}, or `pip install {library}`", done.stderr)
+
+    def test_an_unloadable_module_is_one_sentence(self):
+        done = python("import sys; sys.modules['slipfront._slipfront'] = None\nimport slipfront")
+        self.assertRegex(done.stderr.splitlines()[-1], r"^ImportError: slipfront cannot load its compiled module with Python 3\..* on Linux \(.*\); use .*`pip install \.`$")
+
+    def test_an_import_of_the_folder_of_cases_keeps_its_path(self):
+        done = python("import slipfront, slipfront.cases\nimport slipfront.cases as folder\nprint((slipfront.cases / 'step.toml').exists(), folder == slipfront.cases)")
+        self.assertEqual(done.stdout, "True True\n", done.stderr)
 
     def test_an_interrupted_run_leaves_a_checkpoint(self):
         case = self.slow_case()

@@ -77,6 +77,23 @@ class Figures(CommandLine):
         self.assertIn(backward, [text.get_text() for text in plots.profiles(slipfront.pulse(hill)).axes[0].texts])
         self.assertNotIn(backward, [text.get_text() for text in plots.profiles(slipfront.pulse(STEP)).axes[0].texts])
 
+    def test_sweep(self):
+        tables = {"set": {"friction.law": "viscous", "pulse.cells": 40}, "variables": ["slip_velocity_at_origin", "slip_at_origin"]}
+        data = slipfront.sweep(STEP, {"friction.coefficient": [2, 0.1, 1], "initial.stress_left": [0.8, 0.9]}, **tables)
+        figure = plots.sweep(data)
+        self.assertEqual(figure.axes[0].get_xlabel(), "initial stress left, μA/π")
+        np.testing.assert_array_equal(figure.axes[0].collections[0].get_array().ravel(), data.slip_velocity_at_origin.sortby("friction_coefficient").values.ravel())
+        line = plots.sweep(data.isel(initial_stress_left=0), "slip_at_origin").axes[0]
+        np.testing.assert_array_equal(line.lines[0].get_xdata(), [0.1, 1, 2])
+        self.assertEqual(line.get_ylabel(), "slip u at x = 0, b/(2π)")
+        closures = slipfront.sweep(STEP, {"friction.coefficient": [0.1, 1], "friction.closure": ["paper", "consistent"]}, **tables)
+        self.assertEqual([text.get_text() for text in plots.sweep(closures).axes[0].get_legend().get_texts()], ["paper", "consistent"])
+        self.assertEqual(choose.kinds_of(data), ["sweep"])
+        for says, change in [("not a number", {"variable": "W"}), ("0 dimensions", {"data": data.isel(friction_coefficient=0, initial_stress_left=0)})]:
+            with self.assertRaises(ValueError) as caught:
+                plots.sweep(**{"data": data, **change})
+            self.assertIn(says, str(caught.exception))
+
     def test_relations_are_drawn_in_order(self):
         states = slipfront.relations(stress=[1.0, 0.2, 0.5])
         figure = plots.relations(states)

@@ -25,13 +25,14 @@ class Sweep(CommandLine):
 
     def test_each_point_equals_the_pulse_with_its_parameters(self):
         data = slipfront.sweep(SCENARIO, AXES, set={"friction.law": "viscous"})
-        self.assertEqual(data.sizes, {key: len(values) for key, values in AXES.items()})
+        self.assertEqual(data.sizes, {"friction_coefficient": 3, "friction_closure": 2})
+        self.assertEqual([data[name].attrs["key"] for name in data.dims], list(AXES))
         self.assertNotIn("wall_seconds", data)
         for coefficient in AXES["friction.coefficient"]:
             for closure in AXES["friction.closure"]:
                 at = {"friction.coefficient": coefficient, "friction.closure": closure}
                 alone = slipfront.pulse(SCENARIO, set=at).attrs
-                for name, value in data.sel(at).data_vars.items():
+                for name, value in data.sel(friction_coefficient=coefficient, friction_closure=closure).data_vars.items():
                     np.testing.assert_equal(value.item(), alone.get(name, ""), name)
         self.assertTrue(all(data[name].attrs["long_name"] for name in data.data_vars))
 
@@ -40,8 +41,47 @@ class Sweep(CommandLine):
         data = slipfront.sweep(SCENARIO, axes, command="chain", variables=["slip_at_origin", "dislocations"])
         for scale in axes["chain.scale"]:
             alone = slipfront.chain(SCENARIO, set={"chain.scale": scale}).attrs
-            self.assertEqual(float(data.slip_at_origin.sel({"chain.scale": scale})), alone["slip_at_origin"])
-            self.assertEqual(float(data.dislocations.sel({"chain.scale": scale})), alone["dislocations"])
+            self.assertEqual(float(data.slip_at_origin.sel(chain_scale=scale)), alone["slip_at_origin"])
+            self.assertEqual(float(data.dislocations.sel(chain_scale=scale)), alone["dislocations"])
+
+    def test_dimensions_are_identifiers(self):
+        data = slipfront.sweep(SCENARIO, AXES, variables=["friction_coefficient", "slip_at_origin"])
+        self.assertTrue(all(name.isidentifier() for name in data.dims))
+        np.testing.assert_array_equal(data.friction_coefficient, AXES["friction.coefficient"])  # the axis replaces the variable of its name
+        self.assertEqual(list(data.data_vars), ["slip_at_origin", "failure"])
+
+    def test_opens_a_file_with_dots_in_its_dimensions(self):
+        data = slipfront.sweep(SCENARIO, AXES, output=self.output)
+        old = data.rename(friction_coefficient="friction.coefficient", friction_closure="friction.closure").assign_attrs(slipfront_format="sweep 1")
+        old["friction_coefficient"] = ("friction.coefficient", AXES["friction.coefficient"])
+        slipfront._files.write_dataset(old, self.output)
+        opened = slipfront.open(self.output)
+        self.assertEqual(set(opened.dims), {"friction_coefficient", "friction_closure"})
+        np.testing.assert_array_equal(opened.slip_at_origin.sel(friction_closure="paper"), data.slip_at_origin.sel(friction_closure="paper"))
+
+    def test_numbers_have_their_units(self):
+        pulse, data = slipfront.pulse(SCENARIO), slipfront.sweep(SCENARIO, {"initial.stress_left": [0.8, 0.9]})
+        for name in data.data_vars:
+            if name in pulse:
+                self.assertEqual(data[name].attrs["dimensional_unit"], pulse[name].attrs["dimensional_unit"], name)
+        rock = {"contact_ratio": 0.01, "spacing": "1 mm", "medium": {"shear_modulus": "30 GPa", "p_wave_speed": "6 km/s", "poisson_ratio": 0.3}}
+        metric = data.slipfront.si(**rock)
+        self.assertEqual((metric.initial_stress_left.units, metric.slip_at_origin.units, metric.first_crossing_time.units), ("Pa", "m", "s"))
+        np.testing.assert_allclose(metric.sel(initial_stress_left=metric.initial_stress_left[1]).slip_at_origin, data.slip_at_origin[1] * 1e-3 / (2 * np.pi))
+        chain = slipfront.sweep(SCENARIO, {"chain.scale": [50]}, command="chain")
+        fields = slipfront.chain(SCENARIO, set={"chain.scale": 50})
+        for name in chain.data_vars:
+            if name in fields and name != "scale":
+                self.assertEqual(chain[name].attrs["dimensional_unit"], fields[name].attrs["dimensional_unit"], name)
+
+    def test_constants_that_vary_must_be_selected(self):
+        rock = {"medium.shear_modulus": "30 GPa", "medium.p_wave_speed": "6 km/s", "medium.poisson_ratio": 0.3, "medium.asperity_spacing": "1 mm"}
+        data = slipfront.sweep(SCENARIO, {"medium.contact_ratio": [0.01, 0.02]}, set=rock)
+        with self.assertRaises(slipfront.InputError) as caught:
+            data.slipfront.si()
+        self.assertIn("contact_ratio varies along the dimension medium_contact_ratio", str(caught.exception))
+        first, second = (data.sel(medium_contact_ratio=ratio).slipfront.si() for ratio in (0.01, 0.02))
+        np.testing.assert_allclose(second.stress_at_origin, 2 * first.stress_at_origin)
 
     def test_threads_change_nothing_and_progress_is_reported(self):
         reports = []

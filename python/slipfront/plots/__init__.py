@@ -5,6 +5,10 @@ The kinds of picture are those of `choose.KINDS`, each a function in a file of i
 
 import importlib
 
+from .._optional import import_optional
+
+import_optional("matplotlib")
+
 from .choose import KINDS
 from .style import save
 

@@ -10,6 +10,7 @@ KINDS = {
     "events": ("events", {"rupture_velocity", "stress", "frictionless_slip_velocity"}),
     "relations": ("relations", {"rupture_velocity", "stress", "leading_velocity", "slip_velocity"}),
     "corner": ("corner", {"sample"}),
+    "sweep": ("sweep", {"failure"}),
 }
 
 

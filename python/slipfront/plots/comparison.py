@@ -25,6 +25,13 @@ def comparison(levels, fields=("W", "Sigma", "slip")) -> Figure:
         Over level, time and x with the levels' names in `name`: what `slipfront.compare` gives.
     fields : sequence of str
         Three variables over level, time and x.
+
+    Examples
+    --------
+    >>> levels = slipfront.compare(slipfront.cases / "step.toml", scales=[100])
+    >>> figure = slipfront.plots.comparison(levels)
+    >>> len(figure.axes)
+    4
     """
     figure = Figure(figsize=(7.6, 5.6))
     panels = figure.subplots(2, 2)

@@ -112,6 +112,15 @@ def corner(samples, names=None, bins: int = 30) -> Figure:
     Raises
     ------
     ValueError if there are fewer than 20 finite samples, or if a quantity has the same value in all of them.
+
+    Examples
+    --------
+    >>> import xarray
+    >>> random = np.random.default_rng(1)
+    >>> samples = xarray.Dataset({name: ("sample", random.normal(size=500)) for name in "ab"})
+    >>> figure = slipfront.plots.corner(samples)
+    >>> len(figure.axes) >= 3
+    True
     """
     title = f"{plain(samples['name'].values.ravel()[0])}, posterior\n" if "draw" in samples.dims and "name" in samples else ""
     samples = drawn(samples) if "draw" in samples.dims else samples

@@ -98,6 +98,14 @@ def events(events, line) -> Figure:
         intervals where there are any: what `slipfront.event` gives. A population, as the files of `slipfront event -o` have it, is drawn over the events.
     line : xarray.Dataset
         Of `slipfront.relations`, over the range to draw.
+
+    Examples
+    --------
+    >>> found = slipfront.event(samples=0)
+    >>> line = slipfront.relations(rupture_velocity=np.geomspace(1e-6, 0.9, 300))
+    >>> figure = slipfront.plots.events(found, line)
+    >>> figure.axes[0].get_xscale()
+    'log'
     """
     kinds = sorted(set(texts(events["kind"]))) if "kind" in events else [""]
     shown = ["stress"] + [name for name in ("stress_pa", "stress_pa_bound", "observed_slip_velocity") if known(events, name)]

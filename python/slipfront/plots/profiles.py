@@ -29,6 +29,13 @@ def profiles(pulse, fields=("W", "Sigma", "slip"), times: int = 5) -> Figure:
     Returns
     -------
     matplotlib.figure.Figure
+
+    Examples
+    --------
+    >>> pulse = slipfront.pulse(slipfront.cases / "step.toml")
+    >>> figure = slipfront.plots.profiles(pulse)
+    >>> figure.axes[-1].get_xlabel()
+    'position x, b/A'
     """
     pulse = finite(pulse)
     fields = [name for name in fields if name in pulse]

@@ -14,6 +14,13 @@ def relations(states) -> Figure:
     ----------
     states : xarray.Dataset
         stress, rupture_velocity, leading_velocity and slip_velocity, positive, of one shape and in any order: what `slipfront.relations` gives.
+
+    Examples
+    --------
+    >>> states = slipfront.relations(stress=np.geomspace(0.1, 2, 50))
+    >>> figure = slipfront.plots.relations(states)
+    >>> [axes.get_yscale() for axes in figure.axes[:2]]
+    ['linear', 'log']
     """
     order = numpy.argsort(states["stress"].values.ravel())
     stress = states["stress"].values.ravel()[order]

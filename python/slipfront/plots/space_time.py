@@ -53,6 +53,13 @@ def space_time(pulse, fields=("W", "Sigma")) -> Figure:
     Returns
     -------
     matplotlib.figure.Figure
+
+    Examples
+    --------
+    >>> pulse = slipfront.pulse(slipfront.cases / "step.toml")
+    >>> figure = slipfront.plots.space_time(pulse)
+    >>> figure.axes[0].get_ylabel()
+    'time t, b/(cA)'
     """
     pulse = finite(pulse)
     fields = [name for name in fields if name in pulse]

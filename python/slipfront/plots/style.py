@@ -79,6 +79,13 @@ def save(figure: Figure, path, **options) -> None:
     Raises
     ------
     FileError if the picture cannot be drawn or written; ValueError if matplotlib does not write files with this ending.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> figure = slipfront.plots.relations(slipfront.relations(stress=[0.5, 1.0]))
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     slipfront.plots.save(figure, f"{folder}/relations.png")
     """
     kind, formats = pathlib.Path(path).suffix.lower().lstrip("."), figure.canvas.get_supported_filetypes()
     if kind not in formats:

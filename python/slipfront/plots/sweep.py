@@ -1,0 +1,82 @@
+"""Draws a number of a sweep against its axes."""
+
+import numpy
+from matplotlib.figure import Figure
+
+from .space_time import colours
+from .style import label, styled
+
+#: Numbers of a sweep to draw by default, the first that it has.
+PREFERRED = ("slip_velocity_at_origin", "peak_slip_velocity", "slip_at_origin")
+
+
+def axis_label(coordinate) -> str:
+    """Returns the label of an axis of a sweep: its key in words, and its unit."""
+    return label(coordinate, str(coordinate.name).replace("_", " "))
+
+
+@styled
+def sweep(data, variable: str = "") -> Figure:
+    """Draws a number of a sweep: lines for one swept dimension, and a map for two.
+
+    Dimensions of length 1 do not count. Points that failed are gaps in a line, and grey in a map. An axis of texts, such as
+    friction.closure, gives one line for each of them.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Result of `slipfront.sweep`. Select values of further dimensions with `.sel`.
+    variable : str, optional
+        Name of the number. By default slip_velocity_at_origin, or else the first that the sweep has.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Raises
+    ------
+    ValueError if the Dataset has no such number, or if more than two dimensions are swept.
+
+    Examples
+    --------
+    >>> data = slipfront.sweep(slipfront.cases / "step.toml", {"initial.stress_left": [0.8, 0.9]})
+    >>> figure = slipfront.plots.sweep(data, "slip_at_origin")
+    >>> figure.axes[0].get_xlabel()
+    'initial stress left, μA/π'
+    """
+    numbers = [str(name) for name, values in data.data_vars.items() if values.dtype.kind in "fiu"]
+    variable = variable or next((name for name in (*PREFERRED, *numbers) if name in numbers), "")
+    if variable not in numbers:
+        raise ValueError(f"variable = '{variable}': not a number of this sweep; allowed: {', '.join(numbers)}")
+    values = data[variable].squeeze()
+    if not 1 <= values.ndim <= 2:
+        raise ValueError(f"the sweep has {values.ndim} dimensions of two or more values; allowed: 1 or 2; select values of the others with .sel")
+    texts = [dim for dim in values.dims if values[dim].dtype.kind not in "fiu"]
+    figure = Figure(figsize=(6.0, 4.0))
+    axes = figure.subplots()
+    if values.ndim == 1 or texts:
+        lines(axes, values.transpose(*texts[:1], ...))
+        axes.set_ylabel(label(values))
+    else:
+        values = values.sortby(list(values.dims))
+        up, across = (values[dim] for dim in values.dims)
+        image = axes.pcolormesh(across, up, numpy.ma.masked_invalid(values.values), shading="nearest", rasterized=True, **colours(values.values))
+        axes.set_facecolor("0.75")
+        axes.grid(False)
+        axes.set(xlabel=axis_label(across), ylabel=axis_label(up))
+        figure.colorbar(image, ax=axes, label=label(values))
+    return figure
+
+
+def lines(axes, values) -> None:
+    """Draws values of one or two dimensions as lines over the last dimension, with a line for each value of the first."""
+    across = values[values.dims[-1]]
+    if across.dtype.kind in "fiu":
+        values = values.sortby(across.name)
+        across = values[across.name]
+    positions = [str(text) for text in across.values] if across.dtype.kind not in "fiu" else across.values
+    for row in numpy.atleast_2d(values.values):
+        axes.plot(positions, row, marker="o" if values.sizes[across.name] < 30 else None, linestyle="-", markersize=4)
+    if values.ndim == 2:
+        axes.legend([str(text) for text in values[values.dims[0]].values], title=axis_label(values[values.dims[0]]))
+    axes.set_xlabel(axis_label(across))
