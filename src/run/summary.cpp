@@ -93,7 +93,7 @@ std::vector<SummaryItem<FinishedPulse>> pulse_solver() {
        "relative error of the number of dislocations"},
       {"cells", [](const FinishedPulse& e) -> Value { return static_cast<long>(e.run.solver().problem().cells); },
        "cells in the domain at t = 0; others come in and leave through its ends"},
-      {"steps", [](const FinishedPulse& e) -> Value { return e.run.solver().cells().steps; }, ""},
+      {"steps", [](const FinishedPulse& e) -> Value { return e.run.solver().cells().steps; }, "number of time steps"},
       {"solve_seconds", [](const FinishedPulse& e) -> Value { return e.run.stepping_seconds(); },
        "seconds of the time steps only"},
       {"wall_seconds", [](const FinishedPulse& e) -> Value { return e.wall; }, "seconds of the whole command"},
@@ -112,7 +112,8 @@ double site_updates_per_second(const FinishedChain& end) {
   return end.stepping > 0 ? updates / end.stepping : 0;
 }
 
-std::vector<SummaryItem<FinishedChain>> chain_items() {
+/// Settings, values at x = 0 and at the peak, and fronts.
+std::vector<SummaryItem<FinishedChain>> chain_at_origin() {
   return {
       {"time", [](const FinishedChain& e) -> Value { return last(e).time; }, "in b / (c A)"},
       {"scale", [](const FinishedChain& e) -> Value { return e.run.scale(); },
@@ -137,6 +138,12 @@ std::vector<SummaryItem<FinishedChain>> chain_items() {
        "x of the fast front for an observer with a threshold"},
       {"leading_front_observed", [](const FinishedChain& e) -> Value { return last(e).fronts.leading_observed; },
        "x of the slow front for an observer with a threshold"},
+  };
+}
+
+/// Dislocations, checks, and how the chain was computed.
+std::vector<SummaryItem<FinishedChain>> chain_solver() {
+  return {
       {"dislocations", [](const FinishedChain& e) -> Value { return e.balance.dislocations; },
        "number of dislocations at the end"},
       {"energy_phonons", [](const FinishedChain& e) -> Value { return last(e).energy.phonons; },
@@ -145,16 +152,23 @@ std::vector<SummaryItem<FinishedChain>> chain_items() {
        "relative error of the balance of energy and work since t = 0"},
       {"charge_error", [](const FinishedChain& e) -> Value { return e.balance.charge_error; },
        "dislocations that left through the ends; 0 if these are fixed or periodic"},
-      {"sites", [](const FinishedChain& e) -> Value { return static_cast<long>(grid(e).sites); }, ""},
+      {"sites", [](const FinishedChain& e) -> Value { return static_cast<long>(grid(e).sites); }, "number of sites"},
       {"spacing", [](const FinishedChain& e) -> Value { return grid(e).spacing; },
        "spacing of the sites, in the chain's own x"},
-      {"steps", [](const FinishedChain& e) -> Value { return e.run.chain().steps(); }, ""},
-      {"ranks", [](const FinishedChain& e) -> Value { return static_cast<long>(e.ranks); }, ""},
+      {"steps", [](const FinishedChain& e) -> Value { return e.run.chain().steps(); }, "number of time steps"},
+      {"ranks", [](const FinishedChain& e) -> Value { return static_cast<long>(e.ranks); }, "number of processes"},
       {"threads", [](const FinishedChain& e) -> Value { return static_cast<long>(e.threads); }, "threads of each rank"},
       {"site_updates_per_second", [](const FinishedChain& e) -> Value { return site_updates_per_second(e); },
        "site updates per second, including output"},
       {"wall_seconds", [](const FinishedChain& e) -> Value { return e.wall; }, "seconds of the whole command"},
   };
+}
+
+std::vector<SummaryItem<FinishedChain>> chain_items() {
+  std::vector<SummaryItem<FinishedChain>> items = chain_at_origin();
+  const std::vector<SummaryItem<FinishedChain>> solver = chain_solver();
+  items.insert(items.end(), solver.begin(), solver.end());
+  return items;
 }
 
 }  // namespace
