@@ -77,6 +77,13 @@ class Figures(CommandLine):
         self.assertIn(backward, [text.get_text() for text in plots.profiles(slipfront.pulse(hill)).axes[0].texts])
         self.assertNotIn(backward, [text.get_text() for text in plots.profiles(slipfront.pulse(STEP)).axes[0].texts])
 
+    def test_si_units_are_on_the_axes(self):
+        rock = {"shear_modulus": "30 GPa", "p_wave_speed": "6 km/s", "poisson_ratio": 0.3}
+        metric = slipfront.compare(STEP, scales=[50]).slipfront.si(contact_ratio=0.01, spacing="1 mm", medium=rock)
+        figure = plots.comparison(metric)
+        self.assertIn("slip velocity W, m s⁻¹", self.labels(figure))
+        self.assertRegex(figure.get_suptitle() if hasattr(figure, "get_suptitle") else figure._suptitle.get_text(), r"t = \S+ s$")
+
     def test_sweep(self):
         tables = {"set": {"friction.law": "viscous", "pulse.cells": 40}, "variables": ["slip_velocity_at_origin", "slip_at_origin"]}
         data = slipfront.sweep(STEP, {"friction.coefficient": [2, 0.1, 1], "initial.stress_left": [0.8, 0.9]}, **tables)

@@ -5,7 +5,7 @@ from typing import Any
 from matplotlib.figure import Figure
 
 from .pulse_parts import mark_fronts, shades, title_of, window
-from .style import label, plain, styled
+from .style import label, plain, styled, unit
 
 #: Lines of the levels that are no chains; chains are shaded by their scale.
 LEVELS: dict[str, dict[str, Any]] = {
@@ -59,5 +59,5 @@ def comparison(levels, fields=("W", "Sigma", "slip")) -> Figure:
     panels[0, 1].legend()
     if "pulse-consistent" in names:
         mark_fronts(panels[0, 0], levels.isel(level=names.index("pulse-consistent")))
-    figure.suptitle(f"{title_of(levels)}, t = {float(levels['time'][-1]):.4g} b/(cA)")
+    figure.suptitle(f"{title_of(levels)}, t = {float(levels['time'][-1]):.4g} {unit(levels['time'])}")
     return figure

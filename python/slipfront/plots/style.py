@@ -108,8 +108,10 @@ def plain(text) -> str:
 
 def unit(variable) -> str:
     """Returns the unit of a DataArray as an axis shows it. It is empty for a pure number."""
-    si = variable.attrs.get("units", "")
-    text = plain(variable.attrs.get("dimensional_unit") or (si if si != "1" else "") or UNITS.get(variable.name, ""))
+    si, unit_of_model = variable.attrs.get("units", ""), variable.attrs.get("dimensional_unit")
+    if not unit_of_model and si not in ("", "1"):  # m s-1 without its space would be a rate
+        return plain(si).translate({ord("-"): "⁻", **{ord(digit): power for digit, power in zip("123456789", "¹²³⁴⁵⁶⁷⁸⁹")}})
+    text = plain(unit_of_model or UNITS.get(variable.name, ""))
     for written, printed in ((" ", ""), ("mu", "μ"), ("nu", "ν"), ("pi", "π"), ("^2", "²")):
         text = text.replace(written, printed)
     return "" if text == "1" else text
