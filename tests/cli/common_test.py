@@ -45,7 +45,7 @@ class Common(CommandLine):
         facts = json.loads(self.ok("--version", "--json"))
         self.assertEqual(facts["slipfront"], version)
         for name in ("compiler", "boost", "cli11", "fmt", "nlohmann_json", "netcdf"):
-            self.assertRegex(facts[name], r"^\d+\.\d+")
+            self.assertRegex(facts[name], r"\d+\.\d+")
         self.refused(2, "--json", says=["--version"])
 
     def test_doctor_names_what_works_and_the_remedy_for_the_rest(self):
