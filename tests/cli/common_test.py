@@ -8,9 +8,11 @@ import subprocess
 import tempfile
 import unittest
 
-from support import CommandLine, PATIENCE, PROGRAM, SOURCE, run
+from support import CommandLine, PATIENCE, PROGRAM, SANITIZED, SOURCE, run
 
-COMMANDS = ("relations", "event", "pulse", "chain", "compare", "keys", "doctor", "explore", "reproduce", "plot", "animate")
+COMMANDS = ("relations", "event", "pulse", "chain", "compare", "keys", "doctor", "explore")
+#: Commands of the Python package, which a build with sanitizers does not have.
+PYTHON_COMMANDS = () if SANITIZED else ("reproduce", "plot", "animate")
 #: Examples that other tests run, because they serve a page or take long.
 ELSEWHERE = ("slipfront explore", "slipfront reproduce", "slipfront animate")
 
@@ -25,7 +27,7 @@ class Common(CommandLine):
             shutil.copytree(os.path.join(SOURCE, "cases"), os.path.join(folder, "cases"))
             os.symlink(PROGRAM, os.path.join(folder, "slipfront"))
             environment = os.environ | {"PATH": f"{folder}:{os.environ['PATH']}"}
-            for command in COMMANDS:
+            for command in (*COMMANDS, *PYTHON_COMMANDS):
                 help_text = run(command, "--help").stdout
                 examples = re.findall(r"^  (slipfront .*)$", help_text.partition("Examples:")[2], re.MULTILINE)
                 self.assertTrue(examples, command)
