@@ -4,9 +4,6 @@ from urllib.parse import quote
 
 from docutils import nodes
 
-#: The tables that the explorer reads.
-TABLES = ("initial", "friction", "forcing", "interface", "domain", "time", "pulse", "chain", "medium", "output")
-
 
 def route_of(text: str) -> str | None:
     """The address within the explorer that shows a scenario; None if it has no scenario that the explorer can show."""
@@ -17,8 +14,10 @@ def route_of(text: str) -> str | None:
     if "initial" not in scenario or "loading" in scenario or "file" in scenario["initial"]:
         return None
     values = {"title": scenario.get("title", "")}
-    for table in TABLES:
-        for key, value in scenario.get(table, {}).items():
+    for table, entries in scenario.items():
+        if table in ("title", "event"):
+            continue
+        for key, value in entries.items():
             values[f"{table}.{key}"] = str(value).lower() if isinstance(value, bool) else str(value)
     return "#/pulse?" + "&".join(f"{quote(key)}={quote(value)}" for key, value in values.items() if value)
 

@@ -2,8 +2,6 @@
 
 It runs short cases and describes what the program writes: the variables of NetCDF files with their attributes, and the
 lines of the text, whose names are the keys of JSON."""
-import contextlib
-import io
 import json
 import pathlib
 import re
@@ -62,6 +60,7 @@ JSON_ONLY = {
     "front_velocity_ratio": "velocity of the front, pulse over model",
     "correlation_of_slip": "correlation of slip along strike, pulse and model",
     "slip_error": "largest slip ahead of the front, over the largest slip",
+    "pulse": "pulse along a finite-fault model, with `--pulse`",
     "reason": "reason why there is no pulse",
     "population": "statistics by decade of rupture velocity",
     "rupture_velocity_from": "lower end of a decade, in c",
@@ -110,14 +109,14 @@ def keys_of(value: object) -> Iterator[str]:
             yield from keys_of(inside)
 
 
-def describe_json(run: Program, page: str) -> None:
-    """Describes the keys that only JSON has, and stops if a key is on the page nowhere."""
+def describe_json(run: Program, described: set[str]) -> None:
+    """Describes the keys that only JSON has, and stops if a key is not among these and the described names."""
     print("## Further keys of JSON\n\nThese keys occur only in the output of `--json`. `<name>_interval` is the 90 % interval of a value, and")
     print("`<name>_events` in a population is the number of events in which the value is known.\n")
     print("| key | meaning |\n|---|---|")
     for key, meaning in JSON_ONLY.items():
         print(f"| `{key}` | {meaning} |")
-    listed = {*re.findall(r"`(\w+)`", page), *JSON_ONLY}
+    listed = described | set(JSON_ONLY)
     for command in [["relations", "--stress", "1", "--friction-coefficient", "0.1"],
                     ["pulse", run.case("step-viscous.toml")],
                     ["chain", run.case("stick-slip.toml"), *LOADED_CHAIN_WITH_EVENTS],
@@ -129,10 +128,11 @@ def describe_json(run: Program, page: str) -> None:
             sys.exit(f"docs/site/output_variables.py: add the keys {', '.join(missing)} of slipfront {command[0]} to JSON_ONLY")
 
 
-def describe_variables(title: str, command: str, datasets: list[xarray.Dataset]) -> None:
+def describe_variables(title: str, command: str, datasets: list[xarray.Dataset]) -> set[str]:
+    """Describes the variables of files, and returns their names."""
     print(f"## {title}\n\n`{command}` writes these variables.\n")
     print("| variable | meaning | unit | dimensions | source |\n|---|---|---|---|---|")
-    seen = set()
+    seen: set[str] = set()
     for data in datasets:
         for name, variable in data.variables.items():
             if name in seen:
@@ -141,41 +141,36 @@ def describe_variables(title: str, command: str, datasets: list[xarray.Dataset])
             source = str(variable.attrs.get("references", "")).replace("Gershenzon, Bambakidis and Skinner (2015), ", "")
             print(f"| `{name}` | {cell(variable.attrs.get('long_name', ''))} | {cell(unit_of(variable))} | {', '.join(variable.dims)} | {cell(source)} |")
     print()
+    return seen
 
 
-def describe_lines(title: str, command: str, text: str) -> None:
+def describe_lines(title: str, command: str, text: str) -> set[str]:
+    """Describes the lines of a text, and returns the names in them."""
     print(f"## {title}\n\n`{command}` prints one value under each of these names. `--json` uses the names as keys.\n")
     print("| key | meaning |\n|---|---|")
-    for line in text.splitlines():
-        found = re.match(r"([a-z_]+) +(\S+)(?: +\+- \S+)? *(.*)$", line)
-        if found:
-            print(f"| `{found[1]}` | {cell(found[3])} |")
+    lines = [found for line in text.splitlines() if (found := re.match(r"([a-z_]+) +(\S+)(?: +\+- \S+)? *(.*)$", line))]
+    for found in lines:
+        print(f"| `{found[1]}` | {cell(found[3])} |")
     print()
+    return {found[1] for found in lines}
 
 
 def main() -> None:
-    page = io.StringIO()
-    with contextlib.redirect_stdout(page):
-        write_page(page)
-    print(page.getvalue(), end="")
-
-
-def write_page(page: io.StringIO) -> None:
     with tempfile.TemporaryDirectory() as folder:
         run = Program(sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(folder))
         print("# Output variables\n")
         print("This page lists every variable of the output files and every key of JSON. The texts and units are those that the")
         print("program writes: the page is made by running short cases. An empty unit means a pure number or a text.\n")
-        describe_lines("Values of `relations`", "slipfront relations", run.text("relations", "--stress", "1"))
-        describe_lines("Values of `pulse`", "slipfront pulse SCENARIO", run.text("pulse", run.case("step-viscous.toml"), "--quiet"))
-        describe_lines("Values of `chain`", "slipfront chain SCENARIO", run.text("chain", run.case("step-viscous.toml"), "--quiet", "--set", "chain.scale=30"))
+        described = describe_lines("Values of `relations`", "slipfront relations", run.text("relations", "--stress", "1"))
+        described |= describe_lines("Values of `pulse`", "slipfront pulse SCENARIO", run.text("pulse", run.case("step-viscous.toml"), "--quiet"))
+        described |= describe_lines("Values of `chain`", "slipfront chain SCENARIO", run.text("chain", run.case("step-viscous.toml"), "--quiet", "--set", "chain.scale=30"))
         pulses = [run.file("pulse", run.case("step-viscous.toml")), run.file("chain", run.case("stick-slip.toml"), *SHORT_LOADED_CHAIN)]
-        describe_variables("Files of `pulse` and `chain`", "slipfront pulse SCENARIO -o OUT.nc", pulses)
-        describe_variables("Files of `compare`", "slipfront compare SCENARIO -o OUT.nc",
-                           [run.file("compare", run.case("step-viscous.toml"), "--set", "chain.scale=30")])
-        describe_variables("Files of `event`", "slipfront event FILE -o OUT.nc",
-                           [run.file("event", run.case("ets.toml"), "--draws", "10"), run.file("event", run.case("synthetic-fault.fsp"), "--pulse")])
-        describe_json(run, page.getvalue())
+        described |= describe_variables("Files of `pulse` and `chain`", "slipfront pulse SCENARIO -o OUT.nc", pulses)
+        described |= describe_variables("Files of `compare`", "slipfront compare SCENARIO -o OUT.nc",
+                                        [run.file("compare", run.case("step-viscous.toml"), "--set", "chain.scale=30")])
+        described |= describe_variables("Files of `event`", "slipfront event FILE -o OUT.nc",
+                                        [run.file("event", run.case("ets.toml"), "--draws", "10"), run.file("event", run.case("synthetic-fault.fsp"), "--pulse")])
+        describe_json(run, described)
 
 
 if __name__ == "__main__":

@@ -11,10 +11,9 @@ void read_medium(const Document& document, medium::Constants& options) {
     const Value* const value = section.find(constant.name);
     if (!value) continue;
     const double quantity = quantity_in(section, constant.name, *value, constant.dimension);
-    const bool may_be_negative = constant.name == "poisson_ratio";
-    if (may_be_negative && !(quantity > -1 && quantity < 0.5))
-      throw section.refuse(constant.name, "out of range", "> -1 and < 0.5");
-    if (!may_be_negative && !(quantity > 0)) throw section.refuse(constant.name, "not positive", "> 0");
+    const Key& key = section.key(constant.name);
+    if (!key.limits.hold(quantity))
+      throw section.refuse(constant.name, key.limits.least < 0 ? "out of range" : "not positive", key.allowed());
     options.*constant.member = quantity;
   }
 }

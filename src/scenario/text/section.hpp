@@ -24,6 +24,8 @@ class Section {
   const std::string& file() const { return document_.file; }
   const Value* find(std::string_view key) const;
 
+  const Key& key(std::string_view name) const;  ///< its entry in the list of keys
+
   std::optional<double> number(std::string_view key) const;
   std::optional<int> whole_number(std::string_view key) const;
   std::optional<std::string> text(std::string_view key) const;
@@ -54,8 +56,6 @@ class Section {
   void check(std::string_view key, const Value& value, const Limits& limits) const;
 
  private:
-  const Key& key(std::string_view name) const;
-
   const Document& document_;
   const Table* table_;
   std::string name_;
