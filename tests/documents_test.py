@@ -1,7 +1,8 @@
 """Checks that the files, classes and functions that the pages on the structure name exist. Usage: documents_test.py [FOLDER]
 
 Names are the texts between backticks in ARCHITECTURE.md, docs/design.md and docs/NOTATION.md. Each must be a path below one
-of the source folders, with or without its ending, or consist of words that occur in a source file.
+of the source folders, with or without its ending, or consist of words that occur in a source file. It also checks that the
+links of all Markdown pages lead to files.
 """
 
 import pathlib
@@ -51,10 +52,18 @@ def missing(document, known, words):
                 yield f"{document}:{number}: `{name}`: there is no {', '.join(unknown)}"
 
 
+def dead_links(known):
+    for page in sorted(name for name in known if name.endswith(".md") and not name.startswith("docs/site/")):  # docs/site has another root
+        for number, line in enumerate((ROOT / page).read_text(encoding="utf-8").split("\n"), 1):
+            for link in re.findall(r"\]\(([^)#\s]+)", line):
+                if not link.startswith(("https://", "mailto:")) and not (ROOT / page).parent.joinpath(link).exists():
+                    yield f"{page}:{number}: {link} leads to no file"
+
+
 def main():
     known = files()
     words = words_of(known)
-    found = [fault for document in DOCUMENTS for fault in missing(document, known, words)]
+    found = [fault for document in DOCUMENTS for fault in missing(document, known, words)] + list(dead_links(known))
     print("\n".join(found))
     return int(bool(found))
 

@@ -9,7 +9,8 @@ place of the one at the root of the repository. `slipfront` is on the path, and 
     ```text     after one of these is its output; `...` stands for any text, and numbers may differ by 1e-6 of themselves
     Write `NAME`:   above any other block writes its text into that file
 
-A comment `<!-- not run: REASON -->` on the line above excludes a block. Prints PAGE:LINE for everything that fails.
+A comment `<!-- not run: REASON -->` on the line above excludes a block. A picture that a page writes must not be empty.
+Prints PAGE:LINE for everything that fails.
 """
 
 import dataclasses
@@ -28,6 +29,8 @@ NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?")
 FENCE = re.compile(r"^( *)(```+)\s*(\w*)")
 FILE_ABOVE = re.compile(r"(?:Write|write|Save|save)\b.*`([\w./-]+)`")
 NOT_RUN = re.compile(r"<!-- not run: \S.*-->")
+PICTURES = (".png", ".svg", ".gif", ".webp")
+SMALLEST_PICTURE = 5000  # bytes; an empty figure has fewer
 COMMANDS_IN_INDENTED_TEXT = re.compile(r"^ {4,}(?:slipfront|\./run|\./test|python3|cmake|mpirun|git|docs/|tests/|build/)\b")
 
 #: Runs the Python blocks that it reads, one line of JSON each, and answers with their output.
@@ -187,6 +190,9 @@ class Page:
                 code_before = False
             elif block.language == "":
                 self.fail(block.line, "a block without a language: sh, python, text, toml, csv, cpp, cmake, ...")
+        for picture in self.folder.rglob("*"):
+            if picture.suffix in PICTURES and picture.stat().st_size < SMALLEST_PICTURE:
+                self.fail(1, f"the picture {picture.relative_to(self.folder)} has {picture.stat().st_size} bytes only")
         return ran
 
     @staticmethod
