@@ -6,6 +6,7 @@
 #include <boost/version.hpp>
 
 #include "foundation/ranks.hpp"
+#include "installed.hpp"
 #include "record/netcdf/netcdf.hpp"
 
 Json build_facts() {
@@ -19,6 +20,6 @@ Json build_facts() {
       fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH);
   facts["netcdf"] = slipfront::record::netcdf::library_version();
   facts["mpi"] = slipfront::Ranks::available();
-  facts["python"] = SLIPFRONT_PYTHON_INTERPRETER;
+  facts["python"] = python_interpreter();
   return facts;
 }

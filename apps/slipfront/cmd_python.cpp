@@ -61,7 +61,7 @@ void block_interrupts() {
   if (const char* others = std::getenv("PYTHONPATH"); others && *others) path += std::string(":") + others;
   setenv("PYTHONPATH", path.c_str(), 1);
   setenv("PYTHONSAFEPATH", "1", 1);  // else a folder `slipfront` in the working directory would hide the package
-  std::string interpreter = SLIPFRONT_PYTHON_INTERPRETER, option = "-c", code = launch;
+  std::string interpreter = python_interpreter(), option = "-c", code = launch;
   std::vector<char*> arguments = {interpreter.data(), option.data(), code.data(), name.data()};
   arguments.insert(arguments.end(), first, last);
   arguments.push_back(nullptr);

@@ -1,5 +1,6 @@
 #include "installed.hpp"
 
+#include <cstdlib>
 #include <system_error>
 
 namespace {
@@ -17,8 +18,13 @@ std::filesystem::path package_folder() {
   std::error_code error;
   if (above.empty()) return {};
   for (const char* folder : {"python", SLIPFRONT_PYTHON_DIR})
-    if (std::filesystem::exists(above / folder / "slipfront" / "__main__.py", error)) return above / folder;
+    if (std::filesystem::exists(above / folder / "slipfront" / "__main__.py", error)) return (above / folder).lexically_normal();
   return {};
 }
 
 std::filesystem::path shipped_page() { return prefix() / "share" / "slipfront" / "explorer"; }
+
+std::string python_interpreter() {
+  const char* chosen = std::getenv("SLIPFRONT_PYTHON");
+  return chosen && *chosen ? chosen : SLIPFRONT_PYTHON_INTERPRETER;
+}

@@ -1,6 +1,6 @@
-"""Runs the subcommands of the command line that are written in Python: `python3 -m slipfront NAME ARGS...`.
+"""Runs the command line: `python3 -m slipfront NAME ARGS...`. It hands the subcommands that are written in C++ to the program.
 
-Each subcommand is a module cmd_NAME.py with a function `main(argv) -> int`, where argv are the arguments after the name. An
+Each subcommand in Python is a module cmd_NAME.py with a function `main(argv) -> int`, where argv are the arguments after the name. An
 error that it raises becomes one line on stderr and an exit code.
 """
 
@@ -8,6 +8,7 @@ import atexit
 import contextlib
 import importlib
 import os
+import pathlib
 import signal
 import sys
 
@@ -133,10 +134,22 @@ def _code_of(error, name, numerics_error):
         return NUMERICS
 
 
+def become_program(argv):
+    """Becomes the program slipfront with these arguments. Returns an exit code if the program is missing."""
+    package = pathlib.Path(__file__).parent
+    # In a wheel, in the build tree, and where CMake or a Debian package installs it.
+    for folder in (package, package.parents[1], package.parents[3]):
+        program = folder / "bin" / "slipfront"
+        if program.is_file():
+            os.environ["SLIPFRONT_PYTHON"] = sys.executable
+            os.execv(program, ["slipfront", *argv])
+    complain("the program slipfront is missing beside its Python package; install the Debian package slipfront")
+    return FILE
+
+
 def main():
     if len(sys.argv) < 2 or sys.argv[1] not in NAMES:
-        complain(f"python3 -m slipfront: the subcommand is missing or unknown; allowed: {', '.join(NAMES)}")
-        return INPUT
+        return become_program(sys.argv[1:])
     heed_signals()
     code = run(sys.argv[1], sys.argv[2:])
     try:
