@@ -38,8 +38,8 @@ constexpr std::array<Library, 5> libraries = {{
 
 /// The first line that a Python program prints; empty if it fails.
 std::string python(const std::string& code) {
-  const std::string command = "PYTHONSAFEPATH=1 exec '" + python_interpreter() + "' -c '" + code +
-                              "' 2>/dev/null </dev/null";
+  const std::string command =
+      "PYTHONSAFEPATH=1 exec '" + python_interpreter() + "' -c '" + code + "' 2>/dev/null </dev/null";
   const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
   std::array<char, 256> line{};
   if (!pipe || !std::fgets(line.data(), line.size(), pipe.get())) return {};

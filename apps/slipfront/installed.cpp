@@ -18,7 +18,8 @@ std::filesystem::path package_folder() {
   std::error_code error;
   if (above.empty()) return {};
   for (const char* folder : {"python", SLIPFRONT_PYTHON_DIR})
-    if (std::filesystem::exists(above / folder / "slipfront" / "__main__.py", error)) return (above / folder).lexically_normal();
+    if (std::filesystem::exists(above / folder / "slipfront" / "__main__.py", error))
+      return (above / folder).lexically_normal();
   return {};
 }
 
