@@ -32,7 +32,7 @@ class CMakeBuild(build_ext):
                   "-DSLIPFRONT_PYTHON=ON", f"-DPython3_EXECUTABLE={sys.executable}", "-DSLIPFRONT_PYTHON_DIR=..", "-DCMAKE_INSTALL_LIBDIR=lib",
                   "-DSLIPFRONT_INTERPRETER=/usr/bin/python3", f"-DSLIPFRONT_PAGE={page}", *shlex.split(os.environ.get("CMAKE_ARGS", "")))
             cmake("--build", build, *(["-j", str(self.parallel)] if self.parallel else []))
-            for component in ("runtime", "python"):
+            for component in ("runtime", "python", "manual"):
                 cmake("--install", build, "--component", component, "--prefix", str(prefix), "--strip")
 
 

@@ -25,7 +25,7 @@ class Slipfront(CMakePackage):
     depends_on("c", type="build")
     depends_on("cxx", type="build")
     depends_on("cmake@3.22:", type="build")
-    depends_on("python@3.10:", type=("build", "run"))  # the build calls it also without the Python package
+    depends_on("python@3.11:", type=("build", "run"))  # the build calls it also without the Python package
 
     depends_on("boost")
     depends_on("fmt")

@@ -2,6 +2,7 @@
 # Installs the build tree $1 in the folder $2 and uses the Python package from there, with the interpreter $3.
 set -euo pipefail
 build="$1" work="$2" python="$3"
+launcher="$(dirname "$(readlink -f "$0")")/../../python/launcher/slipfront"
 rm -rf "$work"
 cmake --install "$build" --prefix "$work" >/dev/null
 unset PYTHONPATH
@@ -17,3 +18,13 @@ assert slipfront.event().sizes['event'] > 40
 # program does not suggest to install pybind11-dev.
 if ./bin/slipfront plot /nowhere.nc 2>errors; then exit 1; fi
 ! grep -q pybind11-dev errors
+# The package hands commands in C++ to the program, and the launcher of a wheel starts the program in the package.
+PYTHONPATH="$work/lib/python3/dist-packages" "$python" -m slipfront relations --stress 1.03 >answer
+grep -q '^rupture_velocity *0\.5439026' answer
+mkdir -p site/slipfront/bin
+touch site/slipfront/__init__.py
+ln -s "$work/bin/slipfront" site/slipfront/bin/slipfront
+PYTHONPATH="$work/site" "$python" "$launcher" --version --json >facts
+grep -q "\"python\": \"$python\"" facts
+if PYTHONPATH= "$python" -P "$launcher" --version 2>errors; then exit 1; fi
+grep -q 'pip install' errors
