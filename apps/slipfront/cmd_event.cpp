@@ -38,14 +38,17 @@ void add_sampling_options(CLI::App* command, EventArguments& arguments) {
                    "Sample every event with this many states of the fault (default: 1000 for events that carry an "
                    "uncertainty, a contact ratio, a stress drop or a friction coefficient; 0: none). Their number is "
                    "doubled until it suffices for intervals")
-      ->check(CLI::Range(0, 10000000));
+      ->check(CLI::Range(0, 10000000))
+      ->type_name("N");
   command
       ->add_option("--draws", arguments.draws,
                    "Write this many states of the posterior of each sampled event too (with -o OUT.nc)")
-      ->check(CLI::Range(1, 100000));
-  command->add_option("--seed", arguments.seed, "Seed of the samples (default: 1)");
+      ->check(CLI::Range(1, 100000))
+      ->type_name("N");
+  command->add_option("--seed", arguments.seed, "Seed of the samples (default: 1)")->type_name("N");
   command->add_option("--closure", arguments.closure, "Closure of the friction: consistent (default) or paper")
-      ->check(CLI::IsMember({"consistent", "paper"}));
+      ->check(CLI::IsMember({"consistent", "paper"}))
+      ->type_name("NAME");
 }
 
 }  // namespace
@@ -59,9 +62,11 @@ Runner add_event(CLI::App& app) {
       "\n  slipfront event"
       "\n  slipfront event cases/parkfield-2004.toml cases/ets.toml"
       "\n  slipfront event cases/catalogue.csv --population");
-  command->add_option(
-      "FILE", arguments->files,
-      "Events: .toml (one), .csv (a catalogue), SRCMOD or USGS .fsp, - for stdin; none: the shipped catalogue");
+  command
+      ->add_option(
+          "FILE", arguments->files,
+          "Events: .toml (one), .csv (a catalogue), SRCMOD or USGS .fsp, - for stdin; none: the shipped catalogue")
+      ->type_name("");
   add_medium_options(command, arguments->medium);
   add_sampling_options(command, *arguments);
   command->add_flag("--pulse", arguments->pulse,

@@ -94,12 +94,16 @@ Runner add_explore(CLI::App& app) {
   command->footer(
       "Examples:"
       "\n  slipfront explore --port 0 --no-open");
-  CLI::Option* port = command->add_option("--port", arguments->port,
-                                          fmt::format("Port (default: {}, or any that is free)", usual_port));
+  CLI::Option* port =
+      command->add_option("--port", arguments->port, fmt::format("Port (default: {}, or any that is free)", usual_port))
+          ->type_name("PORT");
   command->add_flag("--no-open", arguments->no_open, "Do not open a browser");
-  command->add_option("--folder", arguments->folder,
-                      "Serve the page in this folder (default: the one next to the program)");
-  command->add_option("--address", arguments->address, "Address to serve on (default: 127.0.0.1, this machine only)");
+  command
+      ->add_option("--folder", arguments->folder,
+                   "Serve the page in this folder (default: the one next to the program)")
+      ->type_name("DIR");
+  command->add_option("--address", arguments->address, "Address to serve on (default: 127.0.0.1, this machine only)")
+      ->type_name("ADDRESS");
   command->add_flag("--anyone", arguments->anyone, "Allow an address that other machines reach");
   add_common_options(*command, arguments->common, false);
   return [arguments, port] { return serve(*arguments, port->count() > 0); };

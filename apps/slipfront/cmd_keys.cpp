@@ -85,8 +85,8 @@ Runner add_keys(CLI::App& app) {
       "Examples:"
       "\n  slipfront keys pulse"
       "\n  slipfront keys --json");
-  command->add_option("table", arguments->table, "A table of the scenario, such as pulse (default: all)")
-      ->type_name("TABLE");
+  command->add_option("TABLE", arguments->table, "A table of the scenario, such as pulse (default: all)")
+      ->type_name("");
   command->add_flag("--json", arguments->json, "One JSON object on stdout, nothing else");
   return [arguments] { return run_keys(*arguments); };
 }

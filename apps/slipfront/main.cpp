@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <memory>
 #include <new>
 #include <string>
 
@@ -39,11 +40,21 @@ void add_common_options(CLI::App& command, CommonOptions& options, bool with_csv
 
 namespace {
 
+/// Help as CLI11 prints it, but without "(1x)" after an argument of which one is enough.
+class Help : public CLI::Formatter {
+  std::string make_option_usage(const CLI::Option* option) const override {
+    std::string usage = CLI::Formatter::make_option_usage(option);
+    if (const auto at = usage.find("(1x)"); at != std::string::npos) usage.erase(at, 4);
+    return usage;
+  }
+};
+
 int run(int argc, char** argv) {
   CLI::App app{
       "slipfront: how an interface goes from stuck to sliding. Without a subcommand: `reproduce`, the paper "
       "in ./reproduction."};
   app.name("slipfront");
+  app.formatter(std::make_shared<Help>());
   bool version = false, json = false;
   CLI::Option* const asked = app.add_flag("--version", version, "Print the version");
   app.add_flag("--json", json, "With --version: the versions of the compiler and the libraries of this build")

@@ -142,7 +142,7 @@ void add_friction_options(CLI::App& command, FrictionOptions& options) {
   command
       .add_option("--measure", options.measure,
                   "Which slip velocity: origin (x = 0 at T; default), mean, peak or time-mean (slip over duration)")
-      ->type_name("NAME");
+      ->type_name("NAME:{origin,mean,peak,time-mean}");
 }
 
 void print_friction(const std::vector<Relations>& states, const FrictionOptions& friction,
