@@ -14,6 +14,7 @@
 #include "commands.hpp"
 #include "installed.hpp"
 #include "json.hpp"
+#include "terminal_table.hpp"
 
 namespace {
 
@@ -91,9 +92,11 @@ int run_doctor(bool json) {
     return exit_done;
   }
   put(fmt::format("slipfront {}\n", SLIPFRONT_VERSION));
+  static constexpr std::array<TableColumn, 4> columns = {{{12, true}, {8, true}, {40, true}, {0, true}}};
+  TerminalTable table(columns);
   for (const Check& check : checks)
-    put(fmt::format("{:<12} {:<8} {:<40} {}\n", check.name, check.works ? "works" : "missing", check.use,
-                    check.works ? check.found : check.remedy));
+    table.add({check.name, check.works ? "works" : "missing", check.use, check.works ? check.found : check.remedy});
+  put(table.text());
   return exit_done;
 }
 
