@@ -10,6 +10,7 @@
 
 #include "finite_fault/sources.hpp"
 #include "inference/pareto.hpp"
+#include "results/columns.hpp"
 #include "results/evaluate.hpp"
 #include "slipfront/catalogue/read.hpp"
 #include "slipfront/rupture/relations.hpp"
@@ -97,6 +98,34 @@ TEST(Answer, AgreesWithThePosterior) {
   EXPECT_FALSE(e.stress_pa_bound || e.contact_ratio_bound);
   // The medians of quantities that depend only on V satisfy the closed form.
   EXPECT_NEAR(rupture::from_rupture_velocity(e.rupture_velocity->value).stress, e.stress->value, 1e-5);
+}
+
+/// The column of a file with this name, for one event.
+double in_file(const EventResult& r, const std::string& name) {
+  for (const NumberColumn& c : number_columns({.pulse = false, .draws = 0}))
+    if (c.name == name) {
+      double value = 0;
+      c.get(r, &value);
+      return value;
+    }
+  ADD_FAILURE() << "no column " << name;
+  return 0;
+}
+
+TEST(Answer, WritesTheShareOfThePriorToFiles) {
+  const std::string velocities =
+      "[event]\nrupture_velocity = \"3.0 +- 0.2 km/s\"\nslip_velocity = \"0.5 */ 1.2 m/s\"\n";
+  const EventResult known = result_of(velocities + "[medium]\ncontact_ratio = { mean = 0.01, sd = 0.002 }\n");
+  ASSERT_TRUE(known.posterior && known.posterior->contact_ratio_prior_share) << known.error;
+  EXPECT_EQ(in_file(known, "contact_ratio_prior_share"), *known.posterior->contact_ratio_prior_share);
+  EXPECT_EQ(in_file(known, "damping_number_prior_share"), *known.posterior->damping_number_prior_share);
+  EXPECT_LT(in_file(known, "contact_ratio_prior_share"), 0.2);
+  // The velocities only bound both quantities.
+  const EventResult bound = result_of(velocities);
+  EXPECT_EQ(in_file(bound, "contact_ratio_prior_share"), 1);
+  EXPECT_EQ(in_file(bound, "damping_number_prior_share"), 1);
+  const EventResult none = result_of("[event]\nrupture_velocity = \"3 km/s\"\n");
+  EXPECT_TRUE(std::isnan(in_file(none, "contact_ratio_prior_share")));
 }
 
 TEST(Answer, BoundsTheStressWithoutARuptureVelocity) {
