@@ -138,6 +138,16 @@ TEST(Answer, BoundsTheStressWithoutARuptureVelocity) {
   EXPECT_EQ(r.estimate->stress_bound->value, r.estimate->stress->value);
 }
 
+/// The closed forms ignore this rupture velocity, because it reaches above c, and the samples use its part below c.
+TEST(Answer, HasNoBoundOfTheStressIfSamplesYieldIt) {
+  const EventResult r = result_of(
+      "[event]\nrupture_velocity = \"5..8 km/s\"\nslip_velocity = \"0.5 m/s\"\n[medium]\ncontact_ratio = { median = "
+      "0.01, factor = 2 }\n");
+  ASSERT_TRUE(r.estimate && r.posterior && r.posterior->stress) << r.error;
+  EXPECT_EQ(r.estimate->stress->value, r.posterior->stress->median);
+  EXPECT_FALSE(r.estimate->stress_bound || r.estimate->stress_pa_bound || r.estimate->contact_ratio_bound);
+}
+
 TEST(Answer, DoublesSamplesUntilTheySuffice) {
   // V is two standard deviations above c, so a few per cent of the samples are below c.
   const EventResult r = result_of("[event]\nrupture_velocity = \"6.0 +- 0.3 km/s\"\nslip_velocity = \"0.5 m/s\"\n");
