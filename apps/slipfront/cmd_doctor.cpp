@@ -5,8 +5,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "batch.hpp"
@@ -14,6 +16,7 @@
 #include "commands.hpp"
 #include "installed.hpp"
 #include "json.hpp"
+#include "terminal_table.hpp"
 
 namespace {
 
@@ -36,29 +39,45 @@ constexpr std::array<Library, 5> libraries = {{
     {"distributed", "sweeps on a Dask cluster", "python3-distributed"},
 }};
 
-/// The first line that a Python program prints; empty if it fails.
-std::string python(const std::string& code) {
-  const std::string command =
-      "PYTHONSAFEPATH=1 exec '" + python_interpreter() + "' -c '" + code + "' 2>/dev/null </dev/null";
-  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
+/// Prints "name version" for Python and for each module in its arguments that works. Debian's modules do not all know
+/// their own version. Each line is printed at once, because a module may end the process.
+constexpr const char* print_versions = R"(
+import importlib, importlib.metadata, sys
+print("Python", sys.version.split()[0], flush=True)
+for name in sys.argv[1:]:
+    try:
+        importlib.import_module(name)
+        print(name, importlib.metadata.version(name), flush=True)
+    except BaseException:
+        pass
+)";
+
+/// The versions of Python and of the libraries that work, by name.
+std::map<std::string, std::string> python_versions() {
+  setenv("SLIPFRONT_PYTHON", python_interpreter().c_str(), 1);  // so that the shell need not quote it
+  std::string command = std::string("PYTHONSAFEPATH=1 exec \"$SLIPFRONT_PYTHON\" -c '") + print_versions + "'";
+  for (const Library& library : libraries) command += std::string(" ") + library.module;
+  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen((command + " 2>/dev/null </dev/null").c_str(), "r"), pclose);
+  std::map<std::string, std::string> versions;
   std::array<char, 256> line{};
-  if (!pipe || !std::fgets(line.data(), line.size(), pipe.get())) return {};
-  std::string text = line.data();
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  return text;
+  while (pipe && std::fgets(line.data(), line.size(), pipe.get())) {
+    std::string_view text = line.data();
+    if (text.ends_with('\n')) text.remove_suffix(1);
+    if (const std::size_t blank = text.find(' '); blank != std::string_view::npos)
+      versions.emplace(text.substr(0, blank), text.substr(blank + 1));
+  }
+  return versions;
 }
 
-Check check_of(const Library& library) {
-  // Debian's modules do not all know their own version.
-  const std::string version =
-      python(fmt::format("import {0}, importlib.metadata; print(importlib.metadata.version(\"{0}\"))", library.module));
+Check check_of(const Library& library, const std::string& version) {
   return {library.module, library.use, !version.empty(), version,
           fmt::format("apt-get install {}, or pip install {}", library.debian, library.module)};
 }
 
 std::vector<Check> all_checks() {
   const Json facts = build_facts();
-  const std::string version = python("import sys; print(sys.version.split()[0])");
+  std::map<std::string, std::string> versions = python_versions();
+  const std::string version = versions["Python"];
   const std::filesystem::path package = package_folder(), page = shipped_page();
   std::error_code error;
   const bool has_page = std::filesystem::exists(page / "index.html", error);
@@ -72,7 +91,7 @@ std::vector<Check> all_checks() {
       {"slipfront", "the Python package of this program", !package.empty(), package.string(),
        "install pybind11-dev and python3-dev, and build again"},
   };
-  for (const Library& library : libraries) checks.push_back(check_of(library));
+  for (const Library& library : libraries) checks.push_back(check_of(library, versions[library.module]));
   return checks;
 }
 
@@ -91,9 +110,11 @@ int run_doctor(bool json) {
     return exit_done;
   }
   put(fmt::format("slipfront {}\n", SLIPFRONT_VERSION));
+  static constexpr std::array<TableColumn, 4> columns = {{{12, true}, {8, true}, {40, true}, {0, true}}};
+  TerminalTable table(columns);
   for (const Check& check : checks)
-    put(fmt::format("{:<12} {:<8} {:<40} {}\n", check.name, check.works ? "works" : "missing", check.use,
-                    check.works ? check.found : check.remedy));
+    table.add({check.name, check.works ? "works" : "missing", check.use, check.works ? check.found : check.remedy});
+  put(table.text());
   return exit_done;
 }
 

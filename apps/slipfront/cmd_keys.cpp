@@ -11,6 +11,7 @@
 #include "json.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/scenario/keys.hpp"
+#include "terminal_table.hpp"
 
 namespace {
 
@@ -40,7 +41,8 @@ void print(const Key& key) {
   if (!key.unit.empty() && key.unit != "1") facts += fmt::format(", in {}", key.unit);
   if (!key.otherwise.empty()) facts += fmt::format("; default: {}", key.otherwise);
   if (!key.laws.empty()) facts += fmt::format("; laws: {}", fmt::join(key.laws, ", "));
-  put(fmt::format("  {:<20} {}\n  {:<20} {}\n", key.name, key.meaning, "", facts));
+  for (const auto& [name, words] : {std::pair<std::string_view, std::string_view>{key.name, key.meaning}, {"", facts}})
+    put(fitted(fmt::format("  {:<20} {}", name, words), 2 + 20 + 1));
 }
 
 std::vector<Key> chosen(const std::string& table) {

@@ -10,6 +10,7 @@
 #include "relations_friction.hpp"
 #include "slipfront/rupture/relations.hpp"
 #include "state_values.hpp"
+#include "terminal_table.hpp"
 
 namespace {
 
@@ -56,56 +57,65 @@ std::string csv_row(const Relations& r) {
   return row + "\n";
 }
 
-std::string table_row(const Relations& r) {
-  return fmt::format("{:>12.6g} {:>12.6g} {:>12.6g} {:>12.6g} {:>12.6g} {:>12.6g} {:>12.6g} {:>12.6g} {:>12.6g}\n",
-                     r.stress, r.rupture_velocity, r.leading_velocity, r.velocity_ratio, r.slip_velocity,
-                     r.stress_at_origin, r.dislocation_velocity_at_origin, r.psi, r.psi_at_origin);
-}
+constexpr std::array<TableColumn, 9> table_columns = {{{12}, {12}, {12}, {12}, {12}, {12}, {12}, {12}, {12}}};
 
-constexpr const char* table_head =
-    "      stress  rupture vel  leading vel        ratio     slip vel  stress(x=0)       U(x=0)          psi     "
-    "psi(x=0)\n"
-    "   mu A / pi            c            c    |V- / V+|     c A / pi    mu A / pi            c                        "
-    "  \n";
+std::vector<std::string> table_row(const Relations& r) {
+  std::vector<std::string> cells;
+  for (const double value : {r.stress, r.rupture_velocity, r.leading_velocity, r.velocity_ratio, r.slip_velocity,
+                             r.stress_at_origin, r.dislocation_velocity_at_origin, r.psi, r.psi_at_origin})
+    cells.push_back(fmt::format("{:.6g}", value));
+  return cells;
+}
 
 void print_one(const Relations& r) {
   for (const RelationsQuantity& q : relations_quantities()) {
     const auto& [name, long_name, unit, reference] = q.about;
-    put(fmt::format("{:<31} {:<24} {}{}{}\n", name, r.*q.value, long_name, unit.empty() ? "" : ", in ", unit));
+    put(fitted(fmt::format("{:<31} {:<24} {}{}{}", name, r.*q.value, long_name, unit.empty() ? "" : ", in ", unit),
+               31 + 1 + 24 + 1));
   }
+}
+
+void print_json(const std::vector<Relations>& results, int threads) {
+  put("{\"relations\": [");
+  const auto rows =
+      in_parallel<std::string>(results.size(), threads, [&](std::size_t i) { return json_row(results[i]); });
+  for (std::size_t i = 0; i < rows.size(); ++i) put((i == 0 ? "\n" : ",\n") + rows[i]);
+  put("\n]}\n");
+}
+
+void print_csv(const std::vector<Relations>& results, int threads) {
+  std::string head;
+  for (const RelationsQuantity& q : relations_quantities())
+    head += (head.empty() ? "" : ",") + std::string(q.about.name);
+  put(head + "\n");
+  const auto rows =
+      in_parallel<std::string>(results.size(), threads, [&](std::size_t i) { return csv_row(results[i]); });
+  for (const std::string& row : rows) put(row);
+}
+
+void print_table(const std::vector<Relations>& results, int threads) {
+  TerminalTable table(table_columns);
+  table.add({"stress", "rupture vel", "leading vel", "ratio", "slip vel", "stress(x=0)", "U(x=0)", "psi", "psi(x=0)"});
+  table.add({"mu A / pi", "c", "c", "|V- / V+|", "c A / pi", "mu A / pi", "c", "", ""});
+  auto rows = in_parallel<std::vector<std::string>>(results.size(), threads,
+                                                    [&](std::size_t i) { return table_row(results[i]); });
+  for (auto& row : rows) table.add(std::move(row));
+  put(table.text());
 }
 
 int print(const std::vector<State>& states, const FrictionOptions& friction, const CommonOptions& options) {
   const auto results =
       in_parallel<Relations>(states.size(), options.threads, [&](std::size_t i) { return solve(states[i]); });
-  if (friction.wanted()) {
+  if (friction.wanted())
     print_friction(results, friction, options);
-    return exit_done;
-  }
-  if (options.json) {
-    put("{\"relations\": [");
-    const auto rows =
-        in_parallel<std::string>(results.size(), options.threads, [&](std::size_t i) { return json_row(results[i]); });
-    for (std::size_t i = 0; i < rows.size(); ++i) put((i == 0 ? "\n" : ",\n") + rows[i]);
-    put("\n]}\n");
-    return exit_done;
-  }
-  if (!options.csv && results.size() == 1) {
+  else if (options.json)
+    print_json(results, options.threads);
+  else if (options.csv)
+    print_csv(results, options.threads);
+  else if (results.size() == 1)
     print_one(results.front());
-    return exit_done;
-  }
-  if (options.csv) {
-    std::string head;
-    for (const RelationsQuantity& q : relations_quantities())
-      head += (head.empty() ? "" : ",") + std::string(q.about.name);
-    put(head + "\n");
-  } else {
-    put(table_head);
-  }
-  const auto rows = in_parallel<std::string>(results.size(), options.threads, [&](std::size_t i) {
-    return options.csv ? csv_row(results[i]) : table_row(results[i]);
-  });
-  for (const std::string& row : rows) put(row);
+  else
+    print_table(results, options.threads);
   return exit_done;
 }
 

@@ -1,10 +1,15 @@
 #include "compare_print.hpp"
 
+#include <array>
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "batch.hpp"
 #include "json.hpp"
 #include "long_run.hpp"
+#include "terminal_table.hpp"
 
 using namespace slipfront;
 using namespace slipfront::setup;
@@ -53,54 +58,78 @@ std::string friction_in_words(const friction::Friction& f, double time) {
   return parameters_in_words(f);
 }
 
-std::string cell(double value, const char* unit = "") {
-  return std::isfinite(value) ? fmt::format("{:>13}", fmt::format("{:.5g}{}", value, unit))
-                              : fmt::format("{:>13}", "-");
-}
+std::string cell(double value) { return std::isfinite(value) ? fmt::format("{:.5g}", value) : "-"; }
 
 /// Slip and slip velocities differ by a share of the reference, fronts by a length.
 bool is_front(const Quantity& q) { return std::string_view(q.key).find("front") != std::string_view::npos; }
 
 std::string difference_cell(double difference, double theory, const Quantity& q) {
-  if (is_front(q)) return std::isfinite(difference) ? fmt::format("{:>+13.5f}", difference) : cell(difference);
+  if (is_front(q)) return std::isfinite(difference) ? fmt::format("{:+.5f}", difference) : cell(difference);
   const double percent = 100 * difference / theory;
-  return std::isfinite(percent) ? fmt::format("{:>+11.3f} %", percent) : cell(percent);
+  return std::isfinite(percent) ? fmt::format("{:+.3f} %", percent) : cell(percent);
+}
+
+constexpr std::array<TableColumn, 8> table_columns = {{{18, true},
+                                                       {13, false, 0},
+                                                       {13, false, 0},
+                                                       {13, false, 0},
+                                                       {13, false, 0},
+                                                       {13, false, 0},
+                                                       {13, false, 0},
+                                                       {10, false, 0}}};
+
+using Cells = std::vector<std::string>;
+
+/// Adds a row with one cell for each quantity.
+template <class Cell>
+void add_row(TerminalTable& table, const std::string& name, Cell&& cell) {
+  Cells cells = {name};
+  for (const Quantity& q : compared_quantities()) cells.push_back(cell(q));
+  table.add(std::move(cells));
+}
+
+void add_levels(TerminalTable& table, const std::vector<Level>& levels) {
+  Cells head = {"at the end"};
+  for (const Quantity& q : compared_quantities()) head.emplace_back(q.heading);
+  head.emplace_back("seconds");
+  table.add(std::move(head));
+  table.add({"", "b / (2 pi)", "c A / pi", "c A / pi", "b / A", "b / A", "b / A"});
+  for (const Level& level : levels) {
+    Cells cells = {level.name};
+    for (const Quantity& q : compared_quantities()) cells.push_back(cell(last(level, q)));
+    cells.push_back(fmt::format("{:.2g}", level.wall_seconds));
+    table.add(std::move(cells));
+  }
+}
+
+void add_differences(TerminalTable& table, const std::vector<Level>& levels, const Level& reference) {
+  table.add_title("");
+  table.add_title("difference from pulse-consistent");
+  for (const Level& level : levels)
+    if (&level != &reference)
+      add_row(table, level.name, [&](const Quantity& q) {
+        return difference_cell(last(level, q) - last(reference, q), last(reference, q), q);
+      });
+  table.add_title("");
+  table.add_title("trend of the chain with scale");
+  add_row(table, "falls as s^-p, p =", [&](const Quantity& q) { return cell(trend_of(levels, q).exponent); });
+  add_row(table, "at infinite scale", [&](const Quantity& q) { return cell(trend_of(levels, q).extrapolated); });
+  add_row(table, "less pulse",
+          [&](const Quantity& q) { return difference_cell(trend_of(levels, q).difference, last(reference, q), q); });
 }
 
 void print_table(const scenario::Scenario& s, const std::vector<Level>& levels) {
-  const Level* reference = reference_level(levels);
-  put(fmt::format("{}{}t = {:.6g}, {}\n\n{:<18}", s.title, s.title.empty() ? "" : ": ", s.end,
-                  friction_in_words(s.friction, s.end), "at the end"));
-  for (const Quantity& q : compared_quantities()) put(fmt::format("{:>13}", q.heading));
-  put(fmt::format("{:>10}\n{:<18}", "seconds", ""));
-  for (const char* unit : {"b / (2 pi)", "c A / pi", "c A / pi", "b / A", "b / A", "b / A"})
-    put(fmt::format("{:>13}", unit));
+  put(fitted(fmt::format("{}{}t = {:.6g}, {}", s.title, s.title.empty() ? "" : ": ", s.end,
+                         friction_in_words(s.friction, s.end))));
   put("\n");
-  for (const Level& level : levels) {
-    put(fmt::format("{:<18}", level.name));
-    for (const Quantity& q : compared_quantities()) put(cell(last(level, q)));
-    put(fmt::format("{:>10.2g}\n", level.wall_seconds));
-  }
+  TerminalTable table(table_columns);
+  add_levels(table, levels);
+  const Level* reference = reference_level(levels);
+  if (reference) add_differences(table, levels, *reference);
+  put(table.text());
   if (!reference) return;
-  put("\ndifference from pulse-consistent\n");
-  for (const Level& level : levels) {
-    if (&level == reference) continue;
-    put(fmt::format("{:<18}", level.name));
-    for (const Quantity& q : compared_quantities())
-      put(difference_cell(last(level, q) - last(*reference, q), last(*reference, q), q));
-    put("\n");
-  }
-  std::string exponents, extrapolated, left;
-  for (const Quantity& q : compared_quantities()) {
-    const Trend t = trend_of(levels, q);
-    exponents += cell(t.exponent);
-    extrapolated += cell(t.extrapolated);
-    left += difference_cell(t.difference, last(*reference, q), q);
-  }
-  put(fmt::format("\ntrend of the chain with scale\n{:<18}{}\n{:<18}{}\n", "falls as s^-p, p =", exponents,
-                  "at infinite scale", extrapolated));
-  put(fmt::format("{:<18}{}\n\n", "less pulse", left));
-  for (const std::string& note : notes_on(s, levels)) put(note + "\n");
+  put("\n");
+  for (const std::string& note : notes_on(s, levels)) put(fitted(note, 2));
 }
 
 }  // namespace

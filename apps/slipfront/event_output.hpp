@@ -4,6 +4,7 @@
 #include <string>
 
 #include "results/columns.hpp"
+#include "terminal_table.hpp"
 
 /// One object of `{"events": [...]}`. Quantities that are not identifiable are null.
 std::string event_json(const slipfront::results::EventResult& result);
@@ -18,9 +19,9 @@ std::string speed_text(const std::optional<double>& metres_per_second);
 /// Text of the velocity of a rupture front. Slow fronts are in km/day.
 std::string front_text(const std::optional<double>& metres_per_second);
 
-/// A table for the terminal: one line per event, and below it the ends of the intervals, if there are any.
-std::string event_table_head();
-std::string event_table_row(const slipfront::results::EventResult& result);
-/// Two lines about the pulse through a finite-fault model, or one line with the reason why there is no pulse. Empty if
-/// the user did not request a pulse.
-std::string event_pulse_lines(const slipfront::results::EventResult& result);
+/// A table with one line per event, and below it the ends of the intervals, if there are any.
+TerminalTable event_table_head();
+TerminalTable event_table_row(const slipfront::results::EventResult& result);
+/// Adds two lines about the pulse through a finite-fault model, or one line with the reason why there is no pulse. Adds
+/// nothing if the user did not request a pulse.
+void add_event_pulse(TerminalTable& table, const slipfront::results::EventResult& result);

@@ -20,25 +20,29 @@ std::string events(std::size_t count) { return fmt::format("{} event{}", count, 
 
 }  // namespace
 
-EventPrinter::EventPrinter(const CommonOptions& options, const EventShown& shown) : options_(options), shown_(shown) {
+EventPrinter::EventPrinter(const CommonOptions& options, const EventShown& shown)
+    : options_(options), shown_(shown), table_(event_table_head()) {
   if (options_.json) put("{\"events\": [");
   if (options_.csv && has_rows()) put(event_csv_head(shown_.pulse));
 }
 
 EventPrinter::Printed EventPrinter::printed(const EventResult& result) const {
-  Printed p{{}, result.error, result.warnings(), {}};
+  Printed p{{}, {}, result.error, result.warnings(), {}};
   if (shown_.population) p.member = member_of(result);
   if (!has_rows()) return p;
-  p.row = options_.json  ? event_json(result)
-          : options_.csv ? event_csv_row(result, shown_.pulse)
-                         : event_table_row(result) + event_pulse_lines(result);
+  if (is_table()) {
+    p.table = event_table_row(result);
+    add_event_pulse(*p.table, result);
+  } else {
+    p.row = options_.json ? event_json(result) : event_csv_row(result, shown_.pulse);
+  }
   return p;
 }
 
 void EventPrinter::take(Printed&& p) {
   if (options_.json) put(count_ == 0 ? "\n" : ",\n");
-  if (is_table())
-    table_ += p.row;
+  if (p.table)
+    table_.append(std::move(*p.table));
   else
     put(p.row);
   ++count_;
@@ -68,7 +72,7 @@ void EventPrinter::finish(const std::vector<std::string>& ignored_columns, const
 }
 
 void EventPrinter::print_table(const std::string& written) const {
-  if (has_rows()) put(event_table_head() + table_);
+  if (has_rows()) put(table_.text());
   if (shown_.population) put(population_table(population_.decades(), count_, errors_));
   if (options_.quiet) return;
   print_notes();
@@ -87,10 +91,10 @@ void EventPrinter::print_notes() const {
   };
   std::stable_sort(notes.begin(), notes.end(), [&](const auto& a, const auto& b) { return rank(a) > rank(b); });
   if (notes.empty()) return;
-  put(fmt::format("{}Notes (--json gives those of each event; --quiet none):\n",
-                  has_rows() || shown_.population ? "\n" : ""));
+  if (has_rows() || shown_.population) put("\n");
+  put(fitted("Notes (--json gives those of each event; --quiet none):"));
   constexpr std::size_t most = 15;
   for (std::size_t i = 0; i < std::min(notes.size(), most); ++i)
-    put(fmt::format("  {} ({})\n", notes[i].second, events(notes[i].first)));
+    put(fitted(fmt::format("  {} ({})", notes[i].second, events(notes[i].first)), 4));
   if (notes.size() > most) put(fmt::format("  ... and {} more\n", notes.size() - most));
 }

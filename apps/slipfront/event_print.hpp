@@ -9,6 +9,7 @@
 #include "catalogue/population.hpp"
 #include "commands.hpp"
 #include "results/evaluate.hpp"
+#include "terminal_table.hpp"
 
 /// The parts of the results that are printed.
 struct EventShown {
@@ -22,7 +23,9 @@ class EventPrinter {
  public:
   /// One event, ready to print. Any thread may make it.
   struct Printed {
-    std::string row, error;
+    std::string row;                     ///< text of the event in JSON or CSV
+    std::optional<TerminalTable> table;  ///< its rows if a table is printed
+    std::string error;
     std::vector<std::string> warnings;
     std::optional<slipfront::catalogue::Member> member;
   };
@@ -44,7 +47,7 @@ class EventPrinter {
   CommonOptions options_;
   EventShown shown_;
   std::size_t count_ = 0, errors_ = 0;
-  std::string table_;
+  TerminalTable table_;
   std::map<std::string, std::size_t> warnings_;
   slipfront::catalogue::Population population_;
 };

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "event_output.hpp"
 
@@ -12,28 +14,16 @@ using slipfront::inference::Estimate;
 using slipfront::inference::Inferred;
 using slipfront::results::EventResult;
 
-constexpr const char* table_layout = "{} {:>12} {:>9} {:>9} {:>12} {:>12} {:>12} {:>11} {:>9} {:>9}\n";
 constexpr std::size_t name_width = 34;
+constexpr std::array<TableColumn, 10> table_columns = {
+    {{name_width, true}, {12}, {9}, {9}, {12}, {12}, {12}, {11}, {9}, {9}}};
 
-/// The first `width` characters (code points) of a UTF-8 text, padded with blanks.
-std::string clipped(const std::string& text, std::size_t width) {
-  std::string out;
-  std::size_t count = 0;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    const bool starts = (byte & 0xC0u) != 0x80u;
-    if (starts && count == width) break;
-    if (starts) ++count;
-    out += byte < 0x20 ? ' ' : c;
-  }
-  return out + std::string(width - count, ' ');
-}
-
-using Cells = std::array<std::string, 10>;
-
-std::string line_of(const Cells& cells) {
-  return fmt::format(table_layout, clipped(cells[0], name_width), cells[1], cells[2], cells[3], cells[4], cells[5],
-                     cells[6], cells[7], cells[8], cells[9]);
+/// The name of an event. Of a longer one only the first `name_width` characters.
+std::string name_cell(const std::string& name) {
+  std::string cell = name.substr(0, after_characters(name, name_width));
+  for (char& c : cell)
+    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+  return cell;
 }
 
 /// An inferred quantity and its column. If only a lower bound is known, the column shows `bound`.
@@ -55,20 +45,17 @@ constexpr std::array<Column, 7> columns = {{{2, &Estimate::rupture_velocity},
                                             {8, &Estimate::stress_pa, 1e6, 4, &Estimate::stress_pa_bound},
                                             {9, &Estimate::damping_number, 1, 3}}};
 
-/// A line with one end of each interval, printed below the values. Empty if there are no intervals.
-std::string interval_line(const Estimate& e, const char* label, double slipfront::inference::Interval::*end) {
-  Cells cells;
-  cells[0] = fmt::format("{:>{}}", label, name_width);
-  bool any = false;
+/// Adds a line with one end of each interval below the values, if there are intervals.
+void add_interval_line(TerminalTable& table, const Estimate& e, const char* label,
+                       double slipfront::inference::Interval::*end) {
+  std::vector<std::string> cells = {label};
   for (const Column& c : columns) {
     const auto& x = c.of(e);
     if (!x || !x->interval) continue;
-    cells[c.cell] = fmt::format("{:.{}g}", (*x->interval).*end / c.unit, c.digits);
-    any = true;
+    cells.resize(c.cell);
+    cells.push_back(fmt::format("{:.{}g}", (*x->interval).*end / c.unit, c.digits));
   }
-  if (!any) return {};
-  const std::string line = line_of(cells);
-  return line.substr(0, line.find_last_not_of(" \n") + 1) + "\n";
+  if (cells.size() > 1) table.add(std::move(cells), TerminalTable::Label::right);
 }
 
 }  // namespace
@@ -84,34 +71,47 @@ std::string front_text(const std::optional<double>& v) {
   return v && *v < 1 ? fmt::format("{:.3g} km/day", *v * 86.4) : speed_text(v);
 }
 
-std::string event_table_head() {
-  return line_of({"", "rupture", "", "stress", "slip", "frictionless", "observed /", "contact", "stress", "damping"}) +
-         line_of({"event", "velocity", "V / c", "mu A / pi", "velocity", "c A / pi", "frictionless", "ratio A", "MPa",
-                  "C T"});
+TerminalTable event_table_head() {
+  TerminalTable table(table_columns);
+  table.add({"", "rupture", "", "stress", "slip", "frictionless", "observed /", "contact", "stress", "damping"});
+  table.add(
+      {"event", "velocity", "V / c", "mu A / pi", "velocity", "c A / pi", "frictionless", "ratio A", "MPa", "C T"});
+  return table;
 }
 
-std::string event_table_row(const EventResult& result) {
-  if (!result.estimate) return clipped(result.observation.name, name_width) + " error: " + result.error + "\n";
+TerminalTable event_table_row(const EventResult& result) {
+  TerminalTable table(table_columns);
+  std::string name = name_cell(result.observation.name);
+  if (!result.estimate) {
+    name.append(name_width - characters(name), ' ');
+    table.add_note(name + " error: " + result.error);
+    return table;
+  }
   const Estimate& e = *result.estimate;
-  Cells cells;
-  cells[0] = result.observation.name;
+  std::vector<std::string> cells(table_columns.size());
+  cells[0] = std::move(name);
   cells[1] = front_text(e.observed_rupture_velocity_m_s);
   cells[4] = speed_text(e.observed_slip_velocity_m_s);
   for (const Column& c : columns) {
     const auto& x = c.of(e);
     cells[c.cell] = x ? fmt::format("{}{:.{}g}", c.is_bound(e) ? ">=" : "", x->value / c.unit, c.digits) : "-";
   }
-  return line_of(cells) + interval_line(e, "5 %", &slipfront::inference::Interval::low) +
-         interval_line(e, "95 %", &slipfront::inference::Interval::high);
+  table.add(std::move(cells));
+  add_interval_line(table, e, "5 %", &slipfront::inference::Interval::low);
+  add_interval_line(table, e, "95 %", &slipfront::inference::Interval::high);
+  return table;
 }
 
-std::string event_pulse_lines(const EventResult& result) {
-  if (!result.pulse) return {};
+void add_event_pulse(TerminalTable& table, const EventResult& result) {
+  if (!result.pulse) return;
   const FaultPulse& p = *result.pulse;
-  if (!p.reason.empty()) return "  no pulse: " + p.reason + "\n";
+  if (!p.reason.empty()) {
+    table.add_note("  no pulse: " + p.reason);
+    return;
+  }
   const auto number = [](const std::optional<double>& x) { return x ? fmt::format("{:.3g}", *x) : std::string("-"); };
-  return fmt::format("  pulse: front velocity over the model's {}; {} of {} columns reached by {:.3g} s\n",
-                     number(p.front_velocity_ratio), p.reached, p.x.size(), p.end) +
-         fmt::format("         correlation of slip {}; contact ratio A by its size {}\n", number(p.correlation_of_slip),
-                     number(p.contact_ratio));
+  table.add_note(fmt::format("  pulse: front velocity over the model's {}; {} of {} columns reached by {:.3g} s",
+                             number(p.front_velocity_ratio), p.reached, p.x.size(), p.end));
+  table.add_note(fmt::format("         correlation of slip {}; contact ratio A by its size {}",
+                             number(p.correlation_of_slip), number(p.contact_ratio)));
 }

@@ -10,6 +10,7 @@
 #include "batch.hpp"
 #include "json.hpp"
 #include "record/files/unfinished.hpp"
+#include "terminal_table.hpp"
 
 using namespace slipfront;
 
@@ -82,14 +83,19 @@ namespace {
 
 /// The events as a table.
 std::string table_of(const std::vector<output::SlipEvent>& events) {
-  std::string text = fmt::format("{} events\n", events.size());
-  if (events.empty()) return text;
-  for (const auto& column : output::slip_event_columns()) text += fmt::format("{:>17}", column.about.name);
+  std::string count = fmt::format("{} events\n", events.size());
+  if (events.empty()) return count;
+  const std::vector<TableColumn> columns(output::slip_event_columns().size(), {.width = 17, .gap = 0});
+  TerminalTable table(columns);
+  std::vector<std::string> cells;
+  for (const auto& column : output::slip_event_columns()) cells.emplace_back(column.about.name);
+  table.add(std::move(cells));
   for (const output::SlipEvent& event : events) {
-    text += '\n';
-    for (const auto& column : output::slip_event_columns()) text += fmt::format("{:>17.8g}", event.*column.value);
+    cells.clear();
+    for (const auto& column : output::slip_event_columns()) cells.push_back(fmt::format("{:.8g}", event.*column.value));
+    table.add(cells);
   }
-  return text + '\n';
+  return count + table.text();
 }
 
 Json json_of(const std::vector<output::SlipEvent>& events) {
@@ -152,13 +158,14 @@ void print_summary(const scenario::Scenario& scenario, const std::vector<run::Su
     put(summary_json(summary, errors, warnings, events) + "\n");
     return;
   }
-  if (!scenario.title.empty()) put(scenario.title + "\n");
+  if (!scenario.title.empty()) put(fitted(scenario.title));
   for (std::size_t i = 0; i < summary.size(); ++i) {
     const auto& row = summary[i];
     const bool known = i < errors.size() && std::isfinite(errors[i]);
-    put(fmt::format("{:<25} {:<24} {}{}\n", row.key, cell_of(row),
-                    errors.empty() ? "" : fmt::format("{:<12} ", known ? fmt::format("+- {:.2g}", errors[i]) : ""),
-                    row.meaning));
+    const std::string error =
+        errors.empty() ? "" : fmt::format("{:<12} ", known ? fmt::format("+- {:.2g}", errors[i]) : "");
+    put(fitted(fmt::format("{:<25} {:<24} {}{}", row.key, cell_of(row), error, row.meaning),
+               25 + 1 + 24 + 1 + error.size()));
   }
   if (events) put(table_of(*events));
   const std::string& output = a.output.empty() ? a.resume : a.output;

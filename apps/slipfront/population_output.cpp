@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <stdexcept>
 #include <string_view>
 
 #include "event_output.hpp"
 #include "json.hpp"
 #include "results/quantities.hpp"
+#include "terminal_table.hpp"
 
 using namespace slipfront::catalogue;
 using namespace slipfront::results;
@@ -44,7 +46,8 @@ std::string stress_text(const Spread& known, const Spread& bound) {
   return (known.events > 0 ? spread_text(known, 1e6) + ", " : "") + ">= " + spread_text(bound, 1e6);
 }
 
-constexpr const char* layout = "{:<13} {:>7} {:>16} {:>11}  {:<24} {:<35} {:<32} {}\n";
+constexpr std::array<TableColumn, 8> table_columns = {
+    {{13, true}, {7}, {16}, {11}, {24, true, 2}, {35, true}, {32, true}, {0, true}}};
 
 }  // namespace
 
@@ -88,18 +91,19 @@ std::string population_csv(const std::vector<Decade>& decades) {
 std::string population_table(const std::vector<Decade>& decades, std::size_t events, std::size_t errors) {
   std::size_t binned = 0;
   for (const Decade& d : decades) binned += d.events;
-  std::string text = fmt::format(
+  const std::string about = fmt::format(
       "{} of {} events have a rupture velocity{}. Medians (5 % to 95 %) are over the events of a decade. "
-      "The closed form is that in the middle of the decade.\n\n",
+      "The closed form is that in the middle of the decade.",
       binned, events, errors > 0 ? fmt::format(" ({} refused)", errors) : "");
-  text += fmt::format("{:<13} {:>7} {:>16} {:>11}\n", "", "", "rupture", "stress by");
-  text += fmt::format(layout, "V / c", "events", "velocity", "closed form", "stress, mu A / pi", "slip velocity",
-                      "contact ratio A", "stress, MPa");
+  TerminalTable table(table_columns);
+  table.add({"", "", "rupture", "stress by"});
+  table.add({"V / c", "events", "velocity", "closed form", "stress, mu A / pi", "slip velocity", "contact ratio A",
+             "stress, MPa"});
   for (const Decade& d : decades)
-    text += fmt::format(layout, fmt::format("1e{} ... 1e{}", d.exponent, d.exponent + 1), d.events,
-                        d.events > 0 ? front_text(spread_of(d, "rupture_velocity_m_s").of.median) : "-",
-                        fmt::format("{:.3g}", d.stress), spread_text(spread_of(d, "stress")),
-                        velocities_text(spread_of(d, "slip_velocity_m_s")), spread_text(spread_of(d, "contact_ratio")),
-                        stress_text(spread_of(d, "stress_pa"), spread_of(d, "stress_pa_bound")));
-  return text;
+    table.add({fmt::format("1e{} ... 1e{}", d.exponent, d.exponent + 1), fmt::format("{}", d.events),
+               d.events > 0 ? front_text(spread_of(d, "rupture_velocity_m_s").of.median) : "-",
+               fmt::format("{:.3g}", d.stress), spread_text(spread_of(d, "stress")),
+               velocities_text(spread_of(d, "slip_velocity_m_s")), spread_text(spread_of(d, "contact_ratio")),
+               stress_text(spread_of(d, "stress_pa"), spread_of(d, "stress_pa_bound"))});
+  return fitted(about) + "\n" + table.text();
 }

@@ -9,6 +9,7 @@
 #include "batch.hpp"
 #include "json.hpp"
 #include "slipfront/friction_ratio/table.hpp"
+#include "terminal_table.hpp"
 
 namespace {
 
@@ -93,16 +94,20 @@ void print_csv(const std::vector<Row>& rows) {
 }
 
 void print_table(const std::vector<Row>& rows, const FrictionOptions& friction) {
-  put("      stress  rupture vel  closure         W / W(C=0)          C T            C   +- in C     slip vel\n"
-      "   mu A / pi            c                                                                    c A / pi\n");
+  static constexpr std::array<TableColumn, 8> table_columns = {
+      {{12}, {12}, {12, true, 2}, {12}, {12}, {12}, {9}, {12}}};
+  const auto number = [](double value) { return fmt::format("{:.6g}", value); };
+  TerminalTable table(table_columns);
+  table.add({"stress", "rupture vel", "closure", "W / W(C=0)", "C T", "C", "+- in C", "slip vel"});
+  table.add({"mu A / pi", "c", "", "", "", "", "", "c A / pi"});
   for (const Row& r : rows)
-    put(fmt::format("{:>12.6g} {:>12.6g}  {:<12} {:>12.6g} {:>12.6g} {:>12.6g} {:>9.2g} {:>12.6g}\n", r.stress,
-                    r.rupture_velocity, r.closure, r.ratio, r.damping_number, r.coefficient, r.coefficient_error,
-                    r.slip_velocity));
+    table.add({number(r.stress), number(r.rupture_velocity), r.closure, number(r.ratio), number(r.damping_number),
+               number(r.coefficient), fmt::format("{:.2g}", r.coefficient_error), number(r.slip_velocity)});
+  put(table.text());
   put(
-      fmt::format("measure {}, T = {:.6g} b / (c A); a step of stress into an empty interface: "
-                  "docs/friction_ratio.md\n",
-                  friction.measure, friction.time));
+      fitted(fmt::format("measure {}, T = {:.6g} b / (c A); a step of stress into an empty interface: "
+                         "docs/friction_ratio.md",
+                         friction.measure, friction.time)));
 }
 
 /// Adds "command line" to an error for a number out of range.

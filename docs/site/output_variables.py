@@ -36,7 +36,7 @@ JSON_ONLY = {
     "difference": "value of a level minus that of the reference",
     "trend": "how the differences of the chains change with their scale",
     "exponent": "p, if a difference falls as scale^-p",
-    "extrapolated": "value of the chain extrapolated to infinite scale",
+    "extrapolated": "value of the chain extrapolated to infinite scale; null if the difference does not fall with the scale",
     "notes": "remarks in words",
     "posterior": "posterior distribution of an event",
     "prior_share": "width of an interval over that of the prior; near 1 the data say nothing",

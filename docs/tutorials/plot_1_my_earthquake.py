@@ -162,25 +162,16 @@ show(with_contact, *ALL)
 # yields. The **prior share** is the width of an interval over that of this prior. Near 1 your data
 # say nothing, and near 0 they decide everything.
 
-
-def prior_share(event):
-    damping = np.log1p(event.damping_number_interval.values)
-    contact = np.log(event.contact_ratio_interval.values)
-    widest = 0.9 * np.log(slipfront.medium.plastic_contact_ratio(0.25) / 1e-8)
-    return np.ptp(damping) / (0.9 * np.log1p(1e8)), np.ptp(contact) / widest
-
-
 print("you add          prior share of damping number   of contact ratio")
 added = {"stress drop": with_drop.isel(event=0), "contact ratio": with_contact}
 for name, event in added.items():
-    damping, contact = prior_share(event)
-    print(f"{name:15} {damping:30.2f} {contact:18.2f}")
+    print(f"{name:15} {float(event.damping_number_prior_share):30.2f} {float(event.contact_ratio_prior_share):18.2f}")
 
 # %%
 # Both measurements leave small shares, so your data decide. The contact ratio was known to a factor
 # of 2 only, and it leaves more to the prior than the stress drop. With velocities only, both shares
-# would be 1, and slipfront prints no median at all. The program prints the shares too: ``slipfront
-# event FILE --json`` has them as ``prior_share``.
+# would be 1, and slipfront prints no median at all. ``slipfront event FILE --json`` has the shares as
+# ``prior_share``.
 #
 # A better measurement narrows the result. How much is a more precise stress drop worth?
 

@@ -105,8 +105,9 @@ def event(events=None, *, p_wave_speed=None, poisson_ratio=None, shear_modulus=N
     without rupture velocity. A quantity that cannot be identified is NaN.
 
     Sampled events also have `posterior_<name>` over `quantile` (5 %, 50 %, 95 %), effective_samples, pareto_k, samples and
-    friction_identified (1 or 0). `warnings` holds the warnings of each event. If some events are wrong, the others have
-    results; `error` gives the reason of each wrong event, and is "" for the others.
+    friction_identified (1 or 0). contact_ratio_prior_share and damping_number_prior_share are the width of an interval over
+    that of its prior; near 1 the data say nothing. `warnings` holds the warnings of each event. If some events are wrong,
+    the others have results; `error` gives the reason of each wrong event, and is "" for the others.
 
     Raises
     ------

@@ -152,8 +152,8 @@ def compare(scenario, *, scales=(), set=None, output=None, progress=None, thread
     variables `closure`, `scale`, `window`, `smooth_window` (averaging windows of a chain, in b / A) and `wall_seconds` (s)
     describe a level. `difference` is the value at the end of the run minus that of the level pulse-consistent, for each
     level and quantity. `trend_exponent`, `trend_extrapolated` and `trend_difference` describe how the chain approaches
-    that level with increasing scale. The attributes are time, friction_coefficient, damping_number (both NaN unless friction
-    is viscous), reference and notes.
+    that level with increasing scale. The last two are NaN if the difference does not fall. The attributes are time,
+    friction_coefficient, damping_number (both NaN unless friction is viscous), reference and notes.
 
     Raises
     ------

@@ -1,8 +1,12 @@
 """slipfront reproduce: every figure, number and statement of the paper, as a page that opens in a browser."""
 
 import collections
+import itertools
 import json
 import pathlib
+import shutil
+import sys
+import textwrap
 import time
 import warnings
 
@@ -10,9 +14,22 @@ from ._arguments import Arguments, file_name, progress, put
 from ._optional import import_optional
 
 
-def line(row) -> str:
-    """A row of the table of numbers, for a terminal."""
-    return f"{row['what'][:70]:<70} {row['printed']:>11} {row['printed_digits']:>9} {row['computed']:>10.4g}  {row['verdict']}"
+def table(rows) -> str:
+    """The table of numbers. On a terminal that is too narrow for it, its texts take several lines."""
+    cells = [("the paper prints", f"{'printed':>11} {'rounded':>9} {'computed':>10}", "verdict")]
+    cells += [(row["what"], f"{row['printed']:>11} {row['printed_digits']:>9} {row['computed']:>10.4g}", row["verdict"]) for row in rows]
+    longest, numbers = 70, 1 + len(cells[0][1]) + 2
+    whole = longest + numbers + max(len(verdict) for _, _, verdict in cells)
+    width = shutil.get_terminal_size((whole, 24)).columns if sys.stdout.isatty() else whole
+    if width >= whole:
+        return "\n".join(f"{what[:longest]:<{longest}} {values}  {verdict}" for what, values, verdict in cells)
+    for_texts = max(width - numbers, 30)
+    described = for_texts * 3 // 5
+    lines = []
+    for what, values, verdict in cells:
+        parts = itertools.zip_longest(textwrap.wrap(what, described), [values], textwrap.wrap(verdict, for_texts - described), fillvalue="")
+        lines += [f"{a:<{described}} {b:<{numbers - 3}}  {c}".rstrip() for a, b, c in parts]
+    return "\n".join(lines)
 
 
 def summary(tables) -> str:
@@ -43,9 +60,7 @@ def main(argv) -> int:
     if options.json:
         print(json.dumps(tables | {"report": report, "wall_seconds": time.monotonic() - started}))
         return 0
-    print(f"{'the paper prints':<70} {'printed':>11} {'rounded':>9} {'computed':>10}  verdict")
-    for row in tables["numbers"]:
-        print(line(row))
+    print(table(tables["numbers"]))
     put("\n" + summary(tables))
     put(f"remarks, figures and data: {report}")
     return 0

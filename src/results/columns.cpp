@@ -13,6 +13,7 @@ using finite_fault::PulseQuantity;
 using inference::answer_quantities;
 using inference::bound_quantities;
 using inference::Interval;
+using inference::Posterior;
 using inference::posterior_quantities;
 using inference::quantities;
 using inference::Quantity;
@@ -61,6 +62,13 @@ void add_estimates(std::vector<NumberColumn>& all) {
     for (const Quantity& q : quantities) add_answer(all, q);
 }
 
+void add_prior_share(std::vector<NumberColumn>& all, const Description& about,
+                     std::optional<double> Posterior::*share) {
+  all.push_back(column(about, [share](const EventResult& r, double* out) {
+    *out = r.posterior ? ((*r.posterior).*share).value_or(none) : none;
+  }));
+}
+
 void add_posterior(std::vector<NumberColumn>& all) {
   for (const Quantity& q : posterior_quantities())
     all.push_back(column(q.about, "posterior_" + std::string(q.about.name),
@@ -71,6 +79,14 @@ void add_posterior(std::vector<NumberColumn>& all) {
                            out[1] = found.median;
                            out[2] = found.high;
                          }));
+  add_prior_share(all,
+                  {"contact_ratio_prior_share",
+                   "width of the interval of ln A over that of its prior; near 1 the data say nothing", "", ""},
+                  &Posterior::contact_ratio_prior_share);
+  add_prior_share(all,
+                  {"damping_number_prior_share",
+                   "width of the interval of ln(1 + C T) over that of its prior; near 1 the data say nothing", "", ""},
+                  &Posterior::damping_number_prior_share);
   all.push_back(
       column({"effective_samples", "effective number of samples", "", ""},
              [](const EventResult& r, double* out) { *out = r.posterior ? r.posterior->effective_samples : none; }));

@@ -48,6 +48,8 @@ void fill(Estimate& e, const Posterior& p) {
   if (!p.contact_ratio) set(e.contact_ratio, p.contact_ratio_bound);
   set(e.stress, p.stress_bound);
   if (p.suffices && p.friction_identified) e.contact_ratio_bound.reset(), e.stress_pa_bound.reset();
+  // The closed forms only bound the stress if the error of the rupture velocity reaches above c. Samples are below c.
+  if (p.stress && !p.stress_bound) e.stress_bound.reset();
   if (p.suffices) return;
   for (const Quantity& q : quantities())
     if (e.*q.inferred) (e.*q.inferred)->interval.reset();

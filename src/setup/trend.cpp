@@ -1,4 +1,5 @@
 #include <cmath>
+#include <string>
 
 #include "slipfront/setup/compare.hpp"
 
@@ -46,10 +47,25 @@ Trend trend_of(const std::vector<Level>& levels, const Quantity& quantity) {
   }
   const auto count = static_cast<double>(n);
   trend.exponent = -(count * xy - x * y) / (count * xx - x * x);
+  if (trend.exponent < 0) return trend;  // the difference grows, so the values have no limit that we know
   trend.extrapolated = (scale[n - 1] * value[n - 1] - scale[n - 2] * value[n - 2]) / (scale[n - 1] - scale[n - 2]);
   trend.difference = trend.extrapolated - theory;
   return trend;
 }
+
+namespace {
+
+/// The reason why quantities have no value at infinite scale. Empty if all have one.
+std::string note_on_limits(const std::vector<Level>& levels) {
+  std::string names;
+  for (const Quantity& q : compared_quantities())
+    if (trend_of(levels, q).exponent < 0) names += (names.empty() ? "" : ", ") + std::string(q.key);
+  if (names.empty()) return {};
+  return "no value at infinite scale for " + names +
+         ": the difference between chain and pulse does not fall with the scale, over the scales run";
+}
+
+}  // namespace
 
 std::vector<std::string> notes_on(const scenario::Scenario& s, const std::vector<Level>& levels) {
   std::vector<std::string> notes;
@@ -62,6 +78,7 @@ std::vector<std::string> notes_on(const scenario::Scenario& s, const std::vector
   notes.emplace_back(
       "* as an observer with a threshold sees it; on a chain with little friction phonons run ahead, and raising "
       "pulse.threshold hides them");
+  if (const std::string note = note_on_limits(levels); !note.empty()) notes.push_back(note);
   notes.insert(notes.end(), s.warnings.begin(), s.warnings.end());
   for (const Level& level : levels)
     for (const std::string& warning : level.warnings) notes.push_back(level.name + ": " + warning);

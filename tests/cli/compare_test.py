@@ -32,6 +32,23 @@ class Compare(CommandLine):
         self.assertEqual(levels["chain-1000"]["scale"], 1000)
         self.assertAlmostEqual(out["damping_number"], math.pi)
 
+    def test_a_difference_that_grows_with_scale_has_no_limit(self):
+        case = os.path.join(SOURCE, "cases/step-viscous.toml")
+        out = json.loads(self.ok("compare", case, "--scale", "30", "--scale", "60", "--json"))
+        slip, leading = out["trend"]["slip_at_origin"], out["trend"]["leading_front"]
+        self.assertLess(slip["exponent"], 0)
+        self.assertEqual((slip["extrapolated"], slip["difference"]), (None, None))
+        self.assertGreater(leading["exponent"], 0)
+        self.assertIsNotNone(leading["extrapolated"])
+        reason = [note for note in out["notes"] if "infinite scale" in note]
+        self.assertEqual(len(reason), 1)
+        self.assertIn("slip_at_origin", reason[0])
+        self.assertNotIn("leading_front,", reason[0])
+        table = self.ok("compare", case, "--scale", "30", "--scale", "60")
+        self.assertRegex(table, r"at infinite scale +- +0\.\d+ ")
+        self.assertIn(reason[0], table)
+        self.assertNotIn("infinite scale for", self.ok("compare", case, "--scale", "60"))  # one scale has no trend
+
     def test_only_viscous_friction_has_a_damping_number(self):
         strength = ("--scale", "20", "--set", "pulse.cells=20", "friction.law=rate-and-state", "friction.strength=0.05")
         out = self.compare(*strength)

@@ -1,13 +1,17 @@
 """Helpers that the tests of the command line share. They run the program that $SLIPFRONT names."""
 
 import contextlib
+import fcntl
 import json
 import os
+import pty
 import random
 import resource
 import signal
+import struct
 import subprocess
 import tempfile
+import termios
 import time
 import unittest
 
@@ -19,6 +23,23 @@ SANITIZED = os.environ.get("SLIPFRONT_SANITIZED") == "ON"  # then everything tak
 
 def run(*arguments, stdin=""):
     return subprocess.run([PROGRAM, *arguments], input=stdin, capture_output=True, text=True, timeout=PATIENCE)
+
+
+def on_terminal(width, *command, columns=None):
+    """Runs a command on a terminal of this width. Returns its output and exit code. `columns` sets the variable COLUMNS."""
+    terminal, end = pty.openpty()
+    fcntl.ioctl(end, termios.TIOCSWINSZ, struct.pack("HHHH", 40, width, 0, 0))
+    environment = {name: value for name, value in os.environ.items() if name != "COLUMNS"}
+    if columns is not None:
+        environment["COLUMNS"] = columns
+    with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=end, stderr=subprocess.DEVNULL, env=environment) as process:
+        os.close(end)
+        printed = b""
+        with contextlib.suppress(OSError):  # EIO: the program has closed the terminal
+            while part := os.read(terminal, 65536):
+                printed += part
+    os.close(terminal)
+    return printed.decode().replace("\r\n", "\n"), process.returncode
 
 
 def processor_time():

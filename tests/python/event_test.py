@@ -71,6 +71,15 @@ class Event(CommandLine):
         np.testing.assert_equal(data.pulse_columns.values, [9, np.nan])
         self.assertNotIn("pulse_columns", slipfront.event(path))
 
+    def test_the_share_of_the_prior_is_that_of_json(self):
+        path = self.file("known.toml", '[event]\nrupture_velocity = "3.0 +- 0.2 km/s"\nslip_velocity = "0.5 */ 1.2 m/s"\n'
+                         "[medium]\ncontact_ratio = { mean = 0.01, sd = 0.002 }\n")
+        event, = json.loads(self.ok("event", path, "--json"))["events"]
+        data = slipfront.event(path).isel(event=0)
+        for name, share in event["posterior"]["prior_share"].items():
+            self.assertTrue(0 < share < 1, name)
+            self.assertEqual(float(data[name + "_prior_share"]), share, name)
+
     def test_nothing_is_the_shipped_catalogue(self):
         self.assertEqual(slipfront.event().sizes["event"], len(json.loads(self.ok("event", "--json"))["events"]))
 

@@ -25,6 +25,6 @@ mkdir -p site/slipfront/bin
 touch site/slipfront/__init__.py
 ln -s "$work/bin/slipfront" site/slipfront/bin/slipfront
 PYTHONPATH="$work/site" "$python" "$launcher" --version --json >facts
-grep -q "\"python\": \"$python\"" facts
+grep -q "\"python\":\"$python\"" facts
 if PYTHONPATH= "$python" -P "$launcher" --version 2>errors; then exit 1; fi
 grep -q 'pip install' errors

@@ -4,13 +4,14 @@ import csv
 import os
 import signal
 import subprocess
+import sys
 import tempfile
 import time
 import unittest
 
 import xarray as xr
 from page import Page
-from support import PATIENCE, PROGRAM, CommandLine
+from support import PATIENCE, PROGRAM, CommandLine, on_terminal
 
 TABLES = ("numbers", "formulas", "statements", "inputs")
 
@@ -43,6 +44,20 @@ class Reproduce(CommandLine):
             self.assertIn(f"{row['printed']:>11} {row['printed_digits']:>9}", line)
         self.assertIn(f"{sum(row['verdict'] == 'same' for row in rows)} same", self.printed)
         self.assertEqual(os.listdir(self.temporary.name), ["reproduction"])
+
+    def test_the_table_fits_the_terminal(self):
+        wide = self.printed.partition("\n\n")[0]
+        code = ("import csv, sys; from slipfront.cmd_reproduce import table\n"
+                "rows = [row | {'computed': float(row['computed'])} for row in csv.DictReader(open(sys.argv[1], encoding='utf-8', newline=''))]\n"
+                "print(table(rows))")
+        for width in (80, 100, 200):
+            narrow, returned = on_terminal(width, sys.executable, "-c", code, os.path.join(self.folder, "numbers.csv"))
+            self.assertEqual(returned, 0, narrow)
+            self.assertLessEqual(max(map(len, narrow.splitlines())), width)
+            if width == 200:
+                self.assertEqual(narrow.strip(), wide)
+            for row in self.rows("numbers"):
+                self.assertIn(f"{row['printed']:>11} {row['printed_digits']:>9}", narrow)
 
     def test_every_figure_with_its_data(self):
         for name in [f"fig-{i:02d}" for i in range(1, 13)] + ["width"]:

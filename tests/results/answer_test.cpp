@@ -10,6 +10,7 @@
 
 #include "finite_fault/sources.hpp"
 #include "inference/pareto.hpp"
+#include "results/columns.hpp"
 #include "results/evaluate.hpp"
 #include "slipfront/catalogue/read.hpp"
 #include "slipfront/rupture/relations.hpp"
@@ -99,6 +100,34 @@ TEST(Answer, AgreesWithThePosterior) {
   EXPECT_NEAR(rupture::from_rupture_velocity(e.rupture_velocity->value).stress, e.stress->value, 1e-5);
 }
 
+/// The column of a file with this name, for one event.
+double in_file(const EventResult& r, const std::string& name) {
+  for (const NumberColumn& c : number_columns({.pulse = false, .draws = 0}))
+    if (c.name == name) {
+      double value = 0;
+      c.get(r, &value);
+      return value;
+    }
+  ADD_FAILURE() << "no column " << name;
+  return 0;
+}
+
+TEST(Answer, WritesTheShareOfThePriorToFiles) {
+  const std::string velocities =
+      "[event]\nrupture_velocity = \"3.0 +- 0.2 km/s\"\nslip_velocity = \"0.5 */ 1.2 m/s\"\n";
+  const EventResult known = result_of(velocities + "[medium]\ncontact_ratio = { mean = 0.01, sd = 0.002 }\n");
+  ASSERT_TRUE(known.posterior && known.posterior->contact_ratio_prior_share) << known.error;
+  EXPECT_EQ(in_file(known, "contact_ratio_prior_share"), *known.posterior->contact_ratio_prior_share);
+  EXPECT_EQ(in_file(known, "damping_number_prior_share"), *known.posterior->damping_number_prior_share);
+  EXPECT_LT(in_file(known, "contact_ratio_prior_share"), 0.2);
+  // The velocities only bound both quantities.
+  const EventResult bound = result_of(velocities);
+  EXPECT_EQ(in_file(bound, "contact_ratio_prior_share"), 1);
+  EXPECT_EQ(in_file(bound, "damping_number_prior_share"), 1);
+  const EventResult none = result_of("[event]\nrupture_velocity = \"3 km/s\"\n");
+  EXPECT_TRUE(std::isnan(in_file(none, "contact_ratio_prior_share")));
+}
+
 TEST(Answer, BoundsTheStressWithoutARuptureVelocity) {
   const EventResult r = result_of(
       "[event]\nslip_velocity = \"0.5 */ 1.3 m/s\"\n[medium]\ncontact_ratio = { median = 0.003, factor = 1.2 }\n");
@@ -107,6 +136,16 @@ TEST(Answer, BoundsTheStressWithoutARuptureVelocity) {
   ASSERT_TRUE(r.estimate->stress_bound && r.estimate->stress_pa_bound);
   EXPECT_TRUE(r.estimate->stress_bound->interval && r.estimate->stress_pa_bound->interval);
   EXPECT_EQ(r.estimate->stress_bound->value, r.estimate->stress->value);
+}
+
+/// The closed forms ignore this rupture velocity, because it reaches above c, and the samples use its part below c.
+TEST(Answer, HasNoBoundOfTheStressIfSamplesYieldIt) {
+  const EventResult r = result_of(
+      "[event]\nrupture_velocity = \"5..8 km/s\"\nslip_velocity = \"0.5 m/s\"\n[medium]\ncontact_ratio = { median = "
+      "0.01, factor = 2 }\n");
+  ASSERT_TRUE(r.estimate && r.posterior && r.posterior->stress) << r.error;
+  EXPECT_EQ(r.estimate->stress->value, r.posterior->stress->median);
+  EXPECT_FALSE(r.estimate->stress_bound || r.estimate->stress_pa_bound || r.estimate->contact_ratio_bound);
 }
 
 TEST(Answer, DoublesSamplesUntilTheySuffice) {

@@ -69,7 +69,8 @@ struct Trend {
   /// Negative slope of ln |difference| against ln scale, by least squares. It is 1 if the difference falls as 1 /
   /// scale. It needs two scales.
   double exponent = std::numeric_limits<double>::quiet_NaN();
-  /// Extrapolation to infinite scale from the two largest scales, with a difference that falls as 1 / scale.
+  /// Extrapolation to infinite scale from the two largest scales, with a difference that falls as 1 / scale. NaN if the
+  /// exponent is negative, because then the difference does not fall.
   double extrapolated = std::numeric_limits<double>::quiet_NaN();
   double difference = std::numeric_limits<double>::quiet_NaN();  ///< `extrapolated` less the reference
 };
