@@ -39,7 +39,11 @@ constexpr const char* launch =
     "    if signal.getsignal(number) != signal.SIG_IGN:\n"
     "        signal.signal(number, interrupted)\n"
     "signal.pthread_sigmask(signal.SIG_UNBLOCK, ending)\n"
-    "from slipfront.__main__ import end, main\n"
+    "try:\n"
+    "    from slipfront.__main__ import end, main\n"
+    "except ImportError as error:\n"
+    "    print(f'slipfront: {error}', file=sys.stderr)\n"
+    "    sys.exit(3)\n"
     "end(main())\n";
 
 /// Python handles signals only some time after its start, so we block them first. exec keeps the signal mask.
