@@ -22,9 +22,10 @@ struct PythonCommand {
   const char* name;
   const char* help;
 };
-constexpr std::array<PythonCommand, 3> commands = {{
+constexpr std::array<PythonCommand, 4> commands = {{
+    {"sweep", "A scenario at every point of a grid of settings"},
     {"reproduce", "Every number and figure of the paper, as a page that opens in a browser"},
-    {"plot", "Figures of the files that pulse, chain and compare write"},
+    {"plot", "Figures of the files that slipfront writes"},
     {"animate", "A slip pulse as a moving picture"},
 }};
 

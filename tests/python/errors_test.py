@@ -174,7 +174,7 @@ class Nested(unittest.TestCase):
 class Commands(CommandLine):
     def test_the_program_runs_subcommands_written_in_python(self):
         help = self.ok("--help")
-        for name in ("plot", "reproduce", "animate"):
+        for name in ("sweep", "plot", "reproduce", "animate"):
             self.assertIn("\n  " + name, help)
         self.refused(3, "plot", "/nowhere.nc")
 
@@ -221,7 +221,7 @@ class Commands(CommandLine):
     def test_the_module_lists_its_commands(self):
         done = subprocess.run([sys.executable, "-m", "slipfront", "walk"], capture_output=True, text=True)
         self.assertEqual(done.returncode, 2)
-        self.assertIn("reproduce, plot, animate", done.stderr)
+        self.assertIn("sweep, reproduce, plot, animate", done.stderr)
 
 
 if __name__ == "__main__":
