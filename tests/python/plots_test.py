@@ -141,6 +141,13 @@ class Figures(CommandLine):
         arrows = [text for text in bound.texts if getattr(text, "arrow_patch", None)]
         self.assertEqual(len(arrows), int(events["stress_pa_bound"].notnull().sum()))
 
+    def test_kinds_of_events_have_different_colours(self):
+        kinds = [f"kind {i}" for i in range(9)]
+        events = slipfront.event([{"rupture_velocity": "1 km/s", "kind": kind} for kind in kinds], samples=0)
+        handles, texts = plots.events(events, choose.line_through(events)).axes[0].get_legend_handles_labels()
+        colours = {text: handle.lines[0].get_color() for handle, text in zip(handles, texts) if text in kinds}
+        self.assertEqual(len(set(colours.values())), 9)
+
     def test_events_with_their_population(self):
         rows = "".join(f"E{i},{10 ** (-3 + 6 * i / 500)} m/s,{10 ** (-7 + 6 * i / 500)} m/s\n" for i in range(501))
         case = self.file("many.csv", "name,rupture_velocity,slip_velocity\n" + rows)
