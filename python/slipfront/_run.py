@@ -1,5 +1,6 @@
 """The functions that run scenarios, slipfront.pulse, chain, compare and check, and slipfront.open, which reads their files."""
 
+import contextlib
 import os
 import warnings
 
@@ -244,7 +245,10 @@ def open(file):
 
     Returns
     -------
-    xarray.Dataset with the contents of the file except its checkpoint. All values are in memory, and the file is closed.
+    xarray.Dataset with the variables, coordinates and attributes that the run returned. All values are in memory, and the file
+    is closed. A file does not hold what describes only the computation: the estimated errors, counts of steps and clocks
+    of a pulse or a chain, and the differences and trends of a comparison. A file of events also has the population and
+    the settings.
 
     Raises
     ------
@@ -260,6 +264,20 @@ def open(file):
     True
     """
     return read(path("file", file))
+
+
+def _summary(data):
+    """Returns the attributes of a finished pulse or chain that follow from its file: the values at the end, and the settings of
+    a pulse."""
+    command = str(data.attrs.get("history", "")).split()[1:2]
+    known = dict({"pulse": _slipfront.pulse_numbers, "chain": _slipfront.chain_numbers}[command[0]]()) if command in (["pulse"], ["chain"]) else {}
+    found = {str(name): variable.values[-1].item() for name, variable in data.variables.items() if variable.dims == ("time",) and name in known}
+    if command == ["pulse"]:
+        with contextlib.suppress(InputError, FileError):  # its table of stress may be gone
+            plan = check(str(data.attrs["scenario"]) + "\n")
+            coefficient = nan if plan["friction_coefficient"] is None else plan["friction_coefficient"]
+            found.update(closure=plan["closure"], cells=plan["cells"], friction_coefficient=coefficient, damping_number=coefficient * found["time"])
+    return found
 
 
 def read(name, any_file=False):
@@ -282,6 +300,9 @@ def read(name, any_file=False):
     if data.attrs.get("slipfront_format") == "sweep 1":  # its dimensions have dots, as in friction.coefficient
         names = {name: name.replace(".", "_") for name in data.dims}
         data = data.drop_vars([new for old, new in names.items() if new != old], errors="ignore").rename(names)
+    data.attrs = {name: value.item() if isinstance(value, np.generic) else value for name, value in data.attrs.items() if name != "checksum"}
+    if data.attrs.get("finished") == 1 and data.sizes.get("time"):
+        data = data.assign_attrs(_summary(data))
     if "name" in data.coords and data["name"].dtype.kind == "S":
         data = data.assign_coords(name=(data["name"].dims, np.char.decode(data["name"].values, "utf-8"), data["name"].attrs)).set_xindex("name")
     return data
