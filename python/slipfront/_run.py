@@ -8,6 +8,7 @@ from . import _slipfront
 from ._dataset import attributes, dataset
 from ._optional import import_optional
 from ._numbers import np, numbers, one_number, thread_count
+from ._plan import Plan
 from ._progress import showing
 from ._scenario import arguments, path
 from ._shown import shown
@@ -214,7 +215,7 @@ def check(scenario, *, set=None, command="pulse", scales=()):
     Returns
     -------
     dict that describes the run: title; cells, sites or levels; left and right end of the domain; end of time; memory_bytes
-    and disk_bytes (estimated, in bytes); and more, depending on the command.
+    and disk_bytes (estimated, in bytes); and more, depending on the command. A notebook shows it as a table.
 
     Raises
     ------
@@ -227,11 +228,11 @@ def check(scenario, *, set=None, command="pulse", scales=()):
     """
     request = arguments(scenario, set=set)
     if command == "pulse":
-        return _slipfront.check_pulse(request)
+        return Plan(_slipfront.check_pulse(request))
     if command == "chain":
-        return _slipfront.check_chain(request)
+        return Plan(_slipfront.check_chain(request))
     if command == "compare":
-        return _slipfront.check_compare(request, _scales(scales))
+        return Plan(_slipfront.check_compare(request, _scales(scales)))
     raise InputError(f"command = '{shown(command)}': unknown; allowed: pulse, chain, compare")
 
 

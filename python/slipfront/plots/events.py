@@ -1,9 +1,8 @@
 """Observed events on the rupture relation."""
 
 import numpy
-from matplotlib.figure import Figure
 
-from .style import plain, plain_numbers, styled
+from .style import Picture, plain, plain_numbers, styled
 
 #: Marks and colours of the kinds of event. Their numbers have no common divisor, so that 72 kinds differ in one or the other.
 #: Colour-blind readers can distinguish the colours: they are the scheme "muted" of Tol (2021).
@@ -90,7 +89,7 @@ def known(events, name) -> bool:
 
 
 @styled
-def events(events, line) -> Figure:
+def events(events, line) -> Picture:
     """Stress against rupture velocity, dimensionless and in MPa, and slip velocity where there is any, with the closed-form lines (Eqs. 8-10).
 
     Parameters
@@ -111,7 +110,7 @@ def events(events, line) -> Figure:
     """
     kinds = sorted(set(texts(events["kind"]))) if "kind" in events else [""]
     shown = ["stress"] + [name for name in ("stress_pa", "stress_pa_bound", "observed_slip_velocity") if known(events, name)]
-    figure = Figure(figsize=((5.0, 7.6, 10.8, 14.0)[len(shown) - 1], 4.2))
+    figure = Picture(figsize=((5.0, 7.6, 10.8, 14.0)[len(shown) - 1], 4.2))
     panels = dict(zip(shown, figure.subplots(1, len(shown), squeeze=False)[0]))
     for name, axes in panels.items():
         scale = 1e-6 if name.startswith("stress_pa") else 1.0

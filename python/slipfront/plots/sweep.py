@@ -1,11 +1,10 @@
 """Draws a number of a sweep against its axes."""
 
 import numpy
-from matplotlib.figure import Figure
 
 from .relations import spans_decades
 from .space_time import colours
-from .style import label, plain_numbers, styled
+from .style import Picture, label, plain_numbers, styled
 
 #: Numbers of a sweep to draw by default, the first that it has.
 PREFERRED = ("slip_velocity_at_origin", "peak_slip_velocity", "slip_at_origin")
@@ -48,7 +47,7 @@ def scale_of(coordinate) -> str:
 
 
 @styled
-def sweep(data, variable: str = "") -> Figure:
+def sweep(data, variable: str = "") -> Picture:
     """Draws a number of a sweep: lines for one swept dimension, and a map for two.
 
     Dimensions of length 1 do not count. An axis whose values have equal ratios over more than a decade is logarithmic. Points that failed are gaps in a line, and grey in a map. An axis of texts, such as
@@ -80,7 +79,7 @@ def sweep(data, variable: str = "") -> Figure:
     if not 1 <= values.ndim <= 2:
         raise ValueError(f"the sweep has {values.ndim} dimensions of two or more values; allowed: 1 or 2; select values of the others with .sel")
     texts = [dim for dim in values.dims if values[dim].dtype.kind not in "fiu"]
-    figure = Figure(figsize=(6.0, 4.0))
+    figure = Picture(figsize=(6.0, 4.0))
     axes = figure.subplots()
     if values.ndim == 1 or texts:
         lines(axes, values.transpose(*texts[:1], ...))
