@@ -22,9 +22,10 @@ struct PythonCommand {
   const char* name;
   const char* help;
 };
-constexpr std::array<PythonCommand, 3> commands = {{
+constexpr std::array<PythonCommand, 4> commands = {{
+    {"sweep", "A scenario at every point of a grid of settings"},
     {"reproduce", "Every number and figure of the paper, as a page that opens in a browser"},
-    {"plot", "Figures of the files that pulse, chain and compare write"},
+    {"plot", "Figures of the files that slipfront writes"},
     {"animate", "A slip pulse as a moving picture"},
 }};
 
@@ -39,7 +40,11 @@ constexpr const char* launch =
     "    if signal.getsignal(number) != signal.SIG_IGN:\n"
     "        signal.signal(number, interrupted)\n"
     "signal.pthread_sigmask(signal.SIG_UNBLOCK, ending)\n"
-    "from slipfront.__main__ import end, main\n"
+    "try:\n"
+    "    from slipfront.__main__ import end, main\n"
+    "except ImportError as error:\n"
+    "    print(f'slipfront: {error}', file=sys.stderr)\n"
+    "    sys.exit(3)\n"
     "end(main())\n";
 
 /// Python handles signals only some time after its start, so we block them first. exec keeps the signal mask.

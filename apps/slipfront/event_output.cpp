@@ -19,16 +19,6 @@ using slipfront::inference::posterior_quantities;
 using slipfront::results::answer_of;
 using slipfront::results::event_numbers;
 using slipfront::results::EventResult;
-using slipfront::results::joined;
-
-/// A CSV cell with text. A spreadsheet would run text that begins like a formula, so we put an apostrophe before it
-/// (docs/events.md).
-std::string quoted(const std::string& text) {
-  const bool like_formula = !text.empty() && std::string_view("=+-@\t").find(text[0]) != std::string_view::npos;
-  std::string out = like_formula ? "\"'" : "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c == '\n' || c == '\r' ? ' ' : c);
-  return out + "\"";
-}
 
 Json posterior_json(const EventResult& result) {
   if (!result.posterior) return nullptr;
@@ -120,61 +110,4 @@ std::string event_json(const EventResult& result) {
   j["warnings"] = result.warnings();
   j["error"] = result.error.empty() ? Json() : Json(result.error);
   return text_of(j);
-}
-
-std::string event_csv_head(bool with_pulse) {
-  std::string head = "name,date,kind";
-  for (const auto& number : event_numbers()) head += fmt::format(",{}", number.about.name);
-  for (const auto& q : answer_quantities()) head += fmt::format(",{0},{0}_low,{0}_high", q.about.name);
-  for (const auto& q : posterior_quantities())
-    head += fmt::format(",posterior_{0},posterior_{0}_low,posterior_{0}_high", q.about.name);
-  head += ",friction_identified,effective_samples,seed,warnings,error,citation,note,file,line";
-  if (with_pulse) {
-    for (const auto& q : pulse_quantities()) head += fmt::format(",{}", q.about.name);
-    head += ",pulse_reason";
-  }
-  for (const auto& q : bound_quantities()) head += fmt::format(",{0},{0}_low,{0}_high", q.about.name);
-  return head + ",pareto_k,samples\n";
-}
-
-namespace {
-
-std::string csv_cells(const std::optional<slipfront::inference::Inferred>& x) {
-  return (x ? fmt::format(",{}", x->value) : ",") +
-         (x && x->interval ? fmt::format(",{},{}", x->interval->low, x->interval->high) : ",,");
-}
-
-}  // namespace
-
-std::string event_csv_row(const EventResult& result, bool with_pulse) {
-  const auto& o = result.observation;
-  std::string row = quoted(o.name) + "," + quoted(o.date) + "," + quoted(o.kind);
-  for (const auto& number : event_numbers()) {
-    const auto x = number.get(result);
-    row += x ? fmt::format(",{}", *x) : ",";
-  }
-  for (const auto& q : answer_quantities()) row += csv_cells(answer_of(result, q));
-  const Posterior none;
-  for (const auto& quantity : posterior_quantities()) {
-    const auto& q = (result.posterior ? *result.posterior : none).*quantity.quantiles;
-    row += q ? fmt::format(",{},{},{}", q->median, q->low, q->high) : ",,,";
-  }
-  if (const auto& p = result.posterior) {
-    row += fmt::format(",{},{},{}", p->friction_identified ? "yes" : "no", p->effective_samples, p->seed);
-  } else {
-    row += ",,,";
-  }
-  row += "," + quoted(joined(result.warnings())) + "," + quoted(result.error) + "," + quoted(o.citation) + "," +
-         quoted(o.note) + "," + quoted(o.file) + fmt::format(",{}", o.line);
-  if (with_pulse) {
-    const bool ran = result.pulse && result.pulse->reason.empty();
-    for (const auto& q : pulse_quantities()) {
-      const auto x = ran ? q.get(*result.pulse) : std::nullopt;
-      row += x ? fmt::format(",{}", *x) : ",";
-    }
-    row += "," + quoted(result.pulse ? result.pulse->reason : "");
-  }
-  for (const auto& q : bound_quantities()) row += csv_cells(answer_of(result, q));
-  row += result.posterior ? fmt::format(",{},{}", result.posterior->pareto_k, result.posterior->samples) : ",,";
-  return row + "\n";
 }

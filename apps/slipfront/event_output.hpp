@@ -9,11 +9,6 @@
 /// One object of `{"events": [...]}`. Quantities that are not identifiable are null.
 std::string event_json(const slipfront::results::EventResult& result);
 
-/// CSV in full precision with the names of the JSON object. Quantities that are not identifiable are empty. With
-/// `with_pulse` there are also columns that summarise a pulse through a finite-fault model.
-std::string event_csv_head(bool with_pulse);
-std::string event_csv_row(const slipfront::results::EventResult& result, bool with_pulse);
-
 /// Text of a slip velocity: "2.8 m/s", "0.3 mm/day", "-".
 std::string speed_text(const std::optional<double>& metres_per_second);
 /// Text of the velocity of a rupture front. Slow fronts are in km/day.

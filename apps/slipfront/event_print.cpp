@@ -8,11 +8,14 @@
 #include "batch.hpp"
 #include "event_output.hpp"
 #include "population_output.hpp"
+#include "record/events/event_csv.hpp"
 #include "results/quantities.hpp"
 
 namespace {
 
 using namespace slipfront::results;
+using slipfront::record::event_csv_head;
+using slipfront::record::event_csv_row;
 
 constexpr std::size_t most_errors_shown = 20;
 

@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "batch.hpp"
-#include "event_output.hpp"
 #include "event_print.hpp"
 #include "interrupts.hpp"
 #include "progress.hpp"
+#include "record/events/event_csv.hpp"
 #include "record/files/text_file.hpp"
 #include "run/catalogue.hpp"
 
@@ -77,12 +77,6 @@ void check_names(const EventArguments& a) {
   if (!a.resume.empty() && is_csv(a.output)) refuse("-o", a.output, "OUT.nc, with --resume");
 }
 
-void write_rows(const std::string& path, const std::vector<EventResult>& results, bool with_pulse) {
-  std::string text = event_csv_head(with_pulse);
-  for (const EventResult& r : results) text += event_csv_row(r, with_pulse);
-  slipfront::record::write_text(path, text);
-}
-
 /// Runs the catalogue with a progress line. Ctrl-C interrupts it.
 slipfront::run::CatalogueResult run_watched(const EventArguments& a, slipfront::run::CataloguePlan&& plan,
                                             const slipfront::record::Output& output) {
@@ -135,7 +129,7 @@ int write_events(const EventArguments& a) {
                                       : "continue with " + output.how_to_resume()));
     return exit_interrupted;
   }
-  if (is_csv(path)) write_rows(path, result.events, a.pulse);
+  if (is_csv(path)) slipfront::record::write_events_csv(path, result.events, a.pulse);
   EventPrinter printer(a.common, {.rows = false, .population = a.population, .pulse = a.pulse});
   for (const EventResult& event : result.events) printer.take(printer.printed(event));
   return finish(printer, a, columns, path);

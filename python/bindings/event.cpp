@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bindings.hpp"
+#include "record/events/event_csv.hpp"
 #include "record/files/text_file.hpp"
 #include "record/files/unfinished.hpp"
 #include "results/columns.hpp"
@@ -99,11 +100,24 @@ py::dict columns_of(const std::vector<EventResult>& results, const EvaluationOpt
   return columns;
 }
 
+bool is_csv(const std::string& path) { return path.ends_with(".csv"); }
+
+/// \throws InputError for an output that is neither NetCDF nor CSV, and for a CSV file that cannot hold what it should.
+void check_output(const std::string& output, const std::string& resume, std::size_t draws) {
+  const auto refuse = [&](const char* problem, const char* allowed) {
+    throw InputError({.file = "event", .key = "output", .value = output, .problem = problem, .allowed = allowed});
+  };
+  if (output.empty()) return;
+  if (!output.ends_with(".nc") && !is_csv(output)) refuse("unsupported file type", "a name that ends in .nc or .csv");
+  if (is_csv(output) && draws > 0) refuse("a CSV file has no draws", "a name that ends in .nc");
+  if (is_csv(output) && !resume.empty()) refuse("a CSV file cannot be resumed", "a name that ends in .nc");
+}
+
 py::dict evaluate_all(const std::vector<Source>& sources, const py::dict& options) {
   const run::CatalogueScenario scenario = scenario_of(sources, options);
   const auto output = options["output"].cast<std::string>(), resume = options["resume"].cast<std::string>();
   const int threads = options["threads"].cast<int>();
-  if (!output.empty()) record::require_netcdf_name(output, "output");
+  check_output(output, resume, scenario.evaluation.sampling.draws);
   std::vector<std::string> ignored;
   run::CatalogueResult result;
   std::optional<Watch> watch;
@@ -118,12 +132,14 @@ py::dict evaluate_all(const std::vector<Source>& sources, const py::dict& option
       watch.emplace(progress, total);
     }
     ignored = plan.columns.ignored;
-    result = run::catalogue(std::move(plan), {.output = record::Output(path, resume),
+    if (is_csv(path)) record::require_disk_space(path, plan.disk);  // for NetCDF, run::catalogue checks
+    result = run::catalogue(std::move(plan), {.output = record::Output(is_csv(path) ? "" : path, resume),
                                               .resume = resume,
                                               .threads = threads,
                                               .after_step = [&](std::size_t done) {
                                                 return (*watch)(static_cast<double>(done), static_cast<long>(done));
                                               }});
+    if (is_csv(path) && result.finished) record::write_events_csv(path, result.events, scenario.evaluation.pulse);
   }
   watch->finish();
   return columns_of(result.events, scenario.evaluation, ignored);

@@ -18,5 +18,6 @@ PYBIND11_MODULE(_slipfront, m) {
   bind_compare(m);
   bind_event(m);
   bind_sweep(m);
+  bind_keys(m);
   bind_files(m);
 }

@@ -5,32 +5,15 @@ error that it raises becomes one line on stderr and an exit code.
 """
 
 import atexit
-import contextlib
 import importlib
 import os
 import pathlib
 import signal
 import sys
 
-DONE, INPUT, FILE, NUMERICS, INTERRUPTED = 0, 2, 3, 4, 130
-NAMES = ("reproduce", "plot", "animate")
+from ._messages import DONE, FILE, INPUT, INTERRUPTED, NUMERICS, Interruption, complain
 
-
-def complain(error):
-    text = " ".join(str(error).split()) or type(error).__name__
-    with contextlib.suppress(ImportError):  # without the compiled module, that is the error to print
-        from ._slipfront import printable
-
-        text = printable(text.encode("utf-8", "surrogateescape"))
-    with contextlib.suppress(OSError):
-        print(f"slipfront: {text}", file=sys.stderr)
-
-
-class Interruption:
-    """Records whether the user has interrupted the program. We need it because libraries may turn the KeyboardInterrupt into
-    another error."""
-
-    seen = False
+NAMES = ("sweep", "reproduce", "plot", "animate")
 
 
 def interrupted(_signal, _frame):
@@ -48,7 +31,7 @@ def end_now(*_):
     """Ends the program one second after an interruption, if it still runs. Some code may be waiting, or the exception was lost
     where Python cannot raise it."""
     undo_unfinished()
-    os.write(2, b"slipfront: interrupted\n")
+    os.write(2, f"slipfront: interrupted{Interruption.advice()}\n".encode("utf-8", "replace"))
     os._exit(INTERRUPTED)
 
 
@@ -90,7 +73,7 @@ def run(name, argv):
             raise
     signal.alarm(0)
     undo_unfinished()
-    complain("interrupted")
+    complain(f"interrupted{Interruption.advice()}")
     return INTERRUPTED
 
 

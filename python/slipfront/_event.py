@@ -83,8 +83,9 @@ def event(events=None, *, p_wave_speed=None, poisson_ratio=None, shear_modulus=N
         Number of posterior states to return for each sampled event, all of equal weight. They are the variables
         `draw_<name>` over the dimension `draw`.
     output : path, optional
-        NetCDF file to write, as `slipfront event -o` does: results, population, and at intervals a checkpoint. An existing
-        file is replaced at the end only. Until then, the checkpoint of `a.nc` is in `a.unfinished.nc`.
+        File to write, as `slipfront event -o` does. NetCDF holds the results, the population, and at intervals a checkpoint.
+        An existing file is replaced at the end only. Until then, the checkpoint of `a.nc` is in `a.unfinished.nc`. A name
+        that ends in .csv gives the rows of `slipfront event --csv`, which are written at the end.
     resume : path, optional
         File of an interrupted catalogue to resume, written by this function or by the program. The events and settings must
         be the same. The results are written to this file unless there is an `output`.

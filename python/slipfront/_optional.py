@@ -1,6 +1,7 @@
 """Libraries that are loaded when they are needed."""
 
 import importlib
+import pathlib
 import platform
 
 _packages = {"xarray": "python3-xarray", "numpy": "python3-numpy", "matplotlib": "python3-matplotlib", "netCDF4": "python3-netcdf4",
@@ -13,8 +14,8 @@ def import_optional(module):
     try:
         return importlib.import_module(module)
     except ImportError as error:
-        top = module.partition(".")[0]
-        if error.name is not None and error.name.partition(".")[0] != top:
+        top = (error.name or module).partition(".")[0]  # xarray, for example, needs pandas
+        if top not in _packages:
             raise
         raise ImportError(f"{top} is missing; install the Debian package {_packages[top]}, or `pip install {_pip.get(top, top)}`", name=top) from error
 
@@ -24,5 +25,9 @@ def require_compiled():
     try:
         importlib.import_module("._slipfront", __package__)
     except ImportError as error:
-        raise ImportError(f"slipfront cannot load its compiled module with Python {platform.python_version()} on {platform.system()} ({error}); use Linux and the "
-                          "Python for which it was built, or build it with `pip install .`", name=f"{__package__}._slipfront") from error
+        here = f"Python {platform.python_version()} on {platform.machine()} {platform.system()}"
+        files = pathlib.Path(__file__).parent.glob("_slipfront.*.so")
+        built_for = sorted(file.name.split(".")[1] for file in files)  # such as cpython-311-x86_64-linux-gnu
+        module = f"its compiled module, which was built for {', '.join(built_for)}," if built_for else "a compiled module, because none was built,"
+        raise ImportError(f"slipfront cannot load {module} with {here} ({error}); use Linux and the Python for which it was built, or build it with `pip install .`",
+                          name=f"{__package__}._slipfront") from error

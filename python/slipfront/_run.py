@@ -1,5 +1,6 @@
 """The functions that run scenarios, slipfront.pulse, chain, compare and check, and slipfront.open, which reads their files."""
 
+import contextlib
 import os
 import warnings
 
@@ -7,6 +8,7 @@ from . import _slipfront
 from ._dataset import attributes, dataset
 from ._optional import import_optional
 from ._numbers import np, numbers, one_number, thread_count
+from ._plan import Plan
 from ._progress import showing
 from ._scenario import arguments, path
 from ._shown import shown
@@ -213,7 +215,7 @@ def check(scenario, *, set=None, command="pulse", scales=()):
     Returns
     -------
     dict that describes the run: title; cells, sites or levels; left and right end of the domain; end of time; memory_bytes
-    and disk_bytes (estimated, in bytes); and more, depending on the command.
+    and disk_bytes (estimated, in bytes); and more, depending on the command. A notebook shows it as a table.
 
     Raises
     ------
@@ -226,11 +228,11 @@ def check(scenario, *, set=None, command="pulse", scales=()):
     """
     request = arguments(scenario, set=set)
     if command == "pulse":
-        return _slipfront.check_pulse(request)
+        return Plan(_slipfront.check_pulse(request))
     if command == "chain":
-        return _slipfront.check_chain(request)
+        return Plan(_slipfront.check_chain(request))
     if command == "compare":
-        return _slipfront.check_compare(request, _scales(scales))
+        return Plan(_slipfront.check_compare(request, _scales(scales)))
     raise InputError(f"command = '{shown(command)}': unknown; allowed: pulse, chain, compare")
 
 
@@ -244,7 +246,10 @@ def open(file):
 
     Returns
     -------
-    xarray.Dataset with the contents of the file except its checkpoint. All values are in memory, and the file is closed.
+    xarray.Dataset with the variables, coordinates and attributes that the run returned. All values are in memory, and the file
+    is closed. A file does not hold what describes only the computation: the estimated errors, counts of steps and clocks
+    of a pulse or a chain, and the differences and trends of a comparison. A file of events also has the population and
+    the settings.
 
     Raises
     ------
@@ -260,6 +265,20 @@ def open(file):
     True
     """
     return read(path("file", file))
+
+
+def _summary(data):
+    """Returns the attributes of a finished pulse or chain that follow from its file: the values at the end, and the settings of
+    a pulse."""
+    command = str(data.attrs.get("history", "")).split()[1:2]
+    known = dict({"pulse": _slipfront.pulse_numbers, "chain": _slipfront.chain_numbers}[command[0]]()) if command in (["pulse"], ["chain"]) else {}
+    found = {str(name): variable.values[-1].item() for name, variable in data.variables.items() if variable.dims == ("time",) and name in known}
+    if command == ["pulse"]:
+        with contextlib.suppress(InputError, FileError):  # its table of stress may be gone
+            plan = check(str(data.attrs["scenario"]) + "\n")
+            coefficient = nan if plan["friction_coefficient"] is None else plan["friction_coefficient"]
+            found.update(closure=plan["closure"], cells=plan["cells"], friction_coefficient=coefficient, damping_number=coefficient * found["time"])
+    return found
 
 
 def read(name, any_file=False):
@@ -282,6 +301,9 @@ def read(name, any_file=False):
     if data.attrs.get("slipfront_format") == "sweep 1":  # its dimensions have dots, as in friction.coefficient
         names = {name: name.replace(".", "_") for name in data.dims}
         data = data.drop_vars([new for old, new in names.items() if new != old], errors="ignore").rename(names)
+    data.attrs = {name: value.item() if isinstance(value, np.generic) else value for name, value in data.attrs.items() if name != "checksum"}
+    if data.attrs.get("finished") == 1 and data.sizes.get("time"):
+        data = data.assign_attrs(_summary(data))
     if "name" in data.coords and data["name"].dtype.kind == "S":
         data = data.assign_coords(name=(data["name"].dims, np.char.decode(data["name"].values, "utf-8"), data["name"].attrs)).set_xindex("name")
     return data

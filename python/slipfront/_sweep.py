@@ -25,9 +25,6 @@ _format = "sweep 2"  # 1 had dimensions with dots
 #: Units of numbers whose meaning does not have one, by the beginning or the end of the name.
 _units = {"energy_drift": "", "energy_": "mu b^2 A / (2 pi^2 (1 - nu))", "_front_observed": "b / A", "trailing_characteristic": "b / A",
           "first_crossing_time": "b / (c A)", "first_crossing_position": "b / A"}
-#: Units of axes.
-_axis_units = {"initial.stress_left": "mu A / pi", "initial.stress_right": "mu A / pi", "initial.width": "b / A", "domain.left": "b / A", "domain.right": "b / A",
-               "time.end": "b / (c A)", "chain.window": "b / A"}
 _not_by_default = {"time", "wall_seconds", "solve_seconds", "site_updates_per_second", "ranks", "threads"}
 
 
@@ -197,6 +194,15 @@ def _unit_of(name, meaning):
     return next((unit for ending, unit in _units.items() if name.endswith(ending) or name.startswith(ending)), ""), meaning
 
 
+def _unit_of_axis(key, values):
+    """Returns the unit of an axis, or "" if it has none. That of a friction parameter depends on the law and on normal_stress."""
+    _, unit = _slipfront.scenario_keys().get(key, ("", ""))
+    with contextlib.suppress(InputError):
+        if not key.startswith("friction.") and not isinstance(values[0], str) and symbols(unit):
+            return unit
+    return ""
+
+
 def dimension_of(key):
     """Returns the name of the dimension of an axis, which is an identifier: friction_coefficient for friction.coefficient."""
     return key.replace(".", "_")
@@ -212,8 +218,8 @@ def _dataset(about, axes, kept, values, reasons):
     variables["failure"] = (dims, reasons, {"long_name": "reason why there is no result; empty for a point that succeeded"})
     coordinates = {}
     for dim, (key, array) in zip(dims, axes.items()):
-        unit = {"dimensional_unit": _axis_units[key]} if key in _axis_units else {}
-        coordinates[dim] = (dim, array, {"long_name": f"{key} of the scenario", "key": key, **unit})
+        unit = _unit_of_axis(key, array)
+        coordinates[dim] = (dim, array, {"long_name": f"{key} of the scenario", "key": key, **({"dimensional_unit": unit} if unit else {})})
     return dataset(variables, coordinates,
                    {"Conventions": "CF-1.10", "source": f"slipfront {__version__}", "history": f"slipfront.sweep of {about['command']}",
                     "version": __version__, "scenario": about["scenario"], "set": "\n".join(about["set"]), "slipfront_format": _format,

@@ -9,14 +9,25 @@ from ._optional import import_optional
 FORMATS = ("png", "svg", "pdf", "jpg", "webp")
 
 
+def sweep_variable(dataset, options) -> str:
+    """Returns the name of the number of a sweep to draw."""
+    from .plots.sweep import variable_of
+
+    try:
+        return variable_of(dataset, options.variable or "")
+    except ValueError as error:
+        raise ValueError(f"--{error}") from error
+
+
 def main(argv) -> int:
     """Draws the pictures of a file. Returns the exit code; raises ValueError (bad input), OSError (files), ImportError (matplotlib)."""
-    parser = Arguments("plot", "Pictures of the NetCDF files of pulse, chain, compare and event, of the CSV of relations and event, and of samples.",
-                       ["slipfront plot pulse.nc", "slipfront plot pulse.nc --kind profiles -o profiles.pdf"])
+    parser = Arguments("plot", "Pictures of the NetCDF files of pulse, chain, compare, sweep and event, of the CSV of relations and event, and of samples.",
+                       ["slipfront plot pulse.nc", "slipfront plot pulse.nc --kind profiles -o profiles.pdf", "slipfront plot sweep.nc --variable slip_at_origin -o slip.png"])
     parser.add_argument("file", metavar="FILE", help="NetCDF or CSV")
     parser.add_argument("-o", "--output", metavar="PICTURE", type=file_name,
                         help="file of a single picture, the main kind unless --kind names another; the ending gives the format: " + ", ".join(FORMATS))
     parser.add_argument("--kind", help="the only kind of picture to draw (default without -o: all kinds for which the file has data, as FILE-KIND.png)")
+    parser.add_argument("--variable", metavar="NAME", help="number of a sweep to draw (default: slip_velocity_at_origin, or else the first that it has)")
     options = parser.parse_args(argv)
     import_optional("xarray")
     import_optional("matplotlib")
@@ -35,13 +46,16 @@ def main(argv) -> int:
         kinds = [options.kind]
     if options.output:
         kinds = kinds[:1]
+    variable = sweep_variable(dataset, options) if kinds == ["sweep"] else None
+    if options.variable and not variable:
+        raise ValueError(f"--variable {options.variable}: not for {options.file}; allowed: with the file of a sweep")
     written = []
     for kind in kinds:
         path = output if len(kinds) == 1 else output.with_stem(f"{output.stem}-{kind}")
-        save(choose.draw(dataset, kind), path)
+        save(choose.draw(dataset, kind, variable or ""), path)
         written.append(str(path))
         if not options.json and not options.quiet:
-            put(f"written to {path}")
+            put(f"written to {path}: {variable}" if variable else f"written to {path}")
     if options.json:
-        print(json.dumps({"pictures": written}))
+        print(json.dumps({"pictures": written, **({"variable": variable} if variable else {})}))
     return 0

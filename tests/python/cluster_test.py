@@ -3,6 +3,8 @@
 import logging
 import os
 import pickle
+import subprocess
+import tempfile
 import threading
 import unittest
 import warnings
@@ -15,6 +17,7 @@ try:
     from distributed import Client, LocalCluster
 except ImportError:
     Client = None
+STEP = os.path.join(os.environ["SLIPFRONT_SOURCE"], "cases/step-viscous.toml")
 logging.getLogger("distributed").setLevel(logging.CRITICAL)  # it would log the errors that these tests provoke
 
 
@@ -65,6 +68,15 @@ class Cluster(unittest.TestCase):
         self.assertIn("worker is gone", data.failure.values.ravel()[7])
         whole = slipfront.sweep(SCENARIO, MANY)
         self.assertTrue(data.slip_at_origin.where(data.failure == "").broadcast_equals(whole.slip_at_origin.where(data.failure == "")))
+
+    def test_the_command_runs_on_a_cluster(self):
+        cluster, _ = self.cluster()
+        with tempfile.TemporaryDirectory() as folder:
+            output = os.path.join(folder, "sweep.nc")
+            done = subprocess.run([os.environ["SLIPFRONT"], "sweep", STEP, "--vary", "friction.coefficient=0.5,1", "--cluster", cluster.scheduler_address, "-o", output],
+                                  capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertTrue(slipfront.open(output).identical(slipfront.sweep(STEP, {"friction.coefficient": [0.5, 1.0]})))
 
     def test_a_closed_cluster_is_an_error(self):
         cluster, client = self.cluster(processes=False)

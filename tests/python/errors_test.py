@@ -100,13 +100,14 @@ class Errors(CommandLine):
     def test_missing_library_names_the_package(self):
         for library, code, package in [("xarray", "slipfront.relations(stress=1)", "python3-xarray"), ("numpy", "", "python3-numpy"),
                                        ("netCDF4", f"slipfront.open({STEP!r})", "python3-netcdf4"), ("matplotlib", "import slipfront.plots", "python3-matplotlib"),
+                                       ("pandas", "slipfront.relations(stress=1)", "python3-pandas"), ("pandas", "slipfront.event(samples=0)", "python3-pandas"),
                                        ("distributed", f"slipfront.sweep({STEP!r}, {{'time.end': [1]}}, client=1)", "python3-distributed")]:
             done = python(f"import sys; sys.modules[{library!r}] = None\nimport slipfront\n{code}")
             self.assertIn(f"ImportError: {library} is missing; install the Debian package {package}, or `pip install {library}`", done.stderr)
 
     def test_an_unloadable_module_is_one_sentence(self):
         done = python("import sys; sys.modules['slipfront._slipfront'] = None\nimport slipfront")
-        self.assertRegex(done.stderr.splitlines()[-1], r"^ImportError: slipfront cannot load its compiled module with Python 3\..* on Linux \(.*\); use .*`pip install \.`$")
+        self.assertRegex(done.stderr.splitlines()[-1], r"^ImportError: slipfront cannot load its compiled module, which was built for cpython-.*, with Python 3\..* on .* Linux \(.*\); use .*`pip install \.`$")
 
     def test_an_import_of_the_folder_of_cases_keeps_its_path(self):
         done = python("import slipfront, slipfront.cases\nimport slipfront.cases as folder\nprint((slipfront.cases / 'step.toml').exists(), folder == slipfront.cases)")
@@ -173,7 +174,7 @@ class Nested(unittest.TestCase):
 class Commands(CommandLine):
     def test_the_program_runs_subcommands_written_in_python(self):
         help = self.ok("--help")
-        for name in ("plot", "reproduce", "animate"):
+        for name in ("sweep", "plot", "reproduce", "animate"):
             self.assertIn("\n  " + name, help)
         self.refused(3, "plot", "/nowhere.nc")
 
@@ -187,6 +188,28 @@ class Commands(CommandLine):
         self.assertEqual((done.returncode, done.stderr.count("\n")), (3, 1))
         self.assertIn("pybind11-dev", done.stderr)
 
+    def test_a_module_of_another_machine_is_one_sentence(self):
+        """The module is empty here. One of another architecture gives another reason."""
+        folder = os.path.dirname(self.file("x", ""))
+        build = os.path.dirname(os.path.dirname(PROGRAM))
+        package = os.path.join(folder, "python", "slipfront")
+        os.makedirs(package)
+        os.makedirs(os.path.join(folder, "bin"))
+        os.symlink(os.path.join(build, "lib"), os.path.join(folder, "lib"))
+        for name in os.listdir(os.path.join(build, "python", "slipfront")):
+            if name.startswith("_slipfront."):
+                open(os.path.join(package, name), "w").close()
+            else:
+                os.symlink(os.path.join(build, "python", "slipfront", name), os.path.join(package, name))
+        done = subprocess.run([shutil.copy(PROGRAM, os.path.join(folder, "bin")), "plot", "x.nc"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 3)
+        self.assertRegex(done.stderr, r"^slipfront: slipfront cannot load its compiled module, which was built for cpython-.*too short.*\n$")
+        module = subprocess.run([sys.executable, "-c", "import slipfront"], capture_output=True, text=True, env={**os.environ, "PYTHONPATH": os.path.join(folder, "python")})
+        self.assertIn("too short", module.stderr.splitlines()[-1])
+        os.remove(next(os.path.join(package, name) for name in os.listdir(package) if name.startswith("_slipfront.")))
+        none = subprocess.run([sys.executable, "-c", "import slipfront"], capture_output=True, text=True, env={**os.environ, "PYTHONPATH": os.path.join(folder, "python")})
+        self.assertIn("cannot load a compiled module, because none was built", none.stderr.splitlines()[-1])
+
     def test_a_folder_of_that_name_is_not_the_package(self):
         folder = os.path.dirname(self.file("x", ""))
         os.makedirs(os.path.join(folder, "slipfront"))
@@ -198,7 +221,7 @@ class Commands(CommandLine):
     def test_the_module_lists_its_commands(self):
         done = subprocess.run([sys.executable, "-m", "slipfront", "walk"], capture_output=True, text=True)
         self.assertEqual(done.returncode, 2)
-        self.assertIn("reproduce, plot, animate", done.stderr)
+        self.assertIn("sweep, reproduce, plot, animate", done.stderr)
 
 
 if __name__ == "__main__":

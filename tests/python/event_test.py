@@ -126,8 +126,20 @@ class Event(CommandLine):
         self.ok("event", catalogue, "-o", of_program)
         with open(of_program, "rb") as file:
             self.assertEqual(expected, file.read())
-        with self.assertRaisesRegex(slipfront.InputError, "unsupported file type"):
-            slipfront.event(catalogue, output=os.path.join(folder, "a.csv"))
+
+    def test_writes_the_csv_of_the_command(self):
+        catalogue = os.path.join(SOURCE, "cases/catalogue.csv")
+        folder = os.path.dirname(self.file("x", ""))
+        one, other = os.path.join(folder, "one.csv"), os.path.join(folder, "other.csv")
+        data = slipfront.event(catalogue, output=one)
+        self.ok("event", catalogue, "-o", other)
+        with open(one, "rb") as a, open(other, "rb") as b:
+            self.assertEqual(a.read(), b.read())
+        np.testing.assert_array_equal(pd.read_csv(one, float_precision="round_trip").stress, data.stress)
+        event = {"rupture_velocity": "3 km/s"}
+        for says, change in [("unsupported file type", {"output": "a.txt"}), ("no draws", {"output": one, "draws": 3}), ("cannot be resumed", {"output": one, "resume": "a.nc"})]:
+            with self.assertRaisesRegex(slipfront.InputError, f"{says}; allowed: a name that ends in .nc"):
+                slipfront.event(event, **change)
 
     def test_a_bad_event_does_not_lose_the_others(self):
         data = slipfront.event([{"name": "good", "rupture_velocity": "3 km/s"}, {"name": "bad", "rupture_velocity": "9 km/s"}])

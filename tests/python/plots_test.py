@@ -1,5 +1,6 @@
 """slipfront plot and slipfront.plots: the kinds of figures for each Dataset, labels with units, and refused input."""
 
+import json
 import os
 import unittest
 
@@ -101,6 +102,15 @@ class Figures(CommandLine):
                 plots.sweep(**{"data": data, **change})
             self.assertIn(says, str(caught.exception))
 
+    def test_an_axis_of_equal_ratios_is_logarithmic(self):
+        tables = {"set": {"friction.law": "viscous", "pulse.cells": 20}, "variables": ["slip_at_origin"]}
+        data = slipfront.sweep(STEP, {"friction.coefficient": [0.1, 1, 10], "initial.stress_left": [0.5, 1, 1.5]}, **tables)
+        axes = plots.sweep(data).axes[0]
+        self.assertEqual((axes.get_xscale(), axes.get_yscale()), ("linear", "log"))
+        np.testing.assert_allclose(axes.get_ylim(), [10**-1.5, 10**1.5])
+        self.assertEqual(plots.sweep(data.isel(initial_stress_left=0)).axes[0].get_xscale(), "log")
+        self.assertEqual(plots.sweep(data.isel(friction_coefficient=0)).axes[0].get_xscale(), "linear")
+
     def test_relations_are_drawn_in_order(self):
         states = slipfront.relations(stress=[1.0, 0.2, 0.5])
         figure = plots.relations(states)
@@ -130,6 +140,13 @@ class Figures(CommandLine):
         self.assertIn("by construction", stress.get_title(loc="left"))
         arrows = [text for text in bound.texts if getattr(text, "arrow_patch", None)]
         self.assertEqual(len(arrows), int(events["stress_pa_bound"].notnull().sum()))
+
+    def test_kinds_of_events_have_different_colours(self):
+        kinds = [f"kind {i}" for i in range(9)]
+        events = slipfront.event([{"rupture_velocity": "1 km/s", "kind": kind} for kind in kinds], samples=0)
+        handles, texts = plots.events(events, choose.line_through(events)).axes[0].get_legend_handles_labels()
+        colours = {text: handle.lines[0].get_color() for handle, text in zip(handles, texts) if text in kinds}
+        self.assertEqual(len(set(colours.values())), 9)
 
     def test_events_with_their_population(self):
         rows = "".join(f"E{i},{10 ** (-3 + 6 * i / 500)} m/s,{10 ** (-7 + 6 * i / 500)} m/s\n" for i in range(501))
@@ -222,6 +239,25 @@ class Command(CommandLine):
             self.ok("plot", path, "--kind", kinds[0], "-o", again)
             with open(again, "rb") as a, open(out, "rb") as b:
                 self.assertEqual(a.read(), b.read())  # each run writes the same bytes
+
+    def test_writes_one_file_of_the_given_name(self):
+        pulse = self.made("p.nc", "pulse", CASE)
+        for path in (pulse, self.made("k.nc", "chain", STEP, "--set", "chain.scale=50", "--quiet"), self.made("c.nc", "compare", STEP, "--scale", "30"),
+                     self.made("r.csv", "relations", "--stress", "0.2:2:9", "--csv"), self.made("e.csv", "event", "--csv"),
+                     self.made("s.nc", "sweep", STEP, "--vary", "initial.stress_left=0.5,1")):
+            with self.subTest(path):
+                folder = os.path.dirname(path)
+                before = set(os.listdir(folder))
+                self.ok("plot", path, "-o", os.path.join(folder, "name.png"))
+                self.assertEqual(set(os.listdir(folder)) - before, {"name.png"})
+
+    def test_names_the_number_of_a_sweep(self):
+        path = self.made("s.nc", "sweep", STEP, "--vary", "initial.stress_left=0.5,1")
+        out = os.path.join(os.path.dirname(path), "a.svg")
+        self.assertEqual(self.ok("plot", path, "-o", out), f"written to {out}: slip_velocity_at_origin\n")
+        self.assertEqual(json.loads(self.ok("plot", path, "-o", out, "--variable", "slip_at_origin", "--json")), {"pictures": [out], "variable": "slip_at_origin"})
+        self.refused(2, "plot", path, "--variable", "slip", says=["--variable", "'slip'", "slip_at_origin"])
+        self.refused(2, "plot", self.made("e.csv", "event", "--csv"), "--variable", "stress", says=["--variable stress", "sweep"])
 
     def test_refuses(self):
         csv = self.file("r.csv", self.ok("relations", "--stress", "1", "--csv"))

@@ -74,6 +74,12 @@ class Sweep(CommandLine):
             if name in fields and name != "scale":
                 self.assertEqual(chain[name].attrs["dimensional_unit"], fields[name].attrs["dimensional_unit"], name)
 
+    def test_axes_have_the_units_of_their_keys(self):
+        for key, values, unit in [("initial.stress_left", [0.8], "mu A / pi"), ("domain.left", [-9.0], "b / A"), ("time.end", [1.0], "b / (c A)"), ("pulse.cells", [50], None),
+                                  ("friction.coefficient", [1.0], None), ("friction.closure", ["paper"], None)]:
+            data = slipfront.sweep(SCENARIO, {key: values}, set={"domain.right": 9.0})
+            self.assertEqual(data[key.replace(".", "_")].attrs.get("dimensional_unit"), unit, key)
+
     def test_constants_that_vary_must_be_selected(self):
         rock = {"medium.shear_modulus": "30 GPa", "medium.p_wave_speed": "6 km/s", "medium.poisson_ratio": 0.3, "medium.asperity_spacing": "1 mm"}
         data = slipfront.sweep(SCENARIO, {"medium.contact_ratio": [0.01, 0.02]}, set=rock)

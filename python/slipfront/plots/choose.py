@@ -26,11 +26,13 @@ def kinds_of(dataset) -> list:
     return kinds[:1] if "level" in dataset.dims else kinds
 
 
-def draw(dataset, kind: str):
-    """Draws a picture of a kind in kinds_of(dataset). Returns a Figure."""
+def draw(dataset, kind: str, variable: str = ""):
+    """Draws a picture of a kind in kinds_of(dataset). Returns a Figure. `variable` is the number of a sweep to draw."""
     function = KINDS[kind][0]
     drawing = getattr(importlib.import_module(f".{function}", __package__), function)
-    return drawing(dataset, line_through(dataset)) if kind == "events" else drawing(dataset)
+    if kind == "events":
+        return drawing(dataset, line_through(dataset))
+    return drawing(dataset, variable) if kind == "sweep" else drawing(dataset)
 
 
 def line_through(events):

@@ -2,10 +2,8 @@
 
 from typing import Any
 
-from matplotlib.figure import Figure
-
 from .pulse_parts import mark_fronts, shades, title_of, window
-from .style import label, plain, styled, unit
+from .style import Picture, label, plain, styled, unit
 
 #: Lines of the levels that are no chains; chains are shaded by their scale.
 LEVELS: dict[str, dict[str, Any]] = {
@@ -16,7 +14,7 @@ LEVELS: dict[str, dict[str, Any]] = {
 
 
 @styled
-def comparison(levels, fields=("W", "Sigma", "slip")) -> Figure:
+def comparison(levels, fields=("W", "Sigma", "slip")) -> Picture:
     """Profiles of the levels at the last time, and slip at x = 0 on each: over time, or at the end where there are few times.
 
     Parameters
@@ -33,7 +31,7 @@ def comparison(levels, fields=("W", "Sigma", "slip")) -> Figure:
     >>> len(figure.axes)
     4
     """
-    figure = Figure(figsize=(7.6, 5.6))
+    figure = Picture(figsize=(7.6, 5.6))
     panels = figure.subplots(2, 2)
     grows = levels.sizes["time"] > 4  # else there is no course of time to draw
     names = [plain(name) for name in levels["name"].values]

@@ -2,10 +2,9 @@
 
 import numpy
 import xarray
-from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 
-from .style import label, plain, styled, unit
+from .style import Picture, label, plain, styled, unit
 
 #: Quantities that describe the state of the fault, in the order of the plot.
 STATES = ("stress", "contact_ratio", "stress_pa", "damping_number", "friction_coefficient")
@@ -89,7 +88,7 @@ def ticks(axis, scale) -> None:
 
 
 @styled
-def corner(samples, names=None, bins: int = 30) -> Figure:
+def corner(samples, names=None, bins: int = 30) -> Picture:
     """Draws a corner plot of samples.
 
     The histogram of each quantity shows its median and the interval from 5 % to 95 %. That of each pair of quantities shows the regions that
@@ -134,7 +133,7 @@ def corner(samples, names=None, bins: int = 30) -> Figure:
         if values.min() == values.max():
             raise ValueError(f"{name} = {values[0]:g} in every sample; allowed: quantities that vary")
     labels = [label(variable) for variable in variables]
-    figure = Figure(figsize=(1.4 + 2.0 * len(names), 1.2 + 1.9 * len(names)))
+    figure = Picture(figsize=(1.4 + 2.0 * len(names), 1.2 + 1.9 * len(names)))
     fill(figure.subplots(len(names), len(names), squeeze=False), table, labels, bins)
     figure.suptitle(title + "median [5 %, 95 %]; lines enclose 50 and 90 %", fontsize="small" if len(names) < 3 else "medium")
     return figure

@@ -1,12 +1,13 @@
 """Observed events on the rupture relation."""
 
 import numpy
-from matplotlib.figure import Figure
 
-from .style import plain, plain_numbers, styled
+from .style import Picture, plain, plain_numbers, styled
 
-#: Marks of the kinds of event in the shipped catalogue; any other gets the next.
+#: Marks and colours of the kinds of event. Their numbers have no common divisor, so that 72 kinds differ in one or the other.
+#: Colour-blind readers can distinguish the colours: they are the scheme "muted" of Tol (2021).
 MARKS = "osD^vP*X"
+COLOURS = ("#CC6677", "#332288", "#117733", "#88CCEE", "#882255", "#DDCC77", "#44AA99", "#999933", "#AA4499")
 
 #: More events than this are drawn as a cloud.
 MANY = 400
@@ -43,13 +44,13 @@ def panel(axes, events, name, kinds, scale=1.0):
         if not chosen.any():
             continue
         x, y = events["rupture_velocity"].values[chosen], scale * events[name].values[chosen].astype(float)
-        label = plain(kind.replace("_", " ")) or "events"
+        label, colour = plain(kind.replace("_", " ")) or "events", COLOURS[i % len(COLOURS)]
         if events["stress"].size > MANY:
-            axes.plot(x, y, linestyle="none", marker=".", markersize=2, markeredgewidth=0, color=f"C{i}", alpha=0.4, label=label, rasterized=True)
+            axes.plot(x, y, linestyle="none", marker=".", markersize=2, markeredgewidth=0, color=colour, alpha=0.4, label=label, rasterized=True)
             continue
         if name.endswith("_bound"):
-            arrows(axes, x, y, f"C{i}")
-        axes.errorbar(x, y, fmt=MARKS[i % len(MARKS)], color=f"C{i}", xerr=None if across is None else across[:, chosen],
+            arrows(axes, x, y, colour)
+        axes.errorbar(x, y, fmt=MARKS[i % len(MARKS)], color=colour, xerr=None if across is None else across[:, chosen],
                       yerr=None if up is None else scale * up[:, chosen], label=label, alpha=0.85, linewidth=0.8, linestyle="none", markeredgewidth=0.8)
 
 
@@ -88,7 +89,7 @@ def known(events, name) -> bool:
 
 
 @styled
-def events(events, line) -> Figure:
+def events(events, line) -> Picture:
     """Stress against rupture velocity, dimensionless and in MPa, and slip velocity where there is any, with the closed-form lines (Eqs. 8-10).
 
     Parameters
@@ -109,7 +110,7 @@ def events(events, line) -> Figure:
     """
     kinds = sorted(set(texts(events["kind"]))) if "kind" in events else [""]
     shown = ["stress"] + [name for name in ("stress_pa", "stress_pa_bound", "observed_slip_velocity") if known(events, name)]
-    figure = Figure(figsize=((5.0, 7.6, 10.8, 14.0)[len(shown) - 1], 4.2))
+    figure = Picture(figsize=((5.0, 7.6, 10.8, 14.0)[len(shown) - 1], 4.2))
     panels = dict(zip(shown, figure.subplots(1, len(shown), squeeze=False)[0]))
     for name, axes in panels.items():
         scale = 1e-6 if name.startswith("stress_pa") else 1.0

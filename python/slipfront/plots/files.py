@@ -4,6 +4,7 @@ import pathlib
 
 import xarray
 
+from .._optional import import_optional
 from .._run import read as read_netcdf
 
 
@@ -35,8 +36,7 @@ def netcdf(path) -> xarray.Dataset:
 
 def rows(path) -> xarray.Dataset:
     """A CSV file with a header, as a Dataset over `row`."""
-    import pandas
-
+    pandas = import_optional("pandas")
     try:
         table = pandas.read_csv(path)
     except (ValueError, UnicodeError) as error:  # pandas' own errors are ValueErrors

@@ -1,10 +1,9 @@
 """Draws profiles of fields along the interface at several times."""
 
 import numpy
-from matplotlib.figure import Figure
 
 from .pulse_parts import backward, extent, finite, mark_fronts, shades, title_of, window
-from .style import label, styled, unit
+from .style import Picture, label, styled, unit
 
 
 def room(lowest, highest, below) -> tuple:
@@ -14,7 +13,7 @@ def room(lowest, highest, below) -> tuple:
 
 
 @styled
-def profiles(pulse, fields=("W", "Sigma", "slip"), times: int = 5) -> Figure:
+def profiles(pulse, fields=("W", "Sigma", "slip"), times: int = 5) -> Picture:
     """Draws profiles of fields along the interface at several times, with one panel for each field.
 
     Parameters
@@ -40,7 +39,7 @@ def profiles(pulse, fields=("W", "Sigma", "slip"), times: int = 5) -> Figure:
     pulse = finite(pulse)
     fields = [name for name in fields if name in pulse]
     rows = numpy.unique(numpy.linspace(0, pulse.sizes["time"] - 1, times).round().astype(int))
-    figure = Figure(figsize=(6.4, 0.7 + 1.9 * len(fields)))
+    figure = Picture(figsize=(6.4, 0.7 + 1.9 * len(fields)))
     panels = figure.subplots(len(fields), 1, sharex=True, squeeze=False)[:, 0]
     for axes, name in zip(panels, fields):
         for colour, row in zip(shades(len(rows)), rows):

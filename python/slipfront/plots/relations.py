@@ -1,13 +1,12 @@
 """Rupture and slip relations: what a stress means in velocities (Eqs. 8-10)."""
 
 import numpy
-from matplotlib.figure import Figure
 
-from .style import label, plain_numbers, styled
+from .style import Picture, label, plain_numbers, styled
 
 
 @styled
-def relations(states) -> Figure:
+def relations(states) -> Picture:
     """Rupture and leading velocity (above) and slip velocity at x = 0 (below) against the initial stress, on linear and logarithmic axes.
 
     Parameters
@@ -24,7 +23,7 @@ def relations(states) -> Figure:
     """
     order = numpy.argsort(states["stress"].values.ravel())
     stress = states["stress"].values.ravel()[order]
-    figure = Figure(figsize=(7.2, 5.6))
+    figure = Picture(figsize=(7.2, 5.6))
     axes = figure.subplots(2, 2, sharex="col")
     single = "o" if order.size == 1 else None
     for column, scale in enumerate(("linear", "log")):

@@ -1,13 +1,12 @@
 """Draws maps of fields over position and time."""
 
 import numpy
-from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import MaxNLocator
 
 from .between import between
 from .pulse_parts import backward, extent, finite, fronts_of, title_of, window
-from .style import label, styled
+from .style import Picture, label, styled
 
 #: Number of points of a map, along x and along time.
 POINTS = (600, 400)
@@ -38,7 +37,7 @@ def name_fronts(axes, pulse) -> None:
 
 
 @styled
-def space_time(pulse, fields=("W", "Sigma")) -> Figure:
+def space_time(pulse, fields=("W", "Sigma")) -> Picture:
     """Draws maps of fields over position (horizontal) and time (vertical), with the lines of the fronts.
 
     Cells that are not finite are grey.
@@ -63,7 +62,7 @@ def space_time(pulse, fields=("W", "Sigma")) -> Figure:
     """
     pulse = finite(pulse)
     fields = [name for name in fields if name in pulse]
-    figure = Figure(figsize=(3.7 * len(fields), 4.2))
+    figure = Picture(figsize=(3.7 * len(fields), 4.2))
     panels = figure.subplots(1, len(fields), sharey=True, squeeze=False)[0]
     (left, right), outputs = window(pulse), pulse["time"].values
     # These are the edges of the map's points. The values are computed at their centres.

@@ -51,15 +51,31 @@ for _name, _unit, _label in event_quantities():
         UNITS[_name] = _unit
 
 
+class Picture(Figure):
+    """A Figure that a notebook shows as a picture, also without `%matplotlib inline`."""
+
+    def _repr_png_(self) -> bytes:
+        return drawn(self, "png")
+
+
+def drawn(figure: Figure, kind: str, **options) -> bytes:
+    """Returns the content of a file of a picture. `kind` is its format."""
+    picture = io.BytesIO()
+    # matplotlib 3.6 would change the layout of a figure that has no layout engine while it saves the figure.
+    with matplotlib.rc_context(fname=SHEET), matplotlib.rc_context({"figure.constrained_layout.use": False}):
+        figure.savefig(picture, format=kind, metadata={"Date": None} if kind == "svg" else None, **options)
+    return picture.getvalue()
+
+
 def styled(draw):
     """Decorator of a function that draws a Figure. It applies the style sheet."""
 
     @functools.wraps(draw)
-    def drawn(*arguments, **options):
+    def with_style(*arguments, **options):
         with matplotlib.rc_context(fname=SHEET):
             return draw(*arguments, **options)
 
-    return drawn
+    return with_style
 
 
 def save(figure: Figure, path, **options) -> None:
@@ -91,14 +107,7 @@ def save(figure: Figure, path, **options) -> None:
     if kind not in formats:
         raise ValueError(f"{path}: a picture cannot be '.{kind}'; allowed: {', '.join(sorted(formats))}")
 
-    def drawn():
-        picture = io.BytesIO()
-        # matplotlib 3.6 would change the layout of a figure that has no layout engine while it saves the figure.
-        with matplotlib.rc_context(fname=SHEET), matplotlib.rc_context({"figure.constrained_layout.use": False}):
-            figure.savefig(picture, format=kind, metadata={"Date": None} if kind == "svg" else None, **options)
-        return picture.getvalue()
-
-    write_bytes(path, isolated(path, drawn))
+    write_bytes(path, isolated(path, lambda: drawn(figure, kind, **options)))
 
 
 def plain(text) -> str:

@@ -1,10 +1,10 @@
 """Draws a number of a sweep against its axes."""
 
 import numpy
-from matplotlib.figure import Figure
 
+from .relations import spans_decades
 from .space_time import colours
-from .style import label, styled
+from .style import Picture, label, plain_numbers, styled
 
 #: Numbers of a sweep to draw by default, the first that it has.
 PREFERRED = ("slip_velocity_at_origin", "peak_slip_velocity", "slip_at_origin")
@@ -15,11 +15,42 @@ def axis_label(coordinate) -> str:
     return label(coordinate, str(coordinate.name).replace("_", " "))
 
 
+def variable_of(data, variable: str = "") -> str:
+    """Returns the name of the number to draw: `variable`, or the default. Raises ValueError if the sweep has no such number."""
+    numbers = [str(name) for name, values in data.data_vars.items() if values.dtype.kind in "fiu"]
+    variable = variable or next((name for name in (*PREFERRED, *numbers) if name in numbers), "")
+    if variable not in numbers:
+        raise ValueError(f"variable = '{variable}': not a number of this sweep; allowed: {', '.join(numbers)}")
+    return variable
+
+
+def has_equal_ratios(values) -> bool:
+    """Whether the values of an axis have equal ratios over more than a decade. Such an axis is logarithmic."""
+    if values.size < 3 or values.min() <= 0 or not spans_decades(values):
+        return False
+    ratios = values[1:] / values[:-1]
+    return bool(numpy.allclose(ratios, ratios[0], rtol=1e-6))
+
+
+def edges(values):
+    """Returns the edges of the cells of a map around these values, which increase."""
+    logarithmic = has_equal_ratios(values)
+    at = numpy.log(values) if logarithmic else values.astype(float)
+    middle = (at[1:] + at[:-1]) / 2
+    all_edges = numpy.concatenate([[2 * at[0] - middle[0]], middle, [2 * at[-1] - middle[-1]]])
+    return numpy.exp(all_edges) if logarithmic else all_edges
+
+
+def scale_of(coordinate) -> str:
+    """Returns the scale of an axis: "log" if its values have equal ratios, and otherwise "linear"."""
+    return "log" if coordinate.dtype.kind in "fiu" and has_equal_ratios(coordinate.values) else "linear"
+
+
 @styled
-def sweep(data, variable: str = "") -> Figure:
+def sweep(data, variable: str = "") -> Picture:
     """Draws a number of a sweep: lines for one swept dimension, and a map for two.
 
-    Dimensions of length 1 do not count. Points that failed are gaps in a line, and grey in a map. An axis of texts, such as
+    Dimensions of length 1 do not count. An axis whose values have equal ratios over more than a decade is logarithmic. Points that failed are gaps in a line, and grey in a map. An axis of texts, such as
     friction.closure, gives one line for each of them.
 
     Parameters
@@ -44,15 +75,11 @@ def sweep(data, variable: str = "") -> Figure:
     >>> figure.axes[0].get_xlabel()
     'initial stress left, μA/π'
     """
-    numbers = [str(name) for name, values in data.data_vars.items() if values.dtype.kind in "fiu"]
-    variable = variable or next((name for name in (*PREFERRED, *numbers) if name in numbers), "")
-    if variable not in numbers:
-        raise ValueError(f"variable = '{variable}': not a number of this sweep; allowed: {', '.join(numbers)}")
-    values = data[variable].squeeze()
+    values = data[variable_of(data, variable)].squeeze()
     if not 1 <= values.ndim <= 2:
         raise ValueError(f"the sweep has {values.ndim} dimensions of two or more values; allowed: 1 or 2; select values of the others with .sel")
     texts = [dim for dim in values.dims if values[dim].dtype.kind not in "fiu"]
-    figure = Figure(figsize=(6.0, 4.0))
+    figure = Picture(figsize=(6.0, 4.0))
     axes = figure.subplots()
     if values.ndim == 1 or texts:
         lines(axes, values.transpose(*texts[:1], ...))
@@ -60,10 +87,13 @@ def sweep(data, variable: str = "") -> Figure:
     else:
         values = values.sortby(list(values.dims))
         up, across = (values[dim] for dim in values.dims)
-        image = axes.pcolormesh(across, up, numpy.ma.masked_invalid(values.values), shading="nearest", rasterized=True, **colours(values.values))
+        image = axes.pcolormesh(edges(across.values), edges(up.values), numpy.ma.masked_invalid(values.values), rasterized=True, **colours(values.values))
         axes.set_facecolor("0.75")
         axes.grid(False)
-        axes.set(xlabel=axis_label(across), ylabel=axis_label(up))
+        axes.set(xlabel=axis_label(across), ylabel=axis_label(up), xscale=scale_of(across), yscale=scale_of(up))
+        for axis in (axes.xaxis, axes.yaxis):
+            if axis.get_scale() == "log":
+                plain_numbers(axis)
         figure.colorbar(image, ax=axes, label=label(values))
     return figure
 
@@ -80,3 +110,6 @@ def lines(axes, values) -> None:
     if values.ndim == 2:
         axes.legend([str(text) for text in values[values.dims[0]].values], title=axis_label(values[values.dims[0]]))
     axes.set_xlabel(axis_label(across))
+    if scale_of(across) == "log":
+        axes.set_xscale("log")
+        plain_numbers(axes.xaxis)

@@ -1,0 +1,28 @@
+"""Exit codes and messages of the subcommands that are written in Python."""
+
+import contextlib
+import sys
+from collections.abc import Callable
+
+DONE, INPUT, FILE, NUMERICS, INTERRUPTED = 0, 2, 3, 4, 130
+
+
+def complain(error):
+    """Prints an error or a warning as one line on stderr."""
+    text = " ".join(str(error).split()) or type(error).__name__
+    with contextlib.suppress(ImportError):  # without the compiled module, that is the error to print
+        from ._slipfront import printable
+
+        text = printable(text.encode("utf-8", "surrogateescape"))
+    with contextlib.suppress(OSError):
+        print(f"slipfront: {text}", file=sys.stderr)
+
+
+class Interruption:
+    """Records whether the user has interrupted the program. We need it because libraries may turn the KeyboardInterrupt into
+    another error."""
+
+    seen = False
+
+    #: Returns how to continue, to be printed after the word "interrupted".
+    advice: Callable[[], str] = staticmethod(lambda: "")

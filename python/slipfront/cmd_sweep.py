@@ -1,0 +1,204 @@
+"""The command slipfront sweep, which runs a scenario at every point of a grid of settings."""
+
+import csv
+import itertools
+import json
+import os
+import shutil
+import sys
+import warnings
+
+from . import _slipfront
+from ._arguments import Arguments, file_name, put
+from ._grid import values_of
+from ._messages import DONE, NUMERICS, Interruption, complain
+from ._slipfront import InputError
+
+#: Largest number of points in the table for the terminal.
+MOST_ROWS = 40
+
+#: Columns of the table, as far as they fit.
+COLUMNS = ("slip_velocity_at_origin", "slip_at_origin", "stress_at_origin", "peak_slip_velocity", "trailing_front", "leading_front")
+
+
+def arguments(argv):
+    """Returns the options of the command line."""
+    parser = Arguments("sweep", "Runs a scenario at every point of a grid of settings, as slipfront.sweep does in Python. VALUES are a list such as 0.1,0.5,2, "
+                       "a range first:last:count such as 0:2:9, or a range first:last:count:log with equal ratios such as 0.1:10:5:log. A list may contain ranges. "
+                       "A key with a unit takes it after the value, as in 1:3:5 MPa. `slipfront keys` lists the keys. If a point fails, its row names the reason, "
+                       "and the exit code is 4.",
+                       ["slipfront sweep cases/step-viscous.toml --vary friction.coefficient=0:2:9 -o sweep.nc",
+                        "slipfront sweep cases/step.toml --vary initial.stress_left=0.1:1:4:log --csv",
+                        "slipfront sweep cases/step-viscous.toml --vary friction.coefficient=0.5,1 --vary friction.closure=paper,consistent --json"])
+    parser.add_argument("scenario", metavar="SCENARIO", help="scenario file, TOML")
+    parser.add_argument("--vary", metavar="KEY=VALUES", action="append", required=True,
+                        help="key of the scenario and its values; repeatable: the sweep runs all combinations")
+    parser.add_argument("-o", "--output", metavar="OUT.nc", type=file_name,
+                        help="NetCDF file to write at the end; until then OUT.nc.part has the finished points")
+    parser.add_argument("--resume", metavar="OUT.nc", type=file_name, help="resume the interrupted sweep of this file, and write to it")
+    parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help="table.key=value, which replaces that of the scenario; repeatable")
+    parser.add_argument("--command", choices=("pulse", "chain"), default="pulse", help="what to run: pulse (default) or chain")
+    parser.add_argument("--variables", metavar="NAMES", type=lambda text: text.split(","),
+                        help="numbers of each run to keep, with commas between them (default: all that pulse --json prints)")
+    parser.add_argument("--cluster", metavar="ADDRESS", help="Dask scheduler whose workers run the points, such as tcp://HOST:8786")
+    parser.add_argument("--csv", action="store_true", help="one CSV row each, full precision")
+    options = parser.parse_args(argv)
+    if options.json and options.csv:
+        raise ValueError("--json and --csv: both are given; allowed: one of them")
+    for option, path in (("-o", options.output), ("--resume", options.resume)):
+        if path is not None and not path.endswith(".nc"):
+            raise ValueError(f"{option} {path}: unsupported file type; allowed: a name that ends in .nc")
+    return options
+
+
+def pairs(option, texts):
+    """Returns {key: text} of the options `--vary KEY=VALUES` or `--set KEY=VALUE`."""
+    found = {}
+    for text in texts:
+        key, equals, value = (part.strip() for part in text.partition("="))
+        if not key or not equals:
+            raise ValueError(f"{option} {text}: no key and value; allowed: KEY=VALUE, such as friction.coefficient=0.5")
+        if key in found and option == "--vary":
+            raise ValueError(f"{option} {text}: {key} is given twice; allowed: once, with all its values")
+        found[key] = value
+    return found
+
+
+def axes_of(texts):
+    """Returns {key: values} of the options --vary."""
+    kinds, axes = _slipfront.scenario_keys(), {}
+    for key, text in pairs("--vary", texts).items():
+        try:
+            axes[key] = values_of(text, kinds.get(key, ("number", ""))[0])
+        except ValueError as error:
+            raise ValueError(f"--vary {key}={text}: {error}") from None
+    return axes
+
+
+def client_of(address):
+    """Returns the client of a Dask cluster. Raises OSError if there is none at this address."""
+    from ._optional import import_optional
+
+    try:
+        return import_optional("distributed").Client(address, timeout="10s")
+    except (OSError, ValueError) as error:
+        raise OSError(f"--cluster {address}: no Dask scheduler answers there: {error}") from error
+
+
+def run(options, axes):
+    """Runs the sweep. An error names the options of the command line instead of the parameters of the function."""
+    from . import sweep
+
+    client = client_of(options.cluster) if options.cluster else None
+    settings = pairs("--set", options.set)
+    try:
+        return sweep(options.scenario, axes, variables=options.variables, set=settings, command=options.command, output=options.output, resume=options.resume,
+                     client=client, progress=sys.stderr.isatty() and not options.quiet, threads=options.threads)
+    except InputError as error:
+        text = str(error)
+        if text.startswith("axes: "):
+            text = text.replace("axes: ", "--vary: ", 1)
+        elif any(text.startswith(f"--set: {key}") for key in axes):
+            text = text.replace("--set: ", "--vary: ", 1)
+        raise ValueError(text.replace("variables: ", "--variables: ", 1)) from error
+    finally:
+        if client is not None:
+            client.close()
+
+
+def rows_of(data):
+    """Yields a dict for each point: the keys with their values, the numbers, and `failure`."""
+    keys = {dim: data[dim].attrs["key"] for dim in data["failure"].dims}
+    flat = {name: data[name].values.ravel().tolist() for name in data.data_vars}
+    points = itertools.product(*(data[dim].values.tolist() for dim in keys))
+    for i, point in enumerate(points):
+        yield {**dict(zip(keys.values(), point)), **{name: values[i] for name, values in flat.items()}}
+
+
+def short(value):
+    if isinstance(value, bool):
+        return str(value).lower()
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+def column(title, unit, cells):
+    longest = max(map(len, (title, unit, *cells)))
+    return [cell.rjust(longest) for cell in (title, unit, *cells)]
+
+
+def width_of(columns):
+    return sum(len(cells[0]) + 2 for cells in columns) - 2
+
+
+def table(data, width):
+    """Returns a table of the points as text: the axes, and as many numbers as fit into the width."""
+    rows = list(itertools.islice(rows_of(data), MOST_ROWS))
+    numbers = []
+    for name in dict.fromkeys((*COLUMNS, *data.data_vars)):
+        if name in data and name != "failure":
+            numbers.append(column(name, data[name].attrs["dimensional_unit"], ["failed" if row["failure"] else short(row[name]) for row in rows]))
+
+    def axes(title):
+        keys = {data[dim].attrs["key"]: data[dim].attrs.get("dimensional_unit", "") for dim in data["failure"].dims}
+        return [column(title(key), unit, [short(row[key]) for row in rows]) for key, unit in keys.items()]
+
+    columns = axes(lambda key: key)
+    if width_of(columns + numbers[:1]) > width:
+        columns = axes(lambda key: key.rpartition(".")[2])
+    columns += numbers[:1]
+    for cells in numbers[1:]:
+        if width_of([*columns, cells]) > width:
+            break
+        columns.append(cells)
+    return "\n".join("  ".join(cells).rstrip() for cells in zip(*columns))
+
+
+def known(value):
+    """Returns the value, or None for a NaN and for the empty text of `failure`."""
+    return None if value != value or value == "" else value
+
+
+def report(data, options):
+    """Prints the results in the form that the options choose."""
+    file = options.output or options.resume
+    failed = int((data["failure"] != "").sum())
+    if options.json:
+        points = [{name: known(value) for name, value in row.items()} for row in rows_of(data)]
+        print(json.dumps({"command": options.command, "file": file, "failed": failed, "points": points}))
+    elif options.csv:
+        out = csv.writer(sys.stdout, lineterminator="\n")
+        for i, row in enumerate(rows_of(data)):
+            if i == 0:
+                out.writerow(row)
+            out.writerow([known(value) for value in row.values()])
+    else:
+        put(table(data, shutil.get_terminal_size().columns if sys.stdout.isatty() else 80))
+        if data["failure"].size > MOST_ROWS and not options.quiet:
+            put(f"... and {data['failure'].size - MOST_ROWS} more points; --csv prints all of them")
+        if file and not options.quiet:
+            put(f"written to {file}")
+    return failed
+
+
+def main(argv) -> int:
+    """Runs the sweep and returns the exit code. Raises ValueError for bad input, OSError for files, and ImportError for a missing
+    library."""
+    options = arguments(argv)
+    axes = axes_of(options.vary)
+    file = options.resume or options.output
+
+    def advice():
+        if file and os.path.exists(f"{file}.part"):
+            return f"; the finished points are in {file}.part: continue with --resume {file}"
+        return "; nothing was written (a sweep with -o OUT.nc can be resumed)"
+
+    Interruption.advice = advice
+    with warnings.catch_warnings(record=True) as seen:
+        warnings.simplefilter("always")
+        data = run(options, axes)
+    failed = report(data, options)
+    sys.stdout.flush()
+    if not options.quiet:
+        for warning in seen:
+            complain(warning.message)
+    return NUMERICS if failed else DONE
