@@ -61,7 +61,7 @@ void block_interrupts() {
   if (folder.empty())
     throw slipfront::FileError(name +
                                ": the Python package slipfront is missing next to this program; install the Debian "
-                               "packages pybind11-dev and python3-dev, and build again");
+                               "package python3-slipfront, or pybind11-dev and python3-dev, and build again");
   std::string path = folder.string();
   if (const char* others = std::getenv("PYTHONPATH"); others && *others) path += std::string(":") + others;
   setenv("PYTHONPATH", path.c_str(), 1);

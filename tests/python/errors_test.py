@@ -218,10 +218,12 @@ class Commands(CommandLine):
         done = subprocess.run([PROGRAM, "plot", "/nowhere.nc"], capture_output=True, text=True, cwd=folder)
         self.assertEqual(done.returncode, 3)
 
-    def test_the_module_lists_its_commands(self):
-        done = subprocess.run([sys.executable, "-m", "slipfront", "walk"], capture_output=True, text=True)
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("sweep, reproduce, plot, animate", done.stderr)
+    def test_the_module_hands_other_commands_to_the_program(self):
+        module, command = [sys.executable, "-m", "slipfront"], ["relations", "--stress", "1.03"]
+        answer = subprocess.run([PROGRAM, *command], capture_output=True, text=True).stdout
+        self.assertIn("0.5439026", answer)
+        self.assertEqual(subprocess.run([*module, *command], capture_output=True, text=True).stdout, answer)
+        self.assertEqual(subprocess.run([*module, "walk"], capture_output=True, text=True).returncode, 2)
 
 
 if __name__ == "__main__":
