@@ -284,7 +284,8 @@ def _summary(data):
 def read(name, any_file=False):
     """Like `open`, but also reads other NetCDF files if `any_file` is true."""
     xarray = import_optional("xarray")
-    import_optional("netCDF4")
+    with _slipfront.NetcdfLock():  # the import initialises the libraries of NetCDF
+        import_optional("netCDF4")
     _slipfront.require_readable_netcdf(os.fsencode(name))  # a damaged file would crash the NetCDF library, and Python with it
     try:
         # The NetCDF library is not thread-safe. A process that is forked while another thread uses it would wait for ever.
