@@ -11,7 +11,7 @@ import slipfront
 
 class Stubs(unittest.TestCase):
     def test_agree_with_the_modules(self):
-        for name in ("slipfront", "slipfront.train", "slipfront.medium"):
+        for name in ("slipfront", "slipfront.train", "slipfront.medium", "slipfront.plots"):
             module = importlib.import_module(name)
             self.assertTrue(module.__doc__)
             stub = ast.parse(pathlib.Path(module.__file__).with_suffix(".pyi").read_text())
@@ -27,6 +27,7 @@ class Stubs(unittest.TestCase):
                 optional = len(arguments.args) - len(arguments.defaults)
                 said = [(a.arg, False, i >= optional) for i, a in enumerate(arguments.args)]
                 said += [(a.arg, True, d is not None) for a, d in zip(arguments.kwonlyargs, arguments.kw_defaults)]
+                said += [(a.arg, False, False) for a in [arguments.kwarg] if a]
                 self.assertEqual(said, [(p.name, p.kind is p.KEYWORD_ONLY, p.default is not p.empty) for p in real], key)
 
     def test_the_package_says_that_it_is_typed(self):
