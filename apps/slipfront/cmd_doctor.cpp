@@ -89,7 +89,7 @@ std::vector<Check> all_checks() {
       {"explorer", "slipfront explore", has_page, has_page ? page.string() : "", "build it with ./run explore"},
       {"Python", "plot, animate and reproduce", !version.empty(), version, "apt-get install python3"},
       {"slipfront", "the Python package of this program", !package.empty(), package.string(),
-       "apt-get install python3-slipfront, or pybind11-dev and python3-dev, and build again"},
+       "apt-get install python3-slipfront, or pybind11-dev and build again"},
   };
   for (const Library& library : libraries) checks.push_back(check_of(library, versions[library.module]));
   return checks;

@@ -20,7 +20,8 @@ if pathlib.Path(__file__).with_name("extra").exists():  # the explorer is part o
     extensions.append("explorer_links")
     html_extra_path = ["extra"]
 root_doc = "index"
-exclude_patterns = ["docs/gallery", "docs/tutorials"]  # Sphinx-Gallery writes their pages to gallery/ and tutorials/
+# Sphinx-Gallery writes the pages of these folders to gallery/ and tutorials/, and a page with the times of their programs.
+exclude_patterns = ["docs/gallery", "docs/tutorials", "**/sg_execution_times.rst"]
 
 html_theme = "furo"
 html_title = "slipfront"
