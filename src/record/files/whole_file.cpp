@@ -9,12 +9,17 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <charconv>
+#include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include "record/files/text_file.hpp"
@@ -50,19 +55,34 @@ bool all_digits(std::string_view text) {
   return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
-/// Whether `name` is a name that PartFile uses for `target`.
-bool is_part(std::string_view name, const std::string& target) {
+/// The process in `name`, if PartFile uses this name for `target`.
+std::optional<pid_t> writer_of(std::string_view name, const std::string& target) {
   const std::string begin = target + ".part";
-  if (name.substr(0, begin.size()) != begin) return false;
+  if (name.substr(0, begin.size()) != begin) return {};
   name.remove_prefix(begin.size());
   const std::size_t dash = name.find('-');
-  return dash != std::string_view::npos && all_digits(name.substr(0, dash)) && all_digits(name.substr(dash + 1));
+  if (dash == std::string_view::npos || !all_digits(name.substr(0, dash)) || !all_digits(name.substr(dash + 1)))
+    return {};
+  pid_t process = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + dash, process);
+  return error == std::errc() ? std::optional(process) : std::nullopt;
 }
 
 /// Unlocks and closes a file. Without the explicit unlock, a process that was started meanwhile would keep the lock.
 int close_unlocked(int descriptor) {
   flock(descriptor, LOCK_UN);
   return close(descriptor);
+}
+
+/// Locks a part file of the process `writer`, unless another process holds the lock. A process that was killed can
+/// leave the lock to its copy (record/netcdf/isolated), which the system ends a moment later, so we wait for it.
+bool lock_part(int part, pid_t writer) {
+  for (int tries = 0;; ++tries) {
+    if (flock(part, LOCK_EX | LOCK_NB) == 0) return true;
+    const bool ended = kill(writer, 0) != 0 && errno == ESRCH;
+    if (!ended || tries == 50) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
 }
 
 /// Removes the part files of `target` that no process has locked. A process looks only once for each target, because a
@@ -76,10 +96,11 @@ void remove_parts(const fs::path& target) {
   // We avoid the iterators of std::filesystem, which end the program if memory runs out.
   const std::unique_ptr<DIR, int (*)(DIR*)> entries(opendir(folder.c_str()), closedir);
   while (const dirent* entry = entries ? readdir(entries.get()) : nullptr) {
-    if (!is_part(entry->d_name, target.filename().string())) continue;
+    const std::optional<pid_t> writer = writer_of(entry->d_name, target.filename().string());
+    if (!writer || *writer <= 0) continue;
     const int part = openat(dirfd(entries.get()), entry->d_name, O_WRONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
     if (part < 0) continue;
-    if (flock(part, LOCK_EX | LOCK_NB) == 0) unlinkat(dirfd(entries.get()), entry->d_name, 0);
+    if (lock_part(part, *writer)) unlinkat(dirfd(entries.get()), entry->d_name, 0);
     close_unlocked(part);
   }
 }

@@ -107,11 +107,13 @@ void limit_processor(unsigned long seconds) {
 }
 
 /// Runs the copy. It exits directly, without the destructors of this program and without flushing stdio.
-[[noreturn]] void live_as_copy(int pipe, const std::function<std::string()>& work, unsigned long seconds) {
+[[noreturn]] void live_as_copy(pid_t parent, int pipe, const std::function<std::string()>& work,
+                               unsigned long seconds) {
   is_copy = true;
   limit_processor(seconds);
-  prctl(PR_SET_PDEATHSIG, SIGKILL);  // without its parent, no process would rename the file
-  sigset_t others;                   // the parent handles Ctrl-C and similar signals
+  prctl(PR_SET_PDEATHSIG, SIGKILL);   // without its parent, no process would rename the file
+  if (getppid() != parent) _exit(1);  // the parent ended before the line above
+  sigset_t others;                    // the parent handles Ctrl-C and similar signals
   sigfillset(&others);
   for (const int crash : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU}) {
     std::signal(crash, SIG_DFL);
@@ -173,13 +175,14 @@ std::string isolated(const std::string& name, const std::string& failed, const s
   if (is_copy) return work();
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) return work();
+  const pid_t parent = getpid();
   pid_t copy = -1;
   {
     const auto nobody_is_within = lock_netcdf();
     copy = fork();
     if (copy == 0) {
       close(ends[0]);
-      live_as_copy(ends[1], work, seconds);
+      live_as_copy(parent, ends[1], work, seconds);
     }
   }
   close(ends[1]);
