@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "slipfront/catalogue/measured.hpp"
@@ -16,6 +17,28 @@ namespace slipfront::catalogue {
 
 /// Which slip velocity of the model the observed slip velocity is compared with.
 using friction_ratio::Measure;
+
+/// Which velocity the observed rupture velocity is.
+enum class RuptureVelocityIs {
+  front,           ///< the front that an observer sees: there, W is `front_threshold` of its peak
+  characteristic,  ///< |V-|, the speed of the first disturbance, which friction does not change; the paper's reading
+};
+/// Which stress the observed stress drop is.
+enum class StressDropIs {
+  static_drop,  ///< stress before minus stress after, at x = 0
+  stored,       ///< mu A Sigma- / pi: all the stress that was stored
+};
+
+/// "front" or "characteristic"; "static" or "stored". \throws InputError (value, problem, allowed) for another name.
+const char* name_of(RuptureVelocityIs meaning);
+const char* name_of(StressDropIs meaning);
+RuptureVelocityIs rupture_velocity_meaning(std::string_view name);
+StressDropIs stress_drop_meaning(std::string_view name);
+
+/// The range of `front_threshold`, and its value if the file does not give it.
+inline constexpr double least_front_threshold = 1e-4, most_front_threshold = 0.3, default_front_threshold = 1e-3;
+/// Parses a `front_threshold`. \throws InputError (value, problem, allowed).
+double parse_front_threshold(std::string_view text);
 
 /// A constant of the medium that was given with an uncertainty. The constant itself holds the central value.
 struct UncertainConstant {
@@ -48,12 +71,15 @@ struct Observation : medium::Constants {
   std::optional<Measured> rise_time;  ///< s, time for which one point slips
   std::optional<Measured> duration;   ///< s, of the whole event
 
-  std::optional<Measured> stress_drop;           ///< Pa, mu A Sigma- / pi: all the stress that was stored
+  std::optional<Measured> stress_drop;           ///< Pa; `stress_drop_is` gives its meaning
   std::optional<Measured> friction_coefficient;  ///< C
   std::optional<Measured> normal_stress;         ///< Pa
   std::optional<Measured> hardness;              ///< Pa; contact_ratio = A_plastic normal_stress / hardness
   std::vector<Subfault> subfaults;               ///< patches, if the event is a finite-fault model with coordinates
   std::optional<Measure> slip_velocity_is;       ///< as given in the file; see measure()
+  RuptureVelocityIs rupture_velocity_is = RuptureVelocityIs::front;
+  StressDropIs stress_drop_is = StressDropIs::static_drop;
+  double front_threshold = default_front_threshold;  ///< slip velocity at the observed front, as a fraction of the peak
   std::vector<UncertainConstant> uncertain_constants;
 
   std::vector<std::string> warnings;  ///< assumptions and omissions that the reader of the file had to make

@@ -84,6 +84,12 @@ void read_into(Observation& o, std::vector<Ends>& ranges, const Column& column, 
       return;
     case Role::slip_velocity_is:
       return read_cell(column, [&] { o.slip_velocity_is = friction_ratio::measure_named(cell); });
+    case Role::rupture_velocity_is:
+      return read_cell(column, [&] { o.rupture_velocity_is = rupture_velocity_meaning(cell); });
+    case Role::stress_drop_is:
+      return read_cell(column, [&] { o.stress_drop_is = stress_drop_meaning(cell); });
+    case Role::front_threshold:
+      return read_cell(column, [&] { o.front_threshold = parse_front_threshold(cell); });
     case Role::name:
     case Role::ignored:
       return;

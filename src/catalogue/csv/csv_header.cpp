@@ -19,7 +19,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 4> aliases =
     {"vs_at_hypocentre", "s_wave_speed"},
     {"vp_at_hypocentre", "p_wave_speed"},
 }};
-constexpr std::array<std::pair<std::string_view, Role>, 10> texts = {{
+constexpr std::array<std::pair<std::string_view, Role>, 13> texts = {{
     {"name", Role::name},
     {"event", Role::name},
     {"date", Role::date},
@@ -30,6 +30,9 @@ constexpr std::array<std::pair<std::string_view, Role>, 10> texts = {{
     {"note", Role::note},
     {"notes", Role::note},
     {"slip_velocity_is", Role::slip_velocity_is},
+    {"rupture_velocity_is", Role::rupture_velocity_is},
+    {"stress_drop_is", Role::stress_drop_is},
+    {"front_threshold", Role::front_threshold},
 }};
 /// Endings of columns that say how a quantity was found.
 constexpr std::array<std::string_view, 6> about = {"how", "type", "source", "method", "note", "notes"};

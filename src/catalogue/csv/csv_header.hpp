@@ -20,7 +20,10 @@ struct Column {
     kind,
     citation,
     note,
-    slip_velocity_is
+    slip_velocity_is,
+    rupture_velocity_is,
+    stress_drop_is,
+    front_threshold
   };
   Role role = Role::ignored;
   std::string title;         ///< as written in the header
