@@ -116,10 +116,15 @@ double Measured::likelihood(double x) const {
   if (shape == Shape::range) return x >= low && x <= high ? 1 : 0;
   if (!(x > 0) && shape == Shape::lognormal) return 0;
   const double z = shape == Shape::normal ? (x - low) / spread : std::log(x / low) / std::log(spread);
-  return std::exp(-z * z / 2);
+  const double fall = shape == Shape::normal && x < least_even_share * low ? x / (least_even_share * low) : 1;
+  return fall * std::exp(-z * z / 2);
 }
 
-double Measured::weight_of_draw(double x) const { return shape == Shape::lognormal || is_exact() ? 1 : 1 / x; }
+double Measured::likelihood_of_log(double ln_x) const {
+  if (shape != Shape::lognormal) return likelihood(std::exp(ln_x));
+  const double z = (ln_x - std::log(low)) / std::log(spread);
+  return std::exp(-z * z / 2);
+}
 
 Measured parse_measured(std::string_view text, medium::Dimension dimension, std::string_view default_unit) {
   const std::string whole(trimmed(text));
