@@ -26,6 +26,8 @@ struct Measured {
   bool is_exact() const { return shape == Shape::range && low == high; }
   /// The quantity is below this value with the given probability, 0 < probability < 1.
   double quantile(double probability) const;
+  /// The probability of values below x. An exact number has 0 up to itself, and 1 above.
+  double share_below(double x) const;
   /// Likelihood of the true value x, scaled so that its maximum is 1. An exact number has none.
   double likelihood(double x) const;
   /// Importance weight of the draw x = quantile(p) with uniformly distributed p, if the prior is uniform in ln x.
