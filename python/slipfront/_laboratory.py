@@ -6,7 +6,7 @@ from . import _laboratory_table, _slipfront
 from . import medium as laws
 from ._dataset import dataset
 from ._files import write_dataset
-from ._hardness_posterior import Evidence, Posterior, closed_form
+from ._hardness_posterior import LEAST_STRESS, Evidence, Posterior, closed_form
 from ._numbers import np
 from ._scenario import path
 from ._shown import shown
@@ -96,11 +96,13 @@ def _of_fronts(analysis, y_new, random):
     fronts = analysis.fronts
     velocity, drop, own = (np.full((len(fronts), 3), math.nan) for _ in range(3))
     deviation, of_drop = np.full(len(fronts), math.nan), np.full(len(fronts), math.nan)
+    ln_stresses = np.linspace(math.log(LEAST_STRESS), 12, 8000)
+    shares = closed_form(ln_stresses)[1]
     for i, front in enumerate(fronts):
         shear = _draws_of(front.shear_stress, random)
         ln_stress = analysis.ln_factor + np.log(shear / _draws_of(front.normal_stress, random)) + y_new
-        speed, share = closed_form(ln_stress)
-        velocity[i], drop[i] = _quantiles(speed), _quantiles(shear * share)
+        predicted_drop = shear * np.interp(ln_stress, ln_stresses, shares)
+        velocity[i], drop[i] = closed_form(_quantiles(ln_stress))[0], _quantiles(predicted_drop)  # V increases with Sigma-
         one = analysis.evidence[i]
         if one is not None:
             points, masses = one.levels[0][:2]
@@ -108,7 +110,7 @@ def _of_fronts(analysis, y_new, random):
             own[i] = np.exp(one.quantiles(SHARES))
             deviation[i] = (one.mean - y_new.mean()) / math.sqrt(variance + y_new.var())
         if front.stress_drop is not None:
-            measured, predicted = np.log(_draws_of(front.stress_drop, random)), np.log(shear * share)
+            measured, predicted = np.log(_draws_of(front.stress_drop, random)), np.log(predicted_drop)
             of_drop[i] = (measured.mean() - predicted.mean()) / math.sqrt(measured.var() + predicted.var())
     return velocity, drop, own, deviation, of_drop
 
@@ -213,7 +215,7 @@ def laboratory(table, *, poisson_ratio=None, shear_modulus=None, density=None, p
     --------
     >>> fronts = {"tau [MPa]": [2.0, 2.6], "normal_stress [MPa]": [5.0, 5.0], "front_velocity [m/s]": ["90 +- 9", "260 +- 26"]}
     >>> found = slipfront.laboratory(fronts, poisson_ratio=0.35, s_wave_speed="1300 m/s")
-    >>> 0.1 < found.hardness_over_modulus < 1
+    >>> bool(0.1 < found.hardness_over_modulus < 1)
     True
     """
     speed, nu, modulus = _medium({"poisson_ratio": poisson_ratio, "shear_modulus": shear_modulus, "density": density, "p_wave_speed": p_wave_speed,
@@ -232,7 +234,8 @@ def laboratory(table, *, poisson_ratio=None, shear_modulus=None, density=None, p
     variables.update(curve)
     if any(front.stress_drop for front in found.fronts):
         variables.update(_without_drops(found.fronts, speed, plastic, prior, scatter_prior))
-    data = dataset(variables, _coordinates(ratios), _attributes(found, analysis, (speed, nu, modulus), prior, scatter_prior))
+    data = dataset(variables, _coordinates(ratios), {**_attributes(found, analysis, (speed, nu, modulus), prior, scatter_prior),
+                                                     "warnings": "\n".join(_warnings(y_shares, scatter_shares, prior, scatter_prior))})
     if file:
         write_dataset(data, file)
     return data
@@ -242,6 +245,19 @@ def _without_drops(fronts, speed, plastic, prior, scatter_prior):
     fronts = [_laboratory_table.Front(f.name, f.line, f.shear_stress, f.normal_stress, f.front_velocity) for f in fronts]
     shares = _Analysis(fronts, speed, plastic, prior, scatter_prior).posterior.quantiles(SHARES)[0]
     return _scalars("hardness_over_modulus_from_velocity", "penetration hardness over shear modulus without the stress drops", np.exp(shares))
+
+
+def _warnings(y_shares, scatter_shares, prior, scatter_prior):
+    """Returns what the user must know about the priors: where one of them, and not the fronts, bounds the result."""
+    found = []
+    for name, (low, _, high), bounds in (("hardness over modulus", y_shares, prior), ("scatter", scatter_shares, scatter_prior)):
+        least, most = np.log(bounds)
+        margin = 0.02 * (most - least)
+        if low < least + margin and name != "scatter":
+            found.append(f"the prior bounds the {name} from below, at {bounds[0]:g}: give a wider prior or take the result as an upper bound")
+        if high > most - margin:
+            found.append(f"the prior bounds the {name} from above, at {bounds[1]:g}: give a wider prior or take the result as a lower bound")
+    return found
 
 
 def _coordinates(ratios):

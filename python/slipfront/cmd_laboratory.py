@@ -54,6 +54,11 @@ def known(value):
     return None if value != value else value
 
 
+def lines(data, name):
+    """Returns the lines of an attribute of the Dataset."""
+    return [line for line in data.attrs[name].split("\n") if line]
+
+
 def velocity_scale(data, si):
     return data.attrs["c_m_s"] if si else 1.0
 
@@ -69,7 +74,7 @@ def as_json(data, file, si):
         elif variable.dims[0] == "front":
             for front, value in zip(fronts, values.tolist()):
                 front[name] = known(value)
-    return {**found, "velocity_unit": "m/s" if si else "c", "fronts": fronts, "errors": [line for line in data.attrs["errors"].split("\n") if line],
+    return {**found, "warnings": lines(data, "warnings"), "velocity_unit": "m/s" if si else "c", "fronts": fronts, "errors": lines(data, "errors"),
             "ignored_columns": [title for title in data.attrs["ignored_columns"].split(", ") if title]}
 
 
@@ -113,6 +118,8 @@ def report(data, options):
     for name, reason in zip(data["name"].values, data["reason"].values):
         if reason:
             put(f"left out: {name}: {reason}")
+    for warning in lines(data, "warnings"):
+        put(f"note: {warning}")
     if data.attrs["ignored_columns"]:
         put(f"ignored columns: {data.attrs['ignored_columns']}")
     if options.output:
@@ -129,7 +136,7 @@ def main(argv) -> int:
                       strict=options.strict, output=options.output)
     report(data, options)
     sys.stdout.flush()
-    errors = [line for line in data.attrs["errors"].split("\n") if line]
+    errors = lines(data, "errors")
     for line in errors:
         complain(line)
     return INPUT if errors else DONE

@@ -176,6 +176,12 @@ class Results(unittest.TestCase):
             width = np.ptp(found[f"{name}_interval"].values)
             self.assertLess(abs(draws - found[f"{name}_interval"].values).max(), 0.03 * width)
 
+    def test_a_prior_that_bounds_the_result_is_named(self):
+        fronts = {"tau [MPa]": [2.5, 2.6], "normal_stress [MPa]": [5, 5], "front_velocity [m/s]": ["200 +- 20", "240 +- 20"]}
+        self.assertEqual(slipfront.laboratory(fronts, **POLYMER).attrs["warnings"], "")
+        self.assertIn("from below, at 1", slipfront.laboratory(fronts, prior=(1, 10), **POLYMER).attrs["warnings"])
+        self.assertIn("from above, at 0.1", slipfront.laboratory(fronts, prior=(0.01, 0.1), **POLYMER).attrs["warnings"])
+
     def test_a_drop_that_the_theory_excludes_is_named(self):
         fronts = {"tau [MPa]": [2.5, 2.5], "normal_stress [MPa]": [5, 5], "front_velocity [m/s]": ["200 +- 20"] * 2, "stress_drop [MPa]": ["0.5 +- 0.05", "2.0..2.2"]}
         found = slipfront.laboratory(fronts, **POLYMER)
