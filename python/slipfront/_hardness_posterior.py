@@ -11,6 +11,7 @@ from ._numbers import np
 
 #: Smallest stress for which the closed form has a velocity, and the probability outside the range of a measurement that is left out.
 LEAST_STRESS, TAIL = 0.0045, 1e-10
+LARGEST_LN_STRESS = 700.0  # its exponential is still a double
 
 #: Cells across the range of y of a front, and those of a front whose range is wide because its velocity is near c or near 0.
 CELLS, CELLS_IF_WIDE, WIDE = 120, 800, 2.0
@@ -21,7 +22,7 @@ NARROWEST = 0.7
 
 def closed_form(ln_stress):
     """Returns (V / c, 1 - Sigma(0) / Sigma-) for an array of ln Sigma-. Both are those of Eqs. 8-10."""
-    stress = np.exp(np.maximum(np.atleast_1d(ln_stress), math.log(LEAST_STRESS))).ravel()
+    stress = np.exp(np.clip(np.atleast_1d(ln_stress), math.log(LEAST_STRESS), LARGEST_LN_STRESS)).ravel()
     columns = dict(zip((about[0] for about in _slipfront.relations_quantities), _slipfront.relations("stress", stress, 1)))
     shape = np.shape(np.atleast_1d(ln_stress))
     return columns["rupture_velocity"].reshape(shape), (1 - columns["stress_at_origin"] / columns["stress"]).reshape(shape)

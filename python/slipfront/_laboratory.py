@@ -47,6 +47,8 @@ def _medium(given):
 def _why_left_out(front, speed):
     """Returns why a front is outside the theory, or ""."""
     velocity = front.front_velocity.middle
+    if velocity < 1e-300 * speed:
+        return "slower than 1e-300 c, where the closed form ends"
     return f"faster than c = {speed:.4g} m/s: V / c = {velocity / speed:.4g}" if velocity >= speed else ""
 
 

@@ -3,6 +3,7 @@
 import csv
 import dataclasses
 import io
+import math
 import re
 from collections.abc import Mapping
 from typing import Any
@@ -94,17 +95,28 @@ def _texts(columns, cells):
 def _front(columns, cells, name, file, line):
     """Returns the Front of a row. Raises InputError."""
     if len(cells) != len(columns):
-        _slipfront.refuse(file, line, "", "", f"the row has {len(cells)} cells", f"{len(columns)} cells, as in the header")
+        _slipfront.refuse(file, line, "", "", f"the row has {len(cells)} {'cell' if len(cells) == 1 else 'cells'}", f"{len(columns)} cells, as in the header")
     values = {}
     for quantity, (text, column) in _texts(columns, cells).items():
         if text.lower() not in MISSING:
             values[quantity] = _slipfront.parse_measured(text, column.dimension, column.unit, file, line, column.title)
         elif quantity in REQUIRED:
             _slipfront.refuse(file, line, column.title, text, "no value", "a number with its unit")
+    _check_stresses(values, file, line)
     drop = values.get("stress_drop")
     if drop is not None and drop.is_exact:
         _slipfront.refuse(file, line, "stress_drop", "", "a stress drop without an error", "an error, such as 0.20 +- 0.03 MPa")
     return Front(cells[name].strip() if name is not None and cells[name].strip() else f"line {line}", line, **values)
+
+
+def _check_stresses(values, file, line):
+    """Raises InputError for stresses or errors that no experiment has. Numbers would overflow further on."""
+    for quantity in ("shear_stress", "normal_stress"):
+        if not values[quantity].quantile(1 - 1e-10) < 1e9 * values[quantity].middle:
+            _slipfront.refuse(file, line, quantity, "", "the error is too large", "a factor of 20 or less")
+    ratio = values["shear_stress"].middle / values["normal_stress"].middle if values["normal_stress"].middle > 1e-9 * values["shear_stress"].middle else math.inf
+    if not 1e-9 <= ratio <= 1e9:
+        _slipfront.refuse(file, line, "shear_stress", "", f"it is {ratio:.3g} of the normal stress", "1e-9 to 1e9")
 
 
 def _records(text):

@@ -7,6 +7,7 @@ import tempfile
 import unittest
 
 import numpy as np
+import pandas
 import slipfront
 from slipfront import _laboratory, _laboratory_table, _slipfront
 from slipfront._hardness_posterior import Evidence, Posterior
@@ -133,9 +134,9 @@ class Table(unittest.TestCase):
         found = slipfront.laboratory(columns, **POLYMER)
         texts = ["shear_stress (MPa);sigma_n (MPa);Rupture_velocity (m/s);rupture_velocity_err\n2.0;5;90;9\n2.6;5;260;26\n",
                  "# a comment\ntau\tnormal_stress\tfront_velocity [m/s]\n2.0 MPa\t5 MPa\t90 +- 10 %\n\n2.6 MPa\t5 MPa\tnormal(260, 26)\n"]
-        for text in texts:
-            with self.subTest(text):
-                other = slipfront.laboratory(text, **POLYMER)
+        for table in (*texts, pandas.DataFrame(columns)):
+            with self.subTest(table):
+                other = slipfront.laboratory(table, **POLYMER)
                 self.assertAlmostEqual(float(other.hardness_over_modulus), float(found.hardness_over_modulus), 12)
 
     def test_bad_rows_are_named_and_good_rows_are_kept(self):
@@ -175,6 +176,15 @@ class Results(unittest.TestCase):
             draws = np.quantile(found[f"draw_{name}"].values, [0.05, 0.95])
             width = np.ptp(found[f"{name}_interval"].values)
             self.assertLess(abs(draws - found[f"{name}_interval"].values).max(), 0.03 * width)
+
+    def test_extreme_fronts_are_used_or_named(self):
+        fronts = {"tau [MPa]": [2.5, 2.5, 1e250, "2.5 */ 1e200", 2.5], "normal_stress [MPa]": [5, 5, 1e-250, 5, 5],
+                  "front_velocity [m/s]": ["200 +- 20", "1e-300", "2000 +- 20", "200", "1 */ 1e200"]}
+        found = slipfront.laboratory(fronts, **POLYMER)
+        self.assertEqual(found.included.values.tolist(), [1, 0, 1])
+        self.assertRegex(found.attrs["errors"], "table:4: shear_stress: it is inf of the normal stress.*\ntable:5: shear_stress: the error is too large")
+        self.assertIn("slower than", str(found.reason.values[1]))
+        self.assertTrue(np.isfinite([found.hardness_over_modulus, *found.hardness_over_modulus_interval]).all())
 
     def test_a_prior_that_bounds_the_result_is_named(self):
         fronts = {"tau [MPa]": [2.5, 2.6], "normal_stress [MPa]": [5, 5], "front_velocity [m/s]": ["200 +- 20", "240 +- 20"]}
