@@ -1,5 +1,7 @@
 """slipfront.laboratory: tables of fronts, the posterior of the hardness over modulus, the command and its figure."""
 
+import contextlib
+import io
 import json
 import math
 import os
@@ -9,6 +11,7 @@ import unittest
 import numpy as np
 import pandas
 import slipfront
+from slipfront.__main__ import run as run_in_this_process
 from slipfront import _laboratory, _laboratory_table, _slipfront
 from slipfront._hardness_posterior import Evidence, Posterior
 from support import SOURCE, CommandLine
@@ -220,7 +223,7 @@ def _made_by_docs():
 
 
 class Command(CommandLine):
-    def test_equals_the_python_function(self):
+    def test_equals_the_python_function_and_has_a_picture(self):
         output = os.path.join(os.path.dirname(self.file("unused", "")), "fronts.nc")
         printed = self.ok("laboratory", FRONTS, *OPTIONS, "-o", output)
         found = slipfront.laboratory(FRONTS, **POLYMER)
@@ -231,26 +234,23 @@ class Command(CommandLine):
         self.assertIn("left out: front 15: faster than c", printed)
         told = json.loads(self.ok("laboratory", FRONTS, *OPTIONS, "--json"))
         self.assertEqual((told["hardness_over_modulus"], told["fronts"][14]["deviation"]), (float(found.hardness_over_modulus), None))
-        in_si = json.loads(self.ok("laboratory", FRONTS, *OPTIONS, "--json", "--si"))
-        self.assertAlmostEqual(in_si["fronts"][0]["front_velocity"] / SPEED, told["fronts"][0]["front_velocity"], 12)
-
-    def test_plots_its_file(self):
-        folder = os.path.dirname(self.file("unused", ""))
-        output, picture = (os.path.join(folder, name) for name in ("fronts.nc", "fronts.png"))
-        self.ok("laboratory", FRONTS, *OPTIONS, "-o", output)
+        picture = output.replace(".nc", ".png")
         self.ok("plot", output, "-o", picture)
         self.assertGreater(os.path.getsize(picture), 20000)
+        in_si = json.loads(self.ok("laboratory", FRONTS, *OPTIONS, "--json", "--si"))
+        self.assertAlmostEqual(in_si["fronts"][0]["front_velocity"] / SPEED, told["fronts"][0]["front_velocity"], 12)
 
     def test_refuses(self):
         bad = self.file("bad.csv", "tau [MPa],normal_stress [MPa],front_velocity [m/s],other\n2,5,90,1\nx,5,90,1\n")
         told = json.loads(self.refused(2, "laboratory", bad, *OPTIONS, "--json", says=["bad.csv:3: tau [MPa] = 'x'"]).stdout)
         self.assertEqual((len(told["fronts"]), len(told["errors"]), told["ignored_columns"]), (1, 1, ["other"]))
-        self.refused(2, "laboratory", bad, *OPTIONS, "--strict", says=["bad.csv:3"])
-        self.refused(2, "laboratory", FRONTS, says=["poisson_ratio"])
-        self.refused(2, "laboratory", FRONTS, *OPTIONS, "--prior", "1", says=["--prior '1'", "LOW:HIGH"])
-        self.refused(2, "laboratory", FRONTS, *OPTIONS, "-o", "a.csv", says=["-o a.csv"])
-        self.refused(3, "laboratory", "/nowhere.csv", *OPTIONS, says=["/nowhere.csv"])
-        self.refused(3, "laboratory", FRONTS, *OPTIONS, "-o", "/nowhere/a.nc", says=["/nowhere/a.nc"])
+        for code, arguments, says in [(2, (bad, *OPTIONS, "--strict"), "bad.csv:3"), (2, (FRONTS,), "poisson_ratio"), (2, (FRONTS, *OPTIONS, "--prior", "1"), "--prior '1'"),
+                                      (2, (FRONTS, *OPTIONS, "-o", "a.csv"), "-o a.csv"), (3, ("/nowhere.csv", *OPTIONS), "/nowhere.csv"),
+                                      (3, (FRONTS, *OPTIONS, "-o", "/nowhere/a.nc"), "/nowhere/a.nc")]:
+            with self.subTest(says), contextlib.redirect_stderr(io.StringIO()) as complaint, contextlib.redirect_stdout(io.StringIO()):
+                self.assertEqual(run_in_this_process("laboratory", arguments), code)
+                self.assertIn(says, complaint.getvalue())
+                self.assertEqual(complaint.getvalue().count("\n"), 1)
 
 
 if __name__ == "__main__":
