@@ -25,10 +25,10 @@ def arguments(argv):
                        "the columns tau, normal_stress, front_velocity and, if known, stress_drop and name, with units in the titles or cells. A row that cannot be read is "
                        "named and left out, and the exit code is 2.",
                        ["slipfront laboratory cases/synthetic-laboratory-fronts.csv --poisson-ratio 0.35 --s-wave-speed \"1300 m/s\" -o fronts.nc",
-                        "slipfront laboratory cases/synthetic-laboratory-fronts.csv --poisson-ratio 0.35 --shear-modulus \"2 GPa\" --density \"1180 kg/m^3\" --json"])
+                        "slipfront laboratory cases/synthetic-laboratory-fronts.csv --poisson-ratio 0.35 --shear-modulus \"2 GPa\" --density \"1180 kg/m3\" --json"])
     parser.add_argument("table", metavar="TABLE", help="table of fronts, CSV")
     parser.add_argument("-o", "--output", metavar="OUT.nc", type=file_name, help="NetCDF file to write; slipfront plot draws it")
-    for name, example in (("--poisson-ratio", "0.35"), ("--shear-modulus", "2 GPa"), ("--density", "1180 kg/m^3"), ("--p-wave-speed", "2700 m/s"), ("--s-wave-speed", "1300 m/s")):
+    for name, example in (("--poisson-ratio", "0.35"), ("--shear-modulus", "2 GPa"), ("--density", "1180 kg/m3"), ("--p-wave-speed", "2700 m/s"), ("--s-wave-speed", "1300 m/s")):
         parser.add_argument(name, metavar="VALUE", help=f"constant of the material, such as \"{example}\"")
     parser.add_argument("--prior", metavar="LOW:HIGH", default="0.001:10", help="range of the hardness over modulus, uniform in its logarithm (default: 0.001:10)")
     parser.add_argument("--scatter-prior", metavar="LOW:HIGH", default="0.001:1", help="range of the scatter from front to front, uniform in its logarithm (default: 0.001:1)")
