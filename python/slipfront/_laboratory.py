@@ -67,7 +67,7 @@ def _quantiles(values):
 class _Analysis:
     """The fronts of one experiment, their evidence and the posterior."""
 
-    def __init__(self, fronts, speed, plastic, prior, scatter_prior):
+    def __init__(self, fronts, speed, plastic, prior, scatter_prior, file="table"):
         self.speed, self.ln_factor, self.fronts = speed, math.log(math.pi / plastic), fronts
         highest = math.log(prior[1]) + 5 * scatter_prior[1]
         self.reasons = [_why_left_out(front, speed) for front in fronts]
@@ -77,7 +77,7 @@ class _Analysis:
                 self.reasons[i], self.evidence[i] = "no stress of the theory gives both the velocity and the stress drop", None
         used = [one for one in self.evidence if one is not None]
         if not used:
-            raise InputError(f"table: no front can be used: {self.reasons[0]}; allowed: fronts slower than c")
+            raise InputError(f"{shown(file)}: no front can be used: {self.reasons[0]}; allowed: fronts slower than c")
         self.posterior = Posterior(used, prior, scatter_prior)
 
     def predict(self, random):
@@ -226,7 +226,7 @@ def laboratory(table, *, poisson_ratio=None, shear_modulus=None, density=None, p
     draws, seed, file = _count("draws", draws, 1), _count("seed", seed, 0), path("output", output)
     found = _laboratory_table.read(table, strict)
     plastic = float(laws.plastic_contact_ratio(nu))
-    analysis = _Analysis(found.fronts, speed, plastic, prior, scatter_prior)
+    analysis = _Analysis(found.fronts, speed, plastic, prior, scatter_prior, found.file)
     random = np.random.default_rng(seed)
     y_shares, scatter_shares = analysis.posterior.quantiles(SHARES)
     _, _, y_new = analysis.predict(random)

@@ -1,5 +1,6 @@
 """The command slipfront laboratory, which computes the hardness over modulus from fronts in the laboratory."""
 
+import argparse
 import json
 import sys
 
@@ -8,6 +9,13 @@ from ._messages import DONE, INPUT, complain
 
 #: Titles of the table for the terminal, the variable in units of the model, and in SI units.
 COLUMNS = (("tau / sigma_N", "stress_ratio"), ("V", "front_velocity"), ("predicted", "predicted_front_velocity"), ("deviation", "deviation"))
+
+
+def whole(text):
+    """Returns a whole number of an option."""
+    if not text.isascii() or not text.isdigit():
+        raise argparse.ArgumentTypeError(f"'{text}' is no whole number; allowed: digits only, such as 1000")
+    return int(text)
 
 
 def interval(text):
@@ -32,8 +40,8 @@ def arguments(argv):
         parser.add_argument(name, metavar="VALUE", help=f"constant of the material, such as \"{example}\"")
     parser.add_argument("--prior", metavar="LOW:HIGH", default="0.001:10", help="range of the hardness over modulus, uniform in its logarithm (default: 0.001:10)")
     parser.add_argument("--scatter-prior", metavar="LOW:HIGH", default="0.001:1", help="range of the scatter from front to front, uniform in its logarithm (default: 0.001:1)")
-    parser.add_argument("--draws", metavar="N", type=int, default=1000, help="draws from the posterior in the file (default: 1000)")
-    parser.add_argument("--seed", metavar="N", type=int, default=1, help="seed of the draws (default: 1)")
+    parser.add_argument("--draws", metavar="N", type=whole, default=1000, help="draws from the posterior in the file (default: 1000)")
+    parser.add_argument("--seed", metavar="N", type=whole, default=1, help="seed of the draws (default: 1)")
     parser.add_argument("--strict", action="store_true", help="refuse the table if a row cannot be read")
     parser.add_argument("--si", action="store_true", help="velocities in m/s and the hardness in Pa")
     options = parser.parse_args(argv)
