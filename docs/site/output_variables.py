@@ -170,6 +170,9 @@ def main() -> None:
                                         [run.file("compare", run.case("step-viscous.toml"), "--set", "chain.scale=30")])
         described |= describe_variables("Files of `event`", "slipfront event FILE -o OUT.nc",
                                         [run.file("event", run.case("ets.toml"), "--draws", "10"), run.file("event", run.case("synthetic-fault.fsp"), "--pulse")])
+        describe_variables("Files of `laboratory`", "slipfront laboratory TABLE.csv -o OUT.nc",
+                           [run.file("laboratory", run.case("synthetic-laboratory-fronts.csv"), "--poisson-ratio", "0.35", "--s-wave-speed", "1300 m/s",
+                                     "--shear-modulus", "2 GPa")])
         describe_json(run, described)
 
 

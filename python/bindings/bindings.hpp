@@ -18,6 +18,7 @@ void bind_relations(py::module_& m);
 void bind_train(py::module_& m);
 void bind_friction_ratio(py::module_& m);
 void bind_medium(py::module_& m);
+void bind_measured(py::module_& m);
 void bind_pulse(py::module_& m);
 void bind_chain(py::module_& m);
 void bind_compare(py::module_& m);

@@ -13,6 +13,7 @@ PYBIND11_MODULE(_slipfront, m) {
   bind_train(m);
   bind_friction_ratio(m);
   bind_medium(m);
+  bind_measured(m);
   bind_pulse(m);
   bind_chain(m);
   bind_compare(m);

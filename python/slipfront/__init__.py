@@ -19,6 +19,7 @@ attribute `references` gives its equation in the paper (Gershenzon, Bambakidis a
     compare     runs a scenario with closed form, pulse and chain, and compares them
     sweep       runs a pulse or a chain over a grid of settings, on all cores or on a Dask cluster
     event       stress and contact ratio of observed events
+    laboratory  hardness over modulus from the velocities of fronts in the laboratory
     check       checks a scenario without running it
     open        reads a file that slipfront has written
     dataset.slipfront.si
@@ -38,6 +39,7 @@ require_compiled()
 from . import _accessor, medium, train
 from ._event import event
 from ._friction_ratio import damping_number, friction_ratio
+from ._laboratory import laboratory
 from ._relations import relations
 from ._run import chain, check, compare, open, pulse
 from ._sweep import sweep
@@ -58,5 +60,5 @@ class _Package(types.ModuleType):
 
 sys.modules[__name__].__class__ = _Package
 
-__all__ = ["FileError", "InputError", "NumericsError", "__version__", "cases", "chain", "check", "compare", "damping_number", "event", "friction_ratio", "medium", "open",
+__all__ = ["FileError", "InputError", "NumericsError", "__version__", "cases", "chain", "check", "compare", "damping_number", "event", "friction_ratio", "laboratory", "medium", "open",
            "pulse", "relations", "sweep", "train"]

@@ -112,6 +112,14 @@ double Measured::quantile(double p) const {
   return shape == Shape::normal ? low + spread * z : low * std::exp(std::log(spread) * z);
 }
 
+double Measured::share_below(double x) const {
+  if (is_exact()) return x > low ? 1 : 0;
+  if (shape == Shape::range) return std::clamp((x - low) / (high - low), 0.0, 1.0);
+  if (!(x > 0) && shape == Shape::lognormal) return 0;
+  const double z = shape == Shape::normal ? (x - low) / spread : std::log(x / low) / std::log(spread);
+  return std::erfc(-z / std::numbers::sqrt2) / 2;
+}
+
 double Measured::likelihood(double x) const {
   if (shape == Shape::range) return x >= low && x <= high ? 1 : 0;
   if (!(x > 0) && shape == Shape::lognormal) return 0;

@@ -103,4 +103,17 @@ TEST(Measured, HasALikelihoodThatFallsTowardsZeroForANormalError) {
   EXPECT_NEAR(m.likelihood(14), 0.01 * std::exp(-0.5 * 1.986 * 1.986), 1e-12);
 }
 
+TEST(Measured, HasAShareBelowThatInvertsItsQuantiles) {
+  for (const char* text : {"3 +- 0.5", "3 */ 1.4", "2..4"})
+    for (const double p : {1e-6, 0.05, 0.5, 0.8, 0.99}) {
+      const Measured m = read(text);
+      EXPECT_NEAR(m.share_below(m.quantile(p)) / p, 1, 1e-9) << text << " " << p;
+    }
+  EXPECT_EQ(read("2..4").share_below(1999), 0);
+  EXPECT_EQ(read("2..4").share_below(4001), 1);
+  EXPECT_EQ(read("3 */ 1.4").share_below(-1), 0);
+  EXPECT_EQ(read("3").share_below(3000), 0);
+  EXPECT_EQ(read("3").share_below(3001), 1);
+}
+
 }  // namespace

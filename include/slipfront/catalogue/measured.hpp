@@ -26,6 +26,8 @@ struct Measured {
   bool is_exact() const { return shape == Shape::range && low == high; }
   /// The quantity is below this value with the given probability, 0 < probability < 1.
   double quantile(double probability) const;
+  /// The probability of values below x. An exact number has 0 up to itself, and 1 above.
+  double share_below(double x) const;
   /// Likelihood of the true value x > 0, scaled so that its maximum is 1. An exact number has none. That of a normal
   /// error falls in proportion to x below `least_even_share` of the observed value: a normal error of 40 % does not
   /// exclude 0, and with a prior uniform in ln x the smallest numbers would then decide.
