@@ -21,6 +21,8 @@ JSON_ONLY = {
     "friction": "results of `relations` with a friction coefficient or a ratio of slip velocities, one for each closure",
     "measure": "the slip velocity that a ratio is about: origin, mean, peak or time-mean",
     "slip_velocity_ratio_error": "error of the ratio, from the table",
+    "front_ratio": "position of the observed front (threshold 1e-3) over |V-| T, from the table",
+    "stress_drop_share": "stress drop at x = 0 over the stress before the rupture, from the table",
     "friction_coefficient_error": "error of the coefficient, from the table",
     "events": "list of events: observed ones of `event`, slip events of a loaded `chain`",
     "onset": "time at which a slip event begins, in b / (c A)",

@@ -87,7 +87,8 @@ Ratio front_ratio(friction::Closure closure, double stress, double damping, doub
 }
 
 double front_uncertainty(friction::Closure closure, double damping) {
-  return uncertainty(closure, damping) > 1e-3 ? 1e-2 : 1e-3;
+  if (closure == friction::Closure::consistent) return 1e-3;
+  return uncertainty(closure, damping) > 1e-3 ? 3e-2 : 5e-3;
 }
 
 ThresholdRange threshold_range() { return {front_layout::least_threshold, front_layout::most_threshold}; }

@@ -63,8 +63,9 @@ double observed_front(const Pulse& pulse, double stress, double threshold) {
   const auto& points = pulse.points;
   // Points are face, centre, face ..., so that a cell has two.
   const auto moving = std::find_if(points.begin(), points.end(), [V](const Point& p) { return p.x > -V; });
-  const auto resolved = moving + 2 * smeared;
-  if (resolved->W >= wanted) return 1 - distance_in_smeared_cells(&*resolved, -V, wanted) / V;
+  const bool has_edge = moving != points.begin();  // else the cells begin where W is far below the threshold
+  const auto resolved = has_edge ? moving + 2 * smeared : moving + 1;
+  if (has_edge && resolved->W >= wanted) return 1 - distance_in_smeared_cells(&*resolved, -V, wanted) / V;
   const auto above = std::find_if(resolved, points.end(), [&](const Point& p) { return p.W >= wanted; });
   const Point &a = above[-1], &b = *above;
   return -(a.x + (b.x - a.x) * std::log(wanted / a.W) / std::log(b.W / a.W)) / V;

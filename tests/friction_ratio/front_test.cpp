@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "friction_ratio/observed.hpp"
+#include "slipfront/chain/run.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/rupture/relations.hpp"
 
@@ -64,6 +65,47 @@ TEST(FrontRatio, StaysBehindTheFastestDislocation) {
       const FrontCurve curve(closure, threshold);
       for (const double stress : {0.05, 0.12, 0.5, 1.3, 3.0})
         for (double u = 0; u < 20; u += 0.01) EXPECT_LE(curve(stress, std::expm1(u)).value, 1);
+    }
+}
+
+/// The chain computes every dislocation. At Gamma = 12.6 its small waves do not reach past the front.
+TEST(FrontRatio, AgreesWithTheChain) {
+  constexpr double stress = 0.855, C = 2, T = 6.28;
+  const double reach = rupture::from_stress(stress).rupture_velocity * T;
+  for (const double threshold : {1e-2, 1e-1}) {
+    chain::ScaledProblem problem;
+    problem.scale = 400, problem.left = -1.35 * reach, problem.right = 1.1 * reach, problem.end = T;
+    problem.stress = [](double x) { return x < 0 ? stress : 0.0; };
+    problem.friction = friction::viscous(C);
+    problem.boundary.left = chain::End::absorbing, problem.boundary.left_stress = stress;
+    output::Schedule schedule{.times = {0, T}, .x_edges = {}, .threshold = threshold};
+    for (int i = 0; i <= 400; ++i) schedule.x_edges.push_back(problem.left + (problem.right - problem.left) * i / 400);
+    chain::Run run(problem, schedule, {});
+    run.go();
+    const double front = -run.snapshots().back().fronts.trailing_observed / reach;
+    EXPECT_NEAR(front_ratio(Closure::consistent, stress, C * T, threshold).value / front, 1, 3e-3) << threshold;
+  }
+}
+
+/// The front and the drops of the solver, at points that are not nodes.
+TEST(FrontRatio, AgreesWithTheSolver) {
+  struct Point {
+    double stress, damping;
+  };
+  for (const Closure closure : closures)
+    for (const Point p : {Point{0.07, 0.4}, {0.16, 2.7}, {0.855, 9}, {0.4, 60}, {0.16, 8.8e4}, {1.7, 4e6}}) {
+      const Pulse pulse =
+          solve_pulse({.stress = p.stress, .damping_number = p.damping, .closure = closure, .cells = 400});
+      for (const double threshold : {1e-3, 2e-2, 0.2})
+        EXPECT_NEAR(
+            front_ratio(closure, p.stress, p.damping, threshold).value / observed_front(pulse, p.stress, threshold), 1,
+            2 * front_uncertainty(closure, p.damping))
+            << p.stress << " " << p.damping << " " << threshold;
+      const DropShares shares = observed_drops(pulse, p.stress);
+      EXPECT_NEAR(stress_drop_share(Drop::origin, closure, p.stress, p.damping).value / shares.origin, 1,
+                  stress_drop_uncertainty(closure, p.damping));
+      EXPECT_NEAR(stress_drop_share(Drop::mean, closure, p.stress, p.damping).value / shares.mean, 1,
+                  stress_drop_uncertainty(closure, p.damping));
     }
 }
 

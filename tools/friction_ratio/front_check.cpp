@@ -31,9 +31,10 @@ using Differences = std::array<Worst, 1 + front_layout::drops>;
 void compare(Closure closure, const Worst& at, Differences& worst) {
   const FrontAndDrops solved = front_and_drops(closure, at.stress, at.damping, {at.threshold});
   worst[0].take(front_ratio(closure, at.stress, at.damping, at.threshold).value, solved.fronts[0], at);
+  const FrontAndDrops without_front = front_and_drops(closure, at.stress, at.damping, {});
   for (std::size_t d = 0; d < front_layout::drops; ++d)
-    worst[1 + d].take(stress_drop_share(static_cast<Drop>(d), closure, at.stress, at.damping).value, solved.drops[d],
-                      at);
+    worst[1 + d].take(stress_drop_share(static_cast<Drop>(d), closure, at.stress, at.damping).value,
+                      without_front.drops[d], at);
 }
 
 /// Prints the largest differences. Returns whether they are within what the tables state.
