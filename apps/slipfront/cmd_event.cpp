@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "commands.hpp"
 #include "event_run.hpp"
@@ -16,7 +17,12 @@ int run_event(const EventArguments& a) {
                                  .value = std::to_string(a.draws),
                                  .problem = "there is no file to write the draws to",
                                  .allowed = "with -o OUT.nc"});
-  if (a.damping_number && !describes_fault(a))
+  if (a.fault_grid && !std::string_view(a.output).ends_with(".nc"))
+    throw slipfront::InputError({.file = "command line",
+                                 .key = "--fault-grid",
+                                 .problem = "there is no NetCDF file to write the grid to",
+                                 .allowed = "with -o OUT.nc"});
+  if (a.damping_number && (a.fault_grid || !describes_fault(a)))
     throw slipfront::InputError({.file = "command line",
                                  .key = "--damping-number",
                                  .value = std::to_string(*a.damping_number),
@@ -58,6 +64,10 @@ void add_sampling_options(CLI::App* command, EventArguments& arguments) {
 }
 
 void add_source_options(CLI::App* command, EventArguments& arguments) {
+  command->add_flag(
+      "--fault-grid", arguments.fault_grid,
+      "Write the subfaults of one .fsp to OUT.nc instead of events: rupture time, slip, rise time and static "
+      "stress drop on a grid");
   command
       ->add_option("--damping-number", arguments.damping_number,
                    "Slip-rate functions of OUT.srf: damping number at the end of the rise time; 0: constant slip rate "

@@ -20,6 +20,7 @@ struct EventArguments {
   bool pulse = false, population = false;
   std::string output, resume;
   std::size_t draws = 0;
+  bool fault_grid = false;
   std::optional<double> damping_number;  ///< sets the shape of slip-rate functions
 };
 
