@@ -103,9 +103,10 @@ Runner add_event(CLI::App& app) {
       "Print statistics by decade of rupture velocity instead of events (with --json: in addition): number "
       "of events, medians and 5-95 % ranges of the known quantities, and the closed form");
   command
-      ->add_option("-o,--output", arguments->output,
-                   "File to write instead of the table: NetCDF; CSV rows if the name ends in .csv; or the kinematic "
-                   "source of one .fsp in Standard Rupture Format 2.0 if it ends in .srf")
+      ->add_option(
+          "-o,--output", arguments->output,
+          "File to write instead of the table: NetCDF; CSV rows if the name ends in .csv; the kinematic source of one "
+          "finite-fault model (Standard Rupture Format 2.0) if it ends in .srf")
       ->check([](const std::string& path) { return path.empty() ? "the file name is empty" : ""; })
       ->type_name("OUT.nc");
   command->add_option("--resume", arguments->resume, "Resume from an unfinished file of these events, and write to it")

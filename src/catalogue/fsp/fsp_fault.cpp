@@ -15,6 +15,8 @@ double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 /// Sorts the subfaults into rows of equal depth, and each row in the direction of strike. Returns the number of rows,
 /// or 0 if the rows have different lengths.
 std::size_t sort_into_rows(std::vector<FaultPatch>& patches, double strike) {
+  for (const FaultPatch& p : patches)
+    if (!std::isfinite(p.east) || !std::isfinite(p.north) || !std::isfinite(p.depth)) return 0;
   if (patches.empty()) return 0;
   const auto along = [&](const FaultPatch& p) {
     return p.east * std::sin(radians(strike)) + p.north * std::cos(radians(strike));

@@ -75,8 +75,6 @@ bool Header::take_geometry(std::string_view label, std::string_view rest, const 
     constexpr double least_moment = 1e6;  // N m
     if (const auto value = value_of(rest, "Mo", place); value && value->number && *value->number > least_moment)
       moment = value->number;
-  } else if (begins(label, "Coordinates are given for")) {
-    positions_are_tops = label.find("top") != std::string_view::npos;
   } else {
     return false;
   }
@@ -84,6 +82,10 @@ bool Header::take_geometry(std::string_view label, std::string_view rest, const 
 }
 
 bool Header::take(std::string_view text, const Place& place) {
+  if (begins(text, "Coordinates are given for")) {
+    positions_are_tops = text.find("top") != std::string_view::npos;
+    return true;
+  }
   const std::size_t colon = text.find(':');
   if (colon == std::string_view::npos) return false;
   const std::string_view label = trimmed(text.substr(0, colon));

@@ -133,8 +133,9 @@ FiniteSource Builder::planes() {
       if (p.slip < 0) ++backwards;
     }
   }
-  if (!(potency > 0) || !std::isfinite(out.moment))
-    refuse(model_.segments.front().line, "SLIP", "no subfault slips", "at least one slip other than 0");
+  if (potency == 0) refuse(model_.segments.front().line, "SLIP", "no subfault slips", "at least one slip other than 0");
+  if (!std::isfinite(out.moment))
+    refuse(model_.segments.front().line, "SLIP", "the moment is not finite", "finite slip and sizes");
   place_hypocentre(out);
   out.notes.push_back(model_.rock.empty()
                           ? "no velocity table: shear modulus " +

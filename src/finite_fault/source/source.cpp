@@ -25,7 +25,7 @@ double pulse_stress(double velocity, double speed) {
 }
 
 /// A step of 1, 2 or 5 times a power of ten, at most a tenth of the shortest rise time. If rise times differ by more
-/// than a factor of 200, it is at most 1/2000 of the longest one instead.
+/// than a factor of 200, it is at most 1/2000 of the longest one instead. It is never below a microsecond.
 double step_for(const FiniteSource& source) {
   double shortest_time = HUGE_VAL, longest = 0;
   for (const SourceSegment& segment : source.segments)
@@ -34,7 +34,7 @@ double step_for(const FiniteSource& source) {
         shortest_time = std::fmin(shortest_time, p.rise_time);
         longest = std::fmax(longest, p.rise_time);
       }
-  const double wanted = std::fmax(shortest_time / 10, longest / 2000);
+  const double wanted = std::fmax(std::fmax(shortest_time / 10, longest / 2000), 1e-6);
   const double decade = std::pow(10, std::floor(std::log10(wanted)));
   const double mantissa = wanted / decade * (1 + 1e-12);
   return decade * (mantissa >= 5 ? 5 : mantissa >= 2 ? 2 : 1);
