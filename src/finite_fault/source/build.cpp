@@ -142,7 +142,7 @@ FiniteSource Builder::planes() {
                                 digits(default_density_ * std::pow(default_s_wave_speed_, 2), 4) +
                                 " Pa everywhere, with S speed " + digits(default_s_wave_speed_, 4) + " m/s"
                           : "shear modulus from the velocity table at the depth of each subfault");
-  out.notes.push_back("moment " + digits(out.moment, 4) + " N m" +
+  out.notes.push_back("moment " + digits(out.moment, 7) + " N m" +
                       (model_.moment ? "; the header states " + digits(*model_.moment, 4) + " N m" : std::string()));
   if (backwards > 0)
     out.notes.push_back("subfaults that slip backwards, written with negative slip: " + std::to_string(backwards));
