@@ -129,6 +129,10 @@ std::string event_json(const EventResult& result) {
   j["stress_drop_is"] = name_of(o.stress_drop_is);
   j["tension"] = tension_json(result);
   j["posterior"] = posterior_json(result);
+  if (result.faster_than_c.timed > 0)
+    j["faster_than_c"] = {{"subfaults", result.faster_than_c.subfaults},
+                          {"subfaults_with_velocity", result.faster_than_c.timed},
+                          {"moment_share", result.faster_than_c.moment_share}};
   if (!result.along_fault.empty()) j["along_fault"] = along_fault_json(result);
   if (result.pulse) j["pulse"] = pulse_json(*result.pulse);
   j["warnings"] = result.warnings();

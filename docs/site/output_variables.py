@@ -48,6 +48,10 @@ JSON_ONLY = {
     "slip_velocity_is": "the observed slip velocity is that at the origin, a mean, a peak or a time mean",
     "along_fault": "list of the subfaults of a finite-fault model",
     "segment": "number of the segment of a subfault",
+    "faster_than_c": "subfaults of a finite-fault model whose rupture velocity is above c",
+    "subfaults": "their number",
+    "subfaults_with_velocity": "number of subfaults with a rupture velocity",
+    "moment_share": "their fraction of the moment of the model",
     "along_strike_m": "position of a subfault along strike, in m",
     "down_dip_m": "position of a subfault down dip, in m",
     "depth_m": "depth of a subfault, in m",
@@ -175,6 +179,8 @@ def main() -> None:
         describe_variables("Files of `laboratory`", "slipfront laboratory TABLE.csv -o OUT.nc",
                            [run.file("laboratory", run.case("synthetic-laboratory-fronts.csv"), "--poisson-ratio", "0.35", "--s-wave-speed", "1300 m/s",
                                      "--shear-modulus", "2 GPa")])
+        described |= describe_variables("Fault grids of `event`", "slipfront event MODEL.fsp --fault-grid -o OUT.nc",
+                                        [run.file("event", run.case("synthetic-fault.fsp"), "--fault-grid")])
         describe_json(run, described)
 
 

@@ -87,7 +87,11 @@ EventResult evaluate(Entry&& entry, const medium::Defaults& defaults, const Eval
     result.estimate = estimate(result.observation, defaults, is_sampled(options, result.observation));
     result.posterior = posterior_of(result);
     if (result.posterior) fill(*result.estimate, *result.posterior);
-    if (options.along_fault) result.along_fault = along_fault(result.observation, defaults);
+    std::vector<LocalState> states = along_fault(result.observation, defaults);
+    result.faster_than_c = finite_fault::faster_than(states, result.estimate->speed);
+    if (options.along_fault) result.along_fault = std::move(states);
+    if (const std::string warning = warning_of(result.faster_than_c, result.estimate->speed); !warning.empty())
+      result.estimate->warnings.push_back(warning);
     result.pulse = pulse_of(result);
   } catch (const InputError& error) {
     result.estimate.reset();
