@@ -21,6 +21,7 @@ attribute `references` gives its equation in the paper (Gershenzon, Bambakidis a
     compare     runs a scenario with closed form, pulse and chain, and compares them
     sweep       runs a pulse or a chain over a grid of settings, on all cores or on a Dask cluster
     event       stress and contact ratio of observed events
+    population  stress, normal stress and friction of many events, and how much they scatter
     check       checks a scenario without running it
     open        reads a file that slipfront has written
     dataset.slipfront.si
@@ -40,6 +41,7 @@ require_compiled()
 from . import _accessor, medium, train
 from ._event import event
 from ._friction_ratio import damping_number, friction_ratio
+from ._hierarchy import population
 from ._potency import moment_duration
 from ._relations import relations
 from ._run import chain, check, compare, open, pulse
@@ -62,4 +64,4 @@ class _Package(types.ModuleType):
 sys.modules[__name__].__class__ = _Package
 
 __all__ = ["FileError", "InputError", "NumericsError", "__version__", "cases", "chain", "check", "compare", "damping_number", "event", "friction_ratio", "medium", "moment_duration",
-           "open", "pulse", "relations", "sweep", "train"]
+           "open", "population", "pulse", "relations", "sweep", "train"]
