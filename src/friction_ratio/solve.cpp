@@ -14,11 +14,6 @@ namespace {
 
 using std::numbers::pi;
 
-/// W and slip at x.
-struct Point {
-  double x, W, slip;
-};
-
 std::vector<Point> points_of(const pulse::Solver::View& view, double stress) {
   const double charge = view.charge_faces.back();
   const auto point = [&](double x, const State& state, double charge_left) {
@@ -31,18 +26,6 @@ std::vector<Point> points_of(const pulse::Solver::View& view, double stress) {
     points.push_back(point(view.faces[i + 1], view.face_states[i + 1], view.charge_faces[i + 1]));
   }
   return points;
-}
-
-/// Finds the largest W up to the maximum that is reached uphill from x = 0, by a parabola through three points. Cells
-/// past that maximum do not count: the last few cells at the free edge of a strongly damped pulse are not resolved.
-double peak_of(const std::vector<Point>& points) {
-  auto top = std::find_if(points.begin() + 1, points.end() - 2, [](const Point& p) { return p.x >= 0; });
-  while (top != points.begin() + 1 && top[-1].W > top->W) --top;
-  while (top != points.end() - 2 && top[1].W > top->W) ++top;
-  top = std::max_element(points.begin() + 1, top + 1, [](const Point& a, const Point& b) { return a.W < b.W; });
-  const auto [slope, curve] =
-      parabola_through(top[-1].x - top->x, top[-1].W - top->W, top[1].x - top->x, top[1].W - top->W);
-  return curve < 0 ? top->W - slope * slope / (4 * curve) : top->W;
 }
 
 double slip_weighted_mean_of(const std::vector<Point>& points) {
@@ -77,10 +60,30 @@ SlipVelocities velocities_of(const pulse::Solver& solver, double stress, double 
 
 }  // namespace
 
+// A parabola through three points gives the maximum. Cells
+// past that maximum do not count: the last few cells at the free edge of a strongly damped pulse are not resolved.
+double peak_of(const std::vector<Point>& points) {
+  auto top = std::find_if(points.begin() + 1, points.end() - 2, [](const Point& p) { return p.x >= 0; });
+  while (top != points.begin() + 1 && top[-1].W > top->W) --top;
+  while (top != points.end() - 2 && top[1].W > top->W) ++top;
+  top = std::max_element(points.begin() + 1, top + 1, [](const Point& a, const Point& b) { return a.W < b.W; });
+  const auto [slope, curve] =
+      parabola_through(top[-1].x - top->x, top[-1].W - top->W, top[1].x - top->x, top[1].W - top->W);
+  return curve < 0 ? top->W - slope * slope / (4 * curve) : top->W;
+}
+
 SlipVelocities solve(const Question& question) {
   pulse::Solver solver = solver_of(question);
   solver.advance_to(1);
   return velocities_of(solver, question.stress, 1);
+}
+
+Pulse solve_pulse(const Question& question) {
+  pulse::Solver solver = solver_of(question);
+  solver.advance_to(1);
+  const pulse::Solver::View view = solver.view();
+  return {points_of(view, question.stress), pulse::averages_of(view, pulse::state_at(view, 0), 0).k,
+          2 * pi * (view.charge_faces.back() - pulse::charge_left_of(view, 0))};
 }
 
 std::vector<SlipVelocities> solve_each(double stress, friction::Closure closure, int cells,
