@@ -10,7 +10,6 @@ from .._potency import LEAST_STRESS, MOST_STRESS, share
 #: The grid. Below its first Gamma there is no friction to speak of; above 1e8 everything follows its limit of diffusion.
 LOG_STRESS = np.linspace(np.log(LEAST_STRESS), np.log(MOST_STRESS), 401)
 LOG_DAMPING = np.arange(-9.0, 27.01, 0.25)
-MOST_FRONT_DAMPING = 1e8
 
 #: Kinds of observed size: slip, as time-mean slip velocity, and moment, as potency.
 SLIP, MOMENT = 0, 1
@@ -37,7 +36,8 @@ def size(kind):
 @functools.lru_cache(maxsize=None)
 def front(threshold):
     """Returns ln(V / c) of the front that an observer with this threshold sees; the threshold 0 is |V-|."""
-    return _free("rupture_velocity") + np.zeros(len(LOG_DAMPING))
+    free = _free("rupture_velocity") + np.zeros(len(LOG_DAMPING))
+    return free + np.log(_on_grid(lambda s, g: _slipfront.front_ratio(s, g, threshold, "consistent"))) if threshold else free
 
 
 def at(grid, log_stress, log_damping):
