@@ -25,7 +25,7 @@ MODULES = {
     "friction_ratio": "pulse rupture friction",
     "scenario": "chain pulse friction train medium",
     "catalogue": "friction_ratio rupture medium",
-    "inference": "catalogue friction_ratio rupture medium",
+    "inference": "catalogue friction_ratio rupture medium elliptic",
     "finite_fault": "inference catalogue friction_ratio friction pulse rupture modulation train medium",
     "results": "finite_fault inference catalogue friction_ratio medium",
     "setup": "scenario chain pulse output friction rupture modulation train elliptic",

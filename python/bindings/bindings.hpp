@@ -23,6 +23,7 @@ void bind_pulse(py::module_& m);
 void bind_chain(py::module_& m);
 void bind_compare(py::module_& m);
 void bind_event(py::module_& m);
+void bind_observations(py::module_& m);
 void bind_sweep(py::module_& m);
 void bind_keys(py::module_& m);
 void bind_files(py::module_& m);

@@ -18,6 +18,7 @@ PYBIND11_MODULE(_slipfront, m) {
   bind_chain(m);
   bind_compare(m);
   bind_event(m);
+  bind_observations(m);
   bind_sweep(m);
   bind_keys(m);
   bind_files(m);
