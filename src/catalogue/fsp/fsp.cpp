@@ -103,7 +103,7 @@ void Reader::refuse_unless_model(const Place& end) const {
   throw InputError(std::move(complaint));
 }
 
-/// The number of a header field, unless it is left blank or holds a placeholder: 0, -99, 999.
+/// The number of a header field, unless it is left blank or holds a placeholder: 0, -99, 999, nan.
 std::optional<double> given(const fsp::Field& field, const std::string& key, double limit,
                             std::vector<std::string>& warnings) {
   if (field.number && *field.number > 0 && *field.number < limit) return field.number;

@@ -97,7 +97,7 @@ Value value_at(std::string_view rest, std::string_view key, const Place& place) 
   out.text = word;
   const auto [value, length] = leading_number(word);
   // `4.2s` is a number with its unit, but `2004/09` is not a number.
-  if (!value || (length < word.size() && !is_letter(word[length]))) return out;
+  if (!value || std::isnan(*value) || (length < word.size() && !is_letter(word[length]))) return out;
   if (!std::isfinite(*value)) {
     throw InputError({.file = place.file,
                       .line = place.line,
@@ -161,6 +161,18 @@ std::optional<double> number(std::string_view word) {
   return length == word.size() ? value : std::nullopt;
 }
 
+bool is_placeholder(std::string_view word) {
+  for (const std::string_view absent : {"n/a", "na", "null", "none", "-", "--", "---", "?", "***"})
+    if (same(word, absent)) return true;
+  return false;
+}
+
+bool is_placeholder(double value) {
+  for (const double absent : {-99.0, 999.0, -999.0, 9999.0, -9999.0})
+    if (value == absent) return true;
+  return !(value == value);
+}
+
 std::string tidy(std::string_view text) {
   std::string out;
   for (const std::string_view word : words(text)) {
@@ -179,7 +191,7 @@ std::optional<Value> value_of(std::string_view text, std::string_view key, const
 
 std::optional<double> size_of(std::string_view text, std::string_view key, const Place& place) {
   const auto value = value_of(text, key, place);
-  if (!value || !value->number || *value->number <= 0 || *value->number == 999) return std::nullopt;
+  if (!value || !value->number || *value->number <= 0 || is_placeholder(*value->number)) return std::nullopt;
   return value->number;
 }
 
