@@ -19,6 +19,8 @@ struct EventArguments {
   bool pulse = false, population = false;
   std::string output, resume;
   std::size_t draws = 0;
+  std::string column_map;  ///< file of --columns
+  bool strict = false;
 };
 
 /// Prints events, some at a time. Returns the exit code.

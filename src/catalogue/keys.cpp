@@ -21,7 +21,7 @@ const std::vector<Key>& quantity_keys() {
         {"rupture_width", Dimension::length, &Observation::rupture_width},
         {"rupture_area", Dimension::area, &Observation::rupture_area},
         {"moment", Dimension::moment, &Observation::moment},
-        {"magnitude", Dimension::ratio, &Observation::magnitude},
+        {"moment_magnitude", Dimension::ratio, &Observation::moment_magnitude},
         {"stress_drop", Dimension::pressure, &Observation::stress_drop},
         {"friction_coefficient", Dimension::ratio, &Observation::friction_coefficient},
         {"normal_stress", Dimension::pressure, &Observation::normal_stress},
@@ -61,7 +61,8 @@ void store(Observation& observation, const Key& key, std::string_view text, std:
 }
 
 void store(Observation& observation, const Key& key, const Measured& measured, std::string_view text) {
-  const bool positive = key.name != "poisson_ratio" && key.name != "magnitude";  // the medium checks Poisson's ratio
+  const bool positive =
+      key.name != "poisson_ratio" && key.name != "moment_magnitude";  // the medium checks Poisson's ratio
   if (positive && !(measured.low > 0))
     throw InputError({.value = std::string(text), .problem = "not positive", .allowed = "> 0"});
   if (key.measured) {

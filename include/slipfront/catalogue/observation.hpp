@@ -74,7 +74,7 @@ struct Observation : medium::Constants {
   std::optional<Measured> rupture_length, rupture_width;  ///< m
   std::optional<Measured> rupture_area;                   ///< m^2
   std::optional<Measured> moment;                         ///< N m
-  std::optional<Measured> magnitude;                      ///< moment magnitude Mw
+  std::optional<Measured> moment_magnitude;               ///< Mw
   std::vector<Bound> bounds;                              ///< limits such as "<2.7 km/s", which give no value
 
   std::optional<Measured> stress_drop;           ///< Pa; `stress_drop_is` gives its meaning

@@ -189,9 +189,9 @@ extern const Format fsp_format;
 const Format fsp_format{.ending = ".fsp",
                         .looks_like = [](std::string_view text) { return first_character(text) == '%'; },
                         .read =
-                            [](std::string_view text, const std::string& file, const Sink& sink) {
+                            [](std::string_view text, const std::string& file, const Sink& sink, const TableOptions&) {
                               sink({read_fsp(text, file), {}});
-                              return std::vector<std::string>{};
+                              return TableNotes{};
                             }};
 
 }  // namespace slipfront::catalogue
