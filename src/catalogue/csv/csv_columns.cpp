@@ -9,24 +9,34 @@ namespace {
 
 using Role = Column::Role;
 
-bool is_bare_error(const std::string& title) {
-  const Title t = divide_title(title);
+bool is_bare_error(const Title& t) {
   return t.small.size() == 1 && (deviations_of(t.small[0]) > 0 || t.small[0] == "+" || t.small[0] == "-");
 }
 
-/// A bare error belongs to the last quantity before it; so do both of a pair "+", "-".
-Column bare_error(const std::string& title, const std::vector<Column>& before) {
-  Column column = parse_column("slip " + title);
-  column.title = title;
+Column physical(const std::string& title) {
+  Column unknown{.title = title};
+  unknown.looks_physical = true;
+  return unknown;
+}
+
+/// A bare error belongs to the last quantity before it; so do both of a pair "+", "-". In "err (Vr)" the parentheses
+/// name the quantity. If their text is neither a quantity nor a unit of the quantity before, the column is unknown.
+Column bare_error(const std::string& title, const Title& t, const std::vector<Column>& before) {
   const Column* owner = before.empty() ? nullptr : &before.back();
-  if (owner && owner->role == Role::unused) return {.role = Role::unused, .title = title};
-  if (!owner || !owner->key || owner->role == Role::provenance) {
-    Column unknown{.title = title};
-    unknown.looks_physical = true;
-    return unknown;
+  std::string name = owner && owner->key ? std::string(owner->key->name) : "";
+  for (const std::string& group : t.groups)
+    if (const Column inside = parse_column(group); inside.role == Role::quantity)
+      name = std::string(inside.key->name) + " " + t.small[0];
+  const bool names_another = name.find(' ') != std::string::npos;
+  if (!names_another && owner && owner->role == Role::unused) return {.role = Role::unused, .title = title};
+  if (name.empty() || (!names_another && owner->role == Role::provenance)) return physical(title);
+  try {
+    Column column = parse_column(names_another ? name : name + " " + title);
+    column.title = title;
+    return column.is_error() ? column : physical(title);
+  } catch (const InputError&) {
+    return physical(title);  // the unit is that of something else
   }
-  column.key = owner->key;
-  return column;
 }
 
 /// Makes a column one that is not used; `looks_physical` if its numbers are lost.
@@ -51,6 +61,24 @@ void settle(Column& first, Column& second) {
                     .allowed = "one; --columns map.toml can ignore the other"});
 }
 
+/// A title such as "Vr +- 1 sd (km/s)" names the value too, unless another column does. Other errors without a value
+/// are not understood.
+void settle_errors_without_value(std::vector<Column>& columns) {
+  for (Column& column : columns) {
+    const bool has_value = std::any_of(columns.begin(), columns.end(),
+                                       [&](const Column& c) { return c.is_quantity() && c.key == column.key; });
+    if (!column.is_error() || has_value) continue;
+    const Title t = divide_title(column.title);
+    const bool has_sign = t.small.size() > 1 && std::any_of(t.small.begin() + 1, t.small.end(), [](const auto& word) {
+                            return word == "+-" || word == "+/-" || word == "\xC2\xB1";
+                          });
+    if (has_sign)
+      column.role = Role::quantity;
+    else
+      drop(column, true);
+  }
+}
+
 }  // namespace
 
 bool is_auxiliary(const Key& key) {
@@ -59,10 +87,12 @@ bool is_auxiliary(const Key& key) {
 }
 
 Column parse_column(const std::string& title, const std::vector<Column>& before) {
-  return is_bare_error(title) ? bare_error(title, before) : parse_column(title);
+  const Title t = divide_title(title);
+  return is_bare_error(t) ? bare_error(title, t, before) : parse_column(title);
 }
 
 void settle_columns(std::vector<Column>& columns) {
+  settle_errors_without_value(columns);
   for (std::size_t i = 0; i < columns.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (collide(columns[i], columns[j])) settle(columns[j], columns[i]);
