@@ -36,7 +36,7 @@ MODULES = {
 # The folders of a module, from the bottom up, with the folders of the same module that they may include. "." stands for the
 # files at the root of the module, which may include all of its folders.
 FOLDERS = {
-    "catalogue": {"csv": ".", "fsp": ".", "toml": "."},
+    "catalogue": {"csv": ".", "fsp": ".", "json": ".", "toml": "."},
     "finite_fault": {"source": "."},
     "record": {"files": "", "netcdf": "files", "pulses": "netcdf files", "events": "pulses netcdf files", "faults": "netcdf files"},
     "scenario": {"text": "", "formula": "text", "profile": "formula text", "friction": ". profile formula text"},

@@ -92,6 +92,13 @@ Runner add_event(CLI::App& app) {
           "FILE", arguments->files,
           "Events: .toml (one), .csv (a catalogue), SRCMOD or USGS .fsp, - for stdin; none: the shipped catalogue")
       ->type_name("");
+  command
+      ->add_option("--columns", arguments->column_map,
+                   "TOML file that maps the titles of CSV columns to quantities: [columns] \"VR\" = \"rupture_velocity "
+                   "km/s\"; also decimal, separator, skip_lines, missing")
+      ->type_name("MAP.toml");
+  command->add_flag("--strict", arguments->strict,
+                    "Refuse a file with a bad row, or with a column that looks like a quantity and is not understood");
   add_medium_options(command, arguments->medium);
   add_sampling_options(command, *arguments);
   add_source_options(command, *arguments);

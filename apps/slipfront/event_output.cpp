@@ -106,6 +106,17 @@ Json pulse_json(const FaultPulse& p) {
 
 }  // namespace
 
+std::string columns_json(const slipfront::run::CatalogueColumns& columns) {
+  Json tables = Json::array();
+  for (const auto& [file, table] : columns.files)
+    tables.push_back({{"file", file},
+                      {"ignored_columns", table.ignored},
+                      {"ignored_quantities", table.ignored_quantities},
+                      {"notes", table.notes}});
+  return "\"ignored_columns\": " + text_of(columns.ignored) +
+         ", \"ignored_quantities\": " + text_of(columns.ignored_quantities) + ", \"tables\": " + text_of(tables);
+}
+
 std::string event_json(const EventResult& result) {
   const auto& o = result.observation;
   Json j;
@@ -135,6 +146,10 @@ std::string event_json(const EventResult& result) {
                           {"moment_share", result.faster_than_c.moment_share}};
   if (!result.along_fault.empty()) j["along_fault"] = along_fault_json(result);
   if (result.pulse) j["pulse"] = pulse_json(*result.pulse);
+  j["moment_n_m"] = o.moment ? Json(o.moment->middle()) : Json();
+  j["bounds"] = Json::array();
+  for (const auto& b : o.bounds)
+    j["bounds"].push_back({{"quantity", b.quantity}, {b.is_upper ? "below" : "above", b.limit}});
   j["warnings"] = result.warnings();
   j["error"] = result.error.empty() ? Json() : Json(result.error);
   return text_of(j);

@@ -4,10 +4,15 @@
 #include <string>
 
 #include "results/columns.hpp"
+#include "run/catalogue.hpp"
 #include "terminal_table.hpp"
 
 /// One object of `{"events": [...]}`. Quantities that are not identifiable are null.
 std::string event_json(const slipfront::results::EventResult& result);
+
+/// The keys about columns that were not read: `ignored_columns`, `ignored_quantities`, and `tables` with those of each
+/// file. Without the braces of an object.
+std::string columns_json(const slipfront::run::CatalogueColumns& columns);
 
 /// Text of a slip velocity: "2.8 m/s", "0.3 mm/day", "-".
 std::string speed_text(const std::optional<double>& metres_per_second);

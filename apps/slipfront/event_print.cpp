@@ -16,8 +16,14 @@ namespace {
 using namespace slipfront::results;
 using slipfront::record::event_csv_head;
 using slipfront::record::event_csv_row;
+using slipfront::run::CatalogueColumns;
 
 constexpr std::size_t most_errors_shown = 20;
+
+std::string not_understood(const std::vector<std::string>& titles) {
+  return fmt::format("columns that look like quantities and are not understood: {} (--columns MAP.toml can name them)",
+                     fmt::join(titles, ", "));
+}
 
 std::string events(std::size_t count) { return fmt::format("{} event{}", count, count == 1 ? "" : "s"); }
 
@@ -55,27 +61,38 @@ void EventPrinter::take(Printed&& p) {
   if (!p.error.empty() && ++errors_ <= most_errors_shown) complain(p.error);
 }
 
-void EventPrinter::finish(const std::vector<std::string>& ignored_columns, const std::string& written) {
+void EventPrinter::finish(const CatalogueColumns& columns, const std::string& written) {
   if (options_.json) {
     put("\n]");
+    put(", " + columns_json(columns));
     if (shown_.population) put(", \"population\": " + population_json(population_.decades()));
     put("}\n");
   } else if (options_.csv) {
     if (shown_.population) put(population_csv(population_.decades()));
   } else if (count_ > errors_) {  // a table of nothing but errors would only repeat stderr
-    print_table(written);
+    print_table(columns, written);
   }
-  if (!options_.quiet && !ignored_columns.empty() && !options_.json) {
-    std::string line = "note: columns without an observation, ignored:";
-    for (const std::string& title : ignored_columns) line += " " + title;
-    std::fflush(stdout);
-    complain(line);
-  }
+  std::fflush(stdout);
+  if (!options_.quiet) complain_of_columns(columns);
   if (errors_ > most_errors_shown)
     complain(fmt::format("... and {} more events with errors", errors_ - most_errors_shown));
 }
 
-void EventPrinter::print_table(const std::string& written) const {
+void EventPrinter::complain_of_columns(const CatalogueColumns& columns) const {
+  for (const auto& [file, table] : columns.files) {
+    if (!table.ignored_quantities.empty())
+      complain(fmt::format("warning: {}: {}", file, not_understood(table.ignored_quantities)));
+    for (const std::string& note : table.notes) complain("note: " + note);
+  }
+  std::string others;
+  for (const std::string& title : columns.ignored)
+    if (std::find(columns.ignored_quantities.begin(), columns.ignored_quantities.end(), title) ==
+        columns.ignored_quantities.end())
+      others += (others.empty() ? "" : ", ") + title;
+  if (!others.empty() && !options_.json) complain("note: columns without an observation, ignored: " + others);
+}
+
+void EventPrinter::print_table(const CatalogueColumns& columns, const std::string& written) const {
   if (has_rows()) put(table_.text());
   if (has_rows() && !options_.quiet && sampled_)
     put("\n" +
@@ -84,14 +101,14 @@ void EventPrinter::print_table(const std::string& written) const {
             "the posterior, which need not equal the observed values."));
   if (shown_.population) put(population_table(population_.decades(), count_, errors_));
   if (options_.quiet) return;
-  print_notes();
+  print_notes(columns);
   if (written.empty()) return;
   put(fmt::format("{}{}{} written to {}\n", shown_.population || !warnings_.empty() ? "\n" : "", events(count_),
                   errors_ > 0 ? fmt::format(", {} of them with errors,", errors_) : "", written));
 }
 
 /// Warnings, most frequent first, each once.
-void EventPrinter::print_notes() const {
+void EventPrinter::print_notes(const CatalogueColumns& columns) const {
   std::vector<std::pair<std::size_t, std::string>> notes;
   for (const auto& [text, count] : warnings_) notes.emplace_back(count, text);
   // Sources that disagree come first: each speaks of a few events, and must not be among those left out.
@@ -99,9 +116,12 @@ void EventPrinter::print_notes() const {
     return std::pair(note.second.starts_with("sources of ") ? 1 : 0, note.first);
   };
   std::stable_sort(notes.begin(), notes.end(), [&](const auto& a, const auto& b) { return rank(a) > rank(b); });
-  if (notes.empty()) return;
+  if (notes.empty() && columns.ignored_quantities.empty()) return;
   if (has_rows() || shown_.population) put("\n");
   put(fitted("Notes (--json gives those of each event; --quiet none):"));
+  for (const auto& [file, table] : columns.files)
+    if (!table.ignored_quantities.empty())
+      put(fitted(fmt::format("  {}: {}", file, not_understood(table.ignored_quantities)), 4));
   constexpr std::size_t most = 15;
   for (std::size_t i = 0; i < std::min(notes.size(), most); ++i)
     put(fitted(fmt::format("  {} ({})", notes[i].second, events(notes[i].first)), 4));

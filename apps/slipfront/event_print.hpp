@@ -9,6 +9,7 @@
 #include "catalogue/population.hpp"
 #include "commands.hpp"
 #include "results/evaluate.hpp"
+#include "run/catalogue.hpp"
 #include "terminal_table.hpp"
 
 /// The parts of the results that are printed.
@@ -36,14 +37,15 @@ class EventPrinter {
   void take(Printed&& printed);
 
   /// Ends the output. `written` is the file that was written, or empty.
-  void finish(const std::vector<std::string>& ignored_columns, const std::string& written);
+  void finish(const slipfront::run::CatalogueColumns& columns, const std::string& written);
   std::size_t errors() const { return errors_; }
 
  private:
   bool is_table() const { return !options_.json && !options_.csv; }
   bool has_rows() const { return options_.json || (options_.csv ? !shown_.population : shown_.rows); }
-  void print_table(const std::string& written) const;
-  void print_notes() const;
+  void print_table(const slipfront::run::CatalogueColumns& columns, const std::string& written) const;
+  void print_notes(const slipfront::run::CatalogueColumns& columns) const;
+  void complain_of_columns(const slipfront::run::CatalogueColumns& columns) const;
 
   CommonOptions options_;
   EventShown shown_;

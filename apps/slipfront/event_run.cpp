@@ -42,7 +42,12 @@ slipfront::run::CatalogueScenario scenario_of(const EventArguments& a) {
   slipfront::inference::Sampling sampling{
       .seed = a.seed, .closure = slipfront::friction::closure_named(a.closure), .draws = a.draws};
   if (a.samples) sampling.samples = *a.samples;
+  slipfront::catalogue::TableOptions table;
+  if (!a.column_map.empty()) table = {slipfront::record::read_text(a.column_map), a.column_map};
+  slipfront::catalogue::check_column_map(table);
   return {.texts = texts_of(a),
+          .table = table,
+          .strict = a.strict,
           .medium = a.medium,
           .evaluation = {.sampling = sampling,
                          .sample_all = a.samples.has_value(),
@@ -55,7 +60,7 @@ slipfront::run::CatalogueScenario scenario_of(const EventArguments& a) {
 /// them.
 int finish(EventPrinter& printer, const EventArguments& a, const slipfront::run::CatalogueColumns& columns,
            const std::string& path) {
-  printer.finish(a.files.empty() ? std::vector<std::string>{} : columns.ignored, path);
+  printer.finish(a.files.empty() ? slipfront::run::CatalogueColumns{} : columns, path);
   return columns.unreadable ? exit_file : printer.errors() > 0 ? exit_input : exit_done;
 }
 

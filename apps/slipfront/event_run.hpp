@@ -22,6 +22,8 @@ struct EventArguments {
   std::size_t draws = 0;
   bool fault_grid = false;
   std::optional<double> damping_number;  ///< sets the shape of slip-rate functions
+  std::string column_map;  ///< file of --columns
+  bool strict = false;
 };
 
 /// Prints events, some at a time. Returns the exit code.

@@ -14,6 +14,7 @@
 #include "record/files/unfinished.hpp"
 #include "results/columns.hpp"
 #include "run/catalogue.hpp"
+#include "slipfront/catalogue/read.hpp"
 #include "watch.hpp"
 
 namespace {
@@ -73,6 +74,12 @@ run::CatalogueScenario scenario_of(const std::vector<Source>& sources, const py:
     scenario.texts.push_back({name, is_path ? record::read_text(name) : content});
     scenario.command_line += " " + name;
   }
+  if (const std::string map = text("columns_file"); !map.empty())
+    scenario.table = {record::read_text(map), map};
+  else if (const std::string content = text("columns"); !content.empty())
+    scenario.table = {content, "columns"};
+  catalogue::check_column_map(scenario.table);
+  scenario.strict = options["strict"].cast<bool>();
   scenario.medium = {text("p_wave_speed"), text("poisson_ratio"), text("shear_modulus")};
   EvaluationOptions& evaluation = scenario.evaluation;
   evaluation.sample_all = !options["samples"].is_none();
@@ -86,7 +93,7 @@ run::CatalogueScenario scenario_of(const std::vector<Source>& sources, const py:
 
 /// Columns of all events: texts as lists, numbers as arrays.
 py::dict columns_of(const std::vector<EventResult>& results, const EvaluationOptions& evaluation,
-                    const std::vector<std::string>& ignored) {
+                    const run::CatalogueColumns& not_read) {
   py::dict columns;
   py::list of_numbers, of_texts;
   for (const NumberColumn& c : number_columns({.pulse = evaluation.pulse, .draws = evaluation.sampling.draws}))
@@ -96,7 +103,8 @@ py::dict columns_of(const std::vector<EventResult>& results, const EvaluationOpt
     of_texts.append(py::make_tuple(c.name, texts(results, c), c.long_name));
   columns["numbers"] = of_numbers;
   columns["texts"] = of_texts;
-  columns["ignored"] = ignored;
+  columns["ignored"] = not_read.ignored;
+  columns["ignored_quantities"] = not_read.ignored_quantities;
   return columns;
 }
 
@@ -118,7 +126,7 @@ py::dict evaluate_all(const std::vector<Source>& sources, const py::dict& option
   const auto output = options["output"].cast<std::string>(), resume = options["resume"].cast<std::string>();
   const int threads = options["threads"].cast<int>();
   check_output(output, resume, scenario.evaluation.sampling.draws);
-  std::vector<std::string> ignored;
+  run::CatalogueColumns not_read;
   run::CatalogueResult result;
   std::optional<Watch> watch;
   {
@@ -131,7 +139,7 @@ py::dict evaluate_all(const std::vector<Source>& sources, const py::dict& option
       const py::gil_scoped_acquire lock;
       watch.emplace(progress, total);
     }
-    ignored = plan.columns.ignored;
+    not_read = plan.columns;
     if (is_csv(path)) record::require_disk_space(path, plan.disk);  // for NetCDF, run::catalogue checks
     result = run::catalogue(std::move(plan), {.output = record::Output(is_csv(path) ? "" : path, resume),
                                               .resume = resume,
@@ -142,7 +150,7 @@ py::dict evaluate_all(const std::vector<Source>& sources, const py::dict& option
     if (is_csv(path) && result.finished) record::write_events_csv(path, result.events, scenario.evaluation.pulse);
   }
   watch->finish();
-  return columns_of(result.events, scenario.evaluation, ignored);
+  return columns_of(result.events, scenario.evaluation, not_read);
 }
 
 }  // namespace

@@ -29,6 +29,8 @@ std::pair<double, double> logarithm_of(const std::optional<Measured>& measured) 
       return {std::log(measured->low), std::log(measured->spread)};
     case Measured::Shape::normal:
       return {std::log(measured->low), measured->spread / measured->low};
+    case Measured::Shape::split:
+      return {std::log(measured->low), (measured->spread + measured->spread_below) / 2 / measured->low};
     case Measured::Shape::range:
       break;
   }

@@ -38,7 +38,8 @@ def compare(scenario: _Scenario, *, scales: Sequence[float] = ..., set: _Setting
 def event(events: _Event | Sequence[_Event] | None = ..., *, p_wave_speed: str | float | None = ..., poisson_ratio: str | float | None = ...,
           shear_modulus: str | float | None = ..., samples: int | None = ..., seed: int = ..., closure: str = ...,
           pulse: bool = ..., draws: int = ..., output: _Path | None = ..., resume: _Path | None = ...,
-          progress: _Progress = ..., threads: int | None = ...) -> xarray.Dataset: ...
+          progress: _Progress = ..., threads: int | None = ..., columns: _Path | Mapping[str, Any] | None = ...,
+          strict: bool = ...) -> xarray.Dataset: ...
 def laboratory(table: _Event, *, poisson_ratio: str | float | None = ..., shear_modulus: str | float | None = ..., density: str | float | None = ...,
                p_wave_speed: str | float | None = ..., s_wave_speed: str | float | None = ..., prior: Sequence[float] = ...,
                scatter_prior: Sequence[float] = ..., draws: int = ..., seed: int = ..., strict: bool = ..., output: _Path | None = ...) -> xarray.Dataset: ...

@@ -53,7 +53,7 @@ def _default(value):
 
 
 def event(events=None, *, p_wave_speed=None, poisson_ratio=None, shear_modulus=None, samples=None, seed=1, closure="consistent",
-          pulse=False, draws=0, output=None, resume=None, progress=None, threads=None):
+          pulse=False, draws=0, output=None, resume=None, progress=None, threads=None, columns=None, strict=False):
     """Computes stress, contact ratio, slip velocity and friction of observed events.
 
     The closed forms (Eqs. 8-10) give the values of an event without uncertainties. Samples of the posterior distribution
@@ -93,6 +93,11 @@ def event(events=None, *, p_wave_speed=None, poisson_ratio=None, shear_modulus=N
         True shows a line on stderr. A function is called with (events done, all events, events done, "").
     threads : int, optional
         Number of threads, by default all cores. Results do not depend on it.
+    columns : path or dict, optional
+        What the titles of a table mean, where slipfront does not know them (docs/events.md): a TOML file, or its content as a
+        dict such as {"decimal": ",", "columns": {"VR": "rupture_velocity km/s", "dVR": "error of rupture_velocity"}}.
+    strict : bool, optional
+        Whether to refuse a table with a bad row, or with a column that looks like a quantity and is not understood.
 
     Returns
     -------
@@ -108,7 +113,9 @@ def event(events=None, *, p_wave_speed=None, poisson_ratio=None, shear_modulus=N
     Sampled events also have `posterior_<name>` over `quantile` (5 %, 50 %, 95 %), effective_samples, pareto_k, samples and
     friction_identified (1 or 0). contact_ratio_prior_share and damping_number_prior_share are the width of an interval over
     that of its prior; near 1 the data say nothing. `warnings` holds the warnings of each event. If some events are wrong,
-    the others have results; `error` gives the reason of each wrong event, and is "" for the others.
+    the others have results; `error` gives the reason of each wrong event, and is "" for the others. The attribute
+    ignored_columns names the columns of tables that were not used, and ignored_quantities those of them that look like
+    quantities.
 
     Raises
     ------
@@ -127,13 +134,15 @@ def event(events=None, *, p_wave_speed=None, poisson_ratio=None, shear_modulus=N
                else [_source(events, "events")])
     if not sources:
         raise InputError("events: the list is empty; allowed: one event or more")
+    is_map = isinstance(columns, Mapping)
     with showing(progress) as call:
-        columns = _slipfront.event(sources, {
+        found = _slipfront.event(sources, {
             "p_wave_speed": _default(p_wave_speed), "poisson_ratio": _default(poisson_ratio), "shear_modulus": _default(shear_modulus),
             "samples": _whole("samples", samples), "seed": _whole("seed", seed), "closure": str(closure), "pulse": bool(pulse),
             "draws": _whole("draws", draws), "output": path("output", output), "resume": path("resume", resume), "progress": call,
-            "threads": thread_count(threads)})
-    texts = {name: (values, long_name) for name, values, long_name in columns["texts"]}
+            "threads": thread_count(threads), "columns": to_toml(columns) if is_map else "",
+            "columns_file": "" if is_map else path("columns", columns), "strict": bool(strict)})
+    texts = {name: (values, long_name) for name, values, long_name in found["texts"]}
     errors = texts["error"][0]
     if errors and all(errors):
         raise InputError(errors[0])
@@ -141,8 +150,10 @@ def event(events=None, *, p_wave_speed=None, poisson_ratio=None, shear_modulus=N
         raise InputError("events: the text contains no event; allowed: one event or more")
 
     variables = {name: ("event", np.array(values, dtype=object), {"long_name": long_name}) for name, (values, long_name) in texts.items()}
-    for name, dimensions, values, long_name, unit, dimensional_unit, reference in columns["numbers"]:
+    for name, dimensions, values, long_name, unit, dimensional_unit, reference in found["numbers"]:
         attrs = attributes((name, long_name, dimensional_unit, reference))
         variables[name] = (dimensions, values, {**attrs, "units": unit} if reference else {"long_name": long_name, "units": unit})
-    return dataset(variables, {"bound": ("bound", ["5 %", "95 %"], {"long_name": "ends of an interval"}),
-                               "quantile": ("quantile", [0.05, 0.5, 0.95], {"long_name": "share of the values below", "units": "1"})}, {"ignored_columns": ", ".join(columns["ignored"])})
+    coordinates = {"bound": ("bound", ["5 %", "95 %"], {"long_name": "ends of an interval"}),
+                   "quantile": ("quantile", [0.05, 0.5, 0.95], {"long_name": "share of the values below", "units": "1"})}
+    return dataset(variables, coordinates, {"ignored_columns": ", ".join(found["ignored"]),
+                                            "ignored_quantities": ", ".join(found["ignored_quantities"])})

@@ -13,8 +13,8 @@ namespace slipfront::catalogue {
 struct Format {
   std::string_view ending;                    ///< file name extension, such as ".toml"
   bool (*looks_like)(std::string_view text);  ///< detects the format if the extension is unknown
-  /// Passes each entry to `sink`. Returns the titles of the columns that hold no observation.
-  std::vector<std::string> (*read)(std::string_view text, const std::string& file, const Sink& sink);
+  /// Passes each entry to `sink`.
+  TableNotes (*read)(std::string_view text, const std::string& file, const Sink& sink, const TableOptions& options);
 };
 
 /// Returns the first character that is not white space, or 0 if there is none.

@@ -1,6 +1,10 @@
 #include "catalogue/keys.hpp"
 
 #include <string>
+#include <utility>
+
+#include "catalogue/plain_text.hpp"
+#include "foundation/text/trimmed.hpp"
 
 namespace slipfront::catalogue {
 
@@ -13,6 +17,11 @@ const std::vector<Key>& quantity_keys() {
         {"slip", Dimension::length, &Observation::slip},
         {"rise_time", Dimension::time, &Observation::rise_time},
         {"duration", Dimension::time, &Observation::duration},
+        {"rupture_length", Dimension::length, &Observation::rupture_length},
+        {"rupture_width", Dimension::length, &Observation::rupture_width},
+        {"rupture_area", Dimension::area, &Observation::rupture_area},
+        {"moment", Dimension::moment, &Observation::moment},
+        {"moment_magnitude", Dimension::ratio, &Observation::moment_magnitude},
         {"stress_drop", Dimension::pressure, &Observation::stress_drop},
         {"friction_coefficient", Dimension::ratio, &Observation::friction_coefficient},
         {"normal_stress", Dimension::pressure, &Observation::normal_stress},
@@ -32,11 +41,28 @@ const Key* find_key(std::string_view name) {
 }
 
 void store(Observation& observation, const Key& key, std::string_view text, std::string_view default_unit) {
+  const std::string name(key.name);
+  std::string plain = plain_number(text);
+  if (auto bound = parse_bound(plain, key.dimension, default_unit)) {
+    observation.warnings.push_back(name + " is only bounded (" + std::string(trimmed(text)) + "): not used as a value");
+    bound->quantity = name;
+    observation.bounds.push_back(std::move(*bound));
+    return;
+  }
+  for (const std::string_view about : {"~", "ca.", "about "}) {
+    if (!plain.starts_with(about)) continue;
+    plain.erase(0, about.size());
+    store(observation, key, parse_measured(plain, key.dimension, default_unit), text);
+    observation.warnings.push_back(name + " is approximate (" + std::string(trimmed(text)) +
+                                   "): taken as it is written");
+    return;
+  }
   store(observation, key, parse_measured(text, key.dimension, default_unit), text);
 }
 
 void store(Observation& observation, const Key& key, const Measured& measured, std::string_view text) {
-  const bool positive = key.name != "poisson_ratio";  // its own range is checked with the medium
+  const bool positive =
+      key.name != "poisson_ratio" && key.name != "moment_magnitude";  // the medium checks Poisson's ratio
   if (positive && !(measured.low > 0))
     throw InputError({.value = std::string(text), .problem = "not positive", .allowed = "> 0"});
   if (key.measured) {

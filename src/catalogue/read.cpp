@@ -6,12 +6,12 @@
 
 namespace slipfront::catalogue {
 
-extern const Format fsp_format, toml_format, csv_format;
+extern const Format fsp_format, json_format, toml_format, csv_format;
 
 namespace {
 
 /// In the order in which a text of unknown ending is tried; the last one takes what is left.
-constexpr const Format* formats[] = {&fsp_format, &toml_format, &csv_format};
+constexpr const Format* formats[] = {&fsp_format, &json_format, &toml_format, &csv_format};
 
 const Format& format_of(std::string_view text, std::string_view file) {
   for (const Format* format : formats)
@@ -23,11 +23,12 @@ const Format& format_of(std::string_view text, std::string_view file) {
 
 }  // namespace
 
-std::vector<std::string> read_events(std::string_view text, const std::string& file, const Sink& sink) {
+TableNotes read_events(std::string_view text, const std::string& file, const Sink& sink, const TableOptions& options) {
   try {
     if (text.find_first_not_of(" \t\r\n") == std::string_view::npos)
-      throw InputError({.file = file, .problem = "the file is empty", .allowed = "an event in TOML, CSV or .fsp"});
-    return format_of(text, file).read(text, file, sink);
+      throw InputError(
+          {.file = file, .problem = "the file is empty", .allowed = "an event in TOML, CSV, .fsp or GeoJSON"});
+    return format_of(text, file).read(text, file, sink, options);
   } catch (const InputError& error) {
     Entry entry;
     entry.observation.name = file;

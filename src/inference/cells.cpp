@@ -24,8 +24,10 @@ std::span<const double> steps_of(Fineness fineness) {
 }
 
 void add_normal(std::vector<double>& edges, const Measured& m, double low, std::span<const double> steps) {
-  for (const double z : steps)
-    if (m.low + m.spread * z > std::fmax(low, 1e-3 * m.low)) edges.push_back(std::log(m.low + m.spread * z));
+  for (const double z : steps) {
+    const double x = m.low + z * (z < 0 && m.shape == Measured::Shape::split ? m.spread_below : m.spread);
+    if (x > std::fmax(low, 1e-3 * m.low)) edges.push_back(std::log(x));
+  }
   // The tail towards zero: cells that widen from a fifth of an e-fold to the rest.
   const double begin = edges.front(), length = begin - std::log(low);
   std::vector<double> tail;
@@ -76,7 +78,7 @@ Axis axis_of(const Measured& m, double low, double high, Fineness fineness) {
   std::vector<double> edges;
   if (m.shape == Measured::Shape::lognormal) {
     for (const double z : steps) edges.push_back(std::log(m.low) + std::log(m.spread) * z);
-  } else if (m.shape == Measured::Shape::normal) {
+  } else if (m.shape == Measured::Shape::normal || m.shape == Measured::Shape::split) {
     add_normal(edges, m, low, steps);
   } else {
     const double from = std::fmax(m.low, low), to = std::fmin(m.high, high);

@@ -38,6 +38,7 @@ double elastic_blur(const Observation& o) {
 double log_spread(const Measured& m) {
   if (m.shape == Measured::Shape::lognormal) return std::log(m.spread);
   if (m.shape == Measured::Shape::normal) return m.spread / m.low;
+  if (m.shape == Measured::Shape::split) return (m.spread + m.spread_below) / 2 / m.low;
   return m.is_exact() ? 0 : std::log(m.high / m.low) / std::sqrt(12.0);
 }
 
@@ -50,12 +51,14 @@ double Evidence::blurred_likelihood(double ln_x, double resolution) const {
     case Measured::Shape::lognormal:
       z = (ln_x - std::log(measured.low)) / std::hypot(std::log(measured.spread), more);
       break;
-    case Measured::Shape::normal: {
+    case Measured::Shape::normal:
+    case Measured::Shape::split: {
       const double x = std::exp(ln_x);
-      z = (x - measured.low) / std::hypot(measured.spread, more * x);
+      const bool under = measured.shape == Measured::Shape::split && x < measured.low;
+      z = (x - measured.low) / std::hypot(under ? measured.spread_below : measured.spread, more * x);
       break;
     }
-    default: {
+    case Measured::Shape::range: {
       const double outside = std::fmax(std::log(measured.low) - ln_x, ln_x - std::log(measured.high));
       z = std::fmax(outside, 0.0) / std::fmax(more, 1e-6);
     }

@@ -53,7 +53,7 @@ std::uint64_t seed_of(std::uint64_t seed, const catalogue::Observation& o) {
     state = mixed(state);
   };
   const auto add_measured = [&](const catalogue::Measured& m) {
-    for (const double x : {m.low, m.high, m.spread, static_cast<double>(m.shape)}) add(x);
+    for (const double x : {m.low, m.high, m.spread, m.spread_below, static_cast<double>(m.shape)}) add(x);
   };
   const auto none = std::numeric_limits<double>::quiet_NaN();
   for (const auto* m : {&o.rupture_velocity_m_s, &o.slip_velocity_m_s, &o.slip, &o.rise_time, &o.duration,

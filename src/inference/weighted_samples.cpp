@@ -18,8 +18,16 @@ double normal_share_below(double z) { return std::erfc(-z / std::numbers::sqrt2)
 
 /// Probability that an observation of the true value x is below the middle of the actual one.
 double share_below(const Measured& m, double x) {
-  if (m.shape == Measured::Shape::normal) return normal_share_below((m.low - x) / m.spread);
-  if (m.shape == Measured::Shape::lognormal) return normal_share_below(std::log(m.low / x) / std::log(m.spread));
+  switch (m.shape) {
+    case Measured::Shape::normal:
+      return normal_share_below((m.low - x) / m.spread);
+    case Measured::Shape::split:
+      return normal_share_below((m.low - x) / (x < m.low ? m.spread_below : m.spread));
+    case Measured::Shape::lognormal:
+      return normal_share_below(std::log(m.low / x) / std::log(m.spread));
+    case Measured::Shape::range:
+      break;
+  }
   if (m.is_exact()) return std::fabs(x / m.low - 1) < 1e-9 ? 0.5 : x < m.low ? 1 : 0;
   return std::clamp((m.high - x) / (m.high - m.low), 0.0, 1.0);
 }

@@ -22,6 +22,8 @@ struct Kind {
 const Kind& kind(Dimension dimension) {
   static constexpr Kind velocity{{1, 0, -1}, "a velocity", "a velocity, such as 3.0 km/s or 10 km/day"};
   static constexpr Kind length{{1, 0, 0}, "a length", "a length, such as 4 mm or 1.2 m"};
+  static constexpr Kind area{{2, 0, 0}, "an area", "an area, such as 300 km2"};
+  static constexpr Kind moment{{2, 1, -2}, "a seismic moment", "a seismic moment, such as 1e18 N m"};
   static constexpr Kind time{{0, 0, 1}, "a time", "a time, such as 0.9 s or 2 weeks"};
   static constexpr Kind pressure{{-1, 1, -2}, "a stress", "a stress or modulus, such as 30 GPa"};
   static constexpr Kind density{{-3, 1, 0}, "a density", "a density, such as 2700 kg/m3 or 2.7 g/cm3"};
@@ -31,6 +33,10 @@ const Kind& kind(Dimension dimension) {
       return velocity;
     case Dimension::length:
       return length;
+    case Dimension::area:
+      return area;
+    case Dimension::moment:
+      return moment;
     case Dimension::time:
       return time;
     case Dimension::pressure:

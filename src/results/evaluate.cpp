@@ -2,8 +2,10 @@
 
 #include <utility>
 
+#include "catalogue/derived.hpp"
 #include "results/quantities.hpp"
 #include "results/serialize.hpp"
+#include "slipfront/medium/medium.hpp"
 
 namespace slipfront::results {
 
@@ -84,6 +86,8 @@ EventResult evaluate(Entry&& entry, const medium::Defaults& defaults, const Eval
   EventResult result{std::move(entry.observation), {}, {}, {}, {}, {}};
   try {
     if (entry.error) throw InputError(*entry.error);
+    const medium::Elastic elastic = medium::elastic(result.observation, defaults);
+    catalogue::derive(result.observation, elastic.shear_modulus, elastic.speed);
     result.estimate = estimate(result.observation, defaults, is_sampled(options, result.observation));
     result.posterior = posterior_of(result);
     if (result.posterior) fill(*result.estimate, *result.posterior);

@@ -1,6 +1,7 @@
 #include "run/catalogue.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -21,22 +22,67 @@ using catalogue::Entry;
 using results::EvaluationOptions;
 using results::EventResult;
 
+void add_once(std::vector<std::string>& all, const std::vector<std::string>& more) {
+  for (const std::string& title : more)
+    if (std::find(all.begin(), all.end(), title) == all.end()) all.push_back(title);
+}
+
+/// Why --strict refuses a text: its first bad row, or a column that looks like a quantity. Nothing if it does not.
+std::optional<Complaint> why_refused(const EventText& t, const CatalogueScenario& scenario,
+                                     const medium::Defaults& defaults) {
+  std::optional<Complaint> first;
+  EvaluationOptions closed_forms;
+  closed_forms.sampling.samples = 0;
+  const catalogue::TableNotes notes = catalogue::read_events(
+      t.text, t.name,
+      [&](Entry&& entry) {
+        if (first) return;
+        const bool is_read = !entry.error;
+        first = entry.error;
+        if (const std::string error = is_read ? evaluate(std::move(entry), defaults, closed_forms).error : "";
+            !error.empty())
+          first = Complaint{.problem = error};
+      },
+      scenario.table);
+  if (first) {
+    first->problem += " (--strict refuses the file)";
+  } else if (!notes.ignored_quantities.empty()) {
+    first =
+        Complaint{.file = t.name,
+                  .key = notes.ignored_quantities.front(),
+                  .problem = "a column that looks like a quantity and is not understood (--strict refuses the file)",
+                  .allowed = "columns that --columns map.toml names, or \"ignore\" there"};
+  }
+  return first;
+}
+
+/// An entry that has only an error.
+Entry bad_entry(const std::string& file, Complaint&& error) {
+  Entry entry;
+  entry.observation.name = file;
+  entry.observation.file = file;
+  entry.error = std::move(error);
+  return entry;
+}
+
 /// Reads the entries of all texts. A text that could not be read gives one entry, with the reason.
-CatalogueColumns read_all(const std::vector<EventText>& texts, const catalogue::Sink& sink) {
+CatalogueColumns read_all(const CatalogueScenario& scenario, const medium::Defaults& defaults,
+                          const catalogue::Sink& sink) {
   CatalogueColumns columns;
-  auto& ignored = columns.ignored;
-  for (const EventText& t : texts) {
-    if (t.error.empty()) {
-      for (std::string& title : catalogue::read_events(t.text, t.name, sink))
-        if (std::find(ignored.begin(), ignored.end(), title) == ignored.end()) ignored.push_back(std::move(title));
+  for (const EventText& t : scenario.texts) {
+    if (!t.error.empty()) {
+      columns.unreadable = true;
+      sink(bad_entry(t.name, Complaint{.problem = t.error}));
       continue;
     }
-    columns.unreadable = true;
-    Entry entry;
-    entry.observation.name = t.name;
-    entry.observation.file = t.name;
-    entry.error = Complaint{.problem = t.error};
-    sink(std::move(entry));
+    if (auto refused = scenario.strict ? why_refused(t, scenario, defaults) : std::nullopt) {
+      sink(bad_entry(t.name, std::move(*refused)));
+      continue;
+    }
+    catalogue::TableNotes notes = catalogue::read_events(t.text, t.name, sink, scenario.table);
+    add_once(columns.ignored, notes.ignored);
+    add_once(columns.ignored_quantities, notes.ignored_quantities);
+    if (!notes.ignored.empty() || !notes.notes.empty()) columns.files.push_back({t.name, std::move(notes)});
   }
   return columns;
 }
@@ -46,6 +92,8 @@ std::vector<std::pair<std::string, std::string>> settings_of(const CatalogueScen
   const EvaluationOptions& e = scenario.evaluation;
   const auto stated = [](const std::string& text) { return text.empty() ? "default" : text; };
   std::string inputs;
+  if (!scenario.table.map.empty())
+    inputs = record::checksum_of_inputs(inputs, scenario.table.map_file, scenario.table.map);
   for (const EventText& t : scenario.texts)
     inputs = record::checksum_of_inputs(inputs, t.name, t.error.empty() ? t.text : t.error);
   return {{"seed", std::to_string(e.sampling.seed)},
@@ -137,7 +185,9 @@ CataloguePlan plan_catalogue(const CatalogueScenario& scenario, int threads, boo
                                   .command_line = scenario.command_line,
                                   .settings = settings_of(scenario),
                                   .columns = {scenario.evaluation.pulse, scenario.evaluation.sampling.draws}}};
-  plan.columns = read_all(scenario.texts, [&](Entry&& entry) { plan.entries.push_back(std::move(entry)); });
+  plan.columns = read_all(scenario, plan.defaults, [&](Entry&& entry) { plan.entries.push_back(std::move(entry)); });
+  plan.metadata.ignored_columns = plan.columns.ignored;
+  plan.metadata.ignored_quantities = plan.columns.ignored_quantities;
   finite_fault::warn_of_other_sources(plan.entries, plan.defaults);
   results::require_memory(plan.evaluation, plan.entries.size(), threads, with_file);
   plan.disk = results::disk_needed(plan.evaluation, plan.entries.size());
@@ -170,7 +220,7 @@ CatalogueColumns stream_catalogue(const CatalogueScenario& scenario, int threads
   // We read the texts twice, because a warning that sources of one earthquake disagree needs all of them.
   finite_fault::Sources sources;
   std::size_t count = 0;
-  read_all(scenario.texts, [&](Entry&& entry) {
+  read_all(scenario, defaults, [&](Entry&& entry) {
     ++count;
     if (!entry.error) sources.add(entry.observation, defaults);
   });
@@ -184,7 +234,7 @@ CatalogueColumns stream_catalogue(const CatalogueScenario& scenario, int threads
     waiting.clear();
     take(std::move(results));
   };
-  CatalogueColumns columns = read_all(scenario.texts, [&](Entry&& entry) {
+  CatalogueColumns columns = read_all(scenario, defaults, [&](Entry&& entry) {
     if (!entry.error) sources.warn(entry.observation);
     waiting.push_back(std::move(entry));
     if (waiting.size() == most_waiting) flush();

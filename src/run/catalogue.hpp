@@ -12,6 +12,7 @@
 #include "record/files/unfinished.hpp"
 #include "results/evaluate.hpp"
 #include "slipfront/catalogue/observation.hpp"
+#include "slipfront/catalogue/read.hpp"
 #include "slipfront/medium/constants.hpp"
 
 namespace slipfront::run {
@@ -26,15 +27,26 @@ struct EventText {
 /// Events, and how each is evaluated.
 struct CatalogueScenario {
   std::vector<EventText> texts;
+  catalogue::TableOptions table = {};  ///< how CSV files are read
+  bool strict =
+      false;  ///< refuse a file with a bad row, or with a column that looks like a quantity and is not understood
   medium::StatedDefaults medium = {};
   results::EvaluationOptions evaluation = {};
   std::string command_line = {};  ///< stored as the history of the output file
 };
 
-/// The columns of a catalogue that were ignored, and whether a file could not be read.
+/// The columns of one file that were not read.
+struct FileNotes {
+  std::string file;
+  catalogue::TableNotes table;
+};
+
+/// The columns of a catalogue that were not read, and whether a file could not be read at all.
 struct CatalogueColumns {
-  std::vector<std::string> ignored;  ///< titles of columns without observations
-  bool unreadable = false;           ///< a file could not be read; an entry has the reason
+  std::vector<FileNotes> files;                 ///< the files with notes
+  std::vector<std::string> ignored;             ///< titles of columns without observations, of all files
+  std::vector<std::string> ignored_quantities;  ///< those of them that look like quantities
+  bool unreadable = false;                      ///< a file could not be read; an entry has the reason
 };
 
 /// A catalogue that has been read and checked, but not evaluated.

@@ -72,7 +72,8 @@ TEST(Fsp, TakesRiseTimeFromItsColumnIfTheHeaderHasNone) {
 }
 
 TEST(Fsp, IgnoresPlaceholdersOfVelocities) {
-  for (const std::string value : {"0.0", "-99.0", "999.0", "99", "-1", "", "unknown"}) {
+  for (const std::string value : {"0.0", "-99.0", "999.0", "99", "-1", "", "unknown", "nan", "NaN", "-nan", "-99",
+                                  "-9.9e1", "+999", "9999", "-999.00", "n/a", "-"}) {
     const Observation o = read(single("avVr = 2.5 km/s", "avVr = " + value + " km/s"));
     EXPECT_FALSE(o.rupture_velocity_m_s) << value;
     EXPECT_EQ(warnings_with(o, "avVr"), 1U) << value;
@@ -82,7 +83,7 @@ TEST(Fsp, IgnoresPlaceholdersOfVelocities) {
 }
 
 TEST(Fsp, IgnoresPlaceholdersOfRiseTimes) {
-  for (const std::string value : {"0.0", "-99.0", "999.0", "900", "", "-"}) {
+  for (const std::string value : {"0.0", "-99.0", "999.0", "900", "", "-", "nan", "NAN", "-9999"}) {
     const Observation o = read(single("avTr = 2.0 s", "avTr = " + value + " s"));
     EXPECT_FALSE(o.rise_time) << value;
     EXPECT_FALSE(o.slip_velocity_m_s) << value;
@@ -91,6 +92,30 @@ TEST(Fsp, IgnoresPlaceholdersOfRiseTimes) {
     expect_value(o.slip, 1);
   }
   EXPECT_EQ(warnings_with(read(single("avTr = 2.0 s    ", "")), "no avTr"), 1U);
+}
+
+TEST(Fsp, TreatsAPlaceholderInTheHeaderAsAbsent) {
+  const Observation o = read(edited(single("DEP = 7.00", "DEP = nan"), "HypZ =  5.00 km", "HypZ = nan km"));
+  EXPECT_EQ(warnings_with(o, "the depth of the hypocentre is not given"), 1U);
+  expect_value(o.rupture_velocity_m_s, 2500);
+  for (const std::string size : {"nan", "999.00", "-99", "9999"})
+    expect_value(read(single("Dx  =   2.00 km", "Dx  = " + size + " km")).slip, 1);
+  EXPECT_EQ(
+      warnings_with(read(single("4.00       6.00       3.00        2.50", "4.00 nan 3.00 2.50")), "elastic constants"),
+      1U);
+}
+
+TEST(Fsp, LeavesOutSubfaultsWithoutSlip) {
+  const std::string row = "    34.990  -119.990    -2.000    -2.000     0.500     1.500   180.000";
+  for (const std::string slip : {"nan", "NaN", "-99", "-99.0", "999", "-999", "9999", "-9999.00", "n/a", "-", "null"}) {
+    const Observation o = read(single(row, "34.990 -119.990 -2.000 -2.000 0.500 " + slip + " 180.000"));
+    expect_value(o.slip, 0.9);
+    EXPECT_EQ(o.subfaults.size(), 5U) << slip;
+    EXPECT_EQ(warnings_with(o, "whose slip is a placeholder, left out: 1"), 1U) << slip;
+  }
+  const Observation o = read(single(row, "34.990 -119.990 nan -2.000 0.500 1.500 180.000"));
+  expect_value(o.slip, 1);
+  EXPECT_EQ(o.subfaults.size(), 5U);
 }
 
 TEST(Fsp, LeavesABlankValueBlank) {

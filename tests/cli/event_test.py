@@ -17,7 +17,7 @@ EVENT = ["name", "c_m_s", "rupture_velocity", "stress", "frictionless_slip_veloc
 class Event(CommandLine):
     def test_json_has_the_contract_keys(self):
         out = json.loads(self.ok("event", os.path.join(SOURCE, "cases/ets.toml"), os.path.join(SOURCE, "cases/parkfield-2004.toml"), "--json"))
-        self.assertEqual(list(out), ["events"])
+        self.assertEqual(list(out), ["events", "ignored_columns", "ignored_quantities", "tables"])
         ets, parkfield = out["events"]
         for event in (ets, parkfield):
             for key in EVENT:
@@ -40,6 +40,54 @@ class Event(CommandLine):
         rows = list(csv.DictReader(io.StringIO(run("event", path, "--csv").stdout)))
         self.assertEqual(len(rows), 4)
         self.assertIn("error", run("event", path).stdout)
+
+    def test_columns_that_are_not_understood_are_named_in_every_output(self):
+        path = self.file("k.csv", "name,Vr (km/s),Er (J),fc,Mw,remark\nA,2.7,1e12,0.3,7,good\n")
+        done = run("event", path, "--json")
+        self.assertEqual(done.returncode, 0)
+        out = json.loads(done.stdout)
+        self.assertEqual(out["ignored_columns"], ["Er (J)", "fc", "remark"])
+        self.assertEqual(out["ignored_quantities"], ["Er (J)", "fc"])
+        self.assertEqual(out["tables"][0]["file"], path)
+        for options in ([], ["--csv"]):
+            done = run("event", path, *options)
+            self.assertIn("k.csv: columns that look like quantities and are not understood: Er (J), fc", done.stderr)
+            self.assertIn("ignored: remark", done.stderr)
+        self.assertIn("Er (J), fc", run("event", path).stdout)
+        self.assertEqual(run("event", path, "--csv", "--quiet").stderr, "")
+
+    def test_strict_refuses_the_whole_file(self):
+        unknown = self.file("u.csv", "name,Vr (km/s),Er (J)\nA,2.7,1e12\n")
+        done = run("event", unknown, "--strict")
+        self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1))
+        self.assertIn("u.csv: Er (J): a column that looks like a quantity and is not understood", done.stderr)
+        for row, says in (("B,x", "b.csv:3: Vr (km/s) = 'x': not a finite number"), ("B,9", "not below the speed c")):
+            bad = self.file("b.csv", f"name,Vr (km/s)\nA,2.7\n{row}\n")
+            done = run("event", bad, "--strict", "--json")
+            self.assertEqual(done.returncode, 2)
+            self.assertEqual(len(json.loads(done.stdout)["events"]), 1)
+            self.assertIn(says, done.stderr)
+        self.ok("event", self.file("g.csv", "name,Vr (km/s)\nA,2.7\n"), "--strict")
+
+    def test_a_map_names_columns(self):
+        table = self.file("m.csv", "Ort;A1;A2\nX;2,7;0,2\n")
+        mapped = self.file("map.toml", 'decimal = ","\n[columns]\n"Ort" = "name"\n"A1" = "rupture_velocity km/s"\n'
+                           '"A2" = "error of rupture_velocity"\n')
+        event = json.loads(self.ok("event", table, "--columns", mapped, "--json", "--samples", "0"))["events"][0]
+        self.assertEqual((event["name"], event["rupture_velocity_m_s"]), ("X", 2700))
+        self.assertIsNotNone(event["rupture_velocity_interval"])
+        wrong = self.file("wrong.toml", '[columns]\n"A1" = "rupture_velocty km/s"\n')
+        done = run("event", table, "--columns", wrong)
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertIn("wrong.toml:2: columns.A1 = 'rupture_velocty': unknown quantity; allowed: 'rupture_velocity'", done.stderr)
+        self.assertEqual(run("event", table, "--columns", "none.toml").returncode, 3)
+
+    def test_a_bound_is_no_value(self):
+        path = self.file("bound.csv", "name,Vr (km/s),slip velocity (m/s)\nA,<2.7,0.5\n")
+        event = json.loads(self.ok("event", path, "--json"))["events"][0]
+        self.assertIsNone(event["rupture_velocity_m_s"])
+        self.assertEqual(event["bounds"], [{"quantity": "rupture_velocity", "below": 2700}])
+        self.assertIn("rupture_velocity is only bounded (<2.7): not used as a value", event["warnings"])
 
     def test_friction_and_errors(self):
         path = self.file("f.csv", "name,rupture_velocity,slip_velocity,contact_ratio,slip_velocity_is\n"
@@ -275,7 +323,7 @@ class Event(CommandLine):
         done = run("event", path, "--json", "--population")
         self.assertEqual(done.returncode, 2)
         out = json.loads(done.stdout)
-        self.assertEqual(list(out), ["events", "population"])
+        self.assertEqual(list(out), ["events", "ignored_columns", "ignored_quantities", "tables", "population"])
         self.assertEqual(len(out["events"]), 6)
         decades = out["population"]
         self.assertEqual([d["events"] for d in decades], [3, 0, 0, 1])

@@ -151,6 +151,18 @@ class Event(CommandLine):
         slow = slipfront.event({"name": "a", "rupture_velocity": "3 km/s"}, p_wave_speed="7 km/s", poisson_ratio=0.25)
         self.assertAlmostEqual(float(slow.c_m_s), float(slipfront.medium.speed_from_p_wave(7000.0, 0.25)), 9)
 
+    def test_columns_and_strict(self):
+        table = pd.DataFrame({"name": ["A"], "VR": [2.7], "dVR": [0.2], "fc": [0.3]})
+        columns = {"columns": {"VR": "rupture_velocity km/s", "dVR": "error of rupture_velocity"}}
+        event = slipfront.event(table, columns=columns, samples=0)
+        self.assertEqual(float(event.rupture_velocity_m_s[0]), 2700)
+        self.assertEqual(event.attrs["ignored_columns"], "fc")
+        self.assertEqual(event.attrs["ignored_quantities"], "fc")
+        with self.assertRaisesRegex(slipfront.InputError, "fc: a column that looks like a quantity"):
+            slipfront.event(table, columns=columns, strict=True)
+        with self.assertRaisesRegex(slipfront.InputError, "columns:2: columns.VR = 'rupture_speed': unknown quantity"):
+            slipfront.event(table, columns={"columns": {"VR": "rupture_speed km/s"}})
+
 
 if __name__ == "__main__":
     unittest.main()

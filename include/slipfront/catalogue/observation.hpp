@@ -72,6 +72,12 @@ struct Observation : medium::Constants {
   std::optional<Measured> rise_time;  ///< s, time for which one point slips
   std::optional<Measured> duration;   ///< s, of the whole event
 
+  std::optional<Measured> rupture_length, rupture_width;  ///< m
+  std::optional<Measured> rupture_area;                   ///< m^2
+  std::optional<Measured> moment;                         ///< N m
+  std::optional<Measured> moment_magnitude;               ///< Mw
+  std::vector<Bound> bounds;                              ///< limits such as "<2.7 km/s", which give no value
+
   std::optional<Measured> stress_drop;           ///< Pa; `stress_drop_is` gives its meaning
   std::optional<Measured> friction_coefficient;  ///< C
   std::optional<Measured> normal_stress;         ///< Pa

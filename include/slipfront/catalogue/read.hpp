@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Three text formats of observed events. The readers take text, not paths: record/ knows files.
+/// Text formats of observed events. The readers take text, not paths: record/ knows files.
 
 #include <functional>
 #include <string>
@@ -18,10 +18,26 @@ Observation read_toml(std::string_view text, const std::string& file);
 /// Takes the entries of a file one by one, in the file's order: a catalogue of a million rows is never held whole.
 using Sink = std::function<void(Entry&&)>;
 
-/// A CSV catalogue, one event a row, units in the header (`rupture_velocity_km_s`, `slip_velocity [m/s]`) or in the
-/// cell. A bad row becomes an entry with an error. Returns the columns that carry no observation. \throws InputError
-/// when the text as a whole is unusable.
-std::vector<std::string> read_csv(std::string_view text, const std::string& file, const Sink& sink);
+/// How a table is to be read.
+struct TableOptions {
+  std::string map;       ///< TOML text that maps titles to quantities (docs/events.md); by default none
+  std::string map_file;  ///< its file, for error messages
+};
+
+/// Reads the map of the options and discards it. \throws InputError with file and line, if the map is wrong.
+void check_column_map(const TableOptions& options);
+
+/// Notes about a table as a whole.
+struct TableNotes {
+  std::vector<std::string> ignored;             ///< titles of the columns that give no observation
+  std::vector<std::string> ignored_quantities;  ///< those of them that look like quantities
+  std::vector<std::string> notes;               ///< other notes, with file and line
+};
+
+/// A CSV catalogue, one event a row, as published: units in the header (`rupture_velocity_km_s`, `VR [km/s]`), below it
+/// or in the cell; columns of errors; comments and a preamble before the header; commas, tabs or semicolons. A bad row
+/// becomes an entry with an error. \throws InputError when the text as a whole is unusable, or the map is wrong.
+TableNotes read_csv(std::string_view text, const std::string& file, const Sink& sink, const TableOptions& options = {});
 
 /// A finite-fault model in SRCMOD / USGS .fsp text format: rupture velocity from avVr, slip velocity from the
 /// area-weighted mean slip over avTr (or over the slip-weighted mean RISE), elastic constants from the velocity table
@@ -29,9 +45,9 @@ std::vector<std::string> read_csv(std::string_view text, const std::string& file
 /// cut, empty or not such a model.
 Observation read_fsp(std::string_view text, const std::string& file);
 
-/// Any of the three, by the ending of `file` (.toml, .csv, .fsp), else by what the text looks like. Never throws
-/// InputError: what is unusable as a whole becomes an entry with an error. Returns the columns of a CSV that carry no
-/// observation.
-std::vector<std::string> read_events(std::string_view text, const std::string& file, const Sink& sink);
+/// Any of the formats, by the ending of `file` (.toml, .csv, .fsp, .json), else by what the text looks like. Never
+/// throws InputError: what is unusable as a whole becomes an entry with an error.
+TableNotes read_events(std::string_view text, const std::string& file, const Sink& sink,
+                       const TableOptions& options = {});
 
 }  // namespace slipfront::catalogue

@@ -9,7 +9,7 @@
 namespace slipfront::medium {
 
 /// The dimension of a quantity. The first of its units is the SI unit.
-enum class Dimension { velocity, length, time, pressure, density, ratio };
+enum class Dimension { velocity, length, area, time, pressure, density, moment, ratio };
 
 /// Text for the `allowed` part of an error, such as "a velocity, such as 3.0 km/s or 10 km/day".
 std::string_view example(Dimension dimension);

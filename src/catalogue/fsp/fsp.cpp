@@ -104,7 +104,7 @@ void Reader::refuse_unless_model(const Place& end) const {
   throw InputError(std::move(complaint));
 }
 
-/// The number of a header field, unless it is left blank or holds a placeholder: 0, -99, 999.
+/// The number of a header field, unless it is left blank or holds a placeholder: 0, -99, 999, nan.
 std::optional<double> given(const fsp::Field& field, const std::string& key, double limit,
                             std::vector<std::string>& warnings) {
   if (field.number && *field.number > 0 && *field.number < limit) return field.number;
@@ -213,9 +213,9 @@ extern const Format fsp_format;
 const Format fsp_format{.ending = ".fsp",
                         .looks_like = [](std::string_view text) { return first_character(text) == '%'; },
                         .read =
-                            [](std::string_view text, const std::string& file, const Sink& sink) {
+                            [](std::string_view text, const std::string& file, const Sink& sink, const TableOptions&) {
                               sink({read_fsp(text, file), {}});
-                              return std::vector<std::string>{};
+                              return TableNotes{};
                             }};
 
 }  // namespace slipfront::catalogue

@@ -32,9 +32,12 @@ bool same(std::string_view a, std::string_view b);
 bool begins(std::string_view text, std::string_view with);
 std::optional<std::size_t> index_of(const Words& words, std::string_view word);
 
-/// Reads a word as a number. The result is infinite if the number overflows or underflows a double, and absent if the
-/// word is not a number as a whole.
+/// Reads a word as a number. The result is infinite if the number overflows or underflows a double, NaN if the word is
+/// `nan`, and absent if the word is not a number as a whole.
 std::optional<double> number(std::string_view word);
+/// Words and numbers that stand for an absent value: n/a, null, - and the like; NaN, -99, 999, -999, 9999 and -9999.
+bool is_placeholder(std::string_view word);
+bool is_placeholder(double value);
 /// Text for display: single blanks, no control characters, valid UTF-8. Text that is not UTF-8 is read as Latin-1.
 std::string tidy(std::string_view text);
 
@@ -47,7 +50,7 @@ struct Value {
 
 /// The value of a key, if the line has it. \throws InputError for a number outside the range of a double.
 std::optional<Value> value_of(std::string_view text, std::string_view key, const Place& place);
-/// Like `value_of`, but for a size in km. It is absent unless positive, and absent for the placeholder 999.
+/// Like `value_of`, but for a size in km. It is absent unless positive, and absent for a placeholder.
 std::optional<double> size_of(std::string_view text, std::string_view key, const Place& place);
 /// Like `value_of`, but for a count. It is absent unless it is a positive whole number.
 std::optional<std::size_t> count_of(std::string_view text, std::string_view key, const Place& place);
@@ -164,12 +167,13 @@ class SubfaultTables {
     std::optional<double> length, width, dx, dz;  ///< km
     std::size_t columns = 0, slip_column = 0;
     std::optional<std::size_t> rise_column, time_column, x_column, y_column, z_column;
-    std::size_t line = 0, rows = 0;
+    std::size_t line = 0, rows = 0, rows_with_slip = 0;
     double slip = 0, slip_with_rise = 0, slip_times_rise = 0;
 
     std::optional<double> area(const Header& header) const;
   };
 
+  void add_slip(Segment& segment, const std::vector<double>& values);
   void keep_subfault(Segment& segment, const std::vector<double>& values);
   static FaultSegment geometry_of(const Segment& table, const Header& header, bool exchanged);
   void check_rows(std::size_t index, const Header& header, const Place& end, std::vector<std::string>& warnings) const;
@@ -181,6 +185,7 @@ class SubfaultTables {
   std::size_t announced_ = 0;   ///< line number of its `SEGMENT #`; 0 if there was none
   std::size_t stray_rows_ = 0;  ///< rows that hold words other than numbers
   std::size_t negative_rows_ = 0;
+  std::size_t rows_without_slip_ = 0;
 };
 
 }  // namespace slipfront::catalogue::fsp

@@ -41,7 +41,8 @@ void VelocityTable::take(std::string_view text, const Place& place) {
     modulus_follows_ = true;
   } else if (columns_) {
     take_layer(row, place);
-  } else if (const auto value = row.empty() ? std::nullopt : number(row[0]); value && modulus_follows_) {
+  } else if (const auto value = row.empty() ? std::nullopt : number(row[0]);
+             value && !std::isnan(*value) && modulus_follows_) {
     modulus_ = finite(row[0], *value, place);
     modulus_follows_ = false;
   }
@@ -50,7 +51,7 @@ void VelocityTable::take(std::string_view text, const Place& place) {
 void VelocityTable::take_layer(const Words& row, const Place& place) {
   const auto cell = [&](std::size_t column) -> std::optional<double> {
     const auto value = column < row.size() ? number(row[column]) : std::nullopt;
-    return value ? std::optional(finite(row[column], *value, place)) : std::nullopt;
+    return value && !is_placeholder(*value) ? std::optional(finite(row[column], *value, place)) : std::nullopt;
   };
   const auto depth = cell(columns_->depth);
   const auto p = cell(columns_->p);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "catalogue/fsp/fsp.hpp"
 
@@ -16,13 +17,16 @@ constexpr double longest_rise_time = 900;  // s; larger values are placeholders
                     .allowed = "a line of column names and the rows it announces"});
 }
 
-/// The numbers of a row; other words are skipped.
-std::vector<double> numbers(const Words& row, const Place& place) {
+constexpr double absent = std::numeric_limits<double>::quiet_NaN();
+
+/// The numbers of a row. A word that stands for an absent value is NaN if the row has one word a column. Other words
+/// are skipped.
+std::vector<double> numbers(const Words& row, std::size_t columns, const Place& place) {
   std::vector<double> out;
   for (const std::string_view word : row) {
-    const auto value = number(word);
+    const auto value = row.size() == columns && is_placeholder(word) ? std::optional(absent) : number(word);
     if (!value) continue;
-    if (!std::isfinite(*value)) {
+    if (std::isinf(*value)) {
       throw InputError({.file = place.file,
                         .line = place.line,
                         .key = "subfault",
@@ -92,7 +96,7 @@ void SubfaultTables::take_heading(const Words& names, const Place& place) {
 
 void SubfaultTables::take_row(const Words& row, const Place& place) {
   Segment& segment = segments_.back();
-  const std::vector<double> values = numbers(row, place);
+  const std::vector<double> values = numbers(row, segment.columns, place);
   if (values.size() != segment.columns) {
     throw InputError(
         {.file = place.file,
@@ -103,11 +107,20 @@ void SubfaultTables::take_row(const Words& row, const Place& place) {
          .allowed = std::to_string(segment.columns) + ", one for each name of line " + std::to_string(segment.line)});
   }
   if (row.size() != values.size()) ++stray_rows_;
+  ++segment.rows;
+  if (is_placeholder(values[segment.slip_column])) {
+    ++rows_without_slip_;
+  } else {
+    add_slip(segment, values);
+    keep_subfault(segment, values);
+  }
+}
+
+void SubfaultTables::add_slip(Segment& segment, const std::vector<double>& values) {
   const double slip = values[segment.slip_column];
   if (slip < 0) ++negative_rows_;
   segment.slip += slip;
-  ++segment.rows;
-  keep_subfault(segment, values);
+  ++segment.rows_with_slip;
   if (!segment.rise_column) return;
   const double rise = values[*segment.rise_column];
   if (slip > 0 && rise > 0 && rise < longest_rise_time) {
@@ -118,6 +131,8 @@ void SubfaultTables::take_row(const Words& row, const Place& place) {
 
 void SubfaultTables::keep_subfault(Segment& segment, const std::vector<double>& values) {
   if (!segment.x_column || !segment.y_column || !segment.z_column) return;
+  for (const auto column : {segment.x_column, segment.y_column, segment.z_column})
+    if (std::isnan(values[*column])) return;
   constexpr double m_per_km = 1000;
   Subfault s{.segment = segments_.size() - 1,
              .x = values[*segment.x_column] * m_per_km,
@@ -163,6 +178,9 @@ void SubfaultTables::check(const Header& header, const Place& end, std::vector<s
   for (std::size_t k = 0; k < segments_.size(); ++k) check_rows(k, header, end, warnings);
   if (stray_rows_ > 0) {
     warnings.push_back("rows with words that are no numbers, left out: " + std::to_string(stray_rows_));
+  }
+  if (rows_without_slip_ > 0) {
+    warnings.push_back("subfaults whose slip is a placeholder, left out: " + std::to_string(rows_without_slip_));
   }
   if (negative_rows_ > 0) {
     warnings.push_back("subfaults that slip backwards, counted as written: " + std::to_string(negative_rows_));
@@ -217,12 +235,13 @@ double SubfaultTables::mean_slip(const Header& header, std::vector<std::string>&
 
   double potency = 0, total = 0;
   for (const Segment& segment : segments_) {
-    const double rows = static_cast<double>(segment.rows);
+    if (segment.rows_with_slip == 0) continue;
+    const double rows = static_cast<double>(segment.rows_with_slip);
     const double area = areas ? segment.area(header).value() : rows;
     potency += segment.slip / rows * area;
     total += area;
   }
-  return potency / total;
+  return total > 0 ? potency / total : 0;
 }
 
 std::optional<double> SubfaultTables::mean_rise_time() const {

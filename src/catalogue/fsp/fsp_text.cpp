@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "catalogue/fsp/fsp.hpp"
+#include "foundation/text/latin1.hpp"
 
 namespace slipfront::catalogue::fsp {
 namespace {
@@ -28,47 +29,6 @@ Leading leading_number(std::string_view text) {
   if (error == std::errc::invalid_argument) return {};
   if (error == std::errc::result_out_of_range) value = std::numeric_limits<double>::infinity();
   return {value, static_cast<std::size_t>(end - text.data())};
-}
-
-/// Length in bytes of the UTF-8 character at `at`, or 0 if there is none. The length does not reveal overlong forms and
-/// surrogates, so we check the second byte against the bounds of Table 3-7 of the Unicode standard.
-std::size_t utf8_length(std::string_view text, std::size_t at) {
-  const auto byte = [&](std::size_t k) {
-    return at + k < text.size() ? static_cast<unsigned char>(text[at + k]) : static_cast<unsigned char>(0);
-  };
-  const unsigned char first = byte(0);
-  if (first < 0x80) return 1;
-  const std::size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
-  const unsigned char low = first == 0xe0 ? 0xa0 : first == 0xf0 ? 0x90 : 0x80;
-  const unsigned char high = first == 0xed ? 0x9f : first == 0xf4 ? 0x8f : 0xbf;
-  if (first < 0xc2 || first > 0xf4 || byte(1) < low || byte(1) > high) return 0;
-  for (std::size_t k = 2; k < length; ++k) {
-    if (byte(k) < 0x80 || byte(k) > 0xbf) return 0;
-  }
-  return length;
-}
-
-bool is_utf8(std::string_view text) {
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t length = utf8_length(text, at);
-    if (length == 0) return false;
-    at += length;
-  }
-  return true;
-}
-
-std::string from_latin1(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x80) {
-      out += c;
-    } else {
-      out += static_cast<char>(0xc0 | (byte >> 6));
-      out += static_cast<char>(0x80 | (byte & 0x3f));
-    }
-  }
-  return out;
 }
 
 /// The word that ends just before `end`. The search stops at an earlier '=', so that a line of many '=' takes linear
@@ -97,7 +57,7 @@ Value value_at(std::string_view rest, std::string_view key, const Place& place) 
   out.text = word;
   const auto [value, length] = leading_number(word);
   // `4.2s` is a number with its unit, but `2004/09` is not a number.
-  if (!value || (length < word.size() && !is_letter(word[length]))) return out;
+  if (!value || std::isnan(*value) || (length < word.size() && !is_letter(word[length]))) return out;
   if (!std::isfinite(*value)) {
     throw InputError({.file = place.file,
                       .line = place.line,
@@ -161,6 +121,18 @@ std::optional<double> number(std::string_view word) {
   return length == word.size() ? value : std::nullopt;
 }
 
+bool is_placeholder(std::string_view word) {
+  for (const std::string_view absent : {"n/a", "na", "null", "none", "-", "--", "---", "?", "***"})
+    if (same(word, absent)) return true;
+  return false;
+}
+
+bool is_placeholder(double value) {
+  for (const double absent : {-99.0, 999.0, -999.0, 9999.0, -9999.0})
+    if (value == absent) return true;
+  return !(value == value);
+}
+
 std::string tidy(std::string_view text) {
   std::string out;
   for (const std::string_view word : words(text)) {
@@ -179,7 +151,7 @@ std::optional<Value> value_of(std::string_view text, std::string_view key, const
 
 std::optional<double> size_of(std::string_view text, std::string_view key, const Place& place) {
   const auto value = value_of(text, key, place);
-  if (!value || !value->number || *value->number <= 0 || *value->number == 999) return std::nullopt;
+  if (!value || !value->number || *value->number <= 0 || is_placeholder(*value->number)) return std::nullopt;
   return value->number;
 }
 

@@ -148,9 +148,9 @@ const Format toml_format{.ending = ".toml",
                                return first_character(text) == '[' || text.find("\n[") != std::string_view::npos;
                              },
                          .read =
-                             [](std::string_view text, const std::string& file, const Sink& sink) {
+                             [](std::string_view text, const std::string& file, const Sink& sink, const TableOptions&) {
                                sink({read_toml(text, file), {}});
-                               return std::vector<std::string>{};
+                               return TableNotes{};
                              }};
 
 }  // namespace slipfront::catalogue

@@ -94,6 +94,7 @@ Measured read_distribution(const toml::table& table, const std::string& full_key
       if (!(second > 1)) refuse("not a valid factor of a lognormal distribution", "> 1");
       return {first, first, Shape::lognormal, second};
     case Shape::range:
+    case Shape::split:  // no keys define it
       break;
   }
   if (second < first) refuse("the range runs downwards", "low <= high");

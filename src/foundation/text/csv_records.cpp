@@ -61,15 +61,23 @@ struct Parser {
 }  // namespace
 
 std::size_t for_each_record(std::string_view text,
-                            const std::function<void(std::vector<std::string>&&, std::size_t)>& take) {
+                            const std::function<void(std::vector<std::string>&&, std::size_t)>& take,
+                            const RecordOptions& options) {
   Parser parser;
+  csv_set_delim(&parser.raw, static_cast<unsigned char>(options.separator));
   Records records{take};
   // libcsv does not count lines, so we pass it one line at a time.
   while (!text.empty() && !records.exception) {
     const std::size_t end = text.find('\n');
     const std::size_t size = end == std::string_view::npos ? text.size() : end + 1;
     ++records.line;
-    if (records.first == 0) records.first = records.line;
+    if (records.first == 0) {
+      if (options.skip && options.skip(text.substr(0, size), records.line)) {
+        text.remove_prefix(size);
+        continue;
+      }
+      records.first = records.line;
+    }
     if (csv_parse(&parser.raw, text.data(), size, on_field, on_record, &records) != size && !records.exception)
       throw std::bad_alloc();
     if (records.fields.empty() && parser.raw.quoted == 0) records.first = 0;  // a blank line

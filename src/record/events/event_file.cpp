@@ -89,6 +89,12 @@ void add_events(Contents& contents, const Dimensions& d, Results results, const 
   }
 }
 
+std::string joined(const std::vector<std::string>& titles) {
+  std::string all;
+  for (const std::string& title : titles) all += (all.empty() ? "" : ", ") + title;
+  return all;
+}
+
 void describe_file(Writer& file, const EventMetadata& metadata, bool finished) {
   const auto say = [&](const std::string& name, std::string_view text) {
     file.attribute(Writer::global, name, clean_text(text, netcdf::longest_text));
@@ -106,6 +112,8 @@ void describe_file(Writer& file, const EventMetadata& metadata, bool finished) {
       "the "
       "speed of strain waves and mu the shear modulus. Values that are not known are NaN.");
   for (const auto& [name, text] : metadata.settings) say(name, text);
+  say("ignored_columns", joined(metadata.ignored_columns));
+  say("ignored_quantities", joined(metadata.ignored_quantities));
   file.attribute(Writer::global, "finished", finished ? 1 : 0);
 }
 

@@ -24,6 +24,8 @@ struct EventMetadata {
   /// Names and values of the settings that determine the results, such as seed and samples.
   std::vector<std::pair<std::string, std::string>> settings;
   results::ColumnChoice columns = {};
+  std::vector<std::string> ignored_columns = {};     ///< titles of columns of the input that were not used
+  std::vector<std::string> ignored_quantities = {};  ///< those of them that look like quantities
 };
 
 /// Writes the columns of `results`, their population and the closed form to `path`, completely or not at all. Equal

@@ -1,0 +1,149 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "catalogue/format.hpp"
+#include "catalogue/keys.hpp"
+#include "foundation/text/digits.hpp"
+#include "slipfront/catalogue/read.hpp"
+
+namespace slipfront::catalogue {
+namespace {
+
+using Json = nlohmann::json;
+
+const Json* find(const Json& object, const char* key) {
+  const auto at = object.is_object() ? object.find(key) : object.end();
+  return object.is_object() && at != object.end() && !at->is_null() ? &*at : nullptr;
+}
+
+std::string text_of(const Json& object, const char* key) {
+  const Json* value = find(object, key);
+  return value && value->is_string() ? value->get<std::string>() : std::string();
+}
+
+/// A number, or a text that holds one, as in the properties of products.
+std::optional<double> number_of(const Json& object, const char* key) {
+  const Json* value = find(object, key);
+  if (!value) return std::nullopt;
+  if (value->is_number()) return value->get<double>();
+  return value->is_string() ? medium::number(value->get<std::string>()) : std::nullopt;
+}
+
+/// The date of a time in milliseconds since 1970, by the civil calendar.
+std::string date_of(double milliseconds) {
+  if (!(std::fabs(milliseconds) < 1e15)) return {};
+  const auto days = static_cast<long long>(std::floor(milliseconds / 86400e3)) + 719468;
+  const long long era = (days >= 0 ? days : days - 146096) / 146097;
+  const long long day_of_era = days - era * 146097;
+  const long long year_of_era = (day_of_era - day_of_era / 1460 + day_of_era / 36524 - day_of_era / 146096) / 365;
+  const long long day_of_year = day_of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
+  const long long part = (5 * day_of_year + 2) / 153;
+  const long long day = day_of_year - (153 * part + 2) / 5 + 1, month = part < 10 ? part + 3 : part - 9;
+  const long long year = year_of_era + era * 400 + (month <= 2 ? 1 : 0);
+  const auto two = [](long long n) { return (n < 10 ? "0" : "") + std::to_string(n); };
+  return std::to_string(year) + "-" + two(month) + "-" + two(day);
+}
+
+/// A property of a finite-fault product, in the unit in which USGS gives it.
+struct Property {
+  const char *name, *quantity, *unit;
+};
+constexpr Property properties_of_products[] = {{"average-rupture-velocity", "rupture_velocity", "km/s"},
+                                               {"average-rise-time", "rise_time", "s"},
+                                               {"scalar-moment", "moment", "N m"},
+                                               {"model-length", "rupture_length", "km"},
+                                               {"model-width", "rupture_width", "km"}};
+
+void read_properties(Observation& o, const Json& p) {
+  for (const char* key : {"title", "place", "eventsource"})
+    if (o.name.empty()) o.name = text_of(p, key);
+  if (const auto time = number_of(p, "time")) o.date = date_of(*time);
+  if (o.date.empty()) o.date = text_of(p, "eventtime").substr(0, 10);
+  o.kind = text_of(p, "type");
+  o.citation = text_of(p, "url");
+  for (const auto& [name, quantity, unit] : properties_of_products) {
+    const auto value = number_of(p, name);
+    if (!value || !(*value > 0) || *value == 999) continue;
+    store(o, *find_key(quantity), shortest(*value), unit);
+    o.warnings.push_back(std::string(name) + " has no unit in the file: taken in " + unit);
+  }
+  const std::string type = text_of(p, "magType");
+  const auto magnitude = number_of(p, type.empty() ? "derived-magnitude" : "mag");
+  const bool is_mw = type.starts_with("mw") || type.starts_with("Mw") || (type.empty() && find(p, "derived-magnitude"));
+  if (magnitude && is_mw) store(o, *find_key("moment_magnitude"), shortest(*magnitude), {});
+}
+
+bool is_observed(const Observation& o) { return o.rupture_velocity_m_s || o.rise_time || o.duration || o.slip; }
+
+std::string event_text(const Observation& o, const Json& p) {
+  std::string text = o.name.empty() ? "an event" : "'" + o.name + "'";
+  if (!o.date.empty()) text += " of " + o.date;
+  if (const auto magnitude = number_of(p, "mag")) text += ", magnitude " + digits(*magnitude, 3);
+  return text;
+}
+
+/// Whether a feature is a subfault, a polygon with slip.
+bool is_subfault(const Json& feature) {
+  const Json* p = find(feature, "properties");
+  return p && (find(*p, "slip") || find(*p, "sf_moment")) && !find(*p, "mag");
+}
+
+Observation event_of(const Json& p, const std::string& file, const std::string& id) {
+  Observation o;
+  o.file = file;
+  o.line = 1;
+  read_properties(o, p);
+  if (!is_observed(o))
+    throw InputError({.line = 1,
+                      .problem = event_text(o, p) + " has no quantity that slipfront uses",
+                      .allowed = "a finite-fault model of it (.fsp), or a table with its velocities"});
+  if (o.name.empty()) o.name = id.empty() ? file : id;
+  return o;
+}
+
+/// Passes an event to `sink`, or the reason why it is none.
+void pass_event(const Json& feature, const std::string& file, const Sink& sink) {
+  const Json* p = find(feature, "properties");
+  const std::string id = text_of(feature, "id");
+  Entry entry;
+  try {
+    entry.observation = event_of(p ? *p : feature, file, id);
+  } catch (const InputError& error) {
+    entry.observation.name = id.empty() ? file : id;
+    entry.observation.file = file;
+    entry.error = error.complaint();
+    entry.error->file = file;
+  }
+  sink(std::move(entry));
+}
+
+TableNotes read_json(std::string_view text, const std::string& file, const Sink& sink, const TableOptions&) {
+  const Json document = Json::parse(text.begin(), text.end(), nullptr, false);
+  if (!document.is_object())
+    throw InputError(
+        {.file = file, .line = 1, .problem = "not a JSON object", .allowed = "an event of USGS (GeoJSON)"});
+  const Json* features = find(document, "features");
+  if (!features || !features->is_array()) {
+    pass_event(document, file, sink);
+    return {};
+  }
+  if (features->empty())
+    throw InputError({.file = file, .line = 1, .problem = "no features", .allowed = "an event of USGS (GeoJSON)"});
+  if (is_subfault(features->front()))
+    throw InputError({.file = file,
+                      .line = 1,
+                      .problem = "the subfaults of a finite-fault model",
+                      .allowed = "an event; the model itself is read from its .fsp file"});
+  for (const Json& feature : *features) pass_event(feature, file, sink);
+  return {};
+}
+
+}  // namespace
+
+extern const Format json_format;
+const Format json_format{.ending = "json",
+                         .looks_like = [](std::string_view text) { return first_character(text) == '{'; },
+                         .read = read_json};
+
+}  // namespace slipfront::catalogue

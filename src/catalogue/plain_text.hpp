@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace slipfront::catalogue {
+
+/// The text of a number or unit in plain characters: typographic blanks become blanks, a minus sign becomes '-', an en
+/// dash between two numbers "..", "x 10^18" becomes "e18", and superscripts, a raised dot and the micro sign become
+/// what units are written with ("m s-1", "um"). Other characters are not changed.
+std::string plain_number(std::string_view text);
+
+/// A unit as published, in the spelling of UDUNITS: `(km/s)`, `Days`, `KM/S`, `Nm`, `dyn-cm`, `m·s⁻¹`, `km.s-1`.
+/// Returns the text itself if no change makes it a known unit.
+std::string plain_unit(std::string_view text);
+
+}  // namespace slipfront::catalogue
