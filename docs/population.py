@@ -1,6 +1,6 @@
-"""Draws docs/population-moment.png and prints its numbers (docs/population.md).
+"""Draws docs/population-moment.png and prints its numbers, and tests slopes by shuffling (docs/population.md).
 
-Usage: population.py curve     with the package slipfront on PYTHONPATH
+Usage: population.py [curve] [shuffle]     with the package slipfront on PYTHONPATH
 """
 
 import pathlib
@@ -53,7 +53,36 @@ def curve():
     figure.savefig(HERE / "population-moment.png")
 
 
-PARTS = {"curve": curve}
+def slope(log_slip_velocity, log_front):
+    """Returns the slope of a straight line through log slip velocity against log rupture velocity."""
+    return float(np.polyfit(log_front, log_slip_velocity, 1)[0])
+
+
+def invented_slopes(events=701, shuffles=200):
+    """Returns slopes of shuffled populations of invented events whose slip, length and duration do not depend on each other."""
+    generator = np.random.default_rng(1)
+    length, slip, duration = (generator.uniform(np.log(low), np.log(high), events) for low, high in ((1e4, 3e5), (0.01, 5), (10, 3e7)))
+    return [slope(generator.permutation(slip) - duration, length - duration) for _ in range(shuffles)]
+
+
+def catalogue_slopes(shuffles=2000):
+    """Returns how many events of the shipped catalogue have velocity, slip and a time, their slope, and the slopes with shuffled slips."""
+    rows = slipfront._slipfront.observations([("", str(HERE.parent / "cases" / "catalogue.csv"), True)], ["", "", ""])
+    values = [(row["rupture_velocity"][0], row["slip"][0], row["rise_time" if np.isfinite(row["rise_time"][0]) else "duration"][0]) for row in rows]
+    front, slip, time = np.array([row for row in values if np.isfinite(row).all()]).T
+    generator = np.random.default_rng(1)
+    return len(slip), slope(slip - time, front), [slope(generator.permutation(slip) - time, front) for _ in range(shuffles)]
+
+
+def shuffle():
+    """Prints the slope of log slip velocity against log rupture velocity, as it is and with slip shuffled among the events."""
+    print("invented events: slope with shuffled slip %.2f, 5 %% to 95 %%: %.2f to %.2f" % tuple(np.quantile(invented_slopes(), (0.5, 0.05, 0.95))))
+    events, own, shuffled = catalogue_slopes()
+    print(f"shipped catalogue, {events} events: slope {own:.2f}; with shuffled slip {np.median(shuffled):.2f}, 5 % to 95 %: "
+          "{:.2f} to {:.2f}".format(*np.quantile(shuffled, (0.05, 0.95))))
+
+
+PARTS = {"curve": curve, "shuffle": shuffle}
 
 
 def main():

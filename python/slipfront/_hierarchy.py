@@ -102,7 +102,8 @@ def _result(likelihood, draws, left_out, studies, seed, attributes):
     variables["study"] = ("event", np.array(studies, dtype=object), {"long_name": "study that published the event"})
     variables["left_out"] = ("left_out_event", np.array([f"{name}: {reason}" for name, reason in left_out], dtype=object), {"long_name": "event that was not used, and why"})
     return dataset(variables, {"quantile": ("quantile", list(QUANTILES), {"long_name": "share of the values below", "units": "1"})},
-                   {"effective_draws": draws.effective, "rhat": draws.rhat, "acceptance": draws.acceptance, "seed": seed, "closure": "consistent", **attributes})
+                   {"Conventions": "CF-1.10", "source": f"slipfront {_slipfront.__version__}", "history": "slipfront population", "slipfront_format": "population 1",
+                    "effective_draws": draws.effective, "rhat": draws.rhat, "acceptance": draws.acceptance, "seed": seed, "closure": "consistent", **attributes})
 
 
 def population(events=None, *, kind=None, prior=None, hardness="10 GPa", smallest_slip=None, smallest_moment=None, velocity_error=1.2, size_error=1.5,

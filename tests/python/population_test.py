@@ -1,16 +1,24 @@
 """slipfront.moment_duration and slipfront.population."""
 
 import importlib.util
-import os
+import json
+import math
 import pathlib
 import unittest
 import warnings
 
 import numpy as np
+from scipy import special
 
 import slipfront
+import support
+from slipfront import _hierarchy
+from slipfront._population import forward, priors, rows, single, synthetic
+from slipfront._population.likelihood import Likelihood
+from support import CommandLine
 
-SOURCE = pathlib.Path(os.environ["SLIPFRONT_SOURCE"])
+SOURCE = pathlib.Path(support.SOURCE)
+LOG_HARDNESS = math.log(1e10)
 
 
 def script(path):
@@ -53,6 +61,108 @@ class MomentDuration(unittest.TestCase):
             with self.assertRaisesRegex(slipfront.InputError, message):
                 slipfront.moment_duration(*arguments)
         self.assertTrue(np.isnan(slipfront.moment_duration(np.nan, 1).potency))
+
+
+class Likelihoods(unittest.TestCase):
+    """The likelihood against sums over events that are drawn from the population."""
+
+    @staticmethod
+    def drawn(events, i, values, offsets, count=200_000):
+        """Returns the likelihood of event i for each offset of its study, by simple Monte Carlo."""
+        generator = np.random.default_rng(7)
+        log_stress, log_contact, log_friction = synthetic.states(generator, values, count, LOG_HARDNESS)
+        log_damping = log_contact + log_friction + np.log(events.speed[i]) + events.log_duration[i]
+        size = log_contact + forward.at(forward.size(events.kind[i]), log_stress, log_damping)
+        off = (events.log_front[i] - forward.at(forward.front(events.threshold[i]), log_stress, log_damping)) / events.front_error[i]
+        density = np.exp(-0.5 * off**2) / (events.front_error[i] * np.sqrt(2 * np.pi))
+        found = []
+        for offset in offsets:
+            rest = (events.log_size[i] - size - offset) / events.size_error[i]
+            detected = special.ndtr((size + offset - events.smallest[i]) / events.size_error[i]).mean()
+            found.append((density * np.exp(-0.5 * rest**2) / (events.size_error[i] * np.sqrt(2 * np.pi))).mean() / detected)
+        return np.array(found)
+
+    def check(self, values, smallest, tolerance, **options):
+        generator = np.random.default_rng(6)
+        events = synthetic.design(generator, 3, 2, smallest=smallest, **options)  # a study with two events, and one with one
+        synthetic.observe(generator, events, values, LOG_HARDNESS)
+        places, weights = np.polynomial.hermite_e.hermegauss(15)
+        each = np.array([self.drawn(events, i, values, values[-1] * places) for i in range(3)])
+        expected = sum(np.log(np.prod(each[events.study == study], axis=0) @ weights / weights.sum()) for study in (0, 1))
+        self.assertLess(abs(Likelihood(events, LOG_HARDNESS)(values) - expected), tolerance)
+
+    def test_is_the_mean_over_the_population(self):
+        values = np.array([0.4, 0.15, 1e7, 0.5, 1e-2, 0.7, 0.3])
+        self.check(values, -np.inf, 0.1, threshold=1e-3)
+        self.check(values, -np.inf, 0.1, threshold=0.0, kind=forward.SLIP, front_error=0.3)
+        self.check(np.array([0.6, 0.3, 1e7, 0.3, 1e-3, 0.5, 0.5]), -np.inf, 0.1, threshold=1e-3, size_error=0.4)
+
+    def test_divides_by_the_probability_of_detection(self):
+        self.check(np.array([0.4, 0.15, 1e7, 0.5, 1e-2, 0.7, 0.3]), -23.0, 0.1, threshold=1e-3)
+
+
+class Populations(unittest.TestCase):
+    def test_a_few_synthetic_populations(self):
+        calibration = script(SOURCE / "docs" / "population_calibration.py")
+        options = calibration.arguments(["--events", "20", "--studies", "5", "--steps", "50"])
+        ranks = np.array([calibration.rank((seed, options))[1] for seed in range(5)])
+        self.assertEqual(ranks.shape, (5, len(priors.NAMES)))
+        self.assertGreater(((ranks > 0.02) & (ranks < 0.98)).mean(), 0.8)
+
+    def test_states_of_events_are_those_that_were_drawn(self):
+        generator = np.random.default_rng(4)
+        events = synthetic.design(generator, 60, 12, threshold=1e-3)
+        values = np.array([0.4, 0.15, 1e7, 0.5, 1e-2, 0.7, 0.3])
+        truth = synthetic.observe(generator, events, values, LOG_HARDNESS)
+        likelihood = Likelihood(events, LOG_HARDNESS)
+        draws = np.array([single.draw(likelihood, values, generator) for _ in range(200)])
+        for i in range(3):
+            inside = (draws[:, i] < truth[:, i]).mean(axis=0)
+            self.assertGreater(((inside > 0.05) & (inside < 0.95)).mean(), 0.8)
+        alone = np.array([single.draw(likelihood, likelihood.prior.broad(), generator) for _ in range(100)])
+        self.assertGreater(np.median(alone[:, 1].std(axis=0)), np.median(draws[:, 1].std(axis=0)))
+
+    def test_shuffled_slip_keeps_the_slope(self):
+        slopes = script(SOURCE / "docs" / "population.py").invented_slopes()
+        self.assertGreater(min(slopes), 0.85)
+
+
+class Catalogues(CommandLine):
+    ROWS = "name,study,rupture_velocity_km_s,length_km,slip_m,moment_N_m,Mw,width_km,duration_s\n"
+
+    def test_reads_moments_and_lengths(self):
+        text = self.ROWS + "\n".join(("a,x,3 +- 0.3,,1,,,,10", "b,x,,30 */ 1.2,,1e19 */ 1.5,,20,10 */ 1.1", "c,y,,30,,,6.6,20,10", "d,y,2,,,1e19,,,10")) + "\n"
+        found, left_out = _hierarchy._read(text, None, ["", "", ""], {"velocity": 0.2, "size": 0.4})
+        self.assertEqual(left_out, [("d", "no slip, and no moment with a width")])
+        events = rows.arrays(found, {})
+        self.assertEqual(events.study.tolist(), [0, 0, 1])
+        np.testing.assert_allclose(np.exp(events.log_front) * events.speed, [3000, 3000, 3000])
+        np.testing.assert_allclose(events.front_error, [0.1, np.hypot(np.log(1.2), np.log(1.1)), 0.2])
+        np.testing.assert_allclose(np.exp(events.log_size[0]) * events.speed[0] / np.pi, 0.1)
+        potency = np.exp(events.log_size) / np.pi * (events.speed * 10) ** 2
+        np.testing.assert_allclose(potency[1:], [1e19 / 30e9 / 20e3, 10 ** (1.5 * 6.6 + 9.05) / 30e9 / 20e3])
+        np.testing.assert_allclose(events.shared, [0, 2 * np.log(1.1) ** 2, 0])
+
+    def test_refuses_bad_input(self):
+        good = self.ROWS + "".join(f"e{i},x,3,,{i},,,,10\n" for i in range(1, 5))
+        for arguments, message in ((["--smallest-slip", "2 m"], "'e1' is below the detection limit"), (["--smallest-moment", "1e18"], "smallest_moment: 'e1' has no such size"),
+                                   (["--prior", "friction=1,2"], "prior: 'friction': unknown; allowed: stress_median"), (["--prior", "friction_median=1"], "not a median and a factor"),
+                                   (["--kind", "flood"], "events: 0 can be used of the kind flood; allowed: 3 or more"), (["--steps", "2"], "steps = '2': out of range"),
+                                   (["--hardness", "10 km"], "hardness"), (["--size-error", "0.5"], "size_error = '0.5': out of range; allowed: a number above 1"),
+                                   (["-o", "a.txt"], "-o a.txt: unsupported file type")):
+            with self.subTest(arguments):
+                self.refused(2, "population", self.file("good.csv", good), *arguments, says=[message])
+        self.refused(2, "population", self.file("bad.csv", good.replace("3,,1,,,,10", "3,,1,,,1 kg,10")), says=["bad.csv:2: width_km"])
+
+    def test_the_command_writes_what_it_prints(self):
+        path = str(pathlib.Path(self.file("c.csv", "")).parent / "p.nc")
+        found = json.loads(self.ok("population", "--kind", "earthquake", "--steps", "20", "--json", "-o", path))
+        data = slipfront.open(path)
+        self.assertEqual(data.sizes["event"], 27)
+        self.assertEqual(found["left_out"], list(data.left_out.values))
+        for name in priors.NAMES:
+            self.assertAlmostEqual(found["parameters"][name]["50 %"] / float(data[name].median()), 1, 12)
+        self.assertTrue((np.diff(data.event_damping_number.values, axis=1) > 0).all())
 
 
 if __name__ == "__main__":

@@ -4,22 +4,30 @@ The state of an event is ln(Sigma-), ln(A) and ln(C / b). Given Sigma- and Gamma
 over A is in closed form. The others are sums: over kappa = ln(A C / b), which gives Gamma, and over ln(Sigma-) where the front allows it.
 """
 
+import functools
+
 from .._numbers import np
 from .._optional import import_optional
 from . import forward, priors
 from .selection import Selection
 
 STEP = 0.3  # between nodes in kappa
-REACH = 5.0  # standard deviations of kappa that are summed
+REACH = 4.5  # standard deviations of kappa that are summed
 KAPPA = np.arange(-36.0, 14.0, STEP)
 FRONT_REACH = 4.0  # standard deviations of ln(V) that are summed
-STRESS_NODES = 10
+STRESS_NODES = 16
 STUDY_REACH = 4.0  # standard deviations between studies
-STUDY_NODES = 11
+STUDY_NODES = 13
+LEAST_IN_TABLE = 0.9  # share of the events of a population whose Sigma- must be in the table
 FINE = np.linspace(-STUDY_REACH, STUDY_REACH, 81)
-#: Offsets of a study at which likelihoods are computed, and the matrix that interpolates their logarithms between them.
-STUDY = STUDY_REACH * -np.cos(np.pi * np.arange(STUDY_NODES) / (STUDY_NODES - 1))
-BETWEEN = np.polynomial.chebyshev.chebvander(FINE / STUDY_REACH, STUDY_NODES - 1) @ np.linalg.inv(np.polynomial.chebyshev.chebvander(STUDY / STUDY_REACH, STUDY_NODES - 1))
+#: Offsets of a study at which likelihoods are computed, in standard deviations between studies.
+STUDY = np.linspace(-STUDY_REACH, STUDY_REACH, STUDY_NODES)
+
+
+@functools.lru_cache(maxsize=None)
+def _between():
+    """Returns the matrix of the cubic spline that interpolates between the offsets STUDY to the offsets FINE."""
+    return import_optional("scipy.interpolate").CubicSpline(STUDY, np.eye(STUDY_NODES))(FINE)
 
 
 def _columns(grid, log_damping):
@@ -27,13 +35,14 @@ def _columns(grid, log_damping):
     return forward.at(grid, forward.LOG_STRESS[None, :], log_damping[:, None])
 
 
-def _nodes(fronts, low, high):
-    """Returns nodes in ln(Sigma-), and the logarithm of their weights in a sum over ln(Sigma-); a row for each kappa.
+def _nodes(fronts, sizes, low, high, error, width):
+    """Returns nodes in ln(Sigma-) between the fronts `low` and `high`, and the logarithm of their weights in a sum; a row for each kappa.
 
-    The nodes are at equal steps of ln(V) from `low` to `high`, or to the ends of the table: best for integrands close to normal densities."""
+    Equal steps are best for integrands close to normal densities. These are equal in ln(V) / error + ln(size) / width."""
     nodes = np.empty((len(fronts), STRESS_NODES))
-    for row, column in zip(nodes, fronts):
-        row[:] = np.interp(np.linspace(max(low, column[0]), min(high, column[-1]), STRESS_NODES), column, forward.LOG_STRESS)
+    for row, column, steps in zip(nodes, fronts, fronts / error + sizes / width):
+        ends = np.interp(np.interp([low, high], column, forward.LOG_STRESS), forward.LOG_STRESS, steps)
+        row[:] = np.interp(np.linspace(*ends, STRESS_NODES), steps, forward.LOG_STRESS)
     edges = np.concatenate([nodes[:, :1], (nodes[:, 1:] + nodes[:, :-1]) / 2, nodes[:, -1:]], axis=1)
     impossible = (low >= fronts[:, -1]) | (high <= fronts[:, 0])
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -46,7 +55,7 @@ class Likelihood:
     def __init__(self, events, log_hardness, prior=None):
         self.events, self.log_hardness, self.prior = events, log_hardness, prior or priors.Prior()
         shape = (len(events), len(KAPPA), STRESS_NODES)
-        self.log_stress, self.weight, self.log_contact = (np.empty(shape, dtype=np.float32) for _ in range(3))
+        self.log_stress, self.blur, self.weight, self.log_contact = (np.empty(shape, dtype=np.float32) for _ in range(4))
         for i in range(len(events)):
             self._place_nodes(i)
         variance = np.maximum(events.front_error, 1e-6) ** 2
@@ -62,11 +71,17 @@ class Likelihood:
         log_damping = KAPPA + np.log(events.speed[i]) + events.log_duration[i]
         grid, error = forward.front(events.threshold[i]), max(events.front_error[i], 1e-3)
         front = events.log_front[i]
-        log_stress, weight = _nodes(_columns(grid, log_damping), front - FRONT_REACH * error, front + FRONT_REACH * error)
-        off = front - forward.at(grid, log_stress, log_damping[:, None])
+        sizes, width = forward.size(events.kind[i]), 0.1 + 1.3 * events.size_error[i]
+        log_stress, weight = _nodes(_columns(grid, log_damping), _columns(sizes, log_damping), front - FRONT_REACH * error, front + FRONT_REACH * error, error, width)
+        fronts = forward.at(grid, log_stress, log_damping[:, None])
+        # A population may be narrower than the steps between nodes. So half a step of the error of the front is moved to the population,
+        # as its variance: the convolution of both is the same.
+        rest = np.sqrt(np.maximum(error**2 - np.square(np.gradient(fronts, axis=1) / 2), 0.5 * error**2))
+        off = front - fronts
         self.log_stress[i] = log_stress
-        self.weight[i] = weight - 0.5 * (off / error) ** 2 - np.log(error * np.sqrt(2 * np.pi))
-        size = forward.at(forward.size(events.kind[i]), log_stress, log_damping[:, None])
+        self.blur[i] = np.square(np.gradient(log_stress, axis=1) / 2)
+        self.weight[i] = weight - 0.5 * (off / rest) ** 2 - np.log(rest * np.sqrt(2 * np.pi))
+        size = forward.at(sizes, log_stress, log_damping[:, None])
         self.log_contact[i] = events.log_size[i] - size - events.shared[i] / error**2 * off  # ln(A) without error and study
 
     def terms(self, values, chosen=slice(None)):
@@ -75,22 +90,25 @@ class Likelihood:
         contact = np.log(normal) - self.log_hardness
         centre, variance = contact + np.log(friction), normal_spread**2 + friction_spread**2
         reach = REACH * np.sqrt(variance)
-        every = 2 if variance > 0.75**2 else 1
+        every = 2 if variance > 0.5**2 else 1
         first, last = np.searchsorted(KAPPA, [centre - reach, centre + reach])
         part = slice(max(first, 0), max(last, first + 1), every)
         off = KAPPA[part] - centre
         log_kappa = np.log(STEP * every) - 0.5 * off**2 / variance - 0.5 * np.log(2 * np.pi * variance)
         log_stress = self.log_stress[chosen, part]
-        weight = self.weight[chosen, part] - np.float32(0.5 / stress_spread**2) * np.square(log_stress - np.float32(np.log(stress)))
-        weight += (log_kappa - _log_stress_norm(np.log(stress), stress_spread)).astype(np.float32)[:, None]
+        width = self.blur[chosen, part] + np.float32(stress_spread**2)
+        weight = self.weight[chosen, part] - np.float32(0.5) * (np.square(log_stress - np.float32(np.log(stress))) / width + np.log(width))
+        weight += (log_kappa - np.log(share_in_table(values)) - 0.5 * np.log(2 * np.pi)).astype(np.float32)[:, None]
         expected = contact + normal_spread**2 / variance * off
         rest = self.log_contact[chosen, part] - expected.astype(np.float32)[:, None]
         deviation = np.sqrt(self.error[chosen] ** 2 + (normal_spread * friction_spread) ** 2 / variance)
         return weight, rest, deviation, part
 
     def __call__(self, values):
-        """Returns the logarithm of the likelihood of these parameters; -inf if too few events would enter the catalogue."""
+        """Returns the logarithm of the likelihood of these parameters; -inf if too few events of the population would be in the table or in the catalogue."""
         spread = values[-1]
+        if share_in_table(values) < LEAST_IN_TABLE:
+            return -np.inf
         if self.selection and not self.selection.prepare(values, self.log_hardness):
             return -np.inf
         total = 0.0
@@ -113,7 +131,7 @@ class Likelihood:
             each -= self.selection.log_probability(offsets, self.several)
         sums = np.zeros((self.studies.max() + 1, STUDY_NODES))
         np.add.at(sums, self.studies, np.maximum(each, -1e4))
-        return sums @ BETWEEN.T
+        return sums @ _between().T
 
     def log_posterior(self, x):
         """Returns the logarithm of the posterior density of standard normal numbers x, up to a constant."""
@@ -122,11 +140,11 @@ class Likelihood:
         return self(self.prior.values(x)) + priors.log_density(x)
 
 
-def _log_stress_norm(mean, spread):
-    """Returns ln of the normalisation of the distribution of ln(Sigma-), which ends at the ends of the table."""
+def share_in_table(values):
+    """Returns the share of events of a population whose Sigma- is in the range of the table."""
     ndtr = import_optional("scipy.special").ndtr
-    inside = ndtr((forward.LOG_STRESS[-1] - mean) / spread) - ndtr((forward.LOG_STRESS[0] - mean) / spread)
-    return np.log(spread * np.sqrt(2 * np.pi)) + np.log(inside)
+    low, high = (ndtr((forward.LOG_STRESS[end] - np.log(values[0])) / values[1]) for end in (0, -1))
+    return high - low
 
 
 def _log_sum(weight, rest, deviation):

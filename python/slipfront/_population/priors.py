@@ -25,7 +25,7 @@ PARAMETERS = (
     Parameter("normal_stress_spread", "standard deviation of ln(normal stress) between events", "1", 0.5, math.exp(0.5)),
     Parameter("friction_median", "median of friction coefficient over asperity spacing, C / b", "m-1", 1e-2, math.exp(3)),
     Parameter("friction_spread", "standard deviation of ln(C / b) between events", "1", 0.7, math.exp(0.5)),
-    Parameter("study_spread", "standard deviation of ln(slip) or ln(moment) between studies of one event", "1", 0.3, math.exp(0.5)),
+    Parameter("study_spread", "standard deviation of ln(slip) or ln(moment) between studies of one event", "1", 0.3, math.exp(0.4)),
 )
 NAMES = tuple(parameter.name for parameter in PARAMETERS)
 

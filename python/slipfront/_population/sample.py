@@ -79,7 +79,7 @@ def sample(likelihood, steps, seed, progress=None):
     """Returns Draws of the posterior of a Likelihood after `steps` steps of each walker; those of the warm-up are left out. Raises NumericsError if there is no start."""
     emcee, log_posterior = import_optional("emcee"), likelihood.log_posterior
     generator = np.random.default_rng(seed)
-    moves = [(emcee.moves.DEMove(), 0.6), (emcee.moves.DESnookerMove(), 0.1), (emcee.moves.StretchMove(), 0.3)]
+    moves = [(emcee.moves.DEMove(), 0.5), (emcee.moves.DEMove(gamma0=1.0), 0.1), (emcee.moves.DESnookerMove(), 0.1), (emcee.moves.StretchMove(), 0.3)]
     chains, times, acceptance = [], [], []
     for ensemble, start in enumerate(_starts(log_posterior, generator)):
         sampler = emcee.EnsembleSampler(WALKERS, len(priors.NAMES), log_posterior, moves=moves)

@@ -4,7 +4,7 @@ from .._numbers import np
 from .._optional import import_optional
 from . import forward
 
-STRESS_NODES, KAPPA_NODES, DURATION_NODES, SIZE_NODES = 41, 11, 6, 14
+STRESS_NODES, KAPPA_NODES, DURATION_NODES, SIZE_NODES = 41, 9, 5, 12
 REACH = 4.0  # standard deviations that are summed
 STUDY_REACH = 4.0  # standard deviations between studies
 LEAST = 1e-3  # A population of which fewer events would enter the catalogue is excluded.

@@ -15,11 +15,12 @@ def _offsets(likelihood, values, generator):
     return offsets
 
 
-def _stress(nodes, chosen, generator):
-    """Returns ln(Sigma-) from the part of its range that the chosen node stands for. `nodes` has a row for each event."""
-    edges = np.concatenate([nodes[:, :1], (nodes[:, 1:] + nodes[:, :-1]) / 2, nodes[:, -1:]], axis=1).astype(float)
-    events = np.arange(len(chosen))
-    return edges[events, chosen] + np.diff(edges, axis=1)[events, chosen] * generator.random(len(chosen))
+def _stress(likelihood, values, node, normals):
+    """Returns ln(Sigma-), drawn around nodes (event, kappa, stress) with the part of the front's error that was moved to the population."""
+    centre, blur, spread = np.log(values[0]), likelihood.blur[node].astype(float), values[1] ** 2
+    share = spread / (spread + blur)
+    drawn = centre + share * (likelihood.log_stress[node] - centre) + np.sqrt(share * blur) * normals
+    return np.clip(drawn, of.forward.LOG_STRESS[0], of.forward.LOG_STRESS[-1])
 
 
 def draw(likelihood, values, generator):
@@ -39,13 +40,14 @@ def draw(likelihood, values, generator):
     flat = exponent.reshape(len(exponent), -1)
     place = (flat + generator.gumbel(size=flat.shape)).argmax(axis=1)
     rest = rest.reshape(flat.shape)[events, place]
-    log_stress = _stress(likelihood.log_stress[:, part][events, place // of.STRESS_NODES], place % of.STRESS_NODES, generator)
-    normals = generator.standard_normal((2, len(events)))
+    normals = generator.standard_normal((3, len(events)))
+    column = np.arange(len(of.KAPPA))[part][place // of.STRESS_NODES]
+    log_stress = _stress(likelihood, values, (events, column, place % of.STRESS_NODES), normals[2])
     share = study_spread**2 / (study_spread**2 + deviation**2)
     offsets = np.where(alone, share * rest + study_spread * np.sqrt(1 - share) * normals[0], offsets)
     variance = normal_spread**2 + friction_spread**2
     every = part.step * of.STEP
-    kappa = of.KAPPA[part][place // of.STRESS_NODES]
+    kappa = of.KAPPA[column]
     scatter = (normal_spread * friction_spread) ** 2 / variance
     gain = scatter / (scatter + likelihood.error**2)
     contact = np.log(normal) - likelihood.log_hardness

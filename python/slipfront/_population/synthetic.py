@@ -3,6 +3,7 @@
 from .._numbers import np
 from . import forward, priors
 from .events import Events
+from .likelihood import LEAST_IN_TABLE, share_in_table
 from .selection import Selection
 
 TRIES = 4000  # candidates for each event of a round
@@ -23,7 +24,7 @@ def parameters(generator, events, log_hardness):
     while True:
         x = generator.standard_normal(len(priors.NAMES))
         values = priors.Prior().values(x)
-        if np.all(np.abs(x) < 5) and (selection is None or selection.prepare(values, log_hardness)):
+        if np.all(np.abs(x) < 5) and share_in_table(values) >= LEAST_IN_TABLE and (selection is None or selection.prepare(values, log_hardness)):
             return values
 
 
