@@ -25,11 +25,11 @@ MODULES = {
     "friction_ratio": "pulse rupture friction",
     "scenario": "chain pulse friction train medium",
     "catalogue": "friction_ratio rupture medium",
-    "inference": "catalogue friction_ratio rupture medium",
-    "finite_fault": "inference catalogue pulse rupture modulation train medium",
+    "inference": "catalogue friction_ratio rupture medium elliptic",
+    "finite_fault": "inference catalogue friction_ratio friction pulse rupture modulation train medium",
     "results": "finite_fault inference catalogue friction_ratio medium",
     "setup": "scenario chain pulse output friction rupture modulation train elliptic",
-    "record": "results friction catalogue output medium",
+    "record": "results finite_fault friction catalogue output medium",
     "run": "record friction setup results finite_fault inference catalogue scenario chain pulse output medium",
 }
 
@@ -37,7 +37,8 @@ MODULES = {
 # files at the root of the module, which may include all of its folders.
 FOLDERS = {
     "catalogue": {"csv": ".", "fsp": ".", "json": ".", "toml": "."},
-    "record": {"files": "", "netcdf": "files", "pulses": "netcdf files", "events": "pulses netcdf files"},
+    "finite_fault": {"source": "."},
+    "record": {"files": "", "netcdf": "files", "pulses": "netcdf files", "events": "pulses netcdf files", "faults": "netcdf files"},
     "scenario": {"text": "", "formula": "text", "profile": "formula text", "friction": ". profile formula text"},
     "foundation": {"math": "text", "simd": "", "text": ""},
     "friction": {"state": "", "train_means": "", "laws": "state train_means"},

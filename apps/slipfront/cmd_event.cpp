@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "commands.hpp"
 #include "event_run.hpp"
@@ -16,6 +17,17 @@ int run_event(const EventArguments& a) {
                                  .value = std::to_string(a.draws),
                                  .problem = "there is no file to write the draws to",
                                  .allowed = "with -o OUT.nc"});
+  if (a.fault_grid && !std::string_view(a.output).ends_with(".nc"))
+    throw slipfront::InputError({.file = "command line",
+                                 .key = "--fault-grid",
+                                 .problem = "there is no NetCDF file to write the grid to",
+                                 .allowed = "with -o OUT.nc"});
+  if (a.damping_number && (a.fault_grid || !describes_fault(a)))
+    throw slipfront::InputError({.file = "command line",
+                                 .key = "--damping-number",
+                                 .value = std::to_string(*a.damping_number),
+                                 .problem = "no source is written",
+                                 .allowed = "with -o OUT.srf"});
   return to_file ? write_events(a) : print_events(a);
 }
 
@@ -51,6 +63,19 @@ void add_sampling_options(CLI::App* command, EventArguments& arguments) {
       ->type_name("NAME");
 }
 
+void add_source_options(CLI::App* command, EventArguments& arguments) {
+  command->add_flag(
+      "--fault-grid", arguments.fault_grid,
+      "Write the subfaults of one .fsp to OUT.nc instead of events: rupture time, slip, rise time and static "
+      "stress drop on a grid");
+  command
+      ->add_option("--damping-number", arguments.damping_number,
+                   "Slip-rate functions of OUT.srf: damping number at the end of the rise time; 0: constant slip rate "
+                   "(default: 10)")
+      ->check(CLI::Range(0.0, 1e8))
+      ->type_name("GAMMA");
+}
+
 }  // namespace
 
 Runner add_event(CLI::App& app) {
@@ -76,6 +101,7 @@ Runner add_event(CLI::App& app) {
                     "Refuse a file with a bad row, or with a column that looks like a quantity and is not understood");
   add_medium_options(command, arguments->medium);
   add_sampling_options(command, *arguments);
+  add_source_options(command, *arguments);
   command->add_flag("--pulse", arguments->pulse,
                     "Run a frictionless pulse through the slip distribution of a .fsp, and compare its front and slip "
                     "with those of the model");
@@ -84,8 +110,10 @@ Runner add_event(CLI::App& app) {
       "Print statistics by decade of rupture velocity instead of events (with --json: in addition): number "
       "of events, medians and 5-95 % ranges of the known quantities, and the closed form");
   command
-      ->add_option("-o,--output", arguments->output,
-                   "File to write instead of the table: NetCDF, or CSV rows if the name ends in .csv")
+      ->add_option(
+          "-o,--output", arguments->output,
+          "File to write instead of the table: NetCDF; CSV rows if the name ends in .csv; the kinematic source of one "
+          "finite-fault model (Standard Rupture Format 2.0) if it ends in .srf")
       ->check([](const std::string& path) { return path.empty() ? "the file name is empty" : ""; })
       ->type_name("OUT.nc");
   command->add_option("--resume", arguments->resume, "Resume from an unfinished file of these events, and write to it")

@@ -22,8 +22,10 @@ struct PythonCommand {
   const char* name;
   const char* help;
 };
-constexpr std::array<PythonCommand, 4> commands = {{
+constexpr std::array<PythonCommand, 6> commands = {{
     {"sweep", "A scenario at every point of a grid of settings"},
+    {"laboratory", "Hardness over modulus from the velocities of fronts in the laboratory"},
+    {"population", "Stress, normal stress and friction of many events at once"},
     {"reproduce", "Every number and figure of the paper, as a page that opens in a browser"},
     {"plot", "Figures of the files that slipfront writes"},
     {"animate", "A slip pulse as a moving picture"},

@@ -39,12 +39,32 @@ Json posterior_json(const EventResult& result) {
     j["trade_off"].push_back(
         {{"damping_number", t.damping_number}, {"contact_ratio", t.contact_ratio}, {"stress_pa", t.stress_pa}});
   j["notes"] = p.notes;
+  for (const auto& prediction : p.predictions) j["predictive_check"][prediction.observation] = prediction.below;
+  if (p.predictions.empty()) j["predictive_check"] = Json::object();
+  j["contradicted"] = p.contradicted;
   j["suffices"] = p.suffices;
   j["effective_samples"] = p.effective_samples;
   j["pareto_k"] = p.pareto_k;
   j["samples"] = p.samples;
   j["seed"] = p.seed;
   return j;
+}
+
+/// The observations that disagree with the others, and the result without each of them.
+Json tension_json(const EventResult& result) {
+  Json all = Json::array();
+  if (!result.posterior) return all;
+  for (const auto& t : result.posterior->tension) {
+    Json j = {{"observation", t.observation}, {"sigmas", json_of(t.sigmas)}};
+    for (const auto& quantity : posterior_quantities()) {
+      const auto& q = t.without.*quantity.quantiles;
+      const std::string name(quantity.about.name);
+      j["without"][name] = q ? Json(q->median) : Json();
+      j["without"][name + "_interval"] = q ? Json{q->low, q->high} : Json();
+    }
+    all.push_back(j);
+  }
+  return all;
 }
 
 Json along_fault_json(const EventResult& result) {
@@ -115,7 +135,15 @@ std::string event_json(const EventResult& result) {
       j[name] = x ? Json(x->value) : Json();
       j[name + "_interval"] = x && x->interval ? Json{x->interval->low, x->interval->high} : Json();
     }
+  j["rupture_velocity_is"] = name_of(o.rupture_velocity_is);
+  j["front_threshold"] = o.front_threshold;
+  j["stress_drop_is"] = name_of(o.stress_drop_is);
+  j["tension"] = tension_json(result);
   j["posterior"] = posterior_json(result);
+  if (result.faster_than_c.timed > 0)
+    j["faster_than_c"] = {{"subfaults", result.faster_than_c.subfaults},
+                          {"subfaults_with_velocity", result.faster_than_c.timed},
+                          {"moment_share", result.faster_than_c.moment_share}};
   if (!result.along_fault.empty()) j["along_fault"] = along_fault_json(result);
   if (result.pulse) j["pulse"] = pulse_json(*result.pulse);
   j["moment_n_m"] = o.moment ? Json(o.moment->middle()) : Json();

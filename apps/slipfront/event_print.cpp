@@ -36,7 +36,7 @@ EventPrinter::EventPrinter(const CommonOptions& options, const EventShown& shown
 }
 
 EventPrinter::Printed EventPrinter::printed(const EventResult& result) const {
-  Printed p{{}, {}, result.error, result.warnings(), {}};
+  Printed p{{}, {}, result.error, result.warnings(), {}, result.posterior && result.posterior->suffices};
   if (shown_.population) p.member = member_of(result);
   if (!has_rows()) return p;
   if (is_table()) {
@@ -55,6 +55,7 @@ void EventPrinter::take(Printed&& p) {
   else
     put(p.row);
   ++count_;
+  sampled_ = sampled_ || p.sampled;
   if (p.member) population_.add(*p.member);
   for (const std::string& warning : p.warnings) ++warnings_[warning];
   if (!p.error.empty() && ++errors_ <= most_errors_shown) complain(p.error);
@@ -93,6 +94,11 @@ void EventPrinter::complain_of_columns(const CatalogueColumns& columns) const {
 
 void EventPrinter::print_table(const CatalogueColumns& columns, const std::string& written) const {
   if (has_rows()) put(table_.text());
+  if (has_rows() && !options_.quiet && sampled_)
+    put("\n" +
+        fitted(
+            "V / c and the columns after it are inferred. Where a row has 5 % and 95 % below it, they are medians of "
+            "the posterior, which need not equal the observed values."));
   if (shown_.population) put(population_table(population_.decades(), count_, errors_));
   if (options_.quiet) return;
   print_notes(columns);

@@ -29,6 +29,7 @@ class EventPrinter {
     std::string error;
     std::vector<std::string> warnings;
     std::optional<slipfront::catalogue::Member> member;
+    bool sampled = false;  ///< its values are medians of a posterior
   };
 
   EventPrinter(const CommonOptions& options, const EventShown& shown);
@@ -49,6 +50,7 @@ class EventPrinter {
   CommonOptions options_;
   EventShown shown_;
   std::size_t count_ = 0, errors_ = 0;
+  bool sampled_ = false;
   TerminalTable table_;
   std::map<std::string, std::size_t> warnings_;
   slipfront::catalogue::Population population_;

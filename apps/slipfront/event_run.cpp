@@ -73,13 +73,17 @@ void check_names(const EventArguments& a) {
         {.file = "command line", .key = option, .value = value, .problem = "cannot be used here", .allowed = allowed});
   };
   const auto is_netcdf = [](const std::string& path) { return std::string_view(path).ends_with(".nc"); };
-  if (!a.output.empty() && !is_netcdf(a.output) && !is_csv(a.output)) refuse("-o", a.output, "OUT.nc or OUT.csv");
+  if (!a.output.empty() && !is_netcdf(a.output) && !is_csv(a.output) && !describes_fault(a))
+    refuse("-o", a.output, "OUT.nc, OUT.csv or OUT.srf");
   std::error_code not_there;
   for (const std::string& file : a.files)
     if (std::filesystem::equivalent(file, a.output, not_there)) refuse("-o", a.output, "a file other than those read");
   if (!a.resume.empty() && !is_netcdf(a.resume)) refuse("--resume", a.resume, "OUT.nc, as -o wrote it");
-  if (a.draws > 0 && is_csv(a.output)) refuse("-o", a.output, "OUT.nc, with --draws");
-  if (!a.resume.empty() && is_csv(a.output)) refuse("-o", a.output, "OUT.nc, with --resume");
+  const bool holds_events = is_netcdf(a.output) && !describes_fault(a);
+  if (a.draws > 0 && !a.output.empty() && !holds_events) refuse("-o", a.output, "OUT.nc, with --draws");
+  if (!a.resume.empty() && !a.output.empty() && !holds_events) refuse("-o", a.output, "OUT.nc, with --resume");
+  if ((a.pulse || a.population) && describes_fault(a))
+    refuse("-o", a.output, "OUT.nc or OUT.csv, with --pulse or --population");
 }
 
 /// Runs the catalogue with a progress line. Ctrl-C interrupts it.
@@ -121,6 +125,7 @@ int print_events(const EventArguments& a) {
 
 int write_events(const EventArguments& a) {
   check_names(a);
+  if (describes_fault(a)) return write_fault(a, scenario_of(a));
   slipfront::run::CataloguePlan plan = slipfront::run::plan_catalogue(scenario_of(a), a.common.threads, true);
   const std::string& path = a.output.empty() ? a.resume : a.output;
   const slipfront::record::Output output(is_csv(path) ? "" : path, a.resume);

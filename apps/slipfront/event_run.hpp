@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "run/catalogue.hpp"
 #include "slipfront/medium/constants.hpp"
 
 /// Options of the command line.
@@ -19,6 +20,8 @@ struct EventArguments {
   bool pulse = false, population = false;
   std::string output, resume;
   std::size_t draws = 0;
+  bool fault_grid = false;
+  std::optional<double> damping_number;  ///< sets the shape of slip-rate functions
   std::string column_map;  ///< file of --columns
   bool strict = false;
 };
@@ -28,3 +31,8 @@ int print_events(const EventArguments& arguments);
 
 /// Writes events to a file. Returns the exit code. \throws InputError, FileError.
 int write_events(const EventArguments& arguments);
+
+/// Whether the output file describes the fault of one finite-fault model, not events.
+bool describes_fault(const EventArguments& arguments);
+/// Writes that file. Returns the exit code. \throws InputError, FileError.
+int write_fault(const EventArguments& arguments, const slipfront::run::CatalogueScenario& scenario);

@@ -16,7 +16,7 @@ using slipfront::results::EventResult;
 
 constexpr std::size_t name_width = 34;
 constexpr std::array<TableColumn, 10> table_columns = {
-    {{name_width, true}, {12}, {9}, {9}, {12}, {12}, {12}, {11}, {9}, {9}}};
+    {{name_width, true}, {12}, {12}, {9}, {9}, {12}, {12}, {11}, {9}, {9}}};
 
 /// The name of an event. Of a longer one only the first `name_width` characters.
 std::string name_cell(const std::string& name) {
@@ -37,8 +37,8 @@ struct Column {
   bool is_bound(const Estimate& e) const { return bound && e.*bound; }
   const std::optional<Inferred>& of(const Estimate& e) const { return is_bound(e) ? e.*bound : e.*value; }
 };
-constexpr std::array<Column, 7> columns = {{{2, &Estimate::rupture_velocity},
-                                            {3, &Estimate::stress, 1, 4, &Estimate::stress_bound},
+constexpr std::array<Column, 7> columns = {{{3, &Estimate::rupture_velocity},
+                                            {4, &Estimate::stress, 1, 4, &Estimate::stress_bound},
                                             {5, &Estimate::frictionless_slip_velocity},
                                             {6, &Estimate::slip_velocity_ratio},
                                             {7, &Estimate::contact_ratio, 1, 3, &Estimate::contact_ratio_bound},
@@ -73,9 +73,10 @@ std::string front_text(const std::optional<double>& v) {
 
 TerminalTable event_table_head() {
   TerminalTable table(table_columns);
-  table.add({"", "rupture", "", "stress", "slip", "frictionless", "observed /", "contact", "stress", "damping"});
+  table.add({"", "observed", "observed", "", "", "", "", "", "", ""});
+  table.add({"", "rupture", "slip", "", "stress", "frictionless", "observed /", "contact", "stress", "damping"});
   table.add(
-      {"event", "velocity", "V / c", "mu A / pi", "velocity", "c A / pi", "frictionless", "ratio A", "MPa", "C T"});
+      {"event", "velocity", "velocity", "V / c", "mu A / pi", "c A / pi", "frictionless", "ratio A", "MPa", "C T"});
   return table;
 }
 
@@ -91,7 +92,7 @@ TerminalTable event_table_row(const EventResult& result) {
   std::vector<std::string> cells(table_columns.size());
   cells[0] = std::move(name);
   cells[1] = front_text(e.observed_rupture_velocity_m_s);
-  cells[4] = speed_text(e.observed_slip_velocity_m_s);
+  cells[2] = speed_text(e.observed_slip_velocity_m_s);
   for (const Column& c : columns) {
     const auto& x = c.of(e);
     cells[c.cell] = x ? fmt::format("{}{:.{}g}", c.is_bound(e) ? ">=" : "", x->value / c.unit, c.digits) : "-";

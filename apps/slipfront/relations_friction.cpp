@@ -8,6 +8,7 @@
 
 #include "batch.hpp"
 #include "json.hpp"
+#include "slipfront/friction_ratio/front.hpp"
 #include "slipfront/friction_ratio/table.hpp"
 #include "terminal_table.hpp"
 
@@ -22,21 +23,27 @@ struct Row {
   double stress, rupture_velocity;
   const char* closure;
   double ratio, ratio_error, damping_number, coefficient, coefficient_error, slip_velocity;
+  double front_ratio, stress_drop_share;
 };
+
+/// Slip velocity at an observed front, as a fraction of the peak slip velocity. Runs use the same default.
+constexpr double threshold = 1e-3;
 
 /// The numbers of a row, with their names in JSON and CSV. The closure is in front of them.
 struct Column {
   const char* name;
   double Row::*value;
 };
-constexpr std::array<Column, 8> columns = {{{"stress", &Row::stress},
-                                            {"rupture_velocity", &Row::rupture_velocity},
-                                            {"slip_velocity_ratio", &Row::ratio},
-                                            {"slip_velocity_ratio_error", &Row::ratio_error},
-                                            {"damping_number", &Row::damping_number},
-                                            {"friction_coefficient", &Row::coefficient},
-                                            {"friction_coefficient_error", &Row::coefficient_error},
-                                            {"slip_velocity", &Row::slip_velocity}}};
+constexpr std::array<Column, 10> columns = {{{"stress", &Row::stress},
+                                             {"rupture_velocity", &Row::rupture_velocity},
+                                             {"slip_velocity_ratio", &Row::ratio},
+                                             {"slip_velocity_ratio_error", &Row::ratio_error},
+                                             {"damping_number", &Row::damping_number},
+                                             {"friction_coefficient", &Row::coefficient},
+                                             {"friction_coefficient_error", &Row::coefficient_error},
+                                             {"slip_velocity", &Row::slip_velocity},
+                                             {"front_ratio", &Row::front_ratio},
+                                             {"stress_drop_share", &Row::stress_drop_share}}};
 
 Row from_ratio(const Relations& r, Closure closure, const char* name, friction_ratio::Measure measure, double ratio,
                double time) {
@@ -49,14 +56,26 @@ Row from_ratio(const Relations& r, Closure closure, const char* name, friction_r
           reading.damping_number,
           reading.damping_number / time,
           reading.error / time,
-          ratio * r.slip_velocity};
+          ratio * r.slip_velocity,
+          friction_ratio::front_ratio(closure, r.stress, reading.damping_number, threshold).value,
+          stress_drop_share(friction_ratio::Drop::origin, closure, r.stress, reading.damping_number).value};
 }
 
 Row from_coefficient(const Relations& r, Closure closure, const char* name, friction_ratio::Measure measure,
                      double coefficient, double time) {
   const double damping = coefficient * time, ratio = evaluate(measure, closure, r.stress, damping).value;
   const double error = ratio * friction_ratio::uncertainty(closure, damping);
-  return {r.stress, r.rupture_velocity, name, ratio, error, damping, coefficient, 0, ratio * r.slip_velocity};
+  return {r.stress,
+          r.rupture_velocity,
+          name,
+          ratio,
+          error,
+          damping,
+          coefficient,
+          0,
+          ratio * r.slip_velocity,
+          friction_ratio::front_ratio(closure, r.stress, damping, threshold).value,
+          stress_drop_share(friction_ratio::Drop::origin, closure, r.stress, damping).value};
 }
 
 std::vector<Row> rows_of(const std::vector<Relations>& states, const FrictionOptions& friction) {

@@ -21,6 +21,8 @@ JSON_ONLY = {
     "friction": "results of `relations` with a friction coefficient or a ratio of slip velocities, one for each closure",
     "measure": "the slip velocity that a ratio is about: origin, mean, peak or time-mean",
     "slip_velocity_ratio_error": "error of the ratio, from the table",
+    "front_ratio": "position of the observed front (threshold 1e-3) over |V-| T, from the table",
+    "stress_drop_share": "stress drop at x = 0 over the stress before the rupture, from the table",
     "friction_coefficient_error": "error of the coefficient, from the table",
     "events": "list of events: observed ones of `event`, slip events of a loaded `chain`",
     "onset": "time at which a slip event begins, in b / (c A)",
@@ -46,6 +48,10 @@ JSON_ONLY = {
     "slip_velocity_is": "the observed slip velocity is that at the origin, a mean, a peak or a time mean",
     "along_fault": "list of the subfaults of a finite-fault model",
     "segment": "number of the segment of a subfault",
+    "faster_than_c": "subfaults of a finite-fault model whose rupture velocity is above c",
+    "subfaults": "their number",
+    "subfaults_with_velocity": "number of subfaults with a rupture velocity",
+    "moment_share": "their fraction of the moment of the model",
     "along_strike_m": "position of a subfault along strike, in m",
     "down_dip_m": "position of a subfault down dip, in m",
     "depth_m": "depth of a subfault, in m",
@@ -170,6 +176,11 @@ def main() -> None:
                                         [run.file("compare", run.case("step-viscous.toml"), "--set", "chain.scale=30")])
         described |= describe_variables("Files of `event`", "slipfront event FILE -o OUT.nc",
                                         [run.file("event", run.case("ets.toml"), "--draws", "10"), run.file("event", run.case("synthetic-fault.fsp"), "--pulse")])
+        describe_variables("Files of `laboratory`", "slipfront laboratory TABLE.csv -o OUT.nc",
+                           [run.file("laboratory", run.case("synthetic-laboratory-fronts.csv"), "--poisson-ratio", "0.35", "--s-wave-speed", "1300 m/s",
+                                     "--shear-modulus", "2 GPa")])
+        described |= describe_variables("Fault grids of `event`", "slipfront event MODEL.fsp --fault-grid -o OUT.nc",
+                                        [run.file("event", run.case("synthetic-fault.fsp"), "--fault-grid")])
         describe_json(run, described)
 
 

@@ -1,6 +1,7 @@
 #include <string>
 
 #include "columns.hpp"
+#include "slipfront/friction_ratio/front.hpp"
 #include "slipfront/friction_ratio/table.hpp"
 
 namespace {
@@ -41,11 +42,22 @@ py::list damping_number_of(const Numbers& stress, const Numbers& ratio, const st
   });
 }
 
+/// The observed front over |V-|, for arrays of one length.
+py::array_t<double> front_ratio_of(const Numbers& stress, const Numbers& damping, double threshold,
+                                   const std::string& closure_name) {
+  const friction_ratio::FrontCurve curve(friction::closure_named(closure_name), threshold);
+  py::array_t<double> ratio(stress.size());
+  for (py::ssize_t i = 0; i < stress.size(); ++i)
+    ratio.mutable_data()[i] = curve(stress.data()[i], damping.data()[i]).value;
+  return ratio;
+}
+
 }  // namespace
 
 void bind_friction_ratio(py::module_& m) {
   m.def("friction_ratio", friction_ratio_of);
   m.attr("friction_ratio_described") = all(friction_ratio_described);
   m.def("damping_number", damping_number_of);
+  m.def("front_ratio", front_ratio_of);
   m.attr("damping_number_described") = all(damping_number_described);
 }

@@ -13,10 +13,12 @@ PYBIND11_MODULE(_slipfront, m) {
   bind_train(m);
   bind_friction_ratio(m);
   bind_medium(m);
+  bind_measured(m);
   bind_pulse(m);
   bind_chain(m);
   bind_compare(m);
   bind_event(m);
+  bind_observations(m);
   bind_sweep(m);
   bind_keys(m);
   bind_files(m);

@@ -12,6 +12,8 @@ attribute `references` gives its equation in the paper (Gershenzon, Bambakidis a
                 share of the slip velocity that remains under viscous friction (Fig. 10)
     damping_number
                 inverse of friction_ratio: the damping number for a given share
+    moment_duration
+                potency of a pulse against its duration, and the exponent of the duration
     train       the uniform train of dislocations (Eqs. 4-5) and the closed-form profile of a pulse
     medium      constants of rock and interface (Eqs. 1-3)
     pulse       runs a scenario with the modulation equations and friction (Eqs. 7)
@@ -19,6 +21,8 @@ attribute `references` gives its equation in the paper (Gershenzon, Bambakidis a
     compare     runs a scenario with closed form, pulse and chain, and compares them
     sweep       runs a pulse or a chain over a grid of settings, on all cores or on a Dask cluster
     event       stress and contact ratio of observed events
+    laboratory  hardness over modulus from the velocities of fronts in the laboratory
+    population  stress, normal stress and friction of many events, and how much they scatter
     check       checks a scenario without running it
     open        reads a file that slipfront has written
     dataset.slipfront.si
@@ -38,6 +42,9 @@ require_compiled()
 from . import _accessor, medium, train
 from ._event import event
 from ._friction_ratio import damping_number, friction_ratio
+from ._laboratory import laboratory
+from ._hierarchy import population
+from ._potency import moment_duration
 from ._relations import relations
 from ._run import chain, check, compare, open, pulse
 from ._sweep import sweep
@@ -58,5 +65,5 @@ class _Package(types.ModuleType):
 
 sys.modules[__name__].__class__ = _Package
 
-__all__ = ["FileError", "InputError", "NumericsError", "__version__", "cases", "chain", "check", "compare", "damping_number", "event", "friction_ratio", "medium", "open",
-           "pulse", "relations", "sweep", "train"]
+__all__ = ["FileError", "InputError", "NumericsError", "__version__", "cases", "chain", "check", "compare", "damping_number", "event", "friction_ratio", "laboratory", "medium",
+           "moment_duration", "open", "population", "pulse", "relations", "sweep", "train"]

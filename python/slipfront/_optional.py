@@ -5,7 +5,7 @@ import pathlib
 import platform
 
 _packages = {"xarray": "python3-xarray", "numpy": "python3-numpy", "matplotlib": "python3-matplotlib", "netCDF4": "python3-netcdf4",
-             "distributed": "python3-distributed", "pandas": "python3-pandas", "PIL": "python3-pil"}
+             "distributed": "python3-distributed", "pandas": "python3-pandas", "PIL": "python3-pil", "scipy": "python3-scipy", "emcee": "python3-emcee"}
 _pip = {"PIL": "pillow"}
 
 

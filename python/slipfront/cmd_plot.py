@@ -21,7 +21,7 @@ def sweep_variable(dataset, options) -> str:
 
 def main(argv) -> int:
     """Draws the pictures of a file. Returns the exit code; raises ValueError (bad input), OSError (files), ImportError (matplotlib)."""
-    parser = Arguments("plot", "Pictures of the NetCDF files of pulse, chain, compare, sweep and event, of the CSV of relations and event, and of samples.",
+    parser = Arguments("plot", "Pictures of the NetCDF files of pulse, chain, compare, sweep, event and laboratory, of the CSV of relations and event, and of samples.",
                        ["slipfront plot pulse.nc", "slipfront plot pulse.nc --kind profiles -o profiles.pdf", "slipfront plot sweep.nc --variable slip_at_origin -o slip.png"])
     parser.add_argument("file", metavar="FILE", help="NetCDF or CSV")
     parser.add_argument("-o", "--output", metavar="PICTURE", type=file_name,
@@ -39,7 +39,7 @@ def main(argv) -> int:
     dataset = files.read(options.file)
     kinds = choose.kinds_of(dataset)
     if not kinds:
-        raise ValueError(f"{options.file}: nothing to draw in it; allowed: what pulse, chain, compare, relations and event write, or samples")
+        raise ValueError(f"{options.file}: nothing to draw in it; allowed: what pulse, chain, compare, relations, event and laboratory write, or samples")
     if options.kind is not None:
         if options.kind not in kinds:
             raise ValueError(f"--kind {options.kind}: not for {options.file}; allowed: {', '.join(kinds)}")

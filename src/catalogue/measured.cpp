@@ -29,6 +29,25 @@ double Measured::quantile(double p) const {
   return low + p * (high - low);
 }
 
+double Measured::share_below(double x) const {
+  const auto below = [](double z) { return std::erfc(-z / std::numbers::sqrt2) / 2; };
+  switch (shape) {
+    case Shape::range:
+      break;
+    case Shape::normal:
+      return below((x - low) / spread);
+    case Shape::lognormal:
+      return x > 0 ? below(std::log(x / low) / std::log(spread)) : 0;
+    case Shape::split: {
+      const double under = spread_below / (spread_below + spread);
+      return x < low ? 2 * under * below((x - low) / spread_below)
+                     : 1 - 2 * (1 - under) * below((low - x) / spread);
+    }
+  }
+  if (is_exact()) return x > low ? 1 : 0;
+  return std::clamp((x - low) / (high - low), 0.0, 1.0);
+}
+
 double Measured::likelihood(double x) const {
   double z = 0;
   switch (shape) {
@@ -45,9 +64,14 @@ double Measured::likelihood(double x) const {
       z = (x - low) / (x < low ? spread_below : spread);
       break;
   }
-  return std::exp(-z * z / 2);
+  const bool falls = shape != Shape::lognormal && x < least_even_share * low;
+  return (falls ? x / (least_even_share * low) : 1) * std::exp(-z * z / 2);
 }
 
-double Measured::weight_of_draw(double x) const { return shape == Shape::lognormal || is_exact() ? 1 : 1 / x; }
+double Measured::likelihood_of_log(double ln_x) const {
+  if (shape != Shape::lognormal) return likelihood(std::exp(ln_x));
+  const double z = (ln_x - std::log(low)) / std::log(spread);
+  return std::exp(-z * z / 2);
+}
 
 }  // namespace slipfront::catalogue

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "foundation/text/digits.hpp"
 #include "slipfront/medium/constants.hpp"
 #include "slipfront/medium/medium.hpp"
 #include "slipfront/rupture/relations.hpp"
@@ -113,6 +114,24 @@ std::vector<LocalState> along_fault(const Observation& o, const medium::Defaults
     }
   }
   return states;
+}
+
+FasterThanC faster_than(const std::vector<LocalState>& states, double speed) {
+  FasterThanC out;
+  for (const LocalState& s : states) {
+    if (!s.rupture_velocity_m_s) continue;
+    ++out.timed;
+    if (*s.rupture_velocity_m_s < speed) continue;
+    ++out.subfaults;
+    out.moment_share += s.subfault.moment_share;
+  }
+  return out;
+}
+
+std::string warning_of(const FasterThanC& faster, double speed) {
+  if (faster.subfaults == 0) return {};
+  return "subfaults that rupture faster than c = " + digits(speed, 4) + " m/s: " + std::to_string(faster.subfaults) +
+         " of " + std::to_string(faster.timed) + ", with " + digits(100 * faster.moment_share, 3) + " % of the moment";
 }
 
 }  // namespace slipfront::finite_fault

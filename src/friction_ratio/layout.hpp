@@ -44,6 +44,15 @@ Values<n> chebyshev(double t) {
   return T;
 }
 
+/// Only the values of these polynomials.
+template <std::size_t n>
+std::array<double, n> chebyshev_values(double t) {
+  std::array<double, n> T;
+  T[0] = 1, T[1] = t;
+  for (std::size_t i = 2; i < n; ++i) T[i] = 2 * t * T[i - 1] - T[i - 2];
+  return T;
+}
+
 /// A range, and where one of its points lies between -1 and 1.
 struct Range {
   double low, high;

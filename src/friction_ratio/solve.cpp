@@ -14,11 +14,6 @@ namespace {
 
 using std::numbers::pi;
 
-/// W and slip at x.
-struct Point {
-  double x, W, slip;
-};
-
 std::vector<Point> points_of(const pulse::Solver::View& view, double stress) {
   const double charge = view.charge_faces.back();
   const auto point = [&](double x, const State& state, double charge_left) {
@@ -33,18 +28,6 @@ std::vector<Point> points_of(const pulse::Solver::View& view, double stress) {
   return points;
 }
 
-/// Finds the largest W up to the maximum that is reached uphill from x = 0, by a parabola through three points. Cells
-/// past that maximum do not count: the last few cells at the free edge of a strongly damped pulse are not resolved.
-double peak_of(const std::vector<Point>& points) {
-  auto top = std::find_if(points.begin() + 1, points.end() - 2, [](const Point& p) { return p.x >= 0; });
-  while (top != points.begin() + 1 && top[-1].W > top->W) --top;
-  while (top != points.end() - 2 && top[1].W > top->W) ++top;
-  top = std::max_element(points.begin() + 1, top + 1, [](const Point& a, const Point& b) { return a.W < b.W; });
-  const auto [slope, curve] =
-      parabola_through(top[-1].x - top->x, top[-1].W - top->W, top[1].x - top->x, top[1].W - top->W);
-  return curve < 0 ? top->W - slope * slope / (4 * curve) : top->W;
-}
-
 double slip_weighted_mean_of(const std::vector<Point>& points) {
   double moment = 0, slip = 0;
   for (std::size_t i = 1; i < points.size(); ++i) {
@@ -55,10 +38,12 @@ double slip_weighted_mean_of(const std::vector<Point>& points) {
   return moment / slip;
 }
 
-pulse::Solver solver_of(const Question& question) {
-  const double V = rupture::from_stress(question.stress).rupture_velocity;
-  // The moving part ends at the trailing edge, V T. At late times, when slip diffuses, it ends far inside this edge.
-  const double reach = V * std::fmin(1.02, 9 / std::sqrt(question.damping_number));
+/// How far from x = 0 the cells reach, in units of V T. The moving part ends at the trailing edge, V T. At late times,
+/// when slip diffuses, it ends far inside this edge.
+double late_reach(double damping_number) { return std::fmin(1.02, 9 / std::sqrt(damping_number)); }
+
+pulse::Solver solver_of(const Question& question, double reach_over_front) {
+  const double reach = reach_over_front * rupture::from_stress(question.stress).rupture_velocity;
   return pulse::Solver({.stress = [stress = question.stress](double x) { return x < 0 ? stress : 0.0; },
                         .forcing = {},
                         .friction = friction::viscous(question.damping_number, question.closure),
@@ -77,15 +62,43 @@ SlipVelocities velocities_of(const pulse::Solver& solver, double stress, double 
 
 }  // namespace
 
+// A parabola through three points gives the maximum. Cells
+// past that maximum do not count: the last few cells at the free edge of a strongly damped pulse are not resolved.
+double peak_of(const std::vector<Point>& points) {
+  auto top = std::find_if(points.begin() + 1, points.end() - 2, [](const Point& p) { return p.x >= 0; });
+  while (top != points.begin() + 1 && top[-1].W > top->W) --top;
+  while (top != points.end() - 2 && top[1].W > top->W) ++top;
+  top = std::max_element(points.begin() + 1, top + 1, [](const Point& a, const Point& b) { return a.W < b.W; });
+  const auto [slope, curve] =
+      parabola_through(top[-1].x - top->x, top[-1].W - top->W, top[1].x - top->x, top[1].W - top->W);
+  return curve < 0 ? top->W - slope * slope / (4 * curve) : top->W;
+}
+
 SlipVelocities solve(const Question& question) {
-  pulse::Solver solver = solver_of(question);
+  pulse::Solver solver = solver_of(question, late_reach(question.damping_number));
   solver.advance_to(1);
   return velocities_of(solver, question.stress, 1);
 }
 
+Pulse solve_pulse(const Question& question) {
+  double damping = question.damping_number;
+  if (question.closure == friction::Closure::paper) {
+    // This closure has less friction on the stressed side, by pi^2 / (4 E K), so the foot of the front spreads farther.
+    const rupture::Relations r = rupture::from_stress(question.stress);
+    const double K = pi * std::cosh(r.psi) / question.stress;
+    damping *= pi * pi / (4 * K * K / r.velocity_ratio);
+  }
+  pulse::Solver solver = solver_of(question, late_reach(damping));
+  solver.advance_to(1);
+  const pulse::Solver::View view = solver.view();
+  return {points_of(view, question.stress), pulse::averages_of(view, pulse::state_at(view, 0), 0).k,
+          2 * pi * (view.charge_faces.back() - pulse::charge_left_of(view, 0))};
+}
+
 std::vector<SlipVelocities> solve_each(double stress, friction::Closure closure, int cells,
                                        const std::vector<double>& damping_numbers) {
-  pulse::Solver solver = solver_of({stress, damping_numbers.back(), closure, cells});
+  pulse::Solver solver =
+      solver_of({stress, damping_numbers.back(), closure, cells}, late_reach(damping_numbers.back()));
   std::vector<SlipVelocities> found;
   for (const double damping : damping_numbers) {
     const double time = damping / damping_numbers.back();

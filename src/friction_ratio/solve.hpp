@@ -25,6 +25,18 @@ struct Question {
   int cells = 400;
 };
 
+/// W and slip at x.
+struct Point {
+  double x, W, slip;
+};
+
+/// The pulse at T = 1, from the last position at rest on the stressed side to the leading edge.
+struct Pulse {
+  std::vector<Point> points;  ///< centres and faces of the cells, in ascending order
+  double stress_at_origin;    ///< Sigma(0)
+  double slip_at_origin;
+};
+
 /// \throws InputError, NumericsError as the solver does.
 SlipVelocities solve(const Question& question);
 
@@ -32,5 +44,11 @@ SlipVelocities solve(const Question& question);
 /// all results.
 std::vector<SlipVelocities> solve_each(double stress, friction::Closure closure, int cells,
                                        const std::vector<double>& damping_numbers);
+
+/// \throws InputError, NumericsError as the solver does.
+Pulse solve_pulse(const Question& question);
+
+/// The largest W up to the maximum that is reached uphill from x = 0.
+double peak_of(const std::vector<Point>& points);
 
 }  // namespace slipfront::friction_ratio

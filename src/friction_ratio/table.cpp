@@ -22,6 +22,28 @@ void check(double stress, double damping) {
 
 constexpr std::array<const char*, layout::measures> measure_names = {"origin", "mean", "peak", "time-mean"};
 
+/// The piece of the table at one point, and the arguments of its polynomials.
+struct Position {
+  const layout::Piece& polynomials;
+  double t;             ///< y, between -1 and 1
+  layout::Values<1> v;  ///< position in the piece between -1 and 1, and its slope over the share of the piece below u
+  double length;        ///< length of the piece in u
+  double motion;        ///< d/dy of the point of the piece at this share
+};
+
+Position position_of(Measure measure, friction::Closure closure, double stress, double damping) {
+  check(stress, damping);
+  const std::size_t c = closure == friction::Closure::paper ? 1 : 0, m = static_cast<std::size_t>(measure);
+  const double t = layout::of_stress().to_unit(layout::y_of(stress));
+  const auto ends = layout::ends_at(corners[c][m], t);
+  const double u = std::log1p(std::fmin(damping, layout::most_damping));
+  const auto above = std::upper_bound(ends.value.begin() + 1, ends.value.end() - 1, u);
+  const auto piece = static_cast<std::size_t>(above - ends.value.begin()) - 1;
+  const double low = ends.value[piece], length = ends.value[piece + 1] - low, x = (u - low) / length;
+  return {coefficients[c][m][piece], t, layout::t_of(x, layout::by_root(corners[c][m], piece)), length,
+          std::lerp(ends.slope[piece], ends.slope[piece + 1], x)};
+}
+
 }  // namespace
 
 const char* name_of(Measure measure) { return measure_names[static_cast<std::size_t>(measure)]; }
@@ -36,33 +58,23 @@ Measure measure_named(std::string_view name, std::string_view key) {
 }
 
 Ratio evaluate(Measure measure, friction::Closure closure, double stress, double damping) {
-  check(stress, damping);
-  const std::size_t c = closure == friction::Closure::paper ? 1 : 0, m = static_cast<std::size_t>(measure);
-  const layout::Range y_range = layout::of_stress();
-  const double t = y_range.to_unit(layout::y_of(stress));
-  const auto ends = layout::ends_at(corners[c][m], t);
-  const double u = std::log1p(std::fmin(damping, layout::most_damping));
-  const auto above = std::upper_bound(ends.value.begin() + 1, ends.value.end() - 1, u);
-  const auto piece = static_cast<std::size_t>(above - ends.value.begin()) - 1;
-  const double low = ends.value[piece], length = ends.value[piece + 1] - low, x = (u - low) / length;
-  const auto v = layout::t_of(x, layout::by_root(corners[c][m], piece));
-  const auto in_u = layout::chebyshev<layout::u_nodes>(v.value[0]);
-  const auto in_y = layout::chebyshev<layout::y_nodes>(t);
-  const layout::Piece& a = coefficients[c][m][piece];
+  const Position p = position_of(measure, closure, stress, damping);
+  const auto in_u = layout::chebyshev<layout::u_nodes>(p.v.value[0]);
+  const auto in_y = layout::chebyshev<layout::y_nodes>(p.t);
   double sum = 0, by_v = 0, by_t = 0;
   for (std::size_t i = 0; i < layout::y_nodes; ++i) {
     double along = 0, slope = 0;
     for (std::size_t j = 0; j < layout::u_nodes; ++j) {
-      along += a[i][j] * in_u.value[j];
-      slope += a[i][j] * in_u.slope[j];
+      along += p.polynomials[i][j] * in_u.value[j];
+      slope += p.polynomials[i][j] * in_u.slope[j];
     }
     sum += in_y.value[i] * along;
     by_v += in_y.value[i] * slope;
     by_t += in_y.slope[i] * along;
   }
-  const double by_u = by_v * v.slope[0] / length;
+  const double by_u = by_v * p.v.slope[0] / p.length;
   // The ends of the piece move with y, so a derivative at constant u has a term for this motion.
-  const double by_y = by_t * y_range.unit_slope() - by_u * std::lerp(ends.slope[piece], ends.slope[piece + 1], x);
+  const double by_y = by_t * layout::of_stress().unit_slope() - by_u * p.motion;
   Ratio r{std::exp(sum), 0, 0};
   r.by_stress = r.value * by_y * layout::y_slope(stress);
   r.by_damping = r.value * by_u / (1 + damping);
@@ -71,6 +83,20 @@ Ratio evaluate(Measure measure, friction::Closure closure, double stress, double
     r = {r.value * fall, -r.value * fall / (2 * damping), r.by_stress * fall};
   }
   return r;
+}
+
+double evaluate_value(Measure measure, friction::Closure closure, double stress, double damping) {
+  const Position p = position_of(measure, closure, stress, damping);
+  const auto in_u = layout::chebyshev_values<layout::u_nodes>(p.v.value[0]);
+  const auto in_y = layout::chebyshev_values<layout::y_nodes>(p.t);
+  double sum = 0;
+  for (std::size_t i = 0; i < layout::y_nodes; ++i) {
+    double along = 0;
+    for (std::size_t j = 0; j < layout::u_nodes; ++j) along += p.polynomials[i][j] * in_u[j];
+    sum += in_y[i] * along;
+  }
+  const double value = std::exp(sum);
+  return damping > layout::most_damping ? value * std::sqrt(layout::most_damping / damping) : value;
 }
 
 double uncertainty(friction::Closure closure, double damping) {

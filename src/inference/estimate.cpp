@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "foundation/text/digits.hpp"
-#include "inference/balance.hpp"
+#include "inference/pulse_state.hpp"
 #include "slipfront/medium/constants.hpp"
 #include "slipfront/medium/medium.hpp"
 #include "slipfront/rupture/relations.hpp"
@@ -15,6 +15,8 @@ namespace slipfront::inference {
 using catalogue::Measure;
 using catalogue::Measured;
 using catalogue::Observation;
+using catalogue::RuptureVelocityIs;
+using catalogue::StressDropIs;
 using catalogue::UncertainConstant;
 using medium::Defaults;
 using medium::Elastic;
@@ -39,20 +41,24 @@ void reset_unless_finite(double& x) {
 }
 
 /// The state of the fault at one choice of the observed numbers.
-FaultState infer(const Observed& observed, const Elastic& e, std::optional<double> given_A, Measure measure) {
+FaultState infer(const Observed& observed, const Elastic& e, std::optional<double> given_A, const Observation& o) {
+  const Measure measure = o.measure();
   FaultState s = unknown_state();
-  if (!given_A && observed.drop && observed.V)
-    given_A = *observed.drop / medium::stress_unit(e.shear_modulus, 1) /
-              rupture::from_rupture_velocity(*observed.V / e.speed).stress;
-  else if (!given_A && observed.strength)
+  if (!given_A && observed.drop && observed.V) {
+    const rupture::Relations r = rupture::from_rupture_velocity(*observed.V / e.speed);
+    const double drop = o.stress_drop_is == StressDropIs::stored ? r.stress : r.stress - r.stress_at_origin;
+    given_A = *observed.drop / medium::stress_unit(e.shear_modulus, 1) / drop;
+  } else if (!given_A && observed.strength) {
     given_A = observed.strength;
+  }
   const std::optional<double> w = observed.slip_velocity();
   if (given_A) s.contact_ratio = *given_A;
   if (observed.V) {
     s.rupture_velocity_m_s = *observed.V;
     s.rupture_velocity = *observed.V / e.speed;
     const rupture::Relations r = rupture::from_rupture_velocity(s.rupture_velocity);
-    s.stress = r.stress;
+    // Friction slows an observed front, so its stress is at least that of the closed form.
+    (o.rupture_velocity_is == RuptureVelocityIs::front ? s.stress_bound : s.stress) = r.stress;
     s.frictionless_slip_velocity = r.slip_velocity;
     if (!given_A && w)  // pi w / (c W)
       s.contact_ratio_bound =
@@ -159,7 +165,7 @@ std::vector<Spread> spreads_of(const ObservedNumbers& numbers, const Observation
       const double value = measured.quantile(probability);
       (shifted.*member).reset();
       if (value > 0 && !(member == &Observed::V && value >= e.speed)) shifted.*member = value;
-      return infer(shifted, e, o.contact_ratio, o.measure());
+      return infer(shifted, e, o.contact_ratio, o);
     };
     spreads.push_back({at(0.05), at(0.95)});
   }
@@ -224,8 +230,7 @@ Estimate estimate(const Observation& o, const Defaults& defaults, bool is_sample
   if (o.rupture_velocity_m_s) result.observed_rupture_velocity_m_s = o.rupture_velocity_m_s->middle();
   result.observed_slip_velocity_m_s = numbers.middle.slip_velocity();
   const bool moved = has_uncertain_constants(o);
-  const bool blurred =
-      fill(result, infer(numbers.middle, e, o.contact_ratio, o.measure()), spreads_of(numbers, o, e), !moved);
+  const bool blurred = fill(result, infer(numbers.middle, e, o.contact_ratio, o), spreads_of(numbers, o, e), !moved);
   if (!is_sampled && (blurred || moved))
     result.warnings.push_back(
         "several observed errors change a quantity: values are at the middle of each, and intervals need samples");

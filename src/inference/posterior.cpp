@@ -6,14 +6,14 @@
 #include <utility>
 
 #include "foundation/text/digits.hpp"
-#include "inference/pareto.hpp"
-#include "inference/sampler.hpp"
-#include "inference/weighted.hpp"
+#include "inference/tension.hpp"
+#include "inference/weighted_samples.hpp"
 #include "slipfront/medium/medium.hpp"
 
 namespace slipfront::inference {
 
 using catalogue::Observation;
+using catalogue::RuptureVelocityIs;
 using medium::Elastic;
 using medium::elastic;
 
@@ -45,7 +45,7 @@ namespace {
 /// instead.
 bool only_contact_refused(const Sampler& sampler) {
   const auto& refused = sampler.refused();
-  return !sampler.fixes_friction() && !sampler.knows_contact() && refused[bad_contact] > 0 &&
+  return !sampler.knows_contact() && refused[bad_contact] > 0 &&
          std::max_element(refused.begin(), refused.end()) - refused.begin() == bad_contact;
 }
 
@@ -61,16 +61,29 @@ std::string why_no_interval(double effective, double k, std::size_t samples) {
 void add_trade_off(Posterior& p, const Observation& o, const medium::Defaults& defaults, friction::Closure closure) {
   const Elastic e = elastic(o, defaults);
   const double w = o.slip_velocity_m_s ? o.slip_velocity_m_s->middle() : o.slip->middle() / o.slip_time()->middle();
-  const double V = o.rupture_velocity_m_s->middle() / e.speed;
-  if (!(V < 1)) return;
-  const rupture::Relations r = rupture::from_rupture_velocity(V);
-  const auto range = friction_ratio::stress_range();
-  if (r.stress < range.least || r.stress > range.most) return;
-  const Pulse pulse{r.stress, r.slip_velocity, o.measure(), closure};
+  const double seen = o.rupture_velocity_m_s->middle() / e.speed;
+  const PulseModel model(o, closure);
+  const double most_u = model.most_u(seen);
   for (const double damping : {0.0, 1.0, 10.0, 1e2, 1e3, 1e4, 1e6, 1e8}) {
-    const double A = w / medium::slip_velocity_unit(e.speed, pulse.at(std::log1p(damping)).W);
+    if (std::log1p(damping) > most_u) break;
+    const PulseState pulse = model.at(seen, std::log1p(damping));
+    const double A = w / medium::slip_velocity_unit(e.speed, pulse.W);
     if (A <= medium::plastic_contact_ratio(e.poisson_ratio))
-      p.trade_off.push_back({damping, A, medium::stress_unit(e.shear_modulus, A) * r.stress});
+      p.trade_off.push_back({damping, A, medium::stress_unit(e.shear_modulus, A) * pulse.stress});
+  }
+}
+
+/// States which observations are in tension, and the stress without them.
+void add_tension_notes(Posterior& p) {
+  for (const Tension& t : p.tension) {
+    std::string note = t.observation + " disagrees with the other observations";
+    if (t.sigmas)
+      note = t.observation + " is " + digits(std::fabs(*t.sigmas), 2) + " standard deviations " +
+             (*t.sigmas > 0 ? "above" : "below") + " the prediction of the other observations";
+    if (const auto& stress = t.without.stress_pa)
+      note += "; without it, stress_pa is " + digits(stress->median, 3) + " (" + digits(stress->low, 3) + " to " +
+              digits(stress->high, 3) + ")";
+    p.notes.push_back(note);
   }
 }
 
@@ -93,7 +106,7 @@ void add_notes(Posterior& p, const Observation& o, const Sampler& s, friction::C
     p.notes.push_back("damping_number is not identifiable without a slip velocity");
   if (!s.knows_contact() && !s.knows_slip_velocity())
     p.notes.push_back("contact_ratio and stress_pa are not identifiable without a slip velocity");
-  if (o.rupture_velocity_m_s && s.knows_slip_velocity() && !s.fixes_friction())
+  if (s.mode() == Mode::bounds && o.rupture_velocity_m_s && s.knows_slip_velocity() && !s.knows_contact())
     p.notes.push_back(
         "contact_ratio and damping_number trade off: the velocities fix one of them if the other is known, and above "
         "the bounds only the prior decides; " +
@@ -106,88 +119,30 @@ void add_notes(Posterior& p, const Observation& o, const Sampler& s, friction::C
     p.notes.push_back(std::string("friction_coefficient needs ") +
                       (!o.asperity_spacing ? "asperity_spacing" : "duration or rise_time") +
                       " in addition to damping_number");
-  if (o.contact_ratio && o.stress_drop && o.stress_drop->is_exact())
-    p.notes.push_back("stress_drop not used: with a contact_ratio it needs an uncertainty");
-  if (s.knows_contact() && s.knows_slip_velocity() && s.knows_friction() && o.friction_coefficient->is_exact())
-    p.notes.push_back(
-        "friction_coefficient not used: with a contact_ratio and a slip velocity it needs an uncertainty");
+  for (const std::string& name : s.unused())
+    p.notes.push_back(name + " not used: two other exact observations determine the state; it needs an uncertainty");
   if (p.damping_number && friction_ratio::uncertainty(closure, p.damping_number->median) > 1e-3)
     p.notes.push_back("closure paper is unstable at this damping number: its slip velocities are known to 1 %");
 }
 
-/// The accepted samples, and whether they are enough.
-struct Samples {
-  std::vector<Sample> accepted;
-  double effective = 0, pareto_k = 0;
-
-  bool suffice() const {
-    return effective >= least_effective_samples && pareto_k <= most_pareto_k(static_cast<double>(accepted.size()));
-  }
-};
-
-void weigh(Samples& s) {
-  double sum = 0, squares = 0;
-  std::vector<double> weights;
-  weights.reserve(s.accepted.size());
-  for (const Sample& sample : s.accepted) {
-    sum += sample.weight;
-    squares += sample.weight * sample.weight;
-    weights.push_back(sample.weight);
-  }
-  s.effective = sum / squares * sum;
-  s.pareto_k = pareto_k(std::move(weights));
-}
-
-/// Doubles the number of samples until they suffice or the limit is reached. It also stops when even the limit would
-/// not give enough effective samples.
-Samples drawn(Sampler& sampler, std::size_t first, std::size_t& count) {
-  const std::size_t most = std::max(first, std::min(most_growth * first, most_samples));
-  Samples s;
-  for (std::size_t begin = 0;; begin = count, count = std::min(2 * count, most)) {
-    sampler.grow(count);
-    for (std::size_t i = begin; i < count; ++i)
-      if (const Sample sample = sampler.draw(i); sample.weight > 0) s.accepted.push_back(sample);
-    if (!sampler.is_uncertain()) {
-      s.effective = static_cast<double>(s.accepted.size());
-      return s;
-    }
-    if (!s.accepted.empty()) weigh(s);
-    // The number of effective samples grows with the number of samples. We allow a factor of 4 for events that the
-    // first few samples misjudge.
-    const double promised = 4 * s.effective * static_cast<double>(most) / static_cast<double>(count);
-    if (s.suffice() || count == most || (count >= 8 * first && promised < least_effective_samples)) return s;
-  }
-}
-
-/// Sets the quantiles of all known quantities. Most rise or fall together with the one before, so we sort the samples
-/// again only if their order changes.
-void set_quantiles(Posterior& p, const std::vector<Sample>& samples) {
-  std::vector<const Sample*> order;
-  order.reserve(samples.size());
-  for (const Sample& s : samples) order.push_back(&s);
-  std::vector<Weighted> values(samples.size());
+/// Sets the quantiles of all quantities for which the samples suffice, and names the others.
+void set_quantiles(Posterior& p, const WeightedSamples& samples) {
   for (const Quantity& q : quantities()) {
-    if (std::isnan(samples.front().state.*q.state)) continue;
-    const auto below = [&](const Sample* a, const Sample* b) { return a->state.*q.state < b->state.*q.state; };
-    if (!std::is_sorted(order.begin(), order.end(), below)) std::sort(order.begin(), order.end(), below);
-    for (std::size_t i = 0; i < order.size(); ++i) values[i] = {order[i]->state.*q.state, order[i]->weight};
-    p.*q.quantiles = weighted_quantiles(values);
+    const auto found = samples.quantiles(q.state);
+    if (!found) continue;
+    if (samples.tail_is_light() || samples.suffice_for(q.state, found->median))
+      p.*q.quantiles = found;
+    else
+      p.notes.push_back("no interval of " + std::string(q.about.name) + ": a few samples dominate it");
   }
 }
 
-/// States of equal weight, by systematic resampling.
-std::vector<FaultState> draws_of(const std::vector<Sample>& samples, std::size_t count) {
-  double total = 0, below = 0;
-  for (const Sample& s : samples) total += s.weight;
-  std::vector<FaultState> draws;
-  for (const Sample& s : samples) {
-    below += s.weight;
-    while (draws.size() < count &&
-           (static_cast<double>(draws.size()) + 0.5) * total <= below * static_cast<double>(count))
-      draws.push_back(s.state);
-  }
-  while (draws.size() < count) draws.push_back(samples.back().state);
-  return draws;
+void set_predictions(Posterior& p, const Observation& o, const Sampler& sampler, const WeightedSamples& samples) {
+  if (sampler.mode() != Mode::friction) return;
+  if (o.rupture_velocity_m_s)
+    p.predictions.push_back({"rupture_velocity", samples.below(*o.rupture_velocity_m_s, std::nullopt)});
+  for (std::size_t i = 0; i < sampler.evidence().size(); ++i)
+    p.predictions.push_back({sampler.evidence()[i].name, samples.below(sampler.evidence()[i].measured, i)});
 }
 
 void set_prior_shares(Posterior& p, const Observation& o, const medium::Defaults& defaults) {
@@ -204,37 +159,49 @@ void set_prior_shares(Posterior& p, const Observation& o, const medium::Defaults
 
 }  // namespace
 
-bool speaks_of_friction_or_error(const Observation& o) {
+bool needs_samples(const Observation& o) {
   if (o.stress_drop || o.friction_coefficient || o.contact_ratio || (o.normal_stress && o.hardness) ||
       !o.uncertain_constants.empty())
     return true;
   for (const auto* m : {&o.rupture_velocity_m_s, &o.slip_velocity_m_s, &o.slip, &o.rise_time, &o.duration})
     if (*m && !(*m)->is_exact()) return true;
-  return false;
+  return o.rupture_velocity_is == RuptureVelocityIs::front && o.rupture_velocity_m_s && o.has_slip_velocity();
 }
 
 std::optional<Posterior> posterior(const Observation& o, const medium::Defaults& defaults, const Sampling& sampling) {
   Sampler sampler(o, defaults, sampling);
-  if (!sampler.knows_anything()) return std::nullopt;
+  if (sampler.mode() == Mode::nothing) return std::nullopt;
   Posterior p;
   p.samples = sampling.samples;
   p.seed = sampler.seed();
-  const Samples samples = drawn(sampler, sampling.samples, p.samples);
+  WeightedSamples samples;
+  if (sampler.least_misfit() < hopeless_misfit) {
+    const std::size_t most = std::max(sampling.samples, std::min(most_growth * sampling.samples, most_samples));
+    samples = draw_samples(sampler, sampling.samples, most);
+    p.samples = samples.drawn;
+  }
+  const bool suspicious = sampler.least_misfit() >= suspicious_misfit || samples.accepted.empty();
+  if (suspicious && sampler.is_uncertain()) p.tension = tensions(o, defaults, sampling);
+  add_tension_notes(p);
   if (samples.accepted.empty()) {
-    if (!only_contact_refused(sampler)) refuse_event(o, sampler);
-    p.notes.push_back(
-        "no intervals: no contact ratio up to plastic contact explains this slip velocity, even within its errors");
+    if (p.tension.empty() && !only_contact_refused(sampler)) refuse_event(o, sampler);
+    if (p.tension.empty())
+      p.notes.push_back(
+          "no intervals: no contact ratio up to plastic contact explains this slip velocity, even within its errors");
+    p.contradicted = !p.tension.empty();
     return p;
   }
   p.effective_samples = samples.effective;
-  p.pareto_k = samples.pareto_k;
+  p.pareto_k = sampler.is_uncertain() ? samples.pareto_k : 0;
   p.suffices = !sampler.is_uncertain() || samples.suffice();
   p.friction_identified = sampler.fixes_friction();
   if (p.suffices) {
-    set_quantiles(p, samples.accepted);
+    set_quantiles(p, samples);
     set_prior_shares(p, o, defaults);
-    p.draws = draws_of(samples.accepted, sampling.draws);
+    set_predictions(p, o, sampler, samples);
+    p.draws = samples.draws(sampling.draws);
   } else {
+    p.contradicted = !p.tension.empty();
     p.notes.push_back(why_no_interval(samples.effective, samples.pareto_k, p.samples));
   }
   if (sampler.knows_slip_velocity() && o.rupture_velocity_m_s && !sampler.fixes_friction())

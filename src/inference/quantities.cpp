@@ -30,6 +30,12 @@ constexpr Quantity declarations[] = {
      false,
      MEMBER(rupture_velocity),
      "rupture velocity |V−|"},
+    {{"characteristic_velocity", "|V-|, speed of the first disturbance", "c", "Eqs. 8-10"},
+     "",
+     Role::friction,
+     true,
+     MEMBER(characteristic_velocity),
+     "|V−| / c"},
     {{"stress", "Sigma-, stress before the rupture", "mu A / pi", "Eqs. 8-10"},
      "",
      Role::closed_form,
@@ -73,6 +79,11 @@ constexpr Quantity declarations[] = {
      Role::closed_form,
      true,
      MEMBER(stress_pa)},
+    {{"static_drop_pa", "stress before minus stress after at x = 0, in Pa", "", "Eqs. 8-10"},
+     "",
+     Role::friction,
+     true,
+     MEMBER(static_drop_pa)},
     {{"stress_bound", "lower bound of Sigma-, without friction", "mu A / pi", "Eqs. 8-10"},
      "",
      Role::lower_bound,
@@ -138,10 +149,11 @@ void derive(FaultState& s, const medium::Elastic& elastic, std::optional<double>
     s.observed_slip_velocity = *slip_velocity / medium::slip_velocity_unit(elastic.speed, s.contact_ratio);
     s.slip_velocity_ratio = s.observed_slip_velocity / s.frictionless_slip_velocity;
   }
+  const double least_stress = std::isnan(s.stress) ? s.stress_bound : s.stress;
   if (!std::isnan(s.contact_ratio))
     s.stress_pa = medium::stress_unit(elastic.shear_modulus, s.contact_ratio) * s.stress;
   if (!std::isnan(s.contact_ratio_bound))
-    s.stress_pa_bound = medium::stress_unit(elastic.shear_modulus, s.contact_ratio_bound) * s.stress;
+    s.stress_pa_bound = medium::stress_unit(elastic.shear_modulus, s.contact_ratio_bound) * least_stress;
   else if (!std::isnan(s.stress_bound))
     s.stress_pa_bound = medium::stress_unit(elastic.shear_modulus, s.contact_ratio) * s.stress_bound;
 }

@@ -1,201 +1,259 @@
 #include "inference/sampler.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
+#include "foundation/math/bracket.hpp"
+#include "inference/sobol.hpp"
 #include "slipfront/medium/medium.hpp"
 
 namespace slipfront::inference {
 
 using catalogue::Measured;
 using catalogue::Observation;
+using catalogue::RuptureVelocityIs;
+using catalogue::StressDropIs;
 using catalogue::UncertainConstant;
+using medium::Constants;
 using medium::elastic;
 
-Sampler::Sampler(const Observation& o, const medium::Defaults& defaults, const Sampling& sampling)
-    : o_(o),
-      defaults_(defaults),
-      sampling_(sampling),
-      seed_(seed_of(sampling.seed, o.name, o.line)),
-      points_(sampling.samples, seed_),
-      time_(o.damping_time()),
-      slip_time_(o.slip_time()),
-      constants_(static_cast<const medium::Constants&>(o)),
-      elastic_(elastic(o, defaults)),
-      plastic_(medium::plastic_contact_ratio(elastic_.poisson_ratio)) {
-  for (const UncertainConstant& c : o.uncertain_constants)
-    if (c.member == &medium::Constants::contact_ratio) contact_measured_ = &c.measured;
-  contact_from_ = o.contact_ratio                           ? ContactFrom::ratio
-                  : o.stress_drop && o.rupture_velocity_m_s ? ContactFrom::drop
-                  : o.normal_stress && o.hardness           ? ContactFrom::strength
-                                                            : ContactFrom::nothing;
+namespace {
+
+Surroundings surroundings_of(const Observation& o, const medium::Elastic& elastic) {
+  Surroundings s{.elastic = elastic, .plastic = medium::plastic_contact_ratio(elastic.poisson_ratio)};
+  s.spacing = o.asperity_spacing.value_or(0);
+  if (const Measured* time = o.damping_time()) s.duration = time->middle();
+  s.slipping = o.slip_time() ? o.slip_time()->middle() : 1;
+  if (o.hardness) s.hardness = o.hardness->middle();
+  return s;
 }
 
-bool Sampler::draw_constants() {
+/// Root of `f` between two points at which it has opposite signs, by the Illinois method.
+template <class F>
+double root_of(double low, double high, double at_low, double at_high, const F& f) {
+  const double sign = at_low > 0 ? -1 : 1;  // a bracket needs a rising function
+  Bracket root{low, high, sign * at_low, sign * at_high};
+  for (int i = 0; i < 100 && root.high - root.low > 1e-13 * (1 + root.high); ++i) {
+    root.aim();
+    const double at = sign * f(root.x);
+    if (std::fabs(at) < 1e-13) return root.x;
+    root.take(at);
+  }
+  return root.x;
+}
+
+bool has(const std::vector<Evidence>& evidence, Source source) {
+  return std::any_of(evidence.begin(), evidence.end(), [&](const Evidence& e) { return e.source == source; });
+}
+
+bool has_errors(const Observation& o) {
+  for (const auto* m : {&o.rupture_velocity_m_s, &o.slip_velocity_m_s, &o.slip, &o.rise_time, &o.duration,
+                        &o.friction_coefficient, &o.stress_drop, &o.normal_stress, &o.hardness})
+    if (*m && !(*m)->is_exact()) return true;
+  return !o.uncertain_constants.empty();
+}
+
+}  // namespace
+
+Sampler::Sampler(const Observation& o, const medium::Defaults& defaults, const Sampling& sampling,
+                 std::string_view without)
+    : o_(o),
+      defaults_(defaults),
+      velocity_(o.rupture_velocity_m_s),
+      model_(o, sampling.closure),
+      all_(evidence_of(o)),
+      seed_(seed_of(sampling.seed, o)),
+      points_(sampling.samples, seed_),
+      middle_(surroundings_of(o, elastic(o, defaults))),
+      constants_(static_cast<const Constants&>(o)),
+      around_(middle_) {
+  const double c = middle_.elastic.speed;
+  if (without == "rupture_velocity") velocity_ = Measured{model_.least_seen() * c, model_.most_seen() * c};
+  for (const Evidence& e : all_)
+    if (e.name != without) used_.push_back(e);
+  choose_mode(!without.empty());
+  if (mode_ != Mode::nothing) make_cells();
+}
+
+void Sampler::choose_mode(bool predicts) {
+  const bool slips = has(used_, Source::slip), drops = has(used_, Source::drop),
+             front = velocity_ && o_.rupture_velocity_is == RuptureVelocityIs::front;
+  const bool static_drop = drops && o_.stress_drop_is == StressDropIs::static_drop;
+  const bool several = used_.size() > 1;
+  knows_contact_ = has(used_, Source::contact) || has(used_, Source::strength) || drops;
+  fixes_friction_ = several && (slips || has(used_, Source::friction) || (drops && (static_drop || front)));
+  const bool moves = front ? slips || drops : static_drop;
+  if (velocity_ && (predicts || moves || fixes_friction_)) {
+    mode_ = Mode::friction;
+  } else {
+    std::erase_if(used_, [](const Evidence& e) { return e.source == Source::friction; });
+    const bool bounds = velocity_ ? front || (slips && !knows_contact_) : slips && knows_contact_ && !drops;
+    mode_ = bounds ? Mode::bounds : velocity_ ? Mode::contact : Mode::nothing;
+  }
+  // Two exact observations determine A and the damping number. A third one is not needed.
+  std::size_t exact = 0;
+  const std::size_t most = mode_ == Mode::friction ? 2 : velocity_ ? 1 : 2;
+  std::erase_if(used_, [&](const Evidence& e) {
+    const bool too_many = e.measured.is_exact() && ++exact > most;
+    if (too_many) unused_.push_back(e.name);
+    return too_many;
+  });
+  solves_damping_ = mode_ == Mode::friction && exact >= 2;
+  uncertain_ = has_errors(o_) || (mode_ == Mode::friction && !solves_damping_);
+  if (mode_ == Mode::friction && used_.empty())
+    used_.push_back({Source::contact, "contact_ratio", Measured{least_contact_ratio, middle_.plastic}, 0});
+  if (mode_ == Mode::bounds && !velocity_)  // the slip velocity comes first, then the contact ratio
+    std::stable_partition(used_.begin(), used_.end(), [](const Evidence& e) { return e.source == Source::slip; });
+}
+
+bool Sampler::draw_surroundings() {
   std::size_t dimension = 6;
   bool moved = false;
   for (const UncertainConstant& c : o_.uncertain_constants) {
-    if (&c.measured == contact_measured_) continue;
+    if (c.member == &Constants::contact_ratio) continue;
     const double value = at(c.measured, dimension++);
-    if (!(value > 0) && c.member != &medium::Constants::poisson_ratio) return false;
+    if (!(value > 0) && c.member != &Constants::poisson_ratio) return refuse(bad_constants);
     constants_.*c.member = value;
-    moved = moved || c.member != &medium::Constants::asperity_spacing;
+    moved = moved || c.member != &Constants::asperity_spacing;
   }
-  if (!moved) return true;
-  try {
-    elastic_ = elastic(constants_, defaults_);
-    plastic_ = medium::plastic_contact_ratio(elastic_.poisson_ratio);
-  } catch (const InputError&) {
-    return false;
-  }
-  return true;
-}
-
-/// Draws A from the observation that gives it. The prior is uniform in ln A, so `weight_of_draw` corrects for the
-/// density of the draw.
-bool Sampler::draw_contact(Sample& s) {
-  switch (contact_from_) {
-    case ContactFrom::ratio:
-      s.state.contact_ratio = contact_measured_ ? at(*contact_measured_, 3) : *o_.contact_ratio;
-      if (contact_measured_) s.weight *= contact_measured_->weight_of_draw(s.state.contact_ratio);
-      break;
-    case ContactFrom::drop: {
-      const double drop = at(*o_.stress_drop, 3);
-      s.state.contact_ratio = drop / medium::stress_unit(elastic_.shear_modulus, 1) / s.state.stress;
-      s.weight *= o_.stress_drop->weight_of_draw(drop);
-      break;
+  if (moved) try {
+      around_.elastic = elastic(constants_, defaults_);
+      around_.plastic = medium::plastic_contact_ratio(around_.elastic.poisson_ratio);
+    } catch (const InputError&) {
+      return refuse(bad_constants);
     }
-    case ContactFrom::strength:
-      s.state.contact_ratio = plastic_ * at(*o_.normal_stress, 3) / at(*o_.hardness, 4);
-      break;
-    case ContactFrom::nothing:
-      return true;
-  }
-  return (s.state.contact_ratio >= least_contact_ratio && s.state.contact_ratio <= plastic_) || refuse(bad_contact);
+  around_.spacing = constants_.asperity_spacing.value_or(0);
+  const Measured *time = o_.damping_time(), *slip_time = o_.slip_time();
+  if (time) around_.duration = at(*time, 3);
+  if (slip_time) around_.slipping = slip_time == time ? around_.duration : at(*slip_time, 5);
+  if (o_.hardness) around_.hardness = at(*o_.hardness, 4);
+  return ((!time || around_.duration > 0) && around_.slipping > 0 && (!o_.hardness || around_.hardness > 0)) ||
+         refuse(contradicted);
 }
 
-/// Computes the damping number from the slip velocity w, and also A if it is not known yet.
-bool Sampler::draw_friction(Sample& s, double w) {
-  const double unit = medium::slip_velocity_unit(elastic_.speed, 1);
-  const double most_u = std::log1p(most_damping_number);
-  if (knows_contact()) {  // (V, w, A) -> Gamma; the prior is uniform in u, but we drew w
-    const auto found = damping_at(pulse_, w / (unit * s.state.contact_ratio));
-    if (!found) return refuse(w > unit * s.state.contact_ratio * pulse_.at(0).W ? slips_too_fast : slips_too_slowly);
-    s.u = found->u;
-    s.weight /= std::fabs(found->slope);
-  } else if (knows_friction()) {  // (V, w, C) -> A and Gamma; d(ln w, ln C) / d(ln A, ln Gamma) = 1 + d ln W / d ln
-                                  // Gamma
-    const double C = at(*o_.friction_coefficient, 5);
-    if (!(C > 0)) return refuse(contradicted);
-    const auto found = contact_at(pulse_, w / unit, C * duration_ * elastic_.speed / *constants_.asperity_spacing,
-                                  least_contact_ratio, plastic_);
-    if (!found) return refuse(bad_contact);
-    s.state.contact_ratio = found->contact_ratio;
-    s.u = found->u;
-    if (s.u > most_u) return refuse(slips_too_slowly);
-    const double share = -std::expm1(-s.u);  // Gamma / (1 + Gamma) = du / d ln Gamma
-    s.weight *= share / (1 + found->slope * share) * o_.friction_coefficient->weight_of_draw(C);
-  }
-  return true;
-}
-
-bool Sampler::is_uncertain() const {
-  for (const auto* m : {&o_.rupture_velocity_m_s, &o_.slip_velocity_m_s, &o_.slip, &o_.rise_time, &o_.duration,
-                        &o_.friction_coefficient, &o_.stress_drop, &o_.normal_stress, &o_.hardness})
-    if (*m && !(*m)->is_exact()) return true;
-  return !o_.uncertain_constants.empty();
-}
-
-/// Multiplies the weight by the likelihood of the observations that were not drawn from.
-bool Sampler::agrees(Sample& s) const {
-  const auto weigh = [&](const Measured& m, double value) {
-    if (m.is_exact()) return;  // it has no likelihood; a note states that it was not used
-    s.weight *= m.likelihood(value);
+std::vector<Sampler::Root> Sampler::roots(double seen) {
+  const double most_u = model_.most_u(seen);
+  const Evidence &a = used_[0], &b = used_[1];
+  const auto gap = [&](double u) {
+    const PulseState p = model_.at(seen, u);
+    return a.contact(std::log(a.measured.low), a.offset(p, u, around_)) -
+           b.contact(std::log(b.measured.low), b.offset(p, u, around_));
   };
-  if (contact_from_ == ContactFrom::ratio && o_.stress_drop && o_.rupture_velocity_m_s)
-    weigh(*o_.stress_drop, s.state.stress_pa);
-  if (fixes_friction() && knows_contact() && knows_slip_velocity() && knows_friction())
-    weigh(*o_.friction_coefficient, s.state.friction_coefficient);
-  return s.weight > 0 && std::isfinite(s.weight);
+  const int steps = o_.rupture_velocity_is == RuptureVelocityIs::front ? 16 : 4;
+  std::vector<Root> found;
+  double low = 0, at_low = gap(0);
+  for (int i = 1; i <= steps; ++i) {
+    const double high = most_u * i / steps, at_high = gap(high);
+    if (at_low == 0 || (at_low < 0) != (at_high < 0)) {
+      const double u = at_low == 0 ? low : root_of(low, high, at_low, at_high, gap);
+      const double h = 1e-4, above = std::fmin(u + h, most_u), below = std::fmax(u - h, 0.0);
+      const double slope = (gap(above) - gap(below)) / (above - below);
+      found.push_back({u, model_.at(seen, u).slope / std::fabs(slope)});
+    }
+    low = high, at_low = at_high;
+  }
+  if (found.empty()) {
+    const bool slip_with_contact = a.source == Source::slip && b.source != Source::friction;
+    refuse(!slip_with_contact ? bad_contact : at_low > 0 && gap(0) > 0 ? slips_too_fast : slips_too_slowly);
+  }
+  return found;
 }
 
-bool Sampler::draw_rupture_velocity(Sample& s) {
-  FaultState& state = s.state;
-  state.rupture_velocity_m_s = at(*o_.rupture_velocity_m_s, 0);
-  state.rupture_velocity = state.rupture_velocity_m_s / elastic_.speed;
-  if (!(state.rupture_velocity > 0 && state.rupture_velocity < 1)) return refuse(too_fast);
-  s.weight = o_.rupture_velocity_m_s->weight_of_draw(state.rupture_velocity_m_s);
-  const rupture::Relations r = rupture::from_rupture_velocity(state.rupture_velocity);
-  state.stress = r.stress;
-  state.frictionless_slip_velocity = r.slip_velocity;
-  pulse_ = {r.stress, r.slip_velocity, o_.measure(), sampling_.closure};
+/// Draws u. Where two exact observations determine it, the share chooses one of the solutions.
+std::optional<double> Sampler::draw_damping(Sample& s, double seen, double share, double most_u) {
+  if (mode_ != Mode::friction) return 0;
+  if (!solves_damping_) {
+    s.weight *= most_u;
+    return share * most_u;
+  }
+  const std::vector<Root> all = roots(seen);
+  if (all.empty()) return std::nullopt;
+  double sum = 0, below = 0;
+  for (const Root& root : all) sum += root.weight;
+  s.weight *= sum;
+  for (const Root& root : all)
+    if ((below += root.weight) >= points_(point_, 1) * sum) return root.u;
+  return all.back().u;
+}
+
+bool Sampler::draw_pulse(Sample& s, const Cells::Point& point) {
+  const double V = std::exp(point.first), seen = V / around_.elastic.speed;
+  if (!(seen > 0 && seen < 1)) return refuse(too_fast);
+  if (!velocity_->is_exact()) s.weight *= velocity_->likelihood(V);
+  const double most_u = mode_ == Mode::friction ? model_.most_u(seen) : 0;
+  if (most_u < 0) return refuse(off_table);
+  const auto u = draw_damping(s, seen, point.second, most_u);
+  if (!u) return false;
+  const PulseState p = mode_ == Mode::friction ? model_.at(seen, *u) : model_.without_friction(seen);
+  if (!solves_damping_) s.weight *= p.slope;
+  s.state.rupture_velocity_m_s = V;
+  s.state.rupture_velocity = seen;
+  return weigh(s, p, *u, point.third);
+}
+
+/// Draws A from the first evidence and multiplies the weight by the likelihood of the others.
+bool Sampler::weigh(Sample& s, const PulseState& p, double u, double ln_x) {
+  double ln_A = std::numeric_limits<double>::quiet_NaN();
+  if (!used_.empty()) {
+    ln_A = used_[0].contact(ln_x, used_[0].offset(p, u, around_));
+    if (!(ln_A >= std::log(least_contact_ratio) && ln_A <= std::log(around_.plastic))) return refuse(bad_contact);
+  }
+  for (const Evidence& e : used_)
+    if (!e.measured.is_exact()) s.weight *= e.measured.likelihood_of_log(e.predicted(ln_A, e.offset(p, u, around_)));
+  if (!(s.weight > 0 && std::isfinite(s.weight))) return refuse(contradicted);
+  fill(s, p, u, ln_A);
   return true;
 }
 
-bool Sampler::draw_times() {
-  if (time_) duration_ = at(*time_, 2);
-  if (slip_time_) slipping_ = slip_time_ == time_ ? duration_ : at(*slip_time_, 12);
-  return ((!time_ || duration_ > 0) && (!slip_time_ || slipping_ > 0)) || refuse(contradicted);
-}
-
-std::optional<double> Sampler::draw_slip_velocity(Sample& s) {
-  const Measured& slip = o_.slip_velocity_m_s ? *o_.slip_velocity_m_s : *o_.slip;
-  const double drawn = at(slip, 1);
-  if (!(drawn > 0)) {
-    refuse(contradicted);
-    return std::nullopt;
-  }
-  s.weight *= slip.weight_of_draw(drawn);
-  return o_.slip_velocity_m_s ? drawn : drawn / slipping_;
-}
-
-/// Computes Gamma, and A if it is not known yet.
-bool Sampler::find_friction(Sample& s, std::optional<double> w) {
-  const auto range = friction_ratio::stress_range();
-  if (!(s.state.stress >= range.least && s.state.stress <= range.most)) return refuse(off_table);
-  if (w) {
-    if (!draw_friction(s, *w)) return false;
+void Sampler::fill(Sample& s, const PulseState& p, double u, double ln_A) const {
+  FaultState& state = s.state;
+  const bool front = o_.rupture_velocity_is == RuptureVelocityIs::front;
+  const double A = std::exp(ln_A);
+  std::optional<double> w;
+  state.frictionless_slip_velocity = p.frictionless;
+  if (mode_ == Mode::bounds) {
+    (front ? state.stress_bound : state.stress) = p.stress;
+    (knows_contact_ ? state.contact_ratio : state.contact_ratio_bound) = A;
   } else {
-    const double C = at(*o_.friction_coefficient, 5);
-    if (!(C > 0)) return refuse(contradicted);
-    s.u = std::log1p(C * duration_ * elastic_.speed * s.state.contact_ratio / *constants_.asperity_spacing);
-    s.weight *= -std::expm1(-s.u) * o_.friction_coefficient->weight_of_draw(C);
+    state.stress = p.stress;
+    state.contact_ratio = A;
+    state.characteristic_velocity = p.rupture_velocity;
   }
-  s.state.damping_number = std::expm1(s.u);
-  if (time_ && constants_.asperity_spacing)
-    s.state.friction_coefficient =
-        s.state.damping_number * *constants_.asperity_spacing / (duration_ * elastic_.speed * s.state.contact_ratio);
-  return true;
+  if (mode_ == Mode::friction) {
+    state.damping_number = std::expm1(u);
+    if (knows_duration() && around_.spacing > 0)
+      state.friction_coefficient =
+          state.damping_number * around_.spacing / (around_.duration * around_.elastic.speed * A);
+    state.static_drop_pa = medium::stress_unit(around_.elastic.shear_modulus, A) * p.stress * p.static_share;
+    if (knows_slip_velocity() && knows_contact_) w = medium::slip_velocity_unit(around_.elastic.speed, A) * p.W;
+  }
+  derive(state, around_.elastic, w);
+  for (std::size_t i = 0; i < std::min(all_.size(), s.predicted.size()); ++i)
+    s.predicted[i] = all_[i].predicted(ln_A, all_[i].offset(p, u, around_));
 }
 
-/// Computes a lower bound, which exists because friction can only slow slip. It is the bound of A if the rupture
-/// velocity is known, and of Sigma- if A is known.
-bool Sampler::find_bound(Sample& s, double w) {
-  FaultState& state = s.state;
-  if (o_.rupture_velocity_m_s) {
-    const double W = frictionless(o_.measure(), state.stress, state.frictionless_slip_velocity);
-    state.contact_ratio_bound = w / medium::slip_velocity_unit(elastic_.speed, W);
-    return state.contact_ratio_bound <= plastic_ || refuse(bad_contact);
-  }
-  state.stress_bound =
-      rupture::from_slip_velocity(w / medium::slip_velocity_unit(elastic_.speed, state.contact_ratio)).stress;
-  return true;
+bool Sampler::draw_without_velocity(Sample& s, const Cells::Point& point) {
+  const Evidence &slip = used_[0], &contact = used_[1];
+  const double A = std::exp(contact.contact(point.third, contact.offset({}, 0, around_)));
+  if (!(A >= least_contact_ratio && A <= around_.plastic)) return refuse(bad_contact);
+  const double x = std::exp(point.first), w = x / around_.slipping;
+  if (!slip.measured.is_exact()) s.weight *= slip.measured.likelihood(x);
+  if (!contact.measured.is_exact()) s.weight *= contact.measured.likelihood(std::exp(point.third));
+  s.state.contact_ratio = A;
+  s.state.stress_bound = rupture::from_slip_velocity(w / medium::slip_velocity_unit(around_.elastic.speed, A)).stress;
+  derive(s.state, around_.elastic, w);
+  return s.weight > 0 || refuse(contradicted);
 }
 
 Sample Sampler::draw(std::size_t i) {
   point_ = i;
-  Sample s{1, 0, unknown_state()};
-  std::optional<double> w;
-  if (!draw_constants()) {
-    refuse(bad_constants);
-    return {};
-  }
-  if (o_.rupture_velocity_m_s && !draw_rupture_velocity(s)) return {};
-  if (!draw_contact(s) || !draw_times()) return {};
-  if (knows_slip_velocity() && !(w = draw_slip_velocity(s))) return {};
-  if (fixes_friction() ? !find_friction(s, w) : w && !find_bound(s, *w)) return {};
-  derive(s.state, elastic_, knows_contact() ? w : std::nullopt);
-  if (agrees(s)) return s;
-  refuse(contradicted);
+  Sample s{1, unknown_state(), {}};
+  if (!draw_surroundings()) return {};
+  const Cells::Point point = cells_->at(points_(i, 0), points_(i, 1), points_(i, 2));
+  s.weight /= point.density;
+  if (velocity_ ? draw_pulse(s, point) : draw_without_velocity(s, point)) return s;
   return {};
 }
 

@@ -2,11 +2,14 @@
 
 #include <array>
 #include <optional>
+#include <string>
+#include <string_view>
 
-#include "inference/balance.hpp"
+#include "inference/cells.hpp"
+#include "inference/evidence.hpp"
+#include "inference/pulse_state.hpp"
 #include "inference/sobol.hpp"
 #include "slipfront/inference/posterior.hpp"
-#include "slipfront/medium/constants.hpp"
 
 namespace slipfront::inference {
 
@@ -24,29 +27,47 @@ enum Refusal : std::size_t {
 
 /// One state of the fault. weight = prior x likelihood / proposal density.
 struct Sample {
-  double weight, u;  ///< u = ln(1 + Gamma)
+  double weight = 0;
   FaultState state;
+  /// The logarithm of the value that the state predicts for each observation, in the order of Sampler::evidence().
+  std::array<double, 6> predicted{};
 };
 
-/// Chooses the observations of an event that matter, and draws its samples. The coordinates of the Sobol points are: 0
-/// V, 1 slip velocity or slip, 2 T, 3 the observation that gives A, 4 hardness, 5 C, 6 and up the constants of the
-/// medium, 12 the rise time if T is the duration.
+/// What the samples of an event are drawn over, besides the rupture velocity.
+enum class Mode {
+  nothing,   ///< the observations determine nothing
+  friction,  ///< A and the damping number
+  contact,   ///< A only: the observations do not depend on friction
+  bounds,    ///< the bounds that hold because friction can only slow slip and front
+};
+
+/// Draws the states of the fault that agree with the observations of one event. First it evaluates the likelihood on
+/// cells over the observed velocity, the damping number and the observation that fixes A best. The samples are then
+/// points of a shifted Sobol sequence in these cells. Sobol coordinates: 0 to 2 the cells, 3 T, 4 hardness, 5 the time
+/// that divides slip, 6 and up the constants of the medium.
 class Sampler {
  public:
-  Sampler(const catalogue::Observation& o, const medium::Defaults& defaults, const Sampling& sampling);
+  /// `without` is the key of an observation to leave out; the samples then predict it. It may be empty.
+  Sampler(const catalogue::Observation& o, const medium::Defaults& defaults, const Sampling& sampling,
+          std::string_view without = {});
 
-  bool knows_contact() const { return contact_from_ != ContactFrom::nothing; }
+  Mode mode() const { return mode_; }
+  bool knows_contact() const { return knows_contact_; }
   bool knows_slip_velocity() const { return o_.has_slip_velocity(); }
-  /// Whether C, spacing and duration are known, and therefore Gamma / A.
-  bool knows_friction() const { return o_.friction_coefficient && o_.asperity_spacing && time_; }
-  bool knows_duration() const { return time_ != nullptr; }
-  /// Whether two of slip velocity, A and friction are known; they determine the third.
-  bool fixes_friction() const {
-    return o_.rupture_velocity_m_s && knows_slip_velocity() + knows_contact() + knows_friction() >= 2;
-  }
-  bool knows_anything() const { return o_.rupture_velocity_m_s || (knows_slip_velocity() && knows_contact()); }
+  bool knows_friction() const { return o_.friction_coefficient && o_.asperity_spacing && o_.damping_time(); }
+  bool knows_duration() const { return o_.damping_time() != nullptr; }
+  /// Whether two observations of A agree at one damping number only.
+  bool fixes_friction() const { return mode_ == Mode::friction && fixes_friction_; }
   /// Whether samples differ at all.
-  bool is_uncertain() const;
+  bool is_uncertain() const { return uncertain_; }
+
+  /// The observations of A, and that which is left out. Their order is that of Sample::predicted.
+  const std::vector<Evidence>& evidence() const { return all_; }
+  /// Keys of exact observations that were not used, because others determine the state already.
+  const std::vector<std::string>& unused() const { return unused_; }
+  /// Least sum of squared distances, in standard deviations, at which a state of the fault agrees with the observations
+  /// (on the cells). It is infinite if none agrees.
+  double least_misfit() const { return least_misfit_; }
 
   /// Makes room for `samples` samples. It does not change those that were drawn already.
   void grow(std::size_t samples) { points_.grow(samples); }
@@ -56,43 +77,56 @@ class Sampler {
   std::uint64_t seed() const { return seed_; }
 
  private:
-  enum class ContactFrom { nothing, ratio, drop, strength };
+  void choose_mode(bool predicts);
+  void make_cells();
+  /// Cells with their target, and the largest likelihood in them.
+  struct Filled {
+    Cells cells;
+    double best;
+    bool off_table;  ///< a velocity has no pulse in the table of friction
+  };
+  Filled filled(const Axis& first, const Axis& second, const Axis& third) const;
+  void fill_row(Filled& filled, std::size_t i, const std::vector<double>& of_third) const;
+  class AlongThird;
 
   double at(const catalogue::Measured& m, std::size_t dimension) const {
     return m.is_exact() ? m.low : m.quantile(points_(point_, dimension));
   }
-  bool draw_constants();
-  bool draw_rupture_velocity(Sample& s);
-  bool draw_contact(Sample& s);
-  bool draw_times();
-  /// Draws w in m/s. It is absent if it is not positive.
-  std::optional<double> draw_slip_velocity(Sample& s);
-  bool draw_friction(Sample& s, double w);
-  bool find_friction(Sample& s, std::optional<double> w);
-  bool find_bound(Sample& s, double w);
-  bool agrees(Sample& s) const;
+  bool draw_surroundings();
   bool refuse(Refusal why) {
     ++refused_[why];
     return false;
   }
+  /// Damping numbers at which two exact observations agree, and their weights.
+  struct Root {
+    double u, weight;
+  };
+  std::vector<Root> roots(double seen);
+  std::optional<double> draw_damping(Sample& s, double seen, double share, double most_u);
+  bool draw_pulse(Sample& s, const Cells::Point& point);
+  bool draw_without_velocity(Sample& s, const Cells::Point& point);
+  bool weigh(Sample& s, const PulseState& p, double u, double ln_x);
+  void fill(Sample& s, const PulseState& p, double u, double ln_A) const;
 
   const catalogue::Observation& o_;
   const medium::Defaults& defaults_;
-  Sampling sampling_;
+  std::optional<catalogue::Measured> velocity_;  ///< rupture velocity, m/s; a wide range if it is left out
+  PulseModel model_;
+  std::vector<Evidence> all_, used_;  ///< all evidence; and that which is used, the first of which gives A
+  std::vector<std::string> unused_;
+  Mode mode_ = Mode::nothing;
+  bool knows_contact_ = false, fixes_friction_ = false, uncertain_ = false, solves_damping_ = false;
   std::uint64_t seed_;
   ShiftedSobol points_;
-  const catalogue::Measured* time_;                        ///< T of Gamma = C T; null: unknown
-  const catalogue::Measured* slip_time_;                   ///< the time in slip / time; null: unknown, or not needed
-  const catalogue::Measured* contact_measured_ = nullptr;  ///< contact_ratio if it has an error
-  ContactFrom contact_from_ = ContactFrom::nothing;
+  Surroundings middle_;
+  std::optional<Cells> cells_;
+  double least_misfit_ = 0, most_ln_A_ = 0;
   std::array<std::size_t, refusals> refused_{};
 
   // The present sample.
   std::size_t point_ = 0;
   medium::Constants constants_;
-  medium::Elastic elastic_{};
-  double plastic_ = 0, duration_ = 0, slipping_ = 0;
-  Pulse pulse_{};
+  Surroundings around_;
 };
 
 }  // namespace slipfront::inference

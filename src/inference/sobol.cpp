@@ -1,6 +1,8 @@
 #include "inference/sobol.hpp"
 
 #include <boost/random/sobol.hpp>
+#include <cstring>
+#include <limits>
 #include <map>
 #include <mutex>
 
@@ -42,13 +44,27 @@ double ShiftedSobol::operator()(std::size_t point, std::size_t dimension) const 
   return (static_cast<double>(bits >> 12) + 0.5) * 0x1p-52;
 }
 
-std::uint64_t seed_of(std::uint64_t seed, std::string_view words, std::size_t line) {
+std::uint64_t seed_of(std::uint64_t seed, const catalogue::Observation& o) {
   std::uint64_t state = seed;
-  for (const char c : words) {
-    state ^= static_cast<unsigned char>(c);
+  const auto add = [&](double x) {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &x, sizeof bits);
+    state ^= bits;
     state = mixed(state);
-  }
-  state ^= line;
+  };
+  const auto add_measured = [&](const catalogue::Measured& m) {
+    for (const double x : {m.low, m.high, m.spread, m.spread_below, static_cast<double>(m.shape)}) add(x);
+  };
+  const auto none = std::numeric_limits<double>::quiet_NaN();
+  for (const auto* m : {&o.rupture_velocity_m_s, &o.slip_velocity_m_s, &o.slip, &o.rise_time, &o.duration,
+                        &o.stress_drop, &o.friction_coefficient, &o.normal_stress, &o.hardness})
+    *m ? add_measured(**m) : add(none);
+  for (const medium::Constant& c : medium::constants()) add((o.*c.member).value_or(none));
+  for (const catalogue::UncertainConstant& c : o.uncertain_constants) add_measured(c.measured);
+  add(static_cast<double>(o.measure()));
+  add(static_cast<double>(o.rupture_velocity_is));
+  add(static_cast<double>(o.stress_drop_is));
+  add(o.front_threshold);
   return mixed(state) >> 11;  // whole in a JSON number
 }
 

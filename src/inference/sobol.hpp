@@ -2,8 +2,9 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <string_view>
 #include <vector>
+
+#include "slipfront/catalogue/observation.hpp"
 
 namespace slipfront::inference {
 
@@ -22,7 +23,8 @@ class ShiftedSobol {
   std::uint64_t shift_[dimensions];
 };
 
-/// A seed for one event, from that of the run and the words that name it.
-std::uint64_t seed_of(std::uint64_t seed, std::string_view words, std::size_t line);
+/// A seed for one event, from that of the run and the observed numbers. Events with the same numbers have the same
+/// seed, whatever their names and their positions in a file.
+std::uint64_t seed_of(std::uint64_t seed, const catalogue::Observation& observation);
 
 }  // namespace slipfront::inference

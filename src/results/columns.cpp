@@ -3,6 +3,7 @@
 #include <limits>
 #include <utility>
 
+#include "foundation/text/digits.hpp"
 #include "results/quantities.hpp"
 
 namespace slipfront::results {
@@ -143,6 +144,12 @@ std::vector<TextColumn> text_columns(bool with_pulse) {
       {"citation", "source of the observation", [](const EventResult& r) { return r.observation.citation; }},
       {"note", "what the source says to mind", [](const EventResult& r) { return r.observation.note; }},
       {"file", "where the event was read", [](const EventResult& r) { return r.observation.file; }},
+      {"rupture_velocity_is", "whether the rupture velocity is that of the observed front or |V-|",
+       [](const EventResult& r) { return std::string(name_of(r.observation.rupture_velocity_is)); }},
+      {"stress_drop_is", "whether the stress drop is static or all the stress that was stored",
+       [](const EventResult& r) { return std::string(name_of(r.observation.stress_drop_is)); }},
+      {"tension", "observations that disagree with the others, with the number of standard deviations",
+       [](const EventResult& r) { return tension_text(r); }},
       {"warnings", "what was assumed, left out or not identifiable",
        [](const EventResult& r) { return joined(r.warnings()); }},
       {"error", "why there is no result", [](const EventResult& r) { return r.error; }},
@@ -151,6 +158,14 @@ std::vector<TextColumn> text_columns(bool with_pulse) {
     all.push_back({"pulse_reason", "why there is no pulse",
                    [](const EventResult& r) { return r.pulse ? r.pulse->reason : std::string(); }});
   return all;
+}
+
+std::string tension_text(const EventResult& result) {
+  std::vector<std::string> parts;
+  if (result.posterior)
+    for (const auto& t : result.posterior->tension)
+      parts.push_back(t.observation + (t.sigmas ? " " + digits(*t.sigmas, 3) : ""));
+  return joined(parts);
 }
 
 std::string joined(const std::vector<std::string>& parts) {

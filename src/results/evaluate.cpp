@@ -20,11 +20,11 @@ using inference::Estimate;
 using inference::estimate;
 using inference::Inferred;
 using inference::Interval;
+using inference::needs_samples;
 using inference::Posterior;
 using inference::posterior;
 using inference::quantities;
 using inference::Quantity;
-using inference::speaks_of_friction_or_error;
 
 std::vector<std::string> EventResult::warnings() const {
   std::vector<std::string> all = estimate ? estimate->warnings : observation.warnings;
@@ -49,16 +49,22 @@ void fill(Estimate& e, const Posterior& p) {
   // If only a bound is known, the bound is the result.
   if (!p.contact_ratio) set(e.contact_ratio, p.contact_ratio_bound);
   set(e.stress, p.stress_bound);
-  if (p.suffices && p.friction_identified) e.contact_ratio_bound.reset(), e.stress_pa_bound.reset();
+  if (p.contact_ratio) e.contact_ratio_bound.reset();
+  if (p.stress_pa) e.stress_pa_bound.reset();
   // The closed forms only bound the stress if the error of the rupture velocity reaches above c. Samples are below c.
   if (p.stress && !p.stress_bound) e.stress_bound.reset();
+  // An observation is not an answer: observations that exclude each other give none.
+  if (p.contradicted)
+    for (auto* x : {&e.contact_ratio, &e.stress_pa, &e.observed_slip_velocity, &e.slip_velocity_ratio,
+                    &e.contact_ratio_bound, &e.stress_pa_bound})
+      x->reset();
   if (p.suffices) return;
   for (const Quantity& q : quantities())
     if (e.*q.inferred) (e.*q.inferred)->interval.reset();
 }
 
 bool is_sampled(const EvaluationOptions& options, const Observation& o) {
-  return options.sampling.samples > 0 && (options.sample_all || speaks_of_friction_or_error(o));
+  return options.sampling.samples > 0 && (options.sample_all || needs_samples(o));
 }
 
 FaultPulse pulse_of(const EventResult& result, const medium::Defaults& defaults) {
@@ -85,7 +91,11 @@ EventResult evaluate(Entry&& entry, const medium::Defaults& defaults, const Eval
     result.estimate = estimate(result.observation, defaults, is_sampled(options, result.observation));
     result.posterior = posterior_of(result);
     if (result.posterior) fill(*result.estimate, *result.posterior);
-    if (options.along_fault) result.along_fault = along_fault(result.observation, defaults);
+    std::vector<LocalState> states = along_fault(result.observation, defaults);
+    result.faster_than_c = finite_fault::faster_than(states, result.estimate->speed);
+    if (options.along_fault) result.along_fault = std::move(states);
+    if (const std::string warning = warning_of(result.faster_than_c, result.estimate->speed); !warning.empty())
+      result.estimate->warnings.push_back(warning);
     result.pulse = pulse_of(result);
   } catch (const InputError& error) {
     result.estimate.reset();

@@ -25,6 +25,7 @@ struct EventResult {
   std::vector<finite_fault::LocalState> along_fault;  ///< subfaults of a finite-fault model, if requested
   std::optional<finite_fault::FaultPulse> pulse;      ///< pulse along its slip distribution, if requested
   std::string error;                                  ///< one line; empty if there is an estimate
+  finite_fault::FasterThanC faster_than_c = {};       ///< subfaults that rupture faster than c
 
   /// The warnings of the closed forms, then the notes of the posterior.
   std::vector<std::string> warnings() const;

@@ -10,6 +10,8 @@ namespace slipfront::results {
 
 using finite_fault::FaultPulse;
 using inference::Posterior;
+using inference::Prediction;
+using inference::Tension;
 
 namespace {
 
@@ -18,8 +20,15 @@ template <class Io, class P>
 void walk_posterior(Io& io, P& p) {
   for (const inference::Quantity& q : inference::quantities()) io(p.*q.quantiles);
   io(p.friction_identified), io(p.contact_ratio_prior_share), io(p.damping_number_prior_share);
-  io(p.trade_off), io(p.draws), io(p.notes), io(p.suffices), io(p.effective_samples), io(p.pareto_k);
+  io(p.trade_off), io(p.tension), io(p.predictions), io(p.contradicted), io(p.draws), io(p.notes), io(p.suffices),
+      io(p.effective_samples), io(p.pareto_k);
   io(p.samples), io(p.seed);
+}
+
+template <class Io, class T>
+void walk_tension(Io& io, T& t) {
+  io(t.observation), io(t.sigmas);
+  for (const inference::Quantity& q : inference::quantities()) io(t.without.*q.quantiles);
 }
 
 class Put {
@@ -31,6 +40,8 @@ class Put {
   }
   void operator()(const std::string& text) { each(text); }
   void operator()(const Posterior& p) { walk_posterior(*this, p); }
+  void operator()(const Tension& t) { walk_tension(*this, t); }
+  void operator()(const Prediction& p) { (*this)(p.observation), (*this)(p.below); }
   void operator()(const FaultPulse& p) { visit_members(*this, p); }
   template <class T>
   void operator()(const std::optional<T>& value) {
@@ -63,6 +74,8 @@ class Get {
   void operator()(bool& value) { value = in_.get<char>() != 0; }
   void operator()(std::string& text) { each(text); }
   void operator()(Posterior& p) { walk_posterior(*this, p); }
+  void operator()(Tension& t) { walk_tension(*this, t); }
+  void operator()(Prediction& p) { (*this)(p.observation), (*this)(p.below); }
   void operator()(FaultPulse& p) { visit_members(*this, p); }
   template <class T>
   void operator()(std::optional<T>& value) {

@@ -25,6 +25,7 @@ constexpr double least_slip_velocity = 7.2e-308;
 /// Largest inputs for which no output overflows.
 constexpr double most_stress = 1e308;
 constexpr double most_slip_velocity = 5e307;
+constexpr double most_psi = 18;  ///< above it, |V-| rounds to c
 
 struct Range {
   const char* key;
@@ -85,6 +86,11 @@ Relations from_slip_velocity(double slip_velocity) {
   Relations r = assemble(psi0 + modulation::sound(psi0).rapidity, psi0);
   r.slip_velocity = slip_velocity;
   return r;
+}
+
+Relations from_psi(double psi) {
+  check(psi, {"psi", least_rupture_velocity, most_psi, "2e-302 <= psi <= 18"});
+  return assemble(psi, psi_of_fan(psi));
 }
 
 std::span<const RelationsQuantity> relations_quantities() {

@@ -145,25 +145,43 @@ TEST(Measured, RejectsWithTheReason) {
     EXPECT_NE(complaint(text).find(says), std::string::npos) << text << ": " << complaint(text);
 }
 
-/// Draws weigh what takes them from their own density to the likelihood over ln x.
 TEST(Measured, HasALikelihoodThatAgreesWithItsQuantiles) {
   for (const char* text : {"3 +- 0.5", "3 */ 1.4", "2..4", "3 +0.5/-0.2"}) {
     const Measured m = read(text);
     for (const double p : {0.05, 0.3, 0.5, 0.8, 0.99}) {
       const double h = 1e-6;
-      const auto even =
-          [&](double at) {  // likelihood over ln x, over the density of draws and their weight: a constant
-            const double x = m.quantile(at);
-            const double pace = (m.quantile(at + h) - m.quantile(at - h)) / (2 * h);
-            return m.likelihood(x) / x * pace / m.weight_of_draw(x);
-          };
+      // The likelihood over the density of the quantiles, in x or in ln x, is constant.
+      const auto even = [&](double at) {
+        const double x = m.quantile(at), pace = (m.quantile(at + h) - m.quantile(at - h)) / (2 * h);
+        return m.likelihood(x) * pace / (m.shape == Measured::Shape::lognormal ? x : 1);
+      };
       EXPECT_NEAR(even(p) / even(0.5), 1, 1e-6) << text << " " << p;
+      EXPECT_NEAR(m.likelihood_of_log(std::log(m.quantile(p))), m.likelihood(m.quantile(p)), 1e-12);
     }
     if (m.shape != Shape::split) {
       EXPECT_NEAR(m.quantile(0.5), 3000, 1e-9);
     }
   }
   EXPECT_EQ(read("2..4").likelihood(1999), 0);
+}
+
+TEST(Measured, HasALikelihoodThatFallsTowardsZeroForANormalError) {
+  const Measured m = read("2 +- 1");
+  EXPECT_NEAR(m.likelihood(1400), std::exp(-0.18), 1e-12);
+  EXPECT_NEAR(m.likelihood(14), 0.01 * std::exp(-0.5 * 1.986 * 1.986), 1e-12);
+}
+
+TEST(Measured, HasAShareBelowThatInvertsItsQuantiles) {
+  for (const char* text : {"3 +- 0.5", "3 */ 1.4", "2..4"})
+    for (const double p : {1e-6, 0.05, 0.5, 0.8, 0.99}) {
+      const Measured m = read(text);
+      EXPECT_NEAR(m.share_below(m.quantile(p)) / p, 1, 1e-9) << text << " " << p;
+    }
+  EXPECT_EQ(read("2..4").share_below(1999), 0);
+  EXPECT_EQ(read("2..4").share_below(4001), 1);
+  EXPECT_EQ(read("3 */ 1.4").share_below(-1), 0);
+  EXPECT_EQ(read("3").share_below(3000), 0);
+  EXPECT_EQ(read("3").share_below(3001), 1);
 }
 
 }  // namespace

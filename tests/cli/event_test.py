@@ -253,7 +253,7 @@ class Event(CommandLine):
 
     def test_unusable_file_names_are_refused(self):
         case = os.path.join(SOURCE, "cases/ets.toml")
-        self.refused(2, "event", case, "-o", "out.txt", says=["-o = 'out.txt'", "OUT.nc or OUT.csv"])
+        self.refused(2, "event", case, "-o", "out.txt", says=["-o = 'out.txt'", "OUT.nc, OUT.csv or OUT.srf"])
         self.refused(2, "event", case, "--resume", "out.csv", says=["--resume = 'out.csv'", "OUT.nc"])
         self.refused(2, "event", case, "--resume", "a.nc", "-o", "out.csv", says=["-o = 'out.csv'"])
         rows = self.file("rows.csv", "name,rupture_velocity\nA,3 km/s\n")

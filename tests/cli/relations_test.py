@@ -77,6 +77,10 @@ class Relations(CommandLine):
             self.assertAlmostEqual(found["friction_coefficient"], 0.5, 9)
             self.assertLess(found["friction_coefficient_error"], 0.02)
             self.assertAlmostEqual(found["slip_velocity"], row["slip_velocity"], 12)
+            self.assertAlmostEqual(found["front_ratio"], row["front_ratio"], 9)
+            self.assertAlmostEqual(found["stress_drop_share"], row["stress_drop_share"], 9)
+            self.assertTrue(0.99 < row["front_ratio"] < 1)
+            self.assertTrue(0.1 < row["stress_drop_share"] < 0.3)
 
     def test_friction_is_that_of_the_pulse_solver(self):
         rows = json.loads(self.ok("relations", "--stress", "0.855", "--friction-coefficient", "0.1", "--friction-coefficient", "0.5", "--json"))["friction"]

@@ -130,6 +130,14 @@ TEST(FrictionRatio, HasDerivativesThatAgreeWithDifferences) {
         }
 }
 
+TEST(FrictionRatio, HasTheSameValueWithoutDerivatives) {
+  for (const Closure closure : closures)
+    for (const Measure m : measures)
+      for (const double damping : {0.0, 0.3, 1.5, 20.0, 1e7, 1e9})
+        for (const double stress : {0.07, 0.9, 2.5})
+          EXPECT_DOUBLE_EQ(evaluate_value(m, closure, stress, damping), evaluate(m, closure, stress, damping).value);
+}
+
 TEST(FrictionRatio, FallsSmoothlyWithFriction) {
   for (const Closure closure : closures)
     for (const Measure m : measures)

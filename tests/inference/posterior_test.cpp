@@ -8,6 +8,7 @@
 #include <random>
 
 #include "slipfront/error.hpp"
+#include "slipfront/friction_ratio/front.hpp"
 #include "slipfront/medium/medium.hpp"
 #include "slipfront/rupture/relations.hpp"
 
@@ -32,6 +33,14 @@ struct Truth {
   double V, A, damping;
   double stress() const { return rupture::from_rupture_velocity(V / c).stress; }
   double stress_pa() const { return medium::stress_unit(shear_modulus, A) * stress(); }
+  /// The velocity of the front that an observer sees, in m/s.
+  double front(Closure closure, double threshold = default_front_threshold) const {
+    return V * friction_ratio::front_ratio(closure, stress(), damping, threshold).value;
+  }
+  double static_drop_pa(Closure closure) const {
+    return stress_pa() *
+           friction_ratio::stress_drop_share(friction_ratio::Drop::origin, closure, stress(), damping).value;
+  }
   double slip_velocity(Measure measure, Closure closure) const {
     const rupture::Relations r = rupture::from_rupture_velocity(V / c);
     return medium::slip_velocity_unit(c, A) * r.slip_velocity *
@@ -74,7 +83,9 @@ TEST(Posterior, CoversTheTruthInNineOfTenEventsWithKnownContact) {
     Observation o;
     o.name = "event " + std::to_string(n);
     o.slip_velocity_is = static_cast<Measure>(n % 4);
-    o.rupture_velocity_m_s = lognormal(random.lognormal(truth.V, 1.1), 1.1);
+    o.rupture_velocity_is = n % 2 ? RuptureVelocityIs::front : RuptureVelocityIs::characteristic;
+    const double V = n % 2 ? truth.front(Closure::consistent) : truth.V;
+    o.rupture_velocity_m_s = lognormal(random.lognormal(V, 1.1), 1.1);
     const double w = truth.slip_velocity(o.measure(), Closure::consistent);
     o.slip_velocity_m_s = lognormal(random.lognormal(w, 1.15), 1.15);
     o.contact_ratio = random.lognormal(truth.A, 1.2);
@@ -105,6 +116,7 @@ TEST(Posterior, CoversTheTruthInNineOfTenEventsWithKnownFriction) {
     const double C = truth.damping * spacing / (duration * c * truth.A);
     Observation o;
     o.name = "event " + std::to_string(n);
+    o.rupture_velocity_is = RuptureVelocityIs::characteristic;
     o.rupture_velocity_m_s = lognormal(random.lognormal(truth.V, 1.1), 1.1);
     o.slip_velocity_m_s = lognormal(random.lognormal(truth.slip_velocity(Measure::origin, Closure::paper), 1.15), 1.15);
     o.friction_coefficient = lognormal(random.lognormal(C, 2), 2);
@@ -140,28 +152,27 @@ struct OnGrid {
   }
 };
 
-TEST(Posterior, AgreesWithIntegrationOverAGrid) {
-  Observation o;
-  o.name = "grid";
-  o.rupture_velocity_m_s = Measured{3000, 3000, Shape::normal, 150};
-  o.slip_velocity_m_s = lognormal(0.5, 1.2);
-  o.contact_ratio = 0.01;
-  const Measured contact{0.01, 0.01, Shape::normal, 0.002};
+/// Integrates prior x likelihood of an event over a grid, and compares it with the samples.
+void expect_posterior_of_grid(Observation o, const Measured& contact) {
+  o.contact_ratio = contact.middle();
   o.uncertain_constants.push_back({&medium::Constants::contact_ratio, contact});
-  o.stress_drop = Measured{50e6, 120e6};
+  const bool front = o.rupture_velocity_is == RuptureVelocityIs::front;
   OnGrid grid;
   constexpr int n = 60;
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j)
       for (int k = 0; k < n; ++k) {
-        const double V = 3000 * std::exp(0.25 * ((i + 0.5) / n * 2 - 1)),
-                     A = 0.01 * std::exp((j + 0.5) / n * 2.4 - 1.6);
-        const double u = (k + 0.5) / n * 8;
+        const double V = 3000 * std::exp(-0.3 + 0.85 * (i + 0.5) / n), A = 0.01 * std::exp((j + 0.5) / n * 2.4 - 1.6);
+        const double u = (k + 0.5) / n * 6;
         const Truth state{V, A, std::expm1(u)};
+        if (!(V < c) || state.stress() > 3) continue;
+        const double seen = front ? state.front(Closure::consistent) : V;
+        const double drop =
+            o.stress_drop_is == StressDropIs::stored ? state.stress_pa() : state.static_drop_pa(Closure::consistent);
         const double weight =
-            o.rupture_velocity_m_s->likelihood(V) * contact.likelihood(A) *
+            o.rupture_velocity_m_s->likelihood(seen) * contact.likelihood(A) *
             o.slip_velocity_m_s->likelihood(state.slip_velocity(Measure::origin, Closure::consistent)) *
-            o.stress_drop->likelihood(state.stress_pa());
+            o.stress_drop->likelihood(drop);
         grid.A.emplace_back(A, weight);
         grid.u.emplace_back(u, weight);
       }
@@ -176,11 +187,29 @@ TEST(Posterior, AgreesWithIntegrationOverAGrid) {
   EXPECT_GT(p.effective_samples, 3000);
 }
 
+TEST(Posterior, AgreesWithIntegrationOverAGrid) {
+  Observation o;
+  o.rupture_velocity_m_s = Measured{3000, 3000, Shape::normal, 150};
+  o.slip_velocity_m_s = lognormal(0.5, 1.2);
+  const Measured contact{0.01, 0.01, Shape::normal, 0.002};
+  o.rupture_velocity_is = RuptureVelocityIs::characteristic;
+  o.stress_drop_is = StressDropIs::stored;
+  o.stress_drop = Measured{50e6, 120e6};
+  expect_posterior_of_grid(o, contact);
+  o.rupture_velocity_is = RuptureVelocityIs::front;
+  o.stress_drop_is = StressDropIs::static_drop;
+  o.stress_drop = lognormal(15e6, 1.5);
+  expect_posterior_of_grid(o, contact);
+  o.slip_velocity_m_s = Measured{0.5, 0.5, Shape::normal, 0.25};
+  expect_posterior_of_grid(o, contact);
+}
+
 /// Exact observations determine a single state of the fault.
 TEST(Posterior, SolvesExactObservations) {
   const Truth truth{3000, 0.01, 12.5};
   Observation o;
   o.name = "exact";
+  o.rupture_velocity_is = RuptureVelocityIs::characteristic;
   o.rupture_velocity_m_s = exact(truth.V);
   o.contact_ratio = truth.A;
   o.duration = exact(10);
@@ -200,6 +229,7 @@ TEST(Posterior, SolvesExactObservations) {
 TEST(Posterior, NotesUnidentifiableQuantities) {
   Observation o;
   o.name = "velocities";
+  o.rupture_velocity_is = RuptureVelocityIs::characteristic;
   o.rupture_velocity_m_s = Measured{3000, 3000, Shape::normal, 100};
   o.slip_velocity_m_s = exact(0.5);
   const Posterior p = *posterior(o, defaults, {});
@@ -223,6 +253,7 @@ TEST(Posterior, NotesUnidentifiableQuantities) {
 TEST(Posterior, RejectsContradictoryObservations) {
   Observation o;
   o.name = "contradiction";
+  o.rupture_velocity_is = RuptureVelocityIs::characteristic;
   o.rupture_velocity_m_s = exact(3000);
   o.slip_velocity_m_s = exact(0.5);
   o.contact_ratio = 0.001;
@@ -250,7 +281,61 @@ TEST(Posterior, DerivesTheSeedFromTheEvent) {
   EXPECT_EQ(once.seed, again.seed);
   EXPECT_NE(once.seed, posterior(o, defaults, {.seed = 2})->seed);
   o.name = "b";
+  o.line = 7;
+  EXPECT_EQ(once.seed, posterior(o, defaults, {})->seed);
+  o.rupture_velocity_m_s = Measured{2000, 3001};
   EXPECT_NE(once.seed, posterior(o, defaults, {})->seed);
+}
+
+/// The two velocities of an observed front bound A from both sides (docs/events.md).
+TEST(Posterior, BoundsTheContactRatioFromBothSidesIfTheFrontWasSeen) {
+  Observation o;
+  o.rupture_velocity_m_s = exact(10e3 / 86400);
+  o.slip = exact(4e-3);
+  o.duration = exact(14 * 86400);
+  const Posterior p = *posterior(o, defaults, {});
+  EXPECT_FALSE(p.friction_identified);
+  ASSERT_TRUE(p.contact_ratio && p.stress_pa);
+  EXPECT_GT(p.contact_ratio->low, 8e-6);
+  EXPECT_LT(p.contact_ratio->high, 4e-5);
+  for (const TradeOff& t : p.trade_off) EXPECT_LT(t.contact_ratio, 4e-5);
+  EXPECT_FALSE(p.contact_ratio_bound);
+}
+
+TEST(Posterior, StatesWhichObservationsAreInTension) {
+  Observation o;
+  o.rupture_velocity_m_s = lognormal(3000, 1.1);
+  o.slip_velocity_m_s = lognormal(0.5, 1.1);
+  o.contact_ratio = 0.0005;  // 0.0028 at least
+  o.uncertain_constants.push_back({&medium::Constants::contact_ratio, lognormal(0.0005, 1.2)});
+  const Posterior p = *posterior(o, defaults, {});
+  EXPECT_TRUE(p.contradicted);
+  EXPECT_FALSE(p.contact_ratio || p.stress_pa);
+  ASSERT_EQ(p.tension.size(), 3u);
+  for (const Tension& t : p.tension) {
+    if (t.sigmas) {
+      EXPECT_GT(std::fabs(*t.sigmas), 2) << t.observation;
+    }
+    EXPECT_TRUE(t.without.stress) << t.observation;
+    if (t.observation == "contact_ratio") {
+      EXPECT_GT(t.without.contact_ratio->low, 0.002);
+    }
+  }
+  o.uncertain_constants.back().measured = lognormal(0.0005, 5);  // now they agree
+  EXPECT_TRUE(posterior(o, defaults, {})->tension.empty());
+}
+
+/// A normal error of 60 % reaches 0, but must not make the smallest numbers decide.
+TEST(Posterior, HasIntervalsForLargeNormalErrors) {
+  for (const double share : {0.1, 0.4, 0.6})
+    for (const bool of_slip : {false, true}) {
+      Observation o;
+      o.rupture_velocity_m_s = Measured{2000, 2000, Shape::normal, of_slip ? 200 : 2000 * share};
+      o.slip_velocity_m_s = Measured{0.5, 0.5, Shape::normal, of_slip ? 0.5 * share : 0.05};
+      const Posterior p = *posterior(o, defaults, {});
+      ASSERT_TRUE(p.suffices && p.contact_ratio) << share;
+      EXPECT_GT(p.contact_ratio->low, 2e-4) << share;
+    }
 }
 
 }  // namespace

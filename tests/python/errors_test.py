@@ -174,7 +174,7 @@ class Nested(unittest.TestCase):
 class Commands(CommandLine):
     def test_the_program_runs_subcommands_written_in_python(self):
         help = self.ok("--help")
-        for name in ("sweep", "plot", "reproduce", "animate"):
+        for name in ("sweep", "laboratory", "plot", "reproduce", "animate"):
             self.assertIn("\n  " + name, help)
         self.refused(3, "plot", "/nowhere.nc")
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from command_help import Argument, output_of
 
-ENDINGS = {"toml": "toml", "netcdf": "nc", "nc": "nc", "csv": "csv", "fsp": "fsp", "png": "png", "svg": "svg", "pdf": "pdf", "jpg": "jpg",
+ENDINGS = {"toml": "toml", "netcdf": "nc", "nc": "nc", "csv": "csv", "fsp": "fsp", "srf": "srf", "png": "png", "svg": "svg", "pdf": "pdf", "jpg": "jpg",
            "webp": "webp", "gif": "gif", "mp4": "mp4"}
 FILES = ("FILE", "SCENARIO", "PICTURE", "OUT.nc")
 

@@ -25,14 +25,19 @@ struct Measured {
   double spread_below = 0;
 
   double middle() const { return low + (high - low) / 2; }
-  bool is_range() const { return low < high; }
+  bool is_range() const { return shape == Shape::range && low < high; }
   bool is_exact() const { return shape == Shape::range && low == high; }
   /// The quantity is below this value with the given probability, 0 < probability < 1.
   double quantile(double probability) const;
-  /// Likelihood of the true value x, scaled so that its maximum is 1. An exact number has none.
+  /// The probability of values below x. An exact number has 0 up to itself, and 1 above.
+  double share_below(double x) const;
+  /// Likelihood of the true value x > 0, scaled so that its maximum is 1. An exact number has none. That of a normal
+  /// error falls in proportion to x below `least_even_share` of the observed value: a normal error of 40 % does not
+  /// exclude 0, and with a prior uniform in ln x the smallest numbers would then decide.
   double likelihood(double x) const;
-  /// Importance weight of the draw x = quantile(p) with uniformly distributed p, if the prior is uniform in ln x.
-  double weight_of_draw(double x) const;
+  static constexpr double least_even_share = 0.7;
+  /// The likelihood of exp(ln_x).
+  double likelihood_of_log(double ln_x) const;
 };
 
 /// A value with unequal errors. Its likelihood is a normal one on each side, and falls to exp(-1/2) at value + above

@@ -53,6 +53,7 @@ struct Subfault {
   double slip = 0;                          ///< m
   std::optional<double> rise_time = {};     ///< s
   std::optional<double> rupture_time = {};  ///< s, time when the patch began to slip
+  double moment_share = 0;                  ///< fraction of the moment of the model
 };
 
 /// One event as its file gives it. Only the name is required; an absent value was not observed.

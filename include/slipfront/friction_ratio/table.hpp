@@ -33,6 +33,9 @@ struct Ratio {
 /// falls as Gamma^(-1/2). Relative error: see `uncertainty`. \throws InputError if an argument is out of range.
 Ratio evaluate(Measure measure, friction::Closure closure, double stress, double damping_number);
 
+/// Like evaluate(...).value, but faster, because it computes no derivatives.
+double evaluate_value(Measure measure, friction::Closure closure, double stress, double damping_number);
+
 /// Relative error of the ratio: 1e-4, but 1e-2 for closure "paper" and 3 < Gamma < 1e5. That closure is unstable where
 /// dislocations move faster than their own sound (docs/friction_ratio.md). Its slip velocities then do not converge
 /// with the number of cells.

@@ -19,7 +19,7 @@ inline constexpr double least_contact_ratio = 1e-8, most_damping_number = 1e8;
 
 struct Sampling {
   std::size_t samples = 1000;  ///< initial number of points of the Sobol sequence, >= 1
-  std::uint64_t seed = 1;      ///< seed of the shift of the sequence; each event has its own shift
+  std::uint64_t seed = 1;      ///< seed of the shift of the sequence; the observed numbers change it too
   friction::Closure closure = friction::Closure::consistent;
   std::size_t draws = 0;  ///< number of states of equal weight to return
 };
@@ -37,6 +37,23 @@ struct TradeOff {
   double stress_pa;
 };
 
+/// An observation that disagrees with the others, and the result without it.
+struct Tension {
+  std::string observation;  ///< its key in a file
+  /// Distance of the observation from what the others predict, in standard deviations: the normal quantile of the share
+  /// of repeated observations below it (above 0: it is larger than predicted). Absent if none of the samples comes
+  /// near.
+  std::optional<double> sigmas;
+  QuantileQuantities without;  ///< the posterior without this observation
+};
+
+/// A posterior predictive check: the probability that a repeated observation of the inferred fault is below the actual
+/// one. Near 0 or 1, the observation is not what the model with this posterior would give.
+struct Prediction {
+  std::string observation;
+  double below;
+};
+
 /// A quantity is absent if the observations do not determine it, or if there are too few samples. `notes` give the
 /// reason and name the observation that would help.
 struct Posterior : QuantileQuantities {
@@ -44,8 +61,11 @@ struct Posterior : QuantileQuantities {
   /// Width of the 90 % interval of ln A and of ln(1 + Gamma), divided by that of the prior. Near 1, the data add
   /// nothing to the prior.
   std::optional<double> contact_ratio_prior_share, damping_number_prior_share;
-  std::vector<TradeOff> trade_off;  ///< A and stress for given damping numbers, if only velocities are known
-  std::vector<FaultState> draws;    ///< as many as Sampling::draws, if `suffices`
+  std::vector<TradeOff> trade_off;      ///< A and stress for given damping numbers, if only velocities are known
+  std::vector<Tension> tension;         ///< observations at 2 or more standard deviations from the others
+  std::vector<Prediction> predictions;  ///< one for each observation, if `suffices`
+  bool contradicted = false;            ///< the observations exclude each other: there is no common posterior
+  std::vector<FaultState> draws;        ///< as many as Sampling::draws, if `suffices`
   std::vector<std::string> notes;
   bool suffices = false;         ///< there are enough samples for intervals; otherwise no quantity has one
   double effective_samples = 0;  ///< (sum of weights)^2 / sum of squared weights
@@ -57,8 +77,9 @@ struct Posterior : QuantileQuantities {
   std::uint64_t seed = 0;   ///< seed of the shift for this event
 };
 
-/// Whether an event has an observational error, or an observation that constrains friction.
-bool speaks_of_friction_or_error(const catalogue::Observation& observation);
+/// Whether an event is sampled unless the user says otherwise: it has an error, or an observation that depends on
+/// friction, such as the velocity of an observed front together with a slip velocity.
+bool needs_samples(const catalogue::Observation& observation);
 
 /// Computes the posterior by importance sampling at the points of a shifted Sobol sequence. The result does not depend
 /// on the number of threads that call it, to the last bit. It is absent without a rupture velocity, unless slip

@@ -32,7 +32,8 @@ struct Inferred {
 template <class T>
 struct FaultQuantities {
   T rupture_velocity_m_s{};        ///< V, m/s
-  T rupture_velocity{};            ///< V / c
+  T rupture_velocity{};            ///< observed rupture velocity over c
+  T characteristic_velocity{};     ///< |V-| / c; the same, unless an observer saw the front fall behind
   T stress{};                      ///< Sigma-, in mu A / pi
   T frictionless_slip_velocity{};  ///< W(0) without friction, in c A / pi
   T observed_slip_velocity{};      ///< in c A / pi; needs an observed contact ratio, not an inferred one
@@ -41,6 +42,7 @@ struct FaultQuantities {
   T damping_number{};              ///< Gamma = C T; needs the posterior, like the next
   T friction_coefficient{};        ///< C
   T stress_pa{};                   ///< mu A Sigma- / pi, Pa; absent if only a bound is known
+  T static_drop_pa{};              ///< stress before minus stress after at x = 0, Pa; needs the posterior
   /// Lower bounds: the values without friction. A and the stress in Pa have bounds if only velocities are known. Both
   /// stresses have bounds if a contact ratio is known but no rupture velocity.
   T stress_bound{}, contact_ratio_bound{}, stress_pa_bound{};

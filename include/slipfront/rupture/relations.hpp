@@ -30,6 +30,8 @@ struct Relations {
 Relations from_stress(double stress);
 Relations from_rupture_velocity(double rupture_velocity);
 Relations from_slip_velocity(double slip_velocity);
+/// The pulse of the state psi- on the stressed side. It needs no root but psi(0).
+Relations from_psi(double psi);
 
 /// The nine members of Relations, with their descriptions, in the order of their declaration.
 struct RelationsQuantity {

@@ -11,6 +11,7 @@ KINDS = {
     "relations": ("relations", {"rupture_velocity", "stress", "leading_velocity", "slip_velocity"}),
     "corner": ("corner", {"sample"}),
     "sweep": ("sweep", {"failure"}),
+    "laboratory": ("laboratory", {"front", "curve_front_velocity"}),
 }
 
 

@@ -19,9 +19,10 @@ class Reader {
   explicit Reader(const std::string& file) : file_(file) {}
 
   void take(std::string_view line);
-  Observation finish();
+  FaultModel finish_model();
 
  private:
+  Observation finish();
   void take_text(std::string_view text, const Place& place);
   void refuse_unless_model(const Place& end) const;
   void fill_velocities(Observation& out) const;
@@ -78,7 +79,7 @@ void Reader::take_text(std::string_view text, const Place& place) {
     in_velocity_table_ = false;
   } else if (begins(text, "SEGMENT")) {
     in_velocity_table_ = false;
-    tables_.take_segment_line(place);
+    tables_.take_segment_line(text, place);
   } else if (in_velocity_table_) {
     layers_.take(text, place);
   } else if (!header_.take(text, place)) {
@@ -173,16 +174,39 @@ Observation Reader::finish() {
   return out;
 }
 
-}  // namespace
+FaultModel Reader::finish_model() {
+  FaultModel out;
+  out.observation = finish();
+  out.rock = layers_.rock();
+  constexpr double m_per_km = 1000;
+  if (const auto depth = header_.hypocentre_depth()) out.hypocentre_depth = m_per_km * *depth;
+  out.moment = header_.moment;
+  out.rake = header_.rake;
+  tables_.fill(header_, out);
+  share_moment(out);
+  return out;
+}
 
-Observation read_fsp(std::string_view text, const std::string& file) {
-  Reader reader(file);
+void read(std::string_view text, Reader& reader) {
   while (!text.empty()) {
     const std::size_t end = text.find('\n');
     reader.take(text.substr(0, end));
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
   }
-  return reader.finish();
+}
+
+}  // namespace
+
+Observation read_fsp(std::string_view text, const std::string& file) {
+  Reader reader(file);
+  read(text, reader);
+  return reader.finish_model().observation;
+}
+
+FaultModel read_fault_model(std::string_view text, const std::string& file) {
+  Reader reader(file);
+  read(text, reader);
+  return reader.finish_model();
 }
 
 extern const Format fsp_format;

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "slipfront/catalogue/observation.hpp"
+#include "catalogue/fault_model.hpp"
 
 namespace slipfront::catalogue::fsp {
 
@@ -78,13 +78,20 @@ struct Header {
   Field rise_time;                           ///< avTr, s
   std::optional<double> depth, down_dip;     ///< position of the hypocentre, km
   std::optional<std::size_t> along_strike_cells, down_dip_cells, segments;
-  std::optional<double> dx, dz;  ///< km
+  std::optional<double> dx, dz;             ///< km
+  std::optional<double> strike, dip, rake;  ///< degrees
+  std::optional<double> top;                ///< depth of the upper edge, km
+  std::optional<double> moment;             ///< N m
+  std::optional<bool> positions_are_tops;   ///< whether positions are those of upper edges or of centres
 
   /// Reads a line if it begins with a label of the header. Returns whether it did.
   bool take(std::string_view text, const Place& place);
   std::string citation() const;
   /// Depth of the hypocentre in km: DEP, or HypZ if DEP is absent.
   std::optional<double> hypocentre_depth() const;
+
+ private:
+  bool take_geometry(std::string_view label, std::string_view rest, const Place& place);
 };
 
 // Velocity table (fsp_layers.cpp)
@@ -95,6 +102,8 @@ class VelocityTable {
   void take(std::string_view text, const Place& place);
   /// Sets the elastic constants at a depth in km. Adds a warning if the table does not give them.
   void fill(std::optional<double> depth, Observation& out) const;
+  /// All layers of rock, downwards. There are none if the table is not usable.
+  std::vector<RockLayer> rock() const;
 
  private:
   struct Layer {
@@ -117,14 +126,18 @@ class VelocityTable {
   std::optional<double> modulus_;  ///< 1e10 Pa
 };
 
-// Subfault tables (fsp_table.cpp)
+/// An angle in degrees, unless it is a placeholder. A dip must be above 0 and at most 90.
+std::optional<double> angle_of(std::string_view text, std::string_view key, const Place& place);
+std::optional<double> dip_of(std::string_view text, std::string_view key, const Place& place);
+
+// Subfault tables (fsp_table.cpp, and fsp_fault.cpp for their geometry)
 
 /// Slip of the subfaults. The reader sums it over each segment row by row.
 class SubfaultTables {
  public:
   static bool is_heading(const Words& words);
 
-  void take_segment_line(const Place& place);
+  void take_segment_line(std::string_view text, const Place& place);
   void take_keys(std::string_view text, const Place& place);
   void take_heading(const Words& names, const Place& place);
   void take_row(const Words& row, const Place& place);
@@ -139,9 +152,17 @@ class SubfaultTables {
   const std::vector<Subfault>& subfaults() const { return subfaults_; }
   /// Mean of column RISE in s, weighted by slip, over the rows that give both.
   std::optional<double> mean_rise_time() const;
+  /// The segments with their subfaults, and the decisions about positions.
+  void fill(const Header& header, FaultModel& out) const;
 
  private:
   struct Segment {
+    std::optional<double> strike, dip, top;  ///< degrees, and km
+    bool x_is_north = false;
+    std::optional<std::size_t> rake_column;
+    std::size_t latitude_column = 0, longitude_column = 0;
+    std::vector<FaultPatch> patches;  ///< positions as the file gives them
+
     std::optional<std::size_t> stated_rows;
     std::optional<double> length, width, dx, dz;  ///< km
     std::size_t columns = 0, slip_column = 0;
@@ -153,7 +174,8 @@ class SubfaultTables {
   };
 
   void add_slip(Segment& segment, const std::vector<double>& values);
-  void keep_subfault(const Segment& segment, const std::vector<double>& values);
+  void keep_subfault(Segment& segment, const std::vector<double>& values);
+  static FaultSegment geometry_of(const Segment& table, const Header& header, bool exchanged);
   void check_rows(std::size_t index, const Header& header, const Place& end, std::vector<std::string>& warnings) const;
   std::string label(std::size_t index) const;
 

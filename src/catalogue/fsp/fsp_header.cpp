@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "catalogue/fsp/fsp.hpp"
 
@@ -53,7 +54,38 @@ bool is_depth(const std::optional<double>& depth) { return depth && *depth >= 0 
 
 }  // namespace
 
+std::optional<double> angle_of(std::string_view text, std::string_view key, const Place& place) {
+  const auto value = value_of(text, key, place);
+  if (!value || !value->number || *value->number == -99 || std::fabs(*value->number) > 720) return std::nullopt;
+  return value->number;
+}
+
+std::optional<double> dip_of(std::string_view text, std::string_view key, const Place& place) {
+  const auto dip = angle_of(text, key, place);
+  return dip && *dip > 0 && *dip <= 90 ? dip : std::nullopt;
+}
+
+bool Header::take_geometry(std::string_view label, std::string_view rest, const Place& place) {
+  if (same(label, "Mech")) {
+    keep(strike, angle_of(rest, "STRK", place));
+    keep(dip, dip_of(rest, "DIP", place));
+    keep(rake, angle_of(rest, "RAKE", place));
+    if (const auto value = value_of(rest, "Htop", place); value && is_depth(value->number)) top = value->number;
+  } else if (same(label, "Size")) {       // its LEN is the whole fault, and no segment may take it for its own
+    constexpr double least_moment = 1e6;  // N m
+    if (const auto value = value_of(rest, "Mo", place); value && value->number && *value->number > least_moment)
+      moment = value->number;
+  } else {
+    return false;
+  }
+  return true;
+}
+
 bool Header::take(std::string_view text, const Place& place) {
+  if (begins(text, "Coordinates are given for")) {
+    positions_are_tops = text.find("top") != std::string_view::npos;
+    return true;
+  }
   const std::size_t colon = text.find(':');
   if (colon == std::string_view::npos) return false;
   const std::string_view label = trimmed(text.substr(0, colon));
@@ -85,8 +117,7 @@ bool Header::take(std::string_view text, const Place& place) {
     keep(dx, size_of(rest, "Dx", place));
     keep(dz, size_of(rest, "Dz", place));
   } else {
-    // `Size : LEN` is the whole fault, and no segment may take it for its own.
-    return same(label, "Size") || same(label, "Mech");
+    return take_geometry(label, rest, place);
   }
   return true;
 }

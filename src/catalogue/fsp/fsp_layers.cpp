@@ -89,6 +89,21 @@ bool VelocityTable::is_physical(const Layer& layer) {
          layer.density <= 8;
 }
 
+std::vector<RockLayer> VelocityTable::rock() const {
+  std::vector<RockLayer> out;
+  if (layers_.empty() || !why_unusable().empty()) return out;
+  constexpr double si = 1000;  // km, km/s and g/cm^3
+  const bool tops = layers_.front().depth <= 0;
+  for (std::size_t k = 0; k < layers_.size(); ++k) {
+    const Layer& layer = layers_[k];
+    if (is_water(layer)) continue;
+    if (!is_physical(layer)) return {};
+    const double top = tops ? layer.depth : k == 0 ? 0 : layers_[k - 1].depth;
+    out.push_back({si * top, si * layer.p, si * layer.s, si * layer.density});
+  }
+  return out;
+}
+
 void VelocityTable::fill(std::optional<double> depth, Observation& out) const {
   const auto warn = [&](const std::string& text) { out.warnings.push_back(text + ": elastic constants not given"); };
   if (layers_.empty()) {

@@ -45,9 +45,11 @@ bool SubfaultTables::is_heading(const Words& words) {
   return index_of(words, "LAT") && index_of(words, "LON") && index_of(words, "SLIP") && !index_of(words, "=");
 }
 
-void SubfaultTables::take_segment_line(const Place& place) {
+void SubfaultTables::take_segment_line(std::string_view text, const Place& place) {
   if (announced_ > 0) refuse_heading(announced_, place.file, "SEGMENT");
   next_ = {};
+  next_.strike = angle_of(text, "STRIKE", place);
+  next_.dip = dip_of(text, "DIP", place);
   announced_ = place.line;
 }
 
@@ -57,6 +59,8 @@ void SubfaultTables::take_keys(std::string_view text, const Place& place) {
   keep(next_.width, size_of(text, "WID", place));
   keep(next_.dx, size_of(text, "Dx", place));
   keep(next_.dz, size_of(text, "Dz", place));
+  if (const auto top = value_of(text, "Z2top", place); top && top->number && std::fabs(*top->number) < 99)
+    next_.top = top->number;
 }
 
 void SubfaultTables::take_heading(const Words& names, const Place& place) {
@@ -77,8 +81,11 @@ void SubfaultTables::take_heading(const Words& names, const Place& place) {
   next_.rise_column = index_of(names, "RISE");
   next_.time_column = index_of(names, "TRUP");
   next_.z_column = index_of(names, "Z");
+  next_.rake_column = index_of(names, "RAKE");
+  next_.latitude_column = index_of(names, "LAT").value();
+  next_.longitude_column = index_of(names, "LON").value();
   for (std::size_t i = 0; i < names.size(); ++i) {  // X==NS or X==EW
-    if (begins(names[i], "X==")) next_.x_column = i;
+    if (begins(names[i], "X==")) next_.x_column = i, next_.x_is_north = begins(names[i], "X==N");
     if (begins(names[i], "Y==")) next_.y_column = i;
   }
   next_.line = place.line;
@@ -122,7 +129,7 @@ void SubfaultTables::add_slip(Segment& segment, const std::vector<double>& value
   }
 }
 
-void SubfaultTables::keep_subfault(const Segment& segment, const std::vector<double>& values) {
+void SubfaultTables::keep_subfault(Segment& segment, const std::vector<double>& values) {
   if (!segment.x_column || !segment.y_column || !segment.z_column) return;
   for (const auto column : {segment.x_column, segment.y_column, segment.z_column})
     if (std::isnan(values[*column])) return;
@@ -136,6 +143,20 @@ void SubfaultTables::keep_subfault(const Segment& segment, const std::vector<dou
     s.rise_time = values[*segment.rise_column];
   if (segment.time_column && values[*segment.time_column] >= 0 && values[*segment.time_column] < longest_rise_time)
     s.rupture_time = values[*segment.time_column];
+  const auto cell = [&](const std::optional<std::size_t>& column, double least, double most) {
+    const double value = column ? values[*column] : HUGE_VAL;
+    return value > least && value < most ? std::optional(value) : std::nullopt;
+  };
+  segment.patches.push_back({.longitude = values[segment.longitude_column],
+                             .latitude = values[segment.latitude_column],
+                             .east = segment.x_is_north ? s.y : s.x,
+                             .north = segment.x_is_north ? s.x : s.y,
+                             .depth = s.z,
+                             .slip = s.slip,
+                             .rake = cell(segment.rake_column, -720, 720),
+                             .rise_time = s.rise_time,
+                             .rupture_time = cell(segment.time_column, -90, longest_rise_time),
+                             .row = subfaults_.size()});
   subfaults_.push_back(s);
 }
 

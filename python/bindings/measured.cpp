@@ -1,0 +1,77 @@
+#include "slipfront/catalogue/measured.hpp"
+
+#include <cstddef>
+#include <string>
+
+#include "bindings.hpp"
+#include "slipfront/error.hpp"
+
+namespace {
+
+using namespace slipfront;
+using catalogue::Measured;
+using medium::Dimension;
+
+Dimension dimension_named(const std::string& name) {
+  if (name == "velocity") return Dimension::velocity;
+  if (name == "pressure") return Dimension::pressure;
+  if (name == "density") return Dimension::density;
+  return Dimension::ratio;
+}
+
+/// Position of a text, for its error: file, line (0 if there is none) and column.
+struct Position {
+  std::string file;
+  std::size_t line;
+  std::string column;
+};
+
+[[noreturn]] void throw_at(const Position& position, Complaint complaint) {
+  complaint.file = position.file;
+  complaint.line = position.line;
+  complaint.key = position.column;
+  throw InputError(complaint);
+}
+
+Measured parse(const std::string& text, const std::string& dimension, const std::string& unit, const std::string& file,
+               std::size_t line, const std::string& column) {
+  const Position position{file, line, column};
+  Measured measured;
+  try {
+    measured = catalogue::parse_measured(text, dimension_named(dimension), unit);
+  } catch (const InputError& error) {
+    throw_at(position, error.complaint());
+  }
+  if (!(measured.low > 0)) throw_at(position, {.value = text, .problem = "not positive", .allowed = "> 0"});
+  return measured;
+}
+
+void check_unit(const std::string& unit, const std::string& dimension, const std::string& file, std::size_t line,
+                const std::string& column) {
+  try {
+    medium::unit_factor(unit, dimension_named(dimension));
+  } catch (const InputError& error) {
+    throw_at({file, line, column}, error.complaint());
+  }
+}
+
+[[noreturn]] void refuse(const std::string& file, std::size_t line, const std::string& column, const std::string& value,
+                         const std::string& problem, const std::string& allowed) {
+  throw InputError({.file = file, .line = line, .key = column, .value = value, .problem = problem, .allowed = allowed});
+}
+
+}  // namespace
+
+void bind_measured(py::module_& m) {
+  py::class_<Measured>(m, "Measured")
+      .def_property_readonly("is_lognormal",
+                             [](const Measured& self) { return self.shape == Measured::Shape::lognormal; })
+      .def_property_readonly("middle", &Measured::middle)
+      .def_property_readonly("is_exact", &Measured::is_exact)
+      .def("quantile", py::vectorize(&Measured::quantile))
+      .def("share_below", py::vectorize(&Measured::share_below))
+      .def("likelihood", py::vectorize(&Measured::likelihood));
+  m.def("parse_measured", parse);
+  m.def("check_unit", check_unit);
+  m.def("refuse", refuse);
+}

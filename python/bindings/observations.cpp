@@ -1,0 +1,102 @@
+#include <pybind11/stl.h>
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "bindings.hpp"
+#include "record/files/text_file.hpp"
+#include "run/catalogue.hpp"
+
+/// The observations of events as they were read, before any theory is applied.
+
+namespace {
+
+using namespace slipfront;
+using catalogue::Measured;
+using catalogue::Observation;
+
+/// Median and standard deviation of ln x, of a lognormal distribution that is as wide as the measured one. NaN if there
+/// is no value. The deviation is 0 for an exact number.
+std::pair<double, double> logarithm_of(const std::optional<Measured>& measured) {
+  if (!measured) return {std::nan(""), std::nan("")};
+  switch (measured->shape) {
+    case Measured::Shape::lognormal:
+      return {std::log(measured->low), std::log(measured->spread)};
+    case Measured::Shape::normal:
+      return {std::log(measured->low), measured->spread / measured->low};
+    case Measured::Shape::split:
+      return {std::log(measured->low), (measured->spread + measured->spread_below) / 2 / measured->low};
+    case Measured::Shape::range:
+      break;
+  }
+  const double width = std::log(measured->high / measured->low);
+  return {std::log(measured->low) + width / 2, width / std::sqrt(12.0)};
+}
+
+struct Quantity {
+  const char* name;
+  std::optional<Measured> Observation::*member;
+};
+constexpr std::array<Quantity, 4> quantities = {{{"rupture_velocity", &Observation::rupture_velocity_m_s},
+                                                 {"slip", &Observation::slip},
+                                                 {"rise_time", &Observation::rise_time},
+                                                 {"duration", &Observation::duration}}};
+
+py::dict row_of(const catalogue::Entry& entry, const medium::Defaults& defaults) {
+  const Observation& o = entry.observation;
+  py::dict row;
+  row["name"] = o.name, row["kind"] = o.kind, row["citation"] = o.citation, row["line"] = o.line;
+  row["front_threshold"] = o.front_threshold;
+  row["rupture_velocity_is"] = catalogue::name_of(o.rupture_velocity_is);
+  for (const Quantity& q : quantities) {
+    const auto [median, deviation] = logarithm_of(o.*q.member);
+    row[q.name] = py::make_tuple(median, deviation);
+  }
+  std::string error;
+  try {
+    if (entry.error) throw InputError(*entry.error);
+    const medium::Elastic e = medium::elastic(o, defaults);
+    row["speed"] = e.speed, row["shear_modulus"] = e.shear_modulus;
+  } catch (const InputError& e) {
+    error = e.what();
+  }
+  row["error"] = error;
+  return row;
+}
+
+using Source = std::tuple<std::string, std::string, bool>;  // as in event.cpp
+
+py::list observations(const std::vector<Source>& sources, const std::array<std::string, 3>& medium) {
+  run::CatalogueScenario scenario;
+  for (const auto& [content, name, is_path] : sources)
+    scenario.texts.push_back({name, is_path ? record::read_text(name) : content});
+  scenario.medium = {medium[0], medium[1], medium[2]};
+  const run::CataloguePlan plan = run::plan_catalogue(scenario, 1, false);
+  py::list rows;
+  for (const catalogue::Entry& entry : plan.entries) rows.append(row_of(entry, plan.defaults));
+  return rows;
+}
+
+/// Median and deviation of the logarithm of a quantity as texts have it. `dimension` is "length", "pressure" or
+/// "ratio".
+std::pair<double, double> measured(const std::string& text, const std::string& dimension, const std::string& unit) {
+  using medium::Dimension;
+  const Dimension kind = dimension == "length"     ? Dimension::length
+                         : dimension == "pressure" ? Dimension::pressure
+                                                   : Dimension::ratio;
+  const Measured value = catalogue::parse_measured(text, kind, unit);
+  if (!(value.low > 0)) throw InputError({.value = text, .problem = "not positive", .allowed = "> 0"});
+  return logarithm_of(value);
+}
+
+}  // namespace
+
+void bind_observations(py::module_& m) {
+  m.def("observations", observations);
+  m.def("measured", measured);
+}

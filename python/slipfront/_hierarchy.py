@@ -1,0 +1,186 @@
+"""The function slipfront.population."""
+
+import math
+import time
+
+from . import _slipfront
+from ._dataset import dataset
+from ._event import _default, _shipped, _source
+from ._files import write_dataset
+from ._numbers import np
+from ._optional import import_optional
+from ._population import forward, priors, rows
+from ._scenario import path
+from ._shown import shown
+from ._slipfront import InputError
+
+#: Quantities of single events: name, long_name, units.
+STATES = (("stress", "stress before the rupture, in mu A / pi", "1"), ("contact_ratio", "contact ratio A", "1"),
+          ("friction_per_spacing", "friction coefficient over asperity spacing, C / b", "m-1"), ("damping_number", "damping number Gamma = C T c A / b", "1"))
+QUANTILES = (0.05, 0.5, 0.95)
+LEAST_EVENTS = 3
+EVENT_DRAWS = 200
+
+
+def _positive(name, value, low=0.0):
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        number = math.nan
+    if not low < number < math.inf:
+        raise InputError(f"{name} = '{shown(value)}': out of range; allowed: a number above {low:g}")
+    return number
+
+
+def _measure(name, value, dimension, unit):
+    try:
+        return _slipfront.measured(str(value), dimension, unit)[0]
+    except InputError as error:
+        raise InputError(f"{name}: {error}") from None
+
+
+def _prior(changes):
+    for name, pair in (changes or {}).items():
+        if name not in priors.NAMES:
+            raise InputError(f"prior: '{shown(name)}': unknown; allowed: {', '.join(priors.NAMES)}")
+        if not isinstance(pair, (tuple, list)) or len(pair) != 2:
+            raise InputError(f"prior: {name}: '{shown(pair)}': not a median and a factor; allowed: two numbers, such as (0.01, 20)")
+        _positive(f"prior: median of {name}", pair[0])
+        _positive(f"prior: factor of {name}", pair[1], 1.0)
+    return priors.Prior(changes)
+
+
+def _read(events, kind, medium, errors):
+    """Returns dicts of the events that can be used, and (name, reason) of each of the others."""
+    items = events if isinstance(events, (list, tuple)) else [_shipped if events is None else events]
+    found, left_out = [], []
+    for i, item in enumerate(items):
+        text, name, is_path = _source(item, f"events[{i}]" if len(items) > 1 else "events")
+        if is_path:
+            text = _slipfront.read_text(name)
+        quantities, studies = rows.further(text, name) if name.endswith(".csv") or "\n" in text else ({}, {})
+        for row in _slipfront.observations([(text, name, False)], medium):
+            if kind is not None and row["kind"] != kind:
+                continue
+            row["citation"] = studies.get(row["line"], row["citation"])
+            read = rows.read_row(row, quantities.get(row["line"], {}), errors)
+            if isinstance(read, str):
+                left_out.append((row["name"], read))
+            else:
+                found.append(read)
+    if len(found) < LEAST_EVENTS:
+        reasons = f"; left out: '{left_out[0][0]}': {left_out[0][1]}" if left_out else ""
+        raise InputError(f"events: {len(found)} can be used{f' of the kind {shown(kind)}' if kind is not None else ''}; allowed: {LEAST_EVENTS} or more{reasons}")
+    return found, left_out
+
+
+def _event_variables(likelihood, values, seed):
+    """Returns quantiles of the states of single events: within their population, and each as if it were the only one."""
+    from ._population import single
+
+    generator = np.random.default_rng([seed, 1])
+    chosen = values[generator.integers(len(values), size=EVENT_DRAWS)]
+    together = np.array([single.draw(likelihood, row, generator) for row in chosen])
+    alone = np.array([single.draw(likelihood, likelihood.prior.broad(), generator) for _ in range(EVENT_DRAWS)])
+    variables = {}
+    for i, (name, long_name, units) in enumerate(STATES):
+        for prefix, draws, meaning in (("event_", together, "within the population"), ("single_", alone, "from this event only")):
+            variables[prefix + name] = (("event", "quantile"), np.exp(np.quantile(draws[:, i], QUANTILES, axis=0)).T, {"long_name": f"{long_name}, {meaning}", "units": units})
+        variables["event_draw_" + name] = (("event", "event_draw"), np.exp(together[:, i]).T, {"long_name": f"{long_name}, draws within the population", "units": units})
+    variables["event_study_offset"] = (("event", "quantile"), np.quantile(together[:, 4], QUANTILES, axis=0).T,
+                                       {"long_name": "offset of the event's study in ln(slip) or ln(moment)", "units": "1"})
+    return variables
+
+
+def _result(likelihood, draws, left_out, studies, seed, attributes):
+    values = draws.values
+    variables = {parameter.name: ("draw", values[:, i], {"long_name": parameter.long_name, "units": parameter.units,
+                                                         "prior_median": likelihood.prior.medians[i], "prior_factor": likelihood.prior.factors[i]})
+                 for i, parameter in enumerate(priors.PARAMETERS)}
+    variables |= _event_variables(likelihood, values, seed)
+    variables["name"] = ("event", np.array(likelihood.events.name, dtype=object), {"long_name": "name of the event"})
+    variables["study"] = ("event", np.array(studies, dtype=object), {"long_name": "study that published the event"})
+    variables["left_out"] = ("left_out_event", np.array([f"{name}: {reason}" for name, reason in left_out], dtype=object), {"long_name": "event that was not used, and why"})
+    return dataset(variables, {"quantile": ("quantile", list(QUANTILES), {"long_name": "share of the values below", "units": "1"})},
+                   {"effective_draws": draws.effective, "rhat": draws.rhat, "acceptance": draws.acceptance, "seed": seed, "closure": "consistent", **attributes})
+
+
+def population(events=None, *, kind=None, prior=None, hardness="10 GPa", smallest_slip=None, smallest_moment=None, velocity_error=1.2, size_error=1.5,
+               p_wave_speed=None, poisson_ratio=None, shear_modulus=None, steps=400, seed=1, output=None, progress=None):
+    """Infers what the events of a catalogue have in common: stress, effective normal stress and friction, and how much they scatter.
+
+    This is a hierarchical model (docs/population.md). Stress, normal stress and friction over spacing are lognormal between events. Each
+    event has a rupture velocity (or a length), a slip (or a moment and a width) and a duration. All sizes that one study published share
+    an unknown factor.
+
+    Parameters
+    ----------
+    events : path, text, dict, DataFrame or list of these, optional
+        Events as in `event`. A CSV may have further columns: study (else citation), length, width, moment_N_m and Mw. The default is the
+        catalogue that comes with slipfront.
+    kind : str, optional
+        Use only events whose column `kind` is this text, such as "earthquake".
+    prior : dict, optional
+        {parameter: (median, factor)} in place of the defaults. The prior of each parameter is lognormal, and `factor` is one standard
+        deviation.
+    hardness : str or float, optional
+        Penetration hardness, such as "10 GPa". The effective normal stress is the contact ratio times this number.
+    smallest_slip, smallest_moment : str or float, optional
+        Detection limit of the catalogue, in m or N m: it lacks all events below. Every event must report that size.
+    velocity_error, size_error : float, optional
+        Factors that one standard deviation is for rupture velocities, slips and moments without a stated error; above 1.
+    p_wave_speed, poisson_ratio, shear_modulus : str or float, optional
+        Elastic constants for events that give none, as in `event`.
+    steps : int, optional
+        Number of steps of each of the 40 walkers.
+    seed : int, optional
+        Seed of the draws, >= 0.
+    output : path, optional
+        NetCDF file to write.
+    progress : callable, optional
+        Called with (steps done, all steps).
+
+    Returns
+    -------
+    xarray.Dataset with posterior draws of each parameter over `draw`: stress_median, stress_spread, normal_stress_median,
+    normal_stress_spread, friction_median, friction_spread and study_spread. For each event, `event_<quantity>` has quantiles within the
+    population, `single_<quantity>` those from this event only, and `event_draw_<quantity>` draws. `left_out` names the events that cannot be
+    used, with the reason. The attributes `rhat` and `effective_draws` describe the convergence; rhat should be below 1.05.
+
+    Raises
+    ------
+    InputError if fewer than three events can be used or a parameter is out of range; NumericsError if no parameters agree with the events.
+
+    Examples
+    --------
+    >>> rows = "name,rupture_velocity_km_s,slip_m,duration_s\\n" + "".join(f"{i},{2 + i / 10},{i},{3 * i}\\n" for i in range(1, 6))
+    >>> people = slipfront.population(rows, steps=20)
+    >>> bool(0.3 < people.stress_median.median() < 3), people.sizes["event"]
+    (True, 5)
+    """
+    from ._population import sample
+    from ._population.likelihood import Likelihood
+
+    for name, value in (("steps", steps), ("seed", seed)):
+        if isinstance(value, bool) or not isinstance(value, int) or not (20 if name == "steps" else 0) <= value < 2**31:
+            raise InputError(f"{name} = '{shown(value)}': out of range; allowed: a whole number from {20 if name == 'steps' else 0}")
+    import_optional("emcee")
+    errors = {"velocity": math.log(_positive("velocity_error", velocity_error, 1.0)), "size": math.log(_positive("size_error", size_error, 1.0))}
+    limits = {}
+    if smallest_slip is not None:
+        limits[forward.SLIP] = _measure("smallest_slip", smallest_slip, "length", "m")
+    if smallest_moment is not None:
+        limits[forward.MOMENT] = _measure("smallest_moment", smallest_moment, "ratio", "")
+    if len(limits) > 1:
+        raise InputError("smallest_slip and smallest_moment: both are given; allowed: one of them")
+    chosen = _prior(prior)
+    log_hardness = _measure("hardness", hardness, "pressure", "Pa")
+    found, left_out = _read(events, kind, [_default(p_wave_speed), _default(poisson_ratio), _default(shear_modulus)], errors)
+    began = time.monotonic()
+    likelihood = Likelihood(rows.arrays(found, limits), log_hardness, chosen)
+    draws = sample.sample(likelihood, steps, seed, progress)
+    data = _result(likelihood, draws, left_out, [entry["study"] for entry in found], seed,
+                   {"hardness_Pa": math.exp(log_hardness), "wall_seconds": time.monotonic() - began})
+    if output is not None:
+        write_dataset(data, path("output", output))
+    return data

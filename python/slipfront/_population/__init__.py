@@ -1,0 +1,1 @@
+"""A hierarchical model of many events: the parts of slipfront.population."""

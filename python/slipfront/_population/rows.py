@@ -1,0 +1,106 @@
+"""Reads the events of a catalogue for a hierarchical model."""
+
+import csv
+import io
+
+from .. import _slipfront
+from .._numbers import np
+from .._slipfront import InputError
+from . import forward
+from .events import Events, log_size
+
+#: Columns that only a hierarchical model reads: titles, quantity, dimension, and the unit of a plain number.
+COLUMNS = {"width": ("width", "length", ""), "width_km": ("width", "length", "km"), "width_m": ("width", "length", "m"),
+           "length": ("length", "length", ""), "length_km": ("length", "length", "km"), "length_m": ("length", "length", "m"),
+           "moment_N_m": ("moment", "ratio", ""), "Mw": ("Mw", "ratio", "")}
+NOTHING = (float("nan"), float("nan"))
+
+
+def further(text, name):
+    """Returns {line: {quantity: (median of ln, deviation of ln)}} of the columns above, and {line: study}. Raises InputError."""
+    quantities: dict[int, dict[str, tuple[float, float]]] = {}
+    studies: dict[int, str] = {}
+    reader = csv.reader(io.StringIO(text, newline=""))
+    titles: list[str] = next(reader, [])
+    begin = reader.line_num
+    for cells in reader:
+        line, begin = begin + 1, reader.line_num
+        for title, cell in zip(titles, cells):
+            if title.strip() == "study" and cell.strip():
+                studies[line] = cell.strip()
+            if title.strip() in COLUMNS and cell.strip():
+                quantity, dimension, unit = COLUMNS[title.strip()]
+                try:
+                    quantities.setdefault(line, {})[quantity] = _slipfront.measured(cell, dimension, unit)
+                except InputError as error:
+                    raise InputError(f"{name}:{line}: {title.strip()}: {error}") from None
+    return quantities, studies
+
+
+def moment_of(quantities):
+    """Returns ln of the moment in N m and its deviation."""
+    if "moment" in quantities:
+        return quantities["moment"]
+    if "Mw" in quantities:
+        median, deviation = quantities["Mw"]
+        magnitude = np.exp(median)
+        return np.log(10) * (1.5 * magnitude + 9.05), np.log(10) * 1.5 * deviation * magnitude
+    return NOTHING
+
+
+def _duration(row):
+    return row["duration"] if np.isfinite(row["duration"][0]) else row["rise_time"]
+
+
+def _front(row, quantities):
+    """Returns ln(V) in m/s, its deviation, and that of the duration in it."""
+    if np.isfinite(row["rupture_velocity"][0]):
+        return (*row["rupture_velocity"], 0.0)
+    length, duration = quantities.get("length", NOTHING), row["duration"]
+    return length[0] - duration[0], np.hypot(length[1], duration[1]), duration[1]
+
+
+def read_row(row, quantities, errors):
+    """Returns the values of one event as a dict, or the reason for which it has none. `errors` are the deviations for exact numbers."""
+    if row["error"]:
+        return row["error"]
+    duration = _duration(row)
+    if not np.isfinite(duration[0]):
+        return "no duration or rise time"
+    front, front_error, in_front = _front(row, quantities)
+    if not np.isfinite(front):
+        return "no rupture velocity, and no length with a duration"
+    log_front = front - np.log(row["speed"])
+    if log_front >= 0:
+        return "the rupture velocity is above c"
+    moment, width = moment_of(quantities), quantities.get("width", NOTHING)
+    if np.isfinite(moment[0] + width[0]):
+        potency = moment[0] - width[0] - np.log(row["shear_modulus"])
+        size = log_size(forward.MOMENT, speed=row["speed"], log_duration=duration[0], log_potency=potency)
+        own, kind, powers = np.hypot(moment[1], width[1]), forward.MOMENT, 2
+    elif np.isfinite(row["slip"][0]):
+        time = row["rise_time"] if np.isfinite(row["rise_time"][0]) else duration
+        size = log_size(forward.SLIP, speed=row["speed"], log_duration=duration[0], log_slip=row["slip"][0], log_slip_time=time[0])
+        own, kind, powers = row["slip"][1], forward.SLIP, 1
+    else:
+        return "no slip, and no moment with a width"
+    return {"name": row["name"], "study": row["citation"] or f"line {row['line']}", "speed": row["speed"], "log_duration": duration[0], "log_front": log_front,
+            "front_error": front_error or errors["velocity"], "threshold": row["front_threshold"] if row["rupture_velocity_is"] == "front" else 0.0, "kind": kind,
+            "log_size": size, "size_error": np.hypot(own or errors["size"], powers * duration[1]), "shared": powers * in_front**2,
+            "unit": size - (moment[0] if kind == forward.MOMENT else row["slip"][0])}
+
+
+def arrays(found, smallest):
+    """Returns Events of dicts of read_row. `smallest` is {kind: ln of the detection limit of slip or moment in SI units}. Raises InputError."""
+    kinds = {entry["kind"] for entry in found}
+    if smallest and kinds != set(smallest):
+        names = {forward.SLIP: "slip", forward.MOMENT: "moment"}
+        wrong = next(entry["name"] for entry in found if entry["kind"] not in smallest)
+        raise InputError(f"smallest_{names[next(iter(smallest))]}: '{wrong}' has no such size; allowed: a limit for catalogues in which each event has it")
+    columns = {key: np.array([entry[key] for entry in found]) for key in found[0] if key not in ("name", "study", "unit")}
+    limits = np.array([smallest[entry["kind"]] + entry["unit"] if smallest else -np.inf for entry in found])
+    below = np.flatnonzero(columns["log_size"] < limits)
+    if len(below):
+        raise InputError(f"'{found[below[0]]['name']}' is below the detection limit; allowed: a limit that each event of the catalogue reaches")
+    studies = np.unique([entry["study"] for entry in found], return_inverse=True)[1]
+    return Events(name=[entry["name"] for entry in found], study=studies, smallest=limits, **columns)

@@ -1,0 +1,55 @@
+"""Draws states of single events, given draws of the parameters of their population."""
+
+from .._numbers import np
+from . import likelihood as of
+
+
+def _offsets(likelihood, values, generator):
+    """Returns the offset of the study of each event: for studies with several events a draw, for others NaN."""
+    offsets = np.full(len(likelihood.events), np.nan)
+    if len(likelihood.several):
+        exponent = likelihood.by_study(values) - 0.5 * of.FINE**2
+        drawn = of.FINE[(exponent + generator.gumbel(size=exponent.shape)).argmax(axis=1)]
+        drawn = drawn + (of.FINE[1] - of.FINE[0]) * (generator.random(len(drawn)) - 0.5)
+        offsets[likelihood.several] = values[-1] * drawn[likelihood.studies]
+    return offsets
+
+
+def _stress(nodes, chosen, generator):
+    """Returns ln(Sigma-) from the part of its range that the chosen node stands for. `nodes` has a row for each event."""
+    edges = np.concatenate([nodes[:, :1], (nodes[:, 1:] + nodes[:, :-1]) / 2, nodes[:, -1:]], axis=1).astype(float)
+    events = np.arange(len(chosen))
+    return edges[events, chosen] + np.diff(edges, axis=1)[events, chosen] * generator.random(len(chosen))
+
+
+def draw(likelihood, values, generator):
+    """Returns ln(Sigma-), ln(A), ln(C / b), ln(Gamma) and the offset of the study of each event, for one set of parameters.
+
+    The nodes of the likelihood are draws of the states of single events. Their weights are those of the population."""
+    if likelihood.selection:
+        likelihood.selection.prepare(values, likelihood.log_hardness)
+    _, _, normal, normal_spread, friction, friction_spread, study_spread = values
+    offsets = _offsets(likelihood, values, generator)
+    alone = np.isnan(offsets)
+    weight, rest, deviation, part = likelihood.terms(values)
+    known = np.where(alone, 0, offsets)
+    width = np.where(alone, np.hypot(deviation, study_spread), deviation)
+    exponent = weight - 0.5 * ((rest - known[:, None, None]) / width[:, None, None]) ** 2
+    events = np.arange(len(exponent))
+    flat = exponent.reshape(len(exponent), -1)
+    place = (flat + generator.gumbel(size=flat.shape)).argmax(axis=1)
+    rest = rest.reshape(flat.shape)[events, place]
+    log_stress = _stress(likelihood.log_stress[:, part][events, place // of.STRESS_NODES], place % of.STRESS_NODES, generator)
+    normals = generator.standard_normal((2, len(events)))
+    share = study_spread**2 / (study_spread**2 + deviation**2)
+    offsets = np.where(alone, share * rest + study_spread * np.sqrt(1 - share) * normals[0], offsets)
+    variance = normal_spread**2 + friction_spread**2
+    every = part.step * of.STEP
+    kappa = of.KAPPA[part][place // of.STRESS_NODES]
+    scatter = (normal_spread * friction_spread) ** 2 / variance
+    gain = scatter / (scatter + likelihood.error**2)
+    contact = np.log(normal) - likelihood.log_hardness
+    log_contact = contact + normal_spread**2 / variance * (kappa - contact - np.log(friction)) + gain * (rest - offsets) + np.sqrt(scatter * (1 - gain)) * normals[1]
+    kappa = kappa + every * (generator.random(len(events)) - 0.5)
+    log_damping = kappa + np.log(likelihood.events.speed) + likelihood.events.log_duration
+    return log_stress, log_contact, kappa - log_contact, log_damping, offsets

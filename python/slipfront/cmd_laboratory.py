@@ -1,0 +1,150 @@
+"""The command slipfront laboratory, which computes the hardness over modulus from fronts in the laboratory."""
+
+import argparse
+import json
+import sys
+
+from ._arguments import Arguments, file_name, put
+from ._messages import DONE, INPUT, complain
+
+#: Titles of the table for the terminal, the variable in units of the model, and in SI units.
+COLUMNS = (("tau / sigma_N", "stress_ratio"), ("V", "front_velocity"), ("predicted", "predicted_front_velocity"), ("deviation", "deviation"))
+
+
+def whole(text):
+    """Returns a whole number of an option."""
+    if not text.isascii() or not text.isdigit():
+        raise argparse.ArgumentTypeError(f"'{text}' is no whole number; allowed: digits only, such as 1000")
+    return int(text)
+
+
+def interval(text):
+    """Returns two numbers of an option LOW:HIGH."""
+    low, colon, high = text.partition(":")
+    try:
+        return float(low), float(high if colon else "none")
+    except ValueError:
+        raise ValueError(f"'{text}': not a range; allowed: LOW:HIGH, such as 0.01:1") from None
+
+
+def arguments(argv):
+    """Returns the options of the command line."""
+    parser = Arguments("laboratory", "Computes the penetration hardness over the shear modulus from the velocities of fronts, as slipfront.laboratory does in Python. TABLE has "
+                       "the columns tau, normal_stress, front_velocity and, if known, stress_drop and name, with units in the titles or cells. A row that cannot be read is "
+                       "named and left out, and the exit code is 2.",
+                       ["slipfront laboratory cases/synthetic-laboratory-fronts.csv --poisson-ratio 0.35 --s-wave-speed \"1300 m/s\" -o fronts.nc",
+                        "slipfront laboratory cases/synthetic-laboratory-fronts.csv --poisson-ratio 0.35 --shear-modulus \"2 GPa\" --density \"1180 kg/m3\" --json"])
+    parser.add_argument("table", metavar="TABLE", help="table of fronts, CSV")
+    parser.add_argument("-o", "--output", metavar="OUT.nc", type=file_name, help="NetCDF file to write; slipfront plot draws it")
+    for name, example in (("--poisson-ratio", "0.35"), ("--shear-modulus", "2 GPa"), ("--density", "1180 kg/m3"), ("--p-wave-speed", "2700 m/s"), ("--s-wave-speed", "1300 m/s")):
+        parser.add_argument(name, metavar="VALUE", help=f"constant of the material, such as \"{example}\"")
+    parser.add_argument("--prior", metavar="LOW:HIGH", default="0.001:10", help="range of the hardness over modulus, uniform in its logarithm (default: 0.001:10)")
+    parser.add_argument("--scatter-prior", metavar="LOW:HIGH", default="0.001:1", help="range of the scatter from front to front, uniform in its logarithm (default: 0.001:1)")
+    parser.add_argument("--draws", metavar="N", type=whole, default=1000, help="draws from the posterior in the file (default: 1000)")
+    parser.add_argument("--seed", metavar="N", type=whole, default=1, help="seed of the draws (default: 1)")
+    parser.add_argument("--strict", action="store_true", help="refuse the table if a row cannot be read")
+    parser.add_argument("--si", action="store_true", help="velocities in m/s and the hardness in Pa")
+    options = parser.parse_args(argv)
+    if options.output is not None and not options.output.endswith(".nc"):
+        raise ValueError(f"-o {options.output}: unsupported file type; allowed: a name that ends in .nc")
+    for option in ("prior", "scatter_prior"):
+        try:
+            setattr(options, option, interval(getattr(options, option)))
+        except ValueError as error:
+            raise ValueError(f"--{option.replace('_', '-')} {error}") from None
+    return options
+
+
+def known(value):
+    """Returns a value as JSON has it: None for NaN."""
+    if isinstance(value, list):
+        return [known(one) for one in value]
+    return None if value != value else value
+
+
+def lines(data, name):
+    """Returns the lines of an attribute of the Dataset."""
+    return [line for line in data.attrs[name].split("\n") if line]
+
+
+def velocity_scale(data, si):
+    return data.attrs["c_m_s"] if si else 1.0
+
+
+def as_json(data, file, si):
+    """Returns the results as a dict: the scalars, and a dict for each front."""
+    fronts: list[dict] = [{} for _ in range(data.sizes["front"])]
+    found = {"file": file, **{name: data.attrs[name] for name in ("c_m_s", "fronts_left_out")}}
+    for name, variable in data.data_vars.items():
+        values = variable.values * velocity_scale(data, si) if variable.attrs.get("dimensional_unit") == "c" else variable.values
+        if not set(variable.dims) - {"bound"}:
+            found[name] = known(values.tolist())
+        elif variable.dims[0] == "front":
+            for front, value in zip(fronts, values.tolist()):
+                front[name] = known(value)
+    return {**found, "warnings": lines(data, "warnings"), "velocity_unit": "m/s" if si else "c", "fronts": fronts, "errors": lines(data, "errors"),
+            "ignored_columns": [title for title in data.attrs["ignored_columns"].split(", ") if title]}
+
+
+def with_interval(data, name, scale=1.0):
+    low, high = scale * data[f"{name}_interval"].values
+    return f"{scale * float(data[name]):.4g} ({low:.4g} to {high:.4g})"
+
+
+def summary(data, si):
+    """Yields the lines of the result."""
+    yield f"hardness over modulus  {with_interval(data, 'hardness_over_modulus')}"
+    if "hardness" in data:
+        yield f"hardness               {with_interval(data, 'hardness', 1 if si else 1e-9)} {'Pa' if si else 'GPa'}"
+    if "hardness_over_modulus_from_velocity" in data:
+        yield f"  without stress drop  {with_interval(data, 'hardness_over_modulus_from_velocity')}"
+    yield f"scatter of ln(h)       {with_interval(data, 'scatter')}"
+    yield f"fronts used            {int(data['included'].sum())} of {data.sizes['front']}, c = {data.attrs['c_m_s']:.4g} m/s"
+
+
+def rows(data, si):
+    """Yields the lines of the table of fronts, below the title and the units."""
+    unit = "m/s" if si else "c"
+    cells = [["front", "", *data["name"].values]]
+    for title, name in COLUMNS:
+        is_velocity = data[name].attrs.get("dimensional_unit") == "c"
+        values = data[name].values * (velocity_scale(data, si) if is_velocity else 1)
+        cells.append([title, unit if is_velocity else "", *("-" if value != value else f"{value:.3g}" for value in values)])
+    widths = [max(map(len, column)) for column in cells]
+    for first, *others in zip(*cells):
+        yield "  ".join([first.ljust(widths[0]), *(cell.rjust(width) for cell, width in zip(others, widths[1:]))]).rstrip()
+
+
+def report(data, options):
+    """Prints the results in the form that the options choose."""
+    if options.json:
+        print(json.dumps(as_json(data, options.output, options.si)))
+        return
+    put("\n".join([*rows(data, options.si), "", *summary(data, options.si)]))
+    if options.quiet:
+        return
+    for name, reason in zip(data["name"].values, data["reason"].values):
+        if reason:
+            put(f"left out: {name}: {reason}")
+    for warning in lines(data, "warnings"):
+        put(f"note: {warning}")
+    if data.attrs["ignored_columns"]:
+        put(f"ignored columns: {data.attrs['ignored_columns']}")
+    if options.output:
+        put(f"written to {options.output}")
+
+
+def main(argv) -> int:
+    """Runs the command and returns the exit code. Raises ValueError for bad input, OSError for files."""
+    options = arguments(argv)
+    from . import laboratory
+
+    data = laboratory(options.table, poisson_ratio=options.poisson_ratio, shear_modulus=options.shear_modulus, density=options.density, p_wave_speed=options.p_wave_speed,
+                      s_wave_speed=options.s_wave_speed, prior=options.prior, scatter_prior=options.scatter_prior, draws=options.draws, seed=options.seed,
+                      strict=options.strict, output=options.output)
+    report(data, options)
+    sys.stdout.flush()
+    errors = lines(data, "errors")
+    for line in errors:
+        complain(line)
+    return INPUT if errors else DONE

@@ -1,0 +1,107 @@
+#include "slipfront/friction_ratio/front.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "foundation/text/digits.hpp"
+#include "friction_ratio/front_coefficients.hpp"
+#include "friction_ratio/front_layout.hpp"
+#include "slipfront/error.hpp"
+
+namespace slipfront::friction_ratio {
+namespace {
+
+[[noreturn]] void refuse(const char* key, double value, const char* allowed) {
+  throw InputError({.key = key, .value = digits(value), .problem = "out of range", .allowed = allowed});
+}
+
+std::size_t index_of(friction::Closure closure) { return closure == friction::Closure::paper ? 1 : 0; }
+
+/// ln(1 + Gamma) at the ends of the pieces.
+const std::array<double, front_layout::pieces + 1> ends = [] {
+  std::array<double, front_layout::pieces + 1> u{};
+  for (std::size_t i = 0; i < u.size(); ++i) u[i] = std::log1p(front_layout::ends[i]);
+  return u;
+}();
+
+/// A sum of polynomials in y and u, and its derivatives with respect to Sigma- and Gamma.
+template <std::size_t n_y, class Number>
+Ratio sum_of(const Number* pieces, double stress, double damping) {
+  constexpr std::size_t n_u = front_layout::u_nodes;
+  if (!(stress >= layout::least_stress && stress <= layout::most_stress)) refuse("stress", stress, "0.05 ... 3");
+  if (!(damping >= 0) || std::isinf(damping)) refuse("damping_number", damping, ">= 0, finite");
+  const layout::Range y_range = layout::of_stress();
+  const double u = std::log1p(std::fmin(damping, layout::most_damping));
+  std::size_t piece = 0;
+  while (piece + 1 < front_layout::pieces && u >= ends[piece + 1]) ++piece;
+  const layout::Range u_range{ends[piece], ends[piece + 1]};
+  const auto in_u = layout::chebyshev<n_u>(u_range.to_unit(u));
+  const auto in_y = layout::chebyshev<n_y>(y_range.to_unit(layout::y_of(stress)));
+  const Number* a = pieces + piece * n_y * n_u;
+  double value = 0, by_u = 0, by_y = 0;
+  for (std::size_t i = 0; i < n_y; ++i) {
+    double along = 0, slope = 0;
+    for (std::size_t j = 0; j < n_u; ++j) {
+      const double coefficient = static_cast<double>(a[i * n_u + j]);
+      along += coefficient * in_u.value[j];
+      slope += coefficient * in_u.slope[j];
+    }
+    value += in_y.value[i] * along;
+    by_u += in_y.value[i] * slope;
+    by_y += in_y.slope[i] * along;
+  }
+  return {value, by_u * u_range.unit_slope() / (1 + damping), by_y * y_range.unit_slope() * layout::y_slope(stress)};
+}
+
+}  // namespace
+
+FrontCurve::FrontCurve(friction::Closure closure, double threshold)
+    : coefficients_(front_layout::pieces * front_layout::front_y_nodes * front_layout::u_nodes) {
+  if (!(threshold >= front_layout::least_threshold && threshold <= front_layout::most_threshold))
+    refuse("threshold", threshold, "1e-4 ... 0.3");
+  const auto weights =
+      layout::chebyshev<front_layout::threshold_nodes>(front_layout::of_threshold().to_unit(std::log(threshold)));
+  const auto& table = front_coefficients[index_of(closure)];
+  for (std::size_t k = 0; k < table.size(); ++k) {
+    auto sum = coefficients_.begin();
+    for (const auto& piece : table[k])
+      for (const auto& row : piece)
+        for (const front_layout::Integer coefficient : row)
+          *sum++ += weights.value[k] * front_layout::unit * coefficient;
+  }
+}
+
+Ratio FrontCurve::operator()(double stress, double damping) const {
+  const Ratio g = sum_of<front_layout::front_y_nodes>(coefficients_.data(), stress, damping);
+  const double sum = std::exp(g.value), r = std::exp(front_layout::blunt - sum), by_g = -r * sum;
+  if (r >= 1) return {1, 0, 0};  // by the error of the table
+  if (damping <= layout::most_damping) return {r, by_g * g.by_damping, by_g * g.by_stress};
+  const double fall = std::sqrt(layout::most_damping / damping);
+  return {r * fall, -r * fall / (2 * damping), by_g * g.by_stress * fall};
+}
+
+Ratio front_ratio(friction::Closure closure, double stress, double damping, double threshold) {
+  return FrontCurve(closure, threshold)(stress, damping);
+}
+
+double front_uncertainty(friction::Closure closure, double damping) {
+  if (closure == friction::Closure::consistent) return 1e-3;
+  return uncertainty(closure, damping) > 1e-3 ? 3e-2 : 5e-3;
+}
+
+ThresholdRange threshold_range() { return {front_layout::least_threshold, front_layout::most_threshold}; }
+
+Ratio stress_drop_share(Drop drop, friction::Closure closure, double stress, double damping) {
+  const auto& pieces = drop_coefficients[index_of(closure)][static_cast<std::size_t>(drop)];
+  const Ratio sum = sum_of<front_layout::drop_y_nodes>(pieces[0][0].data(), stress, damping);
+  const double share = std::exp(front_layout::unit * sum.value), by_sum = share * front_layout::unit;
+  return {share, damping > layout::most_damping ? 0 : by_sum * sum.by_damping, by_sum * sum.by_stress};
+}
+
+double stress_drop_uncertainty(friction::Closure closure, double damping) {
+  return uncertainty(closure, damping) > 1e-3 ? 1e-2 : 1e-3;
+}
+
+}  // namespace slipfront::friction_ratio

@@ -1,0 +1,158 @@
+/// \file
+/// The cells from which the samples of an event are drawn.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "inference/sampler.hpp"
+#include "slipfront/error.hpp"
+
+namespace slipfront::inference {
+
+using catalogue::Measured;
+
+namespace {
+
+constexpr std::size_t first_cells = 16, refined_cells = 28;
+/// Length in ln V of a range above which the cells of V are moved to where the likelihood of the others is.
+constexpr double wide_range = 4;
+/// Part of the samples that is drawn without regard to the other observations, so that no weight becomes large.
+constexpr double defence = 0.1;
+
+const double least_ln_A = std::log(least_contact_ratio);
+
+double likelihood(const Measured& m, double ln_x) { return m.is_exact() ? 1 : m.likelihood_of_log(ln_x); }
+
+/// The first cells over the share of the largest damping number. They are narrow near 1, where |V-| tends to c and the
+/// slip velocity rises steeply.
+Axis damping_axis() {
+  Axis axis;
+  for (std::size_t i = 0; i <= first_cells; ++i) {
+    const double s = static_cast<double>(i) / first_cells;
+    axis.edges.push_back(s * (2 - s));
+  }
+  return axis;
+}
+
+/// Largest change of ln W from a cell to its neighbours.
+double change_of_W(const std::vector<PulseState>& pulses, std::size_t j) {
+  double change = 0;
+  if (j > 0) change = std::fabs(std::log(pulses[j].W / pulses[j - 1].W));
+  if (j + 1 < pulses.size()) change = std::fmax(change, std::fabs(std::log(pulses[j + 1].W / pulses[j].W)));
+  return change;
+}
+
+/// A wide density around a measured value: the fourth root of its likelihood, which has twice its standard deviation.
+std::vector<double> wide(const Axis& axis, const Measured& m) {
+  std::vector<double> base;
+  for (std::size_t i = 0; i < axis.cells(); ++i) base.push_back(std::sqrt(std::sqrt(likelihood(m, axis.centre(i)))));
+  return base;
+}
+
+}  // namespace
+
+/// The likelihoods of the observations at one pulse, as functions of the first of them.
+class Sampler::AlongThird {
+ public:
+  AlongThird(const Sampler& sampler, const PulseState& pulse, double u, double resolution)
+      : sampler_(sampler), resolution_(resolution) {
+    for (const Evidence& e : sampler.used_) offsets_.push_back(e.offset(pulse, u, sampler.middle_));
+  }
+  /// Product of the likelihoods, but that of the first observation itself.
+  double operator()(double ln_x) const {
+    const std::vector<Evidence>& used = sampler_.used_;
+    if (used.empty()) return 1;
+    const double ln_A = used[0].contact(ln_x, offsets_[0]);
+    if (!(ln_A >= least_ln_A && ln_A <= sampler_.most_ln_A_)) return 0;
+    double product = 1;
+    for (std::size_t i = 1; i < used.size(); ++i)
+      if (!used[i].measured.is_exact() || used[i].blur > 0)
+        product *= used[i].blurred_likelihood(used[i].predicted(ln_A, offsets_[i]), resolution_);
+    return product;
+  }
+
+ private:
+  const Sampler& sampler_;
+  double resolution_;
+  std::vector<double> offsets_;
+};
+
+/// One row of cells: those of one observed velocity.
+void Sampler::fill_row(Filled& filled, std::size_t i, const std::vector<double>& of_third) const {
+  Cells& cells = filled.cells;
+  const Axis &first = cells.axis(0), &second = cells.axis(1), &third = cells.axis(2);
+  const double of_first = likelihood(velocity_ ? *velocity_ : used_[0].measured, first.centre(i));
+  if (!velocity_ || solves_damping_) {
+    for (std::size_t k = 0; k < third.cells(); ++k)
+      filled.best = std::fmax(filled.best, cells.target(i, 0, k) = of_first * (velocity_ ? 1 : of_third[k]));
+    return;
+  }
+  const double seen = std::exp(first.centre(i)) / middle_.elastic.speed;
+  const double most_u = mode_ == Mode::friction ? model_.most_u(seen) : 0;
+  if (most_u < 0 || !(seen < 1)) {
+    filled.off_table = true;
+    return;
+  }
+  std::vector<PulseState> pulses;
+  for (std::size_t j = 0; j < second.cells(); ++j)
+    pulses.push_back(mode_ == Mode::friction ? model_.at(seen, most_u * second.centre(j))
+                                             : model_.without_friction(seen));
+  const double first_width = first.is_exact() ? 0 : 0.3 * first.width(i);
+  for (std::size_t j = 0; j < second.cells(); ++j) {
+    const double factor = mode_ == Mode::friction ? most_u * pulses[j].slope : 1;
+    const double resolution = std::hypot(first_width, 0.3 * change_of_W(pulses, j));
+    const AlongThird others(*this, pulses[j], most_u * second.centre(j), resolution);
+    for (std::size_t k = 0; k < third.cells(); ++k) {
+      const double fit = of_first * of_third[k] * others(third.centre(k));
+      cells.target(i, j, k) = factor * fit;
+      filled.best = std::fmax(filled.best, fit);
+    }
+  }
+}
+
+Sampler::Filled Sampler::filled(const Axis& first, const Axis& second, const Axis& third) const {
+  Filled filled{Cells(first, second, third), 0, false};
+  const std::size_t of_contact = velocity_ ? 0 : 1;
+  std::vector<double> of_third(third.cells(), 1.0);
+  if (used_.size() > of_contact)
+    for (std::size_t k = 0; k < third.cells(); ++k)
+      of_third[k] = likelihood(used_[of_contact].measured, third.centre(k));
+  for (std::size_t i = 0; i < first.cells(); ++i) fill_row(filled, i, of_third);
+  return filled;
+}
+
+void Sampler::make_cells() {
+  const double c = middle_.elastic.speed;
+  const bool tabled = mode_ == Mode::friction;
+  const Measured& of_first = velocity_ ? *velocity_ : used_[0].measured;
+  const double low = velocity_ ? (tabled ? model_.least_seen() : 1e-30) * c : 1e-30;
+  const double high = velocity_ ? (tabled ? model_.most_seen() : 1 - 1e-12) * c : 1e30;
+  Axis first = axis_of(of_first, low, high, Fineness::coarse);
+  const Measured* of_third = used_.size() > (velocity_ ? 0 : 1) ? &used_[velocity_ ? 0 : 1].measured : nullptr;
+  const Axis third = of_third ? axis_of(*of_third, 1e-60, 1e60, Fineness::fine) : Axis::exact(0);
+  most_ln_A_ = std::log(middle_.plastic);
+  if (first.edges.empty()) {
+    ++refused_[off_table];
+    least_misfit_ = std::numeric_limits<double>::infinity();
+    return;
+  }
+  const bool over_damping = mode_ == Mode::friction && !solves_damping_;
+  Filled now = filled(first, over_damping ? damping_axis() : Axis::exact(0), third);
+  if (over_damping && now.best > 0) {
+    for (int i = 0; i < 2 && of_first.is_range() && first.edges.back() - first.edges.front() > wide_range; ++i) {
+      first = now.cells.refined(0, first.cells());
+      now = filled(first, damping_axis(), third);
+    }
+    now = filled(first, now.cells.refined(1, refined_cells), third);
+  }
+  least_misfit_ = now.best > 0 ? -2 * std::log(now.best) : std::numeric_limits<double>::infinity();
+  if (!(now.best > 0)) {
+    ++refused_[now.off_table ? off_table : mode_ == Mode::bounds ? bad_contact : contradicted];
+    return;
+  }
+  now.cells.finish(defence, wide(first, of_first), of_third ? wide(third, *of_third) : std::vector<double>{1});
+  cells_ = std::move(now.cells);
+}
+
+}  // namespace slipfront::inference

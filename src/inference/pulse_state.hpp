@@ -1,0 +1,55 @@
+#pragma once
+/// \file
+/// The pulse that an observer sees: its state at a given velocity of the observed front and a given damping number.
+
+#include "slipfront/catalogue/observation.hpp"
+#include "slipfront/friction_ratio/front.hpp"
+#include "slipfront/rupture/relations.hpp"
+
+namespace slipfront::inference {
+
+/// A pulse at one damping number. Velocities are in units of c, stress in mu A / pi, slip velocity in c A / pi.
+struct PulseState {
+  double rupture_velocity;  ///< |V-|
+  double stress;            ///< Sigma-
+  double frictionless;      ///< W(0) without friction
+  double W;                 ///< the slip velocity that was observed, see Measure
+  double drop_share;        ///< the stress drop that was observed over Sigma-, see StressDropIs
+  double static_share;      ///< (Sigma- - Sigma(0)) / Sigma-
+  double slope;             ///< d ln |V-| / d ln(observed velocity) at constant damping number
+};
+
+/// W without friction. For every measure except the mean over the fault, it is W(0) of the closed form. The mean is a
+/// fraction of W(0), which the table has for 0.05 <= Sigma- <= 3. Outside this range we use the value at its end.
+double frictionless(catalogue::Measure measure, double stress, double W_at_origin);
+
+/// The relation between the observed quantities of a pulse and its state, for one event. Damping numbers are given as
+/// u = ln(1 + Gamma).
+class PulseModel {
+ public:
+  PulseModel(const catalogue::Observation& observation, friction::Closure closure);
+
+  /// The range of observed velocities, without friction, in which the table of friction has the stress.
+  double least_seen() const { return least_seen_; }
+  double most_seen() const { return most_seen_; }
+  /// Largest u, at most ln(1 + most_damping_number), at which a pulse with |V-| < c is seen at velocity `seen`. It is
+  /// negative if there is none.
+  double most_u(double seen) const;
+  /// The pulse that is seen at velocity `seen` (in c) under u <= most_u(seen).
+  PulseState at(double seen, double u) const;
+  /// The pulse that is seen at this velocity without friction. Its stress may lie outside the table.
+  PulseState without_friction(double seen) const;
+
+ private:
+  PulseState state(const rupture::Relations& relations, double slope, double damping) const;
+
+  catalogue::Measure measure_;
+  friction::Closure closure_;
+  bool sees_front_, static_drop_;
+  friction_ratio::FrontCurve front_;
+  /// The value of most_u if there is no pulse.
+  static constexpr double no_pulse = -1;
+  double least_psi_, most_psi_, least_seen_, most_seen_;
+};
+
+}  // namespace slipfront::inference

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include "slipfront/inference/posterior.hpp"
+
+namespace slipfront::inference {
+
+/// Leaves out each observation in turn and predicts it from the others. Returns those at 2 or more standard deviations,
+/// the largest first.
+std::vector<Tension> tensions(const catalogue::Observation& observation, const medium::Defaults& defaults,
+                              const Sampling& sampling);
+
+/// Least misfit, in standard deviations squared, at which we look for tensions.
+inline constexpr double suspicious_misfit = 4;
+/// Misfit above which the observations exclude each other.
+inline constexpr double hopeless_misfit = 25;
+
+}  // namespace slipfront::inference

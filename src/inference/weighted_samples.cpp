@@ -1,0 +1,107 @@
+#include "inference/weighted_samples.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "inference/pareto.hpp"
+#include "inference/weighted.hpp"
+
+namespace slipfront::inference {
+
+using catalogue::Measured;
+
+namespace {
+
+double normal_share_below(double z) { return std::erfc(-z / std::numbers::sqrt2) / 2; }
+
+/// Probability that an observation of the true value x is below the middle of the actual one.
+double share_below(const Measured& m, double x) {
+  switch (m.shape) {
+    case Measured::Shape::normal:
+      return normal_share_below((m.low - x) / m.spread);
+    case Measured::Shape::split:
+      return normal_share_below((m.low - x) / (x < m.low ? m.spread_below : m.spread));
+    case Measured::Shape::lognormal:
+      return normal_share_below(std::log(m.low / x) / std::log(m.spread));
+    case Measured::Shape::range:
+      break;
+  }
+  if (m.is_exact()) return std::fabs(x / m.low - 1) < 1e-9 ? 0.5 : x < m.low ? 1 : 0;
+  return std::clamp((m.high - x) / (m.high - m.low), 0.0, 1.0);
+}
+
+void weigh(WeightedSamples& s) {
+  double sum = 0, squares = 0;
+  std::vector<double> weights;
+  weights.reserve(s.accepted.size());
+  for (const Sample& sample : s.accepted) {
+    sum += sample.weight;
+    squares += sample.weight * sample.weight;
+    weights.push_back(sample.weight);
+  }
+  s.effective = s.accepted.empty() ? 0 : sum / squares * sum;
+  s.pareto_k = inference::pareto_k(std::move(weights));
+}
+
+}  // namespace
+
+bool WeightedSamples::tail_is_light() const { return pareto_k <= most_pareto_k(static_cast<double>(accepted.size())); }
+
+bool WeightedSamples::suffice_for(double FaultState::*quantity, double median) const {
+  if (are_even()) return true;
+  std::vector<double> terms;
+  for (const Sample& s : accepted) terms.push_back(s.weight * std::fabs(std::log(s.state.*quantity / median)));
+  return inference::pareto_k(std::move(terms)) <= most_pareto_k(static_cast<double>(accepted.size()));
+}
+
+std::optional<Quantiles> WeightedSamples::quantiles(double FaultState::*quantity) const {
+  if (accepted.empty() || std::isnan(accepted.front().state.*quantity)) return {};
+  std::vector<Weighted> values;
+  values.reserve(accepted.size());
+  for (const Sample& s : accepted) values.push_back({s.state.*quantity, s.weight});
+  std::sort(values.begin(), values.end(), [](const Weighted& a, const Weighted& b) { return a.value < b.value; });
+  return weighted_quantiles(values);
+}
+
+std::vector<FaultState> WeightedSamples::draws(std::size_t count) const {
+  double total = 0, below = 0;
+  for (const Sample& s : accepted) total += s.weight;
+  std::vector<FaultState> all;
+  for (const Sample& s : accepted) {
+    below += s.weight;
+    while (all.size() < count && (static_cast<double>(all.size()) + 0.5) * total <= below * static_cast<double>(count))
+      all.push_back(s.state);
+  }
+  while (all.size() < count) all.push_back(accepted.back().state);
+  return all;
+}
+
+double WeightedSamples::below(const Measured& measured, std::optional<std::size_t> i) const {
+  double sum = 0, share = 0;
+  for (const Sample& s : accepted) {
+    const double x = i ? std::exp(s.predicted[*i]) : s.state.rupture_velocity_m_s;
+    sum += s.weight;
+    share += s.weight * share_below(measured, x);
+  }
+  return share / sum;
+}
+
+WeightedSamples draw_samples(Sampler& sampler, std::size_t first, std::size_t most, double least_effective) {
+  WeightedSamples s;
+  s.drawn = first;
+  for (std::size_t begin = 0;; begin = s.drawn, s.drawn = std::min(2 * s.drawn, most)) {
+    sampler.grow(s.drawn);
+    for (std::size_t i = begin; i < s.drawn; ++i)
+      if (const Sample sample = sampler.draw(i); sample.weight > 0) s.accepted.push_back(sample);
+    weigh(s);
+    if (!sampler.is_uncertain()) return s;
+    // The number of effective samples grows with the number of samples. We allow a factor of 4 for events that the
+    // first few samples misjudge.
+    const double promised = 4 * s.effective * static_cast<double>(most) / static_cast<double>(s.drawn);
+    if (s.suffice(least_effective) || s.drawn >= most || (s.drawn >= 8 * first && promised < least_effective)) return s;
+  }
+}
+
+}  // namespace slipfront::inference

@@ -1,0 +1,16 @@
+#pragma once
+/// \file
+/// Writes a kinematic source and its static stress drop as grids, for those who model dynamic ruptures.
+
+#include <string>
+
+#include "finite_fault/source/source.hpp"
+
+namespace slipfront::record {
+
+/// Writes a NetCDF file completely or not at all. Its variables have the dimensions segment, down_dip and along_strike.
+/// Segments with fewer subfaults are padded with NaN. \throws FileError with path and reason.
+void write_fault_grid(const std::string& path, const finite_fault::FiniteSource& source, const std::string& version,
+                      const std::string& history);
+
+}  // namespace slipfront::record
