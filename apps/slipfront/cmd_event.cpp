@@ -88,9 +88,9 @@ Runner add_event(CLI::App& app) {
       "\n  slipfront event cases/parkfield-2004.toml cases/ets.toml"
       "\n  slipfront event cases/catalogue.csv --population");
   command
-      ->add_option(
-          "FILE", arguments->files,
-          "Events: .toml (one), .csv (a catalogue), SRCMOD or USGS .fsp, - for stdin; none: the shipped catalogue")
+      ->add_option("FILE", arguments->files,
+                   "Events: .toml (one), .csv (a catalogue), SRCMOD or USGS .fsp, USGS .json, - for stdin; none: the "
+                   "shipped catalogue")
       ->type_name("");
   command
       ->add_option("--columns", arguments->column_map,

@@ -38,7 +38,7 @@ std::string take_number(std::string_view& text, bool may_have_sign) {
   if (rest.empty() || !(is_digit(rest.front()) || rest.front() == '.')) return {};
   double value = 0;
   const char* end = std::from_chars(rest.data(), rest.data() + rest.size(), value).ptr;
-  const std::string number(text.substr(0, static_cast<std::size_t>(end - text.data())));
+  std::string number(text.substr(0, static_cast<std::size_t>(end - text.data())));
   text.remove_prefix(number.size());
   return number;
 }

@@ -59,7 +59,7 @@ class Bash(Completion):
         self.assertEqual(self.completions("--v"), {"--version"})
 
     def test_completes_options_of_the_command(self):
-        self.assertEqual(self.completions("event", "--c"), {"--closure", "--csv"})
+        self.assertEqual(self.completions("event", "--c"), {"--closure", "--columns", "--csv"})
         self.assertEqual(self.completions("pulse", "a.toml", "--tol"), {"--tolerance"})
         self.assertIn("-o", self.completions("chain", "-"))
 

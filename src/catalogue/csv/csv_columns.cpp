@@ -29,7 +29,8 @@ Column bare_error(const std::string& title, const Title& t, const std::vector<Co
       name = std::string(inside.key->name) + " " + t.small[0];
   const bool names_another = name.find(' ') != std::string::npos;
   if (!names_another && owner && owner->role == Role::unused) return {.role = Role::unused, .title = title};
-  if (name.empty() || (!names_another && owner->role == Role::provenance)) return physical(title);
+  const bool is_described = owner && owner->role == Role::provenance;
+  if (name.empty() || (!names_another && is_described)) return physical(title);
   try {
     Column column = parse_column(names_another ? name : name + " " + title);
     column.title = title;
