@@ -195,20 +195,23 @@ bool fill(Estimate& result, const FaultState& middle, const std::vector<Spread>&
 
 void add_warnings(Estimate& result, const Observation& o, double plastic, bool is_sampled) {
   auto& warnings = result.warnings;
+  const bool front = o.rupture_velocity_is == RuptureVelocityIs::front;
+  const bool knows_friction = o.friction_coefficient && o.asperity_spacing && o.damping_time();
   if (!o.rupture_velocity_m_s) {
     warnings.push_back(result.stress
                            ? "no rupture_velocity: stress is a lower bound, from the slip velocity without friction"
                            : "no rupture_velocity: stress is not identifiable");
   } else if (result.rupture_velocity && !result.contact_ratio) {
     warnings.push_back("no slip velocity and no contact_ratio: stress in Pa is not identifiable");
-  } else if (result.contact_ratio_bound &&
-             !(is_sampled && o.friction_coefficient && o.asperity_spacing && o.damping_time())) {
+  } else if (result.contact_ratio_bound && !(is_sampled && (front || knows_friction))) {
     warnings.push_back("contact_ratio and stress_pa have only lower bounds, the values without friction");
   }
+  if (front && o.rupture_velocity_m_s && !(is_sampled && (o.has_slip_velocity() || o.stress_drop)))
+    warnings.push_back("stress is a lower bound, because friction slows the observed front");
   if (result.contact_ratio && result.contact_ratio->value > plastic)
     warnings.push_back("contact_ratio " + digits(result.contact_ratio->value) + " exceeds plastic contact, " +
                        digits(plastic) + ": slip velocity too high for this rupture velocity");
-  if (result.slip_velocity_ratio && result.slip_velocity_ratio->value > 1)
+  if (!is_sampled && result.slip_velocity_ratio && result.slip_velocity_ratio->value > 1)
     warnings.push_back("slips faster than without friction: contact_ratio or the velocities are inaccurate");
 }
 

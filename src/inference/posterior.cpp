@@ -26,7 +26,7 @@ namespace {
        "stress in 0.05 ... 3 mu A / pi"},
       {"the slip velocity is above that without friction at this rupture velocity and contact ratio",
        "a lower slip_velocity or a larger contact_ratio"},
-      {"the slip velocity is below that at a damping number of 1e8",
+      {"the slip velocity is below that at every damping number up to 1e8",
        "a higher slip_velocity or a smaller contact_ratio"},
       {"no contact ratio between 1e-8 and plastic contact agrees with the observations",
        "a lower slip_velocity, or another friction"},

@@ -79,7 +79,7 @@ PulseState PulseModel::state(const rupture::Relations& r, double slope, double d
   return {.rupture_velocity = r.rupture_velocity,
           .stress = r.stress,
           .frictionless = r.slip_velocity,
-          .W = r.slip_velocity * friction_ratio::evaluate(measure_, closure_, stress, damping).value,
+          .W = r.slip_velocity * friction_ratio::evaluate_value(measure_, closure_, stress, damping),
           .drop_share = static_drop_ ? share : 1,
           .static_share = share,
           .slope = slope};

@@ -267,7 +267,7 @@ TEST(Posterior, RejectsContradictoryObservations) {
   };
   EXPECT_NE(complaint().find("above that without friction"), std::string::npos) << complaint();
   o.slip_velocity_m_s = exact(1e-12);
-  EXPECT_NE(complaint().find("below that at a damping number"), std::string::npos) << complaint();
+  EXPECT_NE(complaint().find("below that at every damping number"), std::string::npos) << complaint();
   o.rupture_velocity_m_s = exact(5420.9);
   EXPECT_NE(complaint().find("outside the table"), std::string::npos) << complaint();
 }
