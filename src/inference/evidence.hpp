@@ -11,7 +11,7 @@
 
 namespace slipfront::inference {
 
-/// What an observation is of.
+/// The quantity that an observation measures.
 enum class Source {
   slip,      ///< slip velocity, or slip over a time
   contact,   ///< contact ratio

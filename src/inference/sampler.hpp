@@ -33,7 +33,7 @@ struct Sample {
   std::array<double, 6> predicted{};
 };
 
-/// What the samples of an event are drawn over, besides the rupture velocity.
+/// The unknowns of the samples of an event, in addition to the rupture velocity.
 enum class Mode {
   nothing,   ///< the observations determine nothing
   friction,  ///< A and the damping number

@@ -77,8 +77,8 @@ struct Posterior : QuantileQuantities {
   std::uint64_t seed = 0;   ///< seed of the shift for this event
 };
 
-/// Whether an event is sampled unless the user says otherwise: it has an error, or an observation that depends on
-/// friction, such as the velocity of an observed front together with a slip velocity.
+/// Whether an event is sampled by default: it has an error, or observations that depend on friction, such as the
+/// velocity of an observed front and a slip velocity.
 bool needs_samples(const catalogue::Observation& observation);
 
 /// Computes the posterior by importance sampling at the points of a shifted Sobol sequence. The result does not depend
