@@ -172,7 +172,7 @@ TEST(Measured, HasALikelihoodThatFallsTowardsZeroForANormalError) {
 }
 
 TEST(Measured, HasAShareBelowThatInvertsItsQuantiles) {
-  for (const char* text : {"3 +- 0.5", "3 */ 1.4", "2..4"})
+  for (const char* text : {"3 +- 0.5", "3 */ 1.4", "2..4", "3 +0.5/-0.2"})
     for (const double p : {1e-6, 0.05, 0.5, 0.8, 0.99}) {
       const Measured m = read(text);
       EXPECT_NEAR(m.share_below(m.quantile(p)) / p, 1, 1e-9) << text << " " << p;

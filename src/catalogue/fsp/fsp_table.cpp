@@ -133,6 +133,7 @@ void SubfaultTables::keep_subfault(Segment& segment, const std::vector<double>& 
   if (!segment.x_column || !segment.y_column || !segment.z_column) return;
   for (const auto column : {segment.x_column, segment.y_column, segment.z_column})
     if (std::isnan(values[*column])) return;
+  if (std::isnan(values[segment.longitude_column]) || std::isnan(values[segment.latitude_column])) return;
   constexpr double m_per_km = 1000;
   Subfault s{.segment = segments_.size() - 1,
              .x = values[*segment.x_column] * m_per_km,
