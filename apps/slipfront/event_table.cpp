@@ -73,7 +73,7 @@ std::string front_text(const std::optional<double>& v) {
 
 TerminalTable event_table_head() {
   TerminalTable table(table_columns);
-  table.add({"", "observed", "observed", "", "", "", "", "", "", ""});
+  table.add({"", "observed", "observed"});
   table.add({"", "rupture", "slip", "", "stress", "frictionless", "observed /", "contact", "stress", "damping"});
   table.add(
       {"event", "velocity", "velocity", "V / c", "mu A / pi", "c A / pi", "frictionless", "ratio A", "MPa", "C T"});
