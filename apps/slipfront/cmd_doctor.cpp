@@ -31,12 +31,14 @@ struct Check {
 struct Library {
   const char *module, *use, *debian;
 };
-constexpr std::array<Library, 5> libraries = {{
+constexpr std::array<Library, 7> libraries = {{
     {"numpy", "arrays", "python3-numpy"},
     {"xarray", "results in Python", "python3-xarray"},
     {"netCDF4", "files in xarray", "python3-netcdf4"},
     {"matplotlib", "plot, animate and reproduce", "python3-matplotlib"},
     {"distributed", "sweeps on a Dask cluster", "python3-distributed"},
+    {"emcee", "population", "python3-emcee"},
+    {"scipy", "population", "python3-scipy"},
 }};
 
 /// Prints "name version" for Python and for each module in its arguments that works. Debian's modules do not all know

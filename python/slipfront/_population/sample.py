@@ -8,8 +8,9 @@ from .._slipfront import NumericsError
 from . import priors
 
 ENSEMBLES, WALKERS = 2, 20
-STARTS = 100  # draws from the prior; the climb to the mode starts at the best of them
-CLIMB = 400  # evaluations on the way to the mode
+STARTS = 200  # draws from the prior; climbs to the modes start at the best of them
+CLIMBS, CLIMB = 5, 350  # number of climbs, and evaluations of each
+LOWER = 8.0  # a mode whose ln(density) is lower than that of the highest by more is left out
 WARM_UP = 1 / 4  # share of the steps
 WORST = 15.0  # smallest ln(density) of a start, below that of the mode
 DIFFERENCE = 0.15  # step for second derivatives, in standard deviations of the prior
@@ -25,16 +26,22 @@ class Draws:
     acceptance: float
 
 
-def _mode(log_posterior, generator):
-    """Returns the parameters x of about the largest posterior density."""
+def _modes(log_posterior, generator):
+    """Returns the parameters x of the largest posterior densities that climbs from several starts reach, the largest first."""
+    minimize = import_optional("scipy.optimize").minimize
     x = generator.standard_normal((STARTS, len(priors.NAMES)))
     x[0] = 0
     density = np.array([log_posterior(row) for row in x])
-    if not np.isfinite(density).any():
+    possible = np.flatnonzero(np.isfinite(density))
+    if not len(possible):
         raise NumericsError("population: no parameters that the prior allows agree with the events; check their units and the detection limit")
-    simplex = x[density.argmax()] + np.vstack([np.zeros(x.shape[1]), 0.4 * np.eye(x.shape[1])])
-    return import_optional("scipy.optimize").minimize(lambda y: -max(log_posterior(y), -1e9), simplex[0], method="Nelder-Mead",
-                                                      options={"initial_simplex": simplex, "maxfev": CLIMB, "xatol": 0.02, "fatol": 0.1}).x
+    found = []
+    for start in x[possible[np.argsort(density[possible])[::-1][:CLIMBS]]]:
+        simplex = start + np.vstack([np.zeros(x.shape[1]), 0.4 * np.eye(x.shape[1])])
+        found.append(minimize(lambda y: -max(log_posterior(y), -1e9), start, method="Nelder-Mead",
+                              options={"initial_simplex": simplex, "maxfev": CLIMB, "xatol": 0.02, "fatol": 0.1}))
+    found.sort(key=lambda climb: climb.fun)
+    return [climb.x for climb in found if climb.fun < found[0].fun + LOWER]
 
 
 def _covariance(log_posterior, mode):
@@ -54,18 +61,19 @@ def _covariance(log_posterior, mode):
 
 
 def _starts(log_posterior, generator):
-    """Returns a start x for each walker of each ensemble, from the normal distribution around the mode."""
-    mode = _mode(log_posterior, generator)
-    covariance, least = _covariance(log_posterior, mode), log_posterior(mode) - WORST
+    """Returns a start x for each walker of each ensemble, from the normal distributions around the modes."""
+    modes = _modes(log_posterior, generator)
+    shapes, least = [_covariance(log_posterior, mode) for mode in modes], log_posterior(modes[0]) - WORST
     starts: list[np.ndarray] = []
     scale = 1.0
     while len(starts) < ENSEMBLES * WALKERS:
-        start = generator.multivariate_normal(mode, scale * covariance)
+        which = len(starts) % len(modes)
+        start = generator.multivariate_normal(modes[which], scale * shapes[which])
         if log_posterior(start) > least:
             starts.append(start)
         else:
             scale *= 0.95
-    return np.array(starts).reshape(ENSEMBLES, WALKERS, -1)
+    return generator.permutation(np.array(starts)).reshape(ENSEMBLES, WALKERS, -1)
 
 
 def _rhat(chains):
