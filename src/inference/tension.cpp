@@ -45,11 +45,13 @@ std::optional<Tension> tension_of(const std::string& name, const Measured& measu
 
 std::vector<Tension> tensions(const Observation& o, const medium::Defaults& defaults, const Sampling& sampling) {
   std::vector<Tension> all;
+  const std::vector<Evidence> evidence = evidence_of(o);
+  if (evidence.size() + (o.rupture_velocity_m_s ? 1 : 0) < 2) return all;
   const auto add = [&](const std::string& name, const Measured& measured) {
     if (auto t = tension_of(name, measured, o, defaults, sampling)) all.push_back(std::move(*t));
   };
   if (o.rupture_velocity_m_s) add("rupture_velocity", *o.rupture_velocity_m_s);
-  for (const Evidence& e : evidence_of(o)) add(e.name, e.measured);
+  for (const Evidence& e : evidence) add(e.name, e.measured);
   std::stable_sort(all.begin(), all.end(), [](const Tension& a, const Tension& b) {
     return std::fabs(a.sigmas.value_or(1e9)) > std::fabs(b.sigmas.value_or(1e9));
   });

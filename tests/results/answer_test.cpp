@@ -34,8 +34,10 @@ bool mentions(const EventResult& result, const std::string& words) {
 }
 
 std::string tohoku(const char* slip, const char* rise, const char* modulus) {
-  return std::string("[event]\nname = \"Tohoku 2011\"\nrupture_velocity = \"2.0 +- 0.4 km/s\"\nslip = \"") + slip +
-         "\"\nrise_time = \"" + rise + "\"\n[medium]\nshear_modulus = \"" + modulus + "\"\n";
+  return std::string(
+             "[event]\nname = \"Tohoku 2011\"\nrupture_velocity = \"2.0 +- 0.4 km/s\"\n"
+             "rupture_velocity_is = \"characteristic\"\nslip = \"") +
+         slip + "\"\nrise_time = \"" + rise + "\"\n[medium]\nshear_modulus = \"" + modulus + "\"\n";
 }
 
 double width(const EventResult& r) {
@@ -44,7 +46,7 @@ double width(const EventResult& r) {
 }
 
 /// Computes the distribution of the bound with another sampler: plain Monte Carlo over the observed quantities, with a
-/// uniform prior in ln V.
+/// uniform prior in ln V and the likelihood of a normal error.
 TEST(Answer, IncludesEveryErrorInTheBoundOfTohoku) {
   const EventResult r = result_of(tohoku("12 */ 1.5 m", "40 */ 1.4 s", "40 GPa"), {.sampling = {.samples = 20000}});
   ASSERT_TRUE(r.estimate) << r.error;
@@ -59,8 +61,9 @@ TEST(Answer, IncludesEveryErrorInTheBoundOfTohoku) {
     const double w = 12 / 40.0 * std::exp(std::log(1.5) * normal(bits) - std::log(1.4) * normal(bits));
     if (!(V > 0 && V < r.estimate->speed)) continue;
     const auto closed = rupture::from_rupture_velocity(V / r.estimate->speed);
-    values.emplace_back(40e9 * closed.stress * w / (r.estimate->speed * closed.slip_velocity), 1 / V);
-    total += 1 / V;
+    const double weight = std::min(1.0, V / (Measured::least_even_share * 2000)) / V;
+    values.emplace_back(40e9 * closed.stress * w / (r.estimate->speed * closed.slip_velocity), weight);
+    total += weight;
   }
   std::sort(values.begin(), values.end());
   double below = 0;
@@ -96,8 +99,8 @@ TEST(Answer, AgreesWithThePosterior) {
   EXPECT_EQ(e.damping_number->interval->low, r.posterior->damping_number->low);
   EXPECT_TRUE(e.slip_velocity_ratio->interval && e.observed_slip_velocity->interval && e.rupture_velocity->interval);
   EXPECT_FALSE(e.stress_pa_bound || e.contact_ratio_bound);
-  // The medians of quantities that depend only on V satisfy the closed form.
-  EXPECT_NEAR(rupture::from_rupture_velocity(e.rupture_velocity->value).stress, e.stress->value, 1e-5);
+  // The medians of quantities that depend only on |V-| satisfy the closed form.
+  EXPECT_NEAR(rupture::from_rupture_velocity(e.characteristic_velocity->value).stress, e.stress->value, 1e-5);
 }
 
 /// The column of a file with this name, for one event.
@@ -121,7 +124,7 @@ TEST(Answer, WritesTheShareOfThePriorToFiles) {
   EXPECT_EQ(in_file(known, "damping_number_prior_share"), *known.posterior->damping_number_prior_share);
   EXPECT_LT(in_file(known, "contact_ratio_prior_share"), 0.2);
   // The velocities only bound both quantities.
-  const EventResult bound = result_of(velocities);
+  const EventResult bound = result_of(velocities + "rupture_velocity_is = \"characteristic\"\n");
   EXPECT_EQ(in_file(bound, "contact_ratio_prior_share"), 1);
   EXPECT_EQ(in_file(bound, "damping_number_prior_share"), 1);
   const EventResult none = result_of("[event]\nrupture_velocity = \"3 km/s\"\n");
@@ -148,11 +151,10 @@ TEST(Answer, HasNoBoundOfTheStressIfSamplesYieldIt) {
   EXPECT_FALSE(r.estimate->stress_bound || r.estimate->stress_pa_bound || r.estimate->contact_ratio_bound);
 }
 
-TEST(Answer, DoublesSamplesUntilTheySuffice) {
+TEST(Answer, UsesThePartOfAVelocityBelowC) {
   // V is two standard deviations above c, so a few per cent of the samples are below c.
   const EventResult r = result_of("[event]\nrupture_velocity = \"6.0 +- 0.3 km/s\"\nslip_velocity = \"0.5 m/s\"\n");
   ASSERT_TRUE(r.estimate) << r.error;
-  EXPECT_GT(r.posterior->samples, 1000u);
   EXPECT_GE(r.posterior->effective_samples, least_effective_samples);
   EXPECT_LT(r.estimate->rupture_velocity->interval->high, 1);
   EXPECT_TRUE(mentions(r, "not below the speed c"));
@@ -169,16 +171,16 @@ TEST(Answer, SamplesAContactAbovePlasticIfItsErrorReachesBelow) {
   EXPECT_NE(result_of(head + "contact_ratio = 0.7\n").error, "");
 }
 
-TEST(Answer, HasNoIntervalIfFewSamplesHaveWeight) {
-  // Contact ratio and stress drop disagree by three standard deviations, and the drop is sharp.
+TEST(Answer, HasNoStressIfObservationsExcludeEachOther) {
+  // The contact ratio allows a drop of 35 MPa at most, and the drop is sharp.
   const EventResult r = result_of(
       "[event]\nrupture_velocity = \"3 km/s\"\nslip_velocity = \"0.5 m/s\"\nstress_drop = \"69.5 +- 0.2 MPa\"\n"
       "[medium]\ncontact_ratio = { mean = 0.01, sd = 0.001 }\n");
-  ASSERT_TRUE(r.estimate) << r.error;
-  EXPECT_FALSE(r.posterior->suffices);
-  EXPECT_GT(r.posterior->effective_samples, 0);
-  EXPECT_FALSE(r.posterior->damping_number || r.estimate->damping_number || r.estimate->stress_pa->interval);
-  EXPECT_TRUE(mentions(r, "no intervals: "));
+  ASSERT_TRUE(r.estimate && r.posterior) << r.error;
+  EXPECT_TRUE(r.posterior->contradicted && !r.posterior->tension.empty());
+  EXPECT_FALSE(r.estimate->damping_number || r.estimate->stress_pa || r.estimate->contact_ratio);
+  EXPECT_TRUE(mentions(r, "standard deviations"));
+  EXPECT_TRUE(std::isnan(in_file(r, "stress_pa")));
 }
 
 TEST(Answer, DrawsFromThePosterior) {
