@@ -27,7 +27,7 @@ MODULES = {
     "catalogue": "friction_ratio rupture medium",
     "inference": "catalogue friction_ratio rupture medium elliptic",
     "finite_fault": "inference catalogue friction_ratio friction pulse rupture modulation train medium",
-    "results": "finite_fault inference catalogue friction_ratio medium",
+    "results": "finite_fault inference catalogue friction_ratio rupture medium",
     "setup": "scenario chain pulse output friction rupture modulation train elliptic",
     "record": "results finite_fault friction catalogue output medium",
     "run": "record friction setup results finite_fault inference catalogue scenario chain pulse output medium",

@@ -5,6 +5,7 @@
 #include "catalogue/derived.hpp"
 #include "results/quantities.hpp"
 #include "results/serialize.hpp"
+#include "slipfront/rupture/relations.hpp"
 #include "slipfront/medium/medium.hpp"
 
 namespace slipfront::results {
@@ -71,12 +72,13 @@ FaultPulse pulse_of(const EventResult& result, const medium::Defaults& defaults)
   FaultPulse none;
   if (result.observation.subfaults.empty())
     none.reason = "no finite-fault model with positions of its subfaults";
-  else if (!result.estimate->stress)
+  else if (!result.estimate->rupture_velocity)
     none.reason = "no rupture velocity, so the stress of the event is unknown";
   if (!none.reason.empty()) return none;
   const std::vector<LocalState>& known = result.along_fault;
   return pulse_along_fault(known.empty() ? along_fault(result.observation, defaults) : known,
-                           result.estimate->stress->value, result.estimate->speed);
+                           rupture::from_rupture_velocity(result.estimate->rupture_velocity->value).stress,
+                           result.estimate->speed);  // the pulse has no friction: its front runs at |V-|
 }
 
 /// Evaluates an entry. `posterior_of` and `pulse_of` supply the results that take long to compute.

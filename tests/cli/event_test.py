@@ -90,12 +90,12 @@ class Event(CommandLine):
         self.assertIn("rupture_velocity is only bounded (<2.7): not used as a value", event["warnings"])
 
     def test_friction_and_errors(self):
-        path = self.file("f.csv", "name,rupture_velocity,slip_velocity,contact_ratio,slip_velocity_is\n"
-                         "known,3.0 +- 0.2 km/s,0.5 */ 1.2 m/s,0.01 +- 0.002,mean\n"
-                         "unknown,3.0 +- 0.2 km/s,0.5 m/s,,\n"
-                         "impossible,3.0 km/s,0.5 m/s,0.001,\n"
-                         "word,gauss(3; 1) km/s,0.5 m/s,,\n"
-                         "zero,3 +- 0 km/s,0.5 m/s,,\n")
+        path = self.file("f.csv", "name,rupture_velocity,slip_velocity,contact_ratio,slip_velocity_is,rupture_velocity_is\n"
+                         "known,3.0 +- 0.2 km/s,0.5 */ 1.2 m/s,0.01 +- 0.002,mean,\n"
+                         "unknown,3.0 +- 0.2 km/s,0.5 m/s,,,characteristic\n"
+                         "impossible,3.0 km/s,0.5 m/s,0.001,,\n"
+                         "word,gauss(3; 1) km/s,0.5 m/s,,,\n"
+                         "zero,3 +- 0 km/s,0.5 m/s,,,\n")
         done = run("event", path, "--json")
         self.assertEqual(done.returncode, 2)
         known, unknown, impossible, word, zero = json.loads(done.stdout)["events"]
@@ -117,6 +117,7 @@ class Event(CommandLine):
     def test_one_answer_everywhere(self):
         """If a quantity has only a bound, table, JSON, CSV and file all give the bound. Its interval includes every error."""
         path = self.file("t.toml", '[event]\nname = "Tohoku 2011"\nrupture_velocity = "2.0 +- 0.4 km/s"\nslip = "12 */ 1.5 m"\nrise_time = "40 */ 1.4 s"\n'
+                         'rupture_velocity_is = "characteristic"\n'
                          '[medium]\nshear_modulus = "40 GPa"\n')
         event, = json.loads(self.ok("event", path, "--json"))["events"]
         self.assertIsNone(event["stress_pa"])
@@ -136,6 +137,31 @@ class Event(CommandLine):
         self.ok("event", path, "--draws", "9", "-o", os.path.join(folder, "a.nc"))
         self.ok("event", path, "--draws", "9", "--resume", os.path.join(folder, "a.nc"))
         self.refused(2, "event", path, "--draws", "8", "--resume", os.path.join(folder, "a.nc"), says=["another posterior_draws"])
+
+    def test_a_front_that_was_seen(self):
+        """The two velocities of an observed front bound A on both sides. Equal rows have equal answers, whatever their names."""
+        path = self.file("s.csv", "name,rupture_velocity,slip,duration,rupture_velocity_is\na,10 km/day,4 mm,14 days,\n"
+                         "b,10 km/day,4 mm,14 days,front\nc,10 km/day,4 mm,14 days,characteristic\n")
+        a, b, c = json.loads(self.ok("event", path, "--json"))["events"]
+        self.assertEqual(a["rupture_velocity_is"], "front")
+        self.assertEqual(a["contact_ratio_interval"], b["contact_ratio_interval"])
+        low, high = a["contact_ratio_interval"]
+        self.assertTrue(8e-6 < low < 2e-5 < high < 4e-5)
+        self.assertIsNone(a["contact_ratio_bound"])
+        self.assertIsNone(c["stress_pa"])
+        self.assertAlmostEqual(c["contact_ratio_bound"] / 7.96e-6, 1, 3)
+
+    def test_observations_that_exclude_each_other(self):
+        path = self.file("x.csv", "name,rupture_velocity,slip_velocity,contact_ratio\nx,3 */ 1.1 km/s,0.5 */ 1.1 m/s,0.0005 */ 1.1\n")
+        event, = json.loads(self.ok("event", path, "--json"))["events"]
+        self.assertIsNone(event["contact_ratio"])
+        self.assertIsNone(event["stress_pa"])
+        self.assertTrue(event["posterior"]["contradicted"])
+        self.assertEqual({t["observation"] for t in event["tension"]}, {"rupture_velocity", "slip_velocity", "contact_ratio"})
+        for tension in event["tension"]:
+            self.assertTrue(tension["sigmas"] is None or abs(tension["sigmas"]) >= 2)
+            self.assertIsNotNone(tension["without"]["stress_interval"])
+        self.assertIn("standard deviations", self.ok("event", path))
 
     def test_sources_that_disagree(self):
         table = self.ok("event", os.path.join(SOURCE, "cases/catalogue.csv"), os.path.join(SOURCE, "cases/parkfield-2004.toml"))

@@ -98,7 +98,8 @@ def sampled(event, coefficients, corners):
     def ln_density_within(ln_V, ln_A, u):
         stress, W = (np.interp(ln_V, grid, forms[:, 0]), np.exp(np.interp(ln_V, grid, np.log(forms[:, 1]))))
         ln_w = ln_A + np.log(C_SPEED / np.pi * W) + ln_ratio(coefficients[index], corners[index], stress, u)
-        return (-0.5 * ((np.exp(ln_V) - V0) / sd) ** 2 - 0.5 * ((ln_w - np.log(w0)) / np.log(w_factor)) ** 2
+        fall = np.minimum(0, ln_V - np.log(0.7 * V0))  # the likelihood of a normal error, see docs/events.md
+        return (fall - 0.5 * ((np.exp(ln_V) - V0) / sd) ** 2 - 0.5 * ((ln_w - np.log(w0)) / np.log(w_factor)) ** 2
                 - 0.5 * ((ln_A - np.log(A0)) / np.log(A_factor)) ** 2)
 
     random = np.random.default_rng(1)
@@ -116,9 +117,9 @@ def main(program, path):
     coefficients, corners = table(path)
     good = True
     with tempfile.NamedTemporaryFile("w", suffix=".csv") as file:
-        file.write("name,slip_velocity_is,rupture_velocity,slip_velocity,contact_ratio\n")
+        file.write("name,slip_velocity_is,rupture_velocity_is,rupture_velocity,slip_velocity,contact_ratio\n")
         for name, measure, V, w, A in EVENTS:
-            file.write(f'"{name}",{measure},{V[0]} +- {V[1]} m/s,{w[0]} */ {w[1]} m/s,{A[0]} */ {A[1]}\n')
+            file.write(f'"{name}",{measure},characteristic,{V[0]} +- {V[1]} m/s,{w[0]} */ {w[1]} m/s,{A[0]} */ {A[1]}\n')
         file.flush()
         run = subprocess.run([program, "event", file.name, "--json", "--samples", "20000"], capture_output=True, check=True)
     ours = json.loads(run.stdout)["events"]
