@@ -29,7 +29,7 @@ constexpr Quantity declarations[] = {
      Role::closed_form,
      false,
      MEMBER(rupture_velocity),
-     "rupture velocity |V−|"},
+     "rupture velocity"},
     {{"characteristic_velocity", "|V-|, speed of the first disturbance", "c", "Eqs. 8-10"},
      "",
      Role::friction,

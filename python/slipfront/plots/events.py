@@ -116,10 +116,10 @@ def events(events, line) -> Picture:
         scale = 1e-6 if name.startswith("stress_pa") else 1.0
         panel(axes, events, name, kinds, scale)
         decades(axes, events, name, scale)
-        axes.set(xscale="log", xlabel="rupture velocity |V−|, c")
+        axes.set(xscale="log", xlabel="rupture velocity, c")
     panels["stress"].plot(line["rupture_velocity"], line["stress"], color="0.35", linestyle="-", label="closed form", zorder=3)
-    panels["stress"].set(ylabel="initial stress Σ−, μA/π", title="Stress inferred from the rupture velocity:\non the closed form by construction")
-    for name, label, title in (("stress_pa", "initial stress, MPa", "The same in MPa, with the contact ratio A\nfrom friction or as given"),
+    panels["stress"].set(ylabel="initial stress Σ−, μA/π", title="Stress inferred from the rupture velocity;\nfriction slows a front: its stress is on or above the line")
+    for name, label, title in (("stress_pa", "initial stress, MPa", "The same in MPa, with the contact ratio A\nthat the slip velocity gives, or as stated"),
                                ("stress_pa_bound", "least initial stress, MPa", "Lower bound (arrows): A from the slip velocity\nas if friction took nothing")):
         if name in panels:
             values = events[name].values
