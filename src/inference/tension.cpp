@@ -1,9 +1,7 @@
 #include "inference/tension.hpp"
 
 #include <algorithm>
-#include <boost/math/special_functions/erf.hpp>
 #include <cmath>
-#include <numbers>
 
 #include "inference/weighted_samples.hpp"
 
@@ -18,11 +16,6 @@ constexpr std::size_t first_samples = 128, most_samples_of_prediction = 1024;
 constexpr double least_effective_of_prediction = 64;
 constexpr double least_sigmas = 2;
 
-std::optional<double> sigmas_of(double below) {
-  if (!(below > 0 && below < 1)) return {};
-  return -std::numbers::sqrt2 * boost::math::erfc_inv(2 * below);
-}
-
 std::optional<Tension> tension_of(const std::string& name, const Measured& measured, const Observation& o,
                                   const medium::Defaults& defaults, const Sampling& sampling) {
   Sampling few = sampling;
@@ -35,7 +28,7 @@ std::optional<Tension> tension_of(const std::string& name, const Measured& measu
   std::optional<std::size_t> position;
   for (std::size_t i = 0; i < sampler.evidence().size(); ++i)
     if (sampler.evidence()[i].name == name) position = i;
-  Tension t{name, sigmas_of(samples.below(measured, position)), {}};
+  Tension t{name, samples.sigmas_above(measured, position), {}};
   if (t.sigmas && std::fabs(*t.sigmas) < least_sigmas) return {};
   for (const Quantity& q : posterior_quantities()) t.without.*q.quantiles = samples.quantiles(q.state);
   return t;

@@ -1,7 +1,9 @@
 #include "inference/weighted_samples.hpp"
 
 #include <algorithm>
+#include <boost/math/special_functions/erf.hpp>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -16,18 +18,27 @@ namespace {
 
 double normal_share_below(double z) { return std::erfc(-z / std::numbers::sqrt2) / 2; }
 
-/// Probability that an observation of the true value x is below the middle of the actual one.
-double share_below(const Measured& m, double x) {
+/// Distance of an observation above the true value x, in its standard deviations: of a range, the distance from its
+/// nearer end. NaN for an exact number.
+double deviations_above(const Measured& m, double x) {
   switch (m.shape) {
     case Measured::Shape::normal:
-      return normal_share_below((m.low - x) / m.spread);
+      return (m.low - x) / m.spread;
     case Measured::Shape::split:
-      return normal_share_below((m.low - x) / (x < m.low ? m.spread_below : m.spread));
+      return (m.low - x) / (x < m.low ? m.spread_below : m.spread);
     case Measured::Shape::lognormal:
-      return normal_share_below(std::log(m.low / x) / std::log(m.spread));
+      return std::log(m.low / x) / std::log(m.spread);
     case Measured::Shape::range:
       break;
   }
+  if (m.is_exact()) return std::numeric_limits<double>::quiet_NaN();
+  const double deviation = (m.high - m.low) / std::sqrt(12.0);
+  return (std::clamp(x, m.low, m.high) - x) / deviation;
+}
+
+/// Probability that an observation of the true value x is below the middle of the actual one.
+double share_below(const Measured& m, double x) {
+  if (m.shape != Measured::Shape::range) return normal_share_below(deviations_above(m, x));
   if (m.is_exact()) return std::fabs(x / m.low - 1) < 1e-9 ? 0.5 : x < m.low ? 1 : 0;
   return std::clamp((m.high - x) / (m.high - m.low), 0.0, 1.0);
 }
@@ -86,6 +97,17 @@ double WeightedSamples::below(const Measured& measured, std::optional<std::size_
     share += s.weight * share_below(measured, x);
   }
   return share / sum;
+}
+
+std::optional<double> WeightedSamples::sigmas_above(const Measured& measured, std::optional<std::size_t> i) const {
+  const double share = below(measured, i);
+  if (share > 1e-12 && share < 1 - 1e-12) return -std::numbers::sqrt2 * boost::math::erfc_inv(2 * share);
+  std::optional<double> nearest;
+  for (const Sample& s : accepted) {
+    const double z = deviations_above(measured, i ? std::exp(s.predicted[*i]) : s.state.rupture_velocity_m_s);
+    if (!std::isnan(z) && (!nearest || std::fabs(z) < std::fabs(*nearest))) nearest = z;
+  }
+  return nearest;
 }
 
 WeightedSamples draw_samples(Sampler& sampler, std::size_t first, std::size_t most, double least_effective) {

@@ -29,6 +29,9 @@ struct WeightedSamples {
   /// Probability that a repeated observation is below the actual one. `i` is its position in `evidence`; the rupture
   /// velocity has none.
   double below(const catalogue::Measured& measured, std::optional<std::size_t> i) const;
+  /// That probability as a number of standard deviations: the normal quantile of that probability. If it is too near 0 or 1 to
+  /// be computed, the distance to the nearest sample. Absent for an exact number in that case.
+  std::optional<double> sigmas_above(const catalogue::Measured& measured, std::optional<std::size_t> i) const;
 };
 
 /// Doubles the number of samples until they suffice or reach `most`. It also stops when even `most` would not give

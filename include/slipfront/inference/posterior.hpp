@@ -41,8 +41,8 @@ struct TradeOff {
 struct Tension {
   std::string observation;  ///< its key in a file
   /// Distance of the observation from what the others predict, in standard deviations: the normal quantile of the share
-  /// of repeated observations below it (above 0: it is larger than predicted). Absent if none of the samples comes
-  /// near.
+  /// of repeated observations below it (above 0: it is larger than predicted). Absent for an exact number that no
+  /// sample comes near.
   std::optional<double> sigmas;
   QuantileQuantities without;  ///< the posterior without this observation
 };
