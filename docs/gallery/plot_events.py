@@ -2,7 +2,8 @@
 Observed events and the closed form
 ===================================
 
-The rupture velocity of each event of the shipped catalogue gives its stress.
+The rupture velocity of each event of the shipped catalogue gives its least stress (arrows). If the slip velocity is
+known too, the stress has an interval, also in MPa.
 """
 import numpy as np
 

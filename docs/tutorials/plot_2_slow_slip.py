@@ -47,20 +47,29 @@ Gisborne 2002,slow slip,,,18,10,,Douglas et al. 2005
 pathlib.Path("slow-slip.csv").write_text(TABLE, encoding="utf-8")
 slow = slipfront.event("slow-slip.csv", output="slow-slip.nc")
 
-columns = ["rupture_velocity", "stress", "contact_ratio", "stress_pa_bound"]
-print("event                   velocity, c  stress, mu A / pi  contact ratio  stress, kPa")
-for name, *values in zip(slow.name.values, *(slow[column].values for column in columns)):
-    velocity, stress, contact, pascals = values
-    print(f"{name:24}{velocity:11.2e}{stress:19.3f}{contact:15.1e}{pascals / 1e3:13.0f}")
+
+def shown(event, name, unit=1.0):
+    low, high = event[f"{name}_interval"].values / unit
+    return "" if np.isnan(low) else f"{low:.2g} to {high:.2g}"
+
+
+print("event                    velocity, c   stress, mu A / pi        contact ratio     stress, MPa")
+for i in range(slow.sizes["event"]):
+    event = slow.isel(event=i)
+    print(f"{event.name.item():24}{float(event.rupture_velocity):12.2e}{float(event.stress):20.2f}"
+          f"{shown(event, 'contact_ratio'):>21}{shown(event, 'stress_pa', 1e6):>16}")
 
 # %%
 # Each row has what its observations allow:
 #
 # - The velocity is in units of c, the speed of strain waves, and the stress in units of mu A / pi.
 #   Here mu is the shear modulus. A is the **contact ratio**, the real area of contact over the
-#   nominal area. The stress follows from the rupture velocity only.
-# - The contact ratio and the stress in kPa need a slip velocity too. Both are lower bounds, because
-#   friction may have slowed the slip. :doc:`plot_1_my_earthquake` explains this bound.
+#   nominal area.
+# - With a rupture velocity only, the stress is a lower bound. It is that of a fault without
+#   friction, which slows the observed front. Then there is nothing in the last two columns.
+# - If there is also a slip velocity, contact ratio and stress in MPa have an interval, 5 % to 95 %.
+#   :doc:`plot_1_my_earthquake` explains why two velocities bound them from both sides. The stress
+#   in the third column is then the median.
 # - ``nan`` means "cannot be known". Gisborne 2002 has no rupture velocity, and so it has no stress.
 #
 # The table names no rock, and slipfront has assumed one. Every assumption is a warning of its
@@ -72,12 +81,12 @@ print(slow.isel(event=0).warnings.item().replace("; ", "\n"))
 # Stress hardly depends on velocity
 # ---------------------------------
 #
-# Look at the third column. How much do velocity and stress vary?
+# How much do velocity and stress vary? We compare the least stress, that without friction.
 
-known = slow.where(slow.rupture_velocity.notnull(), drop=True)
-for name in ("rupture_velocity", "stress"):
-    factor = float(known[name].max() / known[name].min())
-    print(f"{name:16} varies by a factor of {factor:.3g}")
+known = slow.rupture_velocity.dropna("event")
+least = slipfront.relations(rupture_velocity=known.values).stress
+for name, values in (("rupture velocity", known), ("least stress", least)):
+    print(f"{name:16} varies by a factor of {float(values.max() / values.min()):.3g}")
 
 # %%
 # A factor of 4500 in velocity is a factor of 2 in stress. The closed form gives the reason, here
@@ -91,7 +100,8 @@ for velocity, stress in zip(decades.rupture_velocity.values, decades.stress.valu
 # Dislocations carry the slip, and stress pushes them together. The force between two of them falls
 # exponentially with their distance. A fault with half the stress has dislocations at twice the
 # distance, and hardly any force is left to move them. So slow slip needs no special process in this
-# theory, only less stress. How much slower is the front at a fifth of the stress of an earthquake?
+# theory: less stress suffices. How much slower is the front at a fifth of the stress of an
+# earthquake?
 
 earthquake = slipfront.relations(rupture_velocity=[0.475])
 fifth = slipfront.relations(stress=earthquake.stress / 5)
@@ -99,10 +109,19 @@ slower = float(earthquake.rupture_velocity / fifth.rupture_velocity)
 print(f"at a stress of {float(fifth.stress):.3f} the front is {slower:.0f} times slower")
 
 # %%
-# **Be careful with this result.** Each stress here was computed from a velocity with the closed
-# form. The points are on the curve by construction. They show the consequences of the theory for
-# your events, and do not test it. A test needs a measurement of stress that does not come from the
-# velocity.
+# Friction can slow the front that we observe as well. How much stress can it hide? The "Typical
+# tremor and slip" has both velocities, so its interval includes every friction.
+
+typical = slow.isel(event=list(slow.name.values).index("Typical tremor and slip"))
+print("stress", shown(typical, "stress"), "mu A / pi")
+
+# %%
+# Even if friction is as strong as the prior allows, the stress is about twice its least value. That
+# is still less than half of an earthquake's.
+#
+# **Be careful with this result.** Each stress here was computed from a velocity with the theory.
+# The results show its consequences for your events, and do not test it. A test needs a measurement
+# of stress that does not come from the velocity.
 #
 # Compare with earthquakes
 # ------------------------
@@ -116,7 +135,7 @@ catalogue = slipfront.open("catalogue.nc")
 print("decade, c  events  median stress  with slip velocity  median A  median kPa")
 for i in range(catalogue.sizes["decade"]):
     decade = catalogue.isel(decade=i).sel(quantile=0.5)
-    kilopascals = float(decade.population_stress_pa_bound) / 1e3
+    kilopascals = float(decade.population_stress_pa) / 1e3
     print(f"{float(decade.decade):9.0e}{int(decade.population_events):8}"
           f"{float(decade.population_stress):15.3f}"
           f"{int(decade.population_contact_ratio_events):20}"
@@ -130,46 +149,79 @@ line = slipfront.relations(rupture_velocity=np.geomspace(1e-7, 0.9, 300))
 figure_events = plots.events(catalogue, line)
 
 # %%
-# The left panel is the curve of the last section. The right panel has the lower bounds in MPa.
-# There the events are not on one curve, because their contact ratios differ. Dotted lines show the
-# closed form for contact ratios from 1e-5 to 1e-1. Arrows point up, since friction can only raise a
-# bound.
+# The left panel has the curve of the last section. Events with a rupture velocity only are on it,
+# and their arrows point up, because friction can only raise the stress. Events with both velocities
+# are above it. The right panel has the stress in MPa with its interval. There the events are not on
+# one curve, because their contact ratios differ. Dotted lines show the closed form for contact
+# ratios of a power of ten each.
 #
-# So slow events and earthquakes differ in two ways. The stress over mu A / pi is a fifth. The
-# contact ratio is less too, by factors of 4 to 300 against the median of the earthquakes. But the
-# second statement is about bounds, and it rests on few events: only four slow ones have both
-# velocities.
-#
-# Find the share of friction
-# --------------------------
-#
-# A contact ratio turns the bound into a value. The paper that slipfront follows (Gershenzon,
-# Bambakidis & Skinner, 2015) has one for the typical tremor and slip event: 4e-5.
+# So slow events and earthquakes differ in the stress over mu A / pi, by a factor of 2 to 5. Do they
+# differ in the contact ratio too?
 
-certain = {"name": "Typical tremor and slip", "rupture_velocity": "10 km/day",
-           "slip": "0.4 cm", "duration": "14 days", "contact_ratio": 4e-5}
-typical = slipfront.event(certain).isel(event=0)
-print(f"stress {float(typical.stress_pa) / 1e3:.0f} kPa")
-print(f"friction leaves {float(typical.slip_velocity_ratio):.2f} of the slip velocity")
-print(f"damping number {float(typical.damping_number):.0f}")
+fast = catalogue.where(catalogue.rupture_velocity > 0.1, drop=True)
+low, middle, high = fast.contact_ratio.quantile([0.05, 0.5, 0.95]).values
+print(f"{'earthquakes, 5 % to 95 % of them':34}{low:.2g} to {high:.2g}, median {middle:.2g}")
+for i in np.flatnonzero(slow.contact_ratio.notnull()):
+    event = slow.isel(event=i)
+    print(f"{event.name.item():34}{shown(event, 'contact_ratio')}")
 
 # %%
-# The stress is five times its bound of 16 kPa. Friction took four fifths of the slip velocity. But
-# it did not make this event slow: without any friction the front would have the same velocity.
+# Two of the four slow events have contact ratios like those of earthquakes, and two have smaller
+# ones. Four events do not suffice for a rule.
 #
-# How certain is this? Suppose that rupture velocity and slip are known to 20 %, and the contact
-# ratio to a factor of 2.
+# Test a contact ratio from elsewhere
+# -----------------------------------
+#
+# The paper that slipfront follows (Gershenzon, Bambakidis & Skinner, 2015) uses a contact ratio of
+# 4e-5 for the typical event. Its interval above ends at 3.8e-5. What happens?
+
+certain = {"name": "Typical tremor and slip", "rupture_velocity": "10 km/day",
+           "slip": "0.4 cm", "duration": "14 days"}
+try:
+    slipfront.event({**certain, "contact_ratio": 4e-5})
+except slipfront.InputError as error:
+    print(textwrap.fill(str(error), 84))
+
+# %%
+# No friction, however strong, explains all these numbers together. The paper reads the rupture
+# velocity in another way: as that of the first disturbance, which friction does not slow. slipfront
+# assumes the front that one observes. State the other meaning with ``rupture_velocity_is``:
+
+paper = {**certain, "contact_ratio": 4e-5, "rupture_velocity_is": "characteristic"}
+as_paper = slipfront.event(paper).isel(event=0)
+print(f"stress {float(as_paper.stress_pa) / 1e3:.0f} kPa")
+print(f"friction leaves {float(as_paper.slip_velocity_ratio):.2f} of the slip velocity")
+print(f"damping number {float(as_paper.damping_number):.0f}")
+
+# %%
+# This is what follows from the reading of the paper. Which reading is right depends on how the
+# front was located. The front is where the slip velocity exceeds ``front_threshold`` of its peak,
+# here one thousandth. How much does this choice matter?
+
+print("front_threshold      contact ratio     stress, kPa")
+for threshold in (1e-4, 1e-3, 1e-2, 1e-1):
+    event = slipfront.event({**certain, "front_threshold": threshold}).isel(event=0)
+    print(f"{threshold:15g}{shown(event, 'contact_ratio'):>19}{shown(event, 'stress_pa', 1e3):>16}")
+
+# %%
+# If a network sees only what exceeds a tenth of the peak, it excludes 4e-5 by a factor of two. If
+# it sees a ten-thousandth, it does not exclude 4e-5. So state the threshold with your result.
+#
+# How certain is the rest? Suppose that rupture velocity and slip are known to 20 %, and the contact
+# ratio to a factor of 2. We compare both readings.
 
 errors = {"rupture_velocity": "10 */ 1.2 km/day", "slip": "0.4 */ 1.2 cm",
           "contact_ratio": "4e-5 */ 2"}
-uncertain = slipfront.event({**certain, **errors}).isel(event=0)
-for name in ("stress_pa", "slip_velocity_ratio", "damping_number"):
-    low, high = uncertain[f"{name}_interval"].values
-    print(f"{name:20} {float(uncertain[name]):9.3g}   [{low:.3g}, {high:.3g}]")
+print("                     observed front           first disturbance")
+readings = [slipfront.event({**certain, **errors, "rupture_velocity_is": reading}).isel(event=0)
+            for reading in ("front", "characteristic")]
+for name in ("contact_ratio", "stress_pa", "slip_velocity_ratio", "damping_number"):
+    print(f"{name:20} {shown(readings[0], name):24} {shown(readings[1], name)}")
 
 # %%
-# The contact ratio decides. Its 90 % interval spans a factor of 10, and so does that of the
-# stress. The damping number spans two decades.
+# With errors the two readings overlap. The stress is known to a factor of three for the observed
+# front, and of ten for the first disturbance: there, only the contact ratio bounds it from above.
+# Neither determines the friction. Quote a stress for this event, and no friction.
 #
 # Keep the results
 # ----------------
@@ -178,8 +230,10 @@ for name in ("stress_pa", "slip_velocity_ratio", "damping_number"):
 # returns the same Dataset. For a spreadsheet, write the columns that you need as CSV:
 
 again = slipfront.open("slow-slip.nc")
-table = again[["name", "kind", *columns]].to_dataframe()
-table.to_csv("slow-slip-results.csv", index=False, float_format="%.4g")
+table = again[["name", "rupture_velocity", "stress", "contact_ratio", "stress_pa"]]
+for name, end in (("low", 0), ("high", 1)):
+    table[f"stress_pa_{name}"] = again.stress_pa_interval.isel(bound=end, drop=True)
+table.to_dataframe().to_csv("slow-slip-results.csv", index=False, float_format="%.4g")
 print(pathlib.Path("slow-slip-results.csv").read_text(encoding="utf-8"))
 
 # %%

@@ -129,17 +129,30 @@ class Figures(CommandLine):
         names = [line.get_label() for line in figure.axes[0].lines]
         self.assertEqual(names, ["closed-form", "pulse-consistent", "pulse-paper", "chain-30"])
 
-    def test_events_lie_on_the_closed_form(self):
+    def arrows(self, axes):
+        return [text for text in axes.texts if getattr(text, "arrow_patch", None)]
+
+    def test_events_lie_on_the_closed_form_or_above_it(self):
         events = slipfront.event()
+        events = events.isel(event=events["rupture_velocity"].notnull().values)
         line = choose.line_through(events)
         figure = plots.events(events, line)
-        at = np.interp(np.log(events["rupture_velocity"].dropna("event")), np.log(line["rupture_velocity"]), line["stress"])
-        np.testing.assert_allclose(at, events["stress"].dropna("event"), rtol=2e-3)
+        at = np.interp(np.log(events["rupture_velocity"]), np.log(line["rupture_velocity"]), line["stress"])
+        self.assertGreater(float((events["stress"] / at).min()), 1 - 2e-3)
+        bounded = events["stress_bound"].notnull().values
+        self.assertTrue(bounded.any())
+        np.testing.assert_allclose(at[bounded], events["stress"].values[bounded], rtol=2e-3)
         self.assertEqual(figure.axes[0].get_xscale(), "log")
-        stress, bound = figure.axes
+        stress, pascal = figure.axes
         self.assertIn("by construction", stress.get_title(loc="left"))
-        arrows = [text for text in bound.texts if getattr(text, "arrow_patch", None)]
-        self.assertEqual(len(arrows), int(events["stress_pa_bound"].notnull().sum()))
+        self.assertEqual(len(self.arrows(stress)), bounded.sum())
+        self.assertEqual(self.arrows(pascal), [])
+
+    def test_lower_bounds_of_the_stress_in_pascal_have_arrows(self):
+        both = {"rupture_velocity": "1 km/s", "slip_velocity": "0.1 m/s", "rupture_velocity_is": "characteristic"}
+        events = slipfront.event([both, {**both, "contact_ratio": 0.01}])
+        figure = plots.events(events, choose.line_through(events))
+        self.assertEqual([len(self.arrows(axes)) for axes in figure.axes[:3]], [0, 0, 1])
 
     def test_kinds_of_events_have_different_colours(self):
         kinds = [f"kind {i}" for i in range(9)]
@@ -163,7 +176,7 @@ class Figures(CommandLine):
             self.assertIn("decade: median, 5-95 %", [text.get_text() for text in axes.get_legend().get_texts()])
         cloud = pascal.lines[0]
         self.assertEqual(cloud.get_marker(), ".")
-        np.testing.assert_allclose(cloud.get_ydata(), events["stress_pa_bound"] / 1e6)
+        np.testing.assert_allclose(cloud.get_ydata(), events["stress_pa"] / 1e6)
         one = self.file("one.csv", "name,rupture_velocity,slip_velocity\na,1 km/s,0.1 m/s\n")
         self.ok("event", one, "-o", path)
         self.assertNotIn("decade", str([t.get_text() for t in choose.draw(files.read(path), "events").axes[0].get_legend().get_texts()]))

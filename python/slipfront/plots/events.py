@@ -48,8 +48,8 @@ def panel(axes, events, name, kinds, scale=1.0):
         if events["stress"].size > MANY:
             axes.plot(x, y, linestyle="none", marker=".", markersize=2, markeredgewidth=0, color=colour, alpha=0.4, label=label, rasterized=True)
             continue
-        if name.endswith("_bound"):
-            arrows(axes, x, y, colour)
+        lower = chosen if name.endswith("_bound") else chosen & known_of(events, f"{name}_bound")
+        arrows(axes, events["rupture_velocity"].values[lower], scale * events[name].values[lower].astype(float), colour)
         axes.errorbar(x, y, fmt=MARKS[i % len(MARKS)], color=colour, xerr=None if across is None else across[:, chosen],
                       yerr=None if up is None else scale * up[:, chosen], label=label, alpha=0.85, linewidth=0.8, linestyle="none", markeredgewidth=0.8)
 
@@ -81,6 +81,11 @@ def contact_lines(axes, line, low, high):
         axes.plot(rising[0], rising[1] * 10.0**exponent / 1e6, color="0.55", linestyle=":", linewidth=0.9, zorder=1,
                   label="closed form for A = 10$^n$, μ = 30 GPa" if i == 0 else None)
         axes.annotate(f"$10^{{{exponent}}}$", (rising[0][0], rising[1][0] * 10.0**exponent / 1e6), color="0.45", fontsize=7, va="bottom")
+
+
+def known_of(events, name):
+    """Whether each event has this quantity."""
+    return events[name].notnull().values if name in events else numpy.zeros(events["stress"].size, bool)
 
 
 def known(events, name) -> bool:
@@ -116,10 +121,10 @@ def events(events, line) -> Picture:
         scale = 1e-6 if name.startswith("stress_pa") else 1.0
         panel(axes, events, name, kinds, scale)
         decades(axes, events, name, scale)
-        axes.set(xscale="log", xlabel="rupture velocity, c")
+        axes.set(xscale="log", xlabel="rupture velocity V, c")
     panels["stress"].plot(line["rupture_velocity"], line["stress"], color="0.35", linestyle="-", label="closed form", zorder=3)
-    panels["stress"].set(ylabel="initial stress Σ−, μA/π", title="Stress inferred from the rupture velocity;\nfriction slows a front: its stress is on or above the line")
-    for name, label, title in (("stress_pa", "initial stress, MPa", "The same in MPa, with the contact ratio A\nthat the slip velocity gives, or as stated"),
+    panels["stress"].set(ylabel="initial stress Σ−, μA/π", title="Initial stress: on the closed form or above it\nby construction (arrows: lower bound)")
+    for name, label, title in (("stress_pa", "initial stress, MPa", "The same in MPa, with the contact ratio A\nfrom the slip velocity or as given"),
                                ("stress_pa_bound", "least initial stress, MPa", "Lower bound (arrows): A from the slip velocity\nas if friction took nothing")):
         if name in panels:
             values = events[name].values
