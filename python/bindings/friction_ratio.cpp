@@ -52,6 +52,18 @@ py::array_t<double> front_ratio_of(const Numbers& stress, const Numbers& damping
   return ratio;
 }
 
+/// The static stress drop at x = 0 over Sigma-, for arrays of one length.
+py::array_t<double> stress_drop_share_of(const Numbers& stress, const Numbers& damping,
+                                         const std::string& closure_name) {
+  const friction::Closure closure = friction::closure_named(closure_name);
+  py::array_t<double> share(stress.size());
+  for (py::ssize_t i = 0; i < stress.size(); ++i)
+    share.mutable_data()[i] =
+        friction_ratio::stress_drop_share(friction_ratio::Drop::origin, closure, stress.data()[i], damping.data()[i])
+            .value;
+  return share;
+}
+
 }  // namespace
 
 void bind_friction_ratio(py::module_& m) {
@@ -59,5 +71,6 @@ void bind_friction_ratio(py::module_& m) {
   m.attr("friction_ratio_described") = all(friction_ratio_described);
   m.def("damping_number", damping_number_of);
   m.def("front_ratio", front_ratio_of);
+  m.def("stress_drop_share", stress_drop_share_of);
   m.attr("damping_number_described") = all(damping_number_described);
 }

@@ -236,13 +236,16 @@ def check(scenario, *, set=None, command="pulse", scales=()):
     raise InputError(f"command = '{shown(command)}': unknown; allowed: pulse, chain, compare")
 
 
-def open(file):
+def open(file, *, group=None):
     """Reads a NetCDF file that pulse, chain, compare, sweep or event has written.
 
     Parameters
     ----------
     file : path
         The file, written by the program (`-o`) or by this package (`output`).
+    group : str, optional
+        A group of a file with draws of events: "posterior", "prior", "posterior_predictive", "observed_data" or
+        "sample_stats" (docs/events.md).
 
     Returns
     -------
@@ -264,7 +267,7 @@ def open(file):
     >>> bool((stored.W == pulse.W).all())
     True
     """
-    return read(path("file", file))
+    return read(path("file", file), group=None if group is None else str(group))
 
 
 def _summary(data):
@@ -281,7 +284,7 @@ def _summary(data):
     return found
 
 
-def read(name, any_file=False):
+def read(name, any_file=False, group=None):
     """Like `open`, but also reads other NetCDF files if `any_file` is true."""
     xarray = import_optional("xarray")
     with _slipfront.NetcdfLock():  # the import initialises the libraries of NetCDF
@@ -289,7 +292,7 @@ def read(name, any_file=False):
     _slipfront.require_readable_netcdf(os.fsencode(name))  # a damaged file would crash the NetCDF library, and Python with it
     try:
         # The NetCDF library is not thread-safe. A process that is forked while another thread uses it would wait for ever.
-        with _slipfront.NetcdfLock(), xarray.open_dataset(name, engine="netcdf4") as stored:
+        with _slipfront.NetcdfLock(), xarray.open_dataset(name, engine="netcdf4", group=group) as stored:
             if not (any_file or "slipfront_format" in stored.attrs):
                 raise FileError(f"{name}: not a file that slipfront has written")
             data = stored.drop_vars(["checkpoint", "scenario_text", "done"], errors="ignore").load()

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <random>
 #include <utility>
 
 #include "foundation/text/digits.hpp"
@@ -145,6 +147,34 @@ void set_predictions(Posterior& p, const Observation& o, const Sampler& sampler,
     p.predictions.push_back({sampler.evidence()[i].name, samples.below(sampler.evidence()[i].measured, i)});
 }
 
+/// Repeats the observations of the fault in a sample, with their errors.
+ObservedValues repeated_of(const Sample& s, const Observation& o, const Sampler& sampler, std::mt19937_64& random) {
+  ObservedValues all;
+  all.fill(std::numeric_limits<double>::quiet_NaN());
+  const Mode mode = sampler.mode();
+  if (mode != Mode::friction && mode != Mode::contact) return all;
+  const auto set = [&](std::string_view name, const catalogue::Measured& measured, double x) {
+    const double probability = (static_cast<double>(random() >> 12) + 0.5) * 0x1p-52;
+    all[position_of(name)] = repeated(measured, x, probability);
+  };
+  if (o.rupture_velocity_m_s) set("rupture_velocity", *o.rupture_velocity_m_s, s.state.rupture_velocity_m_s);
+  const auto& evidence = sampler.evidence();
+  for (std::size_t i = 0; i < std::min(evidence.size(), s.predicted.size()); ++i)
+    if (mode == Mode::friction || evidence[i].source != Source::friction)
+      set(evidence[i].name, evidence[i].measured, std::exp(s.predicted[i]));
+  return all;
+}
+
+void set_draws(Posterior& p, const Observation& o, Sampler& sampler, const WeightedSamples& samples,
+               std::size_t count) {
+  std::mt19937_64 random(p.seed);
+  for (const Sample* s : samples.draws(count)) {
+    p.draws.push_back(s->state);
+    p.repeated.push_back(repeated_of(*s, o, sampler, random));
+  }
+  p.prior_draws = sampler.draw_prior(count);
+}
+
 void set_prior_shares(Posterior& p, const Observation& o, const medium::Defaults& defaults) {
   if (p.contact_ratio) {
     const double prior =
@@ -199,7 +229,7 @@ std::optional<Posterior> posterior(const Observation& o, const medium::Defaults&
     set_quantiles(p, samples);
     set_prior_shares(p, o, defaults);
     set_predictions(p, o, sampler, samples);
-    p.draws = samples.draws(sampling.draws);
+    if (sampling.draws > 0) set_draws(p, o, sampler, samples, sampling.draws);
   } else {
     p.contradicted = !p.tension.empty();
     p.notes.push_back(why_no_interval(samples.effective, samples.pareto_k, p.samples));

@@ -55,6 +55,8 @@ PulseModel::PulseModel(const Observation& o, friction::Closure closure)
   static const rupture::Relations most = rupture::from_stress(stress_range().most);
   least_psi_ = least.psi;
   most_psi_ = most.psi;
+  least_ln_V_ = std::log(least.rupture_velocity);
+  most_ln_V_ = std::log(most.rupture_velocity);
   least_seen_ = least.rupture_velocity * (sees_front_ ? front_(least.stress, 0).value : 1);
   most_seen_ = most.rupture_velocity * (sees_front_ ? front_(most.stress, 0).value : 1);
 }
@@ -100,6 +102,17 @@ PulseState PulseModel::at(double seen, double u) const {
   const double guess = std::clamp(rough_psi(std::fmin(seen / ratio, 0.99)), least_psi_, most_psi_);
   const double ln_psi = bracketed_newton(std::log(least_psi_), std::log(most_psi_), std::log(guess), true, excess);
   return state(rupture::from_psi(std::exp(ln_psi)), slope, damping);
+}
+
+PulseState PulseModel::of_prior(double share, double u) const {
+  const double V = std::exp(least_ln_V_ + share * (most_ln_V_ - least_ln_V_));
+  return state(rupture::from_rupture_velocity(V), 1, std::expm1(u));
+}
+
+double PulseModel::seen(const PulseState& p, double u) const {
+  if (!sees_front_) return p.rupture_velocity;
+  const double stress = std::clamp(p.stress, stress_range().least, stress_range().most);
+  return p.rupture_velocity * front_(stress, std::expm1(u)).value;
 }
 
 PulseState PulseModel::without_friction(double seen) const {

@@ -39,6 +39,11 @@ class PulseModel {
   PulseState at(double seen, double u) const;
   /// The pulse that is seen at this velocity without friction. Its stress may lie outside the table.
   PulseState without_friction(double seen) const;
+  /// Returns a pulse of the prior, which is uniform in ln |V-|: `share` = 0 is the slowest and 1 the fastest. Its
+  /// stress is in the range of the table.
+  PulseState of_prior(double share, double u) const;
+  /// The velocity at which this pulse is seen, in c.
+  double seen(const PulseState& pulse, double u) const;
 
  private:
   PulseState state(const rupture::Relations& relations, double slope, double damping) const;
@@ -50,6 +55,7 @@ class PulseModel {
   /// The value of most_u if there is no pulse.
   static constexpr double no_pulse = -1;
   double least_psi_, most_psi_, least_seen_, most_seen_;
+  double least_ln_V_, most_ln_V_;
 };
 
 }  // namespace slipfront::inference

@@ -207,6 +207,14 @@ bool Sampler::weigh(Sample& s, const PulseState& p, double u, double ln_x) {
   return true;
 }
 
+void Sampler::set_friction(FaultState& state, const PulseState& p, double u, double A) const {
+  state.damping_number = std::expm1(u);
+  if (knows_duration() && around_.spacing > 0)
+    state.friction_coefficient =
+        state.damping_number * around_.spacing / (around_.duration * around_.elastic.speed * A);
+  state.static_drop_pa = medium::stress_unit(around_.elastic.shear_modulus, A) * p.stress * p.static_share;
+}
+
 void Sampler::fill(Sample& s, const PulseState& p, double u, double ln_A) const {
   FaultState& state = s.state;
   const bool front = o_.rupture_velocity_is == RuptureVelocityIs::front;
@@ -222,11 +230,7 @@ void Sampler::fill(Sample& s, const PulseState& p, double u, double ln_A) const 
     state.characteristic_velocity = p.rupture_velocity;
   }
   if (mode_ == Mode::friction) {
-    state.damping_number = std::expm1(u);
-    if (knows_duration() && around_.spacing > 0)
-      state.friction_coefficient =
-          state.damping_number * around_.spacing / (around_.duration * around_.elastic.speed * A);
-    state.static_drop_pa = medium::stress_unit(around_.elastic.shear_modulus, A) * p.stress * p.static_share;
+    set_friction(state, p, u, A);
     if (knows_slip_velocity() && knows_contact_) w = medium::slip_velocity_unit(around_.elastic.speed, A) * p.W;
   }
   derive(state, around_.elastic, w);
@@ -245,6 +249,31 @@ bool Sampler::draw_without_velocity(Sample& s, const Cells::Point& point) {
   s.state.stress_bound = rupture::from_slip_velocity(w / medium::slip_velocity_unit(around_.elastic.speed, A)).stress;
   derive(s.state, around_.elastic, w);
   return s.weight > 0 || refuse(contradicted);
+}
+
+std::vector<FaultState> Sampler::draw_prior(std::size_t count) {
+  std::vector<FaultState> all;
+  const std::size_t most = 4 * count;  // some points are rejected, for example a normal error that reaches below zero
+  grow(most);
+  for (point_ = 0; point_ < most && all.size() < count; ++point_) {
+    if (!draw_surroundings()) continue;
+    const double u = points_(point_, 1) * std::log1p(most_damping_number);
+    const double least_ln_A = std::log(least_contact_ratio);
+    const double A = std::exp(least_ln_A + points_(point_, 2) * (std::log(around_.plastic) - least_ln_A));
+    const PulseState p = model_.of_prior(points_(point_, 0), u);
+    FaultState s = unknown_state();
+    s.rupture_velocity = model_.seen(p, u);
+    s.rupture_velocity_m_s = s.rupture_velocity * around_.elastic.speed;
+    s.characteristic_velocity = p.rupture_velocity;
+    s.stress = p.stress;
+    s.frictionless_slip_velocity = p.frictionless;
+    s.contact_ratio = A;
+    set_friction(s, p, u, A);
+    derive(s, around_.elastic, medium::slip_velocity_unit(around_.elastic.speed, A) * p.W);
+    all.push_back(s);
+  }
+  all.resize(count, unknown_state());
+  return all;
 }
 
 Sample Sampler::draw(std::size_t i) {

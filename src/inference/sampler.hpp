@@ -73,6 +73,8 @@ class Sampler {
   void grow(std::size_t samples) { points_.grow(samples); }
   /// Draws sample i. A rejected sample has weight 0, and its refusal is counted.
   Sample draw(std::size_t i);
+  /// Draws `count` states from the prior, at points of the same sequence. Call it after the last draw.
+  std::vector<FaultState> draw_prior(std::size_t count);
   const std::array<std::size_t, refusals>& refused() const { return refused_; }
   std::uint64_t seed() const { return seed_; }
 
@@ -107,6 +109,7 @@ class Sampler {
   bool draw_without_velocity(Sample& s, const Cells::Point& point);
   bool weigh(Sample& s, const PulseState& p, double u, double ln_x);
   void fill(Sample& s, const PulseState& p, double u, double ln_A) const;
+  void set_friction(FaultState& state, const PulseState& p, double u, double A) const;
 
   const catalogue::Observation& o_;
   const medium::Defaults& defaults_;

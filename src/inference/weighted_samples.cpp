@@ -76,16 +76,16 @@ std::optional<Quantiles> WeightedSamples::quantiles(double FaultState::*quantity
   return weighted_quantiles(values);
 }
 
-std::vector<FaultState> WeightedSamples::draws(std::size_t count) const {
+std::vector<const Sample*> WeightedSamples::draws(std::size_t count) const {
   double total = 0, below = 0;
   for (const Sample& s : accepted) total += s.weight;
-  std::vector<FaultState> all;
+  std::vector<const Sample*> all;
   for (const Sample& s : accepted) {
     below += s.weight;
     while (all.size() < count && (static_cast<double>(all.size()) + 0.5) * total <= below * static_cast<double>(count))
-      all.push_back(s.state);
+      all.push_back(&s);
   }
-  while (all.size() < count) all.push_back(accepted.back().state);
+  while (all.size() < count) all.push_back(&accepted.back());
   return all;
 }
 

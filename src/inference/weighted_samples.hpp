@@ -24,8 +24,8 @@ struct WeightedSamples {
   bool suffice_for(double FaultState::*quantity, double median) const;
   /// The quantiles of a quantity; absent if it is unknown.
   std::optional<Quantiles> quantiles(double FaultState::*quantity) const;
-  /// States of equal weight, by systematic resampling.
-  std::vector<FaultState> draws(std::size_t count) const;
+  /// Samples that have equal weight, by systematic resampling. One sample can occur more than once.
+  std::vector<const Sample*> draws(std::size_t count) const;
   /// Probability that a repeated observation is below the actual one. `i` is its position in `evidence`; the rupture
   /// velocity has none.
   double below(const catalogue::Measured& measured, std::optional<std::size_t> i) const;

@@ -25,7 +25,7 @@ constexpr double result_itself = 4096;  // bytes of the texts, notes and quantil
 constexpr double texts_in_file = 400;
 
 double draws_of(const EvaluationOptions& options) {
-  return static_cast<double>(options.sampling.draws * sizeof(FaultState));
+  return static_cast<double>(options.sampling.draws * (2 * sizeof(FaultState) + sizeof(inference::ObservedValues)));
 }
 
 /// The largest number of samples of one event.
@@ -51,7 +51,8 @@ double disk_needed(const EvaluationOptions& options, std::size_t events) {
   double numbers = 0;
   for (const NumberColumn& c : number_columns({.pulse = options.pulse, .draws = options.sampling.draws}))
     numbers += static_cast<double>(c.count);
-  return static_cast<double>(events) * (sizeof(double) * numbers + texts_in_file);
+  // The draws are also in the state from which a run resumes, and in the groups.
+  return static_cast<double>(events) * (sizeof(double) * numbers + 2 * draws_of(options) + texts_in_file);
 }
 
 void require_memory(const EvaluationOptions& options, std::size_t events, int at_once, bool with_file) {

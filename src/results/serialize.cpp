@@ -20,9 +20,9 @@ template <class Io, class P>
 void walk_posterior(Io& io, P& p) {
   for (const inference::Quantity& q : inference::quantities()) io(p.*q.quantiles);
   io(p.friction_identified), io(p.contact_ratio_prior_share), io(p.damping_number_prior_share);
-  io(p.trade_off), io(p.tension), io(p.predictions), io(p.contradicted), io(p.draws), io(p.notes), io(p.suffices),
-      io(p.effective_samples), io(p.pareto_k);
-  io(p.samples), io(p.seed);
+  io(p.trade_off), io(p.tension), io(p.predictions), io(p.contradicted), io(p.draws), io(p.prior_draws), io(p.repeated),
+      io(p.notes);
+  io(p.suffices), io(p.effective_samples), io(p.pareto_k), io(p.samples), io(p.seed);
 }
 
 template <class Io, class T>

@@ -107,23 +107,23 @@ class Event(CommandLine):
         folder = os.path.dirname(catalogue)
         whole, stopped, of_program = (os.path.join(folder, name) for name in ("whole.nc", "stopped.nc", "program.nc"))
         seen = []
-        data = slipfront.event(catalogue, output=whole, progress=lambda *done: seen.append(done[:2]))
+        data = slipfront.event(catalogue, output=whole, draws=5, progress=lambda *done: seen.append(done[:2]))
         self.assertTrue(all(total == 600 for _, total in seen))
 
         def stop(*_):
             raise KeyboardInterrupt
 
         with self.assertRaises(KeyboardInterrupt):
-            slipfront.event(catalogue, output=stopped, progress=stop)
+            slipfront.event(catalogue, output=stopped, draws=5, progress=stop)
         self.assertLess(slipfront.open(stopped).sizes["event"], 600)
         with self.assertRaisesRegex(slipfront.InputError, "another seed"):
-            slipfront.event(catalogue, resume=stopped, seed=2)
-        resumed = slipfront.event(catalogue, resume=stopped)
+            slipfront.event(catalogue, resume=stopped, draws=5, seed=2)
+        resumed = slipfront.event(catalogue, resume=stopped, draws=5)
         self.assertTrue(resumed.identical(data))
         with open(whole, "rb") as one, open(stopped, "rb") as other:
             expected = one.read()
             self.assertEqual(expected, other.read())
-        self.ok("event", catalogue, "-o", of_program)
+        self.ok("event", catalogue, "--draws", "5", "-o", of_program)
         with open(of_program, "rb") as file:
             self.assertEqual(expected, file.read())
 

@@ -203,6 +203,8 @@ class Figures(CommandLine):
         self.assertEqual([axes.get_xlabel() for axes in figure.axes[-4:]], ["initial stress Σ−, μA/π", "contact ratio A", "initial stress, MPa", "damping number Γ"])
         middle = float(figure.axes[10].get_title(loc="left").split("\n")[1].split()[0])
         self.assertLess(abs(middle / (float(data["draw_stress_pa"].median()) / 1e6) - 1), 0.01)
+        of_group = plots.corner(slipfront.open(path, group="posterior"))
+        self.assertEqual([axes.get_title(loc="left") for axes in of_group.axes], [axes.get_title(loc="left") for axes in figure.axes])
 
     def test_units(self):
         pulse = slipfront.pulse(CASE)

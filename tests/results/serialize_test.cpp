@@ -42,7 +42,7 @@ void expect_same(const EventResult& a, const EventResult& b) {
 }
 
 TEST(Saved, RestoresEveryBit) {
-  const EvaluationOptions plan{.sampling = {.samples = 200}};
+  const EvaluationOptions plan{.sampling = {.samples = 200, .draws = 7}};
   std::vector<EventResult> results;
   for (Entry& entry : entries()) results.push_back(evaluate(std::move(entry), {}, plan));
   FaultPulse pulse;  // needs not come from this event
@@ -54,6 +54,7 @@ TEST(Saved, RestoresEveryBit) {
   results[1].pulse.emplace().reason = "none";
   ASSERT_TRUE(results[0].posterior && results[1].posterior && !results[2].posterior);
   ASSERT_FALSE(results[1].posterior->trade_off.empty());
+  ASSERT_EQ(results[0].posterior->repeated.size(), 7u);
 
   const std::string bytes = serialize(results);
   std::vector<SavedResult> found = deserialize(bytes);

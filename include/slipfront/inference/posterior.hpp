@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "slipfront/inference/estimate.hpp"
+#include "slipfront/inference/predictive.hpp"
 
 namespace slipfront::inference {
 
@@ -66,6 +67,10 @@ struct Posterior : QuantileQuantities {
   std::vector<Prediction> predictions;  ///< one for each observation, if `suffices`
   bool contradicted = false;            ///< the observations exclude each other: there is no common posterior
   std::vector<FaultState> draws;        ///< as many as Sampling::draws, if `suffices`
+  std::vector<FaultState> prior_draws;  ///< as many states drawn from the prior, if `suffices`
+  /// A repeated observation of each of `draws`, with the error of the observation. A number is NaN if it was not
+  /// observed, or if the observations only give bounds.
+  std::vector<ObservedValues> repeated;
   std::vector<std::string> notes;
   bool suffices = false;         ///< there are enough samples for intervals; otherwise no quantity has one
   double effective_samples = 0;  ///< (sum of weights)^2 / sum of squared weights

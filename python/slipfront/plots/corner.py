@@ -30,14 +30,16 @@ def bins_of(values, count):
 
 
 def drawn(dataset):
-    """Returns as samples the draws of an event, from a file that `slipfront event --draws` wrote.
+    """Returns as samples the draws of an event, from a file that `slipfront event --draws` wrote or from its group "posterior" or "prior".
 
     The samples have those quantities of STATES that vary. Raises ValueError unless the file holds draws of exactly one event.
     """
-    with_draws = [i for i in range(dataset.sizes["event"]) if bool(dataset["draw_rupture_velocity"][i].notnull().any())]
+    start = "draw_" if "draw_rupture_velocity" in dataset else ""
+    dataset = dataset.transpose("event", ...)
+    with_draws = [i for i in range(dataset.sizes["event"]) if bool(dataset[f"{start}rupture_velocity"][i].notnull().any())]
     if len(with_draws) != 1:
         raise ValueError(f"draws of {len(with_draws)} events: a corner plot shows one; allowed: a file of one event, or .isel(event=[row])")
-    chosen = {name: dataset[f"draw_{name}"][with_draws[0]].rename(name) for name in STATES if f"draw_{name}" in dataset}
+    chosen = {name: dataset[f"{start}{name}"][with_draws[0]].rename(name) for name in STATES if f"{start}{name}" in dataset}
     varied = {name: values for name, values in chosen.items() if bool(values.notnull().all()) and float(values.max()) > float(values.min()) * (1 + 1e-9)}
     return xarray.Dataset({name: values.assign_attrs(long_name="") for name, values in varied.items()})
 
@@ -98,7 +100,7 @@ def corner(samples, names=None, bins: int = 30) -> Picture:
     ----------
     samples : xarray.Dataset
         Variables that have their dimensions in common, with 20 samples or more; or the draws of one event, which
-        `slipfront event --draws` wrote. Samples in which one of the variables is not finite are left out.
+        `slipfront event --draws` wrote, or their group "posterior" or "prior" as `slipfront.open` reads it. Samples in which one of the variables is not finite are left out.
     names : sequence of str, optional
         The variables to draw, in this order. By default all that are numbers.
     bins : int, optional
@@ -121,7 +123,8 @@ def corner(samples, names=None, bins: int = 30) -> Picture:
     >>> len(figure.axes) >= 3
     True
     """
-    title = f"{plain(samples['name'].values.ravel()[0])}, posterior\n" if "draw" in samples.dims and "name" in samples else ""
+    name = next((name for name in ("name", "event_name") if "draw" in samples.dims and name in samples.variables), None)
+    title = f"{plain(samples[name].values.ravel()[0])}, {'posterior' if name == 'name' else 'draws'}\n" if name else ""
     samples = drawn(samples) if "draw" in samples.dims else samples
     names = list(names or (name for name in samples.data_vars if samples[name].dtype.kind in "fiu"))
     variables = [in_megapascal(samples[name]) for name in names]

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 #include <utility>
 
+#include "record/events/event_groups.hpp"
 #include "record/events/event_layout.hpp"
 #include "record/files/fnv.hpp"
 #include "record/files/utf8.hpp"
@@ -131,9 +133,12 @@ void fill(Writer& file, const EventMetadata& metadata, Results results, const st
       file.bytes(event_layout::state, {file.dimension(std::string(event_layout::state) + "_bytes", state.size())});
   file.attribute(done, "long_name", "results of the finished events, from which a run resumes");
   file.attribute(done, "units", "1");
+  std::optional<EventGroups> groups;
+  if (metadata.columns.draws > 0) groups.emplace(file, metadata.version, results, metadata.columns.draws);
   file.end_definitions();
   contents.write();
   file.write(done, state);
+  if (groups) groups->write();
 }
 
 }  // namespace
@@ -142,7 +147,8 @@ void write_events(const std::string& path, const EventMetadata& metadata, Result
                   const std::vector<Decade>& population, bool finished) {
   const std::string state = results::serialize(results);
   const std::size_t size =
-      state.size() + results.size() * (1700 + metadata.columns.draws * 8 * inference::quantities().size()) + (1 << 16);
+      state.size() + results.size() * (1700 + metadata.columns.draws * 8 * (3 * inference::quantities().size() + 7)) +
+      (1 << 16);
   write_netcdf(path, size, [&](Writer& file) { fill(file, metadata, results, population, finished, state); });
 }
 

@@ -33,10 +33,10 @@ std::string library_version() {
   return text.substr(0, text.find(' '));
 }
 
-Handle::Handle(std::string name) : name_(std::move(name)), lock_(lock_netcdf()) {}
+Handle::Handle(std::string name, bool is_owner) : name_(std::move(name)), is_owner_(is_owner), lock_(lock_netcdf()) {}
 
 Handle::~Handle() {
-  if (id_ >= 0) nc_close(id_);  // nc_abort would delete a file of that name from the disk
+  if (is_owner_ && id_ >= 0) nc_close(id_);  // nc_abort would delete a file of that name from the disk
 }
 
 void Handle::require(int status, std::string_view doing) const {
@@ -46,6 +46,10 @@ void Handle::require(int status, std::string_view doing) const {
 
 Writer::Writer(std::string name, std::size_t expected_size) : Handle(std::move(name)) {
   require(nc_create_mem(plain_name, NC_NETCDF4, expected_size, &id_), "cannot be created");
+}
+
+Writer::Writer(const Writer& file, const std::string& group) : Handle(file.name_, false) {
+  require(nc_def_grp(file.id_, group.c_str(), &id_), "group " + group);
 }
 
 int Writer::dimension(const std::string& name, std::size_t size) {

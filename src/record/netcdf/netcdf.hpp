@@ -25,7 +25,7 @@ std::string library_version();
 /// An open file. It holds the lock of the C library, which is not thread-safe.
 class Handle {
  public:
-  explicit Handle(std::string name);
+  explicit Handle(std::string name, bool is_owner = true);
   ~Handle();
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
@@ -36,6 +36,7 @@ class Handle {
 
   std::string name_;  ///< for messages only
   int id_ = -1;       ///< -1: not open
+  bool is_owner_;     ///< closes the file; false for a group
 
  private:
   std::unique_lock<std::recursive_mutex> lock_;
@@ -60,6 +61,9 @@ class Writer : Handle {
 
   /// With an `expected_size` in bytes, the image need not grow step by step.
   explicit Writer(std::string name, std::size_t expected_size = 0);
+  /// A group of `file`, which must outlive it. It has its own dimensions and variables. Only `file` ends the
+  /// definitions and is finished.
+  Writer(const Writer& file, const std::string& group);
 
   /// A dimension of size 0 becomes an unlimited one without records, because NetCDF has no other kind.
   int dimension(const std::string& name, std::size_t size);

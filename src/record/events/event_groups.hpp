@@ -1,0 +1,55 @@
+#pragma once
+/// \file
+/// The groups in the file of a catalogue that hold draws: posterior, prior, posterior_predictive, observed_data and
+/// sample_stats, in the layout of ArviZ (InferenceData).
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "record/netcdf/netcdf.hpp"
+#include "results/columns.hpp"
+#include "results/evaluate.hpp"
+
+namespace slipfront::record {
+
+/// Defines the groups when it is made, and writes their values after the definitions of the file have ended. Its
+/// arguments must outlive it. A variable that is NaN for all events is left out, because ArviZ cannot plot it.
+class EventGroups {
+ public:
+  EventGroups(const netcdf::Writer& file, const std::string& version, std::span<const results::EventResult> results,
+              std::size_t draws);
+  void write();
+
+ private:
+  using Result = results::EventResult;
+  struct Group {
+    Group(const netcdf::Writer& parent, const std::string& name) : file(parent, name) {}
+    netcdf::Writer file;
+    int chain = 0, draw = 0, event = 0;
+    std::vector<std::pair<int, std::function<std::vector<double>()>>> numbers = {};
+    std::vector<std::pair<int, std::vector<std::int64_t>>> positions = {};
+    int names = 0;
+  };
+
+  Group& add_group(const netcdf::Writer& file, const std::string& name, std::string_view about, bool has_draws);
+  void add_states(Group& group, std::vector<inference::FaultState> inference::Posterior::*states);
+  void add_repeated(Group& group);
+  void add_observed(Group& group);
+  void add_statistics(Group& group);
+  /// Adds a variable over chain, draw and event, unless it has no values.
+  void add_draws(Group& group, const results::NumberColumn& about,
+                 const std::function<double(const Result&, std::size_t)>& get);
+  void add_events(Group& group, const results::NumberColumn& about, const std::function<double(const Result&)>& get);
+
+  const std::string& version_;
+  std::span<const Result> results_;
+  std::size_t draws_;
+  std::deque<Group> groups_;
+};
+
+}  // namespace slipfront::record
