@@ -69,7 +69,7 @@ for i in range(slow.sizes["event"]):
 #   friction, which slows the observed front. Then there is nothing in the last two columns.
 # - If there is also a slip velocity, contact ratio and stress in MPa have an interval, 5 % to 95 %.
 #   :doc:`plot_1_my_earthquake` explains why two velocities bound them from both sides. The stress
-#   in the third column is then the median.
+#   in the third column is then a median, which depends on what we assume about friction.
 # - ``nan`` means "cannot be known". Gisborne 2002 has no rupture velocity, and so it has no stress.
 #
 # The table names no rock, and slipfront has assumed one. Every assumption is a warning of its
@@ -110,7 +110,7 @@ print(f"at a stress of {float(fifth.stress):.3f} the front is {slower:.0f} times
 
 # %%
 # Friction can slow the front that we observe as well. How much stress can it hide? The "Typical
-# tremor and slip" has both velocities, so its interval includes every friction.
+# tremor and slip" has both velocities, so its interval includes 90 % of what friction may do.
 
 typical = slow.isel(event=list(slow.name.values).index("Typical tremor and slip"))
 print("stress", shown(typical, "stress"), "mu A / pi")
