@@ -69,8 +69,9 @@ def event(events=None, *, p_wave_speed=None, poisson_ratio=None, shear_modulus=N
         Elastic constants for events that give none, by default "6 km/s", 0.3 and "30 GPa".
     samples : int, optional
         Number of samples for every event, including its friction and errors; 0 for none. By default, 1000 for each event
-        that has an uncertainty, a contact ratio, a stress drop or a friction coefficient, and none for the others. The
-        number is doubled until the diagnostics pass, up to 64 times the first number.
+        that has an uncertainty, both velocities of an observed front, a contact ratio, a stress drop or a friction
+        coefficient, and none for the others. The number is doubled until the diagnostics pass, up to 64 times the first
+        number.
     seed : int, optional
         Seed of the samples, >= 0.
     closure : "consistent" or "paper", optional
@@ -106,9 +107,11 @@ def event(events=None, *, p_wave_speed=None, poisson_ratio=None, shear_modulus=N
     stress_pa (Pa), damping_number and friction_coefficient. `<name>_interval` holds [5 %, 95 %] of each. Values of sampled
     events are the median and the interval of the samples, and other values are those of the closed forms.
 
-    If friction is not known, contact_ratio is a lower bound and stress_pa is NaN. contact_ratio_bound and stress_pa_bound
-    are then the smallest possible values, those without friction. stress_bound is the smallest possible stress of an event
-    without rupture velocity. A quantity that cannot be identified is NaN.
+    The rupture velocity is that of the observed front, which friction slows, unless `rupture_velocity_is` states another.
+    If the slip velocity is known too, it bounds contact_ratio and stress_pa from both sides. If the rupture velocity is
+    "characteristic" and friction is not known, contact_ratio is a lower bound and stress_pa is NaN. contact_ratio_bound and
+    stress_pa_bound are then the smallest possible values, those without friction. stress_bound is the smallest possible
+    stress of an event with one velocity only. A quantity that cannot be identified is NaN.
 
     Sampled events also have `posterior_<name>` over `quantile` (5 %, 50 %, 95 %), effective_samples, pareto_k, samples and
     friction_identified (1 or 0). contact_ratio_prior_share and damping_number_prior_share are the width of an interval over
