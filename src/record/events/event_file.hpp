@@ -15,7 +15,7 @@
 
 namespace slipfront::record {
 
-inline constexpr const char* event_format = "event 2";  ///< value of the attribute slipfront_format
+inline constexpr const char* event_format = "event 3";  ///< value of the attribute slipfront_format
 
 /// The attributes of the file of a catalogue.
 struct EventMetadata {
