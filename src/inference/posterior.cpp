@@ -29,7 +29,7 @@ namespace {
       {"the slip velocity is above that without friction at this rupture velocity and contact ratio",
        "a lower slip_velocity or a larger contact_ratio"},
       {"the slip velocity is below that at every damping number up to 1e8",
-       "a higher slip_velocity or a smaller contact_ratio"},
+       "a higher slip_velocity, a smaller contact_ratio, or another rupture_velocity_is"},
       {"no contact ratio between 1e-8 and plastic contact agrees with the observations",
        "a lower slip_velocity, or another friction"},
       {"constants of the medium out of range", "-1 < poisson_ratio < 0.5, the others > 0"},
