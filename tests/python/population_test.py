@@ -5,6 +5,7 @@ import json
 import math
 import pathlib
 import unittest
+import unittest.mock
 import warnings
 
 import numpy as np
@@ -13,7 +14,7 @@ from scipy import special
 import slipfront
 import support
 from slipfront import _hierarchy
-from slipfront._population import forward, priors, rows, single, synthetic
+from slipfront._population import forward, priors, rows, sample, single, synthetic
 from slipfront._population.likelihood import Likelihood
 from support import CommandLine
 
@@ -63,8 +64,45 @@ class MomentDuration(unittest.TestCase):
         self.assertTrue(np.isnan(slipfront.moment_duration(np.nan, 1).potency))
 
 
+def dense(events, i, values, offsets):
+    """Returns ln of the likelihood of event i without selection, and ln of its probability of detection, for each offset of its study, by dense sums."""
+    stress, stress_spread, normal, normal_spread, friction, friction_spread, _ = values
+    contact, variance = np.log(normal) - LOG_HARDNESS, normal_spread**2 + friction_spread**2
+    off = np.linspace(-6.5, 6.5, 261)[:, None] * np.sqrt(variance)
+    ends = np.clip(np.log(stress) + np.array([-7, 7]) * stress_spread, forward.LOG_STRESS[0], forward.LOG_STRESS[-1])
+    log_stress = np.linspace(*ends, 801)
+    weight = np.exp(-0.5 * off**2 / variance) * np.exp(-0.5 * np.square((log_stress - np.log(stress)) / stress_spread))
+    weight[:, [0, -1]] /= 2
+    weight /= weight.sum()
+    log_damping = contact + np.log(friction) + off + events.log_duration[i] + np.log(events.speed[i])
+    error, deviation = events.front_error[i], np.hypot(events.size_error[i], normal_spread * friction_spread / np.sqrt(variance))
+    front = (events.log_front[i] - forward.at(forward.front(events.threshold[i]), log_stress, log_damping)) / error
+    size = contact + normal_spread**2 / variance * off + forward.at(forward.size(events.kind[i]), log_stress, log_damping)
+    seen = np.log(weight) - 0.5 * front**2 - np.log(2 * np.pi * error * deviation)
+    found = [special.logsumexp(seen - 0.5 * np.square((events.log_size[i] - size - offset) / deviation)) for offset in offsets]
+    detected = [np.log(np.sum(weight * special.ndtr((size + offset - events.smallest[i]) / deviation))) for offset in offsets]
+    return np.array(found), np.array(detected)
+
+
 class Likelihoods(unittest.TestCase):
     """The likelihood against sums over events that are drawn from the population."""
+
+    def test_sums_are_exact_for_populations_from_the_prior(self):
+        worst, offset = [], []
+        for seed in range(5):
+            generator = np.random.default_rng([9, seed])
+            events = synthetic.design(generator, 6, 2, smallest=-20.0, threshold=1e-3)
+            truth = synthetic.parameters(generator, events, LOG_HARDNESS)
+            synthetic.observe(generator, events, truth, LOG_HARDNESS)
+            likelihood = Likelihood(events, LOG_HARDNESS)
+            self.assertTrue(likelihood.selection.prepare(truth, LOG_HARDNESS))
+            offsets = truth[-1] * np.array([-1.0, 0, 1])
+            expected = np.array([dense(events, i, truth, offsets) for i in range(6)])
+            found = np.stack([likelihood.each(truth, offsets, np.arange(6)), likelihood.selection.log_probability(offsets, np.arange(6))], axis=1)
+            worst.append(np.abs(found - expected).max(axis=(0, 2)))
+            offset.append((found - expected).mean(axis=(0, 2)))
+        self.assertTrue((np.max(worst, axis=0) < [0.01, 0.03]).all(), np.max(worst, axis=0))
+        self.assertTrue((np.abs(offset) < 0.005).all(), offset)
 
     @staticmethod
     def drawn(events, i, values, offsets, count=200_000):
@@ -102,9 +140,10 @@ class Likelihoods(unittest.TestCase):
 
 
 class Populations(unittest.TestCase):
+    @unittest.mock.patch.object(sample, "PARTICLES", 25)
     def test_the_calibration_runs(self):
         calibration = script(SOURCE / "docs" / "population_calibration.py")
-        options = calibration.arguments(["--events", "20", "--studies", "5", "--steps", "30"])
+        options = calibration.arguments(["--events", "12", "--studies", "4", "--steps", "20"])
         seed, ranks, *_ = calibration.rank((3, options))
         self.assertEqual((seed, ranks.shape), (3, (len(priors.NAMES),)))
         self.assertTrue(((ranks >= 0) & (ranks <= 1)).all())

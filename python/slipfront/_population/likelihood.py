@@ -1,9 +1,11 @@
 """Likelihood of the parameters of a population, with the states of all events integrated out.
 
 The state of an event is ln(Sigma-), ln(A) and ln(C / b). Given Sigma- and Gamma, the observed size is proportional to A, so that the integral
-over A is in closed form. The others are sums: over kappa = ln(A C / b), which gives Gamma, and over ln(Sigma-) where the front allows it.
+over A is in closed form. The others are sums over nodes of the table of the theory: over kappa = ln(A C / b), which gives Gamma, and over
+ln(Sigma-). The nodes cover the population, and their steps are narrower than the integrand, so that the sums are accurate to about 1e-3.
 """
 
+import dataclasses
 import functools
 
 from .._numbers import np
@@ -11,42 +13,53 @@ from .._optional import import_optional
 from . import forward, priors
 from .selection import Selection
 
-STEP = 0.3  # between nodes in kappa
-REACH = 4.5  # standard deviations of kappa that are summed
-KAPPA = np.arange(-36.0, 14.0, STEP)
-FRONT_REACH = 4.0  # standard deviations of ln(V) that are summed
-STRESS_NODES = 24
+REACH = 5.0  # standard deviations of kappa, ln(Sigma-) and the front that are summed
+RESOLUTION = 1.4  # largest step between nodes, in standard deviations of the narrowest integrand
+LEAST_ERROR = 0.01  # errors of the front below this are replaced by it
+STRIDES = np.array([1, 2, 3, 4, 5, 6, 8, 9, 10, 12])  # Nodes are so many X
+END_WEIGHTS = np.array([3 / 8, 7 / 6, 23 / 24])  # weights of Gregory's formula, for a sum that ends where the integrand is not zero
+STEP = forward.LOG_DAMPING[1] - forward.LOG_DAMPING[0]
+MOST_DAMPING = 60.0  # largest ln(Gamma) of a node; the front and the size of larger ones are those of this one
+CHUNK = 60_000  # nodes that are summed at once, so that they fit into the cache
 STUDY_REACH = 4.0  # standard deviations between studies
-STUDY_NODES = 13
 LEAST_IN_TABLE = 0.9  # share of the events of a population whose Sigma- must be in the table
 FINE = np.linspace(-STUDY_REACH, STUDY_REACH, 81)
-#: Offsets of a study at which likelihoods are computed, in standard deviations between studies.
-STUDY = np.linspace(-STUDY_REACH, STUDY_REACH, STUDY_NODES)
+
+
+#: Stresses of the table. At low stress ln|V-| is about -3 / Sigma-, so that equal steps are in u = 3 ln(Sigma-) - 3 / Sigma-.
+STRESS_STEPS = 1440
+_u = 3 * forward.LOG_STRESS - 3 * np.exp(-forward.LOG_STRESS)
+LOG_STRESS = np.interp(np.linspace(_u[0], _u[-1], STRESS_STEPS + 1), _u, forward.LOG_STRESS)
+STRESS_STEP = (_u[-1] - _u[0]) / STRESS_STEPS
+U_SLOPE = 3 + 3 * np.exp(-LOG_STRESS)  # du / d ln(Sigma-)
 
 
 @functools.lru_cache(maxsize=None)
-def _between():
-    """Returns the matrix of the cubic spline that interpolates between the offsets STUDY to the offsets FINE."""
-    return import_optional("scipy.interpolate").CubicSpline(STUDY, np.eye(STUDY_NODES))(FINE)
+def _between(count):
+    """Returns `count` offsets of a study, in standard deviations, and the matrix of the cubic spline from them to the offsets FINE."""
+    offsets = np.linspace(-STUDY_REACH, STUDY_REACH, count)
+    return offsets, import_optional("scipy.interpolate").CubicSpline(offsets, np.eye(count))(FINE)
 
 
-def _columns(grid, log_damping):
-    """Returns the columns of a grid at these ln(Gamma), one a row."""
-    return forward.at(grid, forward.LOG_STRESS[None, :], log_damping[:, None])
+def _tables(function, keys):
+    """Returns the tables of function(key) in one array, up to the largest damping, their number of rows, and the steepest slope in u at each stress."""
+    log_damping = np.arange(forward.LOG_DAMPING[0], MOST_DAMPING, STEP)
+    tables = np.array([forward.at(function(key), LOG_STRESS, log_damping[:, None]) for key in keys])
+    slope = np.abs(np.gradient(tables, STRESS_STEP, axis=2)).max(axis=(0, 1))
+    return tables.reshape(-1, STRESS_STEPS + 1).astype(np.float32), len(log_damping), slope
 
 
-def _nodes(fronts, sizes, low, high, error, width):
-    """Returns nodes in ln(Sigma-) between the fronts `low` and `high`, and the logarithm of their weights in a sum; a row for each kappa.
+@dataclasses.dataclass
+class Nodes:
+    """Nodes of events (first axis) in kappa (second) and ln(Sigma-) (third)."""
 
-    Equal steps are best for integrands close to normal densities. These are equal in ln(V) / error + ln(size) / width."""
-    nodes = np.empty((len(fronts), STRESS_NODES))
-    for row, column, steps in zip(nodes, fronts, fronts / error + sizes / width):
-        ends = np.interp(np.interp([low, high], column, forward.LOG_STRESS), forward.LOG_STRESS, steps)
-        row[:] = np.interp(np.linspace(*ends, STRESS_NODES), steps, forward.LOG_STRESS)
-    edges = np.concatenate([nodes[:, :1], (nodes[:, 1:] + nodes[:, :-1]) / 2, nodes[:, -1:]], axis=1)
-    impossible = (low >= fronts[:, -1]) | (high <= fronts[:, 0])
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return nodes, np.where(impossible[:, None], -np.inf, np.log(np.diff(edges, axis=1)))
+    weight: np.ndarray  # ln of the weight of each node: the population times the likelihood of the front
+    rest: np.ndarray  # ln(A) that the size of each node lacks
+    deviation: np.ndarray  # standard deviation of `rest`, for each event
+    kappa: np.ndarray
+    kappa_step: float
+    column: np.ndarray  # column of the table for the first ln(Sigma-)
+    stride: int  # columns between nodes
 
 
 class Likelihood:
@@ -54,68 +67,119 @@ class Likelihood:
 
     def __init__(self, events, log_hardness, prior=None):
         self.events, self.log_hardness, self.prior = events, log_hardness, prior or priors.Prior()
-        shape = (len(events), len(KAPPA), STRESS_NODES)
-        self.log_stress, self.blur, self.weight, self.log_contact = (np.empty(shape, dtype=np.float32) for _ in range(4))
-        for i in range(len(events)):
-            self._place_nodes(i)
-        variance = np.maximum(events.front_error, 1e-6) ** 2
-        self.error = np.sqrt(np.maximum(events.size_error**2 - events.shared**2 / variance, 1e-8))
-        sizes = np.bincount(events.study)
-        self.single = sizes[events.study] == 1
+        self.front_error = np.maximum(events.front_error, LEAST_ERROR)
+        self.slant = events.shared / self.front_error**2
+        self.error = np.sqrt(np.maximum(events.size_error**2 - events.shared * self.slant, 1e-8))
+        thresholds, which = np.unique(events.threshold, return_inverse=True)
+        self.fronts, self.rows, self.front_slope = _tables(forward.front, thresholds)
+        self.front_row = which * self.rows
+        self.front_rise = np.abs(np.diff(self.fronts.reshape(-1, self.rows, STRESS_STEPS + 1), axis=1)).max() / STEP
+        kinds, which = np.unique(events.kind, return_inverse=True)
+        self.sizes, _, self.size_slope = _tables(forward.size, kinds)
+        self.size_row = which * self.rows
+        self.place = events.log_duration + np.log(events.speed)
+        self.low, self.high = self._windows()
+        count = np.bincount(events.study)
+        self.single = count[events.study] == 1
         self.several = np.flatnonzero(~self.single)
         self.studies = np.unique(events.study[self.several], return_inverse=True)[1] if len(self.several) else np.empty(0, dtype=int)
         self.selection = Selection(events) if np.isfinite(events.smallest).any() else None
 
-    def _place_nodes(self, i):
-        events = self.events
-        log_damping = KAPPA + np.log(events.speed[i]) + events.log_duration[i]
-        grid, error = forward.front(events.threshold[i]), max(events.front_error[i], 1e-3)
-        front = events.log_front[i]
-        sizes, width = forward.size(events.kind[i]), 0.1 + 1.3 * events.size_error[i]
-        log_stress, weight = _nodes(_columns(grid, log_damping), _columns(sizes, log_damping), front - FRONT_REACH * error, front + FRONT_REACH * error, error, width)
-        fronts = forward.at(grid, log_stress, log_damping[:, None])
-        # A population may be narrower than the steps between nodes. So half a step of the error of the front is moved to the population,
-        # as its variance: the convolution of both is the same.
-        rest = np.sqrt(np.maximum(error**2 - np.square(np.gradient(fronts, axis=1) / 2), 0.5 * error**2))
-        off = front - fronts
-        self.log_stress[i] = log_stress
-        self.blur[i] = np.square(np.gradient(log_stress, axis=1) / 2)
-        self.weight[i] = weight - 0.5 * (off / rest) ** 2 - np.log(rest * np.sqrt(2 * np.pi))
-        size = forward.at(sizes, log_stress, log_damping[:, None])
-        self.log_contact[i] = events.log_size[i] - size - events.shared[i] / error**2 * off  # ln(A) without error and study
+    def _windows(self):
+        """Returns the columns between which the front of each event (first axis) agrees with the table, for each row of it."""
+        windows = np.empty((2, len(self.events), self.rows), dtype=int)
+        for end, sign in zip(windows, (-1, 1)):
+            front = (self.events.log_front + sign * REACH * self.front_error).astype(np.float32)
+            for first in np.unique(self.front_row):
+                chosen = self.front_row == first
+                for row in range(self.rows):
+                    end[chosen, row] = np.searchsorted(np.maximum.accumulate(self.fronts[first + row]), front[chosen])
+        return np.clip(windows[0] - 1, 0, STRESS_STEPS), np.clip(windows[1], 0, STRESS_STEPS)
 
-    def terms(self, values, chosen=slice(None)):
-        """Returns the logarithm of the weight of each node, ln(A) that its size lacks, its standard deviation, and the slice of kappa."""
-        stress, stress_spread, normal, normal_spread, friction, friction_spread, _ = values
+    def _stress_nodes(self, values, scatter, resolution):
+        """Returns the first and the last column within the population, the stride, and ln of the weight of each column of the table."""
+        centre, spread = np.log(values[0]), values[1]
+        low, high = np.searchsorted(LOG_STRESS, [centre - REACH * spread, centre + REACH * spread])
+        low, high = min(max(low - 1, 0), STRESS_STEPS - 1), min(high, STRESS_STEPS)
+        size_error = np.sqrt(self.error.min() ** 2 + scatter)
+        steepest = np.square(self.front_slope / self.front_error.min()) + np.square(self.size_slope / size_error) + np.square(1 / (spread * U_SLOPE))
+        stride = STRIDES[max(np.searchsorted(STRIDES, resolution / np.sqrt(steepest[low:high + 1].max()) / STRESS_STEP, side="right") - 1, 0)]
+        ends = np.ones(STRESS_STEPS + 1)
+        ends[::stride][:3] = ends[::-stride][:3] = END_WEIGHTS
+        weight = np.log(ends * stride * STRESS_STEP / U_SLOPE / (spread * np.sqrt(2 * np.pi))) - 0.5 * np.square((LOG_STRESS - centre) / spread)
+        return low, high, stride, weight - np.log(share_in_table(values))
+
+    def _columns(self, values, scatter, chosen, rows, resolution):
+        """Returns the first column of the nodes of each event and row, the stride, their columns, and ln of their weights."""
+        low, high, stride, weight = self._stress_nodes(values, scatter, resolution)
+        first = np.clip(self.low[chosen[:, None], rows], low, high) // stride
+        last = -(-np.clip(self.high[chosen[:, None], rows], low, high) // stride)
+        count = max((last - first).max() + 1, 6)
+        first = np.clip(first, 0, STRESS_STEPS // stride - count + 1) * stride if count <= STRESS_STEPS // stride else np.zeros_like(first)
+        columns = first[:, :, None] + stride * np.arange(min(count, STRESS_STEPS // stride + 1))
+        return first, stride, columns, np.take(weight.astype(np.float32), columns)
+
+    def _kappa_stride(self, values, scatter, resolution):
+        """Returns the rows of the table between nodes: 2 if these are narrow enough, else 1."""
+        share = values[3] ** 2 / (values[3] ** 2 + values[5] ** 2)
+        steepest = 1 / (values[3] ** 2 + values[5] ** 2) + np.square(self.front_rise / self.front_error.min())
+        steepest += max(share, 1 - share) ** 2 / (self.error.min() ** 2 + scatter)  # d ln(size) / d ln(Gamma) is between -1 and 0.
+        return 2 if 2 * STEP <= resolution / np.sqrt(steepest) else 1
+
+    def _kappa_nodes(self, values, chosen, stride):
+        """Returns rows of the table for each event, kappa there and ln of the weights."""
+        centre, spread = np.log(values[2]) - self.log_hardness + np.log(values[4]), np.hypot(values[3], values[5])
+        shift = self.place[chosen] - forward.LOG_DAMPING[0]
+        first = np.ceil((centre - REACH * spread + shift) / STEP).astype(int)
+        rows = first[:, None] + stride * np.arange(int(2 * REACH * spread / (STEP * stride)) + 1)
+        kappa = rows * STEP - shift[:, None]
+        weight = np.log(STEP * stride / (spread * np.sqrt(2 * np.pi))) - 0.5 * np.square((kappa - centre) / spread)
+        return np.clip(rows, 0, self.rows - 1), kappa, weight
+
+    def nodes(self, values, chosen, resolution=RESOLUTION):
+        """Returns the Nodes of the chosen events for these parameters."""
+        _, _, normal, normal_spread, friction, friction_spread, _ = values
+        variance = normal_spread**2 + friction_spread**2
+        scatter = (normal_spread * friction_spread) ** 2 / variance
+        kappa_stride = self._kappa_stride(values, scatter, resolution)
+        rows, kappa, kappa_weight = self._kappa_nodes(values, chosen, kappa_stride)
+        first, stride, columns, weight = self._columns(values, scatter, chosen, rows, resolution)
         contact = np.log(normal) - self.log_hardness
-        centre, variance = contact + np.log(friction), normal_spread**2 + friction_spread**2
-        reach = REACH * np.sqrt(variance)
-        every = 2 if variance > 0.5**2 else 1
-        first, last = np.searchsorted(KAPPA, [centre - reach, centre + reach])
-        part = slice(max(first, 0), max(last, first + 1), every)
-        off = KAPPA[part] - centre
-        log_kappa = np.log(STEP * every) - 0.5 * off**2 / variance - 0.5 * np.log(2 * np.pi * variance)
-        log_stress = self.log_stress[chosen, part]
-        width = self.blur[chosen, part] + np.float32(stress_spread**2)
-        weight = self.weight[chosen, part] - np.float32(0.5) * (np.square(log_stress - np.float32(np.log(stress))) / width + np.log(width))
-        weight += (log_kappa - np.log(share_in_table(values)) - 0.5 * np.log(2 * np.pi)).astype(np.float32)[:, None]
-        expected = contact + normal_spread**2 / variance * off
-        rest = self.log_contact[chosen, part] - expected.astype(np.float32)[:, None]
-        deviation = np.sqrt(self.error[chosen] ** 2 + (normal_spread * friction_spread) ** 2 / variance)
-        return weight, rest, deviation, part
+        expected = contact + normal_spread**2 / variance * (kappa - contact - np.log(friction))
+        error = self.front_error[chosen][:, None]
+        kappa_weight = kappa_weight - np.log(error * np.sqrt(2 * np.pi))
+        starts = (rows * (STRESS_STEPS + 1))[:, :, None]
+        fronts = np.take(self.fronts, columns + starts + (self.front_row[chosen] * (STRESS_STEPS + 1))[:, None, None])
+        off = (self.events.log_front[chosen, None].astype(np.float32)[:, :, None] - fronts) * (1 / error).astype(np.float32)[:, :, None]
+        sizes = np.take(self.sizes, columns + starts + (self.size_row[chosen] * (STRESS_STEPS + 1))[:, None, None])
+        rest = (self.events.log_size[chosen, None] - expected).astype(np.float32)[:, :, None] - sizes
+        if self.slant[chosen].any():
+            rest -= (self.slant[chosen, None] * error).astype(np.float32)[:, :, None] * off
+        weight += kappa_weight.astype(np.float32)[:, :, None] - np.float32(0.5) * np.square(off)
+        return Nodes(weight, rest, np.sqrt(self.error[chosen] ** 2 + scatter), kappa, STEP * kappa_stride, first, stride)
+
+    def each(self, values, offsets, chosen, further=0.0):
+        """Returns the log likelihood of each chosen event (first axis), without selection, for each offset of its study (second axis).
+
+        `further` is a standard deviation that is added to the error of the size."""
+        found: list[np.ndarray] = []
+        count = 1
+        chosen = np.asarray(chosen)
+        while len(found) < len(chosen):
+            nodes = self.nodes(values, chosen[len(found):len(found) + count])
+            found.extend(_log_sums(nodes, offsets, further))
+            count = max(CHUNK // (nodes.weight.size // len(nodes.weight)), 1)
+        return np.array(found)
 
     def __call__(self, values):
         """Returns the logarithm of the likelihood of these parameters; -inf if too few events of the population would be in the table or in the catalogue."""
-        spread = values[-1]
         if share_in_table(values) < LEAST_IN_TABLE:
             return -np.inf
         if self.selection and not self.selection.prepare(values, self.log_hardness):
             return -np.inf
         total = 0.0
         if self.single.any():
-            weight, rest, deviation, _ = self.terms(values, self.single)
-            deviation = np.hypot(deviation, spread)
-            total += np.sum(_log_sum(weight, rest, deviation))
+            total += np.sum(self.each(values, np.zeros(1), np.flatnonzero(self.single), values[-1]))
             if self.selection:
                 total -= np.sum(self.selection.log_probability(np.zeros(1), self.single, single=True))
         if len(self.several):
@@ -124,14 +188,13 @@ class Likelihood:
 
     def by_study(self, values):
         """Returns the logarithm of the likelihood of each study with several events, for the offsets FINE * study_spread."""
-        weight, rest, deviation, _ = self.terms(values, self.several)
-        offsets = values[-1] * STUDY
-        each = np.stack([_log_sum(weight, rest - np.float32(offset), deviation) for offset in offsets], axis=1)
+        offsets, between = _between(13 if values[-1] < 0.5 else 21)
+        each = self.each(values, values[-1] * offsets, self.several)
         if self.selection:
-            each -= self.selection.log_probability(offsets, self.several)
-        sums = np.zeros((self.studies.max() + 1, STUDY_NODES))
+            each -= self.selection.log_probability(values[-1] * offsets, self.several)
+        sums = np.zeros((self.studies.max() + 1, len(offsets)))
         np.add.at(sums, self.studies, np.maximum(each, -1e4))
-        return sums @ _between().T
+        return sums @ between.T
 
     def log_posterior(self, x):
         """Returns the logarithm of the posterior density of standard normal numbers x, up to a constant."""
@@ -147,13 +210,21 @@ def share_in_table(values):
     return high - low
 
 
-def _log_sum(weight, rest, deviation):
-    """Returns ln of the sum over all nodes of weight times the normal density of `rest`."""
-    exponent = weight - np.square(rest) * (0.5 / deviation**2).astype(np.float32)[:, None, None]
-    exponent = exponent.reshape(len(exponent), -1)
-    most = np.maximum(exponent.max(axis=1), -1e30)
-    with np.errstate(divide="ignore"):
-        return most + np.log(np.exp(exponent - most[:, None]).sum(axis=1)) - np.log(deviation * np.sqrt(2 * np.pi))
+def _log_sums(nodes, offsets, further):
+    """Returns ln of the sum over all nodes of each event of weight times the normal density of `rest` minus each offset."""
+    count = len(nodes.weight)
+    deviation = np.hypot(nodes.deviation, further)
+    slope = nodes.rest.reshape(count, -1)
+    base = nodes.weight.reshape(count, -1) - np.square(slope) * (0.5 / deviation**2).astype(np.float32)[:, None]
+    slope = slope * (1 / deviation**2).astype(np.float32)[:, None]
+    sums, exponent = np.empty((count, len(offsets))), np.empty_like(base)
+    for i, offset in enumerate(offsets):
+        np.multiply(slope, np.float32(offset), out=exponent)
+        exponent += base
+        most = np.maximum(exponent.max(axis=1), -1e30)
+        exponent -= most[:, None]
+        sums[:, i] = most + np.log(np.exp(exponent, out=exponent).sum(axis=1) + 1e-30)
+    return sums - 0.5 * np.square(offsets / deviation[:, None]) - np.log(deviation * np.sqrt(2 * np.pi))[:, None]
 
 
 def _log_mean(logarithms):

@@ -1,4 +1,7 @@
-"""Draws parameters of a population from their posterior distribution with emcee."""
+"""Draws parameters of a population from their posterior distribution.
+
+Particles from the prior are tempered to the posterior (sequential Monte Carlo), so that no mode is lost; emcee continues from them. Both are
+done twice, independently, so that R-hat compares two answers."""
 
 import dataclasses
 
@@ -6,14 +9,14 @@ from .._numbers import np
 from .._optional import import_optional
 from .._slipfront import NumericsError
 from . import priors
+from .coordinates import Coordinates
 
 ENSEMBLES, WALKERS = 2, 20
-STARTS = 200  # draws from the prior; climbs to the modes start at the best of them
-CLIMBS, CLIMB = 5, 350  # number of climbs, and evaluations of each
-LOWER = 8.0  # a mode whose ln(density) is lower than that of the highest by more is left out
+PARTICLES, SWEEPS = 100, 2  # particles that are tempered for an ensemble, and their moves at each temperature
+TRIES = 2000  # draws from the prior for each ensemble, to find particles
 WARM_UP = 1 / 4  # share of the steps
-WORST = 15.0  # smallest ln(density) of a start, below that of the mode
-DIFFERENCE = 0.15  # step for second derivatives, in standard deviations of the prior
+WIDER, FREEDOM = 1.2, 6  # variance of jumps over that of the particles, and degrees of freedom of their t distribution
+EFFECTIVE = 0.5  # share of the particles that stays effective from one temperature to the next
 
 
 @dataclasses.dataclass
@@ -26,54 +29,94 @@ class Draws:
     acceptance: float
 
 
-def _modes(log_posterior, generator):
-    """Returns the parameters x of the largest posterior densities that climbs from several starts reach, the largest first."""
-    minimize = import_optional("scipy.optimize").minimize
-    x = generator.standard_normal((STARTS, len(priors.NAMES)))
-    x[0] = 0
-    density = np.array([log_posterior(row) for row in x])
-    possible = np.flatnonzero(np.isfinite(density))
-    if not len(possible):
-        raise NumericsError("population: no parameters that the prior allows agree with the events; check their units and the detection limit")
+def _particles(target, generator):
+    """Returns particles from the prior, ln of their prior densities, and their log likelihoods, which are finite."""
     found = []
-    for start in x[possible[np.argsort(density[possible])[::-1][:CLIMBS]]]:
-        simplex = start + np.vstack([np.zeros(x.shape[1]), 0.4 * np.eye(x.shape[1])])
-        found.append(minimize(lambda y: -max(log_posterior(y), -1e9), start, method="Nelder-Mead",
-                              options={"initial_simplex": simplex, "maxfev": CLIMB, "xatol": 0.02, "fatol": 0.1}))
-    found.sort(key=lambda climb: climb.fun)
-    return [climb.x for climb in found if climb.fun < found[0].fun + LOWER]
+    for _ in range(TRIES):
+        x = generator.standard_normal(len(priors.NAMES))
+        if np.isfinite(target.likelihood.log_posterior(x)):
+            y = target.of(x)
+            found.append((y, *target.parts(y)))
+            if len(found) == PARTICLES:
+                return tuple(np.array(part) for part in zip(*found))
+    raise NumericsError("population: no parameters that the prior allows agree with the events; check their units and the detection limit")
 
 
-def _covariance(log_posterior, mode):
-    """Returns the covariance of the normal distribution that has the curvature of the posterior at its mode. It is not wider than the prior."""
-    size, step = len(mode), DIFFERENCE * np.eye(len(mode))
+def _next(power, logs):
+    """Returns the next power of the likelihood: the largest that leaves the share EFFECTIVE of the particles, at most 1."""
+    def effective(end):
+        weights = np.exp((end - power) * (logs - logs.max()))
+        return weights.sum() ** 2 / np.square(weights).sum() / len(logs)
 
-    def at(offset):
-        return max(log_posterior(mode + offset), -1e9)
-
-    precision = np.empty((size, size))
-    for i in range(size):
-        for j in range(i + 1):
-            mixed = at(step[i] + step[j]) - at(step[i] - step[j]) - at(step[j] - step[i]) + at(-step[i] - step[j])
-            precision[i, j] = precision[j, i] = -mixed / (4 * DIFFERENCE**2)
-    widths, axes = np.linalg.eigh(precision)
-    return (axes / np.maximum(widths, 1)) @ axes.T
+    if effective(1.0) >= EFFECTIVE:
+        return 1.0
+    low, high = power, 1.0
+    for _ in range(50):
+        middle = (low + high) / 2
+        low, high = (middle, high) if effective(middle) >= EFFECTIVE else (low, middle)
+    return high
 
 
-def _starts(log_posterior, generator):
-    """Returns a start x for each walker of each ensemble, from the normal distributions around the modes."""
-    modes = _modes(log_posterior, generator)
-    shapes, least = [_covariance(log_posterior, mode) for mode in modes], log_posterior(modes[0]) - WORST
-    starts: list[np.ndarray] = []
-    scale = 1.0
-    while len(starts) < ENSEMBLES * WALKERS:
-        which = len(starts) % len(modes)
-        start = generator.multivariate_normal(modes[which], scale * shapes[which])
-        if log_posterior(start) > least:
-            starts.append(start)
-        else:
-            scale *= 0.95
-    return generator.permutation(np.array(starts)).reshape(ENSEMBLES, WALKERS, -1)
+class Jumps:
+    """Draws from a t distribution around weighted particles: proposals that do not depend on the current x."""
+
+    def __init__(self, x, weights):
+        self.centre, self.size = np.average(x, axis=0, weights=weights), x.shape[1]
+        self.shape = np.linalg.cholesky(WIDER * np.cov(x.T, aweights=weights) + 1e-6 * np.eye(self.size))
+
+    def draw(self, generator, count):
+        scale = np.sqrt(FREEDOM / generator.chisquare(FREEDOM, (count, 1)))
+        return self.centre + scale * generator.standard_normal((count, self.size)) @ self.shape.T
+
+    def log_density(self, x):
+        """Returns the logarithm of the density, up to a constant."""
+        distance = np.square(np.linalg.solve(self.shape, (x - self.centre).T)).sum(axis=0)
+        return -0.5 * (FREEDOM + self.size) * np.log1p(distance / FREEDOM)
+
+    def propose(self, x, generator):
+        """Returns a new x for each row and ln of the factor of its acceptance, as a move of emcee needs them."""
+        new = self.draw(generator, len(x))
+        return new, self.log_density(x) - self.log_density(new)
+
+
+def _proposal(jumps, x, i, generator):
+    """Returns a proposal for particle i: a jump, a small step, or a step along the difference of two others; and ln of its factor."""
+    count, size = x.shape
+    kind = generator.random()
+    if kind < 0.4:
+        new, factor = jumps.propose(x[i:i + 1], generator)
+        return new[0], factor[0]
+    small = jumps.shape @ generator.standard_normal(size)
+    if kind < 0.6:
+        return x[i] + generator.choice([1.0, 0.4]) * 2.38 / np.sqrt(size) * small, 0.0
+    first, second = generator.choice(count - 1, 2, replace=False)
+    return x[i] + generator.choice([1.0, 0.6, 0.3]) * (x[first + (first >= i)] - x[second + (second >= i)]) + 1e-2 * small, 0.0
+
+
+def _sweep(target, power, particles, jumps, generator):
+    """Moves each particle once."""
+    y, prior, logs = particles
+    for i in range(len(y)):
+        new, factor = _proposal(jumps, y, i, generator)
+        new_prior, new_log = target.parts(new)
+        if np.isfinite(new_log) and np.log(generator.random()) < power * (new_log - logs[i]) + new_prior - prior[i] + factor:
+            y[i], prior[i], logs[i] = new, new_prior, new_log
+
+
+def _tempered(target, generator):
+    """Returns particles that were tempered from the prior to the posterior."""
+    particles, power = _particles(target, generator), 0.0
+    while power < 1:
+        logs = particles[2]
+        last, power = power, _next(power, logs)
+        weights = np.exp((power - last) * (logs - logs.max()))
+        weights /= weights.sum()
+        jumps = Jumps(particles[0], weights)
+        places = np.searchsorted(np.cumsum(weights), (np.arange(len(logs)) + generator.random()) / len(logs))
+        particles = tuple(part[np.minimum(places, len(logs) - 1)] for part in particles)
+        for _ in range(SWEEPS):
+            _sweep(target, power, particles, jumps, generator)
+    return particles[0] + 1e-3 * generator.standard_normal(particles[0].shape) @ jumps.shape.T
 
 
 def _rhat(chains):
@@ -85,19 +128,21 @@ def _rhat(chains):
 
 def sample(likelihood, steps, seed, progress=None):
     """Returns Draws of the posterior of a Likelihood after `steps` steps of each walker; those of the warm-up are left out. Raises NumericsError if there is no start."""
-    emcee, log_posterior = import_optional("emcee"), likelihood.log_posterior
+    emcee, target = import_optional("emcee"), Coordinates(likelihood)
     generator = np.random.default_rng(seed)
-    moves = [(emcee.moves.DEMove(), 0.5), (emcee.moves.DEMove(gamma0=1.0), 0.1), (emcee.moves.DESnookerMove(), 0.1), (emcee.moves.StretchMove(), 0.3)]
     chains, times, acceptance = [], [], []
-    for ensemble, start in enumerate(_starts(log_posterior, generator)):
-        sampler = emcee.EnsembleSampler(WALKERS, len(priors.NAMES), log_posterior, moves=moves)
+    for ensemble in range(ENSEMBLES):
+        particles = _tempered(target, generator)
+        moves = [(emcee.moves.MHMove(Jumps(particles, None).propose), 0.5), (emcee.moves.DEMove(), 0.25), (emcee.moves.DEMove(gamma0=1.0), 0.05), (emcee.moves.DESnookerMove(), 0.1), (emcee.moves.StretchMove(), 0.1)]
+        sampler = emcee.EnsembleSampler(WALKERS, len(priors.NAMES), target, moves=moves)
         sampler.random_state = np.random.RandomState(generator.integers(2**31)).get_state()
-        for step, _ in enumerate(sampler.sample(start, iterations=steps), 1):
+        for step, _ in enumerate(sampler.sample(generator.permutation(particles)[:WALKERS], iterations=steps), 1):
             if progress:
                 progress(ensemble * steps + step, ENSEMBLES * steps)
         chains.append(sampler.get_chain(discard=int(steps * WARM_UP)))
         times.append(emcee.autocorr.integrated_time(chains[-1], tol=0).max())
         acceptance.append(sampler.acceptance_fraction.mean())
     drawn = np.array(chains)
+    drawn = np.array([target.x(y)[0] for y in drawn.reshape(-1, drawn.shape[-1])]).reshape(drawn.shape)
     return Draws(values=likelihood.prior.values(drawn.reshape(-1, drawn.shape[-1])), effective=float(drawn.shape[0] * drawn.shape[1] * WALKERS / max(times)),
                  rhat=max(_rhat(drawn[..., i]) for i in range(drawn.shape[-1])), acceptance=float(np.mean(acceptance)))

@@ -4,21 +4,29 @@ from .._numbers import np
 from .._optional import import_optional
 from . import forward
 
-STRESS_NODES, KAPPA_NODES, DURATION_NODES, SIZE_NODES = 41, 9, 5, 12
-REACH = 4.0  # standard deviations that are summed
+KAPPA_NODES, SIZE_NODES = 13, 14
+STRESS_NODES = 24, 48  # for populations of a spread of stress below and above WIDE
+WIDE = 0.2
+DURATION_STEP = 0.6  # largest step of ln(duration) between nodes
+REACH = 5.0  # standard deviations that are summed
 STUDY_REACH = 4.0  # standard deviations between studies
 LEAST = 1e-3  # A population of which fewer events would enter the catalogue is excluded.
-ERROR_STEP = 0.1  # Errors of sizes are rounded to multiples of this.
+ERROR_STEP = 0.05  # Errors of sizes are rounded to multiples of this.
 
 
-def _normal_nodes(count):
-    places = np.linspace(-REACH, REACH, count)
-    weights = np.exp(-0.5 * places**2)
-    return places, weights / weights.sum()
+_legendre = [np.polynomial.legendre.leggauss(count) for count in STRESS_NODES]
+_kappa_places = np.linspace(-REACH, REACH, KAPPA_NODES)
+_kappa_weights = np.exp(-0.5 * _kappa_places**2) / np.exp(-0.5 * _kappa_places**2).sum()
 
 
-_stress_places, _stress_weights = _normal_nodes(STRESS_NODES)
-_kappa_places, _kappa_weights = _normal_nodes(KAPPA_NODES)
+def _stress_nodes(stress, spread):
+    """Returns nodes of ln(Sigma-) within the table, and their weights for a normal distribution; the weights are NaN if it is outside the table."""
+    low, high = (np.clip(np.log(stress) + reach * spread, forward.LOG_STRESS[0], forward.LOG_STRESS[-1]) for reach in (-REACH, REACH))
+    places, weights = _legendre[int(spread > WIDE)]
+    places = (low + high) / 2 + (high - low) / 2 * places
+    weights = weights * np.exp(-0.5 * np.square((places - np.log(stress)) / spread))
+    with np.errstate(invalid="ignore"):
+        return places, weights / weights.sum() * (1.0 if high > low else np.nan)
 
 
 class Selection:
@@ -29,7 +37,8 @@ class Selection:
             raise ValueError("events of a catalogue with a detection limit must all have the same kind of size")
         self.events, self.kind = events, events.kind[0]
         self.place = events.log_duration + np.log(events.speed)
-        self.grid = np.linspace(self.place.min() - 1e-3, self.place.max() + 1e-3, DURATION_NODES)
+        low, high = self.place.min() - 1e-3, self.place.max() + 1e-3
+        self.grid = np.linspace(low, high, 4 + int((high - low) / DURATION_STEP))
         self.level = np.maximum(np.round(events.size_error / ERROR_STEP), 1) * ERROR_STEP
         self.levels = np.unique(self.level)
         self.any_single = (np.bincount(events.study)[events.study] == 1).any()
@@ -38,21 +47,18 @@ class Selection:
         """Returns sizes without scatter at the nodes of stress and kappa (second axis) for each duration of the grid, and their weights."""
         stress, stress_spread, normal, normal_spread, friction, friction_spread, _ = values
         contact, variance = np.log(normal) - log_hardness, normal_spread**2 + friction_spread**2
-        log_stress = np.log(stress) + stress_spread * _stress_places
-        inside = (log_stress >= forward.LOG_STRESS[0]) & (log_stress <= forward.LOG_STRESS[-1])
+        log_stress, stress_weights = _stress_nodes(stress, stress_spread)
         off = np.sqrt(variance) * _kappa_places
         kappa = contact + np.log(friction) + off
         sizes = forward.at(forward.size(self.kind), log_stress[:, None, None], (kappa[None, :, None] + self.grid[None, None, :]))
         sizes = sizes + (contact + normal_spread**2 / variance * off)[None, :, None]
-        weights = (_stress_weights * inside)[:, None] * _kappa_weights
-        with np.errstate(invalid="ignore"):
-            weights = weights.ravel() / weights.sum()
-        return sizes.reshape(-1, DURATION_NODES).T, weights, normal_spread * friction_spread / np.sqrt(variance)
+        weights = stress_weights[:, None] * _kappa_weights
+        return sizes.reshape(-1, len(self.grid)).T, weights.ravel(), normal_spread * friction_spread / np.sqrt(variance)
 
     def _table(self, sizes, weights, deviation):
-        """Returns ln of the probability of a size above each of the limits, for each duration of the grid."""
-        ndtr = import_optional("scipy.special").ndtr
-        return np.log(np.maximum(np.tensordot(ndtr((sizes[:, :, None] - self.limits) / deviation), weights, axes=(1, 0)), 1e-12))
+        """Returns a spline of ln of the probability of a size above a limit, in ln(duration) and the limit."""
+        ndtr, spline = import_optional("scipy.special").ndtr, import_optional("scipy.interpolate").RectBivariateSpline
+        return spline(self.grid, self.limits, np.log(np.maximum(np.tensordot(ndtr((sizes[:, :, None] - self.limits) / deviation), weights, axes=(1, 0)), 1e-12)))
 
     def prepare(self, values, log_hardness):
         """Computes the probabilities for these parameters. Returns whether enough events of this population would enter the catalogue."""
@@ -69,11 +75,10 @@ class Selection:
     def log_probability(self, offsets, chosen, single=False):
         """Returns ln of the probability that each chosen event is detected (first axis), for each offset of its study (second axis)."""
         limit = self.events.smallest[chosen][:, None] - offsets[None, :]
-        place = np.broadcast_to(((self.place[chosen] - self.grid[0]) / (self.grid[1] - self.grid[0]))[:, None], limit.shape)
+        place = np.broadcast_to(self.place[chosen][:, None], limit.shape)
         out = np.empty(limit.shape)
         for level, table in (self.alone if single else self.together).items():
             rows = self.level[chosen] == level
             if rows.any():
-                places = [place[rows], (limit[rows] - self.limits[0]) / (self.limits[1] - self.limits[0])]
-                out[rows] = np.minimum(import_optional("scipy.ndimage").map_coordinates(table, places, order=3, mode="nearest"), 0)
+                out[rows] = np.minimum(table.ev(place[rows], limit[rows]), 0)
         return out

@@ -3,6 +3,8 @@
 from .._numbers import np
 from . import likelihood as of
 
+FINER = 0.6  # largest step between nodes; draws are uniform within steps
+
 
 def _offsets(likelihood, values, generator):
     """Returns the offset of the study of each event: for studies with several events a draw, for others NaN."""
@@ -15,14 +17,6 @@ def _offsets(likelihood, values, generator):
     return offsets
 
 
-def _stress(likelihood, values, node, normals):
-    """Returns ln(Sigma-), drawn around nodes (event, kappa, stress) with the part of the front's error that was moved to the population."""
-    centre, blur, spread = np.log(values[0]), likelihood.blur[node].astype(float), values[1] ** 2
-    share = spread / (spread + blur)
-    drawn = centre + share * (likelihood.log_stress[node] - centre) + np.sqrt(share * blur) * normals
-    return np.clip(drawn, of.forward.LOG_STRESS[0], of.forward.LOG_STRESS[-1])
-
-
 def draw(likelihood, values, generator):
     """Returns ln(Sigma-), ln(A), ln(C / b), ln(Gamma) and the offset of the study of each event, for one set of parameters.
 
@@ -32,26 +26,28 @@ def draw(likelihood, values, generator):
     _, _, normal, normal_spread, friction, friction_spread, study_spread = values
     offsets = _offsets(likelihood, values, generator)
     alone = np.isnan(offsets)
-    weight, rest, deviation, part = likelihood.terms(values)
+    nodes = likelihood.nodes(values, np.arange(len(alone)), FINER)
+    deviation = nodes.deviation
     known = np.where(alone, 0, offsets)
     width = np.where(alone, np.hypot(deviation, study_spread), deviation)
-    exponent = weight - 0.5 * ((rest - known[:, None, None]) / width[:, None, None]) ** 2
+    exponent = nodes.weight - 0.5 * ((nodes.rest - known[:, None, None]) / width[:, None, None]) ** 2
     events = np.arange(len(exponent))
     flat = exponent.reshape(len(exponent), -1)
     place = (flat + generator.gumbel(size=flat.shape)).argmax(axis=1)
-    rest = rest.reshape(flat.shape)[events, place]
-    normals = generator.standard_normal((3, len(events)))
-    column = np.arange(len(of.KAPPA))[part][place // of.STRESS_NODES]
-    log_stress = _stress(likelihood, values, (events, column, place % of.STRESS_NODES), normals[2])
+    rest = nodes.rest.reshape(flat.shape)[events, place]
+    normals = generator.standard_normal((2, len(events)))
+    row, node = np.divmod(place, nodes.weight.shape[2])
+    steps = generator.random((2, len(events))) - 0.5
+    column = nodes.column[events, row] + nodes.stride * (node + steps[0])
+    log_stress = np.interp(column, np.arange(of.STRESS_STEPS + 1), of.LOG_STRESS)
     share = study_spread**2 / (study_spread**2 + deviation**2)
     offsets = np.where(alone, share * rest + study_spread * np.sqrt(1 - share) * normals[0], offsets)
     variance = normal_spread**2 + friction_spread**2
-    every = part.step * of.STEP
-    kappa = of.KAPPA[column]
+    kappa = nodes.kappa[events, row]
     scatter = (normal_spread * friction_spread) ** 2 / variance
     gain = scatter / (scatter + likelihood.error**2)
     contact = np.log(normal) - likelihood.log_hardness
     log_contact = contact + normal_spread**2 / variance * (kappa - contact - np.log(friction)) + gain * (rest - offsets) + np.sqrt(scatter * (1 - gain)) * normals[1]
-    kappa = kappa + every * (generator.random(len(events)) - 0.5)
+    kappa = kappa + nodes.kappa_step * steps[1]
     log_damping = kappa + np.log(likelihood.events.speed) + likelihood.events.log_duration
     return log_stress, log_contact, kappa - log_contact, log_damping, offsets
