@@ -38,6 +38,7 @@ MODULES = {
 FOLDERS = {
     "catalogue": {"csv": ".", "fsp": ".", "json": ".", "toml": "."},
     "finite_fault": {"source": "."},
+    "inference": {"sampling": ""},
     "record": {"files": "", "netcdf": "files", "pulses": "netcdf files", "events": "pulses netcdf files", "faults": "netcdf files"},
     "scenario": {"text": "", "formula": "text", "profile": "formula text", "friction": ". profile formula text"},
     "foundation": {"math": "text", "simd": "", "text": ""},

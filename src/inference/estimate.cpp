@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "foundation/text/digits.hpp"
-#include "inference/pulse_state.hpp"
+#include "inference/sampling/pulse_state.hpp"
 #include "slipfront/medium/constants.hpp"
 #include "slipfront/medium/medium.hpp"
 #include "slipfront/rupture/relations.hpp"

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "foundation/text/digits.hpp"
+#include "inference/sampling/weighted_samples.hpp"
 #include "inference/tension.hpp"
-#include "inference/weighted_samples.hpp"
 #include "slipfront/medium/medium.hpp"
 
 namespace slipfront::inference {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "inference/weighted_samples.hpp"
+#include "inference/sampling/weighted_samples.hpp"
 
 namespace slipfront::inference {
 

@@ -5,27 +5,22 @@
 #include "catalogue/derived.hpp"
 #include "results/quantities.hpp"
 #include "results/serialize.hpp"
-#include "slipfront/rupture/relations.hpp"
 #include "slipfront/medium/medium.hpp"
+#include "slipfront/rupture/relations.hpp"
 
 namespace slipfront::results {
 
 using catalogue::Entry;
 using catalogue::Observation;
-using catalogue::Quantiles;
 using finite_fault::along_fault;
 using finite_fault::FaultPulse;
 using finite_fault::LocalState;
 using finite_fault::pulse_along_fault;
-using inference::Estimate;
+using inference::apply_posterior;
 using inference::estimate;
-using inference::Inferred;
-using inference::Interval;
 using inference::needs_samples;
 using inference::Posterior;
 using inference::posterior;
-using inference::quantities;
-using inference::Quantity;
 
 std::vector<std::string> EventResult::warnings() const {
   std::vector<std::string> all = estimate ? estimate->warnings : observation.warnings;
@@ -34,35 +29,6 @@ std::vector<std::string> EventResult::warnings() const {
 }
 
 namespace {
-
-/// The interval of samples. It is absent if all samples are equal.
-std::optional<Interval> interval_of(const Quantiles& q) {
-  if (!(q.low < q.high)) return {};
-  return Interval{q.low, q.high};
-}
-
-/// Replaces the results of the closed forms by those of the posterior.
-void fill(Estimate& e, const Posterior& p) {
-  const auto set = [](std::optional<Inferred>& to, const std::optional<Quantiles>& from) {
-    if (from) to = Inferred{from->median, interval_of(*from)};
-  };
-  for (const Quantity& q : quantities()) set(e.*q.inferred, p.*q.quantiles);
-  // If only a bound is known, the bound is the result.
-  if (!p.contact_ratio) set(e.contact_ratio, p.contact_ratio_bound);
-  set(e.stress, p.stress_bound);
-  if (p.contact_ratio) e.contact_ratio_bound.reset();
-  if (p.stress_pa) e.stress_pa_bound.reset();
-  // The closed forms only bound the stress if the error of the rupture velocity reaches above c. Samples are below c.
-  if (p.stress && !p.stress_bound) e.stress_bound.reset();
-  // An observation is not an answer: observations that exclude each other give none.
-  if (p.contradicted)
-    for (auto* x : {&e.contact_ratio, &e.stress_pa, &e.observed_slip_velocity, &e.slip_velocity_ratio,
-                    &e.contact_ratio_bound, &e.stress_pa_bound})
-      x->reset();
-  if (p.suffices) return;
-  for (const Quantity& q : quantities())
-    if (e.*q.inferred) (e.*q.inferred)->interval.reset();
-}
 
 bool is_sampled(const EvaluationOptions& options, const Observation& o) {
   return options.sampling.samples > 0 && (options.sample_all || needs_samples(o));
@@ -92,7 +58,7 @@ EventResult evaluate(Entry&& entry, const medium::Defaults& defaults, const Eval
     catalogue::derive(result.observation, elastic.shear_modulus, elastic.speed);
     result.estimate = estimate(result.observation, defaults, is_sampled(options, result.observation));
     result.posterior = posterior_of(result);
-    if (result.posterior) fill(*result.estimate, *result.posterior);
+    if (result.posterior) apply_posterior(*result.estimate, *result.posterior);
     std::vector<LocalState> states = along_fault(result.observation, defaults);
     result.faster_than_c = finite_fault::faster_than(states, result.estimate->speed);
     if (options.along_fault) result.along_fault = std::move(states);

@@ -5,8 +5,8 @@
 
 #include "foundation/machine.hpp"
 #include "foundation/text/digits.hpp"
-#include "inference/sampler.hpp"
-#include "inference/sobol.hpp"
+#include "inference/sampling/sampler.hpp"
+#include "inference/sampling/sobol.hpp"
 #include "results/columns.hpp"
 #include "slipfront/error.hpp"
 

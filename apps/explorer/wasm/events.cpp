@@ -11,25 +11,6 @@ namespace {
 
 using inference::Quantity;
 
-/// Median and interval from samples; the interval is none where nothing moved.
-inference::Inferred from(const inference::Quantiles& q, bool suffices) {
-  const bool known = suffices && q.low < q.high;
-  return {q.median, known ? std::optional(inference::Interval{q.low, q.high}) : std::nullopt};
-}
-
-/// The samples' answer instead of that of the closed forms, as results/evaluate.cpp has it: where only a bound is
-/// known, it is the answer.
-void fill(inference::Estimate& estimate, const inference::Posterior& p) {
-  for (const Quantity& q : inference::quantities())
-    if (p.*q.quantiles) estimate.*q.inferred = from(*(p.*q.quantiles), p.suffices);
-  if (!p.contact_ratio && p.contact_ratio_bound) estimate.contact_ratio = from(*p.contact_ratio_bound, p.suffices);
-  if (p.stress_bound) estimate.stress = from(*p.stress_bound, p.suffices);
-  if (p.suffices && p.friction_identified) estimate.contact_ratio_bound.reset(), estimate.stress_pa_bound.reset();
-  if (p.suffices) return;
-  for (const Quantity& q : inference::quantities())
-    if (estimate.*q.inferred) (estimate.*q.inferred)->interval.reset();
-}
-
 void put_quantity(Object& object, const inference::Estimate& estimate, const Quantity& quantity) {
   const std::string name(quantity.about.name);
   const auto& value = estimate.*quantity.inferred;
@@ -46,12 +27,12 @@ void put_quantity(Object& object, const inference::Estimate& estimate, const Qua
 SLIPFRONT_EXPORT const char* event(const char* toml, int samples) {
   return answer([=] {
     const catalogue::Observation observation = catalogue::read_toml(toml, "");
-    const bool sampled = samples > 0 && inference::speaks_of_friction_or_error(observation);
+    const bool sampled = samples > 0 && inference::needs_samples(observation);
     inference::Estimate estimate = inference::estimate(observation, {}, sampled);
     const auto posterior = sampled
                                ? inference::posterior(observation, {}, {.samples = static_cast<std::size_t>(samples)})
                                : std::optional<inference::Posterior>();
-    if (posterior) fill(estimate, *posterior);
+    if (posterior) inference::apply_posterior(estimate, *posterior);
     Object object;
     object.put("name", observation.name).put("c_m_s", estimate.speed);
     object.put("rupture_velocity_m_s", estimate.observed_rupture_velocity_m_s);

@@ -154,7 +154,9 @@ bool read_unit(const Title& t, const std::vector<std::string>& words, Column& co
   if (words.size() == 1 && (words[0] == "%" || words[0] == "percent" || words[0] == "pct") && column.is_error())
     return column.in_percent = true;
   std::string unit;
-  for (const std::string& word : words) unit += (unit.empty() ? "" : "/") + word;
+  // "km_s" is km/s, but "N_m" of a moment is N m.
+  const char* between = column.key && column.key->dimension == medium::Dimension::moment ? " " : "/";
+  for (const std::string& word : words) unit += (unit.empty() ? "" : between) + word;
   column.unit = plain_unit(unit);
   return medium::parse_unit(column.unit).has_value();
 }

@@ -1,4 +1,4 @@
-#include "inference/sampler.hpp"
+#include "inference/sampling/sampler.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "foundation/math/bracket.hpp"
-#include "inference/sobol.hpp"
+#include "inference/sampling/sobol.hpp"
 #include "slipfront/medium/medium.hpp"
 
 namespace slipfront::inference {

@@ -1,4 +1,4 @@
-#include "inference/evidence.hpp"
+#include "inference/sampling/evidence.hpp"
 
 #include <algorithm>
 #include <cmath>

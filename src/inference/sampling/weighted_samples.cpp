@@ -1,4 +1,4 @@
-#include "inference/weighted_samples.hpp"
+#include "inference/sampling/weighted_samples.hpp"
 
 #include <algorithm>
 #include <boost/math/special_functions/erf.hpp>
@@ -7,8 +7,8 @@
 #include <numbers>
 #include <utility>
 
-#include "inference/pareto.hpp"
-#include "inference/weighted.hpp"
+#include "inference/sampling/pareto.hpp"
+#include "inference/sampling/weighted.hpp"
 
 namespace slipfront::inference {
 

@@ -1,4 +1,4 @@
-#include "inference/pareto.hpp"
+#include "inference/sampling/pareto.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "inference/sampler.hpp"
+#include "inference/sampling/sampler.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::inference {
@@ -59,12 +59,14 @@ class Sampler::AlongThird {
       : sampler_(sampler), resolution_(resolution) {
     for (const Evidence& e : sampler.used_) offsets_.push_back(e.offset(pulse, u, sampler.middle_));
   }
-  /// Product of the likelihoods, but that of the first observation itself.
-  double operator()(double ln_x) const {
+  /// Product of the likelihoods, but that of the first observation itself. `width` is that of the cell around ln_x: a
+  /// cell whose middle is outside the range of A may reach into it.
+  double operator()(double ln_x, double width) const {
     const std::vector<Evidence>& used = sampler_.used_;
     if (used.empty()) return 1;
     const double ln_A = used[0].contact(ln_x, offsets_[0]);
-    if (!(ln_A >= least_ln_A && ln_A <= sampler_.most_ln_A_)) return 0;
+    const double margin = std::fmin(width, 1.0) + 2 * resolution_;
+    if (!(ln_A >= least_ln_A - margin && ln_A <= sampler_.most_ln_A_ + margin)) return 0;
     double product = 1;
     for (std::size_t i = 1; i < used.size(); ++i)
       if (!used[i].measured.is_exact() || used[i].blur > 0)
@@ -104,7 +106,7 @@ void Sampler::fill_row(Filled& filled, std::size_t i, const std::vector<double>&
     const double resolution = std::hypot(first_width, 0.3 * change_of_W(pulses, j));
     const AlongThird others(*this, pulses[j], most_u * second.centre(j), resolution);
     for (std::size_t k = 0; k < third.cells(); ++k) {
-      const double fit = of_first * of_third[k] * others(third.centre(k));
+      const double fit = of_first * of_third[k] * others(third.centre(k), third.is_exact() ? 0 : third.width(k));
       cells.target(i, j, k) = factor * fit;
       filled.best = std::fmax(filled.best, fit);
     }

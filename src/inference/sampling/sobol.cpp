@@ -1,4 +1,4 @@
-#include "inference/sobol.hpp"
+#include "inference/sampling/sobol.hpp"
 
 #include <boost/random/sobol.hpp>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include "inference/cells.hpp"
+#include "inference/sampling/cells.hpp"
 
 #include <algorithm>
 #include <array>

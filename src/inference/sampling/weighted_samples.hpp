@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "inference/sampler.hpp"
+#include "inference/sampling/sampler.hpp"
 
 namespace slipfront::inference {
 
@@ -29,8 +29,8 @@ struct WeightedSamples {
   /// Probability that a repeated observation is below the actual one. `i` is its position in `evidence`; the rupture
   /// velocity has none.
   double below(const catalogue::Measured& measured, std::optional<std::size_t> i) const;
-  /// That probability as a number of standard deviations: the normal quantile of that probability. If it is too near 0 or 1 to
-  /// be computed, the distance to the nearest sample. Absent for an exact number in that case.
+  /// That probability as a number of standard deviations: the normal quantile of that probability. If it is too near 0
+  /// or 1 to be computed, the distance to the nearest sample. Absent for an exact number in that case.
   std::optional<double> sigmas_above(const catalogue::Measured& measured, std::optional<std::size_t> i) const;
 };
 

@@ -5,10 +5,10 @@
 #include <string>
 #include <string_view>
 
-#include "inference/cells.hpp"
-#include "inference/evidence.hpp"
-#include "inference/pulse_state.hpp"
-#include "inference/sobol.hpp"
+#include "inference/sampling/cells.hpp"
+#include "inference/sampling/evidence.hpp"
+#include "inference/sampling/pulse_state.hpp"
+#include "inference/sampling/sobol.hpp"
 #include "slipfront/inference/posterior.hpp"
 
 namespace slipfront::inference {

@@ -1,4 +1,4 @@
-#include "inference/pulse_state.hpp"
+#include "inference/sampling/pulse_state.hpp"
 
 #include <algorithm>
 #include <cmath>

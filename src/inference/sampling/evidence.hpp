@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "inference/pulse_state.hpp"
+#include "inference/sampling/pulse_state.hpp"
 #include "slipfront/medium/constants.hpp"
 
 namespace slipfront::inference {
