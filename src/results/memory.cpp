@@ -56,10 +56,14 @@ double disk_needed(const EvaluationOptions& options, std::size_t events) {
 }
 
 void require_memory(const EvaluationOptions& options, std::size_t events, int at_once, bool with_file) {
-  const double need = memory_needed(options, events, at_once) + (with_file ? 2 * disk_needed(options, events) : 0);
-  const double have = usable_memory();
+  const auto needed = [&](const EvaluationOptions& o) {
+    return memory_needed(o, events, at_once) + (with_file ? 2 * disk_needed(o, events) : 0);
+  };
+  const double need = needed(options), have = usable_memory();
   if (need <= have) return;
-  const bool by_draws = draws_of(options) * static_cast<double>(events) > need / 4;
+  EvaluationOptions without_draws = options;
+  without_draws.sampling.draws = 0;
+  const bool by_draws = needed(without_draws) < need / 2;
   throw InputError({.file = "command line",
                     .key = by_draws ? "--draws" : "--samples",
                     .value = std::to_string(by_draws ? options.sampling.draws : options.sampling.samples),

@@ -141,9 +141,9 @@ test('the chain has the dislocations of the program', () => {
 
 test('a typed event is that of the program', () => {
   for (const toml of [
-    '[event]\nname = "A"\nrupture_velocity = "3.0 km/s"\nslip_velocity = "0.5 m/s"\n',
-    '[event]\nname = "B"\nrupture_velocity = "10 km/day"\nslip = "4 mm"\nduration = "2 weeks"\n[medium]\ncontact_ratio = 4e-5\n',
-    '[event]\nname = "C"\nrupture_velocity = "2.5-3.5 km/s"\nslip_velocity = "50 cm/s"\n[medium]\nshear_modulus = "0.3 Mbar"\np_wave_speed = "21600 km/hour"\n',
+    '[event]\nname = "A"\nrupture_velocity = "3.0 km/s"\nslip_velocity = "0.5 m/s"\nrupture_velocity_is = "characteristic"\n',
+    '[event]\nname = "B"\nrupture_velocity = "10 km/day"\nslip = "4 mm"\nduration = "2 weeks"\nrupture_velocity_is = "characteristic"\n[medium]\ncontact_ratio = 4e-5\n',
+    '[event]\nname = "C"\nrupture_velocity = "2.5-3.5 km/s"\nslip_velocity = "50 cm/s"\nrupture_velocity_is = "characteristic"\n[medium]\nshear_modulus = "0.3 Mbar"\np_wave_speed = "21600 km/hour"\n',
   ]) {
     const theirs = program('event', file('event.toml', toml)).events[0];
     const mine = call('event', toml, 1000);
@@ -152,6 +152,17 @@ test('a typed event is that of the program', () => {
     for (const key of ['c_m_s', 'rupture_velocity', 'stress', 'frictionless_slip_velocity', 'contact_ratio', 'contact_ratio_bound', 'stress_pa_bound', 'slip_velocity_ratio'])
       if (theirs[key] !== null) near(mine[key], theirs[key], 1e-9, `${key} of ${theirs.name}`);
     assert.deepEqual(mine.warnings, theirs.warnings);
+  }
+});
+
+test('an observed front is that of the program, as far as samples agree', () => {
+  const toml = '[event]\nname = "D"\nrupture_velocity = "10 km/day"\nslip = "4 mm"\nduration = "2 weeks"\n';
+  const theirs = program('event', file('front.toml', toml)).events[0];
+  const mine = call('event', toml, 1000);
+  for (const key of ['contact_ratio', 'stress_pa']) {
+    near(mine[key], theirs[key], 0.05, key);
+    near(mine[`${key}_low`], theirs[`${key}_interval`][0], 0.05, `${key}_low`);
+    near(mine[`${key}_high`], theirs[`${key}_interval`][1], 0.05, `${key}_high`);
   }
 });
 

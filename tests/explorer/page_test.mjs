@@ -2,7 +2,10 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { readFileSync } from 'node:fs';
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
 import { gzipSync } from 'node:zlib';
 import { axe, browser, eventually, factOf, open, ready, type, url } from './browser.mjs';
 
@@ -185,7 +188,12 @@ test('the tour goes through all its steps', async () => {
 test('Parkfield, typed, has the numbers of the program', async () => {
   const page = await open('#/stress?my.rupture_velocity=3.0+km/s&my.slip_velocity=0.5+m/s', calm);
   await page.locator('.event').waitFor();
-  await page.waitForFunction(() => document.querySelector('.event')?.textContent.includes('27.8 MPa'));
+  await page.waitForFunction(() => / MPa/.test(document.querySelector('.event')?.textContent));
+  const toml = join(mkdtempSync(join(tmpdir(), 'slipfront-')), 'event.toml');
+  writeFileSync(toml, '[event]\nrupture_velocity = "3.0 km/s"\nslip_velocity = "0.5 m/s"\n');
+  const [theirs] = JSON.parse(execFileSync(process.env.SLIPFRONT, ['event', toml, '--json', '--quiet'])).events;
+  const shown = Number(/([\d.]+) MPa/.exec(await page.locator('.event').textContent())[1]);
+  assert.ok(Math.abs((shown * 1e6) / theirs.stress_pa - 1) < 0.05, `${shown} MPa, ${theirs.stress_pa} Pa`);  // both are sampled
 });
 
 test('a long run says so and can be stopped', async () => {

@@ -1,25 +1,48 @@
 #pragma once
 /// \file
-/// A table of doubles from whole numbers and powers of ten (pack_table.py).
+/// Tables of coefficients from the bytes that pack_table.py writes.
 
-#include <cmath>
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <limits>
+#include <vector>
 
 #include "friction_ratio/coefficients.hpp"
+#include "friction_ratio/front_coefficients.hpp"
 
 namespace slipfront::friction_ratio {
 
-template <class Table, std::size_t n>
-Table unpacked(const std::int32_t (&mantissas)[n], const std::int8_t (&powers)[n]) {
-  static constexpr double tens[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
-                                    1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
-  static_assert(sizeof(Table) == n * sizeof(double));
-  static double values[n];
-  for (std::size_t i = 0; i < n; ++i)
-    values[i] = powers[i] < 0 ? mantissas[i] / tens[-powers[i]] : mantissas[i] * tens[static_cast<int>(powers[i])];
+/// The next whole number, after which `byte` is moved.
+inline std::int32_t next_number(const unsigned char*& byte) {
+  std::uint32_t rest = 0;
+  for (int shift = 0;; shift += 7) {
+    rest |= static_cast<std::uint32_t>(*byte & 127) << shift;
+    if (*byte++ < 128) break;
+  }
+  const auto half = static_cast<std::int32_t>(rest >> 1);
+  return rest % 2 == 0 ? half : -half - 1;
+}
+
+template <class Table>
+Table unpacked_doubles(const unsigned char* byte, double quantum) {
+  std::vector<double> values(sizeof(Table) / sizeof(double));
+  for (double& value : values) value = next_number(byte) * quantum;
   Table table;
-  std::memcpy(&table, values, sizeof table);
+  std::memcpy(&table, values.data(), sizeof table);
+  return table;
+}
+
+/// The first half of the table. The second half, that of the closure "paper", is so large that every ratio from it is 0
+/// or infinite: a result that uses it cannot look right.
+template <class Table>
+Table unpacked_half(const unsigned char* byte) {
+  std::vector<front_layout::Integer> values(sizeof(Table) / sizeof(front_layout::Integer),
+                                            std::numeric_limits<front_layout::Integer>::max());
+  std::generate_n(values.begin(), values.size() / 2, [&] { return next_number(byte); });
+  Table table;
+  std::memcpy(&table, values.data(), sizeof table);
   return table;
 }
 
