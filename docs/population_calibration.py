@@ -1,6 +1,6 @@
 """Calibrates slipfront.population: draws synthetic populations from the prior and counts how often the intervals contain the truth.
 
-Usage: population_calibration.py [--populations 100] [--events 20] [--studies 5] [--steps 60] [--processes 2] [--first 0] [--no-selection]
+Usage: population_calibration.py [--populations 100] [--events 20] [--studies 5] [--steps 250] [--processes 2] [--first 0] [--no-selection]
 
 The package slipfront must be on PYTHONPATH. Each population has its own seed, so that any of them can be run again. It prints the table
 of docs/population.md and, with --ranks, the ranks of the truth. 100 populations take half an hour or more on two cores.
@@ -50,7 +50,7 @@ def report(results):
 
 def arguments(argv=None):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    for name, value in (("populations", 100), ("events", 20), ("studies", 5), ("steps", 60), ("processes", 2), ("first", 0)):
+    for name, value in (("populations", 100), ("events", 20), ("studies", 5), ("steps", 250), ("processes", 2), ("first", 0)):
         parser.add_argument(f"--{name}", type=int, default=value)
     parser.add_argument("--threshold", type=float, default=1e-3, help="of the observer of the front; 0: |V-|")
     parser.add_argument("--no-selection", action="store_true")

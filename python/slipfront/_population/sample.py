@@ -14,7 +14,7 @@ from .coordinates import Coordinates
 ENSEMBLES, WALKERS = 2, 20
 PARTICLES, SWEEPS = 100, 2  # particles that are tempered for an ensemble, and their moves at each temperature
 TRIES = 2000  # draws from the prior for each ensemble, to find particles
-WARM_UP = 1 / 4  # share of the steps
+WARM_UP = 2 / 5  # share of the steps
 WIDER, FREEDOM = 1.2, 6  # variance of jumps over that of the particles, and degrees of freedom of their t distribution
 EFFECTIVE = 0.5  # share of the particles that stays effective from one temperature to the next
 
@@ -133,7 +133,9 @@ def sample(likelihood, steps, seed, progress=None):
     chains, times, acceptance = [], [], []
     for ensemble in range(ENSEMBLES):
         particles = _tempered(target, generator)
-        moves = [(emcee.moves.MHMove(Jumps(particles, None).propose), 0.5), (emcee.moves.DEMove(), 0.25), (emcee.moves.DEMove(gamma0=1.0), 0.05), (emcee.moves.DESnookerMove(), 0.1), (emcee.moves.StretchMove(), 0.1)]
+        # The particles are too few to cover the long ridge of stress and its spread. Moves along differences of walkers follow it; jumps
+        # around the particles would keep the walkers where the particles are.
+        moves = [(emcee.moves.MHMove(Jumps(particles, None).propose), 0.1), (emcee.moves.DEMove(), 0.5), (emcee.moves.DESnookerMove(), 0.2), (emcee.moves.StretchMove(), 0.2)]
         sampler = emcee.EnsembleSampler(WALKERS, len(priors.NAMES), target, moves=moves)
         sampler.random_state = np.random.RandomState(generator.integers(2**31)).get_state()
         for step, _ in enumerate(sampler.sample(generator.permutation(particles)[:WALKERS], iterations=steps), 1):
