@@ -43,6 +43,10 @@ namespace {
                     .allowed = reasons[why][1]});
 }
 
+/// Samples of an event whose observations are exact. They are evenly spread over one unknown, the damping number.
+constexpr std::size_t samples_of_damping = 64;
+constexpr double least_effective_of_damping = 20;
+
 /// Whether the only reason to reject the event is a contact ratio above plastic contact. Such an event gets a note
 /// instead.
 bool only_contact_refused(const Sampler& sampler) {
@@ -206,8 +210,10 @@ std::optional<Posterior> posterior(const Observation& o, const medium::Defaults&
   p.seed = sampler.seed();
   WeightedSamples samples;
   if (sampler.least_misfit() < hopeless_misfit) {
-    const std::size_t most = std::max(sampling.samples, std::min(most_growth * sampling.samples, most_samples));
-    samples = draw_samples(sampler, sampling.samples, most);
+    const bool few = sampler.knows_all_but_damping() && sampling.draws == 0;
+    const std::size_t first = few ? std::min(sampling.samples, samples_of_damping) : sampling.samples;
+    const std::size_t most = std::max(first, std::min(most_growth * first, most_samples));
+    samples = draw_samples(sampler, first, most, few ? least_effective_of_damping : least_effective_samples);
     p.samples = samples.drawn;
   }
   const bool suspicious = sampler.least_misfit() >= suspicious_misfit || samples.accepted.empty();
@@ -223,7 +229,8 @@ std::optional<Posterior> posterior(const Observation& o, const medium::Defaults&
   }
   p.effective_samples = samples.effective;
   p.pareto_k = sampler.is_uncertain() ? samples.pareto_k : 0;
-  p.suffices = !sampler.is_uncertain() || samples.suffice();
+  p.suffices = !sampler.is_uncertain() ||
+               samples.suffice(sampler.knows_all_but_damping() ? least_effective_of_damping : least_effective_samples);
   p.friction_identified = sampler.fixes_friction();
   if (p.suffices) {
     set_quantiles(p, samples);

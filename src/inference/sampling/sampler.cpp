@@ -101,7 +101,8 @@ void Sampler::choose_mode(bool predicts) {
     return too_many;
   });
   solves_damping_ = mode_ == Mode::friction && exact >= 2;
-  uncertain_ = has_errors(o_) || (mode_ == Mode::friction && !solves_damping_);
+  has_errors_ = has_errors(o_);
+  uncertain_ = has_errors_ || (mode_ == Mode::friction && !solves_damping_);
   if (mode_ == Mode::friction && used_.empty())
     used_.push_back({Source::contact, "contact_ratio", Measured{least_contact_ratio, middle_.plastic}, 0});
   if (mode_ == Mode::bounds && !velocity_)  // the slip velocity comes first, then the contact ratio

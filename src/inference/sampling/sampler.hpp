@@ -58,6 +58,11 @@ class Sampler {
   bool knows_duration() const { return o_.damping_time() != nullptr; }
   /// Whether two observations of A agree at one damping number only.
   bool fixes_friction() const { return mode_ == Mode::friction && fixes_friction_; }
+  /// Whether only the damping number is uncertain: every observation is exact. A few samples then suffice.
+  bool knows_all_but_damping() const {
+    return mode_ == Mode::friction && !solves_damping_ && !has_errors_ && velocity_->is_exact() && used_.size() == 1 &&
+           used_[0].measured.is_exact();
+  }
   /// Whether samples differ at all.
   bool is_uncertain() const { return uncertain_; }
 
@@ -118,7 +123,8 @@ class Sampler {
   std::vector<Evidence> all_, used_;  ///< all evidence; and that which is used, the first of which gives A
   std::vector<std::string> unused_;
   Mode mode_ = Mode::nothing;
-  bool knows_contact_ = false, fixes_friction_ = false, uncertain_ = false, solves_damping_ = false;
+  bool knows_contact_ = false, fixes_friction_ = false, uncertain_ = false, solves_damping_ = false,
+       has_errors_ = false;
   std::uint64_t seed_;
   ShiftedSobol points_;
   Surroundings middle_;
