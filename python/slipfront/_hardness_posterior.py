@@ -75,6 +75,8 @@ def velocity_likelihood(measured, speed, ends, spacing):
     velocity = closed_form(edges)[0] * speed
     across = np.diff(np.log(velocity) if measured.is_lognormal else velocity)
     share = np.diff(measured.share_below(velocity))
+    if not (measured.is_lognormal or measured.is_range):  # the likelihood of a normal error falls towards 0, see docs/events.md
+        share *= np.minimum(1, (velocity[1:] + velocity[:-1]) / 2 / (measured.least_even_share * measured.middle))
     middle = measured.middle
     peak = float(measured.share_below(middle * (1 + 1e-6)) - measured.share_below(middle * (1 - 1e-6)))
     peak /= math.log((1 + 1e-6) / (1 - 1e-6)) if measured.is_lognormal else 2e-6 * middle
