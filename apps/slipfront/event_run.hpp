@@ -22,7 +22,7 @@ struct EventArguments {
   std::size_t draws = 0;
   bool fault_grid = false;
   std::optional<double> damping_number;  ///< sets the shape of slip-rate functions
-  std::string column_map;  ///< file of --columns
+  std::string column_map;                ///< file of --columns
   bool strict = false;
 };
 

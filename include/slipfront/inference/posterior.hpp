@@ -93,8 +93,8 @@ bool needs_samples(const catalogue::Observation& observation);
 std::optional<Posterior> posterior(const catalogue::Observation& observation, const medium::Defaults& defaults,
                                    const Sampling& sampling);
 
-/// Replaces the results of the closed forms by those of the posterior, where it has them. Observations that exclude each
-/// other leave no contact ratio and no stress in Pa.
+/// Replaces the results of the closed forms by those of the posterior, where it has them. Observations that exclude
+/// each other leave no contact ratio and no stress in Pa.
 void apply_posterior(Estimate& estimate, const Posterior& posterior);
 
 }  // namespace slipfront::inference
