@@ -202,20 +202,27 @@ bool needs_samples(const Observation& o) {
   return o.rupture_velocity_is == RuptureVelocityIs::front && o.rupture_velocity_m_s && o.has_slip_velocity();
 }
 
+namespace {
+
+/// The samples of an event; none if its observations exclude each other.
+WeightedSamples drawn(Sampler& sampler, const Sampling& sampling) {
+  if (!(sampler.least_misfit() < hopeless_misfit)) return {};
+  const bool few = sampler.knows_all_but_damping() && sampling.draws == 0;
+  const std::size_t first = few ? std::min(sampling.samples, samples_of_damping) : sampling.samples;
+  const std::size_t most = std::max(first, std::min(most_growth * first, most_samples));
+  return draw_samples(sampler, first, most, few ? least_effective_of_damping : least_effective_samples);
+}
+
+}  // namespace
+
 std::optional<Posterior> posterior(const Observation& o, const medium::Defaults& defaults, const Sampling& sampling) {
   Sampler sampler(o, defaults, sampling);
   if (sampler.mode() == Mode::nothing) return std::nullopt;
   Posterior p;
   p.samples = sampling.samples;
   p.seed = sampler.seed();
-  WeightedSamples samples;
-  if (sampler.least_misfit() < hopeless_misfit) {
-    const bool few = sampler.knows_all_but_damping() && sampling.draws == 0;
-    const std::size_t first = few ? std::min(sampling.samples, samples_of_damping) : sampling.samples;
-    const std::size_t most = std::max(first, std::min(most_growth * first, most_samples));
-    samples = draw_samples(sampler, first, most, few ? least_effective_of_damping : least_effective_samples);
-    p.samples = samples.drawn;
-  }
+  const WeightedSamples samples = drawn(sampler, sampling);
+  if (samples.drawn > 0) p.samples = samples.drawn;
   const bool suspicious = sampler.least_misfit() >= suspicious_misfit || samples.accepted.empty();
   if (suspicious && sampler.is_uncertain()) p.tension = tensions(o, defaults, sampling);
   add_tension_notes(p);

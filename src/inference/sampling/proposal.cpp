@@ -124,6 +124,18 @@ Sampler::Filled Sampler::filled(const Axis& first, const Axis& second, const Axi
   return filled;
 }
 
+/// One cell: the prior of the damping number is its proposal.
+void Sampler::make_cell_of_damping(const Axis& first, const Axis& third) {
+  if (model_.most_u(velocity_->low / middle_.elastic.speed) < 0) {
+    ++refused_[off_table];
+    least_misfit_ = std::numeric_limits<double>::infinity();
+    return;
+  }
+  cells_.emplace(first, Axis::uniform(0, 1, 1), third);
+  cells_->target(0, 0, 0) = 1;
+  cells_->finish(defence, {1}, {1});
+}
+
 void Sampler::make_cells() {
   const double c = middle_.elastic.speed;
   const bool tabled = mode_ == Mode::friction;
@@ -140,17 +152,7 @@ void Sampler::make_cells() {
     return;
   }
   const bool over_damping = mode_ == Mode::friction && !solves_damping_;
-  if (knows_all_but_damping()) {  // the prior of the damping number is its proposal
-    if (model_.most_u(velocity_->low / c) < 0) {
-      ++refused_[off_table];
-      least_misfit_ = std::numeric_limits<double>::infinity();
-      return;
-    }
-    cells_.emplace(first, Axis::uniform(0, 1, 1), third);
-    cells_->target(0, 0, 0) = 1;
-    cells_->finish(defence, {1}, {1});
-    return;
-  }
+  if (knows_all_but_damping()) return make_cell_of_damping(first, third);
   Filled now = filled(first, over_damping ? damping_axis() : Axis::exact(0), third);
   if (over_damping && now.best > 0) {
     for (int i = 0; i < 2 && of_first.is_range() && first.edges.back() - first.edges.front() > wide_range; ++i) {

@@ -86,6 +86,7 @@ class Sampler {
  private:
   void choose_mode(bool predicts);
   void make_cells();
+  void make_cell_of_damping(const Axis& first, const Axis& third);
   /// Cells with their target, and the largest likelihood in them.
   struct Filled {
     Cells cells;
