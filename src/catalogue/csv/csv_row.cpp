@@ -14,7 +14,7 @@ namespace {
 using Role = Column::Role;
 
 /// The ends of a range and the errors of one quantity, from the columns next to its value.
-struct Beside {
+struct FurtherCells {
   const Column* column;  ///< the first of them
   std::optional<Measured> low, high;
   std::optional<double> error, above, below;
@@ -58,24 +58,24 @@ class Row {
   void take_text(const Column& column, const std::string& cell);
   void take_number(const Column& column, const std::string& cell);
   void take_error(const Column& column, const std::string& cell);
-  Beside& beside(const Column& column);
-  void close_range(const Beside& b);
-  void add_error(const Beside& b);
+  FurtherCells& further(const Column& column);
+  void close_range(const FurtherCells& b);
+  void add_error(const FurtherCells& b);
   std::optional<Measured> value_of(const Key& key) const;
   std::string number_text(const Column& column, const std::string& cell) const;
 
   Observation& o_;
   const Layout& layout_;
-  std::vector<Beside> beside_;
+  std::vector<FurtherCells> further_;
   std::string identifier_, year_, month_, day_;
   bool is_peak_ = false;
 };
 
-Beside& Row::beside(const Column& column) {
-  const auto same =
-      std::find_if(beside_.begin(), beside_.end(), [&](const Beside& b) { return b.column->key == column.key; });
-  if (same != beside_.end()) return *same;
-  return *beside_.insert(beside_.end(), Beside{&column, {}, {}, {}, {}, {}});
+FurtherCells& Row::further(const Column& column) {
+  const auto same = std::find_if(further_.begin(), further_.end(),
+                                 [&](const FurtherCells& b) { return b.column->key == column.key; });
+  if (same != further_.end()) return *same;
+  return *further_.insert(further_.end(), FurtherCells{&column, {}, {}, {}, {}, {}});
 }
 
 /// The text of a number in the unit of its column, with a point and with the column's power of ten.
@@ -105,11 +105,11 @@ void Row::take_number(const Column& column, const std::string& cell) {
   Observation end;
   store(end, *column.key, text, column.unit);
   if (!end.bounds.empty()) throw InputError({.value = cell, .problem = "not a number", .allowed = "a number"});
-  (column.role == Role::range_low ? beside(column).low : beside(column).high) = end.*column.key->measured;
+  (column.role == Role::range_low ? further(column).low : further(column).high) = end.*column.key->measured;
 }
 
 void Row::take_error(const Column& column, const std::string& cell) {
-  Beside& b = beside(column);
+  FurtherCells& b = further(column);
   std::string unit = column.unit;
   for (const Column& main : layout_.columns)
     if (unit.empty() && main.key == column.key && main.role == Role::quantity) unit = main.unit;
@@ -183,7 +183,7 @@ void Row::take(const Column& column, const std::string& cell) {
 }
 
 /// A range from its two ends, where the quantity itself was left blank.
-void Row::close_range(const Beside& b) {
+void Row::close_range(const FurtherCells& b) {
   if (!b.low && !b.high) return;
   auto& target = o_.*b.column->key->measured;
   if (target) return;
@@ -206,7 +206,7 @@ std::optional<Measured> Row::value_of(const Key& key) const {
   return Measured{*constant, *constant};
 }
 
-void Row::add_error(const Beside& b) {
+void Row::add_error(const FurtherCells& b) {
   const Key& key = *b.column->key;
   const auto value = value_of(key);
   if ((!b.error && !b.above && !b.below) || !value) return;
@@ -236,7 +236,7 @@ void Row::add_error(const Beside& b) {
 }
 
 void Row::finish() {
-  for (const Beside& b : beside_) {
+  for (const FurtherCells& b : further_) {
     if (b.column->key->measured) close_range(b);
     add_error(b);
   }
