@@ -26,33 +26,46 @@ const std::array<double, front_layout::pieces + 1> ends = [] {
   return u;
 }();
 
-/// A sum of polynomials in y and u, and its derivatives with respect to Sigma- and Gamma.
+/// A sum of polynomials in y and u at one u: coefficients of polynomials in y, and their slopes by Gamma.
+template <std::size_t n_y>
+using Along = layout::Values<n_y>;
+
 template <std::size_t n_y, class Number>
-Ratio sum_of(const Number* pieces, double stress, double damping) {
+Along<n_y> at_damping_number(const Number* pieces, double damping) {
   constexpr std::size_t n_u = front_layout::u_nodes;
-  if (!(stress >= layout::least_stress && stress <= layout::most_stress)) refuse("stress", stress, "0.05 ... 3");
   if (!(damping >= 0) || std::isinf(damping)) refuse("damping_number", damping, ">= 0, finite");
-  const layout::Range y_range = layout::of_stress();
   const double u = std::log1p(std::fmin(damping, layout::most_damping));
   std::size_t piece = 0;
   while (piece + 1 < front_layout::pieces && u >= ends[piece + 1]) ++piece;
   const layout::Range u_range{ends[piece], ends[piece + 1]};
   const auto in_u = layout::chebyshev<n_u>(u_range.to_unit(u));
-  const auto in_y = layout::chebyshev<n_y>(y_range.to_unit(layout::y_of(stress)));
   const Number* a = pieces + piece * n_y * n_u;
-  double value = 0, by_u = 0, by_y = 0;
+  Along<n_y> along{};
   for (std::size_t i = 0; i < n_y; ++i) {
-    double along = 0, slope = 0;
     for (std::size_t j = 0; j < n_u; ++j) {
       const double coefficient = static_cast<double>(a[i * n_u + j]);
-      along += coefficient * in_u.value[j];
-      slope += coefficient * in_u.slope[j];
+      along.value[i] += coefficient * in_u.value[j];
+      along.slope[i] += coefficient * in_u.slope[j];
     }
-    value += in_y.value[i] * along;
-    by_u += in_y.value[i] * slope;
-    by_y += in_y.slope[i] * along;
+    along.slope[i] *= u_range.unit_slope() / (1 + damping);
   }
-  return {value, by_u * u_range.unit_slope() / (1 + damping), by_y * y_range.unit_slope() * layout::y_slope(stress)};
+  return along;
+}
+
+template <std::size_t n_y>
+Ratio at_stress(const Along<n_y>& along, double stress) {
+  if (!(stress >= layout::least_stress && stress <= layout::most_stress)) refuse("stress", stress, "0.05 ... 3");
+  const layout::Range y_range = layout::of_stress();
+  const auto in_y = layout::chebyshev<n_y>(y_range.to_unit(layout::y_of(stress)));
+  Ratio sum{0, 0, 0};
+  double by_y = 0;
+  for (std::size_t i = 0; i < n_y; ++i) {
+    sum.value += in_y.value[i] * along.value[i];
+    sum.by_damping += in_y.value[i] * along.slope[i];
+    by_y += in_y.slope[i] * along.value[i];
+  }
+  sum.by_stress = by_y * y_range.unit_slope() * layout::y_slope(stress);
+  return sum;
 }
 
 }  // namespace
@@ -73,13 +86,20 @@ FrontCurve::FrontCurve(friction::Closure closure, double threshold)
   }
 }
 
-Ratio FrontCurve::operator()(double stress, double damping) const {
-  const Ratio g = sum_of<front_layout::front_y_nodes>(coefficients_.data(), stress, damping);
+FrontAtDamping FrontCurve::at_damping(double damping) const {
+  const auto along = at_damping_number<front_layout::front_y_nodes>(coefficients_.data(), damping);
+  FrontAtDamping front;
+  front.damping_ = damping, front.value_ = along.value, front.slope_ = along.slope;
+  return front;
+}
+
+Ratio FrontAtDamping::operator()(double stress) const {
+  const Ratio g = at_stress(Along<front_layout::front_y_nodes>{value_, slope_}, stress);
   const double sum = std::exp(g.value), r = std::exp(front_layout::blunt - sum), by_g = -r * sum;
   if (r >= 1) return {1, 0, 0};  // by the error of the table
-  if (damping <= layout::most_damping) return {r, by_g * g.by_damping, by_g * g.by_stress};
-  const double fall = std::sqrt(layout::most_damping / damping);
-  return {r * fall, -r * fall / (2 * damping), by_g * g.by_stress * fall};
+  if (damping_ <= layout::most_damping) return {r, by_g * g.by_damping, by_g * g.by_stress};
+  const double fall = std::sqrt(layout::most_damping / damping_);
+  return {r * fall, -r * fall / (2 * damping_), by_g * g.by_stress * fall};
 }
 
 Ratio front_ratio(friction::Closure closure, double stress, double damping, double threshold) {
@@ -95,7 +115,7 @@ ThresholdRange threshold_range() { return {front_layout::least_threshold, front_
 
 Ratio stress_drop_share(Drop drop, friction::Closure closure, double stress, double damping) {
   const auto& pieces = drop_coefficients[index_of(closure)][static_cast<std::size_t>(drop)];
-  const Ratio sum = sum_of<front_layout::drop_y_nodes>(pieces[0][0].data(), stress, damping);
+  const Ratio sum = at_stress(at_damping_number<front_layout::drop_y_nodes>(pieces[0][0].data(), damping), stress);
   const double share = std::exp(front_layout::unit * sum.value), by_sum = share * front_layout::unit;
   return {share, damping > layout::most_damping ? 0 : by_sum * sum.by_damping, by_sum * sum.by_stress};
 }

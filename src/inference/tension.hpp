@@ -13,7 +13,5 @@ std::vector<Tension> tensions(const catalogue::Observation& observation, const m
 
 /// Least misfit, in standard deviations squared, at which we look for tensions.
 inline constexpr double suspicious_misfit = 4;
-/// Misfit above which the observations exclude each other.
-inline constexpr double hopeless_misfit = 25;
 
 }  // namespace slipfront::inference

@@ -4,11 +4,24 @@
 /// the damping number Gamma = C T only, and come from a table made with the pulse solver (docs/friction_ratio.md), for
 /// a true step of stress into the empty interface.
 
+#include <array>
 #include <vector>
 
 #include "slipfront/friction_ratio/table.hpp"
 
 namespace slipfront::friction_ratio {
+
+/// The ratio of a FrontCurve as a function of Sigma- at one damping number.
+class FrontAtDamping {
+ public:
+  /// The ratio for `stress` = Sigma- in 0.05 ... 3. \throws InputError if it is out of range.
+  Ratio operator()(double stress) const;
+
+ private:
+  friend class FrontCurve;
+  double damping_ = 0;
+  std::array<double, 9> value_{}, slope_{};  ///< coefficients of polynomials in Sigma-, and their slopes by Gamma
+};
 
 /// The observed trailing front at one threshold: |x_front(T)| / (|V-| T), which is at most 1. x_front is the farthest
 /// x < 0 at which W reaches the threshold times the peak of W at time T (`Measure::peak`). Make one object and call it
@@ -19,7 +32,9 @@ class FrontCurve {
   FrontCurve(friction::Closure closure, double threshold);
   /// The ratio for `stress` = Sigma- in 0.05 ... 3 and `damping_number` >= 0. Above 1e8 it falls as Gamma^(-1/2).
   /// \throws InputError if an argument is out of range.
-  Ratio operator()(double stress, double damping_number) const;
+  Ratio operator()(double stress, double damping_number) const { return at_damping(damping_number)(stress); }
+  /// The same, for many values of Sigma- at one damping number.
+  FrontAtDamping at_damping(double damping_number) const;
 
  private:
   std::vector<double> coefficients_;  ///< those of polynomials in Sigma- and Gamma

@@ -154,7 +154,9 @@ void Sampler::make_cells() {
   const bool over_damping = mode_ == Mode::friction && !solves_damping_;
   if (knows_all_but_damping()) return make_cell_of_damping(first, third);
   Filled now = filled(first, over_damping ? damping_axis() : Axis::exact(0), third);
-  if (over_damping && now.best > 0) {
+  // The likelihoods of the first cells are wide. If their misfit is twice that of hopeless observations, finer cells
+  // would not agree either.
+  if (over_damping && now.best > std::exp(-hopeless_misfit)) {
     for (int i = 0; i < 2 && of_first.is_range() && first.edges.back() - first.edges.front() > wide_range; ++i) {
       first = now.cells.refined(0, first.cells());
       now = filled(first, damping_axis(), third);

@@ -49,7 +49,7 @@ PulseModel::PulseModel(const Observation& o, friction::Closure closure)
     : measure_(o.measure()),
       closure_(closure),
       sees_front_(o.rupture_velocity_is == RuptureVelocityIs::front),
-      static_drop_(o.stress_drop_is == StressDropIs::static_drop),
+      static_drop_(o.stress_drop && o.stress_drop_is == StressDropIs::static_drop),
       front_(closure, o.front_threshold) {
   static const rupture::Relations least = rupture::from_stress(stress_range().least);
   static const rupture::Relations most = rupture::from_stress(stress_range().most);
@@ -77,28 +77,35 @@ double PulseModel::most_u(double seen) const {
 
 PulseState PulseModel::state(const rupture::Relations& r, double slope, double damping) const {
   const double stress = std::clamp(r.stress, stress_range().least, stress_range().most);
-  const double share = friction_ratio::stress_drop_share(Drop::origin, closure_, stress, damping).value;
   return {.rupture_velocity = r.rupture_velocity,
           .stress = r.stress,
           .frictionless = r.slip_velocity,
           .W = r.slip_velocity * friction_ratio::evaluate_value(measure_, closure_, stress, damping),
-          .drop_share = static_drop_ ? share : 1,
-          .static_share = share,
+          .drop_share = static_drop_ ? drop_share(stress, damping) : 1,
           .slope = slope};
+}
+
+double PulseModel::static_share(double stress, double u) const {
+  return drop_share(std::clamp(stress, stress_range().least, stress_range().most), std::expm1(u));
+}
+
+double PulseModel::drop_share(double stress, double damping) const {
+  return friction_ratio::stress_drop_share(Drop::origin, closure_, stress, damping).value;
 }
 
 PulseState PulseModel::at(double seen, double u) const {
   const double damping = std::expm1(u), wanted = std::log(seen);
   if (!sees_front_) return state(rupture::from_rupture_velocity(seen), 1, damping);
+  const friction_ratio::FrontAtDamping front = front_.at_damping(damping);
   double slope = 1;
   const auto excess = [&](double ln_psi) {
     const Front f = front_at(std::exp(ln_psi));
-    const friction_ratio::Ratio r = front_(std::clamp(f.stress, stress_range().least, stress_range().most), damping);
+    const friction_ratio::Ratio r = front(std::clamp(f.stress, stress_range().least, stress_range().most));
     const double by_psi = f.V_slope + r.by_stress / r.value * f.stress_slope;
     slope = f.V_slope / by_psi;
     return std::pair(f.ln_V + std::log(r.value) - wanted, by_psi);
   };
-  const double ratio = front_(1, damping).value;
+  const double ratio = front(1).value;
   const double guess = std::clamp(rough_psi(std::fmin(seen / ratio, 0.99)), least_psi_, most_psi_);
   const double ln_psi = bracketed_newton(std::log(least_psi_), std::log(most_psi_), std::log(guess), true, excess);
   return state(rupture::from_psi(std::exp(ln_psi)), slope, damping);
@@ -117,13 +124,11 @@ double PulseModel::seen(const PulseState& p, double u) const {
 
 PulseState PulseModel::without_friction(double seen) const {
   const rupture::Relations r = rupture::from_rupture_velocity(seen);
-  const double share = 1 - r.stress_at_origin / r.stress;
   return {.rupture_velocity = r.rupture_velocity,
           .stress = r.stress,
           .frictionless = r.slip_velocity,
           .W = frictionless(measure_, r.stress, r.slip_velocity),
-          .drop_share = static_drop_ ? share : 1,
-          .static_share = share,
+          .drop_share = static_drop_ ? 1 - r.stress_at_origin / r.stress : 1,
           .slope = 1};
 }
 

@@ -15,7 +15,6 @@ struct PulseState {
   double frictionless;      ///< W(0) without friction
   double W;                 ///< the slip velocity that was observed, see Measure
   double drop_share;        ///< the stress drop that was observed over Sigma-, see StressDropIs
-  double static_share;      ///< (Sigma- - Sigma(0)) / Sigma-
   double slope;             ///< d ln |V-| / d ln(observed velocity) at constant damping number
 };
 
@@ -37,6 +36,8 @@ class PulseModel {
   double most_u(double seen) const;
   /// The pulse that is seen at velocity `seen` (in c) under u <= most_u(seen).
   PulseState at(double seen, double u) const;
+  /// (Sigma- - Sigma(0)) / Sigma-, the static stress drop of a pulse in the table of friction.
+  double static_share(double stress, double u) const;
   /// The pulse that is seen at this velocity without friction. Its stress may lie outside the table.
   PulseState without_friction(double seen) const;
   /// Returns a pulse of the prior, which is uniform in ln |V-|: `share` = 0 is the slowest and 1 the fastest. Its
@@ -47,6 +48,7 @@ class PulseModel {
 
  private:
   PulseState state(const rupture::Relations& relations, double slope, double damping) const;
+  double drop_share(double stress, double damping) const;
 
   catalogue::Measure measure_;
   friction::Closure closure_;

@@ -213,7 +213,8 @@ void Sampler::set_friction(FaultState& state, const PulseState& p, double u, dou
   if (knows_duration() && around_.spacing > 0)
     state.friction_coefficient =
         state.damping_number * around_.spacing / (around_.duration * around_.elastic.speed * A);
-  state.static_drop_pa = medium::stress_unit(around_.elastic.shear_modulus, A) * p.stress * p.static_share;
+  state.static_drop_pa =
+      medium::stress_unit(around_.elastic.shear_modulus, A) * p.stress * model_.static_share(p.stress, u);
 }
 
 void Sampler::fill(Sample& s, const PulseState& p, double u, double ln_A) const {

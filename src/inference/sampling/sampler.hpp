@@ -13,6 +13,9 @@
 
 namespace slipfront::inference {
 
+/// Misfit, in standard deviations squared, above which the observations exclude each other.
+inline constexpr double hopeless_misfit = 25;
+
 /// Why a sample was rejected.
 enum Refusal : std::size_t {
   too_fast,
