@@ -33,7 +33,7 @@ class FrontCurve {
   /// The ratio for `stress` = Sigma- in 0.05 ... 3 and `damping_number` >= 0. Above 1e8 it falls as Gamma^(-1/2).
   /// \throws InputError if an argument is out of range.
   Ratio operator()(double stress, double damping_number) const { return at_damping(damping_number)(stress); }
-  /// The same, for many values of Sigma- at one damping number.
+  /// The ratio at this damping number, for calls with many values of Sigma-.
   FrontAtDamping at_damping(double damping_number) const;
 
  private:
