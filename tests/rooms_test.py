@@ -40,7 +40,7 @@ FOLDERS = {
     "finite_fault": {"source": "."},
     "inference": {"sampling": ""},
     "record": {"files": "", "netcdf": "files", "pulses": "netcdf files", "events": "pulses netcdf files", "faults": "netcdf files"},
-    "scenario": {"text": "", "formula": "text", "profile": "formula text", "friction": ". profile formula text"},
+    "scenario": {"units": ".", "text": ". units", "formula": "text", "profile": "formula text", "friction": ". profile formula text"},
     "foundation": {"math": "text", "simd": "", "text": ""},
     "friction": {"state": "", "train_means": "", "laws": "state train_means"},
     "chain": {

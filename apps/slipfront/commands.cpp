@@ -12,6 +12,7 @@ using AddCommand = Runner(CLI::App& app);
   COMMAND(chain)                    \
   COMMAND(compare)                  \
   COMMAND(keys)                     \
+  COMMAND(units)                    \
   COMMAND(doctor)                   \
   COMMAND(explore)
 

@@ -43,13 +43,20 @@ std::string netcdf_name(const std::string& path) {
 
 }  // namespace
 
-void add_scenario_options(CLI::App& command, ScenarioArguments& a, bool with_resume) {
+void add_scenario_words(CLI::App& command, ScenarioArguments& a) {
   command
       .add_option_function<std::vector<std::string>>(
           "SCENARIO", [&a](const std::vector<std::string>& words) { take_words(a, words); }, "Scenario file, TOML")
       ->required()
       ->expected(1, most_words)
       ->type_name("");
+  command.add_option("--set", a.set, "table.key=value, which replaces that of the scenario; repeatable")
+      ->allow_extra_args(false)
+      ->type_name("KEY=VALUE");
+}
+
+void add_scenario_options(CLI::App& command, ScenarioArguments& a, bool with_resume) {
+  add_scenario_words(command, a);
   command
       .add_option("-o,--output", a.output, "NetCDF file to write; an existing file is replaced at the end of the run")
       ->check(netcdf_name)
@@ -57,9 +64,6 @@ void add_scenario_options(CLI::App& command, ScenarioArguments& a, bool with_res
   if (with_resume)
     command.add_option("--resume", a.resume, "Resume from a file of this scenario, and write to it")
         ->type_name("OUT.nc");
-  command.add_option("--set", a.set, "table.key=value, which replaces that of the scenario; repeatable")
-      ->allow_extra_args(false)
-      ->type_name("KEY=VALUE");
   command.add_flag("--check", a.check, "Read and check the scenario, print what would run, and stop");
   add_common_options(command, a.common, false);
 }

@@ -25,6 +25,8 @@ struct ScenarioArguments {
   bool check = false;
 };
 
+/// Adds SCENARIO and --set.
+void add_scenario_words(CLI::App& command, ScenarioArguments& arguments);
 void add_scenario_options(CLI::App& command, ScenarioArguments& arguments, bool with_resume = true);
 
 /// Reads the scenario and prints its warnings.

@@ -103,7 +103,9 @@ int main(int argc, char** argv) {
       ranks.require_same("command line", arguments);
       return run(argc, argv);
     } catch (const slipfront::InputError& error) {
-      return failed(exit_input, error.what());
+      return ranks.failed(exit_input, [&] {
+        for (const slipfront::Complaint& complaint : error.complaints()) complain(slipfront::one_line(complaint));
+      });
     } catch (const slipfront::FileError& error) {
       return failed(exit_file, error.what());
     } catch (const std::bad_alloc&) {

@@ -1,11 +1,12 @@
 #pragma once
 /// \file
-/// The three ways in which a call can fail. Each exception has a message of one line for the user. The program maps
-/// exceptions to exit codes.
+/// The three ways in which a call can fail. Each exception has a message of one line for the user, or of one line for
+/// each error in the input. The program maps exceptions to exit codes.
 
 #include <cstddef>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace slipfront {
 
@@ -27,10 +28,14 @@ std::string one_line(const Complaint& complaint);
 class InputError : public std::invalid_argument {
  public:
   explicit InputError(Complaint complaint);
-  const Complaint& complaint() const noexcept { return complaint_; }
+  /// Several errors. The message has a line for each.
+  InputError(Complaint first, std::vector<Complaint> others);
+  /// The first error.
+  const Complaint& complaint() const noexcept { return complaints_.front(); }
+  const std::vector<Complaint>& complaints() const noexcept { return complaints_; }
 
  private:
-  Complaint complaint_;
+  std::vector<Complaint> complaints_;
 };
 
 /// A file that cannot be read or written (exit code 3).

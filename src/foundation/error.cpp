@@ -20,7 +20,19 @@ std::string one_line(const Complaint& c) {
   return text;
 }
 
-InputError::InputError(Complaint complaint)
-    : std::invalid_argument(one_line(complaint)), complaint_(std::move(complaint)) {}
+namespace {
+std::string lines_of(const Complaint& first, const std::vector<Complaint>& others) {
+  std::string text = one_line(first);
+  for (const Complaint& c : others) text.append("\n").append(one_line(c));
+  return text;
+}
+}  // namespace
+
+InputError::InputError(Complaint complaint) : InputError(std::move(complaint), {}) {}
+
+InputError::InputError(Complaint first, std::vector<Complaint> others)
+    : std::invalid_argument(lines_of(first, others)), complaints_(std::move(others)) {
+  complaints_.insert(complaints_.begin(), std::move(first));
+}
 
 }  // namespace slipfront

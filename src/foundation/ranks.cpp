@@ -67,6 +67,21 @@ Ranks::~Ranks() {
   MPI_Finalize();
 }
 
+namespace {
+
+/// The lines after the first one, as errors.
+std::vector<Complaint> other_lines(const std::string& text) {
+  std::vector<Complaint> lines;
+  for (std::size_t end = text.find('\n'); end != std::string::npos;) {
+    const std::size_t begin = end + 1;
+    end = text.find('\n', begin);
+    lines.push_back({.problem = text.substr(begin, end - begin)});
+  }
+  return lines;
+}
+
+}  // namespace
+
 void Ranks::together(const std::function<void()>& task) const {
   if (size_ == 1) return task();
   agreed_ = false;
@@ -95,7 +110,7 @@ void Ranks::together(const std::function<void()>& task) const {
   text.resize(static_cast<std::size_t>(head[1]));
   MPI_Bcast(text.data(), head[1], MPI_CHAR, first, MPI_COMM_WORLD);
   agreed_ = true;
-  if (head[0] == input) throw InputError({.problem = text});
+  if (head[0] == input) throw InputError({.problem = text.substr(0, text.find('\n'))}, other_lines(text));
   if (head[0] == file) throw FileError(text);
   throw NumericsError(text);
 }

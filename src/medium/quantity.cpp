@@ -17,16 +17,20 @@ struct Kind {
   std::array<int, 3> powers;  // exponents of metre, kilogram and second
   const char* name;
   const char* example;
+  const char* si = "";
 };
 
 const Kind& kind(Dimension dimension) {
-  static constexpr Kind velocity{{1, 0, -1}, "a velocity", "a velocity, such as 3.0 km/s or 10 km/day"};
-  static constexpr Kind length{{1, 0, 0}, "a length", "a length, such as 4 mm or 1.2 m"};
-  static constexpr Kind area{{2, 0, 0}, "an area", "an area, such as 300 km2"};
-  static constexpr Kind moment{{2, 1, -2}, "a seismic moment", "a seismic moment, such as 1e18 N m"};
-  static constexpr Kind time{{0, 0, 1}, "a time", "a time, such as 0.9 s or 2 weeks"};
-  static constexpr Kind pressure{{-1, 1, -2}, "a stress", "a stress or modulus, such as 30 GPa"};
-  static constexpr Kind density{{-3, 1, 0}, "a density", "a density, such as 2700 kg/m3 or 2.7 g/cm3"};
+  static constexpr Kind velocity{{1, 0, -1}, "a velocity", "a velocity, such as 3.0 km/s or 10 km/day", "m/s"};
+  static constexpr Kind length{{1, 0, 0}, "a length", "a length, such as 4 mm or 1.2 m", "m"};
+  static constexpr Kind area{{2, 0, 0}, "an area", "an area, such as 300 km2", "m2"};
+  static constexpr Kind moment{{2, 1, -2}, "a seismic moment", "a seismic moment, such as 1e18 N m", "N m"};
+  static constexpr Kind time{{0, 0, 1}, "a time", "a time, such as 0.9 s or 2 weeks", "s"};
+  static constexpr Kind pressure{{-1, 1, -2}, "a stress", "a stress or modulus, such as 30 GPa", "Pa"};
+  static constexpr Kind density{{-3, 1, 0}, "a density", "a density, such as 2700 kg/m3 or 2.7 g/cm3", "kg/m3"};
+  static constexpr Kind stiffness{
+      {-2, 1, -2}, "a stress over a slip", "a stress over a slip, such as 1 MPa/mm", "Pa/m"};
+  static constexpr Kind spring{{0, 1, -2}, "a force over a slip", "a force over a slip, such as 1e6 N/m", "N/m"};
   static constexpr Kind ratio{{0, 0, 0}, "a pure number", "a pure number, such as 0.25"};
   switch (dimension) {
     case Dimension::velocity:
@@ -43,6 +47,10 @@ const Kind& kind(Dimension dimension) {
       return pressure;
     case Dimension::density:
       return density;
+    case Dimension::stiffness:
+      return stiffness;
+    case Dimension::spring:
+      return spring;
     case Dimension::ratio:
       break;
   }
@@ -62,6 +70,7 @@ std::optional<double> take_number(std::string_view& text) {
 
 }  // namespace
 
+std::string_view si_unit(Dimension dimension) { return kind(dimension).si; }
 std::string_view example(Dimension dimension) { return kind(dimension).example; }
 
 std::optional<double> number(std::string_view text) {
@@ -69,6 +78,8 @@ std::optional<double> number(std::string_view text) {
   const std::optional<double> value = take_number(text);
   return text.empty() ? value : std::nullopt;
 }
+
+bool is_unit(std::string_view text) { return parse_unit(text).has_value(); }
 
 double unit_factor(std::string_view unit, Dimension dimension) {
   const Kind& wanted = kind(dimension);

@@ -17,8 +17,6 @@ using friction::Definition;
 using friction::Parameter;
 using enum KeyType;
 
-constexpr std::string_view position_unit = "b / A", time_unit = "b / (c A)", stress_unit = "mu A / pi",
-                           velocity_unit = "c A / pi", pure_number = "1";
 constexpr Limits positive{.least = 0, .without_least = true};
 constexpr Limits position{.least = -farthest, .most = farthest};
 constexpr Limits stress{.least = 0, .most = largest_stress};
@@ -26,12 +24,13 @@ constexpr Limits fraction{.least = 0, .most = 1, .without_least = true, .without
 constexpr Limits tolerance{.least = 1e-12, .most = 0.1};
 
 /// A key whose value is a number.
-Key number_key(std::string_view table, std::string_view name, std::string_view unit, Limits limits,
-               std::string otherwise, std::string meaning) {
+Key number_key(std::string_view table, std::string_view name, ModelUnit unit, Limits limits, std::string otherwise,
+               std::string meaning) {
   return {.table = table,
           .name = name,
           .meaning = std::move(meaning),
-          .unit = unit,
+          .unit = symbol_of(unit),
+          .scale = unit,
           .otherwise = std::move(otherwise),
           .limits = limits};
 }
@@ -52,19 +51,33 @@ Key other_key(std::string_view table, std::string_view name, KeyType type, std::
   return {.table = table, .name = name, .type = type, .meaning = std::move(meaning), .otherwise = std::move(otherwise)};
 }
 
+Key formula_key(std::string_view table, std::string_view name, ModelUnit unit, std::string otherwise,
+                std::string meaning) {
+  Key key = other_key(table, name, formula, std::move(otherwise), std::move(meaning));
+  key.scale = unit;
+  return key;
+}
+
+Key units_key(std::string_view table, const std::string& what) {
+  return word_key(table, "units", {"model", "SI"}, "model",
+                  "units of " + what + ": those of the model, or m, s and Pa");
+}
+
 std::vector<Key> initial_keys() {
   const std::string_view table = "initial";
   const std::string step_or_tanh = "required by step and tanh";
   const Limits widths{.least = 0, .most = farthest, .without_least = true};
   return {
       word_key(table, "profile", {"step", "tanh", "formula", "table"}, "step", "form of the initial stress"),
-      number_key(table, "stress_left", stress_unit, stress, step_or_tanh,
+      number_key(table, "stress_left", ModelUnit::stress, stress, step_or_tanh,
                  "stress of a step or tanh at x < 0; 0 is an empty interface"),
-      number_key(table, "stress_right", stress_unit, stress, step_or_tanh,
+      number_key(table, "stress_right", ModelUnit::stress, stress, step_or_tanh,
                  "stress of a step or tanh at x > 0; 0 is an empty interface"),
-      number_key(table, "width", position_unit, widths, "1",
+      number_key(table, "width", ModelUnit::position, widths, "1",
                  "width of a tanh: right + (left - right)(1 - tanh(x / width)) / 2"),
-      other_key(table, "formula", formula, "required by the profile formula", "stress as a formula of x, in mu A / pi"),
+      formula_key(table, "formula", ModelUnit::stress, "required by the profile formula",
+                  "stress as a formula of x, in mu A / pi"),
+      units_key(table, "formula or the columns of file"),
       other_key(table, "file", text, "required by the profile table",
                 "CSV or NetCDF file with x and stress; relative to the scenario file"),
       other_key(table, "hold", truth, "false", "a static load holds at rest the stress that is not in equilibrium"),
@@ -121,6 +134,8 @@ std::vector<Key> friction_keys() {
   all.push_back(with_laws(other_key(table, "file", text, "required by the law table",
                                     "CSV or NetCDF file with w and f; relative to the scenario file"),
                           friction::CurveSource::table));
+  all.push_back(word_key(table, "units", {"model", "SI"}, "model",
+                         "units of w in formula or file: c A / pi, or m/s (and Pa for f in a file)"));
   all.push_back(word_key(table, "closure", {"consistent", "paper"}, "consistent",
                          "average of friction: the exact one, or the printed one, which understates friction"));
   all.push_back(other_key(table, "normal_stress", quantity, "forces are in the unit of F",
@@ -130,39 +145,42 @@ std::vector<Key> friction_keys() {
 
 std::vector<Key> load_keys() {
   return {
-      other_key("forcing", "formula", formula, "0",
-                "force F(x, t) that pushes slip forward, in mu A^2 / (pi (1 - nu))"),
-      number_key("loading", "stiffness", "unit of F over b / (2 pi)", positive, "required by [loading]",
+      formula_key("forcing", "formula", ModelUnit::force, "0",
+                  "force F(x, t) that pushes slip forward, in mu A^2 / (pi (1 - nu))"),
+      units_key("forcing", "x, t and formula"),
+      number_key("loading", "stiffness", ModelUnit::stiffness, positive, "required by [loading]",
                  "force of the springs over their stretch; stress over stretch at a pulled end"),
-      number_key("loading", "velocity", velocity_unit, {}, "required by [loading]",
+      other_key("loading", "area", quantity, "none", "area that the springs pull, for a stiffness in N/m"),
+      number_key("loading", "velocity", ModelUnit::slip_velocity, {}, "required by [loading]",
                  "velocity of the far ends of the springs"),
       word_key("loading", "where", {"everywhere", "left", "right"}, "everywhere", "sites that the springs pull"),
-      number_key("loading", "event_velocity", velocity_unit, positive, "10 times velocity",
+      number_key("loading", "event_velocity", ModelUnit::slip_velocity, positive, "10 times velocity",
                  "slip velocity above which a part of the chain is in an event"),
       other_key("interface", "contact", formula, "1",
                 "contact ratio a(x) > 0 relative to A; 0 only for a chain without a substrate"),
+      units_key("interface", "x"),
   };
 }
 
 std::vector<Key> domain_and_time_keys() {
   const std::string found = "chosen for a step or tanh";
   return {
-      number_key("domain", "left", position_unit, position, found, "x of the left end"),
-      number_key("domain", "right", position_unit, position, found, "x of the right end"),
-      number_key("time", "end", time_unit, positive, "2 pi", "time at which the run ends"),
+      number_key("domain", "left", ModelUnit::position, position, found, "x of the left end"),
+      number_key("domain", "right", ModelUnit::position, position, found, "x of the right end"),
+      number_key("time", "end", ModelUnit::time, positive, "2 pi", "time at which the run ends"),
   };
 }
 
 std::vector<Key> pulse_keys() {
   const std::string_view table = "pulse";
   const std::vector<std::string_view> ends = {"continued", "fixed", "free"};
-  Key cells = number_key(table, "cells", pure_number, {.least = 4, .most = 10'000'000}, "400",
+  Key cells = number_key(table, "cells", ModelUnit::none, {.least = 4, .most = 10'000'000}, "400",
                          "number of cells over the stressed stretch");
   cells.type = whole_number;
   return {
       cells,
-      number_key(table, "tolerance", pure_number, tolerance, "1e-06", "error of an implicit step"),
-      number_key(table, "threshold", pure_number, fraction, "0.001",
+      number_key(table, "tolerance", ModelUnit::none, tolerance, "1e-06", "error of an implicit step"),
+      number_key(table, "threshold", ModelUnit::none, fraction, "0.001",
                  "slip velocity at which an observer sees a front, over the peak slip velocity"),
       word_key(table, "left", ends, "continued", "condition at the left end"),
       word_key(table, "right", ends, "continued", "condition at the right end"),
@@ -174,29 +192,29 @@ std::vector<Key> chain_keys() {
   const std::string_view table = "chain";
   const std::vector<std::string_view> ends = {"free", "fixed", "absorbing"};
   return {
-      number_key(table, "scale", pure_number, positive, "1",
+      number_key(table, "scale", ModelUnit::none, positive, "1",
                  "factor by which x and t are stretched and friction is divided"),
-      number_key(table, "spacing", position_unit, positive, "0.4 of the width of a dislocation",
+      number_key(table, "spacing", ModelUnit::position, positive, "0.4 of the width of a dislocation",
                  "spacing of the sites on the stretched chain; A on a lattice"),
       word_key(table, "model", {"sine-gordon", "lattice"}, "sine-gordon", "Eq. (3), or the lattice of Eq. (1)"),
       word_key(table, "left", ends, "fixed", "condition at the left end"),
       word_key(table, "right", ends, "fixed", "condition at the right end"),
       other_key(table, "periodic", truth, "false", "a ring of the length of the domain"),
-      number_key(table, "window", position_unit, positive, "one spacing of the train",
+      number_key(table, "window", ModelUnit::position, positive, "one spacing of the train",
                  "length of the average at x = 0"),
       word_key(table, "steps", {"explicit", "implicit"}, "explicit", "time steps; always implicit with [loading]"),
-      number_key(table, "tolerance", pure_number, tolerance, "5e-05", "error of an implicit step"),
+      number_key(table, "tolerance", ModelUnit::none, tolerance, "5e-05", "error of an implicit step"),
   };
 }
 
 std::vector<Key> medium_keys() {
   std::vector<Key> all;
   for (const medium::Constant& constant : medium::constants()) {
-    const bool pure = constant.dimension == medium::Dimension::ratio;
     const bool poisson = constant.name == "poisson_ratio";
     const Limits ratios{.least = -1, .most = 0.5, .without_least = true, .without_most = true};
-    Key key = number_key("medium", constant.name, pure ? pure_number : "", poisson ? ratios : positive, "",
+    Key key = number_key("medium", constant.name, ModelUnit::none, poisson ? ratios : positive, "",
                          std::string(constant.meaning));
+    if (constant.dimension != medium::Dimension::ratio) key.unit = {};
     key.type = quantity;
     all.push_back(key);
   }
@@ -204,14 +222,14 @@ std::vector<Key> medium_keys() {
 }
 
 std::vector<Key> output_keys() {
-  Key times = number_key("output", "times", time_unit, {.least = 0}, "none",
+  Key times = number_key("output", "times", ModelUnit::time, {.least = 0}, "none",
                          "increasing times at which results are written; t = 0 and the end always are");
   times.type = numbers;
   Key variables = word_key("output", "variables", {"k", "Sigma", "U", "W", "H", "slip", "stress_drop"}, "all",
                            "variables in the output file");
   variables.type = KeyType::words;
   return {times,
-          number_key("output", "every", time_unit, positive, "none",
+          number_key("output", "every", ModelUnit::time, positive, "none",
                      "interval between the times of results, in place of times"),
           variables};
 }
@@ -229,6 +247,19 @@ std::string Limits::text() const {
   if (std::isfinite(least) && std::isfinite(most)) text += " and";
   if (std::isfinite(most)) text += (without_most ? " < " : " <= ") + shortest(most);
   return text;
+}
+
+std::string_view symbol_of(ModelUnit unit) {
+  constexpr std::array<std::string_view, 9> symbols = {"1",
+                                                       "b / A",
+                                                       "b / (c A)",
+                                                       "mu A / pi",
+                                                       "c A / pi",
+                                                       friction::force_unit,
+                                                       "b / pi",
+                                                       "unit of F over b / (2 pi)",
+                                                       "mu A / pi over b / (2 pi)"};
+  return symbols.at(static_cast<std::size_t>(unit));
 }
 
 std::string_view name_of(KeyType type) {

@@ -1,6 +1,11 @@
+#include <algorithm>
+#include <utility>
+#include <vector>
+
 #include "scenario/profile/initial.hpp"
 #include "scenario/settings.hpp"
 #include "scenario/text/document.hpp"
+#include "scenario/text/section.hpp"
 #include "scenario/validate.hpp"
 #include "slipfront/scenario/scenario.hpp"
 
@@ -19,25 +24,45 @@ std::string read_title(const Document& document) {
                     .allowed = "a text in quotes"});
 }
 
+/// Reads the tables. It does not read a table whose single values have errors.
+RawStress read_tables(const Document& document, const TableReader& tables, Scenario& scenario, Errors& errors) {
+  std::vector<std::string_view> broken;
+  for (const std::string_view table : known_tables())
+    if (!errors.attempt([&] { Section(document, table).check_values(); })) broken.push_back(table);
+  const auto attempt = [&](std::string_view table, const auto& task) {
+    if (std::find(broken.begin(), broken.end(), table) == broken.end()) errors.attempt(task);
+  };
+  RawStress raw;
+  attempt("initial", [&] { raw = read_initial(document, tables, scenario.initial); });
+  attempt("friction", [&] { read_friction(document, tables, scenario); });
+  attempt("domain", [&] { read_domain(document, scenario.domain); });
+  attempt("time", [&] { scenario.end = read_end(document, scenario.end); });
+  attempt("pulse", [&] { read_pulse(document, scenario.pulse); });
+  attempt("chain", [&] { read_chain(document, scenario.chain); });
+  attempt("loading", [&] { read_loading(document, scenario.loading); });
+  if (scenario.loading.acts()) scenario.chain.implicit = true;
+  if (std::find(broken.begin(), broken.end(), "time") == broken.end())  // it bounds the times of results
+    attempt("output", [&] { scenario.output = read_output(document, scenario.end); });
+  return raw;
+}
+
 Scenario read(std::string_view text, const std::string& file, const std::vector<std::string>& overrides,
               const TableReader& tables) {
-  const Document document = read_document(text, file, overrides);
+  Document document = read_document(text, file, overrides);
+  Errors errors = document.errors;
   Scenario scenario;
-  scenario.title = read_title(document);
+  errors.attempt([&] { scenario.title = read_title(document); });
   scenario.file = file;
   scenario.text = document.text;
   scenario.overrides = overrides;
-  const RawStress raw = read_initial(document, tables, scenario.initial);
-  read_medium(document, scenario.medium);
-  read_friction(document, tables, scenario);
-  read_domain(document, scenario.domain);
-  scenario.end = read_end(document, scenario.end);
-  read_pulse(document, scenario.pulse);
-  read_chain(document, scenario.chain);
-  read_loading(document, scenario.loading);
-  if (scenario.loading.acts()) scenario.chain.implicit = true;
-  scenario.output = read_output(document, scenario.end);
+  const bool units = errors.attempt([&] { read_medium(document, scenario.medium); });
+  document.units = ModelUnits(scenario.medium, units);
+  const RawStress raw = read_tables(document, tables, scenario, errors);
+  errors.throw_if_any();
   make_functions(document, raw, scenario);
+  if (!document.units.assumed().empty())
+    scenario.warnings.push_back("SI units were converted with " + document.units.assumed() +
+                                ", which [medium] does not give");
   return scenario;
 }
 
@@ -48,10 +73,12 @@ Scenario read_scenario(std::string_view text, const std::string& file, const std
   try {
     return read(text, file, overrides, tables);
   } catch (const InputError& error) {  // an error of the parser or of a table does not name the file
-    Complaint complaint = error.complaint();
-    if (!complaint.file.empty()) throw;
-    complaint.file = file;
-    throw InputError(complaint);
+    std::vector<Complaint> all = error.complaints();
+    for (Complaint& complaint : all)
+      if (complaint.file.empty()) complaint.file = file;
+    const Complaint first = all.front();
+    all.erase(all.begin());
+    throw InputError(first, std::move(all));
   }
 }
 

@@ -16,10 +16,10 @@ std::vector<double> read_times(const Section& section, double end) {
   if (!array) return times;
   const Limits limits{.least = 0, .most = end};  // [time] end
   for (const Value& item : array->items) {
-    section.check("times", item, limits);
-    if (!times.empty() && !(item.number > times.back()))
+    const double time = section.item_in("times", item, ModelUnit::time, limits);
+    if (!times.empty() && !(time > times.back()))
       throw section.refuse("times", item, "not after the time before it", "times strictly increasing");
-    times.push_back(item.number);
+    times.push_back(time);
   }
   return times;
 }

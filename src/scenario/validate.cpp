@@ -48,8 +48,10 @@ void make_forcing(const Document& document, Scenario& scenario) {
   scenario.forcing = *text;
   auto formula = read_formula(section, "formula", *text, {"x", "t"});
   scenario.steady_forcing = !formula.first.has("t");
-  scenario.forcing_at = [read = std::move(formula)](double x, double t) {
-    const double force = read.first(x, t);
+  const double length = section.in_file(ModelUnit::position), time = section.in_file(ModelUnit::time),
+               unit = section.in_file(ModelUnit::force);
+  scenario.forcing_at = [read = std::move(formula), length, time, unit](double x, double t) {
+    const double force = read.first(x * length, t * time) / unit;
     if (!std::isfinite(force))
       throw refusal(read.second,
                     "the forcing is " + shortest(force) + " at x = " + shortest(x) + ", t = " + shortest(t),
@@ -67,8 +69,9 @@ void make_contact(const Document& document, Scenario& scenario) {
     scenario.substrate = false;
     return;
   }
-  scenario.contact_at = [read = read_formula(section, "contact", *text, {"x"})](double x) {
-    const double contact = read.first(x);
+  const double length = section.in_file(ModelUnit::position);
+  scenario.contact_at = [read = read_formula(section, "contact", *text, {"x"}), length](double x) {
+    const double contact = read.first(x * length);
     if (!(contact > 0 && std::isfinite(contact)))
       throw refusal(read.second, "the contact ratio is " + shortest(contact) + " at x = " + shortest(x),
                     "a finite number > 0");

@@ -9,10 +9,13 @@
 namespace slipfront::medium {
 
 /// The dimension of a quantity. The first of its units is the SI unit.
-enum class Dimension { velocity, length, area, time, pressure, density, moment, ratio };
+enum class Dimension { velocity, length, area, time, pressure, density, moment, stiffness, spring, ratio };
 
 /// Text for the `allowed` part of an error, such as "a velocity, such as 3.0 km/s or 10 km/day".
 std::string_view example(Dimension dimension);
+
+/// The SI unit in symbols, such as "m/s"; empty for a ratio.
+std::string_view si_unit(Dimension dimension);
 
 /// A number or a closed range of numbers, in SI units.
 struct Span {
@@ -22,6 +25,9 @@ struct Span {
 
 /// The finite number that the whole text is, in any locale. Nothing if the text is no finite number, such as 1e400.
 std::optional<double> number(std::string_view text);
+
+/// Whether the text is a unit, such as "km/day".
+bool is_unit(std::string_view text);
 
 /// Factor that converts from `unit` to the SI unit of `dimension`. \throws InputError (problem and allowed only) for an
 /// unknown unit or one of another dimension.

@@ -26,12 +26,19 @@ enum class KeyType { number, whole_number, numbers, word, words, text, formula, 
 /// The type in words, such as "whole number".
 std::string_view name_of(KeyType type);
 
+/// The unit of the model in which a key gives a number. A text with an SI unit is converted to it.
+enum class ModelUnit { none, position, time, stress, slip_velocity, force, slip, stiffness, end_stiffness };
+
+/// The unit in symbols, such as "b / (c A)".
+std::string_view symbol_of(ModelUnit unit);
+
 /// One key of a scenario.
 struct Key {
   std::string_view table, name;
   KeyType type = KeyType::number;
   std::string meaning;                       ///< in a few words
   std::string_view unit = {};                ///< unit; empty unless the key is a number
+  ModelUnit scale = ModelUnit::none;         ///< unit of a number, or of a formula; none if it has no SI unit
   std::string otherwise = {};                ///< the value if the key is absent, or what happens then
   Limits limits = {};                        ///< range of a number
   std::vector<std::string_view> words = {};  ///< allowed words

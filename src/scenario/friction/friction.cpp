@@ -95,15 +95,19 @@ void check_contacts(const Section& section, const friction::Contacts& contacts, 
 void read_friction(const Document& document, const TableReader& tables, Scenario& scenario) {
   const std::vector<const Parameter*> parameters = all_parameters();
   const Section section(document, "friction");
-  FrictionUnits units(section, scenario.medium);
+  FrictionUnits units(section);
   std::vector<std::pair<std::string_view, const Definition*>> names;
   for (const Definition* law : friction::laws()) names.emplace_back(law->name, law);
   const auto named = section.choice<const Definition*>("law", names);
   const Definition& law = named ? **named : scenario.friction.definition();
+  Errors errors;
   for (const Parameter* p : parameters)
-    if (section.has(p->name) && law.find(p->name) == nullptr) read_parameter(section, *p, units);
+    if (section.has(p->name) && law.find(p->name) == nullptr)
+      errors.attempt([&] { read_parameter(section, *p, units); });
   std::vector<double> values;
-  for (const Parameter& p : law.parameters) values.push_back(read_parameter(section, p, units));
+  for (const Parameter& p : law.parameters)
+    errors.attempt([&] { values.push_back(read_parameter(section, p, units)); });
+  errors.throw_if_any();
   const Closure closure =
       section.choice<Closure>("closure", {{"consistent", Closure::consistent}, {"paper", Closure::paper}})
           .value_or(scenario.friction.closure());
@@ -116,9 +120,6 @@ void read_friction(const Document& document, const TableReader& tables, Scenario
   for (const Parameter& p : law.parameters)
     if (!p.if_missing.empty() && !section.has(p.name))
       scenario.warnings.push_back("friction." + std::string(p.name) + " is not given and " + std::string(p.if_missing));
-  if (!units.assumed().empty())
-    scenario.warnings.push_back("friction in SI units was computed with " + units.assumed() +
-                                ", which [medium] does not give");
   scenario.friction = friction::Friction(law, std::move(values), closure, read_curve(section, tables, law.curve));
   check_contacts(section, scenario.friction.contacts(), scenario);
 }

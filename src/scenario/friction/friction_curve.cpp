@@ -77,8 +77,9 @@ friction::Curve from_formula(const Section& section) {
   } catch (const InputError& error) {
     throw section.refuse("formula", error.complaint().problem, error.complaint().allowed);
   }
-  friction::Curve curve = [formula, where](double w) {
-    const double f = (*formula)(w);
+  const double velocity = section.in_file(ModelUnit::slip_velocity);
+  friction::Curve curve = [formula, where, velocity](double w) {
+    const double f = (*formula)(w * velocity);
     if (!(f >= 0 && std::isfinite(f)))
       throw refusal(where, "the friction is " + shortest(f) + " at the slip velocity w = " + shortest(w),
                     "a finite force >= 0");
@@ -89,8 +90,8 @@ friction::Curve from_formula(const Section& section) {
 }
 
 friction::Curve from_table(const Section& section, const TableReader& tables) {
-  const Column w{"w", {.least = 0, .most = farthest}, "w >= 0, at most 1e9"};
-  const Column f{"f", {.least = 0, .most = largest_stress}, "a finite force >= 0, at most 1e6"};
+  const Column w{"w", {.least = 0, .most = farthest}, section.in_file(ModelUnit::slip_velocity)};
+  const Column f{"f", {.least = 0, .most = largest_stress}, section.in_file(ModelUnit::force)};
   const auto curve = std::make_shared<const MonotoneCurve>(read_rows(section, tables, w, f));
   if (curve->first() != 0)
     throw section.refuse("file", "the table begins at w = " + shortest(curve->first()),
@@ -114,6 +115,8 @@ friction::Curve read_curve(const Section& section, const TableReader& tables, fr
     if (section.has(key) && !wanted) throw section.refuse(key, "contradicts friction.law", with);
     if (!section.has(key) && wanted) throw section.refuse(key, "missing", std::string("friction.law needs it"));
   }
+  if (!formula && !table && section.in_si())
+    throw section.refuse("units", "concerns formula and file only", "texts with units, such as \"1 um/s\"");
   if (formula) return from_formula(section);
   if (table) return from_table(section, tables);
   return {};

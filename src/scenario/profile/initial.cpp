@@ -46,8 +46,8 @@ double read_stress(const Section& section, std::string_view key) {
 }
 
 RawStress from_table(const Section& section, const TableReader& tables) {
-  const Column place{"x", {.least = -farthest, .most = farthest}, "x within -1e9 and 1e9"};
-  const Column stress{"stress", {.least = 0, .most = largest_stress}, "a finite stress >= 0, at most 1e6"};
+  const Column place{"x", {.least = -farthest, .most = farthest}, section.in_file(ModelUnit::position)};
+  const Column stress{"stress", {.least = 0, .most = largest_stress}, section.in_file(ModelUnit::stress)};
   const auto curve = std::make_shared<const MonotoneCurve>(read_rows(section, tables, place, stress));
   const Complaint where = section.where("file");
   const auto at = [curve, where](double x) {
@@ -62,8 +62,11 @@ RawStress from_table(const Section& section, const TableReader& tables) {
 
 RawStress from_formula(const Section& section, const Initial& initial) {
   const Complaint where = section.where("formula");
+  const double length = section.in_file(ModelUnit::position), stress = section.in_file(ModelUnit::stress);
   try {
-    return {.at = Formula(initial.formula, {"x"}), .where = where};
+    return {.at = [formula = Formula(initial.formula, {"x"}), length,
+                   stress](double x) { return formula(x * length) / stress; },
+            .where = where};
   } catch (const InputError& error) {
     throw section.refuse("formula", error.complaint().problem, error.complaint().allowed);
   }
@@ -85,6 +88,9 @@ RawStress read_initial(const Document& document, const TableReader& tables, Init
       throw section.refuse(key, "does not fit " + profile, "leave it out, or change initial.profile");
     if (!section.has(key) && wanted == Role::required) throw section.refuse(key, "missing", profile + " needs it");
   }
+  if (section.in_si() && initial.profile != ProfileKind::formula && initial.profile != ProfileKind::table)
+    throw section.refuse("units", "concerns formula and file only",
+                         "texts with units, such as stress_left = \"3 MPa\"");
   initial.hold = section.truth("hold").value_or(initial.hold);
   initial.even_ends = initial.profile == ProfileKind::step || initial.profile == ProfileKind::tanh;
   initial.jumps = initial.profile == ProfileKind::step;

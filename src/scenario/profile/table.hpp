@@ -12,12 +12,12 @@ namespace slipfront::scenario {
 /// A column of a table file, and what its numbers may be.
 struct Column {
   std::string name;
-  Limits limits;
-  const char* allowed;  ///< the limits in words
+  Limits limits;    ///< in the unit of the model
+  double unit = 1;  ///< the unit of the model in the unit of the file
 };
 
-/// The rows of the table file that the key "file" of a section names, relative to the scenario: two or more, x strictly
-/// increasing. \throws InputError; what `tables` throws.
+/// The rows, in units of the model, of the table file that the key "file" of a section names, relative to the scenario:
+/// two or more, x strictly increasing. \throws InputError; what `tables` throws.
 std::vector<std::pair<double, double>> read_rows(const Section& section, const TableReader& tables, const Column& x,
                                                  const Column& y);
 

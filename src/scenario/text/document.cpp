@@ -48,7 +48,8 @@ void convert_document(Document& document, const toml::table& root, const Overrid
   for (const auto& [key_node, node] : root) {
     const std::string key(key_node.str());
     const auto refuse = [&, &value = node](const char* problem, const std::string& allowed) {
-      return InputError({.line = value.source().begin.line, .key = key, .problem = problem, .allowed = allowed});
+      document.errors.add(
+          InputError({.line = value.source().begin.line, .key = key, .problem = problem, .allowed = allowed}));
     };
     if (key == "title") {
       document.title = convert(node, overridden.count(key) > 0);
@@ -58,9 +59,13 @@ void convert_document(Document& document, const toml::table& root, const Overrid
     known.insert(known.end(), {"title", "event"});
     bool is_known = false;
     for (const std::string_view name : known) is_known = is_known || name == key;
-    if (!is_known) throw refuse(node.is_table() ? "unknown table" : "unknown key", nearest_or_all(key, known));
-    if (!node.is_table()) throw refuse("not a table", "[" + key + "]");
-    if (key != "event") document.tables.emplace(key, convert_table(*node.as_table(), key, overridden));
+    if (!is_known) {
+      refuse(node.is_table() ? "unknown table" : "unknown key", nearest_or_all(key, known));
+    } else if (!node.is_table()) {
+      refuse("not a table", "[" + key + "]");
+    } else if (key != "event") {
+      document.tables.emplace(key, convert_table(*node.as_table(), key, overridden));
+    }
   }
 }
 

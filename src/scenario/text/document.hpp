@@ -7,6 +7,9 @@
 #include <string_view>
 #include <vector>
 
+#include "scenario/text/errors.hpp"
+#include "scenario/units/model_units.hpp"
+
 namespace slipfront::scenario {
 
 /// One value of a scenario file, independent of the TOML syntax.
@@ -31,13 +34,15 @@ struct Document {
   std::string text;  ///< TOML that reads back as this document
   std::optional<Value> title;
   std::map<std::string, Table, std::less<>> tables;
+  ModelUnits units = {};  ///< units for texts such as "2 mm"; known after [medium] was read
+  Errors errors = {};     ///< tables that are not known
 };
 
 /// Tables that a scenario may have. The table [event] belongs to another command.
 const std::vector<std::string_view>& known_tables();
 
-/// Reads a scenario and applies the overrides. \throws InputError for text that is not TOML, an unknown table, or an
-/// invalid override.
+/// Reads a scenario and applies the overrides. \throws InputError for text that is not TOML, or an invalid
+/// override.
 Document read_document(std::string_view text, const std::string& file, const std::vector<std::string>& overrides);
 
 }  // namespace slipfront::scenario

@@ -5,18 +5,74 @@
 #include <stdexcept>
 
 #include "foundation/text/digits.hpp"
+#include "foundation/text/trimmed.hpp"
+#include "slipfront/medium/quantity.hpp"
 
 namespace slipfront::scenario {
+namespace {
+
+/// Whether the text is a number and a unit, which no formula is.
+bool is_quantity(std::string_view text) {
+  text = trimmed(text);
+  if (text.ends_with("sigma_N")) return true;
+  const std::size_t blank = text.rfind(' ');
+  return blank != std::string_view::npos && medium::number(text.substr(0, blank)) &&
+         medium::is_unit(text.substr(blank + 1));
+}
+
+}  // namespace
 
 Section::Section(const Document& document, std::string_view name) : document_(document), table_(nullptr), name_(name) {
   const auto found = document.tables.find(name);
   if (found == document.tables.end()) return;
   table_ = &found->second;
+}
+
+void Section::check_values() const {
+  if (!table_) return;
+  Errors errors;
   std::vector<std::string_view> known;
-  for (const Key* key : keys_of(name)) known.push_back(key->name);
-  for (const auto& [key, value] : table_->values)
-    if (std::find(known.begin(), known.end(), key) == known.end())
-      throw refuse(key, "unknown key", nearest_or_all(key, known));
+  for (const Key* key : keys_of(name_)) known.push_back(key->name);
+  for (const auto& [name, value] : table_->values) {
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      errors.add(refuse(name, "unknown key", nearest_or_all(name, known)));
+    else
+      errors.attempt([&, &key = name, &item = value] { check_value(this->key(key), item); });
+  }
+  errors.throw_if_any();
+}
+
+void Section::check_value(const Key& key, const Value& value) const {
+  switch (key.type) {
+    case KeyType::number:
+      if (name_ != "friction" && key.name != "stiffness") static_cast<void>(number(key.name));
+      return;
+    case KeyType::whole_number:
+      static_cast<void>(whole_number(key.name));
+      return;
+    case KeyType::word:
+      check_word(key.name, value, key.words);
+      return;
+    case KeyType::text:
+      static_cast<void>(text(key.name));
+      return;
+    case KeyType::truth:
+      static_cast<void>(truth(key.name));
+      return;
+    case KeyType::formula:
+      static_cast<void>(formula(key.name));
+      return;
+    case KeyType::numbers:
+    case KeyType::words:
+    case KeyType::quantity:
+      return;
+  }
+}
+
+void Section::check_word(std::string_view key, const Value& value, const std::vector<std::string_view>& words) const {
+  const bool is_text = value.kind == Value::Kind::text;
+  if (is_text && std::find(words.begin(), words.end(), value.text) != words.end()) return;
+  throw refuse(key, is_text ? "unknown word" : "not a text", nearest_or_all(value.text, words));
 }
 
 const Value* Section::find(std::string_view key) const {
@@ -31,11 +87,64 @@ const Key& Section::key(std::string_view name) const {
   throw std::logic_error("scenario/keys.cpp does not list " + name_ + "." + std::string(name));
 }
 
-std::optional<double> Section::number(std::string_view key) const {
+std::optional<double> Section::number_in(std::string_view key, ModelUnit unit) const {
   const Value* const value = find(key);
   if (!value) return std::nullopt;
-  check(key, *value, this->key(key).limits);
-  return value->number;
+  return item_in(key, *value, unit, this->key(key).limits);
+}
+
+double Section::item_in(std::string_view key, const Value& item, ModelUnit unit, const Limits& limits) const {
+  if (item.kind != Value::Kind::text || unit == ModelUnit::none) {
+    check(key, item, limits);
+    return item.number;
+  }
+  const double number = converted(key, item, unit);
+  if (!limits.hold(number) && !std::isnan(number))  // NaN: the constants of the medium have an error
+    throw refuse(key, item, "out of range, " + shortest(number) + " in " + std::string(symbol_of(unit)), limits.text());
+  return number;
+}
+
+double Section::si(std::string_view key, ModelUnit unit) const {
+  try {
+    return document_.units.si(unit);
+  } catch (const InputError& error) {
+    throw refuse(key, error.complaint().problem, error.complaint().allowed);
+  }
+}
+
+double Section::quantity(std::string_view key, const Value& item, medium::Dimension dimension) const {
+  const std::string example(medium::example(dimension));
+  if (item.kind != Value::Kind::text && item.kind != Value::Kind::number)
+    throw refuse(key, item, "neither a number nor a text", example);
+  const std::string text = item.kind == Value::Kind::number ? shortest(item.number) : item.text;
+  try {
+    const medium::Span span = medium::parse_quantity(text, dimension);
+    if (span.low < span.high) throw InputError({.problem = "a range, where one number is needed", .allowed = example});
+    return span.low;
+  } catch (const InputError& error) {
+    throw refuse(key, item, error.complaint().problem, error.complaint().allowed);
+  }
+}
+
+std::optional<double> Section::times_normal_stress(std::string_view key, const Value& item) const {
+  constexpr std::string_view symbol = "sigma_N";
+  const std::string_view text = trimmed(item.text);
+  if (!text.ends_with(symbol)) return std::nullopt;
+  const std::optional<double> factor = medium::number(text.substr(0, text.size() - symbol.size()));
+  if (!factor) throw refuse(key, item, "no number before sigma_N", "a stress, such as 3 MPa or 0.6 sigma_N");
+  const Section friction(document_, "friction");
+  const Value* const pressed = friction.find("normal_stress");
+  if (!pressed)
+    throw refuse(key, item, "it needs friction.normal_stress", "friction.normal_stress, or a stress in MPa");
+  return *factor * friction.quantity("normal_stress", *pressed, medium::Dimension::pressure);
+}
+
+double Section::converted(std::string_view key, const Value& item, ModelUnit unit) const {
+  const medium::Dimension dimension = dimension_of(unit);
+  std::optional<double> value;
+  if (dimension == medium::Dimension::pressure) value = times_normal_stress(key, item);
+  if (!value) value = quantity(key, item, dimension);
+  return *value / si(key, unit);
 }
 
 void Section::check(std::string_view key, const Value& value, const Limits& limits) const {
@@ -76,7 +185,9 @@ std::optional<std::string> Section::formula(std::string_view key) const {
     return shortest(value->number);
   }
   if (value->kind != Value::Kind::text) throw refuse(key, "neither a text nor a number", "a formula in quotes");
-  return value->text;
+  const ModelUnit unit = this->key(key).scale;
+  if (unit == ModelUnit::none || !is_quantity(value->text)) return value->text;
+  return shortest(converted(key, *value, unit) * in_file(unit));
 }
 
 const Value* Section::array(std::string_view key, const char* allowed) const {

@@ -17,7 +17,6 @@ namespace slipfront::scenario {
 /// throws an InputError that names file, line, key and value.
 class Section {
  public:
-  /// \throws InputError for a key that is not known.
   Section(const Document& document, std::string_view name);
 
   bool has(std::string_view key) const { return find(key) != nullptr; }
@@ -26,11 +25,27 @@ class Section {
 
   const Key& key(std::string_view name) const;  ///< its entry in the list of keys
 
-  std::optional<double> number(std::string_view key) const;
+  /// Checks each single value of the table, and that every key is known. Parameters of friction and constants of
+  /// the medium are checked where they are read. \throws InputError with all errors.
+  void check_values() const;
+
+  /// A number in the unit of the model. A text with an SI unit is converted.
+  std::optional<double> number(std::string_view key) const { return number_in(key, this->key(key).scale); }
+  std::optional<double> number_in(std::string_view key, ModelUnit unit) const;
+  double item_in(std::string_view key, const Value& item, ModelUnit unit, const Limits& limits) const;
+  /// A number in SI units: a text with a unit, or a number without one if it is a ratio.
+  double quantity(std::string_view key, const Value& item, medium::Dimension dimension) const;
+  /// SI value of one unit of the model. \throws InputError that names the key.
+  double si(std::string_view key, ModelUnit unit) const;
+  /// Whether the key "units" is "SI". Variables and values of formulas and files are then in m, s and Pa.
+  bool in_si() const { return choice<bool>("units", {{"model", false}, {"SI", true}}).value_or(false); }
+  /// The unit of the model in the units of formulas and files: 1, or its SI value.
+  double in_file(ModelUnit unit) const { return in_si() ? si("units", unit) : 1; }
   std::optional<int> whole_number(std::string_view key) const;
   std::optional<std::string> text(std::string_view key) const;
   std::optional<bool> truth(std::string_view key) const;
-  std::optional<std::string> formula(std::string_view key) const;  ///< a text, or a number as a constant formula
+  /// A formula. A number, or a text such as "2 MPa", is a constant formula.
+  std::optional<std::string> formula(std::string_view key) const;
   const std::vector<std::string_view>& words(std::string_view name) const { return key(name).words; }  ///< allowed
   const Value* array(std::string_view key, const char* allowed) const;
 
@@ -40,12 +55,11 @@ class Section {
     const Value* const value = find(key);
     if (!value) return std::nullopt;
     std::vector<std::string_view> names;
-    for (const auto& [word, meaning] : words) {
-      if (value->kind == Value::Kind::text && value->text == word) return meaning;
-      names.push_back(word);
-    }
-    throw refuse(key, value->kind == Value::Kind::text ? "unknown word" : "not a text",
-                 nearest_or_all(value->text, names));
+    for (const auto& [word, meaning] : words) names.push_back(word);
+    check_word(key, *value, names);
+    for (const auto& [word, meaning] : words)
+      if (value->text == word) return meaning;
+    return std::nullopt;
   }
 
   /// The file, line and key of an error, to which the caller adds the problem. For a missing key, the line is the first
@@ -56,6 +70,11 @@ class Section {
   void check(std::string_view key, const Value& value, const Limits& limits) const;
 
  private:
+  void check_word(std::string_view key, const Value& value, const std::vector<std::string_view>& words) const;
+  void check_value(const Key& key, const Value& value) const;
+  double converted(std::string_view key, const Value& item, ModelUnit unit) const;
+  std::optional<double> times_normal_stress(std::string_view key, const Value& item) const;
+
   const Document& document_;
   const Table* table_;
   std::string name_;

@@ -1,0 +1,131 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "batch.hpp"
+#include "json.hpp"
+#include "long_run.hpp"
+#include "run/run.hpp"
+#include "slipfront/scenario/keys.hpp"
+#include "slipfront/scenario/quantities.hpp"
+#include "slipfront/setup/numbers.hpp"
+#include "terminal_table.hpp"
+
+namespace {
+
+using namespace slipfront;
+
+std::string number(double x) { return fmt::format("{:.6g}", x); }
+
+struct NamedNumber {
+  const char *key, *meaning;
+  std::string_view unit, si_unit;
+  std::optional<double> value;
+};
+
+std::vector<NamedNumber> named(const setup::Numbers& n) {
+  using scenario::ModelUnit;
+  return {
+      {"strength_over_direct_effect", "f_0 / a", "", "", n.strength_over_direct_effect},
+      {"critical_stiffness", "critical stiffness", scenario::symbol_of(ModelUnit::stiffness), "Pa/m",
+       n.critical_stiffness},
+      {"stiffness_ratio", "stiffness over the critical one", "", "", n.stiffness_ratio},
+      {"nucleation_length", "nucleation length", scenario::symbol_of(ModelUnit::position), "m", n.nucleation_length},
+      {"length", "length of the domain", scenario::symbol_of(ModelUnit::position), "m", n.length},
+      {"dislocations", "dislocations at t = 0", "", "", n.dislocations}};
+}
+
+/// The value of a unit of the model in SI units, if [medium] determines it.
+std::optional<double> unit_in_si(const scenario::Scenario& s, std::string_view symbol) {
+  for (const scenario::Scale& scale : scenario::scales_of(s.medium))
+    if (scale.symbol == symbol) return scale.si;
+  return std::nullopt;
+}
+
+/// Sites, memory and disk space of a chain run of the scenario, or the reason why it has none.
+std::string cost_of(const scenario::Scenario& s) {
+  try {
+    const run::ChainPlan plan = run::plan_chain(s);
+    const chain::Problem p = chain::problem_of(plan.chain);
+    return fmt::format("a chain of {} sites, {}", p.grid.sites, setup::in_words(plan.need));
+  } catch (const InputError& error) {
+    return std::string("no chain: ") + error.complaint().problem;
+  }
+}
+
+void print(const scenario::Scenario& s, const std::vector<scenario::Quantity>& quantities,
+           const setup::Numbers& numbers) {
+  const std::vector<TableColumn> columns = {{34, true},    {14, true, 2},  {14, false, 2},
+                                            {24, true, 2}, {14, false, 2}, {6, true, 1}};
+  TerminalTable table(columns);
+  const auto in_si = [](const std::optional<double>& x) { return x ? number(*x) : std::string("-"); };
+  const auto si_unit = [](const std::optional<double>& x, std::string_view unit) { return std::string(x ? unit : ""); };
+  table.add({"unit of the model", "", "", "", "in SI", ""});
+  for (const scenario::Scale& scale : scenario::scales_of(s.medium))
+    table.add({std::string(scale.name), "", "1", std::string(scale.symbol), in_si(scale.si),
+               si_unit(scale.si, scale.si_unit)});
+  table.add_title("");
+  table.add({"key", "in the file", "in the model", "", "in SI", ""});
+  for (const scenario::Quantity& q : quantities)
+    table.add({q.key, q.text, number(q.model), std::string(q.unit), q.si_unit.empty() ? "" : in_si(q.si),
+               si_unit(q.si, q.si_unit)});
+  put(table.text() + "\n");
+  for (const NamedNumber& n : named(numbers)) {
+    if (!n.value) continue;
+    const std::string line = fmt::format("{}: {}", n.meaning, number(*n.value));
+    const auto si = unit_in_si(s, n.unit);
+    put(line + (n.unit.empty() ? "" : fmt::format(" in {}", n.unit)) +
+        (si ? fmt::format(", {} {}", number(*n.value * *si), n.si_unit) : "") + "\n");
+  }
+  put(fitted("cost: " + cost_of(s)) + "\n");
+}
+
+Json json_of(const scenario::Scenario& s, const std::vector<scenario::Quantity>& quantities,
+             const setup::Numbers& numbers) {
+  Json all;
+  for (const scenario::Scale& scale : scenario::scales_of(s.medium))
+    all["units"].push_back(
+        {{"name", scale.name}, {"symbol", scale.symbol}, {"si", ::json_of(scale.si)}, {"si_unit", scale.si_unit}});
+  all["keys"] = Json::array();
+  for (const scenario::Quantity& q : quantities)
+    all["keys"].push_back({{"key", q.key},
+                           {"text", q.text},
+                           {"model", q.model},
+                           {"unit", q.unit},
+                           {"si", ::json_of(q.si)},
+                           {"si_unit", q.si_unit}});
+  for (const NamedNumber& n : named(numbers)) all["numbers"][n.key] = ::json_of(n.value);
+  all["cost"] = cost_of(s);
+  return all;
+}
+
+int run_units(const ScenarioArguments& a) {
+  const scenario::Scenario s = read_scenario_of(a);
+  const auto quantities = scenario::quantities_of(s.text, s.file, {});
+  const setup::Numbers numbers = setup::numbers_of(s);
+  if (a.common.json)
+    put(text_of(json_of(s, quantities, numbers)) + "\n");
+  else
+    print(s, quantities, numbers);
+  return exit_done;
+}
+
+}  // namespace
+
+Runner add_units(CLI::App& app) {
+  auto a = std::make_shared<ScenarioArguments>();
+  CLI::App* command = app.add_subcommand(
+      "units",
+      "The numbers of a scenario in the units of the model and in SI units, and those that decide its behaviour");
+  command->footer(
+      "Examples:"
+      "\n  slipfront units cases/rate-and-state.toml"
+      "\n  slipfront units cases/stick-slip.toml --set medium.contact_ratio=0.01 medium.asperity_spacing='1 mm'");
+  add_scenario_words(*command, *a);
+  add_common_options(*command, a->common, false);
+  return [a] { return run_units(*a); };
+}

@@ -1,0 +1,94 @@
+"""slipfront units, and scenarios in SI units, as a user meets them."""
+
+import json
+import os
+import subprocess
+import tempfile
+import unittest
+
+from support import CommandLine, PROGRAM
+
+BLOCK = """
+[initial]
+stress_left = 0
+stress_right = 0
+[interface]
+contact = 0
+[friction]
+law = "rate-and-state"
+normal_stress = "5 MPa"
+strength = 0.4
+direct_effect = 0.005
+evolution_effect = 0.009
+characteristic_slip = "0.5 um"
+reference_velocity = "1 um/s"
+[loading]
+stiffness = "0.06 MPa/um"
+velocity = "1 um/s"
+[domain]
+left = "-0.1 m"
+right = "0.1 m"
+[time]
+end = "90 s"
+[medium]
+shear_modulus = "3 GPa"
+density = "1180 kg/m3"
+poisson_ratio = 0.33
+contact_ratio = 0.0041
+asperity_spacing = "20 um"
+"""
+
+
+class Units(CommandLine):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.file = os.path.join(folder.name, "block.toml")
+        with open(self.file, "w", encoding="utf-8") as file:
+            file.write(BLOCK)
+
+    def test_keys_are_in_both_systems(self):
+        out = json.loads(self.ok("units", self.file, "--json"))
+        units = {row["name"]: row["si"] for row in out["units"]}
+        self.assertAlmostEqual(units["position"], 20e-6 / 0.0041, places=15)
+        keys = {row["key"]: row for row in out["keys"]}
+        self.assertEqual(keys["loading.stiffness"]["text"], "0.06 MPa/um")
+        self.assertAlmostEqual(keys["loading.stiffness"]["si"] / 0.06e12, 1)
+        self.assertAlmostEqual(keys["friction.strength"]["si"] / 2e6, 1)
+        self.assertAlmostEqual(keys["friction.characteristic_slip"]["si"] / 0.5e-6, 1)
+
+    def test_states_the_critical_stiffness(self):
+        out = json.loads(self.ok("units", self.file, "--json"))
+        critical = next(row["si"] for row in out["units"] if row["name"].startswith("stiffness")) * out["numbers"]["critical_stiffness"]
+        self.assertAlmostEqual(critical / ((0.009 - 0.005) * 5e6 / 0.5e-6), 1)  # (b - a) sigma_N / D_c
+        self.assertAlmostEqual(out["numbers"]["stiffness_ratio"], 1.5)
+        self.assertAlmostEqual(out["numbers"]["strength_over_direct_effect"], 80)
+        self.assertIn("critical stiffness: ", self.ok("units", self.file))
+
+    def test_dimensionless_numbers_give_the_same_bits(self):
+        out = json.loads(self.ok("units", self.file, "--json"))
+        numbers = [f"{row['key']}={row['model']!r}" for row in out["keys"]]
+        plain = self.file + ".plain.toml"
+        with open(plain, "w", encoding="utf-8") as file:  # without [medium]
+            file.write(BLOCK.split("[medium]")[0].replace('normal_stress = "5 MPa"', ""))
+        runs = [json.loads(self.ok("chain", self.file, "--json")), json.loads(self.ok("chain", plain, "--json", "--set", *numbers))]
+        for run in runs:
+            for key in ("wall_seconds", "site_updates_per_second"):
+                del run[key]
+        self.assertEqual(runs[0], runs[1])
+
+    def test_all_errors_have_a_line(self):
+        with open(self.file, encoding="utf-8") as file:
+            text = file.read().replace('"90 s"', '"90 m"').replace('"-0.1 m"', '"-0.1 s"')
+        with open(self.file, "w", encoding="utf-8") as file:
+            file.write(text)
+        done = subprocess.run([PROGRAM, "chain", self.file, "--check"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 2)
+        lines = done.stderr.splitlines()
+        self.assertEqual(len(lines), 2, lines)
+        self.assertRegex(lines[0], r"block.toml:19: domain.left = '-0.1 s': the unit 's' is not that of a length; allowed: a length")
+        self.assertIn("time.end = '90 m'", lines[1])
+
+
+if __name__ == "__main__":
+    unittest.main()
