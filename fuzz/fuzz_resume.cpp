@@ -59,7 +59,7 @@ std::string made(FuzzedDataProvider& data) {
       file.attribute(Writer::global, name, usual() ? std::string(value) : data.ConsumeRandomLengthString(40));
   };
   const bool events = data.ConsumeBool();
-  text("slipfront_format", events ? "event 1" : "pulse 1");
+  text("slipfront_format", events ? slipfront::record::event_format : slipfront::record::pulse_format);
   if (events) text("seed", "1");
   text("scenario", "title = \"a\"");
   text("version", "1");

@@ -38,7 +38,7 @@ int run_chain(const ScenarioArguments& a) {
   the_ranks->together([&] {  // so that an error is reported only once
     s = read_scenario_of(a);
     plan = run::plan_chain(s, the_ranks->share_of_machine());
-    if (!a.resume.empty()) saved = run::checkpoint_of(a.resume, s);
+    if (!a.resume.empty()) saved = run::checkpoint_of(a.resume, s, plan, the_ranks->share_of_machine());
   });
   the_ranks->require_same("SCENARIO", s.text);
   the_ranks->require_same("--resume", saved ? saved->solver_state : "");
@@ -46,7 +46,7 @@ int run_chain(const ScenarioArguments& a) {
     if (the_ranks->rank() == 0) describe(s, plan, a.output);
     return exit_done;
   }
-  LongRun long_run(a, s, the_ranks->size() > 1 ? the_ranks : nullptr);
+  LongRun long_run(a, s, saved, the_ranks->size() > 1 ? the_ranks : nullptr);
   const auto result = run::chain(s, plan, long_run.options(std::move(saved), begun));
   if (const int code = long_run.end(result.finished()); code != exit_done) return code;
   if (the_ranks->rank() == 0)

@@ -67,8 +67,8 @@ int run_pulse(ScenarioArguments a, std::optional<double> tolerance) {
     return exit_done;
   }
   std::optional<record::Checkpoint> saved;
-  if (!a.resume.empty()) saved = run::checkpoint_of(a.resume, s);
-  LongRun long_run(a, s, nullptr);
+  if (!a.resume.empty()) saved = run::checkpoint_of(a.resume, s, plan);
+  LongRun long_run(a, s, saved, nullptr);
   const auto result = run::pulse(s, plan, long_run.options(std::move(saved), begun));
   if (const int code = long_run.end(result.finished()); code != exit_done) return code;
   const run::Errors errors = run::errors_of(result, s, {});

@@ -62,7 +62,9 @@ void add_scenario_options(CLI::App& command, ScenarioArguments& a, bool with_res
       ->check(netcdf_name)
       ->type_name("OUT.nc");
   if (with_resume)
-    command.add_option("--resume", a.resume, "Resume from a file of this scenario, and write to it")
+    command
+        .add_option("--resume", a.resume,
+                    "Resume from a file of this scenario, also to a later time.end, and write to it")
         ->type_name("OUT.nc");
   command.add_flag("--check", a.check, "Read and check the scenario, print what would run, and stop");
   add_common_options(command, a.common, false);
@@ -176,9 +178,10 @@ void print_summary(const scenario::Scenario& scenario, const std::vector<run::Su
   if (!output.empty() && !a.common.quiet) put("written to " + output + "\n");
 }
 
-LongRun::LongRun(const ScenarioArguments& arguments, const scenario::Scenario& scenario, const Ranks* ranks)
+LongRun::LongRun(const ScenarioArguments& arguments, const scenario::Scenario& scenario,
+                 const std::optional<record::Checkpoint>& checkpoint, const Ranks* ranks)
     : a_(arguments), s_(scenario), ranks_(ranks), first_(the_ranks->rank() == 0) {
-  const auto open = [&] { output_ = record::Output(a_.output.empty() ? a_.resume : a_.output, a_.resume); };
+  const auto open = [&] { output_ = run::output_of(a_.output, a_.resume, checkpoint); };
   ranks_ ? ranks_->together(open) : open();
   if (output_.wanted())
     interrupted_means("; the last checkpoint is saved: continue with " + output_.how_to_resume(), output_.unfinished());

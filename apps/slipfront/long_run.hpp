@@ -46,9 +46,10 @@ void print_summary(const slipfront::scenario::Scenario& scenario,
 /// run.
 class LongRun {
  public:
-  /// `ranks` are the processes that share the run; null if there is only this one.
+  /// `checkpoint` is that to resume from, if any. `ranks` are the processes that share the run; null if there is only
+  /// this one.
   LongRun(const ScenarioArguments& arguments, const slipfront::scenario::Scenario& scenario,
-          const slipfront::Ranks* ranks);
+          const std::optional<slipfront::record::Checkpoint>& checkpoint, const slipfront::Ranks* ranks);
   /// Options of the run: its output, the checkpoint to resume from, if any, and the time `begun` when the command
   /// began.
   slipfront::run::Options options(std::optional<slipfront::record::Checkpoint> checkpoint, Clock::time_point begun);

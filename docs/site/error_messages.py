@@ -48,9 +48,11 @@ SECTIONS = {
         Entry("chain cases/step.toml --set chain.scale=1e12", "The run needs more memory than this machine or its control group has.",
               "Lower `chain.scale`, `pulse.cells` or the number of outputs. `--check` prints the need."),
         Entry("pulse cases/step.toml -o missing/out.nc", "The folder of the output file does not exist.", "Create the folder first.", code=3),
-        Entry("pulse cases/step.toml --resume old.nc --set time.end=1", "The file belongs to a run with another scenario.",
-              "Resume with the scenario and the `--set` of the first run. To change the scenario, start a new run.",
+        Entry("pulse cases/step.toml --resume old.nc --set pulse.cells=800", "The file belongs to a run with another scenario.",
+              "Resume with the scenario and the `--set` of the first run. Only `time.end` may be later. To change the scenario, start a new run.",
               files={"old.nc": "pulse cases/step.toml -o old.nc --quiet"}),
+        Entry("pulse cases/step.toml --resume old.nc --set time.end=20", "The domain follows from `time.end`, so a run to the later end would have had another one.",
+              "Start a new run with `[domain]`. That run can be continued.", files={"old.nc": "pulse cases/step.toml -o old.nc --quiet"}),
         Entry("pulse cases/step.toml --resume damaged.nc", "Another program has changed the file, or it was damaged.",
               "Start the run again. Damaged files are never continued.", code=3, files={"damaged.nc": "pulse cases/step.toml -o damaged.nc --quiet"}),
         Entry("chain my.toml", "The numerics failed: an invariant is violated by more than 1 %. "

@@ -29,10 +29,12 @@ py::dict run_pulse(const py::dict& arguments, std::optional<double> tolerance, b
       a.set.push_back("pulse.cells=" + std::to_string(cells));
       s = scenario_of(a);
     }
-    run::Options options{.output = output_of(a), .begun = begun};
-    if (!a.resume.empty()) options.checkpoint = run::checkpoint_of(a.resume, s);
+    const run::PulsePlan plan = run::plan_pulse(s);
+    run::Options options{.begun = begun};
+    if (!a.resume.empty()) options.checkpoint = run::checkpoint_of(a.resume, s, plan);
+    options.output = run::output_of(a.output, a.resume, options.checkpoint);
     options.after_step = [&](double time, long steps) { return watch(time, steps); };
-    result = run::pulse(s, run::plan_pulse(s), options);
+    result = run::pulse(s, plan, options);
     if (result.finished() && with_errors) errors = run::errors_of(result, s, interrupted);
   }
   watch.finish();

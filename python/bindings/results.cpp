@@ -40,8 +40,6 @@ scenario::Scenario scenario_of(const RunRequest& request) {
                                  is_file ? request.path : "scenario", request.set, read_table);
 }
 
-record::Output output_of(const RunRequest& a) { return {a.output.empty() ? a.resume : a.output, a.resume}; }
-
 namespace {
 
 using Shape = std::vector<py::ssize_t>;

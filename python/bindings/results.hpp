@@ -21,9 +21,6 @@ RunRequest request_of(const py::dict& arguments);
 
 slipfront::scenario::Scenario scenario_of(const RunRequest& request);
 
-/// The file that a run writes: `output`, or `resume` if there is no output.
-slipfront::record::Output output_of(const RunRequest& request);
-
 /// One series of snapshots for each level of theory.
 using Levels = std::vector<const std::vector<slipfront::output::Snapshot>*>;
 

@@ -53,8 +53,8 @@ def pulse(scenario, *, set=None, output=None, resume=None, progress=None, thread
         NetCDF file to write. It is written at intervals during the run, so that the run can be resumed, and at the end. The
         file is always complete.
     resume : path, optional
-        File of an unfinished run of this scenario to resume. The results are written to this file unless there is an
-        `output`.
+        File of an unfinished run of this scenario to resume. With a later time.end, also a finished run. The results are
+        written to this file unless there is an `output`.
     progress : bool or callable, optional
         True shows a line on stderr. A function is called at most ten times a second with (time, end, steps, "").
     threads : int, optional

@@ -17,7 +17,7 @@ namespace slipfront::chain {
 namespace {
 
 using output::Snapshot;
-constexpr std::uint64_t format = 0x636861696e000006;  // "chain", version 6
+constexpr std::uint64_t format = 0x636861696e000007;  // "chain", version 7
 
 std::unique_ptr<Chain> chain_of(const ScaledProblem& scaled, const Execution& execution) {
   const ScaledStart start = scaled_start(scaled, execution);
@@ -71,8 +71,9 @@ bool Run::advance_to(double time, const std::function<bool()>& interrupted) {
   while (!chain_->reached(time)) {
     const long before = chain_->steps(), to_sample = observer_->steps_to_sample();
     chain_->advance_to(time, std::min(to_sample, most));
-    // Without a constant step each call is a sample, also if it only shows the motion inside a step.
-    if (!chain_->constant_step() || chain_->steps() - before == to_sample) observer_->sample();
+    // Without a constant step each step is a sample. The motion inside a step is none: samples must not depend on the
+    // output times, so that a run to a later end can continue this one.
+    if (chain_->constant_step() ? chain_->steps() - before == to_sample : chain_->between_steps()) observer_->sample();
     if (interrupted && interrupted()) return false;
   }
   return true;

@@ -34,17 +34,33 @@ double spacing_of_train(const ScaledProblem& s) {
   return (s.right - s.left) / 16;
 }
 
-/// The first step after `steps` at which the run samples rates. There is one sample at a random step in each `every`
-/// steps. A train passes x = 0 periodically, and samples in a regular pattern could repeatedly meet the same phase.
-long sample_after(long steps, long every) {
-  const auto sample = [every](long n) {
+/// The number of steps to each sample of the rates, from which we integrate them. It grows with the number of steps so
+/// far, so that a run has 200 samples or more. It does not depend on the end, so that a run to a later end can continue
+/// this one. In a short chain we sample often enough to resolve the slip velocity while a single dislocation passes
+/// x = 0.
+long steps_per_sample(long steps, std::size_t sites) {
+  constexpr long first = 6400;
+  constexpr std::size_t few_sites = 5000;
+  const bool few = sites < few_sites;
+  const long most = few ? 32 : std::numeric_limits<long>::max() / 2;
+  long every = few ? 2 : 32;
+  for (long doubled = steps / first; doubled > 1 && every < most; doubled /= 2) every *= 2;
+  return every;
+}
+
+/// The first step after `steps` at which the run samples rates. There is one sample at a random step in each interval.
+/// A train passes x = 0 periodically, and samples in a regular pattern could repeatedly meet the same phase.
+long sample_after(long steps, std::size_t sites) {
+  const auto sample = [](long n, long every) {
     std::uint64_t z = static_cast<std::uint64_t>(n) * 0x9e3779b97f4a7c15u;  // splitmix64 of the number of the sample
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
     return n * every + static_cast<long>((z ^ (z >> 31)) % static_cast<std::uint64_t>(every));
   };
-  const long n = steps / every;
-  return sample(n) > steps ? sample(n) : sample(n + 1);
+  const long every = steps_per_sample(steps, sites), n = steps / every;
+  if (const long here = sample(n, every); here > steps) return here;
+  const long start = (n + 1) * every, next = steps_per_sample(start, sites);
+  return sample(start / next, next);
 }
 
 /// The largest force on a dislocation in the initial train at rest: dJ/dx (docs/theory/6_contact.md) plus F.
@@ -90,12 +106,6 @@ void RunObserver::choose_windows() {
   window_ = scaled_.window > 0 ? scaled_.window : std::min(spacing_of_train(scaled_), length / 4);
   smooth_window_ =
       scaled_.window > 0 ? scaled_.window : std::min(dislocations_in_window * spacing_of_train(scaled_), length / 4);
-  const auto step = chain_.constant_step();
-  if (!step) return;
-  const double steps = schedule_.times.back() * scaled_.scale / *step;
-  sample_every_ = std::max(32L, 32 * std::lround(steps / 200 / 32));
-  // In a short chain we sample often enough to resolve the slip velocity while a single dislocation passes x = 0.
-  if (chain_.problem().grid.sites < 5000) sample_every_ = std::clamp(sample_every_ / 16, 2L, 32L);
 }
 
 double RunObserver::middle_of_cell(std::size_t i) const {
@@ -114,7 +124,8 @@ double RunObserver::width_of_cell(std::size_t i) const {
 }
 
 long RunObserver::steps_to_sample() const {
-  return chain_.constant_step() ? sample_after(chain_.steps(), sample_every_) - chain_.steps() : 1;
+  if (!chain_.constant_step()) return 1;
+  return sample_after(chain_.steps(), chain_.problem().grid.sites) - chain_.steps();
 }
 
 /// The rate of friction is sampled only if the chain does not measure this work itself.

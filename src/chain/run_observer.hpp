@@ -75,7 +75,6 @@ class RunObserver {
   output::Schedule schedule_;
   const Chain& chain_;
   double window_ = 0, smooth_window_ = 0;
-  long sample_every_ = 1;  ///< steps between samples; 1 if steps have no constant length
   // Values at t = 0.
   std::vector<double> first_u_;  ///< averages over the output cells
   double first_u_at_origin_ = 0, first_energy_ = 0, first_charge_ = 0;

@@ -9,7 +9,7 @@
 namespace slipfront::pulse::checkpoint {
 namespace {
 
-constexpr std::uint64_t format = 7;
+constexpr std::uint64_t format = 8;
 
 /// The names of the state variables of friction, in their order.
 std::string state_name(const friction::Friction& friction) {

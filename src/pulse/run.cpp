@@ -26,6 +26,26 @@ double expected_steps(const Solver& start, const output::Schedule& schedule) {
   return start.expected_steps(schedule.times.back()) + 2 * static_cast<double>(schedule.times.size());
 }
 
+/// The part of a checkpoint that describes the run at one time.
+struct SavedState {
+  Cells cells = {};
+  double trailing_characteristic = 0;
+  SlipRecord slip = {};
+};
+
+void put(bytes::Writer& writer, const SavedState& state, const friction::Friction& friction) {
+  checkpoint::put(writer, state.cells, friction);
+  checkpoint::put_number(writer, "trailing_characteristic", state.trailing_characteristic);
+  state.slip.save(writer);
+}
+
+SavedState get_state(bytes::Reader& reader, const friction::Friction& friction) {
+  SavedState state{.cells = checkpoint::get_cells(reader, friction), .trailing_characteristic = 0, .slip = {}};
+  state.trailing_characteristic = checkpoint::get_number(reader, "trailing_characteristic");
+  state.slip.restore(reader);
+  return state;
+}
+
 }  // namespace
 
 struct Run::Parts {
@@ -37,6 +57,10 @@ struct Run::Parts {
   StoredEnergy first_energy;
   SlipRecord slip;  ///< at x = 0
   std::vector<output::Snapshot> snapshots;
+  /// The last state that does not depend on the end of the run, and whether the present state does. The last steps do,
+  /// because the last one must end there. A run to a later end continues from this state.
+  std::optional<SavedState> before_end;
+  bool aimed_at_end = false;
   std::optional<output::Findings> final_findings;  ///< findings of a finished run
 
   Parts(Problem problem, output::Schedule given)
@@ -50,7 +74,26 @@ struct Run::Parts {
   output::Findings findings() const { return Checks(solver, first_energy, slip, snapshots).findings(); }
   bool advance_to(double target, const std::function<bool()>& interrupted);
   void take_snapshot();
+  SavedState state() const { return {solver.cells(), trailing_characteristic.position(), slip}; }
+  void restore(SavedState saved);
+  /// Call this after each step of the last stretch before the end.
+  void look_at_end();
 };
+
+/// Copies into the arrays of the last state, so that a step allocates nothing.
+void Run::Parts::look_at_end() {
+  if (aimed_at_end) return;
+  if (!before_end) before_end.emplace();
+  before_end->cells = solver.cells();
+  before_end->trailing_characteristic = trailing_characteristic.position();
+  before_end->slip = slip;
+}
+
+void Run::Parts::restore(SavedState saved) {
+  slip = saved.slip;
+  solver.restore(std::move(saved.cells));
+  trailing_characteristic.restore(solver, saved.trailing_characteristic);
+}
 
 Run::Run(Problem problem, output::Schedule schedule)
     : parts_(std::make_unique<Parts>(std::move(problem), std::move(schedule))) {}
@@ -60,12 +103,18 @@ Run::Run(Problem problem, output::Schedule schedule, std::string_view saved, std
   Parts& p = *parts_;
   bytes::Reader reader(saved);
   if (snapshots.size() > p.schedule.times.size()) checkpoint::refuse();
-  Cells cells = checkpoint::get_cells(reader, p.solver.problem().friction);
-  const double trailing_characteristic = checkpoint::get_number(reader, "trailing_characteristic");
-  p.slip.restore(reader);
+  const friction::Friction& friction = p.solver.problem().friction;
+  SavedState saved_state = get_state(reader, friction);
+  const double end = checkpoint::get_number(reader, "end");
+  p.aimed_at_end = checkpoint::get_number(reader, "aimed_at_end") != 0;
+  if (p.aimed_at_end) p.before_end = get_state(reader, friction);
   reader.end();
-  p.solver.restore(std::move(cells));
-  p.trailing_characteristic.restore(p.solver, trailing_characteristic);
+  if (end != p.schedule.times.back() && p.aimed_at_end) {
+    saved_state = *std::exchange(p.before_end, std::nullopt);
+    p.aimed_at_end = false;
+    while (!snapshots.empty() && snapshots.back().time > saved_state.cells.time) snapshots.pop_back();
+  }
+  p.restore(std::move(saved_state));
   p.snapshots = std::move(snapshots);
 }
 
@@ -82,9 +131,11 @@ bool Run::finished() const { return parts_->finished(); }
 
 std::string Run::saved() const {
   bytes::Writer writer;
-  checkpoint::put(writer, solver().cells(), solver().problem().friction);
-  checkpoint::put_number(writer, "trailing_characteristic", parts_->trailing_characteristic.position());
-  parts_->slip.save(writer);
+  const friction::Friction& friction = solver().problem().friction;
+  put(writer, parts_->state(), friction);
+  checkpoint::put_number(writer, "end", parts_->schedule.times.back());
+  checkpoint::put_number(writer, "aimed_at_end", parts_->aimed_at_end ? 1 : 0);
+  if (parts_->aimed_at_end) put(writer, *parts_->before_end, friction);
   return std::move(writer).text();
 }
 
@@ -107,6 +158,8 @@ void Run::Parts::take_snapshot() {
 
 bool Run::Parts::advance_to(double target, const std::function<bool()>& interrupted) {
   double before = solver.cells().time;
+  const bool last = snapshots.size() + 1 == schedule.times.size();
+  if (last) look_at_end();
   const auto after_step = [&] {
     const Cells& cells = solver.cells();
     trailing_characteristic.advance(solver, cells.time - before);
@@ -114,6 +167,8 @@ bool Run::Parts::advance_to(double target, const std::function<bool()>& interrup
     // We sample implicit steps more often: one costs as much as ten samples, an explicit step only as much as a few.
     const bool begins = cells.steps < 64, is_explicit = cells.face_momentum.empty();
     if (cells.steps % (is_explicit ? begins ? 4 : 16 : begins ? 1 : 2) == 0) slip.sample(solver);
+    aimed_at_end = aimed_at_end || (last && solver.aimed_at_time());
+    if (last) look_at_end();
     if (budget.exhausted(cells.steps))
       throw budget.error(cells.time, cells.steps, solver.reason_of_short_steps(),
                          "fewer pulse.cells, an earlier time.end or slipfront chain may help");

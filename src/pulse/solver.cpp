@@ -57,6 +57,8 @@ bool Solver::advance_to(double time, const std::function<bool()>& interrupted) {
   return cells().time >= time;
 }
 
+bool Solver::aimed_at_time() const { return parts_->stepper.aimed_at_time(); }
+
 double Solver::expected_steps(double duration) const { return parts_->stepper.expected_steps(cells(), duration); }
 std::string Solver::reason_of_short_steps() const { return parts_->stepper.reason_of_short_steps(cells()); }
 

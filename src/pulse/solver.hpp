@@ -37,6 +37,9 @@ class Solver {
   /// `time` was reached. \throws NumericsError with the time and position where no state exists.
   bool advance_to(double time, const std::function<bool()>& interrupted = {});
 
+  /// Whether the last step might have been different if the `time` of advance_to had been later.
+  bool aimed_at_time() const;
+
   /// Approximate number of steps in the next `duration`: as many as waves require, or fewer if viscous friction
   /// dominates.
   double expected_steps(double duration) const;

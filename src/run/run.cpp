@@ -16,10 +16,6 @@ std::unique_ptr<Run> begin(const Options& options, const Arguments&... arguments
 
 }  // namespace
 
-record::Checkpoint checkpoint_of(const std::string& path, const scenario::Scenario& scenario) {
-  return record::read_checkpoint_of(path, scenario.text, SLIPFRONT_VERSION);
-}
-
 record::PulseMetadata metadata_of(const scenario::Scenario& scenario, const std::string& command,
                                   const std::vector<double>& x_edges, const std::vector<double>& scales) {
   // The history is that of the run, not of how it was interrupted and resumed: equal runs make equal files.

@@ -34,10 +34,6 @@ struct Options {
   Clock::time_point begun = Clock::now();  ///< wall_seconds are counted from this time
 };
 
-/// Reads the state of an unfinished run from a file. \throws FileError; InputError if the file is from another scenario
-/// or version.
-record::Checkpoint checkpoint_of(const std::string& path, const scenario::Scenario& scenario);
-
 /// The metadata for the file of a run of `command`.
 record::PulseMetadata metadata_of(const scenario::Scenario& scenario, const std::string& command,
                                   const std::vector<double>& x_edges, const std::vector<double>& scales = {});
@@ -60,6 +56,20 @@ PulsePlan plan_pulse(const scenario::Scenario& scenario);
 /// Plans a chain run. If several processes share the chain, `share_of_machine` is the part on this machine. \throws
 /// InputError.
 ChainPlan plan_chain(const scenario::Scenario& scenario, double share_of_machine = 1);
+
+/// Reads the state from which a planned run continues, of an unfinished or a finished run. The scenario is that of the
+/// file, or the same with a later time.end and with other output times from the end of the file on. The results are
+/// then those of one run to the later end, to the last bit. Snapshots that such a run would not have are left out.
+/// \throws FileError; InputError if the file is from another scenario or version, if the end is earlier, or if time.end
+/// decides how the run begins.
+record::Checkpoint checkpoint_of(const std::string& path, const scenario::Scenario& scenario, const PulsePlan& plan);
+record::Checkpoint checkpoint_of(const std::string& path, const scenario::Scenario& scenario, const ChainPlan& plan,
+                                 double share_of_machine = 1);
+
+/// The output of a run that writes to `output`, or else to the file `resume` from which it resumes. Both may be empty.
+/// The run must not lose a finished result: it replaces that at its end only. \throws FileError.
+record::Output output_of(const std::string& output, const std::string& resume,
+                         const std::optional<record::Checkpoint>& checkpoint);
 
 /// The result of a run. The summary is empty unless the run is finished.
 template <class Run>

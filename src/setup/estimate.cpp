@@ -16,7 +16,7 @@ constexpr double observed_fields = 5;   // fields in output::Profile
 constexpr double written_fields = 8;    // fields in a file, at most
 constexpr double scalars = 16;          // scalars in a snapshot
 constexpr double solver_per_cell = 66;  // doubles for states, fluxes, the stages of a step and its Jacobian
-constexpr double state_per_cell = 6;    // doubles in the saved state, including the edges of x
+constexpr double state_per_cell = 12;   // doubles in the two saved states, including the edges of x
 constexpr double state_per_site = 2;    // doubles in the saved state of a chain: two time levels
 
 /// Estimates outputs, memory and disk for the observations of a run, which are the same for a pulse and a chain.

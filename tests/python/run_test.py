@@ -145,6 +145,18 @@ class Run(CommandLine):
         self.ok("chain", case, "--set", "chain.scale=2000", "--threads", "1", "-o", whole)
         self.same(output, whole)
 
+    def test_a_finished_run_continues_to_a_later_end(self):
+        for run in (slipfront.pulse, slipfront.chain):
+            settings = {"domain.left": -4, "domain.right": 4, "pulse.cells": 60, "chain.scale": 100}
+            output, whole = os.path.join(self.folder(), "out.nc"), os.path.join(self.folder(), "whole.nc")
+            run(STEP, set={**settings, "time.end": 1}, output=output)
+            continued = run(STEP, set={**settings, "time.end": 2.0}, resume=output)
+            run(STEP, set={**settings, "time.end": 2.0}, output=whole)
+            self.assertEqual(continued.time.values[-1], 2)
+            self.same(output, whole)
+            with self.assertRaisesRegex(slipfront.InputError, "earlier than the end of the file, 2;"):
+                run(STEP, set={**settings, "time.end": 1.5}, resume=output)
+
     def test_other_threads_run_during_a_computation(self):
         """A computation releases the GIL, so Python continues while another thread computes."""
         case, rounds = self.slow_case(), 0

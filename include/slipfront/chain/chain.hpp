@@ -103,6 +103,9 @@ class Chain : public Sites {
   /// (all) Takes at most `most` steps towards `time`, and returns whether the chain has reached it. \throws
   /// NumericsError, with time and position, if the steps cannot resolve the motion.
   virtual bool advance_to(double time, long most = no_limit) = 0;
+  /// Whether the present motion is that between two steps. Otherwise it is shown only, and the next step does not start
+  /// from it.
+  virtual bool between_steps() const { return true; }
   /// Whether the stored motion is valid. It is invalid after an error in a step that overwrites the motion.
   virtual bool valid() const = 0;
 

@@ -25,7 +25,9 @@ struct SlipTwice;
 class Run {
  public:
   Run(Problem problem, output::Schedule schedule);
-  /// Resumes a saved run. \throws InputError if it was saved for another problem or schedule.
+  /// Resumes a saved run. The schedule may end later than that of the saved run. It must agree with it before the end
+  /// of the saved run, and `snapshots` are then those before that end. The results are those of a run that had the
+  /// later end from its start. \throws InputError if the run was saved for another problem or schedule.
   Run(Problem problem, output::Schedule schedule, std::string_view saved, std::vector<output::Snapshot> snapshots);
   ~Run();
   Run(Run&&) noexcept;

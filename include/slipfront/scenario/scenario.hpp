@@ -115,6 +115,11 @@ using TableReader = std::function<std::vector<std::pair<double, double>>(const s
 Scenario read_scenario(std::string_view text, const std::string& file, const std::vector<std::string>& overrides,
                        const TableReader& tables);
 
+/// Returns the first key ("table.key") that two scenario texts do not share, or whose values differ. A title, time.end
+/// and the output times may differ. Returns an empty text if there is no such key. \throws InputError for text that is
+/// not TOML.
+std::string differing_key(std::string_view one, std::string_view other);
+
 /// The command that runs the scenario, quoted for a shell, for the history attribute of a file: "slipfront pulse a.toml
 /// --set friction.coefficient=0.5". `scales` are those of the `compare` command.
 std::string command_line(const Scenario& scenario, std::string_view command, const std::vector<double>& scales = {});

@@ -40,6 +40,7 @@ class ImplicitChain final : public Chain {
   long steps() const override { return now_.steps; }
   /// Counts the steps that are only shown, too. \throws NumericsError where no step is short enough.
   bool advance_to(double time, long most = no_limit) override;
+  bool between_steps() const override { return !passed_; }
   bool valid() const override { return true; }  // a step that fails is not taken
   Flows flows() const override { return {now_.supplied, now_.dissipated, 0, now_.by_contacts}; }
   bool meters_friction() const override { return true; }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "pulse/grid/gaps.hpp"
+#include "pulse/time/ars443.hpp"
 
 namespace slipfront::pulse {
 namespace {
@@ -79,6 +80,14 @@ void Stepper::look_for_crossing(Cells& cells) {
   cells.crossing_position = cells.centre(cell);
 }
 
+/// An upper limit of the length that a step tries first, if no time is near on which it has to end.
+double Stepper::longest_attempt(const Cells& cells, bool stiff, double crossing) const {
+  const bool same_kind = stiff != cells.face_momentum.empty();
+  if (stiff) return same_kind ? std::fmax(cells.step, crossing) : crossing;
+  const double longest = by_cells_ ? Ars443::longest_in_crossing_times * crossing : crossing;
+  return same_kind && cells.step > 0 ? std::fmin(longest, cells.step) : longest;
+}
+
 double Stepper::take(Cells& cells, double remaining) {
   Semidiscrete& equations = equations_.semidiscrete();
   const double* unknowns = cells.unknowns.data();
@@ -86,6 +95,7 @@ double Stepper::take(Cells& cells, double remaining) {
   const bool stiff = is_stiff(cells, friction_rate(cells));
   if (!stiff && !by_cells_)
     crossing = std::fmin(crossing, longest_in_friction_times / equations.largest_friction_rate());
+  longest_attempt_ = longest_attempt(cells, stiff, crossing);
   if (stiff && by_cells_) equations.find_friction_rates();
   equations.let_rest(unknowns, rate_.data());
   if (stiff) return implicit_steps(cells).take(cells, equations_, remaining, crossing);
@@ -96,9 +106,13 @@ double Stepper::take(Cells& cells, double remaining) {
 void Stepper::step(Cells& cells, double time) {
   rates_of(cells);
   if (std::isnan(cells.crossing_time)) look_for_crossing(cells);
-  const double remaining =
-      std::fmin(std::fmin(time - cells.time, problem_.longest_step), gaps_close_in(problem_, cells, rate_.data()));
-  const double dt = take(cells, remaining);
+  const double to_time = time - cells.time;
+  const double limit = std::fmin(problem_.longest_step, gaps_close_in(problem_, cells, rate_.data()));
+  const double dt = take(cells, std::fmin(to_time, limit));
+  // The two last steps to `time` have equal lengths (step_within). The margin is for a rounding of `time`.
+  constexpr double margin = 1e-9;
+  const double at_least = to_time * (1 - margin);
+  aimed_ = dt >= at_least || !(limit < at_least || 2 * longest_attempt_ < at_least);
   equations_.semidiscrete().wake();
   cells.time = dt == time - cells.time ? time : cells.time + dt;
   ++cells.steps;

@@ -26,6 +26,8 @@ class Stepper {
 
   /// Takes one step, which does not pass `time`.
   void step(Cells& cells, double time);
+  /// Whether the last step might have been different if its `time` had been later.
+  bool aimed_at_time() const { return aimed_; }
 
   /// About how many steps the next `duration` takes: those that waves allow, or fewer where viscous friction rules.
   double expected_steps(const Cells& cells, double duration);
@@ -40,13 +42,16 @@ class Stepper {
   void look_for_crossing(Cells& cells);
   double take(Cells& cells, double remaining);
   ImplicitSteps& implicit_steps(const Cells& cells);
+  double longest_attempt(const Cells& cells, bool stiff, double crossing) const;
 
   const Problem& problem_;
   const InitialGrid& initial_;
   Measures measures_;
   Equations equations_;
   StateGrid state_grid_;
-  bool by_cells_;  ///< whether friction is taken cell by cell
+  bool by_cells_;               ///< whether friction is taken cell by cell
+  double longest_attempt_ = 0;  ///< an upper limit of the length that the last step would have tried first
+  bool aimed_ = false;
   std::vector<double> rate_;
   std::unique_ptr<ExplicitSteps> explicit_;
   std::unique_ptr<SplitSteps> split_;

@@ -50,8 +50,7 @@ void write_pulse(const std::string& path, const PulseMetadata& metadata, const s
 /// slipfront, truncated, damaged, or changed by another program.
 Checkpoint read_checkpoint(const std::string& path);
 
-/// Like read_checkpoint, for a run that resumes. \throws InputError if another scenario or version of slipfront wrote
-/// the file.
-Checkpoint read_checkpoint_of(const std::string& path, const std::string& scenario_text, const std::string& version);
+/// Like read_checkpoint, for a run that resumes. \throws InputError if another version of slipfront wrote the file.
+Checkpoint read_checkpoint_of(const std::string& path, const std::string& version);
 
 }  // namespace slipfront::record

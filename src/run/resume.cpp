@@ -1,0 +1,128 @@
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "foundation/text/digits.hpp"
+#include "record/netcdf/table_file.hpp"
+#include "run/run.hpp"
+#include "slipfront/chain/problem.hpp"
+
+namespace slipfront::run {
+namespace {
+
+/// A file that a run continues, the scenario that began it, and the one that continues it.
+struct Continued {
+  const std::string& path;
+  const scenario::Scenario& begun;
+  const scenario::Scenario& now;
+
+  [[noreturn]] void refuse(const std::string& key, const std::string& problem, const std::string& allowed) const {
+    throw InputError({.file = path, .key = key, .problem = problem, .allowed = allowed});
+  }
+  /// Refuses because `what` follows from time.end, which the run has used from its start.
+  [[noreturn]] void refuse_choice(const std::string& what, const std::string& of_file, const std::string& of_now,
+                                  const std::string& remedy) const {
+    refuse("resume",
+           what + " follows from time.end: " + of_file + " with end " + shortest(begun.end) + " of the file, " +
+               of_now + " with end " + shortest(now.end),
+           remedy);
+  }
+};
+
+void require_later_end(const Continued& c) {
+  const std::string key = scenario::differing_key(c.begun.text, c.now.text);
+  if (!key.empty() || c.now.end == c.begun.end)
+    c.refuse("resume", "was written by another scenario" + (key.empty() ? "" : ": " + key + " differs"),
+             "the scenario that started the run, with the same --set; time.end may be later");
+  if (c.now.end < c.begun.end)
+    c.refuse("resume",
+             "time.end = " + shortest(c.now.end) + " is earlier than the end of the file, " + shortest(c.begun.end),
+             "time.end >= " + shortest(c.begun.end));
+}
+
+void require_same_domain(const Continued& c, double left, double right, double left_now, double right_now) {
+  if (left == left_now && right == right_now) return;
+  const auto range = [](double from, double to) { return "x = " + digits(from) + " ... " + digits(to); };
+  c.refuse_choice("the domain", range(left, right), range(left_now, right_now),
+                  "a new run with domain.left and domain.right, which can be continued");
+}
+
+void require_same_problem(const Continued& c, const PulsePlan& begun, const PulsePlan& now) {
+  const pulse::Problem &a = begun.problem, &b = now.problem;
+  require_same_domain(c, a.left, a.right, b.left, b.right);
+  if (a.longest_step != b.longest_step)
+    c.refuse_choice("the longest step under a forcing", digits(a.longest_step), digits(b.longest_step), "a new run");
+}
+
+/// Compares the chains at a later end with those that began, which were planned with the same share of the machine.
+void require_same_problem(const Continued& c, const ChainPlan& begun, const ChainPlan& now, double share_of_machine) {
+  require_same_domain(c, begun.chain.left, begun.chain.right, now.chain.left, now.chain.right);
+  if (begun.chain.spacing != now.chain.spacing)
+    c.refuse_choice("the spacing of sites, as contacts age,", digits(begun.chain.spacing), digits(now.chain.spacing),
+                    "a new run with chain.spacing, which can be continued");
+  const chain::Problem a = chain::problem_of(begun.chain, share_of_machine);
+  const chain::Problem b = chain::problem_of(now.chain, share_of_machine);
+  if (a.implicit) return;
+  const double step = chain::chosen_step(a), step_now = chain::chosen_step(b);
+  if (step != step_now)
+    c.refuse_choice("the time step", digits(step), digits(step_now), "a new run, or chain.steps = \"implicit\" in one");
+}
+
+/// Leaves out the snapshot at the end of the file unless it is an output time now.
+void keep_common_snapshots(const Continued& c, const output::Schedule& begun, const output::Schedule& now,
+                           std::vector<output::Snapshot>& snapshots) {
+  const std::size_t before_end = begun.times.size() - 1;
+  const double end = begun.times.back(), nearly = end * (1 - 1e-12);  // as for output.every
+  const auto [was, is] = std::mismatch(begun.times.begin(), begun.times.end() - 1, now.times.begin(), now.times.end());
+  const double first = was == begun.times.end() - 1 ? *is : std::min(*was, *is);  // now ends later, so `is` exists
+  if (first < nearly)
+    c.refuse(
+        "resume",
+        "the output times before the end of the file, " + shortest(end) + ", differ: first at t = " + shortest(first),
+        "the output times of the file; later ones are free");
+  const bool still_output = before_end < now.times.size() && now.times[before_end] == end;
+  if (snapshots.size() > before_end && !still_output) snapshots.resize(before_end);
+}
+
+/// `same_problem` refuses a plan of the later end that differs from that of the file in more than the end.
+template <class Plan, class PlanOf, class SameProblem>
+record::Checkpoint read(const std::string& path, const scenario::Scenario& scenario, const Plan& plan,
+                        const PlanOf& plan_of, const SameProblem& same_problem) {
+  record::Checkpoint saved = record::read_checkpoint_of(path, SLIPFRONT_VERSION);
+  if (saved.scenario_text == scenario.text) return saved;
+  const scenario::Scenario begun = scenario::read_scenario(saved.scenario_text, scenario.file, {}, record::read_table);
+  const Continued continued{path, begun, scenario};
+  require_later_end(continued);
+  const Plan first = plan_of(begun);
+  same_problem(continued, first);
+  keep_common_snapshots(continued, first.schedule, plan.schedule, saved.snapshots);
+  return saved;
+}
+
+}  // namespace
+
+record::Output output_of(const std::string& output, const std::string& resume,
+                         const std::optional<record::Checkpoint>& checkpoint) {
+  const bool finished = checkpoint && checkpoint->finished;
+  return {output.empty() ? resume : output, finished ? "" : resume};
+}
+
+record::Checkpoint checkpoint_of(const std::string& path, const scenario::Scenario& scenario, const PulsePlan& plan) {
+  return read(path, scenario, plan, plan_pulse, [&](const Continued& continued, const PulsePlan& begun) {
+    require_same_problem(continued, begun, plan);
+  });
+}
+
+record::Checkpoint checkpoint_of(const std::string& path, const scenario::Scenario& scenario, const ChainPlan& plan,
+                                 double share_of_machine) {
+  return read(
+      path, scenario, plan, [&](const scenario::Scenario& begun) { return plan_chain(begun, share_of_machine); },
+      [&](const Continued& continued, const ChainPlan& begun) {
+        require_same_problem(continued, begun, plan, share_of_machine);
+      });
+}
+
+}  // namespace slipfront::run
