@@ -1,10 +1,12 @@
 """Common parts of the pictures of a pulse: its title, the range of x to show, the lines of its fronts."""
 
+import textwrap
+
 import numpy
 import matplotlib
 from matplotlib.patheffects import withStroke
 
-from .style import plain
+from .style import REST, plain
 
 #: The fronts of a file, each with its line style, name and symbol.
 FRONTS = {
@@ -14,13 +16,16 @@ FRONTS = {
     "leading_front_observed": (":", None, None),
 }
 
+#: Fields that are zero at rest.
+MOTIONS = ("W", "U", "slip")
+
 #: A value that is more than this many times larger than any other is taken for a bad cell and ignored in the limits of axes.
 OUTLIER = 4
 
 
 def title_of(dataset) -> str:
-    """Returns the title of the scenario of a Dataset, without characters that a picture cannot show."""
-    return plain(dataset.attrs.get("title", ""))
+    """Returns the title of the scenario of a Dataset in lines of at most 80 characters, without characters that a picture cannot show."""
+    return textwrap.fill(plain(dataset.attrs.get("title", "")), 80)
 
 
 def finite(dataset):
@@ -41,6 +46,14 @@ def extent(values) -> tuple[float, float]:
     if magnitudes.size > 1 and magnitudes[-1] > OUTLIER * magnitudes[-2] > 0:
         values = values[numpy.abs(values) < magnitudes[-1]]
     return (float(values.min()), float(values.max())) if values.size else (0.0, 0.0)
+
+
+def say_rest(axes, field) -> None:
+    """Writes a remark in a panel of a field that is zero within rounding: it is at rest, or without stress."""
+    lowest, highest = extent(field.values)
+    if max(-lowest, highest) < REST:
+        text = "at rest" if field.name in MOTIONS else "zero"
+        axes.text(0.5, 0.6, text, transform=axes.transAxes, ha="center", va="center", color="0.3")
 
 
 def backward(dataset, name) -> str:
