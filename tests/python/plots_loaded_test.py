@@ -112,6 +112,14 @@ class Loaded(CommandLine):
         self.assertEqual((left.get_ylim()[0], right.get_ylim()[0]), (0, 0))
         self.assertIn("one event only", texts(plots.catalogue(run.isel(event=[0])).axes[1]))
 
+    def test_an_event_that_the_end_of_the_run_cuts_does_not_choose_the_scale(self):
+        cut = self.block.copy(deep=True)
+        cut["event_complete"][-1], cut["event_slip"][-1] = 0, 0.01
+        axes = plots.catalogue(cut).axes[0]
+        self.assertEqual(axes.get_yscale(), "linear")
+        self.assertEqual(line(axes, "event that the end").get_ydata().tolist(), [0.01])
+        self.assertEqual(line(axes, "event that the end").get_markerfacecolor(), "white")
+
     def test_a_run_at_rest_is_drawn_as_such(self):
         force, rates = plots.loading(self.rest).axes[:2]
         self.assertIn("no events", texts(force))

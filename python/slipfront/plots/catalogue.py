@@ -12,7 +12,7 @@ from .style import Picture, label, plain_numbers, scaled, styled
 def catalogue(run) -> Picture:
     """Draws the slip of each event against its length, and its stress drop against the time since the event before.
 
-    An axis whose values span more than a decade is logarithmic. Events that the end of the run cuts have open symbols.
+    An axis whose values span more than a decade is logarithmic, not counting events that the end of the run cuts. These have open symbols.
 
     Parameters
     ----------
@@ -59,7 +59,8 @@ def scatter(axes, across, up, x, y, complete, name="") -> None:
     if x.size == 0:
         return
     for axis, variable, values, text in ((axes.xaxis, across, x, label(across, name)), (axes.yaxis, up, y, label(up))):
-        if values.min() > 0 and spans_decades(values):
+        whole = values[complete] if complete.any() else values
+        if values.min() > 0 and spans_decades(whole):
             (axes.set_xscale if axis is axes.xaxis else axes.set_yscale)("log")
             plain_numbers(axis)
             axis.set_label_text(text)

@@ -37,7 +37,7 @@ def slip_event(run, event: int | None = None) -> Picture:
     >>> figure = slipfront.plots.slip_event(slipfront.chain(slipfront.cases / "stick-slip.toml", set={
     ...     "domain.left": -12, "domain.right": 12, "time.end": 4e5, "output.every": 1e4, "pulse.cells": 4}))
     >>> figure.axes[1].get_xlabel()
-    'slip u around the event, b/(2π)'
+    'slip u, b/(2π)'
     """
     run = finite(run)
     chosen = event_of(run, event)
@@ -102,17 +102,18 @@ def draw_fit(axes, run, event, last) -> None:
         axes.plot([], [], linestyle="none", label="no fitted velocity: fewer than three parts, or all at once")
         return
     times = numpy.array([0.0, max(last, 0.0)])
-    for sign, text in ((1, label(velocity, f"fitted velocity {float(velocity):.2g}").replace(",", "")), (-1, None)):
+    for sign, text in ((1, label(velocity, f"fitted velocity {float(velocity):.3g}").replace(",", "")), (-1, None)):
         axes.plot(times, origin + sign * float(velocity) * times, color="C2", linestyle="--", label=text, zorder=3)
 
 
 def draw_slip(axes, run, onset, end) -> None:
-    """Draws the slip between the last output before an event and the first one after it at its end."""
+    """Draws the slip between the last output before the onset of an event and the first one after its end."""
     times = run["time"].values
     before = max(int(numpy.searchsorted(times, onset, side="right")) - 1, 0)
     after = min(int(numpy.searchsorted(times, end)), times.size - 1)
     slip = run["slip"][after] - run["slip"][before]
     axes.plot(slip.values, run["x"].values, color="C0")
-    scaled(axes.xaxis, run["slip"], label(run["slip"], "slip u around the event"), slip.values)
+    scaled(axes.xaxis, run["slip"], label(run["slip"]), slip.values)
+    axes.set_title("around the event", fontsize="small")
     low, high = min(float(slip.min()), 0.0), max(float(slip.max()), 0.0)
     axes.set_xlim(low * 1.08, high * 1.08 if high > 0 else 1)
