@@ -130,6 +130,9 @@ class Loaded(CommandLine):
             self.assertEqual(axes.get_ylim(), (-1, 1))
         self.assertIn("at rest", texts(plots.space_time(self.rest).axes[0]))
 
+    def test_profiles_show_the_whole_domain(self):
+        self.assertEqual(plots.profiles(self.block).axes[0].get_xlim(), (-10, 10))
+
     def test_kinds(self):
         self.assertEqual(choose.kinds_of(self.block), ["loading", "event", "catalogue", "profiles"])
         self.assertEqual(choose.kinds_of(self.rest), ["loading", "profiles"])

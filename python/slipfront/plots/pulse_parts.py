@@ -6,6 +6,7 @@ import numpy
 import matplotlib
 from matplotlib.patheffects import withStroke
 
+from .loaded_parts import is_loaded
 from .style import REST, plain
 
 #: The fronts of a file, each with its line style, name and symbol.
@@ -64,11 +65,12 @@ def backward(dataset, name) -> str:
 
 
 def window(dataset) -> tuple:
-    """Returns the range of x to show: the range that the fronts cross, and a fifth of it more on either side, within the domain."""
+    """Returns the range of x to show: the range that the fronts cross, and a fifth of it more on either side, within the domain.
+    Of a run that springs load it is the whole domain."""
     ends = dataset["x_bounds"].values if "x_bounds" in dataset else dataset["x"].values
     reached = [float(extreme) for front, *_ in fronts_of(dataset) for extreme in (front.min(), front.max())]
     left, right = float(ends.min()), float(ends.max())
-    if not reached or max(reached) <= min(reached):
+    if is_loaded(dataset) or not reached or max(reached) <= min(reached):
         return left, right
     margin = (max(reached) - min(reached)) / 5
     return max(left, min(reached) - margin), min(right, max(reached) + margin)
