@@ -1,8 +1,8 @@
-"""Draws docs/loading-cycles.png, loading-recurrence.png and loading-fronts.png, and prints their numbers (docs/loading.md).
+"""Draws docs/loading-run.png, loading-cycles.png, loading-recurrence.png and loading-fronts.png, and prints their numbers (docs/loading.md).
 
-Usage: loading.py PROGRAM [cycles] [recurrence] [fronts]
+Usage: loading.py PROGRAM [run_picture] [cycles] [recurrence] [fronts]
 
-PROGRAM is build/release/bin/slipfront. The script needs python3-matplotlib and python3-xarray, and runs for some five minutes on one core.
+PROGRAM is build/release/bin/slipfront. The script needs python3-matplotlib and python3-xarray, and runs for some six minutes on one core.
 """
 
 import json
@@ -34,6 +34,13 @@ def run(case, settings, output=None):
     done = subprocess.run([PROGRAM, "chain", case, "--json", "--quiet", "--threads", "1", *(["-o", output] if output else []), *(["--set", *words] if words else [])],
                           capture_output=True, check=True, text=True)
     return json.loads(done.stdout)
+
+
+def run_picture(folder):
+    """Draws loading-run.png, the picture that `slipfront plot` draws of a ring of 300 dislocations."""
+    file = str(folder / "run.nc")
+    run(CASE, {"domain.left": -470, "domain.right": 470, "time.end": 1e6, "output.every": 5e3}, file)
+    subprocess.run([PROGRAM, "plot", file, "--kind", "loading", "--quiet", "-o", HERE / "loading-run.png"], check=True)
 
 
 def cycles(folder):
@@ -205,5 +212,5 @@ def fronts(folder):
 
 plt.style.use(STYLE)
 with tempfile.TemporaryDirectory() as name:
-    for figure in sys.argv[2:] or ("cycles", "recurrence", "fronts"):
+    for figure in sys.argv[2:] or ("run_picture", "cycles", "recurrence", "fronts"):
         globals()[figure](pathlib.Path(name))

@@ -19,14 +19,36 @@ def sweep_variable(dataset, options) -> str:
         raise ValueError(f"--{error}") from error
 
 
+def choices(options, kind, variable) -> dict:
+    """Returns the options of the function that draws a kind of picture."""
+    if kind == "loading":
+        return {"until_failure": options.until_failure, "event": options.event}
+    if kind == "event":
+        return {"event": options.event}
+    return {"variable": variable or ""} if kind == "sweep" else {}
+
+
+def draw(dataset, kind, chosen):
+    """Returns the Figure of a kind of picture. A wrong --event is reported as that option."""
+    from .plots import choose
+
+    try:
+        return choose.draw(dataset, kind, **chosen)
+    except ValueError as error:
+        raise ValueError(f"--{error}" if str(error).startswith("event ") else str(error)) from error
+
+
 def main(argv) -> int:
     """Draws the pictures of a file. Returns the exit code; raises ValueError (bad input), OSError (files), ImportError (matplotlib)."""
     parser = Arguments("plot", "Pictures of the NetCDF files of pulse, chain, compare, sweep, event and laboratory, of the CSV of relations and event, and of samples.",
-                       ["slipfront plot pulse.nc", "slipfront plot pulse.nc --kind profiles -o profiles.pdf", "slipfront plot sweep.nc --variable slip_at_origin -o slip.png"])
+                       ["slipfront plot pulse.nc", "slipfront plot pulse.nc --kind profiles -o profiles.pdf", "slipfront plot loaded.nc --kind loading --until-failure", "slipfront plot loaded.nc --kind event --event 3 -o event.pdf",
+                        "slipfront plot sweep.nc --variable slip_at_origin -o slip.png"])
     parser.add_argument("file", metavar="FILE", help="NetCDF or CSV")
     parser.add_argument("-o", "--output", metavar="PICTURE", type=file_name,
                         help="file of a single picture, the main kind unless --kind names another; the ending gives the format: " + ", ".join(FORMATS))
     parser.add_argument("--kind", help="the only kind of picture to draw (default without -o: all kinds for which the file has data, as FILE-KIND.png)")
+    parser.add_argument("--event", metavar="N", type=int, help="number of the slip event of a loaded chain to draw close up, from 1 (default: the one with the largest slip)")
+    parser.add_argument("--until-failure", action="store_true", help="draw force and slip velocity of a loaded chain against the logarithm of the time until the event of --event")
     parser.add_argument("--variable", metavar="NAME", help="number of a sweep to draw (default: slip_velocity_at_origin, or else the first that it has)")
     options = parser.parse_args(argv)
     import_optional("xarray")
@@ -49,10 +71,14 @@ def main(argv) -> int:
     variable = sweep_variable(dataset, options) if kinds == ["sweep"] else None
     if options.variable and not variable:
         raise ValueError(f"--variable {options.variable}: not for {options.file}; allowed: with the file of a sweep")
+    drawings = {kind: choices(options, kind, variable) for kind in kinds}
+    for option, given, takers in (("--event", options.event is not None, ("loading", "event")), ("--until-failure", options.until_failure, ("loading",))):
+        if given and not set(kinds) & set(takers):
+            raise ValueError(f"{option}: not for {options.file}, of which {', '.join(kinds)} is drawn; allowed: with the kinds {', '.join(takers)} of a loaded chain")
     written = []
     for kind in kinds:
         path = output if len(kinds) == 1 else output.with_stem(f"{output.stem}-{kind}")
-        save(choose.draw(dataset, kind, variable or ""), path)
+        save(draw(dataset, kind, drawings[kind]), path)
         written.append(str(path))
         if not options.json and not options.quiet:
             put(f"written to {path}: {variable}" if variable else f"written to {path}")

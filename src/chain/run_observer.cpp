@@ -206,7 +206,11 @@ void RunObserver::add_energy(Snapshot& s, const Totals& now) const {
               .through_ends = none,
               .shocks = none,
               .phonons = s.energy.phonons};
-  if (scaled_.loading.acts()) s.further["energy_loading"] = now.loading / c;
+  if (scaled_.loading.acts()) {
+    const bool everywhere = scaled_.loading.where == Pulled::everywhere;
+    s.further["energy_loading"] = now.loading / c;
+    s.further[everywhere ? "loading_force" : "loading_stress"] = chain_.load() * (everywhere ? c : 1);
+  }
   if (!chain_.problem().friction.changes_contacts()) return;
   s.further["energy_contacts"] = flows.by_contacts / c;
   s.further["pore_pressure_at_origin"] = pore_pressure_at_origin();

@@ -9,6 +9,9 @@ namespace {
 constexpr Description declared[] = {
     {"potency", "slip since time 0, integrated along the interface", "b^2 / (2 pi A)", "Eq. 4"},
     {"energy_loading", "energy in the springs that load a chain", "mu b^2 A / (2 pi^2 (1 - nu))", "Eq. 1"},
+    {"loading_force", "force F on a site, mean over a chain that springs load everywhere", "mu A^2 / (pi (1 - nu))",
+     "Eq. 1"},
+    {"loading_stress", "shear stress at the end that a spring pulls", "mu A / pi", "Eq. 1"},
     {"energy_contacts", "energy that contacts supplied as their strength changed", "mu b^2 A / (2 pi^2 (1 - nu))",
      "docs/friction.md"},
     {"pore_pressure_at_origin", "pore pressure around x = 0, over the normal stress", "", "docs/friction.md"},

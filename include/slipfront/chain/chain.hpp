@@ -82,6 +82,8 @@ class Sites {
   /// 1 - p, the effective normal stress divided by the normal stress. It is 1 if the friction has no pores.
   virtual double effective_stress(std::size_t site) const = 0;
   virtual SpringEnergy spring_energy() const = 0;
+  /// Mean force on a site, or the stress at the pulled end, if springs load the chain; otherwise 0.
+  virtual double load() const { return 0; }
 
  protected:
   Sites(const Problem& problem, const Ranks* ranks);  ///< `ranks` is null for one process

@@ -2,8 +2,13 @@
 
 import importlib
 
+from .loaded_parts import is_loaded
+
 #: For each kind of picture: the function of this package, and the dimensions and variables that a Dataset must have.
 KINDS = {
+    "loading": ("loading", {"time", "x", "x_bounds", "slip"}),
+    "event": ("slip_event", {"time", "x", "x_bounds", "slip", "event_onset"}),
+    "catalogue": ("catalogue", {"event_onset"}),
     "comparison": ("comparison", {"level", "time", "x", "slip_at_origin", "name"}),
     "space-time": ("space_time", {"time", "x", "x_bounds"}),
     "profiles": ("profiles", {"time", "x"}),
@@ -22,18 +27,20 @@ def kinds_of(dataset) -> list:
     kinds = [kind for kind, (_, wanted) in KINDS.items() if wanted <= there]
     if {"draw", "draw_rupture_velocity"} <= there and dataset.sizes["event"] == 1:
         kinds.insert(0, "corner")
-    if "space-time" in kinds and dataset.sizes["time"] < 2:
-        kinds.remove("space-time")
+    if "time" in dataset.dims and dataset.sizes["time"] < 2:
+        kinds = [kind for kind in kinds if kind not in ("space-time", "loading", "event")]
+    unsuited = {"space-time"} if is_loaded(dataset) else {"loading", "event", "catalogue"}
+    kinds = [kind for kind in kinds if kind not in unsuited]
     return kinds[:1] if "level" in dataset.dims else kinds
 
 
-def draw(dataset, kind: str, variable: str = ""):
-    """Draws a picture of a kind in kinds_of(dataset). Returns a Figure. `variable` is the number of a sweep to draw."""
+def draw(dataset, kind: str, **options):
+    """Draws a picture of a kind in kinds_of(dataset) with the options of its function. Returns a Figure."""
     function = KINDS[kind][0]
     drawing = getattr(importlib.import_module(f".{function}", __package__), function)
     if kind == "events":
         return drawing(dataset, line_through(dataset))
-    return drawing(dataset, variable) if kind == "sweep" else drawing(dataset)
+    return drawing(dataset, **options)
 
 
 def line_through(events):

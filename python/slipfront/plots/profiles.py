@@ -2,12 +2,14 @@
 
 import numpy
 
-from .pulse_parts import backward, extent, finite, mark_fronts, shades, title_of, window
-from .style import Picture, label, styled, unit
+from .pulse_parts import backward, extent, finite, mark_fronts, say_rest, shades, title_of, window
+from .style import REST, Picture, label, styled, unit
 
 
 def room(lowest, highest, below) -> tuple:
     """Returns the limits of an axis for a range of values. The space below is a share `below` of the range, the space above 6 %."""
+    if max(abs(lowest), abs(highest)) < REST:
+        return -1, 1
     height = highest - lowest or abs(highest) or 1
     return lowest - below * height, highest + 0.06 * height
 
@@ -46,6 +48,7 @@ def profiles(pulse, fields=("W", "Sigma", "slip"), times: int = 5) -> Picture:
             now = pulse.isel(time=row)
             axes.plot(now["x"], now[name], color=colour, linestyle="-", label=f"{float(now['time']):.3g}")
         remark = backward(pulse, name)
+        say_rest(axes, pulse[name][rows])
         axes.set(ylabel=label(pulse[name]), xlim=window(pulse), ylim=room(*extent(pulse[name].values[rows]), 0.2 if remark else 0.06))
         axes.text(0.01, 0.03, remark, transform=axes.transAxes, color="0.3", fontsize="small")
     mark_fronts(panels[0], pulse)

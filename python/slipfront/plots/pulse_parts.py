@@ -1,10 +1,13 @@
 """Common parts of the pictures of a pulse: its title, the range of x to show, the lines of its fronts."""
 
+import textwrap
+
 import numpy
 import matplotlib
 from matplotlib.patheffects import withStroke
 
-from .style import plain
+from .loaded_parts import is_loaded
+from .style import REST, plain
 
 #: The fronts of a file, each with its line style, name and symbol.
 FRONTS = {
@@ -14,13 +17,16 @@ FRONTS = {
     "leading_front_observed": (":", None, None),
 }
 
+#: Fields that are zero at rest.
+MOTIONS = ("W", "U", "slip")
+
 #: A value that is more than this many times larger than any other is taken for a bad cell and ignored in the limits of axes.
 OUTLIER = 4
 
 
 def title_of(dataset) -> str:
-    """Returns the title of the scenario of a Dataset, without characters that a picture cannot show."""
-    return plain(dataset.attrs.get("title", ""))
+    """Returns the title of the scenario of a Dataset in lines of at most 80 characters, without characters that a picture cannot show."""
+    return textwrap.fill(plain(dataset.attrs.get("title", "")), 80)
 
 
 def finite(dataset):
@@ -43,6 +49,14 @@ def extent(values) -> tuple[float, float]:
     return (float(values.min()), float(values.max())) if values.size else (0.0, 0.0)
 
 
+def say_rest(axes, field) -> None:
+    """Writes a remark in a panel of a field that is zero within rounding: it is at rest, or without stress."""
+    lowest, highest = extent(field.values)
+    if max(-lowest, highest) < REST:
+        text = "at rest" if field.name in MOTIONS else "zero"
+        axes.text(0.5, 0.6, text, transform=axes.transAxes, ha="center", va="center", color="0.3")
+
+
 def backward(dataset, name) -> str:
     """Returns the remark of a picture on backward slip: a slip or slip velocity below -2 % of its maximum, which is more than the ripples of
     a chain. Otherwise returns an empty text."""
@@ -51,11 +65,12 @@ def backward(dataset, name) -> str:
 
 
 def window(dataset) -> tuple:
-    """Returns the range of x to show: the range that the fronts cross, and a fifth of it more on either side, within the domain."""
+    """Returns the range of x to show: the range that the fronts cross, and a fifth of it more on either side, within the domain.
+    Of a run that springs load it is the whole domain."""
     ends = dataset["x_bounds"].values if "x_bounds" in dataset else dataset["x"].values
     reached = [float(extreme) for front, *_ in fronts_of(dataset) for extreme in (front.min(), front.max())]
     left, right = float(ends.min()), float(ends.max())
-    if not reached or max(reached) <= min(reached):
+    if is_loaded(dataset) or not reached or max(reached) <= min(reached):
         return left, right
     margin = (max(reached) - min(reached)) / 5
     return max(left, min(reached) - margin), min(right, max(reached) + margin)

@@ -5,8 +5,8 @@ from matplotlib.patheffects import withStroke
 from matplotlib.ticker import MaxNLocator
 
 from .between import between
-from .pulse_parts import backward, extent, finite, fronts_of, title_of, window
-from .style import Picture, label, styled
+from .pulse_parts import backward, extent, finite, fronts_of, say_rest, title_of, window
+from .style import REST, Picture, label, styled
 
 #: Number of points of a map, along x and along time.
 POINTS = (600, 400)
@@ -17,6 +17,8 @@ def colours(values) -> dict:
     or from their smallest value."""
     lowest, highest = extent(values)
     largest = max(-lowest, highest)
+    if largest < REST:
+        return {"vmin": 0, "vmax": 1}
     if lowest < -0.05 * largest:
         return {"cmap": "PuOr_r", "vmin": -largest, "vmax": largest}
     return {"vmin": lowest if lowest > highest / 2 else min(lowest, 0), "vmax": highest} if largest > 0 else {}
@@ -72,6 +74,7 @@ def space_time(pulse, fields=("W", "Sigma")) -> Picture:
         values = between(pulse, name, (up[1:] + up[:-1]) / 2, (across[1:] + across[:-1]) / 2)
         image = axes.pcolormesh(across, up, numpy.ma.masked_invalid(values), rasterized=True, **scale)
         axes.set_facecolor("0.75")
+        say_rest(axes, pulse[name])
         over = bool(scale) and numpy.nanmax(numpy.abs(pulse[name].values)) > scale["vmax"]
         figure.colorbar(image, ax=axes, location="top", label="\n".join(filter(None, (label(pulse[name]), backward(pulse, name)))), aspect=30, ticks=MaxNLocator(6),
                         extend="max" if over else "neither")

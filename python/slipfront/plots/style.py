@@ -2,9 +2,11 @@
 
 import functools
 import io
+import math
 import pathlib
 
 import matplotlib
+import numpy
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogFormatter
 
@@ -22,6 +24,10 @@ NAMES = {
     "k": "dislocation density k",
     "U": "dislocation velocity U",
     "slip": "slip u",
+    "event_slip": "mean slip u",
+    "event_length": "length",
+    "loading_force": "force F",
+    "loading_stress": "stress at pulled end",
     "stress_drop": "stress drop",
     "leading_velocity": "velocity of the leading edge V+",
     "velocity_ratio": "|V−| / V+",
@@ -49,6 +55,13 @@ for _name, _unit, _label in event_quantities():
         NAMES[_name] = _label
     if _unit:
         UNITS[_name] = _unit
+
+
+#: A field whose values are all smaller than this, in any units, is at rest. Interfaces under rate-and-state friction creep at 1e-17 and less.
+REST = 1e-12
+
+#: Digits of powers of ten.
+POWERS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 class Picture(Figure):
@@ -137,3 +150,17 @@ def plain_numbers(axis) -> None:
     if the axis shows few decades."""
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axis.set_minor_formatter(LogFormatter(labelOnlyBase=False, minor_thresholds=(1.2, 0.5)))
+
+
+def scaled(axis, variable, text, values) -> None:
+    """Labels a linear axis with `text`, which ends with the unit of a variable. Large and small values are divided by a power of ten, which
+    the label names before the unit, as in "time t, 10⁶ b/(cA)"."""
+    largest = numpy.nanmax(numpy.abs(values), initial=0)
+    power = 3 * math.floor(math.log10(largest) / 3 + 1e-9) if largest > 0 else 0
+    if -2 <= math.log10(largest or 1) < 4:
+        power = 0
+    if power:
+        factor, name = f"10{str(power).translate(POWERS)}", unit(variable)
+        text = f"{text.removesuffix(name)}{factor} {name}" if name else f"{text}, {factor}"
+        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value / 10.0**power:.4g}"))
+    axis.set_label_text(text)

@@ -1,10 +1,10 @@
 """Draws a number of a sweep against its axes."""
 
 import numpy
+from matplotlib.colors import LogNorm
 
-from .relations import spans_decades
 from .space_time import colours
-from .style import Picture, label, plain_numbers, styled
+from .style import Picture, label, plain_numbers, scaled, styled
 
 #: Numbers of a sweep to draw by default, the first that it has.
 PREFERRED = ("slip_velocity_at_origin", "peak_slip_velocity", "slip_at_origin")
@@ -25,11 +25,23 @@ def variable_of(data, variable: str = "") -> str:
 
 
 def has_equal_ratios(values) -> bool:
-    """Whether the values of an axis have equal ratios over more than a decade. Such an axis is logarithmic."""
-    if values.size < 3 or values.min() <= 0 or not spans_decades(values):
+    """Whether three or more values of an axis have equal ratios, and the largest is more than three times the smallest. Such an axis is logarithmic."""
+    if values.size < 3 or values.min() <= 0 or values.max() <= 3 * values.min():
         return False
     ratios = values[1:] / values[:-1]
     return bool(numpy.allclose(ratios, ratios[0], rtol=1e-6))
+
+
+def spans_many(values) -> bool:
+    """Whether numbers are positive, except those of runs that failed, and span more than three decades. Their scale is logarithmic."""
+    known = values[numpy.isfinite(values)]
+    return bool(known.size and known.min() > 0 and known.max() > 1e3 * known.min())
+
+
+def value_scale(values) -> dict:
+    """Returns the colours of a map of numbers."""
+    known = values[numpy.isfinite(values)]
+    return {"norm": LogNorm(known.min(), known.max())} if spans_many(values) else colours(values)
 
 
 def edges(values):
@@ -50,7 +62,8 @@ def scale_of(coordinate) -> str:
 def sweep(data, variable: str = "") -> Picture:
     """Draws a number of a sweep: lines for one swept dimension, and a map for two.
 
-    Dimensions of length 1 do not count. An axis whose values have equal ratios over more than a decade is logarithmic. Points that failed are gaps in a line, and grey in a map. An axis of texts, such as
+    Dimensions of length 1 do not count. An axis whose values have equal ratios is logarithmic, and so is
+    the scale of a number that is positive and spans more than three decades. Points that failed are gaps in a line, and grey in a map; the title counts them. An axis of texts, such as
     friction.closure, gives one line for each of them.
 
     Parameters
@@ -83,11 +96,14 @@ def sweep(data, variable: str = "") -> Picture:
     axes = figure.subplots()
     if values.ndim == 1 or texts:
         lines(axes, values.transpose(*texts[:1], ...))
-        axes.set_ylabel(label(values))
+        if spans_many(values.values):
+            axes.set(yscale="log", ylabel=label(values))
+        else:
+            scaled(axes.yaxis, values, label(values), values.values)
     else:
         values = values.sortby(list(values.dims))
         up, across = (values[dim] for dim in values.dims)
-        image = axes.pcolormesh(edges(across.values), edges(up.values), numpy.ma.masked_invalid(values.values), rasterized=True, **colours(values.values))
+        image = axes.pcolormesh(edges(across.values), edges(up.values), numpy.ma.masked_invalid(values.values), rasterized=True, **value_scale(values.values))
         axes.set_facecolor("0.75")
         axes.grid(False)
         axes.set(xlabel=axis_label(across), ylabel=axis_label(up), xscale=scale_of(across), yscale=scale_of(up))
@@ -95,6 +111,9 @@ def sweep(data, variable: str = "") -> Picture:
             if axis.get_scale() == "log":
                 plain_numbers(axis)
         figure.colorbar(image, ax=axes, label=label(values))
+    failed = int(numpy.isnan(values.values.astype(float)).sum())
+    if failed:
+        axes.set_title(f"{'gaps' if axes.lines else 'grey'}: {failed} of {values.size} runs without this number", fontsize="small", color="0.3")
     return figure
 
 

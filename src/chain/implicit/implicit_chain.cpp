@@ -105,17 +105,23 @@ Window ImplicitChain::own_window(std::size_t from, std::size_t to, double) const
   return window;
 }
 
+double ImplicitChain::load() const {
+  if (!problem().loading.acts()) return 0;
+  const bool everywhere = problem().loading.where == Pulled::everywhere;
+  const std::size_t n = now_.u.size();
+  double load = 0;
+  for (std::size_t j = 0; j < n; ++j)
+    if (everywhere || forces_.pull(j) > 0) load += forces_.springs().weight(j) * forcing(j);
+  return everywhere ? load / (problem().grid.spacing * static_cast<double>(problem().boundary.periodic ? n : n - 1))
+                    : load;
+}
+
 /// Hands the step that has just been taken to the log of events. Slip counts as positive in the direction of the
 /// springs.
 void ImplicitChain::look() {
   const Loading& loading = problem().loading;
   const double direction = loading.velocity < 0 ? -1 : 1;
-  const bool everywhere = loading.where == Pulled::everywhere;
   const std::size_t n = now_.u.size(), count = parts_.x.size();
-  double load = 0;
-  for (std::size_t j = 0; j < n; ++j)
-    if (everywhere || forces_.pull(j) > 0) load += direction * forces_.springs().weight(j) * forcing(j);
-  if (everywhere) load /= problem().grid.spacing * static_cast<double>(problem().boundary.periodic ? n : n - 1);
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t from = n * i / count, to = n * (i + 1) / count;
     double u = 0, p = 0;
@@ -128,7 +134,7 @@ void ImplicitChain::look() {
     parts_.u[i] = u / sites;
     parts_.velocity[i] = p / sites;
   }
-  now_.log.look(now_.time, load, parts_);
+  now_.log.look(now_.time, direction * load(), parts_);
 }
 
 void ImplicitChain::give_up() const {

@@ -36,6 +36,7 @@ class ImplicitChain final : public Chain {
   double friction(std::size_t site, double velocity) const override { return forces_.friction(now_, site, velocity); }
   double effective_stress(std::size_t site) const override { return forces_.effective_stress(now_, site); }
   SpringEnergy spring_energy() const override;
+  double load() const override;
 
   long steps() const override { return now_.steps; }
   /// Counts the steps that are only shown, too. \throws NumericsError where no step is short enough.
