@@ -34,6 +34,8 @@ def _tree(text):
         return ast.parse(product.replace("^", "**"), mode="eval").body
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         raise _unknown(text) from None
+    except SystemError as error:  # the parser of Python 3.11 ran out of memory
+        raise MemoryError from error
 
 
 def _unknown(text):

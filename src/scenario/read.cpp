@@ -33,7 +33,9 @@ RawStress read_tables(const Document& document, const TableReader& tables, Scena
     if (std::find(broken.begin(), broken.end(), table) == broken.end()) errors.attempt(task);
   };
   RawStress raw;
-  attempt("initial", [&] { raw = read_initial(document, tables, scenario.initial); });
+  const bool has_initial = document.tables.count("initial") > 0;
+  if (has_initial || !document.errors.any())  // else the unknown table may be [initial]
+    attempt("initial", [&] { raw = read_initial(document, tables, scenario.initial); });
   attempt("friction", [&] { read_friction(document, tables, scenario); });
   attempt("domain", [&] { read_domain(document, scenario.domain); });
   attempt("time", [&] { scenario.end = read_end(document, scenario.end); });

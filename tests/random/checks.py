@@ -106,11 +106,12 @@ class Case:
 
 def finite(case):
     viscous = case.s["friction"]["law"] in ("none", "viscous")
-    absent = MAY_BE_ABSENT | (set() if viscous else {"friction_coefficient", "damping_number"})
+    loading = {"loading_force", "loading_stress"}  # absent without springs, which these scenarios do not have
+    absent = MAY_BE_ABSENT | loading | (set() if viscous else {"friction_coefficient", "damping_number"})
     bad = [key for key, value in case.plain.summary.items()
            if isinstance(value, float) and not math.isfinite(value) and key not in absent]
     bad += [key for key, values in case.seen.fields.items()
-            if not np.all(np.isfinite(values)) and key not in MAY_BE_ABSENT | {"energy_phonons"}]
+            if not np.all(np.isfinite(values)) and key not in MAY_BE_ABSENT | loading | {"energy_phonons"}]
     yield "finite", len(bad), 0, " ".join(bad)
 
 
