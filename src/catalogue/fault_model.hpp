@@ -49,7 +49,7 @@ struct FaultModel {
   Observation observation;
   std::vector<FaultSegment> segments;      ///< empty if the file does not give positions (X, Y, Z)
   std::vector<RockLayer> rock;             ///< downwards, without water; empty if there is no usable velocity table
-  std::optional<double> rake;          ///< degrees, for subfaults without their own
+  std::optional<double> rake;              ///< degrees, for subfaults without their own
   std::optional<double> hypocentre_depth;  ///< m; the epicentre is the origin of the positions
   std::optional<double> moment;            ///< N m, as the header states it
   std::vector<std::string> notes;          ///< decisions about the positions, one line each

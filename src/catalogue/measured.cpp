@@ -40,8 +40,7 @@ double Measured::share_below(double x) const {
       return x > 0 ? below(std::log(x / low) / std::log(spread)) : 0;
     case Shape::split: {
       const double under = spread_below / (spread_below + spread);
-      return x < low ? 2 * under * below((x - low) / spread_below)
-                     : 1 - 2 * (1 - under) * below((low - x) / spread);
+      return x < low ? 2 * under * below((x - low) / spread_below) : 1 - 2 * (1 - under) * below((low - x) / spread);
     }
   }
   if (is_exact()) return x > low ? 1 : 0;

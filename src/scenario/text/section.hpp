@@ -55,6 +55,7 @@ class Section {
     const Value* const value = find(key);
     if (!value) return std::nullopt;
     std::vector<std::string_view> names;
+    names.reserve(words.size());
     for (const auto& [word, meaning] : words) names.push_back(word);
     check_word(key, *value, names);
     for (const auto& [word, meaning] : words)
