@@ -86,12 +86,14 @@ void check_names(const EventArguments& a) {
     refuse("-o", a.output, "OUT.nc or OUT.csv, with --pulse or --population");
 }
 
+constexpr const char* nothing_written = "; nothing was written (a run with -o OUT.nc can be resumed)";
+
 /// Runs the catalogue with a progress line. Ctrl-C interrupts it.
 slipfront::run::CatalogueResult run_watched(const EventArguments& a, slipfront::run::CataloguePlan&& plan,
                                             const slipfront::record::Output& output) {
-  interrupted_means(output.wanted() ? "; the last checkpoint is saved: continue with " + output.how_to_resume()
-                                    : "; nothing was written (a run with -o OUT.nc can be resumed)",
-                    output.wanted() ? output.unfinished() : "");
+  interrupted_means(
+      output.wanted() ? "; the last checkpoint is saved: continue with " + output.how_to_resume() : nothing_written,
+      output.wanted() ? output.unfinished() : "");
   const WatchInterrupts watch;
   std::optional<Progress> progress;
   const auto total = static_cast<double>(plan.entries.size());
@@ -126,17 +128,18 @@ int print_events(const EventArguments& a) {
 int write_events(const EventArguments& a) {
   check_names(a);
   if (describes_fault(a)) return write_fault(a, scenario_of(a));
-  slipfront::run::CataloguePlan plan = slipfront::run::plan_catalogue(scenario_of(a), a.common.threads, true);
   const std::string& path = a.output.empty() ? a.resume : a.output;
+  if (is_csv(path)) interrupted_means(nothing_written, "");  // also while the catalogue is read
+  slipfront::run::CataloguePlan plan = slipfront::run::plan_catalogue(scenario_of(a), a.common.threads, true);
   const slipfront::record::Output output(is_csv(path) ? "" : path, a.resume);
   if (is_csv(path)) slipfront::record::require_disk_space(path, plan.disk);  // for NetCDF, run::catalogue checks
   const slipfront::run::CatalogueColumns columns = plan.columns;
   const std::size_t total = plan.entries.size();
   const slipfront::run::CatalogueResult result = run_watched(a, std::move(plan), output);
   if (!result.finished) {
-    complain(fmt::format("interrupted after {} of {} events; {}", result.events.size(), total,
-                         is_csv(path) ? "nothing was written (a run with -o OUT.nc can be resumed)"
-                                      : "continue with " + output.how_to_resume()));
+    complain(
+        fmt::format("interrupted after {} of {} events; {}", result.events.size(), total,
+                    is_csv(path) ? std::string(nothing_written).substr(2) : "continue with " + output.how_to_resume()));
     return exit_interrupted;
   }
   if (is_csv(path)) slipfront::record::write_events_csv(path, result.events, a.pulse);

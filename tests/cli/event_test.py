@@ -339,7 +339,7 @@ class Event(CommandLine):
 
     def interrupted_csv(self, case, path):
         process = subprocess.Popen([PROGRAM, "event", case, "--samples", "100000", "-o", path], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-        until_it_has_worked(process, 0.3)
+        until_it_has_worked(process, 1)
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate(timeout=PATIENCE)
         self.assertEqual(process.returncode, 130, errors)
