@@ -76,6 +76,21 @@ void add_source_options(CLI::App* command, EventArguments& arguments) {
       ->type_name("GAMMA");
 }
 
+void add_input_options(CLI::App& command, EventArguments& a) {
+  command
+      .add_option("FILE", a.files,
+                  "Events: .toml (one), .csv (a catalogue), SRCMOD or USGS .fsp, USGS .json, - for stdin; none: the "
+                  "shipped catalogue")
+      ->type_name("");
+  command
+      .add_option("--columns", a.column_map,
+                  "TOML file that maps the titles of CSV columns to quantities: [columns] \"VR\" = \"rupture_velocity "
+                  "km/s\"; also decimal, separator, skip_lines, missing")
+      ->type_name("MAP.toml");
+  command.add_flag("--strict", a.strict,
+                   "Refuse a file with a bad row, or with a column that looks like a quantity and is not understood");
+}
+
 }  // namespace
 
 Runner add_event(CLI::App& app) {
@@ -87,18 +102,7 @@ Runner add_event(CLI::App& app) {
       "\n  slipfront event"
       "\n  slipfront event cases/parkfield-2004.toml cases/ets.toml"
       "\n  slipfront event cases/catalogue.csv --population");
-  command
-      ->add_option("FILE", arguments->files,
-                   "Events: .toml (one), .csv (a catalogue), SRCMOD or USGS .fsp, USGS .json, - for stdin; none: the "
-                   "shipped catalogue")
-      ->type_name("");
-  command
-      ->add_option("--columns", arguments->column_map,
-                   "TOML file that maps the titles of CSV columns to quantities: [columns] \"VR\" = \"rupture_velocity "
-                   "km/s\"; also decimal, separator, skip_lines, missing")
-      ->type_name("MAP.toml");
-  command->add_flag("--strict", arguments->strict,
-                    "Refuse a file with a bad row, or with a column that looks like a quantity and is not understood");
+  add_input_options(*command, *arguments);
   add_medium_options(command, arguments->medium);
   add_sampling_options(command, *arguments);
   add_source_options(command, *arguments);
