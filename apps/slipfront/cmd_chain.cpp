@@ -14,9 +14,7 @@ namespace {
 using namespace slipfront;
 using namespace slipfront::setup;
 
-void describe(const scenario::Scenario& s, const run::ChainPlan& plan, const std::string& output) {
-  const chain::Problem p = chain::problem_of(plan.chain);
-  record::require_disk_space(output, plan.need.disk);
+void describe(const scenario::Scenario& s, const run::ChainPlan& plan, const chain::Problem& p) {
   if (p.implicit) {
     put(
         fmt::format("{}: OK. This scenario would run {} sites, {:.6g} apart, at scale {:.6g} by implicit steps of "
@@ -42,11 +40,14 @@ int run_chain(const ScenarioArguments& a) {
   });
   the_ranks->require_same("SCENARIO", s.text);
   the_ranks->require_same("--resume", saved ? saved->solver_state : "");
+  const Ranks* ranks = the_ranks->size() > 1 ? the_ranks : nullptr;
   if (a.check) {
-    if (the_ranks->rank() == 0) describe(s, plan, a.output);
+    the_ranks->together([&] { require_output(a, saved, plan.need.disk); });
+    const auto run = run::begin(plan, {.checkpoint = std::move(saved), .threads = a.common.threads, .ranks = ranks});
+    if (the_ranks->rank() == 0) describe(s, plan, run->chain().problem());
     return exit_done;
   }
-  LongRun long_run(a, s, saved, the_ranks->size() > 1 ? the_ranks : nullptr);
+  LongRun long_run(a, s, saved, ranks);
   const auto result = run::chain(s, plan, long_run.options(std::move(saved), begun));
   if (const int code = long_run.end(result.finished()); code != exit_done) return code;
   if (the_ranks->rank() == 0)

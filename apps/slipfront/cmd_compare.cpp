@@ -24,8 +24,8 @@ struct Arguments : ScenarioArguments {
 
 void describe(const scenario::Scenario& s, const Comparison& c, const std::string& output) {
   const Estimate need = estimate_of(s, c);
-  record::require_disk_space(output, need.disk);
-  check_cells(s, c.problem);
+  record::require_disk_space(record::Output(output, "").finished(), need.disk);
+  begin_levels(c);
   std::string text = fmt::format("{}: OK. The comparison would run {}pulse (consistent, paper)",
                                  s.title.empty() ? s.file : s.title, c.exact ? "the closed form, " : "");
   for (const auto& chain : c.chains)

@@ -25,32 +25,26 @@ double two_digits(double value) {
   return std::round(value / last) * last;
 }
 
-/// About how many steps the run takes and how long, from the time of its first steps; empty if these fail. The estimate
-/// of errors takes another third.
-std::string duration_of(const run::PulsePlan& plan) {
+/// About how many steps the run takes and how long, from the time of its first steps. Empty where many cells would make
+/// these long. The estimate of errors takes another third. \throws NumericsError if the first steps fail.
+std::string duration_of(const pulse::Problem& problem, pulse::Run& run) {
   constexpr int most_cells = 100000;
   constexpr long enough_steps = 20;
   constexpr double enough_seconds = 0.2, with_errors = 4.0 / 3;
-  if (plan.problem.cells > most_cells) return {};
-  try {
-    pulse::Run trial(plan.problem, plan.schedule);
-    long steps = 0;
-    const auto begun = Clock::now();
-    trial.go([&] { return ++steps == enough_steps || seconds_since(begun) > enough_seconds; });
-    const double expected = trial.budget().expected(), each = seconds_since(begun) / static_cast<double>(steps);
-    return fmt::format(", about {:.0f} steps and {:.2g} s", two_digits(expected), with_errors * expected * each);
-  } catch (const NumericsError&) {
-    return {};
-  }
+  if (problem.cells > most_cells) return {};
+  long steps = 0;
+  const auto begun = Clock::now();
+  run.go([&] { return ++steps == enough_steps || seconds_since(begun) > enough_seconds; });
+  const double expected = run.budget().expected(), each = seconds_since(begun) / static_cast<double>(steps);
+  return fmt::format(", about {:.0f} steps and {:.2g} s", two_digits(expected), with_errors * expected * each);
 }
 
-void describe(const scenario::Scenario& s, const run::PulsePlan& plan, const std::string& output) {
+void describe(const scenario::Scenario& s, const run::PulsePlan& plan, pulse::Run& run) {
   const pulse::Problem& problem = plan.problem;
-  record::require_disk_space(output, plan.need.disk);
   put(fmt::format(
       "{}: OK. This scenario would run {} cells over x = {:.6g} ... {:.6g} to t = {:.6g}, {} (closure {}), {}{}.\n",
       s.title.empty() ? s.file : s.title, problem.cells, problem.left, problem.right, s.end,
-      parameters_in_words(s.friction), name_of(s.friction.closure()), in_words(plan.need), duration_of(plan)));
+      parameters_in_words(s.friction), name_of(s.friction.closure()), in_words(plan.need), duration_of(problem, run)));
 }
 
 int run_pulse(ScenarioArguments a, std::optional<double> tolerance) {
@@ -61,13 +55,13 @@ int run_pulse(ScenarioArguments a, std::optional<double> tolerance) {
   }
   const scenario::Scenario s = read_scenario_of(a);
   const run::PulsePlan plan = run::plan_pulse(s);
-  if (a.check) {
-    check_cells(s, plan.problem);
-    describe(s, plan, a.output);
-    return exit_done;
-  }
   std::optional<record::Checkpoint> saved;
   if (!a.resume.empty()) saved = run::checkpoint_of(a.resume, s, plan);
+  if (a.check) {
+    require_output(a, saved, plan.need.disk);
+    describe(s, plan, *run::begin(plan, {.checkpoint = std::move(saved)}));
+    return exit_done;
+  }
   LongRun long_run(a, s, saved, nullptr);
   const auto result = run::pulse(s, plan, long_run.options(std::move(saved), begun));
   if (const int code = long_run.end(result.finished()); code != exit_done) return code;

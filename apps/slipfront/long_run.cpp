@@ -178,6 +178,11 @@ void print_summary(const scenario::Scenario& scenario, const std::vector<run::Su
   if (!output.empty() && !a.common.quiet) put("written to " + output + "\n");
 }
 
+void require_output(const ScenarioArguments& arguments, const std::optional<record::Checkpoint>& checkpoint,
+                    double bytes) {
+  record::require_disk_space(run::output_of(arguments.output, arguments.resume, checkpoint).finished(), bytes);
+}
+
 LongRun::LongRun(const ScenarioArguments& arguments, const scenario::Scenario& scenario,
                  const std::optional<record::Checkpoint>& checkpoint, const Ranks* ranks)
     : a_(arguments), s_(scenario), ranks_(ranks), first_(the_ranks->rank() == 0) {

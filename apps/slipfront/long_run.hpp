@@ -42,6 +42,10 @@ void print_summary(const slipfront::scenario::Scenario& scenario,
                    const std::vector<std::string>& warnings, const ScenarioArguments& arguments,
                    const std::vector<slipfront::output::SlipEvent>* events = nullptr);
 
+/// Checks that the output of a run can be written, of about `bytes` bytes. \throws FileError.
+void require_output(const ScenarioArguments& arguments, const std::optional<slipfront::record::Checkpoint>& checkpoint,
+                    double bytes);
+
 /// The progress line and the output file of a `pulse` or `chain` run. While this object exists, Ctrl-C interrupts the
 /// run.
 class LongRun {

@@ -29,6 +29,7 @@ py::dict check_chain(const py::dict& arguments) {
   using namespace pybind11::literals;
   const scenario::Scenario s = scenario_of(request_of(arguments));
   const run::ChainPlan plan = run::plan_chain(s);
+  run::begin(plan, {});
   const chain::Problem p = chain::problem_of(plan.chain);
   return py::dict("title"_a = s.title, "sites"_a = p.grid.sites, "spacing"_a = p.grid.spacing,
                   "scale"_a = plan.chain.scale, "left"_a = plan.chain.left, "right"_a = plan.chain.right,

@@ -70,7 +70,7 @@ py::dict run_compare(const py::dict& arguments, const std::vector<double>& scale
 py::dict check_compare(const py::dict& arguments, const std::vector<double>& scales) {
   const scenario::Scenario s = scenario_of(request_of(arguments));
   const setup::Comparison c = setup::comparison_of(s, scales);
-  setup::check_cells(s, c.problem);
+  setup::begin_levels(c);
   std::vector<double> chains;
   for (const auto& chain : c.chains) chains.push_back(chain.scale);
   const setup::Estimate need = setup::estimate_of(s, c);

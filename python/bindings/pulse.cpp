@@ -49,7 +49,7 @@ py::dict check_pulse(const py::dict& arguments) {
   const scenario::Scenario s = scenario_of(request_of(arguments));
   const run::PulsePlan plan = run::plan_pulse(s);
   const pulse::Problem& problem = plan.problem;
-  setup::check_cells(s, problem);
+  run::begin(plan, {});
   py::dict friction;
   for (const friction::Parameter& p : s.friction.definition().parameters)
     friction[py::str(std::string(p.name))] = s.friction.parameter(p.name);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "chain/event_outputs.hpp"
 #include "chain/make_chain.hpp"
 #include "chain/run_checks.hpp"
 #include "chain/run_observer.hpp"
@@ -17,7 +18,7 @@ namespace slipfront::chain {
 namespace {
 
 using output::Snapshot;
-constexpr std::uint64_t format = 0x636861696e000007;  // "chain", version 7
+constexpr std::uint64_t format = 0x636861696e000008;  // "chain", version 8
 
 std::unique_ptr<Chain> chain_of(const ScaledProblem& scaled, const Execution& execution) {
   const ScaledStart start = scaled_start(scaled, execution);
@@ -30,25 +31,30 @@ Run::Run(const ScaledProblem& scaled, output::Schedule schedule, const Execution
     : scale_(scaled.scale),
       schedule_(std::move(schedule)),
       chain_(chain_of(scaled, execution)),
-      observer_(std::make_unique<RunObserver>(scaled, schedule_, *chain_)) {}
+      observer_(std::make_unique<RunObserver>(scaled, schedule_, *chain_)),
+      outputs_(std::make_unique<EventOutputs>(schedule_.per_event)) {}
 
 Run::Run(const ScaledProblem& scaled, output::Schedule schedule, const Execution& execution, std::string_view saved,
          std::vector<Snapshot> snapshots)
     : Run(scaled, std::move(schedule), execution) {
   bytes::Reader reader(saved);
-  if (reader.get<std::uint64_t>() != format || snapshots.size() > schedule_.times.size())
+  if (reader.get<std::uint64_t>() != format)
     throw InputError({.key = "resume",
                       .problem = "the saved state is of another version or scenario",
                       .allowed = "a file of this version and scenario, written by slipfront chain"});
   observer_->resume(reader);
+  outputs_->resume(reader, std::move(snapshots));
   chain_->resume(reader.rest());
   const double end = schedule_.times.back() * scale_;
+  if (outputs_->scheduled() > schedule_.times.size())
+    throw InputError({.key = "resume",
+                      .problem = "has more results than the scenario has output times",
+                      .allowed = "a file that slipfront chain wrote for this scenario"});
   if (const auto dt = chain_->constant_step(); dt && !(static_cast<double>(chain_->steps()) < end / *dt + 1))
     throw InputError({.key = "resume",
                       .value = std::to_string(chain_->steps()) + " steps",
                       .problem = "past the end of the run",
                       .allowed = "a file that slipfront chain wrote for this scenario"});
-  snapshots_ = std::move(snapshots);
 }
 
 Run::~Run() = default;
@@ -57,9 +63,12 @@ std::string Run::saved() const {
   bytes::Writer writer;
   writer.put(format);
   observer_->save(writer);
+  outputs_->save(writer);
   return std::move(writer).text() + chain_->saved();
 }
 
+const std::vector<Snapshot>& Run::snapshots() const { return outputs_->all(); }
+bool Run::finished() const { return outputs_->scheduled() == schedule_.times.size(); }
 double Run::window() const { return observer_->window(); }
 double Run::smooth_window() const { return observer_->smooth_window(); }
 Balance Run::balance() const { return observer_->balance(); }
@@ -73,18 +82,21 @@ bool Run::advance_to(double time, const std::function<bool()>& interrupted) {
     chain_->advance_to(time, std::min(to_sample, most));
     // Without a constant step each step is a sample. The motion inside a step is none: samples must not depend on the
     // output times, so that a run to a later end can continue this one.
-    if (chain_->constant_step() ? chain_->steps() - before == to_sample : chain_->between_steps()) observer_->sample();
+    if (chain_->constant_step() ? chain_->steps() - before == to_sample : chain_->between_steps()) {
+      observer_->sample();
+      if (outputs_->wants(chain_->event_in_progress())) outputs_->add(observer_->snapshot(this->time()));
+    }
     if (interrupted && interrupted()) return false;
   }
   return true;
 }
 
 bool Run::go(const std::function<bool()>& interrupted) {
-  const RunChecks checks(*observer_, snapshots_);
+  const RunChecks checks(*observer_, snapshots());
   while (!finished()) {
-    const double time = schedule_.times[snapshots_.size()];
+    const double time = schedule_.times[outputs_->scheduled()];
     if (!advance_to(time * scale_, interrupted)) return false;
-    snapshots_.push_back(observer_->snapshot(time));
+    outputs_->add_scheduled(observer_->snapshot(time));
     if (!finished()) refuse_wrong(checks.findings());
   }
   final_findings_ = checks.findings();
@@ -102,7 +114,7 @@ std::vector<output::SlipEvent> Run::events() const {
 }
 
 std::vector<std::string> Run::warnings() const {
-  return (final_findings_ ? *final_findings_ : RunChecks(*observer_, snapshots_).findings()).sentences;
+  return (final_findings_ ? *final_findings_ : RunChecks(*observer_, snapshots()).findings()).sentences;
 }
 
 void Run::refuse_wrong(const output::Findings& found) const {

@@ -1,5 +1,9 @@
 #include "slipfront/output/slip_event.hpp"
 
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
 namespace slipfront::output {
 namespace {
 
@@ -21,7 +25,29 @@ constexpr SlipEventColumn columns[] = {
     {{"complete", "1, or 0 if the run ended within the event", "", "Eq. 1"}, &SlipEvent::complete},
 };
 
+double median(std::vector<double> values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  if (values.size() % 2 == 1) return *middle;
+  return (*middle + *std::max_element(values.begin(), middle)) / 2;
+}
+
 }  // namespace
+
+EventSeries series_of(const std::vector<SlipEvent>& events) {
+  std::vector<double> intervals, drops, velocities;
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    if (i > 0) intervals.push_back(events[i].onset - events[i - 1].onset);
+    if (events[i].complete == 0) continue;
+    drops.push_back(events[i].stress_drop);
+    velocities.push_back(events[i].peak_velocity);
+  }
+  return {.count = static_cast<long>(events.size()),
+          .recurrence_time = median(std::move(intervals)),
+          .stress_drop = median(std::move(drops)),
+          .peak_velocity = median(std::move(velocities))};
+}
 
 std::span<const SlipEventColumn> slip_event_columns() { return columns; }
 

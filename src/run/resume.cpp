@@ -84,7 +84,7 @@ void keep_common_snapshots(const Continued& c, const output::Schedule& begun, co
         "the output times before the end of the file, " + shortest(end) + ", differ: first at t = " + shortest(first),
         "the output times of the file; later ones are free");
   const bool still_output = before_end < now.times.size() && now.times[before_end] == end;
-  if (snapshots.size() > before_end && !still_output) snapshots.resize(before_end);
+  if (!snapshots.empty() && snapshots.back().time == end && !still_output) snapshots.pop_back();
 }
 
 /// `same_problem` refuses a plan of the later end that differs from that of the file in more than the end.

@@ -1,5 +1,7 @@
 #include "run/run.hpp"
 
+#include <utility>
+
 #include "record/pulses/comparison_file.hpp"
 #include "run/carry_out.hpp"
 #include "slipfront/setup/problem.hpp"
@@ -9,9 +11,22 @@ namespace {
 
 /// A run from its beginning, or from where the checkpoint left it.
 template <class Run, class... Arguments>
-std::unique_ptr<Run> begin(const Options& options, const Arguments&... arguments) {
+std::unique_ptr<Run> begun(const Options& options, const Arguments&... arguments) {
   if (!options.checkpoint) return std::make_unique<Run>(arguments...);
   return std::make_unique<Run>(arguments..., options.checkpoint->solver_state, options.checkpoint->snapshots);
+}
+
+/// Does `task`. Adds the file of the scenario to an error in one of its keys.
+template <class Task>
+auto naming(const std::string& file, const Task& task) {
+  try {
+    return task();
+  } catch (const InputError& error) {
+    Complaint complaint = error.complaint();
+    if (!complaint.file.empty() || complaint.key.find('.') == std::string::npos) throw;
+    complaint.file = file;
+    throw InputError(std::move(complaint));
+  }
 }
 
 }  // namespace
@@ -26,23 +41,37 @@ record::PulseMetadata metadata_of(const scenario::Scenario& scenario, const std:
 }
 
 PulsePlan plan_pulse(const scenario::Scenario& scenario) {
-  PulsePlan plan{.problem = setup::pulse_problem(scenario), .schedule = {}, .need = {}};
-  plan.schedule = setup::pulse_schedule(scenario, plan.problem);
-  plan.need = setup::estimate_of(scenario, plan.problem);
-  return plan;
+  return naming(scenario.file, [&] {
+    PulsePlan plan{.problem = setup::pulse_problem(scenario), .schedule = {}, .need = {}, .file = scenario.file};
+    plan.schedule = setup::pulse_schedule(scenario, plan.problem);
+    plan.need = setup::estimate_of(scenario, plan.problem);
+    return plan;
+  });
 }
 
 ChainPlan plan_chain(const scenario::Scenario& scenario, double share_of_machine) {
-  ChainPlan plan{.chain = setup::chain_problem(scenario),
-                 .schedule = setup::pulse_schedule(scenario, setup::stated_problem(scenario)),
-                 .need = {}};
-  setup::require_memory(scenario, plan.chain, share_of_machine);
-  plan.need = setup::estimate_of(scenario, plan.chain);
-  return plan;
+  return naming(scenario.file, [&] {
+    ChainPlan plan{.chain = setup::chain_problem(scenario),
+                   .schedule = setup::pulse_schedule(scenario, setup::stated_problem(scenario)),
+                   .need = {},
+                   .file = scenario.file};
+    setup::require_memory(scenario, plan.chain, share_of_machine);
+    plan.need = setup::estimate_of(scenario, plan.chain);
+    return plan;
+  });
+}
+
+std::unique_ptr<pulse::Run> begin(const PulsePlan& plan, const Options& options) {
+  return naming(plan.file, [&] { return begun<pulse::Run>(options, plan.problem, plan.schedule); });
+}
+
+std::unique_ptr<chain::Run> begin(const ChainPlan& plan, const Options& options) {
+  const chain::Execution execution{.threads = options.threads, .ranks = options.ranks};
+  return naming(plan.file, [&] { return begun<chain::Run>(options, plan.chain, plan.schedule, execution); });
 }
 
 Result<pulse::Run> pulse(const scenario::Scenario& scenario, const PulsePlan& plan, const Options& options) {
-  Result<pulse::Run> result{.run = begin<pulse::Run>(options, plan.problem, plan.schedule),
+  Result<pulse::Run> result{.run = begin(plan, options),
                             .metadata = metadata_of(scenario, "pulse", plan.schedule.x_edges)};
   const pulse::Solver& solver = result.run->solver();
   const bool reached = carry_out(*result.run,
@@ -61,8 +90,7 @@ Result<pulse::Run> pulse(const scenario::Scenario& scenario, const PulsePlan& pl
 }
 
 Result<chain::Run> chain(const scenario::Scenario& scenario, const ChainPlan& plan, const Options& options) {
-  const chain::Execution execution{.threads = options.threads, .ranks = options.ranks};
-  Result<chain::Run> result{.run = begin<chain::Run>(options, plan.chain, plan.schedule, execution),
+  Result<chain::Run> result{.run = begin(plan, options),
                             .metadata = metadata_of(scenario, "chain", plan.schedule.x_edges)};
   const chain::Run& run = *result.run;
   const long first = run.chain().steps();

@@ -44,11 +44,13 @@ struct PulsePlan {
   pulse::Problem problem;
   output::Schedule schedule;
   setup::Estimate need;
+  std::string file;  ///< the file of the scenario, which errors name
 };
 struct ChainPlan {
   chain::ScaledProblem chain;
   output::Schedule schedule;
   setup::Estimate need;
+  std::string file;  ///< the file of the scenario, which errors name
 };
 
 /// Plans a pulse run. \throws InputError.
@@ -79,6 +81,11 @@ struct Result {
   std::vector<SummaryValue> summary = {};
   bool finished() const { return run->finished(); }
 };
+
+/// Begins a planned run, or resumes it, and takes no step. It refuses all that a run refuses at its start. \throws
+/// InputError, NumericsError.
+std::unique_ptr<pulse::Run> begin(const PulsePlan& plan, const Options& options);
+std::unique_ptr<chain::Run> begin(const ChainPlan& plan, const Options& options);
 
 /// Runs a pulse or a chain. \throws NumericsError, after writing the results so far; InputError, FileError.
 Result<pulse::Run> pulse(const scenario::Scenario& scenario, const PulsePlan& plan, const Options& options);

@@ -164,10 +164,37 @@ std::vector<SummaryItem<FinishedChain>> chain_solver() {
   };
 }
 
+/// A number of the series of events; NaN where no spring loads the chain.
+SummaryItem<FinishedChain> of_events(const char* key, double (*number)(const output::EventSeries&),
+                                     const char* meaning) {
+  return {key,
+          [number](const FinishedChain& e) -> Value {
+            if (!e.run.chain().problem().loading.acts()) return std::numeric_limits<double>::quiet_NaN();
+            return number(output::series_of(e.run.events()));
+          },
+          meaning};
+}
+
+std::vector<SummaryItem<FinishedChain>> chain_events() {
+  using output::EventSeries;
+  return {
+      of_events(
+          "event_count", [](const EventSeries& e) { return static_cast<double>(e.count); }, "number of slip events"),
+      of_events(
+          "event_recurrence_time", [](const EventSeries& e) { return e.recurrence_time; },
+          "median time between onsets of slip events, in b / (c A)"),
+      of_events(
+          "event_median_stress_drop", [](const EventSeries& e) { return e.stress_drop; },
+          "median stress drop of slip events"),
+      of_events(
+          "event_median_peak_velocity", [](const EventSeries& e) { return e.peak_velocity; },
+          "median peak velocity of slip events, in c A / pi"),
+  };
+}
+
 std::vector<SummaryItem<FinishedChain>> chain_items() {
   std::vector<SummaryItem<FinishedChain>> items = chain_at_origin();
-  const std::vector<SummaryItem<FinishedChain>> solver = chain_solver();
-  items.insert(items.end(), solver.begin(), solver.end());
+  for (const auto& part : {chain_events(), chain_solver()}) items.insert(items.end(), part.begin(), part.end());
   return items;
 }
 

@@ -228,10 +228,13 @@ std::vector<Key> output_keys() {
   Key variables = word_key("output", "variables", {"k", "Sigma", "U", "W", "H", "slip", "stress_drop"}, "all",
                            "variables in the output file");
   variables.type = KeyType::words;
+  Key per_event = number_key("output", "per_event", ModelUnit::none, {.least = 0, .most = 10'000}, "0",
+                             "further results of each slip event, at least as many if it has that many steps");
+  per_event.type = whole_number;
   return {times,
           number_key("output", "every", ModelUnit::time, positive, "none",
                      "interval between the times of results, in place of times"),
-          variables};
+          per_event, variables};
 }
 
 }  // namespace

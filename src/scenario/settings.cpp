@@ -104,6 +104,9 @@ Output read_output(const Document& document, double end) {
     throw section.refuse("every", "output.times is given too", "one of the two");
   if (output.every && end / *output.every > most_outputs)
     throw section.refuse("every", "more than a million outputs", ">= " + shortest(end / most_outputs));
+  output.per_event = section.whole_number("per_event").value_or(0);
+  if (output.per_event > 0 && document.tables.count("loading") == 0)
+    throw section.refuse("per_event", "without [loading] there are no slip events", "with [loading]");
   output.variables = read_variables(section);
   return output;
 }

@@ -27,6 +27,19 @@ std::vector<double> checked(std::vector<double> scales, const scenario::Scenario
   return scales;
 }
 
+/// The closures of the pulse levels.
+std::vector<friction::Closure> closures_of(const Comparison& c) {
+  std::vector<friction::Closure> closures{friction::Closure::consistent};
+  if (c.problem.friction.defined_by(friction::Closure::paper)) closures.push_back(friction::Closure::paper);
+  return closures;
+}
+
+pulse::Run pulse_of(const Comparison& c, friction::Closure closure) {
+  pulse::Problem problem = c.problem;
+  problem.friction = problem.friction.with(closure);
+  return {std::move(problem), c.schedule};
+}
+
 /// Runs one level to its end; false if stopped.
 template <class Run>
 bool carry(Run& run, Level& level, const std::function<bool()>& after_step) {
@@ -59,17 +72,19 @@ Comparison comparison_of(scenario::Scenario scenario, std::vector<double> scales
   return c;
 }
 
+void begin_levels(const Comparison& c) {
+  for (const friction::Closure closure : closures_of(c)) pulse_of(c, closure);
+  for (const chain::ScaledProblem& scaled : c.chains) const chain::Run begun(scaled, c.schedule, {});
+}
+
 bool run_levels(const Comparison& c, int threads, std::vector<Level>& levels, const std::function<void()>& next,
                 const std::function<bool(const std::string& level, double time, long steps)>& after_step) {
   if (c.exact) levels.push_back(*c.exact);
-  for (const friction::Closure closure : {friction::Closure::consistent, friction::Closure::paper}) {
-    if (!c.problem.friction.defined_by(closure)) continue;
+  for (const friction::Closure closure : closures_of(c)) {
     next();
     const char* name = name_of(closure);
     Level level{.name = std::string("pulse-") + name, .closure = name};
-    pulse::Problem problem = c.problem;
-    problem.friction = problem.friction.with(closure);
-    pulse::Run run(std::move(problem), c.schedule);
+    pulse::Run run = pulse_of(c, closure);
     const auto after = [&] { return after_step(level.name, run.solver().cells().time, run.solver().cells().steps); };
     if (!carry(run, level, after)) return false;
     levels.push_back(std::move(level));

@@ -96,6 +96,7 @@ output::Schedule pulse_schedule(const scenario::Scenario& s, const pulse::Proble
   require_memory(s, problem);
   output::Schedule schedule;
   schedule.threshold = s.pulse.threshold;
+  schedule.per_event = static_cast<std::size_t>(s.output.per_event);
   schedule.times.push_back(0);
   for (const double t : s.output.times)
     if (t > 0 && t < s.end) schedule.times.push_back(t);
@@ -106,13 +107,6 @@ output::Schedule pulse_schedule(const scenario::Scenario& s, const pulse::Proble
     schedule.x_edges.push_back(i == problem.cells ? problem.right
                                                   : problem.left + (problem.right - problem.left) * i / problem.cells);
   return schedule;
-}
-
-void check_cells(const scenario::Scenario& s, const pulse::Problem& problem) {
-  constexpr int enough = 100000;
-  pulse::Problem some = problem;
-  some.cells = std::min(problem.cells, enough);
-  const pulse::Run trial(some, pulse_schedule(s, some));
 }
 
 }  // namespace slipfront::setup

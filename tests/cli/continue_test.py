@@ -100,6 +100,8 @@ class Continue(CommandLine):
         case = self.file("slider.toml", SLIDER)
         whole = self.same_as_one_run("chain", case, (60000, 120000, 200000), ("output.every=50000",))
         self.assertEqual(len(whole["events"]), 4)
+        within = whole["events"][2]["onset"] + 0.5 * whole["events"][2]["duration"]
+        self.same_as_one_run("chain", case, (60000, within, 160000), ("output.every=50000", "output.per_event=5"))
         self.same_as_one_run("chain", STEP, (1, 2), (*DOMAIN, "chain.scale=30", "chain.steps=implicit", *AGEING))
 
     def test_an_interrupted_run_continues_to_a_later_end(self):

@@ -115,6 +115,8 @@ class Chain : public Sites {
   /// Whether `flows` includes the work of friction. An explicit chain with more than 10 000 sites and only viscous
   /// friction advances 32 levels at a time and does not measure this work. Totals has its rate.
   virtual bool meters_friction() const = 0;
+  /// The number of the slip event in progress, from 1; 0 if there is none.
+  virtual std::size_t event_in_progress() const { return 0; }
   /// The slip events of a loaded chain so far, in the units of the chain.
   virtual std::vector<output::SlipEvent> events() const = 0;
 

@@ -55,6 +55,7 @@ struct Balance {
   double steepest;      ///< largest difference of u between neighbouring sites
 };
 
+class EventOutputs;
 class RunObserver;
 
 class Run {
@@ -73,9 +74,10 @@ class Run {
 
   const Chain& chain() const { return *chain_; }
   const output::Schedule& schedule() const { return schedule_; }
-  const std::vector<output::Snapshot>& snapshots() const { return snapshots_; }
+  /// Snapshots of the output times and, between them, those of slip events that the schedule asks for.
+  const std::vector<output::Snapshot>& snapshots() const;
   bool can_checkpoint() const { return chain_->valid(); }  ///< whether the run can be saved
-  bool finished() const { return snapshots_.size() == schedule_.times.size(); }
+  bool finished() const;
   std::string saved() const;
 
   double time() const { return chain_->time() / scale_; }  ///< in the scenario's units
@@ -108,7 +110,7 @@ class Run {
   output::Schedule schedule_;
   std::unique_ptr<Chain> chain_;
   std::unique_ptr<RunObserver> observer_;
-  std::vector<output::Snapshot> snapshots_;
+  std::unique_ptr<EventOutputs> outputs_;
   std::optional<output::Findings> final_findings_;  ///< set when the run is finished
 };
 

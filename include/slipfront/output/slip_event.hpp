@@ -33,4 +33,13 @@ struct SlipEventColumn {
 };
 std::span<const SlipEventColumn> slip_event_columns();
 
+/// The series of events of a run. A median is over the complete events, and NaN without one.
+struct EventSeries {
+  long count = 0;
+  double recurrence_time = 0;  ///< median time between the onsets of successive events; NaN with fewer than two
+  double stress_drop = 0;      ///< median; its unit is that of an event
+  double peak_velocity = 0;    ///< median
+};
+EventSeries series_of(const std::vector<SlipEvent>& events);
+
 }  // namespace slipfront::output

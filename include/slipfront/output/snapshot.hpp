@@ -2,6 +2,7 @@
 /// \file
 /// The results of a run at one output time.
 
+#include <cstddef>
 #include <functional>
 #include <map>
 #include <string>
@@ -13,6 +14,7 @@ namespace slipfront::output {
 struct Schedule {
   std::vector<double> times;    ///< ascending, from 0; one snapshot each
   std::vector<double> x_edges;  ///< edges of the cells of the output grid
+  std::size_t per_event = 0;    ///< further snapshots of each slip event; 0: none
   double threshold = 1e-3;      ///< slip velocity at an observed front, as a fraction of the peak slip velocity
 };
 

@@ -73,6 +73,7 @@ struct ChainOptions {
 struct Output {
   std::vector<double> times;
   std::optional<double> every;
+  int per_event = 0;                   ///< further outputs of each slip event
   std::vector<std::string> variables;  ///< all if empty
 };
 

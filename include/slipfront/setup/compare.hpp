@@ -42,6 +42,9 @@ struct Comparison {
 /// not > 0 or given twice.
 Comparison comparison_of(scenario::Scenario scenario, std::vector<double> scales);
 
+/// Begins each level and takes no step, to find what a run refuses at its start. \throws InputError like a run.
+void begin_levels(const Comparison& comparison);
+
 /// Runs the levels in order and appends each to `levels` when it is finished. It calls `next` before each run.
 /// `after_step` (level, its time, its number of steps) may stop all runs by returning true. Returns whether the end was
 /// reached. \throws NumericsError that names the level.

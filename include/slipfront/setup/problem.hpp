@@ -21,10 +21,6 @@ pulse::Problem pulse_problem(const scenario::Scenario& scenario);
 /// results would not fit into memory.
 output::Schedule pulse_schedule(const scenario::Scenario& scenario, const pulse::Problem& problem);
 
-/// Checks the cells of a problem by a trial run without steps, with at most 100000 cells. \throws InputError like
-/// pulse::Run.
-void check_cells(const scenario::Scenario& scenario, const pulse::Problem& problem);
-
 /// The chain problem of a scenario, on the same domain as its pulse. \throws InputError if the scenario has none.
 chain::ScaledProblem chain_problem(const scenario::Scenario& scenario);
 

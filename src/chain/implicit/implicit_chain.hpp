@@ -45,6 +45,7 @@ class ImplicitChain final : public Chain {
   bool valid() const override { return true; }  // a step that fails is not taken
   Flows flows() const override { return {now_.supplied, now_.dissipated, 0, now_.by_contacts}; }
   bool meters_friction() const override { return true; }
+  std::size_t event_in_progress() const override { return now_.log.in_progress(); }
   std::vector<output::SlipEvent> events() const override { return now_.log.events(); }
   std::string saved() const override;
   void resume(std::string_view saved) override;

@@ -25,6 +25,7 @@ class EventLog {
   /// Call this after each step. `time` is the end of the step, and `load` the mean force of the springs at that time.
   void look(double time, double load, const ChainParts& parts);
   const std::vector<output::SlipEvent>& events() const { return events_; }
+  std::size_t in_progress() const { return within_ ? events_.size() : 0; }  ///< number of the event; 0: none
 
   /// Returns all that the log needs to continue exactly.
   std::vector<double> saved() const;
