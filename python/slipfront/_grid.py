@@ -3,8 +3,11 @@
 import math
 import re
 
-_number = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
-_range = re.compile(rf"({_number}):({_number}):(\d+)(:log)?(\s*[^\W\d].*)?")
+#: A number, without spaces.
+NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+#: A number and its unit.
+QUANTITY = re.compile(rf"({NUMBER})\s*([^\W\d].*)")
+_range = re.compile(rf"({NUMBER}):({NUMBER}):(\d+)(:log)?(\s*[^\W\d].*)?")
 _most_values = 10_000_000
 _truths = {"true": True, "false": False}
 
@@ -13,7 +16,14 @@ def values_of(text, kind):
     """Returns the values of a list such as `0.1,0.5` or `0:2:9`. `kind` is the type of the key as in `slipfront keys`.
 
     Raises ValueError with the values that are allowed."""
-    return [value for part in _parts(text) for value in _values(part.strip(), kind)]
+    values = [value for part in _parts(text) for value in _values(part.strip(), kind)]
+    if kind != "number":  # a quantity without a unit is in SI units
+        return values
+    with_unit = next((value for value in values if isinstance(value, str) and QUANTITY.fullmatch(value)), None)
+    without = next((value for value in values if isinstance(value, float) and value != 0), None)
+    if with_unit and without:
+        raise ValueError(f"{without!r} has no unit, but {with_unit} has one; allowed: a unit after each value, as in 1 MPa,3 MPa, or after none")
+    return values
 
 
 def _parts(text):
@@ -63,7 +73,7 @@ def _one(text, kind, rounds=False):
     of a range for keys of whole numbers."""
     if kind == "truth value":
         return _truths.get(text, text)
-    if kind not in ("number", "whole number", "quantity") or not re.fullmatch(_number, text):
+    if kind not in ("number", "whole number", "quantity") or not re.fullmatch(NUMBER, text):
         return text
     number = float(text)
     whole = kind == "whole number" and math.isfinite(number) and (rounds or number.is_integer())

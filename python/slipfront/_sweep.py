@@ -11,6 +11,7 @@ from . import _slipfront
 from ._cluster import on_cluster, run_points
 from ._dataset import dataset
 from ._files import write_dataset
+from ._grid import QUANTITY
 from ._numbers import np, thread_count
 from ._progress import showing
 from ._run import check, open
@@ -203,6 +204,14 @@ def _unit_of_axis(key, values):
     return ""
 
 
+def _quantities(values):
+    """Returns the numbers and the unit of texts such as "5 MPa" if all have one unit, and otherwise the values and ""."""
+    found = [match for value in values if isinstance(value, str) and (match := QUANTITY.fullmatch(value))]
+    if len(found) < len(values) or len({match[2] for match in found}) > 1:
+        return values, ""
+    return [float(match[1]) for match in found], found[0][2]
+
+
 def dimension_of(key):
     """Returns the name of the dimension of an axis, which is an identifier: friction_coefficient for friction.coefficient."""
     return key.replace(".", "_")
@@ -218,8 +227,10 @@ def _dataset(about, axes, kept, values, reasons):
     variables["failure"] = (dims, reasons, {"long_name": "reason why there is no result; empty for a point that succeeded"})
     coordinates = {}
     for dim, (key, array) in zip(dims, axes.items()):
+        numbers, si_unit = _quantities(array)
         unit = _unit_of_axis(key, array)
-        coordinates[dim] = (dim, array, {"long_name": f"{key} of the scenario", "key": key, **({"dimensional_unit": unit} if unit else {})})
+        units = {"units": si_unit} if si_unit else {"dimensional_unit": unit} if unit else {}
+        coordinates[dim] = (dim, numbers, {"long_name": f"{key} of the scenario", "key": key, **units})
     return dataset(variables, coordinates,
                    {"Conventions": "CF-1.10", "source": f"slipfront {__version__}", "history": f"slipfront.sweep of {about['command']}",
                     "version": __version__, "scenario": about["scenario"], "set": "\n".join(about["set"]), "slipfront_format": _format,

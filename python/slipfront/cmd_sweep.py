@@ -106,11 +106,17 @@ def run(options, axes):
             client.close()
 
 
+def settings_of(coordinate):
+    """Returns the values of an axis as the scenario has them: those with a unit are texts such as "5 MPa"."""
+    unit = coordinate.attrs.get("units", "")
+    return [f"{value!r}".removesuffix(".0") + f" {unit}" if unit else value for value in coordinate.values.tolist()]
+
+
 def rows_of(data):
     """Yields a dict for each point: the keys with their values, the numbers, and `failure`."""
     keys = {dim: data[dim].attrs["key"] for dim in data["failure"].dims}
     flat = {name: data[name].values.ravel().tolist() for name in data.data_vars}
-    points = itertools.product(*(data[dim].values.tolist() for dim in keys))
+    points = itertools.product(*(settings_of(data[dim]) for dim in keys))
     for i, point in enumerate(points):
         yield {**dict(zip(keys.values(), point)), **{name: values[i] for name, values in flat.items()}}
 

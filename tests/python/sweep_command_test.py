@@ -24,7 +24,7 @@ class Values(unittest.TestCase):
         for text, kind, values in [("0.1,0.5,2", "number", [0.1, 0.5, 2.0]), ("0:1:5", "number", [0, 0.25, 0.5, 0.75, 1]), ("1:100:3:log", "number", [1, 10, 100]),
                                    ("0,1:3:3", "number", [0, 1, 2, 3]), ("2:1:2", "number", [2, 1]), ("7:9:1", "number", [7]), ("100:400:3:log", "whole number", [100, 200, 400]),
                                    ("paper, consistent", "word", ["paper", "consistent"]), ("true,false", "truth value", [True, False]),
-                                   ("max(x,1),2*x", "formula", ["max(x,1)", "2*x"]), ("x<0?1:2", "formula", ["x<0?1:2"]), ("1:3:2 MPa", "number", ["1.0 MPa", "3.0 MPa"]),
+                                   ("max(x,1),2*x", "formula", ["max(x,1)", "2*x"]), ("x<0?1:2", "formula", ["x<0?1:2"]), ("1:3:2 MPa", "number", ["1.0 MPa", "3.0 MPa"]), ("0,3 MPa", "number", [0.0, "3 MPa"]),
                                    ("30 GPa,4e10", "quantity", ["30 GPa", 4e10]), ("wide", "number", ["wide"])]:
             with self.subTest(text):
                 found = values_of(text, kind)
@@ -39,7 +39,7 @@ class Values(unittest.TestCase):
 
     def test_refuses(self):
         for text, says in [("", "empty"), ("1,,2", "empty"), ("0:1", "not a range"), ("0:1:2:lin", "not a range"), ("0:1:0", "1 to"), ("0:1:99999999", "1 to"),
-                           ("0:1:3:log", "positive"), ("0:1e999:3", "finite")]:
+                           ("1,3 MPa", "1.0 has no unit, but 3 MPa has one"), ("0:1:3:log", "positive"), ("0:1e999:3", "finite")]:
             with self.subTest(text), self.assertRaisesRegex(ValueError, says):
                 values_of(text, "number")
 

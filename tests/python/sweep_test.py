@@ -80,6 +80,13 @@ class Sweep(CommandLine):
             data = slipfront.sweep(SCENARIO, {key: values}, set={"domain.right": 9.0})
             self.assertEqual(data[key.replace(".", "_")].attrs.get("dimensional_unit"), unit, key)
 
+    def test_an_axis_in_si_units_has_numbers_and_a_unit(self):
+        rock = {"medium.shear_modulus": "30 GPa", "medium.p_wave_speed": "6 km/s", "medium.poisson_ratio": 0.3, "medium.asperity_spacing": "1 mm",
+                "medium.contact_ratio": 0.01}
+        data = slipfront.sweep(SCENARIO, {"initial.stress_left": ["60 MPa", "70 MPa"], "time.end": ["3 us", "0.004 ms"]}, set={**rock, "domain.left": -9.0, "domain.right": 9.0})
+        self.assertEqual((data.initial_stress_left.values.tolist(), data.initial_stress_left.units), ([60, 70], "MPa"))
+        self.assertEqual(data.time_end.values.tolist(), ["3 us", "0.004 ms"])
+
     def test_constants_that_vary_must_be_selected(self):
         rock = {"medium.shear_modulus": "30 GPa", "medium.p_wave_speed": "6 km/s", "medium.poisson_ratio": 0.3, "medium.asperity_spacing": "1 mm"}
         data = slipfront.sweep(SCENARIO, {"medium.contact_ratio": [0.01, 0.02]}, set=rock)
