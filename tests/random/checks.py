@@ -106,7 +106,8 @@ class Case:
 
 def finite(case):
     viscous = case.s["friction"]["law"] in ("none", "viscous")
-    loading = {"loading_force", "loading_stress"}  # absent without springs, which these scenarios do not have
+    loading = {"loading_force", "loading_stress", "event_count", "event_recurrence_time", "event_median_stress_drop",
+               "event_median_peak_velocity"}  # absent without springs, which these scenarios do not have
     absent = MAY_BE_ABSENT | loading | (set() if viscous else {"friction_coefficient", "damping_number"})
     bad = [key for key, value in case.plain.summary.items()
            if isinstance(value, float) and not math.isfinite(value) and key not in absent]
