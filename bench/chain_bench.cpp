@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "chain/explicit/explicit_chain.hpp"
@@ -71,6 +72,29 @@ void chain_limit_multiply_adds(benchmark::State& state) {
 }
 BENCHMARK(chain_limit_multiply_adds);
 
+/// The loops of a site with a contact profile, in the innermost cache: 256 sites and their coefficients.
+void chain_limit_contact(benchmark::State& state) {
+  constexpr std::size_t sites = 256, room = sites + 2 * lanes;
+  const ContactForce contact = contact_force(1.0 / 48, 1.7);
+  std::vector<double> a2(room), one(room), other(room), y(room), coefficients(PeriodicForce::terms * room);
+  for (std::size_t j = 0; j < room; ++j) {
+    a2[j] = 1 + 0.2 * std::sin(static_cast<double>(j));
+    one[j] = other[j] = 0.03 * std::sin(static_cast<double>(j));
+  }
+  contact_coefficients(contact, a2.data(), coefficients.data(), 0, room);
+  const LevelRule rule{.f = {}, .coupled = 1.0 / 24, .keep = 1.0 / 24, .force = 0.2, .before = 1, .spread = 47.0 / 48};
+  double *now = one.data(), *next = other.data();
+  for (auto _ : state) {
+    local_part_with_coefficients(rule, coefficients.data(), now, next, next, y.data(), lanes, lanes + sites);
+    add_neighbours(rule.spread, y.data(), next, lanes, lanes + sites);
+    std::swap(now, next);
+    benchmark::DoNotOptimize(next);
+    benchmark::ClobberMemory();
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<long>(sites));
+}
+BENCHMARK(chain_limit_contact);
+
 Problem damped_train(std::size_t sites) {
   return {.grid = {0, 0.5, sites},
           .model = Model::sine_gordon,
@@ -114,29 +138,31 @@ friction::Friction weak_rate_and_state() {
   return {};
 }
 
-/// Chains that advance level by level: with a contact profile, with a forcing (that changes with time, or not), with
-/// dry friction, with viscous friction on a chain short enough for the work meter, and with friction that has a state.
+/// Chains with a contact profile, which take 32 levels at a time, and chains that advance level by level: with a
+/// forcing (that changes with time, or not), with dry friction, with viscous friction on a chain short enough for the
+/// work meter, with friction that has a state, and with a contact profile and a forcing.
 void chain_general(benchmark::State& state) {
   const char* const kinds[] = {"contact",
                                "forcing",
                                "steady forcing",
                                "Coulomb friction",
                                "metered viscous friction",
-                               "rate-and-state friction"};
+                               "rate-and-state friction",
+                               "contact and steady forcing"};
   const auto kind = static_cast<std::size_t>(state.range(0));
   const std::size_t sites = kind == 4 ? 9000 : 100000;
   Problem p = damped_train(sites);
-  if (kind == 0) p.contact = [](double x) { return 1 + 0.1 * std::sin(x); };
-  if (kind == 1 || kind == 2) p.forcing = [](double x, double t) { return 0.01 * std::sin(x - t); };
-  p.steady_forcing = kind == 2;
+  if (kind == 0 || kind == 6) p.contact = [](double x) { return 1 + 0.1 * std::sin(x); };
+  if (kind == 1 || kind == 2 || kind == 6) p.forcing = [](double x, double t) { return 0.01 * std::sin(x - t); };
+  p.steady_forcing = kind == 2 || kind == 6;
   if (kind == 3) p.friction = friction::coulomb(0.01);
   if (kind == 5) p.friction = weak_rate_and_state();
   chain::ExplicitChain run(p, rough_train(sites));
-  for (auto _ : state) run.advance(10);
-  state.SetItemsProcessed(state.iterations() * 10 * static_cast<long>(sites));
+  for (auto _ : state) run.advance(32);
+  state.SetItemsProcessed(state.iterations() * 32 * static_cast<long>(sites));
   state.SetLabel(kinds[kind]);
 }
-BENCHMARK(chain_general)->DenseRange(0, 5)->Unit(benchmark::kMillisecond);
+BENCHMARK(chain_general)->DenseRange(0, 6)->Unit(benchmark::kMillisecond);
 
 /// The step of stress of docs/friction.md to t = 2 pi at scale 300, with rate-and-state friction. Many sites are at
 /// rest.

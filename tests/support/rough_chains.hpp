@@ -8,7 +8,7 @@
 /// Chains of every kind of end and force, from a rough start, for comparisons to the bit.
 namespace cases {
 
-inline constexpr int kinds = 6;
+inline constexpr int kinds = 8;
 
 inline slipfront::chain::Problem problem(std::size_t sites, int kind) {
   using namespace slipfront::chain;
@@ -33,6 +33,12 @@ inline slipfront::chain::Problem problem(std::size_t sites, int kind) {
     p.model = Model::lattice;
     p.boundary = {End::fixed, End::absorbing, false, 0};
     p.friction = slipfront::friction::coulomb(0.02);
+  }
+  if (kind >= 6) p.contact = [](double x) { return 1.1 + 0.3 * std::cos(0.3 * x); };
+  if (kind == 6) p.boundary = {.periodic = true, .charge = sites < 20 ? 1 : 3};
+  if (kind == 7) {
+    p.boundary = {End::absorbing, End::fixed, false, 0};
+    p.friction = slipfront::friction::viscous(0.2);
   }
   if (kind == 5) {
     p.boundary = {End::absorbing, End::free, false, 0};

@@ -12,6 +12,10 @@ namespace {
 constexpr double turn = 2 * std::numbers::pi;
 constexpr std::size_t together = 64;  ///< sites in one pass of the friction loops; a pass with no moving site is cheap
 
+/// Number of sites by which arrays extend past both ends. A window at an end needs 16 of them. A chain that advances
+/// many levels at a time needs a^2 in its halos too, up to whole vectors.
+long margin_of(const Problem& p) { return p.forcing ? 16 : static_cast<long>(halo + 2 * lanes); }
+
 /// a(x)^2 on sites [first, last). It is empty if a is 1 everywhere and does not change.
 std::vector<double> a2_of(const Problem& p, long first, long last) {
   std::vector<double> a2;
@@ -32,8 +36,8 @@ Forces::Forces(const Problem& problem, const Scheme& scheme, long level, std::si
       sine_(substrate_force(0)),
       dt_(scheme.dt),
       level_(level),
-      first_(static_cast<long>(begin) - static_cast<long>(margin)),
-      last_(static_cast<long>(end + margin)),
+      first_(static_cast<long>(begin) - margin_of(problem)),
+      last_(static_cast<long>(end) + margin_of(problem)),
       nonlinear_(problem.friction.acts() && !problem.friction.linear_coefficient()),
       variables_(problem.friction.state_size()),
       state_(variables_ * problem.grid.sites),
@@ -119,27 +123,27 @@ void Forces::proceed() {
 }
 
 void Forces::steps_from(long j, std::size_t size, const double* before, const double* now, const double* next,
-                        double* u, double* D, double* B, double* u_next, double* S) const {
+                        double* u, double* D, double* B) const {
   if (a2_.empty()) {
     take_steps(scheme_.rule.f, scheme_.eps, before, now, next, u, D, B, size);
     return;
   }
-  displacements(sine_, scheme_.eps, contacts_.acts() ? contacts_.next(j) : a2(j), next, u_next, S, size);
-  take_steps(before, now, next, u_next, u, D, B, size);
+  const double* a2_next = contacts_.acts() ? contacts_.next(j) : a2(j);
+  take_steps(scheme_.contact, scheme_.eps, a2_next, before, now, next, u, D, B, size);
 }
 
-void Forces::displacements_from(long j, std::size_t size, const double* z, double* u, double* S) const {
+void Forces::displacements_from(long j, std::size_t size, const double* z, double* u) const {
   if (a2_.empty())
     displacements(scheme_.rule.f, scheme_.eps, z, u, size);
   else
-    displacements(sine_, scheme_.eps, a2(j), z, u, S, size);
+    displacements(scheme_.contact, scheme_.eps, a2(j), z, u, size);
 }
 
 void Forces::level(const EndConditions& ends, long offset, std::size_t size, const double* before, const double* now,
                    double* next, double* y, Outflow& outflow, double* applied) const {
   if (!a2_.empty()) {
     const double* a2 = this->a2(offset - 1);
-    local_part_with_contact(scheme_.rule, sine_, scheme_.eps, a2, now - 1, before - 1, next - 1, y - 1, 0, size + 2);
+    local_part_with_contact(scheme_.rule, scheme_.contact, a2, now - 1, before - 1, next - 1, y - 1, 0, size + 2);
   } else {
     local_part(scheme_.rule, now - 1, before - 1, next - 1, y - 1, 0, (size + 2 + lanes - 1) / lanes * lanes);
   }

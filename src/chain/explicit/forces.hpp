@@ -8,18 +8,16 @@
 
 namespace slipfront::chain {
 
-/// All forces on a site except springs, a substrate of strength 1 and viscous friction. A chain without these forces
-/// can advance many levels at a time. A chain with them advances by one level at a time, with `level`.
+/// All forces on a site except springs, a substrate of strength 1 and viscous friction. A chain with forcing, other
+/// friction or contacts that change advances by one level at a time, with `level`. Other chains can advance many levels
+/// at a time.
 class Forces {
  public:
-  /// Number of sites by which arrays extend past both ends. A window at an end needs a few of them.
-  static constexpr std::size_t margin = 16;
-
-  /// The forces on sites [begin, end) and on `margin` more on either side. These continue around a periodic chain, and
-  /// are reflected at the ends of other chains.
+  /// The forces on sites [begin, end) and on some more on either side. These continue around a periodic chain, and are
+  /// reflected at the ends of other chains.
   Forces(const Problem& problem, const Scheme& scheme, long level, std::size_t begin, std::size_t end);
 
-  bool none() const { return a2_.empty() && F_now_.empty() && !nonlinear_; }
+  bool by_level() const { return !F_now_.empty() || nonlinear_; }
   /// a(x)^2 from site j on; null if it is 1 everywhere.
   const double* a2(long j) const {
     return contacts_.acts() ? contacts_.now(j) : a2_.empty() ? nullptr : a2_.data() + at(j);
@@ -64,12 +62,12 @@ class Forces {
   double friction(long j, double velocity) const {
     return (contacts_.acts() ? *contacts_.share(j) : 1.0) * problem_.friction.force(velocity, state(j));
   }
-  /// Computes u from z, both in turns, for `size` sites from site j on. `S` is scratch space.
-  void displacements_from(long j, std::size_t size, const double* z, double* u, double* S) const;
+  /// Computes u from z, both in turns, for `size` sites from site j on.
+  void displacements_from(long j, std::size_t size, const double* z, double* u) const;
   /// Computes the steps D and B (take_steps in kernel.hpp) of `size` sites from site j on. It sets u to its value at
-  /// the next level. If contacts change, call `age` first. `u_next` and `S` are scratch space.
+  /// the next level. If contacts change, call `age` first.
   void steps_from(long j, std::size_t size, const double* before, const double* now, const double* next, double* u,
-                  double* D, double* B, double* u_next, double* S) const;
+                  double* D, double* B) const;
 
  private:
   friction::LocalState state(long j) const {

@@ -84,7 +84,7 @@ Share::Share(const Problem& p, const Execution& e, const Ranks& ranks, long at)
       begin_(blocks_.begin(first_block_)),
       end_(blocks_.begin(end_block_)),
       forces_(p, scheme_, at, begin_, end_),
-      level_by_level_(!forces_.none() || (p.friction.acts() && p.grid.sites <= metered_sites)),
+      level_by_level_(forces_.by_level() || (p.friction.acts() && p.grid.sites <= metered_sites)),
       meter_(problem_, level_by_level_ && (p.forcing || p.friction.acts()), scheme_, blocks_, first_block_, end_block_),
       level_(at) {
   check_execution();
@@ -186,7 +186,7 @@ void Share::advance_slab(std::size_t i, std::size_t count) {
   if (level_by_level_)
     advance_by_one_level(i);
   else
-    slabs_[i].advance(scheme_.rule, count, execution_.tile);
+    slabs_[i].advance(scheme_, forces_.a2(static_cast<long>(slabs_[i].begin())), count, execution_.tile);
 }
 
 void Share::advance_by_one_level(std::size_t i) {
@@ -224,7 +224,7 @@ void Share::advance(std::size_t count) {
   for_slabs(count, [this](std::size_t i) { exchange_slab(i); });
   for_slabs(count, [this, count](std::size_t i) { advance_slab(i, count); });
   level_ += static_cast<long>(count);
-  if (!forces_.none()) forces_.proceed();
+  if (forces_.by_level()) forces_.proceed();
 }
 
 void Share::check_numbers() const {

@@ -21,16 +21,14 @@ WorkMeter::WorkMeter(const Problem& p, bool active, const Scheme& s, const Block
 
 void WorkMeter::start(const Forces& forces, std::size_t begin, std::size_t size, const double* z) {
   if (u_.empty()) return;
-  std::vector<double> room(size);
-  forces.displacements_from(static_cast<long>(begin), size, z, &u_[begin - begin_], room.data());
+  forces.displacements_from(static_cast<long>(begin), size, z, &u_[begin - begin_]);
 }
 
 void WorkMeter::add(const Forces& forces, std::size_t begin, std::size_t end, const double* before, const double* now,
                     const double* next, Room& room) {
   const long site = static_cast<long>(begin);
   const double *D = room.D.data(), *B = room.B.data();
-  forces.steps_from(site, end - begin, before, now, next, &u_[begin - begin_], room.D.data(), room.B.data(),
-                    room.u.data(), room.S.data());
+  forces.steps_from(site, end - begin, before, now, next, &u_[begin - begin_], room.D.data(), room.B.data());
   if (problem_->forcing) {
     const double *F_before = forces.F_before(site), *F_now = forces.F_now(site), *F_next = forces.F_next(site);
     add_to_blocks(begin, end, 0, 1, [=](std::size_t at, std::size_t size) {

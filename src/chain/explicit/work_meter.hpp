@@ -25,8 +25,8 @@ class WorkMeter {
   void start(const Forces& forces, std::size_t begin, std::size_t size, const double* z);
   /// Scratch arrays for the work on one piece of the chain. Each thread needs its own.
   struct Room {
-    explicit Room(std::size_t size) : u(size), S(size), D(size), B(size), friction(size) {}
-    Aligned u, S, D, B;
+    explicit Room(std::size_t size) : D(size), B(size), friction(size) {}
+    Aligned D, B;
     Aligned friction;  ///< the friction forces that were applied
   };
   /// Measures a step of sites [begin, end) from level `now`, which must be the level of the forces, to `next`. The

@@ -6,15 +6,20 @@
 /// turns (u / 2 pi), so that range reduction and a shift by whole dislocations are exact.
 namespace slipfront::chain {
 
+/// The turn minus the nearest whole number, for |turns| < 2^51, without branches.
+[[gnu::always_inline]] inline double part_of_turn(double turns) {
+  constexpr double magic = 6755399441055744.0;  // adding this rounds to a whole number
+  return turns - ((turns + magic) - magic);
+}
+
 struct PeriodicForce {
   static constexpr int terms = 8;
-  double c[terms] = {};  ///< coefficients of r, r^3, ...; r is the turn minus the nearest whole number
+  double c[terms] = {};  ///< coefficients of r, r^3, ...; r is part_of_turn
 
   /// The force at |turns| < 2^51, without branches. It is always inlined, even in builds for small code, so that loops
   /// over it become vector code.
   [[gnu::always_inline]] double operator()(double turns) const {
-    constexpr double magic = 6755399441055744.0;  // adding this rounds to a whole number
-    const double r = turns - ((turns + magic) - magic), z = r * r;
+    const double r = part_of_turn(turns), z = r * r;
     double p = c[terms - 1];
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC unroll 16

@@ -42,7 +42,7 @@ void check_ends(const Problem& p) {
                         .allowed = "free or fixed, or no friction.contact_ageing and no friction.dilatancy"});
 }
 
-bool plain(const Problem& p) { return !p.contact && !p.forcing && p.friction.linear_coefficient(); }
+bool plain(const Problem& p) { return !p.forcing && p.friction.linear_coefficient(); }
 
 /// The step at which the amplitude f of the shortest wave in x and t, (-1)^(site + level) f, obeys
 ///     f_tt - f_xx + ((a^2 - a^2 cos u) / 3 + mass^2) f = 0:
@@ -70,10 +70,10 @@ double chosen_step(const Problem& p) { return p.step > 0 ? p.step : chosen(p, la
 
 double memory_needed(const Problem& p) {
   // Implicit steps store the motion at three times, a step that is tried, and a matrix. Explicit steps store two levels
-  // and the initial displacement. Unless the chain is plain, they also store the contact, three levels of the force and
-  // the displacement at the last level. Contacts that change add theta, the pressure and five numbers each.
+  // and the initial displacement, and the contact. Unless the chain is plain, they also store three levels of the force
+  // and the displacement at the last level. Contacts that change add theta, the pressure and five numbers each.
   const double by_implicit = 40 + 3 * static_cast<double>(p.friction.state_size());
-  const double by_explicit = plain(p) ? 3 : p.friction.changes_contacts() ? 15 : 8;
+  const double by_explicit = plain(p) ? (p.contact ? 4 : 3) : p.friction.changes_contacts() ? 15 : 8;
   return static_cast<double>(p.grid.sites) * 8 * (p.implicit ? by_implicit : by_explicit);
 }
 

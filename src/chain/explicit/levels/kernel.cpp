@@ -8,6 +8,7 @@ namespace slipfront::chain {
 namespace {
 
 constexpr double turn = 6.283185307179586;
+constexpr std::size_t terms = PeriodicForce::terms;
 
 }  // namespace
 
@@ -29,6 +30,17 @@ SLIPFRONT_CLONES void local_part(const LevelRule& rule, const double* now, const
 
 namespace {
 
+/// S for a substrate of strength a2 (ContactForce).
+[[gnu::always_inline]] inline double force_of_contact(const ContactForce& f, double a2, double z) {
+  const double r = part_of_turn(z), square = r * r;
+  double p = f.coefficient(PeriodicForce::terms - 1, a2);
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC unroll 16
+#endif
+  for (int k = PeriodicForce::terms - 2; k >= 0; --k) p = p * square + f.coefficient(k, a2);
+  return a2 * (r * p);
+}
+
 /// u from z = u + strength sin(2 pi u) / 2 pi; strength < 0.1, so that two steps reach rounding.
 inline double displacement(const PeriodicForce& sine, double strength, double z) {
   double u = z - strength * sine(z);
@@ -41,16 +53,54 @@ inline double displacement(const PeriodicForce& sine, double strength, double z)
 
 }  // namespace
 
-SLIPFRONT_CLONES void local_part_with_contact(const LevelRule& rule, const PeriodicForce& sine, double eps,
-                                              const double* a2, const double* now, const double* old, double* next,
-                                              double* y, std::size_t begin, std::size_t end) {
+SLIPFRONT_CLONES void local_part_with_contact(const LevelRule& rule, const ContactForce& force, const double* a2,
+                                              const double* now, const double* old, double* next, double* y,
+                                              std::size_t begin, std::size_t end) {
   const LevelRule r = rule;
-  const PeriodicForce f = sine;
+  const ContactForce f = force;
   SLIPFRONT_INDEPENDENT
   for (std::size_t j = begin; j < end; ++j) {
-    const double z = now[j], S = a2[j] * f(displacement(f, eps * a2[j], z));
+    const double z = now[j], S = force_of_contact(f, a2[j], z);
     y[j] = z - r.coupled * S;
     next[j] = (r.keep * z - r.force * S) - r.before * old[j];
+  }
+}
+
+SLIPFRONT_CLONES void contact_coefficients(const ContactForce& force, const double* a2, double* coefficients,
+                                           std::size_t begin, std::size_t end) {
+  const ContactForce f = force;
+  for (std::size_t first = begin; first < end; first += lanes) {
+    double* const of_vector = coefficients + terms * first;
+    SLIPFRONT_INDEPENDENT
+    for (std::size_t j = 0; j < lanes; ++j) {
+      const double strength = a2[first + j];
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC unroll 16
+#endif
+      for (std::size_t k = 0; k < terms; ++k)
+        of_vector[k * lanes + j] = strength * f.coefficient(static_cast<int>(k), strength);
+    }
+  }
+}
+
+SLIPFRONT_CLONES void local_part_with_coefficients(const LevelRule& rule, const double* coefficients, const double* now,
+                                                   const double* old, double* next, double* y, std::size_t begin,
+                                                   std::size_t end) {
+  const LevelRule r = rule;
+  for (std::size_t first = begin; first < end; first += lanes) {
+    const double* const c = coefficients + terms * first;
+    SLIPFRONT_INDEPENDENT
+    for (std::size_t j = 0; j < lanes; ++j) {
+      const double z = now[first + j], rest = part_of_turn(z), square = rest * rest;
+      double p = c[(terms - 1) * lanes + j];
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC unroll 16
+#endif
+      for (std::size_t k = terms - 1; k-- > 0;) p = p * square + c[k * lanes + j];
+      const double S = rest * p;
+      y[first + j] = z - r.coupled * S;
+      next[first + j] = (r.keep * z - r.force * S) - r.before * old[first + j];
+    }
   }
 }
 
@@ -70,6 +120,13 @@ SLIPFRONT_CLONES void displacements(const PeriodicForce& force, double eps, cons
   const PeriodicForce f = force;
   SLIPFRONT_INDEPENDENT
   for (std::size_t j = 0; j < size; ++j) u[j] = z[j] - eps * f(z[j]);
+}
+
+SLIPFRONT_CLONES void displacements(const ContactForce& force, double eps, const double* a2, const double* z, double* u,
+                                    std::size_t size) {
+  const ContactForce f = force;
+  SLIPFRONT_INDEPENDENT
+  for (std::size_t j = 0; j < size; ++j) u[j] = z[j] - eps * force_of_contact(f, a2[j], z[j]);
 }
 
 SLIPFRONT_CLONES void add_neighbours(double spread, const double* y, double* next, std::size_t begin, std::size_t end) {
@@ -134,13 +191,16 @@ SLIPFRONT_CLONES void velocities(double per_step, const double* now, const doubl
   for (std::size_t j = 0; j < size; ++j) velocity[j] = (next[j] - now[j]) * per_step;
 }
 
-SLIPFRONT_CLONES void take_steps(const double* before, const double* now, const double* next, const double* u_next,
-                                 double* u, double* D, double* B, std::size_t size) {
+SLIPFRONT_CLONES void take_steps(const ContactForce& force, double eps, const double* a2_next, const double* before,
+                                 const double* now, const double* next, double* u, double* D, double* B,
+                                 std::size_t size) {
+  const ContactForce f = force;
   SLIPFRONT_INDEPENDENT
   for (std::size_t j = 0; j < size; ++j) {
-    D[j] = turn * (u_next[j] - u[j]);
-    B[j] = turn * ((next[j] - now[j]) - (now[j] - before[j]));
-    u[j] = u_next[j];
+    const double z = next[j], u_next = z - eps * force_of_contact(f, a2_next[j], z);
+    D[j] = turn * (u_next - u[j]);
+    B[j] = turn * ((z - now[j]) - (now[j] - before[j]));
+    u[j] = u_next;
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "chain/explicit/levels/contact_force.hpp"
 #include "chain/model/periodic_force.hpp"
 
 /// The loops over sites in which a chain spends its time. They are vector code that is chosen at run time (AVX-512,
@@ -21,15 +22,22 @@ inline constexpr std::size_t lanes = 8;  ///< ranges are multiples of this; arra
 /// The first loop, over [begin, end). `old` is the level before, and may be the same array as `next`.
 void local_part(const LevelRule& rule, const double* now, const double* old, double* next, double* y, std::size_t begin,
                 std::size_t end);
-/// The first loop for a substrate of strength a(x)^2. Here S = a2 sin u and z = u + eps S; Newton's method finds u.
-void local_part_with_contact(const LevelRule& rule, const PeriodicForce& sine, double eps, const double* a2,
-                             const double* now, const double* old, double* next, double* y, std::size_t begin,
-                             std::size_t end);
-/// Computes u and S from z. `a2` is null if it is 1 everywhere.
+/// The first loop for a substrate of strength a(x)^2. It ignores rule.f.
+void local_part_with_contact(const LevelRule& rule, const ContactForce& f, const double* a2, const double* now,
+                             const double* old, double* next, double* y, std::size_t begin, std::size_t end);
+/// The coefficients of the force on sites [begin, end), for the loop below. A vector of sites has its first
+/// coefficients next to each other, then its second ones, and so on.
+void contact_coefficients(const ContactForce& f, const double* a2, double* coefficients, std::size_t begin,
+                          std::size_t end);
+/// The first loop for a substrate of strength a(x)^2 that does not change. It costs hardly more than a constant a.
+void local_part_with_coefficients(const LevelRule& rule, const double* coefficients, const double* now,
+                                  const double* old, double* next, double* y, std::size_t begin, std::size_t end);
+/// Computes u and S from z, with Newton's method. `a2` is null if it is 1 everywhere.
 void displacements(const PeriodicForce& sine, double eps, const double* a2, const double* z, double* u, double* S,
                    std::size_t size);
-/// Computes only u, for a substrate of strength 1: u = z - eps f(z), with the polynomial f of its force in terms of z.
+/// Computes only u = z - eps S, with the polynomial of the force, for a substrate of strength 1 or a2.
 void displacements(const PeriodicForce& f, double eps, const double* z, double* u, std::size_t size);
+void displacements(const ContactForce& f, double eps, const double* a2, const double* z, double* u, std::size_t size);
 
 /// The second loop. It reads y from begin - 1 to end.
 void add_neighbours(double spread, const double* y, double* next, std::size_t begin, std::size_t end);
@@ -57,10 +65,10 @@ void velocities(double per_step, const double* now, const double* next, double* 
 /// The sum of products, in an order that depends only on `size`.
 double sum_of_products(const double* a, const double* b, std::size_t size);
 
-/// Computes D = u_next - u and the second difference B of z over levels, both in radians, and sets u to u_next. The
-/// argument is u_next or, in the second function, u_next = z - eps f(z) at the next level.
-void take_steps(const double* before, const double* now, const double* next, const double* u_next, double* u, double* D,
-                double* B, std::size_t size);
+/// Computes D = u_next - u and the second difference B of z over levels, both in radians, and sets u to its value
+/// u_next = z - eps S at the next level.
+void take_steps(const ContactForce& f, double eps, const double* a2_next, const double* before, const double* now,
+                const double* next, double* u, double* D, double* B, std::size_t size);
 void take_steps(const PeriodicForce& f, double eps, const double* before, const double* now, const double* next,
                 double* u, double* D, double* B, std::size_t size);
 /// Sums over sites of the work in a step (WorkMeter), to be multiplied by the spacing and the strength of friction.

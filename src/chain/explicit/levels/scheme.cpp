@@ -32,6 +32,10 @@ Scheme scheme_of(const Problem& p) {
     s.share_neighbour = 1.0 / 12;
   }
   s.rule.f = substrate_force(s.eps);
+  if (p.contact || p.friction.changes_contacts()) {
+    const double most = 1 / (least_sites_per_width * s.h);  // check(Problem) accepts no larger a, except on a lattice
+    s.contact = contact_force(s.eps, most * most);
+  }
   return s;
 }
 

@@ -14,9 +14,10 @@ namespace slipfront::chain {
 
 struct Scheme {
   double h = 0, dt = 0;
-  double eps = 0;    ///< z = u + eps S
-  LevelRule rule;    ///< one step; includes C if friction is viscous
-  double force = 0;  ///< change of z at the next level by a unit force that is equal at all five points
+  double eps = 0;        ///< z = u + eps S
+  LevelRule rule;        ///< one step; includes C if friction is viscous
+  ContactForce contact;  ///< in place of rule.f if a is not 1 everywhere
+  double force = 0;      ///< change of z at the next level by a unit force that is equal at all five points
   double share_next = 0, share_now = 0, share_before = 0,
          share_neighbour = 0;  ///< shares of `force` for the five points
 };

@@ -114,10 +114,10 @@ void mend_ends(const EndConditions& s, const EndSites& bare, double spread, cons
   mend_right(s, bare, level, last, outflow);
 }
 
-void Slab::advance(const LevelRule& rule, std::size_t count, std::size_t tile) {
+void Slab::advance(const Scheme& scheme, const double* a2, std::size_t count, std::size_t tile) {
   tile = std::max(std::min(tile, (size_ + lanes - 1) / lanes * lanes), 2 * halo);
   const std::size_t room = tile + 2 * halo + 2 * pad;
-  if (tile_.size != room) tile_ = Tile(room);
+  if (tile_.size != room) tile_ = Tile(room, a2 != nullptr);
   copy(now() - halo, tile_.left_now.data(), halo);
   copy(old() - halo, tile_.left_old.data(), halo);
   for (std::size_t from = 0, width = 0; from < size_; from += width) {
@@ -125,7 +125,11 @@ void Slab::advance(const LevelRule& rule, std::size_t count, std::size_t tile) {
     // The last tile is at least as wide as a halo, so that the end of the chain is in no other tile's halo.
     if (from + width < size_ && size_ - from - width < halo) width -= halo;
     load(from, width);
-    advance_tile(rule, count, tile, from, width);
+    if (a2 != nullptr) {
+      const std::size_t end = (tile_begin + width + halo + lanes - 1) / lanes * lanes;
+      contact_coefficients(scheme.contact, a2 + from - tile_begin, tile_.coefficients.data(), pad, end);
+    }
+    advance_tile(scheme.rule, a2 != nullptr, count, tile, from, width);
   }
 }
 
@@ -142,7 +146,7 @@ void Slab::load(std::size_t from, std::size_t width) {
   copy(old() + from + width - halo, tile_.left_old.data(), halo);
 }
 
-void Slab::advance_tile(const LevelRule& rule, std::size_t count, std::size_t tile, std::size_t from,
+void Slab::advance_tile(const LevelRule& rule, bool contact, std::size_t count, std::size_t tile, std::size_t from,
                         std::size_t width) {
   double *z = tile_.now.data(), *next = tile_.next.data(), *const y = tile_.y.data();
   const std::size_t first = tile_begin, last = first + width - 1;
@@ -160,7 +164,10 @@ void Slab::advance_tile(const LevelRule& rule, std::size_t count, std::size_t ti
     const std::size_t left = is_end(ends.left) ? first : pad + level;
     const std::size_t right = is_end(ends.right) ? last + 1 : last + 1 + halo - level;
     const std::size_t begin = left / lanes * lanes, end = (right + lanes - 1) / lanes * lanes;
-    local_part(rule, z, next, next, y, begin, end);
+    if (contact)
+      local_part_with_coefficients(rule, tile_.coefficients.data(), z, next, next, y, begin, end);
+    else
+      local_part(rule, z, next, next, y, begin, end);
     const EndSites bare = before_neighbours(ends, next, first, last);
     add_neighbours(rule.spread, y, next, begin, end);
     mend_ends(ends, bare, rule.spread, z, y, next, first, last, outflow);

@@ -57,8 +57,9 @@ class Slab {
   const EndConditions& ends() const { return ends_; }
   void swap() { current_ = 1 - current_; }
 
-  /// `count` <= halo levels, tile by tile in cache, in place. Bits do not depend on `tile` (a multiple of lanes).
-  void advance(const LevelRule& rule, std::size_t count, std::size_t tile);
+  /// `count` <= halo levels, tile by tile in cache, in place. Bits do not depend on `tile` (a multiple of lanes). `a2`
+  /// is a^2 from site `begin` on, and of a halo and a vector on either side; null if a is 1 everywhere.
+  void advance(const Scheme& scheme, const double* a2, std::size_t count, std::size_t tile);
 
   Outflow outflow;  ///< through its ends
 
@@ -66,18 +67,27 @@ class Slab {
   static constexpr std::size_t margin = 2 * halo;
   /// Arrays for one tile, and the sites left of it at the levels from which its computation starts.
   struct Tile {
-    explicit Tile(std::size_t sites) : size(sites), now(sites), next(sites), y(sites), left_now(halo), left_old(halo) {}
+    Tile(std::size_t sites, bool contact)
+        : size(sites),
+          now(sites),
+          next(sites),
+          y(sites),
+          left_now(halo),
+          left_old(halo),
+          coefficients(contact ? PeriodicForce::terms * sites : 0) {}
     std::size_t size;
     Aligned now, next, y, left_now, left_old;
+    Aligned coefficients;  ///< contact_coefficients
   };
   void load(std::size_t from, std::size_t width);
-  void advance_tile(const LevelRule& rule, std::size_t count, std::size_t tile, std::size_t from, std::size_t width);
+  void advance_tile(const LevelRule& rule, bool contact, std::size_t count, std::size_t tile, std::size_t from,
+                    std::size_t width);
 
   std::size_t begin_, size_;
   EndConditions ends_;
   Aligned levels_[2];
   std::size_t current_ = 0;
-  Tile tile_{0};
+  Tile tile_{0, false};
 };
 
 /// The results of local_part at the ends of the chain, or on both ends of a seam, before neighbours are added.
