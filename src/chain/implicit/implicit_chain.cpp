@@ -47,6 +47,7 @@ ChainParts parts_of(const Problem& p, const std::vector<double>& u) {
       static_cast<std::size_t>(std::clamp(dislocations >= 8 ? dislocations / 8 : length / 60, 1.0, 64.0));
   ChainParts parts;
   parts.length = length / static_cast<double>(count);
+  parts.ring = p.boundary.periodic;
   for (auto* column : {&parts.x, &parts.u, &parts.velocity}) column->resize(count);
   return parts;
 }

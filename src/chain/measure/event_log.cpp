@@ -64,19 +64,23 @@ void EventLog::follow(double time, double load, const ChainParts& parts, double 
   event.peak_velocity = std::fmax(event.peak_velocity, largest);
   event.length = moved * parts.length;
   event.duration = time - event.onset;
-  event.rupture_velocity = front_velocity();
+  event.rupture_velocity = front_velocity(parts);
   if (largest >= threshold_ / 2) return;
   event.complete = 1;
   within_ = false;
 }
 
-/// The slope of distance from the origin against time, by least squares over the parts that moved.
-double EventLog::front_velocity() const {
+/// The slope of distance from the origin against time, by least squares over the parts that moved. On a ring the
+/// distance is the shorter way around. A slope above c is no front: nothing travels that fast, so these parts moved on
+/// their own.
+double EventLog::front_velocity(const ChainParts& parts) const {
   constexpr double at_once = 1e-3;  // fraction of the duration
+  const double around = parts.ring ? parts.length * static_cast<double>(parts.x.size()) : HUGE_VAL;
   double count = 0, mean_t = 0, mean_d = 0, tt = 0, td = 0, first = HUGE_VAL, last = -HUGE_VAL;
   const auto each = [&](const auto& take) {
     for (std::size_t i = 0; i < x_.size(); ++i)
-      if (!std::isnan(arrivals_[i])) take(arrivals_[i], std::fabs(x_[i] - events_.back().origin));
+      if (const double d = std::fabs(x_[i] - events_.back().origin); !std::isnan(arrivals_[i]))
+        take(arrivals_[i], std::fmin(d, around - d));
   };
   each([&](double t, double d) {
     count += 1;
@@ -92,7 +96,7 @@ double EventLog::front_velocity() const {
     tt += (t - mean_t) * (t - mean_t);
     td += (t - mean_t) * (d - mean_d);
   });
-  return tt > 0 && td > 0 ? td / tt : none;
+  return td > 0 && td <= tt ? td / tt : none;
 }
 
 std::vector<double> EventLog::saved() const {

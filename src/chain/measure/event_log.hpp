@@ -13,6 +13,7 @@ struct ChainParts {
   std::vector<double> x;            ///< the middle of each part
   std::vector<double> u, velocity;  ///< u at the end of the step; velocity at which friction was evaluated
   double length = 0;                ///< length of each part
+  bool ring = false;                ///< the last part is next to the first one
 };
 
 /// Finds the slip events of a loaded chain while it moves (docs/loading.md). All values are in the units of the chain.
@@ -35,7 +36,7 @@ class EventLog {
  private:
   void begin(double time, double load, const ChainParts& parts, double largest, std::size_t first);
   void follow(double time, double load, const ChainParts& parts, double largest);
-  double front_velocity() const;
+  double front_velocity(const ChainParts& parts) const;
 
   /// The numbers and rows that a checkpoint stores, in the order of the file.
   template <class Log>
