@@ -1,6 +1,6 @@
-"""Draws the pictures of docs/theory: train.png, fan.png and friction.png.
+"""Draws the pictures of docs/theory: train.png, fan.png, friction.png and births.png.
 
-Usage: PYTHONPATH=build/release/python figures.py [FOLDER]. Needs python3-matplotlib; takes some seconds.
+Usage: PYTHONPATH=build/release/python figures.py [FOLDER]. Needs python3-matplotlib; takes half a minute.
 """
 
 import io
@@ -17,6 +17,9 @@ from PIL import Image  # noqa: E402
 import slipfront  # noqa: E402
 
 HERE = pathlib.Path(__file__).parent
+sys.path.insert(0, str(HERE.parents[1] / "tests" / "reference"))
+import births as rule  # noqa: E402
+
 STYLE = HERE.parents[1] / "python" / "slipfront" / "slipfront.mplstyle"
 STRESS = 0.855  # before the rupture, as in the paper's figures
 
@@ -119,10 +122,32 @@ def friction():
     return figure
 
 
+def births():
+    """Frequency of births into an empty interface, and births under viscous friction against time, on chain and in averages."""
+    figure, (left, right) = plt.subplots(1, 2, figsize=(8, 3.2), layout="constrained")
+    stresses = np.linspace(2, 6, 100)
+    left.plot(stresses, rule.birth_frequency(stresses), label="(7.9)")
+    measured = [2.02, 2.1, 2.3, 2.6, 3, 3.5, 4, 5, 6]
+    left.plot(measured, [rule.state_at_end(s, np.zeros(3300))[0] for s in measured], "o", label="chain")
+    left.set(xlabel="stress at the end (mu A / pi)", ylabel="frequency of births (c A / b)")
+    left.legend()
+    times = np.arange(0.25, 4.01, 0.25)
+    for stress, colour in zip((2.1, 2.6, 4), ("C0", "C1", "C2")):
+        def load(time, number, stress=stress):
+            return stress
+        chain = rule.births(load, lambda w: w, 200, 2.2, times)
+        averages = rule.Gas(0.01).run(load, lambda momentum, dt: momentum * np.exp(-dt), times)
+        right.plot(times, [row[1] for row in averages], colour, label=f"stress {stress:g}")
+        right.plot(times, chain[:, 0], "o", color=colour, markersize=3)
+    right.set(xlabel="C t", ylabel="C times number of births")
+    right.legend()
+    return figure
+
+
 def main():
     folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else HERE)
     plt.style.use(STYLE)
-    for draw in (train, fan, friction):
+    for draw in (train, fan, friction, births):
         picture = io.BytesIO()
         draw().savefig(picture, dpi=110)
         Image.open(picture).convert("P", palette=Image.Palette.ADAPTIVE, colors=64).save(folder / f"{draw.__name__}.png", optimize=True)

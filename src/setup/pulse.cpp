@@ -31,9 +31,11 @@ void require_averages(const scenario::Scenario& s) {
         {.file = s.file, .key = std::move(key), .value = std::move(value), .problem = problem, .allowed = allowed});
   };
   if (s.loading.acts())
-    refuse("loading.stiffness", "",
-           "the averages have no rule for where loading gives birth to dislocations, which their equations conserve",
-           "slipfront chain, where dislocations are born by themselves");
+    refuse(
+        "loading.stiffness", "",
+        "the averages conserve the number of dislocations, and loading creates them; pulse does not have the rule for "
+        "births at an end (docs/theory/7_loading.md, 7.4)",
+        "slipfront chain, where dislocations arise without a rule");
   for (const friction::Parameter& p : s.friction.definition().parameters)
     if (p.only_on_chain && s.friction.parameter(p.name) != 0)
       refuse(
