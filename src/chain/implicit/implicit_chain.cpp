@@ -76,8 +76,8 @@ ImplicitChain::ImplicitChain(const Problem& p, const MotionOf& start, const Exec
     if (forces_.springs().held(j)) now_.v[j] = 0;
     now_.w[j] = now_.v[j];
     if (!forces_.rubs()) continue;
-    const auto force = [&](double velocity) { return friction(j, velocity); };
-    now_.slope[j] = SiteForces::slope(force, now_.v[j], force(now_.v[j]));
+    const double v = now_.v[j], change = SiteForces::difference(v);
+    now_.slope[j] = (friction(j, v + change) - friction(j, v)) / change;
   }
 }
 

@@ -9,14 +9,20 @@
 
 namespace slipfront::chain {
 
+namespace {
+
+constexpr std::size_t together = 64;  ///< sites in one pass of the friction loops
+
+}  // namespace
+
 ImplicitStep::ImplicitStep(const SiteForces& forces, int threads)
     : forces_(forces),
       springs_(forces.springs()),
       friction_law_(forces.problem().friction),
       threads_(threads),
       matrix_(forces.sites()) {
-  for (auto* column :
-       {&w_, &weight_, &shift_, &force_, &slope_, &middle_, &friction_, &friction_slope_, &forcing_, &right_, &errors_})
+  for (auto* column : {&w_, &per_weight_, &shift_, &force_, &slope_, &middle_, &friction_, &friction_slope_, &forcing_,
+                       &right_, &errors_})
     column->resize(forces.sites());
 }
 
@@ -25,17 +31,63 @@ void ImplicitStep::for_sites(const Each& each) const {
   for_each_on_team(sites(), sites() > 20000 ? threads_ : 1, each);
 }
 
-/// Friction at the state of the middle of the step, which has evolved at the mean velocity. Where contacts change, it
+/// Calls each(first, size) for all sites, in groups.
+template <class Each>
+void ImplicitStep::for_groups(const Each& each) const {
+  for_each_on_team((sites() + together - 1) / together, sites() > 20000 ? threads_ : 1, [&](std::size_t group) {
+    const std::size_t first = group * together;
+    each(first, std::min(together, sites() - first));
+  });
+}
+
+/// Friction at the state of the middle of the step, which has evolved at the mean velocity, where contacts change. It
 /// includes the force by which the substrate exceeds that of the start of the step.
 double ImplicitStep::friction_at(std::size_t j, double w, double dt) const {
-  if (forces_.variables() == 0) return friction_law_.force(w);
   SiteForces::State values;
   const double p = from_->v[j] + gain(j, w) / 2;
   const double force = friction_law_.force(w, forces_.evolved(*from_, j, p, dt / 2, values));
-  if (!forces_.contacts_change()) return force;
   const SiteForces::Aged then = forces_.aged(*from_, j, p, dt);
   const double more = (then.a2 - forces_.contact_squared(*from_, j)) / 2;
   return then.share * force + (more == 0 ? 0 : more * mean_sine(from_->u[j] + dt * p / 2, dt * p / 2));
+}
+
+/// Friction on a group of sites at the velocities w, with the state of the middle of the step.
+void ImplicitStep::find_friction(std::size_t first, std::size_t size, const double* w, double dt, double* force) const {
+  if (forces_.contacts_change()) {
+    for (std::size_t i = 0; i < size; ++i) force[i] = friction_at(first + i, w[i], dt);
+    return;
+  }
+  double speed[together], state[together * SiteForces::most_variables];
+  const std::size_t variables = forces_.variables();
+  if (variables > 0) {
+    double mean[together] = {};
+    for (std::size_t i = 0; i < size; ++i) mean[i] = from_->v[first + i] + gain(first + i, w[i]) / 2;
+    std::copy_n(from_->state.data() + variables * first, variables * size, state);
+    friction_law_.evolution().advance_all(size, friction::Slips::at(mean), dt / 2, variables, state);
+  }
+  for (std::size_t i = 0; i < size; ++i) speed[i] = std::fabs(w[i]);
+  friction_law_.loops().strengths(size, speed, {state, variables}, force);
+  for (std::size_t i = 0; i < size; ++i) force[i] = w[i] == 0 ? 0 : std::copysign(force[i], w[i]);
+}
+
+/// Computes friction on a group of sites, and its slope.
+void ImplicitStep::rub(std::size_t first, std::size_t size, double dt) {
+  double moved[together] = {}, change[together], force[together];
+  const double* const w = w_.data() + first;
+  for (std::size_t i = 0; i < size; ++i) {
+    change[i] = SiteForces::difference(w[i]);
+    moved[i] = w[i] + change[i];
+  }
+  find_friction(first, size, w, dt, friction_.data() + first);
+  find_friction(first, size, moved, dt, force);
+  for (std::size_t i = 0; i < size; ++i) friction_slope_[first + i] = (force[i] - friction_[first + i]) / change[i];
+}
+
+void ImplicitStep::evaluate_all(double dt) {
+  for_groups([&](std::size_t first, std::size_t size) {
+    if (forces_.rubs()) rub(first, size, dt);
+    for (std::size_t j = first; j < first + size; ++j) evaluate(j, dt);
+  });
 }
 
 /// Guesses velocities, and chooses the velocity that friction feels.
@@ -48,13 +100,13 @@ void ImplicitStep::prepare(const Moment& from, double dt) {
   rounding_ = 1e-13 + 4 * std::numeric_limits<double>::epsilon() * largest / (springs_.spacing() * springs_.spacing());
   for_sites([&](std::size_t j) {
     const double z = dt * std::fmax(from.slope[j], 0.0), eta = from.steps == 0 ? 0 : z / (3 * (1 + z));
-    weight_[j] = (1 + eta) / 2;
+    per_weight_[j] = 2 / (1 + eta);
     shift_[j] = eta / 2 * dt * from.acceleration[j];
     w_[j] = springs_.held(j) ? 0 : z > 1 ? from.w[j] : from.v[j] + dt / 2 * from.acceleration[j];
   });
 }
 
-/// The force on a site from all but its neighbours, (v' - v) / dt + S + f - F, and its slope in w.
+/// The force on a site from all but its neighbours, (v' - v) / dt + S + f - F, and its slope in w. Call `rub` first.
 void ImplicitStep::evaluate(std::size_t j, double dt) {
   if (springs_.held(j)) {
     force_[j] = springs_.held_force(j);
@@ -62,21 +114,18 @@ void ImplicitStep::evaluate(std::size_t j, double dt) {
     middle_[j] = from_->u[j];
     return;
   }
-  const double weight = weight_[j], w = w_[j], p = mean_velocity(j), half = dt * p / 2;
+  const double gained = gain(j, w_[j]), p = from_->v[j] + gained / 2, half = dt * p / 2;
   const double a2 = forces_.contact_squared(*from_, j), K = forces_.pull(j), middle = from_->u[j] + half;
   const double pulled = K * forces_.stretch(j, middle, from_->time + dt / 2);
-  double force = gain(j, w) / dt - forcing_[j] - pulled, by_p = K * dt / 2;
+  double force = gained / dt - forcing_[j] - pulled, by_p = K * dt / 2;
   if (a2 > 0) {
     const Sinc s = sinc(half);
     const double sine = std::sin(middle), cosine = std::cos(middle);
     force += a2 * sine * s.value;
     by_p += a2 * dt / 2 * (cosine * s.value + sine * s.slope);
   }
-  double slope = 1 / (weight * dt) + by_p / (2 * weight);
+  double slope = per_weight_[j] * (1 / dt + by_p / 2);
   if (forces_.rubs()) {
-    const auto friction = [&](double velocity) { return friction_at(j, velocity, dt); };
-    friction_[j] = friction(w);
-    friction_slope_[j] = SiteForces::slope(friction, w, friction_[j]);
     force += friction_[j];
     slope += friction_slope_[j];
   }
@@ -90,8 +139,8 @@ void ImplicitStep::evaluate(std::size_t j, double dt) {
 /// the velocity changes it by many decades at a time, up or down, which no linear step follows.
 double ImplicitStep::velocity_under_friction(std::size_t j, double change, double dt) const {
   const double w = w_[j], f = friction_[j];
-  const double by_springs = dt / (2 * weight_[j] * springs_.spacing() * springs_.spacing());
-  const double weight = 1 / std::fmax(slope_[j] - friction_slope_[j] + by_springs, 1 / (2 * weight_[j] * dt));
+  const double by_springs = dt * per_weight_[j] / (2 * springs_.spacing() * springs_.spacing());
+  const double weight = 1 / std::fmax(slope_[j] - friction_slope_[j] + by_springs, per_weight_[j] / (2 * dt));
   SiteForces::State values;
   const double linear = w + weight * f + change * (1 + weight * friction_slope_[j]);
   return friction_law_.velocity_after(linear, weight, forces_.evolved(*from_, j, mean_velocity(j), dt / 2, values));
@@ -116,10 +165,10 @@ ImplicitStep::Outcome ImplicitStep::correct(double dt) {
 }
 
 void ImplicitStep::build_matrix(double dt) {
-  const double m = springs_.coupling(), h2 = springs_.spacing() * springs_.spacing();
+  const double m = springs_.coupling(), by_bend = dt / (4 * springs_.spacing() * springs_.spacing());
   const bool ring = springs_.periodic();
   const auto column = [&](std::size_t j, double spread, double bend) {
-    return springs_.held(j) ? 0 : spread * slope_[j] - bend * dt / (4 * weight_[j] * h2);
+    return springs_.held(j) ? 0 : spread * slope_[j] - bend * by_bend * per_weight_[j];
   };
   for_sites([&](std::size_t j) {
     const bool first = j == 0, last = j + 1 == sites();
@@ -140,13 +189,13 @@ bool ImplicitStep::solve(const Moment& from, double dt) {
   constexpr int most_iterations = 40;
   prepare(from, dt);
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    for_sites([&](std::size_t j) { evaluate(j, dt); });
+    evaluate_all(dt);
     build_matrix(dt);
     matrix_.solve(right_, springs_.periodic());
     const Outcome outcome = correct(dt);
     if (outcome == Outcome::failed) return false;
     if (outcome == Outcome::improved) continue;
-    for_sites([&](std::size_t j) { evaluate(j, dt); });
+    evaluate_all(dt);
     return true;
   }
   return false;
@@ -163,43 +212,57 @@ double ImplicitStep::creep_error(std::size_t j, double dt) const {
   return std::fabs(mean - std::fabs(w));
 }
 
-/// Error of the logarithm of the state variables, if the mean velocity has the error `by_velocity`.
-double ImplicitStep::state_error(std::size_t j, double dt, double by_velocity) const {
-  const double p = std::fabs(mean_velocity(j));
+/// Errors of the logarithm of the state variables, if the mean velocities have the errors `by_velocity`.
+void ImplicitStep::find_state_errors(std::size_t first, std::size_t size, double dt, const double* by_velocity,
+                                     double* error) const {
   const std::size_t variables = forces_.variables();
-  const double* const start = &from_->state[variables * j];
-  SiteForces::State first, second;
-  const std::span<const double> one = forces_.evolved(*from_, j, p, dt, first);
-  const auto difference = [](double a, double b) {
-    return a > 0 && b > 0 ? std::fabs(std::log(a / b)) : std::fabs(a - b);
+  const double* const start = from_->state.data() + variables * first;
+  double p[together] = {}, one[together * SiteForces::most_variables], other[together * SiteForces::most_variables];
+  const auto evolve = [&](double* state) {
+    std::copy_n(start, variables * size, state);
+    friction_law_.evolution().advance_all(size, friction::Slips::at(p), dt, variables, state);
   };
-  double moved = 0, most = 0;
-  for (std::size_t i = 0; i < variables; ++i) moved = std::fmax(moved, difference(one[i], start[i]));
+  const auto difference = [variables](const double* a, const double* b) {
+    double most = 0;
+    for (std::size_t k = 0; k < variables; ++k)
+      most = std::fmax(most, a[k] > 0 && b[k] > 0 ? std::fabs(std::log(a[k] / b[k])) : std::fabs(a[k] - b[k]));
+    return most;
+  };
+  for (std::size_t i = 0; i < size; ++i) p[i] = std::fabs(mean_velocity(first + i));
+  evolve(one);
+  for (std::size_t i = 0; i < size; ++i) {
+    const double moved = difference(one + variables * i, start + variables * i);
+    p[i] += by_velocity[i] + std::fabs(gain(first + i, w_[first + i])) / 12 * std::fmin(1, moved);
+  }
+  evolve(other);
   // The state counts forty times: near the critical stiffness, peak velocities are most sensitive to its errors.
   constexpr double weight = 40;
-  const double doubt = by_velocity + std::fabs(next_velocity(j) - from_->v[j]) / 12 * std::fmin(1, moved);
-  const std::span<const double> other = forces_.evolved(*from_, j, p + doubt, dt, second);
-  for (std::size_t i = 0; i < variables; ++i) most = std::fmax(most, difference(one[i], other[i]));
-  return weight * most;
+  for (std::size_t i = 0; i < size; ++i) error[i] = weight * difference(one + variables * i, other + variables * i);
 }
 
-/// The error at a site: that of the trapezoidal rule, dt^3 y''' / 12, by differences of the accelerations of three
-/// steps, that of creep and that of the state.
-double ImplicitStep::error_at(std::size_t j, double dt) const {
+/// The errors at a group of sites: that of the trapezoidal rule, dt^3 y''' / 12, by differences of the accelerations of
+/// three steps, that of creep and that of the state.
+void ImplicitStep::find_errors(std::size_t first, std::size_t size, double dt) {
   const double h1 = from_->last_step, h2 = from_->earlier_step;
-  const double now = (next_velocity(j) - from_->v[j]) / dt;
-  const double jerk = (now - from_->acceleration[j]) / ((dt + h1) / 2);
-  const double before = (from_->acceleration[j] - from_->earlier[j]) / ((h1 + h2) / 2);
-  const double snap = (jerk - before) / ((dt + 2 * h1 + h2) / 4);
-  const double by_creep = creep_error(j, dt);
-  double worst = std::fmax(dt * dt * dt / 12 * std::fmax(std::fabs(jerk), std::fabs(snap)), dt * by_creep);
-  if (forces_.variables() > 0) worst = std::fmax(worst, state_error(j, dt, dt * dt * std::fabs(jerk) / 12 + by_creep));
-  return std::isfinite(worst) ? worst : HUGE_VAL;
+  double by_velocity[together] = {}, by_state[together] = {};
+  for (std::size_t i = 0; i < size; ++i) {
+    const std::size_t j = first + i;
+    const double jerk = (gain(j, w_[j]) / dt - from_->acceleration[j]) / ((dt + h1) / 2);
+    const double before = (from_->acceleration[j] - from_->earlier[j]) / ((h1 + h2) / 2);
+    const double snap = (jerk - before) / ((dt + 2 * h1 + h2) / 4), by_creep = creep_error(j, dt);
+    errors_[j] = std::fmax(dt * dt * dt / 12 * std::fmax(std::fabs(jerk), std::fabs(snap)), dt * by_creep);
+    by_velocity[i] = dt * dt * std::fabs(jerk) / 12 + by_creep;
+  }
+  if (forces_.variables() > 0) find_state_errors(first, size, dt, by_velocity, by_state);
+  for (std::size_t i = 0; i < size; ++i) {
+    const double worst = std::fmax(errors_[first + i], by_state[i]);
+    errors_[first + i] = springs_.held(first + i) ? 0 : std::isfinite(worst) ? worst : HUGE_VAL;
+  }
 }
 
 double ImplicitStep::error(const Moment& from, double dt) {
   if (!(from.earlier_step > 0)) return 0.125;  // not known yet: grow carefully
-  for_sites([&](std::size_t j) { errors_[j] = springs_.held(j) ? 0 : error_at(j, dt); });
+  for_groups([&](std::size_t first, std::size_t size) { find_errors(first, size, dt); });
   return *std::max_element(errors_.begin(), errors_.end()) / forces_.problem().tolerance;
 }
 

@@ -38,19 +38,25 @@ class ImplicitStep {
   void prepare(const Moment& from, double dt);
   void evaluate(std::size_t j, double dt);
   double friction_at(std::size_t j, double w, double dt) const;
+  void find_friction(std::size_t first, std::size_t size, const double* w, double dt, double* force) const;
+  void rub(std::size_t first, std::size_t size, double dt);
+  void evaluate_all(double dt);
   double velocity_under_friction(std::size_t j, double change, double dt) const;
   void build_matrix(double dt);
   enum class Outcome { failed, improved, converged };
   Outcome correct(double dt);
-  double error_at(std::size_t j, double dt) const;
+  void find_errors(std::size_t first, std::size_t size, double dt);
   double creep_error(std::size_t j, double dt) const;
-  double state_error(std::size_t j, double dt, double by_velocity) const;
+  void find_state_errors(std::size_t first, std::size_t size, double dt, const double* by_velocity,
+                         double* error) const;
   void add_energies(Moment& m, double dt) const;
   template <class Each>
   void for_sites(const Each& each) const;
+  template <class Each>
+  void for_groups(const Each& each) const;
 
   /// v' - v if friction is evaluated at the velocity w.
-  double gain(std::size_t j, double w) const { return (w - from_->v[j] + shift_[j]) / weight_[j]; }
+  double gain(std::size_t j, double w) const { return (w - from_->v[j] + shift_[j]) * per_weight_[j]; }
   double mean_velocity(std::size_t j) const { return from_->v[j] + gain(j, w_[j]) / 2; }
   double next_velocity(std::size_t j) const { return from_->v[j] + gain(j, w_[j]); }
   std::size_t sites() const { return w_.size(); }
@@ -63,7 +69,7 @@ class ImplicitStep {
   double rounding_ = 0;  ///< rounding error of the force on a site
   // These have an element for each site.
   std::vector<double> w_;                          ///< velocity at which friction is evaluated
-  std::vector<double> weight_, shift_;             ///< w = v + weight (v' - v) - shift
+  std::vector<double> per_weight_, shift_;         ///< w = v + (v' - v) / per_weight - shift
   std::vector<double> force_, slope_, middle_;     ///< all forces except springs, their slope in w; (u + u') / 2
   std::vector<double> friction_, friction_slope_;  ///< f, and its slope in w
   std::vector<double> forcing_, right_, errors_;

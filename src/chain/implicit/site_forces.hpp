@@ -83,12 +83,8 @@ class SiteForces {
   void check_contacts(const Moment& m) const;
 
   static constexpr double smallest_velocity = 1e-290;  ///< far below that of any interface at rest
-  /// The slope of a friction force f(w) at w, where it is f, by a small difference away from rest.
-  template <class Force>
-  static double slope(const Force& force, double w, double f) {
-    const double step = std::copysign(std::fmax(1e-6 * std::fabs(w), smallest_velocity), w);
-    return (force(w + step) - f) / step;
-  }
+  /// A small change of a velocity w, away from rest, for the slope of friction there.
+  static double difference(double w) { return std::copysign(std::fmax(1e-6 * std::fabs(w), smallest_velocity), w); }
 
  private:
   void start_contacts(Moment& now);

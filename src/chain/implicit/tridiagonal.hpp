@@ -17,8 +17,9 @@ class Tridiagonal {
   std::vector<double> below, diagonal, above;
 
  private:
-  void eliminate(std::vector<double>& right);
-  std::vector<double> scaled_, correction_;
+  void eliminate();
+  void substitute(std::vector<double>& right) const;
+  std::vector<double> scaled_, per_pivot_, correction_;
 };
 
 }  // namespace slipfront::chain
