@@ -30,8 +30,8 @@ void describe(const scenario::Scenario& s, const Comparison& c, const std::strin
                                  s.title.empty() ? s.file : s.title, c.exact ? "the closed form, " : "");
   for (const auto& chain : c.chains)
     text += fmt::format(", chain at scale {:.6g} ({} sites)", chain.scale, chain::problem_of(chain).grid.sites);
-  put(text + fmt::format(" over x = {:.6g} ... {:.6g} to t = {:.6g}, {}.\n", c.problem.left, c.problem.right, s.end,
-                         in_words(need)));
+  put(text + fmt::format(" over x = {} ... {} to t = {}, {}.\n", in_results(s, c.problem.left, "b / A"),
+                         in_results(s, c.problem.right, "b / A"), in_results(s, s.end, "b / (c A)"), in_words(need)));
 }
 
 int run_compare(const Arguments& a) {

@@ -41,10 +41,11 @@ std::string duration_of(const pulse::Problem& problem, pulse::Run& run) {
 
 void describe(const scenario::Scenario& s, const run::PulsePlan& plan, pulse::Run& run) {
   const pulse::Problem& problem = plan.problem;
-  put(fmt::format(
-      "{}: OK. This scenario would run {} cells over x = {:.6g} ... {:.6g} to t = {:.6g}, {} (closure {}), {}{}.\n",
-      s.title.empty() ? s.file : s.title, problem.cells, problem.left, problem.right, s.end,
-      parameters_in_words(s.friction), name_of(s.friction.closure()), in_words(plan.need), duration_of(problem, run)));
+  put(fmt::format("{}: OK. This scenario would run {} cells over x = {} ... {} to t = {}, {} (closure {}), {}{}.\n",
+                  s.title.empty() ? s.file : s.title, problem.cells, in_results(s, problem.left, "b / A"),
+                  in_results(s, problem.right, "b / A"), in_results(s, s.end, "b / (c A)"),
+                  parameters_in_words(s.friction), name_of(s.friction.closure()), in_words(plan.need),
+                  duration_of(problem, run)));
 }
 
 int run_pulse(ScenarioArguments a, std::optional<double> tolerance) {

@@ -2,12 +2,16 @@
 
 #include <CLI/CLI.hpp>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <memory>
+#include <optional>
 
 #include "batch.hpp"
 #include "commands.hpp"
 #include "json.hpp"
 #include "relations_friction.hpp"
+#include "slipfront/medium/constants.hpp"
 #include "slipfront/rupture/relations.hpp"
 #include "state_values.hpp"
 #include "terminal_table.hpp"
@@ -44,6 +48,45 @@ Relations solve(const State& state) {
   }
 }
 
+/// Options for results in SI units.
+struct SiOptions {
+  bool si = false;
+  std::optional<double> contact_ratio;
+  slipfront::medium::StatedDefaults rock;
+};
+
+/// The units of the quantities in results: 1, or SI units.
+RelationsUnits units_of(const SiOptions& options) {
+  RelationsUnits units(relations_quantities().size());
+  if (!options.si) return units;
+  if (!options.contact_ratio)
+    throw InputError({.file = "command line",
+                      .key = "--si",
+                      .problem = "it needs --contact-ratio",
+                      .allowed = "--contact-ratio A, such as 0.003"});
+  const auto rock = slipfront::medium::elastic({}, slipfront::medium::defaults_of(options.rock));
+  const slipfront::medium::SymbolValues values{.mu = rock.shear_modulus,
+                                               .nu = rock.poisson_ratio,
+                                               .A = *options.contact_ratio,
+                                               .b = std::nan(""),  // no quantity has it
+                                               .c = rock.speed};
+  for (std::size_t i = 0; i < units.size(); ++i)
+    if (const auto unit = relations_quantities()[i].about.dimensional_unit; !unit.empty())
+      units[i] = slipfront::medium::in_si(unit, values);
+  return units;
+}
+
+Relations in_units(Relations r, const RelationsUnits& units) {
+  for (std::size_t i = 0; i < units.size(); ++i) r.*relations_quantities()[i].value *= units[i].value;
+  return r;
+}
+
+/// The name of a unit as the tables show it.
+std::string shown_unit(std::size_t quantity, const RelationsUnits& units, bool si) {
+  if (!si) return std::string(relations_quantities()[quantity].about.dimensional_unit);
+  return units[quantity].name == "1" ? "" : units[quantity].name;
+}
+
 std::string json_row(const Relations& r) {
   Json row;
   for (const RelationsQuantity& q : relations_quantities()) row[std::string(q.about.name)] = r.*q.value;
@@ -67,20 +110,26 @@ std::vector<std::string> table_row(const Relations& r) {
   return cells;
 }
 
-void print_one(const Relations& r) {
-  for (const RelationsQuantity& q : relations_quantities()) {
-    const auto& [name, long_name, unit, reference] = q.about;
+void print_one(const Relations& r, const RelationsUnits& units, bool si) {
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    const RelationsQuantity& q = relations_quantities()[i];
+    const auto& [name, long_name, of_model, reference] = q.about;
+    const std::string unit = shown_unit(i, units, si);
     put(fitted(fmt::format("{:<31} {:<24} {}{}{}", name, r.*q.value, long_name, unit.empty() ? "" : ", in ", unit),
                31 + 1 + 24 + 1));
   }
 }
 
-void print_json(const std::vector<Relations>& results, int threads) {
+void print_json(const std::vector<Relations>& results, const RelationsUnits& units, bool si, int threads) {
   put("{\"relations\": [");
   const auto rows =
       in_parallel<std::string>(results.size(), threads, [&](std::size_t i) { return json_row(results[i]); });
   for (std::size_t i = 0; i < rows.size(); ++i) put((i == 0 ? "\n" : ",\n") + rows[i]);
-  put("\n]}\n");
+  if (!si) return put("\n]}\n");
+  Json names;
+  for (std::size_t i = 0; i < units.size(); ++i)
+    if (units[i].name != "1") names[std::string(relations_quantities()[i].about.name)] = units[i].name;
+  put("\n], \"unit_system\": \"SI\", \"units\": " + text_of(names) + "}\n");
 }
 
 void print_csv(const std::vector<Relations>& results, int threads) {
@@ -93,29 +142,38 @@ void print_csv(const std::vector<Relations>& results, int threads) {
   for (const std::string& row : rows) put(row);
 }
 
-void print_table(const std::vector<Relations>& results, int threads) {
+void print_table(const std::vector<Relations>& results, const RelationsUnits& units, bool si, int threads) {
   TerminalTable table(table_columns);
   table.add({"stress", "rupture vel", "leading vel", "ratio", "slip vel", "stress(x=0)", "U(x=0)", "psi", "psi(x=0)"});
-  table.add({"mu A / pi", "c", "c", "|V- / V+|", "c A / pi", "mu A / pi", "c", "", ""});
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < units.size(); ++i) names.push_back(shown_unit(i, units, si));
+  names[3] = "|V- / V+|";
+  table.add(std::move(names));
   auto rows = in_parallel<std::vector<std::string>>(results.size(), threads,
                                                     [&](std::size_t i) { return table_row(results[i]); });
   for (auto& row : rows) table.add(std::move(row));
   put(table.text());
 }
 
-int print(const std::vector<State>& states, const FrictionOptions& friction, const CommonOptions& options) {
-  const auto results =
+int print(const std::vector<State>& states, const FrictionOptions& friction, const SiOptions& si_options,
+          const CommonOptions& options) {
+  const RelationsUnits units = units_of(si_options);
+  const bool si = si_options.si;
+  auto results =
       in_parallel<Relations>(states.size(), options.threads, [&](std::size_t i) { return solve(states[i]); });
-  if (friction.wanted())
-    print_friction(results, friction, options);
-  else if (options.json)
-    print_json(results, options.threads);
+  if (friction.wanted()) {
+    print_friction(results, friction, si ? &units : nullptr, options);
+    return exit_done;
+  }
+  for (Relations& r : results) r = in_units(r, units);
+  if (options.json)
+    print_json(results, units, si, options.threads);
   else if (options.csv)
     print_csv(results, options.threads);
   else if (results.size() == 1)
-    print_one(results.front());
+    print_one(results.front(), units, si);
   else
-    print_table(results, options.threads);
+    print_table(results, units, si, options.threads);
   return exit_done;
 }
 
@@ -146,12 +204,29 @@ std::vector<State> states_asked_for(const CLI::App& command, std::array<Given, 3
   return states;
 }
 
+void add_si_options(CLI::App& command, SiOptions& options) {
+  CLI::Option* const si = command.add_flag("--si", options.si, "Results in SI units; needs --contact-ratio");
+  command.add_option("--contact-ratio", options.contact_ratio, "Contact ratio A, for --si")
+      ->check(CLI::Range(1e-300, 1.0))
+      ->type_name("A")
+      ->needs(si);
+  const auto add = [&](const char* name, std::string& text, const char* otherwise, const char* type) {
+    command.add_option(name, text, std::string("Constant of the rock, for --si (default: ") + otherwise + ")")
+        ->type_name(type)
+        ->needs(si);
+  };
+  add("--p-wave-speed", options.rock.p_wave_speed, "6 km/s", "SPEED");
+  add("--poisson-ratio", options.rock.poisson_ratio, "0.3", "RATIO");
+  add("--shear-modulus", options.rock.shear_modulus, "30 GPa", "MODULUS");
+}
+
 }  // namespace
 
 Runner add_relations(CLI::App& app) {
   struct Arguments {
     CommonOptions common;
     FrictionOptions friction;
+    SiOptions si;
     std::array<Given, 3> given = {{{"--stress", slipfront::rupture::from_stress, {}},
                                    {"--rupture-velocity", slipfront::rupture::from_rupture_velocity, {}},
                                    {"--slip-velocity", slipfront::rupture::from_slip_velocity, {}}}};
@@ -164,6 +239,7 @@ Runner add_relations(CLI::App& app) {
   command->footer(
       "Examples:"
       "\n  slipfront relations --stress 1.03"
+      "\n  slipfront relations --stress 0.855 --si --contact-ratio 0.003"
       "\n  slipfront relations --rupture-velocity 1e-9:0.9:6:log --csv"
       "\n  slipfront relations --stress 0.855 --slip-velocity-ratio 0.5");
   const std::array<const char*, 3> help = {"Stress before the rupture, in mu A / pi",
@@ -177,9 +253,10 @@ Runner add_relations(CLI::App& app) {
                        ->type_name("VALUE");
   }
   add_friction_options(*command, arguments->friction);
+  add_si_options(*command, arguments->si);
   add_common_options(*command, arguments->common);
   return [arguments, command] {
     const std::vector<State> states = states_asked_for(*command, arguments->given);
-    return print(states, arguments->friction, arguments->common);
+    return print(states, arguments->friction, arguments->si, arguments->common);
   };
 }

@@ -66,6 +66,10 @@ void add_scenario_options(CLI::App& command, ScenarioArguments& a, bool with_res
         .add_option("--resume", a.resume,
                     "Resume from a file of this scenario, also to a later time.end, and write to it")
         ->type_name("OUT.nc");
+  CLI::Option* const si = command.add_flag(
+      "--si", a.si, "Results in SI units (default if the scenario has values with units outside of [medium])");
+  command.add_flag("--dimensionless", a.dimensionless, "Results in the units of the model (default otherwise)")
+      ->excludes(si);
   command.add_flag("--check", a.check, "Read and check the scenario, print what would run, and stop");
   add_common_options(command, a.common, false);
 }
@@ -80,15 +84,29 @@ scenario::Scenario read_scenario_of(const ScenarioArguments& a) {
   std::vector<std::string> set = a.set;
   set.insert(set.end(), a.more_set.begin(), a.more_set.end());
   scenario::Scenario s = scenario::read_scenario(record::read_text(a.scenario), a.scenario, set, record::read_table);
+  run::choose_units(s, a.si || a.dimensionless ? std::optional(a.si) : std::nullopt);
   if (!a.common.quiet)
     for (const std::string& warning : s.warnings) complain("warning: " + warning);
   return s;
 }
 
+std::string in_results(const scenario::Scenario& scenario, double value, std::string_view unit) {
+  if (!scenario.results_in) return fmt::format("{:.6g}", value);
+  const medium::UnitInSi si = scenario.results_in->of(unit);
+  return fmt::format("{:.6g} {}", value * si.value, si.name);
+}
+
 namespace {
 
+/// The value and the unit of a column of events.
+medium::UnitInSi unit_of(const output::SlipEventColumn& column, const scenario::Scenario& scenario) {
+  const bool pulled_end = scenario.loading.where != chain::Pulled::everywhere;
+  return scenario.results_in ? scenario.results_in->of(description_of(column, pulled_end).dimensional_unit)
+                             : medium::UnitInSi{};
+}
+
 /// The events as a table.
-std::string table_of(const std::vector<output::SlipEvent>& events) {
+std::string table_of(const std::vector<output::SlipEvent>& events, const scenario::Scenario& scenario) {
   std::string count = fmt::format("{} events\n", events.size());
   if (events.empty()) return count;
   const std::vector<TableColumn> columns(output::slip_event_columns().size(), {.width = 17, .gap = 0});
@@ -96,19 +114,26 @@ std::string table_of(const std::vector<output::SlipEvent>& events) {
   std::vector<std::string> cells;
   for (const auto& column : output::slip_event_columns()) cells.emplace_back(column.about.name);
   table.add(std::move(cells));
+  if (scenario.results_in) {
+    cells.clear();
+    for (const auto& column : output::slip_event_columns()) cells.push_back(unit_of(column, scenario).name);
+    table.add(cells);
+  }
   for (const output::SlipEvent& event : events) {
     cells.clear();
-    for (const auto& column : output::slip_event_columns()) cells.push_back(fmt::format("{:.8g}", event.*column.value));
+    for (const auto& column : output::slip_event_columns())
+      cells.push_back(fmt::format("{:.8g}", event.*column.value * unit_of(column, scenario).value));
     table.add(cells);
   }
   return count + table.text();
 }
 
-Json json_of(const std::vector<output::SlipEvent>& events) {
+Json json_of(const std::vector<output::SlipEvent>& events, const scenario::Scenario& scenario) {
   Json all = Json::array();
   for (const output::SlipEvent& event : events) {
     Json row;
-    for (const auto& column : output::slip_event_columns()) row[std::string(column.about.name)] = event.*column.value;
+    for (const auto& column : output::slip_event_columns())
+      row[std::string(column.about.name)] = event.*column.value * unit_of(column, scenario).value;
     all.push_back(row);
   }
   return all;
@@ -117,14 +142,32 @@ Json json_of(const std::vector<output::SlipEvent>& events) {
 /// Rounds to three digits, because an error is not known more precisely.
 double rounded(double error) { return std::strtod(fmt::format("{:.3g}", error).c_str(), nullptr); }
 
+/// The units of the rows and of the events, unless they are numbers.
+Json json_units(const std::vector<run::SummaryValue>& summary, const std::vector<output::SlipEvent>* events,
+                const scenario::Scenario& scenario) {
+  Json units;
+  for (const auto& row : summary)
+    if (const auto unit = run::unit_of(row.key); !unit.empty()) units[row.key] = scenario.results_in->of(unit).name;
+  if (!events) return units;
+  for (const auto& column : output::slip_event_columns())
+    if (const auto unit = unit_of(column, scenario); unit.name != "1")
+      units["events"][std::string(column.about.name)] = unit.name;
+  return units;
+}
+
 std::string summary_json(const std::vector<run::SummaryValue>& summary, const std::vector<double>& errors,
-                         const std::vector<std::string>& warnings, const std::vector<output::SlipEvent>* events) {
+                         const std::vector<std::string>& warnings, const std::vector<output::SlipEvent>* events,
+                         const scenario::Scenario& scenario) {
   Json j;
   for (const auto& row : summary) j[row.key] = std::visit([](const auto& value) { return Json(value); }, row.value);
   if (!errors.empty()) j["errors"] = Json::object();
   for (std::size_t i = 0; i < errors.size(); ++i)
     if (std::isfinite(errors[i])) j["errors"][summary[i].key] = rounded(errors[i]);
-  if (events) j["events"] = json_of(*events);
+  if (events) j["events"] = json_of(*events, scenario);
+  if (scenario.results_in) {
+    j["unit_system"] = "SI";
+    j["units"] = json_units(summary, events, scenario);
+  }
   j["warnings"] = warnings;
   return text_of(j);
 }
@@ -153,15 +196,18 @@ std::string parameters_in_words(const friction::Friction& friction) {
   return fmt::format("{} friction{}", friction.definition().adjective, text);
 }
 
-void print_summary(const scenario::Scenario& scenario, const std::vector<run::SummaryValue>& summary,
-                   const std::vector<double>& errors, const std::vector<std::string>& warnings,
-                   const ScenarioArguments& a, const std::vector<output::SlipEvent>* events) {
+void print_summary(const scenario::Scenario& scenario, std::vector<run::SummaryValue> summary,
+                   std::vector<double> errors, const std::vector<std::string>& warnings, const ScenarioArguments& a,
+                   const std::vector<output::SlipEvent>* events) {
+  if (scenario.results_in)
+    for (std::size_t i = 0; i < summary.size(); ++i)
+      summary[i] = run::in_si(summary[i], *scenario.results_in, i < errors.size() ? &errors[i] : nullptr);
   const std::vector<std::string>& printed = scenario.warnings;
   if (!a.common.quiet)
     for (const std::string& warning : warnings)
       if (std::find(printed.begin(), printed.end(), warning) == printed.end()) complain("warning: " + warning);
   if (a.common.json) {
-    put(summary_json(summary, errors, warnings, events) + "\n");
+    put(summary_json(summary, errors, warnings, events, scenario) + "\n");
     return;
   }
   if (!scenario.title.empty()) put(fitted(scenario.title));
@@ -173,7 +219,7 @@ void print_summary(const scenario::Scenario& scenario, const std::vector<run::Su
     put(fitted(fmt::format("{:<25} {:<24} {}{}", row.key, cell_of(row), error, row.meaning),
                25 + 1 + 24 + 1 + error.size()));
   }
-  if (events) put(table_of(*events));
+  if (events) put(table_of(*events, scenario));
   const std::string& output = a.output.empty() ? a.resume : a.output;
   if (!output.empty() && !a.common.quiet) put("written to " + output + "\n");
 }
@@ -216,8 +262,8 @@ int LongRun::end(bool finished) {
   watch_.reset();
   if (finished) return exit_done;
   if (first_)
-    complain(output_.wanted()
-                 ? fmt::format("interrupted at t = {:.6g}; continue with {}", time_, output_.how_to_resume())
-                 : "interrupted; there is no checkpoint, because -o was not given");
+    complain(output_.wanted() ? fmt::format("interrupted at t = {}; continue with {}",
+                                            in_results(s_, time_, "b / (c A)"), output_.how_to_resume())
+                              : "interrupted; there is no checkpoint, because -o was not given");
   return exit_interrupted;
 }

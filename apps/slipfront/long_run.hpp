@@ -23,23 +23,27 @@ struct ScenarioArguments {
   std::vector<std::string> set, more_set;  ///< values of --set; `more_set` are the further values of one --set
   std::string one_too_many;                ///< a second scenario, which is an error
   bool check = false;
+  bool si = false, dimensionless = false;  ///< units of the results; by default those of the scenario
 };
 
 /// Adds SCENARIO and --set.
 void add_scenario_words(CLI::App& command, ScenarioArguments& arguments);
 void add_scenario_options(CLI::App& command, ScenarioArguments& arguments, bool with_resume = true);
 
-/// Reads the scenario and prints its warnings.
+/// Reads the scenario, chooses the units of its results, and prints its warnings.
 slipfront::scenario::Scenario read_scenario_of(const ScenarioArguments& arguments);
+
+/// A number of the model in the units of the results, such as "0.1 m"; in the units of the model without a unit.
+std::string in_results(const slipfront::scenario::Scenario& scenario, double value, std::string_view unit);
 
 /// The law of friction with its parameters: "slip-weakening friction with strength = 0.08, residual = 0.02".
 std::string parameters_in_words(const slipfront::friction::Friction& friction);
 /// Prints the summary of a run as a table or as one JSON object on stdout. `warnings`, one sentence each, are in the
 /// JSON. Those that `read_scenario_of` has not printed go to stderr. `errors` has one error per row, NaN if a row has
 /// none; it is empty if no row has an error. `events` are those of a loaded chain, else null.
-void print_summary(const slipfront::scenario::Scenario& scenario,
-                   const std::vector<slipfront::run::SummaryValue>& summary, const std::vector<double>& errors,
-                   const std::vector<std::string>& warnings, const ScenarioArguments& arguments,
+void print_summary(const slipfront::scenario::Scenario& scenario, std::vector<slipfront::run::SummaryValue> summary,
+                   std::vector<double> errors, const std::vector<std::string>& warnings,
+                   const ScenarioArguments& arguments,
                    const std::vector<slipfront::output::SlipEvent>* events = nullptr);
 
 /// Checks that the output of a run can be written, of about `bytes` bytes. \throws FileError.

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "slipfront/medium/si_units.hpp"
 #include "slipfront/rupture/relations.hpp"
 
 /// Options of `relations` for friction. With them it computes C from a ratio of slip velocities, or the ratio from C,
@@ -19,6 +20,10 @@ struct FrictionOptions {
 
 void add_friction_options(CLI::App& command, FrictionOptions& options);
 
-/// Prints one row for each state, ratio or coefficient, and closure. \throws InputError.
+/// The value of each of relations_quantities() in the unit of the results.
+using RelationsUnits = std::vector<slipfront::medium::UnitInSi>;
+
+/// Prints one row for each state, ratio or coefficient, and closure. `units` are SI units; null: those of the model.
+/// \throws InputError.
 void print_friction(const std::vector<slipfront::rupture::Relations>& states, const FrictionOptions& friction,
-                    const CommonOptions& options);
+                    const RelationsUnits* units, const CommonOptions& options);

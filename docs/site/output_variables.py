@@ -17,6 +17,8 @@ LOADED_CHAIN_WITH_EVENTS = ["--set", "domain.left=-30", "domain.right=30", "time
 
 #: Keys that only JSON has: those of tables and lists, and of diagnostics. Others have the name of a variable or a line.
 JSON_ONLY = {
+    "unit_system": "SI, if results are in SI units",
+    "units": "SI unit of each key, if results are in SI units",
     "errors": "estimated error of each number of a `pulse` run",
     "friction": "results of `relations` with a friction coefficient or a ratio of slip velocities, one for each closure",
     "measure": "the slip velocity that a ratio is about: origin, mean, peak or time-mean",
@@ -136,6 +138,7 @@ def describe_json(run: Program, described: set[str]) -> None:
     listed = described | set(JSON_ONLY)
     for command in [["relations", "--stress", "1", "--friction-coefficient", "0.1"],
                     ["pulse", run.case("step-viscous.toml")],
+                    ["pulse", run.case("step-viscous.toml"), "--si", "--set", "medium.contact_ratio=0.01", "medium.asperity_spacing='1 mm'"],
                     ["chain", run.case("stick-slip.toml"), *LOADED_CHAIN_WITH_EVENTS],
                     ["compare", run.case("step-viscous.toml"), "--set", "chain.scale=30"],
                     ["event", run.case("parkfield-2004.toml"), run.case("synthetic-fault.fsp"), "--pulse"],

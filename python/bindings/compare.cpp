@@ -18,11 +18,17 @@ using namespace slipfront;
 using namespace pybind11::literals;
 using setup::Level;
 
-py::list trends(const std::vector<Level>& levels) {
+/// The value of the unit of a key in the units of the results.
+double unit_of(const scenario::Scenario& s, std::string_view key) {
+  return s.results_in ? s.results_in->of(run::unit_of(key)).value : 1;
+}
+
+py::list trends(const std::vector<Level>& levels, const scenario::Scenario& s) {
   py::list rows;
   for (const setup::Quantity& q : setup::compared_quantities()) {
     const setup::Trend t = setup::trend_of(levels, q);
-    rows.append(py::make_tuple(q.key, t.exponent, t.extrapolated, t.difference));
+    const double unit = unit_of(s, q.key);
+    rows.append(py::make_tuple(q.key, t.exponent, t.extrapolated * unit, t.difference * unit));
   }
   return rows;
 }
@@ -60,10 +66,11 @@ py::dict run_compare(const py::dict& arguments, const std::vector<double>& scale
   py::dict result = dataset_of(metadata, record::comparison_format, reached, comparison.schedule.times, series, true);
   result["levels"] = level_rows(levels);
   result["scale_about"] = described(record::scale_variable);
-  result["trends"] = trends(levels);
+  result["trends"] = trends(levels, s);
   result["notes"] = setup::notes_on(s, levels);
   const double C = s.friction.linear_coefficient().value_or(std::numeric_limits<double>::quiet_NaN());
-  result["summary"] = py::dict("time"_a = s.end, "friction_coefficient"_a = C, "damping_number"_a = C * s.end);
+  result["summary"] =
+      py::dict("time"_a = s.end * unit_of(s, "time"), "friction_coefficient"_a = C, "damping_number"_a = C * s.end);
   return result;
 }
 

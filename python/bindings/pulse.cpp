@@ -40,7 +40,7 @@ py::dict run_pulse(const py::dict& arguments, std::optional<double> tolerance, b
   watch.finish();
   result.metadata.warnings.insert(result.metadata.warnings.end(), errors.warnings.begin(), errors.warnings.end());
   py::dict data = dataset_of(result);
-  data["errors"] = errors_of(result.summary, errors.of);
+  data["errors"] = errors_of(result.summary, errors.of, s.results_in);
   return data;
 }
 

@@ -19,11 +19,15 @@ using output::Snapshot;
 RunRequest request_of(const py::dict& arguments) {
   const auto text = [&](const char* key) { return arguments[key].cast<std::string>(); };
   if (const std::string output = text("output"); !output.empty()) record::require_netcdf_name(output, "output");
-  return {text("text"),   text("path"),   arguments["set"].cast<std::vector<std::string>>(),
-          text("output"), text("resume"), arguments["progress"]};
+  return {text("text"),         text("path"),   arguments["set"].cast<std::vector<std::string>>(),
+          text("output"),       text("resume"), arguments["si"].cast<std::optional<bool>>(),
+          arguments["progress"]};
 }
 
 namespace {
+
+/// The unit of a variable in SI units as (value, name, whether it is of slip between the faces).
+py::tuple si_tuple(const medium::UnitInSi& unit) { return py::make_tuple(unit.value, unit.name, unit.between_faces); }
 
 /// Reads a table without the GIL: it may wait for a thread that reads NetCDF in Python.
 std::vector<std::pair<double, double>> read_table(const std::string& path, const std::string& x, const std::string& y) {
@@ -36,8 +40,10 @@ std::vector<std::pair<double, double>> read_table(const std::string& path, const
 
 scenario::Scenario scenario_of(const RunRequest& request) {
   const bool is_file = !request.path.empty();
-  return scenario::read_scenario(is_file ? record::read_text(request.path) : request.text,
-                                 is_file ? request.path : "scenario", request.set, read_table);
+  scenario::Scenario s = scenario::read_scenario(is_file ? record::read_text(request.path) : request.text,
+                                                 is_file ? request.path : "scenario", request.set, read_table);
+  run::choose_units(s, request.si);
+  return s;
 }
 
 namespace {
@@ -98,11 +104,17 @@ py::dict dataset_of(const record::PulseMetadata& metadata, const std::string& fo
   for (const auto& [name, value] : record::file_attributes(metadata, format))
     attributes[py::str(name)] = py::str(py::bytes(value).attr("decode")("utf-8", "replace"));
   attributes["finished"] = finished ? 1 : 0;
+  py::dict units;
+  const auto described_in = [&](const Description& about) {
+    const std::string unit(about.dimensional_unit);
+    if (metadata.units && !unit.empty()) units[py::str(unit)] = si_tuple(metadata.units->of(unit));
+    return described(about);
+  };
   py::list fields, scalars;
   for (const record::FieldVariable* variable : record::chosen_fields(metadata.variables))
-    fields.append(py::make_tuple(described(variable->about), field(*variable, levels, over_time_and_x)));
+    fields.append(py::make_tuple(described_in(variable->about), field(*variable, levels, over_time_and_x)));
   for (const record::ScalarVariable& variable : record::scalar_variables())
-    scalars.append(py::make_tuple(described(variable.about), scalar(variable, levels, over_time)));
+    scalars.append(py::make_tuple(described_in(variable.about), scalar(variable, levels, over_time)));
   py::dict result;
   result["attributes"] = attributes;
   result["axes"] = axes(times, metadata.x_edges);
@@ -113,21 +125,30 @@ py::dict dataset_of(const record::PulseMetadata& metadata, const std::string& fo
   for (const output::SlipEventColumn& column : output::slip_event_columns()) {
     std::vector<double> values;
     for (const output::SlipEvent& event : metadata.events) values.push_back(event.*column.value);
-    events.append(py::make_tuple("event_" + std::string(column.about.name), described(column.about), array(values)));
+    events.append(py::make_tuple("event_" + std::string(column.about.name),
+                                 described_in(output::description_of(column, metadata.pulled_end)), array(values)));
   }
   if (!metadata.events.empty()) result["events"] = events;
+  const record::AxisVariables& axis = record::axis_variables();
+  for (const Description& about : {axis.time, axis.x}) described_in(about);
+  result["units"] = units;
   return result;
 }
 
-py::dict summary_of(const std::vector<run::SummaryValue>& summary) {
+py::dict summary_of(const std::vector<run::SummaryValue>& summary, const std::optional<medium::SiUnits>& units) {
   py::dict result;
-  for (const auto& row : summary) result[py::str(row.key)] = py::cast(row.value);
+  for (const auto& row : summary)
+    result[py::str(row.key)] = py::cast(units ? run::in_si(row, *units).value : row.value);
   return result;
 }
 
-py::dict errors_of(const std::vector<run::SummaryValue>& summary, const std::vector<double>& errors) {
+py::dict errors_of(const std::vector<run::SummaryValue>& summary, std::vector<double> errors,
+                   const std::optional<medium::SiUnits>& units) {
   py::dict known;
-  for (std::size_t i = 0; i < errors.size(); ++i)
-    if (std::isfinite(errors[i])) known[py::str(summary[i].key)] = errors[i];
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    if (!std::isfinite(errors[i])) continue;
+    if (units) run::in_si(summary[i], *units, &errors[i]);
+    known[py::str(summary[i].key)] = errors[i];
+  }
   return known;
 }

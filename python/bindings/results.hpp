@@ -2,6 +2,7 @@
 /// \file
 /// Results of runs as arrays, each with the description that the NetCDF files give it.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct RunRequest {
   std::string text, path;        ///< the scenario: its file if `path` is not empty, else its TOML text
   std::vector<std::string> set;  ///< settings, each "table.key=value"
   std::string output, resume;    ///< names of files; empty if there is none
+  std::optional<bool> si;        ///< whether results are in SI units; by default as in the scenario
   py::object progress;
 };
 RunRequest request_of(const py::dict& arguments);
@@ -24,21 +26,24 @@ slipfront::scenario::Scenario scenario_of(const RunRequest& request);
 /// One series of snapshots for each level of theory.
 using Levels = std::vector<const std::vector<slipfront::output::Snapshot>*>;
 
-/// Returns a dict {attributes, axes, fields, scalars, warnings} for the Python part, and `events` if there are any. If
-/// `by_level` is true, "level" is the first dimension of the arrays. The warnings are those of the metadata.
+/// Returns a dict {attributes, axes, fields, scalars, warnings, units} for the Python part, and `events` if there are
+/// any. If `by_level` is true, "level" is the first dimension of the arrays. The warnings are those of the metadata.
+/// The arrays are in the units of the model. If results are to be in SI units, `units` has the value of each of them.
 py::dict dataset_of(const slipfront::record::PulseMetadata& metadata, const std::string& format, bool finished,
                     const std::vector<double>& times, const Levels& levels, bool by_level);
 
-/// Returns {key: value} of each row.
-py::dict summary_of(const std::vector<slipfront::run::SummaryValue>& summary);
+/// Returns {key: value} of each row, in SI units if there are `units`.
+py::dict summary_of(const std::vector<slipfront::run::SummaryValue>& summary,
+                    const std::optional<slipfront::medium::SiUnits>& units);
 /// Returns {key: estimated error} of each row whose error is known. `errors` has one number a row, or is empty.
-py::dict errors_of(const std::vector<slipfront::run::SummaryValue>& summary, const std::vector<double>& errors);
+py::dict errors_of(const std::vector<slipfront::run::SummaryValue>& summary, std::vector<double> errors,
+                   const std::optional<slipfront::medium::SiUnits>& units);
 
 /// Returns the dict of a run of pulse or chain, with its summary.
 template <class Run>
 py::dict dataset_of(const slipfront::run::Result<Run>& result) {
   py::dict data = dataset_of(result.metadata, slipfront::record::pulse_format, result.finished(),
                              result.run->schedule().times, {&result.run->snapshots()}, false);
-  data["summary"] = summary_of(result.summary);
+  data["summary"] = summary_of(result.summary, result.metadata.units);
   return data;
 }

@@ -9,6 +9,7 @@
 #include <limits>
 #include <mutex>
 #include <new>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <thread>
@@ -34,12 +35,15 @@ struct Outcome {
   std::string reason;
 };
 
-/// Returns (key, meaning) of each item of a summary that is a number.
+/// Returns (key, meaning, unit of the model) of each item of a summary that is a number.
 template <class End>
 py::list number_keys(std::span<const run::SummaryItem<End>> items) {
   py::list keys;
   for (const auto& item : items)
-    if (std::string_view(item.key) != "closure") keys.append(py::make_tuple(item.key, item.meaning));
+    if (std::string_view(item.key) != "closure") {
+      const std::string unit(run::unit_of(item.key));
+      keys.append(py::make_tuple(item.key, run::without_unit(item.key, item.meaning), unit));
+    }
   return keys;
 }
 
@@ -49,11 +53,12 @@ double number(const run::Value& value) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-std::vector<double> numbers(const std::vector<run::SummaryValue>& summary, const Variables& variables) {
+std::vector<double> numbers(const std::vector<run::SummaryValue>& summary, const Variables& variables,
+                            const std::optional<medium::SiUnits>& units) {
   std::vector<double> values;
   for (const std::string& variable : variables)
     for (const run::SummaryValue& row : summary)
-      if (variable == row.key) values.push_back(number(row.value));
+      if (variable == row.key) values.push_back(number(units ? run::in_si(row, *units).value : row.value));
   return values;
 }
 
@@ -102,6 +107,7 @@ class Sweep {
       : command_(std::move(command)),
         text_(scenario.text),
         file_(scenario.path.empty() ? "scenario" : scenario.path),
+        si_(scenario.si),
         points_(std::move(points)),
         variables_(std::move(variables)) {}
 
@@ -151,19 +157,21 @@ class Sweep {
   }
 
   std::vector<double> run(std::size_t point) {
-    const scenario::Scenario s = scenario::read_scenario(text_, file_, points_[point], record::read_table);
+    scenario::Scenario s = scenario::read_scenario(text_, file_, points_[point], record::read_table);
+    run::choose_units(s, si_);
     const run::Options options{.after_step = [this](double, long) { return stopped_.load(); }};
     if (command_ == "chain") {
       const run::ChainPlan plan = run::plan_chain(s);
       const auto share = memory_.take(plan.need.memory, stopped_);
-      return numbers(run::chain(s, plan, options).summary, variables_);
+      return numbers(run::chain(s, plan, options).summary, variables_, s.results_in);
     }
     const run::PulsePlan plan = run::plan_pulse(s);
     const auto share = memory_.take(plan.need.memory, stopped_);
-    return numbers(run::pulse(s, plan, options).summary, variables_);
+    return numbers(run::pulse(s, plan, options).summary, variables_, s.results_in);
   }
 
   std::string command_, text_, file_;
+  std::optional<bool> si_;
   std::vector<Overrides> points_;
   Variables variables_;
   SharedMemory memory_;
@@ -222,6 +230,8 @@ void sweep(const std::string& command, const py::dict& arguments, std::vector<Ov
 
 void bind_sweep(py::module_& m) {
   m.def("sweep", sweep);
+  m.def("results_in_si",
+        [](const py::dict& arguments) { return scenario_of(request_of(arguments)).results_in.has_value(); });
   m.def("pulse_numbers", [] { return number_keys(run::pulse_summary()); });
   m.def("chain_numbers", [] { return number_keys(run::chain_summary()); });
 }

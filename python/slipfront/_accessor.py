@@ -60,7 +60,8 @@ class SlipfrontAccessor:
         SI unit, such as "m" or "m s-1", and it has no `dimensional_unit`. Pure numbers do not change.
 
         The attributes of the Dataset, such as slip_at_origin of a pulse, remain dimensionless. So do `difference` and
-        trend_extrapolated of a comparison, because they have several quantities in one variable.
+        trend_extrapolated of a comparison, because they have several quantities in one variable. A Dataset in SI units, such
+        as that of a run with si=True, is returned as it is.
 
         Parameters
         ----------
@@ -75,9 +76,8 @@ class SlipfrontAccessor:
 
         Returns
         -------
-        xarray.Dataset. Slip u, in b / (2 pi), is that of one face of the fault. The slip velocity, in c A / pi, counts both
-        faces (docs/theory/1_chain.md), so it is twice the rate of u. The slip of one face over the other is 2 u. Energies
-        are those of a strip of the fault of width 1 m.
+        xarray.Dataset. Slip is between the faces: twice u b / (2 pi), because both move (docs/theory/1_chain.md). It is the
+        integral of the slip velocity over time. Energies are those of a strip of the fault of width 1 m.
 
         Raises
         ------
@@ -99,15 +99,16 @@ class SlipfrontAccessor:
         values = _units.values_of(wanted, self._constants(contact_ratio, spacing, medium))
         changed = {}
         for name, text in texts.items():
-            factor, unit = _units.in_si(text, values)
+            unit = _units.in_si(text, values)
             variable = self._data.variables[name]
-            attrs = {key: value for key, value in variable.attrs.items() if key != "dimensional_unit"}
-            changed[name] = (variable.dims, variable.values * factor, {**attrs, "units": unit})
+            changed[name] = (variable.dims, variable.values * unit[0], _units.converted(variable.attrs, unit))
         coordinates = {name: value for name, value in changed.items() if name in self._data.coords}
         data = self._data.assign({name: value for name, value in changed.items() if name not in coordinates}).assign_coords(coordinates)
         words = [f"{symbol} = {value:.6g} {unit}".rstrip() for symbol, unit in (("A", ""), ("b", "m"), ("c", "m/s"), ("mu", "Pa"), ("nu", ""))
                  if symbol in wanted and (value := values[symbol]) is not None]
-        return data.assign_attrs(comment=f"Variables are in SI units, for {', '.join(words)}. Attributes are dimensionless.") if words else data
+        if not words:
+            return data
+        return data.assign_attrs(comment=f"Variables are in SI units, for {', '.join(words)}. Attributes are dimensionless.", unit_system="SI", medium=", ".join(words))
 
 
 def register():

@@ -29,6 +29,18 @@ class Arguments(argparse.ArgumentParser):
         raise ValueError(f"{message}; see {self.prog} --help")
 
 
+def add_units(parser, default="default if the scenario has values with units outside of [medium]"):
+    """Adds --si and --dimensionless."""
+    units = parser.add_mutually_exclusive_group()
+    units.add_argument("--si", action="store_true", help=f"results in SI units ({default})")
+    units.add_argument("--dimensionless", action="store_true", help="results in the units of the model (default otherwise)")
+
+
+def chosen_units(options):
+    """Returns whether results are in SI units: True, False, or None for the default."""
+    return options.si if options.si or options.dimensionless else None
+
+
 def file_name(text):
     """The name of a file or folder to write."""
     if not text:

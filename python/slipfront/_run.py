@@ -4,7 +4,7 @@ import contextlib
 import os
 import warnings
 
-from . import _slipfront
+from . import _slipfront, _units
 from ._dataset import attributes, dataset
 from ._optional import import_optional
 from ._numbers import np, numbers, one_number, thread_count
@@ -17,12 +17,17 @@ from ._slipfront import FileError, InputError
 nan = float("nan")
 
 
+def _in_results(result, dims, values, about):
+    """Returns a variable of a result in the units of the results."""
+    attrs, unit = attributes(about), result["units"].get(about[2])
+    return (dims, values * unit[0], _units.converted(attrs, unit)) if unit else (dims, values, attrs)
+
+
 def _axes(result):
-    axes = {name: (about, values) for name, (about, values) in result["axes"].items()}
-    coordinates = {name: (name, axes[name][1], attributes(axes[name][0])) for name in ("time", "x")}
+    axes = {name: _in_results(result, ("x", "ends") if name == "x_bounds" else name, values, about) for name, (about, values) in result["axes"].items()}
+    coordinates = {name: axes[name] for name in ("time", "x")}
     coordinates["x"][2].update(axis="X", bounds="x_bounds")
-    about, bounds = axes["x_bounds"]
-    return coordinates, {"x_bounds": (("x", "ends"), bounds, attributes(about))}
+    return coordinates, {"x_bounds": axes["x_bounds"]}
 
 
 def _dataset(result, front=()):
@@ -31,16 +36,16 @@ def _dataset(result, front=()):
         warnings.warn(warning, stacklevel=3)
     coordinates, variables = _axes(result)
     for about, values in result["fields"]:
-        variables[about[0]] = (front + ("time", "x"), values, attributes(about))
+        variables[about[0]] = _in_results(result, front + ("time", "x"), values, about)
     for about, values in result["scalars"]:
-        variables[about[0]] = (front + ("time",), values, attributes(about))
+        variables[about[0]] = _in_results(result, front + ("time",), values, about)
     for name, about, values in result.get("events", ()):
-        variables[name] = ("event", values, attributes(about))
+        variables[name] = _in_results(result, "event", values, about)
     errors = {f"{key}_error": error for key, error in result.get("errors", {}).items()}
     return dataset(variables, coordinates, {**result["attributes"], **result["summary"], **errors})
 
 
-def pulse(scenario, *, set=None, output=None, resume=None, progress=None, threads=None, tolerance=None, errors=True):
+def pulse(scenario, *, set=None, output=None, resume=None, progress=None, threads=None, tolerance=None, errors=True, si=None):
     """Runs a scenario with the modulation equations and friction, Eqs. (7) (docs/pulse.md).
 
     Parameters
@@ -65,6 +70,9 @@ def pulse(scenario, *, set=None, output=None, resume=None, progress=None, thread
     errors : bool, optional
         Whether to estimate the errors of the results. This runs the scenario again with half and with a quarter of the cells,
         which takes a third of the time.
+    si : bool, optional
+        Whether the results are in SI units, by the constants of the table [medium]: variables, attributes and the file. By
+        default they are if the scenario has values with units outside of [medium].
 
     Returns
     -------
@@ -92,11 +100,11 @@ def pulse(scenario, *, set=None, output=None, resume=None, progress=None, thread
     if tolerance is not None:
         tolerance = one_number("tolerance", tolerance)
     with showing(progress) as call:
-        request = arguments(scenario, set=set, output=output, resume=resume, progress=call)
+        request = arguments(scenario, set=set, output=output, resume=resume, progress=call, si=si)
         return _dataset(_slipfront.pulse(request, tolerance, bool(errors)))
 
 
-def chain(scenario, *, set=None, output=None, resume=None, progress=None, threads=None):
+def chain(scenario, *, set=None, output=None, resume=None, progress=None, threads=None, si=None):
     """Runs a scenario with a chain that resolves every dislocation, Eqs. (1) and (3) (docs/chain.md).
 
     Parameters
@@ -105,7 +113,7 @@ def chain(scenario, *, set=None, output=None, resume=None, progress=None, thread
         Path of a TOML file, TOML text (a str with a line break), or a dict nested like the TOML (docs/scenario.md).
     set : dict, optional
         Values that replace those of the scenario, such as {"chain.scale": 300}.
-    output, resume, progress
+    output, resume, progress, si
         As in `pulse`.
     threads : int, optional
         Number of threads that share the sites, by default all cores. Results are identical to the bit for any number.
@@ -128,7 +136,7 @@ def chain(scenario, *, set=None, output=None, resume=None, progress=None, thread
     108
     """
     with showing(progress) as call:
-        return _dataset(_slipfront.chain(arguments(scenario, set=set, output=output, resume=resume, progress=call),
+        return _dataset(_slipfront.chain(arguments(scenario, set=set, output=output, resume=resume, progress=call, si=si),
                                          thread_count(threads)))
 
 
@@ -136,7 +144,7 @@ def _scales(scales):
     return numbers("scales", scales).reshape(-1).tolist()
 
 
-def compare(scenario, *, scales=(), set=None, output=None, progress=None, threads=None):
+def compare(scenario, *, scales=(), set=None, output=None, progress=None, threads=None, si=None):
     """Runs a scenario at each level of theory and compares the results.
 
     The levels are the closed form, if there is one, the pulse with both closures, and a chain for each scale.
@@ -145,7 +153,7 @@ def compare(scenario, *, scales=(), set=None, output=None, progress=None, thread
     ----------
     scales : sequence of float, optional
         Scales of the chains, each > 0. By default that of the scenario, or 100, 300 and 1000.
-    scenario, set, output, progress, threads
+    scenario, set, output, progress, threads, si
         As in `pulse` and `chain`. The output is written level by level and cannot be resumed.
 
     Returns
@@ -169,15 +177,17 @@ def compare(scenario, *, scales=(), set=None, output=None, progress=None, thread
     ['closed-form', 'pulse-consistent', 'pulse-paper', 'chain-300']
     """
     with showing(progress) as call:
-        result = _slipfront.compare(arguments(scenario, set=set, output=output, progress=call), _scales(scales), thread_count(threads))
+        result = _slipfront.compare(arguments(scenario, set=set, output=output, progress=call, si=si), _scales(scales), thread_count(threads))
     levels, trends = result["levels"], result["trends"]
     result["summary"].update(reference="pulse-consistent", notes="\n".join(result["notes"]))
     data = _dataset(result, ("level",))
     names = [level["name"] for level in levels]
 
     def of_level(key, long_name, unit=""):
-        values = [nan if level[key] is None else level[key] for level in levels]
-        return "level", values, {"long_name": long_name, "units": "s" if key == "wall_seconds" else "1", "dimensional_unit": unit}
+        values = np.array([nan if level[key] is None else level[key] for level in levels], dtype=float)
+        attrs = {"long_name": long_name, "units": "s" if key == "wall_seconds" else "1", "dimensional_unit": unit}
+        factor = result["units"].get(unit)
+        return ("level", values * factor[0], _units.converted(attrs, factor)) if factor else ("level", values, attrs)
 
     quantities = [trend[0] for trend in trends]
     last = np.array([[float(data[q][i, -1]) for q in quantities] for i in range(len(levels))]).reshape(len(levels), len(quantities))
@@ -236,7 +246,7 @@ def check(scenario, *, set=None, command="pulse", scales=()):
     raise InputError(f"command = '{shown(command)}': unknown; allowed: pulse, chain, compare")
 
 
-def open(file, *, group=None):
+def open(file, *, group=None, si=None):
     """Reads a NetCDF file that pulse, chain, compare, sweep or event has written.
 
     Parameters
@@ -246,6 +256,9 @@ def open(file, *, group=None):
     group : str, optional
         A group of a file with draws of events: "posterior", "prior", "posterior_predictive", "observed_data" or
         "sample_stats" (docs/events.md).
+    si : bool, optional
+        Whether the variables are in SI units. By default they are in the units of the run. A file in the units of the model is
+        converted by the constants in its scenario, as by `dataset.slipfront.si()`.
 
     Returns
     -------
@@ -267,34 +280,54 @@ def open(file, *, group=None):
     >>> bool((stored.W == pulse.W).all())
     True
     """
-    return read(path("file", file), group=None if group is None else str(group))
+    data = read(path("file", file), group=None if group is None else str(group), si=si)
+    return data.slipfront.si() if si else data
 
 
 def _summary(data):
     """Returns the attributes of a finished pulse or chain that follow from its file: the values at the end, and the settings of
     a pulse."""
     command = str(data.attrs.get("history", "")).split()[1:2]
-    known = dict({"pulse": _slipfront.pulse_numbers, "chain": _slipfront.chain_numbers}[command[0]]()) if command in (["pulse"], ["chain"]) else {}
+    known = {row[0] for row in {"pulse": _slipfront.pulse_numbers, "chain": _slipfront.chain_numbers}[command[0]]()} if command in (["pulse"], ["chain"]) else set()
     found = {str(name): variable.values[-1].item() for name, variable in data.variables.items() if variable.dims == ("time",) and name in known}
     if command == ["pulse"]:
         with contextlib.suppress(InputError, FileError):  # its table of stress may be gone
             plan = check(str(data.attrs["scenario"]) + "\n")
             coefficient = nan if plan["friction_coefficient"] is None else plan["friction_coefficient"]
-            found.update(closure=plan["closure"], cells=plan["cells"], friction_coefficient=coefficient, damping_number=coefficient * found["time"])
+            found.update(closure=plan["closure"], cells=plan["cells"], friction_coefficient=coefficient, damping_number=coefficient * plan["end"])
     return found
 
 
-def read(name, any_file=False, group=None):
-    """Like `open`, but also reads other NetCDF files if `any_file` is true."""
+def _in_model(data):
+    """Returns a Dataset in the units of the model, from the stored numbers of a file in SI units."""
+    if not any("scale_factor" in variable.attrs for variable in data.variables.values()):
+        raise InputError("si = False: the file has its results in SI units only; allowed: None or True")
+    for variable in data.variables.values():
+        attrs = variable.attrs
+        for name in ("scale_factor", "_FillValue"):
+            attrs.pop(name, None)
+        if "unit_of_model" in attrs:
+            attrs.update(units="1", dimensional_unit=attrs.pop("unit_of_model"), long_name=attrs["long_name"].removesuffix(", between the faces"))
+    attrs = {key: value for key, value in data.attrs.items() if key not in ("unit_system", "medium", "comment")}
+    data.attrs = attrs
+    return data
+
+
+def read(name, any_file=False, group=None, si=None):
+    """Like `open`, but also reads other NetCDF files if `any_file` is true. It does not convert results to SI units."""
     xarray = import_optional("xarray")
     with _slipfront.NetcdfLock():  # the import initialises the libraries of NetCDF
         import_optional("netCDF4")
     _slipfront.require_readable_netcdf(os.fsencode(name))  # a damaged file would crash the NetCDF library, and Python with it
     try:
         # The NetCDF library is not thread-safe. A process that is forked while another thread uses it would wait for ever.
-        with _slipfront.NetcdfLock(), xarray.open_dataset(name, engine="netcdf4", group=group) as stored:
+        with _slipfront.NetcdfLock(), contextlib.ExitStack() as files:
+            stored = files.enter_context(xarray.open_dataset(name, engine="netcdf4", group=group))
             if not (any_file or "slipfront_format" in stored.attrs):
                 raise FileError(f"{name}: not a file that slipfront has written")
+            in_si = stored.attrs.get("unit_system") == "SI"
+            if in_si and si is False:
+                stored = files.enter_context(xarray.open_dataset(name, engine="netcdf4", group=group, mask_and_scale=False))
             data = stored.drop_vars(["checkpoint", "scenario_text", "done"], errors="ignore").load()
     except OSError as error:
         if isinstance(error, FileError):
@@ -302,6 +335,8 @@ def read(name, any_file=False, group=None):
         raise FileError(f"{name}: {error.strerror or error}") from error
     except (RuntimeError, ValueError) as error:  # its contents are damaged
         raise FileError(f"{name}: {' '.join(str(error).split())}") from error
+    if in_si and si is False:
+        data = _in_model(data)
     if data.attrs.get("slipfront_format") == "sweep 1":  # its dimensions have dots, as in friction.coefficient
         names = {name: name.replace(".", "_") for name in data.dims}
         data = data.drop_vars([new for old, new in names.items() if new != old], errors="ignore").rename(names)

@@ -79,7 +79,7 @@ def path(name, value):
     return text
 
 
-def arguments(scenario, *, set=None, output=None, resume=None, progress=None):
+def arguments(scenario, *, set=None, output=None, resume=None, progress=None, si=None):
     """Returns the arguments of a run as the bindings take them."""
     text = source = ""
     if isinstance(scenario, Mapping):
@@ -91,7 +91,7 @@ def arguments(scenario, *, set=None, output=None, resume=None, progress=None):
     else:
         raise InputError(f"scenario: a {type(scenario).__name__}; allowed: the path of a TOML file, TOML text or a dict")
     result = {"text": text, "path": source, "set": overrides(set), "output": path("output", output),
-              "resume": path("resume", resume), "progress": progress}
+              "resume": path("resume", resume), "progress": progress, "si": None if si is None else bool(si)}
     for key in ("text", "path", "output", "resume"):
         _encodable(key, result[key])
     for override in result["set"]:

@@ -19,13 +19,11 @@ from ._scenario import arguments, overrides
 from ._shown import shown
 from ._slipfront import InputError, __version__
 from ._store import Store
-from ._units import symbols
+from ._units import converted, in_si, symbols
 
 _format = "sweep 2"  # 1 had dimensions with dots
+_any_medium = dict.fromkeys(("mu", "nu", "A", "b", "c"))  # the name of an SI unit does not depend on it
 
-#: Units of numbers whose meaning does not have one, by the beginning or the end of the name.
-_units = {"energy_drift": "", "energy_": "mu b^2 A / (2 pi^2 (1 - nu))", "_front_observed": "b / A", "trailing_characteristic": "b / A",
-          "first_crossing_time": "b / (c A)", "first_crossing_position": "b / A"}
 _not_by_default = {"time", "wall_seconds", "solve_seconds", "site_updates_per_second", "ranks", "threads"}
 
 
@@ -52,7 +50,7 @@ def _axes(axes):
 
 
 def _variables(variables, command):
-    known = dict({"pulse": _slipfront.pulse_numbers, "chain": _slipfront.chain_numbers}[command]())
+    known = {name: about for name, *about in {"pulse": _slipfront.pulse_numbers, "chain": _slipfront.chain_numbers}[command]()}
     if variables is None:
         variables = [key for key in known if key not in _not_by_default]
     if isinstance(variables, str):
@@ -76,7 +74,15 @@ def _check_some(scenario, settings, points, command):
     raise errors[0]
 
 
-def sweep(scenario, axes, *, variables=None, set=None, command="pulse", output=None, resume=None, client=None, progress=None, threads=None):
+def _si_by_default(scenario, settings, points):
+    """Returns whether the first point that can be read has values in SI units."""
+    for point in points:
+        with contextlib.suppress(InputError):
+            return _slipfront.results_in_si(arguments(scenario, set={**settings, **point}))
+    return False
+
+
+def sweep(scenario, axes, *, variables=None, set=None, command="pulse", output=None, resume=None, client=None, progress=None, threads=None, si=None):
     """Runs a scenario at every point of a grid of settings.
 
     Parameters
@@ -103,6 +109,9 @@ def sweep(scenario, axes, *, variables=None, set=None, command="pulse", output=N
         True shows a line on stderr. A function is called with (points done, all points).
     threads : int, optional
         Number of points that run at the same time if there is no client, by default all cores. Results do not depend on it.
+    si : bool, optional
+        Whether the numbers are in SI units, by the constants [medium] of each point. By default they are if the first point that
+        can be read has values with units outside of [medium]. The axes have the values that are given.
 
     Returns
     -------
@@ -131,12 +140,14 @@ def sweep(scenario, axes, *, variables=None, set=None, command="pulse", output=N
     if total * (8 * len(kept) + 1500) > _slipfront.usable_memory():
         raise InputError(f"axes: {total} points need more memory than this process may have; allowed: fewer")
     points = [dict(zip(axes, values)) for values in itertools.product(*axes.values())]
-    request = arguments(scenario, output=output, resume=resume)
+    request = arguments(scenario, output=output, resume=resume, si=si)
     if request["path"]:
         request["text"] = _slipfront.read_text(request["path"])
     settings = overrides(set)
+    if si is None:
+        request["si"] = _si_by_default(scenario, set or {}, points)
     about = {"format": _format, "version": __version__, "command": command, "scenario": request["text"], "set": settings, "axes": axes,
-             "variables": list(kept)}
+             "variables": list(kept), **({"si": True} if request["si"] else {})}
     kept_in = request["resume"] or request["output"]
     if resume is not None and os.path.exists(kept_in) and not os.path.exists(kept_in + ".part"):
         return _finished(kept_in, about)
@@ -185,16 +196,6 @@ def sweep(scenario, axes, *, variables=None, set=None, command="pulse", output=N
     return data
 
 
-def _unit_of(name, meaning):
-    """Returns the unit of a number of a run, and its meaning without the unit."""
-    text, found, unit = meaning.rpartition("in ")
-    if found and (not text or text.endswith(", ")):
-        with contextlib.suppress(InputError):
-            symbols(unit)
-            return unit, text.removesuffix(", ")
-    return next((unit for ending, unit in _units.items() if name.endswith(ending) or name.startswith(ending)), ""), meaning
-
-
 def _unit_of_axis(key, values):
     """Returns the unit of an axis, or "" if it has none. That of a friction parameter depends on the law and on normal_stress."""
     _, unit = _slipfront.scenario_keys().get(key, ("", ""))
@@ -220,10 +221,10 @@ def dimension_of(key):
 def _dataset(about, axes, kept, values, reasons):
     dims = tuple(dimension_of(key) for key in axes)
     variables = {}
-    for (name, meaning), array in zip(kept.items(), values):
+    for (name, (words, unit)), array in zip(kept.items(), values):
         if name not in dims:  # friction_coefficient is then the coordinate
-            unit, words = _unit_of(name, meaning)
-            variables[name] = (dims, array, {"long_name": words or name.replace("_", " "), "units": "1", "dimensional_unit": unit})
+            attrs = {"long_name": words or name.replace("_", " "), "units": "1", "dimensional_unit": unit}
+            variables[name] = (dims, array, converted(attrs, in_si(unit, _any_medium)) if unit and "si" in about else attrs)
     variables["failure"] = (dims, reasons, {"long_name": "reason why there is no result; empty for a point that succeeded"})
     coordinates = {}
     for dim, (key, array) in zip(dims, axes.items()):
@@ -233,7 +234,7 @@ def _dataset(about, axes, kept, values, reasons):
         coordinates[dim] = (dim, numbers, {"long_name": f"{key} of the scenario", "key": key, **units})
     return dataset(variables, coordinates,
                    {"Conventions": "CF-1.10", "source": f"slipfront {__version__}", "history": f"slipfront.sweep of {about['command']}",
-                    "version": __version__, "scenario": about["scenario"], "set": "\n".join(about["set"]), "slipfront_format": _format,
+                    **({"unit_system": "SI"} if "si" in about else {}), "version": __version__, "scenario": about["scenario"], "set": "\n".join(about["set"]), "slipfront_format": _format,
                     "sweep": json.dumps(about)})
 
 

@@ -1,20 +1,12 @@
 """Units of the model in SI units, and constants of rock and interface as users give them."""
 
-import ast
 import math
-import operator
 import re
 
+from . import _slipfront
 from . import medium as laws
 from ._shown import shown
 from ._slipfront import InputError
-
-#: Powers of Pa, m and s of each symbol of a unit.
-_SYMBOLS = {"mu": (1, 0, 0), "nu": (0, 0, 0), "pi": (0, 0, 0), "A": (0, 0, 0), "b": (0, 1, 0), "c": (0, 1, -1)}
-_OPERATIONS = {ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul, ast.Div: operator.truediv, ast.Pow: operator.pow}
-
-#: Usual names of some units. Others are products of Pa, m and s.
-_NAMES = {(1, 1, 0): "J m-2", (1, 2, 0): "J m-1", (0, 0, 0): "1"}
 
 #: Constants of rock and interface, with the powers of m, kg and s of their units and an example.
 CONSTANTS = {
@@ -27,59 +19,26 @@ _BASE_UNITS = {"m": (1, (1, 0, 0)), "g": (1e-3, (0, 1, 0)), "s": (1, (0, 0, 1)),
 _PREFIXES = {"n": 1e-9, "u": 1e-6, "µ": 1e-6, "μ": 1e-6, "m": 1e-3, "c": 1e-2, "d": 1e-1, "": 1, "h": 1e2, "k": 1e3, "M": 1e6, "G": 1e9, "T": 1e12}
 
 
-def _tree(text):
-    """Returns the syntax tree of a unit such as `mu A^2 / (pi (1 - nu))`. Factors may follow each other without an operator."""
-    product = re.sub(r"(?<=[\w)])\s+(?=[\w(])|(?<=\))(?=[\w(])|(?<=\d)(?=[A-Za-z(])", "*", text.strip())
-    try:
-        return ast.parse(product.replace("^", "**"), mode="eval").body
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
-        raise _unknown(text) from None
-    except SystemError as error:  # the parser of Python 3.11 ran out of memory
-        raise MemoryError from error
-
-
-def _unknown(text):
-    return InputError(f"dimensional_unit = '{shown(text)}': not a unit of the model; allowed: products and powers of {', '.join(_SYMBOLS)}")
-
-
 def symbols(text):
     """Returns the symbols of a unit that are constants of rock and interface. Raises InputError for other texts."""
-    names = {node.id for node in ast.walk(_tree(text)) if isinstance(node, ast.Name)}
-    if not names <= set(_SYMBOLS):
-        raise _unknown(text)
-    return names - {"pi"}
+    return set(_slipfront.unit_symbols(str(text)).split())
 
 
 def in_si(text, values):
-    """Returns the unit in SI units and its name by UDUNITS. `values` has the value of each symbol of the text.
+    """Returns the unit in SI units, its name by UDUNITS, and whether it is of slip. The slip of one face becomes that between the faces, so
+    that this unit is twice as large. `values` has the value of each symbol of the text.
 
     Raises InputError for a text that is not a unit of the model."""
-    values = {**values, "pi": math.pi}
+    known = [math.nan if values[symbol] is None else values[symbol] for symbol in ("mu", "nu", "A", "b", "c")]
+    return _slipfront.unit_in_si(str(text), known)
 
-    def quantity(node):
-        if isinstance(node, ast.Constant) and type(node.value) in (int, float):
-            return node.value, (0, 0, 0)
-        if isinstance(node, ast.Name) and node.id in _SYMBOLS:
-            return values[node.id], _SYMBOLS[node.id]
-        if not isinstance(node, ast.BinOp) or type(node.op) not in _OPERATIONS:
-            raise _unknown(text)
-        (a, left), (b, right) = quantity(node.left), quantity(node.right)
-        if isinstance(node.op, ast.Pow):
-            if not isinstance(node.right, ast.Constant) or not -9 <= b <= 9:
-                raise _unknown(text)
-            powers = tuple(p * b for p in left)
-        elif isinstance(node.op, (ast.Add, ast.Sub)):
-            if left != right:
-                raise _unknown(text)
-            powers = left
-        else:
-            sign = 1 if isinstance(node.op, ast.Mult) else -1
-            powers = tuple(p + sign * q for p, q in zip(left, right))
-        return _OPERATIONS[type(node.op)](a, b), powers
 
-    factor, powers = quantity(_tree(text))
-    parts = [f"{name}{'' if power == 1 else f'{power:g}'}" for name, power in zip(("Pa", "m", "s"), powers) if power]
-    return factor, _NAMES.get(powers) or " ".join(parts)
+def converted(attrs, unit):
+    """Returns the attributes of a variable in SI units. `unit` is a result of in_si."""
+    _, name, between_faces = unit
+    words = {"long_name": f"{attrs.get('long_name', '')}, between the faces".removeprefix(", ")} if between_faces else {}
+    of_model = {"unit_of_model": attrs["dimensional_unit"]} if "dimensional_unit" in attrs else {}
+    return {**{key: value for key, value in attrs.items() if key != "dimensional_unit"}, **words, "units": name, **of_model}
 
 
 def _named_unit(name):

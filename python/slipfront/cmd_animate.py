@@ -4,7 +4,7 @@ import json
 import pathlib
 import tomllib
 
-from ._arguments import Arguments, file_name, progress, put
+from ._arguments import Arguments, add_units, chosen_units, file_name, progress, put
 from ._optional import import_optional
 
 FRAMES = 75
@@ -13,7 +13,7 @@ FRAMES = 75
 ROCK = {"p_wave_speed": 6000.0, "poisson_ratio": 0.3, "shear_modulus": 30e9}
 
 
-def run(scenario):
+def run(scenario, si):
     """Runs the pulse of a scenario file. The output times give a smooth animation unless the scenario has its own."""
     import slipfront
 
@@ -23,15 +23,15 @@ def run(scenario):
     except (OSError, tomllib.TOMLDecodeError, AttributeError, UnicodeDecodeError):
         own = False  # slipfront.check below reports the error
     plan = slipfront.check(scenario)
-    pulse = slipfront.pulse(scenario, set={} if own else {"output.every": plan["end"] / (FRAMES - 1)})
+    pulse = slipfront.pulse(scenario, set={} if own else {"output.every": plan["end"] / (FRAMES - 1)}, si=si)
     return pulse.assign_attrs(title=plan["title"])  # the title of the run names the output times that we have set
 
 
-def pulse_of(source):
-    """Returns the pulse of a file. A scenario is run first."""
+def pulse_of(source, si=None):
+    """Returns the pulse of a file. A scenario is run first. `si` chooses the units, by default those of the file or the scenario."""
     from .plots import files
 
-    pulse = run(source) if source.lower().endswith(".toml") else files.read(source)
+    pulse = run(source, si) if source.lower().endswith(".toml") else files.read(source, si)
     if not {"W", "Sigma", "k", "x_bounds"} <= set(pulse.variables) or set(pulse["k"].dims) != {"time", "x"} or pulse.sizes["time"] < 2:
         raise ValueError(f"{source}: contains no pulse with two or more output times; allowed: a file of pulse or chain, or a scenario")
     return pulse
@@ -59,6 +59,7 @@ def arguments(argv):
     parser.add_argument("--contact-ratio", metavar="A", type=float, help="contact ratio; adds scales in SI units to the dimensionless ones")
     parser.add_argument("--asperity-spacing", metavar="METRES", type=float,
                         help="asperity spacing b in m, for the scales in SI units; the rock is that of the paper: P waves of 6 km/s, Poisson's ratio 0.3, 30 GPa")
+    add_units(parser, "default if the file or the scenario is in SI units")
     return parser.parse_args(argv)
 
 
@@ -74,8 +75,12 @@ def main(argv) -> int:
     output = pathlib.Path(options.output)
     if output.suffix.lower().lstrip(".") not in movie.FORMATS:
         raise ValueError(f"-o {output}: '{output.suffix}' is not a format of moving pictures; allowed endings: {', '.join(movie.FORMATS)}")
-    si = si_units(options)
-    scene, frames = Scene([pulse_of(source) for source in options.sources], si), []
+    pulses, si = [pulse_of(source, chosen_units(options)) for source in options.sources], si_units(options)
+    if si and any(pulse.attrs.get("unit_system") == "SI" for pulse in pulses):
+        raise ValueError("--contact-ratio: the pulse is in SI units already; allowed: with --dimensionless")
+    if len({pulse.attrs.get("unit_system") for pulse in pulses}) > 1:
+        raise ValueError("FILE: some are in SI units and others are not; allowed: --si or --dimensionless for all")
+    scene, frames = Scene(pulses, si), []
     for row in range(scene.times.size):
         progress(options, f"frame {row + 1} of {scene.times.size}")
         frames.append(scene.show(row))

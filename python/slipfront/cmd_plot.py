@@ -3,7 +3,7 @@
 import json
 import pathlib
 
-from ._arguments import Arguments, file_name, put
+from ._arguments import Arguments, add_units, chosen_units, file_name, put
 from ._optional import import_optional
 
 FORMATS = ("png", "svg", "pdf", "jpg", "webp")
@@ -51,6 +51,7 @@ def main(argv) -> int:
     parser.add_argument("--event", metavar="N", type=int, help="number of the slip event of a loaded chain to draw close up, from 1 (default: the one with the largest slip)")
     parser.add_argument("--until-failure", action="store_true", help="draw force and slip velocity of a loaded chain against the logarithm of the time until the event of --event")
     parser.add_argument("--variable", metavar="NAME", help="number of a sweep to draw (default: slip_velocity_at_origin, or else the first that it has)")
+    add_units(parser, "default if the file is in SI units; otherwise by the constants in its scenario")
     options = parser.parse_args(argv)
     import_optional("xarray")
     import_optional("matplotlib")
@@ -59,7 +60,7 @@ def main(argv) -> int:
     output = pathlib.Path(options.output) if options.output else pathlib.Path(options.file).with_suffix(".png")
     if output.suffix.lower().lstrip(".") not in FORMATS:
         raise ValueError(f"-o {output}: '{output.suffix}' is no picture; allowed endings: {', '.join(FORMATS)}")
-    dataset = files.read(options.file)
+    dataset = files.read(options.file, chosen_units(options))
     kinds = choose.kinds_of(dataset)
     if not kinds:
         raise ValueError(f"{options.file}: nothing to draw in it; allowed: what pulse, chain, compare, relations, event and laboratory write, or samples")

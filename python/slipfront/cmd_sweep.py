@@ -9,7 +9,7 @@ import sys
 import warnings
 
 from . import _slipfront
-from ._arguments import Arguments, file_name, put
+from ._arguments import Arguments, add_units, chosen_units, file_name, put
 from ._grid import values_of
 from ._messages import DONE, NUMERICS, Interruption, complain
 from ._slipfront import InputError
@@ -42,6 +42,7 @@ def arguments(argv):
                         help="numbers of each run to keep, with commas between them (default: all that pulse --json prints)")
     parser.add_argument("--cluster", metavar="ADDRESS", help="Dask scheduler whose workers run the points, such as tcp://HOST:8786")
     parser.add_argument("--csv", action="store_true", help="one CSV row each, full precision")
+    add_units(parser)
     options = parser.parse_args(argv)
     if options.json and options.csv:
         raise ValueError("--json and --csv: both are given; allowed: one of them")
@@ -93,7 +94,7 @@ def run(options, axes):
     settings = pairs("--set", options.set)
     try:
         return sweep(options.scenario, axes, variables=options.variables, set=settings, command=options.command, output=options.output, resume=options.resume,
-                     client=client, progress=sys.stderr.isatty() and not options.quiet, threads=options.threads)
+                     client=client, progress=sys.stderr.isatty() and not options.quiet, threads=options.threads, si=chosen_units(options))
     except InputError as error:
         text = str(error)
         if text.startswith("axes: "):
@@ -142,7 +143,8 @@ def table(data, width):
     numbers = []
     for name in dict.fromkeys((*COLUMNS, *data.data_vars)):
         if name in data and name != "failure":
-            numbers.append(column(name, data[name].attrs["dimensional_unit"], ["failed" if row["failure"] else short(row[name]) for row in rows]))
+            attrs = data[name].attrs
+            numbers.append(column(name, attrs.get("dimensional_unit", attrs["units"]), ["failed" if row["failure"] else short(row[name]) for row in rows]))
 
     def axes(title):
         keys = {data[dim].attrs["key"]: data[dim].attrs.get("dimensional_unit", "") for dim in data["failure"].dims}
@@ -170,7 +172,8 @@ def report(data, options):
     failed = int((data["failure"] != "").sum())
     if options.json:
         points = [{name: known(value) for name, value in row.items()} for row in rows_of(data)]
-        print(json.dumps({"command": options.command, "file": file, "failed": failed, "points": points}))
+        units = {name: data[name].attrs["units"] for name in data.data_vars if data[name].attrs.get("units", "1") != "1"}
+        print(json.dumps({"command": options.command, "file": file, "failed": failed, "points": points, **({"unit_system": "SI", "units": units} if units else {})}))
     elif options.csv:
         out = csv.writer(sys.stdout, lineterminator="\n")
         for i, row in enumerate(rows_of(data)):

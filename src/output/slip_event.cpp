@@ -14,8 +14,8 @@ constexpr SlipEventColumn columns[] = {
     {{"duration", "time until all parts are below half the threshold", "b / (c A)", "Eq. 1"}, &SlipEvent::duration},
     {{"slip", "slip, mean over the chain", "b / (2 pi)", "Eq. 1"}, &SlipEvent::slip},
     {{"largest_slip", "slip of the part that slips most", "b / (2 pi)", "Eq. 1"}, &SlipEvent::largest_slip},
-    {{"stress_drop", "fall of the mean force F on a site, or of the stress at a pulled end",
-      "mu A^2 / (pi (1 - nu)); mu A / pi at an end", "Eq. 1"},
+    {{"stress_drop", "fall of the mean force F on a site, or of the stress at a pulled end", "mu A^2 / (pi (1 - nu))",
+      "Eq. 1"},
      &SlipEvent::stress_drop},
     {{"peak_velocity", "greatest slip velocity of a part", "c A / pi", "Eq. 1"}, &SlipEvent::peak_velocity},
     {{"origin", "position of the part that moves first", "b / A", "Eq. 1"}, &SlipEvent::origin},
@@ -50,5 +50,11 @@ EventSeries series_of(const std::vector<SlipEvent>& events) {
 }
 
 std::span<const SlipEventColumn> slip_event_columns() { return columns; }
+
+Description description_of(const SlipEventColumn& column, bool pulled_end) {
+  Description about = column.about;
+  if (pulled_end && column.value == &SlipEvent::stress_drop) about.dimensional_unit = "mu A / pi";
+  return about;
+}
 
 }  // namespace slipfront::output

@@ -31,13 +31,35 @@ auto naming(const std::string& file, const Task& task) {
 
 }  // namespace
 
+void choose_units(scenario::Scenario& scenario, std::optional<bool> in_si) {
+  scenario.results_in.reset();
+  if (!in_si.value_or(scenario.in_si)) return;
+  try {
+    scenario.results_in.emplace(scenario.medium);
+  } catch (const InputError& error) {
+    if (in_si)
+      throw InputError(
+          {.file = scenario.file, .problem = error.complaint().problem, .allowed = error.complaint().allowed});
+    scenario.warnings.push_back("the results are in the units of the model: " + error.complaint().problem);
+    return;
+  }
+  const std::string& assumed = scenario.results_in->assumed();
+  if (!assumed.empty() && !scenario.in_si)  // else the reader of the scenario has warned
+    scenario.warnings.push_back("SI units were converted with " + assumed + ", which [medium] does not give");
+}
+
 record::PulseMetadata metadata_of(const scenario::Scenario& scenario, const std::string& command,
                                   const std::vector<double>& x_edges, const std::vector<double>& scales) {
   // The history is that of the run, not of how it was interrupted and resumed: equal runs make equal files.
-  return {scenario.title,    scenario.text,
-          SLIPFRONT_VERSION, scenario::command_line(scenario, command, scales),
-          x_edges,           scenario.output.variables,
-          scenario.warnings};
+  return {.title = scenario.title,
+          .scenario_text = scenario.text,
+          .version = SLIPFRONT_VERSION,
+          .command_line = scenario::command_line(scenario, command, scales),
+          .x_edges = x_edges,
+          .variables = scenario.output.variables,
+          .warnings = scenario.warnings,
+          .pulled_end = scenario.loading.acts() && scenario.loading.where != chain::Pulled::everywhere,
+          .units = scenario.results_in};
 }
 
 PulsePlan plan_pulse(const scenario::Scenario& scenario) {

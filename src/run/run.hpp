@@ -34,6 +34,11 @@ struct Options {
   Clock::time_point begun = Clock::now();  ///< wall_seconds are counted from this time
 };
 
+/// Chooses the units of the results of a scenario. `in_si` is what the user asks for; by default results are in SI
+/// units if the scenario has values in SI units. Defaults for constants of the rock add a warning. \throws InputError
+/// if the user asks for SI units and [medium] lacks a constant; without that request, this is a warning.
+void choose_units(scenario::Scenario& scenario, std::optional<bool> in_si);
+
 /// The metadata for the file of a run of `command`.
 record::PulseMetadata metadata_of(const scenario::Scenario& scenario, const std::string& command,
                                   const std::vector<double>& x_edges, const std::vector<double>& scales = {});

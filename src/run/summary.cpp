@@ -4,6 +4,7 @@
 
 #include "output/further_scalars.hpp"
 #include "pulse/observe/energy.hpp"
+#include "record/pulses/pulse_variables.hpp"
 #include "slipfront/setup/problem.hpp"
 
 namespace slipfront::run {
@@ -199,6 +200,34 @@ std::vector<SummaryItem<FinishedChain>> chain_items() {
 }
 
 }  // namespace
+
+std::string_view unit_of(std::string_view key) {
+  for (const record::ScalarVariable& scalar : record::scalar_variables())
+    if (scalar.about.name == key) return scalar.about.dimensional_unit;
+  if (key == "time" || key == "first_crossing_time") return "b / (c A)";
+  if (key == "first_crossing_position" || key == "window" || key == "smooth_window") return "b / A";
+  return {};
+}
+
+std::string without_unit(std::string_view key, const std::string& meaning) {
+  const std::string ending = "in " + std::string(unit_of(key));
+  if (unit_of(key).empty() || !meaning.ends_with(ending)) return meaning;
+  const std::string words = meaning.substr(0, meaning.size() - ending.size());
+  return words.ends_with(", ") ? words.substr(0, words.size() - 2) : words;
+}
+
+SummaryValue in_si(const SummaryValue& row, const medium::SiUnits& units, double* error) {
+  SummaryValue converted = row;
+  double* const value = std::get_if<double>(&converted.value);
+  if (!value || unit_of(row.key).empty()) return converted;
+  const medium::UnitInSi unit = units.of(unit_of(row.key));
+  *value *= unit.value;
+  if (error) *error *= unit.value;
+  const std::string words = without_unit(row.key, row.meaning);
+  converted.meaning =
+      words + (words.empty() ? "" : ", ") + (unit.between_faces ? "between the faces, " : "") + "in " + unit.name;
+  return converted;
+}
 
 std::span<const SummaryItem<FinishedPulse>> pulse_summary() {
   static const std::vector<SummaryItem<FinishedPulse>> items = with_further(pulse_items());

@@ -5,6 +5,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -43,11 +44,20 @@ struct FinishedChain {
 };
 std::span<const SummaryItem<FinishedChain>> chain_summary();
 
+/// A row of a summary.
 struct SummaryValue {
   std::string key;
   Value value;
   std::string meaning;
 };
+
+/// The unit of a key of a summary in the units of the model, such as "b / A". It is empty for a pure number.
+std::string_view unit_of(std::string_view key);
+/// The meaning of a key without the unit at its end.
+std::string without_unit(std::string_view key, const std::string& meaning);
+
+/// A row in SI units. The meaning ends with the SI unit. `error`, if any, is converted too.
+SummaryValue in_si(const SummaryValue& row, const medium::SiUnits& units, double* error = nullptr);
 template <class End>
 std::vector<SummaryValue> summary(std::span<const SummaryItem<End>> items, const End& end) {
   std::vector<SummaryValue> values;

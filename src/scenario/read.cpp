@@ -62,6 +62,7 @@ Scenario read(std::string_view text, const std::string& file, const std::vector<
   const RawStress raw = read_tables(document, tables, scenario, errors);
   errors.throw_if_any();
   make_functions(document, raw, scenario);
+  scenario.in_si = document.units.used();
   if (!document.units.assumed().empty())
     scenario.warnings.push_back("SI units were converted with " + document.units.assumed() +
                                 ", which [medium] does not give");

@@ -71,7 +71,7 @@ class Units(CommandLine):
         plain = self.file + ".plain.toml"
         with open(plain, "w", encoding="utf-8") as file:  # without [medium]
             file.write(BLOCK.split("[medium]")[0].replace('normal_stress = "5 MPa"', ""))
-        runs = [json.loads(self.ok("chain", self.file, "--json")), json.loads(self.ok("chain", plain, "--json", "--set", *numbers))]
+        runs = [json.loads(self.ok("chain", self.file, "--json", "--dimensionless")), json.loads(self.ok("chain", plain, "--json", "--set", *numbers))]
         for run in runs:
             for key in ("wall_seconds", "site_updates_per_second"):
                 del run[key]

@@ -30,10 +30,12 @@ class Conversion(unittest.TestCase):
         metric = si(pulse)
         for name, key, unit in [("x", "length", "m"), ("x_bounds", "length", "m"), ("time", "time", "s"), ("W", "slip_velocity", "m s-1"), ("Sigma", "stress", "Pa"),
                                 ("slip", "slip", "m"), ("U", "velocity", "m s-1")]:
-            np.testing.assert_allclose(metric[name], pulse[name] * UNITS[key], rtol=1e-14, err_msg=name)
+            faces = 2 if name == "slip" else 1  # slip is between the faces
+            np.testing.assert_allclose(metric[name], pulse[name] * UNITS[key] * faces, rtol=1e-14, err_msg=name)
             self.assertEqual(metric[name].units, unit)
             self.assertNotIn("dimensional_unit", metric[name].attrs)
         self.assertEqual(metric.W.attrs["long_name"], pulse.W.attrs["long_name"])
+        self.assertEqual(metric.slip.attrs["long_name"], pulse.slip.attrs["long_name"] + ", between the faces")
         self.assertTrue(metric.identical(si(metric)))  # nothing is left to convert
         self.assertIn("A = 0.01", metric.attrs["comment"])
         np.testing.assert_array_equal(pulse.x, slipfront.pulse(STEP).x)  # the argument is as before
@@ -101,13 +103,13 @@ class Units(unittest.TestCase):
         for text, value, name in [("b / A", 0.1, "m"), ("A / b", 10, "m-1"), ("b / (c A)", UNITS["time"], "s"), ("mu A / pi", UNITS["stress"], "Pa"),
                                   ("(mu A / pi)^2", UNITS["stress"] ** 2, "Pa2"), ("pi / (mu A)", 1 / UNITS["stress"], "Pa-1"), ("c", SPEED, "m s-1"),
                                   ("mu A^2 / (pi (1 - nu))", float(slipfront.medium.traction_unit(30e9, 0.3, 0.01)), "Pa"),
-                                  ("mu b^2 A / (2 pi^2 (1 - nu))", 30e9 * 1e-6 * 0.01 / (2 * np.pi**2 * 0.7), "J m-1"), ("b^2 / (2 pi A)", 1e-4 / (2 * np.pi), "m2")]:
-            found, unit = _units.in_si(text, VALUES)
+                                  ("mu b^2 A / (2 pi^2 (1 - nu))", 30e9 * 1e-6 * 0.01 / (2 * np.pi**2 * 0.7), "J m-1"), ("b^2 / (2 pi A)", 1e-4 / np.pi, "m2"), ("b / (2 pi)", 1e-3 / np.pi, "m")]:
+            found, unit, between_faces = _units.in_si(text, VALUES)
             self.assertAlmostEqual(found / value, 1, places=13, msg=text)
-            self.assertEqual(unit, name)
+            self.assertEqual((unit, between_faces), (name, text in ("b / (2 pi)", "b^2 / (2 pi A)")))
 
     def test_rejects_other_texts(self):
-        for text in ("__import__('os')", "mu.real", "A^A", "A^99", "mu + b", "km", "mu(A)(", "", "'A'", "A if b else c", "True"):
+        for text in ("__import__('os')", "mu.real", "A^A", "A^99", "mu + b", "km", "mu(A)(", "", "'A'", "A if b else c", "True", "(mu + b)", "(" * 50 + "A", "A^", "1e9", "9999999999 A"):
             with self.subTest(text), self.assertRaises(slipfront.InputError):
                 _units.in_si(text, VALUES)
 

@@ -20,8 +20,8 @@ struct SlipEvent {
   double peak_velocity = 0;        ///< largest mean slip velocity of a part
   double origin = 0;               ///< x of the part that moved first
   double length = 0;               ///< total length of the parts that moved
-  /// |dx / dt| of the front, by least squares through the parts that moved, from `origin`. NaN if fewer than three
-  /// parts moved, or if all moved at once.
+  /// |dx / dt| of the front, by least squares through the parts that moved, from `origin`; on a ring by the shorter
+  /// way. NaN if fewer than three parts moved, if all moved at once, or if the fit is faster than c.
   double rupture_velocity = std::numeric_limits<double>::quiet_NaN();
   double complete = 0;  ///< 1, or 0 if the run ended during the event
 };
@@ -41,5 +41,8 @@ struct EventSeries {
   double peak_velocity = 0;    ///< median
 };
 EventSeries series_of(const std::vector<SlipEvent>& events);
+
+/// The description of a column. The stress drop is that of the force on the sites, or of the stress at a `pulled_end`.
+Description description_of(const SlipEventColumn& column, bool pulled_end);
 
 }  // namespace slipfront::output

@@ -15,6 +15,7 @@
 #include "slipfront/error.hpp"
 #include "slipfront/friction/friction.hpp"
 #include "slipfront/medium/constants.hpp"
+#include "slipfront/medium/si_units.hpp"
 #include "slipfront/pulse/problem.hpp"
 #include "slipfront/train/train.hpp"
 
@@ -91,7 +92,9 @@ struct Scenario {
   double end = 2 * std::numbers::pi;
   PulseOptions pulse;
   ChainOptions chain;
-  medium::Constants medium;  ///< [medium]
+  medium::Constants medium;                   ///< [medium]
+  bool in_si = false;                         ///< a value of another table is in SI units
+  std::optional<medium::SiUnits> results_in;  ///< units of results, which run::choose_units sets; absent: of the model
   Output output;
   std::vector<std::string> overrides;  ///< "table.key=value", as given
   std::vector<std::string> warnings;   ///< warnings for the user before the run, one line each

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 from .dislocations import positions
 from .pulse_parts import extent, finite, fronts_of, title_of, window
-from .style import label, styled
+from .style import is_si, label, prefix_axes, prefixed, styled, unit
 
 SHOWN = 30  #: approximate number of dislocations in the picture at the first time
 FIELDS = (("W", "C1"), ("Sigma", "C0"))
@@ -92,6 +92,9 @@ class Scene:
         self.panels[2, 0].set_ylabel("dislo-\ncations")
         if si:
             self.add_si()
+        if is_si(pulses[0]):
+            prefix_axes(self.figure)
+        self.second = prefixed(unit(pulses[0]["time"]), float(self.times[-1])) if is_si(pulses[0]) else None
         self.clock = self.figure.suptitle(" ")
         self.show(0)
         self.figure.canvas.draw()
@@ -99,8 +102,8 @@ class Scene:
 
     def add_si(self) -> None:
         """Adds scales in SI units: slip velocity and stress on the right, position at the top."""
-        for axes, unit, text in ((self.panels[0, -1], self.si["slip_velocity"], "m/s"), (self.panels[1, -1], self.si["stress"] / 1e6, "MPa")):
-            axes.secondary_yaxis("right", functions=(lambda y, unit=unit: y * unit, lambda y, unit=unit: y / unit)).set_ylabel(text)
+        for axes, factor, text in ((self.panels[0, -1], self.si["slip_velocity"], "m/s"), (self.panels[1, -1], self.si["stress"] / 1e6, "MPa")):
+            axes.secondary_yaxis("right", functions=(lambda y, factor=factor: y * factor, lambda y, factor=factor: y / factor)).set_ylabel(text)
         for axes in self.panels[0]:
             above = axes.secondary_xaxis("top", functions=(lambda x: x * self.si["length"], lambda x: x / self.si["length"]))
             above.set_xlabel("m", fontsize="small", labelpad=2)
@@ -112,6 +115,9 @@ class Scene:
         time = float(self.times[row])
         for column in self.columns:
             column.show(row)
-        self.clock.set_text(f"t = {time:.2f} b/(cA)" + (f" = {metres(time * self.si['time'])}s" if self.si else ""))
+        if self.second:
+            self.clock.set_text(f"t = {time / self.second[0]:.4g} {self.second[1]}")
+        else:
+            self.clock.set_text(f"t = {time:.2f} b/(cA)" + (f" = {metres(time * self.si['time'])}s" if self.si else ""))
         self.figure.canvas.draw()
         return numpy.asarray(self.figure.canvas.buffer_rgba())[..., :3].copy()

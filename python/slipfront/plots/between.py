@@ -1,9 +1,17 @@
 """Interpolates the fields of a pulse between the positions and times of its file."""
 
+import re
+
 import numpy
 
 #: Fronts with which the field moves between two outputs. Both must be known at both outputs.
 CARRIERS = ("trailing_front", "leading_front")
+
+
+def speed_of(pulse) -> float:
+    """Returns the speed c of strain waves in the units of a pulse: 1 in those of the model, and else m/s."""
+    found = re.search(r"\bc = (\S+) m/s", str(pulse.attrs.get("medium", "")))
+    return float(found[1]) if found else 1.0
 
 
 def anchors(pulse, row) -> numpy.ndarray:
@@ -17,7 +25,7 @@ def anchors(pulse, row) -> numpy.ndarray:
     if not all(name in pulse for name in CARRIERS):
         return ends.T
     fronts = numpy.array([pulse[name].values[row : row + 2] for name in CARRIERS])
-    steady = numpy.all(numpy.abs(fronts[:, 1] - fronts[:, 0]) <= numpy.diff(pulse["time"].values[row : row + 2]))
+    steady = numpy.all(numpy.abs(fronts[:, 1] - fronts[:, 0]) <= speed_of(pulse) * numpy.diff(pulse["time"].values[row : row + 2]))
     places = numpy.vstack((ends[:1], fronts, ends[1:])).T
     return places if steady and numpy.all(numpy.diff(places, axis=1) >= 0) else ends.T  # both are false for NaN
 

@@ -2,7 +2,7 @@
 
 import numpy
 
-from .loaded_parts import drop_of, event_of, say
+from .loaded_parts import event_of, say
 from .pulse_parts import title_of
 from .relations import spans_decades
 from .style import Picture, label, plain_numbers, scaled, styled
@@ -40,7 +40,7 @@ def catalogue(run) -> Picture:
     complete = run["event_complete"].values > 0
     scatter(left, run["event_length"], run["event_slip"], run["event_length"].values, run["event_slip"].values, complete)
     since = numpy.diff(run["event_onset"].values)
-    drop = drop_of(run)
+    drop = run["event_stress_drop"]
     scatter(right, run["event_onset"], drop, since, drop.values[1:], complete[1:], "time since the event before")
     if since.size == 0:
         right.set(xlim=(0, 1), ylim=(0, 1), xticks=[], yticks=[], xlabel=label(run["time"], "time since the event before"), ylabel=label(drop))

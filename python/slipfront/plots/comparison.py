@@ -3,7 +3,7 @@
 from typing import Any
 
 from .pulse_parts import mark_fronts, shades, title_of, window
-from .style import Picture, label, plain, styled, unit
+from .style import Picture, label, plain, quantity, styled
 
 #: Lines of the levels that are no chains; chains are shaded by their scale.
 LEVELS: dict[str, dict[str, Any]] = {
@@ -57,5 +57,5 @@ def comparison(levels, fields=("W", "Sigma", "slip")) -> Picture:
     panels[0, 1].legend()
     if "pulse-consistent" in names:
         mark_fronts(panels[0, 0], levels.isel(level=names.index("pulse-consistent")))
-    figure.suptitle(f"{title_of(levels)}, t = {float(levels['time'][-1]):.4g} {unit(levels['time'])}")
+    figure.suptitle(f"{title_of(levels)}, t = {quantity(levels['time'], float(levels['time'][-1]))}")
     return figure

@@ -8,8 +8,9 @@ from .._optional import import_optional
 from .._run import read as read_netcdf
 
 
-def read(path) -> xarray.Dataset:
-    """The Dataset of a NetCDF file, or of a CSV file of `slipfront relations` or `event` (one row a state or event).
+def read(path, si=None) -> xarray.Dataset:
+    """The Dataset of a NetCDF file, or of a CSV file of `slipfront relations` or `event` (one row a state or event). `si` chooses the units
+    of a run, by default those of its file.
 
     Raises OSError, in one line with the file's name, where it cannot be read; ValueError where it is neither.
     """
@@ -20,16 +21,17 @@ def read(path) -> xarray.Dataset:
     except OSError as error:
         raise OSError(f"{path}: {error.strerror}") from error
     if start.startswith((b"\x89HDF", b"CDF")):
-        return netcdf(path)
+        return netcdf(path, si)
     if path.suffix.lower() == ".csv":
         return rows(path)
     raise ValueError(f"{path}: neither NetCDF nor CSV by its start and name; allowed: files of pulse, chain, compare, event (-o), relations, event (--csv)")
 
 
-def netcdf(path) -> xarray.Dataset:
+def netcdf(path, si=None) -> xarray.Dataset:
     """A NetCDF file, by slipfront or not."""
     try:
-        return read_netcdf(path, any_file=True)
+        data = read_netcdf(path, any_file=True, si=si)
+        return data.slipfront.si() if si else data
     except OSError as error:
         raise OSError(f"not a whole NetCDF file: {error}") from error
 

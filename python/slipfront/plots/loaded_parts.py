@@ -76,33 +76,18 @@ def force_with_events(run) -> tuple:
     return (*line, numpy.interp(onsets, *line))
 
 
-def drop_of(run):
-    """Returns the stress drops of the events with their unit: that of a force, or of a stress at a pulled end."""
-    drop, force = run["event_stress_drop"].copy(), force_of(run)
-    both = drop.attrs.get("dimensional_unit", "").removesuffix(" at an end").split("; ")
-    if len(both) == 2:
-        drop.attrs["dimensional_unit"] = both[force is not None and force.name == "loading_stress"]
-    drop.attrs["long_name"] = "stress drop"
-    return drop
-
-
 def direction(run) -> int:
     """Returns 1 if the run slips forward on the whole, and -1 if it slips backward."""
     return -1 if "slip" in run and float(run["slip"][-1].mean()) < 0 else 1
 
 
 def slip_rates(run) -> numpy.ndarray:
-    """Returns the magnitude of the mean slip velocity between one output and the next, over interval and x.
-
-    In the units of the model it is the change of slip over time. In SI units the slip is that of one face and the velocity counts both faces
-    (docs/theory/1_chain.md), so that the factor is two.
-    """
+    """Returns the magnitude of the mean slip velocity between one output and the next, over interval and x."""
     slip = run["slip"].transpose("time", "x")
-    faces = 1 if slip.attrs.get("dimensional_unit") else 2
     change = numpy.diff(slip.values, axis=0)
     noise = 8 * numpy.finfo(float).eps * numpy.nanmax(numpy.abs(slip.values), initial=0)
     change[numpy.abs(change) <= noise] = 0
-    return faces * numpy.abs(change) / numpy.diff(run["time"].values)[:, None]
+    return numpy.abs(change) / numpy.diff(run["time"].values)[:, None]
 
 
 def rate_label(run) -> str:

@@ -3,7 +3,7 @@
 import numpy
 
 from .pulse_parts import backward, extent, finite, mark_fronts, say_rest, shades, title_of, window
-from .style import REST, Picture, label, styled, unit
+from .style import REST, Picture, is_si, label, prefixed, styled, unit
 
 
 def room(lowest, highest, below) -> tuple:
@@ -42,17 +42,18 @@ def profiles(pulse, fields=("W", "Sigma", "slip"), times: int = 5) -> Picture:
     fields = [name for name in fields if name in pulse]
     rows = numpy.unique(numpy.linspace(0, pulse.sizes["time"] - 1, times).round().astype(int))
     figure = Picture(figsize=(6.4, 0.7 + 1.9 * len(fields)))
+    second, name_of_second = prefixed(unit(pulse["time"]), float(pulse["time"][-1])) if is_si(pulse) else (1.0, unit(pulse["time"]))
     panels = figure.subplots(len(fields), 1, sharex=True, squeeze=False)[:, 0]
     for axes, name in zip(panels, fields):
         for colour, row in zip(shades(len(rows)), rows):
             now = pulse.isel(time=row)
-            axes.plot(now["x"], now[name], color=colour, linestyle="-", label=f"{float(now['time']):.3g}")
+            axes.plot(now["x"], now[name], color=colour, linestyle="-", label=f"{float(now['time']) / second:.3g}")
         remark = backward(pulse, name)
         say_rest(axes, pulse[name][rows])
         axes.set(ylabel=label(pulse[name]), xlim=window(pulse), ylim=room(*extent(pulse[name].values[rows]), 0.2 if remark else 0.06))
         axes.text(0.01, 0.03, remark, transform=axes.transAxes, color="0.3", fontsize="small")
     mark_fronts(panels[0], pulse)
     panels[0].set_title(title_of(pulse))
-    panels[0].legend(title=f"t, {unit(pulse['time'])}", loc="upper left", bbox_to_anchor=(1.0, 1.0))
+    panels[0].legend(title=f"t, {name_of_second}", loc="upper left", bbox_to_anchor=(1.0, 1.0))
     panels[-1].set_xlabel(label(pulse["x"]))
     return figure

@@ -4,7 +4,7 @@ import numpy
 
 from .loaded_parts import draw_rates, edges_of, event_of, rate_label, slip_rates, spans
 from .pulse_parts import finite, title_of
-from .style import REST, Picture, label, scaled, styled
+from .style import REST, Picture, label, quantity, scaled, styled
 
 #: With fewer outputs than this during an event, the file does not show where its front was.
 FEWEST = 5
@@ -102,7 +102,7 @@ def draw_fit(axes, run, event, last) -> None:
         axes.plot([], [], linestyle="none", label="no fitted velocity: fewer than three parts, or all at once")
         return
     times = numpy.array([0.0, max(last, 0.0)])
-    for sign, text in ((1, label(velocity, f"fitted velocity {float(velocity):.3g}").replace(",", "")), (-1, None)):
+    for sign, text in ((1, f"fitted velocity {quantity(velocity, float(velocity), 3)}"), (-1, None)):
         axes.plot(times, origin + sign * float(velocity) * times, color="C2", linestyle="--", label=text, zorder=3)
 
 

@@ -4,11 +4,12 @@ import functools
 import io
 import math
 import pathlib
+import re
 
 import matplotlib
 import numpy
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, LogFormatter
+from matplotlib.ticker import AutoLocator, FuncFormatter, LogFormatter
 
 from .._files import isolated, write_bytes
 from .._slipfront import event_quantities, printable
@@ -26,6 +27,7 @@ NAMES = {
     "slip": "slip u",
     "event_slip": "mean slip u",
     "event_length": "length",
+    "event_stress_drop": "stress drop",
     "loading_force": "force F",
     "loading_stress": "stress at pulled end",
     "stress_drop": "stress drop",
@@ -64,6 +66,56 @@ REST = 1e-12
 POWERS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
+#: Decimal prefixes, and the units that take them. Times from two hours on are in hours, days or years.
+PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "μ"), (1e-9, "n"), (1e-12, "p"))
+TIMES = ((31557600.0, "years"), (86400.0, "days"), (3600.0, "h"))
+PREFIXED = ("m", "s", "Pa", "m s⁻¹", "J m⁻¹", "J m⁻²")
+
+
+def prefixed(name, largest) -> tuple[float, str]:
+    """Returns the unit in which an axis shows values of an SI unit up to `largest`: its factor and its name, as in (1e-3, "mm"). It is the
+    largest unit that is not above that value; hours, days and years must fit twice."""
+    if name not in PREFIXED or not 0 < largest < math.inf:
+        return 1.0, name
+    if name == "s":
+        for factor, longer in TIMES:
+            if largest >= 2 * factor:
+                return factor, longer
+    prefixes = [pair for pair in PREFIXES if name != "s" or pair[0] <= 1]
+    factor, prefix = next((pair for pair in prefixes if largest >= pair[0] * (1 - 1e-9)), prefixes[-1])
+    return factor, prefix + name
+
+
+class TicksIn(AutoLocator):
+    """Round ticks in a unit that is `factor` times that of the axis."""
+
+    def __init__(self, factor):
+        super().__init__()
+        self.factor = factor
+
+    def tick_values(self, vmin, vmax):
+        return super().tick_values(vmin / self.factor, vmax / self.factor) * self.factor
+
+
+def prefix_axes(figure) -> None:
+    """Shows linear axes whose label ends with an SI unit in a unit of suitable size, as in "position x, mm"."""
+    for axis in (axis for axes in figure.axes for axis in (axes.xaxis, axes.yaxis)):
+        text = axis.get_label_text()
+        name = re.split(r",\s", text)[-1]
+        factor, shown = prefixed(name, float(numpy.abs(axis.get_view_interval()).max()))
+        if axis.get_scale() != "linear" or factor == 1:
+            continue
+        axis.set_label_text(text.removesuffix(name) + shown)
+        axis.set_major_formatter(FuncFormatter(lambda value, _, factor=factor: f"{value / factor:.4g}"))
+        if math.log10(factor) % 1:
+            axis.set_major_locator(TicksIn(factor))
+
+
+def is_si(dataset) -> bool:
+    """Returns whether a Dataset of a run is in SI units."""
+    return getattr(dataset, "attrs", {}).get("unit_system") == "SI"
+
+
 class Picture(Figure):
     """A Figure that a notebook shows as a picture, also without `%matplotlib inline`."""
 
@@ -81,12 +133,15 @@ def drawn(figure: Figure, kind: str, **options) -> bytes:
 
 
 def styled(draw):
-    """Decorator of a function that draws a Figure. It applies the style sheet."""
+    """Decorator of a function that draws a Figure. It applies the style sheet, and chooses prefixes for a Dataset in SI units."""
 
     @functools.wraps(draw)
     def with_style(*arguments, **options):
         with matplotlib.rc_context(fname=SHEET):
-            return draw(*arguments, **options)
+            figure = draw(*arguments, **options)
+            if arguments and is_si(arguments[0]):
+                prefix_axes(figure)
+            return figure
 
     return with_style
 
@@ -139,6 +194,12 @@ def unit(variable) -> str:
     return "" if text == "1" else text
 
 
+def quantity(variable, value, digits: int = 4) -> str:
+    """Returns a value of a DataArray with its unit, as text."""
+    factor, name = prefixed(unit(variable), abs(value)) if "unit_of_model" in variable.attrs else (1.0, unit(variable))
+    return f"{value / factor:.{digits}g} {name}"
+
+
 def label(variable, name: str = "") -> str:
     """Returns the label of a DataArray: `name`, by default that of the quantity, and the unit."""
     name = name or NAMES.get(variable.name) or plain(variable.attrs.get("long_name") or str(variable.name).replace("_", " "))
@@ -157,7 +218,7 @@ def scaled(axis, variable, text, values) -> None:
     the label names before the unit, as in "time t, 10⁶ b/(cA)"."""
     largest = numpy.nanmax(numpy.abs(values), initial=0)
     power = 3 * math.floor(math.log10(largest) / 3 + 1e-9) if largest > 0 else 0
-    if -2 <= math.log10(largest or 1) < 4:
+    if -2 <= math.log10(largest or 1) < 4 or "unit_of_model" in variable.attrs:  # SI units have prefixes instead
         power = 0
     if power:
         factor, name = f"10{str(power).translate(POWERS)}", unit(variable)

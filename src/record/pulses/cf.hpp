@@ -11,15 +11,16 @@
 
 namespace slipfront::record::cf {
 
-/// Defines a variable of numbers and its attributes. Returns its id.
-int reals(netcdf::Writer& file, const Description& about, const std::vector<int>& dimensions);
+/// Defines a variable of numbers and its attributes, in the units of `metadata`. Returns its id.
+int reals(netcdf::Writer& file, const Description& about, const std::vector<int>& dimensions,
+          const PulseMetadata& metadata);
 
 /// Dimensions and variables of time and of x, which has bounds.
 struct Axes {
   int time, x;  ///< dimensions
   int times, centres, bounds;
 };
-Axes axes(netcdf::Writer& file, std::size_t times, std::size_t cells);
+Axes axes(netcdf::Writer& file, std::size_t times, std::size_t cells, const PulseMetadata& metadata);
 void write_axes(netcdf::Writer& file, const Axes& axes, const std::vector<double>& times,
                 const std::vector<double>& x_edges);
 

@@ -61,12 +61,12 @@ void fill(Writer& file, const PulseMetadata& metadata, const std::vector<double>
   const int level = file.dimension("level", levels.size()), letters = file.dimension("letters", labels.width);
   const int name = file.characters("name", {level, letters});
   file.attribute(name, "long_name", "level of theory");
-  const int scale = cf::reals(file, scale_variable, {level});
+  const int scale = cf::reals(file, scale_variable, {level}, metadata);
   file.fill_value(scale, none);
-  const cf::Axes axes = cf::axes(file, times.size(), cells);
+  const cf::Axes axes = cf::axes(file, times.size(), cells, metadata);
   std::vector<int> field_ids, scalar_ids;
   const auto add = [&](const Description& about, const std::vector<int>& dimensions) {
-    const int id = cf::reals(file, about, dimensions);
+    const int id = cf::reals(file, about, dimensions, metadata);
     file.fill_value(id, none);
     file.attribute(id, "coordinates", "name scale");
     return id;

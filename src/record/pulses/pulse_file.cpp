@@ -70,9 +70,9 @@ std::vector<int> define_events(Writer& file, const PulseMetadata& metadata) {
   const int event = file.dimension("event", metadata.events.size());
   for (const output::SlipEventColumn& column : output::slip_event_columns()) {
     const std::string name = "event_" + std::string(column.about.name);
-    Description about = column.about;
+    Description about = output::description_of(column, metadata.pulled_end);
     about.name = name;
-    ids.push_back(cf::reals(file, about, {event}));
+    ids.push_back(cf::reals(file, about, {event}, metadata));
   }
   return ids;
 }
@@ -93,11 +93,12 @@ void fill(Writer& file, const PulseMetadata& metadata, const std::vector<Snapsho
   const bool scenario_in_attribute = describe_file(file, metadata, finished);
   file.attribute(Writer::global, "checksum",
                  layout::checksum(metadata.scenario_text, solver_state, finished, snapshots, fields));
-  const cf::Axes axes = cf::axes(file, snapshots.size(), cells);
+  const cf::Axes axes = cf::axes(file, snapshots.size(), cells, metadata);
   std::vector<int> field_ids, scalar_ids;
-  for (const FieldVariable* field : fields) field_ids.push_back(cf::reals(file, field->about, {axes.time, axes.x}));
+  for (const FieldVariable* field : fields)
+    field_ids.push_back(cf::reals(file, field->about, {axes.time, axes.x}, metadata));
   for (const ScalarVariable& scalar : scalar_variables()) {
-    scalar_ids.push_back(cf::reals(file, scalar.about, {axes.time}));
+    scalar_ids.push_back(cf::reals(file, scalar.about, {axes.time}, metadata));
     if (scalar.may_be_absent) file.fill_value(scalar_ids.back(), std::numeric_limits<double>::quiet_NaN());
   }
   const std::vector<int> event_ids = define_events(file, metadata);

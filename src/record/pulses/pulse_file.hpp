@@ -3,9 +3,11 @@
 /// The file of a `pulse` run: NetCDF-4 by the CF-1.10 conventions, with the state from which the run can resume.
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "slipfront/medium/si_units.hpp"
 #include "slipfront/output/slip_event.hpp"
 #include "slipfront/output/snapshot.hpp"
 
@@ -25,6 +27,11 @@ struct PulseMetadata {
   std::vector<std::string> warnings = {};  ///< warnings of the scenario and the finished run, a sentence each
   /// Events of a loaded chain so far. The file holds them as variables event_... over the dimension event.
   std::vector<output::SlipEvent> events = {};
+  bool pulled_end = false;  ///< springs pull one end; see output::description_of
+  /// Units of the file; absent: of the model. The numbers in a file are always those of the model, so that a run can
+  /// continue with the same bits. In SI units each variable has a `scale_factor` (CF, section 8.1), which readers
+  /// apply.
+  std::optional<medium::SiUnits> units = {};
 };
 
 /// An unfinished or a finished run.

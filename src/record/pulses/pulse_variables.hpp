@@ -23,6 +23,8 @@ const AxisVariables& axis_variables();
 /// Names and texts of the attributes of a file. `format` is the value of its slipfront_format.
 std::vector<std::pair<std::string, std::string>> file_attributes(const PulseMetadata& metadata,
                                                                  const std::string& format);
+/// The attribute `long_name` of a variable in SI units.
+std::string long_name_of(const Description& about, const medium::UnitInSi& unit);
 /// The text of the attribute `references` of a variable.
 std::string reference_of(const Description& about);
 

@@ -24,6 +24,7 @@ std::string quoted(std::string_view word) {
 std::string command_line(const Scenario& scenario, std::string_view command, const std::vector<double>& scales) {
   std::string line = "slipfront " + std::string(command) + " " + quoted(scenario.file);
   for (const std::string& text : scenario.overrides) line += " --set " + quoted(text);
+  if (scenario.in_si != scenario.results_in.has_value()) line += scenario.in_si ? " --dimensionless" : " --si";
   for (const double scale : scales) line += " --scale " + shortest(scale);
   return line;
 }

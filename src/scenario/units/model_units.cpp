@@ -54,6 +54,7 @@ double ModelUnits::si(ModelUnit unit) const {
   std::string assumed;
   const medium::Elastic rock = medium::elastic(medium_, {}, &assumed);
   if (!assumed.empty() && unit != position && unit != slip) assumed_ = assumed;
+  used_ = true;
   const medium::Units units = medium::units(rock.shear_modulus, rock.speed, A, b);
   const double between_faces = medium::face_factor * units.slip;
   const auto traction = [&] { return medium::traction_unit(rock.shear_modulus, rock.poisson_ratio, A); };

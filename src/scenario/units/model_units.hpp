@@ -22,11 +22,14 @@ class ModelUnits {
   double si(ModelUnit unit) const;
   /// The elastic constants that were assumed so far, in words; empty if none were.
   const std::string& assumed() const { return assumed_; }
+  /// Whether a value was converted.
+  bool used() const { return used_; }
 
  private:
   medium::Constants medium_;
   bool known_ = true;
   mutable std::string assumed_;
+  mutable bool used_ = false;
 };
 
 /// The SI dimension of a unit of the model.
