@@ -147,7 +147,7 @@ Json json_units(const std::vector<run::SummaryValue>& summary, const std::vector
                 const scenario::Scenario& scenario) {
   Json units;
   for (const auto& row : summary)
-    if (const auto unit = run::unit_of(row.key); !unit.empty()) units[row.key] = scenario.results_in->of(unit).name;
+    if (const auto unit = run::unit_of(row); !unit.empty()) units[row.key] = scenario.results_in->of(unit).name;
   if (!events) return units;
   for (const auto& column : output::slip_event_columns())
     if (const auto unit = unit_of(column, scenario); unit.name != "1")

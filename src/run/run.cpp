@@ -136,6 +136,9 @@ Result<chain::Run> chain(const scenario::Scenario& scenario, const ChainPlan& pl
                                              .steps = run.chain().steps() - first,
                                              .ranks = options.ranks ? options.ranks->size() : 1,
                                              .threads = options.threads});
+  for (SummaryValue& row : result.summary)
+    if (row.key == "event_median_stress_drop")
+      row.unit = result.metadata.pulled_end ? "mu A / pi" : "mu A^2 / (pi (1 - nu))";
   return result;
 }
 

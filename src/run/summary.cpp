@@ -204,10 +204,13 @@ std::vector<SummaryItem<FinishedChain>> chain_items() {
 std::string_view unit_of(std::string_view key) {
   for (const record::ScalarVariable& scalar : record::scalar_variables())
     if (scalar.about.name == key) return scalar.about.dimensional_unit;
-  if (key == "time" || key == "first_crossing_time") return "b / (c A)";
+  if (key == "time" || key == "first_crossing_time" || key == "event_recurrence_time") return "b / (c A)";
+  if (key == "event_median_peak_velocity") return "c A / pi";
   if (key == "first_crossing_position" || key == "window" || key == "smooth_window") return "b / A";
   return {};
 }
+
+std::string_view unit_of(const SummaryValue& row) { return row.unit.empty() ? unit_of(row.key) : row.unit; }
 
 std::string without_unit(std::string_view key, const std::string& meaning) {
   const std::string ending = "in " + std::string(unit_of(key));
@@ -219,8 +222,8 @@ std::string without_unit(std::string_view key, const std::string& meaning) {
 SummaryValue in_si(const SummaryValue& row, const medium::SiUnits& units, double* error) {
   SummaryValue converted = row;
   double* const value = std::get_if<double>(&converted.value);
-  if (!value || unit_of(row.key).empty()) return converted;
-  const medium::UnitInSi unit = units.of(unit_of(row.key));
+  if (!value || unit_of(row).empty()) return converted;
+  const medium::UnitInSi unit = units.of(unit_of(row));
   *value *= unit.value;
   if (error) *error *= unit.value;
   const std::string words = without_unit(row.key, row.meaning);

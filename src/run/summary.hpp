@@ -49,10 +49,12 @@ struct SummaryValue {
   std::string key;
   Value value;
   std::string meaning;
+  std::string_view unit = {};  ///< its unit, if that depends on the run
 };
 
 /// The unit of a key of a summary in the units of the model, such as "b / A". It is empty for a pure number.
 std::string_view unit_of(std::string_view key);
+std::string_view unit_of(const SummaryValue& row);
 /// The meaning of a key without the unit at its end.
 std::string without_unit(std::string_view key, const std::string& meaning);
 
@@ -62,7 +64,7 @@ template <class End>
 std::vector<SummaryValue> summary(std::span<const SummaryItem<End>> items, const End& end) {
   std::vector<SummaryValue> values;
   values.reserve(items.size());
-  for (const SummaryItem<End>& item : items) values.push_back({item.key, item.get(end), item.meaning});
+  for (const SummaryItem<End>& item : items) values.push_back({item.key, item.get(end), item.meaning, {}});
   return values;
 }
 

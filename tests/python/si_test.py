@@ -76,6 +76,7 @@ SCALE_OF = {
     "slip_at_origin": "slip", "slip_velocity_at_origin": "velocity", "stress_at_origin": "stress", "peak_slip_velocity": "velocity", "peak_position": "m",
     "trailing_front": "m", "leading_front": "m", "trailing_characteristic": "m", "trailing_front_observed": "m", "leading_front_observed": "m",
     "first_crossing_time": "s", "first_crossing_position": "m", "window": "m", "smooth_window": "m", "loading_force": "force", "loading_stress": "stress",
+    "event_recurrence_time": "s", "event_median_stress_drop": "force", "event_median_peak_velocity": "velocity",
     **{f"energy_{kind}": "energy" for kind in ("elastic", "kinetic", "dissipated", "supplied", "through_ends", "shocks", "phonons", "loading", "contacts")},
     **{f"event_{name}": unit for name, unit in {"onset": "s", "duration": "s", "slip": "slip", "largest_slip": "slip", "stress_drop": "force", "peak_velocity": "velocity",
                                                 "origin": "m", "length": "m", "rupture_velocity": "c"}.items()},
