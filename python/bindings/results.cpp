@@ -84,6 +84,21 @@ py::dict axes(const std::vector<double>& times, const std::vector<double>& edges
   return result;
 }
 
+/// The positions, and the variables over event and position.
+py::tuple fronts_of(const output::FrontRecords& fronts) {
+  const auto events = static_cast<py::ssize_t>(fronts.events.size()),
+             positions = static_cast<py::ssize_t>(fronts.x.size());
+  py::list columns;
+  for (const output::FrontColumn& column : output::front_columns()) {
+    py::array_t<double> values(Shape{events, positions});
+    double* out = values.mutable_data();
+    for (const output::FrontRecord& event : fronts.events)
+      out = std::copy((event.*column.values).begin(), (event.*column.values).end(), out);
+    columns.append(py::make_tuple(described(column.about), values));
+  }
+  return py::make_tuple(described(output::front_position), array(fronts.x), columns);
+}
+
 }  // namespace
 
 py::dict dataset_of(const record::PulseMetadata& metadata, const std::string& format, bool finished,
@@ -116,6 +131,7 @@ py::dict dataset_of(const record::PulseMetadata& metadata, const std::string& fo
     events.append(py::make_tuple("event_" + std::string(column.about.name), described(column.about), array(values)));
   }
   if (!metadata.events.empty()) result["events"] = events;
+  if (!metadata.fronts.events.empty()) result["fronts"] = fronts_of(metadata.fronts);
   return result;
 }
 

@@ -7,12 +7,12 @@ from ._shown import shown
 from ._slipfront import InputError
 
 
-def _tables(text):
-    """Returns the table [medium] of a scenario. It is empty if the text has none."""
+def scenario_table(data, name):
+    """Returns a table of the scenario of a Dataset, such as "medium". It is empty if the scenario has none."""
     import tomllib
 
     try:
-        table = tomllib.loads(text).get("medium", {})
+        table = tomllib.loads(str(data.attrs.get("scenario", ""))).get(name, {})
     except tomllib.TOMLDecodeError:
         return {}
     return table if isinstance(table, dict) else {}
@@ -37,7 +37,7 @@ class SlipfrontAccessor:
         if not isinstance(given, Mapping):
             raise InputError(f"medium = '{shown(medium)}': a {type(medium).__name__}; allowed: a dict such as {{'shear_modulus': '30 GPa'}}")
         attrs = self._data.attrs
-        table = _tables(str(attrs.get("scenario", "")))
+        table = scenario_table(self._data, "medium")
         for line in str(attrs.get("set", "")).splitlines():  # a sweep has the settings of all its points there
             key, _, value = line.partition("=")
             if key.startswith("medium."):

@@ -25,6 +25,7 @@ struct PulseMetadata {
   std::vector<std::string> warnings = {};  ///< warnings of the scenario and the finished run, a sentence each
   /// Events of a loaded chain so far. The file holds them as variables event_... over the dimension event.
   std::vector<output::SlipEvent> events = {};
+  output::FrontRecords fronts = {};  ///< arrivals of these events, over the dimensions event and position
 };
 
 /// An unfinished or a finished run.
