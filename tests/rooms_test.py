@@ -46,7 +46,8 @@ FOLDERS = {
     "chain": {
         "model": "",
         "measure": "model",
-        "implicit": "model measure",
+        "events": "",
+        "implicit": "model measure events",
         "explicit/levels": "model",
         "explicit": "explicit/levels model",
     },

@@ -22,8 +22,9 @@ struct PythonCommand {
   const char* name;
   const char* help;
 };
-constexpr std::array<PythonCommand, 6> commands = {{
+constexpr std::array<PythonCommand, 7> commands = {{
     {"sweep", "A scenario at every point of a grid of settings"},
+    {"fronts", "Fronts of a run: path, velocity, and the stress ahead"},
     {"laboratory", "Hardness over modulus from the velocities of fronts in the laboratory"},
     {"population", "Stress, normal stress and friction of many events at once"},
     {"reproduce", "Every number and figure of the paper, as a page that opens in a browser"},

@@ -29,6 +29,7 @@ JSON_ONLY = {
     "events": "list of events: observed ones of `event`, slip events of a loaded `chain`",
     "onset": "time at which a slip event begins, in b / (c A)",
     "duration": "duration of a slip event, in b / (c A)",
+    "load": "mean force on a site before a slip event, in mu A^2 / (pi (1 - nu)), or the stress at a pulled end, in mu A / pi",
     "largest_slip": "slip of the part that slips most in a slip event, in b / (2 pi)",
     "peak_velocity": "largest mean slip velocity of a part in a slip event, in c A / pi",
     "origin": "x of the part that moves first in a slip event, in b / A",
@@ -184,12 +185,16 @@ def main() -> None:
         described = describe_lines("Values of `relations`", "slipfront relations", run.text("relations", "--stress", "1"))
         described |= describe_lines("Values of `pulse`", "slipfront pulse SCENARIO", run.text("pulse", run.case("step-viscous.toml"), "--quiet"))
         described |= describe_lines("Values of `chain`", "slipfront chain SCENARIO", run.text("chain", run.case("step-viscous.toml"), "--quiet", "--set", "chain.scale=30"))
-        pulses = [run.file("pulse", run.case("step-viscous.toml")), run.file("chain", run.case("stick-slip.toml"), *SHORT_LOADED_CHAIN)]
+        pulses = [run.file("pulse", run.case("step-viscous.toml")), run.file("chain", run.case("stick-slip.toml"), *SHORT_LOADED_CHAIN),
+                  run.file("chain", run.case("precursors.toml"), "--set", "time.end=0.5 s")]
         described |= describe_variables("Files of `pulse` and `chain`", "slipfront pulse SCENARIO -o OUT.nc", pulses)
         described |= describe_variables("Files of `compare`", "slipfront compare SCENARIO -o OUT.nc",
                                         [run.file("compare", run.case("step-viscous.toml"), "--set", "chain.scale=30")])
         described |= describe_variables("Files of `event`", "slipfront event FILE -o OUT.nc",
                                         [run.file("event", run.case("ets.toml"), "--draws", "10"), run.file("event", run.case("synthetic-fault.fsp"), "--pulse")])
+        block = str(run.folder / "block.nc")
+        run.text("chain", run.case("precursors.toml"), "--set", "time.end=0.5 s", "--quiet", "-o", block)
+        describe_variables("Files of `fronts`", "slipfront fronts RUN.nc -o OUT.nc", [run.file("fronts", block)])
         describe_variables("Files of `laboratory`", "slipfront laboratory TABLE.csv -o OUT.nc",
                            [run.file("laboratory", run.case("synthetic-laboratory-fronts.csv"), "--poisson-ratio", "0.35", "--s-wave-speed", "1300 m/s",
                                      "--shear-modulus", "2 GPa")])

@@ -90,6 +90,22 @@ py::dict axes(const std::vector<double>& times, const std::vector<double>& edges
   return result;
 }
 
+/// The positions, and the variables over event and position.
+template <class DescribedIn>
+py::tuple fronts_of(const output::FrontRecords& fronts, const DescribedIn& described_in) {
+  const auto events = static_cast<py::ssize_t>(fronts.events.size()),
+             positions = static_cast<py::ssize_t>(fronts.x.size());
+  py::list columns;
+  for (const output::FrontColumn& column : output::front_columns()) {
+    py::array_t<double> values(Shape{events, positions});
+    double* out = values.mutable_data();
+    for (const output::FrontRecord& event : fronts.events)
+      out = std::copy((event.*column.values).begin(), (event.*column.values).end(), out);
+    columns.append(py::make_tuple(described_in(column.about), values));
+  }
+  return py::make_tuple(described_in(output::front_position), array(fronts.x), columns);
+}
+
 }  // namespace
 
 py::dict dataset_of(const record::PulseMetadata& metadata, const std::string& format, bool finished,
@@ -129,6 +145,7 @@ py::dict dataset_of(const record::PulseMetadata& metadata, const std::string& fo
                                  described_in(output::description_of(column, metadata.pulled_end)), array(values)));
   }
   if (!metadata.events.empty()) result["events"] = events;
+  if (!metadata.fronts.events.empty()) result["fronts"] = fronts_of(metadata.fronts, described_in);
   const record::AxisVariables& axis = record::axis_variables();
   for (const Description& about : {axis.time, axis.x}) described_in(about);
   result["units"] = units;

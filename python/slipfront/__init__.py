@@ -21,6 +21,7 @@ attribute `references` gives its equation in the paper (Gershenzon, Bambakidis a
     compare     runs a scenario with closed form, pulse and chain, and compares them
     sweep       runs a pulse or a chain over a grid of settings, on all cores or on a Dask cluster
     event       stress and contact ratio of observed events
+    fronts      fronts of a run: path, velocity, and the stress ahead
     laboratory  hardness over modulus from the velocities of fronts in the laboratory
     population  stress, normal stress and friction of many events, and how much they scatter
     check       checks a scenario without running it
@@ -42,6 +43,7 @@ require_compiled()
 from . import _accessor, medium, train
 from ._event import event
 from ._friction_ratio import damping_number, friction_ratio
+from ._fronts import fronts
 from ._laboratory import laboratory
 from ._hierarchy import population
 from ._potency import moment_duration
@@ -65,5 +67,5 @@ class _Package(types.ModuleType):
 
 sys.modules[__name__].__class__ = _Package
 
-__all__ = ["FileError", "InputError", "NumericsError", "__version__", "cases", "chain", "check", "compare", "damping_number", "event", "friction_ratio", "laboratory", "medium",
+__all__ = ["FileError", "InputError", "NumericsError", "__version__", "cases", "chain", "check", "compare", "damping_number", "event", "friction_ratio", "fronts", "laboratory", "medium",
            "moment_duration", "open", "population", "pulse", "relations", "sweep", "train"]

@@ -13,7 +13,7 @@ import sys
 
 from ._messages import DONE, FILE, INPUT, INTERRUPTED, NUMERICS, Interruption, complain
 
-NAMES = ("sweep", "laboratory", "population", "reproduce", "plot", "animate")
+NAMES = ("sweep", "fronts", "laboratory", "population", "reproduce", "plot", "animate")
 
 
 def interrupted(_signal, _frame):

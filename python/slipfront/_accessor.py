@@ -7,12 +7,12 @@ from ._shown import shown
 from ._slipfront import InputError
 
 
-def _tables(text):
-    """Returns the table [medium] of a scenario. It is empty if the text has none."""
+def scenario_table(data, name):
+    """Returns a table of the scenario of a Dataset, such as "medium". It is empty if the scenario has none."""
     import tomllib
 
     try:
-        table = tomllib.loads(text).get("medium", {})
+        table = tomllib.loads(str(data.attrs.get("scenario", ""))).get(name, {})
     except tomllib.TOMLDecodeError:
         return {}
     return table if isinstance(table, dict) else {}
@@ -37,7 +37,7 @@ class SlipfrontAccessor:
         if not isinstance(given, Mapping):
             raise InputError(f"medium = '{shown(medium)}': a {type(medium).__name__}; allowed: a dict such as {{'shear_modulus': '30 GPa'}}")
         attrs = self._data.attrs
-        table = _tables(str(attrs.get("scenario", "")))
+        table = scenario_table(self._data, "medium")
         for line in str(attrs.get("set", "")).splitlines():  # a sweep has the settings of all its points there
             key, _, value = line.partition("=")
             if key.startswith("medium."):
@@ -109,6 +109,25 @@ class SlipfrontAccessor:
         if not words:
             return data
         return data.assign_attrs(comment=f"Variables are in SI units, for {', '.join(words)}. Attributes are dimensionless.", unit_system="SI", medium=", ".join(words))
+
+
+def in_model(data):
+    """Returns a Dataset in SI units, of a run with its scenario, in the units of the model. Other Datasets are returned as they are."""
+    texts = {name: variable.attrs["unit_of_model"] for name, variable in data.variables.items() if "unit_of_model" in variable.attrs}
+    if not texts:
+        return data
+    wanted = set().union(*(_units.symbols(text) for text in texts.values()))
+    values = _units.values_of(wanted, SlipfrontAccessor(data)._constants(None, None, None))
+    changed = {}
+    for name, text in texts.items():
+        variable = data.variables[name]
+        attrs = {key: value for key, value in variable.attrs.items() if key not in ("unit_of_model", "scale_factor")}
+        attrs.update(units="1", dimensional_unit=text, long_name=attrs.get("long_name", "").removesuffix(", between the faces"))
+        changed[name] = (variable.dims, variable.values / _units.in_si(text, values)[0], attrs)
+    coordinates = {name: value for name, value in changed.items() if name in data.coords}
+    data = data.assign({name: value for name, value in changed.items() if name not in coordinates}).assign_coords(coordinates)
+    data.attrs = {key: value for key, value in data.attrs.items() if key not in ("unit_system", "medium", "comment")}
+    return data
 
 
 def register():

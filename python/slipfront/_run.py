@@ -41,6 +41,10 @@ def _dataset(result, front=()):
         variables[about[0]] = _in_results(result, front + ("time",), values, about)
     for name, about, values in result.get("events", ()):
         variables[name] = _in_results(result, "event", values, about)
+    if "fronts" in result:
+        about, positions, columns = result["fronts"]
+        coordinates[about[0]] = _in_results(result, about[0], positions, about)
+        variables.update({about[0]: _in_results(result, ("event", "position"), values, about) for about, values in columns})
     errors = {f"{key}_error": error for key, error in result.get("errors", {}).items()}
     return dataset(variables, coordinates, {**result["attributes"], **result["summary"], **errors})
 
@@ -122,7 +126,8 @@ def chain(scenario, *, set=None, output=None, resume=None, progress=None, thread
     -------
     xarray.Dataset with the variables of `pulse`. The attributes are the values that `slipfront chain --json` prints: time,
     scale, ..., dislocations, energy_drift, charge_error, wall_seconds. With a table [loading], slip events have the
-    variables event_onset, event_duration, ... over the dimension `event`.
+    variables event_onset, event_duration, ... over the dimension `event`. With output.fronts, event_arrival and the stresses
+    before each event depend on `event` and `position`.
 
     Raises
     ------

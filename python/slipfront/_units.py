@@ -72,7 +72,16 @@ def constant(name, value):
     """Returns a constant in SI units. `value` is a number in SI units or a text such as "30 GPa". Raises InputError."""
     if name not in CONSTANTS:
         raise InputError(f"medium: '{shown(name)}': unknown; allowed: {', '.join(CONSTANTS)}")
-    powers, example = CONSTANTS[name]
+    result = quantity(name, value, *CONSTANTS[name])
+    above, below = {"poisson_ratio": (-1, 0.5), "contact_ratio": (0, math.nextafter(1, 2))}.get(name, (0, math.inf))
+    if not above < result < below:
+        limits = {"poisson_ratio": "above -1 and below 0.5", "contact_ratio": "above 0 and at most 1"}.get(name, "positive and finite")
+        raise InputError(f"{name} = '{shown(value)}': out of range; allowed: {limits}")
+    return result
+
+
+def quantity(name, value, powers, example):
+    """Returns a quantity in SI units, whose unit has these powers of m, kg and s. Raises InputError."""
     allowed = f"a number in SI units, or a text such as '{example}'"
     number, factor = value, 1.0
     if isinstance(value, str):
@@ -84,14 +93,9 @@ def constant(name, value):
             raise InputError(f"{name} = '{shown(value)}': the unit is unknown or of another quantity; allowed: {allowed}")
         factor = unit[0] if unit else 1.0
     try:
-        result = float(number) * factor
+        return float(number) * factor
     except (TypeError, ValueError):
         raise InputError(f"{name} = '{shown(value)}': not one number; allowed: {allowed}") from None
-    above, below = {"poisson_ratio": (-1, 0.5), "contact_ratio": (0, math.nextafter(1, 2))}.get(name, (0, math.inf))
-    if not above < result < below:
-        limits = {"poisson_ratio": "above -1 and below 0.5", "contact_ratio": "above 0 and at most 1"}.get(name, "positive and finite")
-        raise InputError(f"{name} = '{shown(value)}': out of range; allowed: {limits}")
-    return result
 
 
 def values_of(wanted, given):

@@ -23,7 +23,7 @@ def choices(options, kind, variable) -> dict:
     """Returns the options of the function that draws a kind of picture."""
     if kind == "loading":
         return {"until_failure": options.until_failure, "event": options.event}
-    if kind == "event":
+    if kind in ("event", "fronts"):
         return {"event": options.event}
     return {"variable": variable or ""} if kind == "sweep" else {}
 
@@ -40,7 +40,7 @@ def draw(dataset, kind, chosen):
 
 def main(argv) -> int:
     """Draws the pictures of a file. Returns the exit code; raises ValueError (bad input), OSError (files), ImportError (matplotlib)."""
-    parser = Arguments("plot", "Pictures of the NetCDF files of pulse, chain, compare, sweep, event and laboratory, of the CSV of relations and event, and of samples.",
+    parser = Arguments("plot", "Pictures of the NetCDF files of pulse, chain, compare, sweep, event, fronts and laboratory, of the CSV of relations and event, and of samples.",
                        ["slipfront plot pulse.nc", "slipfront plot pulse.nc --kind profiles -o profiles.pdf", "slipfront chain cases/stick-slip.toml --set domain.left=-12.566 domain.right=12.566 time.end=1e6 output.every=2e4 -o loaded.nc",
                         "slipfront plot loaded.nc --kind loading --until-failure", "slipfront plot loaded.nc --kind event --event 3 -o event.pdf",
                         "slipfront plot sweep.nc --variable slip_at_origin -o slip.png"])
@@ -63,7 +63,7 @@ def main(argv) -> int:
     dataset = files.read(options.file, chosen_units(options))
     kinds = choose.kinds_of(dataset)
     if not kinds:
-        raise ValueError(f"{options.file}: nothing to draw in it; allowed: what pulse, chain, compare, relations, event and laboratory write, or samples")
+        raise ValueError(f"{options.file}: nothing to draw in it; allowed: what pulse, chain, compare, relations, event, fronts and laboratory write, or samples")
     if options.kind is not None:
         if options.kind not in kinds:
             raise ValueError(f"--kind {options.kind}: not for {options.file}; allowed: {', '.join(kinds)}")
@@ -74,7 +74,7 @@ def main(argv) -> int:
     if options.variable and not variable:
         raise ValueError(f"--variable {options.variable}: not for {options.file}; allowed: with the file of a sweep")
     drawings = {kind: choices(options, kind, variable) for kind in kinds}
-    for option, given, takers in (("--event", options.event is not None, ("loading", "event")), ("--until-failure", options.until_failure, ("loading",))):
+    for option, given, takers in (("--event", options.event is not None, ("loading", "event", "fronts")), ("--until-failure", options.until_failure, ("loading",))):
         if given and not set(kinds) & set(takers):
             raise ValueError(f"{option}: not for {options.file}, of which {', '.join(kinds)} is drawn; allowed: with the kinds {', '.join(takers)} of a loaded chain")
     written = []

@@ -108,9 +108,20 @@ std::vector<output::SlipEvent> Run::events() const {
   std::vector<output::SlipEvent> events = chain_->events();
   for (output::SlipEvent& e : events) {
     for (double* number : {&e.onset, &e.duration, &e.slip, &e.largest_slip, &e.origin, &e.length}) *number /= scale_;
-    if (chain_->problem().loading.where == Pulled::everywhere) e.stress_drop *= scale_;
+    if (chain_->problem().loading.where == Pulled::everywhere)
+      for (double* force : {&e.load, &e.stress_drop}) *force *= scale_;
   }
   return events;
+}
+
+output::FrontRecords Run::fronts() const {
+  output::FrontRecords fronts = chain_->fronts();
+  for (double& x : fronts.x) x /= scale_;
+  for (output::FrontRecord& event : fronts.events) {
+    for (double& time : event.arrival) time /= scale_;
+    for (double& force : event.traction) force *= scale_;
+  }
+  return fronts;
 }
 
 std::vector<std::string> Run::warnings() const {

@@ -14,6 +14,9 @@ constexpr SlipEventColumn columns[] = {
     {{"duration", "time until all parts are below half the threshold", "b / (c A)", "Eq. 1"}, &SlipEvent::duration},
     {{"slip", "slip, mean over the chain", "b / (2 pi)", "Eq. 1"}, &SlipEvent::slip},
     {{"largest_slip", "slip of the part that slips most", "b / (2 pi)", "Eq. 1"}, &SlipEvent::largest_slip},
+    {{"load", "mean force F on a site, or the stress at a pulled end, before the event", "mu A^2 / (pi (1 - nu))",
+      "Eq. 1"},
+     &SlipEvent::load},
     {{"stress_drop", "fall of the mean force F on a site, or of the stress at a pulled end", "mu A^2 / (pi (1 - nu))",
       "Eq. 1"},
      &SlipEvent::stress_drop},
@@ -23,6 +26,15 @@ constexpr SlipEventColumn columns[] = {
     {{"rupture_velocity", "velocity of the front, fitted over the parts that move", "c", "Eq. 1"},
      &SlipEvent::rupture_velocity},
     {{"complete", "1, or 0 if the run ended within the event", "", "Eq. 1"}, &SlipEvent::complete},
+};
+
+constexpr FrontColumn of_fronts[] = {
+    {{"event_arrival", "time at which the slip velocity first exceeds the threshold in an event", "b / (c A)", "Eq. 1"},
+     &FrontRecord::arrival},
+    {{"event_stress_ahead", "shear stress when the event begins", "mu A / pi", "Eq. 1"}, &FrontRecord::stress},
+    {{"event_traction_ahead", "force of friction and substrate when the event begins", "mu A^2 / (pi (1 - nu))",
+      "Eq. 1"},
+     &FrontRecord::traction},
 };
 
 double median(std::vector<double> values) {
@@ -49,11 +61,17 @@ EventSeries series_of(const std::vector<SlipEvent>& events) {
           .peak_velocity = median(std::move(velocities))};
 }
 
+const Description front_position = {"position", "position at which the arrival of slip events is recorded", "b / A",
+                                    "Eq. 1"};
+
+std::span<const FrontColumn> front_columns() { return of_fronts; }
+
 std::span<const SlipEventColumn> slip_event_columns() { return columns; }
 
 Description description_of(const SlipEventColumn& column, bool pulled_end) {
   Description about = column.about;
-  if (pulled_end && column.value == &SlipEvent::stress_drop) about.dimensional_unit = "mu A / pi";
+  const bool of_load = column.value == &SlipEvent::stress_drop || column.value == &SlipEvent::load;
+  if (pulled_end && of_load) about.dimensional_unit = "mu A / pi";
   return about;
 }
 

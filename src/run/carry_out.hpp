@@ -51,7 +51,10 @@ class Checkpoints {
     const auto begun = Clock::now();
     const std::string state = run_.saved();  // all ranks send their parts to the first rank
     record::PulseMetadata metadata = options_.metadata;
-    if constexpr (requires { run_.events(); }) metadata.events = run_.events();
+    if constexpr (requires { run_.events(); }) {
+      metadata.events = run_.events();
+      metadata.fronts = run_.fronts();
+    }
     if (run_.finished()) add_warnings(run_.warnings(), metadata);  // warnings() needs all ranks
     on_first([&] {
       const record::Output& output = options_.output;

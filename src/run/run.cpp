@@ -126,6 +126,7 @@ Result<chain::Run> chain(const scenario::Scenario& scenario, const ChainPlan& pl
                  .ranks = options.ranks},
                 [&] { return options.after_step && options.after_step(run.time(), run.chain().steps()); });
   result.metadata.events = run.events();
+  result.metadata.fronts = run.fronts();
   if (!reached) return result;
   const double stepping = seconds_since(begun);
   add_warnings(run.warnings(), result.metadata);  // asks all ranks

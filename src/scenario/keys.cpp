@@ -231,10 +231,13 @@ std::vector<Key> output_keys() {
   Key per_event = number_key("output", "per_event", ModelUnit::none, {.least = 0, .most = 10'000}, "0",
                              "further results of each slip event, at least as many if it has that many steps");
   per_event.type = whole_number;
+  Key fronts = number_key("output", "fronts", ModelUnit::none, {.least = 3, .most = 10000}, "none",
+                          "positions at which a loaded chain records the arrival of each slip event");
+  fronts.type = whole_number;
   return {times,
           number_key("output", "every", ModelUnit::time, positive, "none",
                      "interval between the times of results, in place of times"),
-          per_event, variables};
+          per_event, variables, fronts};
 }
 
 }  // namespace

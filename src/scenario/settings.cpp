@@ -108,6 +108,7 @@ Output read_output(const Document& document, double end) {
   if (output.per_event > 0 && document.tables.count("loading") == 0)
     throw section.refuse("per_event", "without [loading] there are no slip events", "with [loading]");
   output.variables = read_variables(section);
+  output.fronts = section.whole_number("fronts").value_or(0);
   return output;
 }
 

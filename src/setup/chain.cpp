@@ -32,6 +32,20 @@ void require_sites(const scenario::Scenario& s, const chain::ScaledProblem& c) {
                     .allowed = "at least 8 sites: a larger scale or domain, or a smaller chain.spacing"});
 }
 
+void require_fronts(const scenario::Scenario& s, const chain::ScaledProblem& c) {
+  if (s.output.fronts == 0) return;
+  const auto refuse = [&](const std::string& problem, const std::string& allowed) {
+    throw InputError({.file = s.file,
+                      .key = "output.fronts",
+                      .value = std::to_string(s.output.fronts),
+                      .problem = problem,
+                      .allowed = allowed});
+  };
+  if (!s.loading.acts()) refuse("arrivals are recorded of the slip events of a loaded chain", "with [loading]");
+  const double sites = std::floor(c.scale * (c.right - c.left) / c.spacing);
+  if (s.output.fronts > sites) refuse("more positions than sites", "<= " + digits(sites));
+}
+
 /// The spacing of sites that a scenario states, or the default.
 double spacing_of(const scenario::Scenario& s, double left, double right) {
   if (s.chain.spacing) return *s.chain.spacing;
@@ -66,6 +80,7 @@ chain::ScaledProblem chain_problem(const scenario::Scenario& s) {
   c.window = s.chain.window.value_or(0);
   c.model = s.chain.model;
   c.loading = s.loading;
+  c.loading.fronts = static_cast<std::size_t>(s.output.fronts);
   c.substrate = s.substrate;
   c.implicit = s.chain.implicit;
   c.tolerance = s.chain.tolerance;
@@ -77,6 +92,7 @@ chain::ScaledProblem chain_problem(const scenario::Scenario& s) {
                       .allowed = "chain.steps = \"implicit\", [loading], or a contact > 0"});
   c.spacing = spacing_of(s, c.left, c.right);
   require_sites(s, c);
+  require_fronts(s, c);
   return c;
 }
 

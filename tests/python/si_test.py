@@ -78,7 +78,7 @@ SCALE_OF = {
     "first_crossing_time": "s", "first_crossing_position": "m", "window": "m", "smooth_window": "m", "loading_force": "force", "loading_stress": "stress",
     "event_recurrence_time": "s", "event_median_stress_drop": "force", "event_median_peak_velocity": "velocity",
     **{f"energy_{kind}": "energy" for kind in ("elastic", "kinetic", "dissipated", "supplied", "through_ends", "shocks", "phonons", "loading", "contacts")},
-    **{f"event_{name}": unit for name, unit in {"onset": "s", "duration": "s", "slip": "slip", "largest_slip": "slip", "stress_drop": "force", "peak_velocity": "velocity",
+    **{f"event_{name}": unit for name, unit in {"onset": "s", "duration": "s", "slip": "slip", "largest_slip": "slip", "load": "force", "stress_drop": "force", "peak_velocity": "velocity",
                                                 "origin": "m", "length": "m", "rupture_velocity": "c"}.items()},
 }
 CLOCKS = {"wall_seconds", "solve_seconds", "site_updates_per_second"}
@@ -141,7 +141,7 @@ class Results(CommandLine):
         event = si["events"][0]  # the springs of 0.02 MPa/um shorten by the slip, less the advance of their far ends
         self.assertAlmostEqual(event["stress_drop"] / 0.02e12, event["slip"] - 1e-6 * event["duration"], delta=1e-5 * event["slip"])
         text = self.ok("chain", self.block)
-        self.assertRegex(text, r"\n *s +s +m +m +Pa +m s-1 +m +m +m s-1 +1\n")
+        self.assertRegex(text, r"\n *s +s +m +m +Pa +Pa +m s-1 +m +m +m s-1 +1\n")
         check = self.ok("pulse", STEP, "--check", "--set", *ROCK, "domain.left='-50 m'", "domain.right='2e4 mm'")
         self.assertIn("x = -50 m ... 20 m to t = ", check)
 

@@ -119,6 +119,8 @@ class Chain : public Sites {
   virtual std::size_t event_in_progress() const { return 0; }
   /// The slip events of a loaded chain so far, in the units of the chain.
   virtual std::vector<output::SlipEvent> events() const = 0;
+  /// When they arrived at Loading::fronts positions.
+  virtual output::FrontRecords fronts() const { return {}; }
 
   /// (all) Returns, as bytes, the state from which the chain can continue without changing a bit of the results.
   virtual std::string saved() const = 0;

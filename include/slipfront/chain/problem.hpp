@@ -62,6 +62,7 @@ struct Loading {
   double velocity = 0;   ///< in c A / 2 pi
   Pulled where = Pulled::everywhere;
   double event_velocity = 0;  ///< a part of the chain that is faster belongs to an event; 0: record no events
+  std::size_t fronts = 0;     ///< positions at which the arrival of each event is recorded
 
   bool acts() const { return stiffness > 0; }
 };

@@ -94,6 +94,8 @@ class Run {
   /// The slip events of a loaded chain so far, in the scenario's units. Their stress drop is the drop of the force F on
   /// a site, or of the stress at a pulled end.
   std::vector<output::SlipEvent> events() const;
+  /// When they arrived at the positions that the scenario asks for.
+  output::FrontRecords fronts() const;
 
   /// Returns a sentence for each wrong or doubtful result so far. The run checks energy, slip at x = 0 against the
   /// integral of the velocity there, and the number of dislocations against the charge of the ends. It also checks that

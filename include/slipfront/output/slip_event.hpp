@@ -16,6 +16,7 @@ struct SlipEvent {
   double onset = 0, duration = 0;  ///< `duration` of an event in progress is that so far
   double slip = 0;                 ///< mean over the chain
   double largest_slip = 0;         ///< slip of the part that slips most
+  double load = 0;                 ///< mean force that loads a site, or stress at a pulled end, before the event
   double stress_drop = 0;          ///< fall of the mean force that loads a site, or of the stress at a pulled end
   double peak_velocity = 0;        ///< largest mean slip velocity of a part
   double origin = 0;               ///< x of the part that moved first
@@ -25,6 +26,27 @@ struct SlipEvent {
   double rupture_velocity = std::numeric_limits<double>::quiet_NaN();
   double complete = 0;  ///< 1, or 0 if the run ended during the event
 };
+
+/// One slip event at the positions of FrontRecords.
+struct FrontRecord {
+  std::vector<double> arrival;   ///< time at which the slip velocity first exceeds the threshold; NaN: it never does
+  std::vector<double> stress;    ///< shear stress -u_x when the event begins
+  std::vector<double> traction;  ///< force of friction and substrate on a site when the event begins
+};
+
+/// When each slip event arrives at evenly spaced positions of a chain. Empty unless the scenario asks for it.
+struct FrontRecords {
+  std::vector<double> x;  ///< the middle of each position's share of the chain
+  std::vector<FrontRecord> events;
+};
+
+/// A member of FrontRecord, with its description. `about.name` is its name in files.
+struct FrontColumn {
+  Description about;
+  std::vector<double> FrontRecord::*values;
+};
+std::span<const FrontColumn> front_columns();
+extern const Description front_position;  ///< describes FrontRecords::x
 
 /// A member of SlipEvent, with its description. `about.name` is its name in files and JSON.
 struct SlipEventColumn {
@@ -42,7 +64,7 @@ struct EventSeries {
 };
 EventSeries series_of(const std::vector<SlipEvent>& events);
 
-/// The description of a column. The stress drop is that of the force on the sites, or of the stress at a `pulled_end`.
+/// The description of a column. Load and stress drop are of the force on the sites, or of the stress at a `pulled_end`.
 Description description_of(const SlipEventColumn& column, bool pulled_end);
 
 }  // namespace slipfront::output

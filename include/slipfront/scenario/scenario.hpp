@@ -76,6 +76,7 @@ struct Output {
   std::optional<double> every;
   int per_event = 0;                   ///< further outputs of each slip event
   std::vector<std::string> variables;  ///< all if empty
+  int fronts = 0;                      ///< positions at which a loaded chain records the arrival of slip events
 };
 
 struct Scenario {

@@ -16,6 +16,7 @@ KINDS = {
     "relations": ("relations", {"rupture_velocity", "stress", "leading_velocity", "slip_velocity"}),
     "corner": ("corner", {"sample"}),
     "sweep": ("sweep", {"failure"}),
+    "fronts": ("fronts", {"front", "front_velocity", "arrival"}),
     "laboratory": ("laboratory", {"front", "curve_front_velocity"}),
 }
 

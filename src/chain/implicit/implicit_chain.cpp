@@ -20,6 +20,20 @@ namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
 
+/// The sites [from, to) whose mean is taken at position i of the record of fronts.
+std::pair<std::size_t, std::size_t> sites_at(const Problem& p, std::size_t i) {
+  return {p.grid.sites * i / p.loading.fronts, p.grid.sites * (i + 1) / p.loading.fronts};
+}
+
+std::vector<double> positions_of(const Problem& p) {
+  std::vector<double> x;
+  for (std::size_t i = 0; i < p.loading.fronts; ++i) {
+    const auto [from, to] = sites_at(p, i);
+    x.push_back((p.grid.x(from) + p.grid.x(to - 1)) / 2);
+  }
+  return x;
+}
+
 Moment first_moment(const Problem& p, const MotionOf& start, const Execution& execution) {
   check(p);
   check_implicit(p, execution);
@@ -35,16 +49,20 @@ Moment first_moment(const Problem& p, const MotionOf& start, const Execution& ex
   for (auto* column : {&now.w, &now.slope, &now.acceleration, &now.earlier}) column->assign(n, 0.0);
   now.next_step = 1e-3 * std::fmin(1, p.grid.spacing);
   now.log = EventLog(p.loading.event_velocity);
+  if (p.loading.fronts > 0) now.fronts = FrontLog(p.loading.event_velocity, positions_of(p));
   return now;
 }
 
-/// Parts with eight dislocations or more each, or 60 widths of one long.
+/// Parts with eight dislocations or more each, or 60 widths of one long. A smooth surface has no dislocations, and its
+/// parts have eight sites or more.
 ChainParts parts_of(const Problem& p, const std::vector<double>& u) {
   const double dislocations =
       std::max(std::fabs(u.front() - u.back()) / turn, std::fabs(static_cast<double>(p.boundary.charge)));
   const double length = static_cast<double>(p.grid.sites) * p.grid.spacing;
-  const auto count =
-      static_cast<std::size_t>(std::clamp(dislocations >= 8 ? dislocations / 8 : length / 60, 1.0, 64.0));
+  const double parts_wanted = !p.substrate        ? static_cast<double>(p.grid.sites) / 8
+                              : dislocations >= 8 ? dislocations / 8
+                                                  : length / 60;
+  const auto count = static_cast<std::size_t>(std::clamp(parts_wanted, 1.0, 64.0));
   ChainParts parts;
   parts.length = length / static_cast<double>(count);
   parts.ring = p.boundary.periodic;
@@ -136,6 +154,29 @@ void ImplicitChain::look() {
     parts_.velocity[i] = p / sites;
   }
   now_.log.look(now_.time, direction * load(), parts_);
+  if (now_.fronts.active()) look_at_fronts(direction);
+}
+
+/// Hands the step to the record of fronts.
+void ImplicitChain::look_at_fronts(double direction) {
+  const auto means = [this](const auto& value) {
+    std::vector<double> all;
+    for (std::size_t i = 0; i < problem().loading.fronts; ++i) {
+      const auto [from, to] = sites_at(problem(), i);
+      double sum = 0;
+      for (std::size_t j = from; j < to; ++j) sum += value(j);
+      all.push_back(sum / static_cast<double>(to - from));
+    }
+    return all;
+  };
+  const auto ahead = [&] {
+    const Window window = own_window(0, now_.u.size(), now_.time);
+    return Tractions{means([&](std::size_t j) { return window.stress[j]; }), means([&](std::size_t j) {
+                       return friction(j, now_.w[j]) + contact_squared(j) * std::sin(now_.u[j]);
+                     })};
+  };
+  const auto velocity = [&](std::size_t j) { return forces_.springs().held(j) ? 0 : direction * now_.w[j]; };
+  now_.fronts.look(now_.time, means(velocity), now_.log.events().size(), now_.log.in_progress() > 0, ahead);
 }
 
 void ImplicitChain::give_up() const {
@@ -228,7 +269,10 @@ std::string ImplicitChain::saved() const {
       m, [&](auto number) { all.push_back(static_cast<double>(number)); },
       [&](const std::vector<double>& column) { all.insert(all.end(), column.begin(), column.end()); });
   const std::vector<double> log = m.log.saved();
+  all.push_back(static_cast<double>(log.size()));
   all.insert(all.end(), log.begin(), log.end());
+  const std::vector<double> fronts = m.fronts.saved();
+  all.insert(all.end(), fronts.begin(), fronts.end());
   bytes::Writer writer;
   writer.put(all);
   return std::move(writer).text();
@@ -264,7 +308,11 @@ void ImplicitChain::resume(std::string_view saved) {
         at += column.size();
       });
   forces_.strengthen_contacts(m);
-  m.log.resume({all.begin() + static_cast<std::ptrdiff_t>(at), all.end()});
+  const auto log = static_cast<std::ptrdiff_t>(next(0, static_cast<double>(all.size() - at)));
+  const auto begin = all.begin() + static_cast<std::ptrdiff_t>(at);
+  if (all.end() - begin < log) refuse();
+  m.log.resume({begin, begin + log});
+  m.fronts.resume({begin + log, all.end()});
   std::swap(now_, m);
   passed_ = false;
   advance_to(shown);

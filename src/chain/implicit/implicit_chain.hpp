@@ -47,6 +47,7 @@ class ImplicitChain final : public Chain {
   bool meters_friction() const override { return true; }
   std::size_t event_in_progress() const override { return now_.log.in_progress(); }
   std::vector<output::SlipEvent> events() const override { return now_.log.events(); }
+  output::FrontRecords fronts() const override { return now_.fronts.records(); }
   std::string saved() const override;
   void resume(std::string_view saved) override;
 
@@ -55,6 +56,7 @@ class ImplicitChain final : public Chain {
   void step_to(double time);
   void finish_step();
   void look();
+  void look_at_fronts(double direction);
   void check_progress();
   [[noreturn]] void give_up() const;
 

@@ -2,7 +2,8 @@
 
 #include <vector>
 
-#include "chain/measure/event_log.hpp"
+#include "chain/events/event_log.hpp"
+#include "chain/events/front_log.hpp"
 
 namespace slipfront::chain {
 
@@ -20,10 +21,11 @@ struct Moment {
   std::vector<double> excess;                 ///< p - p_0 of the pores; empty unless contacts change
   std::vector<double> a2;                     ///< follows from the state; empty if a is the same everywhere
   EventLog log;
+  FrontLog fronts;
 };
 
 /// Calls number(member) and then column(member) for the members that a checkpoint stores, in the order of the file. The
-/// log of events follows them in the file.
+/// logs of events and of fronts follow them in the file.
 template <class AMoment, class Number, class Column>
 void each_saved(AMoment& m, const Number& number, const Column& column) {
   number(m.time);

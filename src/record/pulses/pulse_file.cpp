@@ -63,18 +63,24 @@ void write_scalar(Writer& file, int variable, const ScalarVariable& scalar, cons
   file.write(variable, values);
 }
 
+/// The dimension and the variables of the slip events.
+struct Events {
+  int dimension = -1;
+  std::vector<int> variables;
+};
+
 /// Variables of the slip events, named event_onset and so on; none where there are no events.
-std::vector<int> define_events(Writer& file, const PulseMetadata& metadata) {
-  std::vector<int> ids;
-  if (metadata.events.empty()) return ids;
-  const int event = file.dimension("event", metadata.events.size());
+Events define_events(Writer& file, const PulseMetadata& metadata) {
+  Events events;
+  if (metadata.events.empty()) return events;
+  events.dimension = file.dimension("event", metadata.events.size());
   for (const output::SlipEventColumn& column : output::slip_event_columns()) {
     const std::string name = "event_" + std::string(column.about.name);
     Description about = output::description_of(column, metadata.pulled_end);
     about.name = name;
-    ids.push_back(cf::reals(file, about, {event}, metadata));
+    events.variables.push_back(cf::reals(file, about, {events.dimension}, metadata));
   }
-  return ids;
+  return events;
 }
 
 void write_events(Writer& file, const std::vector<int>& ids, const PulseMetadata& metadata) {
@@ -84,6 +90,26 @@ void write_events(Writer& file, const std::vector<int>& ids, const PulseMetadata
       values.push_back(event.*output::slip_event_columns()[i].value);
     file.write(ids[i], values);
   }
+}
+
+/// Variables of the arrivals of slip events, first the positions; none where no arrivals are recorded.
+std::vector<int> define_fronts(Writer& file, const PulseMetadata& metadata, int event) {
+  std::vector<int> ids;
+  if (metadata.fronts.events.empty()) return ids;
+  const int position = file.dimension("position", metadata.fronts.x.size());
+  ids.push_back(cf::reals(file, output::front_position, {position}, metadata));
+  for (const output::FrontColumn& column : output::front_columns())
+    ids.push_back(cf::reals(file, column.about, {event, position}, metadata));
+  file.fill_value(ids[1], std::numeric_limits<double>::quiet_NaN());
+  return ids;
+}
+
+void write_fronts(Writer& file, const std::vector<int>& ids, const output::FrontRecords& fronts) {
+  if (ids.empty()) return;
+  file.write(ids[0], fronts.x);
+  for (std::size_t i = 1; i < ids.size(); ++i)
+    for (std::size_t row = 0; row < fronts.events.size(); ++row)
+      file.write_row(ids[i], row, fronts.events[row].*output::front_columns()[i - 1].values);
 }
 
 /// All of the file.
@@ -101,7 +127,8 @@ void fill(Writer& file, const PulseMetadata& metadata, const std::vector<Snapsho
     scalar_ids.push_back(cf::reals(file, scalar.about, {axes.time}, metadata));
     if (scalar.may_be_absent) file.fill_value(scalar_ids.back(), std::numeric_limits<double>::quiet_NaN());
   }
-  const std::vector<int> event_ids = define_events(file, metadata);
+  const Events events = define_events(file, metadata);
+  const std::vector<int> front_ids = define_fronts(file, metadata, events.dimension);
   const int state = opaque(file, layout::solver_state, "state of the solver, to resume the run", solver_state.size());
   const int scenario = scenario_in_attribute ? -1
                                              : opaque(file, layout::scenario_bytes, "the scenario, byte by byte",
@@ -115,7 +142,8 @@ void fill(Writer& file, const PulseMetadata& metadata, const std::vector<Snapsho
   for (std::size_t i = 0; i < fields.size(); ++i) write_field(file, field_ids[i], *fields[i], snapshots);
   for (std::size_t i = 0; i < scalar_ids.size(); ++i)
     write_scalar(file, scalar_ids[i], scalar_variables()[i], snapshots);
-  write_events(file, event_ids, metadata);
+  write_events(file, events.variables, metadata);
+  write_fronts(file, front_ids, metadata.fronts);
   file.write(state, solver_state);
   if (!scenario_in_attribute) file.write(scenario, metadata.scenario_text);
 }
@@ -133,7 +161,9 @@ void write_pulse(const std::string& path, const PulseMetadata& metadata, const s
   const Fields fields = chosen_fields(metadata.variables);
   check(metadata, snapshots, fields);
   const std::size_t cells = metadata.x_edges.size() - 1;
-  const std::size_t values = snapshots.size() * (fields.size() * cells + scalar_variables().size()) + 3 * cells;
+  const std::size_t arrivals = metadata.fronts.x.size() * (1 + output::front_columns().size() * metadata.events.size());
+  const std::size_t values =
+      snapshots.size() * (fields.size() * cells + scalar_variables().size()) + 3 * cells + arrivals;
   write_netcdf(path, values * sizeof(double) + solver_state.size() + (1 << 16),
                [&](Writer& file) { fill(file, metadata, snapshots, solver_state, finished, fields); });
 }

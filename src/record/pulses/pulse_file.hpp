@@ -32,6 +32,7 @@ struct PulseMetadata {
   /// continue with the same bits. In SI units each variable has a `scale_factor` (CF, section 8.1), which readers
   /// apply.
   std::optional<medium::SiUnits> units = {};
+  output::FrontRecords fronts = {};  ///< arrivals of these events, over the dimensions event and position
 };
 
 /// An unfinished or a finished run.

@@ -8,6 +8,9 @@
 
 namespace slipfront::chain {
 
+/// The time at which a velocity passed `threshold` between two times, if its logarithm is linear in time.
+double crossing(double t0, double v0, double t1, double v1, double threshold);
+
 /// Means over equal parts of a chain after a step.
 struct ChainParts {
   std::vector<double> x;            ///< the middle of each part
@@ -41,7 +44,7 @@ class EventLog {
   /// The numbers and rows that a checkpoint stores, in the order of the file.
   template <class Log>
   static auto numbers(Log& log) {
-    return std::array{&log.last_time_, &log.last_load_, &log.last_largest_, &log.first_load_};
+    return std::array{&log.last_time_, &log.last_load_, &log.last_largest_};
   }
   template <class Log>
   static auto rows(Log& log) {
@@ -50,7 +53,7 @@ class EventLog {
 
   double threshold_ = 0;
   bool within_ = false;
-  double last_time_ = 0, last_load_ = 0, last_largest_ = 0, first_load_ = 0;
+  double last_time_ = 0, last_load_ = 0, last_largest_ = 0;
   std::vector<double> x_, last_u_, last_velocity_, first_u_;
   std::vector<double> arrivals_;  ///< time at which each part passed the threshold in this event; NaN: not yet
   std::vector<output::SlipEvent> events_;

@@ -1,4 +1,4 @@
-#include "chain/measure/event_log.hpp"
+#include "chain/events/event_log.hpp"
 
 #include <gtest/gtest.h>
 

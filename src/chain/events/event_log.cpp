@@ -1,4 +1,4 @@
-#include "chain/measure/event_log.hpp"
+#include "chain/events/event_log.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,13 +12,12 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// The time at which a velocity passed `threshold` between two times, if its logarithm is linear in time.
+}  // namespace
+
 double crossing(double t0, double v0, double t1, double v1, double threshold) {
   if (!(v0 > 0) || !(v0 < threshold) || !(v1 > v0)) return t1;
   return t0 + (t1 - t0) * std::log(threshold / v0) / std::log(v1 / v0);
 }
-
-}  // namespace
 
 void EventLog::look(double time, double load, const ChainParts& parts) {
   const auto fastest = std::max_element(parts.velocity.begin(), parts.velocity.end());
@@ -40,7 +39,7 @@ void EventLog::begin(double time, double load, const ChainParts& parts, double l
   event.onset = known ? crossing(last_time_, last_largest_, time, largest, threshold_) : time;
   event.origin = parts.x[first];
   first_u_ = known ? last_u_ : parts.u;
-  first_load_ = known ? last_load_ : load;
+  event.load = known ? last_load_ : load;
   x_ = parts.x;
   arrivals_.assign(parts.x.size(), none);
   events_.push_back(event);
@@ -60,7 +59,7 @@ void EventLog::follow(double time, double load, const ChainParts& parts, double 
     if (!std::isnan(arrivals_[i])) moved += 1;
   }
   event.slip = sum / static_cast<double>(parts.x.size());
-  event.stress_drop = first_load_ - load;
+  event.stress_drop = event.load - load;
   event.peak_velocity = std::fmax(event.peak_velocity, largest);
   event.length = moved * parts.length;
   event.duration = time - event.onset;

@@ -1,0 +1,113 @@
+"""The command slipfront fronts, which finds the fronts of a run."""
+
+import csv
+import json
+import sys
+
+from ._arguments import Arguments, file_name, put
+
+#: Titles of the table for the terminal, the variable of each, and its name for the unit.
+COLUMNS = (("event", "front_event"), ("begin", "front_begin"), ("end", "front_end"), ("onset", "front_onset"), ("V", "front_velocity"),
+           ("tau / sigma_N", "front_stress_ratio"), ("class", "front_kind"), ("ends at", "front_stop"))
+
+
+def arguments(argv):
+    """Returns the options of the command line."""
+    parser = Arguments("fronts", "Finds the fronts of a run, as slipfront.fronts does in Python. RUN.nc is a loaded chain with output.fronts, or a pulse or a chain without [loading] and "
+                       "with many output times.",
+                       ["slipfront pulse cases/step.toml --set output.every=0.2 -o step.nc", "slipfront fronts step.nc", "slipfront chain cases/precursors.toml -o block.nc",
+                        "slipfront fronts block.nc --si -o fronts.nc", "slipfront fronts block.nc --csv > fronts.csv", "slipfront plot fronts.nc"])
+    parser.add_argument("run", metavar="RUN.nc", help="file of a chain or a pulse")
+    parser.add_argument("-o", "--output", metavar="OUT.nc", type=file_name, help="NetCDF file to write; slipfront plot draws it")
+    parser.add_argument("--threshold", metavar="SHARE", type=float, help="slip velocity at the front over the largest of the run, for runs that recorded no arrivals (default: 0.001)")
+    parser.add_argument("--slow", metavar="SHARE", type=float, default=0.1, help="a front below this share of the speed of Rayleigh waves is slow (default: 0.1)")
+    parser.add_argument("--si", action="store_true", help="positions in m, times in s and velocities in m/s, also in OUT.nc")
+    parser.add_argument("--csv", action="store_true", help="the fronts with a velocity as CSV in SI units, which slipfront laboratory reads")
+    options = parser.parse_args(argv)
+    if options.output is not None and not options.output.endswith(".nc"):
+        raise ValueError(f"-o {options.output}: unsupported file type; allowed: a name that ends in .nc")
+    if options.csv and (options.json or options.output):
+        raise ValueError("--csv: not allowed with --json or -o")
+    return options
+
+
+def known(value):
+    """Returns a value as JSON has it: None for what is not finite."""
+    return None if isinstance(value, float) and not abs(value) < float("inf") else value
+
+
+def as_json(data, file):
+    """Returns the results as a dict: a dict for each front and for each event."""
+    def rows(dimension):
+        found: list[dict] = [{} for _ in range(data.sizes[dimension])]
+        for name, variable in data.data_vars.items():
+            if variable.dims == (dimension,):
+                for row, value in zip(found, variable.values.tolist()):
+                    row[name] = known(value)
+        return found
+
+    velocity = data["front_velocity"]
+    return {"file": file, **{name: data.attrs[name] for name in ("rayleigh_speed", "tau")}, "velocity_unit": velocity.attrs.get("dimensional_unit") or "m/s",
+            "fronts": rows("front"), "events": rows("event")}
+
+
+def cell(value):
+    if isinstance(value, str):
+        return value
+    return "-" if value != value else f"{value:.4g}"
+
+
+def rows(data):
+    """Yields the lines of the table of fronts, below the titles and the units."""
+    cells = []
+    for title, name in COLUMNS:
+        attributes = data[name].attrs
+        unit = attributes.get("dimensional_unit") or attributes.get("units", "")
+        cells.append([title, "" if unit == "1" else unit.replace("m s-1", "m/s"), *(cell(value) for value in data[name].values.tolist())])
+    widths = [max(map(len, column)) for column in cells]
+    for line in zip(*cells):
+        yield "  ".join(text.rjust(width) for text, width in zip(line, widths)).rstrip()
+
+
+def write_csv(data, stream):
+    """Writes the fronts with a velocity, with their stresses, as slipfront laboratory reads them. Raises ValueError if a constant is missing."""
+    missing = [name for attribute, name in (("normal_stress_pa", "friction.normal_stress"), ("tau_unit_pa", "[medium]"), ("c_m_s", "[medium]")) if attribute not in data.attrs]
+    if missing:
+        raise ValueError(f"--csv: SI units need constants that the scenario does not give; allowed: a scenario with {' and '.join(dict.fromkeys(missing))}")
+    normal, speed = (data.attrs[name] for name in ("normal_stress_pa", "c_m_s"))
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow(["name", "tau [MPa]", "normal_stress [MPa]", "front_velocity [m/s]", "class"])
+    for i, (event, velocity, ratio, kind) in enumerate(zip(*(data[name].values.tolist() for name in ("front_event", "front_velocity", "front_stress_ratio", "front_kind"))), 1):
+        if abs(velocity) < float("inf"):
+            writer.writerow([f"event {event} front {i}", f"{ratio * normal / 1e6:.6g}", f"{normal / 1e6:.6g}", f"{velocity * speed:.6g}", kind])
+
+
+def summary(data):
+    """Yields the lines below the table."""
+    counts = {kind: int((data["front_kind"] == kind).sum()) for kind in dict.fromkeys(data["front_kind"].values.tolist())}
+    yield f"fronts    {data.sizes['front']}: " + ", ".join(f"{count} {kind}" for kind, count in counts.items())
+    yield f"events    {data.sizes['event']}, of which {int(data['event_crosses'].sum())} cross the whole block"
+    yield f"Rayleigh  {data.attrs['rayleigh_speed']:.4g} c" + (f" = {data.attrs['rayleigh_speed'] * data.attrs['c_m_s']:.4g} m/s" if "c_m_s" in data.attrs else "")
+
+
+def main(argv) -> int:
+    """Runs the command and returns the exit code. Raises ValueError for bad input, OSError for files."""
+    options = arguments(argv)
+    from . import fronts
+    from ._files import write_dataset
+
+    data = fronts(options.run, threshold=options.threshold, slow=options.slow)
+    if options.csv:
+        write_csv(data, sys.stdout)
+        return 0
+    if options.si:
+        data = data.slipfront.si()
+    if options.output:
+        write_dataset(data, options.output)
+    if options.json:
+        print(json.dumps(as_json(data, options.output)))
+        return 0
+    put("\n".join([*rows(data), "", *summary(data)]))
+    if options.output and not options.quiet:
+        put(f"written to {options.output}")
+    return 0

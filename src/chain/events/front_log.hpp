@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "slipfront/output/slip_event.hpp"
+
+namespace slipfront::chain {
+
+/// Stress -u_x, and the force of friction and substrate on a site, at the positions of a FrontLog.
+struct Tractions {
+  std::vector<double> stress, traction;
+};
+
+/// Records when each slip event arrives at evenly spaced positions of a loaded chain (docs/loading.md). All values are
+/// in the units of the chain.
+class FrontLog {
+ public:
+  FrontLog() = default;
+  FrontLog(double threshold, std::vector<double> x);
+
+  bool active() const { return !records_.x.empty(); }
+  std::size_t positions() const { return records_.x.size(); }
+  /// Call this after each step, after the log of events has seen it. `events` is the number of events so far, and
+  /// `within` is true while the last of them is in progress. `ahead` returns the present stresses. It is called when an
+  /// event begins.
+  void look(double time, const std::vector<double>& velocity, std::size_t events, bool within,
+            const std::function<Tractions()>& ahead);
+  const output::FrontRecords& records() const { return records_; }
+
+  /// Returns all that the log needs to continue exactly.
+  std::vector<double> saved() const;
+  /// Continues from a saved log of the same positions. \throws InputError if `saved` is not one.
+  void resume(const std::vector<double>& saved);
+
+ private:
+  double threshold_ = 0, last_time_ = 0;
+  std::vector<double> last_velocity_;  ///< empty before the first step
+  std::vector<double> above_since_;    ///< time at which the velocity last rose above the threshold; NaN: it is below
+  output::FrontRecords records_;
+};
+
+}  // namespace slipfront::chain
