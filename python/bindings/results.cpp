@@ -90,6 +90,19 @@ py::dict axes(const std::vector<double>& times, const std::vector<double>& edges
   return result;
 }
 
+/// The variables of the slip events.
+template <class DescribedIn>
+py::list events_of(const record::PulseMetadata& metadata, const DescribedIn& described_in) {
+  py::list events;
+  for (const output::SlipEventColumn& column : output::slip_event_columns()) {
+    std::vector<double> values;
+    for (const output::SlipEvent& event : metadata.events) values.push_back(event.*column.value);
+    events.append(py::make_tuple("event_" + std::string(column.about.name),
+                                 described_in(output::description_of(column, metadata.pulled_end)), array(values)));
+  }
+  return events;
+}
+
 /// The positions, and the variables over event and position.
 template <class DescribedIn>
 py::tuple fronts_of(const output::FrontRecords& fronts, const DescribedIn& described_in) {
@@ -137,14 +150,7 @@ py::dict dataset_of(const record::PulseMetadata& metadata, const std::string& fo
   result["fields"] = fields;
   result["scalars"] = scalars;
   result["warnings"] = py::cast(metadata.warnings);
-  py::list events;
-  for (const output::SlipEventColumn& column : output::slip_event_columns()) {
-    std::vector<double> values;
-    for (const output::SlipEvent& event : metadata.events) values.push_back(event.*column.value);
-    events.append(py::make_tuple("event_" + std::string(column.about.name),
-                                 described_in(output::description_of(column, metadata.pulled_end)), array(values)));
-  }
-  if (!metadata.events.empty()) result["events"] = events;
+  if (!metadata.events.empty()) result["events"] = events_of(metadata, described_in);
   if (!metadata.fronts.events.empty()) result["fronts"] = fronts_of(metadata.fronts, described_in);
   const record::AxisVariables& axis = record::axis_variables();
   for (const Description& about : {axis.time, axis.x}) described_in(about);
