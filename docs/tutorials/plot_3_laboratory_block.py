@@ -144,7 +144,7 @@ for key, value in scenario["loading"].items():
 # The chain takes steps of any length: tiny ones during an event, and long ones while the block
 # sticks.
 
-run = slipfront.chain(scenario)
+run = slipfront.chain(scenario, si=False)
 print(f"{run.attrs['steps']} steps")
 
 
@@ -215,7 +215,7 @@ end = onset + float(run.event_duration[-1]) * unit_of_time
 before = onset - np.geomspace(20, 1e-3, 60)
 during = end + np.linspace(-3e-3, 1e-3, 201)
 times = np.sort(np.concatenate([before, during])) / unit_of_time
-event = slipfront.chain({**scenario, "output": {"times": times.tolist()}})
+event = slipfront.chain({**scenario, "output": {"times": times.tolist()}}, si=False)
 
 time, tau = force(event)
 speed = event.W.mean("x").values * unit_of_velocity
@@ -254,7 +254,7 @@ print(f"fast slip     {1e3 * (fast[-1] - fast[0]):.2f} ms, at 10 % of the peak")
 # A wrong unit gives wrong seconds. Two checks find it. First, the contact ratio only set our units.
 # With another one the events must be the same in SI units.
 
-other = slipfront.chain(block(velocity, stiffness, end=300, contact_ratio=0.25))
+other = slipfront.chain(block(velocity, stiffness, end=300, contact_ratio=0.25), si=False)
 other_time = medium.units(shear_modulus, c, 0.25, spacing)["time"]
 print("onsets, s:", np.round(other.event_onset.values * other_time, 2))
 
@@ -264,7 +264,7 @@ print("onsets, s:", np.round(other.event_onset.values * other_time, 2))
 
 print("stiffness / critical  events  slip velocity of first and last, um/s")
 for share in (0.95, 1.05):
-    stiff = slipfront.chain(block(velocity, share * critical, end=300))
+    stiff = slipfront.chain(block(velocity, share * critical, end=300), si=False)
     peaks = stiff.event_peak_velocity.values * unit_of_velocity * 1e6
     print(f"{share:20}{peaks.size:8}{peaks[0]:19.0f}{peaks[-1]:10.0f}")
 
@@ -284,7 +284,7 @@ for share in (0.95, 1.05):
 
 print("velocity, um/s  interval, s  stress drop, kPa")
 for factor in (0.1, 1, 10):
-    pulled = slipfront.chain(block(factor * velocity, stiffness, end=300 / factor))
+    pulled = slipfront.chain(block(factor * velocity, stiffness, end=300 / factor), si=False)
     interval = float(np.diff(pulled.event_onset)[-1]) * unit_of_time
     drop = float(pulled.event_stress_drop[-1]) * unit_of_force
     print(f"{factor * velocity * 1e6:14.0f} {interval:12.2f} {drop / 1e3:17.1f}")

@@ -269,7 +269,7 @@ def open(file, *, group=None, si=None):
     -------
     xarray.Dataset with the variables, coordinates and attributes that the run returned. All values are in memory, and the file
     is closed. A file does not hold what describes only the computation: the estimated errors, counts of steps and clocks
-    of a pulse or a chain, and the differences and trends of a comparison. A file of events also has the population and
+    of a pulse or a chain, the medians of its events, and the differences and trends of a comparison. A file of events also has the population and
     the settings.
 
     Raises

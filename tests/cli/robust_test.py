@@ -284,7 +284,7 @@ class Inputs(CommandLine):
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertRegex(done.stderr, "output.every.* need .* GB of memory, this process may have 4.29 GB")
         with self.takes_at_most(10):
-            self.ok("pulse", STEP, "--set", "pulse.cells=5000000", "--check")
+            self.ok("pulse", STEP, "--set", "pulse.cells=1000000", "--check")
         self.ok("relations", "--stress", "1:2:1000", "--csv", "--threads", "4096")
 
 

@@ -16,7 +16,8 @@ SHORT = {"time.end": 100, "output.every": 50, "domain.left": -31.41592653589793,
 
 #: Attributes that describe only the computation. Files do not hold them.
 OF_COMPUTATION = {"steps", "solve_seconds", "wall_seconds", "first_crossing_time", "first_crossing_position"}
-OF_CHAIN = OF_COMPUTATION | {"dislocations", "energy_drift", "ranks", "threads", "sites", "site_updates_per_second", "scale", "spacing", "window", "smooth_window"}
+OF_CHAIN = OF_COMPUTATION | {"dislocations", "energy_drift", "ranks", "threads", "sites", "site_updates_per_second", "scale", "spacing", "window", "smooth_window",
+                             "event_count", "event_recurrence_time", "event_median_stress_drop", "event_median_peak_velocity"}
 
 
 class Open(unittest.TestCase):

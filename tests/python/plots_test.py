@@ -82,8 +82,8 @@ class Figures(CommandLine):
         rock = {"shear_modulus": "30 GPa", "p_wave_speed": "6 km/s", "poisson_ratio": 0.3}
         metric = slipfront.compare(STEP, scales=[50]).slipfront.si(contact_ratio=0.01, spacing="1 mm", medium=rock)
         figure = plots.comparison(metric)
-        self.assertIn("slip velocity W, m s⁻¹", self.labels(figure))
-        self.assertRegex(figure.get_suptitle() if hasattr(figure, "get_suptitle") else figure._suptitle.get_text(), r"t = \S+ s$")
+        self.assertIn("slip velocity W, mm s⁻¹", self.labels(figure))
+        self.assertRegex(figure.get_suptitle() if hasattr(figure, "get_suptitle") else figure._suptitle.get_text(), r"t = \S+ μs$")
 
     def test_sweep(self):
         tables = {"set": {"friction.law": "viscous", "pulse.cells": 40}, "variables": ["slip_velocity_at_origin", "slip_at_origin"]}

@@ -16,7 +16,8 @@ SLIP, MOMENT = 0, 1
 
 
 def _on_grid(function):
-    stress, damping = (grid.ravel() for grid in np.meshgrid(np.exp(LOG_STRESS), np.exp(LOG_DAMPING), indexing="ij"))
+    stresses = np.clip(np.exp(LOG_STRESS), LEAST_STRESS, MOST_STRESS)  # exp(ln x) differs from x by rounding
+    stress, damping = (grid.ravel() for grid in np.meshgrid(stresses, np.exp(LOG_DAMPING), indexing="ij"))
     return function(stress, damping).reshape(len(LOG_STRESS), len(LOG_DAMPING))
 
 
