@@ -102,13 +102,18 @@ class SlipfrontAccessor:
             unit = _units.in_si(text, values)
             variable = self._data.variables[name]
             changed[name] = (variable.dims, variable.values * unit[0], _units.converted(variable.attrs, unit))
-        coordinates = {name: value for name, value in changed.items() if name in self._data.coords}
-        data = self._data.assign({name: value for name, value in changed.items() if name not in coordinates}).assign_coords(coordinates)
+        data = _replaced(self._data, changed)
         words = [f"{symbol} = {value:.6g} {unit}".rstrip() for symbol, unit in (("A", ""), ("b", "m"), ("c", "m/s"), ("mu", "Pa"), ("nu", ""))
                  if symbol in wanted and (value := values[symbol]) is not None]
         if not words:
             return data
         return data.assign_attrs(comment=f"Variables are in SI units, for {', '.join(words)}. Attributes are dimensionless.", unit_system="SI", medium=", ".join(words))
+
+
+def _replaced(data, changed):
+    """Returns a Dataset with other variables and coordinates of the same names."""
+    coordinates = {name: value for name, value in changed.items() if name in data.coords}
+    return data.assign({name: value for name, value in changed.items() if name not in coordinates}).assign_coords(coordinates)
 
 
 def in_model(data):
@@ -121,12 +126,9 @@ def in_model(data):
     changed = {}
     for name, text in texts.items():
         variable = data.variables[name]
-        attrs = {key: value for key, value in variable.attrs.items() if key not in ("unit_of_model", "scale_factor")}
-        attrs.update(units="1", dimensional_unit=text, long_name=attrs.get("long_name", "").removesuffix(", between the faces"))
-        changed[name] = (variable.dims, variable.values / _units.in_si(text, values)[0], attrs)
-    coordinates = {name: value for name, value in changed.items() if name in data.coords}
-    data = data.assign({name: value for name, value in changed.items() if name not in coordinates}).assign_coords(coordinates)
-    data.attrs = {key: value for key, value in data.attrs.items() if key not in ("unit_system", "medium", "comment")}
+        changed[name] = (variable.dims, variable.values / _units.in_si(text, values)[0], _units.of_model(variable.attrs))
+    data = _replaced(data, changed)
+    data.attrs = _units.without_si(data.attrs)
     return data
 
 

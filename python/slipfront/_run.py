@@ -308,13 +308,8 @@ def _in_model(data):
     if not any("scale_factor" in variable.attrs for variable in data.variables.values()):
         raise InputError("si = False: the file has its results in SI units only; allowed: None or True")
     for variable in data.variables.values():
-        attrs = variable.attrs
-        for name in ("scale_factor", "_FillValue"):
-            attrs.pop(name, None)
-        if "unit_of_model" in attrs:
-            attrs.update(units="1", dimensional_unit=attrs.pop("unit_of_model"), long_name=attrs["long_name"].removesuffix(", between the faces"))
-    attrs = {key: value for key, value in data.attrs.items() if key not in ("unit_system", "medium", "comment")}
-    data.attrs = attrs
+        variable.attrs = _units.of_model(variable.attrs)
+    data.attrs = _units.without_si(data.attrs)
     return data
 
 

@@ -41,6 +41,19 @@ def converted(attrs, unit):
     return {**{key: value for key, value in attrs.items() if key != "dimensional_unit"}, **words, "units": name, **of_model}
 
 
+def of_model(attrs):
+    """Returns the attributes of a variable in the unit of the model again, from those that `converted` or a file in SI units has."""
+    kept = {key: value for key, value in attrs.items() if key not in ("unit_of_model", "scale_factor", "_FillValue")}
+    if "unit_of_model" in attrs:
+        kept.update(units="1", dimensional_unit=attrs["unit_of_model"], long_name=attrs["long_name"].removesuffix(", between the faces"))
+    return kept
+
+
+def without_si(attrs):
+    """Returns the attributes of a Dataset without those that only one in SI units has."""
+    return {key: value for key, value in attrs.items() if key not in ("unit_system", "medium", "comment")}
+
+
 def _named_unit(name):
     """Returns the factor and the powers of a unit with or without a prefix, such as `km`; None if it is unknown."""
     for base, (size, powers) in _BASE_UNITS.items():
