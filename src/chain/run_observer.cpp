@@ -246,7 +246,8 @@ double RunObserver::contact_at(double x) const {
   if (!chain_.problem().friction.changes_contacts()) return scaled_.contact ? scaled_.contact(x) : 1.0;
   const double site =
       std::clamp((x * scaled_.scale - grid.left) / grid.spacing, 0.0, static_cast<double>(grid.sites - 1));
-  return std::sqrt(chain_.contact_squared(static_cast<std::size_t>(std::lround(site))));
+  const auto nearest = static_cast<std::size_t>(std::lround(site));
+  return std::sqrt(chain_.window(nearest, nearest + 1).contact_squared[0]);
 }
 
 /// The mean pore pressure p over the window that averages the slip at x = 0.
@@ -254,11 +255,12 @@ double RunObserver::pore_pressure_at_origin() const {
   if (!sees_origin()) return none;
   const Grid& grid = chain_.problem().grid;
   const double half = scaled_.scale * window_ / 2;
-  double count = 0, sum = 0;
   const auto from = static_cast<std::size_t>(std::ceil((-half - grid.left) / grid.spacing));
-  for (std::size_t j = from; j < grid.sites && (count == 0 || grid.x(j) <= half); ++j, ++count)
-    sum += chain_.effective_stress(j);
-  return 1 - sum / count;
+  std::size_t to = from + 1;
+  while (to < grid.sites && grid.x(to) <= half) ++to;
+  double sum = 0;
+  for (const double share : chain_.window(from, to).effective_stress) sum += share;
+  return 1 - sum / static_cast<double>(to - from);
 }
 
 Balance RunObserver::balance() const {

@@ -221,7 +221,7 @@ TEST(ChainPhysics, UniformContactIsAScale) {
   EXPECT_NEAR(a.time(), 2 * b.time(), 1e-12);
   const Window wa = a.window(0, 201), wb = b.window(0, 201);
   for (std::size_t j = 0; j < 201; ++j) EXPECT_NEAR(wa.u[j], wb.u[j], 1e-8);
-  EXPECT_EQ(b.contact_squared(7), 4);
+  EXPECT_EQ(wb.contact_squared[7], 4);
 }
 
 /// A dislocation leaves through an absorbing end, which reflects little energy.

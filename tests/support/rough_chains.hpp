@@ -2,13 +2,27 @@
 
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
+#include <vector>
 
 #include "slipfront/chain/chain.hpp"
 
 /// Chains of every kind of end and force, from a rough start, for comparisons to the bit.
 namespace cases {
 
-inline constexpr int kinds = 8;
+inline constexpr int kinds = 11;
+
+/// A law by its name, with the first of its parameters; the others have their default values.
+inline slipfront::friction::Friction law(const char* name, const std::vector<double>& first) {
+  for (const slipfront::friction::Definition* known : slipfront::friction::laws()) {
+    if (known->name != name) continue;
+    std::vector<double> values;
+    for (std::size_t i = 0; i < known->parameters.size(); ++i)
+      values.push_back(i < first.size() ? first[i] : known->parameters[i].value);
+    return {*known, values};
+  }
+  throw std::logic_error("no such law");
+}
 
 inline slipfront::chain::Problem problem(std::size_t sites, int kind) {
   using namespace slipfront::chain;
@@ -34,7 +48,7 @@ inline slipfront::chain::Problem problem(std::size_t sites, int kind) {
     p.boundary = {End::fixed, End::absorbing, false, 0};
     p.friction = slipfront::friction::coulomb(0.02);
   }
-  if (kind >= 6) p.contact = [](double x) { return 1.1 + 0.3 * std::cos(0.3 * x); };
+  if (kind == 6 || kind == 7) p.contact = [](double x) { return 1.1 + 0.3 * std::cos(0.3 * x); };
   if (kind == 6) p.boundary = {.periodic = true, .charge = sites < 20 ? 1 : 3};
   if (kind == 7) {
     p.boundary = {End::absorbing, End::fixed, false, 0};
@@ -43,6 +57,21 @@ inline slipfront::chain::Problem problem(std::size_t sites, int kind) {
   if (kind == 5) {
     p.boundary = {End::absorbing, End::free, false, 0};
     p.friction = slipfront::friction::viscous(0.1);
+  }
+  if (kind == 8) {  // the state of friction around a ring
+    p.boundary = {.periodic = true, .charge = sites < 20 ? 1 : 3};
+    p.friction = law("rate-and-state", {0.05, 0.01, 0.015, 6, 0.05, 0});
+  }
+  if (kind == 9) {  // contacts that age and pores that dilate
+    p.boundary = {End::fixed, End::free, false, 0};
+    p.friction = law("rate-and-state", {0.05, 0.01, 0.015, 3, 0.05, 0, 0, 0.1, 10, 0.02, 30, 0.1});
+    p.contact = [a = p.friction.contact_at_start()](double x) { return a * (1 + 0.1 * std::cos(0.3 * x)); };
+    p.forcing = [](double x, double t) { return 0.1 * std::sin(0.1 * x + t); };
+    p.longest = 100;
+  }
+  if (kind == 10) {
+    p.boundary = {End::absorbing, End::free, false, 0};
+    p.friction = law("slip-weakening", {0.05, 0.02, 3});
   }
   return p;
 }

@@ -32,7 +32,9 @@ struct Execution {
 struct Window {
   std::size_t begin = 0;
   std::vector<double> x, u, velocity;
-  std::vector<double> stress;  ///< -u_x; of a lattice, the mean of the bonds on either side
+  std::vector<double> stress;            ///< -u_x; of a lattice, the mean of the bonds on either side
+  std::vector<double> contact_squared;   ///< a^2, at the present time
+  std::vector<double> effective_stress;  ///< 1 - p, that over the normal stress; 1 without pores; at the present time
 };
 
 /// Energy that entered and left the chain since the start, in units of Eq. 3.
@@ -76,11 +78,8 @@ class Sites {
   virtual Window own_window(std::size_t begin, std::size_t end, double time) const = 0;
 
   /// The terms of the equation of motion for a site of this rank at the present time.
-  virtual double contact_squared(std::size_t site) const = 0;            ///< a^2
   virtual double forcing(std::size_t site) const = 0;                    ///< F, including the springs of Loading
   virtual double friction(std::size_t site, double velocity) const = 0;  ///< f
-  /// 1 - p, the effective normal stress divided by the normal stress. It is 1 if the friction has no pores.
-  virtual double effective_stress(std::size_t site) const = 0;
   virtual SpringEnergy spring_energy() const = 0;
   /// Mean force on a site, or the stress at the pulled end, if springs load the chain; otherwise 0.
   virtual double load() const { return 0; }

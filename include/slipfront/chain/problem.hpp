@@ -94,6 +94,9 @@ inline constexpr double least_sites_per_width = 1.5;
 /// lattice.
 double chosen_step(const Problem& problem);
 
+/// The largest a that contacts have at t = 0, or can reach by `longest`. \throws InputError unless a > 0.
+double largest_contact(const Problem& problem);
+
 /// Bytes of memory that a run needs on all ranks together.
 double memory_needed(const Problem& problem);
 

@@ -100,17 +100,9 @@ Window ExplicitChain::own_window(std::size_t begin, std::size_t end, double time
   return window_of(*share_, begin, end, time);
 }
 
-double ExplicitChain::contact_squared(std::size_t site) const {
-  const double* a2 = share_->forces().a2(static_cast<long>(site));
-  return a2 == nullptr ? 1 : *a2;
-}
 double ExplicitChain::forcing(std::size_t site) const { return share_->forces().now(static_cast<long>(site)); }
 double ExplicitChain::friction(std::size_t site, double velocity) const {
   return share_->forces().friction(static_cast<long>(site), velocity);
-}
-double ExplicitChain::effective_stress(std::size_t site) const {
-  const ContactField& contacts = share_->forces().contacts();
-  return contacts.acts() ? *contacts.share(static_cast<long>(site)) : 1;
 }
 
 Flows ExplicitChain::flows() const { return share_->flows(); }
@@ -121,6 +113,7 @@ Levels ExplicitChain::levels(std::size_t begin, std::size_t end) const {
   if (ranks().size() == 1) return levels;
   levels.now = ranks().joined_at_first(levels.now);
   levels.before = ranks().joined_at_first(levels.before);
+  levels.state = ranks().joined_at_first(levels.state);
   return levels;
 }
 
@@ -134,6 +127,7 @@ Levels ExplicitChain::levels() const {
     const Levels some = levels(begin, std::min(begin + piece, sites));
     all.now.insert(all.now.end(), some.now.begin(), some.now.end());
     all.before.insert(all.before.end(), some.before.begin(), some.before.end());
+    all.state.insert(all.state.end(), some.state.begin(), some.state.end());
   }
   return all;
 }

@@ -43,10 +43,8 @@ class ExplicitChain final : public Chain {
   std::optional<double> constant_step() const override { return dt(); }
   void exchange() const override;
   Window own_window(std::size_t begin, std::size_t end, double time) const override;
-  double contact_squared(std::size_t site) const override;
   double forcing(std::size_t site) const override;
   double friction(std::size_t site, double velocity) const override;
-  double effective_stress(std::size_t site) const override;
   SpringEnergy spring_energy() const override { return {}; }
 
   long steps() const override;

@@ -22,13 +22,15 @@ Displaced displaced(const Share& share, std::size_t from, std::size_t to) {
   const Problem& p = share.problem();
   const EndConditions& ends = share.ends();
   const long n = static_cast<long>(p.grid.sites);
-  constexpr std::size_t margin = 5;
+  constexpr std::size_t beside = 5;
   const bool absorbs_left = from == 0 && ends.left == EndCondition::absorbing;
   const bool absorbs_right = static_cast<long>(to) == n && ends.right == EndCondition::absorbing;
-  const std::size_t more_left = absorbs_right ? std::min(from, ends.absorbing_right.reach + 3) : 0;
-  const std::size_t more_right = absorbs_left ? std::min(share.end() - to, ends.absorbing_left.reach + 3) : 0;
-  const std::size_t reach = margin + more_left;
-  const std::size_t wide = reach + (to - from) + margin + more_right, room = wide + 4 * lanes;
+  const std::size_t left = std::max(from, share.begin()) - share.begin(),
+                    right = share.end() - std::min(to, share.end());
+  const std::size_t more_left = absorbs_right ? std::min(left, ends.absorbing_right.reach + 3) : 0;
+  const std::size_t more_right = absorbs_left ? std::min(right, ends.absorbing_left.reach + 3) : 0;
+  const std::size_t reach = beside + more_left;
+  const std::size_t wide = reach + (to - from) + beside + more_right, room = wide + 4 * lanes;
   const auto column = [room] { return std::vector<double>(room); };
   Displaced d{static_cast<long>(from) - static_cast<long>(reach), wide, column(), column(), column()};
   std::vector<double> y(room);
@@ -73,6 +75,7 @@ Window window_of(const Share& share, std::size_t from, std::size_t to, double ti
   const double dt = share.scheme().dt, h = share.scheme().h, tau = time - share.time();
   const ThreeLevels v(share, displaced(share, from, to));
   const double C = p.friction.linear_coefficient().value_or(0);
+  const ContactField& contacts = share.forces().contacts();
   const auto rate = [&](std::size_t j) { return (v.u_next[j] - v.u_old[j]) / (2 * dt); };
   const auto stress = [&](const std::vector<double>& u, std::size_t j) {
     if (p.model == Model::lattice) return (u[j - 1] - u[j + 1]) / (2 * h);
@@ -92,6 +95,9 @@ Window window_of(const Share& share, std::size_t from, std::size_t to, double ti
     window.u.push_back(turn * (v.u_now[j] + tau * (velocity + tau / 2 * (acceleration + tau / 3 * jerk))));
     window.velocity.push_back(turn * (velocity + tau * (acceleration + tau / 2 * jerk)));
     window.stress.push_back(turn * (stress(v.u_now, j) + tau * stress_rate));
+    const double* a2 = share.forces().a2(static_cast<long>(site));
+    window.contact_squared.push_back(a2 == nullptr ? 1 : *a2);
+    window.effective_stress.push_back(contacts.acts() ? *contacts.share(static_cast<long>(site)) : 1);
   }
   // A fixed end stays at its displacement: the equation of motion above does not contain the force that holds it.
   const auto hold = [&](std::size_t site) {

@@ -12,9 +12,11 @@ namespace {
 constexpr double turn = 2 * std::numbers::pi;
 constexpr std::size_t together = 64;  ///< sites in one pass of the friction loops; a pass with no moving site is cheap
 
-/// Number of sites by which arrays extend past both ends. A window at an end needs 16 of them. A chain that advances
-/// many levels at a time needs a^2 in its halos too, up to whole vectors.
-long margin_of(const Problem& p) { return p.forcing ? 16 : static_cast<long>(halo + 2 * lanes); }
+/// Number of sites by which arrays extend past both ends. A chain that advances many levels at a time needs a^2 in its
+/// halos too, up to whole vectors.
+long margin_of(const Problem& p) {
+  return static_cast<long>(p.forcing || p.friction.state_size() > 0 ? margin : halo + 2 * lanes);
+}
 
 /// a(x)^2 on sites [first, last). It is empty if a is 1 everywhere and does not change.
 std::vector<double> a2_of(const Problem& p, long first, long last) {
@@ -40,7 +42,7 @@ Forces::Forces(const Problem& problem, const Scheme& scheme, long level, std::si
       last_(static_cast<long>(end) + margin_of(problem)),
       nonlinear_(problem.friction.acts() && !problem.friction.linear_coefficient()),
       variables_(problem.friction.state_size()),
-      state_(variables_ * problem.grid.sites),
+      state_(variables_ * at(last_)),
       a2_(a2_of(problem_, first_, last_)),
       contacts_(problem_, first_, a2_) {
   for (std::size_t j = 0; j < state_.size(); j += variables_)
@@ -68,8 +70,6 @@ void Forces::evaluate_forcing(long level, std::vector<double>& F) const {
   for (long j = first_; j < last_; ++j) F[at(j)] = problem_.forcing(problem_.grid.x(folded(problem_, j)), t);
 }
 
-const double* Forces::state_of(long j) const { return state_.data() + variables_ * folded(problem_, j); }
-
 void Forces::age(long first, std::size_t size, const double* now, const double* next) {
   if (variables_ == 0) return;
   double velocity[together];
@@ -81,25 +81,24 @@ void Forces::age(long first, std::size_t size, const double* now, const double* 
       continue;
     }
     problem_.friction.evolution().advance_all(some, friction::Slips::at(velocity), dt_, variables_,
-                                              state_.data() + variables_ * (static_cast<std::size_t>(first) + j));
+                                              state_of(first + static_cast<long>(j)));
   }
 }
 
 void Forces::age_contacts(long first, std::size_t size, const double* velocity) {
   double before[together];
-  double* const theta = state_.data() + static_cast<std::size_t>(first);
+  double* const theta = state_of(first);
   std::copy_n(theta, size, before);
   problem_.friction.evolution().advance_all(size, friction::Slips::at(velocity), dt_, variables_, theta);
   contacts_.advance(first, dt_, {before, size}, {theta, size});
 }
 
 std::vector<double> Forces::states(std::size_t begin, std::size_t end) const {
-  const auto at = [&](std::size_t j) { return state_.begin() + static_cast<std::ptrdiff_t>(variables_ * j); };
-  if (!contacts_.acts()) return {at(begin), at(end)};
+  if (!contacts_.acts()) return {state_of(static_cast<long>(begin)), state_of(static_cast<long>(end))};
   std::vector<double> all(state_size() * (end - begin));
   for (std::size_t j = begin; j < end; ++j) {
     double* const to = all.data() + state_size() * (j - begin);
-    std::copy_n(at(j), variables_, to);
+    std::copy_n(state_of(static_cast<long>(j)), variables_, to);
     contacts_.save(j, to + variables_);
   }
   return all;
@@ -108,9 +107,19 @@ std::vector<double> Forces::states(std::size_t begin, std::size_t end) const {
 void Forces::set_states(std::size_t begin, const std::vector<double>& states) {
   for (std::size_t i = 0; i < states.size(); i += state_size()) {
     const std::size_t site = begin + i / state_size();
-    std::copy_n(states.data() + i, variables_, state_.data() + variables_ * site);
+    std::copy_n(states.data() + i, variables_, state_of(static_cast<long>(site)));
     if (contacts_.acts()) contacts_.resume(site, states[i], states.data() + i + variables_);
   }
+}
+
+void Forces::exchange(const Ranks& ranks) {
+  if (contacts_.acts()) contacts_.exchange(ranks);
+}
+
+void Forces::exchange_all(const Ranks& ranks) {
+  exchange(ranks);
+  if (contacts_.acts()) contacts_.exchange_all(ranks);
+  if (variables_ > 0) fill_margins(problem_, ranks, first_, variables_, state_);
 }
 
 void Forces::proceed() {
@@ -177,7 +186,6 @@ void Forces::add_friction(long offset, std::size_t begin, std::size_t end, const
   const bool centred = !f.steep_at_rest();
   const double time = centred ? 2 * dt_ : dt_, weight = dt_ * dt_ / time;
   double free[together], speed[together];
-  std::vector<double> room;
   for (std::size_t j = begin; j < end; j += together) {
     const std::size_t some = std::min(together, end - j);
     const double* from = (centred ? before : now) + j;
@@ -188,7 +196,7 @@ void Forces::add_friction(long offset, std::size_t begin, std::size_t end, const
       continue;
     }
     const long site = offset + static_cast<long>(j);
-    const friction::LocalStates states = states_from(site, some, room);
+    const friction::LocalStates states = states_from(site);
     if (contacts_.have_pressure())
       f.loops().speeds_after_under(some, contacts_.share(site), free, weight, states, speed);
     else
@@ -197,24 +205,13 @@ void Forces::add_friction(long offset, std::size_t begin, std::size_t end, const
   }
 }
 
-friction::LocalStates Forces::states_from(long j, std::size_t size, std::vector<double>& room) const {
-  if (variables_ == 0) return {};
-  const long end = j + static_cast<long>(size);
-  if (j >= 0 && end <= static_cast<long>(problem_.grid.sites))
-    return {state_.data() + variables_ * static_cast<std::size_t>(j), variables_};
-  room.clear();
-  for (; j < end; ++j) room.insert(room.end(), state_of(j), state_of(j) + variables_);
-  return {room.data(), variables_};
-}
-
 double Forces::work_of_friction(long j, std::size_t size, const double* D, const double* applied) const {
   if (problem_.friction.steep_at_rest()) return sum_of_products(applied, D, size);
   double speed[together], force[together], sum = 0;
-  std::vector<double> room;
   for (std::size_t at = 0; at < size; at += together) {
     const std::size_t some = std::min(together, size - at);
     for (std::size_t i = 0; i < some; ++i) speed[i] = std::fabs(D[at + i]) / dt_;
-    problem_.friction.loops().strengths(some, speed, states_from(j + static_cast<long>(at), some, room), force);
+    problem_.friction.loops().strengths(some, speed, states_from(j + static_cast<long>(at)), force);
     sum += dt_ * sum_of_products(force, speed, some);
   }
   return sum;

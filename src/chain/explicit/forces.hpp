@@ -44,6 +44,10 @@ class Forces {
   /// Energy, divided by the spacing, that contacts give to the substrate at `size` sites from site j on. The step D
   /// ends at u.
   double energy_of_contacts(long j, std::size_t size, const double* u, const double* D) const;
+  /// (all) Gets what a level needs from the sites next to those of this rank.
+  void exchange(const Ranks& ranks);
+  /// (all) Gets everything of these sites, which windows need.
+  void exchange_all(const Ranks& ranks);
   /// Moves to the next level.
   void proceed();
   /// Advances the state variables of `size` sites from site `first` on by the step from `now` to `next`.
@@ -73,7 +77,8 @@ class Forces {
   friction::LocalState state(long j) const {
     return variables_ == 0 ? friction::LocalState{} : friction::LocalState{state_of(j), variables_};
   }
-  const double* state_of(long j) const;
+  const double* state_of(long j) const { return state_.data() + variables_ * at(j); }
+  double* state_of(long j) { return state_.data() + variables_ * at(j); }
   std::size_t at(long j) const { return static_cast<std::size_t>(j - first_); }
   void evaluate_forcing(long level, std::vector<double>& F) const;
   bool steady() const { return F_next_.empty(); }
@@ -81,8 +86,9 @@ class Forces {
   void add_friction(long offset, std::size_t begin, std::size_t end, const double* before, const double* now,
                     double* next, double* applied) const;
   void age_contacts(long first, std::size_t size, const double* velocity);
-  /// The states of `size` sites from site j on. If some are past an end, the states are copied into `room`.
-  friction::LocalStates states_from(long j, std::size_t size, std::vector<double>& room) const;
+  friction::LocalStates states_from(long j) const {
+    return variables_ == 0 ? friction::LocalStates{} : friction::LocalStates{state_of(j), variables_};
+  }
 
   Problem problem_;
   Scheme scheme_;
@@ -92,7 +98,7 @@ class Forces {
   long first_, last_;          ///< the arrays hold sites [first_, last_)
   bool nonlinear_;             ///< there is friction other than C w, which the scheme itself contains
   std::size_t variables_;      ///< number of state variables of the friction law
-  std::vector<double> state_;  ///< their values at each site; a chain with state variables has only one rank
+  std::vector<double> state_;  ///< their values at each site
   std::vector<double> a2_;     ///< a^2; at t = 0 if it changes
   ContactField contacts_;
   std::vector<double> F_before_, F_now_, F_next_;  ///< only F_now_ is filled if F does not depend on t

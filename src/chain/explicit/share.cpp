@@ -95,9 +95,6 @@ void Share::check_execution() const {
   if (execution_.threads < 1)
     throw InputError(
         {.key = "threads", .value = std::to_string(execution_.threads), .problem = "out of range", .allowed = ">= 1"});
-  if (ranks_.size() > 1 && problem_.friction.state_size() > 0)
-    refuse_ranks(ranks_, "friction.law = \"" + std::string(problem_.friction.name()) + "\" has variables at each site",
-                 "1 rank, with as many threads as wanted");
   if (static_cast<std::size_t>(ranks_.size()) > blocks_.count)
     refuse_ranks(ranks_, "too many for " + std::to_string(problem_.grid.sites) + " sites",
                  "1 to " + std::to_string(blocks_.count));
@@ -180,6 +177,7 @@ void Share::exchange_slab(std::size_t i) {
 void Share::exchange() {
   if (ranks_.size() > 1) exchange_with_ranks();
   for (std::size_t i = 0; i < slabs_.size(); ++i) exchange_slab(i);
+  forces_.exchange_all(ranks_);
 }
 
 void Share::advance_slab(std::size_t i, std::size_t count) {
@@ -221,6 +219,7 @@ void Share::for_slabs(std::size_t levels, const Each& each) {
 
 void Share::advance(std::size_t count) {
   if (ranks_.size() > 1) exchange_with_ranks();
+  forces_.exchange(ranks_);
   for_slabs(count, [this](std::size_t i) { exchange_slab(i); });
   for_slabs(count, [this, count](std::size_t i) { advance_slab(i, count); });
   level_ += static_cast<long>(count);
@@ -274,7 +273,8 @@ Levels Share::levels(std::size_t begin, std::size_t end) const {
     levels.now.insert(levels.now.end(), slab.now() + at, slab.now() + at + size);
     levels.before.insert(levels.before.end(), slab.old() + at, slab.old() + at + size);
   }
-  if (ranks_.size() == 1) levels.state = forces_.states(begin, end);
+  const std::size_t from = std::max(begin, begin_), to = std::min(end, end_);
+  if (from < to) levels.state = forces_.states(from, to);
   return levels;
 }
 

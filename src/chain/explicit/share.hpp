@@ -28,7 +28,8 @@ class Share {
   const Scheme& scheme() const { return scheme_; }
   const EndConditions& ends() const { return ends_; }
   const Forces& forces() const { return forces_; }
-  std::size_t end() const { return end_; }  ///< one past the last site of this rank
+  std::size_t begin() const { return begin_; }  ///< first site of this rank
+  std::size_t end() const { return end_; }      ///< one past the last site of this rank
   long level() const { return level_; }
   double time() const { return static_cast<double>(level_) * scheme_.dt; }
   std::size_t depth() const { return depth_; }  ///< largest number of levels between two exchanges
@@ -50,7 +51,7 @@ class Share {
   /// this rank.
   std::pair<double, double> site(long j) const;
 
-  /// The levels of those sites of [begin, end) that this rank has. They have no state if there are several ranks.
+  /// The levels of those sites of [begin, end) that this rank has.
   Levels levels(std::size_t begin, std::size_t end) const;
   /// (all) The works of all ranks, block by block, and the outflow through the two ends.
   std::vector<double> flow_sums() const;

@@ -116,6 +116,8 @@ Window ImplicitChain::own_window(std::size_t from, std::size_t to, double) const
     window.x.push_back(problem().grid.x(i));
     window.u.push_back(now_.u[i]);
     window.velocity.push_back(now_.v[i]);
+    window.contact_squared.push_back(forces_.contact_squared(now_, i));
+    window.effective_stress.push_back(forces_.effective_stress(now_, i));
     window.stress.push_back(problem().model == Model::lattice
                                 ? (u(j - 1) - u(j + 1)) / (2 * h)
                                 : (45 * (u(j - 1) - u(j + 1)) - 9 * (u(j - 2) - u(j + 2)) + u(j - 3) - u(j + 3)) /
@@ -172,7 +174,7 @@ void ImplicitChain::look_at_fronts(double direction) {
   const auto ahead = [&] {
     const Window window = own_window(0, now_.u.size(), now_.time);
     return Tractions{means([&](std::size_t j) { return window.stress[j]; }), means([&](std::size_t j) {
-                       return friction(j, now_.w[j]) + contact_squared(j) * std::sin(now_.u[j]);
+                       return friction(j, now_.w[j]) + forces_.contact_squared(now_, j) * std::sin(now_.u[j]);
                      })};
   };
   const auto velocity = [&](std::size_t j) { return forces_.springs().held(j) ? 0 : direction * now_.w[j]; };

@@ -31,10 +31,8 @@ class ImplicitChain final : public Chain {
   std::optional<double> constant_step() const override { return std::nullopt; }
   void exchange() const override {}
   Window own_window(std::size_t begin, std::size_t end, double time) const override;
-  double contact_squared(std::size_t site) const override { return forces_.contact_squared(now_, site); }
   double forcing(std::size_t site) const override { return forces_.forcing(now_, site); }
   double friction(std::size_t site, double velocity) const override { return forces_.friction(now_, site, velocity); }
-  double effective_stress(std::size_t site) const override { return forces_.effective_stress(now_, site); }
   SpringEnergy spring_energy() const override;
   double load() const override;
 

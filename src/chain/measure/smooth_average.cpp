@@ -47,7 +47,7 @@ SmoothAverage smooth_average(const Sites& chain, const Window& w, double x, doub
     sum += weight;
     a.velocity += weight * w.velocity[i];
     a.stress += weight * w.stress[i];
-    a.energy += weight * (w.velocity[i] * w.velocity[i] / 2 + chain.contact_squared(j) * (1 - std::cos(u(j))) +
+    a.energy += weight * (w.velocity[i] * w.velocity[i] / 2 + w.contact_squared[i] * (1 - std::cos(u(j))) +
                           elastic_energy(u, j, grid.sites, grid.spacing, chain.problem().model));
   }
   if (!(sum > 0)) sum = 1;  // a single site, at the very end of the window

@@ -31,7 +31,7 @@ void add(const Sites& chain, const Window& w, std::size_t begin, std::size_t end
     const double weight = (j == 0 || j + 1 == n) && !p.boundary.periodic ? h / 2 : h;
     const double velocity = w.velocity[j - low], cosine = std::cos(u(j));
     t.kinetic += weight * velocity * velocity / 2;
-    t.substrate += weight * chain.contact_squared(j) * (1 - cosine);
+    t.substrate += weight * w.contact_squared[j - low] * (1 - cosine);
     t.momentum += weight * velocity * w.stress[j - low];
     t.supplied_rate += weight * velocity * chain.forcing(j);
     t.dissipated_rate += weight * velocity * chain.friction(j, velocity);

@@ -1,7 +1,9 @@
 #include "slipfront/chain/chain.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include "chain/model/blocks.hpp"
 #include "foundation/ranks.hpp"
@@ -13,6 +15,20 @@ namespace {
 const Ranks* one_process() {
   static const Ranks ranks;
   return &ranks;
+}
+
+/// (all) Joins the windows of all ranks, in one message.
+void join(const Ranks& ranks, Window& window) {
+  const std::array columns{
+      &window.x, &window.u, &window.velocity, &window.stress, &window.contact_squared, &window.effective_stress};
+  std::vector<double> mine;
+  for (std::size_t j = 0; j < window.x.size(); ++j)
+    for (const std::vector<double>* column : columns) mine.push_back((*column)[j]);
+  const std::vector<double> all = ranks.joined(mine);
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    columns[i]->clear();
+    for (std::size_t at = i; at < all.size(); at += columns.size()) columns[i]->push_back(all[at]);
+  }
 }
 
 }  // namespace
@@ -33,9 +49,7 @@ Window Sites::window(std::size_t begin, std::size_t end, double time) const {
   Window window;
   if (from < to) window = own_window(from, to, time);
   window.begin = begin;
-  if (ranks_->size() > 1)
-    for (std::vector<double>* values : {&window.x, &window.u, &window.velocity, &window.stress})
-      *values = ranks_->joined(*values);
+  if (ranks_->size() > 1) join(*ranks_, window);
   return window;
 }
 

@@ -16,20 +16,6 @@ namespace {
   throw InputError({.key = key, .value = digits(value), .problem = std::move(problem), .allowed = std::move(allowed)});
 }
 
-double largest_contact(const Problem& p) {
-  double most = 1;
-  if (p.contact) {
-    most = 0;
-    for (std::size_t j = 0; j < p.grid.sites; ++j) {
-      const double a = p.contact(p.grid.x(j));
-      if (!(a > 0) || !std::isfinite(a))
-        refuse("contact", a, "not a contact ratio at x = " + digits(p.grid.x(j)), "> 0, finite");
-      most = std::fmax(most, a);
-    }
-  }
-  return p.substrate ? most * p.friction.contact_growth(p.longest) : most;
-}
-
 /// Nothing changes the train outside an absorbing end.
 void check_ends(const Problem& p) {
   const Boundary& ends = p.boundary;
@@ -65,6 +51,20 @@ double largest(const Problem& p, double a) {
 }
 
 }  // namespace
+
+double largest_contact(const Problem& p) {
+  double most = 1;
+  if (p.contact) {
+    most = 0;
+    for (std::size_t j = 0; j < p.grid.sites; ++j) {
+      const double a = p.contact(p.grid.x(j));
+      if (!(a > 0) || !std::isfinite(a))
+        refuse("contact", a, "not a contact ratio at x = " + digits(p.grid.x(j)), "> 0, finite");
+      most = std::fmax(most, a);
+    }
+  }
+  return p.substrate ? most * p.friction.contact_growth(p.longest) : most;
+}
 
 double chosen_step(const Problem& p) { return p.step > 0 ? p.step : chosen(p, largest_contact(p)); }
 

@@ -14,6 +14,7 @@ using namespace slipfront::chain;
 
 void expect_same(const Levels& a, const Levels& b, const std::string& what) {
   EXPECT_EQ(a.level, b.level);
+  EXPECT_EQ(a.state, b.state) << what;
   for (std::size_t j = 0; j < a.now.size(); ++j) {
     ASSERT_EQ(a.now[j], b.now[j]) << what << ", site " << j;
     ASSERT_EQ(a.before[j], b.before[j]) << what << ", site " << j;

@@ -14,10 +14,12 @@
 #include <string>
 #include <vector>
 
+#include "chain/explicit/contact_field.hpp"
 #include "chain/explicit/explicit_chain.hpp"
 #include "chain/explicit/levels/levels.hpp"
 #include "chain/measure/average.hpp"
 #include "chain/measure/dislocations.hpp"
+#include "chain/measure/smooth_average.hpp"
 #include "chain/measure/totals.hpp"
 #include "chain/model/initial_train.hpp"
 #include "foundation/ranks.hpp"
@@ -47,7 +49,8 @@ bool same(const std::vector<double>& a, const std::vector<double>& b) {
 std::vector<double> measured(const ExplicitChain& chain) {
   std::vector<double> row;
   const Window w = chain.window(3, chain.problem().grid.sites - 1, chain.time() + chain.dt() / 3);
-  for (const auto* values : {&w.x, &w.u, &w.velocity, &w.stress}) row.insert(row.end(), values->begin(), values->end());
+  for (const auto* values : {&w.x, &w.u, &w.velocity, &w.stress, &w.contact_squared, &w.effective_stress})
+    row.insert(row.end(), values->begin(), values->end());
   const Totals t = totals(chain);
   for (const double sum : {t.charge, static_cast<double>(t.dislocations), t.kinetic, t.elastic, t.substrate, t.momentum,
                            t.supplied_rate, t.dissipated_rate})
@@ -55,6 +58,8 @@ std::vector<double> measured(const ExplicitChain& chain) {
   for (const Dislocation& d : dislocations(chain)) row.insert(row.end(), {d.x, static_cast<double>(d.sign)});
   const Average a = average(chain, 290, 80, chain.time());  // the window crosses the boundaries between ranks
   row.insert(row.end(), {a.u, a.velocity, a.stress});
+  const SmoothAverage smooth = smooth_average(chain, 290, 80, chain.time());
+  row.insert(row.end(), {smooth.velocity, smooth.stress, smooth.energy});
   return row;
 }
 
@@ -66,7 +71,10 @@ struct Outcome {
 Outcome outcome(const Problem& p, const MotionOf& start, const Execution& execution) {
   ExplicitChain chain(p, start, execution);
   chain.advance(all_the_way);
-  return {chain.levels(), measured(chain)};
+  Outcome out{chain.levels(), measured(chain)};
+  const Flows flows = chain.flows();
+  out.row.insert(out.row.end(), {flows.supplied, flows.dissipated, flows.outflow, flows.by_contacts});
+  return out;
 }
 
 void compare(const Ranks& ranks, const Problem& p, const MotionOf& start, const std::string& what) {
@@ -79,6 +87,7 @@ void compare(const Ranks& ranks, const Problem& p, const MotionOf& start, const 
     expect(same(shared.levels.now, ranks.rank() == 0 ? alone.levels.now : std::vector<double>{}), with + ": now");
     expect(same(shared.levels.before, ranks.rank() == 0 ? alone.levels.before : std::vector<double>{}),
            with + ": before");
+    expect(same(shared.levels.state, ranks.rank() == 0 ? alone.levels.state : std::vector<double>{}), with + ": state");
   }
 }
 
@@ -166,7 +175,12 @@ void save(const Ranks& ranks, const std::string& path) {
     for (std::size_t begin = 0; begin < sites; begin += 400) {  // in pieces
       const Levels piece = chain.levels(begin, std::min(begin + 400, sites));
       if (ranks.rank() != 0) continue;
-      for (std::size_t j = 0; j < piece.now.size(); ++j) write(file, {piece.now[j], piece.before[j]});
+      const std::size_t states = piece.now.empty() ? 0 : piece.state.size() / piece.now.size();
+      for (std::size_t j = 0; j < piece.now.size(); ++j) {
+        write(file, {piece.now[j], piece.before[j]});
+        const auto first = piece.state.begin() + static_cast<std::ptrdiff_t>(states * j);
+        write(file, {first, first + static_cast<std::ptrdiff_t>(states)});
+      }
     }
   }
   if (ranks.rank() == 0) expect(file.flush().good(), "written");
@@ -174,18 +188,21 @@ void save(const Ranks& ranks, const std::string& path) {
 
 void resume(const Ranks& ranks, const std::string& path) {
   std::ifstream file(path, std::ios::binary);
+  std::size_t skipped = 0;  // numbers of the kinds before
   for (int kind = 0; kind < cases::kinds; ++kind) {
     const Problem p = cases::problem(sites, kind);
+    const std::size_t columns = 2 + state_names(p).size();
     const auto read = [&](std::size_t begin, std::size_t end) {  // each rank reads its own sites
-      std::vector<double> pairs(2 * (end - begin));
-      file.seekg(static_cast<std::streamoff>(2 * sizeof(double) * (static_cast<std::size_t>(kind) * sites + begin)));
-      file.read(reinterpret_cast<char*>(pairs.data()), static_cast<std::streamsize>(pairs.size() * sizeof(double)));
+      std::vector<double> rows(columns * (end - begin));
+      file.seekg(static_cast<std::streamoff>(sizeof(double) * (skipped + columns * begin)));
+      file.read(reinterpret_cast<char*>(rows.data()), static_cast<std::streamsize>(rows.size() * sizeof(double)));
       expect(file.good(), "read");
       Levels levels;
       levels.level = half_way;
-      for (std::size_t j = 0; j < pairs.size(); j += 2) {
-        levels.now.push_back(pairs[j]);
-        levels.before.push_back(pairs[j + 1]);
+      for (auto row = rows.begin(); row != rows.end(); row += static_cast<std::ptrdiff_t>(columns)) {
+        levels.now.push_back(row[0]);
+        levels.before.push_back(row[1]);
+        levels.state.insert(levels.state.end(), row + 2, row + static_cast<std::ptrdiff_t>(columns));
       }
       return levels;
     };
@@ -194,6 +211,7 @@ void resume(const Ranks& ranks, const std::string& path) {
     alone.advance(all_the_way);
     expect(same(measured(chain), measured(alone)), "resumed, kind " + std::to_string(kind));
     expect(ranks.rank() != 0 || chain.steps() == alone.steps(), "level");
+    skipped += columns * sites;
   }
 }
 
