@@ -11,6 +11,7 @@
 #include "chain/run_observer.hpp"
 #include "chain/scaled_start.hpp"
 #include "foundation/bytes.hpp"
+#include "foundation/ranks.hpp"
 #include "foundation/text/digits.hpp"
 #include "slipfront/error.hpp"
 
@@ -18,7 +19,7 @@ namespace slipfront::chain {
 namespace {
 
 using output::Snapshot;
-constexpr std::uint64_t format = 0x636861696e000008;  // "chain", version 8
+constexpr std::uint64_t format = 0x636861696e000009;  // "chain", version 9
 
 std::unique_ptr<Chain> chain_of(const ScaledProblem& scaled, const Execution& execution) {
   const ScaledStart start = scaled_start(scaled, execution);
@@ -84,7 +85,9 @@ bool Run::advance_to(double time, const std::function<bool()>& interrupted) {
     // output times, so that a run to a later end can continue this one.
     if (chain_->constant_step() ? chain_->steps() - before == to_sample : chain_->between_steps()) {
       observer_->sample();
-      if (outputs_->wants(chain_->event_in_progress())) outputs_->add(observer_->snapshot(this->time()));
+      bool wanted = false;
+      chain_->ranks().together([&] { wanted = outputs_->wants(chain_->event_in_progress()); });
+      if (wanted) outputs_->add(observer_->snapshot(this->time()));
     }
     if (interrupted && interrupted()) return false;
   }

@@ -18,12 +18,14 @@
 namespace slipfront {
 namespace {
 
+void copy(std::span<const double> from, std::span<double> to) { std::copy(from.begin(), from.end(), to.begin()); }
+
 /// One rank is its own neighbour around a ring.
 void exchange_alone(std::span<const double> to_left, std::span<const double> to_right, std::span<double> from_left,
                     std::span<double> from_right, bool around) {
   if (!around) return;
-  std::copy(to_right.begin(), to_right.end(), from_left.begin());
-  std::copy(to_left.begin(), to_left.end(), from_right.begin());
+  copy(to_right, from_left);
+  copy(to_left, from_right);
 }
 
 }  // namespace
@@ -133,6 +135,12 @@ bool Ranks::any(bool mine) const {
   return some != 0;
 }
 
+double Ranks::largest(double mine) const {
+  agreed_ = false;
+  if (size_ > 1) MPI_Allreduce(MPI_IN_PLACE, &mine, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+  return mine;
+}
+
 namespace {
 
 /// Counts of all ranks, and where the numbers of each begin.
@@ -155,6 +163,9 @@ Layout layout_of(std::size_t mine, int ranks) {
   return l;
 }
 
+// Tags of messages. Two ranks around a ring are each other's neighbour twice.
+constexpr int leftwards = 1, rightwards = 2, handed_on = 3;
+
 }  // namespace
 
 std::vector<double> Ranks::joined(const std::vector<double>& mine) const {
@@ -166,6 +177,14 @@ std::vector<double> Ranks::joined(const std::vector<double>& mine) const {
   return all;
 }
 
+void Ranks::join(std::span<const double> mine, std::span<double> all) const {
+  if (size_ == 1) return copy(mine, all);
+  const Layout l = layout_of(mine.size(), size_);
+  if (l.all != all.size()) throw NumericsError("numbers of another count than expected");
+  MPI_Allgatherv(mine.data(), static_cast<int>(mine.size()), MPI_DOUBLE, all.data(), l.counts.data(), l.begins.data(),
+                 MPI_DOUBLE, MPI_COMM_WORLD);
+}
+
 std::vector<double> Ranks::joined_at_first(const std::vector<double>& mine) const {
   if (size_ == 1) return mine;
   const Layout l = layout_of(mine.size(), size_);
@@ -175,12 +194,28 @@ std::vector<double> Ranks::joined_at_first(const std::vector<double>& mine) cons
   return all;
 }
 
+void Ranks::from_first(std::span<double> numbers) const {
+  if (size_ > 1) MPI_Bcast(numbers.data(), static_cast<int>(numbers.size()), MPI_DOUBLE, 0, MPI_COMM_WORLD);
+}
+
+void Ranks::send(Neighbour to, std::span<const double> numbers) const {
+  const int other = to == Neighbour::next ? rank_ + 1 : rank_ - 1;
+  if (other < 0 || other == size_) return;
+  MPI_Send(numbers.data(), static_cast<int>(numbers.size()), MPI_DOUBLE, other, handed_on, MPI_COMM_WORLD);
+}
+
+void Ranks::receive(Neighbour from, std::span<double> numbers) const {
+  const int other = from == Neighbour::next ? rank_ + 1 : rank_ - 1;
+  if (other < 0 || other == size_) return;
+  MPI_Recv(numbers.data(), static_cast<int>(numbers.size()), MPI_DOUBLE, other, handed_on, MPI_COMM_WORLD,
+           MPI_STATUS_IGNORE);
+}
+
 void Ranks::exchange(std::span<const double> to_left, std::span<const double> to_right, std::span<double> from_left,
                      std::span<double> from_right, bool around) const {
   if (size_ == 1) return exchange_alone(to_left, to_right, from_left, from_right, around);
   const int before = rank_ > 0 ? rank_ - 1 : around ? size_ - 1 : MPI_PROC_NULL;
   const int behind = rank_ + 1 < size_ ? rank_ + 1 : around ? 0 : MPI_PROC_NULL;
-  constexpr int leftwards = 1, rightwards = 2;  // two ranks around a ring are each other's neighbour twice
   const auto count = [](auto numbers) { return static_cast<int>(numbers.size()); };
   MPI_Sendrecv(to_left.data(), count(to_left), MPI_DOUBLE, before, leftwards, from_right.data(), count(from_right),
                MPI_DOUBLE, behind, leftwards, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
@@ -206,6 +241,11 @@ Ranks::~Ranks() = default;
 void Ranks::together(const std::function<void()>& task) const { task(); }
 void Ranks::require_same(const char*, std::string_view) const {}
 bool Ranks::any(bool mine) const { return mine; }
+double Ranks::largest(double mine) const { return mine; }
+void Ranks::join(std::span<const double> mine, std::span<double> all) const { copy(mine, all); }
+void Ranks::from_first(std::span<double>) const {}
+void Ranks::send(Neighbour, std::span<const double>) const {}
+void Ranks::receive(Neighbour, std::span<double>) const {}
 std::vector<double> Ranks::joined(const std::vector<double>& mine) const { return mine; }
 std::vector<double> Ranks::joined_at_first(const std::vector<double>& mine) const { return mine; }
 void Ranks::exchange(std::span<const double> to_left, std::span<const double> to_right, std::span<double> from_left,

@@ -40,10 +40,21 @@ class Ranks {
   void require_same(const char* what, std::string_view text) const;
   /// (all) Whether `mine` is true on any rank.
   bool any(bool mine) const;
+  /// (all) The largest of the numbers of all ranks, none of which may be NaN.
+  double largest(double mine) const;
   /// (all) Joins the numbers of all ranks in the order of the ranks. Every rank gets them; at most 2^31 - 1 numbers.
   std::vector<double> joined(const std::vector<double>& mine) const;
+  /// (all) Like `joined`, into an array of the right size.
+  void join(std::span<const double> mine, std::span<double> all) const;
   /// (all) Like `joined`, but only rank 0 gets the numbers. The result is empty on the others.
   std::vector<double> joined_at_first(const std::vector<double>& mine) const;
+  /// (all) Gives all ranks the numbers of rank 0.
+  void from_first(std::span<double> numbers) const;
+  enum class Neighbour { previous, next };
+  /// Sends numbers to a neighbour, which must receive equally many. At an end, where there is none, it does nothing.
+  void send(Neighbour to, std::span<const double> numbers) const;
+  /// Waits for the numbers that a neighbour sends. At an end it leaves them unchanged.
+  void receive(Neighbour from, std::span<double> numbers) const;
   /// (all) Exchanges equally many numbers with the previous and with the next rank. A rank without such a neighbour (at
   /// an end, unless `around`) leaves the numbers to receive unchanged.
   void exchange(std::span<const double> to_left, std::span<const double> to_right, std::span<double> from_left,

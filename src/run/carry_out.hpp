@@ -46,6 +46,15 @@ class Checkpoints {
       on_first([&] { record::require_disk_space(options_.output.finished(), options_.disk); });
   }
 
+  /// Throws the error of the run, with the file of what was computed. All ranks throw it together.
+  void fail(std::string why) const {
+    std::error_code none;
+    if (options_.output.wanted() && std::filesystem::exists(options_.output.unfinished(), none))
+      why += "; what was computed is in " + options_.output.unfinished();
+    const auto fails = [&] { throw NumericsError(why); };
+    options_.ranks ? options_.ranks->together(fails) : fails();
+  }
+
   void write() {
     if (!options_.output.wanted()) return;
     const auto begun = Clock::now();
@@ -99,10 +108,7 @@ bool carry_out(Run& run, const CheckpointOptions& options, const std::function<b
     });
   } catch (const NumericsError& error) {  // the run or its last checkpoint has a valid state
     if (run.can_checkpoint()) checkpoints.write();
-    std::error_code none;
-    if (options.output.wanted() && std::filesystem::exists(options.output.unfinished(), none))
-      throw NumericsError(std::string(error.what()) + "; what was computed is in " + options.output.unfinished());
-    throw;
+    checkpoints.fail(error.what());
   }
   checkpoints.write();
   return reached;

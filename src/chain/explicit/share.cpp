@@ -4,6 +4,7 @@
 #include <array>
 #include <string>
 
+#include "chain/model/start_check.hpp"
 #include "foundation/team.hpp"
 #include "foundation/text/digits.hpp"
 #include "slipfront/error.hpp"
@@ -63,13 +64,6 @@ bool has_halo(EndCondition side) { return side == EndCondition::joined || side =
                     .allowed = allowed + " sites"});
 }
 
-[[noreturn]] void refuse_ranks(const Ranks& ranks, std::string problem, std::string allowed) {
-  throw InputError({.key = "ranks",
-                    .value = std::to_string(ranks.size()),
-                    .problem = std::move(problem),
-                    .allowed = std::move(allowed)});
-}
-
 }  // namespace
 
 Share::Share(const Problem& p, const Execution& e, const Ranks& ranks, long at)
@@ -95,9 +89,7 @@ void Share::check_execution() const {
   if (execution_.threads < 1)
     throw InputError(
         {.key = "threads", .value = std::to_string(execution_.threads), .problem = "out of range", .allowed = ">= 1"});
-  if (static_cast<std::size_t>(ranks_.size()) > blocks_.count)
-    refuse_ranks(ranks_, "too many for " + std::to_string(problem_.grid.sites) + " sites",
-                 "1 to " + std::to_string(blocks_.count));
+  check_ranks(problem_, ranks_);
 }
 
 void Share::make_slabs() {

@@ -4,7 +4,6 @@
 #include <string>
 #include <utility>
 
-#include "foundation/ranks.hpp"
 #include "foundation/text/digits.hpp"
 #include "friction/state/contacts.hpp"
 #include "slipfront/error.hpp"
@@ -31,11 +30,6 @@ void check_loading(const Problem& p) {
 
 void check_implicit(const Problem& p, const Execution& execution) {
   if (execution.threads < 1) refuse("threads", std::to_string(execution.threads), "out of range", ">= 1");
-  if (execution.ranks != nullptr && execution.ranks->size() > 1)
-    execution.ranks->together([&] {
-      refuse("ranks", std::to_string(execution.ranks->size()), "[loading] and implicit steps are for one process",
-             "1 rank, with as many threads as wanted");
-    });
   if (!p.boundary.periodic && (p.boundary.left == End::absorbing || p.boundary.right == End::absorbing))
     refuse(p.boundary.left == End::absorbing ? "chain.left" : "chain.right", "absorbing",
            "implicit steps know no absorbing ends", "free, fixed");

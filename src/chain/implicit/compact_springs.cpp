@@ -1,88 +1,102 @@
 #include "chain/implicit/compact_springs.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include "chain/implicit/tridiagonal.hpp"
 
 namespace slipfront::chain {
 
-CompactSprings::CompactSprings(const Problem& p, const std::vector<double>& u)
-    : n_(p.grid.sites),
+CompactSprings::CompactSprings(const Problem& p, const std::vector<double>& u, const Ranks& ranks)
+    : ranks_(ranks),
+      own_(p.grid.sites, ranks),
+      n_(own_.size()),
       h_(p.grid.spacing),
       m_(p.model == Model::lattice ? 0 : 1.0 / 12),
       jump_(2 * std::numbers::pi * static_cast<double>(p.boundary.charge)),
       periodic_(p.boundary.periodic),
       left_fixed_(!periodic_ && p.boundary.left == End::fixed),
-      right_fixed_(!periodic_ && p.boundary.right == End::fixed) {
+      right_fixed_(!periodic_ && p.boundary.right == End::fixed),
+      left_end_(!periodic_ && own_.begin == 0),
+      right_end_(!periodic_ && own_.end == p.grid.sites) {
   const auto substrate = [&](std::size_t j) {
-    const double a = !p.substrate ? 0 : p.contact ? p.contact(p.grid.x(j)) : 1;
+    const double a = !p.substrate ? 0 : p.contact ? p.contact(p.grid.x(own_.begin + j)) : 1;
     return a * a * std::sin(u[j]);
   };
   if (!left_fixed_ && !right_fixed_) return;
   std::vector<double> right(n_, 0.0);
-  if (left_fixed_) {
+  if (left_fixed_ && left_end_) {
     left_force_ = substrate(0);
     right[1] += m_ * left_force_;
   }
-  if (right_fixed_) {
+  if (right_fixed_ && right_end_) {
     right_force_ = substrate(n_ - 1);
     right[n_ - 2] += m_ * right_force_;
   }
   given_ = force(std::move(right));
 }
 
-double CompactSprings::bend(const std::vector<double>& u, std::size_t j) const {
-  const double h2 = h_ * h_;
-  if (j > 0 && j + 1 < n_) return ((u[j + 1] - u[j]) - (u[j] - u[j - 1])) / h2;
-  if (periodic_)
-    return j == 0 ? ((u[1] - u[0]) - (u[0] - u[n_ - 1] - jump_)) / h2
-                  : ((u[0] - jump_ - u[j]) - (u[j] - u[j - 1])) / h2;
-  return 2 * (j == 0 ? u[1] - u[0] : u[j - 1] - u[j]) / h2;
+void CompactSprings::exchange(std::initializer_list<Bordered*> arrays) const {
+  std::array<double, 4> to_left, to_right, from_left, from_right;
+  std::size_t count = 0;
+  for (const Bordered* values : arrays) {
+    to_left[count] = (*values)[0];
+    to_right[count] = (*values)[n_ - 1];
+    from_left[count] = (*values)[1];
+    from_right[count++] = (*values)[n_ - 2];
+  }
+  const auto first = [count](std::array<double, 4>& numbers) { return std::span(numbers).first(count); };
+  ranks_.exchange(first(to_left), first(to_right), first(from_left), first(from_right), periodic_);
+  count = 0;
+  for (Bordered* values : arrays) {
+    values->values_.front() = from_left[count];
+    values->values_.back() = from_right[count++];
+  }
 }
 
-double CompactSprings::spread(const std::vector<double>& q, std::size_t j) const {
-  const double left = q[j > 0 ? j - 1 : periodic_ ? n_ - 1 : 1];
-  const double right = q[j + 1 < n_ ? j + 1 : periodic_ ? 0 : j - 1];
-  return q[j] + m_ * ((left - q[j]) + (right - q[j]));
+double CompactSprings::bend(const Bordered& u, std::size_t j) const {
+  double before = u[j] - u.before(j), after = u.after(j) - u[j];
+  if (periodic_ && j == 0 && own_.begin == 0) before -= jump_;
+  if (periodic_ && j + 1 == n_ && own_.end == own_.blocks.sites) after = u.after(j) - jump_ - u[j];
+  return (after - before) / (h_ * h_);
 }
 
 std::vector<double> CompactSprings::force(std::vector<double> right) const {
   Tridiagonal matrix(n_);
   for (std::size_t j = 0; j < n_; ++j) {
-    matrix.below[j] = matrix.above[j] = m_;
-    matrix.diagonal[j] = 1 - 2 * m_;
+    matrix.diagonal[j] = held(j) ? 1 : 1 - 2 * m_;
+    matrix.below[j] = held(j) || at_left_end(j) ? 0 : at_right_end(j) ? 2 * m_ : m_;
+    matrix.above[j] = held(j) || at_right_end(j) ? 0 : at_left_end(j) ? 2 * m_ : m_;
+    if (held(j)) right[j] = 0;
   }
-  if (!periodic_) {
-    matrix.above[0] = matrix.below[n_ - 1] = 2 * m_;
-    for (const std::size_t j : {std::size_t{0}, n_ - 1}) {
-      if (!held(j)) continue;
-      matrix.diagonal[j] = 1;
-      matrix.above[j] = matrix.below[j] = right[j] = 0;
-    }
-  }
-  matrix.solve(right, periodic_);
+  matrix.solve(right, periodic_, ranks_);
   return right;
 }
 
 double CompactSprings::energy(const std::vector<double>& u) const {
+  Bordered all(n_);
+  std::copy(u.begin(), u.end(), &all[0]);
+  exchange({&all});
   std::vector<double> bends(n_);
-  for (std::size_t j = 0; j < n_; ++j) bends[j] = bend(u, j);
-  const std::vector<double> forces = force(std::move(bends));
+  for (std::size_t j = 0; j < n_; ++j) bends[j] = bend(all, j);
+  const std::vector<double> forces = force(std::move(bends)), ends = ranks_.joined({u.front(), u.back()});
+  const double first = ends.front(), last = ends.back();
   // Displacements from a line that the springs do not feel: with a ring's charge, or between two fixed ends.
   const bool inclined = periodic_ || (left_fixed_ && right_fixed_);
-  const double intervals = static_cast<double>(periodic_ ? n_ : n_ - 1);
-  const double rise = periodic_ ? -jump_ : inclined ? u[n_ - 1] - u[0] : 0;
-  const double start = left_fixed_ || periodic_ ? u[0] : right_fixed_ ? u[n_ - 1] : u[0];
-  double sum = rise * rise / (2 * h_ * intervals);
-  for (std::size_t j = 0; j < n_; ++j) {
-    if (held(j)) continue;
-    const double from_line = u[j] - start - rise * static_cast<double>(j) / intervals;
-    sum -= weight(j) * from_line * forces[j] / 2;
-    if (!given_.empty()) sum += weight(j) * (u[j] - start) * given_[j];
-  }
-  return sum;
+  const double intervals = static_cast<double>(periodic_ ? own_.blocks.sites : own_.blocks.sites - 1);
+  const double rise = periodic_ ? -jump_ : inclined ? last - first : 0;
+  const double start = right_fixed_ && !left_fixed_ && !periodic_ ? last : first;
+  const auto energy_at = [&](std::size_t j) {
+    if (held(j)) return 0.0;
+    const double from_line = u[j] - start - rise * static_cast<double>(own_.begin + j) / intervals;
+    const double by_ends = given_.empty() ? 0 : (u[j] - start) * given_[j];
+    return weight(j) * (by_ends - from_line * forces[j] / 2);
+  };
+  return rise * rise / (2 * h_ * intervals) + own_.sum(ranks_, energy_at);
 }
 
 }  // namespace slipfront::chain

@@ -1,13 +1,31 @@
 #pragma once
 
 #include <cstddef>
+#include <initializer_list>
 #include <vector>
 
+#include "chain/model/blocks.hpp"
+#include "foundation/ranks.hpp"
 #include "slipfront/chain/problem.hpp"
 
 namespace slipfront::chain {
 
-/// The force of the springs on each site, of fourth order in the spacing h:
+/// A number for each site of a rank, and for the site on either side of them.
+class Bordered {
+ public:
+  explicit Bordered(std::size_t sites = 0) : values_(sites + 2) {}
+  double& operator[](std::size_t j) { return values_[j + 1]; }
+  double operator[](std::size_t j) const { return values_[j + 1]; }
+  double before(std::size_t j) const { return values_[j]; }
+  double after(std::size_t j) const { return values_[j + 2]; }
+  std::size_t size() const { return values_.size() - 2; }
+
+ private:
+  friend class CompactSprings;
+  std::vector<double> values_;
+};
+
+/// The force of the springs on each site of a rank, of fourth order in the spacing h:
 ///     (1 + m d2) force = d2 u / h^2,    m = 1/12 (Numerov), or 0 for the lattice of Eq. 1,
 /// with the second difference d2. The diamond rule (docs/chain.md) has the same force at rest, so both schemes have the
 /// same states at rest. d2 and 1 + m d2 commute and are symmetric with the weights of the sites. The force therefore
@@ -15,30 +33,44 @@ namespace slipfront::chain {
 /// the substrate there.
 class CompactSprings {
  public:
-  CompactSprings(const Problem& problem, const std::vector<double>& u);
+  /// (all) `u` is the motion of the sites of this rank at the start. Sites count from the first of this rank on.
+  CompactSprings(const Problem& problem, const std::vector<double>& u, const Ranks& ranks);
 
+  const Ranks& ranks() const { return ranks_; }
+  const OwnBlocks& own() const { return own_; }
   bool periodic() const { return periodic_; }
-  bool held(std::size_t site) const { return (site == 0 && left_fixed_) || (site + 1 == n_ && right_fixed_); }
+  bool at_left_end(std::size_t site) const { return site == 0 && left_end_; }
+  bool at_right_end(std::size_t site) const { return site + 1 == n_ && right_end_; }
+  bool held(std::size_t site) const {
+    return (at_left_end(site) && left_fixed_) || (at_right_end(site) && right_fixed_);
+  }
   /// The value of (u_tt + S + f - F) at a site that is held.
   double held_force(std::size_t site) const { return site == 0 ? left_force_ : right_force_; }
   /// h, or h / 2 for a site at an end.
-  double weight(std::size_t site) const { return !periodic_ && (site == 0 || site + 1 == n_) ? h_ / 2 : h_; }
+  double weight(std::size_t site) const { return at_left_end(site) || at_right_end(site) ? h_ / 2 : h_; }
   double coupling() const { return m_; }
   double spacing() const { return h_; }
 
+  /// (all) Fills the borders of up to four arrays: from the ranks next to this one, reflected at an end of the chain.
+  void exchange(std::initializer_list<Bordered*> arrays) const;
   /// d2 u / h^2 at a site.
-  double bend(const std::vector<double>& u, std::size_t site) const;
+  double bend(const Bordered& u, std::size_t site) const;
   /// (1 + m d2) q at a site.
-  double spread(const std::vector<double>& q, std::size_t site) const;
-  /// The energy of the springs, up to a constant that depends only on the chain.
+  double spread(const Bordered& q, std::size_t site) const {
+    return q[site] + m_ * ((q.before(site) - q[site]) + (q.after(site) - q[site]));
+  }
+  /// (all) The energy of the springs, up to a constant that depends only on the chain.
   double energy(const std::vector<double>& u) const;
 
  private:
   std::vector<double> force(std::vector<double> right) const;
 
-  std::size_t n_;
+  const Ranks& ranks_;
+  OwnBlocks own_;
+  std::size_t n_;  ///< sites of this rank
   double h_, m_, jump_;
   bool periodic_, left_fixed_, right_fixed_;
+  bool left_end_, right_end_;  ///< whether an end of the chain is on this rank; a ring has none
   double left_force_ = 0, right_force_ = 0;
   std::vector<double> given_;  ///< force on each site from the held ends, through m; empty if no end is held
 };

@@ -20,82 +20,64 @@ namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
 
-/// The sites [from, to) whose mean is taken at position i of the record of fronts.
-std::pair<std::size_t, std::size_t> sites_at(const Problem& p, std::size_t i) {
-  return {p.grid.sites * i / p.loading.fronts, p.grid.sites * (i + 1) / p.loading.fronts};
-}
-
+/// The middles of the parts whose means the record of fronts has.
 std::vector<double> positions_of(const Problem& p) {
   std::vector<double> x;
   for (std::size_t i = 0; i < p.loading.fronts; ++i) {
-    const auto [from, to] = sites_at(p, i);
+    const std::size_t from = p.grid.sites * i / p.loading.fronts, to = p.grid.sites * (i + 1) / p.loading.fronts;
     x.push_back((p.grid.x(from) + p.grid.x(to - 1)) / 2);
   }
   return x;
 }
 
-Moment first_moment(const Problem& p, const MotionOf& start, const Execution& execution) {
-  check(p);
-  check_implicit(p, execution);
-  const std::size_t n = p.grid.sites;
-  Motion motion = sites_of(start, p, 0, n);
+/// (all) The motion of the sites of this rank at the start.
+Motion start_of(const Problem& p, const MotionOf& start, const Execution& execution, const Ranks& ranks) {
+  Motion motion;
   StartCheck look;
-  look.look(p, motion, 0);
-  look.finish(p, Ranks{});
-  check_charge(p, start);
+  ranks.together([&] {
+    check(p, ranks.share_of_machine());
+    check_implicit(p, execution);
+    check_ranks(p, ranks);
+    const OwnBlocks own(p.grid.sites, ranks);
+    const std::size_t before = own.begin > 0 ? 1 : 0;  // a site more, for the slope between two ranks
+    motion = sites_of(start, p, own.begin - before, own.end);
+    look.look(p, motion, own.begin - before);
+    for (auto* column : {&motion.u, &motion.velocity})
+      if (!column->empty()) column->erase(column->begin(), column->begin() + static_cast<std::ptrdiff_t>(before));
+  });
+  look.finish(p, ranks);
+  ranks.together([&] { check_charge(p, start); });
+  return motion;
+}
+
+Moment first_moment(const Problem& p, Motion motion, const Ranks& ranks) {
+  const OwnBlocks own(p.grid.sites, ranks);
+  const std::size_t n = own.size();
   Moment now;
   now.u = std::move(motion.u);
   now.v = motion.velocity.empty() ? std::vector<double>(n, 0.0) : std::move(motion.velocity);
   for (auto* column : {&now.w, &now.slope, &now.acceleration, &now.earlier}) column->assign(n, 0.0);
+  now.flows.assign(3 * own.count, 0.0);
   now.next_step = 1e-3 * std::fmin(1, p.grid.spacing);
   now.log = EventLog(p.loading.event_velocity);
   if (p.loading.fronts > 0) now.fronts = FrontLog(p.loading.event_velocity, positions_of(p));
   return now;
 }
 
-/// Parts with eight dislocations or more each, or 60 widths of one long. A smooth surface has no dislocations, and its
-/// parts have eight sites or more.
-ChainParts parts_of(const Problem& p, const std::vector<double>& u) {
-  const double dislocations =
-      std::max(std::fabs(u.front() - u.back()) / turn, std::fabs(static_cast<double>(p.boundary.charge)));
-  const double length = static_cast<double>(p.grid.sites) * p.grid.spacing;
-  const double parts_wanted = !p.substrate        ? static_cast<double>(p.grid.sites) / 8
-                              : dislocations >= 8 ? dislocations / 8
-                                                  : length / 60;
-  const auto count = static_cast<std::size_t>(std::clamp(parts_wanted, 1.0, 64.0));
-  ChainParts parts;
-  parts.length = length / static_cast<double>(count);
-  parts.ring = p.boundary.periodic;
-  for (auto* column : {&parts.x, &parts.u, &parts.velocity}) column->resize(count);
-  return parts;
-}
-
-/// u of a moment, also past the ends of the chain.
-double displacement_at(const Problem& p, const CompactSprings& springs, const std::vector<double>& u, long j) {
-  const long n = static_cast<long>(u.size());
-  const auto site = [&](long i) { return u[static_cast<std::size_t>(std::clamp(i, 0L, n - 1))]; };
-  if (j >= 0 && j < n) return site(j);
-  const double charge = turn * static_cast<double>(p.boundary.charge);
-  if (p.boundary.periodic) return j < 0 ? site(j + n) + charge : site(j - n) - charge;
-  const long last = j < 0 ? 0 : n - 1;
-  const double mirrored = site(2 * last - j);
-  return springs.held(static_cast<std::size_t>(last)) ? 2 * site(last) - mirrored : mirrored;
-}
-
 }  // namespace
 
 ImplicitChain::ImplicitChain(const Problem& p, const MotionOf& start, const Execution& execution)
-    : Chain(p, nullptr),
-      now_(first_moment(p, start, execution)),
-      forces_(p, now_),
+    : Chain(p, execution.ranks),
+      now_(first_moment(p, start_of(p, start, execution, ranks()), ranks())),
+      forces_(p, now_, ranks()),
       step_(forces_, execution.threads),
-      parts_(parts_of(p, now_.u)) {
+      parts_(forces_, now_) {
   for (std::size_t j = 0; j < now_.u.size(); ++j) {
     if (forces_.springs().held(j)) now_.v[j] = 0;
     now_.w[j] = now_.v[j];
     if (!forces_.rubs()) continue;
     const double v = now_.v[j], change = SiteForces::difference(v);
-    now_.slope[j] = (friction(j, v + change) - friction(j, v)) / change;
+    now_.slope[j] = (forces_.friction(now_, j, v + change) - forces_.friction(now_, j, v)) / change;
   }
 }
 
@@ -106,18 +88,71 @@ SpringEnergy ImplicitChain::spring_energy() const {
   return {forces_.springs().energy(now_.u), forces_.loading_energy(now_)};
 }
 
+Flows ImplicitChain::flows() const {
+  const std::vector<double> all = ranks().joined(now_.flows);
+  Flows flows;
+  for (std::size_t i = 0; i < all.size(); i += 3) {
+    flows.supplied += all[i];
+    flows.dissipated += all[i + 1];
+    flows.by_contacts += all[i + 2];
+  }
+  return flows;
+}
+
+/// A site of this rank, counted from its first one on, or a site of the rank next to it.
+ImplicitChain::Shown ImplicitChain::shown(long site) const {
+  const long n = static_cast<long>(now_.u.size());
+  if (site < 0 || site >= n) {
+    const Halo& of = site < 0 ? before_own_ : after_own_;
+    const std::size_t at = 4 * static_cast<std::size_t>(site < 0 ? site + static_cast<long>(halo) : site - n);
+    return {of[at], of[at + 1], of[at + 2], of[at + 3]};
+  }
+  const auto j = static_cast<std::size_t>(site);
+  return {now_.u[j], now_.v[j], forces_.contact_squared(now_, j), forces_.effective_stress(now_, j)};
+}
+
+void ImplicitChain::exchange() const {
+  const auto from = [this](std::size_t begin) {
+    Halo sites;
+    for (std::size_t i = 0; i < halo; ++i) {
+      const Shown site = shown(static_cast<long>(begin + i));
+      const std::array<double, 4> numbers{site.u, site.velocity, site.contact_squared, site.effective_stress};
+      std::copy(numbers.begin(), numbers.end(), sites.begin() + static_cast<std::ptrdiff_t>(4 * i));
+    }
+    return sites;
+  };
+  const Halo first = from(0), last = from(now_.u.size() - halo);
+  ranks().exchange(first, last, before_own_, after_own_, problem().boundary.periodic);
+}
+
+/// u of a site, also past the ends of the chain.
+double ImplicitChain::displacement(long site) const {
+  const CompactSprings& springs = forces_.springs();
+  const long n = static_cast<long>(now_.u.size()), last = site < 0 ? 0 : n - 1;
+  if (site >= 0 && site < n) return now_.u[static_cast<std::size_t>(site)];
+  const auto end = static_cast<std::size_t>(last);
+  if (site < 0 ? springs.at_left_end(end) : springs.at_right_end(end)) {
+    const double mirrored = shown(2 * last - site).u;
+    return springs.held(end) ? 2 * now_.u[end] - mirrored : mirrored;
+  }
+  const double u = shown(site).u, charge = turn * static_cast<double>(problem().boundary.charge);
+  if (site < 0 && forces_.own().begin == 0) return u + charge;
+  return site >= n && forces_.own().end == problem().grid.sites ? u - charge : u;
+}
+
 Window ImplicitChain::own_window(std::size_t from, std::size_t to, double) const {
   const double h = problem().grid.spacing;
-  const auto u = [&](long j) { return displacement_at(problem(), forces_.springs(), now_.u, j); };
+  const auto u = [&](long j) { return displacement(j); };
   Window window;
   window.begin = from;
   for (std::size_t i = from; i < to; ++i) {
-    const long j = static_cast<long>(i);
+    const long j = static_cast<long>(i) - static_cast<long>(forces_.own().begin);
+    const Shown site = shown(j);
     window.x.push_back(problem().grid.x(i));
-    window.u.push_back(now_.u[i]);
-    window.velocity.push_back(now_.v[i]);
-    window.contact_squared.push_back(forces_.contact_squared(now_, i));
-    window.effective_stress.push_back(forces_.effective_stress(now_, i));
+    window.u.push_back(site.u);
+    window.velocity.push_back(site.velocity);
+    window.contact_squared.push_back(site.contact_squared);
+    window.effective_stress.push_back(site.effective_stress);
     window.stress.push_back(problem().model == Model::lattice
                                 ? (u(j - 1) - u(j + 1)) / (2 * h)
                                 : (45 * (u(j - 1) - u(j + 1)) - 9 * (u(j - 2) - u(j + 2)) + u(j - 3) - u(j + 3)) /
@@ -126,64 +161,31 @@ Window ImplicitChain::own_window(std::size_t from, std::size_t to, double) const
   return window;
 }
 
-double ImplicitChain::load() const {
-  if (!problem().loading.acts()) return 0;
-  const bool everywhere = problem().loading.where == Pulled::everywhere;
-  const std::size_t n = now_.u.size();
-  double load = 0;
-  for (std::size_t j = 0; j < n; ++j)
-    if (everywhere || forces_.pull(j) > 0) load += forces_.springs().weight(j) * forcing(j);
-  return everywhere ? load / (problem().grid.spacing * static_cast<double>(problem().boundary.periodic ? n : n - 1))
-                    : load;
-}
-
-/// Hands the step that has just been taken to the log of events. Slip counts as positive in the direction of the
-/// springs.
-void ImplicitChain::look() {
-  const Loading& loading = problem().loading;
-  const double direction = loading.velocity < 0 ? -1 : 1;
-  const std::size_t n = now_.u.size(), count = parts_.x.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t from = n * i / count, to = n * (i + 1) / count;
-    double u = 0, p = 0;
-    for (std::size_t j = from; j < to; ++j) {
-      u += direction * now_.u[j];
-      p += forces_.springs().held(j) ? 0 : direction * now_.w[j];
-    }
-    const double sites = static_cast<double>(to - from);
-    parts_.x[i] = (problem().grid.x(from) + problem().grid.x(to - 1)) / 2;
-    parts_.u[i] = u / sites;
-    parts_.velocity[i] = p / sites;
-  }
-  now_.log.look(now_.time, direction * load(), parts_);
-  if (now_.fronts.active()) look_at_fronts(direction);
-}
-
-/// Hands the step to the record of fronts.
-void ImplicitChain::look_at_fronts(double direction) {
-  const auto means = [this](const auto& value) {
-    std::vector<double> all;
-    for (std::size_t i = 0; i < problem().loading.fronts; ++i) {
-      const auto [from, to] = sites_at(problem(), i);
-      double sum = 0;
-      for (std::size_t j = from; j < to; ++j) sum += value(j);
-      all.push_back(sum / static_cast<double>(to - from));
-    }
-    return all;
-  };
+/// (all) Hands the step to the record of fronts.
+void ImplicitChain::look_at_fronts() {
+  const OwnBlocks& sites = forces_.own();
+  const auto means = [&](const auto& value) { return sites.means(ranks(), problem().loading.fronts, value); };
   const auto ahead = [&] {
-    const Window window = own_window(0, now_.u.size(), now_.time);
+    exchange();
+    const Window window = own_window(sites.begin, sites.end, now_.time);
     return Tractions{means([&](std::size_t j) { return window.stress[j]; }), means([&](std::size_t j) {
-                       return friction(j, now_.w[j]) + forces_.contact_squared(now_, j) * std::sin(now_.u[j]);
+                       return forces_.friction(now_, j, now_.w[j]) +
+                              forces_.contact_squared(now_, j) * std::sin(now_.u[j]);
                      })};
   };
+  const double direction = problem().loading.velocity < 0 ? -1 : 1;
   const auto velocity = [&](std::size_t j) { return forces_.springs().held(j) ? 0 : direction * now_.w[j]; };
   now_.fronts.look(now_.time, means(velocity), now_.log.events().size(), now_.log.in_progress() > 0, ahead);
 }
 
+/// (all)
+void ImplicitChain::fail(const std::string& why) const {
+  ranks().together([&] { throw NumericsError("t = " + digits(now_.time) + ": " + why); });
+}
+
 void ImplicitChain::give_up() const {
-  throw NumericsError("t = " + digits(now_.time) + ": no implicit step is short enough; the motion at x = " +
-                      digits(problem().grid.x(step_.hardest_site())) + " cannot be followed");
+  fail("no implicit step is short enough; the motion at x = " + digits(step_.hardest_position()) +
+       " cannot be followed");
 }
 
 /// Ends a run that no longer makes progress: 10,000 implicit steps advanced it by less than one explicit step would.
@@ -193,15 +195,16 @@ void ImplicitChain::check_progress() {
   const double advanced = now_.time - now_.window_start, explicit_step = chosen_step(problem());
   now_.window_start = now_.time;
   if (advanced > explicit_step) return;
-  throw NumericsError("t = " + digits(now_.time) + ": the last " + std::to_string(window) +
-                      " implicit steps advanced the chain by " + digits(advanced, 2) + " only; an explicit step is " +
-                      digits(explicit_step, 2) + ". Try a larger chain.tolerance, or check for forces that change " +
-                      "faster than the chain can move");
+  fail("the last " + std::to_string(window) + " implicit steps advanced the chain by " + digits(advanced, 2) +
+       " only; an explicit step is " + digits(explicit_step, 2) + ". Try a larger chain.tolerance, or check for " +
+       "forces that change faster than the chain can move");
 }
 
 void ImplicitChain::finish_step() {
-  if (forces_.contacts_change()) forces_.check_contacts(now_);
-  if (now_.log.active()) look();
+  if (forces_.contacts_change()) ranks().together([this] { forces_.check_contacts(now_); });
+  if (!now_.log.active()) return;
+  parts_.look(now_);
+  if (now_.fronts.active()) look_at_fronts();
 }
 
 /// One step, as long as its error allows.
@@ -269,7 +272,10 @@ std::string ImplicitChain::saved() const {
   std::vector<double> all{static_cast<double>(problem().grid.sites), now_.time};
   each_saved(
       m, [&](auto number) { all.push_back(static_cast<double>(number)); },
-      [&](const std::vector<double>& column) { all.insert(all.end(), column.begin(), column.end()); });
+      [&](const std::vector<double>& column, bool) {
+        const std::vector<double> of_all = ranks().joined_at_first(column);
+        all.insert(all.end(), of_all.begin(), of_all.end());
+      });
   const std::vector<double> log = m.log.saved();
   all.push_back(static_cast<double>(log.size()));
   all.insert(all.end(), log.begin(), log.end());
@@ -280,7 +286,8 @@ std::string ImplicitChain::saved() const {
   return std::move(writer).text();
 }
 
-void ImplicitChain::resume(std::string_view saved) {
+/// The moment that `saved` holds for the sites of this rank, and the time that was shown.
+Moment ImplicitChain::moment_of(std::string_view saved, double& shown_time) const {
   constexpr double most_steps = 9007199254740992;  // whole numbers that a double holds
   bytes::Reader reader(saved);
   const std::vector<double> all = reader.vector();
@@ -294,9 +301,10 @@ void ImplicitChain::resume(std::string_view saved) {
     return all[at++];
   };
   constexpr double largest = std::numeric_limits<double>::max();
-  const double sites = static_cast<double>(problem().grid.sites);
+  const OwnBlocks& own = forces_.own();
+  const double sites = static_cast<double>(own.blocks.sites);
   next(sites, sites);
-  const double shown = next(-largest, largest);
+  shown_time = next(-largest, largest);
   Moment m = now_;
   each_saved(
       m,
@@ -304,10 +312,13 @@ void ImplicitChain::resume(std::string_view saved) {
         constexpr bool counts = std::is_integral_v<N>;
         number = static_cast<N>(next(counts ? 0 : -largest, counts ? most_steps : largest));
       },
-      [&](std::vector<double>& column) {
-        if (all.size() - at < column.size()) refuse();
-        std::copy_n(all.begin() + static_cast<std::ptrdiff_t>(at), column.size(), column.begin());
-        at += column.size();
+      [&](std::vector<double>& column, bool by_site) {
+        const std::size_t columns = column.size() / (by_site ? own.size() : own.count);
+        const std::size_t size = columns * (by_site ? own.blocks.sites : own.blocks.count);
+        if (all.size() - at < size) refuse();
+        const std::size_t from = at + columns * (by_site ? own.begin : own.first);
+        std::copy_n(all.begin() + static_cast<std::ptrdiff_t>(from), column.size(), column.begin());
+        at += size;
       });
   forces_.strengthen_contacts(m);
   const auto log = static_cast<std::ptrdiff_t>(next(0, static_cast<double>(all.size() - at)));
@@ -315,9 +326,14 @@ void ImplicitChain::resume(std::string_view saved) {
   if (all.end() - begin < log) refuse();
   m.log.resume({begin, begin + log});
   m.fronts.resume({begin + log, all.end()});
-  std::swap(now_, m);
+  return m;
+}
+
+void ImplicitChain::resume(std::string_view saved) {
+  double shown_time = 0;
+  ranks().together([&] { now_ = moment_of(saved, shown_time); });
   passed_ = false;
-  advance_to(shown);
+  advance_to(shown_time);
 }
 
 }  // namespace slipfront::chain

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 #include "chain/implicit/implicit_step.hpp"
 #include "chain/implicit/moment.hpp"
 #include "chain/implicit/site_forces.hpp"
+#include "chain/implicit/watched_parts.hpp"
 #include "slipfront/chain/chain.hpp"
 
 namespace slipfront::chain {
@@ -20,8 +22,8 @@ namespace slipfront::chain {
 /// second, shorter step from the same start gives the motion at that time. It is only shown.
 class ImplicitChain final : public Chain {
  public:
-  /// \throws InputError as ExplicitChain does, and for conditions that implicit steps do not support: several ranks,
-  /// absorbing ends, friction that jumps at rest.
+  /// \throws InputError as ExplicitChain does, and for conditions that implicit steps do not support: absorbing ends,
+  /// friction that jumps at rest.
   ImplicitChain(const Problem& problem, const MotionOf& start, const Execution& execution = {});
   ImplicitChain(const Problem& problem, const Motion& start, const Execution& execution = {});
   ImplicitChain(const ImplicitChain&) = delete;
@@ -29,19 +31,21 @@ class ImplicitChain final : public Chain {
 
   double time() const override { return now_.time; }
   std::optional<double> constant_step() const override { return std::nullopt; }
-  void exchange() const override {}
+  void exchange() const override;
   Window own_window(std::size_t begin, std::size_t end, double time) const override;
-  double forcing(std::size_t site) const override { return forces_.forcing(now_, site); }
-  double friction(std::size_t site, double velocity) const override { return forces_.friction(now_, site, velocity); }
+  double forcing(std::size_t site) const override { return forces_.forcing(now_, own(site)); }
+  double friction(std::size_t site, double velocity) const override {
+    return forces_.friction(now_, own(site), velocity);
+  }
   SpringEnergy spring_energy() const override;
-  double load() const override;
+  double load() const override { return parts_.load(now_); }
 
   long steps() const override { return now_.steps; }
   /// Counts the steps that are only shown, too. \throws NumericsError where no step is short enough.
   bool advance_to(double time, long most = no_limit) override;
   bool between_steps() const override { return !passed_; }
   bool valid() const override { return true; }  // a step that fails is not taken
-  Flows flows() const override { return {now_.supplied, now_.dissipated, 0, now_.by_contacts}; }
+  Flows flows() const override;
   bool meters_friction() const override { return true; }
   std::size_t event_in_progress() const override { return now_.log.in_progress(); }
   std::vector<output::SlipEvent> events() const override { return now_.log.events(); }
@@ -53,15 +57,27 @@ class ImplicitChain final : public Chain {
   void step();
   void step_to(double time);
   void finish_step();
-  void look();
-  void look_at_fronts(double direction);
+  void look_at_fronts();
   void check_progress();
-  [[noreturn]] void give_up() const;
+  void give_up() const;
+  void fail(const std::string& why) const;
+  Moment moment_of(std::string_view saved, double& shown_time) const;
+
+  /// The numbers of a site that a window shows.
+  struct Shown {
+    double u = 0, velocity = 0, contact_squared = 0, effective_stress = 0;
+  };
+  static constexpr std::size_t halo = 8;  ///< sites next to those of this rank that a window may need, on either side
+  using Halo = std::array<double, 4 * halo>;
+  std::size_t own(std::size_t site) const { return site - forces_.own().begin; }
+  Shown shown(long site) const;
+  double displacement(long site) const;
 
   Moment now_;
   SiteForces forces_;
   ImplicitStep step_;
-  ChainParts parts_;  ///< that are watched for events
+  mutable WatchedParts parts_;               ///< mutable, because it stores the sums over parts
+  mutable Halo before_own_{}, after_own_{};  ///< got by `exchange`
   /// The step that has passed the time of `now_`: its start and its end, if there is one.
   Moment before_, after_;
   bool passed_ = false;

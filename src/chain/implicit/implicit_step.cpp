@@ -21,9 +21,9 @@ ImplicitStep::ImplicitStep(const SiteForces& forces, int threads)
       friction_law_(forces.problem().friction),
       threads_(threads),
       matrix_(forces.sites()) {
-  for (auto* column : {&w_, &per_weight_, &shift_, &force_, &slope_, &middle_, &friction_, &friction_slope_, &forcing_,
-                       &right_, &errors_})
+  for (auto* column : {&w_, &shift_, &friction_, &friction_slope_, &forcing_, &right_, &errors_})
     column->resize(forces.sites());
+  for (auto* column : {&per_weight_, &force_, &slope_, &middle_}) *column = Bordered(forces.sites());
 }
 
 template <class Each>
@@ -97,6 +97,7 @@ void ImplicitStep::prepare(const Moment& from, double dt) {
     forcing_[j] = forces_.given_forcing(j, from.time + dt / 2);
   double largest = 0;
   for (const double u : from.u) largest = std::fmax(largest, std::fabs(u));
+  largest = forces_.ranks().largest(largest);
   rounding_ = 1e-13 + 4 * std::numeric_limits<double>::epsilon() * largest / (springs_.spacing() * springs_.spacing());
   for_sites([&](std::size_t j) {
     const double z = dt * std::fmax(from.slope[j], 0.0), eta = from.steps == 0 ? 0 : z / (3 * (1 + z));
@@ -148,39 +149,45 @@ double ImplicitStep::velocity_under_friction(std::size_t j, double change, doubl
 
 /// Changes the velocities by Newton's method. They have converged if all sites have: in relative velocity, or in the
 /// balance of forces to rounding. An absolute velocity would not do: friction may hold a site at 1e-20 and less, where
-/// velocities that differ by all decades below 1e-13 mean forces of any size.
+/// velocities that differ by all decades below 1e-13 mean forces of any size. A site that fails stops none of the
+/// others, so that `hardest_position` does not depend on the ranks.
 ImplicitStep::Outcome ImplicitStep::correct(double dt) {
-  bool converged = true;
+  bool converged = true, failed = false;
   for (std::size_t j = 0; j < sites(); ++j) {
     const double change = right_[j], size = std::fabs(change);
-    if (!std::isfinite(change)) return Outcome::failed;
-    if (springs_.held(j)) continue;
     double& w = w_[j];
+    if (!std::isfinite(change) || !std::isfinite(w)) {
+      failed = true;
+      continue;
+    }
+    if (springs_.held(j)) continue;
     converged = converged && (size <= 1e-6 * std::fabs(w) || size * std::fabs(slope_[j]) <= rounding_);
     const bool curved = forces_.rubs() && size > 0.3 * std::fabs(w) && friction_law_.steep_at_rest();
     w = curved ? velocity_under_friction(j, change, dt) : w + change;
-    if (!std::isfinite(w)) return Outcome::failed;
+    failed = failed || !std::isfinite(w);
   }
-  return converged ? Outcome::converged : Outcome::improved;
+  const Outcome mine = failed ? Outcome::failed : converged ? Outcome::converged : Outcome::improved;
+  return static_cast<Outcome>(forces_.ranks().largest(static_cast<double>(mine)));
 }
 
 void ImplicitStep::build_matrix(double dt) {
   const double m = springs_.coupling(), by_bend = dt / (4 * springs_.spacing() * springs_.spacing());
-  const bool ring = springs_.periodic();
-  const auto column = [&](std::size_t j, double spread, double bend) {
-    return springs_.held(j) ? 0 : spread * slope_[j] - bend * by_bend * per_weight_[j];
+  springs_.exchange({&per_weight_, &force_, &slope_, &middle_});
+  const auto column = [&](double slope, double per_weight, double spread, double bend) {
+    return spread * slope - bend * by_bend * per_weight;
   };
   for_sites([&](std::size_t j) {
-    const bool first = j == 0, last = j + 1 == sites();
     if (springs_.held(j)) {
       matrix_.diagonal[j] = 1;
       matrix_.below[j] = matrix_.above[j] = right_[j] = 0;
       return;
     }
-    const double left = ring ? 1 : first ? 0 : last ? 2 : 1, right = ring ? 1 : last ? 0 : first ? 2 : 1;
-    matrix_.diagonal[j] = column(j, 1 - 2 * m, -2);
-    matrix_.below[j] = left == 0 ? 0 : column(first ? sites() - 1 : j - 1, left * m, left);
-    matrix_.above[j] = right == 0 ? 0 : column(last ? 0 : j + 1, right * m, right);
+    const bool first = springs_.at_left_end(j), last = springs_.at_right_end(j);
+    const double left = last ? 2 : 1, right = first ? 2 : 1;
+    const bool no_left = first || (j > 0 && springs_.held(j - 1)), no_right = last || springs_.held(j + 1);
+    matrix_.diagonal[j] = column(slope_[j], per_weight_[j], 1 - 2 * m, -2);
+    matrix_.below[j] = no_left ? 0 : column(slope_.before(j), per_weight_.before(j), left * m, left);
+    matrix_.above[j] = no_right ? 0 : column(slope_.after(j), per_weight_.after(j), right * m, right);
     right_[j] = springs_.bend(middle_, j) - springs_.spread(force_, j);
   });
 }
@@ -191,7 +198,7 @@ bool ImplicitStep::solve(const Moment& from, double dt) {
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     evaluate_all(dt);
     build_matrix(dt);
-    matrix_.solve(right_, springs_.periodic());
+    matrix_.solve(right_, springs_.periodic(), forces_.ranks());
     const Outcome outcome = correct(dt);
     if (outcome == Outcome::failed) return false;
     if (outcome == Outcome::improved) continue;
@@ -263,29 +270,43 @@ void ImplicitStep::find_errors(std::size_t first, std::size_t size, double dt) {
 double ImplicitStep::error(const Moment& from, double dt) {
   if (!(from.earlier_step > 0)) return 0.125;  // not known yet: grow carefully
   for_groups([&](std::size_t first, std::size_t size) { find_errors(first, size, dt); });
-  return *std::max_element(errors_.begin(), errors_.end()) / forces_.problem().tolerance;
+  const double most = *std::max_element(errors_.begin(), errors_.end());
+  return forces_.ranks().largest(most) / forces_.problem().tolerance;
 }
 
-/// Adds the work of the step. Friction includes the force of growing contacts, which belongs to the substrate.
+/// Adds the work of the step to that of the blocks. Friction includes the force of growing contacts, which belongs to
+/// the substrate.
 void ImplicitStep::add_energies(Moment& m, double dt) const {
-  double work = 0, lost = 0, given = 0;
-  const double velocity = forces_.problem().loading.velocity;
-  for (std::size_t j = 0; j < sites(); ++j) {
-    const bool held = springs_.held(j);
-    const double p = held ? 0 : mean_velocity(j), weight = springs_.weight(j), K = forces_.pull(j);
-    work += weight * dt * forcing_[j] * p;
-    if (K > 0) work += weight * dt * K * velocity * forces_.stretch(j, m.u[j] + dt * p / 2, m.time + dt / 2);
-    if (held) continue;
-    if (forces_.rubs()) lost += weight * dt * friction_[j] * p;
-    if (!forces_.has_changing_contacts()) continue;
-    const double middle = m.u[j] + dt * p / 2, change = forces_.aged(m, j, p, dt).a2 - m.a2[j];
-    const double sine = mean_sine(middle, dt * p / 2);
-    lost -= weight * change / 2 * sine * dt * p;
-    given += weight * change * (1 - std::cos(middle) * std::cos(dt * p / 2));
+  const OwnBlocks& own = forces_.own();
+  for (std::size_t b = 0; b < own.count; ++b) {
+    double work = 0, lost = 0, given = 0;
+    for (std::size_t j = own.begin_of(b); j < own.begin_of(b + 1); ++j) {
+      const Works at = works_at(m, j, dt);
+      work += at.supplied;
+      lost += at.dissipated;
+      given += at.by_contacts;
+    }
+    m.flows[3 * b] += work;
+    m.flows[3 * b + 1] += lost;
+    m.flows[3 * b + 2] += given;
   }
-  m.supplied += work;
-  m.dissipated += lost;
-  m.by_contacts += given;
+}
+
+ImplicitStep::Works ImplicitStep::works_at(const Moment& m, std::size_t j, double dt) const {
+  const bool held = springs_.held(j);
+  const double p = held ? 0 : mean_velocity(j), weight = springs_.weight(j), K = forces_.pull(j);
+  const double velocity = forces_.problem().loading.velocity;
+  Works at;
+  at.supplied = weight * dt * forcing_[j] * p;
+  if (K > 0) at.supplied += weight * dt * K * velocity * forces_.stretch(j, m.u[j] + dt * p / 2, m.time + dt / 2);
+  if (held) return at;
+  if (forces_.rubs()) at.dissipated = weight * dt * friction_[j] * p;
+  if (!forces_.has_changing_contacts()) return at;
+  const double middle = m.u[j] + dt * p / 2, change = forces_.aged(m, j, p, dt).a2 - m.a2[j];
+  const double sine = mean_sine(middle, dt * p / 2);
+  at.dissipated -= weight * change / 2 * sine * dt * p;
+  at.by_contacts = weight * change * (1 - std::cos(middle) * std::cos(dt * p / 2));
+  return at;
 }
 
 void ImplicitStep::take(Moment& m, double dt) const {
@@ -306,11 +327,16 @@ void ImplicitStep::take(Moment& m, double dt) const {
   ++m.steps;
 }
 
-std::size_t ImplicitStep::hardest_site() const {
+double ImplicitStep::hardest_position() const {
   std::size_t site = 0;
   for (std::size_t j = 0; j < sites() && std::isfinite(force_[site]); ++j)
     if (!(std::fabs(force_[j]) < HUGE_VAL) || std::fabs(w_[j]) > std::fabs(w_[site])) site = j;
-  return site;
+  const double speed = std::isfinite(force_[site]) ? std::fabs(w_[site]) : HUGE_VAL;
+  const std::vector<double> all = forces_.ranks().joined({speed, forces_.x(site)});
+  std::size_t hardest = 0;
+  for (std::size_t i = 0; i < all.size(); i += 2)
+    if (all[i] > all[hardest]) hardest = i;
+  return all[hardest + 1];
 }
 
 }  // namespace slipfront::chain

@@ -21,18 +21,20 @@ namespace slipfront::chain {
 /// of the step. The step then also adds up the energy given to the substrate, (a'^2 - a^2)(1 - (cos u + cos u') / 2).
 class ImplicitStep {
  public:
-  /// Allocates all memory that the steps need. `forces` must outlive this object.
+  /// Allocates all memory that the steps need. `forces` must outlive this object. Sites count from the first of this
+  /// rank on.
   ImplicitStep(const SiteForces& forces, int threads);
 
-  /// Finds the velocities at the end of a step with Newton's method. Returns whether the method converged.
+  /// (all) Finds the velocities at the end of a step with Newton's method. Returns whether the method converged.
   bool solve(const Moment& from, double dt);
-  /// The largest error of the step that `solve` found, divided by the tolerance. It considers u, u_t and the logarithm
-  /// of the state variables.
+  /// (all) The largest error of the step that `solve` found, divided by the tolerance. It considers u, u_t and the
+  /// logarithm of the state variables.
   double error(const Moment& from, double dt);
   /// Takes the step that `solve` found: advances `m`, from which it was tried, to the end of the step, except its time.
   void take(Moment& m, double dt) const;
-  /// After `solve` has failed: the first site without a finite force, or the fastest site if all forces are finite.
-  std::size_t hardest_site() const;
+  /// (all) After `solve` has failed: x of the first site without a finite force, or of the fastest site if all forces
+  /// are finite.
+  double hardest_position() const;
 
  private:
   void prepare(const Moment& from, double dt);
@@ -43,13 +45,17 @@ class ImplicitStep {
   void evaluate_all(double dt);
   double velocity_under_friction(std::size_t j, double change, double dt) const;
   void build_matrix(double dt);
-  enum class Outcome { failed, improved, converged };
+  enum class Outcome { converged, improved, failed };  ///< the worst of all sites is the last
   Outcome correct(double dt);
   void find_errors(std::size_t first, std::size_t size, double dt);
   double creep_error(std::size_t j, double dt) const;
   void find_state_errors(std::size_t first, std::size_t size, double dt, const double* by_velocity,
                          double* error) const;
   void add_energies(Moment& m, double dt) const;
+  struct Works {
+    double supplied = 0, dissipated = 0, by_contacts = 0;
+  };
+  Works works_at(const Moment& m, std::size_t j, double dt) const;  ///< those of the step at a site
   template <class Each>
   void for_sites(const Each& each) const;
   template <class Each>
@@ -68,9 +74,10 @@ class ImplicitStep {
   const Moment* from_ = nullptr;
   double rounding_ = 0;  ///< rounding error of the force on a site
   // These have an element for each site.
-  std::vector<double> w_;                          ///< velocity at which friction is evaluated
-  std::vector<double> per_weight_, shift_;         ///< w = v + (v' - v) / per_weight - shift
-  std::vector<double> force_, slope_, middle_;     ///< all forces except springs, their slope in w; (u + u') / 2
+  std::vector<double> w_;  ///< velocity at which friction is evaluated
+  Bordered per_weight_;    ///< w = v + (v' - v) / per_weight - shift
+  std::vector<double> shift_;
+  Bordered force_, slope_, middle_;                ///< all forces except springs, their slope in w; (u + u') / 2
   std::vector<double> friction_, friction_slope_;  ///< f, and its slope in w
   std::vector<double> forcing_, right_, errors_;
   Tridiagonal matrix_;

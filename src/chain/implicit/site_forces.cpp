@@ -8,11 +8,11 @@
 
 namespace slipfront::chain {
 
-SiteForces::SiteForces(const Problem& p, Moment& now)
+SiteForces::SiteForces(const Problem& p, Moment& now, const Ranks& ranks)
     : problem_(p),
       variables_(p.friction.state_size()),
       rubs_(p.friction.acts()),
-      springs_(p, now.u),
+      springs_(p, now.u, ranks),
       all_contact_(p.substrate ? 1 : 0),
       contacts_(p.friction.contacts()),
       first_u_(now.u) {
@@ -27,7 +27,7 @@ void SiteForces::start_contacts(Moment& now) {
   if (contacts_.act()) now.excess.assign(sites(), 0);
   if (!(p.contact || contacts_.act()) || !p.substrate) return;
   for (std::size_t j = 0; j < sites(); ++j) {
-    const double a = p.contact ? p.contact(p.grid.x(j)) : 1;
+    const double a = p.contact ? p.contact(x(j)) : 1;
     now.a2.push_back(a * a);
   }
   if (!contacts_.act()) return;
@@ -51,13 +51,11 @@ double SiteForces::friction(const Moment& m, std::size_t j, double velocity) con
 }
 
 double SiteForces::loading_energy(const Moment& m) const {
-  double sum = 0;
   if (!problem_.loading.acts()) return 0;
-  for (std::size_t j = 0; j < sites(); ++j) {
+  return own().sum(ranks(), [&](std::size_t j) {
     const double by = stretch(j, m.u[j], m.time);
-    sum += springs_.weight(j) * pull(j) * by * by / 2;
-  }
-  return sum;
+    return springs_.weight(j) * pull(j) * by * by / 2;
+  });
 }
 
 std::span<const double> SiteForces::evolved(const Moment& m, std::size_t j, double p, double time,
@@ -95,7 +93,7 @@ void SiteForces::evolve(Moment& m, std::size_t j, double p, double dt) const {
 void SiteForces::check_contacts(const Moment& m) const {
   for (std::size_t j = 0; j < sites(); ++j)
     if (!(effective_stress(m, j) > 0))
-      throw NumericsError("t = " + digits(m.time) + ": at x = " + digits(problem_.grid.x(j)) +
+      throw NumericsError("t = " + digits(m.time) + ": at x = " + digits(x(j)) +
                           " the pore pressure has reached the normal stress: the effective normal stress is " +
                           digits(effective_stress(m, j)) + " of it");
 }

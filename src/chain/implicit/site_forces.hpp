@@ -27,15 +27,19 @@ inline Sinc sinc(double y) {
 /// (cos u - cos u') / (u' - u), from their middle and half their difference.
 inline double mean_sine(double middle, double half) { return std::sin(middle) * sinc(half).value; }
 
-/// The forces on the sites of a chain that moves by implicit steps, and how its contacts change.
+/// The forces on the sites of a rank of a chain that moves by implicit steps, and how its contacts change. Sites count
+/// from the first of the rank on.
 class SiteForces {
  public:
-  /// Sets the state of friction and the contacts of `now`, whose u and v are those of the start.
-  SiteForces(const Problem& problem, Moment& now);
+  /// (all) Sets the state of friction and the contacts of `now`, whose u and v are those of the start.
+  SiteForces(const Problem& problem, Moment& now, const Ranks& ranks);
 
   const Problem& problem() const { return problem_; }
   const CompactSprings& springs() const { return springs_; }
-  std::size_t sites() const { return problem_.grid.sites; }
+  const Ranks& ranks() const { return springs_.ranks(); }
+  const OwnBlocks& own() const { return springs_.own(); }
+  std::size_t sites() const { return own().size(); }
+  double x(std::size_t site) const { return problem_.grid.x(own().begin + site); }
   std::size_t variables() const { return variables_; }  ///< state variables of a site
   bool rubs() const { return rubs_; }                   ///< whether there is friction
   bool contacts_change() const { return contacts_.act(); }
@@ -50,19 +54,18 @@ class SiteForces {
   double pull(std::size_t site) const {
     const Loading& l = problem_.loading;
     if (l.where == Pulled::everywhere) return l.stiffness;
-    return site == (l.where == Pulled::left ? 0 : sites() - 1) ? l.stiffness / springs_.weight(site) : 0;
+    const bool pulled = l.where == Pulled::left ? springs_.at_left_end(site) : springs_.at_right_end(site);
+    return pulled ? l.stiffness / springs_.weight(site) : 0;
   }
   /// F(x, t) as the problem has it, and with the pull of the springs.
-  double given_forcing(std::size_t j, double time) const {
-    return problem_.forcing ? problem_.forcing(problem_.grid.x(j), time) : 0;
-  }
+  double given_forcing(std::size_t j, double time) const { return problem_.forcing ? problem_.forcing(x(j), time) : 0; }
   double forcing(const Moment& m, std::size_t j) const;
   /// CellRange of the spring at a site that is displaced by u.
   double stretch(std::size_t j, double u, double time) const {
     return problem_.loading.velocity * time - (u - first_u_[j]);
   }
   double friction(const Moment& m, std::size_t j, double velocity) const;
-  double loading_energy(const Moment& m) const;  ///< in the springs that pull
+  double loading_energy(const Moment& m) const;  ///< (all) in the springs that pull
 
   static constexpr std::size_t most_variables = 4;
   using State = std::array<double, most_variables>;

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <vector>
+
+#include "foundation/ranks.hpp"
 
 namespace slipfront::chain {
 
@@ -21,6 +24,64 @@ struct Blocks {
   std::size_t first_of(int rank, int ranks) const {
     return count * static_cast<std::size_t>(rank) / static_cast<std::size_t>(ranks);
   }
+  /// Calls each(part, begin, end) for the pieces of equal parts of the chain, in order. A piece is as much of a part as
+  /// is in one block.
+  template <class Each>
+  void each_piece(std::size_t parts, const Each& each) const {
+    for (std::size_t part = 0; part < parts; ++part) {
+      const std::size_t to = sites * (part + 1) / parts;
+      for (std::size_t from = sites * part / parts; from < to;) {
+        const std::size_t end = std::min(to, begin(of(from) + 1));
+        each(part, from, end);
+        from = end;
+      }
+    }
+  }
+};
+
+/// The blocks of one rank, which are next to each other, and their sites.
+struct OwnBlocks {
+  OwnBlocks(std::size_t sites, const Ranks& ranks)
+      : blocks{sites},
+        first(blocks.first_of(ranks.rank(), ranks.size())),
+        count(blocks.first_of(ranks.rank() + 1, ranks.size()) - first),
+        begin(blocks.begin(first)),
+        end(blocks.begin(first + count)) {}
+
+  std::size_t size() const { return end - begin; }
+  /// The first site of own block b, counted from the first site of the rank on.
+  std::size_t begin_of(std::size_t b) const { return blocks.begin(first + b) - begin; }
+  /// (all) The sum of term(j) over the sites of all ranks, where j counts from the first site of the rank on.
+  template <class Term>
+  double sum(const Ranks& ranks, const Term& term) const {
+    std::vector<double> sums(count);
+    for (std::size_t b = 0; b < count; ++b)
+      for (std::size_t j = begin_of(b); j < begin_of(b + 1); ++j) sums[b] += term(j);
+    double all = 0;
+    for (const double of_block : ranks.joined(sums)) all += of_block;
+    return all;
+  }
+  /// (all) The mean of value(j) over the sites of each of some equal parts of the chain, with j like that of `sum`.
+  template <class Value>
+  std::vector<double> means(const Ranks& ranks, std::size_t parts, const Value& value) const {
+    std::vector<double> mine, all(parts);
+    blocks.each_piece(parts, [&](std::size_t, std::size_t from, std::size_t to) {
+      if (from < begin || from >= end) return;
+      double sum = 0;
+      for (std::size_t j = from; j < to; ++j) sum += value(j - begin);
+      mine.push_back(sum);
+    });
+    const std::vector<double> sums = ranks.joined(mine);
+    auto sum = sums.begin();
+    blocks.each_piece(parts, [&](std::size_t part, std::size_t, std::size_t) { all[part] += *sum++; });
+    for (std::size_t i = 0; i < parts; ++i)
+      all[i] /= static_cast<double>(blocks.sites * (i + 1) / parts - blocks.sites * i / parts);
+    return all;
+  }
+
+  Blocks blocks;
+  std::size_t first, count;  ///< blocks of this rank
+  std::size_t begin, end;    ///< their sites
 };
 
 }  // namespace slipfront::chain

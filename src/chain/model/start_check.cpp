@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "chain/model/blocks.hpp"
 #include "foundation/text/digits.hpp"
 #include "slipfront/error.hpp"
 
@@ -42,6 +43,15 @@ MotionOf pieces_of(const Motion& start, std::size_t sites) {
     if (start.velocity.empty()) return {part(start.u, begin, end), {}};
     return {part(start.u, begin, end), part(start.velocity, begin, end)};
   };
+}
+
+void check_ranks(const Problem& p, const Ranks& ranks) {
+  const Blocks blocks{p.grid.sites};
+  if (static_cast<std::size_t>(ranks.size()) > blocks.count)
+    throw InputError({.key = "ranks",
+                      .value = std::to_string(ranks.size()),
+                      .problem = "too many for " + std::to_string(p.grid.sites) + " sites",
+                      .allowed = "1 to " + std::to_string(blocks.count)});
 }
 
 void StartCheck::look(const Problem& p, const Motion& m, std::size_t first) {

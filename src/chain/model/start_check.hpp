@@ -12,6 +12,9 @@ Motion sites_of(const MotionOf& start, const Problem& problem, std::size_t begin
 /// Makes a MotionOf from the motion of the whole chain. `start` must outlive the result.
 MotionOf pieces_of(const Motion& start, std::size_t sites);
 
+/// \throws InputError if the chain has too few sites for so many ranks.
+void check_ranks(const Problem& problem, const Ranks& ranks);
+
 /// Checks an initial motion while a chain reads it.
 class StartCheck {
  public:

@@ -17,11 +17,14 @@
 #include "chain/explicit/contact_field.hpp"
 #include "chain/explicit/explicit_chain.hpp"
 #include "chain/explicit/levels/levels.hpp"
+#include "chain/implicit/implicit_chain.hpp"
+#include "chain/make_chain.hpp"
 #include "chain/measure/average.hpp"
 #include "chain/measure/dislocations.hpp"
 #include "chain/measure/smooth_average.hpp"
 #include "chain/measure/totals.hpp"
 #include "chain/model/initial_train.hpp"
+#include "chain/model/start_check.hpp"
 #include "foundation/ranks.hpp"
 #include "rough_chains.hpp"
 #include "slipfront/error.hpp"
@@ -46,14 +49,15 @@ bool same(const std::vector<double>& a, const std::vector<double>& b) {
 }
 
 /// All measurements on a chain, in one row.
-std::vector<double> measured(const ExplicitChain& chain) {
+std::vector<double> measured(const Chain& chain) {
   std::vector<double> row;
-  const Window w = chain.window(3, chain.problem().grid.sites - 1, chain.time() + chain.dt() / 3);
+  const double later = chain.constant_step().value_or(0) / 3;
+  const Window w = chain.window(3, chain.problem().grid.sites - 1, chain.time() + later);
   for (const auto* values : {&w.x, &w.u, &w.velocity, &w.stress, &w.contact_squared, &w.effective_stress})
     row.insert(row.end(), values->begin(), values->end());
   const Totals t = totals(chain);
   for (const double sum : {t.charge, static_cast<double>(t.dislocations), t.kinetic, t.elastic, t.substrate, t.momentum,
-                           t.supplied_rate, t.dissipated_rate})
+                           t.loading, t.supplied_rate, t.dissipated_rate, chain.load()})
     row.push_back(sum);
   for (const Dislocation& d : dislocations(chain)) row.insert(row.end(), {d.x, static_cast<double>(d.sign)});
   const Average a = average(chain, 290, 80, chain.time());  // the window crosses the boundaries between ranks
@@ -116,6 +120,59 @@ void same_bits(const Ranks& ranks) {
   compare(ranks, p, StaticTrain([](double x) { return x < 1500 ? 0.7 : 0.0; }, p.grid), "9000 sites");
 }
 
+/// Chains that move by implicit steps, with events: a ring under rate-and-state friction, a chain that is pulled at its
+/// end and whose contacts age, and a chain between fixed ends under a force.
+Problem implicit_problem(int kind) {
+  Problem p = cases::problem(sites, kind == 0 ? 8 : kind == 1 ? 9 : 2);
+  p.implicit = true;
+  if (kind == 0) {
+    p.contact = [](double x) { return 1 + 0.05 * std::cos(0.1 * x); };
+    p.loading = {.stiffness = 4e-3, .velocity = 0.05, .event_velocity = 0.06, .fronts = 7};
+  } else if (kind == 1) {
+    p.boundary = {End::free, End::fixed, false, 0};
+    p.loading = {.stiffness = 0.1, .velocity = 0.3, .where = Pulled::left, .event_velocity = 0.002};
+  } else {
+    p.boundary = {End::fixed, End::fixed, false, 0};
+    p.forcing = [](double x, double t) { return 0.1 * std::sin(0.1 * x + t); };
+  }
+  return p;
+}
+
+/// All numbers of the slip events of a chain and of their fronts, in one row.
+std::vector<double> events_of(const Chain& chain) {
+  std::vector<double> row;
+  for (const output::SlipEvent& event : chain.events())
+    for (const auto& column : output::slip_event_columns()) row.push_back(event.*column.value);
+  const output::FrontRecords fronts = chain.fronts();
+  for (const output::FrontRecord& event : fronts.events)
+    for (const auto* column : {&fronts.x, &event.arrival, &event.stress, &event.traction})
+      row.insert(row.end(), column->begin(), column->end());
+  return row;
+}
+
+void same_implicit_bits(const Ranks& ranks) {
+  for (int kind = 0; kind < 3; ++kind) {
+    const Problem p = implicit_problem(kind);
+    const Motion start = cases::bumpy(p);
+    ImplicitChain alone(p, start), shared(p, start, {.threads = 2, .ranks = &ranks});
+    const std::string what = "implicit, kind " + std::to_string(kind);
+    for (const double time : {0.5, 2.0}) {
+      alone.advance_to(time);
+      shared.advance_to(time);
+      expect(shared.steps() == alone.steps(), what + ": steps");
+      expect(same(measured(shared), measured(alone)), what + ": measured");
+    }
+    expect(alone.steps() > 20, what + ": steps " + std::to_string(alone.steps()));
+    expect(kind == 2 || !alone.events().empty(), what + ": has events");
+    expect(same(events_of(shared), events_of(alone)), what + ": events");
+    const Flows one = alone.flows(), other = shared.flows();
+    expect(same({one.supplied, one.dissipated, one.by_contacts}, {other.supplied, other.dissipated, other.by_contacts}),
+           what + ": flows");
+    const std::string saved = shared.saved();  // all numbers are on rank 0
+    expect(ranks.rank() != 0 || saved == alone.saved(), what + ": saved");
+  }
+}
+
 /// Checks that every rank throws the same error, whose text contains `part`.
 template <class Error>
 void expect_error(const Ranks& ranks, const std::function<void()>& task, const std::string& part) {
@@ -146,9 +203,18 @@ void errors(const Ranks& ranks) {
   expect_error<InputError>(
       ranks, [&] { ExplicitChain(p, steep, shared); }, "too coarse");
   const Problem few = cases::problem(100, 0);
-  if (ranks.size() > 1)
-    expect_error<InputError>(
-        ranks, [&] { ExplicitChain(few, cases::bumpy(few), shared); }, "too many for 100 sites");
+  Problem slow = few;
+  slow.implicit = true;
+  slow.boundary.right = End::free;
+  for (const bool implicit : {false, true})
+    if (ranks.size() > 1)
+      expect_error<InputError>(
+          ranks, [&] { make_chain(implicit ? slow : few, pieces_of(cases::bumpy(few), 100), shared); },
+          "too many for 100 sites");
+  slow = implicit_problem(2);
+  slow.forcing = [](double x, double t) { return t > 3 && x > 500 ? std::numeric_limits<double>::quiet_NaN() : 0.0; };
+  expect_error<NumericsError>(
+      ranks, [&] { ImplicitChain(slow, cases::bumpy(slow), shared).advance_to(10); }, "the motion at x = 50");
   expect_error<FileError>(
       ranks,
       [&] {
@@ -183,6 +249,15 @@ void save(const Ranks& ranks, const std::string& path) {
       }
     }
   }
+  for (int kind = 0; kind < 3; ++kind) {
+    const Problem p = implicit_problem(kind);
+    ImplicitChain chain(p, cases::bumpy(p), {.ranks = &ranks});
+    chain.advance_to(1);
+    const std::string saved = chain.saved();
+    const auto size = static_cast<double>(saved.size());
+    if (ranks.rank() == 0) write(file, {size});
+    if (ranks.rank() == 0) file.write(saved.data(), static_cast<std::streamsize>(saved.size()));
+  }
   if (ranks.rank() == 0) expect(file.flush().good(), "written");
 }
 
@@ -213,6 +288,20 @@ void resume(const Ranks& ranks, const std::string& path) {
     expect(ranks.rank() != 0 || chain.steps() == alone.steps(), "level");
     skipped += columns * sites;
   }
+  file.seekg(static_cast<std::streamoff>(sizeof(double) * skipped));
+  for (int kind = 0; kind < 3; ++kind) {
+    double size = 0;
+    file.read(reinterpret_cast<char*>(&size), sizeof size);
+    std::string saved(static_cast<std::size_t>(size), ' ');
+    file.read(saved.data(), static_cast<std::streamsize>(saved.size()));
+    expect(file.good(), "read");
+    const Problem p = implicit_problem(kind);
+    ImplicitChain chain(p, cases::bumpy(p), {.ranks = &ranks}), alone(p, cases::bumpy(p));
+    chain.resume(saved);
+    for (auto* each : {&chain, &alone}) each->advance_to(2);
+    expect(same(measured(chain), measured(alone)), "resumed, implicit, kind " + std::to_string(kind));
+    expect(same(events_of(chain), events_of(alone)), "events, implicit");
+  }
 }
 
 }  // namespace
@@ -223,6 +312,7 @@ int main(int argc, char** argv) {
     const std::string what = argc > 1 ? argv[1] : "";
     if (what == "same") {
       same_bits(ranks);
+      same_implicit_bits(ranks);
       errors(ranks);
     } else if (what == "save" && argc > 2) {
       save(ranks, argv[2]);
