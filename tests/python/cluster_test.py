@@ -45,6 +45,18 @@ class Cluster(unittest.TestCase):
         self.assertTrue(slipfront.sweep(SCENARIO, MANY, client=client, progress=kill).identical(here))
         self.assertTrue(killed.is_set())
 
+    def test_a_cluster_runs_loaded_chains(self):
+        _, client = self.cluster()
+        axes = {"loading.velocity": [1e-4, 3e-4], "friction.law": ["rate-and-state", "coulomb"]}
+        short = {"domain.left": -20, "domain.right": 20, "time.end": 1e4, "output.every": 5e3}
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # Coulomb friction fails, because it jumps at rest
+            here = slipfront.sweep(slipfront.cases / "stick-slip.toml", axes, command="chain", set=short)
+            there = slipfront.sweep(slipfront.cases / "stick-slip.toml", axes, command="chain", set=short, client=client)
+        self.assertTrue(there.identical(here))
+        self.assertTrue((here.loading_force[:, 0] > 0).all())
+        self.assertTrue((here.failure[:, 1] != "").all())
+
     def test_a_point_that_ends_every_worker_does_not_lose_other_points(self):
         _, client = self.cluster(processes=False)
         real = _cluster._task
