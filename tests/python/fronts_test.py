@@ -109,10 +109,13 @@ class Recorded(CommandLine):
         crosses = found.event_crosses.values > 0
         first = int(np.argmax(crosses))
         self.assertTrue(crosses.any())
-        self.assertGreaterEqual(first, 3)
+        self.assertGreaterEqual(first, 10)
         load, length = found.event_load.values[:first], found.event_length.values[:first]
-        self.assertGreater(np.corrcoef(load, length)[0, 1], 0.7)
-        self.assertGreater(length[-3:].mean(), 2 * length[:3].mean())
+        # Later lengths depend on rounding, and thereby on the machine. Ten runs with other roundings and steps have correlations
+        # of 0.48 to 0.77, and longest precursors of 6.6 to 7.4. Without a relation 25 events exceed 0.34 once in twenty runs.
+        self.assertTrue((np.diff(length[:5]) > 0).all())
+        self.assertGreater(length.max(), 3 * length[0])
+        self.assertGreater(np.corrcoef(load, length)[0, 1], 0.34)
         for row in range(first):
             fronts = found.front_event.values == found.event_number.values[row]
             self.assertIn("stops", found.front_stop.values[fronts])
