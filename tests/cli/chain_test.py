@@ -1,13 +1,10 @@
 """The command `slipfront chain` as a user runs it."""
 
-import json
 import math
 import os
-import shutil
-import subprocess
 import unittest
 
-from support import PATIENCE, CommandLine, PROGRAM, SOURCE, run
+from support import CommandLine, SOURCE, run
 
 CHAIN = ["time", "scale", "slip_at_origin", "dislocations", "sites", "steps", "site_updates_per_second", "energy_drift", "charge_error",
          "wall_seconds"]
@@ -116,30 +113,6 @@ class Chain(CommandLine):
         lost = 3.925e-4  # elastic and kinetic energy of `slipfront pulse` at the start less that at the end
         # At such scales, the window leaves an error of a quarter of this value from the train's ripple (docs/chain.md).
         self.assertLess(abs(self.chain(case, "--set", "chain.scale=1500")["energy_phonons"] / lost - 1), 0.3)
-
-    @unittest.skipUnless(shutil.which("mpirun"), "no mpirun")
-    def test_under_mpirun_writes_the_same_file(self):
-        case = self.slow_case()
-        folder = os.path.dirname(case)
-        environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_rmaps_base_oversubscribe="1",
-                           OMPI_MCA_hwloc_base_binding_policy="none", OMPI_MCA_mpi_yield_when_idle="1", ASAN_OPTIONS="detect_leaks=0")
-
-        def mpirun(ranks, *arguments):
-            return subprocess.run(["mpirun", "-n", str(ranks), PROGRAM, "chain", case, "--set", "chain.scale=500", *arguments],
-                                  env=environment, capture_output=True, text=True, timeout=PATIENCE)
-
-        alone, shared = os.path.join(folder, "alone.nc"), os.path.join(folder, "shared.nc")
-        self.ok("chain", case, "--set", "chain.scale=500", "-o", alone)
-        done = mpirun(2, "--threads", "1", "-o", shared, "--json")
-        if "not built with MPI" in done.stderr or "without MPI" in done.stderr:
-            self.skipTest("built without MPI")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(json.loads(done.stdout)["ranks"], 2)
-        with open(alone, "rb") as a, open(shared, "rb") as b:
-            self.assertEqual(a.read(), b.read())
-        refused = mpirun(2, "--set", "chain.spacing=0.9")
-        self.assertEqual(refused.returncode, 2)
-        self.assertEqual(refused.stderr.count("slipfront: "), 1, refused.stderr)
 
     def test_refuses(self):
         case = os.path.join(SOURCE, "cases/step.toml")
