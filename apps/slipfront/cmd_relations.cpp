@@ -2,16 +2,14 @@
 
 #include <CLI/CLI.hpp>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <memory>
-#include <optional>
 
 #include "batch.hpp"
 #include "commands.hpp"
 #include "json.hpp"
 #include "relations_friction.hpp"
-#include "slipfront/medium/constants.hpp"
+#include "si_options.hpp"
 #include "slipfront/rupture/relations.hpp"
 #include "state_values.hpp"
 #include "terminal_table.hpp"
@@ -48,43 +46,17 @@ Relations solve(const State& state) {
   }
 }
 
-/// Options for results in SI units.
-struct SiOptions {
-  bool si = false;
-  std::optional<double> contact_ratio;
-  slipfront::medium::StatedDefaults rock;
-};
-
-/// The units of the quantities in results: 1, or SI units.
 RelationsUnits units_of(const SiOptions& options) {
-  RelationsUnits units(relations_quantities().size());
-  if (!options.si) return units;
-  if (!options.contact_ratio)
-    throw InputError({.file = "command line",
-                      .key = "--si",
-                      .problem = "it needs --contact-ratio",
-                      .allowed = "--contact-ratio A, such as 0.003"});
-  const auto rock = slipfront::medium::elastic({}, slipfront::medium::defaults_of(options.rock));
-  const slipfront::medium::SymbolValues values{.mu = rock.shear_modulus,
-                                               .nu = rock.poisson_ratio,
-                                               .A = *options.contact_ratio,
-                                               .b = std::nan(""),  // no quantity has it
-                                               .c = rock.speed};
-  for (std::size_t i = 0; i < units.size(); ++i)
-    if (const auto unit = relations_quantities()[i].about.dimensional_unit; !unit.empty())
-      units[i] = slipfront::medium::in_si(unit, values);
-  return units;
+  const ResultUnits units(options);
+  RelationsUnits of_relations{units.si(), {}};
+  for (const RelationsQuantity& quantity : relations_quantities())
+    of_relations.each.push_back(units.of(quantity.about.dimensional_unit));
+  return of_relations;
 }
 
 Relations in_units(Relations r, const RelationsUnits& units) {
-  for (std::size_t i = 0; i < units.size(); ++i) r.*relations_quantities()[i].value *= units[i].value;
+  for (std::size_t i = 0; i < units.each.size(); ++i) r.*relations_quantities()[i].value *= units.each[i].value;
   return r;
-}
-
-/// The name of a unit as the tables show it.
-std::string shown_unit(std::size_t quantity, const RelationsUnits& units, bool si) {
-  if (!si) return std::string(relations_quantities()[quantity].about.dimensional_unit);
-  return units[quantity].name == "1" ? "" : units[quantity].name;
 }
 
 std::string json_row(const Relations& r) {
@@ -110,25 +82,25 @@ std::vector<std::string> table_row(const Relations& r) {
   return cells;
 }
 
-void print_one(const Relations& r, const RelationsUnits& units, bool si) {
-  for (std::size_t i = 0; i < units.size(); ++i) {
+void print_one(const Relations& r, const RelationsUnits& units) {
+  for (std::size_t i = 0; i < units.each.size(); ++i) {
     const RelationsQuantity& q = relations_quantities()[i];
     const auto& [name, long_name, of_model, reference] = q.about;
-    const std::string unit = shown_unit(i, units, si);
+    const std::string& unit = units.each[i].name;
     put(fitted(fmt::format("{:<31} {:<24} {}{}{}", name, r.*q.value, long_name, unit.empty() ? "" : ", in ", unit),
                31 + 1 + 24 + 1));
   }
 }
 
-void print_json(const std::vector<Relations>& results, const RelationsUnits& units, bool si, int threads) {
+void print_json(const std::vector<Relations>& results, const RelationsUnits& units, int threads) {
   put("{\"relations\": [");
   const auto rows =
       in_parallel<std::string>(results.size(), threads, [&](std::size_t i) { return json_row(results[i]); });
   for (std::size_t i = 0; i < rows.size(); ++i) put((i == 0 ? "\n" : ",\n") + rows[i]);
-  if (!si) return put("\n]}\n");
+  if (!units.si) return put("\n]}\n");
   Json names;
-  for (std::size_t i = 0; i < units.size(); ++i)
-    if (units[i].name != "1") names[std::string(relations_quantities()[i].about.name)] = units[i].name;
+  for (std::size_t i = 0; i < units.each.size(); ++i)
+    if (!units.each[i].name.empty()) names[std::string(relations_quantities()[i].about.name)] = units.each[i].name;
   put("\n], \"unit_system\": \"SI\", \"units\": " + text_of(names) + "}\n");
 }
 
@@ -142,11 +114,11 @@ void print_csv(const std::vector<Relations>& results, int threads) {
   for (const std::string& row : rows) put(row);
 }
 
-void print_table(const std::vector<Relations>& results, const RelationsUnits& units, bool si, int threads) {
+void print_table(const std::vector<Relations>& results, const RelationsUnits& units, int threads) {
   TerminalTable table(table_columns);
   table.add({"stress", "rupture vel", "leading vel", "ratio", "slip vel", "stress(x=0)", "U(x=0)", "psi", "psi(x=0)"});
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < units.size(); ++i) names.push_back(shown_unit(i, units, si));
+  for (const auto& unit : units.each) names.push_back(unit.name);
   names[3] = "|V- / V+|";
   table.add(std::move(names));
   auto rows = in_parallel<std::vector<std::string>>(results.size(), threads,
@@ -158,22 +130,21 @@ void print_table(const std::vector<Relations>& results, const RelationsUnits& un
 int print(const std::vector<State>& states, const FrictionOptions& friction, const SiOptions& si_options,
           const CommonOptions& options) {
   const RelationsUnits units = units_of(si_options);
-  const bool si = si_options.si;
   auto results =
       in_parallel<Relations>(states.size(), options.threads, [&](std::size_t i) { return solve(states[i]); });
   if (friction.wanted()) {
-    print_friction(results, friction, si ? &units : nullptr, options);
+    print_friction(results, friction, units, options);
     return exit_done;
   }
   for (Relations& r : results) r = in_units(r, units);
   if (options.json)
-    print_json(results, units, si, options.threads);
+    print_json(results, units, options.threads);
   else if (options.csv)
     print_csv(results, options.threads);
   else if (results.size() == 1)
-    print_one(results.front(), units, si);
+    print_one(results.front(), units);
   else
-    print_table(results, units, si, options.threads);
+    print_table(results, units, options.threads);
   return exit_done;
 }
 
@@ -202,22 +173,6 @@ std::vector<State> states_asked_for(const CLI::App& command, std::array<Given, 3
          .problem = "relations: no state is given",
          .allowed = "--stress S, --rupture-velocity V or --slip-velocity W; see slipfront relations --help"});
   return states;
-}
-
-void add_si_options(CLI::App& command, SiOptions& options) {
-  CLI::Option* const si = command.add_flag("--si", options.si, "Results in SI units; needs --contact-ratio");
-  command.add_option("--contact-ratio", options.contact_ratio, "Contact ratio A, for --si")
-      ->check(CLI::Range(1e-300, 1.0))
-      ->type_name("A")
-      ->needs(si);
-  const auto add = [&](const char* name, std::string& text, const char* otherwise, const char* type) {
-    command.add_option(name, text, std::string("Constant of the rock, for --si (default: ") + otherwise + ")")
-        ->type_name(type)
-        ->needs(si);
-  };
-  add("--p-wave-speed", options.rock.p_wave_speed, "6 km/s", "SPEED");
-  add("--poisson-ratio", options.rock.poisson_ratio, "0.3", "RATIO");
-  add("--shear-modulus", options.rock.shear_modulus, "30 GPa", "MODULUS");
 }
 
 }  // namespace

@@ -7,6 +7,7 @@ using AddCommand = Runner(CLI::App& app);
 // One line a subcommand, in the order of --help; each is defined in cmd_<name>.cpp.
 #define SLIPFRONT_COMMANDS(COMMAND) \
   COMMAND(relations)                \
+  COMMAND(riemann)                  \
   COMMAND(event)                    \
   COMMAND(pulse)                    \
   COMMAND(chain)                    \

@@ -91,24 +91,26 @@ std::vector<Row> rows_of(const std::vector<Relations>& states, const FrictionOpt
   return rows;
 }
 
-/// The unit of a column in SI units; its value is 1 for a pure number, or if results are in the units of the model.
-slipfront::medium::UnitInSi unit_of(std::string_view column, const RelationsUnits* units) {
+/// The unit of a column. That of a pure number is 1 and has no name.
+slipfront::medium::UnitInSi unit_of(std::string_view column, const RelationsUnits& units) {
   const auto quantities = slipfront::rupture::relations_quantities();
-  for (std::size_t i = 0; units && i < quantities.size(); ++i)
-    if (quantities[i].about.name == column) return (*units)[i];
-  return {};
+  for (std::size_t i = 0; i < quantities.size(); ++i)
+    if (quantities[i].about.name == column) return units.each[i];
+  return {1, ""};
 }
 
-void print_json(const std::vector<Row>& rows, const FrictionOptions& friction, const RelationsUnits* units) {
+void print_json(const std::vector<Row>& rows, const FrictionOptions& friction, const RelationsUnits& units) {
   Json j = {{"measure", friction.measure}, {"time", friction.time}, {"friction", Json::array()}};
   for (const Row& row : rows) {
     Json one = {{"closure", row.closure}};
     for (const Column& column : columns) one[column.name] = row.*column.value;
     j["friction"].push_back(one);
   }
-  if (units) j["unit_system"] = "SI";
-  for (const Column& column : columns)
-    if (const auto unit = unit_of(column.name, units); unit.name != "1") j["units"][column.name] = unit.name;
+  if (units.si) {
+    j["unit_system"] = "SI";
+    for (const Column& column : columns)
+      if (const auto unit = unit_of(column.name, units); !unit.name.empty()) j["units"][column.name] = unit.name;
+  }
   put(text_of(j) + "\n");
 }
 
@@ -123,16 +125,14 @@ void print_csv(const std::vector<Row>& rows) {
   }
 }
 
-void print_table(const std::vector<Row>& rows, const FrictionOptions& friction, const RelationsUnits* units) {
+void print_table(const std::vector<Row>& rows, const FrictionOptions& friction, const RelationsUnits& units) {
   static constexpr std::array<TableColumn, 8> table_columns = {
       {{12}, {12}, {12, true, 2}, {12}, {12}, {12}, {9}, {12}}};
   const auto number = [](double value) { return fmt::format("{:.6g}", value); };
   TerminalTable table(table_columns);
   table.add({"stress", "rupture vel", "closure", "W / W(C=0)", "C T", "C", "+- in C", "slip vel"});
-  if (units)
-    table.add({"Pa", "m s-1", "", "", "", "", "", "m s-1"});
-  else
-    table.add({"mu A / pi", "c", "", "", "", "", "", "c A / pi"});
+  const auto unit = [&](const char* column) { return unit_of(column, units).name; };
+  table.add({unit("stress"), unit("rupture_velocity"), "", "", "", "", "", unit("slip_velocity")});
   for (const Row& r : rows)
     table.add({number(r.stress), number(r.rupture_velocity), r.closure, number(r.ratio), number(r.damping_number),
                number(r.coefficient), fmt::format("{:.2g}", r.coefficient_error), number(r.slip_velocity)});
@@ -183,7 +183,7 @@ void add_friction_options(CLI::App& command, FrictionOptions& options) {
       ->type_name("NAME:{origin,mean,peak,time-mean}");
 }
 
-void print_friction(const std::vector<Relations>& states, const FrictionOptions& friction, const RelationsUnits* units,
+void print_friction(const std::vector<Relations>& states, const FrictionOptions& friction, const RelationsUnits& units,
                     const CommonOptions& options) {
   check("--time", friction.time, false);
   for (const double c : friction.coefficients) check("--friction-coefficient", c, true);

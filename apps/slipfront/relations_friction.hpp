@@ -20,10 +20,12 @@ struct FrictionOptions {
 
 void add_friction_options(CLI::App& command, FrictionOptions& options);
 
-/// The value of each of relations_quantities() in the unit of the results.
-using RelationsUnits = std::vector<slipfront::medium::UnitInSi>;
+/// The unit of each of relations_quantities() in the results.
+struct RelationsUnits {
+  bool si = false;
+  std::vector<slipfront::medium::UnitInSi> each;
+};
 
-/// Prints one row for each state, ratio or coefficient, and closure. `units` are SI units; null: those of the model.
-/// \throws InputError.
+/// Prints one row for each state, ratio or coefficient, and closure. \throws InputError.
 void print_friction(const std::vector<slipfront::rupture::Relations>& states, const FrictionOptions& friction,
-                    const RelationsUnits* units, const CommonOptions& options);
+                    const RelationsUnits& units, const CommonOptions& options);

@@ -100,26 +100,47 @@ py::list stress_at_rest(const Numbers& psi) {
   return columns<1>(psi.size(), [=](py::ssize_t i) { return std::array{train::stress_at_rest(s[i])}; });
 }
 
-constexpr std::array<Description, 4> profile_described = {{
-    {"U", "velocity of the dislocations", "c", "Eqs. 8-9"},
-    {"Sigma", "stress", "mu A / pi", "Eqs. 8-9"},
-    {"W", "slip velocity", "c A / pi", "Eqs. 8-9"},
-    {"P", "momentum density", "", "Eqs. 8-9"},
-}};
-
-/// The exact Riemann problem between two stresses, and its edges.
-py::tuple profile(double left, double right, const Numbers& x_over_t) {
-  const rupture::RiemannSolution solution =
-      rupture::solve_riemann(at_rest(left, "stress"), at_rest(right, "stress_right"));
+/// The solution at each x/t, one array for each of profile_quantities(), in their order.
+py::list profile(const rupture::RiemannSolution& solution, const Numbers& x_over_t) {
   const double* x = x_over_t.data();
-  const py::list rows = columns<4>(x_over_t.size(), [&, x](py::ssize_t i) {
+  return columns<4>(x_over_t.size(), [&, x](py::ssize_t i) {
     if (!std::isfinite(x[i]))
       throw InputError({.key = "x_over_t", .value = digits(x[i]), .problem = "not finite", .allowed = "a number"});
     const rupture::ProfilePoint point = rupture::profile_point(solution, x[i]);
-    return std::array{point.U, point.Sigma, point.W, point.P};
+    std::array<double, 4> row{};
+    for (std::size_t q = 0; q < row.size(); ++q) row.at(q) = point.*rupture::profile_quantities()[q].value;
+    return row;
   });
+}
+
+/// The exact Riemann problem between two stresses at rest, and its edges.
+py::tuple profile_at_rest(double left, double right, const Numbers& x_over_t) {
+  const rupture::RiemannSolution solution =
+      rupture::solve_riemann(at_rest(left, "stress"), at_rest(right, "stress_right"));
   const rupture::Edges edges = rupture::edges_of(solution);
-  return py::make_tuple(rows, edges.left, edges.right);
+  return py::make_tuple(profile(solution, x_over_t), edges.left, edges.right);
+}
+
+py::tuple wave(const rupture::Wave& wave) {
+  return py::make_tuple(std::string(rupture::name_of(wave.kind)), wave.outer, wave.inner);
+}
+
+/// The exact Riemann problem between two trains: edges, both waves, the states on the left, between them and on the
+/// right, and a function of x/t.
+py::tuple riemann(double left_stress, double left_velocity, double right_stress, double right_velocity) {
+  const rupture::RiemannSolution solution =
+      rupture::solve_riemann(rupture::moving_train(left_stress, left_velocity, "left"),
+                             rupture::moving_train(right_stress, right_velocity, "right"));
+  const rupture::Edges edges = rupture::edges_of(solution);
+  py::list states;
+  for (const State& state : {solution.left, solution.star, solution.right}) {
+    const rupture::ProfilePoint point = rupture::profile_point(state);
+    py::list row;
+    for (const auto& quantity : rupture::profile_quantities()) row.append(point.*quantity.value);
+    states.append(row);
+  }
+  return py::make_tuple(py::make_tuple(edges.left, edges.right), wave(solution.left_wave), wave(solution.right_wave),
+                        states, py::cpp_function([solution](const Numbers& x) { return profile(solution, x); }));
 }
 
 }  // namespace
@@ -131,9 +152,12 @@ void bind_train(py::module_& m) {
   m.def("spacing", spacing);
   m.def("psi_at_rest", psi_at_rest);
   m.def("stress_at_rest", stress_at_rest);
-  m.def("profile", profile);
+  m.def("profile", profile_at_rest);
+  m.def("riemann", riemann);
   m.attr("averages_described") = all(averages_described);
   m.attr("fields_described") = all(fields_described);
   m.attr("jacobi_described") = all(jacobi_described);
-  m.attr("profile_described") = all(profile_described);
+  py::list about;
+  for (const auto& quantity : rupture::profile_quantities()) about.append(described(quantity.about));
+  m.attr("profile_described") = about;
 }

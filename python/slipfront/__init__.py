@@ -8,6 +8,7 @@ attribute `references` gives its equation in the paper (Gershenzon, Bambakidis a
 10.3390/lubricants3020311).
 
     relations   stress, rupture velocity and slip velocity of a frictionless pulse, each from any other (Eqs. 8-10)
+    riemann     the waves between two uniform trains of dislocations that meet: fans and shocks (Eqs. 6-7)
     friction_ratio
                 share of the slip velocity that remains under viscous friction (Fig. 10)
     damping_number
@@ -48,6 +49,7 @@ from ._laboratory import laboratory
 from ._hierarchy import population
 from ._potency import moment_duration
 from ._relations import relations
+from ._riemann import riemann
 from ._run import chain, check, compare, open, pulse
 from ._sweep import sweep
 from ._slipfront import FileError, InputError, NumericsError, __version__
@@ -68,4 +70,4 @@ class _Package(types.ModuleType):
 sys.modules[__name__].__class__ = _Package
 
 __all__ = ["FileError", "InputError", "NumericsError", "__version__", "cases", "chain", "check", "compare", "damping_number", "event", "friction_ratio", "fronts", "laboratory", "medium",
-           "moment_duration", "open", "population", "pulse", "relations", "sweep", "train"]
+           "moment_duration", "open", "population", "pulse", "relations", "riemann", "sweep", "train"]

@@ -166,6 +166,7 @@ RiemannSolution solve_riemann(const State& left, const State& right) {
 
 Edges edges_of(const RiemannSolution& solution) {
   const Wave &left = solution.left_wave, &right = solution.right_wave;
+  if (left.kind == Wave::Kind::none && right.kind == Wave::Kind::none) return {left.outer, right.outer};
   return {left.kind != Wave::Kind::none ? left.outer : right.inner,
           right.kind != Wave::Kind::none ? right.outer : left.inner};
 }

@@ -162,5 +162,26 @@ class FrictionRatio(unittest.TestCase):
             slipfront.damping_number(0.7, 1.2)
 
 
+class Riemann(CommandLine):
+    def test_is_what_the_command_line_says_to_the_bit(self):
+        out = slipfront.riemann((1.0, 0.3), (0.5, -0.2))
+        said = json.loads(self.ok("riemann", "--left", "1,0.3", "--right", "0.5,-0.2", "--json"))
+        self.assertEqual({name: float(out[f"star_{name}"]) for name in said["star"]}, said["star"])
+        self.assertEqual([out.left_wave, *out.left_wave_edges], list(said["left_wave"].values()))
+        self.assertEqual((out.left_edge, out.right_edge), (said["left_edge"], said["right_edge"]))
+        self.assertEqual(out.sizes["x_over_t"], 201)
+
+    def test_is_the_profile_of_trains_at_rest(self):
+        x = np.linspace(-0.5, 0.3, 20)
+        rest, same = slipfront.riemann(0.855, 0.2, x), slipfront.train.profile(0.855, x, stress_right=0.2)
+        for name in ("U", "Sigma", "W", "P"):
+            np.testing.assert_array_equal(rest[name], same[name])
+
+    def test_refuses(self):
+        for left, right, words in [((1, 2), 0, "left_velocity"), (0, 0, "empty"), ((1, 2, 3), 0, "3 numbers"), ("a", 1, "left"), (1, 1e7, "right_stress")]:
+            with self.assertRaisesRegex(slipfront.InputError, words):
+                slipfront.riemann(left, right)
+
+
 if __name__ == "__main__":
     unittest.main()

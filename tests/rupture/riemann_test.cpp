@@ -209,6 +209,20 @@ TEST(Riemann, SolvesAtTheLimitsOfItsRange) {
     }
 }
 
+TEST(Riemann, MovingTrainHasTheStressAndTheVelocity) {
+  for (const double stress : {0.1, 1.0, 1e5})
+    for (const double velocity : {-0.9, 0.0, 0.5}) {
+      const rupture::ProfilePoint point = rupture::profile_point(rupture::moving_train(stress, velocity, "left"));
+      EXPECT_LE(error_in_eps(point.Sigma, stress), 64);
+      EXPECT_NEAR(point.U, velocity, 1e-15);
+      EXPECT_NEAR(point.W / stress, velocity, 1e-13);
+    }
+  EXPECT_TRUE(rupture::moving_train(0, 0.5, "left").empty());
+  for (const auto& [stress, velocity] :
+       {std::pair{1.0, 1.0}, {-1.0, 0.0}, {1e-3, 0.0}, {1e7, 0.0}, {std::nan(""), 0.0}})
+    EXPECT_THROW(rupture::moving_train(stress, velocity, "left"), InputError) << stress;
+}
+
 TEST(SlipPulse, ProfileAgreesWithTheRelations) {
   for (const double stress : {0.01, 0.2, 1.03, 4.0}) {
     const rupture::Relations r = rupture::from_stress(stress);

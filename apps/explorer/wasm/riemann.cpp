@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "answer.hpp"
-#include "foundation/text/digits.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/train/train.hpp"
 
@@ -16,25 +15,6 @@ namespace {
 
 using rupture::RiemannSolution;
 using rupture::Wave;
-
-/// The train of this stress and velocity of the dislocations: k = cosh phi times the stress at rest of its psi (Eq. 5).
-State state_of(const char* side, double stress, double velocity) {
-  const std::string key = side;
-  if (!(std::fabs(velocity) <= 0.999999))
-    throw InputError({.key = key + "_velocity",
-                      .value = digits(velocity),
-                      .problem = "out of range",
-                      .allowed = "-0.999999 ... 0.999999, in c"});
-  const double phi = std::atanh(velocity), rest = stress / std::cosh(phi);
-  if (stress == 0) return {phi, 0};
-  if (!(rest >= train::smallest_stress) || !(stress <= 1e6))
-    throw InputError(
-        {.key = key + "_stress",
-         .value = digits(stress),
-         .problem = "out of range",
-         .allowed = "0, or " + digits(train::smallest_stress * std::cosh(phi), 4) + " ... 1e6, in mu A / pi"});
-  return {phi, train::psi_of_stress(rest)};
-}
 
 Object described(const State& state) {
   const train::Averages a = train::averages(state);
@@ -49,8 +29,7 @@ Object described(const State& state) {
 }
 
 Object described(const Wave& wave) {
-  const char* kind = wave.kind == Wave::Kind::fan ? "fan" : wave.kind == Wave::Kind::shock ? "shock" : "none";
-  return Object().put("kind", kind).put("outer", wave.outer).put("inner", wave.inner);
+  return Object().put("kind", rupture::name_of(wave.kind)).put("outer", wave.outer).put("inner", wave.inner);
 }
 
 /// The states that a wave passes through, from the outer to the inner side.
@@ -73,8 +52,8 @@ void put_path(Object& object, const std::string& name, const RiemannSolution& so
 SLIPFRONT_EXPORT const char* riemann(double left_stress, double left_velocity, double right_stress,
                                      double right_velocity, int points) {
   return answer([=] {
-    const State left = state_of("left", left_stress, left_velocity);
-    const State right = state_of("right", right_stress, right_velocity);
+    const State left = rupture::moving_train(left_stress, left_velocity, "left");
+    const State right = rupture::moving_train(right_stress, right_velocity, "right");
     if (left.empty() && right.empty())
       throw InputError({.key = "left_stress", .problem = "both sides are empty", .allowed = "a stress on one side"});
     const RiemannSolution s = rupture::solve_riemann(left, right);

@@ -4,9 +4,21 @@
 /// trains meet at x = 0. Every scheme is tested against it. The slip pulse of Eqs. 8-9 is the special case with an
 /// empty right side; Figs. 4-6 show its profiles over x/t.
 
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "slipfront/description.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::rupture {
+
+/// The uniform train with this stress (mu A / pi) and this velocity U of its dislocations (c). Eq. 5 gives
+/// Sigma = cosh(phi) Sigma_0(psi) and U = tanh(phi), where Sigma_0 is the stress of a train at rest. A stress of 0 is
+/// the empty interface. Errors have the key `side` with _stress or _velocity behind it.
+/// \throws InputError unless |U| is at most 0.999999, and the stress is 0 or at most 1e6 and Sigma_0 at least
+/// train::smallest_stress.
+State moving_train(double stress, double velocity, const std::string& side);
 
 /// A wave between two states. In a fan the solution depends on x/t between head and tail; a shock has head == tail.
 struct Wave {
@@ -15,6 +27,9 @@ struct Wave {
   double outer = 0;  ///< x/t of the edge next to the given state
   double inner = 0;  ///< x/t of the edge next to the star state
 };
+
+/// "none", "fan" or "shock".
+std::string_view name_of(Wave::Kind kind);
 
 /// The solution for all x/t.
 struct RiemannSolution {
@@ -31,7 +46,7 @@ struct RiemannSolution {
 RiemannSolution solve_riemann(const State& left, const State& right);
 
 /// x/t of the left and right edges of the moving region. An edge is that of the outermost wave, or the last dislocation
-/// if that side is empty.
+/// if that side is empty. If both trains are the same, they are the speeds at which a small disturbance would spread.
 struct Edges {
   double left, right;
 };
@@ -45,13 +60,21 @@ State sample(const RiemannSolution& solution, double x_over_t);
 /// \throws InputError like from_stress.
 RiemannSolution slip_pulse(double stress);
 
-/// Averages at one x/t.
+/// Averages over a train, or at one x/t.
 struct ProfilePoint {
   double U;      ///< velocity of the dislocations, 0 where there are none
   double Sigma;  ///< stress
   double W;      ///< slip velocity
   double P;      ///< momentum density
 };
-ProfilePoint profile_point(const RiemannSolution& pulse, double x_over_t);
+ProfilePoint profile_point(const State& state);
+ProfilePoint profile_point(const RiemannSolution& solution, double x_over_t);
+
+/// The members of ProfilePoint, with their descriptions, in the order of their declaration.
+struct ProfileQuantity {
+  Description about;
+  double ProfilePoint::*value;
+};
+std::span<const ProfileQuantity> profile_quantities();
 
 }  // namespace slipfront::rupture

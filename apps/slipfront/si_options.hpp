@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "slipfront/medium/constants.hpp"
+#include "slipfront/medium/si_units.hpp"
+
+namespace CLI {
+class App;
+}
+
+/// Options for results in SI units.
+struct SiOptions {
+  bool si = false;
+  std::optional<double> contact_ratio;
+  slipfront::medium::StatedDefaults rock;
+};
+
+void add_si_options(CLI::App& command, SiOptions& options);
+
+/// The units of results: those of the model, or SI units.
+class ResultUnits {
+ public:
+  /// \throws InputError if the options ask for SI units without a contact ratio.
+  explicit ResultUnits(const SiOptions& options);
+
+  bool si() const { return values_.has_value(); }
+  /// The factor and the name of a unit of the model, such as "mu A / pi". A pure number has factor 1 and an empty name.
+  slipfront::medium::UnitInSi of(std::string_view unit) const;
+
+ private:
+  std::optional<slipfront::medium::SymbolValues> values_;
+};

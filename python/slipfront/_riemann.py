@@ -1,0 +1,62 @@
+"""slipfront.riemann"""
+
+from . import _slipfront
+from ._dataset import of_columns
+from ._numbers import flat, np, one_number
+from ._slipfront import InputError
+
+
+def _train(name, value):
+    """Returns stress and velocity of a side, which is a stress or a pair."""
+    if isinstance(value, (tuple, list)):
+        if len(value) != 2:
+            raise InputError(f"{name} = {value!r}: {len(value)} numbers; allowed: a stress, or a stress and a velocity")
+        return tuple(one_number(f"{name}[{i}]", number) for i, number in enumerate(value))
+    return one_number(name, value), 0.0
+
+
+def riemann(left, right, x_over_t=None):
+    """The motion without friction that follows if two uniform trains of dislocations meet at x = 0: the exact Riemann problem of the
+    modulation equations (Eqs. 6-7), of which the slip pulse (Eqs. 8-9) is the case with an empty right side.
+
+    Parameters
+    ----------
+    left, right : number or (number, number)
+        Stress of the train in mu A / pi (0, or 0.0045 to 1e6), and the velocity U of its dislocations in c (default: 0).
+        A stress of 0 is the empty interface. One of the two stresses is above 0.
+    x_over_t : array of any shape, optional
+        Positions in the solution, in c. By default there are 201, from a quarter of the width on the left of what moves to as
+        much on the right.
+
+    Returns
+    -------
+    xarray.Dataset with U, Sigma, W and P at x_over_t, and the same four between the waves as star_U, star_Sigma, star_W and
+    star_P. Attributes: left_wave and right_wave ("fan", "shock" or "none"), left_wave_edges and right_wave_edges (x/t of the
+    edges of the wave, in c, the outer one first), left_edge and right_edge (x/t of the edges of all that moves).
+    The relative error is 1e-12 for |U| below 0.9999.
+
+    Raises
+    ------
+    InputError if a number is out of range, or both sides are empty.
+
+    Examples
+    --------
+    >>> meeting = slipfront.riemann((1.0, 0.3), (0.5, -0.2))
+    >>> meeting.left_wave, meeting.right_wave, round(float(meeting.star_Sigma), 4)
+    ('shock', 'shock', 1.22)
+    """
+    sides = _train("left", left), _train("right", right)
+    if not any(stress for stress, _ in sides):
+        raise InputError("left = 0: both sides are empty; allowed: a stress above 0 on one side")
+    edges, left_wave, right_wave, states, solution = _slipfront.riemann(*sides[0], *sides[1])
+    width = edges[1] - edges[0]
+    given = np.linspace(edges[0] - width / 4, edges[1] + width / 4, 201) if x_over_t is None else x_over_t
+    (x,), *rest = flat(x_over_t=given)
+    data = of_columns(_slipfront.profile_described, solution(x), *rest)
+    if rest[1] == ("state",):
+        about = {"long_name": "x / t", "units": "1", "dimensional_unit": "c"}
+        data = data.rename(state="x_over_t").assign_coords(x_over_t=("x_over_t", x, about))
+    star = {f"star_{about[0]}": ((), value, {**data[about[0]].attrs, "long_name": f"{about[1]} between the waves"})
+            for about, value in zip(_slipfront.profile_described, states[1])}
+    return data.assign(star).assign_attrs(left_wave=left_wave[0], left_wave_edges=left_wave[1:], right_wave=right_wave[0], right_wave_edges=right_wave[1:],
+                                          left_edge=edges[0], right_edge=edges[1])
