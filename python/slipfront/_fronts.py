@@ -173,7 +173,7 @@ def _number(name, value, most):
     return float(value)
 
 
-def fronts(run, *, threshold=None, slow=0.1, output=None):
+def fronts(run, *, threshold=None, slow=0.1, output=None, si=None):
     """Finds the fronts of a run: where each begins, its path and velocity, where it ends, and the stress ahead of it (docs/fronts.md).
 
     A front begins where slip arrives first. It ends at the end of the block, where it meets another front, or where slip does not reach the next
@@ -190,12 +190,14 @@ def fronts(run, *, threshold=None, slow=0.1, output=None):
         A front below this share of the speed of Rayleigh waves is slow.
     output : path, optional
         NetCDF file to write.
+    si : bool, optional
+        True for SI units, False for the units of the model. By default they are those of the run.
 
     Returns
     -------
-    xarray.Dataset in the units of the model, also for a run in SI units: `.slipfront.si()` converts it. It has the variables front_begin, front_end, front_velocity, ... over `front`, and arrival, velocity and stress_ratio over `front` and
-    `position`. Over `event`: event_load, event_length and event_crosses. Velocities are in c, which is faster than Rayleigh waves by the factor 1 over
-    the attribute rayleigh_speed. front_kind is slow, sub-Rayleigh, above Rayleigh, faster than c or too short (fewer than three positions).
+    xarray.Dataset with the variables front_begin, front_end, front_velocity, ... over `front`, and arrival, velocity and stress_ratio over `front` and
+    `position`. Over `event`: event_load, event_length and event_crosses. In the units of the model velocities are in c, which is faster than Rayleigh
+    waves by the factor 1 over the attribute rayleigh_speed. front_kind is slow, sub-Rayleigh, above Rayleigh, faster than c or too short (fewer than three positions).
     stress_ratio is tau / sigma_N. With a substrate tau is the stress Sigma, and without one the traction on the interface. It is NaN unless the
     scenario has friction.normal_stress and a complete [medium].
 
@@ -212,6 +214,8 @@ def fronts(run, *, threshold=None, slow=0.1, output=None):
     """
     limits = _number("slow", slow, 1), None if threshold is None else _number("threshold", threshold, 1)
     file = path("output", output)
+    given = read(run) if is_path(run) else run
+    in_si = given.attrs.get("unit_system") == "SI" if si is None else si
     run = read(run, si=False) if is_path(run) else in_model(run)
     x, events = _events(run, limits[1])
     constants = _constants(run)
@@ -227,6 +231,8 @@ def fronts(run, *, threshold=None, slow=0.1, output=None):
     known = {"normal_stress_pa": normal, "tau_unit_pa": unit, "c_m_s": constants[2]}
     data = dataset(variables, {"position": ("position", x, _described("position along the interface", "b / A"))},
                    {**attributes, **{name: value for name, value in known.items() if value is not None}})
+    if in_si:
+        data = data.slipfront.si()
     if file:
         write_dataset(data, file)
     return data

@@ -4,7 +4,7 @@ import csv
 import json
 import sys
 
-from ._arguments import Arguments, file_name, put
+from ._arguments import Arguments, add_units, chosen_units, file_name, put
 
 #: Titles of the table for the terminal, the variable of each, and its name for the unit.
 COLUMNS = (("event", "front_event"), ("begin", "front_begin"), ("end", "front_end"), ("onset", "front_onset"), ("V", "front_velocity"),
@@ -16,12 +16,12 @@ def arguments(argv):
     parser = Arguments("fronts", "Finds the fronts of a run, as slipfront.fronts does in Python. RUN.nc is a loaded chain with output.fronts, or a pulse or a chain without [loading] and "
                        "with many output times.",
                        ["slipfront pulse cases/step.toml --set output.every=0.2 -o step.nc", "slipfront fronts step.nc", "slipfront chain cases/precursors.toml -o block.nc",
-                        "slipfront fronts block.nc --si -o fronts.nc", "slipfront fronts block.nc --csv > fronts.csv", "slipfront plot fronts.nc"])
+                        "slipfront fronts block.nc -o fronts.nc", "slipfront fronts block.nc --csv > fronts.csv", "slipfront plot fronts.nc"])
     parser.add_argument("run", metavar="RUN.nc", help="file of a chain or a pulse")
     parser.add_argument("-o", "--output", metavar="OUT.nc", type=file_name, help="NetCDF file to write; slipfront plot draws it")
     parser.add_argument("--threshold", metavar="SHARE", type=float, help="slip velocity at the front over the largest of the run, for runs that recorded no arrivals (default: 0.001)")
     parser.add_argument("--slow", metavar="SHARE", type=float, default=0.1, help="a front below this share of the speed of Rayleigh waves is slow (default: 0.1)")
-    parser.add_argument("--si", action="store_true", help="positions in m, times in s and velocities in m/s, also in OUT.nc")
+    add_units(parser, "default if the run is in SI units")
     parser.add_argument("--csv", action="store_true", help="the fronts with a velocity as CSV in SI units, which slipfront laboratory reads")
     options = parser.parse_args(argv)
     if options.output is not None and not options.output.endswith(".nc"):
@@ -94,16 +94,11 @@ def main(argv) -> int:
     """Runs the command and returns the exit code. Raises ValueError for bad input, OSError for files."""
     options = arguments(argv)
     from . import fronts
-    from ._files import write_dataset
 
-    data = fronts(options.run, threshold=options.threshold, slow=options.slow)
+    data = fronts(options.run, threshold=options.threshold, slow=options.slow, output=options.output, si=False if options.csv else chosen_units(options))
     if options.csv:
         write_csv(data, sys.stdout)
         return 0
-    if options.si:
-        data = data.slipfront.si()
-    if options.output:
-        write_dataset(data, options.output)
     if options.json:
         print(json.dumps(as_json(data, options.output)))
         return 0

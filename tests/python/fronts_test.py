@@ -161,7 +161,8 @@ class Recorded(CommandLine):
         with tempfile.TemporaryDirectory() as folder:
             block, out, table = (os.path.join(folder, name) for name in ("block.nc", "fronts.nc", "fronts.csv"))
             self.ok("chain", CASE, "-o", block, "--quiet")
-            text = self.ok("fronts", block, "-o", out, "--si")
+            text = self.ok("fronts", block, "-o", out)
+            self.assertNotIn("m/s", self.ok("fronts", block, "--dimensionless").splitlines()[1])
             self.assertIn("cross the whole block", text)
             fronts = json.loads(self.ok("fronts", block, "--json"))["fronts"]
             self.assertEqual(len(fronts), self.found.sizes["front"])
@@ -178,10 +179,13 @@ class Recorded(CommandLine):
             self.refused(2, "fronts", block, "--threshold", "0.1", says=["threshold"])
 
     def test_a_run_in_si_units_has_the_same_fronts(self):
-        found = slipfront.fronts(slipfront.chain(CASE))
+        block = slipfront.chain(CASE)
+        found, metric = slipfront.fronts(block, si=False), slipfront.fronts(block)
         np.testing.assert_allclose(found.front_velocity, self.found.front_velocity, rtol=1e-9)
         np.testing.assert_allclose(found.arrival, self.found.arrival, rtol=1e-12)
         self.assertEqual(found.front_onset.dimensional_unit, "b / (c A)")
+        self.assertEqual((metric.front_onset.units, metric.arrival.units), ("s", "s"))
+        np.testing.assert_array_equal(metric.arrival, found.slipfront.si().arrival)
 
     def test_refuses_runs_without_arrivals(self):
         loaded = slipfront.chain(CASE, set={"time.end": "0.1 s", "output.fronts": 10})
