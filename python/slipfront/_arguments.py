@@ -48,6 +48,13 @@ def file_name(text):
     return text
 
 
+def netcdf_name(text):
+    """The name of a NetCDF file."""
+    if not file_name(text).endswith(".nc"):
+        raise argparse.ArgumentTypeError(f"{text}: unsupported file type; allowed: a name that ends in .nc")
+    return text
+
+
 def put(text):
     """Prints what may hold names of files, as it may be shown."""
     print("\n".join(printable(os.fsencode(line)) for line in text.split("\n")))

@@ -4,7 +4,7 @@ import csv
 import json
 import sys
 
-from ._arguments import Arguments, add_units, chosen_units, file_name, put
+from ._arguments import Arguments, add_units, chosen_units, netcdf_name, put
 
 #: Titles of the table for the terminal, the variable of each, and its name for the unit.
 COLUMNS = (("event", "front_event"), ("begin", "front_begin"), ("end", "front_end"), ("onset", "front_onset"), ("V", "front_velocity"),
@@ -18,14 +18,12 @@ def arguments(argv):
                        ["slipfront pulse cases/step.toml --set output.every=0.2 -o step.nc", "slipfront fronts step.nc", "slipfront chain cases/precursors.toml -o block.nc",
                         "slipfront fronts block.nc -o fronts.nc", "slipfront fronts block.nc --csv > fronts.csv", "slipfront plot fronts.nc"])
     parser.add_argument("run", metavar="RUN.nc", help="file of a chain or a pulse")
-    parser.add_argument("-o", "--output", metavar="OUT.nc", type=file_name, help="NetCDF file to write; slipfront plot draws it")
+    parser.add_argument("-o", "--output", metavar="OUT.nc", type=netcdf_name, help="NetCDF file to write; slipfront plot draws it")
     parser.add_argument("--threshold", metavar="SHARE", type=float, help="slip velocity at the front over the largest of the run, for runs that recorded no arrivals (default: 0.001)")
     parser.add_argument("--slow", metavar="SHARE", type=float, default=0.1, help="a front below this share of the speed of Rayleigh waves is slow (default: 0.1)")
     add_units(parser, "default if the run is in SI units")
     parser.add_argument("--csv", action="store_true", help="the fronts with a velocity as CSV in SI units, which slipfront laboratory reads")
     options = parser.parse_args(argv)
-    if options.output is not None and not options.output.endswith(".nc"):
-        raise ValueError(f"-o {options.output}: unsupported file type; allowed: a name that ends in .nc")
     if options.csv and (options.json or options.output):
         raise ValueError("--csv: not allowed with --json or -o")
     return options

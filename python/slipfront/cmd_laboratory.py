@@ -4,7 +4,7 @@ import argparse
 import json
 import sys
 
-from ._arguments import Arguments, file_name, put
+from ._arguments import Arguments, netcdf_name, put
 from ._messages import DONE, INPUT, complain
 
 #: Titles of the table for the terminal, the variable in units of the model, and in SI units.
@@ -35,7 +35,7 @@ def arguments(argv):
                        ["slipfront laboratory cases/synthetic-laboratory-fronts.csv --poisson-ratio 0.35 --s-wave-speed \"1300 m/s\" -o fronts.nc",
                         "slipfront laboratory cases/synthetic-laboratory-fronts.csv --poisson-ratio 0.35 --shear-modulus \"2 GPa\" --density \"1180 kg/m3\" --json"])
     parser.add_argument("table", metavar="TABLE", help="table of fronts, CSV")
-    parser.add_argument("-o", "--output", metavar="OUT.nc", type=file_name, help="NetCDF file to write; slipfront plot draws it")
+    parser.add_argument("-o", "--output", metavar="OUT.nc", type=netcdf_name, help="NetCDF file to write; slipfront plot draws it")
     for name, example in (("--poisson-ratio", "0.35"), ("--shear-modulus", "2 GPa"), ("--density", "1180 kg/m3"), ("--p-wave-speed", "2700 m/s"), ("--s-wave-speed", "1300 m/s")):
         parser.add_argument(name, metavar="VALUE", help=f"constant of the material, such as \"{example}\"")
     parser.add_argument("--prior", metavar="LOW:HIGH", default="0.001:10", help="range of the hardness over modulus, uniform in its logarithm (default: 0.001:10)")
@@ -45,8 +45,6 @@ def arguments(argv):
     parser.add_argument("--strict", action="store_true", help="refuse the table if a row cannot be read")
     parser.add_argument("--si", action="store_true", help="velocities in m/s and the hardness in Pa")
     options = parser.parse_args(argv)
-    if options.output is not None and not options.output.endswith(".nc"):
-        raise ValueError(f"-o {options.output}: unsupported file type; allowed: a name that ends in .nc")
     for option in ("prior", "scatter_prior"):
         try:
             setattr(options, option, interval(getattr(options, option)))

@@ -3,7 +3,7 @@
 import json
 import warnings
 
-from ._arguments import Arguments, file_name, progress, put
+from ._arguments import Arguments, netcdf_name, progress, put
 from ._population.priors import NAMES, PARAMETERS
 
 #: Largest R-hat of a sample that has converged.
@@ -18,7 +18,7 @@ def arguments(argv):
                        ["slipfront population CATALOGUE.csv -o pop.nc", "slipfront population --kind earthquake",
                         "slipfront population CATALOGUE.csv --smallest-moment 1e18 --prior friction_median=1e-3,20 --json"])
     parser.add_argument("catalogue", metavar="CATALOGUE", nargs="*", help="files of events as for slipfront event (default: the catalogue that comes with slipfront)")
-    parser.add_argument("-o", "--output", metavar="OUT.nc", type=file_name, help="NetCDF file to write, with all draws")
+    parser.add_argument("-o", "--output", metavar="OUT.nc", type=netcdf_name, help="NetCDF file to write, with all draws")
     parser.add_argument("--kind", metavar="KIND", help="use only events of this kind, such as earthquake")
     parser.add_argument("--prior", metavar="NAME=MEDIAN,FACTOR", action="append", default=[], help="lognormal prior of a parameter, one standard deviation a factor; repeatable")
     parser.add_argument("--hardness", metavar="STRESS", default="10 GPa", help="penetration hardness: normal stress is contact ratio times hardness (default: 10 GPa)")
@@ -31,8 +31,6 @@ def arguments(argv):
     parser.add_argument("--steps", metavar="N", type=int, default=400, help="steps of each of the 40 walkers (default: 400)")
     parser.add_argument("--seed", metavar="N", type=int, default=1, help="seed of the draws (default: 1)")
     options = parser.parse_args(argv)
-    if options.output is not None and not options.output.endswith(".nc"):
-        raise ValueError(f"-o {options.output}: unsupported file type; allowed: a name that ends in .nc")
     return options
 
 

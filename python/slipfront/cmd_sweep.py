@@ -9,7 +9,7 @@ import sys
 import warnings
 
 from . import _slipfront
-from ._arguments import Arguments, add_units, chosen_units, file_name, put
+from ._arguments import Arguments, add_units, chosen_units, netcdf_name, put
 from ._grid import values_of
 from ._messages import DONE, NUMERICS, Interruption, complain
 from ._slipfront import InputError
@@ -33,10 +33,10 @@ def arguments(argv):
     parser.add_argument("scenario", metavar="SCENARIO", help="scenario file, TOML")
     parser.add_argument("--vary", metavar="KEY=VALUES", action="append", required=True,
                         help="key of the scenario and its values; repeatable: the sweep runs all combinations")
-    parser.add_argument("-o", "--output", metavar="OUT.nc", type=file_name,
+    parser.add_argument("-o", "--output", metavar="OUT.nc", type=netcdf_name,
                         help="NetCDF file to write at the end; until then OUT.nc.part has the finished points")
-    parser.add_argument("--resume", metavar="OUT.nc", type=file_name, help="resume the interrupted sweep of this file, and write to it")
-    parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help="table.key=value, which replaces that of the scenario; repeatable")
+    parser.add_argument("--resume", metavar="OUT.nc", type=netcdf_name, help="resume the interrupted sweep of this file, and write to it")
+    parser.add_argument("--set", metavar="KEY=VALUE", action="extend", nargs="+", default=[], help="table.key=value, which replaces that of the scenario; repeatable")
     parser.add_argument("--command", choices=("pulse", "chain"), default="pulse", help="what to run: pulse (default) or chain")
     parser.add_argument("--variables", metavar="NAMES", type=lambda text: text.split(","),
                         help="numbers of each run to keep, with commas between them (default: all that pulse --json prints)")
@@ -46,9 +46,6 @@ def arguments(argv):
     options = parser.parse_args(argv)
     if options.json and options.csv:
         raise ValueError("--json and --csv: both are given; allowed: one of them")
-    for option, path in (("-o", options.output), ("--resume", options.resume)):
-        if path is not None and not path.endswith(".nc"):
-            raise ValueError(f"{option} {path}: unsupported file type; allowed: a name that ends in .nc")
     return options
 
 

@@ -245,7 +245,7 @@ class Command(CommandLine):
         told = json.loads(self.refused(2, "laboratory", bad, *OPTIONS, "--json", says=["bad.csv:3: tau [MPa] = 'x'"]).stdout)
         self.assertEqual((len(told["fronts"]), len(told["errors"]), told["ignored_columns"]), (1, 1, ["other"]))
         for code, arguments, says in [(2, (bad, *OPTIONS, "--strict"), "bad.csv:3"), (2, (FRONTS,), "poisson_ratio"), (2, (FRONTS, *OPTIONS, "--prior", "1"), "--prior '1'"), (2, (FRONTS, *OPTIONS, "--draws", "x"), "whole number; allowed"),
-                                      (2, (FRONTS, *OPTIONS, "-o", "a.csv"), "-o a.csv"), (3, ("/nowhere.csv", *OPTIONS), "/nowhere.csv"),
+                                      (2, (FRONTS, *OPTIONS, "-o", "a.csv"), "a.csv: unsupported file type"), (3, ("/nowhere.csv", *OPTIONS), "/nowhere.csv"),
                                       (3, (FRONTS, *OPTIONS, "-o", "/nowhere/a.nc"), "/nowhere/a.nc")]:
             with self.subTest(says), contextlib.redirect_stderr(io.StringIO()) as complaint, contextlib.redirect_stdout(io.StringIO()):
                 self.assertEqual(run_in_this_process("laboratory", arguments), code)

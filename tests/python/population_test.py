@@ -189,7 +189,7 @@ class Catalogues(CommandLine):
                                    (["--prior", "friction=1,2"], "prior: 'friction': unknown; allowed: stress_median"), (["--prior", "friction_median=1"], "not a median and a factor"),
                                    (["--kind", "flood"], "events: 0 can be used of the kind flood; allowed: 3 or more"), (["--steps", "2"], "steps = '2': out of range"),
                                    (["--hardness", "10 km"], "hardness"), (["--size-error", "0.5"], "size_error = '0.5': out of range; allowed: a number above 1"),
-                                   (["-o", "a.txt"], "-o a.txt: unsupported file type")):
+                                   (["-o", "a.txt"], "a.txt: unsupported file type")):
             with self.subTest(arguments):
                 self.refused(2, "population", self.file("good.csv", good), *arguments, says=[message])
         self.refused(2, "population", self.file("bad.csv", good.replace("3,,1,,,,10", "3,,1,,,1 kg,10")), says=["bad.csv:2: width_km"])
