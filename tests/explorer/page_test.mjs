@@ -154,18 +154,49 @@ test('all by keyboard: every control can be reached, plots are read by arrows', 
   assert.equal(await page.locator('.readout').first().getAttribute('aria-live'), 'polite');
 });
 
-test('every plot has its table and its exports', async () => {
-  const page = await open('#/pulse', calm);
+/** Numbers of pixels in the left and the right half of a picture whose colour passes a test of r, g and b. */
+const halves = (page, address, passes) => page.evaluate(async ([from, text]) => {
+  const image = new Image();
+  image.src = from;
+  await image.decode();
+  const { width, height } = image;
+  const ctx = new OffscreenCanvas(width, height).getContext('2d');
+  ctx.drawImage(image, 0, 0);
+  const { data } = ctx.getImageData(0, 0, width, height);
+  const passes = new Function('r', 'g', 'b', `return ${text}`);
+  const count = [0, 0];
+  for (let i = 0; i < data.length; i += 4) if (passes(data[i], data[i + 1], data[i + 2])) count[Number((i / 4) % width > width / 2)] += 1;
+  return count;
+}, [address, passes]);
+
+test('every plot has its table and its exports, which show negative slip velocity too', async () => {
+  const page = await open('#/pulse?initial.profile=formula&initial.formula=0.9*exp(-x^2)&t=0.5', { ...calm, bypassCSP: true });
   await ready(page);
   const plots = await page.locator('figure.plot').count();
   const summaries = page.locator('figure.plot .data summary');
   assert.equal(await summaries.count(), plots);
   for (let i = 0; i < plots; ++i) await summaries.nth(i).click();
   await page.waitForFunction((n) => document.querySelectorAll('figure.plot table').length === n, plots);
+  const saved = {};
   for (const kind of ['PNG', 'SVG', 'CSV']) {
     const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: kind }).first().click()]);
     assert.match(download.suggestedFilename(), new RegExp(`slip-velocity\\.${kind.toLowerCase()}`));
+    saved[kind] = readFileSync(await download.path());
   }
+  // The pulse is antisymmetric, so both halves of the curve are in the plot.
+  const slips = saved.CSV.toString().trim().split('\n').slice(1).map((row) => Number(row.split(',')[1]));
+  const [least, most] = [Math.min(...slips), Math.max(...slips)];
+  assert.ok(least < -0.9 * most && most > 0.001, `${least} ... ${most}`);
+  const svg = saved.SVG.toString();
+  const [bottom, curve] = [Number(/V([\d.]+)H/.exec(svg)[1]), [.../clip-path="url\(#box\)" d="M([^"V]+)" /.exec(svg)[1].matchAll(/ (-?[\d.]+)/g)].map((m) => Number(m[1]))];
+  assert.ok(Math.max(...curve) < bottom && Math.min(...curve) > 40, `${Math.min(...curve)} ... ${Math.max(...curve)}, box to ${bottom}`);
+  assert.match(svg, />−0\.0\d+</);
+  const [left, right] = await halves(page, `data:image/png;base64,${saved.PNG.toString('base64')}`, 'Math.abs(r - 200) < 9 && Math.abs(g - 80) < 9 && Math.abs(b - 30) < 9');
+  assert.ok(left > 100 && right > 100, `${left} and ${right} pixels of the curve`);
+  // The map has a colour for each sign: blue on the left, red on the right, and both in the colour bar.
+  const map = await page.locator('figure.map canvas').evaluate((canvas) => canvas.toDataURL());
+  const [blue, red] = [await halves(page, map, 'b > r + 90'), await halves(page, map, 'r > b + 90')];
+  assert.ok(blue[0] > 500 && red[1] > 500 && blue[1] > 100, `${blue} blue, ${red} red`);
 });
 
 test('the tour goes through all its steps', async () => {
@@ -231,6 +262,7 @@ test('the first load is small, and nothing is fetched from elsewhere', async () 
     const total = [...sizes.values()].reduce((a, b) => a + b, 0);
     console.log(`# ${hash}: ${(total / 1000).toFixed(1)} kB gzipped (${(total / 1024).toFixed(1)} KiB) in ${sizes.size} files, first picture after ${seconds.toFixed(2)} s`);
     assert.ok(total <= 420_000, `${total} bytes`);
+    assert.ok([...sizes.keys()].every((one) => !/event/.test(one)), 'the module for typed events waits until somebody types one');
     assert.deepEqual(page.complaints, []);
     await page.context().close();
   }

@@ -6,6 +6,7 @@ import { stops } from './tour';
 import { tomlOf } from '../state/scenario';
 import { makePlayer, reducedMotion, Transport } from '../ui/player';
 import { Plot } from '../ui/plot';
+import { rangeAround } from '../ui/spec';
 import { fieldAt, seriesAt } from '../model/pulse_run';
 import { usePulse } from './use_pulse';
 
@@ -23,10 +24,9 @@ function Hero() {
   const spec = useMemo(() => {
     if (!run) return null;
     const time = at * end;
-    const most = 0.055;
     const slip = fieldAt(run, 'W', time);
     return {
-      name: 'pulse', title: 'A slip pulse', x: run.x, xLabel: 'along the interface', yLabel: 'slip velocity', yRange: [0, most] as [number, number],
+      name: 'pulse', title: 'A slip pulse', x: run.x, xLabel: 'along the interface', yLabel: 'slip velocity', yRange: rangeAround([0.051], slip),
       series: [{ label: 'slip velocity', y: slip, color: 'slip', fill: true }],
       verticals: [
         { x: seriesAt(run, 'trailing_front', time), label: 'fast front', color: 'fast' },

@@ -13,17 +13,17 @@ import { SpaceTime } from '../ui/map';
 import { makePlayer, reducedMotion, Transport, type Player } from '../ui/player';
 import { Plot } from '../ui/plot';
 import { ScenarioForm } from '../ui/scenario_form';
-import type { Series, Spec } from '../ui/spec';
+import { rangeAround, reach, type Series, type Spec } from '../ui/spec';
 import { stopAll } from '../engine/client';
 import { usePulse, type Shown } from './use_pulse';
 
 const player: Player = makePlayer(1);
 
-function largest(values: ArrayLike<number>): number {
-  let most = 0;
-  for (let i = 0; i < values.length; ++i) if (Math.abs(values[i]) > most) most = Math.abs(values[i]);
-  return most;
-}
+type Range = [number, number];
+const largest = (values: ArrayLike<number>) => {
+  const [least, most] = reach(values);
+  return Math.max(-least, most);
+};
 
 const times = (values: ArrayLike<number>, factor: number) => (factor === 1 ? values : Float64Array.from(values as ArrayLike<number>, (v) => v * factor));
 
@@ -34,19 +34,20 @@ interface Curve {
   dash?: number[];
 }
 
-function profile(name: string, title: string, field: PulseField, quantity: Quantity, symbol: string, color: string, curves: Curve[], time: number, extent: number): Spec {
+function profile(name: string, title: string, field: PulseField, quantity: Quantity, symbol: string, color: string, curves: Curve[], time: number, usual: Range): Spec {
   const first = curves[0].run;
   const xScale = scaleOf('x', largest(first.x));
-  const yScale = scaleOf(quantity, extent);
-  const series: Series[] = [];
-  if (field === 'Sigma') series.push({ label: 'before', y: times(fieldAt(first, field, 0), yScale.factor), color: 'before', width: 1.5 });
-  for (const curve of curves)
-    series.push({ label: curve.label, y: times(fieldAt(curve.run, field, time), yScale.factor), color: curve.color(color), dash: curve.dash, fill: field === 'W' && !curve.dash });
+  const now = curves.map((curve) => fieldAt(curve.run, field, time));
+  const before = field === 'Sigma' ? [fieldAt(first, field, 0)] : [];
+  const extent = reach(usual, ...now, ...before);
+  const yScale = scaleOf(quantity, largest(extent));
+  const series: Series[] = before.map((y) => ({ label: 'before', y: times(y, yScale.factor), color: 'before', width: 1.5 }));
+  curves.forEach((curve, i) => series.push({ label: curve.label, y: times(now[i], yScale.factor), color: curve.color(color), dash: curve.dash, fill: field === 'W' && !curve.dash }));
   const fronts: [PulseSeries, string, string][] = [['trailing_front', 'V−', 'fast'], ['leading_front', 'V+', 'slow']];
   const verticals = fronts.map(([key, label, tint]) => ({ x: seriesAt(first, key, time) * xScale.factor, label, color: tint })).filter((v) => Number.isFinite(v.x));
   return {
     name, title, x: times(first.x, xScale.factor), xLabel: `x, in ${xScale.unit}`, yLabel: `${symbol}, in ${yScale.unit}`, series, verticals,
-    yRange: [0, (extent || 1e-12) * 1.08 * yScale.factor],
+    yRange: rangeAround(times(extent, yScale.factor)),
   };
 }
 
@@ -55,12 +56,13 @@ function runToShow(shown: Shown): PulseRun | null {
   return shown.look ?? shown.run;
 }
 
-function extentOf(run: PulseRun, field: PulseField): number {
+/** The range of a field in most of the run. The axis also contains the profile that is shown. */
+function extentOf(run: PulseRun, field: PulseField): Range {
   const steady = run.fields[field];
   // The slip velocity of a step is largest at the start. On its scale, all later profiles would look flat.
-  if (field !== 'W') return largest(steady);
+  if (field !== 'W') return reach(steady);
   const n = run.x.length;
-  return largest(steady.subarray(Math.min(steady.length - n, n * Math.max(1, Math.round(run.count * 0.1)))));
+  return reach(steady.subarray(Math.min(steady.length - n, n * Math.max(1, Math.round(run.count * 0.1)))));
 }
 
 function Facts({ run, time }: { run: PulseRun; time: number }) {
@@ -101,7 +103,7 @@ function mapOf(run: PulseRun, now: number) {
   const w = scaleOf('slipVelocity', largest(run.fields.W));
   return {
     title: 'Slip velocity over x and t', name: 'space-time', x: run.x, t: run.series.time, values: run.fields.W, xFactor: x.factor, tFactor: t.factor, factor: w.factor,
-    xLabel: `x, in ${x.unit}`, tLabel: `t, in ${t.unit}`, label: `slip velocity, in ${w.unit}`, now,
+    xLabel: `x, in ${x.unit}`, tLabel: `t, in ${t.unit}`, label: `W, in ${w.unit}`, now,
     lines: [
       { x: run.series.trailing_front, color: 'fast', label: 'V−' },
       { x: run.series.leading_front, color: 'slow', label: 'V+' },
@@ -174,9 +176,10 @@ export function PulsePanel() {
     const at = Math.min(time, shownEnd);
     const curves: Curve[] = [{ run, label: compare ? names[run.closure] : 'now', color: (base) => base }];
     if (second?.fields.W.length) curves.push({ run: second, label: names[second.closure], color: (base) => `${base}-other`, dash: [6, 4] });
-    const extent = (field: 'W' | 'Sigma' | 'U') => (main.look ? Math.max(largest(fieldAt(run, field, at)), field === 'Sigma' ? largest(fieldAt(run, field, 0)) : 0) : extents?.[field] ?? largest(run.fields[field]));
+    // While a control moves, the slip velocity keeps its scale, so that one sees it grow.
+    const extent = (field: 'W' | 'Sigma' | 'U'): Range => (main.look && field !== 'W' ? [0, 0] : extents?.[field] ?? [0, 0]);
     return [
-      profile('slip-velocity', 'Slip velocity', 'W', 'slipVelocity', 'W', 'slip', curves, at, Math.max(extent('W'), main.look && extents ? extents.W : 0)),
+      profile('slip-velocity', 'Slip velocity', 'W', 'slipVelocity', 'W', 'slip', curves, at, extent('W')),
       profile('stress', 'Stress', 'Sigma', 'stress', 'Σ', 'stress', curves, at, extent('Sigma')),
       profile('dislocation-velocity', 'Velocity of the dislocations', 'U', 'velocity', 'U', 'speed', curves, at, extent('U')),
     ];

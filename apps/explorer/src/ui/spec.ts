@@ -82,6 +82,25 @@ export function rangeOf(spec: Spec, axis: 'x' | 'y'): [number, number] {
   return [least >= 0 && least < 0.3 * most ? 0 : least - room, most + room];
 }
 
+/** The smallest range that contains zero and all these numbers. */
+export function reach(...all: ArrayLike<number>[]): [number, number] {
+  let [least, most] = [0, 0];
+  for (const values of all)
+    for (let i = 0; i < values.length; ++i) {
+      if (values[i] < least) least = values[i];
+      if (values[i] > most) most = values[i];
+    }
+  // Rounding errors around zero are not negative values.
+  return [least < -1e-9 * most ? least : 0, most > -1e-9 * least ? most : 0];
+}
+
+/** The range of an axis that shows all these numbers and zero. */
+export function rangeAround(...all: ArrayLike<number>[]): [number, number] {
+  const [least, most] = reach(...all);
+  const room = 0.08 * (most - least || 1e-12);
+  return [least < 0 ? least - room : 0, most > 0 || least === 0 ? most + room : 0];
+}
+
 /** Evenly spaced ticks at 1, 2 or 5 times a power of ten. A logarithmic axis over more than two decades has whole decades. */
 export function ticks([least, most]: [number, number], about: number, log?: boolean): number[] {
   const rough = (most - least) / Math.max(1, about);
