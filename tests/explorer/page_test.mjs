@@ -216,15 +216,32 @@ test('the tour goes through all its steps', async () => {
   assert.equal(titles.size, 10);
 });
 
-test('Parkfield, typed, has the numbers of the program', async () => {
+test('a typed event has the numbers of the program, with the constants of the units', async () => {
   const page = await open('#/stress?my.rupture_velocity=3.0+km/s&my.slip_velocity=0.5+m/s', calm);
-  await page.locator('.event').waitFor();
-  await page.waitForFunction(() => / MPa/.test(document.querySelector('.event')?.textContent));
-  const toml = join(mkdtempSync(join(tmpdir(), 'slipfront-')), 'event.toml');
-  writeFileSync(toml, '[event]\nrupture_velocity = "3.0 km/s"\nslip_velocity = "0.5 m/s"\n');
-  const [theirs] = JSON.parse(execFileSync(process.env.SLIPFRONT, ['event', toml, '--json', '--quiet'])).events;
-  const shown = Number(/([\d.]+) MPa/.exec(await page.locator('.event').textContent())[1]);
-  assert.ok(Math.abs((shown * 1e6) / theirs.stress_pa - 1) < 0.05, `${shown} MPa, ${theirs.stress_pa} Pa`);  // both are sampled
+  const folder = mkdtempSync(join(tmpdir(), 'slipfront-'));
+  const card = page.locator('.event');
+  const agrees = async (toml) => {
+    writeFileSync(join(folder, 'event.toml'), toml);
+    const [theirs] = JSON.parse(execFileSync(process.env.SLIPFRONT, ['event', join(folder, 'event.toml'), '--json', '--quiet'])).events;
+    await eventually(async () => {
+      const shown = Number(/([\d.]+) MPa/.exec(await card.textContent())[1]);
+      assert.ok(Math.abs((shown * 1e6) / theirs.stress_pa - 1) < 0.05, `${shown} MPa, ${theirs.stress_pa} Pa`); // both are sampled
+    });
+  };
+  const event = '[event]\nrupture_velocity = "3.0 km/s"\n';
+  await agrees(`${event}slip_velocity = "0.5 m/s"\n`);
+  await page.getByRole('button', { name: 'Units' }).click();
+  await page.getByLabel('Units').getByLabel('Shear modulus μ').fill('40 GPa');
+  const rock = '[medium]\nshear_modulus = "40 GPa"\n';
+  await agrees(`${event}slip_velocity = "0.5 m/s"\n${rock}`);
+  assert.doesNotMatch(await card.textContent(), /shear_modulus 3e\+10/);
+  const form = page.getByLabel('Question');
+  assert.equal(await form.getByLabel('Shear modulus μ').inputValue(), '40 GPa');
+  for (const [label, text] of [['Slip velocity', ''], ['Slip', '0.3 m'], ['Rise time', '0.6 s'], ['Stress drop', '20 MPa']]) await form.getByLabel(label, { exact: true }).fill(text);
+  await agrees(`${event}slip = "0.3 m"\nrise_time = "0.6 s"\nstress_drop = "20 MPa"\n${rock}`);
+  // The answer is a median, which may differ from what was typed: both are shown.
+  await form.getByLabel('Rupture velocity', { exact: true }).fill('2.0 +- 0.3 km/s');
+  await eventually(async () => assert.match(await card.textContent(), /2\.0 \+- 0\.3 km\/s.*0\.\d+ c = [12]\.\d+ km\/s.*medians of the posterior/));
 });
 
 test('a long run says so and can be stopped', async () => {
