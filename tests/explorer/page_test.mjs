@@ -54,6 +54,33 @@ test('a link shows the same', async () => {
   });
 });
 
+test('the menu keeps the scenario and the units', async () => {
+  const page = await open('#/pulse?initial.profile=tanh&initial.stress_left=0.7&initial.width=0.4&friction.law=coulomb&friction.coefficient=0.02&si=1&medium.shear_modulus=40+GPa&t=0.5', calm);
+  await ready(page);
+  const to = async (name) => {
+    await page.getByRole('navigation', { name: 'Panels' }).getByRole('link', { name, exact: true }).click();
+    await page.waitForFunction((text) => document.querySelector('nav a[aria-current]')?.textContent === text, name);
+    await ready(page);
+  };
+  const kept = async (parts) => { for (const part of parts) assert.ok(decodeURIComponent(page.url()).includes(part), `${part} in ${page.url()}`); };
+  const units = ['si=1', 'medium.shear_modulus=40+GPa'];
+  const scenario = ['initial.stress_left=0.7', 'initial.width=0.4', 'friction.law=coulomb', 'friction.coefficient=0.02'];
+  await to('Dislocations');
+  await kept([...units, ...scenario]);
+  assert.equal(await page.getByLabel('Left, Σ−', { exact: true }).inputValue(), '0.7');
+  assert.match(await factOf(page, 'First of them is at'), / (m|km|cm)$/);
+  await to('The paper');
+  await kept(units);
+  assert.ok(!page.url().includes('initial.'), page.url());
+  await page.getByText('3', { exact: true }).click();
+  await eventually(() => kept([...units, 'fig=3']));
+  await to('Pulse');
+  await kept([...units, ...scenario, 't=0.5']);
+  await to('The paper');
+  await kept([...units, 'fig=3']);
+  assert.deepEqual(page.complaints, []);
+});
+
 test('a scenario goes out as TOML and comes back', async () => {
   const page = await open('#/pulse?initial.profile=tanh&initial.stress_left=0.9&initial.stress_right=0.2&initial.width=0.7&friction.law=power&friction.coefficient=0.2&friction.exponent=2&time.end=3', calm);
   await ready(page);

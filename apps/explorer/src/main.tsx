@@ -4,7 +4,7 @@ import './style.css';
 import { render, type ComponentType } from 'preact';
 import { useEffect, useState } from 'preact/hooks';
 import { signal } from '@preact/signals';
-import { addressOf, entryOf, route, setParams } from './state/route';
+import { addressOf, entryOf, linkTo, route, setParams, unitParams } from './state/route';
 import { refreshUnits, stated, wantsUnits } from './state/units';
 import { said } from './ui/announce';
 import { setTheme, theme } from './ui/colors';
@@ -60,10 +60,10 @@ function Top() {
   const dark = theme.value >= 0 && getComputedStyle(document.documentElement).colorScheme === 'dark';
   return (
     <header class="top">
-      <a class="brand" href="#/">slipfront</a>
+      <a class="brand" href={addressOf({ panel: '', params: unitParams() })}>slipfront</a>
       <nav aria-label="Panels">
         {Object.entries(pages).map(([key, page]) => (
-          <a href={addressOf({ panel: key, params: {} })} aria-current={key === here ? 'page' : undefined}>{page.name}</a>
+          <a href={linkTo(key)} aria-current={key === here ? 'page' : undefined}>{page.name}</a>
         ))}
       </nav>
       <div class="tools">

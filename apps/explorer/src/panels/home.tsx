@@ -1,8 +1,8 @@
 /** The first page: what this is, moving. */
 
 import { useEffect, useMemo } from 'preact/hooks';
-import { addressOf } from '../state/route';
-import { stops } from './tour';
+import { linkTo } from '../state/route';
+import { addressOfStop } from './tour_bar';
 import { tomlOf } from '../state/scenario';
 import { makePlayer, reducedMotion, Transport } from '../ui/player';
 import { Plot } from '../ui/plot';
@@ -54,13 +54,13 @@ export function HomePanel() {
           <h1>How does an interface start to slip?</h1>
           <p class="lead">Two rough surfaces, pressed together, hold shear stress. Then a pulse of slip runs along them and lets it go.</p>
           <p>Earthquakes do it at kilometres a second, slow slip at kilometres a day. One theory covers both: slip is carried by dislocations, and the stress that was stored sets their speed. Everything on this page is computed here, in your browser, by the same code as the program.</p>
-          <p class="doors-first"><a class="primary" href={addressOf({ panel: stops[0].panel, params: { tour: '1', ...stops[0].params } })}>Take the tour</a> <span class="hint">ten steps, three minutes</span></p>
+          <p class="doors-first"><a class="primary" href={addressOfStop(0)}>Take the tour</a> <span class="hint">ten steps, three minutes</span></p>
         </div>
         <Hero />
       </div>
       <ul class="doors">
         {doors.map((door) => (
-          <li class="card"><a href={addressOf({ panel: door.panel, params: {} })}>{door.name}</a><p>{door.text}</p></li>
+          <li class="card"><a href={linkTo(door.panel)}>{door.name}</a><p>{door.text}</p></li>
         ))}
       </ul>
     </div>

@@ -4,7 +4,7 @@ import { useEffect, useState } from 'preact/hooks';
 import { call } from '../engine/client';
 import type { Complaint, RelationsKey } from '../engine/protocol';
 import { last, lastOf, type PulseRun } from '../model/pulse_run';
-import { entryOf, route, setParams } from '../state/route';
+import { entryOf, go, route, setParams, unitParams } from '../state/route';
 import { commandOf, tomlOf } from '../state/scenario';
 import { Check, NumberField, Segments, sentence } from '../ui/fields';
 import { short } from '../ui/format';
@@ -167,7 +167,7 @@ export function PaperPanel() {
   return (
     <div class="panel">
       <aside class="controls" aria-label="Figure">
-        <Segments label="Figure" value={figure} choices={Object.keys(figures).map((key) => ({ value: key, label: key }))} onInput={(fig) => { location.hash = `#/paper?fig=${fig}`; }} />
+        <Segments label="Figure" value={figure} choices={Object.keys(figures).map((key) => ({ value: key, label: key }))} onInput={(fig) => go('paper', { ...unitParams(), fig })} />
         <h2>{title}</h2>
         <p class="hint">{text}</p>
         {sliders.map((s, i) => (
