@@ -54,6 +54,28 @@ test('a link shows the same', async () => {
   });
 });
 
+test('every friction law opens with a visible effect, and only viscous friction has a damping number', async () => {
+  const page = await open('#/pulse', calm);
+  await ready(page);
+  assert.ok(Number(await page.getByLabel('Time', { exact: true }).inputValue()) < 700, 'the panel opens in the middle of the run');
+  const field = page.getByLabel('Friction law');
+  const names = await field.locator('option').allInnerTexts();
+  assert.equal(names.length, 9);
+  const velocities = new Map();
+  for (const name of names) {
+    const velocity = () => factOf(page, 'Slip velocity at x = 0');
+    const before = await velocity();
+    await field.selectOption(name);
+    await eventually(async () => assert.notEqual(await velocity(), before, name));
+    velocities.set(name, Number((await velocity()).split(' ')[0]));
+    const facts = page.locator('.facts').first();
+    await eventually(async () => assert.equal(/Damping number/.test(await facts.innerText()), name === 'viscous', name));
+    const free = velocities.get('none');
+    assert.ok(velocities.get(name) > 0.3 * free && (name === 'none' || velocities.get(name) < 0.97 * free), `${name}: ${velocities.get(name)} of ${free}`);
+  }
+  assert.equal(new Set(velocities.values()).size, names.length);
+});
+
 test('the menu keeps the scenario and the units', async () => {
   const page = await open('#/pulse?initial.profile=tanh&initial.stress_left=0.7&initial.width=0.4&friction.law=coulomb&friction.coefficient=0.02&si=1&medium.shear_modulus=40+GPa&t=0.5', calm);
   await ready(page);

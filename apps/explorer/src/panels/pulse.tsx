@@ -17,7 +17,9 @@ import { rangeAround, reach, type Series, type Spec } from '../ui/spec';
 import { stopAll } from '../engine/client';
 import { usePulse, type Shown } from './use_pulse';
 
-const player: Player = makePlayer(1);
+/** The fraction of the run at which the panel opens: both fronts are on their way. */
+const opening = 0.3;
+const player: Player = makePlayer(opening);
 
 type Range = [number, number];
 const largest = (values: ArrayLike<number>) => {
@@ -71,14 +73,14 @@ function Facts({ run, time }: { run: PulseRun; time: number }) {
     const scale = scaleOf(quantity, number);
     return Number.isFinite(number) ? `${short(number * scale.factor, 4)} ${scale.unit}` : '–';
   };
-  const coefficient = run.frictionCoefficient; // null if friction is not viscous and has no coefficient C
+  const coefficient = run.frictionCoefficient; // null if friction is not viscous, and 0 without friction: neither damps
   return (
     <dl class="facts" aria-label="Numbers at this time">
       <div><dt>Slip velocity at x = 0</dt><dd>{value('slip_velocity_at_origin', 'slipVelocity')}</dd></div>
       <div><dt>Slip at x = 0</dt><dd>{value('slip_at_origin', 'slip')}</dd></div>
       <div><dt>Fast front, V−</dt><dd>{value('trailing_front', 'x')}</dd></div>
       <div><dt>Slow front, V+</dt><dd>{value('leading_front', 'x')}</dd></div>
-      {coefficient !== null && <div><dt>Damping number Γ = C t</dt><dd>{coefficient === undefined ? '–' : short(coefficient * time, 3)}</dd></div>}
+      {coefficient ? <div><dt>Damping number Γ = C t</dt><dd>{short(coefficient * time, 3)}</dd></div> : null}
     </dl>
   );
 }
@@ -157,7 +159,7 @@ export function PulsePanel() {
   const draw = useDrawing();
   useEffect(() => {
     if (params.t !== undefined && Number.isFinite(Number(params.t))) player.at.value = Math.min(1, Math.max(0, Number(params.t)));
-    else player.at.value = 1;
+    else player.at.value = opening;
     if (params.play === '1' && !reducedMotion()) { player.at.value = 0; player.playing.value = true; }
     return () => { player.playing.value = false; };
   }, [params.t, params.play]);
@@ -186,7 +188,7 @@ export function PulsePanel() {
   }, [run, second, time, extents, params.si, scaleOf('stress', 1).factor, scaleOf('x', 1).factor]);
   const map = useMemo(() => whole && whole.count > 2 && mapOf(whole, time), [whole, time, params.si, scaleOf('x', 1).factor]);
   const energy = useMemo(() => whole && whole.count > 2 && energySpec(whole), [whole, params.si]);
-  const settle = (at: number) => setParams({ t: at >= 1 ? null : at.toFixed(3), play: null });
+  const settle = (at: number) => setParams({ t: at.toFixed(3), play: null });
   const warnings = whole?.warnings ?? [];
   return (
     <div class="panel">
