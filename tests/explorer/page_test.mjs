@@ -7,7 +7,7 @@ import { mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { gzipSync } from 'node:zlib';
-import { axe, browser, eventually, factOf, open, ready, type, url } from './browser.mjs';
+import { axe, browser, collisions, eventually, factOf, keepTexts, open, ready, type, url } from './browser.mjs';
 
 const calm = { reducedMotion: 'reduce' };
 const routes = ['#/', '#/pulse', '#/pulse?compare=1&si=1', '#/dislocations?beads=20', '#/stress?event=Parkfield+2004', '#/riemann', '#/tour-is-none',
@@ -19,20 +19,45 @@ async function violations(page) {
   return found;
 }
 
+const looks = [{ colorScheme: 'light', viewport: { width: 1400, height: 900 } }, { colorScheme: 'dark', viewport: { width: 360, height: 740 } }];
+
 for (const hash of routes)
-  test(`${hash}: shows its pictures, complains of nothing, breaks no rule of access`, async () => {
-    for (const look of [{ colorScheme: 'light' }, { colorScheme: 'dark', viewport: { width: 360, height: 740 } }]) {
-      const page = await open(hash, { ...calm, ...look });
+  test(`${hash}: shows its pictures, complains of nothing, breaks no rule of access, and no text covers another`, async () => {
+    for (const look of looks) {
+      const page = await open(hash, { ...calm, ...look, init: keepTexts });
       if (hash !== '#/tour-is-none') await ready(page);
-      assert.deepEqual(await violations(page), [], JSON.stringify(look));
-      const text = await page.locator('body').innerText();
-      assert.doesNotMatch(text, /\bNaN\b|undefined|Infinity/);
-      const wide = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
-      assert.ok(wide <= 1, `wider than the window by ${wide}`);
+      for (const width of look.colorScheme === 'light' ? [1400, 800] : [360]) {
+        await page.setViewportSize({ ...look.viewport, width });
+        assert.deepEqual(await violations(page), [], `${width}`);
+        const text = await page.locator('body').innerText();
+        assert.doesNotMatch(text, /\bNaN\b|undefined|Infinity/);
+        const wide = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
+        assert.ok(wide <= 1, `wider than the window by ${wide}`);
+        const { found, count } = await collisions(page);
+        assert.deepEqual(found, [], `${width}`);
+        assert.ok(count > 10, `${count} texts`);
+      }
       assert.deepEqual(page.complaints, []);
       await page.context().close();
     }
   });
+
+test('on a phone the controls are in the window, with the picture that they change', async () => {
+  for (const hash of ['#/pulse', '#/dislocations?beads=20', '#/stress', '#/riemann', '#/paper?fig=8']) {
+    const page = await open(hash, { ...calm, viewport: { width: 360, height: 740 } });
+    await ready(page);
+    const control = page.locator('.controls :is(input, select)').first();
+    const seen = async (locator) => { const box = await locator.boundingBox(); return box.y >= 0 && box.y + box.height <= 740; };
+    assert.ok(await seen(control), hash);
+    await page.locator('figure.plot').first().evaluate((plot) => plot.scrollIntoView());
+    assert.ok(await seen(control), `${hash}, scrolled`);
+    const [sheet, plot] = [await page.locator('.controls').boundingBox(), await page.locator('figure.plot canvas').first().boundingBox()];
+    assert.ok(plot.y >= 0 && Math.min(sheet.y, plot.y + plot.height) - plot.y > 180, `${hash}: the picture has ${sheet.y - plot.y} px`);
+    await page.getByRole('button', { name: 'Hide controls' }).click();
+    assert.equal(await control.isVisible(), false);
+    await page.context().close();
+  }
+});
 
 test('a link shows the same', async () => {
   const page = await open('#/pulse', calm);

@@ -6,6 +6,7 @@ import type { Complaint, RelationsKey } from '../engine/protocol';
 import { last, lastOf, type PulseRun } from '../model/pulse_run';
 import { entryOf, go, route, setParams, unitParams } from '../state/route';
 import { commandOf, tomlOf } from '../state/scenario';
+import { Controls } from '../ui/controls';
 import { Check, NumberField, Segments, sentence } from '../ui/fields';
 import { short } from '../ui/format';
 import { SpaceTime } from '../ui/map';
@@ -166,7 +167,7 @@ export function PaperPanel() {
   const toml = runs ? scenario(view, { C: values.C ?? values.C2 ?? 0.5, step: figure === '12' }) : '';
   return (
     <div class="panel">
-      <aside class="controls" aria-label="Figure">
+      <Controls label="Figure">
         <Segments label="Figure" value={figure} choices={Object.keys(figures).map((key) => ({ value: key, label: key }))} onInput={(fig) => go('paper', { ...unitParams(), fig })} />
         <h2>{title}</h2>
         <p class="hint">{text}</p>
@@ -181,7 +182,7 @@ export function PaperPanel() {
             <p class="command"><code>{commandOf('pulse', 'scenario.toml')}</code></p>
           </>
         )}
-      </aside>
+      </Controls>
       <section class="pictures" aria-label={title}><Picture key={figure} figure={figure} {...view} /></section>
     </div>
   );

@@ -6,6 +6,7 @@ import { fieldAt, seriesAt, type PulseRun } from '../model/pulse_run';
 import { route, setParams } from '../state/route';
 import { drawnOf, scenarioOf, tableOf, tomlOf } from '../state/scenario';
 import { scaleOf, type Quantity } from '../state/units';
+import { Controls } from '../ui/controls';
 import { Exchange } from '../ui/exchange';
 import { CannotRun, Check } from '../ui/fields';
 import { short } from '../ui/format';
@@ -192,10 +193,10 @@ export function PulsePanel() {
   const warnings = whole?.warnings ?? [];
   return (
     <div class="panel">
-      <aside class="controls" aria-label="Scenario">
+      <Controls label="Scenario">
         <ScenarioForm error={main.error} extra={scenario['friction.law'] !== 'none' && <Check label="Both averages of friction side by side" checked={compare} onInput={(on) => setParams({ compare: on ? '1' : null })} />} />
         <Exchange command="pulse" />
-      </aside>
+      </Controls>
       <section class="pictures" aria-label="Pulse">
         <Transport player={player} end={end} unit={t.unit} factor={t.factor} onSettle={settle} />
         {slow && (
@@ -205,7 +206,7 @@ export function PulsePanel() {
         )}
         <CannotRun error={main.error} shown={Boolean(run)} />
         {specs && run ? (
-          <div class={main.error ? 'stale' : ''}>
+          <div class={`results ${main.error ? 'stale' : ''}`}>
             <Facts run={whole && !main.look ? whole : run} time={time} />
             <Plot spec={specs[0]} height={210} />
             <Plot spec={specs[1]} height={190} onDraw={scenario['initial.profile'] === 'table' ? draw : undefined} />

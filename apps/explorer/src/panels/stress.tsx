@@ -6,6 +6,7 @@ import { call } from '../engine/client';
 import type { Complaint, EventKey, Relations, RelationsCurve, RelationsKey, Reply } from '../engine/protocol';
 import { isLocated, published, typed as typedEvent, type FaultEvent } from '../model/events';
 import { entryOf, route, setParams } from '../state/route';
+import { Controls } from '../ui/controls';
 import { Equations } from '../ui/equations';
 import { NumberField, Segments, SelectField, sentence, TextField } from '../ui/fields';
 import { inUnits, short } from '../ui/format';
@@ -168,7 +169,7 @@ export function StressPanel() {
   const complaint = !Number.isFinite(number) ? 'Not a number. Allowed: a number such as 1.03 or 1e-9.' : sentence(chosen?.error);
   return (
     <div class="panel">
-      <aside class="controls" aria-label="Question">
+      <Controls label="Question">
         <h2>From any one, all others</h2>
         <SelectField label="Given" value={given.key} choices={givens.map((one) => ({ value: one.key, label: one.label }))} onInput={(key) => setParams({ given: key, value: null })} />
         <NumberField label="Value" value={value} least={given.least} most={given.most} log={given.log} onInput={(text) => setParams({ value: text })} error={complaint} />
@@ -176,7 +177,7 @@ export function StressPanel() {
           <table class="numbers"><tbody>{names.map(([key, name, unit]) => <tr><th scope="row">{name}</th><td>{short(chosen[key], 6)} {unit}</td></tr>)}</tbody></table>
         )}
         <TypedForm error={typed.error} toml={typed.toml} />
-      </aside>
+      </Controls>
       <section class="pictures" aria-label="Curves and events">
         <Segments label="Range" value={Object.keys(ranges).find((key) => ranges[key] === range)!} choices={Object.entries(ranges).map(([key, one]) => ({ value: key, label: one.label }))} onInput={(key) => setParams({ range: key })} />
         {specs && (
