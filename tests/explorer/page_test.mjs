@@ -228,6 +228,36 @@ test('all by keyboard: every control can be reached, plots are read by arrows', 
   assert.equal(await page.locator('.readout').first().getAttribute('aria-live'), 'polite');
 });
 
+test('a profile is drawn by the arrow keys, in any units, or by the mouse', async () => {
+  for (const si of ['', '&si=1']) {
+    const page = await open(`#/pulse?initial.profile=table&drawn=-6:0.8,-3:0.8,0:0.3,4:0${si}`, calm);
+    await ready(page);
+    const points = page.getByRole('group', { name: /Points of the initial stress/ }).getByRole('slider');
+    assert.equal(await points.count(), 4);
+    await points.first().focus();
+    for (const key of ['ArrowRight', 'ArrowRight', 'ArrowUp', 'ArrowUp', 'Shift+ArrowUp', 'End', 'ArrowDown', 'ArrowUp']) await page.keyboard.press(key);
+    await eventually(async () => assert.match(page.url(), /drawn=-6:0.8,-3:0.8,0:0.44,4:0.02(&|$)/));
+    assert.match(await points.nth(2).getAttribute('aria-label'), /initial stress at x = 0/);
+    await eventually(async () => { // the handle is on the curve, 44/80 of the height of the first one
+      const [first, third, last] = await Promise.all([0, 2, 3].map(async (i) => (await points.nth(i).boundingBox()).y));
+      assert.ok(Math.abs((last - third) / (last - first) - (0.44 - 0.02) / 0.78) < 0.03, `${first} ${third} ${last}`);
+    });
+    assert.deepEqual(await violations(page), []);
+    const board = await page.locator('.drawable .u-over').boundingBox();
+    const [high, low] = await Promise.all([0, 2].map(async (i) => (await points.nth(i).boundingBox()).y + 5.5));
+    await page.mouse.move(board.x + board.width * 0.6, low);
+    await page.mouse.down();
+    await page.mouse.move(board.x + board.width * 0.8, low, { steps: 5 });
+    await page.mouse.up();
+    assert.ok(high < low);
+    await eventually(async () => {
+      const drawn = decodeURIComponent(/drawn=([^&]*)/.exec(page.url())[1]).split(',').map((pair) => pair.split(':').map(Number));
+      assert.ok(drawn.length > 20 && drawn.some(([x, y]) => x > 0.5 && Math.abs(y - 0.44) < 0.02), page.url());
+    });
+    await page.context().close();
+  }
+});
+
 /** Numbers of pixels in the left and the right half of a picture whose colour passes a test of r, g and b. */
 const halves = (page, address, passes) => page.evaluate(async ([from, text]) => {
   const image = new Image();
@@ -273,7 +303,7 @@ test('every plot has its table and its exports, which show negative slip velocit
   assert.ok(blue[0] > 500 && red[1] > 500 && blue[1] > 100, `${blue} blue, ${red} red`);
 });
 
-test('the tour goes through all its steps', async () => {
+test('the tour goes through all its steps, and each shows its result in the window', async () => {
   const page = await open('#/', calm);
   await page.getByRole('link', { name: 'Take the tour' }).click();
   const titles = new Set();
@@ -281,6 +311,13 @@ test('the tour goes through all its steps', async () => {
     await page.locator('.tour').waitFor();
     await ready(page);
     titles.add(await page.locator('.tour h2').innerText());
+    const result = page.locator(/my\.rupture/.test(page.url()) ? '.event' : 'figure.plot canvas').first();
+    const box = await eventually(async () => { // the page may draw it anew
+      const at = await result.boundingBox();
+      assert.ok(at, `step ${i}`);
+      return at;
+    });
+    assert.ok(box.y >= 0 && box.y + Math.min(box.height, 200) <= 900, `step ${i}: its result is at ${box.y}`);
     const next = page.getByRole('button', { name: 'Next' });
     if (!(await next.count())) break;
     await next.click();
@@ -288,6 +325,32 @@ test('the tour goes through all its steps', async () => {
     assert.deepEqual(page.complaints, []);
   }
   assert.equal(titles.size, 10);
+});
+
+test('a bead that trembles in its well has the colour of rest', async () => {
+  const page = await open('#/dislocations?tour=1&initial.profile=step&initial.stress_left=0.855&initial.stress_right=0&friction.law=none&beads=12');
+  await ready(page);
+  const seen = await page.evaluate(async () => {
+    const canvas = document.querySelector('canvas.beads');
+    const near = (data, i, [r, g, b]) => Math.abs(data[i] - r) + Math.abs(data[i + 1] - g) + Math.abs(data[i + 2] - b) < 12;
+    const count = (from, to, tint) => {
+      const { data } = canvas.getContext('2d').getImageData(from * canvas.width, 0, (to - from) * canvas.width, 40 * devicePixelRatio);
+      let found = 0;
+      for (let i = 0; i < data.length; i += 4) found += near(data, i, tint);
+      return found;
+    };
+    const [moving, resting] = [[200, 80, 30], [31, 95, 153]];
+    const seen = { left: 0, rest: 0, right: 0, pictures: 0 };
+    while (document.querySelector('progress').value < 4.5) {
+      seen.left = Math.max(seen.left, count(0, 0.1, moving));
+      seen.rest = Math.max(seen.rest, count(0, 0.1, resting));
+      seen.right = Math.max(seen.right, count(0.7, 1, moving));
+      seen.pictures += 1;
+      await new Promise(requestAnimationFrame);
+    }
+    return seen;
+  });
+  assert.ok(seen.left === 0 && seen.rest > 30 && seen.right > 30 && seen.pictures > 10, JSON.stringify(seen));
 });
 
 test('a typed event has the numbers of the program, with the constants of the units', async () => {

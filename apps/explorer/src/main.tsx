@@ -92,7 +92,7 @@ function App() {
       <main id="main" tabIndex={-1}>
         {unitsOpen.value && <UnitsForm onClose={() => (unitsOpen.value = false)} onToggle={(on) => setParams({ si: on ? '1' : null })} />}
         <TourBar />
-        {page && <div class="intro"><h1>{page.heading}</h1><p>{page.about}</p></div>}
+        {page && <div class="intro"><h1>{page.heading}</h1>{!route.value.params.tour && <p>{page.about}</p>}</div>}
         {unknown && <p class="busy" role="status">There is no panel “{route.value.panel.slice(0, 60)}”. Allowed: {Object.keys(pages).join(', ')}.</p>}
         {page ? <page.view key={route.value.panel} /> : <HomePanel />}
       </main>

@@ -3,7 +3,7 @@
 import { useEffect, useMemo, useRef } from 'preact/hooks';
 import type { PulseField, PulseSeries } from '../engine/protocol';
 import { fieldAt, seriesAt, type PulseRun } from '../model/pulse_run';
-import { route, setParams } from '../state/route';
+import { route, setParams, type Params } from '../state/route';
 import { drawnOf, scenarioOf, tableOf, tomlOf } from '../state/scenario';
 import { scaleOf, type Quantity } from '../state/units';
 import { Controls } from '../ui/controls';
@@ -50,7 +50,7 @@ function profile(name: string, title: string, field: PulseField, quantity: Quant
   const verticals = fronts.map(([key, label, tint]) => ({ x: seriesAt(first, key, time) * xScale.factor, label, color: tint })).filter((v) => Number.isFinite(v.x));
   return {
     name, title, x: times(first.x, xScale.factor), xLabel: `x, in ${xScale.unit}`, yLabel: `${symbol}, in ${yScale.unit}`, series, verticals,
-    yRange: rangeAround(times(extent, yScale.factor)),
+    yRange: rangeAround(times(extent, yScale.factor)), factors: [xScale.factor, yScale.factor],
   };
 }
 
@@ -114,6 +114,19 @@ function mapOf(run: PulseRun, now: number) {
   };
 }
 
+/** The points of a drawn stress. */
+function pointsOf(params: Params): [number[], number[]] | null {
+  const table = params['initial.profile'] === 'table' ? tableOf(params) : null;
+  return table && [table[0].slice(1, -1), table[1].slice(1, -1)];
+}
+
+const allowed = (stress: number) => (stress < 0.02 ? 0 : Math.min(2, stress));
+
+function movePoint(index: number, change: number) {
+  const [x, y] = pointsOf(route.value.params)!;
+  setParams({ drawn: drawnOf(x, y.map((stress, i) => (i === index ? allowed(+(stress + change).toFixed(4)) : stress))) });
+}
+
 function useDrawing() {
   const stroke = useRef<{ x: number[]; y: number[] } | null>(null);
   return (x: number, y: number, first: boolean) => {
@@ -132,7 +145,7 @@ function useDrawing() {
     };
     if (first || !stroke.current) stroke.current = { x: [], y: [] };
     stroke.current.x.push(x);
-    stroke.current.y.push(Math.min(2, Math.max(0, y)));
+    stroke.current.y.push(y);
     const { x: sx, y: sy } = stroke.current;
     const width = (right - left) / count;
     const values = grid.map((gx) => {
@@ -143,7 +156,7 @@ function useDrawing() {
       }
       return at(gx);
     });
-    setParams({ drawn: drawnOf(grid, values.map((v) => (v < 0.02 ? 0 : v))) });
+    setParams({ drawn: drawnOf(grid, values.map(allowed)) });
   };
 }
 
@@ -191,6 +204,8 @@ export function PulsePanel() {
   const energy = useMemo(() => whole && whole.count > 2 && energySpec(whole), [whole, params.si]);
   const settle = (at: number) => setParams({ t: at.toFixed(3), play: null });
   const warnings = whole?.warnings ?? [];
+  const points = pointsOf(params);
+  const factors = specs?.[1].factors ?? [1, 1];
   return (
     <div class="panel">
       <Controls label="Scenario">
@@ -209,7 +224,8 @@ export function PulsePanel() {
           <div class={`results ${main.error ? 'stale' : ''}`}>
             <Facts run={whole && !main.look ? whole : run} time={time} />
             <Plot spec={specs[0]} height={210} />
-            <Plot spec={specs[1]} height={190} onDraw={scenario['initial.profile'] === 'table' ? draw : undefined} />
+            <Plot spec={points ? { ...specs[1], handles: { x: points[0].map((v) => v * factors[0]), y: points[1].map((v) => v * factors[1]), name: 'initial stress' } } : specs[1]} height={190} onMove={movePoint}
+              onDraw={points ? (x, y, first) => draw(x / factors[0], y / factors[1], first) : undefined} />
             <div class="two">
               {map && <SpaceTime field={map} onPick={(picked) => { player.playing.value = false; player.at.value = picked / end; settle(picked / end); }} />}
               <div>

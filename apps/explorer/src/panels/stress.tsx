@@ -180,6 +180,7 @@ export function StressPanel() {
       </Controls>
       <section class="pictures" aria-label="Curves and events">
         <Segments label="Range" value={Object.keys(ranges).find((key) => ranges[key] === range)!} choices={Object.entries(ranges).map(([key, one]) => ({ value: key, label: one.label }))} onInput={(key) => setParams({ range: key })} />
+        {event && event === typed.event && <EventCard event={event} typed={params} />}
         {specs && (
           <div class="two">
             <Plot spec={specs[0]} height={330} onPick={pick} />
@@ -198,7 +199,7 @@ export function StressPanel() {
               ))}
             </div>
           </div>
-          <div>{event ? <EventCard event={event} typed={event === typed.event ? params : undefined} /> : <p class="hint">Choose an event in the list or in a plot, or type your own.</p>}</div>
+          <div>{index >= 0 ? <EventCard event={events[index]} /> : <p class="hint">Choose an event in the list or in a plot, or type your own.</p>}</div>
         </div>
         {wantsUnits.value && <p class="hint">Stress in Pa and the contact ratio are given with each event; the curves stay dimensionless, because A differs from event to event.</p>}
         <Equations names={['fronts', 'train']} />

@@ -2,9 +2,10 @@
 
 import type { ComponentChildren } from 'preact';
 import { useState } from 'preact/hooks';
+import { route } from '../state/route';
 
 export function Controls({ label, children }: { label: string; children: ComponentChildren }) {
-  const [open, setOpen] = useState(true);
+  const [open, setOpen] = useState(!route.value.params.tour); // the tour shows its result first
   return (
     <aside class={`controls ${open ? '' : 'folded'}`} aria-label={label}>
       <button type="button" class="fold" aria-expanded={open} onClick={() => setOpen(!open)}>{open ? 'Hide controls' : 'Show controls'}</button>

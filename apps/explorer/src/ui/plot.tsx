@@ -6,6 +6,7 @@ import 'uplot/dist/uPlot.min.css';
 import { color, theme } from './colors';
 import { Data } from './data';
 import { short } from './format';
+import { Handles, placeHandles } from './handles';
 import { save } from './save';
 import { columns, csvOf, off, on, rangeOf, spread, ticks, tickText, type Path, type Spec } from './spec';
 import { svgOf } from './svg';
@@ -15,6 +16,7 @@ interface Props {
   height?: number;
   onPick?: (index: number) => void;
   onDraw?: (x: number, y: number, first: boolean) => void;
+  onMove?: (index: number, change: number) => void;
 }
 
 const numbers = (values: ArrayLike<number>, log?: boolean) =>
@@ -117,7 +119,7 @@ function labelLines({ ctx, bbox }: uPlot, lines: Line[]) {
   });
 }
 
-function optionsOf(spec: () => Spec, width: number, height: number, moved: (i: number | null) => void): uPlot.Options {
+function optionsOf(spec: () => Spec, width: number, height: number, moved: (i: number | null) => void, drawn: (u: uPlot) => void): uPlot.Options {
   const axis = (which: 'x' | 'y'): uPlot.Axis => ({
     scale: which,
     stroke: () => color('quiet'),
@@ -156,7 +158,7 @@ function optionsOf(spec: () => Spec, width: number, height: number, moved: (i: n
         fill: s.fill ? () => color(`${s.color}-soft`) : undefined,
       })),
     ],
-    hooks: { draw: [(u) => drawExtras(u, spec())], setCursor: [(u) => moved(u.cursor.idx ?? null)] },
+    hooks: { draw: [(u) => drawExtras(u, spec()), drawn], setCursor: [(u) => moved(u.cursor.idx ?? null)] },
   };
 }
 
@@ -166,7 +168,7 @@ function readout(spec: Spec, i: number): string {
   return `${spec.xLabel}: ${short(spec.x[i])}; ${spec.series.map((s) => `${s.label}: ${short(s.y[i])}`).join('; ')}`;
 }
 
-export function Plot({ spec, height = 220, onPick, onDraw }: Props) {
+export function Plot({ spec, height = 220, onPick, onDraw, onMove }: Props) {
   const holder = useRef<HTMLDivElement>(null);
   const plot = useRef<uPlot | null>(null);
   const now = useRef(spec);
@@ -177,7 +179,7 @@ export function Plot({ spec, height = 220, onPick, onDraw }: Props) {
 
   useEffect(() => {
     const box = holder.current!;
-    const made = new uPlot(optionsOf(() => now.current, box.clientWidth || 300, height, setAt), dataOf(now.current), box);
+    const made = new uPlot(optionsOf(() => now.current, box.clientWidth || 300, height, setAt, (u) => placeHandles(u, now.current, box.nextElementSibling)), dataOf(now.current), box);
     plot.current = made;
     const watch = new ResizeObserver(() => made.setSize({ width: Math.max(180, box.clientWidth), height }));
     watch.observe(box);
@@ -221,10 +223,11 @@ export function Plot({ spec, height = 220, onPick, onDraw }: Props) {
   return (
     <figure class="plot">
       <figcaption>{spec.title}<Legend spec={spec} /></figcaption>
-      <div class={`canvas ${onDraw ? 'drawable' : ''}`} ref={holder} tabIndex={0} role="group" aria-roledescription="plot"
+      <div class="board"><div class={`canvas ${onDraw ? 'drawable' : ''}`} ref={holder} tabIndex={0} role="group" aria-roledescription="plot"
         aria-label={`${spec.title}. ${spec.yLabel} against ${spec.xLabel}. Arrow keys move the cursor.`} onKeyDown={key}
         onPointerDown={(e) => { if (onDraw) (e.currentTarget as HTMLElement).setPointerCapture(e.pointerId); pointed(e, true); }}
         onPointerMove={(e) => onDraw && pointed(e, false)} />
+      {onMove && spec.handles && <Handles spec={spec} onMove={onMove} />}</div>
       <p class="readout" aria-live={byKeys ? 'polite' : 'off'}>{text}</p>
       <PlotData spec={spec} plot={() => plot.current} />
     </figure>

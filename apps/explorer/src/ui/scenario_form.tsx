@@ -83,7 +83,7 @@ export function ScenarioForm({ error, extra, averages = true }: { error?: Compla
         </>
       )}
       {profile === 'tanh' && <NumberField label="Width" value={scenario['initial.width']} least={0.05} most={5} log onInput={set('initial.width')} error={say('initial.width')} />}
-      {profile === 'table' && <p class="hint">Draw with the mouse or a finger in the stress plot below{error ? '' : ', or drop a CSV file with columns x and stress'}. {say('initial.file')}</p>}
+      {profile === 'table' && <p class="hint">Draw with the mouse or a finger in the plot of stress, or move its points with the arrow keys{error ? '' : ', or drop a CSV file with columns x and stress'}. {say('initial.file')}</p>}
       {profile === 'formula' && <TextField label="Stress as a formula of x" value={scenario['initial.formula'] ?? ''} onInput={set('initial.formula')} error={say('initial.formula')} />}
       <h2>Friction</h2>
       <FrictionFields error={error} averages={averages} />

@@ -44,6 +44,10 @@ export interface Spec {
   paths?: Path[];
   points?: Point[];
   verticals?: Vertical[];
+  /** Points that the arrow keys move. */
+  handles?: { x: number[]; y: number[]; name: string };
+  /** The units of the axes, divided by those of the scenario. */
+  factors?: [number, number];
   xRange?: [number, number];
   yRange?: [number, number];
   xLog?: boolean;
