@@ -2,7 +2,7 @@
 
 import type { Chain } from '../model/chain';
 import { scaleOf, type Quantity } from '../state/units';
-import { rangeAround, type Spec } from '../ui/spec';
+import { rangeAround, type Spec } from '../ui/picture/spec';
 
 type Scale = { unit: string; factor: number };
 const times = (values: Float64Array, factor: number) => values.map((v) => v * factor);

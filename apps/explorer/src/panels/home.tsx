@@ -5,8 +5,8 @@ import { linkTo } from '../state/route';
 import { addressOfStop } from './tour_bar';
 import { tomlOf } from '../state/scenario';
 import { makePlayer, reducedMotion, Transport } from '../ui/player';
-import { Plot } from '../ui/plot';
-import { rangeAround } from '../ui/spec';
+import { Plot } from '../ui/picture/plot';
+import { rangeAround } from '../ui/picture/spec';
 import { fieldAt, seriesAt } from '../model/pulse_run';
 import { usePulse } from './use_pulse';
 

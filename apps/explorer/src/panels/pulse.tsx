@@ -10,11 +10,11 @@ import { Controls } from '../ui/controls';
 import { Exchange } from '../ui/exchange';
 import { CannotRun, Check } from '../ui/fields';
 import { short } from '../ui/format';
-import { SpaceTime } from '../ui/map';
+import { SpaceTime } from '../ui/picture/map';
 import { makePlayer, reducedMotion, Transport, type Player } from '../ui/player';
-import { Plot } from '../ui/plot';
+import { Plot } from '../ui/picture/plot';
 import { ScenarioForm } from '../ui/scenario_form';
-import { rangeAround, reach, type Series, type Spec } from '../ui/spec';
+import { rangeAround, reach, type Series, type Spec } from '../ui/picture/spec';
 import { stopAll } from '../engine/client';
 import { usePulse, type Shown } from './use_pulse';
 

@@ -8,8 +8,8 @@ import { Controls } from '../ui/controls';
 import { Equations } from '../ui/equations';
 import { about, NumberField, sentence } from '../ui/fields';
 import { short } from '../ui/format';
-import { Plot } from '../ui/plot';
-import type { Path, Spec } from '../ui/spec';
+import { Plot } from '../ui/picture/plot';
+import type { Path, Spec } from '../ui/picture/spec';
 
 const fields = [
   { key: 'left_stress', label: 'Left stress, in μA/π', value: '0.855', least: 0, most: 2 },

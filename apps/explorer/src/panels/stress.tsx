@@ -10,9 +10,9 @@ import { Controls } from '../ui/controls';
 import { Equations } from '../ui/equations';
 import { NumberField, Segments, SelectField, sentence, TextField } from '../ui/fields';
 import { inUnits, short } from '../ui/format';
-import { Plot } from '../ui/plot';
+import { Plot } from '../ui/picture/plot';
 import { copy } from '../ui/save';
-import type { Point, Spec } from '../ui/spec';
+import type { Point, Spec } from '../ui/picture/spec';
 import { rock, wantsUnits } from '../state/units';
 import { useAnswer } from './use_answer';
 

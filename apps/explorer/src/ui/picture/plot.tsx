@@ -3,11 +3,11 @@
 import { useEffect, useRef, useState } from 'preact/hooks';
 import uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
-import { color, theme } from './colors';
+import { color, theme } from '../colors';
 import { Data } from './data';
-import { short } from './format';
+import { short } from '../format';
 import { Handles, placeHandles } from './handles';
-import { save } from './save';
+import { save } from '../save';
 import { columns, csvOf, off, on, rangeOf, spread, ticks, tickText, type Path, type Spec } from './spec';
 import { svgOf } from './svg';
 

@@ -1,11 +1,11 @@
 /** A picture of a field over x and t, with the fronts on it. */
 
 import { useEffect, useRef, useState } from 'preact/hooks';
-import { color, ramp, theme } from './colors';
+import { color, ramp, theme } from '../colors';
 import { Data } from './data';
-import { short } from './format';
-import { announce } from './announce';
-import { save } from './save';
+import { short } from '../format';
+import { announce } from '../announce';
+import { save } from '../save';
 import { reach, ticks } from './spec';
 
 export interface Field {

@@ -2,7 +2,7 @@
 
 import { useState } from 'preact/hooks';
 import type uPlot from 'uplot';
-import { short } from './format';
+import { short } from '../format';
 import type { Spec } from './spec';
 
 export function Handles({ spec, onMove }: { spec: Spec; onMove: (index: number, change: number) => void }) {

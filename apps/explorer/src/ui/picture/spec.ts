@@ -1,6 +1,6 @@
 /** The contents of a plot, which the page draws on the screen and exports as SVG, CSV and a table. */
 
-import { short } from './format';
+import { short } from '../format';
 
 export interface Series {
   label: string;
