@@ -318,6 +318,10 @@ test('the tour goes through all its steps, and each shows its result in the wind
       return at;
     });
     assert.ok(box.y >= 0 && box.y + Math.min(box.height, 200) <= 900, `step ${i}: its result is at ${box.y}`);
+    if (i === 8) { // the text of this step quotes the interval
+      const [, low, high] = /\(([\d.]+) MPa to ([\d.]+) MPa\)/.exec(await result.innerText());
+      assert.ok(Math.abs(low / 30 - 1) < 0.1 && Math.abs(high / 230 - 1) < 0.1, `${low} to ${high} MPa`);
+    }
     const next = page.getByRole('button', { name: 'Next' });
     if (!(await next.count())) break;
     await next.click();
