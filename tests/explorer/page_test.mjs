@@ -7,7 +7,7 @@ import { mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { gzipSync } from 'node:zlib';
-import { axe, browser, eventually, factOf, open, ready, type, url } from './browser.mjs';
+import { axe, browser, collisions, eventually, factOf, keepTexts, open, ready, type, url } from './browser.mjs';
 
 const calm = { reducedMotion: 'reduce' };
 const routes = ['#/', '#/pulse', '#/pulse?compare=1&si=1', '#/dislocations?beads=20', '#/stress?event=Parkfield+2004', '#/riemann', '#/tour-is-none',
@@ -19,20 +19,45 @@ async function violations(page) {
   return found;
 }
 
+const looks = [{ colorScheme: 'light', viewport: { width: 1400, height: 900 } }, { colorScheme: 'dark', viewport: { width: 360, height: 740 } }];
+
 for (const hash of routes)
-  test(`${hash}: shows its pictures, complains of nothing, breaks no rule of access`, async () => {
-    for (const look of [{ colorScheme: 'light' }, { colorScheme: 'dark', viewport: { width: 360, height: 740 } }]) {
-      const page = await open(hash, { ...calm, ...look });
+  test(`${hash}: shows its pictures, complains of nothing, breaks no rule of access, and no text covers another`, async () => {
+    for (const look of looks) {
+      const page = await open(hash, { ...calm, ...look, init: keepTexts });
       if (hash !== '#/tour-is-none') await ready(page);
-      assert.deepEqual(await violations(page), [], JSON.stringify(look));
-      const text = await page.locator('body').innerText();
-      assert.doesNotMatch(text, /\bNaN\b|undefined|Infinity/);
-      const wide = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
-      assert.ok(wide <= 1, `wider than the window by ${wide}`);
+      for (const width of look.colorScheme === 'light' ? [1400, 800] : [360]) {
+        await page.setViewportSize({ ...look.viewport, width });
+        assert.deepEqual(await violations(page), [], `${width}`);
+        const text = await page.locator('body').innerText();
+        assert.doesNotMatch(text, /\bNaN\b|undefined|Infinity/);
+        const wide = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
+        assert.ok(wide <= 1, `wider than the window by ${wide}`);
+        const { found, count } = await collisions(page);
+        assert.deepEqual(found, [], `${width}`);
+        assert.ok(count > 10, `${count} texts`);
+      }
       assert.deepEqual(page.complaints, []);
       await page.context().close();
     }
   });
+
+test('on a phone the controls are in the window, with the picture that they change', async () => {
+  for (const hash of ['#/pulse', '#/dislocations?beads=20', '#/stress', '#/riemann', '#/paper?fig=8']) {
+    const page = await open(hash, { ...calm, viewport: { width: 360, height: 740 } });
+    await ready(page);
+    const control = page.locator('.controls :is(input, select)').first();
+    const seen = async (locator) => { const box = await locator.boundingBox(); return box.y >= 0 && box.y + box.height <= 740; };
+    assert.ok(await seen(control), hash);
+    await page.locator('figure.plot').first().evaluate((plot) => plot.scrollIntoView());
+    assert.ok(await seen(control), `${hash}, scrolled`);
+    const [sheet, plot] = [await page.locator('.controls').boundingBox(), await page.locator('figure.plot canvas').first().boundingBox()];
+    assert.ok(plot.y >= 0 && Math.min(sheet.y, plot.y + plot.height) - plot.y > 180, `${hash}: the picture has ${sheet.y - plot.y} px`);
+    await page.getByRole('button', { name: 'Hide controls' }).click();
+    assert.equal(await control.isVisible(), false);
+    await page.context().close();
+  }
+});
 
 test('a link shows the same', async () => {
   const page = await open('#/pulse', calm);
@@ -52,6 +77,55 @@ test('a link shows the same', async () => {
       assert.equal(await factOf(other, fact), await factOf(page, fact));
     }
   });
+});
+
+test('every friction law opens with a visible effect, and only viscous friction has a damping number', async () => {
+  const page = await open('#/pulse', calm);
+  await ready(page);
+  assert.ok(Number(await page.getByLabel('Time', { exact: true }).inputValue()) < 700, 'the panel opens in the middle of the run');
+  const field = page.getByLabel('Friction law');
+  const names = await field.locator('option').allInnerTexts();
+  assert.equal(names.length, 9);
+  const velocities = new Map();
+  for (const name of names) {
+    const velocity = () => factOf(page, 'Slip velocity at x = 0');
+    const before = await velocity();
+    await field.selectOption(name);
+    await eventually(async () => assert.notEqual(await velocity(), before, name));
+    velocities.set(name, Number((await velocity()).split(' ')[0]));
+    const facts = page.locator('.facts').first();
+    await eventually(async () => assert.equal(/Damping number/.test(await facts.innerText()), name === 'viscous', name));
+    const free = velocities.get('none');
+    assert.ok(velocities.get(name) > 0.3 * free && (name === 'none' || velocities.get(name) < 0.97 * free), `${name}: ${velocities.get(name)} of ${free}`);
+  }
+  assert.equal(new Set(velocities.values()).size, names.length);
+});
+
+test('the menu keeps the scenario and the units', async () => {
+  const page = await open('#/pulse?initial.profile=tanh&initial.stress_left=0.7&initial.width=0.4&friction.law=coulomb&friction.coefficient=0.02&si=1&medium.shear_modulus=40+GPa&t=0.5', calm);
+  await ready(page);
+  const to = async (name) => {
+    await page.getByRole('navigation', { name: 'Panels' }).getByRole('link', { name, exact: true }).click();
+    await page.waitForFunction((text) => document.querySelector('nav a[aria-current]')?.textContent === text, name);
+    await ready(page);
+  };
+  const kept = async (parts) => { for (const part of parts) assert.ok(decodeURIComponent(page.url()).includes(part), `${part} in ${page.url()}`); };
+  const units = ['si=1', 'medium.shear_modulus=40+GPa'];
+  const scenario = ['initial.stress_left=0.7', 'initial.width=0.4', 'friction.law=coulomb', 'friction.coefficient=0.02'];
+  await to('Dislocations');
+  await kept([...units, ...scenario]);
+  assert.equal(await page.getByLabel('Left, Σ−', { exact: true }).inputValue(), '0.7');
+  assert.match(await factOf(page, 'First of them is at'), / (m|km|cm)$/);
+  await to('The paper');
+  await kept(units);
+  assert.ok(!page.url().includes('initial.'), page.url());
+  await page.getByText('3', { exact: true }).click();
+  await eventually(() => kept([...units, 'fig=3']));
+  await to('Pulse');
+  await kept([...units, ...scenario, 't=0.5']);
+  await to('The paper');
+  await kept([...units, 'fig=3']);
+  assert.deepEqual(page.complaints, []);
 });
 
 test('a scenario goes out as TOML and comes back', async () => {
@@ -154,21 +228,82 @@ test('all by keyboard: every control can be reached, plots are read by arrows', 
   assert.equal(await page.locator('.readout').first().getAttribute('aria-live'), 'polite');
 });
 
-test('every plot has its table and its exports', async () => {
-  const page = await open('#/pulse', calm);
+test('a profile is drawn by the arrow keys, in any units, or by the mouse', async () => {
+  for (const si of ['', '&si=1']) {
+    const page = await open(`#/pulse?initial.profile=table&drawn=-6:0.8,-3:0.8,0:0.3,4:0${si}`, calm);
+    await ready(page);
+    const points = page.getByRole('group', { name: /Points of the initial stress/ }).getByRole('slider');
+    assert.equal(await points.count(), 4);
+    await points.first().focus();
+    for (const key of ['ArrowRight', 'ArrowRight', 'ArrowUp', 'ArrowUp', 'Shift+ArrowUp', 'End', 'ArrowDown', 'ArrowUp']) await page.keyboard.press(key);
+    await eventually(async () => assert.match(page.url(), /drawn=-6:0.8,-3:0.8,0:0.44,4:0.02(&|$)/));
+    assert.match(await points.nth(2).getAttribute('aria-label'), /initial stress at x = 0/);
+    await eventually(async () => { // the handle is on the curve, 44/80 of the height of the first one
+      const [first, third, last] = await Promise.all([0, 2, 3].map(async (i) => (await points.nth(i).boundingBox()).y));
+      assert.ok(Math.abs((last - third) / (last - first) - (0.44 - 0.02) / 0.78) < 0.03, `${first} ${third} ${last}`);
+    });
+    assert.deepEqual(await violations(page), []);
+    const board = await page.locator('.drawable .u-over').boundingBox();
+    const [high, low] = await Promise.all([0, 2].map(async (i) => (await points.nth(i).boundingBox()).y + 5.5));
+    await page.mouse.move(board.x + board.width * 0.6, low);
+    await page.mouse.down();
+    await page.mouse.move(board.x + board.width * 0.8, low, { steps: 5 });
+    await page.mouse.up();
+    assert.ok(high < low);
+    await eventually(async () => {
+      const drawn = decodeURIComponent(/drawn=([^&]*)/.exec(page.url())[1]).split(',').map((pair) => pair.split(':').map(Number));
+      assert.ok(drawn.length > 20 && drawn.some(([x, y]) => x > 0.5 && Math.abs(y - 0.44) < 0.02), page.url());
+    });
+    await page.context().close();
+  }
+});
+
+/** Numbers of pixels in the left and the right half of a picture whose colour passes a test of r, g and b. */
+const halves = (page, address, passes) => page.evaluate(async ([from, text]) => {
+  const image = new Image();
+  image.src = from;
+  await image.decode();
+  const { width, height } = image;
+  const ctx = new OffscreenCanvas(width, height).getContext('2d');
+  ctx.drawImage(image, 0, 0);
+  const { data } = ctx.getImageData(0, 0, width, height);
+  const passes = new Function('r', 'g', 'b', `return ${text}`);
+  const count = [0, 0];
+  for (let i = 0; i < data.length; i += 4) if (passes(data[i], data[i + 1], data[i + 2])) count[Number((i / 4) % width > width / 2)] += 1;
+  return count;
+}, [address, passes]);
+
+test('every plot has its table and its exports, which show negative slip velocity too', async () => {
+  const page = await open('#/pulse?initial.profile=formula&initial.formula=0.9*exp(-x^2)&t=0.5', { ...calm, bypassCSP: true });
   await ready(page);
   const plots = await page.locator('figure.plot').count();
   const summaries = page.locator('figure.plot .data summary');
   assert.equal(await summaries.count(), plots);
   for (let i = 0; i < plots; ++i) await summaries.nth(i).click();
   await page.waitForFunction((n) => document.querySelectorAll('figure.plot table').length === n, plots);
+  const saved = {};
   for (const kind of ['PNG', 'SVG', 'CSV']) {
     const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: kind }).first().click()]);
     assert.match(download.suggestedFilename(), new RegExp(`slip-velocity\\.${kind.toLowerCase()}`));
+    saved[kind] = readFileSync(await download.path());
   }
+  // The pulse is antisymmetric, so both halves of the curve are in the plot.
+  const slips = saved.CSV.toString().trim().split('\n').slice(1).map((row) => Number(row.split(',')[1]));
+  const [least, most] = [Math.min(...slips), Math.max(...slips)];
+  assert.ok(least < -0.9 * most && most > 0.001, `${least} ... ${most}`);
+  const svg = saved.SVG.toString();
+  const [bottom, curve] = [Number(/V([\d.]+)H/.exec(svg)[1]), [.../clip-path="url\(#box\)" d="M([^"V]+)" /.exec(svg)[1].matchAll(/ (-?[\d.]+)/g)].map((m) => Number(m[1]))];
+  assert.ok(Math.max(...curve) < bottom && Math.min(...curve) > 40, `${Math.min(...curve)} ... ${Math.max(...curve)}, box to ${bottom}`);
+  assert.match(svg, />−0\.0\d+</);
+  const [left, right] = await halves(page, `data:image/png;base64,${saved.PNG.toString('base64')}`, 'Math.abs(r - 200) < 9 && Math.abs(g - 80) < 9 && Math.abs(b - 30) < 9');
+  assert.ok(left > 100 && right > 100, `${left} and ${right} pixels of the curve`);
+  // The map has a colour for each sign: blue on the left, red on the right, and both in the colour bar.
+  const map = await page.locator('figure.map canvas').evaluate((canvas) => canvas.toDataURL());
+  const [blue, red] = [await halves(page, map, 'b > r + 90'), await halves(page, map, 'r > b + 90')];
+  assert.ok(blue[0] > 500 && red[1] > 500 && blue[1] > 100, `${blue} blue, ${red} red`);
 });
 
-test('the tour goes through all its steps', async () => {
+test('the tour goes through all its steps, and each shows its result in the window', async () => {
   const page = await open('#/', calm);
   await page.getByRole('link', { name: 'Take the tour' }).click();
   const titles = new Set();
@@ -176,6 +311,17 @@ test('the tour goes through all its steps', async () => {
     await page.locator('.tour').waitFor();
     await ready(page);
     titles.add(await page.locator('.tour h2').innerText());
+    const result = page.locator(/my\.rupture/.test(page.url()) ? '.event' : 'figure.plot canvas').first();
+    const box = await eventually(async () => { // the page may draw it anew
+      const at = await result.boundingBox();
+      assert.ok(at, `step ${i}`);
+      return at;
+    });
+    assert.ok(box.y >= 0 && box.y + Math.min(box.height, 200) <= 900, `step ${i}: its result is at ${box.y}`);
+    if (i === 8) { // the text of this step quotes the interval
+      const [, low, high] = /\(([\d.]+) MPa to ([\d.]+) MPa\)/.exec(await result.innerText());
+      assert.ok(Math.abs(low / 30 - 1) < 0.1 && Math.abs(high / 230 - 1) < 0.1, `${low} to ${high} MPa`);
+    }
     const next = page.getByRole('button', { name: 'Next' });
     if (!(await next.count())) break;
     await next.click();
@@ -185,15 +331,58 @@ test('the tour goes through all its steps', async () => {
   assert.equal(titles.size, 10);
 });
 
-test('Parkfield, typed, has the numbers of the program', async () => {
+test('a bead that trembles in its well has the colour of rest', async () => {
+  const page = await open('#/dislocations?tour=1&initial.profile=step&initial.stress_left=0.855&initial.stress_right=0&friction.law=none&beads=12');
+  await ready(page);
+  const seen = await page.evaluate(async () => {
+    const canvas = document.querySelector('canvas.beads');
+    const near = (data, i, [r, g, b]) => Math.abs(data[i] - r) + Math.abs(data[i + 1] - g) + Math.abs(data[i + 2] - b) < 12;
+    const count = (from, to, tint) => {
+      const { data } = canvas.getContext('2d').getImageData(from * canvas.width, 0, (to - from) * canvas.width, 40 * devicePixelRatio);
+      let found = 0;
+      for (let i = 0; i < data.length; i += 4) found += near(data, i, tint);
+      return found;
+    };
+    const [moving, resting] = [[200, 80, 30], [31, 95, 153]];
+    const seen = { left: 0, rest: 0, right: 0, pictures: 0 };
+    while (document.querySelector('progress').value < 4.5) {
+      seen.left = Math.max(seen.left, count(0, 0.1, moving));
+      seen.rest = Math.max(seen.rest, count(0, 0.1, resting));
+      seen.right = Math.max(seen.right, count(0.7, 1, moving));
+      seen.pictures += 1;
+      await new Promise(requestAnimationFrame);
+    }
+    return seen;
+  });
+  assert.ok(seen.left === 0 && seen.rest > 30 && seen.right > 30 && seen.pictures > 10, JSON.stringify(seen));
+});
+
+test('a typed event has the numbers of the program, with the constants of the units', async () => {
   const page = await open('#/stress?my.rupture_velocity=3.0+km/s&my.slip_velocity=0.5+m/s', calm);
-  await page.locator('.event').waitFor();
-  await page.waitForFunction(() => / MPa/.test(document.querySelector('.event')?.textContent));
-  const toml = join(mkdtempSync(join(tmpdir(), 'slipfront-')), 'event.toml');
-  writeFileSync(toml, '[event]\nrupture_velocity = "3.0 km/s"\nslip_velocity = "0.5 m/s"\n');
-  const [theirs] = JSON.parse(execFileSync(process.env.SLIPFRONT, ['event', toml, '--json', '--quiet'])).events;
-  const shown = Number(/([\d.]+) MPa/.exec(await page.locator('.event').textContent())[1]);
-  assert.ok(Math.abs((shown * 1e6) / theirs.stress_pa - 1) < 0.05, `${shown} MPa, ${theirs.stress_pa} Pa`);  // both are sampled
+  const folder = mkdtempSync(join(tmpdir(), 'slipfront-'));
+  const card = page.locator('.event');
+  const agrees = async (toml) => {
+    writeFileSync(join(folder, 'event.toml'), toml);
+    const [theirs] = JSON.parse(execFileSync(process.env.SLIPFRONT, ['event', join(folder, 'event.toml'), '--json', '--quiet'])).events;
+    await eventually(async () => {
+      const shown = Number(/([\d.]+) MPa/.exec(await card.textContent())[1]);
+      assert.ok(Math.abs((shown * 1e6) / theirs.stress_pa - 1) < 0.05, `${shown} MPa, ${theirs.stress_pa} Pa`); // both are sampled
+    });
+  };
+  const event = '[event]\nrupture_velocity = "3.0 km/s"\n';
+  await agrees(`${event}slip_velocity = "0.5 m/s"\n`);
+  await page.getByRole('button', { name: 'Units' }).click();
+  await page.getByLabel('Units').getByLabel('Shear modulus μ').fill('40 GPa');
+  const rock = '[medium]\nshear_modulus = "40 GPa"\n';
+  await agrees(`${event}slip_velocity = "0.5 m/s"\n${rock}`);
+  assert.doesNotMatch(await card.textContent(), /shear_modulus 3e\+10/);
+  const form = page.getByLabel('Question');
+  assert.equal(await form.getByLabel('Shear modulus μ').inputValue(), '40 GPa');
+  for (const [label, text] of [['Slip velocity', ''], ['Slip', '0.3 m'], ['Rise time', '0.6 s'], ['Stress drop', '20 MPa']]) await form.getByLabel(label, { exact: true }).fill(text);
+  await agrees(`${event}slip = "0.3 m"\nrise_time = "0.6 s"\nstress_drop = "20 MPa"\n${rock}`);
+  // The answer is a median, which may differ from what was typed: both are shown.
+  await form.getByLabel('Rupture velocity', { exact: true }).fill('2.0 +- 0.3 km/s');
+  await eventually(async () => assert.match(await card.textContent(), /2\.0 \+- 0\.3 km\/s.*0\.\d+ c = [12]\.\d+ km\/s.*medians of the posterior/));
 });
 
 test('a long run says so and can be stopped', async () => {
@@ -231,6 +420,7 @@ test('the first load is small, and nothing is fetched from elsewhere', async () 
     const total = [...sizes.values()].reduce((a, b) => a + b, 0);
     console.log(`# ${hash}: ${(total / 1000).toFixed(1)} kB gzipped (${(total / 1024).toFixed(1)} KiB) in ${sizes.size} files, first picture after ${seconds.toFixed(2)} s`);
     assert.ok(total <= 420_000, `${total} bytes`);
+    assert.ok([...sizes.keys()].every((one) => !/event/.test(one)), 'the module for typed events waits until somebody types one');
     assert.deepEqual(page.complaints, []);
     await page.context().close();
   }

@@ -1,8 +1,8 @@
-declare module '@wasm/slipfront.mjs' {
-  const make: (options: object) => Promise<import('./engine/binding').Module>;
+declare module '@wasm/*.mjs' {
+  const make: import('./engine/binding').Make;
   export default make;
 }
-declare module '@wasm/slipfront.wasm?url' {
+declare module '@wasm/*.wasm?url' {
   const address: string;
   export default address;
 }

@@ -4,7 +4,7 @@ import './style.css';
 import { render, type ComponentType } from 'preact';
 import { useEffect, useState } from 'preact/hooks';
 import { signal } from '@preact/signals';
-import { addressOf, entryOf, route, setParams } from './state/route';
+import { addressOf, entryOf, linkTo, route, setParams, unitParams } from './state/route';
 import { refreshUnits, stated, wantsUnits } from './state/units';
 import { said } from './ui/announce';
 import { setTheme, theme } from './ui/colors';
@@ -60,10 +60,10 @@ function Top() {
   const dark = theme.value >= 0 && getComputedStyle(document.documentElement).colorScheme === 'dark';
   return (
     <header class="top">
-      <a class="brand" href="#/">slipfront</a>
+      <a class="brand" href={addressOf({ panel: '', params: unitParams() })}>slipfront</a>
       <nav aria-label="Panels">
         {Object.entries(pages).map(([key, page]) => (
-          <a href={addressOf({ panel: key, params: {} })} aria-current={key === here ? 'page' : undefined}>{page.name}</a>
+          <a href={linkTo(key)} aria-current={key === here ? 'page' : undefined}>{page.name}</a>
         ))}
       </nav>
       <div class="tools">
@@ -92,7 +92,7 @@ function App() {
       <main id="main" tabIndex={-1}>
         {unitsOpen.value && <UnitsForm onClose={() => (unitsOpen.value = false)} onToggle={(on) => setParams({ si: on ? '1' : null })} />}
         <TourBar />
-        {page && <div class="intro"><h1>{page.heading}</h1><p>{page.about}</p></div>}
+        {page && <div class="intro"><h1>{page.heading}</h1>{!route.value.params.tour && <p>{page.about}</p>}</div>}
         {unknown && <p class="busy" role="status">There is no panel “{route.value.panel.slice(0, 60)}”. Allowed: {Object.keys(pages).join(', ')}.</p>}
         {page ? <page.view key={route.value.panel} /> : <HomePanel />}
       </main>

@@ -14,6 +14,20 @@ export interface Module {
   [name: string]: unknown;
 }
 
+export type Make = (options: object) => Promise<Module>;
+
+/** Compiles a module while it arrives, or afterwards if the server does not name its type. */
+export const compiled = (address: string) =>
+  WebAssembly.compileStreaming(fetch(address)).catch(async () => WebAssembly.compile(await (await fetch(address)).arrayBuffer()));
+
+export const instanceOf = (make: Make, wasm: WebAssembly.Module) =>
+  make({
+    instantiateWasm(imports: WebAssembly.Imports, receive: (instance: WebAssembly.Instance) => void) {
+      WebAssembly.instantiate(wasm, imports).then(receive);
+      return {};
+    },
+  });
+
 const isObject = (value: unknown): value is Record<string, unknown> => value !== null && typeof value === 'object';
 
 function withArrays(value: unknown, heap: Float64Array, base: number): unknown {

@@ -1,6 +1,7 @@
 /** The page's side of the worker. */
 
 import address from '@wasm/slipfront.wasm?url';
+import { compiled } from './binding';
 import { begunRun, grown, type PulseRun } from '../model/pulse_run';
 import type { AnswerOf, Calls, Complaint, Message, Name, News, PulseQuestion, Question } from './protocol';
 
@@ -9,9 +10,7 @@ type Listener = (news: News, last: boolean) => void;
 let worker: Worker | undefined;
 let last = 0;
 const listeners = new Map<number, Listener>();
-const compiled = WebAssembly.compileStreaming(fetch(address)).catch(async () =>
-  WebAssembly.compile(await (await fetch(address)).arrayBuffer()),
-);
+const wasm = compiled(address);
 
 const post = (to: Worker | undefined, question: Question) => to?.postMessage(question);
 
@@ -24,7 +23,7 @@ function started(): Worker {
     listener?.(data, data.last);
   };
   const one = worker;
-  compiled.then((wasm) => post(one, { type: 'start', wasm }));
+  wasm.then((module) => post(one, { type: 'start', wasm: module }));
   return one;
 }
 

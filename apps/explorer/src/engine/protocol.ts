@@ -66,9 +66,9 @@ export interface ScenarioAnswer {
 
 /** Quantities of an event. A quantity that the observations do not determine is null. */
 export type EventKey =
-  | 'rupture_velocity' | 'stress' | 'frictionless_slip_velocity' | 'stress_pa' | 'stress_pa_bound'
+  | 'rupture_velocity' | 'stress' | 'stress_bound' | 'frictionless_slip_velocity' | 'stress_pa' | 'stress_pa_bound'
   | 'contact_ratio' | 'contact_ratio_bound' | 'damping_number';
-export type EventNumbers = Record<EventKey | 'rupture_velocity_m_s' | 'slip_velocity_m_s', number | null>;
+export type EventNumbers = Record<EventKey | 'c_m_s' | 'rupture_velocity_m_s' | 'slip_velocity_m_s', number | null>;
 export type EventAnswer = EventNumbers & Record<`${EventKey}_low` | `${EventKey}_high`, number | null> & { name: string; warnings: string[] };
 
 export interface ChainBegun {

@@ -1,13 +1,16 @@
 /** The worker computes in its own thread, so that the page stays responsive. It divides runs into pieces and reads newer questions between them. */
 
 import make from '@wasm/slipfront.mjs';
-import { buffersOf, call, type Module } from './binding';
+import { buffersOf, call, instanceOf, type Module } from './binding';
 import type { Calls, Message, Name, News, Question, Table } from './protocol';
 
 const milliseconds = 12;
 let begin!: (made: Promise<Module>) => void;
 /** Questions that arrive before the module wait for it. */
 const module = new Promise<Module>((resolve) => (begin = resolve));
+let events: Promise<Module> | undefined;
+/** The module for typed events. The page fetches it when somebody types the first one. */
+const eventModule = () => (events ??= import('./event_module').then((loaded) => loaded.eventModule()));
 const cancelled = new Set<number>();
 const latest = new Map<number, number>();
 
@@ -53,18 +56,13 @@ async function pulse(q: Question & { type: 'pulse' }) {
 
 onmessage = async ({ data }: MessageEvent<Question>) => {
   if (data.type === 'start') {
-    const compiled = data.wasm;
-    begin(make({
-      instantiateWasm(imports: WebAssembly.Imports, receive: (instance: WebAssembly.Instance) => void) {
-        WebAssembly.instantiate(compiled, imports).then(receive);
-        return {};
-      },
-    }));
+    begin(instanceOf(make, data.wasm));
   } else if (data.type === 'cancel') {
     cancelled.add(data.id);
   } else if (data.type === 'pulse') {
     await pulse(data);
   } else {
-    say(data.id, { type: 'answer', answer: call(await module, data.name, data.args as Calls[Name]['arguments']) }, true);
+    const m = await (data.name === 'event' ? eventModule() : module);
+    say(data.id, { type: 'answer', answer: call(m, data.name, data.args as Calls[Name]['arguments']) }, true);
   }
 };

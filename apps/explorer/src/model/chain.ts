@@ -31,12 +31,14 @@ export const advanced = (chain: Chain, more: ChainAnswer): Chain => ({
 export const lastFrame = (chain: Chain) => chain.frames[chain.frames.length - 1];
 export const isOver = (time: number, end: number) => time >= end - 1e-9;
 
-/** Speeds of the dislocations in the last frame, from their positions a few frames earlier. */
-export function speedsOf(frames: ChainFrame[]): number[] {
+/** Whether each dislocation moves in the last frame. One at rest trembles in its well, so we compare its position with that 24 frames before. */
+export function moving({ begun, frames }: Chain): boolean[] {
   const now = frames[frames.length - 1];
-  const before = frames[Math.max(0, frames.length - 6)];
-  if (before.x.length !== now.x.length || now.time === before.time) return Array.from(now.x, () => 0);
-  return Array.from(now.x, (x, i) => Math.abs(x - before.x[i]) / (now.time - before.time));
+  let first = frames.length - 1;
+  while (first > 0 && first > frames.length - 25 && frames[first - 1].x.length === now.x.length) --first;
+  const before = frames[first];
+  const least = Math.max(0.005 * (now.time - before.time), (0.1 * begun.spacing) / begun.scale);
+  return Array.from(now.x, (x, i) => Math.abs(x - before.x[i]) > least);
 }
 
 /** All positions of dislocations, as CSV. */

@@ -25,7 +25,7 @@ export interface FaultEvent {
 export type LocatedEvent = FaultEvent & { numbers: { stress: number; rupture_velocity: number; rupture_velocity_m_s: number } };
 
 export const eventKeys: EventKey[] = [
-  'rupture_velocity', 'stress', 'frictionless_slip_velocity', 'stress_pa', 'stress_pa_bound', 'contact_ratio', 'contact_ratio_bound', 'damping_number',
+  'rupture_velocity', 'stress', 'stress_bound', 'frictionless_slip_velocity', 'stress_pa', 'stress_pa_bound', 'contact_ratio', 'contact_ratio_bound', 'damping_number',
 ];
 
 function intervalsBy(of: (key: EventKey) => Interval | null | undefined): FaultEvent['intervals'] {

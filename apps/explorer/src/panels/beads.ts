@@ -1,7 +1,7 @@
 /** How the dislocations are drawn: beads on the wells of the substrate, and the paths that they have come. */
 
 import type { ChainBegun } from '../engine/protocol';
-import { lastFrame, speedsOf, type Chain } from '../model/chain';
+import { lastFrame, moving, type Chain } from '../model/chain';
 import { color, theme } from '../ui/colors';
 
 /** Paths that have been drawn already: only new frames are added. */
@@ -58,10 +58,10 @@ export function paint(canvas: HTMLCanvasElement, paths: Paths, chain: Chain, end
   for (let i = 0; i <= w; i += 1.5) ctx.lineTo(edge + i, strip - 8 + 5 * Math.cos((2 * Math.PI * i * wells) / w));
   ctx.stroke();
   const now = lastFrame(chain);
-  const speeds = speedsOf(chain.frames);
+  const moves = moving(chain);
   const radius = Math.max(2.2, Math.min(6.5, (0.42 * w) / Math.max(20, now.x.length)));
   for (let i = 0; i < now.x.length; ++i) {
-    ctx.fillStyle = now.sign[i] < 0 ? color('fast') : speeds[i] > 0.003 ? color('slip') : color('stress');
+    ctx.fillStyle = now.sign[i] < 0 ? color('fast') : moves[i] ? color('slip') : color('stress');
     ctx.beginPath();
     ctx.arc(edge + ((now.x[i] - left) / (right - left)) * w, strip - 16, radius, 0, 7);
     ctx.fill();

@@ -2,7 +2,7 @@
 
 import type { Chain } from '../model/chain';
 import { scaleOf, type Quantity } from '../state/units';
-import type { Spec } from '../ui/spec';
+import { rangeAround, type Spec } from '../ui/picture/spec';
 
 type Scale = { unit: string; factor: number };
 const times = (values: Float64Array, factor: number) => values.map((v) => v * factor);
@@ -14,7 +14,7 @@ export function averageSpec(chain: Chain, key: 'W' | 'Sigma', title: string, tin
   return {
     name: `average-${key}`, title, x: times(chain.average.average_x, x.factor), xLabel: `x, in ${x.unit}`, yLabel,
     series: key === 'Sigma' ? [{ label: 'before', y: times(chain.first[key], factor), color: 'before', fill: false }, ...series] : series,
-    yRange: key === 'Sigma' ? [0, Math.max(...chain.first[key]) * factor * 1.2] : undefined,
+    yRange: key === 'Sigma' ? rangeAround(...series.map(({ y }) => y), [1.1 * Math.max(...chain.first[key]) * factor]) : undefined,
   };
 }
 

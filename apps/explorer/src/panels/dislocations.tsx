@@ -6,12 +6,13 @@ import { route, setParams } from '../state/route';
 import { scenarioOf, tableOf, tomlOf } from '../state/scenario';
 import { scaleOf } from '../state/units';
 import { theme } from '../ui/colors';
-import { Data } from '../ui/data';
+import { Controls } from '../ui/controls';
+import { Data } from '../ui/picture/data';
 import { Equations } from '../ui/equations';
 import { Exchange } from '../ui/exchange';
 import { CannotRun, NumberField } from '../ui/fields';
 import { short } from '../ui/format';
-import { Plot } from '../ui/plot';
+import { Plot } from '../ui/picture/plot';
 import { save } from '../ui/save';
 import { ScenarioForm } from '../ui/scenario_form';
 import { paint, type Paths } from './beads';
@@ -53,13 +54,13 @@ export function DislocationsPanel() {
   const close = useMemo(() => chain && closeSpec(chain, x), [chain?.average, si]);
   return (
     <div class="panel">
-      <aside class="controls" aria-label="Scenario">
+      <Controls label="Scenario">
         <h2>Chain</h2>
         <NumberField label="Dislocations" value={typed} least={1} most={most} log onInput={(text) => setParams({ beads: /^\d+\.\d+$/.test(text) ? String(Math.max(1, Math.round(Number(text)))) : text })}
           error={bad ? `Allowed: a whole number from 1 to ${most}; the program takes millions.` : ''} hint="Few: see each of them. Many: see the average emerge." />
         <ScenarioForm error={error} averages={false} />
         <Exchange command="chain" />
-      </aside>
+      </Controls>
       <section class="pictures" aria-label="Dislocations">
         <div class="transport chain">
           <button type="button" class="play" aria-label={playing ? 'Pause' : 'Play'} onClick={() => (over ? restart() : setPlaying(!playing))}>
@@ -72,7 +73,7 @@ export function DislocationsPanel() {
         <CannotRun error={error} shown={Boolean(chain)} />
         {!chain && !error && <p class="busy" role="status">Placing the dislocations …</p>}
         {chain && now && (
-          <div class={error ? 'stale' : ''}>
+          <div class={`results ${error ? 'stale' : ''}`}>
             <dl class="facts">
               <div><dt>Dislocations</dt><dd>{now.x.length}</dd></div>
               <div><dt>Sites of the chain</dt><dd>{chain.begun.sites}</dd></div>

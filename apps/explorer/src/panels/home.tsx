@@ -1,11 +1,12 @@
 /** The first page: what this is, moving. */
 
 import { useEffect, useMemo } from 'preact/hooks';
-import { addressOf } from '../state/route';
-import { stops } from './tour';
+import { linkTo } from '../state/route';
+import { addressOfStop } from './tour_bar';
 import { tomlOf } from '../state/scenario';
 import { makePlayer, reducedMotion, Transport } from '../ui/player';
-import { Plot } from '../ui/plot';
+import { Plot } from '../ui/picture/plot';
+import { rangeAround } from '../ui/picture/spec';
 import { fieldAt, seriesAt } from '../model/pulse_run';
 import { usePulse } from './use_pulse';
 
@@ -23,10 +24,9 @@ function Hero() {
   const spec = useMemo(() => {
     if (!run) return null;
     const time = at * end;
-    const most = 0.055;
     const slip = fieldAt(run, 'W', time);
     return {
-      name: 'pulse', title: 'A slip pulse', x: run.x, xLabel: 'along the interface', yLabel: 'slip velocity', yRange: [0, most] as [number, number],
+      name: 'pulse', title: 'A slip pulse', x: run.x, xLabel: 'along the interface', yLabel: 'slip velocity', yRange: rangeAround([0.051], slip),
       series: [{ label: 'slip velocity', y: slip, color: 'slip', fill: true }],
       verticals: [
         { x: seriesAt(run, 'trailing_front', time), label: 'fast front', color: 'fast' },
@@ -54,13 +54,13 @@ export function HomePanel() {
           <h1>How does an interface start to slip?</h1>
           <p class="lead">Two rough surfaces, pressed together, hold shear stress. Then a pulse of slip runs along them and lets it go.</p>
           <p>Earthquakes do it at kilometres a second, slow slip at kilometres a day. One theory covers both: slip is carried by dislocations, and the stress that was stored sets their speed. Everything on this page is computed here, in your browser, by the same code as the program.</p>
-          <p class="doors-first"><a class="primary" href={addressOf({ panel: stops[0].panel, params: { tour: '1', ...stops[0].params } })}>Take the tour</a> <span class="hint">ten steps, three minutes</span></p>
+          <p class="doors-first"><a class="primary" href={addressOfStop(0)}>Take the tour</a> <span class="hint">ten steps, three minutes</span></p>
         </div>
         <Hero />
       </div>
       <ul class="doors">
         {doors.map((door) => (
-          <li class="card"><a href={addressOf({ panel: door.panel, params: {} })}>{door.name}</a><p>{door.text}</p></li>
+          <li class="card"><a href={linkTo(door.panel)}>{door.name}</a><p>{door.text}</p></li>
         ))}
       </ul>
     </div>

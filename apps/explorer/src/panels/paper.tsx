@@ -4,14 +4,15 @@ import { useEffect, useState } from 'preact/hooks';
 import { call } from '../engine/client';
 import type { Complaint, RelationsKey } from '../engine/protocol';
 import { last, lastOf, type PulseRun } from '../model/pulse_run';
-import { entryOf, route, setParams } from '../state/route';
+import { entryOf, go, route, setParams, unitParams } from '../state/route';
 import { commandOf, tomlOf } from '../state/scenario';
+import { Controls } from '../ui/controls';
 import { Check, NumberField, Segments, sentence } from '../ui/fields';
 import { short } from '../ui/format';
-import { SpaceTime } from '../ui/map';
-import { Plot } from '../ui/plot';
+import { SpaceTime } from '../ui/picture/map';
+import { Plot } from '../ui/picture/plot';
 import { copy, save } from '../ui/save';
-import type { Spec } from '../ui/spec';
+import { rangeAround, type Spec } from '../ui/picture/spec';
 import { figures } from './figures';
 import { useAnswer } from './use_answer';
 import { useRuns, type Question } from './use_runs';
@@ -64,7 +65,7 @@ function Before(v: View) {
       if (!a.error && !b.error)
         setSpecs({
           name: 'fig-03', title: 'Stress before', x: [], xLabel: 'x, in b/A', yLabel: 'Σ, in μA/π', series: [],
-          paths: [{ label: 'step', x: b.x, y: b.stress, color: 'stress' }, { label: 'smooth', x: a.x, y: a.stress, color: 'slip', dash: [3, 4] }], yRange: [0, 1.15 * v.values.left], xRange: [-5, 5],
+          paths: [{ label: 'step', x: b.x, y: b.stress, color: 'stress' }, { label: 'smooth', x: a.x, y: a.stress, color: 'slip', dash: [3, 4] }], yRange: rangeAround(a.stress, b.stress), xRange: [-5, 5],
         });
     });
     return () => void (alive = false);
@@ -114,10 +115,10 @@ function Three({ figure, ...v }: View & { figure: string }) {
   const peak = (run: PulseRun) => lastOf(run, 'peak_slip_velocity');
   const factor = (run: PulseRun) => (stress ? 1 : peak(there[0].run) / peak(run));
   const label = (run: PulseRun, C: number) => `C = ${short(C)}${stress || factor(run) === 1 ? '' : `, times ${short(factor(run), 3)}`}`;
+  const paths = there.map(({ run, C, i }) => ({ label: label(run, C), x: run.x, y: Float64Array.from(last(run, stress ? 'Sigma' : 'W'), (w) => w * factor(run)), color: colors[i], dash: dashes[i] }));
   const spec: Spec = {
     name: stress ? 'fig-09' : 'fig-08', title: stress ? 'Stress at t = 2π' : 'Slip velocity at t = 2π', x: [], xLabel: 'x, in b/A', yLabel: stress ? 'Σ, in μA/π' : 'W, in cA/π', series: [], yLog: !stress && v.log,
-    paths: there.map(({ run, C, i }) => ({ label: label(run, C), x: run.x, y: Float64Array.from(last(run, stress ? 'Sigma' : 'W'), (w) => w * factor(run)), color: colors[i], dash: dashes[i] })),
-    yRange: !stress && v.log ? [1e-5 * peak(there[0].run), 2 * peak(there[0].run)] : [0, 1.1 * (stress ? v.values.left : peak(there[0].run))],
+    paths, yRange: !stress && v.log ? [1e-5 * peak(there[0].run), 2 * peak(there[0].run)] : rangeAround(...paths.map(({ y }) => y)),
   };
   return <><Problem error={error} /><Plot spec={spec} height={420} /><Waiting done={done} of={3} /></>;
 }
@@ -141,7 +142,7 @@ function Sweep({ figure, ...v }: View & { figure: string }) {
   const marks = byFriction ? [[0.1, 0.83], [0.5, 0.5], [2, 0.2]].map(([x, y]) => ({ x, y, label: `the paper reads ${y}`, color: 'chosen', chosen: true })) : [];
   const spec: Spec = byFriction
     ? { name: 'fig-10', title: 'W(C) / W(0) at x = 0, t = 2π (dots: read off by the paper)', x: [], xLabel: 'friction C', yLabel: 'share left by friction', series: [], paths, points: marks, xRange: [0, 2.05], yRange: [0, 1.05] }
-    : { name: 'fig-12', title: 'Slip velocity at x = 0, t = 2π', x: [], xLabel: '(Σ− − Σ+) / Σ−, in %', yLabel: 'W, in cA/π', series: [], paths, xRange: [0, 100], yRange: [0, 1.15 * Math.max(1e-12, ...paths.flatMap((p) => p.y.filter(Number.isFinite)))] };
+    : { name: 'fig-12', title: 'Slip velocity at x = 0, t = 2π', x: [], xLabel: '(Σ− − Σ+) / Σ−, in %', yLabel: 'W, in cA/π', series: [], paths, xRange: [0, 100], yRange: rangeAround(...paths.map(({ y }) => y)) };
   return <><Problem error={error} />{done > 1 && <Plot spec={spec} height={420} />}<Waiting done={done} of={questions.length} /></>;
 }
 
@@ -166,8 +167,8 @@ export function PaperPanel() {
   const toml = runs ? scenario(view, { C: values.C ?? values.C2 ?? 0.5, step: figure === '12' }) : '';
   return (
     <div class="panel">
-      <aside class="controls" aria-label="Figure">
-        <Segments label="Figure" value={figure} choices={Object.keys(figures).map((key) => ({ value: key, label: key }))} onInput={(fig) => { location.hash = `#/paper?fig=${fig}`; }} />
+      <Controls label="Figure">
+        <Segments label="Figure" value={figure} choices={Object.keys(figures).map((key) => ({ value: key, label: key }))} onInput={(fig) => go('paper', { ...unitParams(), fig })} />
         <h2>{title}</h2>
         <p class="hint">{text}</p>
         {sliders.map((s, i) => (
@@ -181,7 +182,7 @@ export function PaperPanel() {
             <p class="command"><code>{commandOf('pulse', 'scenario.toml')}</code></p>
           </>
         )}
-      </aside>
+      </Controls>
       <section class="pictures" aria-label={title}><Picture key={figure} figure={figure} {...view} /></section>
     </div>
   );

@@ -3,27 +3,30 @@
 import { useEffect, useMemo, useRef } from 'preact/hooks';
 import type { PulseField, PulseSeries } from '../engine/protocol';
 import { fieldAt, seriesAt, type PulseRun } from '../model/pulse_run';
-import { route, setParams } from '../state/route';
+import { route, setParams, type Params } from '../state/route';
 import { drawnOf, scenarioOf, tableOf, tomlOf } from '../state/scenario';
 import { scaleOf, type Quantity } from '../state/units';
+import { Controls } from '../ui/controls';
 import { Exchange } from '../ui/exchange';
 import { CannotRun, Check } from '../ui/fields';
 import { short } from '../ui/format';
-import { SpaceTime } from '../ui/map';
+import { SpaceTime } from '../ui/picture/map';
 import { makePlayer, reducedMotion, Transport, type Player } from '../ui/player';
-import { Plot } from '../ui/plot';
+import { Plot } from '../ui/picture/plot';
 import { ScenarioForm } from '../ui/scenario_form';
-import type { Series, Spec } from '../ui/spec';
+import { rangeAround, reach, type Series, type Spec } from '../ui/picture/spec';
 import { stopAll } from '../engine/client';
 import { usePulse, type Shown } from './use_pulse';
 
-const player: Player = makePlayer(1);
+/** The fraction of the run at which the panel opens: both fronts are on their way. */
+const opening = 0.3;
+const player: Player = makePlayer(opening);
 
-function largest(values: ArrayLike<number>): number {
-  let most = 0;
-  for (let i = 0; i < values.length; ++i) if (Math.abs(values[i]) > most) most = Math.abs(values[i]);
-  return most;
-}
+type Range = [number, number];
+const largest = (values: ArrayLike<number>) => {
+  const [least, most] = reach(values);
+  return Math.max(-least, most);
+};
 
 const times = (values: ArrayLike<number>, factor: number) => (factor === 1 ? values : Float64Array.from(values as ArrayLike<number>, (v) => v * factor));
 
@@ -34,19 +37,20 @@ interface Curve {
   dash?: number[];
 }
 
-function profile(name: string, title: string, field: PulseField, quantity: Quantity, symbol: string, color: string, curves: Curve[], time: number, extent: number): Spec {
+function profile(name: string, title: string, field: PulseField, quantity: Quantity, symbol: string, color: string, curves: Curve[], time: number, usual: Range): Spec {
   const first = curves[0].run;
   const xScale = scaleOf('x', largest(first.x));
-  const yScale = scaleOf(quantity, extent);
-  const series: Series[] = [];
-  if (field === 'Sigma') series.push({ label: 'before', y: times(fieldAt(first, field, 0), yScale.factor), color: 'before', width: 1.5 });
-  for (const curve of curves)
-    series.push({ label: curve.label, y: times(fieldAt(curve.run, field, time), yScale.factor), color: curve.color(color), dash: curve.dash, fill: field === 'W' && !curve.dash });
+  const now = curves.map((curve) => fieldAt(curve.run, field, time));
+  const before = field === 'Sigma' ? [fieldAt(first, field, 0)] : [];
+  const extent = reach(usual, ...now, ...before);
+  const yScale = scaleOf(quantity, largest(extent));
+  const series: Series[] = before.map((y) => ({ label: 'before', y: times(y, yScale.factor), color: 'before', width: 1.5 }));
+  curves.forEach((curve, i) => series.push({ label: curve.label, y: times(now[i], yScale.factor), color: curve.color(color), dash: curve.dash, fill: field === 'W' && !curve.dash }));
   const fronts: [PulseSeries, string, string][] = [['trailing_front', 'V−', 'fast'], ['leading_front', 'V+', 'slow']];
   const verticals = fronts.map(([key, label, tint]) => ({ x: seriesAt(first, key, time) * xScale.factor, label, color: tint })).filter((v) => Number.isFinite(v.x));
   return {
     name, title, x: times(first.x, xScale.factor), xLabel: `x, in ${xScale.unit}`, yLabel: `${symbol}, in ${yScale.unit}`, series, verticals,
-    yRange: [0, (extent || 1e-12) * 1.08 * yScale.factor],
+    yRange: rangeAround(times(extent, yScale.factor)), factors: [xScale.factor, yScale.factor],
   };
 }
 
@@ -55,12 +59,13 @@ function runToShow(shown: Shown): PulseRun | null {
   return shown.look ?? shown.run;
 }
 
-function extentOf(run: PulseRun, field: PulseField): number {
+/** The range of a field in most of the run. The axis also contains the profile that is shown. */
+function extentOf(run: PulseRun, field: PulseField): Range {
   const steady = run.fields[field];
   // The slip velocity of a step is largest at the start. On its scale, all later profiles would look flat.
-  if (field !== 'W') return largest(steady);
+  if (field !== 'W') return reach(steady);
   const n = run.x.length;
-  return largest(steady.subarray(Math.min(steady.length - n, n * Math.max(1, Math.round(run.count * 0.1)))));
+  return reach(steady.subarray(Math.min(steady.length - n, n * Math.max(1, Math.round(run.count * 0.1)))));
 }
 
 function Facts({ run, time }: { run: PulseRun; time: number }) {
@@ -69,14 +74,14 @@ function Facts({ run, time }: { run: PulseRun; time: number }) {
     const scale = scaleOf(quantity, number);
     return Number.isFinite(number) ? `${short(number * scale.factor, 4)} ${scale.unit}` : '–';
   };
-  const coefficient = run.frictionCoefficient; // null if friction is not viscous and has no coefficient C
+  const coefficient = run.frictionCoefficient; // null if friction is not viscous, and 0 without friction: neither damps
   return (
     <dl class="facts" aria-label="Numbers at this time">
       <div><dt>Slip velocity at x = 0</dt><dd>{value('slip_velocity_at_origin', 'slipVelocity')}</dd></div>
       <div><dt>Slip at x = 0</dt><dd>{value('slip_at_origin', 'slip')}</dd></div>
       <div><dt>Fast front, V−</dt><dd>{value('trailing_front', 'x')}</dd></div>
       <div><dt>Slow front, V+</dt><dd>{value('leading_front', 'x')}</dd></div>
-      {coefficient !== null && <div><dt>Damping number Γ = C t</dt><dd>{coefficient === undefined ? '–' : short(coefficient * time, 3)}</dd></div>}
+      {coefficient ? <div><dt>Damping number Γ = C t</dt><dd>{short(coefficient * time, 3)}</dd></div> : null}
     </dl>
   );
 }
@@ -101,12 +106,25 @@ function mapOf(run: PulseRun, now: number) {
   const w = scaleOf('slipVelocity', largest(run.fields.W));
   return {
     title: 'Slip velocity over x and t', name: 'space-time', x: run.x, t: run.series.time, values: run.fields.W, xFactor: x.factor, tFactor: t.factor, factor: w.factor,
-    xLabel: `x, in ${x.unit}`, tLabel: `t, in ${t.unit}`, label: `slip velocity, in ${w.unit}`, now,
+    xLabel: `x, in ${x.unit}`, tLabel: `t, in ${t.unit}`, label: `W, in ${w.unit}`, now,
     lines: [
       { x: run.series.trailing_front, color: 'fast', label: 'V−' },
       { x: run.series.leading_front, color: 'slow', label: 'V+' },
     ],
   };
+}
+
+/** The points of a drawn stress. */
+function pointsOf(params: Params): [number[], number[]] | null {
+  const table = params['initial.profile'] === 'table' ? tableOf(params) : null;
+  return table && [table[0].slice(1, -1), table[1].slice(1, -1)];
+}
+
+const allowed = (stress: number) => (stress < 0.02 ? 0 : Math.min(2, stress));
+
+function movePoint(index: number, change: number) {
+  const [x, y] = pointsOf(route.value.params)!;
+  setParams({ drawn: drawnOf(x, y.map((stress, i) => (i === index ? allowed(+(stress + change).toFixed(4)) : stress))) });
 }
 
 function useDrawing() {
@@ -127,7 +145,7 @@ function useDrawing() {
     };
     if (first || !stroke.current) stroke.current = { x: [], y: [] };
     stroke.current.x.push(x);
-    stroke.current.y.push(Math.min(2, Math.max(0, y)));
+    stroke.current.y.push(y);
     const { x: sx, y: sy } = stroke.current;
     const width = (right - left) / count;
     const values = grid.map((gx) => {
@@ -138,7 +156,7 @@ function useDrawing() {
       }
       return at(gx);
     });
-    setParams({ drawn: drawnOf(grid, values.map((v) => (v < 0.02 ? 0 : v))) });
+    setParams({ drawn: drawnOf(grid, values.map(allowed)) });
   };
 }
 
@@ -155,7 +173,7 @@ export function PulsePanel() {
   const draw = useDrawing();
   useEffect(() => {
     if (params.t !== undefined && Number.isFinite(Number(params.t))) player.at.value = Math.min(1, Math.max(0, Number(params.t)));
-    else player.at.value = 1;
+    else player.at.value = opening;
     if (params.play === '1' && !reducedMotion()) { player.at.value = 0; player.playing.value = true; }
     return () => { player.playing.value = false; };
   }, [params.t, params.play]);
@@ -174,23 +192,26 @@ export function PulsePanel() {
     const at = Math.min(time, shownEnd);
     const curves: Curve[] = [{ run, label: compare ? names[run.closure] : 'now', color: (base) => base }];
     if (second?.fields.W.length) curves.push({ run: second, label: names[second.closure], color: (base) => `${base}-other`, dash: [6, 4] });
-    const extent = (field: 'W' | 'Sigma' | 'U') => (main.look ? Math.max(largest(fieldAt(run, field, at)), field === 'Sigma' ? largest(fieldAt(run, field, 0)) : 0) : extents?.[field] ?? largest(run.fields[field]));
+    // While a control moves, the slip velocity keeps its scale, so that one sees it grow.
+    const extent = (field: 'W' | 'Sigma' | 'U'): Range => (main.look && field !== 'W' ? [0, 0] : extents?.[field] ?? [0, 0]);
     return [
-      profile('slip-velocity', 'Slip velocity', 'W', 'slipVelocity', 'W', 'slip', curves, at, Math.max(extent('W'), main.look && extents ? extents.W : 0)),
+      profile('slip-velocity', 'Slip velocity', 'W', 'slipVelocity', 'W', 'slip', curves, at, extent('W')),
       profile('stress', 'Stress', 'Sigma', 'stress', 'Σ', 'stress', curves, at, extent('Sigma')),
       profile('dislocation-velocity', 'Velocity of the dislocations', 'U', 'velocity', 'U', 'speed', curves, at, extent('U')),
     ];
   }, [run, second, time, extents, params.si, scaleOf('stress', 1).factor, scaleOf('x', 1).factor]);
   const map = useMemo(() => whole && whole.count > 2 && mapOf(whole, time), [whole, time, params.si, scaleOf('x', 1).factor]);
   const energy = useMemo(() => whole && whole.count > 2 && energySpec(whole), [whole, params.si]);
-  const settle = (at: number) => setParams({ t: at >= 1 ? null : at.toFixed(3), play: null });
+  const settle = (at: number) => setParams({ t: at.toFixed(3), play: null });
   const warnings = whole?.warnings ?? [];
+  const points = pointsOf(params);
+  const factors = specs?.[1].factors ?? [1, 1];
   return (
     <div class="panel">
-      <aside class="controls" aria-label="Scenario">
+      <Controls label="Scenario">
         <ScenarioForm error={main.error} extra={scenario['friction.law'] !== 'none' && <Check label="Both averages of friction side by side" checked={compare} onInput={(on) => setParams({ compare: on ? '1' : null })} />} />
         <Exchange command="pulse" />
-      </aside>
+      </Controls>
       <section class="pictures" aria-label="Pulse">
         <Transport player={player} end={end} unit={t.unit} factor={t.factor} onSettle={settle} />
         {slow && (
@@ -200,10 +221,11 @@ export function PulsePanel() {
         )}
         <CannotRun error={main.error} shown={Boolean(run)} />
         {specs && run ? (
-          <div class={main.error ? 'stale' : ''}>
+          <div class={`results ${main.error ? 'stale' : ''}`}>
             <Facts run={whole && !main.look ? whole : run} time={time} />
             <Plot spec={specs[0]} height={210} />
-            <Plot spec={specs[1]} height={190} onDraw={scenario['initial.profile'] === 'table' ? draw : undefined} />
+            <Plot spec={points ? { ...specs[1], handles: { x: points[0].map((v) => v * factors[0]), y: points[1].map((v) => v * factors[1]), name: 'initial stress' } } : specs[1]} height={190} onMove={movePoint}
+              onDraw={points ? (x, y, first) => draw(x / factors[0], y / factors[1], first) : undefined} />
             <div class="two">
               {map && <SpaceTime field={map} onPick={(picked) => { player.playing.value = false; player.at.value = picked / end; settle(picked / end); }} />}
               <div>

@@ -4,11 +4,12 @@ import { useEffect, useState } from 'preact/hooks';
 import { call } from '../engine/client';
 import type { Complaint, Riemann } from '../engine/protocol';
 import { route, setParams } from '../state/route';
+import { Controls } from '../ui/controls';
 import { Equations } from '../ui/equations';
 import { about, NumberField, sentence } from '../ui/fields';
 import { short } from '../ui/format';
-import { Plot } from '../ui/plot';
-import type { Path, Spec } from '../ui/spec';
+import { Plot } from '../ui/picture/plot';
+import type { Path, Spec } from '../ui/picture/spec';
 
 const fields = [
   { key: 'left_stress', label: 'Left stress, in μA/π', value: '0.855', least: 0, most: 2 },
@@ -82,7 +83,7 @@ export function RiemannPanel() {
   const width = answer ? Math.max(Math.abs(answer.left_edge), Math.abs(answer.right_edge), 1e-12) * 1.25 : 1;
   return (
     <div class="panel">
-      <aside class="controls" aria-label="States">
+      <Controls label="States">
         <h2>Two states</h2>
         {fields.map(({ key, label, least, most }, i) => (
           <NumberField key={key} label={label} value={texts[i]} least={least} most={most} onInput={(text) => setParams({ [key]: text })} error={sentence(about(error, key))} />
@@ -93,9 +94,9 @@ export function RiemannPanel() {
           <button type="button" onClick={() => setParams({ left_stress: '0.6', left_velocity: '0.4', right_stress: '0.6', right_velocity: '-0.4' })}>Collision</button>
           <button type="button" onClick={() => setParams({ left_stress: '0.6', left_velocity: '-0.5', right_stress: '0.6', right_velocity: '0.5' })}>Parting</button>
         </p>
-      </aside>
+      </Controls>
       {answer && (
-        <section class={`pictures ${error ? 'stale' : ''}`} aria-label="Waves">
+        <section class={`pictures results ${error ? 'stale' : ''}`} aria-label="Waves">
           <dl class="facts">
             <div><dt>Left wave</dt><dd>{inWords[answer.left_wave.kind]}</dd></div>
             <div><dt>Right wave</dt><dd>{inWords[answer.right_wave.kind]}</dd></div>

@@ -6,13 +6,14 @@ import { call } from '../engine/client';
 import type { Complaint, EventKey, Relations, RelationsCurve, RelationsKey, Reply } from '../engine/protocol';
 import { isLocated, published, typed as typedEvent, type FaultEvent } from '../model/events';
 import { entryOf, route, setParams } from '../state/route';
+import { Controls } from '../ui/controls';
 import { Equations } from '../ui/equations';
 import { NumberField, Segments, SelectField, sentence, TextField } from '../ui/fields';
 import { inUnits, short } from '../ui/format';
-import { Plot } from '../ui/plot';
+import { Plot } from '../ui/picture/plot';
 import { copy } from '../ui/save';
-import type { Point, Spec } from '../ui/spec';
-import { wantsUnits } from '../state/units';
+import type { Point, Spec } from '../ui/picture/spec';
+import { rock, wantsUnits } from '../state/units';
 import { useAnswer } from './use_answer';
 
 const events = catalogue.events.filter((event) => !event.error).map(published).filter(isLocated);
@@ -44,14 +45,17 @@ const interval = (event: FaultEvent, key: EventKey, show: (value: number) => str
   return known ? ` (${show(known[0])} to ${show(known[1])})` : '';
 };
 
-function EventCard({ event }: { event: FaultEvent }) {
+/** `typed`: the texts of the observed quantities that the user typed. */
+function EventCard({ event, typed }: { event: FaultEvent; typed?: Record<string, string> }) {
   const of = event.numbers;
   const or = (value: number | null, none: string, known: (value: number) => string) => (value === null ? none : known(value));
   const pa = (value: number) => inUnits('stress', value);
+  const velocity = (value: number) => inUnits('velocity', value);
   const rows: [string, string][] = [
-    ['Rupture velocity', `${or(of.rupture_velocity_m_s, '–', (v) => inUnits('velocity', v))}, ${or(of.rupture_velocity, '–', short)} c${interval(event, 'rupture_velocity', short)}`],
-    ['Stress before, Σ−', `${or(of.stress, '–', short)} μA/π${interval(event, 'stress', short)}`],
-    ['Slip velocity, observed', or(of.slip_velocity_m_s, 'not known', (v) => inUnits('velocity', v))],
+    ['Rupture velocity, observed', typed ? typed['my.rupture_velocity'] || 'not known' : or(of.rupture_velocity_m_s, '–', velocity)],
+    ['Rupture velocity, inferred', or(of.rupture_velocity, '–', (v) => `${short(v)} c${of.c_m_s === null ? '' : ` = ${velocity(v * of.c_m_s)}`}${interval(event, 'rupture_velocity', short)}`)],
+    ['Stress before, Σ−', or(of.stress, '–', (v) => `${of.stress_bound !== null ? 'at least ' : ''}${short(v)} μA/π${interval(event, 'stress', short)}`)],
+    ['Slip velocity, observed', (typed && typed['my.slip_velocity']) || or(of.slip_velocity_m_s, 'not known', velocity)],
     ['Slip velocity without friction', `${or(of.frictionless_slip_velocity, '–', short)} cA/π`],
     ['Stress in SI', of.stress_pa !== null
       ? pa(of.stress_pa) + interval(event, 'stress_pa', pa)
@@ -63,26 +67,29 @@ function EventCard({ event }: { event: FaultEvent }) {
     <section class="card event" aria-label="Chosen event" aria-live="polite">
       <h2>{event.name || 'Your event'}</h2>
       <table><tbody>{rows.map(([name, value]) => <tr><th scope="row">{name}</th><td>{value}</td></tr>)}</tbody></table>
+      {Object.keys(event.intervals).length > 0 && <p class="hint">Inferred values are medians of the posterior, with 5 % and 95 % in brackets. They need not equal the observed values.</p>}
       {event.citation && <p class="hint">{event.citation}{event.note ? `. ${event.note}` : ''}</p>}
       {event.warnings.length > 0 && <ul>{event.warnings.map((w) => <li>{w}</li>)}</ul>}
     </section>
   );
 }
 
+/** Keys of the address, which end with a key of the table of an event. The constants of the rock are those of the units. */
 const typedKeys = [
-  { key: 'rupture_velocity', label: 'Rupture velocity', example: '3.0 +- 0.2 km/s', table: 'event' },
-  { key: 'slip_velocity', label: 'Slip velocity', example: '0.5 */ 1.3 m/s', table: 'event' },
-  { key: 'stress_drop', label: 'Stress drop', example: '30 MPa', table: 'event' },
-  { key: 'contact_ratio', label: 'Contact ratio A', example: '0.003', table: 'medium' },
+  { key: 'my.rupture_velocity', label: 'Rupture velocity', value: '3.0 +- 0.2 km/s' },
+  { key: 'my.slip_velocity', label: 'Slip velocity', value: '0.5 */ 1.3 m/s' },
+  { key: 'my.slip', label: 'Slip', value: '0.3 m' },
+  { key: 'my.rise_time', label: 'Rise time', value: '0.6 s' },
+  { key: 'my.stress_drop', label: 'Stress drop', value: '30 MPa' },
 ];
+const mediumKeys = [{ key: 'my.contact_ratio', label: 'Contact ratio A', value: '0.003' }, ...rock];
+const nameOf = (key: string) => key.split('.')[1];
 
-const tomlOfTyped = (params: Record<string, string>) =>
-  ['event', 'medium']
-    .map((table) => {
-      const given = typedKeys.filter((one) => one.table === table && params[`my.${one.key}`]);
-      return given.length ? `[${table}]\n${given.map((one) => `${one.key} = ${JSON.stringify(params[`my.${one.key}`])}`).join('\n')}\n` : '';
-    })
-    .join('');
+function tomlOfTyped(params: Record<string, string>): string {
+  const lines = (keys: { key: string }[]) => keys.flatMap(({ key }) => (params[key] ? [`${nameOf(key)} = ${JSON.stringify(params[key])}\n`] : [])).join('');
+  const medium = lines(mediumKeys);
+  return lines(typedKeys) && `[event]\nname = "Your event"\n${lines(typedKeys)}${medium && `[medium]\n${medium}`}`;
+}
 
 function useTyped(): { event: FaultEvent | null; error?: Complaint; toml: string } {
   const params = route.value.params;
@@ -92,8 +99,7 @@ function useTyped(): { event: FaultEvent | null; error?: Complaint; toml: string
     if (!toml) return setState({ event: null });
     let alive = true;
     const timer = setTimeout(() => {
-      const text = toml.startsWith('[event]') ? `[event]\nname = "Your event"\n${toml.slice(8)}` : `[event]\nname = "Your event"\n${toml}`;
-      call('event', text, 400).then((answer) => alive && setState(answer.error ? { event: null, error: answer.error } : { event: typedEvent(answer) }));
+      call('event', toml, 400).then((answer) => alive && setState(answer.error ? { event: null, error: answer.error } : { event: typedEvent(answer) }));
     }, 150);
     return () => {
       alive = false;
@@ -105,15 +111,20 @@ function useTyped(): { event: FaultEvent | null; error?: Complaint; toml: string
 
 function TypedForm({ error, toml }: { error?: Complaint; toml: string }) {
   const params = route.value.params;
-  const of = (key: string) => error && (error.key ?? '').split('.').pop() === key;
+  const of = (key: string) => error && (error.key ?? '').split('.').pop() === nameOf(key);
+  const field = ({ key, label, value }: (typeof typedKeys)[number]) => (
+    <TextField key={key} label={label} value={params[key] ?? ''} placeholder={value} error={of(key) ? sentence(error) : ''} onInput={(text) => setParams({ [key]: text || null, event: null })} />
+  );
   return (
     <>
       <h2>Your own event</h2>
       <p class="hint">With units and, if known, errors: 3.0 +- 0.2 km/s, 0.5 */ 1.3 m/s, 2..15 km/day.</p>
-      {typedKeys.map(({ key, label, example }) => (
-        <TextField key={key} label={label} value={params[`my.${key}`] ?? ''} placeholder={example} error={of(key) ? sentence(error) : ''} onInput={(text) => setParams({ [`my.${key}`]: text || null, event: null })} />
-      ))}
-      {error && !typedKeys.some(({ key }) => of(key)) && <p class="error" role="alert">{sentence(error)}</p>}
+      {typedKeys.map(field)}
+      <details class="more" open={mediumKeys.some(({ key }) => params[key])}>
+        <summary>Contact ratio, constants of the rock</summary>
+        {mediumKeys.map(field)}
+      </details>
+      {error && ![...typedKeys, ...mediumKeys].some(({ key }) => of(key)) && <p class="error" role="alert">{sentence(error)}</p>}
       {toml && <p class="buttons"><button type="button" onClick={() => copy(toml, 'event as TOML')}>Copy as TOML</button></p>}
     </>
   );
@@ -158,7 +169,7 @@ export function StressPanel() {
   const complaint = !Number.isFinite(number) ? 'Not a number. Allowed: a number such as 1.03 or 1e-9.' : sentence(chosen?.error);
   return (
     <div class="panel">
-      <aside class="controls" aria-label="Question">
+      <Controls label="Question">
         <h2>From any one, all others</h2>
         <SelectField label="Given" value={given.key} choices={givens.map((one) => ({ value: one.key, label: one.label }))} onInput={(key) => setParams({ given: key, value: null })} />
         <NumberField label="Value" value={value} least={given.least} most={given.most} log={given.log} onInput={(text) => setParams({ value: text })} error={complaint} />
@@ -166,9 +177,10 @@ export function StressPanel() {
           <table class="numbers"><tbody>{names.map(([key, name, unit]) => <tr><th scope="row">{name}</th><td>{short(chosen[key], 6)} {unit}</td></tr>)}</tbody></table>
         )}
         <TypedForm error={typed.error} toml={typed.toml} />
-      </aside>
+      </Controls>
       <section class="pictures" aria-label="Curves and events">
         <Segments label="Range" value={Object.keys(ranges).find((key) => ranges[key] === range)!} choices={Object.entries(ranges).map(([key, one]) => ({ value: key, label: one.label }))} onInput={(key) => setParams({ range: key })} />
+        {event && event === typed.event && <EventCard event={event} typed={params} />}
         {specs && (
           <div class="two">
             <Plot spec={specs[0]} height={330} onPick={pick} />
@@ -187,7 +199,7 @@ export function StressPanel() {
               ))}
             </div>
           </div>
-          <div>{event ? <EventCard event={event} /> : <p class="hint">Choose an event in the list or in a plot, or type your own.</p>}</div>
+          <div>{index >= 0 ? <EventCard event={events[index]} /> : <p class="hint">Choose an event in the list or in a plot, or type your own.</p>}</div>
         </div>
         {wantsUnits.value && <p class="hint">Stress in Pa and the contact ratio are given with each event; the curves stay dimensionless, because A differs from event to event.</p>}
         <Equations names={['fronts', 'train']} />

@@ -42,7 +42,7 @@ export const stops: Stop[] = [
   },
   {
     panel: 'stress', params: { range: 'fast', 'my.rupture_velocity': '3.0 +- 0.2 km/s', 'my.slip_velocity': '0.5 m/s' }, title: 'Parkfield, 2004',
-    text: 'It spread at 3 km/s and slipped at about half a metre a second. The rupture velocity determines the stress over the contact ratio. The slip velocity gives the contact ratio if friction took nothing, and so a lower bound of about 28 MPa for the stress.',
+    text: 'It spread at 3 km/s and slipped at about half a metre a second. The rupture velocity determines the stress over the contact ratio. The slip velocity gives the contact ratio if friction took nothing, and so a lower bound of about 28 MPa for the stress. Friction is not known: with 90 % probability, the stress lies between about 30 and 230 MPa.',
   },
   {
     panel: 'stress', params: { range: 'observed', 'my.rupture_velocity': '10 km/day', 'my.slip_velocity': '2 mm/week' }, title: 'Slow slip',

@@ -1,9 +1,10 @@
 /** The tour, above the panel that it is about. */
 
-import { go, route } from '../state/route';
+import { addressOf, go, route, unitParams } from '../state/route';
 import { stops } from './tour';
 
-export const goToStop = (index: number) => go(stops[index].panel, { tour: String(index + 1), ...stops[index].params });
+export const addressOfStop = (index: number) => addressOf({ panel: stops[index].panel, params: { tour: String(index + 1), ...stops[index].params, ...unitParams() } });
+const goToStop = (index: number) => { location.hash = addressOfStop(index); };
 
 export function TourBar() {
   const number = Number(route.value.params.tour);
@@ -15,7 +16,7 @@ export function TourBar() {
       <p>{text}</p>
       <nav aria-label="Steps of the tour">
         <button type="button" disabled={number === 1} onClick={() => goToStop(number - 2)}>Back</button>
-        {number < stops.length ? <button type="button" class="primary" onClick={() => goToStop(number)}>Next</button> : <button type="button" class="primary" onClick={() => go('', {})}>Done</button>}
+        {number < stops.length ? <button type="button" class="primary" onClick={() => goToStop(number)}>Next</button> : <button type="button" class="primary" onClick={() => go('', unitParams())}>Done</button>}
         <button type="button" onClick={() => go(route.value.panel, Object.fromEntries(Object.entries(route.value.params).filter(([key]) => key !== 'tour')))}>Leave the tour</button>
         <span class="count">step {number} of {stops.length}</span>
       </nav>

@@ -1,6 +1,6 @@
 /** The address of the page: `#/panel?key=value&...`. It contains everything that a picture depends on. */
 
-import { signal } from '@preact/signals';
+import { effect, signal } from '@preact/signals';
 
 export type Params = Record<string, string>;
 export interface Route {
@@ -45,6 +45,31 @@ export function addressOf(route: Route): string {
 
 export const route = signal<Route>(parse(location.hash));
 addEventListener('hashchange', () => (route.value = parse(location.hash)));
+
+/** Panels that run the scenario of the address. */
+const runsScenario = (panel: string) => panel === 'pulse' || panel === 'dislocations';
+const isUnit = (key: string) => key === 'si' || key.startsWith('medium.');
+const isScenario = (key: string) => !isUnit(key) && (key === 'drawn' || key === 'title' || key.includes('.')) && !key.startsWith('my.');
+/** The tour shows its own states, and a run starts only when somebody asks for it. */
+const isBrief = (key: string) => key === 'tour' || key === 'play';
+
+const pick = (params: Params, wanted: (key: string) => boolean) => Object.fromEntries(Object.entries(params).filter(([key]) => wanted(key)));
+
+let scenario: Params = {};
+const own = new Map<string, Params>();
+/** The settings with which each panel was last shown. The scenario is shared by the panels that run it, and the units by all. */
+effect(() => {
+  const { panel, params } = route.value;
+  if (runsScenario(panel)) scenario = pick(params, isScenario);
+  own.set(panel, pick(params, (key) => !isUnit(key) && !isBrief(key) && !(runsScenario(panel) && isScenario(key))));
+});
+
+/** Units in the address, which every link of the page passes on. */
+export const unitParams = () => pick(route.value.params, isUnit);
+
+/** The address of a panel with the scenario and the units of the page, as in the menu. */
+export const linkTo = (panel: string) =>
+  addressOf({ panel, params: { ...(runsScenario(panel) ? scenario : {}), ...own.get(panel), ...unitParams() } });
 
 let pending: number | undefined;
 /** Changes parameters of the present panel; null removes one. The address changes only after a pause of 120 ms. */

@@ -14,6 +14,9 @@ export const constants = [
   { key: 'medium.poisson_ratio', label: 'Poisson’s ratio ν', value: '0.3' },
 ];
 
+/** Constants of the rock, which an event of the user has too. */
+export const rock = constants.slice(1);
+
 export const wantsUnits = computed(() => route.value.params.si === '1');
 export const stated = computed(() => constants.map(({ key, value }) => route.value.params[key] ?? value));
 export const units = signal<Units | null>(null);

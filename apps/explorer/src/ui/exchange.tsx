@@ -2,7 +2,7 @@
 
 import { useEffect, useState } from 'preact/hooks';
 import { call } from '../engine/client';
-import { go, route, type Params } from '../state/route';
+import { go, route, unitParams, type Params } from '../state/route';
 import { commandOf, csvOfTable, drawnOf, scenarioOf, tableOf, tomlOf } from '../state/scenario';
 import { announce } from './announce';
 import { sentence } from './fields';
@@ -55,7 +55,7 @@ export async function take(texts: { name: string; text: string }[], panel: strin
   if (toml.text.length > 200000) return `${toml.name} is too long for a scenario. Allowed: a TOML text of up to 200 kB.`;
   const { params, problem } = await paramsOfToml(toml.text, lastCsv);
   if (problem) return problem;
-  go(panel, params!);
+  go(panel, { ...params!, ...(route.value.params.si ? { si: route.value.params.si } : {}) });
   announce('Scenario loaded');
   return '';
 }
@@ -86,6 +86,7 @@ export function Exchange({ command }: { command: string }) {
         <button type="button" onClick={() => copy(text, 'scenario')}>Copy</button>
         <button type="button" onClick={() => save('scenario.toml', text)}>Save .toml</button>
         {table && <button type="button" onClick={() => save('stress.csv', csvOfTable(table), 'text/csv')}>Save stress.csv</button>}
+        <button type="button" onClick={() => go(route.value.panel, unitParams())}>Start over</button>
         <label class="button">Open file<input type="file" accept=".toml,.csv" multiple onChange={(e) => files(e.currentTarget.files)} /></label>
       </p>
       <p>The program gives the same numbers{table ? ' (with stress.csv in the folder of the scenario)' : ''}:</p>

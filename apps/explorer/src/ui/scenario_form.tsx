@@ -1,7 +1,7 @@
 /** The controls of a scenario: initial stress, friction, contact, time. Shared by all panels that run one. */
 
 import type { Complaint, Parameter } from '../engine/protocol';
-import { laws } from '../state/laws';
+import { laws, openingOf } from '../state/laws';
 import { route, setParams } from '../state/route';
 import { scenarioOf } from '../state/scenario';
 import { about, NumberField, Segments, SelectField, sentence, TextField } from './fields';
@@ -14,8 +14,8 @@ const profiles = [
 ];
 
 const usual: Record<string, [number, number]> = {
-  coefficient: [0.01, 10], exponent: [0.2, 4], strength: [0.001, 0.5], direct_effect: [0.001, 0.1], evolution_effect: [0.001, 0.1],
-  reference_velocity: [0.001, 1], characteristic_slip: [0.1, 30],
+  coefficient: [0.001, 10], exponent: [0.2, 4], strength: [0.001, 0.5], weakened: [0.001, 0.5], residual: [0.001, 0.5], velocity: [0.001, 1],
+  direct_effect: [0.001, 0.1], evolution_effect: [0.001, 0.1], reference_velocity: [0.001, 1], characteristic_slip: [0.01, 30], initial_state: [0.01, 1000],
 };
 
 function usualRange(p: Parameter): [number, number] {
@@ -45,8 +45,7 @@ function FrictionFields({ error, averages }: { error?: Complaint; averages: bool
     const changes: Record<string, string | null> = { 'friction.law': name };
     for (const key of Object.keys(route.value.params)) if (key.startsWith('friction.') && !['friction.law', 'friction.closure'].includes(key)) changes[key] = null;
     const next = laws.value.find((one) => one.name === name);
-    for (const p of next?.parameters ?? []) changes[`friction.${p.name}`] = p.name === 'coefficient' ? '0.1' : p.words.length ? p.words[p.value] : String(p.value || 0.05);
-    if (next?.curve === 'formula') changes['friction.formula'] = '0.1*w/(0.05 + w)';
+    for (const [key, value] of Object.entries(next ? openingOf(next) : {})) changes[`friction.${key}`] = value;
     if (next?.remembers) changes['friction.closure'] = 'consistent';
     setParams(changes);
   };
@@ -84,7 +83,7 @@ export function ScenarioForm({ error, extra, averages = true }: { error?: Compla
         </>
       )}
       {profile === 'tanh' && <NumberField label="Width" value={scenario['initial.width']} least={0.05} most={5} log onInput={set('initial.width')} error={say('initial.width')} />}
-      {profile === 'table' && <p class="hint">Draw with the mouse or a finger in the stress plot below{error ? '' : ', or drop a CSV file with columns x and stress'}. {say('initial.file')}</p>}
+      {profile === 'table' && <p class="hint">Draw with the mouse or a finger in the plot of stress, or move its points with the arrow keys{error ? '' : ', or drop a CSV file with columns x and stress'}. {say('initial.file')}</p>}
       {profile === 'formula' && <TextField label="Stress as a formula of x" value={scenario['initial.formula'] ?? ''} onInput={set('initial.formula')} error={say('initial.formula')} />}
       <h2>Friction</h2>
       <FrictionFields error={error} averages={averages} />

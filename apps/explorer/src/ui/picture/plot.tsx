@@ -3,11 +3,12 @@
 import { useEffect, useRef, useState } from 'preact/hooks';
 import uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
-import { color, theme } from './colors';
+import { color, theme } from '../colors';
 import { Data } from './data';
-import { short } from './format';
-import { save } from './save';
-import { columns, csvOf, off, on, rangeOf, ticks, tickText, type Path, type Spec } from './spec';
+import { short } from '../format';
+import { Handles, placeHandles } from './handles';
+import { save } from '../save';
+import { columns, csvOf, off, on, rangeOf, spread, ticks, tickText, type Path, type Spec } from './spec';
 import { svgOf } from './svg';
 
 interface Props {
@@ -15,6 +16,7 @@ interface Props {
   height?: number;
   onPick?: (index: number) => void;
   onDraw?: (x: number, y: number, first: boolean) => void;
+  onMove?: (index: number, change: number) => void;
 }
 
 const numbers = (values: ArrayLike<number>, log?: boolean) =>
@@ -57,11 +59,9 @@ function drawExtras(u: uPlot, spec: Spec) {
   ctx.beginPath();
   ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
   ctx.clip();
-  for (const v of spec.verticals ?? []) {
-    const at = on(v.x, spec.xLog);
-    if (!Number.isFinite(at)) continue;
-    const x = u.valToPos(at, 'x', true);
-    ctx.strokeStyle = ctx.fillStyle = color(v.color);
+  const lines = shownLines(u, spec);
+  for (const { x, tint } of lines) {
+    ctx.strokeStyle = color(tint);
     ctx.lineWidth = devicePixelRatio;
     ctx.setLineDash([3 * devicePixelRatio, 4 * devicePixelRatio]);
     ctx.beginPath();
@@ -69,11 +69,6 @@ function drawExtras(u: uPlot, spec: Spec) {
     ctx.lineTo(x, bbox.top + bbox.height);
     ctx.stroke();
     ctx.setLineDash([]);
-    ctx.font = `600 ${11 * devicePixelRatio}px system-ui, sans-serif`;
-    const right = x + 70 * devicePixelRatio > bbox.left + bbox.width;
-    ctx.textAlign = right ? 'right' : 'left';
-    ctx.textBaseline = 'alphabetic';
-    ctx.fillText(v.label, x + (right ? -4 : 4) * devicePixelRatio, bbox.top + 12 * devicePixelRatio);
   }
   spec.paths?.forEach((path) => drawPath(u, path, spec));
   for (const p of [...(spec.points ?? [])].sort((a, b) => Number(a.chosen ?? 0) - Number(b.chosen ?? 0))) {
@@ -95,9 +90,36 @@ function drawExtras(u: uPlot, spec: Spec) {
     ctx.stroke();
   }
   ctx.restore();
+  labelLines(u, lines);
 }
 
-function optionsOf(spec: () => Spec, width: number, height: number, moved: (i: number | null) => void): uPlot.Options {
+interface Line {
+  x: number;
+  label: string;
+  tint: string;
+}
+
+/** The vertical lines inside the plot, in pixels. */
+const shownLines = (u: uPlot, spec: Spec): Line[] =>
+  (spec.verticals ?? []).flatMap((v) => {
+    const at = on(v.x, spec.xLog);
+    const x = Number.isFinite(at) ? u.valToPos(at, 'x', true) : NaN;
+    return x >= u.bbox.left - 1 && x <= u.bbox.left + u.bbox.width + 1 ? [{ x, label: v.label, tint: v.color }] : [];
+  });
+
+/** Labels of the lines, above the plot, where no curve crosses them. */
+function labelLines({ ctx, bbox }: uPlot, lines: Line[]) {
+  ctx.font = `600 ${11 * devicePixelRatio}px system-ui, sans-serif`;
+  ctx.textAlign = 'left';
+  ctx.textBaseline = 'alphabetic';
+  const edges = spread(lines.map(({ x }) => x), lines.map(({ label }) => ctx.measureText(label).width), [0, bbox.left + bbox.width + 12 * devicePixelRatio], 8 * devicePixelRatio);
+  lines.forEach(({ label, tint }, i) => {
+    ctx.fillStyle = color(tint);
+    ctx.fillText(label, edges[i], bbox.top - 5 * devicePixelRatio);
+  });
+}
+
+function optionsOf(spec: () => Spec, width: number, height: number, moved: (i: number | null) => void, drawn: (u: uPlot) => void): uPlot.Options {
   const axis = (which: 'x' | 'y'): uPlot.Axis => ({
     scale: which,
     stroke: () => color('quiet'),
@@ -121,7 +143,7 @@ function optionsOf(spec: () => Spec, width: number, height: number, moved: (i: n
     height,
     pxAlign: 0,
     legend: { show: false },
-    padding: [8, 14, 0, 0],
+    padding: [spec().verticals ? 18 : 8, 14, 0, 0],
     cursor: { y: false, drag: { x: false, y: false }, points: { size: 7 } },
     scales: { x: { time: false, range: () => rangeOf(spec(), 'x') }, y: { range: () => rangeOf(spec(), 'y') } },
     axes: [axis('x'), axis('y')],
@@ -136,7 +158,7 @@ function optionsOf(spec: () => Spec, width: number, height: number, moved: (i: n
         fill: s.fill ? () => color(`${s.color}-soft`) : undefined,
       })),
     ],
-    hooks: { draw: [(u) => drawExtras(u, spec())], setCursor: [(u) => moved(u.cursor.idx ?? null)] },
+    hooks: { draw: [(u) => drawExtras(u, spec()), drawn], setCursor: [(u) => moved(u.cursor.idx ?? null)] },
   };
 }
 
@@ -146,18 +168,18 @@ function readout(spec: Spec, i: number): string {
   return `${spec.xLabel}: ${short(spec.x[i])}; ${spec.series.map((s) => `${s.label}: ${short(s.y[i])}`).join('; ')}`;
 }
 
-export function Plot({ spec, height = 220, onPick, onDraw }: Props) {
+export function Plot({ spec, height = 220, onPick, onDraw, onMove }: Props) {
   const holder = useRef<HTMLDivElement>(null);
   const plot = useRef<uPlot | null>(null);
   const now = useRef(spec);
   const [at, setAt] = useState<number | null>(null);
   const [byKeys, setByKeys] = useState(false);
   now.current = spec;
-  const shape = [spec.series.map((s) => s.color + (s.dash ?? '') + (s.width ?? '') + (s.fill ?? '')).join(), spec.xLabel, spec.yLabel, spec.xLog, spec.yLog, height, theme.value].join('|');
+  const shape = [spec.series.map((s) => s.color + (s.dash ?? '') + (s.width ?? '') + (s.fill ?? '')).join(), spec.xLabel, spec.yLabel, spec.xLog, spec.yLog, Boolean(spec.verticals), height, theme.value].join('|');
 
   useEffect(() => {
     const box = holder.current!;
-    const made = new uPlot(optionsOf(() => now.current, box.clientWidth || 300, height, setAt), dataOf(now.current), box);
+    const made = new uPlot(optionsOf(() => now.current, box.clientWidth || 300, height, setAt, (u) => placeHandles(u, now.current, box.nextElementSibling)), dataOf(now.current), box);
     plot.current = made;
     const watch = new ResizeObserver(() => made.setSize({ width: Math.max(180, box.clientWidth), height }));
     watch.observe(box);
@@ -201,10 +223,11 @@ export function Plot({ spec, height = 220, onPick, onDraw }: Props) {
   return (
     <figure class="plot">
       <figcaption>{spec.title}<Legend spec={spec} /></figcaption>
-      <div class={`canvas ${onDraw ? 'drawable' : ''}`} ref={holder} tabIndex={0} role="group" aria-roledescription="plot"
+      <div class="board"><div class={`canvas ${onDraw ? 'drawable' : ''}`} ref={holder} tabIndex={0} role="group" aria-roledescription="plot"
         aria-label={`${spec.title}. ${spec.yLabel} against ${spec.xLabel}. Arrow keys move the cursor.`} onKeyDown={key}
         onPointerDown={(e) => { if (onDraw) (e.currentTarget as HTMLElement).setPointerCapture(e.pointerId); pointed(e, true); }}
         onPointerMove={(e) => onDraw && pointed(e, false)} />
+      {onMove && spec.handles && <Handles spec={spec} onMove={onMove} />}</div>
       <p class="readout" aria-live={byKeys ? 'polite' : 'off'}>{text}</p>
       <PlotData spec={spec} plot={() => plot.current} />
     </figure>

@@ -1,6 +1,6 @@
 /** A plot as SVG, for papers: the same curves, in black on white. */
 
-import { off, on, rangeOf, ticks, tickText, type Spec } from './spec';
+import { off, on, rangeOf, spread, ticks, tickText, type Spec } from './spec';
 
 const escape = (text: string) => text.replace(/&/g, '&amp;').replace(/</g, '&lt;').replace(/>/g, '&gt;');
 
@@ -24,7 +24,8 @@ function pathOf(x: ArrayLike<number>, y: ArrayLike<number>, frame: Frame): strin
 }
 
 export function svgOf(spec: Spec, color: (name: string) => string, width = 720, height = 420): string {
-  const box = { left: 76, right: width - 20, top: 40, bottom: height - 56 };
+  const verticals = (spec.verticals ?? []).filter((v) => Number.isFinite(v.x));
+  const box = { left: 76, right: width - 20, top: verticals.length ? 56 : 40, bottom: height - 56 };
   const [xRange, yRange] = [rangeOf(spec, 'x'), rangeOf(spec, 'y')];
   const frame: Frame = {
     x: (value) => box.left + ((on(value, spec.xLog) - xRange[0]) / (xRange[1] - xRange[0])) * (box.right - box.left),
@@ -41,14 +42,16 @@ export function svgOf(spec: Spec, color: (name: string) => string, width = 720, 
   }
   const line = (d: string, name: string, dash?: number[], thickness = 1.8) =>
     parts.push(`<path clip-path="url(#box)" d="${d}" fill="none" stroke="${color(name)}" stroke-width="${thickness}"${dash ? ` stroke-dasharray="${dash.join(' ')}"` : ''}/>`);
-  spec.verticals?.forEach((v) => line(`M${frame.x(v.x)} ${box.bottom}V${box.top}`, v.color, [3, 4], 1));
+  const edges = spread(verticals.map((v) => frame.x(v.x)), verticals.map((v) => 6.8 * v.label.length), [box.left, box.right], 8);
+  verticals.forEach((v, i) => parts.push(`<text x="${edges[i].toFixed(1)}" y="${box.top - 6}" fill="${color(v.color)}">${escape(v.label)}</text>`));
+  verticals.forEach((v) => line(`M${frame.x(v.x)} ${box.bottom}V${box.top}`, v.color, [3, 4], 1));
   spec.series.forEach((s) => line(pathOf(spec.x, s.y, frame), s.color, s.dash, s.width));
   spec.paths?.forEach((p) => line(pathOf(p.x, p.y, frame), p.color, p.dash, p.width));
   spec.points?.forEach((p) => parts.push(`<circle cx="${frame.x(p.x).toFixed(2)}" cy="${frame.y(p.y).toFixed(2)}" r="${p.chosen ? 6 : 3.5}" fill="${color(p.color)}"><title>${escape(p.label)}</title></circle>`));
   let at = box.left + 8;
   for (const s of [...spec.series, ...(spec.paths ?? [])]) {
     if (!s.label) continue;
-    parts.push(`<path d="M${at} ${box.top - 10}h18" stroke="${color(s.color)}" stroke-width="2"${s.dash ? ` stroke-dasharray="${s.dash.join(' ')}"` : ''}/><text x="${at + 23}" y="${box.top - 6}">${escape(s.label)}</text>`);
+    parts.push(`<path d="M${at} 30h18" stroke="${color(s.color)}" stroke-width="2"${s.dash ? ` stroke-dasharray="${s.dash.join(' ')}"` : ''}/><text x="${at + 23}" y="34">${escape(s.label)}</text>`);
     at += 40 + 6.4 * s.label.length;
   }
   return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${width} ${height}" width="${width}" height="${height}" font-family="Helvetica, Arial, sans-serif" font-size="12" fill="#222">

@@ -1,12 +1,12 @@
 /** A picture of a field over x and t, with the fronts on it. */
 
 import { useEffect, useRef, useState } from 'preact/hooks';
-import { color, ramp, theme } from './colors';
+import { color, ramp, theme } from '../colors';
 import { Data } from './data';
-import { short } from './format';
-import { announce } from './announce';
-import { save } from './save';
-import { ticks } from './spec';
+import { short } from '../format';
+import { announce } from '../announce';
+import { save } from '../save';
+import { reach, ticks } from './spec';
 
 export interface Field {
   title: string;
@@ -25,32 +25,63 @@ export interface Field {
   now?: number;
 }
 
-const margin = { left: 58, right: 14, top: 6, bottom: 44 };
+const margin = { left: 58, top: 6, bottom: 44 };
+const bar = { gap: 14, width: 11, title: 16 };
+
+/** The colours of a field: its range, and the colour of a value. Zero has the colour of the ground, and both signs have their own. */
+interface Scale {
+  range: [number, number];
+  colour: (value: number) => [number, number, number];
+}
+
+function scaleOf(values: ArrayLike<number>): Scale {
+  const range = reach(values);
+  const most = Math.max(-range[0], range[1]) || 1;
+  const [up, down] = ['map', 'cold'].map((name) => ramp([color('map-0'), ...[1, 2, 3].map((i) => color(`${name}-${i}`))]));
+  const share = (value: number) => (Number.isFinite(value) ? (Math.abs(value) / most) ** 0.6 : 0);
+  return { range, colour: (value) => (value < 0 ? down : up)(share(value)) };
+}
 
 /** The field without lines, one pixel per value. It is drawn only once, although the lines move over it often. */
 interface Picture {
   of?: ArrayLike<number>;
   theme?: number;
   canvas: OffscreenCanvas;
+  scale: Scale;
 }
 
-function pictureOf(picture: Picture, f: Field): OffscreenCanvas {
-  if (picture.of === f.values && picture.theme === theme.value) return picture.canvas;
+function draw(picture: Picture, f: Field) {
+  if (picture.of === f.values && picture.theme === theme.value) return;
   const [nx, nt] = [f.x.length, f.t.length];
-  let most = 0;
-  for (let i = 0; i < f.values.length; ++i) if (f.values[i] > most) most = f.values[i];
   const data = new ImageData(nx, nt);
-  const colour = ramp([color('map-0'), color('map-1'), color('map-2'), color('map-3')]);
+  const scale = scaleOf(f.values);
   for (let j = 0; j < nt; ++j)
-    for (let i = 0; i < nx; ++i) {
-      const value = f.values[j * nx + i];
-      const [r, g, b] = colour(most > 0 && Number.isFinite(value) ? (value / most) ** 0.6 : 0);
-      data.data.set([r, g, b, 255], 4 * ((nt - 1 - j) * nx + i));
-    }
-  picture.canvas = new OffscreenCanvas(nx, nt);
-  picture.canvas.getContext('2d')!.putImageData(data, 0, 0);
-  Object.assign(picture, { of: f.values, theme: theme.value });
-  return picture.canvas;
+    for (let i = 0; i < nx; ++i) data.data.set([...scale.colour(f.values[j * nx + i]), 255], 4 * ((nt - 1 - j) * nx + i));
+  const canvas = new OffscreenCanvas(nx, nt);
+  canvas.getContext('2d')!.putImageData(data, 0, 0);
+  Object.assign(picture, { of: f.values, theme: theme.value, canvas, scale });
+}
+
+/** The colour bar, from x = `left` on; the field has the height `h`. */
+function paintBar(ctx: CanvasRenderingContext2D, { range: [least, most], colour }: Scale, f: Field, marks: number[], left: number, h: number) {
+  for (let y = 0; y < h; ++y) {
+    ctx.fillStyle = `rgb(${colour(most - ((y + 0.5) / h) * (most - least)).map(Math.round)})`;
+    ctx.fillRect(left, margin.top + y, bar.width, 1.5);
+  }
+  ctx.strokeStyle = ctx.fillStyle = color('quiet');
+  ctx.lineWidth = 1;
+  ctx.strokeRect(left, margin.top, bar.width, h);
+  ctx.textAlign = 'left';
+  for (const mark of marks) ctx.fillText(short(mark), left + bar.width + 5, margin.top + h * (1 - (mark / f.factor - least) / (most - least)) + 4);
+}
+
+function sideways(ctx: CanvasRenderingContext2D, text: string, x: number, y: number) {
+  ctx.save();
+  ctx.translate(x, y);
+  ctx.rotate(-Math.PI / 2);
+  ctx.textAlign = 'center';
+  ctx.fillText(text, 0, 0);
+  ctx.restore();
 }
 
 function paint(canvas: HTMLCanvasElement, picture: Picture, f: Field, height: number) {
@@ -62,8 +93,15 @@ function paint(canvas: HTMLCanvasElement, picture: Picture, f: Field, height: nu
   ctx.scale(ratio, ratio);
   const [nx, nt] = [f.x.length, f.t.length];
   if (nt < 2 || nx < 2 || !width) return;
-  const [w, h] = [width - margin.left - margin.right, height - margin.top - margin.bottom];
-  ctx.drawImage(pictureOf(picture, f), margin.left, margin.top, w, h);
+  const h = height - margin.top - margin.bottom;
+  draw(picture, f);
+  const [least, most] = picture.scale.range;
+  const marks = least < most ? ticks([least * f.factor, most * f.factor], h / 40) : [];
+  ctx.font = '12px system-ui, sans-serif';
+  const w = width - margin.left - bar.gap - bar.width - 5 - Math.max(0, ...marks.map((mark) => ctx.measureText(short(mark)).width)) - bar.title;
+  ctx.fillStyle = color('paper');
+  ctx.fillRect(0, 0, width, height); // also in the PNG
+  ctx.drawImage(picture.canvas, margin.left, margin.top, w, h);
   const half = (f.x[1] - f.x[0]) / 2;
   const [x0, x1, t1] = [f.x[0] - half, f.x[nx - 1] + half, f.t[nt - 1]];
   const at = (x: number, t: number): [number, number] => [margin.left + ((x - x0) / (x1 - x0)) * w, margin.top + h - (t / t1) * h];
@@ -85,24 +123,20 @@ function paint(canvas: HTMLCanvasElement, picture: Picture, f: Field, height: nu
     ctx.stroke();
   }
   ctx.fillStyle = color('quiet');
-  ctx.font = '12px system-ui, sans-serif';
   ctx.textAlign = 'center';
   for (const tick of ticks([x0 * f.xFactor, x1 * f.xFactor], w / 75)) ctx.fillText(short(tick), at(tick / f.xFactor, 0)[0], height - margin.bottom + 17);
   ctx.fillText(f.xLabel, margin.left + w / 2, height - 8);
   ctx.textAlign = 'right';
   for (const tick of ticks([0, t1 * f.tFactor], h / 40)) ctx.fillText(short(tick), margin.left - 7, at(0, tick / f.tFactor)[1] + 4);
-  ctx.save();
-  ctx.translate(13, margin.top + h / 2);
-  ctx.rotate(-Math.PI / 2);
-  ctx.textAlign = 'center';
-  ctx.fillText(f.tLabel, 0, 0);
-  ctx.restore();
+  sideways(ctx, f.tLabel, 13, margin.top + h / 2);
+  sideways(ctx, f.label, width - 5, margin.top + h / 2);
+  if (marks.length) paintBar(ctx, picture.scale, f, marks, margin.left + w + bar.gap, h);
 }
 
 export function SpaceTime({ field, height = 260, onPick }: { field: Field; height?: number; onPick?: (t: number) => void }) {
   const canvas = useRef<HTMLCanvasElement>(null);
   const [cell, setCell] = useState<[number, number] | null>(null);
-  const picture = useRef<Picture>({ canvas: new OffscreenCanvas(1, 1) });
+  const picture = useRef<Picture>({ canvas: new OffscreenCanvas(1, 1), scale: scaleOf([]) });
   const shown = useRef(field);
   shown.current = field;
   useEffect(() => paint(canvas.current!, picture.current, field, height), [field, height, theme.value]);

@@ -1,6 +1,6 @@
 /** The contents of a plot, which the page draws on the screen and exports as SVG, CSV and a table. */
 
-import { short } from './format';
+import { short } from '../format';
 
 export interface Series {
   label: string;
@@ -44,6 +44,10 @@ export interface Spec {
   paths?: Path[];
   points?: Point[];
   verticals?: Vertical[];
+  /** Points that the arrow keys move. */
+  handles?: { x: number[]; y: number[]; name: string };
+  /** The units of the axes, divided by those of the scenario. */
+  factors?: [number, number];
   xRange?: [number, number];
   yRange?: [number, number];
   xLog?: boolean;
@@ -82,15 +86,49 @@ export function rangeOf(spec: Spec, axis: 'x' | 'y'): [number, number] {
   return [least >= 0 && least < 0.3 * most ? 0 : least - room, most + room];
 }
 
-/** Evenly spaced ticks at 1, 2 or 5 times a power of ten. A logarithmic axis over more than two decades has whole decades. */
+/** The smallest range that contains zero and all these numbers. */
+export function reach(...all: ArrayLike<number>[]): [number, number] {
+  let [least, most] = [0, 0];
+  for (const values of all)
+    for (let i = 0; i < values.length; ++i) {
+      if (values[i] < least) least = values[i];
+      if (values[i] > most) most = values[i];
+    }
+  // Rounding errors around zero are not negative values.
+  return [least < -1e-9 * most ? least : 0, most > -1e-9 * least ? most : 0];
+}
+
+/** The range of an axis that shows all these numbers and zero. */
+export function rangeAround(...all: ArrayLike<number>[]): [number, number] {
+  const [least, most] = reach(...all);
+  const room = 0.08 * (most - least || 1e-12);
+  return [least < 0 ? least - room : 0, most > 0 || least === 0 ? most + room : 0];
+}
+
+/** Evenly spaced ticks at 1, 2 or 5 times a power of ten, two or more. A logarithmic axis over more than two decades has whole decades. */
 export function ticks([least, most]: [number, number], about: number, log?: boolean): number[] {
   const rough = (most - least) / Math.max(1, about);
   const power = 10 ** Math.floor(Math.log10(rough));
-  let step = [1, 2, 5, 10].map((m) => m * power).find((s) => s >= rough) ?? rough;
-  if (log && most - least > 2) step = Math.max(1, Math.round(step));
-  const all: number[] = [];
-  for (let tick = Math.ceil(least / step - 1e-9); tick * step <= most + 1e-9 * step; ++tick) all.push(+(tick * step).toPrecision(12));
+  const whole = log && most - least > 2;
+  const steps = [0.1, 0.2, 0.5, 1, 2, 5, 10].map((m) => (whole ? Math.max(1, Math.round(m * power)) : m * power));
+  let all: number[] = [];
+  for (let i = steps.findIndex((step) => step >= rough); all.length < 2 && i >= 0; --i) {
+    const step = steps[i];
+    all = [];
+    for (let tick = Math.ceil(least / step - 1e-9); tick * step <= most + 1e-9 * step; ++tick) all.push(+(tick * step).toPrecision(12));
+  }
   return all;
+}
+
+/** Left edges of labels on one line that are centred on their positions as far as they do not overlap and do not leave the range. */
+export function spread(centres: number[], widths: number[], [left, right]: [number, number], gap: number): number[] {
+  const order = centres.map((_, i) => i).sort((i, j) => centres[i] - centres[j]);
+  const edges = centres.map((at, i) => at - widths[i] / 2);
+  let from = left;
+  for (const i of order) from = (edges[i] = Math.max(edges[i], from)) + widths[i] + gap;
+  let to = right;
+  for (const i of order.reverse()) to = (edges[i] = Math.min(edges[i], to - widths[i])) - gap;
+  return edges;
 }
 
 export const tickText = (tick: number, log?: boolean) => (log ? short(10 ** tick, 3).replace(/^1·/, '') : short(tick, 6));
