@@ -20,16 +20,6 @@ namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
 
-/// The middles of the parts whose means the record of fronts has.
-std::vector<double> positions_of(const Problem& p) {
-  std::vector<double> x;
-  for (std::size_t i = 0; i < p.loading.fronts; ++i) {
-    const std::size_t from = p.grid.sites * i / p.loading.fronts, to = p.grid.sites * (i + 1) / p.loading.fronts;
-    x.push_back((p.grid.x(from) + p.grid.x(to - 1)) / 2);
-  }
-  return x;
-}
-
 /// (all) The motion of the sites of this rank at the start.
 Motion start_of(const Problem& p, const MotionOf& start, const Execution& execution, const Ranks& ranks) {
   Motion motion;
@@ -60,7 +50,7 @@ Moment first_moment(const Problem& p, Motion motion, const Ranks& ranks) {
   now.flows.assign(3 * own.count, 0.0);
   now.next_step = 1e-3 * std::fmin(1, p.grid.spacing);
   now.log = EventLog(p.loading.event_velocity);
-  if (p.loading.fronts > 0) now.fronts = FrontLog(p.loading.event_velocity, positions_of(p));
+  if (p.loading.fronts > 0) now.fronts = FrontLog(p.loading.event_velocity, middles_of_parts(p, p.loading.fronts));
   return now;
 }
 

@@ -42,25 +42,29 @@ void Tridiagonal::eliminate(std::vector<double>& right, const Ranks& ranks) {
   ranks.send(previous, later);
 }
 
+/// Moves the corners of the matrix into the diagonal and the correction. `upper` is the corner of the first row.
+void Tridiagonal::move_corners(const Ranks& ranks, double upper, double gamma) {
+  correction_.assign(diagonal.size(), 0);
+  if (ranks.rank() == 0) {
+    diagonal.front() -= gamma;
+    correction_.front() = gamma;
+  }
+  if (ranks.rank() + 1 == ranks.size()) {
+    const double lower = above.back();
+    diagonal.back() -= upper * lower / gamma;
+    correction_.back() = lower;
+  }
+}
+
 /// Sherman and Morrison: the corners are a matrix of rank one added to a tridiagonal one.
 void Tridiagonal::eliminate_cyclic(std::vector<double>& right, const Ranks& ranks) {
-  const bool first = ranks.rank() == 0, last = ranks.rank() + 1 == ranks.size();
   const std::size_t n = right.size();
   std::vector<double>& c = scaled_;
-  correction_.assign(n, 0);
   // Pivot, above, right side and correction of the row before; the corner of the first row, and gamma.
   std::array<double, 6> row{1, 0, 0, 0, below[0], -diagonal[0]};
   ranks.receive(previous, row);
   auto [pivot, over, r, q, upper, gamma] = row;
-  if (first) {
-    diagonal[0] -= gamma;
-    correction_[0] = gamma;
-  }
-  if (last) {
-    const double lower = above[n - 1];
-    diagonal[n - 1] -= upper * lower / gamma;
-    correction_[n - 1] = lower;
-  }
+  move_corners(ranks, upper, gamma);
   for (std::size_t i = 0; i < n; ++i) {
     c[i] = over / pivot;
     pivot = diagonal[i] - below[i] * c[i];

@@ -25,6 +25,7 @@ class Tridiagonal {
  private:
   void eliminate(std::vector<double>& right, const Ranks& ranks);
   void eliminate_cyclic(std::vector<double>& right, const Ranks& ranks);
+  void move_corners(const Ranks& ranks, double upper, double gamma);
   std::vector<double> scaled_, correction_;
 };
 

@@ -21,19 +21,23 @@ std::size_t count_of_parts(const Problem& p, const std::vector<double>& ends) {
 
 }  // namespace
 
+std::vector<double> middles_of_parts(const Problem& p, std::size_t count) {
+  const Blocks blocks{p.grid.sites};
+  std::vector<double> x;
+  for (std::size_t i = 0; i < count; ++i)
+    x.push_back((p.grid.x(blocks.part_begin(i, count)) + p.grid.x(blocks.part_begin(i + 1, count) - 1)) / 2);
+  return x;
+}
+
 WatchedParts::WatchedParts(const SiteForces& forces, const Moment& now)
     : forces_(forces), direction_(forces.problem().loading.velocity < 0 ? -1 : 1), first_(0) {
   const Problem& p = forces.problem();
   const OwnBlocks& own = forces.own();
-  const std::size_t n = p.grid.sites;
   const std::size_t count = count_of_parts(p, forces.ranks().joined({now.u.front(), now.u.back()}));
-  parts_.length = static_cast<double>(n) * p.grid.spacing / static_cast<double>(count);
+  parts_.length = static_cast<double>(p.grid.sites) * p.grid.spacing / static_cast<double>(count);
   parts_.ring = p.boundary.periodic;
   for (auto* column : {&parts_.u, &parts_.velocity}) column->resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t from = n * i / count, to = n * (i + 1) / count;
-    parts_.x.push_back((p.grid.x(from) + p.grid.x(to - 1)) / 2);
-  }
+  parts_.x = middles_of_parts(p, count);
   own.blocks.each_piece(count, [&](std::size_t part, std::size_t begin, std::size_t end) {
     if (begin < own.begin) ++first_;
     if (begin >= own.begin && begin < own.end) ++count_;
@@ -86,9 +90,9 @@ void WatchedParts::look(Moment& m) {
     parts_.u[pieces_[i].part] += all_[sums * i];
     parts_.velocity[pieces_[i].part] += all_[sums * i + 1];
   }
-  const std::size_t n = forces_.problem().grid.sites, count = parts_.x.size();
+  const std::size_t count = parts_.x.size();
   for (std::size_t i = 0; i < count; ++i) {
-    const double sites = static_cast<double>(n * (i + 1) / count - n * i / count);
+    const auto sites = static_cast<double>(forces_.own().blocks.part_size(i, count));
     parts_.u[i] /= sites;
     parts_.velocity[i] /= sites;
   }

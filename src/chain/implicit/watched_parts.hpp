@@ -9,6 +9,9 @@
 
 namespace slipfront::chain {
 
+/// The middles of `count` equal parts of a chain, in b / A.
+std::vector<double> middles_of_parts(const Problem& problem, std::size_t count);
+
 /// The equal parts of a chain that are watched for slip events, at most 64: each has eight dislocations or more, or is
 /// 60 widths of one long. A smooth surface has no dislocations, and its parts have eight sites or more. Sums over a
 /// part are sums over its pieces (Blocks::each_piece), added in order, so the results do not depend on the ranks.

@@ -24,13 +24,18 @@ struct Blocks {
   std::size_t first_of(int rank, int ranks) const {
     return count * static_cast<std::size_t>(rank) / static_cast<std::size_t>(ranks);
   }
+  /// The first site of the i-th of some equal parts of the chain.
+  std::size_t part_begin(std::size_t i, std::size_t parts) const { return sites * i / parts; }
+  std::size_t part_size(std::size_t i, std::size_t parts) const {
+    return part_begin(i + 1, parts) - part_begin(i, parts);
+  }
   /// Calls each(part, begin, end) for the pieces of equal parts of the chain, in order. A piece is as much of a part as
   /// is in one block.
   template <class Each>
   void each_piece(std::size_t parts, const Each& each) const {
     for (std::size_t part = 0; part < parts; ++part) {
-      const std::size_t to = sites * (part + 1) / parts;
-      for (std::size_t from = sites * part / parts; from < to;) {
+      const std::size_t to = part_begin(part + 1, parts);
+      for (std::size_t from = part_begin(part, parts); from < to;) {
         const std::size_t end = std::min(to, begin(of(from) + 1));
         each(part, from, end);
         from = end;
@@ -74,8 +79,7 @@ struct OwnBlocks {
     const std::vector<double> sums = ranks.joined(mine);
     auto sum = sums.begin();
     blocks.each_piece(parts, [&](std::size_t part, std::size_t, std::size_t) { all[part] += *sum++; });
-    for (std::size_t i = 0; i < parts; ++i)
-      all[i] /= static_cast<double>(blocks.sites * (i + 1) / parts - blocks.sites * i / parts);
+    for (std::size_t i = 0; i < parts; ++i) all[i] /= static_cast<double>(blocks.part_size(i, parts));
     return all;
   }
 
