@@ -295,6 +295,12 @@ test('every plot has its table and its exports, which show negative slip velocit
   const [bottom, curve] = [Number(/V([\d.]+)H/.exec(svg)[1]), [.../clip-path="url\(#box\)" d="M([^"V]+)" /.exec(svg)[1].matchAll(/ (-?[\d.]+)/g)].map((m) => Number(m[1]))];
   assert.ok(Math.max(...curve) < bottom && Math.min(...curve) > 40, `${Math.min(...curve)} ... ${Math.max(...curve)}, box to ${bottom}`);
   assert.match(svg, />−0\.0\d+</);
+  // Both pictures have the title, the axes, the names of the fronts and the link; the PNG has twice the size.
+  const texts = [...svg.matchAll(/<text[^>]*>([^<]*)/g)].map((one) => one[1].replaceAll('&lt;', '<').replaceAll('&gt;', '>').replaceAll('&amp;', '&'));
+  for (const text of ['Slip velocity', 'x, in b/A', 'W, in cA/π', 'V+']) assert.ok(texts.includes(text), `${text} in ${texts}`);
+  assert.ok(texts.join('').includes(page.url()), page.url());
+  assert.deepEqual([saved.PNG.readUInt32BE(16), saved.PNG.readUInt32BE(20)], [2, 2].map((twice, i) => twice * Number(/viewBox="0 0 (\d+) (\d+)"/.exec(svg)[i + 1])));
+  if (process.env.SLIPFRONT_SCREENS_FOLDER) for (const kind of ['PNG', 'SVG']) writeFileSync(`${process.env.SLIPFRONT_SCREENS_FOLDER}/export.${kind.toLowerCase()}`, saved[kind]);
   const [left, right] = await halves(page, `data:image/png;base64,${saved.PNG.toString('base64')}`, 'Math.abs(r - 200) < 9 && Math.abs(g - 80) < 9 && Math.abs(b - 30) < 9');
   assert.ok(left > 100 && right > 100, `${left} and ${right} pixels of the curve`);
   // The map has a colour for each sign: blue on the left, red on the right, and both in the colour bar.

@@ -4,7 +4,7 @@ import type { ComponentChildren } from 'preact';
 
 const site = document.querySelector<HTMLMetaElement>('meta[name="slipfront-site"]')?.content;
 
-/** A page of the documentation, named without extension. Where the explorer is served alone, this is the name of the file. */
+/** A page of the documentation, named without extension. Where the explorer is not part of the site, this is the name of the file. */
 export function Page({ of, children }: { of: string; children?: ComponentChildren }) {
   return site ? <a href={`${site}${of}.html`}>{children ?? of}</a> : <>{children}{children && ': '}<code>{of}.md</code></>;
 }
