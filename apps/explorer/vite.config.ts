@@ -10,10 +10,10 @@ function formulas(): Plugin {
     enforce: 'pre',
     load(id) {
       if (!id.endsWith('formulas.json')) return null;
-      const texts = JSON.parse(readFileSync(id, 'utf8')) as Record<string, string>;
-      const rendered: Record<string, string> = {};
-      for (const [name, tex] of Object.entries(texts))
-        rendered[name] = katex.renderToString(tex, { throwOnError: true, output: 'htmlAndMathml' });
+      const texts = JSON.parse(readFileSync(id, 'utf8')) as Record<string, { tex: string; equation: string; page: string }>;
+      const rendered: Record<string, unknown> = {};
+      for (const [name, { tex, equation, page }] of Object.entries(texts))
+        rendered[name] = { html: katex.renderToString(tex, { throwOnError: true, output: 'htmlAndMathml' }), equation, page };
       return { code: JSON.stringify(rendered), map: null };
     },
   };

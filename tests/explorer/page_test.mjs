@@ -295,12 +295,53 @@ test('every plot has its table and its exports, which show negative slip velocit
   const [bottom, curve] = [Number(/V([\d.]+)H/.exec(svg)[1]), [.../clip-path="url\(#box\)" d="M([^"V]+)" /.exec(svg)[1].matchAll(/ (-?[\d.]+)/g)].map((m) => Number(m[1]))];
   assert.ok(Math.max(...curve) < bottom && Math.min(...curve) > 40, `${Math.min(...curve)} ... ${Math.max(...curve)}, box to ${bottom}`);
   assert.match(svg, />−0\.0\d+</);
+  // Both pictures have the title, the axes, the names of the fronts and the link; the PNG has twice the size.
+  const texts = [...svg.matchAll(/<text[^>]*>([^<]*)/g)].map((one) => one[1].replaceAll('&lt;', '<').replaceAll('&gt;', '>').replaceAll('&amp;', '&'));
+  for (const text of ['Slip velocity', 'x, in b/A', 'W, in cA/π', 'V+']) assert.ok(texts.includes(text), `${text} in ${texts}`);
+  assert.ok(texts.join('').includes(page.url()), page.url());
+  assert.deepEqual([saved.PNG.readUInt32BE(16), saved.PNG.readUInt32BE(20)], [2, 2].map((twice, i) => twice * Number(/viewBox="0 0 (\d+) (\d+)"/.exec(svg)[i + 1])));
+  if (process.env.SLIPFRONT_SCREENS_FOLDER) for (const kind of ['PNG', 'SVG']) writeFileSync(`${process.env.SLIPFRONT_SCREENS_FOLDER}/export.${kind.toLowerCase()}`, saved[kind]);
   const [left, right] = await halves(page, `data:image/png;base64,${saved.PNG.toString('base64')}`, 'Math.abs(r - 200) < 9 && Math.abs(g - 80) < 9 && Math.abs(b - 30) < 9');
   assert.ok(left > 100 && right > 100, `${left} and ${right} pixels of the curve`);
   // The map has a colour for each sign: blue on the left, red on the right, and both in the colour bar.
   const map = await page.locator('figure.map canvas').evaluate((canvas) => canvas.toDataURL());
   const [blue, red] = [await halves(page, map, 'b > r + 90'), await halves(page, map, 'r > b + 90')];
   assert.ok(blue[0] > 500 && red[1] > 500 && blue[1] > 100, `${blue} blue, ${red} red`);
+});
+
+test('the equations of each panel have their numbers in the theory, and links to it where the page is part of the site', async () => {
+  const source = process.env.SLIPFRONT_SOURCE;
+  const formulas = JSON.parse(readFileSync(`${source}/apps/explorer/src/formulas.json`, 'utf8'));
+  for (const { equation, page } of Object.values(formulas)) assert.ok(readFileSync(`${source}/docs/theory/${page}.md`, 'utf8').includes(`\\tag{${equation}}`), `${equation} in ${page}`);
+  const page = await open('#/nothing', calm);
+  const shown = async (hash) => {
+    await page.goto('about:blank');
+    await page.goto(url + hash);
+    await ready(page);
+    await page.getByText('The equations', { exact: true }).click();
+    await page.locator('.formula .katex').first().waitFor();
+    return page.locator('.formula').evaluateAll((all) => all.map((one) => ({ text: one.querySelector('p').innerText, link: one.querySelector('p a')?.getAttribute('href') })));
+  };
+  const alone = await shown('#/pulse');
+  assert.deepEqual(alone[0], { text: 'Equation 3.1 of docs/theory/3_modulation.md', link: undefined });
+  assert.deepEqual(await violations(page), []);
+  await page.goto(`${url}#/`);
+  for (const [name, text] of [['Licence: BSD-3-Clause', 'BSD 3-Clause License'], ['Citation', 'cff-version']]) {
+    const address = await page.getByRole('link', { name, exact: true }).getAttribute('href');
+    assert.ok((await page.evaluate(async (from) => (await fetch(from)).text(), address)).startsWith(text), name);
+  }
+  // The page of the site, as docs/site/build makes it.
+  const command = /sed -i ('s#.*?')/.exec(readFileSync(`${source}/docs/site/build`, 'utf8'))[0].replace('sed -i ', 'sed ');
+  const body = execFileSync('sh', ['-c', `${command} "$1/index.html"`, 'sh', process.env.SLIPFRONT_PAGE]).toString();
+  await page.route(url, (route) => route.fulfill({ body, contentType: 'text/html' }));
+  for (const hash of ['#/pulse', '#/dislocations?beads=20', '#/stress', '#/riemann', ...[2, 3, 4, 7].map((fig) => `#/paper?fig=${fig}`)]) {
+    const links = (await shown(hash)).map(({ link }) => link);
+    assert.ok(links.length > 0 && links.every((link) => /^\.\.\/docs\/theory\/\d_\w+\.html$/.test(link)), `${hash}: ${links}`);
+  }
+  await page.goto(`${url}#/`);
+  assert.equal(await page.getByRole('link', { name: 'Documentation', exact: true }).getAttribute('href'), '../index.html');
+  assert.equal(await page.getByRole('link', { name: 'How to cite', exact: true }).getAttribute('href'), '../docs/howto/cite.html');
+  assert.deepEqual(page.complaints, []);
 });
 
 test('the tour goes through all its steps, and each shows its result in the window', async () => {

@@ -88,7 +88,7 @@ export function DislocationsPanel() {
             </figure>
             {averages && <div class="two">{averages.map((spec) => <Plot spec={spec} height={200} />)}</div>}
             {close && <Plot spec={close} height={190} />}
-            <Equations names={['chain', 'train']}><p>The chain is stretched by the scale, and friction is divided by it: the same problem with more or fewer dislocations.</p></Equations>
+            <Equations names={['chain', 'train', 'averages']}><p>The chain is stretched by the scale, and friction is divided by it: the same problem with more or fewer dislocations.</p></Equations>
           </div>
         )}
       </section>

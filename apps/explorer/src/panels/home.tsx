@@ -4,6 +4,7 @@ import { useEffect, useMemo } from 'preact/hooks';
 import { linkTo } from '../state/route';
 import { addressOfStop } from './tour_bar';
 import { tomlOf } from '../state/scenario';
+import { Sources } from '../ui/site';
 import { makePlayer, reducedMotion, Transport } from '../ui/player';
 import { Plot } from '../ui/picture/plot';
 import { rangeAround } from '../ui/picture/spec';
@@ -63,6 +64,7 @@ export function HomePanel() {
           <li class="card"><a href={linkTo(door.panel)}>{door.name}</a><p>{door.text}</p></li>
         ))}
       </ul>
+      <Sources />
     </div>
   );
 }

@@ -7,7 +7,9 @@ import { last, lastOf, type PulseRun } from '../model/pulse_run';
 import { entryOf, go, route, setParams, unitParams } from '../state/route';
 import { commandOf, tomlOf } from '../state/scenario';
 import { Controls } from '../ui/controls';
+import { Equations } from '../ui/equations';
 import { Check, NumberField, Segments, sentence } from '../ui/fields';
+import type { Name } from '../ui/formulas';
 import { short } from '../ui/format';
 import { SpaceTime } from '../ui/picture/map';
 import { Plot } from '../ui/picture/plot';
@@ -155,6 +157,9 @@ function Picture({ figure, ...v }: View & { figure: string }) {
   return <Sweep figure={figure} {...v} />;
 }
 
+const equations = (figure: string): Name[] =>
+  figure === '2' ? ['train', 'averages'] : figure === '3' ? ['stress'] : ['4', '5', '6'].includes(figure) ? ['stress', 'fronts', 'origin'] : ['number', 'momentum', 'friction', 'average'];
+
 export function PaperPanel() {
   const params = route.value.params;
   const figure = entryOf(figures, params.fig) ? params.fig : '8';
@@ -183,7 +188,7 @@ export function PaperPanel() {
           </>
         )}
       </Controls>
-      <section class="pictures" aria-label={title}><Picture key={figure} figure={figure} {...view} /></section>
+      <section class="pictures" aria-label={title}><Picture key={figure} figure={figure} {...view} /><Equations key={`equations ${figure}`} names={equations(figure)} /></section>
     </div>
   );
 }

@@ -8,6 +8,7 @@ import { drawnOf, scenarioOf, tableOf, tomlOf } from '../state/scenario';
 import { scaleOf, type Quantity } from '../state/units';
 import { Controls } from '../ui/controls';
 import { Exchange } from '../ui/exchange';
+import { Equations } from '../ui/equations';
 import { CannotRun, Check } from '../ui/fields';
 import { short } from '../ui/format';
 import { SpaceTime } from '../ui/picture/map';
@@ -234,6 +235,7 @@ export function PulsePanel() {
               </div>
             </div>
             {warnings.length > 0 && <ul class="warnings" aria-label="Warnings of the run">{warnings.map((w) => <li>{w}</li>)}</ul>}
+            <Equations names={['number', 'momentum', 'friction']} />
           </div>
         ) : !main.error && <p class="busy" role="status">Computing …</p>}
       </section>

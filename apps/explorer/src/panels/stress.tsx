@@ -202,7 +202,7 @@ export function StressPanel() {
           <div>{index >= 0 ? <EventCard event={events[index]} /> : <p class="hint">Choose an event in the list or in a plot, or type your own.</p>}</div>
         </div>
         {wantsUnits.value && <p class="hint">Stress in Pa and the contact ratio are given with each event; the curves stay dimensionless, because A differs from event to event.</p>}
-        <Equations names={['fronts', 'train']} />
+        <Equations names={['stress', 'fronts', 'origin']} />
       </section>
     </div>
   );

@@ -229,7 +229,7 @@ export function Plot({ spec, height = 220, onPick, onDraw, onMove }: Props) {
         onPointerMove={(e) => onDraw && pointed(e, false)} />
       {onMove && spec.handles && <Handles spec={spec} onMove={onMove} />}</div>
       <p class="readout" aria-live={byKeys ? 'polite' : 'off'}>{text}</p>
-      <PlotData spec={spec} plot={() => plot.current} />
+      <PlotData spec={spec} />
     </figure>
   );
 }
@@ -248,26 +248,28 @@ function Legend({ spec }: { spec: Spec }) {
   );
 }
 
-function png(plot: uPlot, spec: Spec) {
-  const from = plot.ctx.canvas;
+/** Saves an SVG text as PNG, at twice its size. */
+async function png(svg: string, name: string) {
+  const image = new Image();
+  image.src = URL.createObjectURL(new Blob([svg], { type: 'image/svg+xml' }));
+  await image.decode();
   const canvas = document.createElement('canvas');
-  canvas.width = from.width;
-  canvas.height = from.height;
-  const ctx = canvas.getContext('2d')!;
-  ctx.fillStyle = color('ground');
-  ctx.fillRect(0, 0, canvas.width, canvas.height);
-  ctx.drawImage(from, 0, 0);
-  canvas.toBlob((blob) => blob && save(`${spec.name}.png`, blob));
+  canvas.width = 2 * image.width;
+  canvas.height = 2 * image.height;
+  canvas.getContext('2d')!.drawImage(image, 0, 0, canvas.width, canvas.height);
+  URL.revokeObjectURL(image.src);
+  canvas.toBlob((blob) => blob && save(name, blob));
 }
 
-function PlotData({ spec, plot }: { spec: Spec; plot: () => uPlot | null }) {
+function PlotData({ spec }: { spec: Spec }) {
+  const svg = () => svgOf(spec, color, location.href);
   return (
     <Data
       of={spec.title}
       buttons={() => (
         <>
-          <button type="button" onClick={() => plot() && png(plot()!, spec)}>PNG</button>
-          <button type="button" onClick={() => save(`${spec.name}.svg`, svgOf(spec, color), 'image/svg+xml')}>SVG</button>
+          <button type="button" onClick={() => png(svg(), `${spec.name}.png`)}>PNG</button>
+          <button type="button" onClick={() => save(`${spec.name}.svg`, svg(), 'image/svg+xml')}>SVG</button>
           <button type="button" onClick={() => save(`${spec.name}.csv`, csvOf(spec), 'text/csv')}>CSV</button>
         </>
       )}

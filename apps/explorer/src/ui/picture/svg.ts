@@ -1,4 +1,4 @@
-/** A plot as SVG, for papers: the same curves, in black on white. */
+/** A plot as SVG, for papers and lectures: the curves in the colours of the page, with the title and the link to the scenario. */
 
 import { off, on, rangeOf, spread, ticks, tickText, type Spec } from './spec';
 
@@ -23,9 +23,11 @@ function pathOf(x: ArrayLike<number>, y: ArrayLike<number>, frame: Frame): strin
   return text;
 }
 
-export function svgOf(spec: Spec, color: (name: string) => string, width = 720, height = 420): string {
+export function svgOf(spec: Spec, color: (name: string) => string, link = '', width = 720, height = 430): string {
+  const links = link.match(/.{1,118}/g) ?? [];
+  const whole = height + 13 * links.length + (links.length && 4);
   const verticals = (spec.verticals ?? []).filter((v) => Number.isFinite(v.x));
-  const box = { left: 76, right: width - 20, top: verticals.length ? 56 : 40, bottom: height - 56 };
+  const box = { left: 76, right: width - 20, top: verticals.length ? 76 : 60, bottom: height - 56 };
   const [xRange, yRange] = [rangeOf(spec, 'x'), rangeOf(spec, 'y')];
   const frame: Frame = {
     x: (value) => box.left + ((on(value, spec.xLog) - xRange[0]) / (xRange[1] - xRange[0])) * (box.right - box.left),
@@ -34,11 +36,11 @@ export function svgOf(spec: Spec, color: (name: string) => string, width = 720, 
   const parts: string[] = [];
   for (const tick of ticks(xRange, 7, spec.xLog)) {
     const x = frame.x(off(tick, spec.xLog));
-    parts.push(`<path d="M${x} ${box.bottom}v5" stroke="#333"/><text x="${x}" y="${box.bottom + 20}" text-anchor="middle">${tickText(tick, spec.xLog)}</text>`);
+    parts.push(`<path d="M${x} ${box.bottom}v5" stroke="${color('ink')}"/><text x="${x}" y="${box.bottom + 20}" text-anchor="middle">${tickText(tick, spec.xLog)}</text>`);
   }
   for (const tick of ticks(yRange, 5, spec.yLog)) {
     const y = frame.y(off(tick, spec.yLog));
-    parts.push(`<path d="M${box.left} ${y}h-5" stroke="#333"/><text x="${box.left - 9}" y="${y + 4}" text-anchor="end">${tickText(tick, spec.yLog)}</text>`);
+    parts.push(`<path d="M${box.left} ${y}h-5" stroke="${color('ink')}"/><text x="${box.left - 9}" y="${y + 4}" text-anchor="end">${tickText(tick, spec.yLog)}</text>`);
   }
   const line = (d: string, name: string, dash?: number[], thickness = 1.8) =>
     parts.push(`<path clip-path="url(#box)" d="${d}" fill="none" stroke="${color(name)}" stroke-width="${thickness}"${dash ? ` stroke-dasharray="${dash.join(' ')}"` : ''}/>`);
@@ -51,13 +53,15 @@ export function svgOf(spec: Spec, color: (name: string) => string, width = 720, 
   let at = box.left + 8;
   for (const s of [...spec.series, ...(spec.paths ?? [])]) {
     if (!s.label) continue;
-    parts.push(`<path d="M${at} 30h18" stroke="${color(s.color)}" stroke-width="2"${s.dash ? ` stroke-dasharray="${s.dash.join(' ')}"` : ''}/><text x="${at + 23}" y="34">${escape(s.label)}</text>`);
+    parts.push(`<path d="M${at} 46h18" stroke="${color(s.color)}" stroke-width="2"${s.dash ? ` stroke-dasharray="${s.dash.join(' ')}"` : ''}/><text x="${at + 23}" y="50">${escape(s.label)}</text>`);
     at += 40 + 6.4 * s.label.length;
   }
-  return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${width} ${height}" width="${width}" height="${height}" font-family="Helvetica, Arial, sans-serif" font-size="12" fill="#222">
-<title>${escape(spec.title)}</title><rect width="100%" height="100%" fill="#fff"/><clipPath id="box"><rect x="${box.left}" y="${box.top}" width="${box.right - box.left}" height="${box.bottom - box.top}"/></clipPath>
-<path d="M${box.left} ${box.top}V${box.bottom}H${box.right}" fill="none" stroke="#333"/>
+  return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${width} ${whole}" width="${width}" height="${whole}" font-family="Helvetica, Arial, sans-serif" font-size="12" fill="${color('ink')}">
+<title>${escape(spec.title)}</title>${link && `<desc>${escape(link)}</desc>`}<rect width="100%" height="100%" fill="${color('paper')}"/><clipPath id="box"><rect x="${box.left}" y="${box.top}" width="${box.right - box.left}" height="${box.bottom - box.top}"/></clipPath>
+<path d="M${box.left} ${box.top}V${box.bottom}H${box.right}" fill="none" stroke="${color('ink')}"/>
 ${parts.join('\n')}
+<text x="${box.left}" y="26" font-size="16" font-weight="bold">${escape(spec.title)}</text>
+${links.map((part, i) => `<text x="14" y="${height + 13 * i + 6}" font-size="10" textLength="${part.length < 118 ? '' : width - 28}" lengthAdjust="spacingAndGlyphs">${escape(part)}</text>`.replace(' textLength="" lengthAdjust="spacingAndGlyphs"', '')).join('\n')}
 <text x="${(box.left + box.right) / 2}" y="${height - 14}" text-anchor="middle">${escape(spec.xLabel)}</text>
 <text transform="translate(18 ${(box.top + box.bottom) / 2}) rotate(-90)" text-anchor="middle">${escape(spec.yLabel)}</text></svg>
 `;
