@@ -7,6 +7,7 @@ import os
 import pty
 import random
 import resource
+import select
 import signal
 import struct
 import subprocess
@@ -32,12 +33,15 @@ def on_terminal(width, *command, columns=None):
     environment = {name: value for name, value in os.environ.items() if name != "COLUMNS"}
     if columns is not None:
         environment["COLUMNS"] = columns
+    # The end stays open until all is read. If the program were the last to close it, Linux might lose the last lines.
     with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=end, stderr=subprocess.DEVNULL, env=environment) as process:
-        os.close(end)
-        printed = b""
-        with contextlib.suppress(OSError):  # EIO: the program has closed the terminal
-            while part := os.read(terminal, 65536):
-                printed += part
+        printed, ended, ready = b"", False, []
+        while ready or not ended:
+            ended = process.poll() is not None
+            ready, _, _ = select.select([terminal], [], [], 0.05)
+            if ready:
+                printed += os.read(terminal, 65536)
+    os.close(end)
     os.close(terminal)
     return printed.decode().replace("\r\n", "\n"), process.returncode
 

@@ -14,7 +14,7 @@ export function Sources() {
   return (
     <p class="hint sources">
       {site ? <a href={`${site}index.html`}>Documentation</a> : <>Documentation: the folder <code>docs</code> of the repository</>}
-      {' · '}<a href="./licence.txt">Licence: BSD-3-Clause</a>{' · '}<a href="./citation.txt">Citation</a>{' · '}<Page of="docs/howto/cite">How to cite</Page>
+      {' · '}<a href="./terms.txt">Licence: BSD-3-Clause</a>{' · '}<a href="./citation.txt">Citation</a>{' · '}<Page of="docs/howto/cite">How to cite</Page>
     </p>
   );
 }
