@@ -48,10 +48,7 @@ Relations solve(const State& state) {
 
 RelationsUnits units_of(const SiOptions& options) {
   const ResultUnits units(options);
-  RelationsUnits of_relations{units.si(), {}};
-  for (const RelationsQuantity& quantity : relations_quantities())
-    of_relations.each.push_back(units.of(quantity.about.dimensional_unit));
-  return of_relations;
+  return {units.si(), units.of_each(relations_quantities())};
 }
 
 Relations in_units(Relations r, const RelationsUnits& units) {

@@ -60,15 +60,24 @@ State train_of(const std::string& text, const std::string& side) {
   }
 }
 
-/// The values of profile_quantities() in the unit of the results.
-std::vector<double> values_of(const ProfilePoint& point, const ResultUnits& units) {
+/// The units of the results: that of velocities, and those of profile_quantities().
+struct Units {
+  explicit Units(const ResultUnits& units)
+      : si(units.si()), c(units.of("c")), each(units.of_each(slipfront::rupture::profile_quantities())) {}
+  bool si;
+  slipfront::medium::UnitInSi c;
+  std::vector<slipfront::medium::UnitInSi> each;
+};
+
+/// The values of profile_quantities() in the units of the results.
+std::vector<double> values_of(const ProfilePoint& point, const Units& units) {
   std::vector<double> values;
-  for (const ProfileQuantity& quantity : slipfront::rupture::profile_quantities())
-    values.push_back(point.*quantity.value * units.of(quantity.about.dimensional_unit).value);
+  for (std::size_t i = 0; i < units.each.size(); ++i)
+    values.push_back(point.*slipfront::rupture::profile_quantities()[i].value * units.each[i].value);
   return values;
 }
 
-Json json_of(const State& state, const ResultUnits& units) {
+Json json_of(const State& state, const Units& units) {
   Json json;
   const std::vector<double> values = values_of(slipfront::rupture::profile_point(state), units);
   for (std::size_t i = 0; i < values.size(); ++i)
@@ -80,8 +89,8 @@ Json json_of(const Wave& wave, double c) {
   return {{"kind", slipfront::rupture::name_of(wave.kind)}, {"outer", wave.outer * c}, {"inner", wave.inner * c}};
 }
 
-void print_json(const RiemannSolution& s, const ResultUnits& units) {
-  const double c = units.of("c").value;
+void print_json(const RiemannSolution& s, const Units& units) {
+  const double c = units.c.value;
   const auto [left_edge, right_edge] = slipfront::rupture::edges_of(s);
   Json json = {{"left", json_of(s.left, units)},
                {"star", json_of(s.star, units)},
@@ -90,18 +99,18 @@ void print_json(const RiemannSolution& s, const ResultUnits& units) {
                {"right_wave", json_of(s.right_wave, c)},
                {"left_edge", left_edge * c},
                {"right_edge", right_edge * c}};
-  if (units.si()) {
+  if (units.si) {
     json["unit_system"] = "SI";
-    for (const ProfileQuantity& quantity : slipfront::rupture::profile_quantities())
-      if (const auto unit = units.of(quantity.about.dimensional_unit); !unit.name.empty())
-        json["units"][std::string(quantity.about.name)] = unit.name;
-    json["units"]["edges"] = units.of("c").name;
+    for (std::size_t i = 0; i < units.each.size(); ++i)
+      if (!units.each[i].name.empty())
+        json["units"][std::string(slipfront::rupture::profile_quantities()[i].about.name)] = units.each[i].name;
+    json["units"]["edges"] = units.c.name;
   }
   put(text_of(json) + "\n");
 }
 
 /// The solution over x/t, from a quarter of its width on the left of its left edge to as much on the right.
-void print_csv(const RiemannSolution& s, const ResultUnits& units, int points) {
+void print_csv(const RiemannSolution& s, const Units& units, int points) {
   std::string head = "x_over_t";
   for (const ProfileQuantity& quantity : slipfront::rupture::profile_quantities())
     head += "," + std::string(quantity.about.name);
@@ -109,24 +118,23 @@ void print_csv(const RiemannSolution& s, const ResultUnits& units, int points) {
   const auto [left, right] = slipfront::rupture::edges_of(s);
   for (int i = 0; i < points; ++i) {
     const double x = left + (right - left) * (1.5 * i / (points - 1) - 0.25);
-    std::string row = fmt::format("{}", x * units.of("c").value);
+    std::string row = fmt::format("{}", x * units.c.value);
     for (const double value : values_of(slipfront::rupture::profile_point(s, x), units))
       row += fmt::format(",{}", value);
     put(row + "\n");
   }
 }
 
-void print_table(const RiemannSolution& s, const ResultUnits& units) {
+void print_table(const RiemannSolution& s, const Units& units) {
   static constexpr std::array<TableColumn, 7> table_columns = {{{8, true}, {12}, {12}, {13, false}, {12}, {12}, {12}}};
-  const double c = units.of("c").value;
+  const double c = units.c.value;
   const auto number = [](double value) { return fmt::format("{:.6g}", value); };
   const auto [left_edge, right_edge] = slipfront::rupture::edges_of(s);
   TerminalTable table(table_columns);
-  std::vector<std::string> titles = {"", "x/t from", "to"}, names = {"", units.of("c").name, units.of("c").name};
-  for (const ProfileQuantity& quantity : slipfront::rupture::profile_quantities()) {
+  std::vector<std::string> titles = {"", "x/t from", "to"}, names = {"", units.c.name, units.c.name};
+  for (const ProfileQuantity& quantity : slipfront::rupture::profile_quantities())
     titles.emplace_back(quantity.about.name);
-    names.push_back(units.of(quantity.about.dimensional_unit).name);
-  }
+  for (const auto& unit : units.each) names.push_back(unit.name);
   table.add(std::move(titles));
   table.add(std::move(names));
   const auto add = [&](std::string_view region, std::string from, std::string to, const State* state) {
@@ -162,7 +170,7 @@ int run(const Arguments& arguments) {
                       .value = arguments.left,
                       .problem = "both sides are empty",
                       .allowed = "a stress above 0 on one side"});
-  const ResultUnits units(arguments.si);
+  const Units units{ResultUnits(arguments.si)};
   const RiemannSolution solution = slipfront::rupture::solve_riemann(left, right);
   if (arguments.common.json)
     print_json(solution, units);

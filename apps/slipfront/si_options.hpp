@@ -1,8 +1,10 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "slipfront/medium/constants.hpp"
 #include "slipfront/medium/si_units.hpp"
@@ -29,6 +31,13 @@ class ResultUnits {
   bool si() const { return values_.has_value(); }
   /// The factor and the name of a unit of the model, such as "mu A / pi". A pure number has factor 1 and an empty name.
   slipfront::medium::UnitInSi of(std::string_view unit) const;
+  /// The unit of each quantity of a table, such as relations_quantities().
+  template <class Quantity>
+  std::vector<slipfront::medium::UnitInSi> of_each(std::span<const Quantity> quantities) const {
+    std::vector<slipfront::medium::UnitInSi> units;
+    for (const Quantity& quantity : quantities) units.push_back(of(quantity.about.dimensional_unit));
+    return units;
+  }
 
  private:
   std::optional<slipfront::medium::SymbolValues> values_;

@@ -125,22 +125,17 @@ py::tuple wave(const rupture::Wave& wave) {
   return py::make_tuple(std::string(rupture::name_of(wave.kind)), wave.outer, wave.inner);
 }
 
-/// The exact Riemann problem between two trains: edges, both waves, the states on the left, between them and on the
-/// right, and a function of x/t.
+/// The exact Riemann problem between two trains: edges, both waves, the state between them, and a function of x/t.
 py::tuple riemann(double left_stress, double left_velocity, double right_stress, double right_velocity) {
   const rupture::RiemannSolution solution =
       rupture::solve_riemann(rupture::moving_train(left_stress, left_velocity, "left"),
                              rupture::moving_train(right_stress, right_velocity, "right"));
   const rupture::Edges edges = rupture::edges_of(solution);
-  py::list states;
-  for (const State& state : {solution.left, solution.star, solution.right}) {
-    const rupture::ProfilePoint point = rupture::profile_point(state);
-    py::list row;
-    for (const auto& quantity : rupture::profile_quantities()) row.append(point.*quantity.value);
-    states.append(row);
-  }
+  const rupture::ProfilePoint point = rupture::profile_point(solution.star);
+  py::list star;
+  for (const auto& quantity : rupture::profile_quantities()) star.append(point.*quantity.value);
   return py::make_tuple(py::make_tuple(edges.left, edges.right), wave(solution.left_wave), wave(solution.right_wave),
-                        states, py::cpp_function([solution](const Numbers& x) { return profile(solution, x); }));
+                        star, py::cpp_function([solution](const Numbers& x) { return profile(solution, x); }));
 }
 
 }  // namespace

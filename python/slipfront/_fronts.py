@@ -215,8 +215,8 @@ def fronts(run, *, threshold=None, slow=0.1, output=None, si=None):
     limits = _number("slow", slow, 1), None if threshold is None else _number("threshold", threshold, 1)
     file = path("output", output)
     given = read(run) if is_path(run) else run
-    in_si = given.attrs.get("unit_system") == "SI" if si is None else si
-    run = read(run, si=False) if is_path(run) else in_model(run)
+    run_in_si = given.attrs.get("unit_system") == "SI"
+    run = read(run, si=False) if is_path(run) and run_in_si else in_model(given)
     x, events = _events(run, limits[1])
     constants = _constants(run)
     nu = POISSON_RATIO if constants[1] is None else constants[1]
@@ -231,7 +231,7 @@ def fronts(run, *, threshold=None, slow=0.1, output=None, si=None):
     known = {"normal_stress_pa": normal, "tau_unit_pa": unit, "c_m_s": constants[2]}
     data = dataset(variables, {"position": ("position", x, _described("position along the interface", "b / A"))},
                    {**attributes, **{name: value for name, value in known.items() if value is not None}})
-    if in_si:
+    if run_in_si if si is None else si:
         data = data.slipfront.si()
     if file:
         write_dataset(data, file)

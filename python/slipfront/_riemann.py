@@ -48,7 +48,7 @@ def riemann(left, right, x_over_t=None):
     sides = _train("left", left), _train("right", right)
     if not any(stress for stress, _ in sides):
         raise InputError("left = 0: both sides are empty; allowed: a stress above 0 on one side")
-    edges, left_wave, right_wave, states, solution = _slipfront.riemann(*sides[0], *sides[1])
+    edges, left_wave, right_wave, between, solution = _slipfront.riemann(*sides[0], *sides[1])
     width = edges[1] - edges[0]
     given = np.linspace(edges[0] - width / 4, edges[1] + width / 4, 201) if x_over_t is None else x_over_t
     (x,), *rest = flat(x_over_t=given)
@@ -57,6 +57,6 @@ def riemann(left, right, x_over_t=None):
         about = {"long_name": "x / t", "units": "1", "dimensional_unit": "c"}
         data = data.rename(state="x_over_t").assign_coords(x_over_t=("x_over_t", x, about))
     star = {f"star_{about[0]}": ((), value, {**data[about[0]].attrs, "long_name": f"{about[1]} between the waves"})
-            for about, value in zip(_slipfront.profile_described, states[1])}
+            for about, value in zip(_slipfront.profile_described, between)}
     return data.assign(star).assign_attrs(left_wave=left_wave[0], left_wave_edges=left_wave[1:], right_wave=right_wave[0], right_wave_edges=right_wave[1:],
                                           left_edge=edges[0], right_edge=edges[1])
