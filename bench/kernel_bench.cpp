@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "foundation/simd/vector_code.hpp"
+#include "modulation/solve_states.hpp"
 #include "pulse/space/kernels.hpp"
 #include "pulse/space/semidiscrete.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
@@ -94,8 +95,8 @@ void kernel_solve_states(benchmark::State& state) {
   for (std::size_t i = 0; i < cells; ++i) guess[i] = std::tanh(p.psi[i]) * 1.002;
   measure(state, 342, 4, 15, [&] {
     s = guess;
-    pulse::solve_states({cells, p.spacing.data(), p.momentum.data(), s.data(), phi.data(), psi.data(), sound.data(),
-                         EK.data(), U.data(), solved.data()});
+    modulation::solve_states({cells, p.spacing.data(), p.momentum.data(), s.data(), phi.data(), psi.data(),
+                              sound.data(), EK.data(), U.data(), solved.data()});
   });
 }
 BENCHMARK(kernel_solve_states);

@@ -6,6 +6,7 @@
 
 #include "error_metric.hpp"
 #include "foundation/simd/elliptic_fit.hpp"
+#include "modulation/solve_states.hpp"
 #include "pulse/space/kernels.hpp"
 #include "slipfront/elliptic/complete.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
@@ -68,7 +69,7 @@ TEST(Kernels, VectorCodeAgreesWithScalarCode) {
     for (double psi = 1e-292; psi < 3; psi *= psi < 1e-3 ? 7.3 : 1.03) {
       const auto c = slipfront::modulation::lagrangian_state({phi, psi});
       double s = std::tanh(psi) * 1.002, got_phi = 0, got_psi = 0, sound = 0, EK = 0, velocity = 0, solved = 0;
-      solve_states({1, &c.spacing, &c.momentum, &s, &got_phi, &got_psi, &sound, &EK, &velocity, &solved});
+      modulation::solve_states({1, &c.spacing, &c.momentum, &s, &got_phi, &got_psi, &sound, &EK, &velocity, &solved});
       const auto want = slipfront::modulation::solve_state(c, psi);
       if (psi > 1e-289 && psi < 1.3 && std::fabs(phi) < 2) {
         EXPECT_EQ(solved, 1) << phi << " " << psi;
@@ -98,7 +99,7 @@ TEST(Kernels, VectorCodeLeavesInvalidValuesUnsolved) {
     for (const double momentum : {0.0, double{NAN}, HUGE_VAL, -1e200}) {
       if (spacing == 2 && momentum == 0) continue;
       double s = 0.5, phi = 0, psi = 0, sound = 0, EK = 0, velocity = 0, solved = 0;
-      solve_states({1, &spacing, &momentum, &s, &phi, &psi, &sound, &EK, &velocity, &solved});
+      modulation::solve_states({1, &spacing, &momentum, &s, &phi, &psi, &sound, &EK, &velocity, &solved});
       EXPECT_EQ(solved, 0) << spacing << " " << momentum;
       EXPECT_EQ(s, 0.5);
     }

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "foundation/text/digits.hpp"
-#include "pulse/space/kernels.hpp"
+#include "modulation/solve_states.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
 
@@ -24,14 +24,14 @@ void CellStates::resize(std::size_t size) {
 }
 
 void CellStates::solve_vector(std::size_t b, std::size_t end) {
-  solve_states({end - b, &spacing[b], &momentum[b], &s[b], &phi[b], &psi[b], &sound_speed[b], &EK[b], &velocity[b],
-                &solved_[b]});
+  modulation::solve_states({end - b, &spacing[b], &momentum[b], &s[b], &phi[b], &psi[b], &sound_speed[b], &EK[b],
+                            &velocity[b], &solved_[b]});
 }
 
 void CellStates::solve_slip(std::size_t size, double* fastest) {
-  pulse::solve_slip({size, spacing.data(), momentum.data(), s.data(), phi.data(), psi.data(), sound_speed.data(),
-                     EK.data(), velocity.data(), solved_.data()},
-                    fastest);
+  modulation::solve_slip({size, spacing.data(), momentum.data(), s.data(), phi.data(), psi.data(), sound_speed.data(),
+                          EK.data(), velocity.data(), solved_.data()},
+                         fastest);
   for (std::size_t i = 0; i < size; ++i) {
     if (solved(i)) continue;
     try {

@@ -8,25 +8,6 @@
 /// chosen at run time.
 namespace slipfront::pulse {
 
-/// Arrays for modulation::solve_state in many cells. `s` = tanh(psi) is the initial guess on entry and the result on
-/// exit. Cells with s outside 1e-290 ... 0.9, or with a poor guess, get solved = 0 and need the scalar code.
-struct StateArrays {
-  std::size_t size;
-  const double* spacing;
-  const double* momentum;
-  double* s;
-  double* phi;
-  double* psi;
-  double* sound_speed;
-  double* EK;
-  double* velocity;  ///< tanh(phi)
-  double* solved;    ///< 1 or 0
-};
-void solve_states(const StateArrays& a);
-/// Like solve_states, but without rapidities, sound speeds and EK. It finds instead the largest slip velocities in
-/// local units, 2 sinh |phi| cosh psi, which are all that friction needs.
-void solve_slip(const StateArrays& a, double* fastest);
-
 /// centre_values converts cell averages to values at the cell centres, and cell_means converts back, both by second and
 /// fourth differences: sixth order. Neither applies differences in the two cells at each end, or where the fourth
 /// difference is not small compared with the second. There f is not smooth on the grid, and average and centre value

@@ -1,3 +1,5 @@
+#include "modulation/solve_states.hpp"
+
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -6,9 +8,8 @@
 #include "foundation/simd/elementary.hpp"
 #include "foundation/simd/elliptic_fit.hpp"
 #include "foundation/simd/vector_code.hpp"
-#include "pulse/space/kernels.hpp"
 
-namespace slipfront::pulse {
+namespace slipfront::modulation {
 namespace {
 
 /// The complete elliptic integrals K and E at m1 = s^2, from `minus_log` = -ln m1.
@@ -171,4 +172,4 @@ void solve_slip(const StateArrays& a, double* fastest) {
   find_slip(a, fastest);
 }
 
-}  // namespace slipfront::pulse
+}  // namespace slipfront::modulation
