@@ -22,6 +22,7 @@ MODULES = {
     "rupture": "modulation train elliptic",
     "chain": "output friction modulation train elliptic",
     "pulse": "output friction modulation train elliptic",
+    "plane": "output friction modulation train elliptic",
     "friction_ratio": "pulse rupture friction",
     "scenario": "chain pulse friction train medium",
     "catalogue": "friction_ratio rupture medium",
@@ -51,6 +52,7 @@ FOLDERS = {
         "explicit/levels": "model",
         "explicit": "explicit/levels model",
     },
+    "plane": {"averaged": "."},
     "pulse": {
         "grid": "",
         "space": "grid",

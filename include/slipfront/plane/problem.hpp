@@ -1,0 +1,74 @@
+#pragma once
+/// \file
+/// The problem that a run on a fault plane solves, in the units of the scenario:
+///     u_tt - u_xx - u_yy + a^2 sin u = F - f(u_t).
+/// The slip is along x. Lengths along y are divided by the ratio c_y / c of the wave speeds, so that waves have the
+/// speed 1 in all directions.
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "slipfront/friction/friction.hpp"
+
+namespace slipfront::plane {
+
+struct Point {
+  double x = 0, y = 0;
+};
+
+struct Problem {
+  double left = -1, right = 1, bottom = -1, top = 1;
+  /// Mean slip U >= 0 at t = 0, in b / 2 pi. Everything is at rest.
+  std::function<double(double x, double y)> slip;
+  /// The interface is held where this is not 0. null: nowhere.
+  std::function<double(double x, double y)> fixed;
+  std::function<double(double x, double y)> viscous;            ///< C of f = C w, >= 0; null: 0
+  friction::Friction friction;                                  ///< any other law; none if `viscous` is given
+  std::function<double(double x, double y, double t)> forcing;  ///< F; null: none
+  std::function<double(double x, double y)> contact;            ///< relative contact ratio a > 0; null: 1
+};
+
+/// The energies that a solver conserves, integrated over the plane since t = 0, in units of the scenario.
+struct Energies {
+  double kinetic = 0;
+  double elastic = 0;     ///< energy of the lines at rest, less that of the same lines at t = 0
+  double dissipated = 0;  ///< by friction
+  double supplied = 0;    ///< by the force F
+};
+
+/// Means over the cells of a grid of nx times ny cells that covers the domain: row by row, from the bottom.
+struct Field {
+  double time = 0;
+  int nx = 0, ny = 0;
+  std::vector<double> slip;      ///< since t = 0, in b / 2 pi
+  std::vector<double> velocity;  ///< slip velocity, in c A / 2 pi
+};
+
+/// A solver of the problem, in the units of the scenario.
+class Solver {
+ public:
+  virtual ~Solver() = default;
+  virtual double time() const = 0;
+  virtual long steps() const = 0;
+  /// Advances to `time`, or until `interrupted` returns true. Returns whether it has reached the time.
+  /// \throws NumericsError, with time and position, if the motion leaves the range of the theory.
+  virtual bool advance_to(double time, const std::function<bool()>& interrupted) = 0;
+
+  /// Slip since t = 0 and slip velocity at points of the domain.
+  virtual std::vector<double> slip(const std::vector<Point>& points) const = 0;
+  virtual std::vector<double> velocity(const std::vector<Point>& points) const = 0;
+  virtual Field field(int nx, int ny) const = 0;
+  virtual double potency() const = 0;       ///< integral of the slip since t = 0
+  virtual double potency_rate() const = 0;  ///< integral of the slip velocity
+  virtual double front() const = 0;         ///< largest distance from the origin of the outermost dislocation line
+  virtual Energies energies() const = 0;
+
+  /// The state, as bytes, from which the run continues to the same bits.
+  virtual std::string saved() const = 0;
+  /// \throws InputError if the bytes do not fit the problem.
+  virtual void resume(std::string_view saved) = 0;
+};
+
+}  // namespace slipfront::plane

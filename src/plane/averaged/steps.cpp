@@ -1,0 +1,111 @@
+#include "plane/averaged/steps.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "modulation/equations.hpp"
+
+namespace slipfront::plane {
+
+namespace {
+
+constexpr double courant = 0.7;
+
+}  // namespace
+
+LoopSteps::LoopSteps(const Problem& problem, Loops& loops)
+    : problem_(problem), loops_(loops), equations_(problem, loops) {
+  r_rate_.assign(loops.r.size(), 0);
+  momentum_rate_.assign(loops.momentum.size(), 0);
+  loops.loss.assign(loops.momentum.size(), 0);
+  friction_acts_ = problem.viscous || problem.friction.acts();
+}
+
+void LoopSteps::look() {
+  equations_.find_rates(loops_.time, loops_.r, loops_.momentum, loops_.s, r_rate_, momentum_rate_);
+  loops_.limit = equations_.longest_step();
+  loops_.supply = equations_.supply();
+  find_strengths();
+  loops_.power = power_of_friction();
+}
+
+/// Finds the effect of friction on the momentum: a rate, or the largest force of a law that sticks.
+void LoopSteps::find_strengths() {
+  if (!friction_acts_) return;
+  for (std::size_t i = 0; i < loops_.loss.size(); ++i) {
+    const Point at = equations_.centre(i);
+    if (problem_.viscous) {
+      loops_.loss[i] = problem_.viscous(at.x, at.y);
+      continue;
+    }
+    const State train{equations_.phi()[i], equations_.psi()[i]};
+    const double mean = problem_.friction.mean_strength(train, equations_.contact(i));
+    const double force = modulation::force_per_dislocation(mean) * equations_.middle(i);
+    if (problem_.friction.sticks())
+      loops_.loss[i] = force;
+    else
+      loops_.loss[i] = loops_.momentum[i] == 0 ? 0 : force / std::fabs(loops_.momentum[i]);
+  }
+}
+
+double LoopSteps::power_of_friction() const {
+  if (!friction_acts_) return 0;
+  const bool dry = !problem_.viscous && problem_.friction.sticks();
+  double power = 0;
+  for (std::size_t i = 0; i < loops_.loss.size(); ++i) {
+    const double taken = dry ? loops_.loss[i] : loops_.loss[i] * std::fabs(loops_.momentum[i]);
+    power += taken * std::fabs(equations_.velocity()[i]) * loops_.charge(i / loops_.angles) * loops_.turn();
+  }
+  return power;
+}
+
+void LoopSteps::add_friction(double time) {
+  if (!friction_acts_) return;
+  const bool dry = !problem_.viscous && problem_.friction.sticks();
+  for (std::size_t i = 0; i < loops_.loss.size(); ++i) {
+    double& momentum = loops_.momentum[i];
+    if (dry)
+      momentum = std::copysign(std::fmax(std::fabs(momentum) - loops_.loss[i] * time, 0.0), momentum);
+    else
+      momentum *= std::exp(-loops_.loss[i] * time);
+  }
+}
+
+void LoopSteps::keep_outside_wall(std::vector<double>& r) const {
+  const std::size_t inner = loops_.rows * loops_.angles;
+  for (std::size_t k = 0; k < loops_.angles; ++k)
+    if (loops_.wall[k] > 0) r[inner + k] = std::fmax(r[inner + k], loops_.wall[k]);
+}
+
+/// loops = of_old * old + (1 - of_old) (loops + step * rates).
+void LoopSteps::stage(double t, double step, double of_old, const std::vector<double>& r,
+                      const std::vector<double>& momentum) {
+  equations_.find_rates(t, loops_.r, loops_.momentum, loops_.s, r_rate_, momentum_rate_);
+  const double of_new = 1 - of_old;
+  for (std::size_t i = 0; i < loops_.r.size(); ++i)
+    loops_.r[i] = of_old * r[i] + of_new * (loops_.r[i] + step * r_rate_[i]);
+  for (std::size_t i = 0; i < loops_.momentum.size(); ++i)
+    loops_.momentum[i] = of_old * momentum[i] + of_new * (loops_.momentum[i] + step * momentum_rate_[i]);
+  keep_outside_wall(loops_.r);
+}
+
+void LoopSteps::take(double end) {
+  if (loops_.limit == 0) look();
+  const double remaining = end - loops_.time;
+  const double step = remaining / std::ceil(remaining / (courant * loops_.limit));
+  const double power = loops_.power, supply = loops_.supply, t = loops_.time;
+  add_friction(step / 2);
+  r_ = loops_.r;
+  momentum_ = loops_.momentum;
+  stage(t, step, 0, r_, momentum_);
+  stage(t + step, step, 0.75, r_, momentum_);
+  stage(t + step / 2, step, 1.0 / 3, r_, momentum_);
+  look();
+  add_friction(step / 2);
+  loops_.time = step == remaining ? end : t + step;
+  ++loops_.steps;
+  loops_.dissipated += step * (power + loops_.power) / 2;
+  loops_.supplied += step * (supply + loops_.supply) / 2;
+}
+
+}  // namespace slipfront::plane

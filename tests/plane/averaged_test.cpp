@@ -1,0 +1,158 @@
+#include "slipfront/plane/averaged.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "rings.hpp"
+#include "slipfront/error.hpp"
+
+namespace {
+
+using namespace slipfront;
+using plane::AveragedSolver;
+using plane::Point;
+using plane::Problem;
+
+const rings::Slip& slip_of_rings() {
+  static const rings::Slip slip;
+  return slip;
+}
+
+Point at(double r, double degrees) {
+  const double angle = degrees * std::numbers::pi / 180;
+  return {r * std::cos(angle), r * std::sin(angle)};
+}
+
+/// Slip and front of the rings agree with those of 4365 rings, followed one by one by the radial sine-Gordon equation.
+TEST(PlaneAveraged, RingsAgreeWithEveryRing) {
+  AveragedSolver solver(rings::problem(slip_of_rings()), {60, 1});
+  EXPECT_TRUE(solver.advance_to(1, {}));
+  const std::vector<double> slip = solver.slip({at(1.25, 0), at(1.65, 0), at(2.05, 0)});
+  EXPECT_NEAR(slip[0] / 0.10733, 1, 0.01);
+  EXPECT_NEAR(slip[1] / 0.34079, 1, 0.003);
+  EXPECT_NEAR(slip[2] / 0.45870, 1, 0.003);
+  EXPECT_NEAR(solver.front() / 2.4606, 1, 0.003);
+}
+
+TEST(PlaneAveraged, RingsWithFrictionAgreeWithEveryRing) {
+  Problem problem = rings::problem(slip_of_rings());
+  problem.viscous = [](double, double) { return 0.5; };
+  AveragedSolver solver(problem, {60, 1});
+  solver.advance_to(3, {});
+  const std::vector<double> slip = solver.slip({at(1.45, 0), at(2.05, 0)});
+  EXPECT_NEAR(slip[0] / 0.40487, 1, 0.01);
+  EXPECT_NEAR(slip[1] / 0.72095, 1, 0.01);
+  EXPECT_NEAR(solver.front() / 2.7887, 1, 0.01);
+}
+
+/// The law f = C w as a law of the module friction gives the numbers of C as a formula.
+TEST(PlaneAveraged, ViscousLawIsTheViscousCoefficient) {
+  Problem problem = rings::problem(slip_of_rings());
+  problem.friction = friction::viscous(0.5);
+  AveragedSolver by_law(problem, {30, 1});
+  problem.friction = {};
+  problem.viscous = [](double, double) { return 0.5; };
+  AveragedSolver by_formula(problem, {30, 1});
+  by_law.advance_to(1, {});
+  by_formula.advance_to(1, {});
+  EXPECT_NEAR(by_law.potency() / by_formula.potency(), 1, 1e-6);
+}
+
+/// Errors of the slip fall at least as the power 1.5 of the size of the cells, and those of the front at least
+/// linearly.
+TEST(PlaneAveraged, RingsConverge) {
+  const auto run = [](int loops) {
+    AveragedSolver solver(rings::problem(slip_of_rings()), {loops, 1});
+    solver.advance_to(1, {});
+    return std::pair(solver.slip({at(1.25, 0)}).front(), solver.front());
+  };
+  const auto coarse = run(30), middle = run(60), fine = run(480);
+  EXPECT_GT(std::fabs(coarse.first - fine.first), 2.8 * std::fabs(middle.first - fine.first));
+  EXPECT_GT(std::fabs(coarse.second - fine.second), 2 * std::fabs(middle.second - fine.second));
+}
+
+/// The kinetic energy that the rings gain is elastic energy that they lose, up to the expansion of the first steps.
+TEST(PlaneAveraged, EnergyIsKept) {
+  double before = HUGE_VAL;
+  for (const int loops : {60, 120, 240}) {
+    AveragedSolver solver(rings::problem(slip_of_rings()), {loops, 1});
+    solver.advance_to(1, {});
+    const plane::Energies e = solver.energies();
+    const double error = std::fabs(e.kinetic + e.elastic) / e.kinetic;
+    EXPECT_LT(error, 2.5e-3);
+    EXPECT_LT(error, before);
+    before = error;
+  }
+}
+
+/// Without symmetry: friction on one side. The direct run has the scale 160 and averages over boxes.
+TEST(PlaneAveraged, FrictionOnOneSideAgreesWithEveryLine) {
+  Problem problem = rings::problem(slip_of_rings());
+  problem.viscous = rings::friction_on_one_side;
+  AveragedSolver solver(problem, {60, 64});
+  solver.advance_to(1, {});
+  const std::vector<double> slip = solver.slip({at(1.6, 90), at(1.6, 0), at(1.6, -90), at(2.2, 0), at(2.2, -90)});
+  const std::vector<double> direct = {0.17662, 0.23793, 0.30931, 0.17312, 0.2655};
+  for (std::size_t i = 0; i < slip.size(); ++i) EXPECT_NEAR(slip[i] / direct[i], 1, 0.02) << i;
+  EXPECT_NEAR(solver.potency() / 3.1787, 1, 0.01);
+}
+
+/// Directions do not matter to a problem without any: 48 angles give the rings.
+TEST(PlaneAveraged, AnglesGiveTheRings) {
+  AveragedSolver ring(rings::problem(slip_of_rings()), {20, 1}), plane(rings::problem(slip_of_rings()), {20, 48});
+  ring.advance_to(0.5, {});
+  plane.advance_to(0.5, {});
+  EXPECT_NEAR(plane.front() / ring.front(), 1, 2e-4);
+  EXPECT_NEAR(plane.potency() / ring.potency(), 1, 2e-3);
+}
+
+TEST(PlaneAveraged, ResumesToTheSameBits) {
+  Problem problem = rings::problem(slip_of_rings());
+  problem.viscous = rings::friction_on_one_side;
+  AveragedSolver whole(problem, {20, 32}), part(problem, {20, 32}), resumed(problem, {20, 32});
+  whole.advance_to(0.5, {});
+  part.advance_to(0.5, [] { return true; });  // one step
+  EXPECT_LT(part.time(), 0.5);
+  resumed.resume(part.saved());
+  EXPECT_TRUE(resumed.advance_to(0.5, {}));
+  EXPECT_EQ(resumed.steps(), whole.steps());
+  EXPECT_EQ(resumed.saved(), whole.saved());
+  AveragedSolver other(problem, {10, 32});
+  EXPECT_THROW(other.resume(part.saved()), InputError);
+}
+
+std::string message_of(const Problem& problem) {
+  try {
+    const AveragedSolver solver(problem, {20, 16});
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(PlaneAveraged, RefusesLinesThatAreNotStarShaped) {
+  Problem problem = rings::problem(slip_of_rings());
+  problem.slip = [](double x, double y) { return std::hypot(x, y) < 3 ? 1 + x * x : 0; };
+  EXPECT_NE(message_of(problem).find("rises away from the origin"), std::string::npos) << message_of(problem);
+  problem.slip = [](double, double) { return 1; };
+  EXPECT_NE(message_of(problem).find("at the edge of the domain"), std::string::npos) << message_of(problem);
+  problem.slip = [](double x, double) { return x > 2.5 ? 0 : NAN; };
+  EXPECT_NE(message_of(problem).find("there is no slip around the origin"), std::string::npos) << message_of(problem);
+  problem = rings::problem(slip_of_rings());
+  problem.fixed = [](double x, double y) { return std::hypot(x - 2, y) < 0.3 ? 1 : 0; };
+  EXPECT_NE(message_of(problem).find("is not around the origin"), std::string::npos) << message_of(problem);
+}
+
+TEST(PlaneAveraged, StopsWhereTheFrontLeavesTheDomain) {
+  Problem problem = rings::problem(slip_of_rings());
+  problem.right = 2.2;
+  AveragedSolver solver(problem, {20, 16});
+  EXPECT_THROW(solver.advance_to(2, {}), NumericsError);
+  EXPECT_GT(solver.time(), 0.2);
+}
+
+}  // namespace
