@@ -147,6 +147,39 @@ TEST(PlaneAveraged, RefusesLinesThatAreNotStarShaped) {
   EXPECT_NE(message_of(problem).find("is not around the origin"), std::string::npos) << message_of(problem);
 }
 
+TEST(PlaneAveraged, RefusesTooFewCells) {
+  const Problem problem = rings::problem(slip_of_rings());
+  for (const plane::Resolution few : {plane::Resolution{3, 1}, plane::Resolution{0, 16}, plane::Resolution{20, 7},
+                                      plane::Resolution{20, 0}, plane::Resolution{-5, -5}})
+    EXPECT_THROW(AveragedSolver(problem, few), InputError) << few.loops << " x " << few.angles;
+  AveragedSolver least(problem, {4, 8});
+  least.advance_to(0.1, {});
+  EXPECT_GT(least.slip({at(2.02, 0)}).front(), 0);
+}
+
+/// Friction takes the elastic energy that the lines release, and no more.
+TEST(PlaneAveraged, StrongFrictionKeepsTheBudget) {
+  Problem problem = rings::problem(slip_of_rings());
+  problem.viscous = [](double, double) { return 10; };
+  AveragedSolver solver(problem, {60, 1});
+  solver.advance_to(1, {});
+  const plane::Energies e = solver.energies();
+  EXPECT_NEAR(e.dissipated / -e.elastic, 1, 0.05);
+}
+
+TEST(PlaneAveraged, StopsWhereFrictionTakesEnergyFromNothing) {
+  Problem problem = rings::problem(slip_of_rings());
+  problem.viscous = [](double, double) { return 1000; };
+  AveragedSolver solver(problem, {60, 1});
+  EXPECT_THROW(solver.advance_to(1, {}), NumericsError);
+}
+
+TEST(PlaneAveraged, RefusesStrengthAtRest) {
+  Problem problem = rings::problem(slip_of_rings());
+  problem.friction = friction::coulomb(0.3);
+  EXPECT_NE(message_of(problem).find("holds slip at rest"), std::string::npos) << message_of(problem);
+}
+
 TEST(PlaneAveraged, StopsWhereTheFrontLeavesTheDomain) {
   Problem problem = rings::problem(slip_of_rings());
   problem.right = 2.2;

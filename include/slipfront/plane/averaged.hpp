@@ -20,12 +20,14 @@ struct Resolution {
 class AveragedSolver : public Solver {
  public:
   /// \throws InputError for an initial slip whose contours are not star-shaped, or that does not vanish inside the
-  /// domain; for a held region that is not around the origin; and for friction with state variables.
+  /// domain; for a held region that is not around the origin; for fewer than 4 loops, or 2 to 7 angles; and for
+  /// friction with state variables, or with strength at rest.
   AveragedSolver(const Problem& problem, const Resolution& resolution);
   ~AveragedSolver() override;
 
   double time() const override;
   long steps() const override;
+  /// \throws NumericsError also if friction has taken more energy than the lines released, by more than 10 %.
   bool advance_to(double time, const std::function<bool()>& interrupted) override;
 
   std::vector<double> slip(const std::vector<Point>& points) const override;
@@ -40,6 +42,7 @@ class AveragedSolver : public Solver {
   void resume(std::string_view saved) override;
 
  private:
+  void check_budget() const;
   struct Parts;
   std::unique_ptr<Parts> parts_;
 };

@@ -17,7 +17,7 @@ struct AveragedSolver::Parts {
   Problem problem;
   Loops loops;
   LoopSteps steps;
-  double volume_at_start;
+  double volume_at_start, elastic_at_start = 0;
 
   Parts(const Problem& p, const Resolution& resolution)
       : problem(p),
@@ -26,7 +26,7 @@ struct AveragedSolver::Parts {
         steps(problem, loops),
         volume_at_start(volume(loops)) {
     steps.look();
-    loops.elastic_at_start = energy(loops, steps.equations()).elastic;
+    elastic_at_start = energy(loops, steps.equations()).elastic;
   }
 
   /// The front must stay inside the domain, because the averaged solver has no boundary there.
@@ -54,6 +54,17 @@ AveragedSolver::AveragedSolver(const Problem& problem, const Resolution& resolut
                       .value = std::string(problem.friction.name()),
                       .problem = "the averaged equations on a plane do not follow the state of friction",
                       .allowed = "a law without state variables"});
+  if (!problem.viscous && problem.friction.steep_at_rest())
+    throw InputError({.key = "friction.law",
+                      .value = std::string(problem.friction.name()),
+                      .problem = "the averaged equations on a plane do not follow friction that holds slip at rest",
+                      .allowed = "a law whose force rises smoothly from rest"});
+  const bool enough = resolution.loops >= 4 && (resolution.angles == 1 || resolution.angles >= 8);
+  if (!enough)
+    throw InputError({.key = "resolution",
+                      .value = std::to_string(resolution.loops) + " x " + std::to_string(resolution.angles),
+                      .problem = "too few cells for the interpolation between them",
+                      .allowed = "at least 4 loops, and 1 angle or at least 8"});
   parts_ = std::make_unique<Parts>(problem, resolution);
 }
 
@@ -70,14 +81,27 @@ bool AveragedSolver::advance_to(double time, const std::function<bool()>& interr
     p.check_middle();
     if (interrupted && interrupted()) break;
   }
-  if (p.loops.time >= time) p.steps.look();
-  return p.loops.time >= time;
+  if (p.loops.time < time) return false;
+  p.steps.look();
+  check_budget();
+  return true;
+}
+
+/// Coarse cells lose some energy while the front begins to move, but none may come from nothing.
+void AveragedSolver::check_budget() const {
+  constexpr double most = 0.1;
+  const Energies e = energies();
+  const double excess = e.kinetic + e.elastic + e.dissipated - e.supplied;
+  const double largest = std::max({e.kinetic, std::fabs(e.elastic), e.dissipated, std::fabs(e.supplied)});
+  if (excess > most * largest)
+    throw NumericsError("t = " + digits(time()) + ": the energy is " + digits(100 * excess / largest, 3) +
+                        " % larger than at the start; friction is too strong for this number of cells");
 }
 
 std::vector<double> AveragedSolver::slip(const std::vector<Point>& points) const {
   std::vector<double> slips;
   for (const Point& at : points) {
-    const std::vector<double> faces = distances(parts_->loops, std::atan2(at.y, at.x));
+    const std::vector<double> faces = along_ray(parts_->loops, parts_->loops.r, std::atan2(at.y, at.x));
     const double count = loops_outside(parts_->loops, faces, std::hypot(at.x, at.y));
     slips.push_back(2 * pi * count - parts_->problem.slip(at.x, at.y));
   }
@@ -90,7 +114,7 @@ std::vector<double> AveragedSolver::velocity(const std::vector<Point>& points) c
   std::vector<double> velocities;
   for (const Point& at : points) {
     const double angle = std::atan2(at.y, at.x), r = std::hypot(at.x, at.y);
-    const std::vector<double> faces = distances(loops, angle), ray = along_ray(loops, w, angle);
+    const std::vector<double> faces = along_ray(loops, loops.r, angle), ray = along_ray(loops, w, angle);
     double velocity = 0;
     for (std::size_t row = 0; row < loops.rows; ++row) {
       if (r > faces[row] || r <= faces[row + 1]) continue;
@@ -133,7 +157,7 @@ Energies AveragedSolver::energies() const {
   const Loops& loops = parts_->loops;
   const LoopEnergy now = energy(loops, parts_->steps.equations());
   return {.kinetic = now.kinetic,
-          .elastic = now.elastic - loops.elastic_at_start,
+          .elastic = now.elastic - parts_->elastic_at_start,
           .dissipated = loops.dissipated,
           .supplied = loops.supplied};
 }

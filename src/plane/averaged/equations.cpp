@@ -260,13 +260,17 @@ void LoopEquations::find_rates(double t, const std::vector<double>& r, const std
   solve(t, s);
   find_faces(r, r_rate);
   for (std::size_t i = 0; i < velocity_.size(); ++i) along_ray_[i] = velocity_[i] * std::sqrt(1 + bend_[i] * bend_[i]);
+  closing_ = 0;
+  for (std::size_t i = 0; i < middle_.size(); ++i)
+    closing_ = std::fmax(closing_, (r_rate[i + angles_] - r_rate[i]) / (r[i] - r[i + angles_]));
   add_pressure(r, momentum_rate);
   add_tension(momentum_rate);
   add_contact_force(momentum_rate);
   add_forcing(t, momentum_rate);
 }
 
-/// Waves move through a train with the speed c0 in its frame, and along a loop with the speed of light at most.
+/// A cell may lose 0.3 of its width. Waves move through a train with the speed c0 in its frame, and along a loop with
+/// the speed of light at most.
 double LoopEquations::longest_step() const {
   double fastest = 0;
   for (std::size_t i = 0; i < phi_.size(); ++i) {
@@ -276,7 +280,7 @@ double LoopEquations::longest_step() const {
     const double along = angles_ > 1 ? 1 / (middle_[i] * turn_) : 0;
     fastest = std::fmax(fastest, crossing + along);
   }
-  return 1 / fastest;
+  return 1 / std::fmax(fastest, closing_ / 0.3);
 }
 
 }  // namespace slipfront::plane

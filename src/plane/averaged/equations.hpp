@@ -71,6 +71,7 @@ class LoopEquations {
   std::vector<double> face_bend_, face_phi_, face_psi_, face_contact2_;
   std::vector<double> stiffness_, tension_;  ///< one row
   double supply_ = 0;
+  double closing_ = 0;  ///< largest rate at which a cell loses its width, over the width
 };
 
 }  // namespace slipfront::plane

@@ -26,9 +26,8 @@ struct Loops {
   std::vector<double> s;         ///< tanh(psi) of the cells, the initial guess of the next solution
   double limit = 0;              ///< longest stable step at `time`; 0: not known yet
   double power = 0, supply = 0;  ///< power of friction and of the force F at `time`
-  /// The effect of friction on Pi in each cell: a rate (viscous friction, laws without strength at rest), or a force.
-  std::vector<double> loss;
-  double dissipated = 0, supplied = 0, elastic_at_start = 0;
+  std::vector<double> loss;      ///< rate at which friction takes Pi in each cell
+  double dissipated = 0, supplied = 0;
 
   double charge(std::size_t row) const { return label[row + 1] - label[row]; }
   double turn() const { return 2 * std::numbers::pi / static_cast<double>(angles); }

@@ -40,19 +40,13 @@ struct AngleWeights {
   }
 };
 
-std::vector<double> rows_at(const Loops& loops, const std::vector<double>& values, double angle) {
+}  // namespace
+
+std::vector<double> along_ray(const Loops& loops, const std::vector<double>& values, double angle) {
   const AngleWeights at(loops, angle);
   std::vector<double> ray(values.size() / loops.angles);
   for (std::size_t row = 0; row < ray.size(); ++row) ray[row] = at.of(&values[row * loops.angles]);
   return ray;
-}
-
-}  // namespace
-
-std::vector<double> distances(const Loops& loops, double angle) { return rows_at(loops, loops.r, angle); }
-
-std::vector<double> along_ray(const Loops& loops, const std::vector<double>& cells, double angle) {
-  return rows_at(loops, cells, angle);
 }
 
 double loops_outside(const Loops& loops, const std::vector<double>& faces, double r) {
@@ -86,12 +80,12 @@ LoopEnergy energy(const Loops& loops, const LoopEquations& equations) {
     const double a = equations.contact(i);
     const double area = (loops.r[i] - loops.r[inner]) * (loops.r[i] + loops.r[inner]) / 2 * loops.turn();
     const State train{equations.phi()[i], equations.psi()[i]};
-    const double k = train::averages(train, a).k;  // the gradient of the slip
-    const double all = train::averages(train, a).H;
+    const train::Averages now = train::averages(train, a);
+    const double k = now.k;  // the gradient of the slip
     const double at_rest =
         k / a >= train::smallest_stress ? train::averages(train::at_rest(k / a), a).H : 8 * a * k / (2 * pi);
     total.elastic += at_rest * area;
-    total.kinetic += (all - at_rest) * area;
+    total.kinetic += (now.H - at_rest) * area;
   }
   return total;
 }

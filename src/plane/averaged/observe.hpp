@@ -10,11 +10,9 @@ namespace slipfront::plane {
 /// Slip velocity in each cell, the rate at which the loops pass.
 std::vector<double> slip_velocities(const Loops& loops, const LoopEquations& equations);
 
-/// Distances of all faces in one direction, from the outermost to the innermost.
-std::vector<double> distances(const Loops& loops, double angle);
-
-/// Values of a cell array in one direction, by interpolation of third order between the angles.
-std::vector<double> along_ray(const Loops& loops, const std::vector<double>& cells, double angle);
+/// The values of all faces or cells in one direction, from the outermost to the innermost, by a cubic between the
+/// angles. The values of `loops.r` are the distances of the faces.
+std::vector<double> along_ray(const Loops& loops, const std::vector<double>& values, double angle);
 
 /// Number of loops that enclose the point at the distance `r` on a ray with these distances of the faces.
 double loops_outside(const Loops& loops, const std::vector<double>& faces, double r);

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <string>
 
-#include "foundation/math/bracket.hpp"
 #include "foundation/text/digits.hpp"
 #include "plane/averaged/loops.hpp"
 #include "slipfront/error.hpp"
@@ -82,11 +81,9 @@ double distance_of(const Ray& ray, double wall, double level) {
   return (inside + outside) / 2;
 }
 
-double top_of(const Ray& ray, double wall) { return ray.slip(wall); }
-
 void find_ray(const Problem& problem, std::size_t k, double top, Loops& loops) {
   const Ray ray(problem, loops.angle(k));
-  const double wall = wall_of(ray), on_wall = top_of(ray, wall);
+  const double wall = wall_of(ray), on_wall = ray.slip(wall);
   if (!(std::fabs(on_wall - top) <= 1e-4 * top))
     throw refusal("slip",
                   "the slip at the held region is " + digits(on_wall) + " at " + ray.place(wall) + ", but " +
@@ -111,7 +108,7 @@ Loops initial_loops(const Problem& problem, std::size_t rows, std::size_t angles
   loops.rows = rows;
   loops.angles = angles;
   const Ray first(problem, 0);
-  const double top = top_of(first, wall_of(first));
+  const double top = first.slip(wall_of(first));
   if (!(top > 0)) throw refusal("slip", "there is no slip around the origin", "a slip > 0 there");
   const double number = top / (2 * std::numbers::pi), count = static_cast<double>(rows);
   loops.label.resize(rows + 1);

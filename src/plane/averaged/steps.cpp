@@ -1,7 +1,8 @@
 #include "plane/averaged/steps.hpp"
 
 #include <algorithm>
-#include <utility>
+#include <cmath>
+#include <optional>
 
 #include "modulation/equations.hpp"
 
@@ -10,6 +11,9 @@ namespace slipfront::plane {
 namespace {
 
 constexpr double courant = 0.7;
+/// A step is at most courant / friction_share of the time in which friction takes the momentum, because half steps of
+/// friction would let strongly damped loops move freely in between.
+constexpr double friction_share = 4;
 
 }  // namespace
 
@@ -23,17 +27,23 @@ LoopSteps::LoopSteps(const Problem& problem, Loops& loops)
 
 void LoopSteps::look() {
   equations_.find_rates(loops_.time, loops_.r, loops_.momentum, loops_.s, r_rate_, momentum_rate_);
-  loops_.limit = equations_.longest_step();
-  loops_.supply = equations_.supply();
   find_strengths();
+  const double rate = loops_.loss.empty() ? 0 : *std::max_element(loops_.loss.begin(), loops_.loss.end());
+  loops_.limit = 1 / (1 / equations_.longest_step() + friction_share * rate);
+  loops_.supply = equations_.supply();
   loops_.power = power_of_friction();
 }
 
-/// Finds the effect of friction on the momentum: a rate, or the largest force of a law that sticks.
+/// Finds the rate at which friction takes momentum.
 void LoopSteps::find_strengths() {
   if (!friction_acts_) return;
+  const std::optional<double> C = problem_.viscous ? std::nullopt : problem_.friction.linear_coefficient();
   for (std::size_t i = 0; i < loops_.loss.size(); ++i) {
     const Point at = equations_.centre(i);
+    if (C && problem_.friction.closure() == friction::Closure::consistent) {
+      loops_.loss[i] = *C;
+      continue;
+    }
     if (problem_.viscous) {
       loops_.loss[i] = problem_.viscous(at.x, at.y);
       continue;
@@ -41,19 +51,15 @@ void LoopSteps::find_strengths() {
     const State train{equations_.phi()[i], equations_.psi()[i]};
     const double mean = problem_.friction.mean_strength(train, equations_.contact(i));
     const double force = modulation::force_per_dislocation(mean) * equations_.middle(i);
-    if (problem_.friction.sticks())
-      loops_.loss[i] = force;
-    else
-      loops_.loss[i] = loops_.momentum[i] == 0 ? 0 : force / std::fabs(loops_.momentum[i]);
+    loops_.loss[i] = loops_.momentum[i] == 0 ? 0 : force / std::fabs(loops_.momentum[i]);
   }
 }
 
 double LoopSteps::power_of_friction() const {
   if (!friction_acts_) return 0;
-  const bool dry = !problem_.viscous && problem_.friction.sticks();
   double power = 0;
   for (std::size_t i = 0; i < loops_.loss.size(); ++i) {
-    const double taken = dry ? loops_.loss[i] : loops_.loss[i] * std::fabs(loops_.momentum[i]);
+    const double taken = loops_.loss[i] * std::fabs(loops_.momentum[i]);
     power += taken * std::fabs(equations_.velocity()[i]) * loops_.charge(i / loops_.angles) * loops_.turn();
   }
   return power;
@@ -61,14 +67,7 @@ double LoopSteps::power_of_friction() const {
 
 void LoopSteps::add_friction(double time) {
   if (!friction_acts_) return;
-  const bool dry = !problem_.viscous && problem_.friction.sticks();
-  for (std::size_t i = 0; i < loops_.loss.size(); ++i) {
-    double& momentum = loops_.momentum[i];
-    if (dry)
-      momentum = std::copysign(std::fmax(std::fabs(momentum) - loops_.loss[i] * time, 0.0), momentum);
-    else
-      momentum *= std::exp(-loops_.loss[i] * time);
-  }
+  for (std::size_t i = 0; i < loops_.loss.size(); ++i) loops_.momentum[i] *= std::exp(-loops_.loss[i] * time);
 }
 
 void LoopSteps::keep_outside_wall(std::vector<double>& r) const {
