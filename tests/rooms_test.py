@@ -24,14 +24,14 @@ MODULES = {
     "pulse": "output friction modulation train elliptic",
     "plane": "output friction modulation train elliptic",
     "friction_ratio": "pulse rupture friction",
-    "scenario": "chain pulse friction train medium",
+    "scenario": "chain pulse plane friction train medium",
     "catalogue": "friction_ratio rupture medium",
     "inference": "catalogue friction_ratio rupture medium elliptic",
     "finite_fault": "inference catalogue friction_ratio friction pulse rupture modulation train medium",
     "results": "finite_fault inference catalogue friction_ratio rupture medium",
-    "setup": "scenario chain pulse output friction rupture modulation train elliptic",
-    "record": "results finite_fault friction catalogue output medium",
-    "run": "record friction setup results finite_fault inference catalogue scenario chain pulse output medium",
+    "setup": "scenario chain pulse plane output friction rupture modulation train elliptic",
+    "record": "results finite_fault friction catalogue plane output medium",
+    "run": "record friction setup results finite_fault inference catalogue scenario chain pulse plane output medium",
 }
 
 # The folders of a module, from the bottom up, with the folders of the same module that they may include. "." stands for the
@@ -40,8 +40,9 @@ FOLDERS = {
     "catalogue": {"csv": ".", "fsp": ".", "json": ".", "toml": "."},
     "finite_fault": {"source": "."},
     "inference": {"sampling": ""},
-    "record": {"files": "", "netcdf": "files", "pulses": "netcdf files", "events": "pulses netcdf files", "faults": "netcdf files"},
-    "scenario": {"units": ".", "text": ". units", "formula": "text", "profile": "formula text", "friction": ". profile formula text"},
+    "record": {"files": "", "netcdf": "files", "pulses": "netcdf files", "events": "pulses netcdf files", "faults": "netcdf files", "planes": "pulses netcdf files"},
+    "scenario": {"units": ".", "text": ". units", "formula": "text", "profile": "formula text", "friction": ". profile formula text",
+                 "plane": ". profile formula text"},
     "foundation": {"math": "text", "simd": "", "text": ""},
     "friction": {"state": "", "train_means": "", "laws": "state train_means"},
     "chain": {

@@ -42,12 +42,12 @@ int run_chain(const ScenarioArguments& a) {
   the_ranks->require_same("--resume", saved ? saved->solver_state : "");
   const Ranks* ranks = the_ranks->size() > 1 ? the_ranks : nullptr;
   if (a.check) {
-    the_ranks->together([&] { require_output(a, saved, plan.need.disk); });
+    the_ranks->together([&] { require_output(a, saved && saved->finished, plan.need.disk); });
     const auto run = run::begin(plan, {.checkpoint = std::move(saved), .threads = a.common.threads, .ranks = ranks});
     if (the_ranks->rank() == 0) describe(s, plan, run->chain().problem());
     return exit_done;
   }
-  LongRun long_run(a, s, saved, ranks);
+  LongRun long_run(a, s, saved && saved->finished, ranks);
   const auto result = run::chain(s, plan, long_run.options(std::move(saved), begun));
   if (const int code = long_run.end(result.finished()); code != exit_done) return code;
   if (the_ranks->rank() == 0)

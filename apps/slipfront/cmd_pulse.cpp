@@ -59,11 +59,11 @@ int run_pulse(ScenarioArguments a, std::optional<double> tolerance) {
   std::optional<record::Checkpoint> saved;
   if (!a.resume.empty()) saved = run::checkpoint_of(a.resume, s, plan);
   if (a.check) {
-    require_output(a, saved, plan.need.disk);
+    require_output(a, saved && saved->finished, plan.need.disk);
     describe(s, plan, *run::begin(plan, {.checkpoint = std::move(saved)}));
     return exit_done;
   }
-  LongRun long_run(a, s, saved, nullptr);
+  LongRun long_run(a, s, saved && saved->finished, nullptr);
   const auto result = run::pulse(s, plan, long_run.options(std::move(saved), begun));
   if (const int code = long_run.end(result.finished()); code != exit_done) return code;
   const run::Errors errors = run::errors_of(result, s, {});

@@ -12,6 +12,7 @@ using AddCommand = Runner(CLI::App& app);
   COMMAND(pulse)                    \
   COMMAND(chain)                    \
   COMMAND(compare)                  \
+  COMMAND(plane)                    \
   COMMAND(keys)                     \
   COMMAND(units)                    \
   COMMAND(doctor)                   \

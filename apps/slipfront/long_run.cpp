@@ -224,15 +224,14 @@ void print_summary(const scenario::Scenario& scenario, std::vector<run::SummaryV
   if (!output.empty() && !a.common.quiet) put("written to " + output + "\n");
 }
 
-void require_output(const ScenarioArguments& arguments, const std::optional<record::Checkpoint>& checkpoint,
-                    double bytes) {
-  record::require_disk_space(run::output_of(arguments.output, arguments.resume, checkpoint).finished(), bytes);
+void require_output(const ScenarioArguments& arguments, bool of_finished, double bytes) {
+  record::require_disk_space(run::output_of(arguments.output, arguments.resume, of_finished).finished(), bytes);
 }
 
-LongRun::LongRun(const ScenarioArguments& arguments, const scenario::Scenario& scenario,
-                 const std::optional<record::Checkpoint>& checkpoint, const Ranks* ranks)
+LongRun::LongRun(const ScenarioArguments& arguments, const scenario::Scenario& scenario, bool of_finished,
+                 const Ranks* ranks)
     : a_(arguments), s_(scenario), ranks_(ranks), first_(the_ranks->rank() == 0) {
-  const auto open = [&] { output_ = run::output_of(a_.output, a_.resume, checkpoint); };
+  const auto open = [&] { output_ = run::output_of(a_.output, a_.resume, of_finished); };
   ranks_ ? ranks_->together(open) : open();
   if (output_.wanted())
     interrupted_means("; the last checkpoint is saved: continue with " + output_.how_to_resume(), output_.unfinished());

@@ -46,18 +46,18 @@ void print_summary(const slipfront::scenario::Scenario& scenario, std::vector<sl
                    const ScenarioArguments& arguments,
                    const std::vector<slipfront::output::SlipEvent>* events = nullptr);
 
-/// Checks that the output of a run can be written, of about `bytes` bytes. \throws FileError.
-void require_output(const ScenarioArguments& arguments, const std::optional<slipfront::record::Checkpoint>& checkpoint,
-                    double bytes);
+/// Checks that the output of a run can be written, of about `bytes` bytes. `of_finished`: the run continues
+/// that of a finished file. \throws FileError.
+void require_output(const ScenarioArguments& arguments, bool of_finished, double bytes);
 
 /// The progress line and the output file of a `pulse` or `chain` run. While this object exists, Ctrl-C interrupts the
 /// run.
 class LongRun {
  public:
-  /// `checkpoint` is that to resume from, if any. `ranks` are the processes that share the run; null if there is only
-  /// this one.
-  LongRun(const ScenarioArguments& arguments, const slipfront::scenario::Scenario& scenario,
-          const std::optional<slipfront::record::Checkpoint>& checkpoint, const slipfront::Ranks* ranks);
+  /// `of_finished`: the run continues that of a finished file. `ranks` are the processes that share the run; null if
+  /// there is only this one.
+  LongRun(const ScenarioArguments& arguments, const slipfront::scenario::Scenario& scenario, bool of_finished,
+          const slipfront::Ranks* ranks);
   /// Options of the run: its output, the checkpoint to resume from, if any, and the time `begun` when the command
   /// began.
   slipfront::run::Options options(std::optional<slipfront::record::Checkpoint> checkpoint, Clock::time_point begun);

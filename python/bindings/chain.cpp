@@ -17,7 +17,7 @@ py::dict run_chain(const py::dict& arguments, int threads) {
     const run::ChainPlan plan = run::plan_chain(s);
     run::Options options{.threads = threads, .begun = begun};
     if (!a.resume.empty()) options.checkpoint = run::checkpoint_of(a.resume, s, plan);
-    options.output = run::output_of(a.output, a.resume, options.checkpoint);
+    options.output = run::output_of(a.output, a.resume, options.checkpoint && options.checkpoint->finished);
     options.after_step = [&](double time, long steps) { return watch(time, steps); };
     result = run::chain(s, plan, options);
   }

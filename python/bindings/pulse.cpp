@@ -32,7 +32,7 @@ py::dict run_pulse(const py::dict& arguments, std::optional<double> tolerance, b
     const run::PulsePlan plan = run::plan_pulse(s);
     run::Options options{.begun = begun};
     if (!a.resume.empty()) options.checkpoint = run::checkpoint_of(a.resume, s, plan);
-    options.output = run::output_of(a.output, a.resume, options.checkpoint);
+    options.output = run::output_of(a.output, a.resume, options.checkpoint && options.checkpoint->finished);
     options.after_step = [&](double time, long steps) { return watch(time, steps); };
     result = run::pulse(s, plan, options);
     if (result.finished() && with_errors) errors = run::errors_of(result, s, interrupted);

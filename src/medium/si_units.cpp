@@ -1,5 +1,6 @@
 #include "slipfront/medium/si_units.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -135,9 +136,17 @@ class Parser {
   int depth_ = 0;
 };
 
+/// The units of slip, and of its integrals along a line and over a plane. The last two are the seismic moment and its
+/// rate.
+constexpr std::array<std::string_view, 6> slip_units = {"b / (2 pi)",          "b^2 / (2 pi A)",
+                                                        "b^3 / (2 pi A^2)",    "b^2 c / (2 pi A)",
+                                                        "mu b^3 / (2 pi A^2)", "mu b^2 c / (2 pi A)"};
+
 /// Usual names of some units. Others are products of Pa, m and s.
-std::string name_of(const Powers& powers) {
+std::string name_of(const Powers& powers, bool moment) {
   if (powers == Powers{}) return "1";
+  if (powers == Powers{1, 3, 0}) return moment ? "N m" : "J";
+  if (powers == Powers{1, 3, -1}) return moment ? "N m s-1" : "W";
   if (powers == Powers{1, 1, 0}) return "J m-2";
   if (powers == Powers{1, 2, 0}) return "J m-1";
   constexpr std::array<const char*, 3> units = {"Pa", "m", "s"};
@@ -148,14 +157,12 @@ std::string name_of(const Powers& powers) {
   return name;
 }
 
-constexpr std::string_view slip_unit = "b / (2 pi)", potency_unit = "b^2 / (2 pi A)";
-
 }  // namespace
 
 UnitInSi in_si(std::string_view unit, const SymbolValues& values) {
   const Amount amount = Parser(unit, values).whole();
-  const bool slip = unit == slip_unit || unit == potency_unit;
-  return {slip ? face_factor * amount.value : amount.value, name_of(amount.powers), slip};
+  const bool slip = std::find(slip_units.begin(), slip_units.end(), unit) != slip_units.end();
+  return {slip ? face_factor * amount.value : amount.value, name_of(amount.powers, slip), slip};
 }
 
 std::string symbols_of(std::string_view unit) {

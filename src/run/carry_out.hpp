@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "foundation/clock.hpp"
@@ -27,11 +28,16 @@ inline void add_warnings(const std::vector<std::string>& of_run, record::PulseMe
   metadata.warnings.insert(metadata.warnings.end(), of_run.begin(), of_run.end());
 }
 
-/// Writes the whole run to its output. Until the run has ended, the file is marked as unfinished.
+/// Writes a run to a file.
+using WriteRun = std::function<void(const std::string& path, const record::PulseMetadata& metadata)>;
+
+/// Writes the whole run to its output, with `write_run` if it is given and else as a pulse. Until the run has ended,
+/// the file is marked as unfinished.
 template <class Run>
 class Checkpoints {
  public:
-  Checkpoints(const Run& run, const CheckpointOptions& options) : run_(run), options_(options) {}
+  Checkpoints(const Run& run, const CheckpointOptions& options, WriteRun write_run)
+      : run_(run), options_(options), write_run_(std::move(write_run)) {}
 
   /// Whether it is time for a checkpoint. Each writes the whole file, so we limit writing to a small part of the work.
   bool due() const {
@@ -58,7 +64,8 @@ class Checkpoints {
   void write() {
     if (!options_.output.wanted()) return;
     const auto begun = Clock::now();
-    const std::string state = run_.saved();  // all ranks send their parts to the first rank
+    std::string state;
+    if (!write_run_) state = run_.saved();  // all ranks send their parts to the first rank
     record::PulseMetadata metadata = options_.metadata;
     if constexpr (requires { run_.events(); }) {
       metadata.events = run_.events();
@@ -67,8 +74,11 @@ class Checkpoints {
     if (run_.finished()) add_warnings(run_.warnings(), metadata);  // warnings() needs all ranks
     on_first([&] {
       const record::Output& output = options_.output;
-      record::write_pulse(run_.finished() ? output.finished() : output.unfinished(), metadata, run_.snapshots(), state,
-                          run_.finished());
+      const std::string& path = run_.finished() ? output.finished() : output.unfinished();
+      if constexpr (requires { run_.maps(); })
+        write_run_(path, metadata);
+      else
+        record::write_pulse(path, metadata, run_.snapshots(), state, run_.finished());
       if (run_.finished()) output.clear();
     });
     cost_ = seconds_since(begun);
@@ -86,6 +96,7 @@ class Checkpoints {
 
   const Run& run_;
   const CheckpointOptions& options_;
+  WriteRun write_run_;
   Clock::time_point written_ = Clock::now();
   double cost_ = 0;  ///< seconds that the last checkpoint took
 };
@@ -95,8 +106,9 @@ class Checkpoints {
 /// file at the output is replaced only at the end of the run. Returns whether the run has reached its end. \throws
 /// NumericsError, after writing the results so far; FileError.
 template <class Run>
-bool carry_out(Run& run, const CheckpointOptions& options, const std::function<bool()>& after_step) {
-  Checkpoints<Run> checkpoints(run, options);
+bool carry_out(Run& run, const CheckpointOptions& options, const std::function<bool()>& after_step,
+               const WriteRun& write_run = {}) {
+  Checkpoints<Run> checkpoints(run, options, write_run);
   checkpoints.require_disk_space();
   if (!options.resumed && !options.output.replaces()) checkpoints.write();
   bool reached = false;

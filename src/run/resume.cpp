@@ -104,10 +104,8 @@ record::Checkpoint read(const std::string& path, const scenario::Scenario& scena
 
 }  // namespace
 
-record::Output output_of(const std::string& output, const std::string& resume,
-                         const std::optional<record::Checkpoint>& checkpoint) {
-  const bool finished = checkpoint && checkpoint->finished;
-  return {output.empty() ? resume : output, finished ? "" : resume};
+record::Output output_of(const std::string& output, const std::string& resume, bool of_finished) {
+  return {output.empty() ? resume : output, of_finished ? "" : resume};
 }
 
 record::Checkpoint checkpoint_of(const std::string& path, const scenario::Scenario& scenario, const PulsePlan& plan) {

@@ -74,9 +74,9 @@ record::Checkpoint checkpoint_of(const std::string& path, const scenario::Scenar
                                  double share_of_machine = 1);
 
 /// The output of a run that writes to `output`, or else to the file `resume` from which it resumes. Both may be empty.
-/// The run must not lose a finished result: it replaces that at its end only. \throws FileError.
-record::Output output_of(const std::string& output, const std::string& resume,
-                         const std::optional<record::Checkpoint>& checkpoint);
+/// If that file is finished (`of_finished`), the run must not lose its result: it replaces it at its end only. \throws
+/// FileError.
+record::Output output_of(const std::string& output, const std::string& resume, bool of_finished);
 
 /// The result of a run. The summary is empty unless the run is finished.
 template <class Run>

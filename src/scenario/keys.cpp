@@ -68,7 +68,8 @@ std::vector<Key> initial_keys() {
   const std::string step_or_tanh = "required by step and tanh";
   const Limits widths{.least = 0, .most = farthest, .without_least = true};
   return {
-      word_key(table, "profile", {"step", "tanh", "formula", "table"}, "step", "form of the initial stress"),
+      word_key(table, "profile", {"step", "tanh", "formula", "table", "radial"}, "step",
+               "form of the initial stress; of the initial slip on a plane: formula or radial"),
       number_key(table, "stress_left", ModelUnit::stress, stress, step_or_tanh,
                  "stress of a step or tanh at x < 0; 0 is an empty interface"),
       number_key(table, "stress_right", ModelUnit::stress, stress, step_or_tanh,
@@ -76,10 +77,10 @@ std::vector<Key> initial_keys() {
       number_key(table, "width", ModelUnit::position, widths, "1",
                  "width of a tanh: right + (left - right)(1 - tanh(x / width)) / 2"),
       formula_key(table, "formula", ModelUnit::stress, "required by the profile formula",
-                  "stress as a formula of x, in mu A / pi"),
+                  "stress as a formula of x, in mu A / pi; on a plane slip as a formula of x and y, in b / (2 pi)"),
       units_key(table, "formula or the columns of file"),
-      other_key(table, "file", text, "required by the profile table",
-                "CSV or NetCDF file with x and stress; relative to the scenario file"),
+      other_key(table, "file", text, "required by the profiles table and radial",
+                "CSV or NetCDF file with x and stress, or with r and slip; relative to the scenario file"),
       other_key(table, "hold", truth, "false", "a static load holds at rest the stress that is not in equilibrium"),
   };
 }
@@ -171,6 +172,27 @@ std::vector<Key> domain_and_time_keys() {
   };
 }
 
+std::vector<Key> plane_keys() {
+  const std::string_view table = "plane";
+  const auto count = [&](std::string_view name, Limits limits, std::string otherwise, std::string meaning) {
+    Key key = number_key(table, name, ModelUnit::none, limits, std::move(otherwise), std::move(meaning));
+    key.type = whole_number;
+    return key;
+  };
+  return {
+      number_key(table, "left", ModelUnit::position, position, "required by [plane]", "x of the left edge"),
+      number_key(table, "right", ModelUnit::position, position, "required by [plane]", "x of the right edge"),
+      number_key(table, "bottom", ModelUnit::position, position, "required by [plane]", "y of the lower edge"),
+      number_key(table, "top", ModelUnit::position, position, "required by [plane]", "y of the upper edge"),
+      count("cells", {.least = 4, .most = 10'000}, "200", "number of cells of the results along x"),
+      count("loops", {.least = 4, .most = 10'000}, "120", "cells of the averaged solver across the lines"),
+      count("angles", {.least = 8, .most = 10'000}, "128", "directions of the averaged solver around the origin"),
+      other_key(table, "fixed", formula, "nowhere", "the interface is held where this formula of x and y is not 0"),
+      number_key(table, "wave_speed_ratio", ModelUnit::none, positive, "1",
+                 "speed of waves along y over that along x, the direction of slip"),
+  };
+}
+
 std::vector<Key> pulse_keys() {
   const std::string_view table = "pulse";
   const std::vector<std::string_view> ends = {"continued", "fixed", "free"};
@@ -234,10 +256,16 @@ std::vector<Key> output_keys() {
   Key fronts = number_key("output", "fronts", ModelUnit::none, {.least = 3, .most = 10000}, "none",
                           "positions at which a loaded chain records the arrival of each slip event");
   fronts.type = whole_number;
+  Key probes = other_key("output", "probes", KeyType::points, "none",
+                         "points of a plane at which slip and slip velocity are printed");
+  probes.scale = ModelUnit::position;
   return {times,
           number_key("output", "every", ModelUnit::time, positive, "none",
                      "interval between the times of results, in place of times"),
-          per_event, variables, fronts};
+          per_event,
+          variables,
+          fronts,
+          probes};
 }
 
 }  // namespace
@@ -269,9 +297,9 @@ std::string_view symbol_of(ModelUnit unit) {
 }
 
 std::string_view name_of(KeyType type) {
-  constexpr std::array<std::string_view, 9> names = {"number",  "whole number",  "list of numbers",
-                                                     "word",    "list of words", "text",
-                                                     "formula", "truth value",   "quantity"};
+  constexpr std::array<std::string_view, 10> names = {
+      "number", "whole number", "list of numbers", "word",     "list of words",
+      "text",   "formula",      "truth value",     "quantity", "list of points"};
   return names.at(static_cast<std::size_t>(type));
 }
 
@@ -289,8 +317,8 @@ const std::vector<Key>& keys() {
   static const std::vector<Key> all = [] {
     std::vector<Key> some = {
         {.table = "", .name = "title", .type = text, .meaning = "title of the run", .otherwise = ""}};
-    for (const auto& part : {initial_keys(), friction_keys(), load_keys(), domain_and_time_keys(), pulse_keys(),
-                             chain_keys(), medium_keys(), output_keys()})
+    for (const auto& part : {initial_keys(), friction_keys(), load_keys(), domain_and_time_keys(), plane_keys(),
+                             pulse_keys(), chain_keys(), medium_keys(), output_keys()})
       some.insert(some.end(), part.begin(), part.end());
     return some;
   }();

@@ -2,6 +2,7 @@
 #include <utility>
 #include <vector>
 
+#include "scenario/plane/plane.hpp"
 #include "scenario/profile/initial.hpp"
 #include "scenario/settings.hpp"
 #include "scenario/text/document.hpp"
@@ -24,6 +25,16 @@ std::string read_title(const Document& document) {
                     .allowed = "a text in quotes"});
 }
 
+/// Reads [initial] of a scenario on a line.
+RawStress read_line(const Document& document, const TableReader& tables, Scenario& scenario) {
+  if (const Section output(document, "output"); output.has("probes"))
+    throw output.refuse("probes", "are points of a plane", "with [plane]");
+  if (Section(document, "initial").text("profile") == "radial")
+    throw Section(document, "initial")
+        .refuse("profile", "is of a plane", "step, tanh, formula, table, or with [plane]");
+  return read_initial(document, tables, scenario.initial);
+}
+
 /// Reads the tables. It does not read a table whose single values have errors.
 RawStress read_tables(const Document& document, const TableReader& tables, Scenario& scenario, Errors& errors) {
   std::vector<std::string_view> broken;
@@ -35,7 +46,9 @@ RawStress read_tables(const Document& document, const TableReader& tables, Scena
   RawStress raw;
   const bool has_initial = document.tables.count("initial") > 0;
   if (has_initial || !document.errors.any())  // else the unknown table may be [initial]
-    attempt("initial", [&] { raw = read_initial(document, tables, scenario.initial); });
+    attempt("initial", [&] {
+      if (!is_plane(document)) raw = read_line(document, tables, scenario);
+    });
   attempt("friction", [&] { read_friction(document, tables, scenario); });
   attempt("domain", [&] { read_domain(document, scenario.domain); });
   attempt("time", [&] { scenario.end = read_end(document, scenario.end); });
@@ -54,6 +67,8 @@ Scenario read(std::string_view text, const std::string& file, const std::vector<
   Errors errors = document.errors;
   Scenario scenario;
   errors.attempt([&] { scenario.title = read_title(document); });
+  std::string coefficient;
+  if (is_plane(document)) errors.attempt([&] { coefficient = take_coefficient(document); });
   scenario.file = file;
   scenario.text = document.text;
   scenario.overrides = overrides;
@@ -61,7 +76,12 @@ Scenario read(std::string_view text, const std::string& file, const std::vector<
   document.units = ModelUnits(scenario.medium, units);
   const RawStress raw = read_tables(document, tables, scenario, errors);
   errors.throw_if_any();
-  make_functions(document, raw, scenario);
+  if (is_plane(document)) {
+    read_plane(document, tables, coefficient, scenario);
+    read_probes(document, *scenario.plane);
+  } else {
+    make_functions(document, raw, scenario);
+  }
   scenario.in_si = document.units.used();
   if (!document.units.assumed().empty())
     scenario.warnings.push_back("SI units were converted with " + document.units.assumed() +

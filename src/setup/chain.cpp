@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "foundation/text/digits.hpp"
+#include "slipfront/setup/plane.hpp"
 #include "slipfront/setup/problem.hpp"
 #include "slipfront/train/train.hpp"
 
@@ -60,6 +61,7 @@ double spacing_of(const scenario::Scenario& s, double left, double right) {
 }  // namespace
 
 chain::ScaledProblem chain_problem(const scenario::Scenario& s) {
+  require_line(s);
   if (s.loading.acts() && !(s.domain.left && s.domain.right))
     throw InputError({.file = s.file,
                       .key = "domain",

@@ -29,6 +29,7 @@ void add_rate_and_state(const scenario::Scenario& s, Numbers& n) {
 Numbers numbers_of(const scenario::Scenario& s) {
   Numbers n;
   if (s.friction.name() == "rate-and-state") add_rate_and_state(s, n);
+  if (s.plane) return n;
   const pulse::Problem problem = stated_problem(s);
   n.length = problem.right - problem.left;
   if (!s.substrate) return n;

@@ -4,7 +4,9 @@
 #include "foundation/text/digits.hpp"
 #include "setup/estimate.hpp"
 #include "setup/hold.hpp"
+#include "setup/output_times.hpp"
 #include "slipfront/rupture/riemann.hpp"
+#include "slipfront/setup/plane.hpp"
 #include "slipfront/setup/problem.hpp"
 #include "slipfront/train/train.hpp"
 
@@ -51,6 +53,7 @@ void require_averages(const scenario::Scenario& s) {
 }  // namespace
 
 pulse::Problem stated_problem(const scenario::Scenario& s) {
+  require_line(s);
   pulse::Problem p{.stress = s.stress,
                    .forcing = {},
                    .contact = s.contact_at,
@@ -99,12 +102,7 @@ output::Schedule pulse_schedule(const scenario::Scenario& s, const pulse::Proble
   output::Schedule schedule;
   schedule.threshold = s.pulse.threshold;
   schedule.per_event = static_cast<std::size_t>(s.output.per_event);
-  schedule.times.push_back(0);
-  for (const double t : s.output.times)
-    if (t > 0 && t < s.end) schedule.times.push_back(t);
-  if (s.output.every)
-    for (double i = 1; i * *s.output.every < s.end * (1 - 1e-12); ++i) schedule.times.push_back(i * *s.output.every);
-  schedule.times.push_back(s.end);
+  schedule.times = output_times(s);
   for (int i = 0; i <= problem.cells; ++i)
     schedule.x_edges.push_back(i == problem.cells ? problem.right
                                                   : problem.left + (problem.right - problem.left) * i / problem.cells);

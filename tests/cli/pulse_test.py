@@ -110,7 +110,12 @@ cells = 200
                 continue
             case = os.path.join(folder, name)
             with self.subTest(case=name), open(case, encoding="utf-8") as file:
-                if "[loading]" in file.read():  # only chains support loading
+                text = file.read()
+                if "[plane]" in text:
+                    self.refused(2, "pulse", case, says=["plane", "slipfront plane"])
+                    self.assertIn("OK. This scenario would follow", self.ok("plane", case, "--check"))
+                    continue  # plane_test.py runs these
+                if "[loading]" in text:  # only chains support loading
                     self.refused(2, "pulse", case, says=["loading.stiffness", "slipfront chain"])
                     self.assertIn("OK. This scenario would run", self.ok("chain", case, "--check"))
                     self.assertEqual(len(self.chain(case, "--set", *TO_FIRST_EVENT[name])["events"]), 1)

@@ -62,7 +62,8 @@ TEST(ScenarioKeys, StateTheDefaultsOfTheReader) {
   for (const Key& key : keys_in_tables()) {
     const bool plain = key.type == KeyType::number || key.type == KeyType::whole_number || key.type == KeyType::word ||
                        key.type == KeyType::truth;
-    if (!plain || key.table == "loading" || key.table == "domain" || (key.table == "friction" && !key.laws.empty()))
+    if (!plain || key.table == "loading" || key.table == "domain" || key.table == "plane" ||
+        (key.table == "friction" && !key.laws.empty()))
       continue;
     const bool word = key.type == KeyType::word;
     const std::string value = word ? '"' + std::string(key.otherwise) + '"' : std::string(key.otherwise);
@@ -89,6 +90,23 @@ TEST(ScenarioKeys, StateTheDefaultsOfTheReader) {
                                           : without.friction.name());
     EXPECT_EQ(stated.friction.closure(), without.friction.closure());
   }
+}
+
+TEST(ScenarioKeys, StateTheDefaultsOfAPlane) {
+  const Scenario plane = read(
+      "[plane]\nleft = -1\nright = 1\nbottom = -1\ntop = 1\n"
+      "[initial]\nprofile = \"formula\"\nformula = \"3 + x + y\"\n");
+  ASSERT_TRUE(plane.plane);
+  EXPECT_EQ(plane.plane->problem.slip(0.25, 0.5), 3.75);
+  const auto stated = [](std::string_view name) {
+    for (const Key* key : keys_of("plane"))
+      if (key->name == name) return key->otherwise;
+    return std::string();
+  };
+  EXPECT_EQ(stated("cells"), std::to_string(plane.plane->cells));
+  EXPECT_EQ(stated("loops"), std::to_string(plane.plane->loops));
+  EXPECT_EQ(stated("angles"), std::to_string(plane.plane->angles));
+  EXPECT_EQ(std::stod(stated("wave_speed_ratio")), plane.plane->wave_speed_ratio);
 }
 
 }  // namespace

@@ -27,8 +27,8 @@ struct UnitInSi {
 };
 
 /// The value of a unit. It is a product of numbers, symbols, pi and their powers, such as "mu A^2 / (pi (1 - nu))".
-/// The slip of one face, in b / (2 pi), becomes the slip between the faces; its integral along the interface does too.
-/// \throws InputError for another text.
+/// The slip of one face, in b / (2 pi), becomes the slip between the faces; its integral along a line or over a plane
+/// does too. \throws InputError for another text.
 UnitInSi in_si(std::string_view unit, const SymbolValues& values);
 
 /// The symbols that a unit has, without pi, with blanks between them. \throws InputError like in_si.

@@ -35,8 +35,9 @@ class AveragedSolver : public Solver {
   Field field(int nx, int ny) const override;
   double potency() const override;
   double potency_rate() const override;
-  double front() const override;
+  double front(double y_scale) const override;
   Energies energies() const override;
+  std::vector<std::string> warnings() const override;
 
   std::string saved() const override;
   void resume(std::string_view saved) override;

@@ -36,6 +36,8 @@ struct Energies {
   double elastic = 0;     ///< energy of the lines at rest, less that of the same lines at t = 0
   double dissipated = 0;  ///< by friction
   double supplied = 0;    ///< by the force F
+  /// Energy of lines that shrank to a point, if the solver does not follow the waves that they leave.
+  double vanished = 0;
 };
 
 /// Means over the cells of a grid of nx times ny cells that covers the domain: row by row, from the bottom.
@@ -62,8 +64,12 @@ class Solver {
   virtual Field field(int nx, int ny) const = 0;
   virtual double potency() const = 0;       ///< integral of the slip since t = 0
   virtual double potency_rate() const = 0;  ///< integral of the slip velocity
-  virtual double front() const = 0;         ///< largest distance from the origin of the outermost dislocation line
+  /// Largest distance from the origin of the outermost dislocation line, where y is multiplied by `y_scale`.
+  virtual double front(double y_scale) const = 0;
   virtual Energies energies() const = 0;
+
+  /// Sentences that describe doubtful results so far.
+  virtual std::vector<std::string> warnings() const { return {}; }
 
   /// The state, as bytes, from which the run continues to the same bits.
   virtual std::string saved() const = 0;

@@ -21,7 +21,7 @@ struct Limits {
   std::string text() const;  ///< "a finite number > 0 and <= 20"
 };
 
-enum class KeyType { number, whole_number, numbers, word, words, text, formula, truth, quantity };
+enum class KeyType { number, whole_number, numbers, word, words, text, formula, truth, quantity, points };
 
 /// The type in words, such as "whole number".
 std::string_view name_of(KeyType type);

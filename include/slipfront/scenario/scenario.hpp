@@ -16,6 +16,7 @@
 #include "slipfront/friction/friction.hpp"
 #include "slipfront/medium/constants.hpp"
 #include "slipfront/medium/si_units.hpp"
+#include "slipfront/plane/problem.hpp"
 #include "slipfront/pulse/problem.hpp"
 #include "slipfront/train/train.hpp"
 
@@ -28,7 +29,7 @@ inline constexpr double largest_stress = 1e6;
 /// The largest |x| that is accepted. Differences of positions then neither overflow nor lose the cells between them.
 inline constexpr double farthest = 1e9;
 
-enum class ProfileKind { step, tanh, formula, table };
+enum class ProfileKind { step, tanh, formula, table, radial };
 
 /// [initial]: stress along x at t = 0. The interface is at rest.
 struct Initial {
@@ -41,7 +42,7 @@ struct Initial {
   double reach = 0;         ///< distance from x = 0 up to which a smooth profile counts as changing
   std::string formula;      ///< stress as a formula of x
   bool hold = false;        ///< a static load balances the initial stress, so that it stays at rest
-  std::string file;         ///< CSV or NetCDF with columns / variables x and stress, relative to the scenario file
+  std::string file;         ///< CSV or NetCDF with x and stress (radial: r and slip), relative to the scenario file
 };
 
 /// [domain]. The solver chooses an end that is not given.
@@ -70,6 +71,16 @@ struct ChainOptions {
   std::optional<double> window;  ///< averaging window at x = 0, > 0, in the x of the scenario
 };
 
+/// [plane], and the initial slip and the formulas of x and y that go with it.
+struct Plane {
+  plane::Problem problem;  ///< its y is that of the scenario over `wave_speed_ratio`
+  int cells = 200;         ///< cells of the results along x
+  int loops = 120;         ///< cells of the averaged solver across the dislocation lines
+  int angles = 128;        ///< directions of the averaged solver
+  double wave_speed_ratio = 1;
+  std::vector<plane::Point> probes;  ///< in the coordinates of the problem
+};
+
 /// [output]: either a list of times or an interval. The end is always written.
 struct Output {
   std::vector<double> times;
@@ -91,6 +102,7 @@ struct Scenario {
   bool substrate = true;  ///< false if [interface] contact is 0: only friction, forces and springs act
   Domain domain;
   double end = 2 * std::numbers::pi;
+  std::optional<Plane> plane;  ///< only on a plane; `stress` is then null
   PulseOptions pulse;
   ChainOptions chain;
   medium::Constants medium;                   ///< [medium]

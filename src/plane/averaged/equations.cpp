@@ -263,14 +263,16 @@ void LoopEquations::find_rates(double t, const std::vector<double>& r, const std
   closing_ = 0;
   for (std::size_t i = 0; i < middle_.size(); ++i)
     closing_ = std::fmax(closing_, (r_rate[i + angles_] - r_rate[i]) / (r[i] - r[i + angles_]));
+  for (std::size_t i = middle_.size() - angles_; i < middle_.size(); ++i)  // the innermost cells shrink to the origin
+    closing_ = std::fmax(closing_, -(r_rate[i] + r_rate[i + angles_]) / (2 * middle_[i]));
   add_pressure(r, momentum_rate);
   add_tension(momentum_rate);
   add_contact_force(momentum_rate);
   add_forcing(t, momentum_rate);
 }
 
-/// A cell may lose 0.3 of its width. Waves move through a train with the speed c0 in its frame, and along a loop with
-/// the speed of light at most.
+/// A cell may lose 0.3 of its width, and an innermost cell 0.3 of its distance from the origin. Waves move through a
+/// train with the speed c0 in its frame, and along a loop with the speed of light at most.
 double LoopEquations::longest_step() const {
   double fastest = 0;
   for (std::size_t i = 0; i < phi_.size(); ++i) {

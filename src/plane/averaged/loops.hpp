@@ -28,11 +28,18 @@ struct Loops {
   double power = 0, supply = 0;  ///< power of friction and of the force F at `time`
   std::vector<double> loss;      ///< rate at which friction takes Pi in each cell
   double dissipated = 0, supplied = 0;
+  double vanished = 0;        ///< energy of loops that have shrunk to a point
+  double vanished_since = 0;  ///< time at which the first of them did, if `vanished` is not 0
 
   double charge(std::size_t row) const { return label[row + 1] - label[row]; }
   double turn() const { return 2 * std::numbers::pi / static_cast<double>(angles); }
   double angle(std::size_t k) const { return turn() * static_cast<double>(k); }
   std::size_t cells() const { return rows * angles; }
+
+  /// Whether the innermost loop has nearly shrunk to the origin in some direction.
+  bool innermost_vanishes() const;
+  /// Removes the innermost cells of all directions.
+  void remove_innermost();
 };
 
 /// The loops of the initial slip. \throws InputError if its contours are not star-shaped closed lines around the

@@ -17,46 +17,49 @@ std::vector<double> slip_velocities(const Loops& loops, const LoopEquations& equ
   return w;
 }
 
-namespace {
-
-/// The four angles around a direction, and the weights of the cubic through them.
-struct AngleWeights {
-  std::array<std::size_t, 4> column{};
-  std::array<double, 4> weight{0, 1, 0, 0};
-
-  AngleWeights(const Loops& loops, double angle) {
-    if (loops.angles == 1) return;
-    const double turned = angle / loops.turn(), whole = std::floor(turned), f = turned - whole;
-    const auto n = static_cast<std::ptrdiff_t>(loops.angles), first = static_cast<std::ptrdiff_t>(whole) - 1;
-    for (std::ptrdiff_t j = 0; j < 4; ++j)
-      column.at(static_cast<std::size_t>(j)) = static_cast<std::size_t>(((first + j) % n + n) % n);
-    weight = {-f * (f - 1) * (f - 2) / 6, (f + 1) * (f - 1) * (f - 2) / 2, -(f + 1) * f * (f - 2) / 2,
-              (f + 1) * f * (f - 1) / 6};
-  }
-  double of(const double* row) const {
-    double sum = 0;
-    for (std::size_t j = 0; j < 4; ++j) sum += weight.at(j) * row[column.at(j)];
-    return sum;
-  }
-};
-
-}  // namespace
-
-std::vector<double> along_ray(const Loops& loops, const std::vector<double>& values, double angle) {
-  const AngleWeights at(loops, angle);
-  std::vector<double> ray(values.size() / loops.angles);
-  for (std::size_t row = 0; row < ray.size(); ++row) ray[row] = at.of(&values[row * loops.angles]);
-  return ray;
+Ray::Ray(const Loops& loops, double angle) : loops_(loops) {
+  if (loops.angles == 1) return;
+  const double turned = angle / loops.turn(), whole = std::floor(turned), f = turned - whole;
+  const auto n = static_cast<std::ptrdiff_t>(loops.angles), first = static_cast<std::ptrdiff_t>(whole) - 1;
+  for (std::ptrdiff_t j = 0; j < 4; ++j)
+    column_.at(static_cast<std::size_t>(j)) = static_cast<std::size_t>(((first + j) % n + n) % n);
+  weight_ = {-f * (f - 1) * (f - 2) / 6, (f + 1) * (f - 1) * (f - 2) / 2, -(f + 1) * f * (f - 2) / 2,
+             (f + 1) * f * (f - 1) / 6};
 }
 
-double loops_outside(const Loops& loops, const std::vector<double>& faces, double r) {
-  if (r >= faces.front()) return 0;
-  if (r <= faces.back()) return loops.label.back();
-  const auto after = std::upper_bound(faces.begin(), faces.end(), r, std::greater<>());  // first face inside r
-  const auto j = static_cast<std::size_t>(after - faces.begin());
-  const std::size_t first = std::min(j >= 2 ? j - 2 : 0, faces.size() - 4);
-  const double q = pulse::lagrange(4, &faces[first], &loops.label[first], r);
-  return std::clamp(q, loops.label[j - 1], loops.label[j]);
+double Ray::of(const double* row) const {
+  double sum = 0;
+  for (std::size_t j = 0; j < 4; ++j) sum += weight_[j] * row[column_[j]];
+  return sum;
+}
+
+std::size_t Ray::first_face_inside(double r) const {
+  std::size_t outside = 0, inside = loops_.rows;
+  while (inside - outside > 1) {
+    const std::size_t middle = (outside + inside) / 2;
+    (r > face(middle) ? inside : outside) = middle;
+  }
+  return inside;
+}
+
+double Ray::loops_outside(double r) const {
+  if (r >= face(0)) return 0;
+  if (r <= face(loops_.rows)) return loops_.label.back();
+  const std::size_t j = first_face_inside(r), first = std::min(j >= 2 ? j - 2 : 0, loops_.rows - 3);
+  std::array<double, 4> faces{};
+  for (std::size_t i = 0; i < 4; ++i) faces[i] = face(first + i);
+  const double q = pulse::lagrange(4, faces.data(), &loops_.label[first], r);
+  return std::clamp(q, loops_.label[j - 1], loops_.label[j]);
+}
+
+double Ray::at(const std::vector<double>& values, double r) const {
+  if (r > face(0) || r <= face(loops_.rows)) return 0;
+  const std::size_t inner = first_face_inside(r), row = inner - 1;
+  const auto centre = [&](std::size_t i) { return (face(i) + face(i + 1)) / 2; };
+  const std::size_t next = r > centre(row) ? (row > 0 ? row - 1 : row) : std::min(row + 1, loops_.rows - 1);
+  if (next == row) return cell(values, row);
+  const double here = centre(row), there = centre(next);
+  return cell(values, row) + (cell(values, next) - cell(values, row)) * (r - here) / (there - here);
 }
 
 double volume(const Loops& loops) {

@@ -112,8 +112,12 @@ Loops initial_loops(const Problem& problem, std::size_t rows, std::size_t angles
   if (!(top > 0)) throw refusal("slip", "there is no slip around the origin", "a slip > 0 there");
   const double number = top / (2 * std::numbers::pi), count = static_cast<double>(rows);
   loops.label.resize(rows + 1);
-  for (std::size_t j = 0; j <= rows; ++j)  // narrow cells at the front, where the density varies as a logarithm
-    loops.label[j] = number * std::pow(static_cast<double>(j) / count, 2);
+  // Narrow cells at the front, where the density varies as a logarithm, and at the top of a slip without a held region.
+  const bool held = wall_of(first) > 0;
+  for (std::size_t j = 0; j <= rows; ++j) {
+    const double share = static_cast<double>(j) / count;
+    loops.label[j] = number * share * share * (held ? 1 : 3 - 2 * share);
+  }
   loops.wall.assign(angles, 0);
   loops.r.assign((rows + 1) * angles, 0);
   loops.momentum.assign(rows * angles, 0);

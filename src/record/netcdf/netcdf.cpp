@@ -133,8 +133,14 @@ void Writer::write(int variable, std::string_view values) {
 }
 
 void Writer::write_row(int variable, std::size_t row, std::span<const double> values) {
-  const std::size_t start[] = {row, 0}, size[] = {1, values.size()};
-  require(nc_put_vara_double(id_, variable, start, size, values.data()), "data");
+  int rank = 0;
+  require(nc_inq_varndims(id_, variable, &rank), "data");
+  std::vector<int> dimensions(static_cast<std::size_t>(rank));
+  require(nc_inq_vardimid(id_, variable, dimensions.data()), "data");
+  std::vector<std::size_t> start(dimensions.size(), 0), size(dimensions.size(), 1);
+  start[0] = row;
+  for (std::size_t i = 1; i < dimensions.size(); ++i) require(nc_inq_dimlen(id_, dimensions[i], &size[i]), "data");
+  require(nc_put_vara_double(id_, variable, start.data(), size.data(), values.data()), "data");
 }
 
 void Writer::write_all(int variable, const std::vector<double>& values) {
@@ -280,8 +286,10 @@ void Reader::read_everything() const {
 }
 
 void Reader::read_row(const Variable& variable, std::size_t row, std::span<double> values) const {
-  const std::size_t start[] = {row, 0}, size[] = {1, values.size()};
-  require(nc_get_vara_double(id_, variable.id, start, size, values.data()), variable.name);
+  std::vector<std::size_t> start(variable.shape.size(), 0), size = variable.shape;
+  start[0] = row;
+  size[0] = 1;
+  require(nc_get_vara_double(id_, variable.id, start.data(), size.data(), values.data()), variable.name);
 }
 
 }  // namespace slipfront::record::netcdf

@@ -83,6 +83,7 @@ class Writer : Handle {
 
   void write(int variable, std::span<const double> values);
   void write(int variable, std::string_view values);
+  /// Writes all values of a variable at one index of its first dimension.
   void write_row(int variable, std::size_t row, std::span<const double> values);
 
   /// Writes all values of a variable of any rank.
@@ -126,7 +127,8 @@ class Reader : Handle {
   void require_reals(const Variable& variable) const;
   /// Reads all variables and attributes and discards them. \throws FileError if one cannot be read.
   void read_everything() const;
-  /// Reads a row. Call require_reals first; values.size() must be the length of a row.
+  /// Reads all values at one index of the first dimension. Call require_reals first; values.size() must be their
+  /// number.
   void read_row(const Variable& variable, std::size_t row, std::span<double> values) const;
 
  private:

@@ -57,8 +57,10 @@ InputError refusal(const mu::Parser::exception_type& error) {
 
 struct Formula::Compiled {
   mu::Parser parser;
-  double x = 0;
-  double t = 0;
+  double x = 0, y = 0, t = 0;
+
+  /// The number to which the parser binds a variable. The variable of a curve, such as w, is x.
+  double* of(std::string_view variable) { return variable == "t" ? &t : variable == "y" ? &y : &x; }
 };
 
 Formula::Formula(const std::string& text, const std::vector<std::string_view>& variables)
@@ -75,8 +77,7 @@ Formula::Formula(const std::string& text, const std::vector<std::string_view>& v
     parser.DefineFun("max", greatest);
     parser.DefineConst("pi", std::numbers::pi);
     parser.DefineConst("e", std::numbers::e);
-    for (const std::string_view variable : variables)
-      parser.DefineVar(std::string(variable), variable == "t" ? &compiled_->t : &compiled_->x);
+    for (const std::string_view variable : variables) parser.DefineVar(std::string(variable), compiled_->of(variable));
     parser.SetExpr(text);
     int results = 0;
     parser.Eval(results);  // parses; from now on only the values change
@@ -86,8 +87,11 @@ Formula::Formula(const std::string& text, const std::vector<std::string_view>& v
   }
 }
 
-double Formula::operator()(double x, double t) const {
+double Formula::operator()(double x, double t) const { return (*this)(x, 0, t); }
+
+double Formula::operator()(double x, double y, double t) const {
   compiled_->x = x;
+  compiled_->y = y;
   compiled_->t = t;
   try {
     return compiled_->parser.Eval();

@@ -7,7 +7,7 @@
 
 namespace slipfront::scenario {
 
-/// A formula of x, or of x and t, in a scenario. It may contain + - * / ^ ( ) < <= > >= == != && || and ?:, the
+/// A formula of x, or of x, y and t, in a scenario. It may contain + - * / ^ ( ) < <= > >= == != && || and ?:, the
 /// constants pi and e, and the functions of formula_functions(). Two threads must not call an object at the same time.
 class Formula {
  public:
@@ -15,6 +15,7 @@ class Formula {
   Formula(const std::string& text, const std::vector<std::string_view>& variables);
   /// The value may be NaN or infinite; the caller must check it.
   double operator()(double x, double t = 0) const;
+  double operator()(double x, double y, double t) const;
   /// Whether its value depends on the variable.
   bool has(std::string_view variable) const;
 

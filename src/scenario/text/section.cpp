@@ -65,6 +65,7 @@ void Section::check_value(const Key& key, const Value& value) const {
     case KeyType::numbers:
     case KeyType::words:
     case KeyType::quantity:
+    case KeyType::points:
       return;
   }
 }

@@ -1,0 +1,79 @@
+#pragma once
+/// \file
+/// One run on a plane, by either solver: its maps, its series over time, and its snapshots so far. A run can be saved
+/// after any step. The resumed run gives bitwise identical results.
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "slipfront/plane/problem.hpp"
+
+namespace slipfront::plane {
+
+/// When and where a run is observed.
+struct Schedule {
+  std::vector<double> times;  ///< ascending, from 0: one snapshot each
+  int nx = 0, ny = 0;         ///< cells of the maps and snapshots
+  double interval = 0;        ///< time between two rows of the series
+  double rupture_slip = 0;    ///< a cell has ruptured when its slip exceeds this
+  /// y of the results over y of the problem: the speed of waves along y over that along x.
+  double wave_speed_ratio = 1;
+};
+
+/// Numbers of the whole plane at one time, in the coordinates of the results.
+struct SeriesRow {
+  double time = 0;
+  double potency = 0, potency_rate = 0;
+  double peak_slip_velocity = 0;  ///< largest of the cells at this time
+  double front = 0;               ///< largest distance of the outermost dislocation line from the origin
+  Energies energies;
+};
+
+/// The row at the present time of a solver, without the peak slip velocity, which needs the cells.
+SeriesRow row_at(const Solver& solver, double wave_speed_ratio);
+
+/// Values of the cells, row by row from the bottom.
+struct Maps {
+  std::vector<double> rupture_time;        ///< NaN where the interface has not ruptured
+  std::vector<double> peak_slip_velocity;  ///< largest so far
+};
+
+class Run {
+ public:
+  Run(std::unique_ptr<Solver> solver, Schedule schedule);
+  /// Resumes a saved run. `snapshots` are those before it was saved. \throws InputError if the run was saved for
+  /// another problem or schedule.
+  Run(std::unique_ptr<Solver> solver, Schedule schedule, std::string_view saved, std::vector<Field> snapshots);
+
+  /// Advances to the end, or until `interrupted` returns true; it is called after every step. Returns whether the end
+  /// was reached. \throws NumericsError if the solver fails.
+  bool go(const std::function<bool()>& interrupted = {});
+
+  const Solver& solver() const { return *solver_; }
+  const Schedule& schedule() const { return schedule_; }
+  const std::vector<Field>& snapshots() const { return snapshots_; }
+  const std::vector<SeriesRow>& series() const { return series_; }
+  const Maps& maps() const { return maps_; }
+  bool finished() const { return snapshots_.size() == schedule_.times.size(); }
+  /// A run can be saved even after a NumericsError: what was observed before it is valid.
+  bool can_checkpoint() const { return true; }
+  std::vector<std::string> warnings() const;
+  std::string saved() const;
+
+ private:
+  void observe(bool snapshot);
+  void restore(std::string_view saved);
+
+  std::unique_ptr<Solver> solver_;
+  Schedule schedule_;
+  std::vector<Field> snapshots_;
+  std::vector<SeriesRow> series_;
+  Maps maps_;
+  std::vector<double> last_slip_;  ///< at the last row of the series
+  long rows_on_time_ = 0;          ///< rows of the series at multiples of the interval
+};
+
+}  // namespace slipfront::plane

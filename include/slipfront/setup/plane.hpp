@@ -1,0 +1,27 @@
+#pragma once
+/// \file
+/// Turns a scenario on a plane into a solver and the times of its results.
+
+#include <memory>
+
+#include "slipfront/plane/run.hpp"
+#include "slipfront/scenario/scenario.hpp"
+
+namespace slipfront::setup {
+
+/// \throws InputError if the scenario has no table [plane].
+void require_plane(const scenario::Scenario& scenario);
+/// \throws InputError if the scenario has the table [plane].
+void require_line(const scenario::Scenario& scenario);
+
+/// The solver of the averaged equations. \throws InputError for what it cannot solve.
+std::unique_ptr<plane::Solver> plane_solver(const scenario::Scenario& scenario);
+
+/// The times and the grid of the results. A row of the series follows each time in which a wave crosses a cell, with at
+/// most 1000 rows. \throws InputError if the results need more memory than this process may have.
+plane::Schedule plane_schedule(const scenario::Scenario& scenario);
+
+/// Approximate number of bytes of the file of a run.
+double plane_file_size(const plane::Schedule& schedule);
+
+}  // namespace slipfront::setup

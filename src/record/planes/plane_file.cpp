@@ -1,0 +1,112 @@
+#include "record/planes/plane_file.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include "record/netcdf/netcdf_file.hpp"
+#include "record/planes/plane_variables.hpp"
+#include "record/pulses/cf.hpp"
+
+namespace slipfront::record {
+namespace {
+
+using netcdf::Writer;
+
+constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
+
+struct Dimensions {
+  int time, y, x, series;
+};
+
+/// Centres of the cells between two ends.
+std::vector<double> centres(double from, double to, int cells) {
+  std::vector<double> all;
+  for (int i = 0; i < cells; ++i) all.push_back(from + (to - from) * (i + 0.5) / cells);
+  return all;
+}
+
+int opaque(Writer& file, const char* name, const char* long_name, std::size_t size) {
+  const int variable = file.bytes(name, {file.dimension(std::string(name) + "_bytes", size)});
+  file.attribute(variable, "long_name", long_name);
+  file.attribute(variable, "units", "1");
+  return variable;
+}
+
+/// Variables with the values that `write` gives them after all are defined.
+class PlaneWriter {
+ public:
+  PlaneWriter(Writer& file, const PulseMetadata& metadata, const PlaneGrid& grid, const plane::Run& run)
+      : file_(file), metadata_(metadata), grid_(grid), run_(run) {
+    dimensions_.time = file.dimension("time", run.snapshots().size());
+    dimensions_.y = file.dimension("y", static_cast<std::size_t>(grid.ny));
+    dimensions_.x = file.dimension("x", static_cast<std::size_t>(grid.nx));
+    dimensions_.series = file.dimension("series_time", run.series().size());
+  }
+
+  void define() {
+    time_ = cf::reals(file_, plane_time, {dimensions_.time}, metadata_);
+    y_ = cf::reals(file_, plane_y, {dimensions_.y}, metadata_);
+    x_ = cf::reals(file_, plane_x, {dimensions_.x}, metadata_);
+    file_.attribute(y_, "axis", "Y");
+    file_.attribute(x_, "axis", "X");
+    for (const PlaneField& field : plane_fields())
+      fields_.push_back(cf::reals(file_, field.about, {dimensions_.time, dimensions_.y, dimensions_.x}, metadata_));
+    for (const PlaneMap& map : plane_maps()) {
+      maps_.push_back(cf::reals(file_, map.about, {dimensions_.y, dimensions_.x}, metadata_));
+      file_.fill_value(maps_.back(), not_there);
+    }
+    for (const PlaneSeries& series : plane_series())
+      series_.push_back(cf::reals(file_, series.about, {dimensions_.series}, metadata_));
+    state_ = run_.saved();
+    state_id_ = opaque(file_, "checkpoint", "state of the run, to resume it", state_.size());
+    scenario_id_ = opaque(file_, "scenario_text", "the scenario, byte by byte", metadata_.scenario_text.size());
+  }
+
+  void write() {
+    std::vector<double> times;
+    for (const plane::Field& field : run_.snapshots()) times.push_back(field.time);
+    file_.write(time_, times);
+    file_.write(y_, centres(grid_.bottom, grid_.top, grid_.ny));
+    file_.write(x_, centres(grid_.left, grid_.right, grid_.nx));
+    for (std::size_t i = 0; i < fields_.size(); ++i)
+      for (std::size_t row = 0; row < times.size(); ++row)
+        file_.write_row(fields_[i], row, run_.snapshots()[row].*plane_fields()[i].values);
+    for (std::size_t i = 0; i < maps_.size(); ++i) file_.write_all(maps_[i], run_.maps().*plane_maps()[i].values);
+    for (std::size_t i = 0; i < series_.size(); ++i) {
+      std::vector<double> values;
+      for (const plane::SeriesRow& row : run_.series()) values.push_back(plane_series()[i].get(row));
+      file_.write(series_[i], values);
+    }
+    file_.write(state_id_, state_);
+    file_.write(scenario_id_, metadata_.scenario_text);
+  }
+
+ private:
+  Writer& file_;
+  const PulseMetadata& metadata_;
+  const PlaneGrid& grid_;
+  const plane::Run& run_;
+  Dimensions dimensions_{};
+  int time_ = 0, y_ = 0, x_ = 0, state_id_ = 0, scenario_id_ = 0;
+  std::vector<int> fields_, maps_, series_;
+  std::string state_;
+};
+
+}  // namespace
+
+void write_plane(const std::string& path, const PulseMetadata& metadata, const PlaneGrid& grid, const plane::Run& run) {
+  const std::size_t cells = static_cast<std::size_t>(grid.nx) * static_cast<std::size_t>(grid.ny);
+  const std::size_t values = cells * (plane_fields().size() * run.snapshots().size() + 2 * plane_maps().size());
+  write_netcdf(path, values * sizeof(double) + (1 << 16), [&](Writer& file) {
+    cf::describe_file(file, metadata, plane_format, run.finished());
+    PlaneWriter writer(file, metadata, grid, run);
+    writer.define();
+    file.end_definitions();
+    writer.write();
+  });
+}
+
+}  // namespace slipfront::record

@@ -1,0 +1,38 @@
+#pragma once
+/// \file
+/// The file of a run on a plane: NetCDF-4 by the CF-1.10 conventions, with the state from which the run can resume.
+
+#include <string>
+#include <vector>
+
+#include "record/pulses/pulse_file.hpp"
+#include "slipfront/plane/run.hpp"
+
+namespace slipfront::record {
+
+/// Value of the attribute slipfront_format. Increase the number when old readers would fail.
+inline constexpr const char* plane_format = "plane 1";
+
+/// The grid of a file, in the coordinates of the scenario.
+struct PlaneGrid {
+  double left = -1, right = 1, bottom = -1, top = 1;
+  int nx = 0, ny = 0;
+};
+
+/// An unfinished or a finished run.
+struct PlaneCheckpoint {
+  std::string scenario_text;
+  std::string version;
+  std::string run_state;                ///< opaque
+  std::vector<plane::Field> snapshots;  ///< with the slip and the slip velocity
+  bool finished = false;
+};
+
+/// Writes `path` completely or not at all. \throws FileError (one line: path and reason).
+void write_plane(const std::string& path, const PulseMetadata& metadata, const PlaneGrid& grid, const plane::Run& run);
+
+/// Reads a file by write_plane, with every bit as it was written. \throws FileError if the file is missing, not by
+/// slipfront, truncated, damaged, or changed by another program.
+PlaneCheckpoint read_plane(const std::string& path);
+
+}  // namespace slipfront::record

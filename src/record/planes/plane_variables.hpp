@@ -1,0 +1,39 @@
+#pragma once
+/// \file
+/// The variables of the file of a run on a plane, one line each.
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "slipfront/description.hpp"
+#include "slipfront/plane/run.hpp"
+
+namespace slipfront::record {
+
+extern const Description plane_time, plane_x, plane_y;
+
+/// A variable over time, y and x.
+struct PlaneField {
+  Description about;
+  std::vector<double> plane::Field::*values;
+};
+/// A variable over y and x.
+struct PlaneMap {
+  Description about;
+  std::vector<double> plane::Maps::*values;
+};
+/// A variable over the times of the series.
+struct PlaneSeries {
+  Description about;
+  double (*get)(const plane::SeriesRow& row);
+};
+
+std::span<const PlaneField> plane_fields();
+std::span<const PlaneMap> plane_maps();
+std::span<const PlaneSeries> plane_series();
+
+/// The unit of a variable of the model, such as "b / A"; empty for another name.
+std::string_view plane_unit(std::string_view name);
+
+}  // namespace slipfront::record

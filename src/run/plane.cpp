@@ -1,0 +1,114 @@
+#include "run/plane.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "foundation/text/digits.hpp"
+#include "run/carry_out.hpp"
+#include "slipfront/setup/plane.hpp"
+
+namespace slipfront::run {
+namespace {
+
+std::unique_ptr<plane::Run> begun(const scenario::Scenario& s, const PlanePlan& plan, const PlaneOptions& options) {
+  std::unique_ptr<plane::Solver> solver = setup::plane_solver(s);
+  if (!options.checkpoint) return std::make_unique<plane::Run>(std::move(solver), plan.schedule);
+  const record::PlaneCheckpoint& saved = *options.checkpoint;
+  return std::make_unique<plane::Run>(std::move(solver), plan.schedule, saved.run_state, saved.snapshots);
+}
+
+/// All numbers that have an error, in one row.
+std::vector<double*> all_of(PlaneNumbers& n) {
+  plane::Energies& e = n.end.energies;
+  std::vector<double*> all = {&n.end.potency, &n.end.potency_rate, &n.end.front, &e.kinetic,
+                              &e.elastic,     &e.dissipated,       &e.supplied,  &e.vanished};
+  for (auto* list : {&n.slip_at_probes, &n.slip_velocity_at_probes})
+    for (double& value : *list) all.push_back(&value);
+  return all;
+}
+
+/// The numbers with a fraction of the cells; empty if the run fails or is interrupted.
+std::optional<PlaneNumbers> with_fewer_cells(scenario::Scenario s, int divisor,
+                                             const std::function<bool()>& interrupted) {
+  s.plane->loops = std::max(4, s.plane->loops / divisor);
+  s.plane->angles = std::max(8, s.plane->angles / divisor);
+  try {
+    const std::unique_ptr<plane::Solver> solver = setup::plane_solver(s);
+    if (!solver->advance_to(s.end, interrupted)) return std::nullopt;
+    return PlaneNumbers{.end = plane::row_at(*solver, s.plane->wave_speed_ratio),
+                        .slip_at_probes = solver->slip(s.plane->probes),
+                        .slip_velocity_at_probes = solver->velocity(s.plane->probes)};
+  } catch (const NumericsError&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+PlanePlan plan_plane(const scenario::Scenario& s) {
+  PlanePlan plan{.schedule = setup::plane_schedule(s), .grid = {}, .disk = 0};
+  plan.disk = setup::plane_file_size(plan.schedule);
+  const plane::Problem& p = s.plane->problem;
+  const double ratio = s.plane->wave_speed_ratio;
+  plan.grid = {.left = p.left,
+               .right = p.right,
+               .bottom = ratio * p.bottom,
+               .top = ratio * p.top,
+               .nx = plan.schedule.nx,
+               .ny = plan.schedule.ny};
+  return plan;
+}
+
+record::PlaneCheckpoint plane_checkpoint_of(const std::string& path, const scenario::Scenario& s) {
+  record::PlaneCheckpoint saved = record::read_plane(path);
+  const auto refuse = [&](const std::string& problem, const std::string& allowed) {
+    throw InputError({.file = path, .key = "resume", .problem = problem, .allowed = allowed});
+  };
+  if (saved.version != SLIPFRONT_VERSION) refuse("was written by another version", "version " SLIPFRONT_VERSION);
+  if (saved.scenario_text == s.text) return saved;
+  const std::string key = scenario::differing_key(saved.scenario_text, s.text);
+  refuse("was written by another scenario: " + (key.empty() ? "time.end or the output times differ" : key + " differs"),
+         "the scenario that started the run, with the same --set");
+  return saved;
+}
+
+PlaneResult plane(const scenario::Scenario& s, const PlanePlan& plan, const PlaneOptions& options) {
+  const Options& common = options.common;
+  PlaneResult result{.run = begun(s, plan, options), .metadata = metadata_of(s, "plane", {}), .wall = 0};
+  const plane::Solver& solver = result.run->solver();
+  const bool reached = carry_out(
+      *result.run,
+      {.output = common.output,
+       .metadata = result.metadata,
+       .disk = plan.disk,
+       .resumed = options.checkpoint.has_value()},
+      [&] { return common.after_step && common.after_step(solver.time(), solver.steps()); },
+      [&](const std::string& path, const record::PulseMetadata& metadata) {
+        record::write_plane(path, metadata, plan.grid, *result.run);
+      });
+  if (!reached) return result;
+  add_warnings(result.run->warnings(), result.metadata);
+  result.numbers = {.end = result.run->series().back(),
+                    .slip_at_probes = solver.slip(s.plane->probes),
+                    .slip_velocity_at_probes = solver.velocity(s.plane->probes)};
+  result.wall = seconds_since(common.begun);
+  return result;
+}
+
+PlaneNumbers plane_errors(const scenario::Scenario& s, const PlaneNumbers& numbers,
+                          const std::function<bool()>& interrupted) {
+  PlaneNumbers fine = numbers, errors = numbers;
+  std::optional<PlaneNumbers> half = with_fewer_cells(s, 2, interrupted), quarter = with_fewer_cells(s, 4, interrupted);
+  const std::vector<double*> f = all_of(fine), e = all_of(errors);
+  for (std::size_t i = 0; i < e.size(); ++i) {
+    *e[i] = std::numeric_limits<double>::quiet_NaN();
+    if (!half || !quarter) continue;
+    const double h = *all_of(*half)[i], q = *all_of(*quarter)[i];
+    *e[i] = 1.5 * std::fmax(std::fabs(*f[i] - h), std::fabs(h - q) / 2);
+  }
+  return errors;
+}
+
+}  // namespace slipfront::run

@@ -1,0 +1,60 @@
+#pragma once
+/// \file
+/// Turns a scenario on a plane into a result: plans it, runs or resumes it, and summarizes it.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "record/planes/plane_file.hpp"
+#include "run/run.hpp"
+#include "slipfront/plane/run.hpp"
+
+namespace slipfront::run {
+
+/// A run on a plane that has been checked.
+struct PlanePlan {
+  plane::Schedule schedule;
+  record::PlaneGrid grid;
+  double disk = 0;  ///< approximate number of bytes of the file
+};
+
+/// \throws InputError.
+PlanePlan plan_plane(const scenario::Scenario& scenario);
+
+/// Reads the state from which a planned run continues. The scenario must be that of the file. \throws FileError;
+/// InputError if the file is from another scenario or version.
+record::PlaneCheckpoint plane_checkpoint_of(const std::string& path, const scenario::Scenario& scenario);
+
+/// How to run it: `Options::checkpoint` is not used.
+struct PlaneOptions {
+  Options common;
+  std::optional<record::PlaneCheckpoint> checkpoint = {};
+};
+
+/// Results at the end of a run, or their errors, in the units of the model.
+struct PlaneNumbers {
+  plane::SeriesRow end;
+  std::vector<double> slip_at_probes, slip_velocity_at_probes;
+};
+
+struct PlaneResult {
+  std::unique_ptr<plane::Run> run;
+  record::PulseMetadata metadata;  ///< includes the warnings of a finished run
+  double wall = 0;                 ///< seconds of the whole command
+  PlaneNumbers numbers = {};       ///< numbers of a finished run
+  bool finished() const { return run->finished(); }
+};
+
+/// \throws NumericsError, after writing the results so far; InputError, FileError.
+PlaneResult plane(const scenario::Scenario& scenario, const PlanePlan& plan, const PlaneOptions& options);
+
+/// Estimates the discretisation errors of the numbers of a finished run by runs with half and a quarter of the cells,
+/// which take a quarter of its time. An error is 1.5 times the larger of two changes: that of the last doubling, and
+/// half of that at the doubling before. It is NaN if a run with fewer cells fails, or if `interrupted` returned true.
+/// The peak slip velocity has no error.
+PlaneNumbers plane_errors(const scenario::Scenario& scenario, const PlaneNumbers& numbers,
+                          const std::function<bool()>& interrupted);
+
+}  // namespace slipfront::run

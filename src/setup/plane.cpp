@@ -1,0 +1,92 @@
+#include "slipfront/setup/plane.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "foundation/machine.hpp"
+#include "foundation/text/digits.hpp"
+#include "setup/output_times.hpp"
+#include "slipfront/error.hpp"
+#include "slipfront/plane/averaged.hpp"
+
+namespace slipfront::setup {
+namespace {
+
+constexpr double fields = 2;  // slip and slip velocity
+constexpr double maps = 4;    // maps of the file, and as many in the saved state
+
+double cells_of(const plane::Schedule& schedule) { return static_cast<double>(schedule.nx) * schedule.ny; }
+
+/// The largest initial slip, on the grid of the results.
+double largest_slip(const plane::Problem& p, int nx, int ny) {
+  double largest = 0;
+  for (int j = 0; j < ny; ++j)
+    for (int i = 0; i < nx; ++i)
+      largest = std::fmax(largest, p.slip(p.left + (p.right - p.left) * (i + 0.5) / nx,
+                                          p.bottom + (p.top - p.bottom) * (j + 0.5) / ny));
+  return largest;
+}
+
+/// A complaint of a solver about a part of the problem, with the key of the scenario that gives this part.
+Complaint in_keys_of(const scenario::Scenario& s, Complaint complaint) {
+  if (!complaint.file.empty()) return complaint;
+  complaint.file = s.file;
+  if (complaint.key == "slip") complaint.key = s.initial.file.empty() ? "initial.formula" : "initial.file";
+  if (complaint.key == "fixed" || complaint.key == "left") complaint.key = "plane." + complaint.key;
+  if (complaint.key == "resolution") complaint.key = "plane.loops";
+  return complaint;
+}
+
+}  // namespace
+
+void require_plane(const scenario::Scenario& s) {
+  if (!s.plane)
+    throw InputError(
+        {.file = s.file, .key = "plane", .problem = "this table is missing", .allowed = "[plane] left = ..."});
+}
+
+void require_line(const scenario::Scenario& s) {
+  if (s.plane)
+    throw InputError({.file = s.file,
+                      .key = "plane",
+                      .problem = "the scenario is on a plane, and this command runs on a line",
+                      .allowed = "slipfront plane"});
+}
+
+std::unique_ptr<plane::Solver> plane_solver(const scenario::Scenario& s) {
+  require_plane(s);
+  const plane::Resolution resolution{.loops = s.plane->loops, .angles = s.plane->angles};
+  try {
+    return std::make_unique<plane::AveragedSolver>(s.plane->problem, resolution);
+  } catch (const InputError& error) {
+    throw InputError(in_keys_of(s, error.complaint()));
+  }
+}
+
+plane::Schedule plane_schedule(const scenario::Scenario& s) {
+  require_plane(s);
+  constexpr double most_rows = 1000, seen = 1e-3;
+  const plane::Problem& p = s.plane->problem;
+  const double width = p.right - p.left, cell = width / s.plane->cells;
+  plane::Schedule schedule;
+  schedule.times = output_times(s);
+  schedule.nx = s.plane->cells;
+  schedule.ny = static_cast<int>(std::clamp(std::round((p.top - p.bottom) / cell), 4.0, 10'000.0));
+  const double need = cells_of(schedule) * 8 * (fields * static_cast<double>(schedule.times.size()) + 2 * maps);
+  if (2 * need > usable_memory())
+    throw InputError({.file = s.file,
+                      .key = "plane.cells",
+                      .problem = "the results need " + digits(2 * need / 1e9, 3) +
+                                 " GB of memory, this process may have " + digits(usable_memory() / 1e9, 3) + " GB",
+                      .allowed = "fewer cells or fewer output times"});
+  schedule.interval = std::fmax(cell, s.end / most_rows);
+  schedule.rupture_slip = seen * largest_slip(p, schedule.nx, schedule.ny);
+  schedule.wave_speed_ratio = s.plane->wave_speed_ratio;
+  return schedule;
+}
+
+double plane_file_size(const plane::Schedule& schedule) {
+  return cells_of(schedule) * 8 * (fields * static_cast<double>(schedule.times.size()) + maps) + (1 << 16);
+}
+
+}  // namespace slipfront::setup

@@ -1,0 +1,146 @@
+"""The command `slipfront plane` as a user runs it."""
+
+import json
+import math
+import os
+import unittest
+
+import netCDF4
+import numpy as np
+
+from support import CommandLine, SOURCE
+
+RINGS = os.path.join(SOURCE, "cases/plane-rings.toml")
+FRICTION = os.path.join(SOURCE, "cases/plane-friction.toml")
+CONTRACT = ["time", "potency", "slip_at_probes", "slip_velocity_at_probes", "peak_slip_velocity", "front", "energies", "steps",
+            "wall_seconds"]
+COARSE = ("--set", "plane.loops=24", "plane.angles=16", "plane.cells=40")
+
+
+class Plane(CommandLine):
+    def plane(self, *arguments):
+        return json.loads(self.ok("plane", *arguments, "--json"))
+
+    def folder(self):
+        return os.path.dirname(self.file("unused", ""))
+
+    def test_rings_with_friction_have_the_slip_of_every_line(self):
+        """The reference follows each ring, at scale 300 (direct radial simulation)."""
+        out = self.plane(RINGS)
+        for key in CONTRACT:
+            self.assertIn(key, out)
+        self.assertLess(abs(out["slip_at_probes"][0] / 0.40487 - 1), 0.01)
+        self.assertLess(abs(out["slip_at_probes"][1] / 0.72095 - 1), 0.01)
+        self.assertLess(abs(out["front"] / 2.7887 - 1), 0.01)
+        energy = out["energies"]
+        self.assertLess(abs(energy["kinetic"] + energy["elastic"] + energy["dissipated"]), 0.01 * energy["dissipated"])
+        self.assertEqual(energy["supplied"], 0)
+
+    def test_friction_on_one_side_turns_the_rupture_to_the_other(self):
+        """The reference is a direct simulation of every line at scale 160."""
+        out = self.plane(FRICTION)
+        for slip, reference in zip(out["slip_at_probes"], [0.17662, 0.23793, 0.30931, 0.17312, 0.2655]):
+            self.assertLess(abs(slip / reference - 1), 0.02)
+        self.assertLess(abs(out["potency"] / 3.1787 - 1), 0.01)
+
+    def test_the_file_opens_in_xarray_and_holds_maps_and_series(self):
+        path = os.path.join(self.folder(), "out.nc")
+        out = self.plane(FRICTION, *COARSE, "-o", path)
+        with netCDF4.Dataset(path) as file:
+            slip, time, x, y = (np.array(file[name]) for name in ("slip", "time", "x", "y"))
+            self.assertEqual(slip.shape, (11, 40, 40))
+            self.assertEqual((x[0], y[-1], len(time)), (-3.12, 3.12, 11))
+            potency = slip[-1].sum() * 0.16 ** 2
+            self.assertLess(abs(potency / out["potency"] - 1), 0.02)
+            self.assertAlmostEqual(float(file["potency"][-1]), out["potency"])
+            rate = np.array(file["moment_rate"])
+            gained = np.trapz(rate, np.array(file["series_time"]))
+            self.assertLess(abs(gained / out["potency"] - 1), 0.02)
+            rupture = np.ma.filled(file["rupture_time"][:], np.nan)
+            self.assertTrue(np.isnan(rupture[0, 0]))
+            self.assertLess(np.nanmax(rupture), 1.0001)
+            self.assertAlmostEqual(np.count_nonzero(~np.isnan(rupture)) * 0.16 ** 2, out["ruptured_area"])
+            # Outside the first front, ruptures begin where the front passes: later at larger distances.
+            row = rupture[20, 33:]
+            known = row[~np.isnan(row)]
+            self.assertGreater(len(known), 1)
+            self.assertTrue(np.all(np.diff(known) > 0))
+            self.assertEqual(file.getncattr("finished"), 1)
+
+    def test_a_ratio_of_wave_speeds_stretches_the_rupture(self):
+        """With half the wave speed along y, the same loops are ellipses: all values follow from those of the round ones."""
+        case = self.file("case.toml", "[plane]\nleft = -3.2\nright = 3.2\nbottom = -3.2\ntop = 3.2\n[initial]\nprofile = 'formula'\n"
+                                      "formula = 0\n[time]\nend = 0.5\n")
+        common = ("--set", "plane.fixed=sqrt(x^2 + (y/R)^2) < 1", "output.probes=[[1.5, 0], [0, S]]",
+                  "initial.formula=2 * max(0, 2 - max(1, sqrt(x^2 + (y/R)^2)))")
+
+        def values(ratio):
+            settings = [word.replace("R", str(ratio)).replace("S", str(1.5 * ratio)) for word in common]
+            return self.plane(case, *settings, f"plane.wave_speed_ratio={ratio}", f"plane.bottom={-3.2 * ratio}",
+                              f"plane.top={3.2 * ratio}")
+        round_one, flat = values(1), values(0.5)
+        self.assertAlmostEqual(round_one["slip_at_probes"][0], flat["slip_at_probes"][0], delta=1e-9)
+        self.assertAlmostEqual(flat["slip_at_probes"][0], flat["slip_at_probes"][1], delta=1e-3)
+        self.assertAlmostEqual(flat["potency"], round_one["potency"] / 2, delta=1e-9)
+        self.assertAlmostEqual(round_one["front"], flat["front"], delta=1e-9)
+
+    def test_si_units(self):
+        settings = ("--set", "medium.contact_ratio=0.01", "medium.asperity_spacing=1 mm", "medium.shear_modulus=30 GPa",
+                    "medium.density=2700 kg/m3")
+        plain = self.plane(FRICTION, *COARSE, *settings[1:])
+        out = self.plane(FRICTION, *COARSE, *settings[1:], "--si")
+        self.assertEqual(out["units"]["moment"], "N m")
+        self.assertEqual(out["units"]["energies"]["kinetic"], "J")
+        area, slip = 0.1 ** 2, 2 * 1e-3 / (2 * math.pi)  # (b / A)^2, and b / (2 pi) between the faces
+        self.assertLess(abs(out["potency"] / (plain["potency"] * area * slip) - 1), 1e-12)
+        self.assertLess(abs(out["moment"] / (out["potency"] * 30e9) - 1), 1e-12)
+        self.assertLess(abs(out["slip_at_probes"][0] / (plain["slip_at_probes"][0] * slip) - 1), 1e-12)
+
+    def test_a_stopped_run_resumes_to_the_same_file(self):
+        folder = self.folder()
+        cut, whole = os.path.join(folder, "cut.nc"), os.path.join(folder, "whole.nc")
+        case = (FRICTION, "--set", "plane.loops=60", "plane.angles=64", "plane.cells=60")
+        self.ok("plane", *case, "-o", whole)
+        self.interrupted(cut, "plane", *case)
+        self.refused(2, "plane", *case, "plane.loops=61", "--resume", cut, says=["plane.loops differs"])
+        self.ok("plane", *case, "--resume", cut)
+        with open(cut, "rb") as a, open(whole, "rb") as b:
+            self.assertEqual(a.read(), b.read())
+        self.ok("plane", *case, "--resume", whole)  # nothing is left to do
+        self.refused(3, "pulse", os.path.join(SOURCE, "cases/step.toml"), "--resume", whole, says=["plane 1"])
+
+    def test_a_run_that_fails_keeps_what_it_has(self):
+        path = os.path.join(self.folder(), "out.nc")
+        self.refused(4, "plane", FRICTION, *COARSE, "plane.right=2.3", "time.end=3", "-o", path, says=["has reached the edge", "t = ", path])
+        with netCDF4.Dataset(path) as file:
+            self.assertGreater(len(file["time"]), 3)
+            self.assertEqual(file.getncattr("finished"), 0)
+
+    def test_check_describes_the_run(self):
+        self.assertIn("120 x 128 cells of dislocation lines", self.ok("plane", FRICTION, "--check"))
+
+    def test_refuses(self):
+        step = os.path.join(SOURCE, "cases/step.toml")
+        self.refused(2, "plane", step, says=["plane", "missing"])
+        for command in ("pulse", "chain", "compare"):
+            self.refused(2, command, RINGS, says=["plane-rings.toml", "slipfront plane"])
+        for change, words in [
+                ("domain.left=-1", ["domain", "about a line"]), ("plane.left=4", ["plane.right", "not to the right"]),
+                ("plane.cells=3", ["plane.cells"]), ("initial.profile=tanh", ["initial.profile", "formula, radial"]),
+                ("initial.hold=true", ["initial.hold"]), ("friction.coefficient=y", ["the coefficient is -3.2", "x = -3.2"]),
+                ("friction.coefficient=1+z", ["friction.coefficient", "z"]), ("interface.contact=x", ["contact ratio is -3.2"]),
+                ("forcing.formula=1/(x*0)", ["the forcing"]), ("output.probes=[[9, 0]]", ["output.probes", "outside"]),
+                ("output.probes=[1]", ["output.probes", "not a point"]), ("chain.periodic=true", ["chain.periodic"]),
+                ("initial.file=none.csv", ["none.csv"]), ("plane.fixed=abs(x) < 0.2", ["initial.file", "held region"])]:
+            with self.subTest(change=change):
+                code = 3 if "none.csv" in change else 2
+                self.refused(code, "plane", FRICTION, "--set", change, says=words)
+        self.refused(2, "pulse", step, "--set", "output.probes=[[0, 0]]", says=["output.probes", "[plane]"])
+        self.refused(2, "pulse", step, "--set", "initial.profile=radial", says=["initial.profile"])
+        self.refused(2, "plane", FRICTION, "--set", "friction.law=coulomb", says=["friction.coefficient", "formula"])
+        self.refused(2, "plane", FRICTION, "--set", "friction.law=rate-and-state", "friction.coefficient=0.5")
+        self.refused(2, "plane", FRICTION, "--set", "friction.law=coulomb", "friction.coefficient=0.5", says=["friction.law"])
+
+
+if __name__ == "__main__":
+    unittest.main()
