@@ -53,7 +53,7 @@ FOLDERS = {
         "explicit/levels": "model",
         "explicit": "explicit/levels model",
     },
-    "plane": {"averaged": "."},
+    "plane": {"averaged": ".", "direct": "."},
     "pulse": {
         "grid": "",
         "space": "grid",

@@ -7,24 +7,42 @@
 #include "long_run.hpp"
 #include "plane_output.hpp"
 #include "run/plane.hpp"
+#include "slipfront/plane/direct.hpp"
 #include "slipfront/setup/plane.hpp"
 
 namespace {
 
 using namespace slipfront;
 
-void describe(const scenario::Scenario& s, const run::PlanePlan& plan) {
-  setup::plane_solver(s);  // refuses what a run refuses at its start
+/// The lines that a run would follow, in words. Refuses what a run refuses at its start.
+std::string solver_in_words(const scenario::Scenario& s, setup::Lines lines, int threads) {
+  if (lines == setup::Lines::direct) {
+    const plane::DirectOptions options{.scale = s.chain.scale.value_or(1), .threads = threads};
+    setup::plane_solver(s, lines, threads);
+    return fmt::format("every dislocation line at scale {}, which needs about {:.2g} GB of memory,", options.scale,
+                       plane::memory_of_direct(s.plane->problem, options) / 1e9);
+  }
+  setup::plane_solver(s, lines, threads);
+  return fmt::format("{} x {} cells of dislocation lines", s.plane->loops, s.plane->angles);
+}
+
+void describe(const scenario::Scenario& s, const run::PlanePlan& plan, setup::Lines lines, int threads) {
   const record::PlaneGrid& grid = plan.grid;
   put(fmt::format(
-      "{}: OK. This scenario would follow {} x {} cells of dislocation lines over x = {} ... {}, y = {} ... "
-      "{} to t = {}, with results in {} x {} cells at {} times: {:.1g} GB on the disk with -o.\n",
-      s.title.empty() ? s.file : s.title, s.plane->loops, s.plane->angles, in_results(s, grid.left, "b / A"),
+      "{}: OK. This scenario would follow {} over x = {} ... {}, y = {} ... {} to t = {}, with results in "
+      "{} x {} cells at {} times: {:.1g} GB on the disk with -o.\n",
+      s.title.empty() ? s.file : s.title, solver_in_words(s, lines, threads), in_results(s, grid.left, "b / A"),
       in_results(s, grid.right, "b / A"), in_results(s, grid.bottom, "b / A"), in_results(s, grid.top, "b / A"),
       in_results(s, s.end, "b / (c A)"), grid.nx, grid.ny, plan.schedule.times.size(), plan.disk / 1e9));
 }
 
-int run_plane(const ScenarioArguments& a) {
+/// Errors of a direct run are not known.
+run::PlaneNumbers errors_of(const scenario::Scenario& s, const run::PlaneNumbers& numbers, setup::Lines lines) {
+  if (lines == setup::Lines::averaged) return run::plane_errors(s, numbers, {});
+  return run::unknown_errors(numbers);
+}
+
+int run_plane(const ScenarioArguments& a, setup::Lines lines) {
   const auto begun = Clock::now();
   const scenario::Scenario s = read_scenario_of(a);
   const run::PlanePlan plan = run::plan_plane(s);
@@ -33,13 +51,14 @@ int run_plane(const ScenarioArguments& a) {
   const bool of_finished = saved && saved->finished;
   if (a.check) {
     require_output(a, of_finished, plan.disk);
-    describe(s, plan);
+    describe(s, plan, lines, a.common.threads);
     return exit_done;
   }
   LongRun long_run(a, s, of_finished, nullptr);
-  const auto result = run::plane(s, plan, {.common = long_run.options({}, begun), .checkpoint = std::move(saved)});
+  const auto result =
+      run::plane(s, plan, {.common = long_run.options({}, begun), .lines = lines, .checkpoint = std::move(saved)});
   if (const int code = long_run.end(result.finished()); code != exit_done) return code;
-  print_plane(s, result, run::plane_errors(s, result.numbers, {}), a);
+  print_plane(s, result, errors_of(s, result.numbers, lines), a);
   return exit_done;
 }
 
@@ -52,7 +71,10 @@ Runner add_plane(CLI::App& app) {
       "Examples:"
       "\n  slipfront plane cases/plane-friction.toml -o plane.nc"
       "\n  slipfront plane cases/plane-friction.toml --set plane.loops=240 --json"
+      "\n  slipfront plane cases/plane-friction.toml --direct --set chain.scale=40"
       "\n  slipfront plane cases/plane-friction.toml --check");
   add_scenario_options(*command, *a);
-  return [a] { return run_plane(*a); };
+  auto direct = std::make_shared<bool>(false);
+  command->add_flag("--direct", *direct, "Follow every dislocation line; chain.scale sets how many there are");
+  return [a, direct] { return run_plane(*a, *direct ? setup::Lines::direct : setup::Lines::averaged); };
 }

@@ -7,13 +7,12 @@
 
 #include "foundation/text/digits.hpp"
 #include "run/carry_out.hpp"
-#include "slipfront/setup/plane.hpp"
 
 namespace slipfront::run {
 namespace {
 
 std::unique_ptr<plane::Run> begun(const scenario::Scenario& s, const PlanePlan& plan, const PlaneOptions& options) {
-  std::unique_ptr<plane::Solver> solver = setup::plane_solver(s);
+  std::unique_ptr<plane::Solver> solver = setup::plane_solver(s, options.lines, options.common.threads);
   if (!options.checkpoint) return std::make_unique<plane::Run>(std::move(solver), plan.schedule);
   const record::PlaneCheckpoint& saved = *options.checkpoint;
   return std::make_unique<plane::Run>(std::move(solver), plan.schedule, saved.run_state, saved.snapshots);
@@ -35,7 +34,7 @@ std::optional<PlaneNumbers> with_fewer_cells(scenario::Scenario s, int divisor,
   s.plane->loops = std::max(4, s.plane->loops / divisor);
   s.plane->angles = std::max(8, s.plane->angles / divisor);
   try {
-    const std::unique_ptr<plane::Solver> solver = setup::plane_solver(s);
+    const std::unique_ptr<plane::Solver> solver = setup::plane_solver(s, setup::Lines::averaged, 1);
     if (!solver->advance_to(s.end, interrupted)) return std::nullopt;
     return PlaneNumbers{.end = plane::row_at(*solver, s.plane->wave_speed_ratio),
                         .slip_at_probes = solver->slip(s.plane->probes),
@@ -76,7 +75,9 @@ record::PlaneCheckpoint plane_checkpoint_of(const std::string& path, const scena
 
 PlaneResult plane(const scenario::Scenario& s, const PlanePlan& plan, const PlaneOptions& options) {
   const Options& common = options.common;
-  PlaneResult result{.run = begun(s, plan, options), .metadata = metadata_of(s, "plane", {}), .wall = 0};
+  PlaneResult result{.run = begun(s, plan, options),
+                     .metadata = metadata_of(s, options.lines == setup::Lines::direct ? "plane --direct" : "plane", {}),
+                     .wall = 0};
   const plane::Solver& solver = result.run->solver();
   const bool reached = carry_out(
       *result.run,
@@ -97,17 +98,20 @@ PlaneResult plane(const scenario::Scenario& s, const PlanePlan& plan, const Plan
   return result;
 }
 
+PlaneNumbers unknown_errors(PlaneNumbers numbers) {
+  for (double* const number : all_of(numbers)) *number = std::numeric_limits<double>::quiet_NaN();
+  return numbers;
+}
+
 PlaneNumbers plane_errors(const scenario::Scenario& s, const PlaneNumbers& numbers,
                           const std::function<bool()>& interrupted) {
-  PlaneNumbers fine = numbers, errors = numbers;
-  std::optional<PlaneNumbers> half = with_fewer_cells(s, 2, interrupted), quarter = with_fewer_cells(s, 4, interrupted);
-  const std::vector<double*> f = all_of(fine), e = all_of(errors);
-  for (std::size_t i = 0; i < e.size(); ++i) {
-    *e[i] = std::numeric_limits<double>::quiet_NaN();
-    if (!half || !quarter) continue;
-    const double h = *all_of(*half)[i], q = *all_of(*quarter)[i];
-    *e[i] = 1.5 * std::fmax(std::fabs(*f[i] - h), std::fabs(h - q) / 2);
-  }
+  const std::optional<PlaneNumbers> half_of = with_fewer_cells(s, 2, interrupted),
+                                    quarter_of = with_fewer_cells(s, 4, interrupted);
+  if (!half_of || !quarter_of) return unknown_errors(numbers);
+  PlaneNumbers fine = numbers, half = *half_of, quarter = *quarter_of, errors = numbers;
+  const std::vector<double*> f = all_of(fine), h = all_of(half), q = all_of(quarter), e = all_of(errors);
+  for (std::size_t i = 0; i < e.size(); ++i)
+    *e[i] = 1.5 * std::fmax(std::fabs(*f[i] - *h[i]), std::fabs(*h[i] - *q[i]) / 2);
   return errors;
 }
 

@@ -10,6 +10,7 @@
 #include "record/planes/plane_file.hpp"
 #include "run/run.hpp"
 #include "slipfront/plane/run.hpp"
+#include "slipfront/setup/plane.hpp"
 
 namespace slipfront::run {
 
@@ -30,6 +31,7 @@ record::PlaneCheckpoint plane_checkpoint_of(const std::string& path, const scena
 /// How to run it: `Options::checkpoint` is not used.
 struct PlaneOptions {
   Options common;
+  setup::Lines lines = setup::Lines::averaged;
   std::optional<record::PlaneCheckpoint> checkpoint = {};
 };
 
@@ -50,10 +52,13 @@ struct PlaneResult {
 /// \throws NumericsError, after writing the results so far; InputError, FileError.
 PlaneResult plane(const scenario::Scenario& scenario, const PlanePlan& plan, const PlaneOptions& options);
 
-/// Estimates the discretisation errors of the numbers of a finished run by runs with half and a quarter of the cells,
-/// which take a quarter of its time. An error is 1.5 times the larger of two changes: that of the last doubling, and
-/// half of that at the doubling before. It is NaN if a run with fewer cells fails, or if `interrupted` returned true.
-/// The peak slip velocity has no error.
+/// Errors that are all NaN, for a run whose errors are not known.
+PlaneNumbers unknown_errors(PlaneNumbers numbers);
+
+/// Estimates the discretisation errors of the numbers of a finished averaged run by runs with half and a quarter of the
+/// cells, which take a quarter of its time. An error is 1.5 times the larger of two changes: that of the last doubling,
+/// and half of that at the doubling before. It is NaN if a run with fewer cells fails, or if `interrupted` returned
+/// true. The peak slip velocity has no error.
 PlaneNumbers plane_errors(const scenario::Scenario& scenario, const PlaneNumbers& numbers,
                           const std::function<bool()>& interrupted);
 

@@ -8,6 +8,7 @@
 #include "setup/output_times.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/plane/averaged.hpp"
+#include "slipfront/plane/direct.hpp"
 
 namespace slipfront::setup {
 namespace {
@@ -33,6 +34,7 @@ Complaint in_keys_of(const scenario::Scenario& s, Complaint complaint) {
   complaint.file = s.file;
   if (complaint.key == "slip") complaint.key = s.initial.file.empty() ? "initial.formula" : "initial.file";
   if (complaint.key == "fixed" || complaint.key == "left") complaint.key = "plane." + complaint.key;
+  if (complaint.key == "scale" || complaint.key == "spacing") complaint.key = "chain." + complaint.key;
   if (complaint.key == "resolution") complaint.key = "plane.loops";
   return complaint;
 }
@@ -53,11 +55,23 @@ void require_line(const scenario::Scenario& s) {
                       .allowed = "slipfront plane"});
 }
 
-std::unique_ptr<plane::Solver> plane_solver(const scenario::Scenario& s) {
+std::unique_ptr<plane::Solver> plane_solver(const scenario::Scenario& s, Lines lines, int threads) {
   require_plane(s);
-  const plane::Resolution resolution{.loops = s.plane->loops, .angles = s.plane->angles};
   try {
-    return std::make_unique<plane::AveragedSolver>(s.plane->problem, resolution);
+    if (lines == Lines::averaged)
+      return std::make_unique<plane::AveragedSolver>(
+          s.plane->problem, plane::Resolution{.loops = s.plane->loops, .angles = s.plane->angles});
+    const plane::DirectOptions options{.scale = s.chain.scale.value_or(1),
+                                       .spacing = s.chain.spacing.value_or(plane::DirectOptions{}.spacing),
+                                       .threads = threads};
+    const double need = plane::memory_of_direct(s.plane->problem, options);
+    if (need > usable_memory())
+      throw InputError({.key = "scale",
+                        .value = digits(options.scale),
+                        .problem = "the lines need " + digits(need / 1e9, 3) + " GB of memory, this process may have " +
+                                   digits(usable_memory() / 1e9, 3) + " GB",
+                        .allowed = "a smaller scale"});
+    return std::make_unique<plane::DirectSolver>(s.plane->problem, options);
   } catch (const InputError& error) {
     throw InputError(in_keys_of(s, error.complaint()));
   }

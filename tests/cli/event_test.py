@@ -307,7 +307,8 @@ class Event(CommandLine):
             self.assertEqual(file.read(), before)
 
     def test_killed_and_resumed(self):
-        case = self.catalogue(1500)
+        events = 300 if SANITIZED else 1500
+        case = self.catalogue(events)
         quiet = subprocess.DEVNULL
         slowly = ["--samples", "3000"]  # so many that the run writes several checkpoints on any machine
         folder = os.path.dirname(case)
@@ -329,7 +330,7 @@ class Event(CommandLine):
         process.send_signal(signal.SIGINT)
         out, errors = process.communicate(timeout=PATIENCE)
         self.assertEqual((process.returncode, out), (130, ""), errors)
-        self.assertRegex(errors, "interrupted after [0-9]+ of 1500 events; continue with --resume ")
+        self.assertRegex(errors, f"interrupted after [0-9]+ of {events} events; continue with --resume ")
         self.assertGreater(os.stat(cut).st_size, grown)
         self.assertEqual(run("event", case, *slowly, "--resume", cut).returncode, 2)
         self.same(cut, reference)

@@ -116,6 +116,24 @@ class Plane(CommandLine):
             self.assertGreater(len(file["time"]), 3)
             self.assertEqual(file.getncattr("finished"), 0)
 
+    def test_every_line_can_be_followed(self):
+        path = os.path.join(self.folder(), "out.nc")
+        direct = (FRICTION, "--direct", "--set", "chain.scale=20", "plane.cells=50")
+        out = self.plane(*direct, "-o", path)
+        averaged = self.plane(FRICTION, *COARSE)
+        self.assertLess(abs(out["potency"] / averaged["potency"] - 1), 0.08)
+        self.assertEqual(out["errors"]["energies"], {})
+        with netCDF4.Dataset(path) as file:
+            self.assertIn("plane --direct", file.getncattr("history"))
+            self.assertEqual(file["slip"].shape[1:], (50, 50))
+        cut = os.path.join(self.folder(), "cut.nc")
+        self.interrupted(cut, "plane", *direct)
+        self.ok("plane", *direct, "--resume", cut)
+        with open(cut, "rb") as a, open(path, "rb") as b:
+            self.assertEqual(a.read(), b.read())
+        self.refused(2, "plane", FRICTION, "--set", "chain.scale=20", "plane.cells=50", "--resume", cut, says=["resume"])
+        self.assertIn("every dislocation line at scale 20", self.ok("plane", *direct, "--check"))
+
     def test_check_describes_the_run(self):
         self.assertIn("120 x 128 cells of dislocation lines", self.ok("plane", FRICTION, "--check"))
 

@@ -14,8 +14,12 @@ void require_plane(const scenario::Scenario& scenario);
 /// \throws InputError if the scenario has the table [plane].
 void require_line(const scenario::Scenario& scenario);
 
-/// The solver of the averaged equations. \throws InputError for what it cannot solve.
-std::unique_ptr<plane::Solver> plane_solver(const scenario::Scenario& scenario);
+/// Whether a run follows the averages or every dislocation line.
+enum class Lines { averaged, direct };
+
+/// The solver of a scenario. \throws InputError for what it cannot solve, and for a direct solver that needs more
+/// memory than this process may have.
+std::unique_ptr<plane::Solver> plane_solver(const scenario::Scenario& scenario, Lines lines, int threads);
 
 /// The times and the grid of the results. A row of the series follows each time in which a wave crosses a cell, with at
 /// most 1000 rows. \throws InputError if the results need more memory than this process may have.

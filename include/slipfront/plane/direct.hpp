@@ -1,0 +1,55 @@
+#pragma once
+/// \file
+/// Every dislocation line of a fault plane: the sine-Gordon equation in two dimensions.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "slipfront/plane/problem.hpp"
+
+namespace slipfront::plane {
+
+struct DirectOptions {
+  double scale = 1;      ///< factor by which x, y and t are stretched and friction is divided: as many times the lines
+  double spacing = 0.4;  ///< largest spacing of the sites, in widths of a dislocation of the largest contact ratio
+  int threads = 1;
+};
+
+/// Approximate number of bytes that a solver needs. \throws InputError for numbers out of range.
+double memory_of_direct(const Problem& problem, const DirectOptions& options);
+
+/// Solves the equation of every line on a grid, with fourth order in space and time. The edges of the domain are free.
+/// Results are in the units of the scenario: slip, lengths and times are divided by the scale. Slip at a point is the
+/// mean over a square whose half width is one spacing of the densest lines at the start. The elastic energy is that of
+/// slopes and substrate, and the kinetic energy that of u_t: the averaged solver divides the same sum in another way.
+class DirectSolver : public Solver {
+ public:
+  /// \throws InputError for lines too dense for the spacing, for friction with state variables or that changes
+  /// contacts, and for numbers out of range.
+  DirectSolver(const Problem& problem, const DirectOptions& options);
+  ~DirectSolver() override;
+
+  double time() const override;
+  long steps() const override;
+  bool advance_to(double time, const std::function<bool()>& interrupted) override;
+
+  std::vector<double> slip(const std::vector<Point>& points) const override;
+  std::vector<double> velocity(const std::vector<Point>& points) const override;
+  Field field(int nx, int ny) const override;
+  double potency() const override;
+  double potency_rate() const override;
+  double front(double y_scale) const override;
+  Energies energies() const override;
+
+  std::string saved() const override;
+  void resume(std::string_view saved) override;
+
+  std::size_t sites() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace slipfront::plane

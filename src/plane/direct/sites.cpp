@@ -1,0 +1,70 @@
+#include "plane/direct/sites.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "foundation/text/digits.hpp"
+#include "slipfront/error.hpp"
+
+namespace slipfront::plane {
+namespace {
+
+constexpr double most_sites = 1e10;
+
+InputError refusal(const char* key, double value, const char* problem, const char* allowed) {
+  return InputError({.key = key, .value = digits(value), .problem = problem, .allowed = allowed});
+}
+
+/// The largest contact ratio on a grid of samples.
+double largest_contact(const Problem& p) {
+  if (!p.contact) return 1;
+  constexpr int samples = 200;
+  double largest = 0;
+  for (int j = 0; j <= samples; ++j)
+    for (int i = 0; i <= samples; ++i)
+      largest = std::fmax(
+          largest, p.contact(p.left + (p.right - p.left) * i / samples, p.bottom + (p.top - p.bottom) * j / samples));
+  return largest;
+}
+
+template <class Value>
+std::vector<double> at_each(const Sites& sites, const Value& value) {
+  std::vector<double> all(sites.size(), 0.0);
+  for (std::size_t j = 0; j < sites.ny; ++j)
+    for (std::size_t i = 0; i < sites.nx; ++i) all[sites.at(i, j)] = value(sites.x(i), sites.y(j));
+  return all;
+}
+
+}  // namespace
+
+Counts count_sites(const Problem& p, double scale, double spacing) {
+  if (!(scale > 0 && std::isfinite(scale))) throw refusal("scale", scale, "out of range", "a finite number > 0");
+  if (!(spacing > 0 && spacing <= 0.5)) throw refusal("spacing", spacing, "out of range", "> 0 and <= 0.5");
+  const double widest = spacing / largest_contact(p);
+  const Counts n{std::ceil((p.right - p.left) * scale / widest), std::ceil((p.top - p.bottom) * scale / widest)};
+  if (!(n.nx >= 4 && n.ny >= 4)) throw refusal("scale", scale, "fewer than 4 x 4 sites", "a larger scale");
+  if (!(n.nx * n.ny <= most_sites)) throw refusal("scale", scale, "more than ten billion sites", "a smaller scale");
+  return n;
+}
+
+Sites make_sites(const Problem& p, double scale, double spacing) {
+  const auto [nx, ny] = count_sites(p, scale, spacing);
+  Sites sites;
+  sites.nx = static_cast<std::size_t>(nx);
+  sites.ny = static_cast<std::size_t>(ny);
+  sites.scale = scale;
+  sites.left = p.left;
+  sites.bottom = p.bottom;
+  sites.hx = (p.right - p.left) * scale / nx;
+  sites.hy = (p.top - p.bottom) * scale / ny;
+  if (p.contact)
+    sites.contact2 = at_each(sites, [&](double x, double y) {
+      const double a = p.contact(x, y);
+      return a * a;
+    });
+  if (p.viscous) sites.viscous = at_each(sites, [&](double x, double y) { return p.viscous(x, y) / scale; });
+  if (p.fixed) sites.moves = at_each(sites, [&](double x, double y) { return p.fixed(x, y) == 0 ? 1.0 : 0.0; });
+  return sites;
+}
+
+}  // namespace slipfront::plane
