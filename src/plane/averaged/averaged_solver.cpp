@@ -123,6 +123,7 @@ void AveragedSolver::check_budget() const {
 
 std::vector<double> AveragedSolver::slip(const std::vector<Point>& points) const {
   std::vector<double> slips;
+  slips.reserve(points.size());
   for (const Point& at : points) slips.push_back(parts_->slip_now(at) - parts_->problem.slip(at.x, at.y));
   return slips;
 }
@@ -130,6 +131,7 @@ std::vector<double> AveragedSolver::slip(const std::vector<Point>& points) const
 std::vector<double> AveragedSolver::velocity(const std::vector<Point>& points) const {
   const std::vector<double> w = slip_velocities(parts_->loops, parts_->steps->equations());
   std::vector<double> velocities;
+  velocities.reserve(points.size());
   for (const Point& at : points)
     velocities.push_back(Ray(parts_->loops, std::atan2(at.y, at.x)).at(w, std::hypot(at.x, at.y)));
   return velocities;

@@ -91,6 +91,7 @@ struct DirectSolver::Parts {
   template <class Of>
   std::vector<double> around(const Of& of, const std::vector<Point>& points) const {
     std::vector<double> means;
+    means.reserve(points.size());
     for (const Point& at : points)
       means.push_back(mean(of, columns(at.x - half_box, at.x + half_box), rows(at.y - half_box, at.y + half_box)));
     return means;

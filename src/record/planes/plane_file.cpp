@@ -24,6 +24,7 @@ struct Dimensions {
 /// Centres of the cells between two ends.
 std::vector<double> centres(double from, double to, int cells) {
   std::vector<double> all;
+  all.reserve(static_cast<std::size_t>(cells));
   for (int i = 0; i < cells; ++i) all.push_back(from + (to - from) * (i + 0.5) / cells);
   return all;
 }
