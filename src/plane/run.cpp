@@ -103,9 +103,12 @@ std::vector<std::string> Run::warnings() const {
   const double largest = std::max({e.kinetic, std::fabs(e.elastic), e.dissipated, std::fabs(e.supplied)});
   const double missing = e.supplied - e.kinetic - e.elastic - e.dissipated - e.vanished;
   constexpr double most = 0.02;
-  if (largest > 0 && std::fabs(missing) > most * largest)
-    all.push_back("the balance of energy has an error of " + digits(100 * missing / largest, 3) +
-                  " % of its largest part: more cells are needed");
+  const std::string percent = digits(100 * std::fabs(missing) / largest, 3) + " % of its largest part";
+  if (largest > 0 && missing > most * largest)
+    all.push_back("the balance of energy lacks " + percent +
+                  ": it is lost where lines run into each other, or more cells are needed");
+  if (largest > 0 && missing < -most * largest)
+    all.push_back("the balance of energy exceeds what was released by " + percent + ": more cells are needed");
   return all;
 }
 

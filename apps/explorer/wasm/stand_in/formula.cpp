@@ -17,7 +17,7 @@ namespace slipfront::scenario {
 namespace {
 
 struct Place {
-  double x, t;
+  double x, y, t;
 };
 using Node = std::function<double(const Place&)>;
 
@@ -139,6 +139,7 @@ class Reader {
   Node variable_named(const std::string& name) {
     (name == "t" ? reads_time_ : reads_place_) = true;
     if (name == "t") return [](const Place& p) { return p.t; };
+    if (name == "y") return [](const Place& p) { return p.y; };
     return [](const Place& p) { return p.x; };
   }
   Node extreme(bool least) {
@@ -178,7 +179,8 @@ Formula::Formula(const std::string& text, const std::vector<std::string_view>& v
   compiled_->reads_place = reader.reads_place();
 }
 
-double Formula::operator()(double x, double t) const { return compiled_->value({x, t}); }
+double Formula::operator()(double x, double t) const { return compiled_->value({x, 0, t}); }
+double Formula::operator()(double x, double y, double t) const { return compiled_->value({x, y, t}); }
 bool Formula::has(std::string_view variable) const {
   return variable == "t" ? compiled_->reads_time : compiled_->reads_place;
 }

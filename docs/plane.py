@@ -1,0 +1,87 @@
+"""Draws docs/plane.png and docs/plane.gif, and prints their numbers (docs/plane.md).
+
+Usage: plane.py PROGRAM [picture] [motion]
+
+PROGRAM is build/release/bin/slipfront. The script needs python3-matplotlib and python3-xarray, and runs for some minutes.
+"""
+
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.animation  # noqa: E402
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
+import xarray  # noqa: E402
+
+PROGRAM = sys.argv[1]
+HERE = pathlib.Path(__file__).parent
+STYLE = HERE.parent / "python" / "slipfront" / "slipfront.mplstyle"
+FRICTION, RINGS = (str(HERE.parent / "cases" / name) for name in ("plane-friction.toml", "plane-rings.toml"))
+WIDE = {"plane.left": -3.8, "plane.right": 3.8, "plane.bottom": -3.8, "plane.top": 3.8}
+FREE = {"friction.coefficient": 0, "time.end": 8, "output.every": 8, "plane.cells": 100} | WIDE
+LINES = {"averaged": (), "every line, 17": ("--direct", "--set", "chain.scale=40"), "every line, 35": ("--direct", "--set", "chain.scale=80")}
+
+
+def run(folder, case, settings, words=()):
+    """Runs a case and returns its file."""
+    path = pathlib.Path(folder) / "out.nc"
+    subprocess.run([PROGRAM, "plane", case, "--quiet", "-o", path, *words, *(f"--set={key}={value}" for key, value in settings.items())],
+                   check=True, capture_output=True)
+    with xarray.open_dataset(path) as data:
+        return data.load()
+
+
+def picture(folder):
+    """Draws plane.png: when the rupture arrives, the moment rate, and a front that line tension stops."""
+    figure, (left, middle, right) = plt.subplots(1, 3, figsize=(10.5, 3.3))
+    for name, words in LINES.items():
+        data = run(folder, FRICTION, {"time.end": 2, "output.every": 2, "plane.cells": 150} | WIDE, words)
+        middle.plot(data["series_time"], data["moment_rate"], label=name)
+        print(f"friction on one side, {name}: potency at t = 2 {float(data['potency'][-1]):.3f}, front {float(data['front'][-1]):.3f}")
+        if name == "averaged":
+            seen = left.contourf(data["x"], data["y"], data["rupture_time"], levels=np.linspace(0, 2, 11), cmap="viridis_r")
+        data = run(folder, RINGS, FREE, words)
+        right.plot(data["series_time"], data["front"], label=name)
+        last = int(np.argmax(data["front"].values))
+        print(f"no friction, {name}: farthest front {float(data['front'][last]):.3f} at t = {float(data['series_time'][last]):.2f}")
+    figure.colorbar(seen, ax=left, label="rupture time, b / (c A)")
+    left.set(title="Friction on one side", xlabel="x, b / A", ylabel="y, b / A", aspect="equal", xlim=(-3, 3), ylim=(-3, 3))
+    left.grid(False)
+    middle.set(title="Its moment rate", xlabel="t, b / (c A)", ylabel="potency rate, $b^2 c / (2 \\pi A)$", ylim=(0, None))
+    right.set(title="No friction: line tension stops it", xlabel="t, b / (c A)", ylabel="farthest front, b / A")
+    middle.legend(title="lines")
+    figure.savefig(HERE / "plane.png")
+
+
+def motion(folder):
+    """Draws plane.gif: the slip velocity of the averages and of every line, side by side."""
+    settings = {"time.end": 2, "output.every": 0.08, "plane.cells": 190} | WIDE
+    runs = {"averaged": run(folder, FRICTION, settings), "every line (35)": run(folder, FRICTION, settings, ("--direct", "--set", "chain.scale=80"))}
+    figure, axes = plt.subplots(1, 2, figsize=(6.4, 3.3))
+    images = []
+    for axis, (name, data) in zip(axes, runs.items()):
+        images.append(axis.imshow(np.abs(data["slip_velocity"][0]), origin="lower", extent=(-3.8, 3.8, -3.8, 3.8), vmin=0, vmax=0.9, cmap="magma"))
+        axis.set(title=name, xlabel="x, b / A", xlim=(-3, 3), ylim=(-3, 3))
+        axis.grid(False)
+    axes[0].set_ylabel("y, b / A")
+    figure.colorbar(images[1], ax=axes, label="slip velocity, $c A / \\pi$", shrink=0.9)
+
+    def frame(i):
+        for image, data in zip(images, runs.values()):
+            image.set_data(np.abs(data["slip_velocity"][i]))
+        figure.suptitle(f"t = {float(runs['averaged']['time'][i]):.2f} b / (c A); friction is strong where y > 0")
+    film = matplotlib.animation.FuncAnimation(figure, frame, frames=runs["averaged"].sizes["time"])
+    film.save(HERE / "plane.gif", writer=matplotlib.animation.PillowWriter(fps=8), dpi=72)
+
+
+if __name__ == "__main__":
+    plt.style.use(STYLE)
+    names = sys.argv[2:] or ["picture", "motion"]
+    with tempfile.TemporaryDirectory() as scratch:
+        for chosen in names:
+            {"picture": picture, "motion": motion}[chosen](scratch)
