@@ -48,6 +48,7 @@ std::optional<double> unit_in_si(const scenario::Scenario& s, std::string_view s
 
 /// Sites, memory and disk space of a chain run of the scenario, or the reason why it has none.
 std::string cost_of(const scenario::Scenario& s) {
+  if (s.plane) return "a rupture on a plane: slipfront plane --check";
   try {
     const run::ChainPlan plan = run::plan_chain(s);
     const chain::Problem p = chain::problem_of(plan.chain);

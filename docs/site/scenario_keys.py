@@ -11,6 +11,7 @@ TABLES = {
     "loading": ("[loading]", "Springs whose far ends move, for chains only. [Load a chain](docs/loading.md) describes them."),
     "interface": ("[interface]", "The contact ratio along the interface."),
     "domain": ("[domain]", "The part of the interface that is computed."),
+    "plane": ("[plane]", "A rupture on a plane: its edges, the region that is held, and the cells."),
     "time": ("[time]", "The duration of the run."),
     "pulse": ("[pulse]", "Settings of a `pulse` run."),
     "chain": ("[chain]", "Settings of a `chain` run."),

@@ -1,6 +1,7 @@
 #include "slipfront/scenario/quantities.hpp"
 
 #include "scenario/friction/friction_units.hpp"
+#include "scenario/plane/plane.hpp"
 #include "scenario/settings.hpp"
 #include "scenario/text/section.hpp"
 #include "slipfront/friction/friction.hpp"
@@ -76,6 +77,7 @@ std::vector<Quantity> quantities_of(std::string_view text, const std::string& fi
                                     const std::vector<std::string>& overrides) {
   Document document = read_document(text, file, overrides);
   document.errors.throw_if_any();
+  if (is_plane(document)) take_coefficient(document);
   medium::Constants medium;
   read_medium(document, medium);
   document.units = ModelUnits(medium, true);

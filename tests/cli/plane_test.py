@@ -134,6 +134,11 @@ class Plane(CommandLine):
         self.refused(2, "plane", FRICTION, "--set", "chain.scale=20", "plane.cells=50", "--resume", cut, says=["resume"])
         self.assertIn("every dislocation line at scale 20", self.ok("plane", *direct, "--check"))
 
+    def test_units_lists_the_numbers(self):
+        out = self.ok("units", FRICTION)
+        self.assertIn("plane.left", out)
+        self.assertIn("slipfront plane --check", out)
+
     def test_check_describes_the_run(self):
         self.assertIn("120 x 128 cells of dislocation lines", self.ok("plane", FRICTION, "--check"))
 

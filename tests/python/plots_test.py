@@ -17,6 +17,7 @@ from support import CommandLine, SOURCE
 
 CASE = os.path.join(SOURCE, "cases/fig-08.toml")
 STEP = os.path.join(SOURCE, "cases/step.toml")
+PLANE = os.path.join(SOURCE, "cases/plane-friction.toml")
 
 
 def samples(count=200):
@@ -238,7 +239,8 @@ class Command(CommandLine):
 
     def test_draws_what_the_file_holds(self):
         for kinds, path in ((["space-time", "profiles"], self.made("p.nc", "pulse", CASE)), (["relations"], self.made("r.csv", "relations", "--stress", "0.2:2:9", "--csv")),
-                            (["events"], self.made("e.csv", "event", "--csv")), (["comparison"], self.made("c.nc", "compare", STEP, "--scale", "30"))):
+                            (["events"], self.made("e.csv", "event", "--csv")), (["comparison"], self.made("c.nc", "compare", STEP, "--scale", "30")),
+                            (["plane"], self.made("q.nc", "plane", PLANE, "--set", "plane.loops=24", "plane.angles=16", "plane.cells=40"))):
             self.assertEqual(choose.kinds_of(files.read(path)), kinds)
             out = os.path.join(os.path.dirname(path), "picture.svg")
             self.assertEqual(self.ok("plot", path, "-o", out), f"written to {out}\n")

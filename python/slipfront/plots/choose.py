@@ -6,6 +6,7 @@ from .loaded_parts import is_loaded
 
 #: For each kind of picture: the function of this package, and the dimensions and variables that a Dataset must have.
 KINDS = {
+    "plane": ("plane", {"time", "x", "y", "series_time", "rupture_time", "moment_rate"}),
     "loading": ("loading", {"time", "x", "x_bounds", "slip"}),
     "event": ("slip_event", {"time", "x", "x_bounds", "slip", "event_onset"}),
     "catalogue": ("catalogue", {"event_onset"}),
@@ -22,8 +23,8 @@ KINDS = {
 
 
 def kinds_of(dataset) -> list:
-    """Returns the kinds of picture for which the Dataset has all variables, the most informative first. A comparison has
-    only the first kind."""
+    """Returns the kinds of picture for which the Dataset has all variables, the most informative first. A comparison and a
+    rupture on a plane have only the first kind."""
     there = set(dataset.variables) | set(dataset.dims)
     kinds = [kind for kind, (_, wanted) in KINDS.items() if wanted <= there]
     if {"draw", "draw_rupture_velocity"} <= there and dataset.sizes["event"] == 1:
@@ -32,7 +33,7 @@ def kinds_of(dataset) -> list:
         kinds = [kind for kind in kinds if kind not in ("space-time", "loading", "event")]
     unsuited = {"space-time"} if is_loaded(dataset) else {"loading", "event", "catalogue"}
     kinds = [kind for kind in kinds if kind not in unsuited]
-    return kinds[:1] if "level" in dataset.dims else kinds
+    return kinds[:1] if "level" in dataset.dims or "plane" in kinds else kinds
 
 
 def draw(dataset, kind: str, **options):

@@ -19,6 +19,10 @@ SHEET = pathlib.Path(__file__).resolve().parent.parent / "slipfront.mplstyle"
 #: Short names of quantities for axes. Other quantities have their long_name. docs/NOTATION.md lists the symbols.
 NAMES = {
     "x": "position x",
+    "y": "position y",
+    "rupture_time": "rupture time",
+    "series_time": "time t",
+    "moment_rate": "moment rate",
     "time": "time t",
     "W": "slip velocity W",
     "Sigma": "stress Σ",
