@@ -192,3 +192,29 @@ test('units are those of the theory', () => {
   near(u.length, 0.01 / 0.003, 1e-14, 'length');
   near(u.speed, 5421.047417431508, 1e-14, 'c');
 });
+
+test('a loaded chain has the slip events of the program', () => {
+  const text = (name) => readFileSync(join(source, 'cases', name), 'utf8');
+  const runs = [['laboratory-block.toml', ['loading.stiffness=0.03 MPa/um'], 4], ['precursors.toml', ['time.end=0.8 s'], 2]];
+  for (const [name, changes, least] of runs) {
+    const theirs = program('chain', join(source, 'cases', name), '--si', '--quiet', '--set', ...changes).events;
+    const begun = call('loading_begin', text(name), changes.join('\n'));
+    let [more, results] = [{}, 0];
+    while (!more.finished) {
+      more = call('loading_go', 100);
+      assert.equal(more.error, undefined);
+      assert.equal(more.slip.length, more.time.length * begun.x.length);
+      results += more.time.length;
+    }
+    assert.ok(theirs.length >= least && results > 100, `${theirs.length} events, ${results} results`);
+    assert.equal(more.events.length, theirs.length);
+    // The series is the same until rounding errors have grown.
+    more.events.slice(0, least).forEach((mine, i) => {
+      for (const key of ['onset', 'duration', 'slip', 'largest_slip', 'load', 'stress_drop', 'peak_velocity', 'length']) near(mine[key], theirs[i][key], 1e-3, `${name}: ${key} of event ${i}`);
+      if (theirs[i].rupture_velocity !== null) near(mine.rupture_velocity, theirs[i].rupture_velocity, 1e-3, 'rupture velocity');
+    });
+    assert.equal(more.arrivals.length, begun.fronts_x.length * theirs.length);
+  }
+  assert.match(call('loading_begin', text('laboratory-block.toml'), 'friction.normal_stress=-1 MPa').error.message, /normal_stress/);
+  assert.match(call('loading_begin', text('step.toml'), '').error.problem, /no spring/);
+});

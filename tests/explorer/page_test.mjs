@@ -10,7 +10,7 @@ import { gzipSync } from 'node:zlib';
 import { axe, browser, collisions, eventually, factOf, keepTexts, open, ready, type, url } from './browser.mjs';
 
 const calm = { reducedMotion: 'reduce' };
-const routes = ['#/', '#/pulse', '#/pulse?compare=1&si=1', '#/dislocations?beads=20', '#/stress?event=Parkfield+2004', '#/riemann', '#/tour-is-none',
+const routes = ['#/', '#/pulse', '#/pulse?compare=1&si=1', '#/dislocations?beads=20', '#/stress?event=Parkfield+2004', '#/riemann', '#/loading', '#/loading?setup=edge&time.end=0.8', '#/tour-is-none',
   ...[2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12].map((fig) => `#/paper?fig=${fig}`)];
 
 async function violations(page) {
@@ -43,7 +43,7 @@ for (const hash of routes)
   });
 
 test('on a phone the controls are in the window, with the picture that they change', async () => {
-  for (const hash of ['#/pulse', '#/dislocations?beads=20', '#/stress', '#/riemann', '#/paper?fig=8']) {
+  for (const hash of ['#/pulse', '#/dislocations?beads=20', '#/loading', '#/stress', '#/riemann', '#/paper?fig=8']) {
     const page = await open(hash, { ...calm, viewport: { width: 360, height: 740 } });
     await ready(page);
     const control = page.locator('.controls :is(input, select)').first();
@@ -174,7 +174,8 @@ test('bad input: a sentence beside the field, and the picture stays', async () =
 
 test('any address: never a blank page', async () => {
   for (const hash of ['#/pulse?initial.stress_left=%00%ff&friction.law=%3Cscript%3E', '#/pulse?time.end=1e99', '#/pulse?drawn=a:b,,&initial.profile=table', '#/riemann?left_stress=NaN', '#/stress?value=%E0%A4%A&range=x&given=y&event=z',
-    '#/paper?fig=99&left=-1', '#/paper?fig=2&stress=0', '#/dislocations?beads=1e9', '#/dislocations?beads=x', '#/x/y?z', '#/__proto__', '#/constructor', '#/paper?fig=__proto__', '#/stress?range=constructor&event=__proto__', '#/pulse?__proto__=1&friction.law=toString', '#/pulse?pulse.cells=1e8', '#/stress?my.rupture_velocity=9+km/s', '#/?tour=99', '#/pulse?si=1&medium.contact_ratio=9']) {
+    '#/paper?fig=99&left=-1', '#/paper?fig=2&stress=0', '#/dislocations?beads=1e9', '#/dislocations?beads=x', '#/x/y?z', '#/__proto__', '#/constructor', '#/paper?fig=__proto__', '#/stress?range=constructor&event=__proto__', '#/pulse?__proto__=1&friction.law=toString', '#/pulse?pulse.cells=1e8', '#/stress?my.rupture_velocity=9+km/s', '#/?tour=99', '#/pulse?si=1&medium.contact_ratio=9',
+    '#/loading?setup=__proto__&t=9&friction.normal_stress=x', '#/loading?time.end=1e9&loading.velocity=0']) {
     const page = await open(hash, calm);
     await page.waitForFunction(() => document.querySelector('main')?.innerText.length > 100);
     await page.waitForTimeout(700);
@@ -309,6 +310,87 @@ test('every plot has its table and its exports, which show negative slip velocit
   assert.ok(blue[0] > 500 && red[1] > 500 && blue[1] > 100, `${blue} blue, ${red} red`);
 });
 
+/** The file that the page saves when a button is pressed. */
+async function savedBy(page, button) {
+  const [download] = await Promise.all([page.waitForEvent('download'), button.click()]);
+  return { name: download.suggestedFilename(), content: readFileSync(await download.path()) };
+}
+
+test('a map is exported with its title, axes, fronts, colour bar and link', async () => {
+  for (const [hash, label] of [['#/pulse?t=0.5', 'W, in cA/π'], ['#/pulse?si=1', 'W, in cm/s'], ['#/paper?fig=7', 'W, in cA/π']]) {
+    const page = await open(hash, { ...calm, bypassCSP: true });
+    await ready(page);
+    const map = page.locator('figure.map');
+    await map.locator('summary').click();
+    const [png, svg] = [await savedBy(page, map.getByRole('button', { name: 'PNG' })), await savedBy(page, map.getByRole('button', { name: 'SVG' }))];
+    const text = svg.content.toString();
+    const texts = [...text.matchAll(/<text[^>]*>([^<]*)/g)].map((one) => one[1].replaceAll('&lt;', '<').replaceAll('&gt;', '>').replaceAll('&amp;', '&'));
+    for (const one of [await map.locator('figcaption').evaluate((caption) => caption.firstChild.data), ...(hash.includes('pulse') ? ['V−', 'V+'] : []), label]) assert.ok(texts.includes(one), `${one} in ${texts}`);
+    assert.ok(texts.some((one) => /^x, in/.test(one)) && texts.some((one) => /^t, in/.test(one)), `${texts}`);
+    assert.ok(texts.join('').includes(page.url()), page.url());
+    assert.deepEqual([png.content.readUInt32BE(16), png.content.readUInt32BE(20)], [2, 2].map((twice, i) => twice * Number(/viewBox="0 0 (\d+) (\d+)"/.exec(text)[i + 1])));
+    if (process.env.SLIPFRONT_SCREENS_FOLDER) writeFileSync(`${process.env.SLIPFRONT_SCREENS_FOLDER}/map${hash.replace(/\W/g, '')}.png`, png.content);
+    // The pulse and its colour bar are in the picture.
+    const [left, right] = await halves(page, `data:image/png;base64,${png.content.toString('base64')}`, 'r > b + 90');
+    assert.ok(left > 3000 && right > 3000, `${left} and ${right} pixels`);
+    await page.context().close();
+  }
+});
+
+test('a film shows the whole run', async () => {
+  for (const hash of ['#/pulse', '#/loading']) {
+    const page = await open(hash, { ...calm, bypassCSP: true });
+    await ready(page);
+    const film = await savedBy(page, page.getByRole('button', { name: 'Film (WebM)' }));
+    assert.match(film.name, /\.webm$/);
+    const [width, height, seconds, moved] = await page.evaluate(async (data) => {
+      const video = document.createElement('video');
+      video.muted = true;
+      video.src = `data:video/webm;base64,${data}`;
+      await new Promise((resolve) => (video.onloadeddata = resolve));
+      const picture = () => {
+        const ctx = new OffscreenCanvas(320, 180).getContext('2d');
+        ctx.drawImage(video, 0, 0, 320, 180);
+        return ctx.getImageData(0, 0, 320, 180).data;
+      };
+      const first = picture();
+      video.currentTime = 1e6; // its end
+      await new Promise((resolve) => (video.onseeked = resolve));
+      const last = picture();
+      return [video.videoWidth, video.videoHeight, video.currentTime, first.reduce((sum, value, i) => sum + (Math.abs(value - last[i]) > 60), 0)];
+    }, film.content.toString('base64'));
+    assert.deepEqual([width, height], [1280, 720]);
+    assert.ok(seconds > 7 && moved > 200, `${seconds} s, ${moved} pixels`);
+    if (process.env.SLIPFRONT_SCREENS_FOLDER) writeFileSync(`${process.env.SLIPFRONT_SCREENS_FOLDER}/${film.name}`, film.content);
+    await page.context().close();
+  }
+  const page = await open('#/pulse', { ...calm, init: () => delete window.MediaRecorder });
+  await ready(page);
+  await page.getByText('Film: This browser cannot record films.').waitFor();
+  await page.context().close();
+});
+
+test('a spring that is too stiff makes no stick-slip, and a softer one larger events', async () => {
+  const page = await open('#/loading', calm);
+  await ready(page);
+  const drop = async () => Number((await factOf(page, 'Stress drop')).split(' ')[0]);
+  const events = async () => Number((await factOf(page, 'Slip events')).split(',')[0]);
+  assert.equal(await events(), 6);
+  assert.equal(await factOf(page, 'Stiffness over the critical one'), '0.5');
+  const before = await drop();
+  await type(page, 'Stiffness of the spring, in MPa/µm', '0.01');
+  await eventually(async () => assert.ok((await drop()) > 1.05 * before));
+  await type(page, 'Stiffness of the spring, in MPa/µm', '0.1');
+  await page.getByText(/No slip event: the spring is stiffer than the critical one/).waitFor();
+  await type(page, 'Normal stress, in MPa', '-5');
+  await eventually(async () => assert.match(await page.locator('.field .error').innerText(), /Allowed/));
+  await type(page, 'Normal stress, in MPa', '5');
+  await page.getByText('Pushed at its edge').click();
+  await eventually(async () => assert.match(await factOf(page, 'Slip events'), /of which stop inside/));
+  assert.match(await page.locator('.command code').textContent(), /slipfront chain cases\/precursors\.toml --set 'friction\.normal_stress=5 MPa'/);
+  assert.deepEqual(page.complaints, []);
+});
+
 test('the equations of each panel have their numbers in the theory, and links to it where the page is part of the site', async () => {
   const source = process.env.SLIPFRONT_SOURCE;
   const formulas = JSON.parse(readFileSync(`${source}/apps/explorer/src/formulas.json`, 'utf8'));
@@ -334,7 +416,7 @@ test('the equations of each panel have their numbers in the theory, and links to
   const command = /sed -i ('s#.*?')/.exec(readFileSync(`${source}/docs/site/build`, 'utf8'))[0].replace('sed -i ', 'sed ');
   const body = execFileSync('sh', ['-c', `${command} "$1/index.html"`, 'sh', process.env.SLIPFRONT_PAGE]).toString();
   await page.route(url, (route) => route.fulfill({ body, contentType: 'text/html' }));
-  for (const hash of ['#/pulse', '#/dislocations?beads=20', '#/stress', '#/riemann', ...[2, 3, 4, 7].map((fig) => `#/paper?fig=${fig}`)]) {
+  for (const hash of ['#/pulse', '#/dislocations?beads=20', '#/loading', '#/stress', '#/riemann', ...[2, 3, 4, 7].map((fig) => `#/paper?fig=${fig}`)]) {
     const links = (await shown(hash)).map(({ link }) => link);
     assert.ok(links.length > 0 && links.every((link) => /^\.\.\/docs\/theory\/\d_\w+\.html$/.test(link)), `${hash}: ${links}`);
   }

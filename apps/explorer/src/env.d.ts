@@ -6,6 +6,10 @@ declare module '@wasm/*.wasm?url' {
   const address: string;
   export default address;
 }
+declare module '@cases/*?raw' {
+  const text: string;
+  export default text;
+}
 declare module '@events' {
   const events: { events: import('./model/events').PublishedEvent[] };
   export default events;

@@ -39,6 +39,10 @@ const pages: Record<string, Page> = {
     name: 'Dislocations', heading: 'Every dislocation', view: lazily(async () => (await import('./panels/dislocations')).DislocationsPanel),
     about: 'The same scenario without any average. Each bead is one dislocation: where it passes, the interface slips by one spacing of its asperities.',
   },
+  loading: {
+    name: 'Stick-slip', heading: 'Stick and slip', view: lazily(async () => (await import('./panels/loading')).LoadingPanel),
+    about: 'A spring pulls a block over a table. Its friction falls with the velocity, and rises while it rests. So it sticks, and slips, and sticks again. Change the spring, and see where that ends.',
+  },
   stress: {
     name: 'Stress and velocity', heading: 'Stress from observed velocities', view: lazily(async () => (await import('./panels/stress')).StressPanel),
     about: 'Without friction, the stress before a rupture fixes how fast it spreads and how fast it slips. Read backwards, observed velocities give the stress. Six decades of velocity are less than one decade of stress.',

@@ -45,8 +45,8 @@ const char* word_for(friction::CurveSource source) {
 
 }  // namespace
 
-scenario::Scenario scenario_of(const char* toml) {
-  return scenario::read_scenario(toml, "", {}, [](const std::string&, const std::string&, const std::string&) {
+scenario::Scenario scenario_of(const char* toml, const std::vector<std::string>& changes) {
+  return scenario::read_scenario(toml, "", changes, [](const std::string&, const std::string&, const std::string&) {
     if (table().empty())
       throw InputError({.key = "initial.file",
                         .problem = "the page has no such table",

@@ -111,6 +111,27 @@ export type PulseMore = Record<PulseField | PulseSeries, Float64Array> & {
   warnings?: string[];
 };
 
+/** A loaded chain, in SI units. `x` are its sites, and `fronts_x` the positions that record the arrival of slip events. */
+export interface LoadingBegun {
+  end: number;
+  pulls_an_end: boolean;
+  velocity: number;
+  event_velocity: number;
+  c: number;
+  stiffness_ratio: number | null;
+  warnings: string[];
+  x: Float64Array;
+  fronts_x: Float64Array;
+}
+export type SlipEvent = Record<'onset' | 'duration' | 'slip' | 'largest_slip' | 'load' | 'stress_drop' | 'peak_velocity' | 'origin' | 'length' | 'complete', number> & { rupture_velocity: number | null };
+/** Results since the last answer: `slip` and `velocity` hold all sites at one time after the other. `arrivals` hold one event after the other. */
+export type LoadingMore = Record<'time' | 'load' | 'speed' | 'slip' | 'velocity' | 'arrivals', Float64Array> & {
+  finished: boolean;
+  steps: number;
+  now: number;
+  events: SlipEvent[];
+};
+
 /** The functions of the module that the page calls: arguments and answers. */
 export interface Calls {
   relations: { arguments: [given: number, value: number]; answer: Relations };
@@ -124,6 +145,8 @@ export interface Calls {
   set_table: { arguments: [x: Float64Array, stress: Float64Array, rows: number]; answer: object };
   chain_begin: { arguments: [toml: string, dislocations: number, window: number]; answer: ChainBegun };
   chain_go: { arguments: [time: number, milliseconds: number, half: number]; answer: ChainAnswer };
+  loading_begin: { arguments: [toml: string, changes: string]; answer: LoadingBegun };
+  loading_go: { arguments: [milliseconds: number]; answer: LoadingMore };
   pulse_begin: { arguments: [slot: number, toml: string, frames: number, look: number, closure: number]; answer: PulseBegun };
   pulse_go: { arguments: [slot: number, milliseconds: number, first: number]; answer: PulseMore };
 }

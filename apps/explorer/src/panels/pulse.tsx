@@ -10,11 +10,14 @@ import { Controls } from '../ui/controls';
 import { Exchange } from '../ui/exchange';
 import { Equations } from '../ui/equations';
 import { CannotRun, Check } from '../ui/fields';
+import { Film, filmHeight, filmWidth } from '../ui/film';
 import { short } from '../ui/format';
 import { SpaceTime } from '../ui/picture/map';
 import { makePlayer, reducedMotion, Transport, type Player } from '../ui/player';
 import { Plot } from '../ui/picture/plot';
 import { ScenarioForm } from '../ui/scenario_form';
+import { svgOf } from '../ui/picture/svg';
+import { color } from '../ui/colors';
 import { rangeAround, reach, type Series, type Spec } from '../ui/picture/spec';
 import { stopAll } from '../engine/client';
 import { usePulse, type Shown } from './use_pulse';
@@ -187,10 +190,9 @@ export function PulsePanel() {
   const time = player.at.value * (run?.end ?? end);
   const t = scaleOf('t', end);
   const names: Record<string, string> = { consistent: 'exact average', paper: 'average of the paper' };
-  const specs = useMemo(() => {
+  const specsAt = (wanted: number): Spec[] | null => {
     if (!run || run.count < 1 || !run.fields.W.length) return null;
-    const shownEnd = run.series.time[run.count - 1];
-    const at = Math.min(time, shownEnd);
+    const at = Math.min(wanted, run.series.time[run.count - 1]);
     const curves: Curve[] = [{ run, label: compare ? names[run.closure] : 'now', color: (base) => base }];
     if (second?.fields.W.length) curves.push({ run: second, label: names[second.closure], color: (base) => `${base}-other`, dash: [6, 4] });
     // While a control moves, the slip velocity keeps its scale, so that one sees it grow.
@@ -200,7 +202,10 @@ export function PulsePanel() {
       profile('stress', 'Stress', 'Sigma', 'stress', 'Σ', 'stress', curves, at, extent('Sigma')),
       profile('dislocation-velocity', 'Velocity of the dislocations', 'U', 'velocity', 'U', 'speed', curves, at, extent('U')),
     ];
-  }, [run, second, time, extents, params.si, scaleOf('stress', 1).factor, scaleOf('x', 1).factor]);
+  };
+  const specs = useMemo(() => specsAt(time), [run, second, time, extents, params.si, scaleOf('stress', 1).factor, scaleOf('x', 1).factor]);
+  const film = (share: number) => specsAt(share * end)!.slice(0, 2).map((spec) =>
+    svgOf({ ...spec, title: `${spec.title} at t = ${short(share * end * t.factor, 3)} ${t.unit}` }, color, '', filmWidth, filmHeight / 2));
   const map = useMemo(() => whole && whole.count > 2 && mapOf(whole, time), [whole, time, params.si, scaleOf('x', 1).factor]);
   const energy = useMemo(() => whole && whole.count > 2 && energySpec(whole), [whole, params.si]);
   const settle = (at: number) => setParams({ t: at.toFixed(3), play: null });
@@ -234,6 +239,7 @@ export function PulsePanel() {
                 {energy && <Plot spec={energy} height={130} />}
               </div>
             </div>
+            {whole?.finished && !main.error && <Film name="pulse" pictures={film} />}
             {warnings.length > 0 && <ul class="warnings" aria-label="Warnings of the run">{warnings.map((w) => <li>{w}</li>)}</ul>}
             <Equations names={['number', 'momentum', 'friction']} />
           </div>

@@ -18,7 +18,8 @@ export const makePlayer = (at = 1): Player => ({ at: signal(at), playing: signal
 
 export const reducedMotion = () => matchMedia('(prefers-reduced-motion: reduce)').matches;
 
-export function Transport({ player, end, unit, factor, onSettle }: { player: Player; end: number; unit: string; factor: number; onSettle?: (at: number) => void }) {
+/** `time` is the text of the time, if time does not pass evenly while the run plays. */
+export function Transport({ player, end, unit, factor, time: text, onSettle }: { player: Player; end: number; unit: string; factor: number; time?: string; onSettle?: (at: number) => void }) {
   const last = useRef(0);
   useEffect(() => {
     if (!player.playing.value) return;
@@ -45,7 +46,7 @@ export function Transport({ player, end, unit, factor, onSettle }: { player: Pla
     player.playing.value = !player.playing.value;
     if (!player.playing.value) onSettle?.(player.at.value);
   };
-  const time = `t = ${short(player.at.value * end * factor, 3)} ${unit}`;
+  const time = text ?? `t = ${short(player.at.value * end * factor, 3)} ${unit}`;
   return (
     <div class="transport">
       <button type="button" class="play" onClick={toggle} aria-label={player.playing.value ? 'Pause' : 'Play'}>

@@ -2,7 +2,8 @@
 
 import { announce } from './announce';
 
-export function save(name: string, content: string | Blob, type = 'text/plain;charset=utf-8') {
+export function save(name: string, content: string | Blob | null, type = 'text/plain;charset=utf-8') {
+  if (content === null) return announce(`${name} could not be made`);
   const blob = typeof content === 'string' ? new Blob([content], { type }) : content;
   const link = document.createElement('a');
   link.href = URL.createObjectURL(blob);

@@ -1,12 +1,15 @@
 /** A picture of a field over x and t, with the fronts on it. */
 
 import { useEffect, useRef, useState } from 'preact/hooks';
-import { color, ramp, theme } from '../colors';
+import { color, theme } from '../colors';
 import { Data } from './data';
 import { short } from '../format';
 import { announce } from '../announce';
 import { save } from '../save';
-import { reach, ticks } from './spec';
+import { scaleOf, type Scale } from './map_scale';
+import { mapSvgOf } from './map_svg';
+import { addressOf, pngOf } from './raster';
+import { ticks } from './spec';
 
 export interface Field {
   title: string;
@@ -27,20 +30,6 @@ export interface Field {
 
 const margin = { left: 58, top: 6, bottom: 44 };
 const bar = { gap: 14, width: 11, title: 16 };
-
-/** The colours of a field: its range, and the colour of a value. Zero has the colour of the ground, and both signs have their own. */
-interface Scale {
-  range: [number, number];
-  colour: (value: number) => [number, number, number];
-}
-
-function scaleOf(values: ArrayLike<number>): Scale {
-  const range = reach(values);
-  const most = Math.max(-range[0], range[1]) || 1;
-  const [up, down] = ['map', 'cold'].map((name) => ramp([color('map-0'), ...[1, 2, 3].map((i) => color(`${name}-${i}`))]));
-  const share = (value: number) => (Number.isFinite(value) ? (Math.abs(value) / most) ** 0.6 : 0);
-  return { range, colour: (value) => (value < 0 ? down : up)(share(value)) };
-}
 
 /** The field without lines, one pixel per value. It is drawn only once, although the lines move over it often. */
 interface Picture {
@@ -166,7 +155,7 @@ export function SpaceTime({ field, height = 260, onPick }: { field: Field; heigh
           const share = 1 - (e.clientY - box.top - margin.top) / (height - margin.top - margin.bottom);
           onPick?.(Math.min(1, Math.max(0, share)) * field.t[nt - 1]);
         }} />
-      <MapData field={field} canvas={() => canvas.current} />
+      <MapData field={field} picture={picture.current} />
     </figure>
   );
 }
@@ -177,7 +166,8 @@ function csvOf(f: Field): string {
   return rows.join('\n') + '\n';
 }
 
-function MapData({ field: f, canvas }: { field: Field; canvas: () => HTMLCanvasElement | null }) {
+function MapData({ field: f, picture }: { field: Field; picture: Picture }) {
+  const svg = async () => mapSvgOf(f, picture.scale, await addressOf(picture.canvas), location.href);
   const columns = Array.from({ length: 9 }, (_, k) => Math.round((k / 8) * (f.x.length - 1)));
   const rows = Array.from({ length: 13 }, (_, k) => Math.round((k / 12) * (f.t.length - 1)));
   return (
@@ -185,7 +175,8 @@ function MapData({ field: f, canvas }: { field: Field; canvas: () => HTMLCanvasE
       of={f.title}
       buttons={() => (
         <>
-          <button type="button" onClick={() => canvas()?.toBlob((blob) => blob && save(`${f.name}.png`, blob))}>PNG</button>
+          <button type="button" onClick={async () => save(`${f.name}.png`, await pngOf(await svg()))}>PNG</button>
+          <button type="button" onClick={async () => save(`${f.name}.svg`, await svg(), 'image/svg+xml')}>SVG</button>
           <button type="button" onClick={() => save(`${f.name}.csv`, csvOf(f), 'text/csv')}>CSV</button>
         </>
       )}

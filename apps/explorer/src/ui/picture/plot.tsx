@@ -8,6 +8,7 @@ import { Data } from './data';
 import { short } from '../format';
 import { Handles, placeHandles } from './handles';
 import { save } from '../save';
+import { pngOf } from './raster';
 import { columns, csvOf, off, on, rangeOf, spread, ticks, tickText, type Path, type Spec } from './spec';
 import { svgOf } from './svg';
 
@@ -248,19 +249,6 @@ function Legend({ spec }: { spec: Spec }) {
   );
 }
 
-/** Saves an SVG text as PNG, at twice its size. */
-async function png(svg: string, name: string) {
-  const image = new Image();
-  image.src = URL.createObjectURL(new Blob([svg], { type: 'image/svg+xml' }));
-  await image.decode();
-  const canvas = document.createElement('canvas');
-  canvas.width = 2 * image.width;
-  canvas.height = 2 * image.height;
-  canvas.getContext('2d')!.drawImage(image, 0, 0, canvas.width, canvas.height);
-  URL.revokeObjectURL(image.src);
-  canvas.toBlob((blob) => blob && save(name, blob));
-}
-
 function PlotData({ spec }: { spec: Spec }) {
   const svg = () => svgOf(spec, color, location.href);
   return (
@@ -268,7 +256,7 @@ function PlotData({ spec }: { spec: Spec }) {
       of={spec.title}
       buttons={() => (
         <>
-          <button type="button" onClick={() => png(svg(), `${spec.name}.png`)}>PNG</button>
+          <button type="button" onClick={async () => save(`${spec.name}.png`, await pngOf(svg()))}>PNG</button>
           <button type="button" onClick={() => save(`${spec.name}.svg`, svg(), 'image/svg+xml')}>SVG</button>
           <button type="button" onClick={() => save(`${spec.name}.csv`, csvOf(spec), 'text/csv')}>CSV</button>
         </>
