@@ -1,4 +1,4 @@
-/** A film of a run, as WebM: the browser records a canvas that shows one picture after the other. */
+/** A film of a run, as WebM: the browser encodes one picture after the other. */
 
 import { useRef, useState } from 'preact/hooks';
 import { color } from './colors';
@@ -8,15 +8,10 @@ import { save } from './save';
 export const filmWidth = 960; // pixels of the pictures
 export const filmHeight = 540;
 const enlarged = 4 / 3;
+const [width, height] = [enlarged * filmWidth, enlarged * filmHeight];
 const perSecond = 25;
 const seconds = 8;
-const type = 'video/webm';
-
-/** Why the browser cannot make a film; an empty text if it can. */
-function missing(): string {
-  if (typeof MediaRecorder === 'undefined' || typeof HTMLCanvasElement.prototype.captureStream !== 'function') return 'This browser cannot record films.';
-  return MediaRecorder.isTypeSupported(type) ? '' : 'This browser cannot record WebM.';
-}
+const missing = 'This browser cannot encode films. It may be able to on a page that https or this machine serves.';
 
 /** Shows pictures, as SVG, below one another. */
 async function show(ctx: CanvasRenderingContext2D, pictures: string[]) {
@@ -26,56 +21,55 @@ async function show(ctx: CanvasRenderingContext2D, pictures: string[]) {
   images.forEach((image, i) => ctx.drawImage(image, 0, (i * filmHeight) / images.length));
 }
 
-/** Records a film of the pictures at 0 ... 1 of the run. It calls `progress` with the recorded fraction, and stops if the answer is false. */
-async function record(pictures: (at: number) => string[], progress: (share: number) => boolean): Promise<Blob | null> {
+/** Encodes a film of the pictures at 0 ... 1 of the run. It calls `progress` with the finished fraction, and stops if the answer is false. */
+async function encoded(pictures: (at: number) => string[], progress: (share: number) => boolean): Promise<Blob | null> {
+  const { ArrayBufferTarget, Muxer } = await import('webm-muxer');
   const canvas = document.createElement('canvas');
-  canvas.width = enlarged * filmWidth;
-  canvas.height = enlarged * filmHeight;
+  Object.assign(canvas, { width, height });
   const ctx = canvas.getContext('2d')!;
   ctx.scale(enlarged, enlarged);
-  await show(ctx, pictures(0));
-  const stream = canvas.captureStream(0);
-  const [track] = stream.getVideoTracks() as CanvasCaptureMediaStreamTrack[];
-  const recorder = new MediaRecorder(stream, { mimeType: type, videoBitsPerSecond: 4e6 });
-  const parts: Blob[] = [];
-  recorder.ondataavailable = ({ data }) => parts.push(data);
-  const stopped = new Promise((resolve) => (recorder.onstop = resolve));
-  recorder.start();
-  const began = performance.now();
+  const target = new ArrayBufferTarget();
+  const muxer = new Muxer({ target, video: { codec: 'V_VP8', width, height, frameRate: perSecond } });
+  let failure: Error | undefined;
+  const encoder = new VideoEncoder({ output: (chunk, about) => muxer.addVideoChunk(chunk, about), error: (error) => (failure = error) });
+  encoder.configure({ codec: 'vp8', width, height, bitrate: 4e6, framerate: perSecond });
   const frames = perSecond * seconds;
-  let wanted = true;
-  for (let i = 0; wanted && i <= frames; ++i) {
-    await show(ctx, pictures(i / frames));
-    await new Promise((resolve) => setTimeout(resolve, began + (1000 * i) / perSecond - performance.now()));
-    track.requestFrame();
-    wanted = progress(i / frames);
+  try {
+    for (let i = 0; i <= frames; ++i) {
+      await show(ctx, pictures(i / frames));
+      if (failure || !progress(i / frames)) return null;
+      const frame = new VideoFrame(canvas, { timestamp: (1e6 * i) / perSecond, duration: 1e6 / perSecond });
+      encoder.encode(frame, { keyFrame: i % perSecond === 0 });
+      frame.close();
+      while (encoder.encodeQueueSize > 4) await new Promise((resolve) => setTimeout(resolve, 5));
+    }
+    await encoder.flush();
+  } finally {
+    if (encoder.state !== 'closed') encoder.close();
   }
-  recorder.stop();
-  await stopped;
-  track.stop();
-  return wanted ? new Blob(parts, { type }) : null;
+  muxer.finalize();
+  return failure ? null : new Blob([target.buffer], { type: 'video/webm' });
 }
 
 export function Film({ name, pictures }: { name: string; pictures: (at: number) => string[] }) {
   const [share, setShare] = useState<number | null>(null);
   const wanted = useRef(true);
-  const reason = missing();
   const start = async () => {
     wanted.current = true;
     setShare(0);
-    const film = await record(pictures, (done) => {
+    const film = await encoded(pictures, (done) => {
       setShare(done);
       return wanted.current;
-    });
+    }).catch(() => null);
     setShare(null);
-    if (film) save(`${name}.webm`, film);
+    if (wanted.current) save(`${name}.webm`, film);
   };
-  if (reason) return <p class="hint">Film: {reason}</p>;
+  if (typeof VideoEncoder === 'undefined') return <p class="hint">{missing}</p>;
   return (
     <p class="buttons film">
       {share === null
-        ? <><button type="button" onClick={start}>Film (WebM)</button> <span class="hint">{seconds} s, {enlarged * filmWidth} × {enlarged * filmHeight}; recording takes as long</span></>
-        : <><button type="button" onClick={() => (wanted.current = false)}>Stop the film</button> <progress max={1} value={share} aria-label="Recorded" /></>}
+        ? <><button type="button" onClick={start}>Film (WebM)</button> <span class="hint">{seconds} s, {width} × {height}</span></>
+        : <><button type="button" onClick={() => (wanted.current = false)}>Stop the film</button> <progress max={1} value={share} aria-label="Finished share of the film" /></>}
     </p>
   );
 }
