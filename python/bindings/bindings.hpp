@@ -21,6 +21,7 @@ void bind_medium(py::module_& m);
 void bind_measured(py::module_& m);
 void bind_pulse(py::module_& m);
 void bind_chain(py::module_& m);
+void bind_plane(py::module_& m);
 void bind_compare(py::module_& m);
 void bind_event(py::module_& m);
 void bind_observations(py::module_& m);

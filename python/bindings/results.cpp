@@ -91,8 +91,7 @@ py::dict axes(const std::vector<double>& times, const std::vector<double>& edges
 }
 
 /// The variables of the slip events.
-template <class DescribedIn>
-py::list events_of(const record::PulseMetadata& metadata, const DescribedIn& described_in) {
+py::list events_of(const record::PulseMetadata& metadata, Describer& described_in) {
   py::list events;
   for (const output::SlipEventColumn& column : output::slip_event_columns()) {
     std::vector<double> values;
@@ -104,8 +103,7 @@ py::list events_of(const record::PulseMetadata& metadata, const DescribedIn& des
 }
 
 /// The positions, and the variables over event and position.
-template <class DescribedIn>
-py::tuple fronts_of(const output::FrontRecords& fronts, const DescribedIn& described_in) {
+py::tuple fronts_of(const output::FrontRecords& fronts, Describer& described_in) {
   const auto events = static_cast<py::ssize_t>(fronts.events.size()),
              positions = static_cast<py::ssize_t>(fronts.x.size());
   py::list columns;
@@ -121,6 +119,20 @@ py::tuple fronts_of(const output::FrontRecords& fronts, const DescribedIn& descr
 
 }  // namespace
 
+py::dict attributes_of(const record::PulseMetadata& metadata, const std::string& format, bool finished) {
+  py::dict attributes;
+  for (const auto& [name, value] : record::file_attributes(metadata, format))
+    attributes[py::str(name)] = py::str(py::bytes(value).attr("decode")("utf-8", "replace"));
+  attributes["finished"] = finished ? 1 : 0;
+  return attributes;
+}
+
+py::tuple Describer::operator()(const Description& about) {
+  const std::string unit(about.dimensional_unit);
+  if (si_ && !unit.empty()) units_[py::str(unit)] = si_tuple(si_->of(unit));
+  return described(about);
+}
+
 py::dict dataset_of(const record::PulseMetadata& metadata, const std::string& format, bool finished,
                     const std::vector<double>& times, const Levels& levels, bool by_level) {
   Shape over_time, over_time_and_x;
@@ -129,23 +141,14 @@ py::dict dataset_of(const record::PulseMetadata& metadata, const std::string& fo
   over_time_and_x = over_time;
   over_time_and_x.push_back(static_cast<py::ssize_t>(metadata.x_edges.size()) - 1);
 
-  py::dict attributes;
-  for (const auto& [name, value] : record::file_attributes(metadata, format))
-    attributes[py::str(name)] = py::str(py::bytes(value).attr("decode")("utf-8", "replace"));
-  attributes["finished"] = finished ? 1 : 0;
-  py::dict units;
-  const auto described_in = [&](const Description& about) {
-    const std::string unit(about.dimensional_unit);
-    if (metadata.units && !unit.empty()) units[py::str(unit)] = si_tuple(metadata.units->of(unit));
-    return described(about);
-  };
+  Describer described_in(metadata.units);
   py::list fields, scalars;
   for (const record::FieldVariable* variable : record::chosen_fields(metadata.variables))
     fields.append(py::make_tuple(described_in(variable->about), field(*variable, levels, over_time_and_x)));
   for (const record::ScalarVariable& variable : record::scalar_variables())
     scalars.append(py::make_tuple(described_in(variable.about), scalar(variable, levels, over_time)));
   py::dict result;
-  result["attributes"] = attributes;
+  result["attributes"] = attributes_of(metadata, format, finished);
   result["axes"] = axes(times, metadata.x_edges);
   result["fields"] = fields;
   result["scalars"] = scalars;
@@ -154,7 +157,7 @@ py::dict dataset_of(const record::PulseMetadata& metadata, const std::string& fo
   if (!metadata.fronts.events.empty()) result["fronts"] = fronts_of(metadata.fronts, described_in);
   const record::AxisVariables& axis = record::axis_variables();
   for (const Description& about : {axis.time, axis.x}) described_in(about);
-  result["units"] = units;
+  result["units"] = described_in.units();
   return result;
 }
 

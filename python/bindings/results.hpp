@@ -23,6 +23,22 @@ RunRequest request_of(const py::dict& arguments);
 
 slipfront::scenario::Scenario scenario_of(const RunRequest& request);
 
+/// Returns the attributes of the file of a run.
+py::dict attributes_of(const slipfront::record::PulseMetadata& metadata, const std::string& format, bool finished);
+
+/// Describes variables for the Python part, and collects the values of their units if the results are in SI units.
+class Describer {
+ public:
+  /// `si` must outlive this object.
+  explicit Describer(const std::optional<slipfront::medium::SiUnits>& si) : si_(si) {}
+  py::tuple operator()(const slipfront::Description& about);
+  const py::dict& units() const { return units_; }
+
+ private:
+  const std::optional<slipfront::medium::SiUnits>& si_;
+  py::dict units_;
+};
+
 /// One series of snapshots for each level of theory.
 using Levels = std::vector<const std::vector<slipfront::output::Snapshot>*>;
 

@@ -19,6 +19,7 @@ attribute `references` gives its equation in the paper (Gershenzon, Bambakidis a
     medium      constants of rock and interface (Eqs. 1-3)
     pulse       runs a scenario with the modulation equations and friction (Eqs. 7)
     chain       runs a scenario with every dislocation (Eqs. 1 and 3)
+    plane       runs a rupture on a fault plane (Eqs. 7 on a plane), or every dislocation line
     compare     runs a scenario with closed form, pulse and chain, and compares them
     sweep       runs a pulse or a chain over a grid of settings, on all cores or on a Dask cluster
     event       stress and contact ratio of observed events
@@ -47,6 +48,7 @@ from ._friction_ratio import damping_number, friction_ratio
 from ._fronts import fronts
 from ._laboratory import laboratory
 from ._hierarchy import population
+from ._plane import plane
 from ._potency import moment_duration
 from ._relations import relations
 from ._riemann import riemann
@@ -70,4 +72,4 @@ class _Package(types.ModuleType):
 sys.modules[__name__].__class__ = _Package
 
 __all__ = ["FileError", "InputError", "NumericsError", "__version__", "cases", "chain", "check", "compare", "damping_number", "event", "friction_ratio", "fronts", "laboratory", "medium",
-           "moment_duration", "open", "population", "pulse", "relations", "riemann", "sweep", "train"]
+           "moment_duration", "open", "plane", "population", "pulse", "relations", "riemann", "sweep", "train"]

@@ -1,4 +1,4 @@
-"""The functions that run scenarios, slipfront.pulse, chain, compare and check, and slipfront.open, which reads their files."""
+"""The functions that run scenarios along a line, slipfront.pulse, chain and compare; check; and slipfront.open, which reads their files."""
 
 import contextlib
 import os
@@ -17,14 +17,14 @@ from ._slipfront import FileError, InputError
 nan = float("nan")
 
 
-def _in_results(result, dims, values, about):
+def in_results(result, dims, values, about):
     """Returns a variable of a result in the units of the results."""
     attrs, unit = attributes(about), result["units"].get(about[2])
     return (dims, values * unit[0], _units.converted(attrs, unit)) if unit else (dims, values, attrs)
 
 
 def _axes(result):
-    axes = {name: _in_results(result, ("x", "ends") if name == "x_bounds" else name, values, about) for name, (about, values) in result["axes"].items()}
+    axes = {name: in_results(result, ("x", "ends") if name == "x_bounds" else name, values, about) for name, (about, values) in result["axes"].items()}
     coordinates = {name: axes[name] for name in ("time", "x")}
     coordinates["x"][2].update(axis="X", bounds="x_bounds")
     return coordinates, {"x_bounds": axes["x_bounds"]}
@@ -36,15 +36,15 @@ def _dataset(result, front=()):
         warnings.warn(warning, stacklevel=3)
     coordinates, variables = _axes(result)
     for about, values in result["fields"]:
-        variables[about[0]] = _in_results(result, front + ("time", "x"), values, about)
+        variables[about[0]] = in_results(result, front + ("time", "x"), values, about)
     for about, values in result["scalars"]:
-        variables[about[0]] = _in_results(result, front + ("time",), values, about)
+        variables[about[0]] = in_results(result, front + ("time",), values, about)
     for name, about, values in result.get("events", ()):
-        variables[name] = _in_results(result, "event", values, about)
+        variables[name] = in_results(result, "event", values, about)
     if "fronts" in result:
         about, positions, columns = result["fronts"]
-        coordinates[about[0]] = _in_results(result, about[0], positions, about)
-        variables.update({about[0]: _in_results(result, ("event", "position"), values, about) for about, values in columns})
+        coordinates[about[0]] = in_results(result, about[0], positions, about)
+        variables.update({about[0]: in_results(result, ("event", "position"), values, about) for about, values in columns})
     errors = {f"{key}_error": error for key, error in result.get("errors", {}).items()}
     return dataset(variables, coordinates, {**result["attributes"], **result["summary"], **errors})
 
@@ -222,7 +222,7 @@ def check(scenario, *, set=None, command="pulse", scales=()):
     ----------
     scenario, set
         As in `pulse`.
-    command : "pulse", "chain" or "compare", optional
+    command : "pulse", "chain", "plane" or "compare", optional
         The run to check.
     scales : sequence of float, optional
         Scales of the chains of "compare".
@@ -246,13 +246,15 @@ def check(scenario, *, set=None, command="pulse", scales=()):
         return Plan(_slipfront.check_pulse(request))
     if command == "chain":
         return Plan(_slipfront.check_chain(request))
+    if command == "plane":
+        return Plan(_slipfront.check_plane(request))
     if command == "compare":
         return Plan(_slipfront.check_compare(request, _scales(scales)))
-    raise InputError(f"command = '{shown(command)}': unknown; allowed: pulse, chain, compare")
+    raise InputError(f"command = '{shown(command)}': unknown; allowed: pulse, chain, plane, compare")
 
 
 def open(file, *, group=None, si=None):
-    """Reads a NetCDF file that pulse, chain, compare, sweep or event has written.
+    """Reads a NetCDF file that pulse, chain, plane, compare, sweep or event has written.
 
     Parameters
     ----------

@@ -1,0 +1,153 @@
+#include "run/plane.hpp"
+
+#include <pybind11/stl.h>
+
+#include <cmath>
+
+#include "record/planes/plane_variables.hpp"
+#include "results.hpp"
+#include "run/plane_summary.hpp"
+#include "watch.hpp"
+
+namespace {
+
+using namespace slipfront;
+using Shape = std::vector<py::ssize_t>;
+
+py::array_t<double> array(const Shape& shape, const std::vector<double>& values) {
+  return py::array_t<double>(shape, values.data());
+}
+
+py::ssize_t size_of(const std::vector<double>& values) { return static_cast<py::ssize_t>(values.size()); }
+
+/// The summary as {key: value}; a list of probes is a list. Keys of energies begin with "energy_".
+void add_rows(py::dict& summary, py::dict& errors, const std::vector<run::PlaneRow>& rows, const std::string& prefix) {
+  for (const run::PlaneRow& row : rows) {
+    const py::str key(prefix + row.key);
+    if (row.is_list)
+      summary[key] = py::cast(row.values);
+    else
+      summary[key] = row.is_whole ? py::cast(static_cast<long>(row.values.front())) : py::cast(row.values.front());
+    bool known = !row.errors.empty();
+    for (const double error : row.errors) known = known && std::isfinite(error);
+    if (known) errors[key] = row.is_list ? py::cast(row.errors) : py::cast(row.errors.front());
+  }
+}
+
+std::vector<double> centres(double from, double to, int cells) {
+  std::vector<double> all;
+  all.reserve(static_cast<std::size_t>(cells));
+  for (int i = 0; i < cells; ++i) all.push_back(from + (to - from) * (i + 0.5) / cells);
+  return all;
+}
+
+py::dict axes_of(const run::PlanePlan& plan, const plane::Run& run, Describer& described_in) {
+  std::vector<double> times;
+  for (const plane::Field& field : run.snapshots()) times.push_back(field.time);
+  py::dict axes;
+  const auto add = [&](const Description& about, const std::vector<double>& values) {
+    axes[py::str(std::string(about.name))] = py::make_tuple(described_in(about), array({size_of(values)}, values));
+  };
+  add(record::plane_time, times);
+  add(record::plane_y, centres(plan.grid.bottom, plan.grid.top, plan.grid.ny));
+  add(record::plane_x, centres(plan.grid.left, plan.grid.right, plan.grid.nx));
+  return axes;
+}
+
+/// Variables over time, y and x.
+py::list fields_of(const Shape& cells, const plane::Run& run, Describer& described_in) {
+  py::list fields;
+  for (const record::PlaneField& field : record::plane_fields()) {
+    std::vector<double> all;
+    for (const plane::Field& snapshot : run.snapshots())
+      all.insert(all.end(), (snapshot.*field.values).begin(), (snapshot.*field.values).end());
+    const auto times = static_cast<py::ssize_t>(run.snapshots().size());
+    fields.append(py::make_tuple(described_in(field.about), array({times, cells[0], cells[1]}, all)));
+  }
+  return fields;
+}
+
+py::list maps_of(const Shape& cells, const plane::Run& run, Describer& described_in) {
+  py::list maps;
+  for (const record::PlaneMap& map : record::plane_maps())
+    maps.append(py::make_tuple(described_in(map.about), array(cells, run.maps().*map.values)));
+  return maps;
+}
+
+py::list series_of(const plane::Run& run, Describer& described_in) {
+  py::list series;
+  for (const record::PlaneSeries& column : record::plane_series()) {
+    std::vector<double> values;
+    values.reserve(run.series().size());
+    for (const plane::SeriesRow& row : run.series()) values.push_back(column.get(row));
+    series.append(py::make_tuple(described_in(column.about), array({size_of(values)}, values)));
+  }
+  return series;
+}
+
+/// Returns {attributes, axes, fields, maps, series, warnings, units, summary, errors} for the Python part.
+py::dict dataset_of(const scenario::Scenario& s, const run::PlanePlan& plan, const run::PlaneResult& result,
+                    const run::PlaneNumbers& errors) {
+  const plane::Run& run = *result.run;
+  const Shape cells = {plan.grid.ny, plan.grid.nx};
+  Describer described_in(result.metadata.units);
+  py::dict data;
+  data["attributes"] = attributes_of(result.metadata, record::plane_format, result.finished());
+  data["axes"] = axes_of(plan, run, described_in);
+  data["fields"] = fields_of(cells, run, described_in);
+  data["maps"] = maps_of(cells, run, described_in);
+  data["series"] = series_of(run, described_in);
+  data["warnings"] = py::cast(result.metadata.warnings);
+  const run::PlaneSummary summary = run::summary_of(s, result, errors);
+  py::dict of_summary, of_errors;
+  add_rows(of_summary, of_errors, summary.rows, "");
+  add_rows(of_summary, of_errors, summary.energies, "energy_");
+  add_rows(of_summary, of_errors, summary.counts, "");
+  data["summary"] = of_summary;
+  data["errors"] = of_errors;
+  data["units"] = described_in.units();
+  return data;
+}
+
+py::dict run_plane(const py::dict& arguments, bool direct, bool with_errors, int threads) {
+  const auto begun = Clock::now();
+  const RunRequest a = request_of(arguments);
+  const scenario::Scenario s = scenario_of(a);
+  Watch watch(a.progress, s.end);
+  run::PlanePlan plan;
+  run::PlaneResult result;
+  run::PlaneNumbers errors;
+  {
+    const py::gil_scoped_release others_may_run;
+    plan = run::plan_plane(s);
+    run::PlaneOptions options{.common = {.threads = threads, .begun = begun},
+                              .lines = direct ? setup::Lines::direct : setup::Lines::averaged};
+    if (!a.resume.empty()) options.checkpoint = run::plane_checkpoint_of(a.resume, s);
+    options.common.output = run::output_of(a.output, a.resume, options.checkpoint && options.checkpoint->finished);
+    options.common.after_step = [&](double time, long steps) { return watch(time, steps); };
+    result = run::plane(s, plan, options);
+    errors = with_errors && !direct && result.finished()
+                 ? run::plane_errors(s, result.numbers, [&] { return watch.interrupted(); })
+                 : run::unknown_errors(result.numbers);
+  }
+  watch.finish();
+  return dataset_of(s, plan, result, errors);
+}
+
+py::dict check_plane(const py::dict& arguments) {
+  using namespace pybind11::literals;
+  const scenario::Scenario s = scenario_of(request_of(arguments));
+  const run::PlanePlan plan = run::plan_plane(s);
+  setup::plane_solver(s, setup::Lines::averaged, 1);
+  return py::dict("title"_a = s.title, "loops"_a = s.plane->loops, "angles"_a = s.plane->angles,
+                  "left"_a = plan.grid.left, "right"_a = plan.grid.right, "bottom"_a = plan.grid.bottom,
+                  "top"_a = plan.grid.top, "cells_x"_a = plan.grid.nx, "cells_y"_a = plan.grid.ny, "end"_a = s.end,
+                  "disk_bytes"_a = plan.disk);
+}
+
+}  // namespace
+
+void bind_plane(py::module_& m) {
+  m.def("plane", run_plane);
+  m.def("check_plane", check_plane);
+}
