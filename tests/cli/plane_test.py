@@ -8,7 +8,7 @@ import unittest
 import netCDF4
 import numpy as np
 
-from support import CommandLine, SOURCE
+from support import CommandLine, SANITIZED, SOURCE
 
 RINGS = os.path.join(SOURCE, "cases/plane-rings.toml")
 FRICTION = os.path.join(SOURCE, "cases/plane-friction.toml")
@@ -36,6 +36,7 @@ class Plane(CommandLine):
         self.assertLess(abs(energy["kinetic"] + energy["elastic"] + energy["dissipated"]), 0.01 * energy["dissipated"])
         self.assertEqual(energy["supplied"], 0)
 
+    @unittest.skipIf(SANITIZED, "compares numbers, which other builds do")
     def test_friction_on_one_side_turns_the_rupture_to_the_other(self):
         """The reference is a direct simulation of every line at scale 160."""
         out = self.plane(FRICTION)
@@ -67,6 +68,7 @@ class Plane(CommandLine):
             self.assertTrue(np.all(np.diff(known) > 0))
             self.assertEqual(file.getncattr("finished"), 1)
 
+    @unittest.skipIf(SANITIZED, "compares numbers, which other builds do")
     def test_a_ratio_of_wave_speeds_stretches_the_rupture(self):
         """With half the wave speed along y, the same loops are ellipses: all values follow from those of the round ones."""
         case = self.file("case.toml", "[plane]\nleft = -3.2\nright = 3.2\nbottom = -3.2\ntop = 3.2\n[initial]\nprofile = 'formula'\n"
