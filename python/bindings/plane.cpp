@@ -34,13 +34,6 @@ void add_rows(py::dict& summary, py::dict& errors, const std::vector<run::PlaneR
   }
 }
 
-std::vector<double> centres(double from, double to, int cells) {
-  std::vector<double> all;
-  all.reserve(static_cast<std::size_t>(cells));
-  for (int i = 0; i < cells; ++i) all.push_back(from + (to - from) * (i + 0.5) / cells);
-  return all;
-}
-
 py::dict axes_of(const run::PlanePlan& plan, const plane::Run& run, Describer& described_in) {
   std::vector<double> times;
   for (const plane::Field& field : run.snapshots()) times.push_back(field.time);
@@ -49,8 +42,8 @@ py::dict axes_of(const run::PlanePlan& plan, const plane::Run& run, Describer& d
     axes[py::str(std::string(about.name))] = py::make_tuple(described_in(about), array({size_of(values)}, values));
   };
   add(record::plane_time, times);
-  add(record::plane_y, centres(plan.grid.bottom, plan.grid.top, plan.grid.ny));
-  add(record::plane_x, centres(plan.grid.left, plan.grid.right, plan.grid.nx));
+  add(record::plane_y, plan.grid.y());
+  add(record::plane_x, plan.grid.x());
   return axes;
 }
 

@@ -70,8 +70,8 @@ class PlaneWriter {
     std::vector<double> times;
     for (const plane::Field& field : run_.snapshots()) times.push_back(field.time);
     file_.write(time_, times);
-    file_.write(y_, centres(grid_.bottom, grid_.top, grid_.ny));
-    file_.write(x_, centres(grid_.left, grid_.right, grid_.nx));
+    file_.write(y_, grid_.y());
+    file_.write(x_, grid_.x());
     for (std::size_t i = 0; i < fields_.size(); ++i)
       for (std::size_t row = 0; row < times.size(); ++row)
         file_.write_row(fields_[i], row, run_.snapshots()[row].*plane_fields()[i].values);
@@ -97,6 +97,9 @@ class PlaneWriter {
 };
 
 }  // namespace
+
+std::vector<double> PlaneGrid::x() const { return centres(left, right, nx); }
+std::vector<double> PlaneGrid::y() const { return centres(bottom, top, ny); }
 
 void write_plane(const std::string& path, const PulseMetadata& metadata, const PlaneGrid& grid, const plane::Run& run) {
   const std::size_t cells = static_cast<std::size_t>(grid.nx) * static_cast<std::size_t>(grid.ny);

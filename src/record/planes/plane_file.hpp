@@ -17,6 +17,9 @@ inline constexpr const char* plane_format = "plane 1";
 struct PlaneGrid {
   double left = -1, right = 1, bottom = -1, top = 1;
   int nx = 0, ny = 0;
+
+  std::vector<double> x() const;  ///< centres of the cells
+  std::vector<double> y() const;
 };
 
 /// An unfinished or a finished run.
