@@ -20,18 +20,13 @@ sys.path.insert(0, str(HERE.parent / "tests" / "reference"))
 import rings  # noqa: E402
 
 
-def resting(inner, outer, flow):
-    """Rings in equilibrium, J0 = flow / r."""
-    return rings.Rings(inner, outer, lambda r: rings.density(rings.psi_of_flow(flow / r)))
-
-
 NONE: dict[str, object] = {"law": "none"}
 #: name: rings, friction of the scenario and as a function, end, probes
 SETS = {
-    "J0 = 4 / r from 1 to 2, no friction": (resting(1, 2, 4), NONE, None, 1, [1.25, 1.65, 2.05]),
-    "J0 = 9 / r from 2 to 3, f = 0.2 w": (resting(2, 3, 9), {"law": "viscous", "coefficient": 0.2}, lambda w: 0.2 * w, 1.5, [2.3, 2.8, 3.2]),
-    "J0 = 4 / r from 1 to 2, f = 1.5 w^2": (resting(1, 2, 4), {"law": "power", "coefficient": 1.5, "exponent": 2}, lambda w: 1.5 * np.abs(w) * w, 2, [1.25, 1.65, 2.05]),
-    "J0 = 4 / r from 1 to 2, f = 10 w": (resting(1, 2, 4), {"law": "viscous", "coefficient": 10}, lambda w: 10 * w, 5, [1.25, 1.65, 2.05]),
+    "J0 = 4 / r from 1 to 2, no friction": (rings.in_equilibrium(1, 2, 4), NONE, None, 1, [1.25, 1.65, 2.05]),
+    "J0 = 9 / r from 2 to 3, f = 0.2 w": (rings.in_equilibrium(2, 3, 9), {"law": "viscous", "coefficient": 0.2}, lambda w: 0.2 * w, 1.5, [2.3, 2.8, 3.2]),
+    "J0 = 4 / r from 1 to 2, f = 1.5 w^2": (rings.in_equilibrium(1, 2, 4), {"law": "power", "coefficient": 1.5, "exponent": 2}, lambda w: 1.5 * np.abs(w) * w, 2, [1.25, 1.65, 2.05]),
+    "J0 = 4 / r from 1 to 2, f = 10 w": (rings.in_equilibrium(1, 2, 4), {"law": "viscous", "coefficient": 10}, lambda w: 10 * w, 5, [1.25, 1.65, 2.05]),
 }
 SHOCK = (rings.Rings(0.5, 1.5, lambda r: 1.6 - 0.4 * r), NONE, None, 1, [0.6, 0.8, 1., 1.2])
 

@@ -38,7 +38,7 @@ def rupture(radius, held, flow, friction, loops=40):
 
 def _rupture(radius, held, flow, friction, loops):
     inner = held * radius
-    table = rings.Rings(inner, radius, lambda r: rings.density(rings.psi_of_flow(flow * radius / 2 / r)), points=201).table()
+    table = rings.in_equilibrium(inner, radius, flow * radius / 2, points=201).table()
     end = (2 + friction * radius) * radius
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder) / "rings.csv"

@@ -13,10 +13,6 @@ sys.path.insert(0, os.path.join(SOURCE, "tests/reference"))
 import rings  # noqa: E402
 
 
-def resting(inner, outer, flow):
-    return rings.Rings(inner, outer, lambda r: rings.density(rings.psi_of_flow(flow / r)))
-
-
 class PlaneRings(CommandLine):
     def agrees(self, ring, settings, friction, end, probes, within):
         half = ring.r[-1] + end + 0.2
@@ -30,17 +26,17 @@ class PlaneRings(CommandLine):
             self.assertLess(abs(ours / theirs - 1), within, f"{ours} and {theirs}")
 
     def test_no_friction(self):
-        self.agrees(resting(1, 2, 4), [], None, 1, [1.25, 1.65, 2.05], 0.004)
+        self.agrees(rings.in_equilibrium(1, 2, 4), [], None, 1, [1.25, 1.65, 2.05], 0.004)
 
     def test_viscous(self):
-        self.agrees(resting(2, 3, 9), ["friction.law=viscous", "friction.coefficient=0.2"], lambda w: 0.2 * w, 1.5, [2.3, 2.8, 3.2], 0.004)
+        self.agrees(rings.in_equilibrium(2, 3, 9), ["friction.law=viscous", "friction.coefficient=0.2"], lambda w: 0.2 * w, 1.5, [2.3, 2.8, 3.2], 0.004)
 
     def test_power_law(self):
-        self.agrees(resting(1, 2, 4), ["friction.law=power", "friction.coefficient=1.5", "friction.exponent=2"],
+        self.agrees(rings.in_equilibrium(1, 2, 4), ["friction.law=power", "friction.coefficient=1.5", "friction.exponent=2"],
                     lambda w: 1.5 * np.abs(w) * w, 2, [1.25, 1.65, 2.05], 0.005)
 
     def test_strong_friction(self):
-        self.agrees(resting(1, 2, 4), ["friction.law=viscous", "friction.coefficient=10"], lambda w: 10 * w, 2.5, [1.65, 2.05], 0.01)
+        self.agrees(rings.in_equilibrium(1, 2, 4), ["friction.law=viscous", "friction.coefficient=10"], lambda w: 10 * w, 2.5, [1.65, 2.05], 0.01)
 
 
 if __name__ == "__main__":

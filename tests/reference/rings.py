@@ -45,6 +45,11 @@ class Rings:
         return "r,slip\n" + "".join(f"{r:.12g},{u:.12g}\n" for r, u in zip(self.r, self.slip))
 
 
+def in_equilibrium(inner, outer, flow, points=401):
+    """Rings at rest with J0 = flow / r, whose tension balances their pressure."""
+    return Rings(inner, outer, lambda r: density(psi_of_flow(flow / r)), points)
+
+
 def resting(rings, scale, rho):
     """The displacement u of resting lines at the distances rho of the stretched plane."""
     r = rho / scale

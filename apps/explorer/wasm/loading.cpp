@@ -140,8 +140,6 @@ SLIPFRONT_EXPORT const char* loading_begin(const char* toml, const char* changes
         .put("end", now.end * now.unit.time)
         .put("pulls_an_end", pulls_an_end(*now.chain))
         .put("velocity", loading.velocity * now.unit.velocity)
-        .put("event_velocity", loading.event_velocity * now.unit.velocity)
-        .put("c", now.si.of("c").value)
         .put("stiffness_ratio", setup::numbers_of(s).stiffness_ratio)
         .put("warnings", s.warnings)
         .numbers("x", x)

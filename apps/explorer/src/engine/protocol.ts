@@ -116,8 +116,6 @@ export interface LoadingBegun {
   end: number;
   pulls_an_end: boolean;
   velocity: number;
-  event_velocity: number;
-  c: number;
   stiffness_ratio: number | null;
   warnings: string[];
   x: Float64Array;

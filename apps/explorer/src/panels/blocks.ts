@@ -8,7 +8,7 @@ const spring = { rest: 90, room: 60, turns: 8 };
 const edge = 16;
 
 /** Decades of slip velocity between the velocity of the spring and the fastest slip of a run. */
-export function tintOf(run: LoadedRun): (speed: number) => string {
+function tintOf(run: LoadedRun): (speed: number) => string {
   const colours = ramp([color('map-0'), ...[1, 2, 3].map((i) => color(`map-${i}`))]);
   const [least, most] = [Math.log10(run.begun.velocity), Math.log10(run.speed.reduce((a, b) => Math.max(a, b), 10 * run.begun.velocity))];
   return (speed) => `rgb(${colours((Math.log10(Math.max(speed, 1e-300)) - least) / (most - least)).map(Math.round)})`;
