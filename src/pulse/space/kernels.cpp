@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "foundation/math/weno.hpp"
 #include "foundation/simd/elementary.hpp"
 #include "foundation/simd/elliptic_fit.hpp"
 #include "foundation/simd/reduce.hpp"
 #include "foundation/simd/vector_code.hpp"
 #include "modulation/equations.hpp"
-#include "pulse/space/weno.hpp"
 
 namespace slipfront::pulse {
 

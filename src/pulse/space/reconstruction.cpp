@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "foundation/math/weno.hpp"
 #include "pulse/space/kernels.hpp"
 #include "pulse/space/semidiscrete.hpp"
-#include "pulse/space/weno.hpp"
 
 namespace slipfront::pulse {
 

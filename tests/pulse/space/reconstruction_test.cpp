@@ -8,8 +8,8 @@
 #include <numbers>
 #include <vector>
 
+#include "foundation/math/weno.hpp"
 #include "pulse/space/kernels.hpp"
-#include "pulse/space/weno.hpp"
 
 namespace {
 
