@@ -114,13 +114,18 @@ double RunObserver::middle_of_cell(std::size_t i) const {
 
 double RunObserver::centre_of_cell(std::size_t i) const {
   const double half = width_of_cell(i) / 2 * (1 + 1e-9);  // so that the window does not leave the chain
-  const Grid& grid = chain_.problem().grid;               // the last site of a ring is a spacing before its end
-  return std::clamp(middle_of_cell(i), scaled_.left + half, grid.x(grid.sites - 1) / scaled_.scale - half);
+  return std::clamp(middle_of_cell(i), scaled_.left + half, last_site() - half);
 }
 
 double RunObserver::width_of_cell(std::size_t i) const {
   const double cell = schedule_.x_edges[i + 1] - schedule_.x_edges[i];
-  return std::min(std::max(cell, spacing_of_train(scaled_)), (scaled_.right - scaled_.left) * (1 - 1e-6));
+  return std::min(std::max(cell, spacing_of_train(scaled_)), (last_site() - scaled_.left) * (1 - 1e-6));
+}
+
+/// The last site of a ring is a spacing before its end.
+double RunObserver::last_site() const {
+  const Grid& grid = chain_.problem().grid;
+  return grid.x(grid.sites - 1) / scaled_.scale;
 }
 
 long RunObserver::steps_to_sample() const {

@@ -61,6 +61,7 @@ class RunObserver {
   }
   void choose_windows();
   double width_of_cell(std::size_t i) const;
+  double last_site() const;
   double middle_of_cell(std::size_t i) const;
   double centre_of_cell(std::size_t i) const;  ///< centre of the window of its slip, which must not leave the chain
   Work work_until(const Totals& now) const;

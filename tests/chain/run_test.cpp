@@ -30,6 +30,18 @@ output::Schedule schedule(std::vector<double> times) {
   return when;
 }
 
+/// A ring of one dislocation, which the window of an average surrounds.
+TEST(ChainRun, AWindowFitsIntoAShortRing) {
+  chain::ScaledProblem s = step(1);
+  s.left = -6;
+  s.right = 6;
+  s.stress = [](double) { return pi / 6; };
+  s.boundary = {.periodic = true, .charge = 1};
+  chain::Run run(s, {.times = {0, 1}, .x_edges = {-6, 6}}, {});
+  EXPECT_TRUE(run.go());
+  EXPECT_NEAR(run.snapshots().back().profile.k.front(), pi / 6, 0.1);
+}
+
 TEST(ChainRun, FrictionlessStepTendsToTheClosedForm) {
   const auto exact = rupture::from_stress(0.855);
   for (const double scale : {100.0, 400.0, 1600.0}) {
