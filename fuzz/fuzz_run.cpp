@@ -55,11 +55,11 @@ std::string positive(FuzzedDataProvider& data) {
 }
 
 /// Points of a table of stress, with gaps and steep walls.
-std::vector<std::pair<double, double>> table_rows(FuzzedDataProvider& data) {
+std::vector<std::vector<double>> table_rows(FuzzedDataProvider& data) {
   constexpr std::array<double, 5> stresses{0, 0, 1.2, 0.3, 0.0046}, distances{0.01, 0.05, 0.2, 0.7, 2};
-  std::vector<std::pair<double, double>> rows{{-10, 0.8}};
-  while (rows.back().first < 10)
-    rows.emplace_back(rows.back().first + data.PickValueInArray(distances), data.PickValueInArray(stresses));
+  std::vector<std::vector<double>> rows{{-10, 0.8}};
+  while (rows.back()[0] < 10)
+    rows.push_back({rows.back()[0] + data.PickValueInArray(distances), data.PickValueInArray(stresses)});
   return rows;
 }
 
@@ -174,8 +174,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   FuzzedDataProvider data(bytes, size);
   const std::string text = random_scenario(data);
   if (std::getenv("SLIPFRONT_PRINT")) std::fputs((text + "\n").c_str(), stderr);
-  const std::vector<std::pair<double, double>> rows = table_rows(data);
-  const auto table = [&rows](const std::string&, const std::string&, const std::string&) { return rows; };
+  const std::vector<std::vector<double>> rows = table_rows(data);
+  const auto table = [&rows](const std::string&, const std::vector<std::string>&) { return rows; };
   attempt([&] {
     const scenario::Scenario s = scenario::read_scenario(text, "fuzz.toml", {}, table);
     attempt([&] {

@@ -53,7 +53,7 @@ FOLDERS = {
         "explicit/levels": "model",
         "explicit": "explicit/levels model",
     },
-    "plane": {"averaged": ".", "direct": "."},
+    "plane": {"averaged": ".", "direct": ".", "grid": ". direct"},
     "pulse": {
         "grid": "",
         "space": "grid",

@@ -6,6 +6,7 @@
 #include "batch.hpp"
 #include "long_run.hpp"
 #include "plane_output.hpp"
+#include "run/fault_plane.hpp"
 #include "run/plane.hpp"
 #include "slipfront/plane/direct.hpp"
 #include "slipfront/setup/plane.hpp"
@@ -23,6 +24,7 @@ std::string solver_in_words(const scenario::Scenario& s, setup::Lines lines, int
                        plane::memory_of_direct(s.plane->problem, options) / 1e9);
   }
   setup::plane_solver(s, lines, threads);
+  if (s.plane->on_grid) return fmt::format("the mean slip in {} cells along x", s.plane->cells);
   return fmt::format("{} x {} cells of dislocation lines", s.plane->loops, s.plane->angles);
 }
 
@@ -42,9 +44,11 @@ run::PlaneNumbers errors_of(const scenario::Scenario& s, const run::PlaneNumbers
   return run::unknown_errors(numbers);
 }
 
-int run_plane(const ScenarioArguments& a, setup::Lines lines) {
-  const auto begun = Clock::now();
-  const scenario::Scenario s = read_scenario_of(a);
+bool is_model(const ScenarioArguments& a) { return a.scenario.ends_with(".fsp"); }
+
+/// Runs a scenario. If it was made from a finite-fault model, it compares the results with the model.
+int run_scenario(const ScenarioArguments& a, const scenario::Scenario& s, setup::Lines lines,
+                 const run::FaultOnPlane* model, Clock::time_point begun) {
   const run::PlanePlan plan = run::plan_plane(s);
   std::optional<record::PlaneCheckpoint> saved;
   if (!a.resume.empty()) saved = run::plane_checkpoint_of(a.resume, s);
@@ -58,8 +62,18 @@ int run_plane(const ScenarioArguments& a, setup::Lines lines) {
   const auto result =
       run::plane(s, plan, {.common = long_run.options({}, begun), .lines = lines, .checkpoint = std::move(saved)});
   if (const int code = long_run.end(result.finished()); code != exit_done) return code;
-  print_plane(s, result, errors_of(s, result.numbers, lines), a);
+  print_plane(s, result, errors_of(s, result.numbers, lines), model, a);
   return exit_done;
+}
+
+int run_plane(const ScenarioArguments& a, setup::Lines lines) {
+  const auto begun = Clock::now();
+  if (!is_model(a)) return run_scenario(a, read_scenario_of(a), lines, nullptr, begun);
+  require_one_scenario(a);
+  const run::FaultOnPlane model = run::fault_on_plane(record::read_text(a.scenario), a.scenario);
+  const scenario::Scenario s = prepared(run::scenario_of_fault(model, a.scenario, settings_of(a)), a);
+  if (!model.fault.note.empty() && !a.common.quiet) complain("warning: " + model.fault.note);
+  return run_scenario(a, s, setup::Lines::direct, &model, begun);
 }
 
 }  // namespace
@@ -72,9 +86,12 @@ Runner add_plane(CLI::App& app) {
       "\n  slipfront plane cases/plane-friction.toml -o plane.nc"
       "\n  slipfront plane cases/plane-friction.toml --set plane.loops=240 --json"
       "\n  slipfront plane cases/plane-friction.toml --direct --set chain.scale=40"
+      "\n  slipfront plane cases/synthetic-fault.fsp -o fault.nc"
       "\n  slipfront plane cases/plane-friction.toml --check");
   add_scenario_options(*command, *a);
   auto direct = std::make_shared<bool>(false);
-  command->add_flag("--direct", *direct, "Follow every dislocation line; chain.scale sets how many there are");
+  command->add_flag(
+      "--direct", *direct,
+      "Follow every dislocation line, as a finite-fault model always does; chain.scale sets how many there are");
   return [a, direct] { return run_plane(*a, *direct ? setup::Lines::direct : setup::Lines::averaged); };
 }

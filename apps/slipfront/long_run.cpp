@@ -10,6 +10,7 @@
 #include "batch.hpp"
 #include "json.hpp"
 #include "record/files/unfinished.hpp"
+#include "run/tables.hpp"
 #include "terminal_table.hpp"
 
 using namespace slipfront;
@@ -74,16 +75,28 @@ void add_scenario_options(CLI::App& command, ScenarioArguments& a, bool with_res
   add_common_options(command, a.common, false);
 }
 
-scenario::Scenario read_scenario_of(const ScenarioArguments& a) {
+void require_one_scenario(const ScenarioArguments& a) {
   if (a.scenario.empty() || !a.one_too_many.empty())
     throw InputError({.file = "command line",
                       .key = "SCENARIO",
                       .value = a.one_too_many,
                       .problem = a.scenario.empty() ? "missing" : "a second scenario file",
                       .allowed = "one file"});
+}
+
+scenario::Scenario read_scenario_of(const ScenarioArguments& a) {
+  require_one_scenario(a);
+  return prepared(scenario::read_scenario(record::read_text(a.scenario), a.scenario, settings_of(a), run::read_table),
+                  a);
+}
+
+std::vector<std::string> settings_of(const ScenarioArguments& a) {
   std::vector<std::string> set = a.set;
   set.insert(set.end(), a.more_set.begin(), a.more_set.end());
-  scenario::Scenario s = scenario::read_scenario(record::read_text(a.scenario), a.scenario, set, record::read_table);
+  return set;
+}
+
+scenario::Scenario prepared(scenario::Scenario s, const ScenarioArguments& a) {
   run::choose_units(s, a.si || a.dimensionless ? std::optional(a.si) : std::nullopt);
   if (!a.common.quiet)
     for (const std::string& warning : s.warnings) complain("warning: " + warning);

@@ -11,7 +11,6 @@
 #include "interrupts.hpp"
 #include "progress.hpp"
 #include "record/files/text_file.hpp"
-#include "record/netcdf/table_file.hpp"
 #include "run/run.hpp"
 #include "run/summary.hpp"
 #include "slipfront/scenario/scenario.hpp"
@@ -30,8 +29,14 @@ struct ScenarioArguments {
 void add_scenario_words(CLI::App& command, ScenarioArguments& arguments);
 void add_scenario_options(CLI::App& command, ScenarioArguments& arguments, bool with_resume = true);
 
+/// \throws InputError if no scenario or a second one is given.
+void require_one_scenario(const ScenarioArguments& arguments);
 /// Reads the scenario, chooses the units of its results, and prints its warnings.
 slipfront::scenario::Scenario read_scenario_of(const ScenarioArguments& arguments);
+/// All values of --set.
+std::vector<std::string> settings_of(const ScenarioArguments& arguments);
+/// Chooses the units of the results of a scenario, and prints its warnings.
+slipfront::scenario::Scenario prepared(slipfront::scenario::Scenario scenario, const ScenarioArguments& arguments);
 
 /// A number of the model in the units of the results, such as "0.1 m"; in the units of the model without a unit.
 std::string in_results(const slipfront::scenario::Scenario& scenario, double value, std::string_view unit);

@@ -63,8 +63,10 @@ void print(const std::string& prefix, const std::vector<run::PlaneRow>& rows) {
 }  // namespace
 
 void print_plane(const scenario::Scenario& s, const run::PlaneResult& result, const run::PlaneNumbers& errors,
-                 const ScenarioArguments& a) {
+                 const run::FaultOnPlane* model, const ScenarioArguments& a) {
   const run::PlaneSummary summary = summary_of(s, result, errors);
+  const std::vector<run::PlaneRow> of_model =
+      model ? run::compare_with_model(*model, s, result) : std::vector<run::PlaneRow>{};
   const std::vector<std::string>& warnings = result.metadata.warnings;
   if (!a.common.quiet)
     for (std::size_t i = s.warnings.size(); i < warnings.size(); ++i) complain("warning: " + warnings[i]);
@@ -73,6 +75,9 @@ void print_plane(const scenario::Scenario& s, const run::PlaneResult& result, co
     of_energy.add(summary.energies, s);
     all.add(summary.rows, s);
     all.add("energies", of_energy);
+    JsonParts comparison;
+    comparison.add(of_model, s);
+    if (model) all.values["model"] = comparison.values;
     all.add(summary.counts, s);
     Json j = all.values;
     j["errors"] = all.errors;
@@ -87,6 +92,7 @@ void print_plane(const scenario::Scenario& s, const run::PlaneResult& result, co
   if (!s.title.empty()) put(fitted(s.title));
   print("", summary.rows);
   print("energies.", summary.energies);
+  print("model.", of_model);
   print("", summary.counts);
   const std::string& output = a.output.empty() ? a.resume : a.output;
   if (!output.empty() && !a.common.quiet) put("written to " + output + "\n");

@@ -3,10 +3,14 @@
 #include <pybind11/stl.h>
 
 #include <cmath>
+#include <optional>
 
+#include "record/files/text_file.hpp"
 #include "record/planes/plane_variables.hpp"
 #include "results.hpp"
+#include "run/fault_plane.hpp"
 #include "run/plane_summary.hpp"
+#include "slipfront/plane/source_parameters.hpp"
 #include "watch.hpp"
 
 namespace {
@@ -62,8 +66,9 @@ py::list fields_of(const Shape& cells, const plane::Run& run, Describer& describ
 
 py::list maps_of(const Shape& cells, const plane::Run& run, Describer& described_in) {
   py::list maps;
+  const plane::Maps all = run.maps();
   for (const record::PlaneMap& map : record::plane_maps())
-    maps.append(py::make_tuple(described_in(map.about), array(cells, run.maps().*map.values)));
+    maps.append(py::make_tuple(described_in(map.about), array(cells, all.*map.values)));
   return maps;
 }
 
@@ -78,7 +83,30 @@ py::list series_of(const plane::Run& run, Describer& described_in) {
   return series;
 }
 
-/// Returns {attributes, axes, fields, maps, series, warnings, units, summary, errors} for the Python part.
+/// The spectrum of the moment rate over its frequencies.
+py::list spectrum_of(const plane::Run& run, Describer& described_in) {
+  const std::vector<double> frequencies = plane::spectrum_frequencies(run.series()),
+                            amplitudes = plane::spectrum(run.series(), frequencies);
+  py::list columns;
+  columns.append(py::make_tuple(described_in(record::plane_frequency), array({size_of(frequencies)}, frequencies)));
+  columns.append(py::make_tuple(described_in(record::plane_spectrum), array({size_of(amplitudes)}, amplitudes)));
+  return columns;
+}
+
+/// Variables over the points of dislocation lines, if the scenario asks for them.
+py::list lines_of(const plane::Run& run, Describer& described_in) {
+  py::list lines;
+  if (!run.schedule().lines) return lines;
+  const record::LinePoints points = record::line_points(run.snapshots());
+  for (const record::PlaneLine& line : record::plane_lines()) {
+    const std::vector<double>& values = points.*line.values;
+    lines.append(py::make_tuple(described_in(line.about), array({size_of(values)}, values)));
+  }
+  return lines;
+}
+
+/// Returns {attributes, axes, fields, maps, lines, series, spectrum, warnings, units, summary, errors} for the Python
+/// part.
 py::dict dataset_of(const scenario::Scenario& s, const run::PlanePlan& plan, const run::PlaneResult& result,
                     const run::PlaneNumbers& errors) {
   const plane::Run& run = *result.run;
@@ -89,7 +117,9 @@ py::dict dataset_of(const scenario::Scenario& s, const run::PlanePlan& plan, con
   data["axes"] = axes_of(plan, run, described_in);
   data["fields"] = fields_of(cells, run, described_in);
   data["maps"] = maps_of(cells, run, described_in);
+  data["lines"] = lines_of(run, described_in);
   data["series"] = series_of(run, described_in);
+  data["spectrum"] = spectrum_of(run, described_in);
   data["warnings"] = py::cast(result.metadata.warnings);
   const run::PlaneSummary summary = run::summary_of(s, result, errors);
   py::dict of_summary, of_errors;
@@ -102,10 +132,37 @@ py::dict dataset_of(const scenario::Scenario& s, const run::PlanePlan& plan, con
   return data;
 }
 
+bool is_model(const RunRequest& a) { return a.path.ends_with(".fsp"); }
+
+/// The scenario of a request, and the finite-fault model that it may name.
+struct Requested {
+  std::optional<run::FaultOnPlane> model;
+  scenario::Scenario scenario;
+};
+Requested requested(const RunRequest& a) {
+  if (!is_model(a)) return {.model = {}, .scenario = scenario_of(a)};
+  const py::gil_scoped_release others_may_run;
+  Requested all;
+  all.model = run::fault_on_plane(record::read_text(a.path), a.path);
+  all.scenario = run::scenario_of_fault(*all.model, a.path, a.set);
+  run::choose_units(all.scenario, a.si);
+  return all;
+}
+
+/// Adds the comparison with a model, and what the model left out.
+void add_model(py::dict& data, const run::FaultOnPlane& model, const scenario::Scenario& s,
+               const run::PlaneResult& result) {
+  py::dict summary = data["summary"], errors = data["errors"];
+  add_rows(summary, errors, run::compare_with_model(model, s, result), "model_");
+  if (!model.fault.note.empty()) data["warnings"].cast<py::list>().append(model.fault.note);
+}
+
 py::dict run_plane(const py::dict& arguments, bool direct, bool with_errors, int threads) {
   const auto begun = Clock::now();
   const RunRequest a = request_of(arguments);
-  const scenario::Scenario s = scenario_of(a);
+  const Requested all = requested(a);
+  const scenario::Scenario& s = all.scenario;
+  direct = direct || is_model(a);
   Watch watch(a.progress, s.end);
   run::PlanePlan plan;
   run::PlaneResult result;
@@ -124,14 +181,17 @@ py::dict run_plane(const py::dict& arguments, bool direct, bool with_errors, int
                  : run::unknown_errors(result.numbers);
   }
   watch.finish();
-  return dataset_of(s, plan, result, errors);
+  py::dict data = dataset_of(s, plan, result, errors);
+  if (all.model && result.finished()) add_model(data, *all.model, s, result);
+  return data;
 }
 
-py::dict check_plane(const py::dict& arguments) {
+py::dict check_plane(const py::dict& arguments, bool direct) {
   using namespace pybind11::literals;
-  const scenario::Scenario s = scenario_of(request_of(arguments));
+  const RunRequest a = request_of(arguments);
+  const scenario::Scenario s = requested(a).scenario;
   const run::PlanePlan plan = run::plan_plane(s);
-  setup::plane_solver(s, setup::Lines::averaged, 1);
+  setup::plane_solver(s, direct || is_model(a) ? setup::Lines::direct : setup::Lines::averaged, 1);
   return py::dict("title"_a = s.title, "loops"_a = s.plane->loops, "angles"_a = s.plane->angles,
                   "left"_a = plan.grid.left, "right"_a = plan.grid.right, "bottom"_a = plan.grid.bottom,
                   "top"_a = plan.grid.top, "cells_x"_a = plan.grid.nx, "cells_y"_a = plan.grid.ny, "end"_a = s.end,

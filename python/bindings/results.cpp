@@ -10,8 +10,8 @@
 
 #include "record/files/text_file.hpp"
 #include "record/files/unfinished.hpp"
-#include "record/netcdf/table_file.hpp"
 #include "record/pulses/pulse_variables.hpp"
+#include "run/tables.hpp"
 
 using namespace slipfront;
 using output::Snapshot;
@@ -30,10 +30,10 @@ namespace {
 py::tuple si_tuple(const medium::UnitInSi& unit) { return py::make_tuple(unit.value, unit.name, unit.between_faces); }
 
 /// Reads a table without the GIL: it may wait for a thread that reads NetCDF in Python.
-std::vector<std::pair<double, double>> read_table(const std::string& path, const std::string& x, const std::string& y) {
-  if (!PyGILState_Check()) return record::read_table(path, x, y);
+std::vector<std::vector<double>> read_table(const std::string& path, const std::vector<std::string>& columns) {
+  if (!PyGILState_Check()) return run::read_table(path, columns);
   const py::gil_scoped_release others_may_run;
-  return record::read_table(path, x, y);
+  return run::read_table(path, columns);
 }
 
 }  // namespace

@@ -18,9 +18,9 @@
 
 #include "foundation/machine.hpp"
 #include "foundation/threads.hpp"
-#include "record/netcdf/table_file.hpp"
 #include "results.hpp"
 #include "run/run.hpp"
+#include "run/tables.hpp"
 
 namespace {
 
@@ -157,7 +157,7 @@ class Sweep {
   }
 
   std::vector<double> run(std::size_t point) {
-    scenario::Scenario s = scenario::read_scenario(text_, file_, points_[point], record::read_table);
+    scenario::Scenario s = scenario::read_scenario(text_, file_, points_[point], run::read_table);
     run::choose_units(s, si_);
     const run::Options options{.after_step = [this](double, long) { return stopped_.load(); }};
     if (command_ == "chain") {

@@ -7,7 +7,8 @@
 #include <utility>
 
 #include "foundation/bytes.hpp"
-#include "foundation/text/digits.hpp"
+#include "plane/budget.hpp"
+#include "slipfront/plane/source_parameters.hpp"
 
 namespace slipfront::plane {
 namespace {
@@ -15,8 +16,9 @@ namespace {
 /// The numbers of a row, in the order in which they are saved.
 std::vector<double> numbers_of(const SeriesRow& row) {
   const Energies& e = row.energies;
-  return {row.time,     row.potency, row.potency_rate, row.peak_slip_velocity, row.front, e.kinetic, e.elastic,
-          e.dissipated, e.supplied,  e.vanished};
+  return {row.time,   row.potency, row.potency_rate, row.peak_slip_velocity,
+          row.front,  e.kinetic,   e.elastic,        e.dissipated,
+          e.supplied, e.vanished,  e.radiated};
 }
 
 SeriesRow row_of(const std::vector<double>& n) {
@@ -25,8 +27,12 @@ SeriesRow row_of(const std::vector<double>& n) {
           .potency_rate = n.at(2),
           .peak_slip_velocity = n.at(3),
           .front = n.at(4),
-          .energies = {
-              .kinetic = n.at(5), .elastic = n.at(6), .dissipated = n.at(7), .supplied = n.at(8), .vanished = n.at(9)}};
+          .energies = {.kinetic = n.at(5),
+                       .elastic = n.at(6),
+                       .dissipated = n.at(7),
+                       .supplied = n.at(8),
+                       .vanished = n.at(9),
+                       .radiated = n.at(10)}};
 }
 
 double largest_size(const std::vector<double>& values) {
@@ -48,15 +54,15 @@ SeriesRow row_at(const Solver& solver, double ratio) {
                        .elastic = ratio * e.elastic,
                        .dissipated = ratio * e.dissipated,
                        .supplied = ratio * e.supplied,
-                       .vanished = ratio * e.vanished}};
+                       .vanished = ratio * e.vanished,
+                       .radiated = ratio * e.radiated}};
 }
 
 Run::Run(std::unique_ptr<Solver> solver, Schedule schedule)
     : solver_(std::move(solver)), schedule_(std::move(schedule)) {
   const auto cells = static_cast<std::size_t>(schedule_.nx) * static_cast<std::size_t>(schedule_.ny);
-  maps_.rupture_time.assign(cells, std::numeric_limits<double>::quiet_NaN());
-  maps_.peak_slip_velocity.assign(cells, 0);
-  last_slip_.assign(cells, 0);
+  rupture_time_.assign(cells, std::numeric_limits<double>::quiet_NaN());
+  for (auto* values : {&peak_slip_velocity_, &velocity_squared_, &last_slip_}) values->assign(cells, 0);
 }
 
 Run::Run(std::unique_ptr<Solver> solver, Schedule schedule, std::string_view saved, std::vector<Field> snapshots)
@@ -83,32 +89,74 @@ void Run::observe(bool snapshot) {
   SeriesRow row = row_at(*solver_, schedule_.wave_speed_ratio);
   row.peak_slip_velocity = largest_size(field.velocity);
   const double before = series_.empty() ? row.time : series_.back().time, limit = schedule_.rupture_slip;
+  const double since = row.time - before;
   for (std::size_t i = 0; i < field.slip.size(); ++i) {
-    maps_.peak_slip_velocity[i] = std::fmax(maps_.peak_slip_velocity[i], std::fabs(field.velocity[i]));
+    peak_slip_velocity_[i] = std::fmax(peak_slip_velocity_[i], std::fabs(field.velocity[i]));
     const double was = last_slip_[i], is = field.slip[i];
-    if (is >= limit && std::isnan(maps_.rupture_time[i]))
-      maps_.rupture_time[i] = before + (row.time - before) * (limit - was) / (is - was);
+    if (is >= limit && std::isnan(rupture_time_[i])) rupture_time_[i] = before + since * (limit - was) / (is - was);
+    if (since > 0) velocity_squared_[i] += (is - was) * (is - was) / since;
   }
   if (row.time >= schedule_.interval * static_cast<double>(rows_on_time_)) ++rows_on_time_;
+  if (solver_->problem().nucleation) row.front = farthest_rupture();
   series_.push_back(row);
   last_slip_ = field.slip;
-  if (snapshot) snapshots_.push_back(std::move(field));
+  if (!snapshot) return;
+  if (schedule_.lines) field.lines = solver_->lines();
+  for (Line& line : field.lines)
+    for (Point& point : line.points) point.y *= schedule_.wave_speed_ratio;
+  snapshots_.push_back(std::move(field));
+}
+
+double Run::farthest_rupture() const {
+  const Problem& p = solver_->problem();
+  const MapGrid grid = grid_of(p, schedule_);
+  double farthest = 0;
+  for (int j = 0; j < grid.ny; ++j)
+    for (int i = 0; i < grid.nx; ++i) {
+      if (std::isnan(rupture_time_[grid.at(i, j)])) continue;
+      farthest = std::fmax(farthest, std::hypot(p.left + (i + 0.5) * grid.dx,
+                                                p.bottom * schedule_.wave_speed_ratio + (j + 0.5) * grid.dy));
+    }
+  return farthest;
+}
+
+Maps Run::maps() const {
+  const Problem& p = solver_->problem();
+  const MapGrid grid = grid_of(p, schedule_);
+  std::vector<double> at_start, now;
+  at_start.reserve(last_slip_.size());
+  now.reserve(last_slip_.size());
+  for (int j = 0; j < grid.ny; ++j)
+    for (int i = 0; i < grid.nx; ++i) {
+      at_start.push_back(p.slip(p.left + (p.right - p.left) * (i + 0.5) / grid.nx,
+                                p.bottom + (p.top - p.bottom) * (j + 0.5) / grid.ny));
+      now.push_back(at_start.back() + last_slip_[grid.at(i, j)]);
+    }
+  return {.rupture_time = rupture_time_,
+          .rupture_velocity = rupture_velocity(grid, rupture_time_),
+          .peak_slip_velocity = peak_slip_velocity_,
+          .rise_time = rise_time(last_slip_, velocity_squared_),
+          .initial_stress = stress(grid, at_start),
+          .final_stress = stress(grid, now),
+          .slip = last_slip_};
 }
 
 /// A front that no cell resolves, or energy that the solver has lost, makes the results doubtful.
 std::vector<std::string> Run::warnings() const {
   std::vector<std::string> all = solver_->warnings();
   if (series_.empty()) return all;
-  const Energies& e = series_.back().energies;
-  const double largest = std::max({e.kinetic, std::fabs(e.elastic), e.dissipated, std::fabs(e.supplied)});
-  const double missing = e.supplied - e.kinetic - e.elastic - e.dissipated - e.vanished;
+  const Budget budget(series_.back().energies);
   constexpr double most = 0.02;
-  const std::string percent = digits(100 * std::fabs(missing) / largest, 3) + " % of its largest part";
-  if (largest > 0 && missing > most * largest)
-    all.push_back("the balance of energy lacks " + percent +
-                  ": it is lost where lines run into each other, or more cells are needed");
-  if (largest > 0 && missing < -most * largest)
-    all.push_back("the balance of energy exceeds what was released by " + percent + ": more cells are needed");
+  const Problem& p = solver_->problem();
+  if (budget.largest <= std::fmax(solver_->least_energy(), no_energy * (p.right - p.left) * (p.top - p.bottom)))
+    return all;
+  const std::string resolution =
+      "more cells (plane.loops or plane.cells), or with --direct a smaller chain.spacing, are needed";
+  if (budget.missing > most * budget.largest)
+    all.push_back("the balance of energy lacks " + budget.in_words() +
+                  ": it is lost where lines run into each other, or " + resolution);
+  if (budget.missing < -most * budget.largest)
+    all.push_back("the balance of energy exceeds what was released by " + budget.in_words() + ": " + resolution);
   return all;
 }
 
@@ -118,7 +166,8 @@ std::string Run::saved() const {
   writer.put(static_cast<std::int64_t>(rows_on_time_));
   writer.put(static_cast<std::uint64_t>(series_.size()));
   for (const SeriesRow& row : series_) writer.put(numbers_of(row));
-  for (const auto* values : {&maps_.rupture_time, &maps_.peak_slip_velocity, &last_slip_}) writer.put(*values);
+  for (const auto* values : {&rupture_time_, &peak_slip_velocity_, &velocity_squared_, &last_slip_})
+    writer.put(*values);
   return std::move(writer).text();
 }
 
@@ -134,7 +183,7 @@ void Run::restore(std::string_view saved) {
     fits = fits && numbers.size() == numbers_of({}).size();
     if (fits) series_.push_back(row_of(numbers));
   }
-  for (auto* values : {&maps_.rupture_time, &maps_.peak_slip_velocity, &last_slip_}) {
+  for (auto* values : {&rupture_time_, &peak_slip_velocity_, &velocity_squared_, &last_slip_}) {
     *values = reader.vector();
     fits = fits && values->size() == cells;
   }

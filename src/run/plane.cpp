@@ -21,8 +21,8 @@ std::unique_ptr<plane::Run> begun(const scenario::Scenario& s, const PlanePlan& 
 /// All numbers that have an error, in one row.
 std::vector<double*> all_of(PlaneNumbers& n) {
   plane::Energies& e = n.end.energies;
-  std::vector<double*> all = {&n.end.potency, &n.end.potency_rate, &n.end.front, &e.kinetic,
-                              &e.elastic,     &e.dissipated,       &e.supplied,  &e.vanished};
+  std::vector<double*> all = {&n.end.potency, &n.end.potency_rate, &n.end.front, &e.kinetic, &e.elastic,
+                              &e.dissipated,  &e.supplied,         &e.vanished,  &e.radiated};
   for (auto* list : {&n.slip_at_probes, &n.slip_velocity_at_probes})
     for (double& value : *list) all.push_back(&value);
   return all;
@@ -33,6 +33,7 @@ std::optional<PlaneNumbers> with_fewer_cells(scenario::Scenario s, int divisor,
                                              const std::function<bool()>& interrupted) {
   s.plane->loops = std::max(4, s.plane->loops / divisor);
   s.plane->angles = std::max(8, s.plane->angles / divisor);
+  s.plane->cells = std::max(8, s.plane->cells / divisor);
   try {
     const std::unique_ptr<plane::Solver> solver = setup::plane_solver(s, setup::Lines::averaged, 1);
     if (!solver->advance_to(s.end, interrupted)) return std::nullopt;
@@ -40,6 +41,8 @@ std::optional<PlaneNumbers> with_fewer_cells(scenario::Scenario s, int divisor,
                         .slip_at_probes = solver->slip(s.plane->probes),
                         .slip_velocity_at_probes = solver->velocity(s.plane->probes)};
   } catch (const NumericsError&) {
+    return std::nullopt;
+  } catch (const InputError&) {  // fewer cells do not see a held region
     return std::nullopt;
   }
 }

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "slipfront/plane/source_parameters.hpp"
+
 namespace slipfront::run {
 namespace {
 
@@ -28,19 +30,17 @@ PlaneRow list(std::string key, std::vector<double> values, std::vector<double> e
           .is_list = true};
 }
 
-double ruptured_area(const PlaneResult& result, const scenario::Plane& plane) {
-  const plane::Schedule& schedule = result.run->schedule();
-  const plane::Problem& p = plane.problem;
-  const double cell = (p.right - p.left) / schedule.nx * (p.top - p.bottom) / schedule.ny * plane.wave_speed_ratio;
+double ruptured_area(const PlaneResult& result, const plane::Maps& maps) {
+  const plane::MapGrid grid = plane::grid_of(result.run->solver().problem(), result.run->schedule());
   double cells = 0;
-  for (const double time : result.run->maps().rupture_time) cells += std::isnan(time) ? 0 : 1;
-  return cells * cell;
+  for (const double time : maps.rupture_time) cells += std::isnan(time) ? 0 : 1;
+  return cells * grid.dx * grid.dy;
 }
 
 /// The time at which the last cell ruptured.
-double last_rupture(const PlaneResult& result) {
+double last_rupture(const plane::Maps& maps) {
   double last = std::numeric_limits<double>::quiet_NaN();
-  for (const double time : result.run->maps().rupture_time)
+  for (const double time : maps.rupture_time)
     if (!std::isnan(time)) last = std::isnan(last) ? time : std::fmax(last, time);
   return last;
 }
@@ -51,13 +51,15 @@ std::vector<PlaneRow> energies_of(const plane::Energies& e, const plane::Energie
           one("elastic", e.elastic, error.elastic, unit, "energy of the lines at rest, less that at t = 0"),
           one("dissipated", e.dissipated, error.dissipated, unit, "energy lost to friction since t = 0"),
           one("supplied", e.supplied, error.supplied, unit, "energy supplied by F since t = 0"),
-          one("vanished", e.vanished, error.vanished, unit, "energy of lines that have shrunk to a point")};
+          one("vanished", e.vanished, error.vanished, unit, "energy of lines that have shrunk to a point"),
+          one("radiated", e.radiated, error.radiated, unit, "energy that has left through absorbing edges")};
 }
 
 std::vector<PlaneRow> rows_of(const PlaneResult& result, const PlaneNumbers& errors, const scenario::Scenario& s) {
   const PlaneNumbers& n = result.numbers;
   const plane::SeriesRow &end = n.end, &error = errors.end;
-  const auto& peaks = result.run->maps().peak_slip_velocity;
+  const plane::Maps maps = result.run->maps();
+  const std::vector<plane::SeriesRow>& series = result.run->series();
   const std::string slip = "b / (2 pi)", velocity = "c A / pi", length = "b / A", time = "b / (c A)";
   std::vector<PlaneRow> rows = {
       one("time", end.time, no_error, time, "end of the run"),
@@ -67,12 +69,18 @@ std::vector<PlaneRow> rows_of(const PlaneResult& result, const PlaneNumbers& err
       list("slip_at_probes", n.slip_at_probes, errors.slip_at_probes, slip, "slip since t = 0 at output.probes"),
       list("slip_velocity_at_probes", n.slip_velocity_at_probes, errors.slip_velocity_at_probes, velocity,
            "slip velocity at output.probes"),
-      one("peak_slip_velocity", *std::max_element(peaks.begin(), peaks.end()), no_error, velocity,
-          "largest slip velocity of a cell since t = 0"),
+      one("peak_slip_velocity", *std::max_element(maps.peak_slip_velocity.begin(), maps.peak_slip_velocity.end()),
+          no_error, velocity, "largest slip velocity of a cell since t = 0"),
       one("front", end.front, error.front, length, "largest distance of the rupture front from the origin"),
-      one("ruptured_area", ruptured_area(result, *s.plane), no_error, "b^2 / A^2",
-          "area of the cells that have ruptured"),
-      one("last_rupture_time", last_rupture(result), no_error, time, "time at which the last of these cells ruptured"),
+      one("ruptured_area", ruptured_area(result, maps), no_error, "b^2 / A^2", "area of the cells that have ruptured"),
+      one("last_rupture_time", last_rupture(maps), no_error, time, "time at which the last of these cells ruptured"),
+      one("arrest_radius", plane::arrest_radius(series), no_error, length,
+          "distance at which the front has stopped, if it has"),
+      one("duration", plane::duration(series), no_error, time, "time in which the potency grows from 5 to 95 %"),
+      one("corner_frequency", plane::corner_frequency(series), no_error, "c A / b",
+          "of the moment rate, if the slip has ended"),
+      one("stress_drop", plane::stress_drop(maps.initial_stress, maps.final_stress, maps.slip), no_error, "mu A / pi",
+          "mean over the plane, weighted by slip"),
   };
   if (s.results_in) rows.push_back(one("moment", end.potency, error.potency, "mu b^3 / (2 pi A^2)", "seismic moment"));
   return rows;

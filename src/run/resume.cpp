@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "foundation/text/digits.hpp"
-#include "record/netcdf/table_file.hpp"
 #include "run/run.hpp"
+#include "run/tables.hpp"
 #include "slipfront/chain/problem.hpp"
 
 namespace slipfront::run {
@@ -93,7 +93,7 @@ record::Checkpoint read(const std::string& path, const scenario::Scenario& scena
                         const PlanOf& plan_of, const SameProblem& same_problem) {
   record::Checkpoint saved = record::read_checkpoint_of(path, SLIPFRONT_VERSION);
   if (saved.scenario_text == scenario.text) return saved;
-  const scenario::Scenario begun = scenario::read_scenario(saved.scenario_text, scenario.file, {}, record::read_table);
+  const scenario::Scenario begun = scenario::read_scenario(saved.scenario_text, scenario.file, {}, read_table);
   const Continued continued{path, begun, scenario};
   require_later_end(continued);
   const Plan first = plan_of(begun);

@@ -68,8 +68,8 @@ std::vector<Key> initial_keys() {
   const std::string step_or_tanh = "required by step and tanh";
   const Limits widths{.least = 0, .most = farthest, .without_least = true};
   return {
-      word_key(table, "profile", {"step", "tanh", "formula", "table", "radial"}, "step",
-               "form of the initial stress; of the initial slip on a plane: formula or radial"),
+      word_key(table, "profile", {"step", "tanh", "formula", "table", "radial", "grid"}, "step",
+               "form of the initial stress; of the initial slip on a plane: formula, radial or grid"),
       number_key(table, "stress_left", ModelUnit::stress, stress, step_or_tanh,
                  "stress of a step or tanh at x < 0; 0 is an empty interface"),
       number_key(table, "stress_right", ModelUnit::stress, stress, step_or_tanh,
@@ -184,12 +184,21 @@ std::vector<Key> plane_keys() {
       number_key(table, "right", ModelUnit::position, position, "required by [plane]", "x of the right edge"),
       number_key(table, "bottom", ModelUnit::position, position, "required by [plane]", "y of the lower edge"),
       number_key(table, "top", ModelUnit::position, position, "required by [plane]", "y of the upper edge"),
-      count("cells", {.least = 4, .most = 10'000}, "200", "number of cells of the results along x"),
+      word_key(table, "solver", {"loops", "grid"}, "loops",
+               "averages follow star-shaped lines, or the mean slip on a grid of cells"),
+      count("cells", {.least = 4, .most = 10'000}, "200", "cells of the results and of the grid along x"),
       count("loops", {.least = 4, .most = 10'000}, "120", "cells of the averaged solver across the lines"),
       count("angles", {.least = 8, .most = 10'000}, "128", "directions of the averaged solver around the origin"),
       other_key(table, "fixed", formula, "nowhere", "the interface is held where this formula of x and y is not 0"),
       number_key(table, "wave_speed_ratio", ModelUnit::none, positive, "1",
                  "speed of waves along y over that along x, the direction of slip"),
+      word_key(table, "edges", {"free", "fixed", "absorbing"}, "free",
+               "edges of the plane with --direct: no stress, no slip, or waves leave"),
+      number_key("nucleation", "x", ModelUnit::position, position, "0", "x of the middle of the patch"),
+      number_key("nucleation", "y", ModelUnit::position, position, "0", "y of the middle of the patch"),
+      number_key("nucleation", "radius", ModelUnit::position, positive, "required by [nucleation]",
+                 "radius of the patch in which nothing holds the initial state any more"),
+      number_key("nucleation", "time", ModelUnit::time, {.least = 0}, "0", "time from which that is so"),
   };
 }
 
@@ -259,13 +268,17 @@ std::vector<Key> output_keys() {
   Key probes = other_key("output", "probes", KeyType::points, "none",
                          "points of a plane at which slip and slip velocity are printed");
   probes.scale = ModelUnit::position;
+  const Key lines =
+      other_key("output", "lines", KeyType::truth, "false",
+                "whether the file of a plane has the rupture front or, with --direct, all dislocation lines");
   return {times,
           number_key("output", "every", ModelUnit::time, positive, "none",
                      "interval between the times of results, in place of times"),
           per_event,
           variables,
           fronts,
-          probes};
+          probes,
+          lines};
 }
 
 }  // namespace

@@ -27,12 +27,25 @@ std::string read_title(const Document& document) {
 
 /// Reads [initial] of a scenario on a line.
 RawStress read_line(const Document& document, const TableReader& tables, Scenario& scenario) {
-  if (const Section output(document, "output"); output.has("probes"))
-    throw output.refuse("probes", "are points of a plane", "with [plane]");
-  if (Section(document, "initial").text("profile") == "radial")
+  const Section output(document, "output");
+  if (output.has("probes")) throw output.refuse("probes", "are points of a plane", "with [plane]");
+  const Value* const lines = output.find("lines");
+  if (lines && lines->kind == Value::Kind::truth && lines->number != 0)
+    throw output.refuse("lines", "are those of a plane", "with [plane]");
+  const auto profile = Section(document, "initial").text("profile");
+  if (profile == "radial" || profile == "grid")
     throw Section(document, "initial")
         .refuse("profile", "is of a plane", "step, tanh, formula, table, or with [plane]");
   return read_initial(document, tables, scenario.initial);
+}
+
+void refuse_nucleation(const Document& document) {
+  if (document.tables.count("nucleation") > 0)
+    throw InputError({.file = document.file,
+                      .line = document.tables.at("nucleation").line,
+                      .key = "nucleation",
+                      .problem = "this table is about a plane",
+                      .allowed = "with [plane]"});
 }
 
 /// Reads the tables. It does not read a table whose single values have errors.
@@ -78,8 +91,9 @@ Scenario read(std::string_view text, const std::string& file, const std::vector<
   errors.throw_if_any();
   if (is_plane(document)) {
     read_plane(document, tables, coefficient, scenario);
-    read_probes(document, *scenario.plane);
+    read_plane_output(document, *scenario.plane);
   } else {
+    refuse_nucleation(document);
     make_functions(document, raw, scenario);
   }
   scenario.in_si = document.units.used();

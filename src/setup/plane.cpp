@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "foundation/machine.hpp"
 #include "foundation/text/digits.hpp"
@@ -9,12 +10,13 @@
 #include "slipfront/error.hpp"
 #include "slipfront/plane/averaged.hpp"
 #include "slipfront/plane/direct.hpp"
+#include "slipfront/plane/grid.hpp"
 
 namespace slipfront::setup {
 namespace {
 
 constexpr double fields = 2;  // slip and slip velocity
-constexpr double maps = 4;    // maps of the file, and as many in the saved state
+constexpr double maps = 10;   // maps of the file, and those of the saved state
 
 double cells_of(const plane::Schedule& schedule) { return static_cast<double>(schedule.nx) * schedule.ny; }
 
@@ -33,7 +35,9 @@ Complaint in_keys_of(const scenario::Scenario& s, Complaint complaint) {
   if (!complaint.file.empty()) return complaint;
   complaint.file = s.file;
   if (complaint.key == "slip") complaint.key = s.initial.file.empty() ? "initial.formula" : "initial.file";
-  if (complaint.key == "fixed" || complaint.key == "left") complaint.key = "plane." + complaint.key;
+  if (complaint.key == "hold") complaint.key = "initial.hold";
+  if (complaint.key == "fixed" || complaint.key == "left" || complaint.key == "edges" || complaint.key == "cells")
+    complaint.key = "plane." + complaint.key;
   if (complaint.key == "scale" || complaint.key == "spacing") complaint.key = "chain." + complaint.key;
   if (complaint.key == "resolution") complaint.key = "plane.loops";
   return complaint;
@@ -58,6 +62,8 @@ void require_line(const scenario::Scenario& s) {
 std::unique_ptr<plane::Solver> plane_solver(const scenario::Scenario& s, Lines lines, int threads) {
   require_plane(s);
   try {
+    if (lines == Lines::averaged && s.plane->on_grid)
+      return std::make_unique<plane::GridSolver>(s.plane->problem, s.plane->cells);
     if (lines == Lines::averaged)
       return std::make_unique<plane::AveragedSolver>(
           s.plane->problem, plane::Resolution{.loops = s.plane->loops, .angles = s.plane->angles});
@@ -86,7 +92,7 @@ plane::Schedule plane_schedule(const scenario::Scenario& s) {
   schedule.times = output_times(s);
   schedule.nx = s.plane->cells;
   schedule.ny = static_cast<int>(std::clamp(std::round((p.top - p.bottom) / cell), 4.0, 10'000.0));
-  const double need = cells_of(schedule) * 8 * (fields * static_cast<double>(schedule.times.size()) + 2 * maps);
+  const double need = cells_of(schedule) * 8 * (fields * static_cast<double>(schedule.times.size()) + maps);
   if (2 * need > usable_memory())
     throw InputError({.file = s.file,
                       .key = "plane.cells",
@@ -95,7 +101,11 @@ plane::Schedule plane_schedule(const scenario::Scenario& s) {
                       .allowed = "fewer cells or fewer output times"});
   schedule.interval = std::fmax(cell, s.end / most_rows);
   schedule.rupture_slip = seen * largest_slip(p, schedule.nx, schedule.ny);
+  // Lines that are held settle a little at t = 0. A cell has ruptured when half a line has passed.
+  if (p.nucleation)
+    schedule.rupture_slip = std::fmax(schedule.rupture_slip, std::numbers::pi / s.chain.scale.value_or(1));
   schedule.wave_speed_ratio = s.plane->wave_speed_ratio;
+  schedule.lines = s.plane->lines;
   return schedule;
 }
 

@@ -23,7 +23,7 @@ using friction::Parameter;
 
 constexpr double small_scale = 100, large_scale = 300;
 
-std::vector<std::pair<double, double>> curve_table(const std::string&, const std::string&, const std::string&) {
+std::vector<std::vector<double>> curve_table(const std::string&, const std::vector<std::string>&) {
   return {{0, 0}, {0.02, 0.1}, {0.1, 0.3}, {1, 0.9}, {100, 1}};
 }
 

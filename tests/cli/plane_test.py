@@ -109,7 +109,25 @@ class Plane(CommandLine):
         with open(cut, "rb") as a, open(whole, "rb") as b:
             self.assertEqual(a.read(), b.read())
         self.ok("plane", *case, "--resume", whole)  # nothing is left to do
-        self.refused(3, "pulse", os.path.join(SOURCE, "cases/step.toml"), "--resume", whole, says=["plane 1"])
+        self.refused(3, "pulse", os.path.join(SOURCE, "cases/step.toml"), "--resume", whole, says=["plane 2"])
+
+    def test_averages_on_a_grid_walk_around_a_barrier(self):
+        folder = self.folder()
+        cut, whole = os.path.join(folder, "cut.nc"), os.path.join(folder, "whole.nc")
+        case = (os.path.join(SOURCE, "cases/plane-barrier.toml"), "--set", "plane.cells=105", "time.end=1.5", "output.lines=true")
+        out = self.plane(*case, "-o", whole)
+        self.assertIn("have met since", " ".join(out["warnings"]))
+        with netCDF4.Dataset(whole) as file:
+            last = np.array(file["line_time"]) == 1.5
+            front = np.hypot(file["line_x"][:][last], file["line_y"][:][last])
+            self.assertLess(abs(np.nanmax(front) / out["front"] - 1), 0.01)
+        self.interrupted(cut, "plane", *case)
+        self.ok("plane", *case, "--resume", cut)
+        with open(cut, "rb") as a, open(whole, "rb") as b:
+            self.assertEqual(a.read(), b.read())
+        self.assertIn("the mean slip in 105 cells", self.ok("plane", *case, "--check"))
+        self.refused(2, "plane", *case, "plane.cells=40", says=["plane.fixed", "lies between the centres of cells"])
+        self.refused(2, "plane", *case, "initial.hold=true", says=["initial.hold", "a static load would be infinite"])
 
     def test_a_run_that_fails_keeps_what_it_has(self):
         path = os.path.join(self.folder(), "out.nc")
@@ -120,7 +138,7 @@ class Plane(CommandLine):
 
     def test_every_line_can_be_followed(self):
         path = os.path.join(self.folder(), "out.nc")
-        direct = (FRICTION, "--direct", "--set", "chain.scale=20", "plane.cells=50")
+        direct = (FRICTION, "--direct", "--set", "chain.scale=20", "plane.cells=50", "output.lines=true")
         out = self.plane(*direct, "-o", path)
         averaged = self.plane(FRICTION, *COARSE)
         self.assertLess(abs(out["potency"] / averaged["potency"] - 1), 0.08)
@@ -128,6 +146,16 @@ class Plane(CommandLine):
         with netCDF4.Dataset(path) as file:
             self.assertIn("plane --direct", file.getncattr("history"))
             self.assertEqual(file["slip"].shape[1:], (50, 50))
+            time, number = np.array(file["line_time"]), np.array(file["line_number"])
+            distance = np.hypot(np.ma.filled(file["line_x"][:], np.nan), np.ma.filled(file["line_y"][:], np.nan))
+            self.assertEqual(set(time), set(np.array(file["time"])))
+            for now in set(time):
+                outermost = distance[(time == now) & (number == 1)]
+                row = np.argmin(np.abs(np.array(file["series_time"]) - now))
+                self.assertAlmostEqual(np.nanmax(outermost), float(file["front"][row]), delta=0.02)
+            # At the start, line n is where the mean slip is (n - 1/2) 2 pi / 20.
+            first = distance[(time == 0) & (number == 2)]
+            self.assertLess(np.nanmax(first) - np.nanmin(first), 0.02)
         cut = os.path.join(self.folder(), "cut.nc")
         self.interrupted(cut, "plane", *direct)
         self.ok("plane", *direct, "--resume", cut)
@@ -135,6 +163,89 @@ class Plane(CommandLine):
             self.assertEqual(a.read(), b.read())
         self.refused(2, "plane", FRICTION, "--set", "chain.scale=20", "plane.cells=50", "--resume", cut, says=["resume"])
         self.assertIn("every dislocation line at scale 20", self.ok("plane", *direct, "--check"))
+
+    def test_the_averages_have_their_front(self):
+        path = os.path.join(self.folder(), "out.nc")
+        out = self.plane(FRICTION, *COARSE, "output.lines=true", "-o", path)
+        with netCDF4.Dataset(path) as file:
+            last = np.array(file["line_time"]) == 1
+            distance = np.hypot(np.ma.filled(file["line_x"][:], np.nan), np.ma.filled(file["line_y"][:], np.nan))[last]
+            self.assertEqual(np.count_nonzero(np.isnan(distance)), 1)
+            self.assertAlmostEqual(np.nanmax(distance), out["front"], delta=3e-3)
+        self.refused(2, "pulse", os.path.join(SOURCE, "cases/step.toml"), "--set", "output.lines=true", says=["output.lines", "with [plane]"])
+
+    def test_a_held_state_ruptures_from_its_nucleation_patch(self):
+        path = os.path.join(self.folder(), "out.nc")
+        case = self.file("case.toml", """
+[plane]
+left = -3
+right = 3
+bottom = -2
+top = 2
+cells = 60
+edges = "absorbing"
+[initial]
+profile = "formula"
+formula = "2 * (1 - exp(-(x^2/2 + y^2)))"
+[friction]
+law = "slip-weakening"
+strength = 9
+residual = 0
+characteristic_slip = 0.05
+[nucleation]
+x = 0.8
+radius = 0.4
+time = 0.5
+[chain]
+scale = 20
+[time]
+end = 3
+""")
+        out = self.plane(case, "--direct", "-o", path)
+        self.assertGreater(out["energies"]["radiated"], 0)
+        self.assertGreater(out["stress_drop"], 0)
+        with netCDF4.Dataset(path) as file:
+            rupture = np.ma.filled(file["rupture_time"][:], np.nan)
+            x, y = np.array(file["x"]), np.array(file["y"])
+            distance = np.hypot(x[None, :] - 0.8, y[:, None])
+            self.assertGreater(np.nanmin(rupture), 0.5)
+            self.assertLess(distance.flat[np.nanargmin(rupture)], 0.4)
+            # No front is faster than waves, which spread from the patch after t = 0.5. Half a line spreads a front by 0.3.
+            reached = ~np.isnan(rupture)
+            self.assertTrue(np.all((distance - 0.4 - 0.3)[reached] < rupture[reached] - 0.5))
+            self.assertGreater(np.count_nonzero(reached) * 0.1 ** 2, 1)
+            for name in ("rupture_velocity", "rise_time", "initial_stress", "final_stress", "moment_rate_spectrum", "frequency"):
+                self.assertIn(name, file.variables)
+            self.assertAlmostEqual(float(np.max(file["initial_stress"][:])), 2 * math.sqrt(2) * math.exp(-0.5), delta=0.05)
+        self.refused(2, "plane", case, says=["nucleation", "--direct"])
+        self.refused(2, "plane", case, "--direct", "--set", "nucleation.x=8", says=["nucleation.radius", "outside"])
+
+    def test_a_grid_is_the_initial_slip(self):
+        rows = "".join(f"{x / 20},{y / 20},{2 - min(2, max(1, math.hypot(x / 20, y / 20)))}\n" for x in range(-65, 66) for y in range(-65, 66))
+        tables = ("[plane]\nleft = -3.2\nright = 3.2\nbottom = -3.2\ntop = 3.2\nfixed = \"x^2 + y^2 < 1\"\ncells = 40\n"
+                  "[chain]\nscale = 40\n[time]\nend = 0.5\n[initial]\n")
+        case = self.file("case.toml", tables + "profile = \"grid\"\nfile = \"slip.csv\"\n")
+        with open(os.path.join(os.path.dirname(case), "slip.csv"), "w", encoding="utf-8") as file:
+            file.write("x,y,slip\n" + rows)
+        formula = self.file("formula.toml", tables + "profile = \"formula\"\nformula = \"2 - min(2, max(1, sqrt(x^2 + y^2)))\"\n")
+        by_grid, by_formula = self.plane(case, "--direct"), self.plane(formula, "--direct")
+        self.assertLess(abs(by_grid["potency"] / by_formula["potency"] - 1), 0.05)
+        self.refused(2, "plane", case, "--direct", "--set", "plane.left=-4", says=["initial.file", "does not cover the plane"])
+
+    @unittest.skipIf(SANITIZED, "takes minutes")
+    def test_a_finite_fault_model_ruptures(self):
+        model = os.path.join(SOURCE, "cases/synthetic-fault.fsp")
+        path = os.path.join(self.folder(), "out.nc")
+        out = self.plane(model, "--set", "chain.scale=0.5", "-o", path)
+        self.assertEqual(out["unit_system"], "SI")
+        theirs = out["model"]
+        self.assertLess(abs(out["moment"] / theirs["moment"] - 1), 0.2)
+        self.assertGreater(theirs["reached"], 0.9 * theirs["subfaults"])
+        self.assertTrue(0.3 < theirs["rupture_time_ratio"] < 1.5)
+        with netCDF4.Dataset(path) as file:
+            self.assertIn("synthetic-fault.fsp", file.getncattr("scenario"))
+        broken = self.file("broken.fsp", "% no model\n")
+        self.refused(2, "plane", broken, says=["broken.fsp"])
 
     def test_units_lists_the_numbers(self):
         out = self.ok("units", FRICTION)

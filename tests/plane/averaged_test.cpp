@@ -188,6 +188,23 @@ TEST(PlaneAveraged, StopsWhereTheFrontLeavesTheDomain) {
   EXPECT_GT(solver.time(), 0.2);
 }
 
+TEST(PlaneAveraged, RefusesWhatOnlyTheLinesCanDo) {
+  const auto key = [](const Problem& p) -> std::string {
+    try {
+      const AveragedSolver solver(p, {20, 16});
+    } catch (const InputError& error) {
+      return error.complaint().key;
+    }
+    return {};
+  };
+  Problem p = rings::problem(slip_of_rings());
+  p.hold = true;
+  EXPECT_EQ(key(p), "hold");
+  p.hold = false;
+  p.edges = plane::Edges::absorbing;
+  EXPECT_EQ(key(p), "edges");
+}
+
 TEST(PlaneAveraged, LinesThatShrinkToTheOriginVanish) {
   // The reference is a direct radial simulation at scale 800. Within a distance of 1 its lines return from the origin.
   Problem p;

@@ -17,12 +17,12 @@ using slipfront::FileError;
 using slipfront::InputError;
 using slipfront::record::read_table;
 using slipfront::record::netcdf::Writer;
-using Table = std::vector<std::pair<double, double>>;
+using Table = std::vector<std::vector<double>>;
 
 Table read(const std::string& name, const std::string& content) {
   const TemporaryFolder folder;
   write_bytes(folder / name, content);
-  return read_table(folder / name, "x", "stress");
+  return read_table(folder / name, {"x", "stress"});
 }
 
 slipfront::Complaint complaint(const std::string& name, const std::string& content) {
@@ -81,6 +81,30 @@ TEST(TableFile, NamesLineColumnAndValueOfBadCsv) {
 
 TEST(TableFile, ReadsNetcdf) { EXPECT_EQ(read("a.nc", netcdf({-1, 0, 0.1}, {0.855, 0.5, 0})), expected); }
 
+/// A NetCDF file with slip over y and x.
+std::string grid(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& slip) {
+  Writer file("grid");
+  const int nx = file.dimension("x", x.size()), ny = file.dimension("y", y.size());
+  const int ids[] = {file.reals("x", {nx}), file.reals("y", {ny}), file.reals("slip", {ny, nx})};
+  file.end_definitions();
+  file.write(ids[0], x);
+  file.write(ids[1], y);
+  file.write_all(ids[2], slip);
+  const auto image = file.finish();
+  return std::string(image.bytes());
+}
+
+TEST(TableFile, ReadsAGridOfNetcdfRowByRow) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "a.nc", grid({-1, 1}, {0, 2, 4}, {1, 2, 3, 4, 5, 6}));
+  const Table rows = {{-1, 0, 1}, {1, 0, 2}, {-1, 2, 3}, {1, 2, 4}, {-1, 4, 5}, {1, 4, 6}};
+  EXPECT_EQ(read_table(folder / "a.nc", {"x", "y", "slip"}), rows);
+  EXPECT_THROW(read_table(folder / "a.nc", {"y", "x", "slip"}), InputError);
+  EXPECT_THROW(read_table(folder / "a.nc", {"x", "slip"}), InputError);
+  write_bytes(folder / "b.csv", "slip,y,x\n1,0,-1\n2,0,1\n");
+  EXPECT_EQ(read_table(folder / "b.csv", {"x", "y", "slip"}), (Table{{-1, 0, 1}, {1, 0, 2}}));
+}
+
 TEST(TableFile, NamesTheVariableOfBadNetcdf) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(complaint("a.nc", netcdf({0, 1}, {0})).key, "stress");
@@ -98,8 +122,8 @@ TEST(TableFile, NamesTheVariableOfBadNetcdf) {
 
 TEST(TableFile, ReportsUnreadableFilesAsFileErrors) {
   const TemporaryFolder folder;
-  EXPECT_THROW(read_table(folder / "none.csv", "x", "stress"), FileError);
-  EXPECT_THROW(read_table(folder / "none.nc", "x", "stress"), FileError);
+  EXPECT_THROW(read_table(folder / "none.csv", {"x", "stress"}), FileError);
+  EXPECT_THROW(read_table(folder / "none.nc", {"x", "stress"}), FileError);
   EXPECT_THROW(read("a.nc", ""), FileError);
   EXPECT_THROW(read("a.nc", "x,stress\n0,1\n"), FileError);
   const std::string good = netcdf({0, 1}, {0, 1});

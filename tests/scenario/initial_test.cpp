@@ -167,9 +167,9 @@ TEST(ScenarioTable, IsFoundNextToTheScenario) {
   const auto path = [](const std::string& scenario, const std::string& table) {
     std::string asked;
     read_scenario("[initial]\nprofile = \"table\"\n", scenario, {"initial.file=" + table},
-                  [&](const std::string& p, const std::string&, const std::string&) {
+                  [&](const std::string& p, const std::vector<std::string>&) {
                     asked = p;
-                    return Rows{{0, 1}, {1, 1}};
+                    return std::vector<std::vector<double>>{{0, 1}, {1, 1}};
                   });
     return asked;
   };
@@ -178,7 +178,9 @@ TEST(ScenarioTable, IsFoundNextToTheScenario) {
   EXPECT_EQ(path("a/b.toml", "/c/t.csv"), "/c/t.csv");
   EXPECT_THROW(
       read_scenario("[initial]\nprofile = \"table\"\nfile = \"t\"\n", "s.toml", {},
-                    [](const std::string& p, const std::string&, const std::string&) -> Rows { throw FileError(p); }),
+                    [](const std::string& p, const std::vector<std::string>&) -> std::vector<std::vector<double>> {
+                      throw FileError(p);
+                    }),
       FileError);
 }
 

@@ -17,8 +17,11 @@ using Overrides = std::vector<std::string>;
 inline const std::string step = "[initial]\nstress_left = 1\nstress_right = 0\n";
 
 inline Scenario read(const std::string& text, const Overrides& overrides = {}, const Rows& rows = {}) {
-  return read_scenario(text, "dir/s.toml", overrides,
-                       [&](const std::string&, const std::string&, const std::string&) { return rows; });
+  return read_scenario(text, "dir/s.toml", overrides, [&](const std::string&, const std::vector<std::string>&) {
+    std::vector<std::vector<double>> table;
+    for (const auto& [x, y] : rows) table.push_back({x, y});
+    return table;
+  });
 }
 
 inline Complaint refused(const std::function<void()>& call) {

@@ -1,5 +1,6 @@
 #include "answer.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <new>
@@ -111,6 +112,16 @@ Object& Object::numbers(std::string_view name, std::span<const double> values) {
   text_ += "{\"$\":[" + std::to_string(pool().size()) + "," + std::to_string(values.size()) + "]}";
   pool().insert(pool().end(), values.begin(), values.end());
   return *this;
+}
+
+std::vector<std::string> lines_of(std::string_view text) {
+  std::vector<std::string> lines;
+  while (!text.empty()) {
+    const auto end = std::min(text.find('\n'), text.size());
+    if (end > 0) lines.emplace_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return lines;
 }
 
 const char* answer(const std::function<Object()>& body) {

@@ -37,6 +37,9 @@ class Object {
   std::string text_;
 };
 
+/// The lines of a text that are not empty, such as changes of a scenario.
+std::vector<std::string> lines_of(std::string_view text);
+
 /// Calls `body` and returns its answer as text. An exception becomes {"error": {...}} with the parts of its message.
 const char* answer(const std::function<Object()>& body);
 

@@ -50,16 +50,6 @@ struct Results {
   std::vector<double> time, load, speed, slip, velocity;
 };
 
-std::vector<std::string> lines_of(std::string_view text) {
-  std::vector<std::string> lines;
-  while (!text.empty()) {
-    const auto end = std::min(text.find('\n'), text.size());
-    if (end > 0) lines.emplace_back(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-  return lines;
-}
-
 chain::ScaledProblem loaded_problem(const scenario::Scenario& s) {
   if (!s.loading.acts())
     throw InputError({.key = "loading.stiffness", .problem = "no spring pulls", .allowed = "a stiffness > 0"});

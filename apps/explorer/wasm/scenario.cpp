@@ -10,8 +10,8 @@
 namespace slipfront::explorer {
 namespace {
 
-std::vector<std::pair<double, double>>& table() {
-  static std::vector<std::pair<double, double>> rows;
+std::vector<std::vector<double>>& table() {
+  static std::vector<std::vector<double>> rows;
   return rows;
 }
 
@@ -46,7 +46,7 @@ const char* word_for(friction::CurveSource source) {
 }  // namespace
 
 scenario::Scenario scenario_of(const char* toml, const std::vector<std::string>& changes) {
-  return scenario::read_scenario(toml, "", changes, [](const std::string&, const std::string&, const std::string&) {
+  return scenario::read_scenario(toml, "", changes, [](const std::string&, const std::vector<std::string>&) {
     if (table().empty())
       throw InputError({.key = "initial.file",
                         .problem = "the page has no such table",
@@ -59,7 +59,7 @@ scenario::Scenario scenario_of(const char* toml, const std::vector<std::string>&
 SLIPFRONT_EXPORT const char* set_table(const double* x, const double* y, int rows) {
   return answer([=] {
     table().clear();
-    for (int i = 0; i < rows; ++i) table().emplace_back(x[i], y[i]);
+    for (int i = 0; i < rows; ++i) table().push_back({x[i], y[i]});
     return Object();
   });
 }

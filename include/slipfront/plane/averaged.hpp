@@ -25,14 +25,16 @@ class AveragedSolver : public Solver {
   AveragedSolver(const Problem& problem, const Resolution& resolution);
   ~AveragedSolver() override;
 
+  const Problem& problem() const override;
   double time() const override;
   long steps() const override;
-  /// \throws NumericsError also if friction has taken more energy than the lines released, by more than 10 %.
+  /// \throws NumericsError also if friction has taken more energy than the lines released, by more than a tenth.
   bool advance_to(double time, const std::function<bool()>& interrupted) override;
 
   std::vector<double> slip(const std::vector<Point>& points) const override;
   std::vector<double> velocity(const std::vector<Point>& points) const override;
   Field field(int nx, int ny) const override;
+  std::vector<Line> lines() const override;
   double potency() const override;
   double potency_rate() const override;
   double front(double y_scale) const override;
@@ -43,7 +45,6 @@ class AveragedSolver : public Solver {
   void resume(std::string_view saved) override;
 
  private:
-  void check_budget() const;
   struct Parts;
   std::unique_ptr<Parts> parts_;
 };

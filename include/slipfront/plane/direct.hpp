@@ -19,24 +19,32 @@ struct DirectOptions {
 /// Approximate number of bytes that a solver needs. \throws InputError for numbers out of range.
 double memory_of_direct(const Problem& problem, const DirectOptions& options);
 
-/// Solves the equation of every line on a grid, with fourth order in space and time. The edges of the domain are free.
-/// Results are in the units of the scenario: slip, lengths and times are divided by the scale. Slip at a point is the
-/// mean over a square whose half width is one spacing of the densest lines at the start. The elastic energy is that of
-/// slopes and substrate, and the kinetic energy that of u_t: the averaged solver divides the same sum in another way.
+/// The largest force on the lines at t = 0 without friction, static load and F, as mean over each of nx times ny cells:
+/// friction must be at least as strong to hold the initial state. \throws InputError as a solver.
+double largest_unbalanced_force(const Problem& problem, const DirectOptions& options, int nx, int ny);
+
+/// Solves the equation of every line on a grid, with fourth order in space and time. The edges of the domain are those
+/// of the problem. Results are in the units of the scenario: slip, lengths and times are divided by the scale. Slip at
+/// a point is the mean over a square whose half width is one spacing of the densest lines at the start. The elastic
+/// energy is that of slopes and substrate, and the kinetic energy that of u_t: the averaged solver divides the same sum
+/// in another way.
 class DirectSolver : public Solver {
  public:
-  /// \throws InputError for lines too dense for the spacing, for friction with state variables or that changes
-  /// contacts, and for numbers out of range.
+  /// \throws InputError for lines too dense for the spacing, for friction that changes contacts, and for numbers
+  /// out of range.
   DirectSolver(const Problem& problem, const DirectOptions& options);
   ~DirectSolver() override;
 
+  const Problem& problem() const override;
   double time() const override;
   long steps() const override;
+  /// \throws NumericsError also if more than a tenth of the energy has come from nothing.
   bool advance_to(double time, const std::function<bool()>& interrupted) override;
 
   std::vector<double> slip(const std::vector<Point>& points) const override;
   std::vector<double> velocity(const std::vector<Point>& points) const override;
   Field field(int nx, int ny) const override;
+  std::vector<Line> lines() const override;
   double potency() const override;
   double potency_rate() const override;
   double front(double y_scale) const override;

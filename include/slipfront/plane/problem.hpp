@@ -6,6 +6,7 @@
 /// speed 1 in all directions.
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,6 +19,15 @@ struct Point {
   double x = 0, y = 0;
 };
 
+/// The start of a rupture. From `time` on, neither the static load of `hold` nor friction with strength at rest acts
+/// within `radius` of a point.
+struct Nucleation {
+  double x = 0, y = 0, radius = 0, time = 0;
+};
+
+/// Conditions at the edges of the domain: no stress (free), no slip (fixed), or waves leave (absorbing).
+enum class Edges { free, fixed, absorbing };
+
 struct Problem {
   double left = -1, right = 1, bottom = -1, top = 1;
   /// Mean slip U >= 0 at t = 0, in b / 2 pi. Everything is at rest.
@@ -28,6 +38,12 @@ struct Problem {
   friction::Friction friction;                                  ///< any other law; none if `viscous` is given
   std::function<double(double x, double y, double t)> forcing;  ///< F; null: none
   std::function<double(double x, double y)> contact;            ///< relative contact ratio a > 0; null: 1
+  bool hold = false;  ///< whether a static load balances the initial state, which is at rest then
+  std::optional<Nucleation> nucleation;
+  Edges edges = Edges::free;
+
+  /// Whether nucleation has begun at a time.
+  bool nucleation_has_begun(double time) const { return nucleation && time >= nucleation->time; }
 };
 
 /// The energies that a solver conserves, integrated over the plane since t = 0, in units of the scenario.
@@ -38,6 +54,14 @@ struct Energies {
   double supplied = 0;    ///< by the force F
   /// Energy of lines that shrank to a point, if the solver does not follow the waves that they leave.
   double vanished = 0;
+  double radiated = 0;  ///< through absorbing edges
+};
+
+/// A dislocation line, or a part of one that ends at an edge: u = (2 number - 1) pi. The last point of a closed line is
+/// its first.
+struct Line {
+  int number = 0;
+  std::vector<Point> points;
 };
 
 /// Means over the cells of a grid of nx times ny cells that covers the domain: row by row, from the bottom.
@@ -46,12 +70,14 @@ struct Field {
   int nx = 0, ny = 0;
   std::vector<double> slip;      ///< since t = 0, in b / 2 pi
   std::vector<double> velocity;  ///< slip velocity, in c A / 2 pi
+  std::vector<Line> lines = {};  ///< if the schedule of a run asks for them, in the coordinates of the results
 };
 
 /// A solver of the problem, in the units of the scenario.
 class Solver {
  public:
   virtual ~Solver() = default;
+  virtual const Problem& problem() const = 0;
   virtual double time() const = 0;
   virtual long steps() const = 0;
   /// Advances to `time`, or until `interrupted` returns true. Returns whether it has reached the time.
@@ -62,11 +88,16 @@ class Solver {
   virtual std::vector<double> slip(const std::vector<Point>& points) const = 0;
   virtual std::vector<double> velocity(const std::vector<Point>& points) const = 0;
   virtual Field field(int nx, int ny) const = 0;
+  /// The dislocation lines, with points about one width of a dislocation apart. The averages have only the outermost
+  /// line, which is the rupture front.
+  virtual std::vector<Line> lines() const = 0;
   virtual double potency() const = 0;       ///< integral of the slip since t = 0
   virtual double potency_rate() const = 0;  ///< integral of the slip velocity
   /// Largest distance from the origin of the outermost dislocation line, where y is multiplied by `y_scale`.
   virtual double front(double y_scale) const = 0;
   virtual Energies energies() const = 0;
+  /// Energies below this are errors of the cells, so that their balance is not checked.
+  virtual double least_energy() const { return 0; }
 
   /// Sentences that describe doubtful results so far.
   virtual std::vector<std::string> warnings() const { return {}; }

@@ -21,6 +21,7 @@ struct Schedule {
   double rupture_slip = 0;    ///< a cell has ruptured when its slip exceeds this
   /// y of the results over y of the problem: the speed of waves along y over that along x.
   double wave_speed_ratio = 1;
+  bool lines = false;  ///< whether snapshots have the dislocation lines
 };
 
 /// Numbers of the whole plane at one time, in the coordinates of the results.
@@ -28,17 +29,24 @@ struct SeriesRow {
   double time = 0;
   double potency = 0, potency_rate = 0;
   double peak_slip_velocity = 0;  ///< largest of the cells at this time
-  double front = 0;               ///< largest distance of the outermost dislocation line from the origin
+  /// Largest distance of the outermost dislocation line from the origin. With nucleation, that of a cell that has
+  /// ruptured.
+  double front = 0;
   Energies energies;
 };
 
 /// The row at the present time of a solver, without the peak slip velocity, which needs the cells.
 SeriesRow row_at(const Solver& solver, double wave_speed_ratio);
 
-/// Values of the cells, row by row from the bottom.
+/// Values of the cells, row by row from the bottom (source_parameters.hpp defines them).
 struct Maps {
   std::vector<double> rupture_time;        ///< NaN where the interface has not ruptured
+  std::vector<double> rupture_velocity;    ///< NaN if it is not known
   std::vector<double> peak_slip_velocity;  ///< largest so far
+  std::vector<double> rise_time;           ///< so far; NaN where there is no slip
+  std::vector<double> initial_stress;      ///< at t = 0
+  std::vector<double> final_stress;        ///< at the last row of the series
+  std::vector<double> slip;                ///< at the last row of the series
 };
 
 class Run {
@@ -56,7 +64,7 @@ class Run {
   const Schedule& schedule() const { return schedule_; }
   const std::vector<Field>& snapshots() const { return snapshots_; }
   const std::vector<SeriesRow>& series() const { return series_; }
-  const Maps& maps() const { return maps_; }
+  Maps maps() const;
   bool finished() const { return snapshots_.size() == schedule_.times.size(); }
   /// A run can be saved even after a NumericsError: what was observed before it is valid.
   bool can_checkpoint() const { return true; }
@@ -65,15 +73,18 @@ class Run {
 
  private:
   void observe(bool snapshot);
+  double farthest_rupture() const;
   void restore(std::string_view saved);
 
   std::unique_ptr<Solver> solver_;
   Schedule schedule_;
   std::vector<Field> snapshots_;
   std::vector<SeriesRow> series_;
-  Maps maps_;
-  std::vector<double> last_slip_;  ///< at the last row of the series
-  long rows_on_time_ = 0;          ///< rows of the series at multiples of the interval
+  // Values of the cells.
+  std::vector<double> rupture_time_, peak_slip_velocity_;
+  std::vector<double> velocity_squared_;  ///< integral over time
+  std::vector<double> last_slip_;         ///< at the last row of the series
+  long rows_on_time_ = 0;                 ///< rows of the series at multiples of the interval
 };
 
 }  // namespace slipfront::plane

@@ -29,7 +29,7 @@ inline constexpr double largest_stress = 1e6;
 /// The largest |x| that is accepted. Differences of positions then neither overflow nor lose the cells between them.
 inline constexpr double farthest = 1e9;
 
-enum class ProfileKind { step, tanh, formula, table, radial };
+enum class ProfileKind { step, tanh, formula, table, radial, grid };
 
 /// [initial]: stress along x at t = 0. The interface is at rest.
 struct Initial {
@@ -75,10 +75,12 @@ struct ChainOptions {
 struct Plane {
   plane::Problem problem;  ///< its y is that of the scenario over `wave_speed_ratio`
   int cells = 200;         ///< cells of the results along x
+  bool on_grid = false;    ///< whether the averaged solver follows the mean slip on a grid
   int loops = 120;         ///< cells of the averaged solver across the dislocation lines
   int angles = 128;        ///< directions of the averaged solver
   double wave_speed_ratio = 1;
   std::vector<plane::Point> probes;  ///< in the coordinates of the problem
+  bool lines = false;                ///< [output] lines: whether the file has the dislocation lines
 };
 
 /// [output]: either a list of times or an interval. The end is always written.
@@ -120,10 +122,10 @@ struct Scenario {
   std::function<double(double)> contact_at;              ///< a(x) at t = 0; finite, > 0; null if it is 1 everywhere
 };
 
-/// Returns two columns of a table file that a scenario names. The module record implements it, so that this module does
-/// not depend on file formats.
-using TableReader = std::function<std::vector<std::pair<double, double>>(const std::string& path, const std::string& x,
-                                                                         const std::string& y)>;
+/// Returns the rows of a table file that a scenario names, with the numbers of these columns. The module record
+/// implements it, so that this module does not depend on file formats.
+using TableReader =
+    std::function<std::vector<std::vector<double>>(const std::string& path, const std::vector<std::string>& columns)>;
 
 /// Reads a scenario and applies `overrides` ("table.key=value", in order). A value that is not valid TOML counts as
 /// text. Unknown keys, tables and values are errors that name the nearest known one. An [event] table is ignored.

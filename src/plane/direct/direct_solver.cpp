@@ -6,6 +6,8 @@
 
 #include "foundation/bytes.hpp"
 #include "foundation/text/digits.hpp"
+#include "plane/budget.hpp"
+#include "plane/direct/lines.hpp"
 #include "plane/direct/motion.hpp"
 #include "plane/direct/sites.hpp"
 #include "slipfront/error.hpp"
@@ -17,11 +19,11 @@ namespace {
 using std::numbers::pi;
 
 void check(const Problem& p) {
-  if (!p.viscous && (p.friction.state_size() > 0 || p.friction.changes_contacts()))
+  if (!p.viscous && p.friction.changes_contacts())
     throw InputError({.key = "friction.law",
                       .value = std::string(p.friction.name()),
-                      .problem = "the direct solver of a plane does not follow the state of friction",
-                      .allowed = "a law without state variables"});
+                      .problem = "on a plane, friction cannot change contacts or pores",
+                      .allowed = "a law without these effects"});
 }
 
 /// The sites of one direction in a stretch of it, [first, last).
@@ -105,11 +107,36 @@ struct DirectSolver::Parts {
 };
 
 double memory_of_direct(const Problem& problem, const DirectOptions& options) {
-  constexpr double arrays = 12;  // u at three times, the start, two of a look, and what its velocity and energy need
+  constexpr double arrays =
+      14;  // u at three times, the start, two of a look, what its velocity and energy need, accelerations
   const Counts n = count_sites(problem, options.scale, options.spacing);
-  const double given =
-      (problem.contact ? 1 : 0) + (problem.viscous ? 1 : 0) + (problem.fixed ? 1 : 0) + (problem.forcing ? 1 : 0);
+  const double given = (problem.contact ? 1 : 0) + (problem.viscous ? 1 : 0) + (problem.fixed ? 1 : 0) +
+                       (problem.forcing ? 1 : 0) + (problem.hold ? 2 : 0) +
+                       static_cast<double>(problem.friction.state_size());
   return (arrays + given) * sizeof(double) * n.nx * n.ny;
+}
+
+double largest_unbalanced_force(const Problem& problem, const DirectOptions& options, int nx, int ny) {
+  Problem free = problem;
+  free.hold = false;
+  free.forcing = nullptr;
+  const Sites sites = make_sites(free, options.scale, options.spacing);
+  const Stepper stepper(free, sites, options.threads);
+  const std::vector<double> v = stepper.accelerations_at_rest(lines_at_rest(free, sites).u);
+  const auto cell_of = [](std::size_t site, std::size_t sites_in_all, int cells) {
+    return site * static_cast<std::size_t>(cells) / sites_in_all;
+  };
+  std::vector<double> sum(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny)), count(sum.size());
+  for (std::size_t j = 0; j < sites.ny; ++j)
+    for (std::size_t i = 0; i < sites.nx; ++i) {
+      const std::size_t cell = cell_of(j, sites.ny, ny) * static_cast<std::size_t>(nx) + cell_of(i, sites.nx, nx);
+      sum[cell] += v[sites.at(i, j)];
+      ++count[cell];
+    }
+  double largest = 0;
+  for (std::size_t cell = 0; cell < sum.size(); ++cell)
+    if (count[cell] > 0) largest = std::fmax(largest, std::fabs(sum[cell] / count[cell]));
+  return largest * options.scale;
 }
 
 DirectSolver::DirectSolver(const Problem& problem, const DirectOptions& options) {
@@ -118,6 +145,7 @@ DirectSolver::DirectSolver(const Problem& problem, const DirectOptions& options)
 }
 DirectSolver::~DirectSolver() = default;
 
+const Problem& DirectSolver::problem() const { return parts_->problem; }
 double DirectSolver::time() const { return parts_->time; }
 long DirectSolver::steps() const { return parts_->motion.steps; }
 std::size_t DirectSolver::sites() const { return parts_->sites.nx * parts_->sites.ny; }
@@ -126,8 +154,13 @@ bool DirectSolver::advance_to(double time, const std::function<bool()>& interrup
   Parts& p = *parts_;
   const bool reached = p.stepper.advance(p.motion, time, interrupted);
   p.time = reached ? time : p.stepper.time_of(p.motion);
-  if (reached) p.stepper.look_at(p.motion, time, p.look);
-  return reached;
+  if (!reached) return false;
+  p.stepper.look_at(p.motion, time, p.look);
+  const double noise =
+      std::fmax(1e-3 * p.elastic_at_start, no_energy * static_cast<double>(sites()) * p.sites.hx * p.sites.hy);
+  check_budget(energies(), noise / (p.sites.scale * p.sites.scale), time,
+               "a smaller chain.spacing or a larger chain.scale is needed");
+  return true;
 }
 
 std::vector<double> DirectSolver::slip(const std::vector<Point>& points) const {
@@ -154,6 +187,8 @@ Field DirectSolver::field(int nx, int ny) const {
   return field;
 }
 
+std::vector<Line> DirectSolver::lines() const { return lines_of(parts_->look.u, parts_->sites); }
+
 double DirectSolver::potency() const {
   return parts_->integral([this](std::size_t at) { return parts_->slip(at); });
 }
@@ -179,15 +214,16 @@ Energies DirectSolver::energies() const {
           .elastic = per * (p.look.elastic - p.elastic_at_start),
           .dissipated = per * p.look.dissipated,
           .supplied = per * p.look.supplied,
-          .vanished = 0};
+          .vanished = 0,
+          .radiated = per * p.look.radiated};
 }
 
 std::string DirectSolver::saved() const {
   const Motion& m = parts_->motion;
   bytes::Writer writer;
-  for (const double value : {parts_->time, m.dissipated, m.supplied}) writer.put(value);
+  for (const double value : {parts_->time, m.dissipated, m.supplied, m.radiated}) writer.put(value);
   writer.put(static_cast<std::int64_t>(m.steps));
-  for (const auto* values : {&m.u, &m.old}) writer.put(*values);
+  for (const auto* values : {&m.u, &m.old, &m.v_old, &parts_->stepper.friction().states()}) writer.put(*values);
   return std::move(writer).text();
 }
 
@@ -195,12 +231,14 @@ void DirectSolver::resume(std::string_view saved) {
   bytes::Reader reader(saved);
   Motion m;
   double time = 0;
-  for (double* value : {&time, &m.dissipated, &m.supplied}) *value = reader.get<double>();
+  for (double* value : {&time, &m.dissipated, &m.supplied, &m.radiated}) *value = reader.get<double>();
   m.steps = static_cast<long>(reader.get<std::int64_t>());
-  for (auto* values : {&m.u, &m.old}) *values = reader.vector();
+  for (auto* values : {&m.u, &m.old, &m.v_old}) *values = reader.vector();
+  std::vector<double> states = reader.vector();
   reader.end();
   const std::size_t size = parts_->sites.size();
-  if (m.u.size() != size || m.old.size() != size)
+  if (m.u.size() != size || m.old.size() != size || m.v_old.size() != parts_->motion.v_old.size() ||
+      !parts_->stepper.friction().set_states(std::move(states)))
     throw InputError({.key = "resume",
                       .problem = "the saved state has another number of sites",
                       .allowed = "a file of the same scenario"});

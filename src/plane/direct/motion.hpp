@@ -5,7 +5,9 @@
 #include <functional>
 #include <vector>
 
+#include "plane/direct/loads.hpp"
 #include "plane/direct/rows.hpp"
+#include "plane/direct/site_friction.hpp"
 #include "plane/direct/sites.hpp"
 
 namespace slipfront::plane {
@@ -13,16 +15,19 @@ namespace slipfront::plane {
 /// Displacements of all sites at two times, one step apart, stretched. Steps are equal throughout a run, because a
 /// change of the step takes energy from short waves.
 struct Motion {
-  long steps = 0;                       ///< `u` is at the time steps * dt
-  std::vector<double> u, old;           ///< now, and one step before
-  double dissipated = 0, supplied = 0;  ///< stretched, from t = 0 to the middle between `old` and `u`
+  long steps = 0;              ///< `u` is at the time steps * dt
+  std::vector<double> u, old;  ///< now, and one step before
+  std::vector<double> v_old;   ///< accelerations without friction one step before; empty unless friction is viscous
+  /// Stretched energies from t = 0 to the middle between `old` and `u`.
+  double dissipated = 0, supplied = 0, radiated = 0;
 };
 
 /// The motion at a time of observation, which is at most half a step from that of the step.
 struct Look {
   double time = 0;  ///< in units of the scenario
   std::vector<double> u, velocity;
-  double kinetic = 0, elastic = 0, dissipated = 0, supplied = 0;  ///< stretched, at the time of the step
+  /// Stretched energies at the time of the step.
+  double kinetic = 0, elastic = 0, dissipated = 0, supplied = 0, radiated = 0;
 };
 
 class Stepper {
@@ -35,17 +40,26 @@ class Stepper {
   bool advance(Motion& motion, double time, const std::function<bool()>& interrupted);
   /// Fills `look`. \throws NumericsError for a displacement that is not finite.
   void look_at(const Motion& motion, double time, Look& look);
+  /// u_tt of each site at rest without friction and forces.
+  std::vector<double> accelerations_at_rest(std::vector<double> u) const;
+  SiteFriction& friction() { return friction_; }
   double time_of(const Motion& motion) const { return static_cast<double>(motion.steps) * dt_ / sites_.scale; }
 
  private:
   /// Finds u one step later in `next`, which has u one step before on entry. Returns the work of this step.
   struct Work {
-    double dissipated, supplied;
+    double dissipated, supplied, radiated;
   };
-  Work step(double time, const std::vector<double>& u, std::vector<double>& next);
-  void step_rows(const std::vector<double>& u, std::size_t first, std::size_t last, std::vector<double>& next);
-  double rub(std::size_t row, const double* before, double* after) const;
-  void find_force(double time);
+  Work step(const Motion& motion, std::vector<double>& next);
+  void step_rows(const Motion& motion, std::size_t first, std::size_t last, std::vector<double>& next);
+  class Window;
+  /// Whether friction, edges or forces do work in a step.
+  bool acts_on_steps() const;
+  void accelerate_row(const std::vector<double>& u, std::size_t row, const Acceleration& result) const;
+  template <class Each>
+  void for_each_acceleration(const std::vector<double>& u, const Each& each) const;
+  void rub(const Motion& motion, std::size_t row, const double* v, const double* v_tt, const double* before,
+           double* after);
   void fill_ghosts(std::vector<double>& f) const;
   void fill_ends(double* row) const;
   std::vector<double> accelerations(const std::vector<double>& u) const;
@@ -60,10 +74,13 @@ class Stepper {
   const Sites& sites_;
   int threads_;
   RowShape shape_;
-  double dt_;                  ///< stretched
-  std::vector<double> force_;  ///< F / scale; empty: none
-  std::vector<double> work_of_row_, supply_of_row_;
+  double dt_;  ///< stretched
+  Loads loads_;
+  SiteFriction friction_;
+  std::vector<Rubbed> work_of_row_;
+  std::vector<double> supply_of_row_;
   std::vector<double> next_;  ///< one step after a look
+  std::vector<double> v_;     ///< accelerations without friction in the last step; empty unless friction is viscous
 };
 
 }  // namespace slipfront::plane

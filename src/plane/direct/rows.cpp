@@ -1,8 +1,10 @@
 #include "plane/direct/rows.hpp"
 
 #include <cmath>
+#include <cstddef>
 
 #include "foundation/simd/elementary.hpp"
+#include "foundation/simd/reduce.hpp"
 #include "foundation/simd/vector_code.hpp"
 
 namespace slipfront::plane {
@@ -39,62 +41,75 @@ struct HalfAngle {
 
 }  // namespace
 
-SLIPFRONT_CLONES void laplacian(const RowShape& shape, const FiveRows& rows, double* result) {
-  const double x2 = -shape.per_hx2 / 12, x1 = 4 * shape.per_hx2 / 3, y2 = -shape.per_hy2 / 12,
-               y1 = 4 * shape.per_hy2 / 3, centre = -2.5 * (shape.per_hx2 + shape.per_hy2);
-  const double *const lowest = rows[0], *const low = rows[1], *const f = rows[2], *const high = rows[3],
-                      *const highest = rows[4];
-  const auto sites = static_cast<std::ptrdiff_t>(shape.sites);
-  SLIPFRONT_INDEPENDENT
-  for (std::ptrdiff_t i = 0; i < sites; ++i)
-    result[i] = centre * f[i] + x1 * (f[i - 1] + f[i + 1]) + x2 * (f[i - 2] + f[i + 2]) + y1 * (low[i] + high[i]) +
-                y2 * (lowest[i] + highest[i]);
-}
-
 namespace {
 
-// Each loop has one version with a varying contact and one without: a test in the loop would make it load from null.
+/// The Laplacian of fourth order at a site of the middle one of five rows.
+struct Laplacian {
+  double x2, x1, y2, y1, centre;
+  const double *lowest, *low, *f, *high, *highest;
 
-/// a^2, or 1.
-template <bool varying>
-struct Contact {
-  const double* a2;
-  double operator[](std::size_t i) const {
-    if constexpr (varying)
-      return a2[i];
-    else
-      return 1;
+  [[gnu::always_inline]] Laplacian(const RowShape& shape, const FiveRows& rows)
+      : x2(-shape.per_hx2 / 12),
+        x1(4 * shape.per_hx2 / 3),
+        y2(-shape.per_hy2 / 12),
+        y1(4 * shape.per_hy2 / 3),
+        centre(-2.5 * (shape.per_hx2 + shape.per_hy2)),
+        lowest(rows[0]),
+        low(rows[1]),
+        f(rows[2]),
+        high(rows[3]),
+        highest(rows[4]) {}
+  [[gnu::always_inline]] double operator()(std::ptrdiff_t i) const {
+    return centre * f[i] + x1 * (f[i - 1] + f[i + 1]) + x2 * (f[i - 2] + f[i + 2]) + y1 * (low[i] + high[i]) +
+           y2 * (lowest[i] + highest[i]);
   }
 };
 
-template <bool varying>
-[[gnu::always_inline]] inline void subtract_sine(std::size_t sites, const double* u, Contact<varying> a2, double* v) {
-  SLIPFRONT_INDEPENDENT
-  for (std::size_t i = 0; i < sites; ++i) v[i] -= a2[i] * HalfAngle(u[i]).sin_u();
-}
+// Each loop has one version with a varying contact, or held sites, and one without: a test in the loop would make it
+// load from null.
 
 template <bool varying>
-[[gnu::always_inline]] inline void subtract_rate(std::size_t sites, const double* u, const double* v, const double* u_t,
-                                                 Contact<varying> a2, double* rate) {
+[[gnu::always_inline]] inline void accelerate(const RowShape& shape, const FiveRows& u, const double* contact2,
+                                              const Acceleration& result) {
+  const Laplacian bend(shape, u);
+  double *const v = result.v, *const sine = result.sine, *const cosine = result.cosine;
+  const auto sites = static_cast<std::ptrdiff_t>(shape.sites);
   SLIPFRONT_INDEPENDENT
-  for (std::size_t i = 0; i < sites; ++i) {
-    const HalfAngle at(u[i]);
-    rate[i] -= a2[i] * ((1 - at.one_minus_cos_u()) * v[i] - at.sin_u() * u_t[i] * u_t[i]);
+  for (std::ptrdiff_t i = 0; i < sites; ++i) {
+    const HalfAngle at(bend.f[i]);
+    double s = at.sin_u(), c = 1 - at.one_minus_cos_u();
+    if constexpr (varying) {
+      s *= contact2[i];
+      c *= contact2[i];
+    }
+    sine[i] = s;
+    cosine[i] = c;
+    v[i] = bend(i) - s;
   }
 }
 
-template <bool varying>
-[[gnu::always_inline]] inline void step_free(std::size_t sites, double dt, const double* u, const double* v,
-                                             Contact<varying> a2, const double* v_tt, double* old) {
+template <bool held>
+[[gnu::always_inline]] inline void step_free(const RowShape& shape, double dt, const double* u, const Acceleration& now,
+                                             const FiveRows& rated, const double* moves, double* v_tt, double* old) {
+  const Laplacian bend(shape, rated);
+  const double *const v = now.v, *const sine = now.sine, *const cosine = now.cosine;
   const double dt2 = dt * dt, per_dt = 1 / dt;
+  const auto sites = static_cast<std::ptrdiff_t>(shape.sites);
   SLIPFRONT_INDEPENDENT
-  for (std::size_t i = 0; i < sites; ++i) {
-    const HalfAngle at(u[i]);
+  for (std::ptrdiff_t i = 0; i < sites; ++i) {
     const double gained = u[i] - old[i], u_t = gained * per_dt + 0.5 * dt * v[i];
-    const double rate = v_tt[i] - a2[i] * ((1 - at.one_minus_cos_u()) * v[i] - at.sin_u() * u_t * u_t);
+    double rate = bend(i);
+    if constexpr (held) rate *= moves[i];  // the other terms are 0 where v and u_t are
+    rate -= cosine[i] * v[i] - sine[i] * (u_t * u_t);
     const double next = u[i] + (gained + dt2 * (v[i] + dt2 / 12 * rate));
+    v_tt[i] = rate;
     old[i] = std::fabs(next) < least ? 0 : next;
   }
+}
+
+template <class Value>
+[[gnu::always_inline]] inline double sum(std::size_t sites, const Value& value) {
+  return reduce(sites, 0.0, value, [](double a, double b) { return a + b; });
 }
 
 inline void multiply(std::size_t sites, const double* factor, double* f) {
@@ -104,41 +119,59 @@ inline void multiply(std::size_t sites, const double* factor, double* f) {
 
 }  // namespace
 
-SLIPFRONT_CLONES void add_substrate(std::size_t sites, const double* u, const double* contact2, const double* moves,
-                                    const double* force, double* v) {
+SLIPFRONT_CLONES void laplacian(const RowShape& shape, const FiveRows& rows, double* result) {
+  const Laplacian bend(shape, rows);
+  const auto sites = static_cast<std::ptrdiff_t>(shape.sites);
+  SLIPFRONT_INDEPENDENT
+  for (std::ptrdiff_t i = 0; i < sites; ++i) result[i] = bend(i);
+}
+
+SLIPFRONT_CLONES void accelerate(const RowShape& shape, const FiveRows& u, const double* contact2,
+                                 const Acceleration& result) {
   if (contact2)
-    subtract_sine<true>(sites, u, {contact2}, v);
+    accelerate<true>(shape, u, contact2, result);
   else
-    subtract_sine<false>(sites, u, {}, v);
+    accelerate<false>(shape, u, contact2, result);
+}
+
+SLIPFRONT_CLONES void load(std::size_t sites, const double* moves, const double* force, double* v) {
   if (force)
     for (std::size_t i = 0; i < sites; ++i) v[i] += force[i];
   if (moves) multiply(sites, moves, v);
 }
 
-SLIPFRONT_CLONES void add_substrate_rate(std::size_t sites, const double* u, const double* v, const double* u_t,
-                                         const double* contact2, const double* moves, double* rate) {
-  if (contact2)
-    subtract_rate<true>(sites, u, v, u_t, {contact2}, rate);
+SLIPFRONT_CLONES void step_row(const RowShape& shape, double dt, const double* u, const Acceleration& now,
+                               const FiveRows& rated, const double* moves, double* v_tt, double* old) {
+  if (moves)
+    step_free<true>(shape, dt, u, now, rated, moves, v_tt, old);
   else
-    subtract_rate<false>(sites, u, v, u_t, {}, rate);
+    step_free<false>(shape, dt, u, now, rated, moves, v_tt, old);
+}
+
+SLIPFRONT_CLONES void add_substrate_rate(std::size_t sites, const double* v, const double* u_t, const Acceleration& now,
+                                         const double* moves, double* rate) {
+  for (std::size_t i = 0; i < sites; ++i) rate[i] -= now.cosine[i] * v[i] - now.sine[i] * (u_t ? u_t[i] * u_t[i] : 0);
   if (moves) multiply(sites, moves, rate);
 }
 
-SLIPFRONT_CLONES void step_row(std::size_t sites, double dt, const double* u, const double* v, const double* contact2,
-                               const double* moves, double* v_tt, double* old) {
-  if (moves) multiply(sites, moves, v_tt);  // the other terms of v_tt are 0 where v and u_t are
-  if (contact2)
-    step_free<true>(sites, dt, u, v, {contact2}, v_tt, old);
-  else
-    step_free<false>(sites, dt, u, v, {}, v_tt, old);
-}
-
-SLIPFRONT_CLONES void rub_viscous(std::size_t sites, double dt, const double* viscous, const double* before,
-                                  double* after) {
+SLIPFRONT_CLONES double rub_viscous(std::size_t sites, double dt, const double* viscous, const Rates& rates,
+                                    const double* before, double* after) {
+  const double *const v = rates.v, *const v_old = rates.v_old, *const v_tt = rates.v_tt;
+  const double half = 0.5 * dt, per_dt = 1 / dt, per_two_dt = 0.5 / dt, excess = dt * dt / 6;
   SLIPFRONT_INDEPENDENT
-  for (std::size_t i = 0; i < sites; ++i) after[i] = before[i] + (after[i] - before[i]) / (1 + 0.5 * dt * viscous[i]);
+  for (std::size_t i = 0; i < sites; ++i) after[i] = before[i] + (after[i] - before[i]) / (1 + half * viscous[i]);
+  return dt * sum(sites, [=](std::size_t i) {
+           const double v_t = (v[i] - v_old[i]) * per_dt + half * v_tt[i];
+           const double u_t = (after[i] - before[i]) * per_two_dt - excess * v_t;
+           return viscous[i] * u_t * u_t;
+         });
 }
 
+SLIPFRONT_CLONES double work_of(std::size_t sites, const double* force, const double* before, const double* after) {
+  return sum(sites, [=](std::size_t i) { return force[i] * (after[i] - before[i]); }) / 2;
+}
+
+// A plain loop, because emscripten 3.1 compiles a sum of these terms in lanes wrongly.
 SLIPFRONT_CLONES double substrate_energy(std::size_t sites, const double* u, const double* contact2) {
   double sum = 0;
   if (contact2)

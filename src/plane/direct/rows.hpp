@@ -22,20 +22,37 @@ using FiveRows = std::array<const double*, 5>;
 /// result = f_xx + f_yy of the middle row, which reads two sites on each side of it.
 void laplacian(const RowShape& shape, const FiveRows& f, double* result);
 
-/// v += force - a^2 sin u, or 0 where the interface is held. `contact2`, `moves` and `force` may be null.
-void add_substrate(std::size_t sites, const double* u, const double* contact2, const double* moves, const double* force,
-                   double* v);
+/// Finds the acceleration v = u_xx + u_yy - a^2 sin u of the middle row, and the sine and the cosine in it.
+/// `contact2`, a^2, may be null.
+struct Acceleration {
+  double *v, *sine, *cosine;  ///< sine: a^2 sin u; cosine: a^2 cos u
+};
+void accelerate(const RowShape& shape, const FiveRows& u, const double* contact2, const Acceleration& result);
 
-/// rate = v_tt from `rate`, which has v_xx + v_yy on entry, and from u_t.
-void add_substrate_rate(std::size_t sites, const double* u, const double* v, const double* u_t, const double* contact2,
-                        const double* moves, double* rate);
+/// v = moves (v + force): the interface is held where `moves` is 0. Both may be null.
+void load(std::size_t sites, const double* moves, const double* force, double* v);
 
-/// One step without friction: `old` has u(t - dt) on entry and u(t + dt) on return. `v_tt` has v_xx + v_yy on entry.
-void step_row(std::size_t sites, double dt, const double* u, const double* v, const double* contact2,
+/// One step without friction from the acceleration of the middle row. `rated` are accelerations of five rows whose
+/// change in time counts. `old` has u(t - dt) on entry and u(t + dt) on return. `v_tt` becomes v_tt. `moves` may be
+/// null.
+void step_row(const RowShape& shape, double dt, const double* u, const Acceleration& now, const FiveRows& rated,
               const double* moves, double* v_tt, double* old);
 
-/// Slows a step from u(t - dt), `before`, to u(t + dt), `after`, by the implicit friction C (after - before) / (2 dt).
-void rub_viscous(std::size_t sites, double dt, const double* viscous, const double* before, double* after);
+/// rate = v_tt from `rate`, which has v_xx + v_yy on entry, for the velocity `u_t`, or for rest if it is null.
+void add_substrate_rate(std::size_t sites, const double* v, const double* u_t, const Acceleration& now,
+                        const double* moves, double* rate);
+
+/// Accelerations without friction of a row in the middle of a step, one step before, and their rate.
+struct Rates {
+  const double *v, *v_old, *v_tt;
+};
+/// Slows a step from u(t - dt), `before`, to u(t + dt), `after`, by the implicit friction C D, D = (after - before) /
+/// (2 dt). Returns its work over dt, which is that of u_t = D - dt^2 / 6 v_t.
+double rub_viscous(std::size_t sites, double dt, const double* viscous, const Rates& rates, const double* before,
+                   double* after);
+
+/// Work of a force in the middle of a step from `before` to `after`, over two steps.
+double work_of(std::size_t sites, const double* force, const double* before, const double* after);
 
 /// Sum of 1 - cos u, times a^2 unless `contact2` is null.
 double substrate_energy(std::size_t sites, const double* u, const double* contact2);

@@ -35,6 +35,13 @@ std::vector<double> at_each(const Sites& sites, const Value& value) {
   return all;
 }
 
+void fix_edges(Sites& sites) {
+  if (sites.moves.empty()) sites.moves = at_each(sites, [](double, double) { return 1.0; });
+  for (std::size_t j = 0; j < sites.ny; ++j)
+    for (std::size_t i = 0; i < sites.nx; ++i)
+      if (i == 0 || j == 0 || i + 1 == sites.nx || j + 1 == sites.ny) sites.moves[sites.at(i, j)] = 0;
+}
+
 }  // namespace
 
 Counts count_sites(const Problem& p, double scale, double spacing) {
@@ -64,6 +71,7 @@ Sites make_sites(const Problem& p, double scale, double spacing) {
     });
   if (p.viscous) sites.viscous = at_each(sites, [&](double x, double y) { return p.viscous(x, y) / scale; });
   if (p.fixed) sites.moves = at_each(sites, [&](double x, double y) { return p.fixed(x, y) == 0 ? 1.0 : 0.0; });
+  if (p.edges == Edges::fixed) fix_edges(sites);
   return sites;
 }
 

@@ -50,12 +50,22 @@ std::vector<double> densities(const std::vector<double>& mean, const Sites& site
   return density;
 }
 
-/// Gives held sites next to the lines the density of these lines, because the slip of a held region has no slope.
+/// Gives held sites next to the lines the density of these lines, because the slip of a held region has no slope, or
+/// only a part of it next to the edge.
 void extend_into_held(const Sites& sites, std::vector<double>& density) {
   if (sites.moves.empty()) return;
-  for (int pass = 0; pass < 2 * static_cast<int>(Sites::ghosts); ++pass) {
+  const std::size_t n = sites.stride();
+  for (std::size_t j = 0; j < sites.ny; ++j)
+    for (std::size_t i = 0; i < sites.nx; ++i) {
+      const std::size_t c = sites.at(i, j);
+      if (sites.moves[c] != 0) continue;
+      double next_to_it = 0;
+      for (const std::size_t other : {c - 1, c + 1, c - n, c + n})
+        next_to_it = std::fmax(next_to_it, density[other] * sites.moves[other]);
+      if (next_to_it > 0) density[c] = next_to_it;
+    }
+  for (int pass = 1; pass < 2 * static_cast<int>(Sites::ghosts); ++pass) {
     const std::vector<double> before = density;
-    const std::size_t n = sites.stride();
     for (std::size_t j = 0; j < sites.ny; ++j)
       for (std::size_t i = 0; i < sites.nx; ++i)
         if (const std::size_t c = sites.at(i, j); sites.moves[c] == 0 && before[c] == 0)

@@ -2,12 +2,12 @@
 
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 #include <filesystem>
 #include <optional>
 #include <string_view>
-#include <system_error>
+#include <utility>
 
+#include "foundation/bytes.hpp"
 #include "foundation/text/csv_records.hpp"
 #include "foundation/text/digits.hpp"
 #include "foundation/text/trimmed.hpp"
@@ -20,17 +20,20 @@
 namespace slipfront::record {
 namespace {
 
-using Table = std::vector<std::pair<double, double>>;
+using Table = std::vector<std::vector<double>>;  ///< rows
+using Names = std::vector<std::string>;          ///< names of the columns to read
 
-/// The names of the two columns to read.
-struct Names {
-  std::string x, y;
-  std::string both() const { return x + " and " + y; }
-};
+std::string in_words(const Names& names) {
+  std::string all;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    all += (i == 0 ? "" : i + 1 < names.size() ? ", " : " and ") + names[i];
+  return all;
+}
 
-/// The number of columns in a CSV file, and the indices of the two to read.
+/// The number of columns in a CSV file, and the indices of those to read.
 struct Columns {
-  std::size_t count, x, y;
+  std::size_t count;
+  std::vector<std::size_t> indices;
 };
 
 Columns read_header(const std::vector<std::string>& titles, const Names& names, std::size_t line,
@@ -48,31 +51,36 @@ Columns read_header(const std::vector<std::string>& titles, const Names& names, 
                         .line = line,
                         .key = name,
                         .problem = "column is missing",
-                        .allowed = "a header line with the columns " + names.both()});
+                        .allowed = "a header line with the columns " + in_words(names)});
     return *found;
   };
-  return {titles.size(), column(names.x), column(names.y)};
+  Columns columns{titles.size(), {}};
+  for (const std::string& name : names) columns.indices.push_back(column(name));
+  return columns;
 }
 
-std::pair<double, double> read_row(const Columns& columns, const Names& names, const std::vector<std::string>& cells,
-                                   std::size_t line, const std::string& path) {
+std::vector<double> read_row(const Columns& columns, const Names& names, const std::vector<std::string>& cells,
+                             std::size_t line, const std::string& path) {
   if (cells.size() != columns.count)
     throw InputError({.file = path,
                       .line = line,
                       .problem = "the row has " + std::to_string(cells.size()) + " cells",
                       .allowed = std::to_string(columns.count) + " cells, as in the header"});
-  const auto value = [&](const std::string& name, std::size_t column) {
-    const std::optional<double> parsed = medium::number(trimmed(cells[column]));
+  std::vector<double> row;
+  row.reserve(names.size());
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string& cell = cells[columns.indices[i]];
+    const std::optional<double> parsed = medium::number(trimmed(cell));
     if (!parsed)
       throw InputError({.file = path,
                         .line = line,
-                        .key = name,
-                        .value = cells[column],
-                        .problem = cells[column].empty() ? "no value" : "not a number",
+                        .key = names[i],
+                        .value = cell,
+                        .problem = cell.empty() ? "no value" : "not a number",
                         .allowed = "a finite number"});
-    return *parsed;
-  };
-  return {value(names.x, columns.x), value(names.y, columns.y)};
+    row.push_back(*parsed);
+  }
+  return row;
 }
 
 Table read_csv(std::string_view text, const Names& names, const std::string& path) {
@@ -94,25 +102,21 @@ Table read_csv(std::string_view text, const Names& names, const std::string& pat
   if (table.empty())
     throw InputError({.file = path,
                       .problem = columns ? "a header and no rows" : "the file is empty",
-                      .allowed = "a header line with the columns " + names.both() + ", and rows of numbers"});
+                      .allowed = "a header line with the columns " + in_words(names) + ", and rows of numbers"});
   return table;
 }
 
 /// Reads a variable. \throws InputError if it is packed, or if values are missing or not finite.
-std::vector<double> read_variable(const netcdf::Reader& file, const std::string& name, const Names& names,
+std::vector<double> read_variable(const netcdf::Reader& file, const netcdf::Variable& variable,
                                   const std::string& path) {
   const auto fail = [&](const std::string& value, const std::string& problem, const std::string& allowed) {
-    throw InputError({.file = path, .key = name, .value = value, .problem = problem, .allowed = allowed});
+    throw InputError({.file = path, .key = variable.name, .value = value, .problem = problem, .allowed = allowed});
   };
-  const std::optional<netcdf::Variable> variable = file.find(name);
-  if (!variable) fail("", "variable is missing", "variables " + names.both());
-  if (variable->kind == netcdf::Variable::Kind::other) fail("", "holds no numbers", "numbers");
-  if (variable->shape.size() != 1)
-    fail("", "has " + std::to_string(variable->shape.size()) + " dimensions", "one dimension");
-  if (file.number(*variable, "scale_factor") || file.number(*variable, "add_offset"))
+  if (variable.kind == netcdf::Variable::Kind::other) fail("", "holds no numbers", "numbers");
+  if (file.number(variable, "scale_factor") || file.number(variable, "add_offset"))
     fail("", "is packed (scale_factor, add_offset)", "plain numbers");
-  const auto fill = file.number(*variable, "_FillValue"), missing = file.number(*variable, "missing_value");
-  std::vector<double> values = file.reals(*variable);
+  const auto fill = file.number(variable, "_FillValue"), missing = file.number(variable, "missing_value");
+  std::vector<double> values = file.reals(variable);
   for (std::size_t i = 0; i < values.size(); ++i) {
     const std::string index = "value " + std::to_string(i + 1) + " of " + std::to_string(values.size());
     if (values[i] == fill || values[i] == missing) fail(digits(values[i]), index + " is missing", "no missing values");
@@ -121,41 +125,68 @@ std::vector<double> read_variable(const netcdf::Reader& file, const std::string&
   return values;
 }
 
-Table columns_of(const netcdf::Reader& file, const Names& names, const std::string& path) {
-  const std::vector<double> x = read_variable(file, names.x, names, path),
-                            y = read_variable(file, names.y, names, path);
-  if (x.size() != y.size())
-    throw InputError({.file = path,
-                      .key = names.y,
-                      .problem = "has " + std::to_string(y.size()) + " values",
-                      .allowed = std::to_string(x.size()) + " values, as " + names.x + " has"});
-  if (x.empty()) throw InputError({.file = path, .key = names.x, .problem = "no values", .allowed = "at least one"});
+/// A variable over two coordinates as rows of the coordinates and the value.
+Table rows_of_grid(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& values) {
   Table table;
-  for (std::size_t i = 0; i < x.size(); ++i) table.emplace_back(x[i], y[i]);
+  table.reserve(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) table.push_back({x[i % x.size()], y[i / x.size()], values[i]});
+  return table;
+}
+
+Table rows_of(const netcdf::Reader& file, const Names& names, const std::string& path) {
+  std::vector<std::vector<double>> columns;
+  for (const std::string& name : names) {
+    const auto fail = [&](const std::string& problem, const std::string& allowed) {
+      throw InputError({.file = path, .key = name, .problem = problem, .allowed = allowed});
+    };
+    const std::optional<netcdf::Variable> variable = file.find(name);
+    if (!variable) fail("variable is missing", "variables " + in_words(names));
+    const std::size_t rank = variable->shape.size();
+    const bool is_grid = rank == 2 && columns.size() == 2;
+    if (rank != 1 && !is_grid) fail("has " + std::to_string(rank) + " dimensions", "one dimension");
+    if (is_grid && variable->shape != std::vector<std::size_t>{columns[1].size(), columns[0].size()})
+      fail("has another shape than its coordinates", name + "(" + names[1] + ", " + names[0] + ")");
+    std::vector<double> values = read_variable(file, *variable, path);
+    if (values.empty()) fail("no values", "at least one");
+    if (is_grid) return rows_of_grid(columns[0], columns[1], values);
+    columns.push_back(std::move(values));
+  }
+  for (std::size_t i = 1; i < columns.size(); ++i)
+    if (columns[i].size() != columns[0].size())
+      throw InputError({.file = path,
+                        .key = names[i],
+                        .problem = "has " + std::to_string(columns[i].size()) + " values",
+                        .allowed = std::to_string(columns[0].size()) + " values, as " + names[0] + " has"});
+  Table table(columns[0].size());
+  for (std::size_t row = 0; row < table.size(); ++row)
+    for (const std::vector<double>& column : columns) table[row].push_back(column[row]);
   return table;
 }
 
 Table read_any_netcdf(std::string_view image, const Names& names, const std::string& path) {
   constexpr std::size_t most_bytes = std::size_t{1} << 28;  // a compressed file may hold more than its own size
-  const std::string bytes = read_netcdf(path, image, most_bytes, [&](const netcdf::Reader& file) {
-    const Table table = columns_of(file, names, path);
-    return std::string(reinterpret_cast<const char*>(table.data()), table.size() * sizeof table[0]);
+  const std::string packed = read_netcdf(path, image, most_bytes, [&](const netcdf::Reader& file) {
+    bytes::Writer out;
+    for (const std::vector<double>& row : rows_of(file, names, path))
+      for (const double value : row) out.put(value);
+    return std::move(out).text();
   });
-  Table table(bytes.size() / sizeof table[0]);
-  std::memcpy(static_cast<void*>(table.data()), bytes.data(), bytes.size());
+  bytes::Reader in(packed);
+  Table table(packed.size() / sizeof(double) / names.size());
+  for (std::vector<double>& row : table)
+    for (std::size_t i = 0; i < names.size(); ++i) row.push_back(in.get<double>());
   return table;
 }
 
 }  // namespace
 
-std::vector<std::pair<double, double>> read_table(const std::string& path, const std::string& x, const std::string& y) {
-  const Names names{x, y};
+std::vector<std::vector<double>> read_table(const std::string& path, const std::vector<std::string>& columns) {
   const std::string ending = std::filesystem::path(path).extension().string();
   if (ending != ".csv" && ending != ".nc")
     throw InputError({.file = path, .problem = "unknown ending '" + ending + "'", .allowed = ".csv or .nc"});
   const std::string content = read_regular(path);
-  return ending == ".csv" ? read_csv(content, names, path)
-                          : read_any_netcdf(without_broken_seal(content, path), names, path);
+  return ending == ".csv" ? read_csv(content, columns, path)
+                          : read_any_netcdf(without_broken_seal(content, path), columns, path);
 }
 
 }  // namespace slipfront::record

@@ -1,18 +1,18 @@
 #pragma once
 /// \file
-/// Reads curves from separate files: initial profiles and friction laws.
+/// Reads tables from separate files: initial profiles and friction laws.
 
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace slipfront::record {
 
-/// Reads at least one pair (x, y), in the order of the file; all numbers are finite. The extension of `path` gives the
-/// format. A .csv file has a header line with columns named `x` and `y`; other columns are ignored. A .nc file (any
-/// NetCDF) has one-dimensional variables of these names and of equal length. The caller checks whether x ascends and
-/// whether y may be negative. \throws FileError if the file cannot be read, InputError (file, line, key, value,
-/// allowed) if its content is wrong.
-std::vector<std::pair<double, double>> read_table(const std::string& path, const std::string& x, const std::string& y);
+/// Reads the rows of some columns, at least one, in the order of the file; all numbers are finite. The extension of
+/// `path` gives the format. A .csv file has a header line with columns of these names; other columns are ignored. A .nc
+/// file (any NetCDF) has one-dimensional variables of these names and of equal length. Three columns may also be two
+/// coordinates and a variable over the second and the first of them, such as slip(y, x). The caller checks the order
+/// and the signs. \throws FileError if the file cannot be read, InputError (file, line, key, value, allowed) if its
+/// content is wrong.
+std::vector<std::vector<double>> read_table(const std::string& path, const std::vector<std::string>& columns);
 
 }  // namespace slipfront::record

@@ -9,6 +9,7 @@
 #include "record/netcdf/netcdf_file.hpp"
 #include "record/planes/plane_variables.hpp"
 #include "record/pulses/cf.hpp"
+#include "slipfront/plane/source_parameters.hpp"
 
 namespace slipfront::record {
 namespace {
@@ -18,7 +19,7 @@ using netcdf::Writer;
 constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
 
 struct Dimensions {
-  int time, y, x, series;
+  int time, y, x, series, frequency;
 };
 
 /// Centres of the cells between two ends.
@@ -40,14 +41,20 @@ int opaque(Writer& file, const char* name, const char* long_name, std::size_t si
 class PlaneWriter {
  public:
   PlaneWriter(Writer& file, const PulseMetadata& metadata, const PlaneGrid& grid, const plane::Run& run)
-      : file_(file), metadata_(metadata), grid_(grid), run_(run) {
+      : file_(file),
+        metadata_(metadata),
+        grid_(grid),
+        run_(run),
+        frequencies_(plane::spectrum_frequencies(run.series())) {
     dimensions_.time = file.dimension("time", run.snapshots().size());
     dimensions_.y = file.dimension("y", static_cast<std::size_t>(grid.ny));
     dimensions_.x = file.dimension("x", static_cast<std::size_t>(grid.nx));
     dimensions_.series = file.dimension("series_time", run.series().size());
+    dimensions_.frequency = file.dimension("frequency", frequencies_.size());
   }
 
   void define() {
+    if (run_.schedule().lines) define_lines();
     time_ = cf::reals(file_, plane_time, {dimensions_.time}, metadata_);
     y_ = cf::reals(file_, plane_y, {dimensions_.y}, metadata_);
     x_ = cf::reals(file_, plane_x, {dimensions_.x}, metadata_);
@@ -61,12 +68,15 @@ class PlaneWriter {
     }
     for (const PlaneSeries& series : plane_series())
       series_.push_back(cf::reals(file_, series.about, {dimensions_.series}, metadata_));
+    frequency_ = cf::reals(file_, plane_frequency, {dimensions_.frequency}, metadata_);
+    spectrum_ = cf::reals(file_, plane_spectrum, {dimensions_.frequency}, metadata_);
     state_ = run_.saved();
     state_id_ = opaque(file_, "checkpoint", "state of the run, to resume it", state_.size());
     scenario_id_ = opaque(file_, "scenario_text", "the scenario, byte by byte", metadata_.scenario_text.size());
   }
 
   void write() {
+    if (run_.schedule().lines) write_lines();
     std::vector<double> times;
     for (const plane::Field& field : run_.snapshots()) times.push_back(field.time);
     file_.write(time_, times);
@@ -75,24 +85,38 @@ class PlaneWriter {
     for (std::size_t i = 0; i < fields_.size(); ++i)
       for (std::size_t row = 0; row < times.size(); ++row)
         file_.write_row(fields_[i], row, run_.snapshots()[row].*plane_fields()[i].values);
-    for (std::size_t i = 0; i < maps_.size(); ++i) file_.write_all(maps_[i], run_.maps().*plane_maps()[i].values);
+    const plane::Maps maps = run_.maps();
+    for (std::size_t i = 0; i < maps_.size(); ++i) file_.write_all(maps_[i], maps.*plane_maps()[i].values);
     for (std::size_t i = 0; i < series_.size(); ++i) {
       std::vector<double> values;
       for (const plane::SeriesRow& row : run_.series()) values.push_back(plane_series()[i].get(row));
       file_.write(series_[i], values);
     }
+    file_.write(frequency_, frequencies_);
+    file_.write(spectrum_, plane::spectrum(run_.series(), frequencies_));
     file_.write(state_id_, state_);
     file_.write(scenario_id_, metadata_.scenario_text);
   }
 
  private:
+  void define_lines() {
+    lines_ = line_points(run_.snapshots());
+    const int points = file_.dimension("line_point", lines_.x.size());
+    for (const PlaneLine& line : plane_lines()) line_ids_.push_back(cf::reals(file_, line.about, {points}, metadata_));
+  }
+  void write_lines() {
+    for (std::size_t i = 0; i < line_ids_.size(); ++i) file_.write(line_ids_[i], lines_.*plane_lines()[i].values);
+  }
+
   Writer& file_;
   const PulseMetadata& metadata_;
   const PlaneGrid& grid_;
   const plane::Run& run_;
   Dimensions dimensions_{};
-  int time_ = 0, y_ = 0, x_ = 0, state_id_ = 0, scenario_id_ = 0;
-  std::vector<int> fields_, maps_, series_;
+  std::vector<double> frequencies_;
+  int time_ = 0, y_ = 0, x_ = 0, frequency_ = 0, spectrum_ = 0, state_id_ = 0, scenario_id_ = 0;
+  std::vector<int> fields_, maps_, series_, line_ids_;
+  LinePoints lines_;
   std::string state_;
 };
 
@@ -103,7 +127,9 @@ std::vector<double> PlaneGrid::y() const { return centres(bottom, top, ny); }
 
 void write_plane(const std::string& path, const PulseMetadata& metadata, const PlaneGrid& grid, const plane::Run& run) {
   const std::size_t cells = static_cast<std::size_t>(grid.nx) * static_cast<std::size_t>(grid.ny);
-  const std::size_t values = cells * (plane_fields().size() * run.snapshots().size() + 2 * plane_maps().size());
+  std::size_t values = cells * (plane_fields().size() * run.snapshots().size() + 2 * plane_maps().size());
+  for (const plane::Field& snapshot : run.snapshots())
+    for (const plane::Line& line : snapshot.lines) values += 4 * (line.points.size() + 1);
   write_netcdf(path, values * sizeof(double) + (1 << 16), [&](Writer& file) {
     cf::describe_file(file, metadata, plane_format, run.finished());
     PlaneWriter writer(file, metadata, grid, run);

@@ -11,7 +11,7 @@
 namespace slipfront::record {
 
 /// Value of the attribute slipfront_format. Increase the number when old readers would fail.
-inline constexpr const char* plane_format = "plane 1";
+inline constexpr const char* plane_format = "plane 2";
 
 /// The grid of a file, in the coordinates of the scenario.
 struct PlaneGrid {

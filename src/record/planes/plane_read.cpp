@@ -1,4 +1,6 @@
+#include <cmath>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 #include "foundation/bytes.hpp"
@@ -32,6 +34,33 @@ std::string text(const std::string& path, const Reader& file, const std::string&
   return *std::move(value);
 }
 
+/// The points of lines in a file, packed; no points if it has none.
+void pack_lines(const std::string& path, const Reader& file, bytes::Writer& out) {
+  std::optional<std::size_t> size;
+  for (const PlaneLine& line : plane_lines()) {
+    const auto variable = file.find(std::string(line.about.name));
+    const std::vector<double> values = variable ? file.reals(*variable) : std::vector<double>{};
+    if (size.value_or(values.size()) != values.size()) fail(path, "the points of lines have different sizes");
+    size = values.size();
+    out.put(values);
+  }
+}
+
+/// Gives each snapshot its lines.
+void unpack_lines(bytes::Reader& in, std::vector<plane::Field>& snapshots) {
+  LinePoints points;
+  for (const PlaneLine& line : plane_lines()) points.*line.values = in.vector();
+  const std::size_t size = points.x.size();
+  std::size_t i = 0;
+  for (plane::Field& snapshot : snapshots)
+    while (i < size && points.time[i] == snapshot.time) {
+      plane::Line line{.number = static_cast<int>(points.number[i]), .points = {}};
+      for (; i < size && !std::isnan(points.x[i]); ++i) line.points.push_back({points.x[i], points.y[i]});
+      ++i;
+      snapshot.lines.push_back(std::move(line));
+    }
+}
+
 /// The content of a file, packed to be sent from the process that reads the file to this one.
 std::string packed(const std::string& path, const Reader& file) {
   if (const std::string format = text(path, file, "slipfront_format"); format != plane_format)
@@ -57,6 +86,7 @@ std::string packed(const std::string& path, const Reader& file) {
       out.put(values);
     }
   }
+  pack_lines(path, file, out);
   return std::move(out).text();
 }
 
@@ -71,6 +101,7 @@ PlaneCheckpoint unpacked(std::string_view content) {
     run.snapshots.push_back({.time = time, .nx = nx, .ny = ny, .slip = {}, .velocity = {}});
   for (const PlaneField& field : plane_fields())
     for (plane::Field& snapshot : run.snapshots) snapshot.*field.values = in.vector();
+  unpack_lines(in, run.snapshots);
   return run;
 }
 

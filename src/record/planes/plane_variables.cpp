@@ -1,5 +1,7 @@
 #include "record/planes/plane_variables.hpp"
 
+#include <limits>
+
 namespace slipfront::record {
 namespace {
 
@@ -12,11 +14,30 @@ constexpr PlaneField fields[] = {
     {{"slip_velocity", "slip velocity, mean over the cell", "c A / pi", "Eq. 4"}, &plane::Field::velocity},
 };
 
+constexpr PlaneLine lines[] = {
+    {{"line_time", "time of a point of a dislocation line", "b / (c A)", "Eq. 3"}, &LinePoints::time},
+    {{"line_number", "number n of the dislocation line: u = (2 n - 1) pi", "", "Eq. 2"}, &LinePoints::number},
+    {{"line_x", "x of a point of a dislocation line; NaN after each line", "b / A", "Eq. 3"}, &LinePoints::x},
+    {{"line_y", "y of a point of a dislocation line; NaN after each line", "b / A", "Eq. 3"}, &LinePoints::y},
+};
+
 constexpr PlaneMap maps[] = {
-    {{"rupture_time", "time at which the slip first exceeds a thousandth of the largest initial mean slip", "b / (c A)",
-      on_a_plane},
+    {{"rupture_time",
+      "time at which the slip first exceeds a thousandth of the largest initial mean slip and, with nucleation, half a "
+      "line",
+      "b / (c A)", on_a_plane},
      &plane::Maps::rupture_time},
+    {{"rupture_velocity", "velocity of the rupture front, 1 / size of the gradient of the rupture time", "c",
+      on_a_plane},
+     &plane::Maps::rupture_velocity},
     {{"peak_slip_velocity", "largest slip velocity so far", "c A / pi", on_a_plane}, &plane::Maps::peak_slip_velocity},
+    {{"rise_time", "rise time so far, slip squared / integral of the slip velocity squared over time", "b / (c A)",
+      on_a_plane},
+     &plane::Maps::rise_time},
+    {{"initial_stress", "shear stress at time 0, from the gradient of the mean slip", "mu A / pi", "Eq. 5"},
+     &plane::Maps::initial_stress},
+    {{"final_stress", "shear stress at the last time, from the gradient of the mean slip", "mu A / pi", "Eq. 5"},
+     &plane::Maps::final_stress},
 };
 
 constexpr PlaneSeries series[] = {
@@ -43,14 +64,37 @@ constexpr PlaneSeries series[] = {
      [](const SeriesRow& row) { return row.energies.supplied; }},
     {{"energy_vanished", "energy of lines that have shrunk to a point", energy, on_a_plane},
      [](const SeriesRow& row) { return row.energies.vanished; }},
+    {{"energy_radiated", "energy that has left through absorbing edges", energy, on_a_plane},
+     [](const SeriesRow& row) { return row.energies.radiated; }},
 };
 
 }  // namespace
 
 const Description plane_time = {"time", "time", "b / (c A)", "Eq. 3"};
+const Description plane_frequency = {"frequency", "frequency of the spectrum", "c A / b", on_a_plane};
+const Description plane_spectrum = {"moment_rate_spectrum", "amplitude spectrum of the moment rate",
+                                    "mu b^3 / (2 pi A^2)", on_a_plane};
 const Description plane_x = {"x", "position in the direction of slip, centre of the cell", "b / A", "Eq. 3"};
 const Description plane_y = {"y", "position across the direction of slip, centre of the cell", "b / A", "Eq. 3"};
+void LinePoints::add(double at, const plane::Line& line, const plane::Point& point) {
+  time.push_back(at);
+  number.push_back(line.number);
+  x.push_back(point.x);
+  y.push_back(point.y);
+}
 
+LinePoints line_points(const std::vector<plane::Field>& snapshots) {
+  constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
+  LinePoints all;
+  for (const plane::Field& snapshot : snapshots)
+    for (const plane::Line& line : snapshot.lines) {
+      for (const plane::Point& point : line.points) all.add(snapshot.time, line, point);
+      all.add(snapshot.time, line, {not_there, not_there});
+    }
+  return all;
+}
+
+std::span<const PlaneLine> plane_lines() { return lines; }
 std::span<const PlaneField> plane_fields() { return fields; }
 std::span<const PlaneMap> plane_maps() { return maps; }
 std::span<const PlaneSeries> plane_series() { return series; }

@@ -11,7 +11,7 @@
 
 namespace slipfront::record {
 
-extern const Description plane_time, plane_x, plane_y;
+extern const Description plane_time, plane_x, plane_y, plane_frequency, plane_spectrum;
 
 /// A variable over time, y and x.
 struct PlaneField {
@@ -29,6 +29,21 @@ struct PlaneSeries {
   double (*get)(const plane::SeriesRow& row);
 };
 
+/// The points of all dislocation lines of all snapshots. After each line follows a point whose x and y are NaN.
+struct LinePoints {
+  std::vector<double> time, number, x, y;
+
+  void add(double at, const plane::Line& line, const plane::Point& point);
+};
+LinePoints line_points(const std::vector<plane::Field>& snapshots);
+
+/// A variable over the points of lines.
+struct PlaneLine {
+  Description about;
+  std::vector<double> LinePoints::*values;
+};
+
+std::span<const PlaneLine> plane_lines();
 std::span<const PlaneField> plane_fields();
 std::span<const PlaneMap> plane_maps();
 std::span<const PlaneSeries> plane_series();

@@ -8,6 +8,7 @@
 
 #include "foundation/text/digits.hpp"
 #include "scenario/formula/formula.hpp"
+#include "scenario/plane/grid.hpp"
 #include "scenario/plane/radial.hpp"
 #include "scenario/settings.hpp"
 
@@ -64,7 +65,7 @@ void refuse_other_tables(const Document& document) {
       throw chain.refuse(key->name, "does not fit [plane]", "chain.scale and chain.spacing");
   const Section output(document, "output");
   for (const std::string_view key : {"per_event", "variables", "fronts"})
-    if (output.has(key)) throw output.refuse(key, "does not fit [plane]", "times, every and probes");
+    if (output.has(key)) throw output.refuse(key, "does not fit [plane]", "times, every, probes and lines");
 }
 
 void read_edges(const Section& section, Plane& plane) {
@@ -85,19 +86,22 @@ void read_edges(const Section& section, Plane& plane) {
 std::function<double(double, double)> read_slip(const Document& document, const TableReader& tables, const Plane& plane,
                                                 Initial& initial) {
   const Section section(document, "initial");
-  for (const std::string_view key : {"stress_left", "stress_right", "width", "hold"})
+  for (const std::string_view key : {"stress_left", "stress_right", "width"})
     if (section.has(key)) throw section.refuse(key, "does not fit [plane]", "the initial slip, by formula or file");
   const std::string word = section.text("profile").value_or("");
-  if (word != "formula" && word != "radial")
-    throw section.refuse("profile", word.empty() ? "missing" : "does not fit [plane]", "formula, radial");
-  initial.profile = word == "formula" ? ProfileKind::formula : ProfileKind::radial;
+  if (word != "formula" && word != "radial" && word != "grid")
+    throw section.refuse("profile", word.empty() ? "missing" : "does not fit [plane]", "formula, radial, grid");
+  initial.profile = word == "formula"  ? ProfileKind::formula
+                    : word == "radial" ? ProfileKind::radial
+                                       : ProfileKind::grid;
+  initial.hold = section.truth("hold").value_or(false);
   const std::string_view wanted = word == "formula" ? "formula" : "file",
                          other = word == "formula" ? "file" : "formula";
   if (!section.has(wanted)) throw section.refuse(wanted, "missing", "profile = \"" + word + "\" needs it");
   if (section.has(other)) throw section.refuse(other, "does not fit profile = \"" + word + '"', "leave it out");
-  if (word == "radial") {
+  if (word != "formula") {
     initial.file = *section.text("file");
-    return read_radial(section, tables, plane.wave_speed_ratio);
+    return word == "radial" ? read_radial(section, tables, plane.wave_speed_ratio) : read_grid(section, tables, plane);
   }
   const Value& text = *section.find("formula");  // [initial] formula is a stress elsewhere, and so may have its unit
   if (text.kind != Value::Kind::text && text.kind != Value::Kind::number)
@@ -153,6 +157,25 @@ void read_formulas(const Document& document, const std::string& coefficient, Sce
   plane.problem.viscous = viscous;
 }
 
+void read_nucleation(const Document& document, Scenario& scenario) {
+  const Section section(document, "nucleation");
+  if (document.tables.count("nucleation") == 0) return;
+  plane::Problem& p = scenario.plane->problem;
+  const std::optional<double> radius = section.number("radius");
+  if (!radius) throw section.refuse("radius", "missing", "a radius > 0");
+  const double x = section.number("x").value_or(0), y = section.number("y").value_or(0);
+  const double ratio = scenario.plane->wave_speed_ratio;
+  if (!(x - *radius < p.right && x + *radius > p.left && y - *radius < p.top * ratio && y + *radius > p.bottom * ratio))
+    throw section.refuse("radius",
+                         "the patch around x = " + shortest(x) + ", y = " + shortest(y) + " is outside the plane",
+                         "a patch that overlaps the plane");
+  if (!scenario.initial.hold && !(scenario.friction.steep_at_rest() && !p.viscous))
+    throw section.refuse("radius", "nothing holds the initial state, so that the rupture begins everywhere",
+                         "initial.hold = true, or a friction law with strength at rest");
+  p.nucleation =
+      plane::Nucleation{.x = x, .y = y / ratio, .radius = *radius, .time = section.number("time").value_or(0)};
+}
+
 /// Calls each function on a grid, so that a formula which fails does so before the run.
 void try_out(const Plane& plane, double end) {
   constexpr int samples = 101;
@@ -195,19 +218,28 @@ void read_plane(const Document& document, const TableReader& tables, const std::
   refuse_other_tables(document);
   const Section section(document, "plane");
   Plane& plane = scenario.plane.emplace();
+  plane.on_grid = section.choice<bool>("solver", {{"loops", false}, {"grid", true}}).value_or(false);
   plane.cells = section.whole_number("cells").value_or(plane.cells);
   plane.loops = section.whole_number("loops").value_or(plane.loops);
   plane.angles = section.whole_number("angles").value_or(plane.angles);
   plane.wave_speed_ratio = section.number("wave_speed_ratio").value_or(plane.wave_speed_ratio);
   read_edges(section, plane);
+  plane.problem.edges = section
+                            .choice<plane::Edges>("edges", {{"free", plane::Edges::free},
+                                                            {"fixed", plane::Edges::fixed},
+                                                            {"absorbing", plane::Edges::absorbing}})
+                            .value_or(plane::Edges::free);
   plane.problem.slip = read_slip(document, tables, plane, scenario.initial);
   read_formulas(document, coefficient, scenario);
   if (!plane.problem.viscous) plane.problem.friction = scenario.friction;
+  plane.problem.hold = scenario.initial.hold;
+  read_nucleation(document, scenario);
   try_out(plane, scenario.end);
 }
 
-void read_probes(const Document& document, Plane& plane) {
+void read_plane_output(const Document& document, Plane& plane) {
   const Section section(document, "output");
+  plane.lines = section.truth("lines").value_or(false);
   constexpr const char* allowed = "an array of points, such as [[0.5, 1], [0, 2]]";
   const Value* const array = section.array("probes", allowed);
   if (!array) return;

@@ -21,7 +21,7 @@ std::string take_coefficient(Document& document);
 void read_plane(const Document& document, const TableReader& tables, const std::string& coefficient,
                 Scenario& scenario);
 
-/// Reads the points of [output] probes. \throws InputError for a point outside the plane.
-void read_probes(const Document& document, Plane& plane);
+/// Reads the keys of [output] about a plane. \throws InputError for a probe outside the plane.
+void read_plane_output(const Document& document, Plane& plane);
 
 }  // namespace slipfront::scenario

@@ -83,9 +83,9 @@ toml::table parse(std::string_view text, const std::string& file) {
 }  // namespace
 
 const std::vector<std::string_view>& known_tables() {
-  static const std::vector<std::string_view> names = {"initial",   "friction", "forcing", "loading",
-                                                      "interface", "domain",   "plane",   "time",
-                                                      "pulse",     "chain",    "medium",  "output"};
+  static const std::vector<std::string_view> names = {"initial", "friction", "forcing",    "loading", "interface",
+                                                      "domain",  "plane",    "nucleation", "time",    "pulse",
+                                                      "chain",   "medium",   "output"};
   return names;
 }
 

@@ -1,0 +1,142 @@
+#include "plane/direct/lines.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <unordered_map>
+#include <utility>
+
+namespace slipfront::plane {
+namespace {
+
+using std::numbers::pi;
+
+/// A line crosses the edge from a site to the next one along x, or along y.
+struct Crossing {
+  std::size_t site;
+  bool along_y;
+  int number;  ///< number of the line
+
+  bool operator==(const Crossing&) const = default;
+};
+
+struct Hash {
+  std::size_t operator()(const Crossing& c) const {
+    const auto number = static_cast<std::uint64_t>(static_cast<std::int64_t>(c.number));
+    const std::uint64_t mixed = (static_cast<std::uint64_t>(c.site) * 2 + (c.along_y ? 1 : 0)) ^ (number << 44);
+    return static_cast<std::size_t>(mixed * 0x9e3779b97f4a7c15u >> 7);
+  }
+};
+
+/// Crossings in the order in which they were found, each joined to at most two others.
+class Contours {
+ public:
+  Contours(const std::vector<double>& u, const Sites& sites, int crossings_a_point)
+      : u_(u), sites_(sites), crossings_a_point_(crossings_a_point) {
+    for (std::size_t j = 0; j + 1 < sites.ny; ++j)
+      for (std::size_t i = 0; i + 1 < sites.nx; ++i) add_square(sites.at(i, j));
+  }
+
+  /// Lines that end at an edge come before those that are closed.
+  std::vector<Line> lines() {
+    std::vector<Line> all;
+    for (std::size_t start = 0; start < nodes_.size(); ++start)
+      if (!nodes_[start].used && nodes_[start].next[1] == none) all.push_back(follow(start));
+    for (std::size_t start = 0; start < nodes_.size(); ++start)
+      if (!nodes_[start].used) {
+        all.push_back(follow(start));
+        all.back().points.push_back(all.back().points.front());
+      }
+    return all;
+  }
+
+ private:
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+  struct Node {
+    Crossing at;
+    std::array<std::size_t, 2> next{none, none};
+    bool used = false;
+  };
+
+  /// Lines are where this is a whole number.
+  double turns(std::size_t site) const { return u_[site] / (2 * pi) + 0.5; }
+
+  std::size_t node(const Crossing& at) {
+    const auto [found, is_new] = index_.try_emplace(at, nodes_.size());
+    if (is_new) nodes_.push_back({at});
+    return found->second;
+  }
+  void join(const Crossing& a, const Crossing& b) {
+    const std::size_t i = node(a), j = node(b);
+    for (const auto& [from, to] : {std::pair{i, j}, {j, i}}) {
+      std::array<std::size_t, 2>& next = nodes_[from].next;
+      (next[0] == none ? next[0] : next[1]) = to;
+    }
+  }
+
+  /// Joins the crossings of the square whose lowest left site is `site`, around it: two, or four at a saddle, where the
+  /// mean of the corners decides.
+  void add_square(std::size_t site) {
+    const std::size_t n = sites_.stride();
+    const std::array<double, 4> corner{turns(site), turns(site + 1), turns(site + n + 1), turns(site + n)};
+    const auto [least, most] = std::minmax_element(corner.begin(), corner.end());
+    if (!(std::fabs(*least) < 1e8 && *most - *least < 1e6)) return;  // not a displacement: the run ends with an error
+    const std::array<std::pair<std::size_t, bool>, 4> edges{
+        {{site, false}, {site + 1, true}, {site + n, false}, {site, true}}};
+    for (int number = static_cast<int>(std::floor(*least)) + 1; number <= *most; ++number) {
+      std::array<Crossing, 4> found{};
+      std::size_t count = 0;
+      for (std::size_t e = 0; e < 4; ++e)
+        if ((corner[e] < number) != (corner[(e + 1) % 4] < number))
+          found[count++] = {edges[e].first, edges[e].second, number};
+      if (count == 2) join(found[0], found[1]);
+      if (count < 4) continue;
+      const double middle = (corner[0] + corner[1] + corner[2] + corner[3]) / 4;
+      const bool around_first = (middle < number) != (corner[0] < number);  // the first corner is alone
+      join(found[0], found[around_first ? 3 : 1]);
+      join(found[2], found[around_first ? 1 : 3]);
+    }
+  }
+
+  Point point(const Crossing& c) const {
+    const std::size_t other = c.site + (c.along_y ? sites_.stride() : 1);
+    const double from = turns(c.site), part = (c.number - from) / (turns(other) - from);
+    const std::size_t column = c.site % sites_.stride(), row = c.site / sites_.stride();
+    const auto i = static_cast<double>(column - Sites::ghosts), j = static_cast<double>(row - Sites::ghosts);
+    return {sites_.left + (i + 0.5 + (c.along_y ? 0 : part)) * sites_.hx / sites_.scale,
+            sites_.bottom + (j + 0.5 + (c.along_y ? part : 0)) * sites_.hy / sites_.scale};
+  }
+
+  /// The line from `start` on, to its other end or around.
+  Line follow(std::size_t start) {
+    Line line{.number = nodes_[start].at.number, .points = {}};
+    std::size_t at = start, last = start;
+    int passed = 0;
+    for (; at != none && !nodes_[at].used; ++passed) {
+      Node& here = nodes_[at];
+      here.used = true;
+      if (passed % crossings_a_point_ == 0) line.points.push_back(point(here.at));
+      last = at;
+      at = here.next[0] != none && !nodes_[here.next[0]].used ? here.next[0] : here.next[1];
+    }
+    const bool is_open = nodes_[start].next[1] == none, has_last = (passed - 1) % crossings_a_point_ == 0;
+    if (is_open && !has_last) line.points.push_back(point(nodes_[last].at));
+    return line;
+  }
+
+  const std::vector<double>& u_;
+  const Sites& sites_;
+  int crossings_a_point_;
+  std::vector<Node> nodes_;
+  std::unordered_map<Crossing, std::size_t, Hash> index_;
+};
+
+}  // namespace
+
+std::vector<Line> lines_of(const std::vector<double>& u, const Sites& sites, int crossings_a_point) {
+  return Contours(u, sites, crossings_a_point).lines();
+}
+
+}  // namespace slipfront::plane

@@ -1,0 +1,21 @@
+#include "run/tables.hpp"
+
+#include "finite_fault/on_plane.hpp"
+#include "record/files/text_file.hpp"
+#include "record/netcdf/table_file.hpp"
+#include "run/fault_plane.hpp"
+#include "slipfront/error.hpp"
+
+namespace slipfront::run {
+
+std::vector<std::vector<double>> read_table(const std::string& path, const std::vector<std::string>& columns) {
+  if (!path.ends_with(".fsp")) return record::read_table(path, columns);
+  if (columns != std::vector<std::string>{"x", "y", "slip"})
+    throw InputError({.file = path,
+                      .problem = "a finite-fault model has no such columns",
+                      .allowed = "initial.profile = \"grid\" on a plane"});
+  const finite_fault::OnPlane fault = fault_on_plane(record::read_text(path), path).fault;
+  return finite_fault::slip_to_come(fault, margin_of(fault));
+}
+
+}  // namespace slipfront::run
