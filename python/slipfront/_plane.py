@@ -17,7 +17,7 @@ def plane(scenario, *, direct=False, set=None, output=None, resume=None, progres
     ----------
     scenario : path, str or dict
         Path of a TOML file, TOML text (a str with a line break), or a dict nested like the TOML, with the table [plane]
-        (docs/scenario.md).
+        (docs/scenario.md). A finite-fault model (.fsp) is computed line by line.
     direct : bool, optional
         Whether to follow every dislocation line, which needs chain.scale. By default, the averaged equations are solved.
     set : dict, optional
@@ -33,9 +33,13 @@ def plane(scenario, *, direct=False, set=None, output=None, resume=None, progres
     Returns
     -------
     xarray.Dataset with the contents of the NetCDF file except its checkpoint. slip, in b / (2 pi), and slip_velocity, in
-    c A / pi, depend on time, y and x. rupture_time and peak_slip_velocity depend on y and x. potency, moment, their rates,
-    front and energies depend on series_time. The attributes are the values that `slipfront plane --json` prints; energies
-    have names such as energy_kinetic. With `errors`, the attributes potency_error and so on are their estimated errors.
+    c A / pi, depend on time, y and x. rupture_time, rupture_velocity, peak_slip_velocity, rise_time, initial_stress and
+    final_stress depend on y and x. potency, moment, their rates, front and energies depend on series_time, and
+    moment_rate_spectrum on frequency. With output.lines = true, line_time, line_number, line_x and line_y depend on
+    line_point: they are the points of the rupture front or, with `direct`, of all dislocation lines, with NaN after each
+    line. The attributes are the values that `slipfront plane --json` prints; energies have names such as energy_kinetic,
+    and the comparison with a finite-fault model names such as model_duration. With `errors`, the attributes potency_error
+    and so on are their estimated errors.
 
     Raises
     ------
@@ -61,9 +65,10 @@ def _dataset(result):
     for name in "xy":
         coordinates[name][2]["axis"] = name.upper()
     variables: dict[str, object] = {}
-    for kind, dims in {"fields": ("time", "y", "x"), "maps": ("y", "x"), "series": ("series_time",)}.items():
+    kinds = {"fields": ("time", "y", "x"), "maps": ("y", "x"), "lines": ("line_point",), "series": ("series_time",), "spectrum": ("frequency",)}
+    for kind, dims in kinds.items():
         for about, values in result[kind]:
-            into = coordinates if about[0] == "series_time" else variables
+            into = coordinates if about[0] in ("series_time", "frequency") else variables
             into[about[0]] = in_results(result, dims, values, about)
     errors = {f"{key}_error": error for key, error in result["errors"].items()}
     return dataset(variables, coordinates, {**result["attributes"], **result["summary"], **errors})

@@ -213,7 +213,7 @@ def compare(scenario, *, scales=(), set=None, output=None, progress=None, thread
     return data.set_xindex("name")
 
 
-def check(scenario, *, set=None, command="pulse", scales=()):
+def check(scenario, *, set=None, command="pulse", scales=(), direct=False):
     """Checks a scenario without running it.
 
     The function reads and validates the scenario and sets up the run.
@@ -226,6 +226,8 @@ def check(scenario, *, set=None, command="pulse", scales=()):
         The run to check.
     scales : sequence of float, optional
         Scales of the chains of "compare".
+    direct : bool, optional
+        Whether "plane" follows every dislocation line.
 
     Returns
     -------
@@ -247,7 +249,7 @@ def check(scenario, *, set=None, command="pulse", scales=()):
     if command == "chain":
         return Plan(_slipfront.check_chain(request))
     if command == "plane":
-        return Plan(_slipfront.check_plane(request))
+        return Plan(_slipfront.check_plane(request, bool(direct)))
     if command == "compare":
         return Plan(_slipfront.check_compare(request, _scales(scales)))
     raise InputError(f"command = '{shown(command)}': unknown; allowed: pulse, chain, plane, compare")

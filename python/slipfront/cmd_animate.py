@@ -1,4 +1,4 @@
-"""The command slipfront animate, which draws slip pulses as moving pictures."""
+"""The command slipfront animate, which draws slip pulses and ruptures on a plane as moving pictures."""
 
 import json
 import pathlib
@@ -13,28 +13,71 @@ FRAMES = 75
 ROCK = {"p_wave_speed": 6000.0, "poisson_ratio": 0.3, "shear_modulus": 30e9}
 
 
-def run(scenario, si):
-    """Runs the pulse of a scenario file. The output times give a smooth animation unless the scenario has its own."""
-    import slipfront
-
+def content_of(scenario):
+    """Returns the tables of a scenario file, or none if it cannot be read: the run reports the error."""
     try:
         with open(scenario, "rb") as file:
-            own = "times" in tomllib.load(file).get("output", {})
-    except (OSError, tomllib.TOMLDecodeError, AttributeError, UnicodeDecodeError):
-        own = False  # slipfront.check below reports the error
-    plan = slipfront.check(scenario)
-    pulse = slipfront.pulse(scenario, set={} if own else {"output.every": plan["end"] / (FRAMES - 1)}, si=si)
-    return pulse.assign_attrs(title=plan["title"])  # the title of the run names the output times that we have set
+            content = tomllib.load(file)
+            return {name: table for name, table in content.items() if isinstance(table, dict)}
+    except (OSError, tomllib.TOMLDecodeError, UnicodeDecodeError):
+        return {}
 
 
-def pulse_of(source, si=None):
-    """Returns the pulse of a file. A scenario is run first. `si` chooses the units, by default those of the file or the scenario."""
+def run(scenario, si, direct):
+    """Runs a scenario file. The output times give a smooth animation unless the scenario has its own."""
+    import slipfront
+
+    content = content_of(scenario)
+    on_plane = "plane" in content or scenario.lower().endswith(".fsp")
+    if direct and not on_plane:
+        raise ValueError(f"{scenario}: --direct: not a scenario on a plane; allowed: with the table [plane]")
+    plan = slipfront.check(scenario, command="plane" if on_plane else "pulse", direct=direct)
+    settings = {} if "times" in content.get("output", {}) else {"output.every": plan["end"] / (FRAMES - 1)}
+    if not on_plane:
+        result = slipfront.pulse(scenario, set=settings, si=si)
+    elif direct:
+        result = slipfront.plane(scenario, set=settings | {"output.lines": True}, direct=True, si=si)
+    else:
+        result = slipfront.plane(scenario, set=settings | {"output.lines": True}, errors=False, si=si)
+    return result.assign_attrs(title=plan["title"])  # the title of the run names the output times that we have set
+
+
+def content_to_show(source, si=None, direct=False):
+    """Returns the pulse, or the rupture on a plane, of a file. A scenario or a finite-fault model is run first. `si` chooses the
+    units, by default those of the file or the scenario."""
     from .plots import files
 
-    pulse = run(source, si) if source.lower().endswith(".toml") else files.read(source, si)
-    if not {"W", "Sigma", "k", "x_bounds"} <= set(pulse.variables) or set(pulse["k"].dims) != {"time", "x"} or pulse.sizes["time"] < 2:
-        raise ValueError(f"{source}: contains no pulse with two or more output times; allowed: a file of pulse or chain, or a scenario")
-    return pulse
+    shown = run(source, si, direct) if source.lower().endswith((".toml", ".fsp")) else files.read(source, si)
+    on_plane = is_plane(shown)
+    is_pulse = {"W", "Sigma", "k", "x_bounds"} <= set(shown.variables) and set(shown["k"].dims) == {"time", "x"}
+    if not (on_plane or is_pulse) or shown.sizes["time"] < 2:
+        raise ValueError(f"{source}: contains no pulse with two or more output times; allowed: a file of pulse, chain or plane, or a scenario")
+    return shown
+
+
+def is_plane(shown):
+    """Whether a Dataset is a rupture on a plane."""
+    return {"slip_velocity", "moment_rate"} <= set(shown.variables) and shown["slip_velocity"].dims == ("time", "y", "x")
+
+
+def scene_of(shown, si):
+    """Returns the scene of pulses, or of ruptures on a plane."""
+    if len({source.attrs.get("unit_system") for source in shown}) > 1:
+        raise ValueError("FILE: some are in SI units and others are not; allowed: --si or --dimensionless for all")
+    if si and any(source.attrs.get("unit_system") == "SI" for source in shown):
+        raise ValueError("--contact-ratio: the pulse is in SI units already; allowed: with --dimensionless")
+    on_plane = {is_plane(source) for source in shown}
+    if len(on_plane) > 1:
+        raise ValueError("FILE: some are on a plane and others on a line; allowed: all of one kind")
+    if not on_plane.pop():
+        from .plots.animation import Scene
+
+        return Scene(shown, si)
+    from .plots.plane_animation import PlaneScene
+
+    if si:
+        raise ValueError("--contact-ratio: not for a rupture on a plane; allowed: [medium] in its scenario, and --si")
+    return PlaneScene(shown)
 
 
 def si_units(options):
@@ -51,10 +94,13 @@ def si_units(options):
 
 def arguments(argv):
     """Returns the options of the command line."""
-    parser = Arguments("animate", "Draws slip pulses as moving pictures: the averaged slip velocity and stress, and the dislocations that carry them.",
-                       ["slipfront animate cases/step.toml -o step.gif", "slipfront animate cases/step.toml cases/step-viscous.toml -o both.webp"])
+    parser = Arguments("animate", "Draws slip pulses and ruptures on a plane as moving pictures, with the dislocations that carry them.",
+                       ["slipfront animate cases/step.toml -o step.gif", "slipfront animate cases/step.toml cases/step-viscous.toml -o both.webp",
+                        "slipfront animate cases/plane-barrier.toml --direct -o barrier.gif"])
     parser.add_argument("sources", metavar="FILE", nargs="+",
-                        help="NetCDF of pulse or chain (a frame for each output time), or a scenario (TOML) to run; several are drawn side by side")
+                        help="NetCDF of pulse, chain or plane (a frame for each output time), or a scenario (TOML) or finite-fault model (.fsp) to run; "
+                             "several are drawn side by side")
+    parser.add_argument("--direct", action="store_true", help="follow every dislocation line of scenarios on a plane, and draw it")
     parser.add_argument("-o", "--output", metavar="PICTURE", type=file_name, required=True, help="its ending is the format: gif, webp, mp4")
     parser.add_argument("--contact-ratio", metavar="A", type=float, help="contact ratio; adds scales in SI units to the dimensionless ones")
     parser.add_argument("--asperity-spacing", metavar="METRES", type=float,
@@ -70,17 +116,12 @@ def main(argv) -> int:
     for module in ("xarray", "matplotlib", "PIL"):
         import_optional(module)
     from .plots import movie
-    from .plots.animation import Scene
 
     output = pathlib.Path(options.output)
     if output.suffix.lower().lstrip(".") not in movie.FORMATS:
         raise ValueError(f"-o {output}: '{output.suffix}' is not a format of moving pictures; allowed endings: {', '.join(movie.FORMATS)}")
-    pulses, si = [pulse_of(source, chosen_units(options)) for source in options.sources], si_units(options)
-    if si and any(pulse.attrs.get("unit_system") == "SI" for pulse in pulses):
-        raise ValueError("--contact-ratio: the pulse is in SI units already; allowed: with --dimensionless")
-    if len({pulse.attrs.get("unit_system") for pulse in pulses}) > 1:
-        raise ValueError("FILE: some are in SI units and others are not; allowed: --si or --dimensionless for all")
-    scene, frames = Scene(pulses, si), []
+    shown = [content_to_show(source, chosen_units(options), options.direct) for source in options.sources]
+    scene, frames = scene_of(shown, si_units(options)), []
     for row in range(scene.times.size):
         progress(options, f"frame {row + 1} of {scene.times.size}")
         frames.append(scene.show(row))

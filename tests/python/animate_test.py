@@ -11,6 +11,7 @@ from PIL import Image
 import slipfront
 from slipfront.plots.animation import Scene
 from slipfront.plots.dislocations import positions
+from slipfront.plots.plane_animation import PlaneScene
 from support import CommandLine, SOURCE
 
 STEP = os.path.join(SOURCE, "cases/step.toml")
@@ -72,6 +73,33 @@ class Animate(CommandLine):
         self.assertIn("1.84 ms", scene.clock.get_text())  # 3 b / (c A) of b / (c A) = 0.01 m / (5421 m/s 0.003)
         with self.assertRaisesRegex(ValueError, "different output times"):
             Scene([pulses[0], slipfront.pulse(STEP, set={"output.every": 1})])
+
+    def test_ruptures_on_a_plane_side_by_side(self):
+        rings = os.path.join(SOURCE, "cases/plane-rings.toml")
+        settings = {"plane.loops": 40, "plane.cells": 40, "time.end": 1, "output.every": 0.25, "output.lines": True, "chain.scale": 10}
+        averaged, direct = (slipfront.plane(rings, set=settings, direct=by_line, errors=False) for by_line in (False, True))
+        scene = PlaneScene([averaged, direct])
+        first, last = scene.show(0), scene.show(4)
+        self.assertGreater((first != last).mean(), 1e-2)
+        self.assertIn("t = 1", scene.clock.get_text())
+        lines = scene.maps[1].lines.get_xdata()
+        self.assertGreater(np.isnan(lines).sum(), np.isnan(scene.maps[0].lines.get_xdata()).sum())
+        distance = np.hypot(*(scene.maps[0].lines.get_data()))
+        self.assertAlmostEqual(np.nanmax(distance), float(averaged["front"][-1]), delta=1e-3)
+        with self.assertRaisesRegex(ValueError, "different output times"):
+            PlaneScene([averaged, averaged.isel(time=slice(2))])
+
+    def test_a_scenario_on_a_plane_runs_first(self):
+        folder = os.path.dirname(self.file("x", ""))
+        case = self.file("rings.toml", "[plane]\nleft = -3.2\nright = 3.2\nbottom = -3.2\ntop = 3.2\ncells = 40\nfixed = 'sqrt(x^2 + y^2) < 1'\n"
+                                       "[initial]\nprofile = 'formula'\nformula = '2 * max(0, 2 - max(1, sqrt(x^2 + y^2)))'\n"
+                                       "[chain]\nscale = 10\n[time]\nend = 0.5\n[output]\ntimes = [0.25]\n")
+        for options in ([], ["--direct"]):
+            out = os.path.join(folder, "a.gif")
+            said = json.loads(self.ok("animate", case, "-o", out, "--json", *options))
+            self.assertEqual(said["frames"], 3)
+        self.refused(2, "animate", case, STEP, "-o", out, says=["some are on a plane"])
+        self.refused(2, "animate", STEP, "--direct", "-o", out, says=["--direct", "plane"])
 
     def test_refuses(self):
         table = self.file("r.csv", self.ok("relations", "--stress", "1", "--csv"))

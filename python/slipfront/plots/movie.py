@@ -31,7 +31,7 @@ def pictures(frames, kind):
     images = [Image.fromarray(frame) for frame in frames]
     times = [round(1000 / PER_SECOND)] * (len(images) - 1) + [1000]
     if kind == "gif":
-        palette = images[len(images) // 2].quantize(64, method=Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
+        palette = images[len(images) // 2].quantize(256, method=Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
         images = [image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images]
     picture = io.BytesIO()
     images[0].save(picture, kind, save_all=True, append_images=images[1:], duration=times, loop=0, quality=70)
