@@ -20,6 +20,7 @@ async function load(name) {
 }
 const main = await load('slipfront');
 const events = await load('slipfront_events');
+const plane = await load('slipfront_plane');
 
 function withArrays(value, module, base) {
   if (Array.isArray(value)) return value.map((item) => withArrays(item, module, base));
@@ -30,7 +31,7 @@ function withArrays(value, module, base) {
 }
 
 export function call(name, ...args) {
-  const module = name === 'event' ? events : main;
+  const module = name === 'event' ? events : name.startsWith('plane_') ? plane : main;
   const taken = [];
   const addresses = args.map((argument) => {
     if (typeof argument === 'number') return argument;

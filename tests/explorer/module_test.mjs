@@ -218,3 +218,38 @@ test('a loaded chain has the slip events of the program', () => {
   assert.match(call('loading_begin', text('laboratory-block.toml'), 'friction.normal_stress=-1 MPa').error.message, /normal_stress/);
   assert.match(call('loading_begin', text('step.toml'), '').error.problem, /no spring/);
 });
+
+test('a rupture on a plane is that of the program, by the averages and line by line', () => {
+  const text = (name) => readFileSync(join(source, 'cases', name), 'utf8');
+  const [r, slip] = [0, 1].map((column) => Float64Array.from(text('plane-rings.csv').trim().split('\n').slice(1), (row) => Number(row.split(',')[column])));
+  const changes = ['time.end=0.6', 'output.every=0.01', 'plane.cells=100', 'plane.loops=40', 'plane.angles=32', 'chain.scale=10', 'output.probes=[]'];
+  for (const direct of [0, 1]) {
+    const theirs = program('plane', join(source, 'cases/plane-friction.toml'), ...(direct ? ['--direct'] : []), '--quiet', '--set', ...changes);
+    const begun = call('plane_begin', text('plane-friction.toml'), changes.join('\n'), r, slip, r.length, direct);
+    assert.equal(begun.error, undefined);
+    const all = { time: 0, front: [], moment_rate: [], series_time: [], lines: [] };
+    let more = {};
+    while (!more.finished) {
+      more = call('plane_go', 50);
+      assert.equal(more.error, undefined);
+      assert.equal(more.velocity.length, more.time.length * begun.nx * begun.ny);
+      assert.equal(more.line_x.length, more.line_points.reduce((a, b) => a + b, 0));
+      all.time += more.time.length;
+      for (const key of ['front', 'moment_rate', 'series_time']) all[key].push(...more[key]);
+      if (more.time.length) all.lines = Array.from(more.line_x.subarray(more.line_x.length - more.line_points[more.line_points.length - 1]));
+    }
+    assert.equal(more.gave_up, '');
+    assert.equal(all.time, 61);
+    near(all.series_time.at(-1), 0.6, 1e-12, 'end');
+    near(all.moment_rate.at(-1), theirs.potency_rate, 1e-9, 'moment rate');
+    near(all.front.at(-1), theirs.front, 1e-9, 'front');
+    assert.ok(all.lines.filter(Number.isNaN).length >= (direct ? 4 : 1));
+  }
+  const early = call('plane_begin', text('plane-friction.toml'), 'plane.right=2.1\ntime.end=3\noutput.probes=[]', r, slip, r.length, 0);
+  assert.equal(early.error, undefined);
+  let more = {};
+  while (!more.finished) more = call('plane_go', 50);
+  assert.match(more.gave_up, /has reached the edge/);
+  assert.match(call('plane_begin', text('plane-friction.toml'), 'chain.scale=5000', r, slip, r.length, 1).error.problem, /too many lines/);
+  assert.match(call('plane_begin', text('step.toml'), '', r, slip, 0, 0).error.message, /plane/);
+});

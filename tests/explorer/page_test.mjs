@@ -10,7 +10,7 @@ import { gzipSync } from 'node:zlib';
 import { axe, browser, collisions, eventually, factOf, keepTexts, open, ready, type, url } from './browser.mjs';
 
 const calm = { reducedMotion: 'reduce' };
-const routes = ['#/', '#/pulse', '#/pulse?compare=1&si=1', '#/dislocations?beads=20', '#/stress?event=Parkfield+2004', '#/riemann', '#/loading', '#/loading?setup=edge&time.end=0.8', '#/tour-is-none',
+const routes = ['#/', '#/pulse', '#/pulse?compare=1&si=1', '#/dislocations?beads=20', '#/stress?event=Parkfield+2004', '#/riemann', '#/loading', '#/loading?setup=edge&time.end=0.8', '#/plane?time.end=0.5', '#/plane?setup=barrier&chain.scale=8&time.end=1', '#/tour-is-none',
   ...[2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12].map((fig) => `#/paper?fig=${fig}`)];
 
 async function violations(page) {
@@ -43,7 +43,7 @@ for (const hash of routes)
   });
 
 test('on a phone the controls are in the window, with the picture that they change', async () => {
-  for (const hash of ['#/pulse', '#/dislocations?beads=20', '#/loading', '#/stress', '#/riemann', '#/paper?fig=8']) {
+  for (const hash of ['#/pulse', '#/dislocations?beads=20', '#/loading', '#/plane?time.end=0.5', '#/stress', '#/riemann', '#/paper?fig=8']) {
     const page = await open(hash, { ...calm, viewport: { width: 360, height: 740 } });
     await ready(page);
     const control = page.locator('.controls :is(input, select)').first();
@@ -175,7 +175,7 @@ test('bad input: a sentence beside the field, and the picture stays', async () =
 test('any address: never a blank page', async () => {
   for (const hash of ['#/pulse?initial.stress_left=%00%ff&friction.law=%3Cscript%3E', '#/pulse?time.end=1e99', '#/pulse?drawn=a:b,,&initial.profile=table', '#/riemann?left_stress=NaN', '#/stress?value=%E0%A4%A&range=x&given=y&event=z',
     '#/paper?fig=99&left=-1', '#/paper?fig=2&stress=0', '#/dislocations?beads=1e9', '#/dislocations?beads=x', '#/x/y?z', '#/__proto__', '#/constructor', '#/paper?fig=__proto__', '#/stress?range=constructor&event=__proto__', '#/pulse?__proto__=1&friction.law=toString', '#/pulse?pulse.cells=1e8', '#/stress?my.rupture_velocity=9+km/s', '#/?tour=99', '#/pulse?si=1&medium.contact_ratio=9',
-    '#/loading?setup=__proto__&t=9&friction.normal_stress=x', '#/loading?time.end=1e9&loading.velocity=0']) {
+    '#/loading?setup=__proto__&t=9&friction.normal_stress=x', '#/loading?time.end=1e9&loading.velocity=0', '#/plane?setup=__proto__&t=x&friction.coefficient=x(', '#/plane?lines=1&chain.scale=1e9&time.end=-1']) {
     const page = await open(hash, calm);
     await page.waitForFunction(() => document.querySelector('main')?.innerText.length > 100);
     await page.waitForTimeout(700);
@@ -338,7 +338,7 @@ test('a map is exported with its title, axes, fronts, colour bar and link', asyn
 });
 
 test('a film shows the whole run', async () => {
-  for (const hash of ['#/pulse', '#/loading']) {
+  for (const hash of ['#/pulse', '#/loading', '#/plane?time.end=0.5']) {
     const page = await open(hash, { ...calm, bypassCSP: true });
     await ready(page);
     const film = await savedBy(page, page.getByRole('button', { name: 'Film (WebM)' }));
@@ -354,10 +354,13 @@ test('a film shows the whole run', async () => {
         return ctx.getImageData(0, 0, 320, 180).data;
       };
       const first = picture();
-      video.currentTime = video.duration;
-      await new Promise((resolve) => (video.onseeked = resolve));
-      const last = picture();
-      return [video.videoWidth, video.videoHeight, video.duration, first.reduce((sum, value, i) => sum + (Math.abs(value - last[i]) > 60), 0)];
+      let moved = 0;
+      for (let k = 0; k < 20 && moved <= 200; ++k) { // a busy machine may show the frame of a seek late
+        video.currentTime = video.duration - 0.02 * k;
+        await new Promise((resolve) => (video.onseeked = resolve));
+        moved = picture().reduce((sum, value, i) => sum + (Math.abs(value - first[i]) > 60), 0);
+      }
+      return [video.videoWidth, video.videoHeight, video.duration, moved];
     }, film.content.toString('base64'));
     assert.deepEqual([width, height], [1280, 720]);
     assert.ok(Math.abs(seconds - 8) < 0.1 && moved > 200, `${seconds} s, ${moved} pixels`);
@@ -368,6 +371,21 @@ test('a film shows the whole run', async () => {
   await ready(page);
   await page.getByText(/This browser cannot encode films/).waitFor();
   await page.context().close();
+});
+
+test('a rupture on a plane: the averages have a front, every line is followed, and the command repeats it', async () => {
+  const page = await open('#/plane?time.end=0.5', calm);
+  await ready(page);
+  const averaged = parseFloat(await factOf(page, 'Farthest front'));
+  assert.ok(averaged > 2.1 && averaged < 2.4, `${averaged}`);
+  await page.getByText('every line', { exact: true }).click();
+  await eventually(async () => assert.ok(parseInt(await factOf(page, 'Lines'), 10) >= 8));
+  assert.match(await page.locator('.command code').textContent(), /slipfront plane cases\/plane-friction\.toml --direct --set 'friction\.coefficient=1 \+ tanh\(y \/ 0\.1\)' time\.end=0\.5 chain\.scale=20/);
+  await type(page, 'Friction C, by x and y', '-1');
+  await eventually(async () => assert.match(await page.locator('.field .error').innerText(), />= 0/));
+  await page.getByText('A rupture that stops').click();
+  await eventually(async () => assert.match(await page.locator('.controls').innerText(), /tension/));
+  assert.deepEqual(page.complaints, []);
 });
 
 test('a spring that is too stiff makes no stick-slip, and a softer one larger events', async () => {

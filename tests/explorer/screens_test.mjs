@@ -12,7 +12,7 @@ const known = existsSync(store) ? JSON.parse(readFileSync(store, 'utf8')) : {};
 const renew = process.env.SLIPFRONT_SCREENS === 'new';
 const screens = {
   pulse: ['#/pulse?t=0.6', {}], pulse_dark: ['#/pulse?t=0.6&compare=1', { colorScheme: 'dark' }], pulse_narrow: ['#/pulse?t=0.6', { viewport: { width: 360, height: 740 } }],
-  stress: ['#/stress?event=Kobe+1995', {}], riemann: ['#/riemann', {}], loading: ['#/loading?t=0.5', {}], paper_7: ['#/paper?fig=7', {}], paper_10: ['#/paper?fig=10', {}], dislocations: ['#/dislocations?beads=30', {}],
+  stress: ['#/stress?event=Kobe+1995', {}], riemann: ['#/riemann', {}], loading: ['#/loading?t=0.5', {}], plane: ['#/plane?t=0.8&time.end=1', {}], paper_7: ['#/paper?fig=7', {}], paper_10: ['#/paper?fig=10', {}], dislocations: ['#/dislocations?beads=30', {}],
 };
 
 /** Mean brightness, 0 to 100, of the fields of a picture. The browser decodes it. */

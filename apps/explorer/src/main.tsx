@@ -43,6 +43,10 @@ const pages: Record<string, Page> = {
     name: 'Stick-slip', heading: 'Stick and slip', view: lazily(async () => (await import('./panels/loading')).LoadingPanel),
     about: 'A spring pulls a block over a table. Its friction falls with the velocity, and rises while it rests. So it sticks, and slips, and sticks again. Change the spring, and see where that ends.',
   },
+  plane: {
+    name: 'Fault plane', heading: 'A rupture on a fault plane', view: lazily(async () => (await import('./panels/plane')).PlanePanel),
+    about: 'On a plane, dislocations are lines, and slip grows where they pass. Watch a rupture spread, by its averages or line by line. A bent line pulls back like a stretched string, and that can stop it.',
+  },
   stress: {
     name: 'Stress and velocity', heading: 'Stress from observed velocities', view: lazily(async () => (await import('./panels/stress')).StressPanel),
     about: 'Without friction, the stress before a rupture fixes how fast it spreads and how fast it slips. Read backwards, observed velocities give the stress. Six decades of velocity are less than one decade of stress.',

@@ -130,6 +130,17 @@ export type LoadingMore = Record<'time' | 'load' | 'speed' | 'slip' | 'velocity'
   events: SlipEvent[];
 };
 
+/** A rupture on a plane of nx times ny cells, in the units of the model. */
+export type PlaneBegun = Record<'left' | 'right' | 'bottom' | 'top' | 'end' | 'nx' | 'ny', number> & { warnings: string[] };
+/** Snapshots and rows of the series since the last answer. `line_points` are the numbers of points of the lines of each snapshot. */
+export type PlaneMore = Record<'time' | 'velocity' | 'slip' | 'line_points' | 'line_x' | 'line_y' | 'series_time' | 'moment_rate' | 'front', Float64Array> & {
+  finished: boolean;
+  gave_up: string;
+  steps: number;
+  now: number;
+  warnings: string[];
+};
+
 /** The functions of the module that the page calls: arguments and answers. */
 export interface Calls {
   relations: { arguments: [given: number, value: number]; answer: Relations };
@@ -145,6 +156,8 @@ export interface Calls {
   chain_go: { arguments: [time: number, milliseconds: number, half: number]; answer: ChainAnswer };
   loading_begin: { arguments: [toml: string, changes: string]; answer: LoadingBegun };
   loading_go: { arguments: [milliseconds: number]; answer: LoadingMore };
+  plane_begin: { arguments: [toml: string, changes: string, r: Float64Array, slip: Float64Array, rows: number, direct: number]; answer: PlaneBegun };
+  plane_go: { arguments: [milliseconds: number]; answer: PlaneMore };
   pulse_begin: { arguments: [slot: number, toml: string, frames: number, look: number, closure: number]; answer: PulseBegun };
   pulse_go: { arguments: [slot: number, milliseconds: number, first: number]; answer: PulseMore };
 }

@@ -43,6 +43,7 @@ const doors = [
   { panel: 'pulse', name: 'Pulse', text: 'Draw a stress, choose a friction, and watch it slip.' },
   { panel: 'dislocations', name: 'Dislocations', text: 'The same event, bead by bead, with nothing averaged.' },
   { panel: 'loading', name: 'Stick-slip', text: 'A spring pulls a block in the laboratory. It sticks, and slips.' },
+  { panel: 'plane', name: 'Fault plane', text: 'A rupture in two dimensions, with every dislocation line.' },
   { panel: 'stress', name: 'Stress and velocity', text: 'Observed earthquakes and slow slip events, and yours.' },
   { panel: 'riemann', name: 'Riemann', text: 'Two states meet: the wave patterns behind it all.' },
   { panel: 'paper', name: 'The paper', text: 'Its figures, live, with the sliders they never had.' },

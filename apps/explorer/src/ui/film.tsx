@@ -13,7 +13,10 @@ const perSecond = 25;
 const seconds = 8;
 const missing = 'This browser cannot encode films. It may be able to on a page that https or this machine serves.';
 
-/** Shows pictures, as SVG, below one another. */
+/** Pictures as SVG at 0 ... 1 of the run, which the film shows below one another. */
+type Pictures = (at: number) => string[] | Promise<string[]>;
+
+/** Shows pictures below one another. */
 async function show(ctx: CanvasRenderingContext2D, pictures: string[]) {
   const images = await Promise.all(pictures.map(imageOf));
   ctx.fillStyle = color('paper');
@@ -21,8 +24,8 @@ async function show(ctx: CanvasRenderingContext2D, pictures: string[]) {
   images.forEach((image, i) => ctx.drawImage(image, 0, (i * filmHeight) / images.length));
 }
 
-/** Encodes a film of the pictures at 0 ... 1 of the run. It calls `progress` with the finished fraction, and stops if the answer is false. */
-async function encoded(pictures: (at: number) => string[], progress: (share: number) => boolean): Promise<Blob | null> {
+/** Encodes a film. It calls `progress` with the finished fraction, and stops if the answer is false. */
+async function encoded(pictures: Pictures, progress: (share: number) => boolean): Promise<Blob | null> {
   const { ArrayBufferTarget, Muxer } = await import('webm-muxer');
   const canvas = document.createElement('canvas');
   Object.assign(canvas, { width, height });
@@ -36,7 +39,7 @@ async function encoded(pictures: (at: number) => string[], progress: (share: num
   const frames = perSecond * seconds;
   try {
     for (let i = 0; i <= frames; ++i) {
-      await show(ctx, pictures(i / frames));
+      await show(ctx, await pictures(i / frames));
       if (failure || !progress(i / frames)) return null;
       const frame = new VideoFrame(canvas, { timestamp: (1e6 * i) / perSecond, duration: 1e6 / perSecond });
       encoder.encode(frame, { keyFrame: i % perSecond === 0 });
@@ -51,7 +54,7 @@ async function encoded(pictures: (at: number) => string[], progress: (share: num
   return failure ? null : new Blob([target.buffer], { type: 'video/webm' });
 }
 
-export function Film({ name, pictures }: { name: string; pictures: (at: number) => string[] }) {
+export function Film({ name, pictures }: { name: string; pictures: Pictures }) {
   const [share, setShare] = useState<number | null>(null);
   const wanted = useRef(true);
   const start = async () => {

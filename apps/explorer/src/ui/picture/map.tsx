@@ -6,10 +6,11 @@ import { Data } from './data';
 import { short } from '../format';
 import { announce } from '../announce';
 import { save } from '../save';
-import { scaleOf, type Scale } from './map_scale';
+import { scaleOf, tRangeOf, type Scale } from './map_scale';
 import { mapSvgOf } from './map_svg';
 import { addressOf, pngOf } from './raster';
 import { ticks } from './spec';
+import { pathOf } from './svg';
 
 export interface Field {
   title: string;
@@ -24,31 +25,48 @@ export interface Field {
   xFactor: number;
   tFactor: number;
   factor: number;
-  lines: { x: ArrayLike<number>; color: string; label: string; dash?: number[] }[];
+  /** Lines over all t, or with a `t` of their own, where NaN ends a part of the line. */
+  lines: { x: ArrayLike<number>; t?: ArrayLike<number>; color: string; label: string; dash?: number[]; width?: number }[];
   now?: number;
+  /** Both ends of the axis of t, which else begins at 0. */
+  tRange?: [number, number];
+  /** Height of the field over its width; else that of the picture decides. */
+  aspect?: number;
+  /** The smallest and the largest value of the colours, else those of the field. */
+  reach?: [number, number];
 }
 
-const margin = { left: 58, top: 6, bottom: 44 };
+
+const margin = { left: 58, top: 6, bottom: 44, ofBar: 84 };
 const bar = { gap: 14, width: 11, title: 16 };
 
 /** The field without lines, one pixel per value. It is drawn only once, although the lines move over it often. */
 interface Picture {
   of?: ArrayLike<number>;
+  reach?: string;
   theme?: number;
   canvas: OffscreenCanvas;
   scale: Scale;
 }
 
 function draw(picture: Picture, f: Field) {
-  if (picture.of === f.values && picture.theme === theme.value) return;
+  const reach = f.reach?.join();
+  if (picture.of === f.values && picture.reach === reach && picture.theme === theme.value) return;
   const [nx, nt] = [f.x.length, f.t.length];
   const data = new ImageData(nx, nt);
-  const scale = scaleOf(f.values);
+  const scale = scaleOf(f.reach ?? f.values);
   for (let j = 0; j < nt; ++j)
     for (let i = 0; i < nx; ++i) data.data.set([...scale.colour(f.values[j * nx + i]), 255], 4 * ((nt - 1 - j) * nx + i));
   const canvas = new OffscreenCanvas(nx, nt);
   canvas.getContext('2d')!.putImageData(data, 0, 0);
-  Object.assign(picture, { of: f.values, theme: theme.value, canvas, scale });
+  Object.assign(picture, { of: f.values, reach, theme: theme.value, canvas, scale });
+}
+
+/** The field as an image for SVG pictures, and its colours. */
+export async function imageOfField(f: Field): Promise<{ image: string; scale: Scale }> {
+  const picture: Picture = { canvas: new OffscreenCanvas(1, 1), scale: scaleOf([]) };
+  draw(picture, f);
+  return { image: await addressOf(picture.canvas), scale: picture.scale };
 }
 
 /** The colour bar, from x = `left` on; the field has the height `h`. */
@@ -73,9 +91,11 @@ function sideways(ctx: CanvasRenderingContext2D, text: string, x: number, y: num
   ctx.restore();
 }
 
-function paint(canvas: HTMLCanvasElement, picture: Picture, f: Field, height: number) {
+function paint(canvas: HTMLCanvasElement, picture: Picture, f: Field, wanted: number) {
   const ratio = devicePixelRatio;
   const width = canvas.clientWidth;
+  const height = f.aspect ? margin.top + margin.bottom + f.aspect * Math.max(0, width - margin.left - margin.ofBar) : wanted;
+  canvas.style.height = `${height}px`;
   canvas.width = width * ratio;
   canvas.height = height * ratio;
   const ctx = canvas.getContext('2d')!;
@@ -87,20 +107,19 @@ function paint(canvas: HTMLCanvasElement, picture: Picture, f: Field, height: nu
   const [least, most] = picture.scale.range;
   const marks = least < most ? ticks([least * f.factor, most * f.factor], h / 40) : [];
   ctx.font = '12px system-ui, sans-serif';
-  const w = width - margin.left - bar.gap - bar.width - 5 - Math.max(0, ...marks.map((mark) => ctx.measureText(short(mark)).width)) - bar.title;
+  const w = width - margin.left - (f.aspect ? margin.ofBar : bar.gap + bar.width + 5 + Math.max(0, ...marks.map((mark) => ctx.measureText(short(mark)).width)) + bar.title);
   ctx.fillStyle = color('paper');
   ctx.fillRect(0, 0, width, height); // also in the PNG
   ctx.drawImage(picture.canvas, margin.left, margin.top, w, h);
   const half = (f.x[1] - f.x[0]) / 2;
-  const [x0, x1, t1] = [f.x[0] - half, f.x[nx - 1] + half, f.t[nt - 1]];
-  const at = (x: number, t: number): [number, number] => [margin.left + ((x - x0) / (x1 - x0)) * w, margin.top + h - (t / t1) * h];
+  const [x0, x1] = [f.x[0] - half, f.x[nx - 1] + half];
+  const [t0, t1] = tRangeOf(f);
+  const at = (x: number, t: number): [number, number] => [margin.left + ((x - x0) / (x1 - x0)) * w, margin.top + h - ((t - t0) / (t1 - t0)) * h];
   for (const line of f.lines) {
     ctx.strokeStyle = color(line.color);
-    ctx.lineWidth = 1.6;
+    ctx.lineWidth = line.width ?? 1.6;
     ctx.setLineDash(line.dash ?? []);
-    ctx.beginPath();
-    for (let j = 0; j < nt; ++j) if (Number.isFinite(line.x[j])) ctx.lineTo(...at(line.x[j], f.t[j]));
-    ctx.stroke();
+    ctx.stroke(new Path2D(pathOf(line.x, line.t ?? f.t, { x: (x) => at(x, t0)[0], y: (t) => at(x0, t)[1] })));
   }
   ctx.setLineDash([]);
   if (f.now !== undefined) {
@@ -113,10 +132,10 @@ function paint(canvas: HTMLCanvasElement, picture: Picture, f: Field, height: nu
   }
   ctx.fillStyle = color('quiet');
   ctx.textAlign = 'center';
-  for (const tick of ticks([x0 * f.xFactor, x1 * f.xFactor], w / 75)) ctx.fillText(short(tick), at(tick / f.xFactor, 0)[0], height - margin.bottom + 17);
+  for (const tick of ticks([x0 * f.xFactor, x1 * f.xFactor], w / 75)) ctx.fillText(short(tick), at(tick / f.xFactor, t0)[0], height - margin.bottom + 17);
   ctx.fillText(f.xLabel, margin.left + w / 2, height - 8);
   ctx.textAlign = 'right';
-  for (const tick of ticks([0, t1 * f.tFactor], h / 40)) ctx.fillText(short(tick), margin.left - 7, at(0, tick / f.tFactor)[1] + 4);
+  for (const tick of ticks([t0 * f.tFactor, t1 * f.tFactor], h / 40)) ctx.fillText(short(tick), margin.left - 7, at(x0, tick / f.tFactor)[1] + 4);
   sideways(ctx, f.tLabel, 13, margin.top + h / 2);
   sideways(ctx, f.label, width - 5, margin.top + h / 2);
   if (marks.length) paintBar(ctx, picture.scale, f, marks, margin.left + w + bar.gap, h);
@@ -139,7 +158,7 @@ export function SpaceTime({ field, height = 260, onPick }: { field: Field; heigh
     const [i, j] = cell ?? [nx >> 1, nt - 1];
     const next: [number, number] = [Math.min(nx - 1, Math.max(0, i + di)), Math.min(nt - 1, Math.max(0, j + dj))];
     setCell(next);
-    announce(`x ${short(field.x[next[0]] * field.xFactor)}, t ${short(field.t[next[1]] * field.tFactor)}: ${short(field.values[next[1] * nx + next[0]] * field.factor)}`);
+    announce(`x ${short(field.x[next[0]] * field.xFactor)}, ${field.tLabel.split(',')[0]} ${short(field.t[next[1]] * field.tFactor)}: ${short(field.values[next[1] * nx + next[0]] * field.factor)}`);
     if (dj) onPick?.(field.t[next[1]]);
   };
   const keys: Record<string, [number, number]> = { ArrowLeft: [-2, 0], ArrowRight: [2, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
@@ -148,7 +167,7 @@ export function SpaceTime({ field, height = 260, onPick }: { field: Field; heigh
       <figcaption>{field.title}
         <span class="legend">{field.lines.map((line) => <span><svg width="20" height="8" aria-hidden="true"><path d="M0 4h20" style={{ stroke: `var(--${line.color})` }} stroke-width="2" stroke-dasharray={line.dash?.join(' ')} /></svg> {line.label}</span>)}</span>
       </figcaption>
-      <canvas ref={canvas} style={{ height: `${height}px` }} tabIndex={0} role="img" aria-label={`${field.title}. ${field.label} over ${field.xLabel} and ${field.tLabel}. Arrow keys read it.`}
+      <canvas ref={canvas} tabIndex={0} role="img" aria-label={`${field.title}. ${field.label} over ${field.xLabel} and ${field.tLabel}. Arrow keys read it.`}
         onKeyDown={(e) => { const way = keys[e.key]; if (way) { e.preventDefault(); move(...way); } }}
         onPointerDown={(e) => {
           const box = e.currentTarget.getBoundingClientRect();
@@ -161,7 +180,7 @@ export function SpaceTime({ field, height = 260, onPick }: { field: Field; heigh
 }
 
 function csvOf(f: Field): string {
-  const rows = [['t \\ x', ...Array.from(f.x, (x) => x * f.xFactor)].join(',')];
+  const rows = [[`${f.tLabel.split(',')[0]} \\ x`, ...Array.from(f.x, (x) => x * f.xFactor)].join(',')];
   for (let j = 0; j < f.t.length; ++j) rows.push([f.t[j] * f.tFactor, ...Array.from({ length: f.x.length }, (_, i) => f.values[j * f.x.length + i] * f.factor)].join(','));
   return rows.join('\n') + '\n';
 }

@@ -8,6 +8,9 @@ export interface Scale {
   colour: (value: number) => [number, number, number];
 }
 
+/** Both ends of the vertical axis of a field, which begins at 0 unless the field states them. */
+export const tRangeOf = (f: { t: ArrayLike<number>; tRange?: [number, number] }): [number, number] => f.tRange ?? [0, f.t[f.t.length - 1]];
+
 export function scaleOf(values: ArrayLike<number>): Scale {
   const range = reach(values);
   const most = Math.max(-range[0], range[1]) || 1;
