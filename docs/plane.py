@@ -1,6 +1,6 @@
-"""Draws docs/plane.png and docs/plane.gif, and prints their numbers (docs/plane.md).
+"""Draws the pictures of docs/plane.md, and prints their numbers.
 
-Usage: plane.py PROGRAM [picture] [motion]
+Usage: plane.py PROGRAM [picture] [fault] [barrier] [grid] [motion]
 
 PROGRAM is build/release/bin/slipfront. The script needs python3-matplotlib and python3-xarray, and runs for some minutes.
 """
@@ -20,8 +20,9 @@ import xarray  # noqa: E402
 
 PROGRAM = sys.argv[1]
 HERE = pathlib.Path(__file__).parent
+CASES = HERE.parent / "cases"
 STYLE = HERE.parent / "python" / "slipfront" / "slipfront.mplstyle"
-FRICTION, RINGS = (str(HERE.parent / "cases" / name) for name in ("plane-friction.toml", "plane-rings.toml"))
+FRICTION, RINGS = CASES / "plane-friction.toml", CASES / "plane-rings.toml"
 WIDE = {"plane.left": -3.8, "plane.right": 3.8, "plane.bottom": -3.8, "plane.top": 3.8}
 FREE = {"friction.coefficient": 0, "time.end": 8, "output.every": 8, "plane.cells": 100} | WIDE
 LINES = {"averaged": (), "every line, 17": ("--direct", "--set", "chain.scale=40"), "every line, 35": ("--direct", "--set", "chain.scale=80")}
@@ -58,6 +59,54 @@ def picture(folder):
     figure.savefig(HERE / "plane.png")
 
 
+def fault(folder):
+    """Draws plane-fault.png: a rupture from the slip of a finite-fault model."""
+    data = run(folder, CASES / "synthetic-fault.fsp", {})
+    figure, axes = plt.subplots(2, 2, figsize=(9.5, 5.2))
+    x, y = data["x"] / 1e3, data["y"] / 1e3
+    for axis, name, title, factor in [(axes[0, 0], "initial_stress", "stress at t = 0, MPa", 1e-6), (axes[0, 1], "rupture_time", "rupture time, s", 1),
+                                      (axes[1, 0], "slip", "slip at the end, m", 1)]:
+        values = data[name][-1] if name == "slip" else data[name]
+        shown = axis.pcolormesh(x, y, factor * values, cmap="viridis", rasterized=True)
+        figure.colorbar(shown, ax=axis)
+        axis.plot(0, 0, "*", color="tab:red", markersize=12)
+        axis.set(title=title, xlabel="along strike, km", ylabel="up dip, km", aspect="equal")
+        axis.grid(False)
+    axes[1, 1].plot(data["series_time"], data["moment_rate"])
+    axes[1, 1].set(title="moment rate, N m / s", xlabel="t, s")
+    figure.savefig(HERE / "plane-fault.png")
+
+
+def barrier(folder):
+    """Draws plane-barrier.png: lines that walk around a region that is held."""
+    data = run(folder, CASES / "plane-barrier.toml", {}, ("--direct",))
+    figure, axes = plt.subplots(1, 3, figsize=(10.5, 3.4), sharey=True)
+    for axis, time in zip(axes, (1, 2.25, 3.5)):
+        axis.pcolormesh(data["x"], data["y"], data["slip_velocity"].sel(time=time, method="nearest"), vmin=0, vmax=1, cmap="magma", rasterized=True)
+        axis.set(title=f"t = {time}", xlabel="x, b / A", aspect="equal")
+        axis.grid(False)
+    axes[0].set_ylabel("y, b / A")
+    figure.savefig(HERE / "plane-barrier.png")
+
+
+def grid(folder):
+    """Draws plane-grid.png: mean slip around a barrier, by the averages and line by line."""
+    runs = {"averages on a grid": run(folder, CASES / "plane-barrier.toml", {}),
+            "every line": run(folder, CASES / "plane-barrier.toml", {}, ("--direct",))}
+    figure, axes = plt.subplots(1, 2, figsize=(9, 3.8), sharey=True)
+    for axis, (name, data) in zip(axes, runs.items()):
+        seen = axis.contourf(data["x"], data["y"], data["slip"][-1], levels=np.linspace(0.25, 4, 16))
+        axis.set(title=name, xlabel="x, b / A", aspect="equal")
+        axis.grid(False)
+    axes[0].set_ylabel("y, b / A")
+    figure.colorbar(seen, ax=axes, label="slip at t = 3.5, b / (2 $\\pi$)")
+    figure.savefig(HERE / "plane-grid.png")
+    averaged, direct = (data["slip"].values for data in runs.values())
+    for i in (4, 8, 14):
+        print(f"barrier, t = {float(runs['every line']['time'][i]):.2f}: slip, L1 {np.abs(averaged[i] - direct[i]).sum() / np.abs(direct[i]).sum():.3f}, "
+              f"potency {float(runs['averages on a grid']['potency'].values[-1]):.3f} and {float(runs['every line']['potency'].values[-1]):.3f} at the end")
+
+
 def motion(folder):
     """Draws plane.gif: the slip velocity of the averages and of every line, side by side."""
     settings = {"time.end": 2, "output.every": 0.08, "plane.cells": 190} | WIDE
@@ -81,7 +130,7 @@ def motion(folder):
 
 if __name__ == "__main__":
     plt.style.use(STYLE)
-    names = sys.argv[2:] or ["picture", "motion"]
+    parts = {"picture": picture, "fault": fault, "barrier": barrier, "grid": grid, "motion": motion}
     with tempfile.TemporaryDirectory() as scratch:
-        for chosen in names:
-            {"picture": picture, "motion": motion}[chosen](scratch)
+        for chosen in sys.argv[2:] or parts:
+            parts[chosen](scratch)

@@ -11,7 +11,7 @@ def route_of(text: str) -> str | None:
         scenario = tomllib.loads(text)
     except tomllib.TOMLDecodeError:
         return None
-    if "initial" not in scenario or "loading" in scenario or "file" in scenario["initial"]:
+    if "initial" not in scenario or "loading" in scenario or "plane" in scenario or "file" in scenario["initial"]:
         return None
     values = {"title": scenario.get("title", "")}
     for table, entries in scenario.items():

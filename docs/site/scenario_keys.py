@@ -12,6 +12,7 @@ TABLES = {
     "interface": ("[interface]", "The contact ratio along the interface."),
     "domain": ("[domain]", "The part of the interface that is computed."),
     "plane": ("[plane]", "A rupture on a plane: its edges, the region that is held, and the cells."),
+    "nucleation": ("[nucleation]", "Where a rupture on a plane begins, if a static load or friction holds the rest."),
     "time": ("[time]", "The duration of the run."),
     "pulse": ("[pulse]", "Settings of a `pulse` run."),
     "chain": ("[chain]", "Settings of a `chain` run."),
