@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "batch.hpp"
+#include "foundation/ranks.hpp"
 #include "long_run.hpp"
 #include "plane_output.hpp"
 #include "run/fault_plane.hpp"
@@ -16,10 +17,10 @@ namespace {
 using namespace slipfront;
 
 /// The lines that a run would follow, in words. Refuses what a run refuses at its start.
-std::string solver_in_words(const scenario::Scenario& s, setup::Lines lines, int threads) {
+std::string solver_in_words(const scenario::Scenario& s, setup::Lines lines, int threads, const Ranks* ranks) {
   if (lines == setup::Lines::direct) {
     const plane::DirectOptions options{.scale = s.chain.scale.value_or(1), .threads = threads};
-    setup::plane_solver(s, lines, threads);
+    setup::plane_solver(s, lines, threads, ranks);
     return fmt::format("every dislocation line at scale {}, which needs about {:.2g} GB of memory,", options.scale,
                        plane::memory_of_direct(s.plane->problem, options) / 1e9);
   }
@@ -28,14 +29,14 @@ std::string solver_in_words(const scenario::Scenario& s, setup::Lines lines, int
   return fmt::format("{} x {} cells of dislocation lines", s.plane->loops, s.plane->angles);
 }
 
-void describe(const scenario::Scenario& s, const run::PlanePlan& plan, setup::Lines lines, int threads) {
+void describe(const scenario::Scenario& s, const run::PlanePlan& plan, const std::string& solver) {
   const record::PlaneGrid& grid = plan.grid;
   put(fmt::format(
       "{}: OK. This scenario would follow {} over x = {} ... {}, y = {} ... {} to t = {}, with results in "
       "{} x {} cells at {} times: {:.1g} GB on the disk with -o.\n",
-      s.title.empty() ? s.file : s.title, solver_in_words(s, lines, threads), in_results(s, grid.left, "b / A"),
-      in_results(s, grid.right, "b / A"), in_results(s, grid.bottom, "b / A"), in_results(s, grid.top, "b / A"),
-      in_results(s, s.end, "b / (c A)"), grid.nx, grid.ny, plan.schedule.times.size(), plan.disk / 1e9));
+      s.title.empty() ? s.file : s.title, solver, in_results(s, grid.left, "b / A"), in_results(s, grid.right, "b / A"),
+      in_results(s, grid.bottom, "b / A"), in_results(s, grid.top, "b / A"), in_results(s, s.end, "b / (c A)"), grid.nx,
+      grid.ny, plan.schedule.times.size(), plan.disk / 1e9));
 }
 
 /// Errors of a direct run are not known.
@@ -49,31 +50,46 @@ bool is_model(const ScenarioArguments& a) { return a.scenario.ends_with(".fsp");
 /// Runs a scenario. If it was made from a finite-fault model, it compares the results with the model.
 int run_scenario(const ScenarioArguments& a, const scenario::Scenario& s, setup::Lines lines,
                  const run::FaultOnPlane* model, Clock::time_point begun) {
-  const run::PlanePlan plan = run::plan_plane(s);
+  const Ranks* const ranks = lines == setup::Lines::direct && the_ranks->size() > 1 ? the_ranks : nullptr;
+  if (!ranks && the_ranks->rank() > 0) return exit_done;  // the averages are those of one process
+  run::PlanePlan plan;
   std::optional<record::PlaneCheckpoint> saved;
-  if (!a.resume.empty()) saved = run::plane_checkpoint_of(a.resume, s);
-  const bool of_finished = saved && saved->finished;
+  const auto prepare = [&] {
+    plan = run::plan_plane(s);
+    if (!a.resume.empty()) saved = run::plane_checkpoint_of(a.resume, s);
+    if (a.check) require_output(a, saved && saved->finished, plan.disk);
+  };
+  ranks ? ranks->together(prepare) : prepare();
   if (a.check) {
-    require_output(a, of_finished, plan.disk);
-    describe(s, plan, lines, a.common.threads);
+    const std::string solver = solver_in_words(s, lines, a.common.threads, ranks);
+    if (the_ranks->rank() == 0) describe(s, plan, solver);
     return exit_done;
   }
-  LongRun long_run(a, s, of_finished, nullptr);
+  LongRun long_run(a, s, saved && saved->finished, ranks);
   const auto result =
       run::plane(s, plan, {.common = long_run.options({}, begun), .lines = lines, .checkpoint = std::move(saved)});
   if (const int code = long_run.end(result.finished()); code != exit_done) return code;
-  print_plane(s, result, errors_of(s, result.numbers, lines), model, a);
+  if (the_ranks->rank() == 0) print_plane(s, result, errors_of(s, result.numbers, lines), model, a);
   return exit_done;
 }
 
 int run_plane(const ScenarioArguments& a, setup::Lines lines) {
   const auto begun = Clock::now();
-  if (!is_model(a)) return run_scenario(a, read_scenario_of(a), lines, nullptr, begun);
-  require_one_scenario(a);
-  const run::FaultOnPlane model = run::fault_on_plane(record::read_text(a.scenario), a.scenario);
-  const scenario::Scenario s = prepared(run::scenario_of_fault(model, a.scenario, settings_of(a)), a);
-  if (!model.fault.note.empty() && !a.common.quiet) complain("warning: " + model.fault.note);
-  return run_scenario(a, s, setup::Lines::direct, &model, begun);
+  scenario::Scenario s;
+  std::optional<run::FaultOnPlane> model;
+  the_ranks->together([&] {  // so that an error is reported only once
+    if (!is_model(a)) {
+      s = read_scenario_of(a);
+      return;
+    }
+    require_one_scenario(a);
+    model = run::fault_on_plane(record::read_text(a.scenario), a.scenario);
+    s = prepared(run::scenario_of_fault(*model, a.scenario, settings_of(a)), a);
+  });
+  the_ranks->require_same("SCENARIO", s.text);
+  if (!model) return run_scenario(a, s, lines, nullptr, begun);
+  if (!model->fault.note.empty() && !a.common.quiet) complain("warning: " + model->fault.note);
+  return run_scenario(a, s, setup::Lines::direct, &*model, begun);
 }
 
 }  // namespace

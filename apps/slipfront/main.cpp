@@ -82,8 +82,8 @@ int run(int argc, char** argv) {
   }
   for (const Command& command : commands)
     if (app.got_subcommand(command.name)) chosen = command.run;
-  // Only a chain is shared; of anything else the first rank does it all.
-  if (the_ranks->rank() > 0 && !app.got_subcommand("chain")) return exit_done;
+  // Only chains and planes are shared; of anything else the first rank does it all.
+  if (the_ranks->rank() > 0 && !app.got_subcommand("chain") && !app.got_subcommand("plane")) return exit_done;
   const int code = chosen();
   finish_stdout();
   return code;

@@ -30,6 +30,11 @@ void exchange_alone(std::span<const double> to_left, std::span<const double> to_
 
 }  // namespace
 
+const Ranks& Ranks::single() {
+  static const Ranks one;
+  return one;
+}
+
 int Ranks::failed(int code, const std::function<void()>& say) const {
   if (size_ == 1 || !agreed_ || rank_ == 0) say();
 #ifdef SLIPFRONT_MPI

@@ -16,6 +16,8 @@ class Ranks {
  public:
   /// A single process.
   Ranks() = default;
+  /// The only process, which outlives those that refer to it.
+  static const Ranks& single();
   /// Starts MPI if mpirun (or srun) started this process. The destructor ends MPI, so a program must create only one
   /// such object and catch its errors (see `failed`) before the object is destroyed. \throws InputError if there are
   /// several processes and the library was built without MPI.

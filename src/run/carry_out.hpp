@@ -28,8 +28,9 @@ inline void add_warnings(const std::vector<std::string>& of_run, record::PulseMe
   metadata.warnings.insert(metadata.warnings.end(), of_run.begin(), of_run.end());
 }
 
-/// Writes a run to a file.
-using WriteRun = std::function<void(const std::string& path, const record::PulseMetadata& metadata)>;
+/// Writes a run and its saved state to a file.
+using WriteRun =
+    std::function<void(const std::string& path, const record::PulseMetadata& metadata, const std::string& state)>;
 
 /// Writes the whole run to its output, with `write_run` if it is given and else as a pulse. Until the run has ended,
 /// the file is marked as unfinished.
@@ -64,8 +65,7 @@ class Checkpoints {
   void write() {
     if (!options_.output.wanted()) return;
     const auto begun = Clock::now();
-    std::string state;
-    if (!write_run_) state = run_.saved();  // all ranks send their parts to the first rank
+    const std::string state = run_.saved();  // all ranks send their parts to the first rank
     record::PulseMetadata metadata = options_.metadata;
     if constexpr (requires { run_.events(); }) {
       metadata.events = run_.events();
@@ -76,7 +76,7 @@ class Checkpoints {
       const record::Output& output = options_.output;
       const std::string& path = run_.finished() ? output.finished() : output.unfinished();
       if constexpr (requires { run_.maps(); })
-        write_run_(path, metadata);
+        write_run_(path, metadata, state);
       else
         record::write_pulse(path, metadata, run_.snapshots(), state, run_.finished());
       if (run_.finished()) output.clear();

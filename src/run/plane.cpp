@@ -12,7 +12,8 @@ namespace slipfront::run {
 namespace {
 
 std::unique_ptr<plane::Run> begun(const scenario::Scenario& s, const PlanePlan& plan, const PlaneOptions& options) {
-  std::unique_ptr<plane::Solver> solver = setup::plane_solver(s, options.lines, options.common.threads);
+  std::unique_ptr<plane::Solver> solver =
+      setup::plane_solver(s, options.lines, options.common.threads, options.common.ranks);
   if (!options.checkpoint) return std::make_unique<plane::Run>(std::move(solver), plan.schedule);
   const record::PlaneCheckpoint& saved = *options.checkpoint;
   return std::make_unique<plane::Run>(std::move(solver), plan.schedule, saved.run_state, saved.snapshots);
@@ -87,10 +88,11 @@ PlaneResult plane(const scenario::Scenario& s, const PlanePlan& plan, const Plan
       {.output = common.output,
        .metadata = result.metadata,
        .disk = plan.disk,
-       .resumed = options.checkpoint.has_value()},
+       .resumed = options.checkpoint.has_value(),
+       .ranks = common.ranks},
       [&] { return common.after_step && common.after_step(solver.time(), solver.steps()); },
-      [&](const std::string& path, const record::PulseMetadata& metadata) {
-        record::write_plane(path, metadata, plan.grid, *result.run);
+      [&](const std::string& path, const record::PulseMetadata& metadata, const std::string& state) {
+        record::write_plane(path, metadata, plan.grid, *result.run, state);
       });
   if (!reached) return result;
   add_warnings(result.run->warnings(), result.metadata);

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "foundation/machine.hpp"
+#include "foundation/ranks.hpp"
 #include "foundation/text/digits.hpp"
 #include "setup/output_times.hpp"
 #include "slipfront/error.hpp"
@@ -59,7 +60,7 @@ void require_line(const scenario::Scenario& s) {
                       .allowed = "slipfront plane"});
 }
 
-std::unique_ptr<plane::Solver> plane_solver(const scenario::Scenario& s, Lines lines, int threads) {
+std::unique_ptr<plane::Solver> plane_solver(const scenario::Scenario& s, Lines lines, int threads, const Ranks* ranks) {
   require_plane(s);
   try {
     if (lines == Lines::averaged && s.plane->on_grid)
@@ -69,8 +70,10 @@ std::unique_ptr<plane::Solver> plane_solver(const scenario::Scenario& s, Lines l
           s.plane->problem, plane::Resolution{.loops = s.plane->loops, .angles = s.plane->angles});
     const plane::DirectOptions options{.scale = s.chain.scale.value_or(1),
                                        .spacing = s.chain.spacing.value_or(plane::DirectOptions{}.spacing),
-                                       .threads = threads};
-    const double need = plane::memory_of_direct(s.plane->problem, options);
+                                       .threads = threads,
+                                       .ranks = ranks};
+    const double share = ranks ? ranks->share_of_machine() : 1;
+    const double need = share * plane::memory_of_direct(s.plane->problem, options);
     if (need > usable_memory())
       throw InputError({.key = "scale",
                         .value = digits(options.scale),

@@ -8,19 +8,27 @@
 
 #include "slipfront/plane/problem.hpp"
 
+namespace slipfront {
+class Ranks;
+}
+
 namespace slipfront::plane {
 
 struct DirectOptions {
   double scale = 1;      ///< factor by which x, y and t are stretched and friction is divided: as many times the lines
   double spacing = 0.4;  ///< largest spacing of the sites, in widths of a dislocation of the largest contact ratio
   int threads = 1;
+  /// The processes that share the sites, each a band of rows; null: one process. They must outlive the solver, and all
+  /// of them must make the same calls. All get the same results, to the last bit those of one process, but only the
+  /// first one gets lines and the saved state.
+  const Ranks* ranks = nullptr;
 };
 
-/// Approximate number of bytes that a solver needs. \throws InputError for numbers out of range.
+/// Approximate number of bytes that a solver needs, on all ranks together. \throws InputError for numbers out of range.
 double memory_of_direct(const Problem& problem, const DirectOptions& options);
 
-/// The largest force on the lines at t = 0 without friction, static load and F, as mean over each of nx times ny cells:
-/// friction must be at least as strong to hold the initial state. \throws InputError as a solver.
+/// In one process: the largest force on the lines at t = 0 without friction, static load and F, as mean over each of nx
+/// times ny cells: friction must be at least as strong to hold the initial state. \throws InputError as a solver.
 double largest_unbalanced_force(const Problem& problem, const DirectOptions& options, int nx, int ny);
 
 /// Solves the equation of every line on a grid, with fourth order in space and time. The edges of the domain are those
@@ -30,8 +38,8 @@ double largest_unbalanced_force(const Problem& problem, const DirectOptions& opt
 /// in another way.
 class DirectSolver : public Solver {
  public:
-  /// \throws InputError for lines too dense for the spacing, for friction that changes contacts, and for numbers
-  /// out of range.
+  /// \throws InputError for lines too dense for the spacing, for friction that changes contacts, for numbers out of
+  /// range, and for more ranks than a fourth of the rows of sites.
   DirectSolver(const Problem& problem, const DirectOptions& options);
   ~DirectSolver() override;
 

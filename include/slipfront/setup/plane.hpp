@@ -7,6 +7,10 @@
 #include "slipfront/plane/run.hpp"
 #include "slipfront/scenario/scenario.hpp"
 
+namespace slipfront {
+class Ranks;
+}
+
 namespace slipfront::setup {
 
 /// \throws InputError if the scenario has no table [plane].
@@ -19,7 +23,9 @@ enum class Lines { averaged, direct };
 
 /// The solver of a scenario. \throws InputError for what it cannot solve, and for a direct solver that needs more
 /// memory than this process may have.
-std::unique_ptr<plane::Solver> plane_solver(const scenario::Scenario& scenario, Lines lines, int threads);
+/// `ranks` are the processes that share a direct solver (plane::DirectOptions).
+std::unique_ptr<plane::Solver> plane_solver(const scenario::Scenario& scenario, Lines lines, int threads,
+                                            const Ranks* ranks = nullptr);
 
 /// The times and the grid of the results. A row of the series follows each time in which a wave crosses a cell, with at
 /// most 1000 rows. \throws InputError if the results need more memory than this process may have.

@@ -12,11 +12,6 @@
 namespace slipfront::chain {
 namespace {
 
-const Ranks* one_process() {
-  static const Ranks ranks;
-  return &ranks;
-}
-
 /// (all) Joins the windows of all ranks, in one message.
 void join(const Ranks& ranks, Window& window) {
   const std::array columns{
@@ -34,7 +29,7 @@ void join(const Ranks& ranks, Window& window) {
 }  // namespace
 
 Sites::Sites(const Problem& problem, const Ranks* ranks)
-    : problem_(problem), ranks_(ranks == nullptr ? one_process() : ranks) {}
+    : problem_(problem), ranks_(ranks == nullptr ? &Ranks::single() : ranks) {}
 
 Window Sites::window(std::size_t begin, std::size_t end, double time) const {
   const auto step = constant_step();

@@ -2,9 +2,11 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "foundation/bytes.hpp"
+#include "foundation/ranks.hpp"
 #include "foundation/text/digits.hpp"
 #include "plane/budget.hpp"
 #include "plane/direct/lines.hpp"
@@ -37,10 +39,39 @@ Range sites_between(double from, double to, double edge, double spacing, std::si
   return {static_cast<std::size_t>(first), static_cast<std::size_t>(last)};
 }
 
+/// Returns what `make` returns, each rank its own. If it throws on any rank, all ranks throw.
+template <class Make>
+auto made_together(const Ranks& ranks, const Make& make) {
+  std::optional<decltype(make())> made;
+  ranks.together([&] { made.emplace(make()); });
+  return std::move(*made);
+}
+
+/// Values of the sites of a band, without ghosts, from an array with them.
+std::vector<double> without_ghosts(const std::vector<double>& array, const Sites& sites) {
+  std::vector<double> values;
+  if (array.empty()) return values;
+  values.reserve(sites.nx * sites.ny);
+  for (std::size_t j = 0; j < sites.ny; ++j) {
+    const double* const row = &array[sites.at(0, j)];
+    values.insert(values.end(), row, row + sites.nx);
+  }
+  return values;
+}
+
+/// An array with room for ghosts, from values of the sites of rows from `first` on.
+std::vector<double> with_ghosts(const std::vector<double>& values, std::size_t first, const Sites& sites) {
+  std::vector<double> array(values.empty() ? 0 : sites.size(), 0.0);
+  for (std::size_t j = 0; j < sites.ny && !values.empty(); ++j)
+    std::copy_n(&values[(first + j) * sites.nx], sites.nx, &array[sites.at(0, j)]);
+  return array;
+}
+
 }  // namespace
 
 struct DirectSolver::Parts {
   Problem problem;
+  const Ranks& ranks;
   Sites sites;
   Motion motion;
   Look look;
@@ -52,11 +83,17 @@ struct DirectSolver::Parts {
 
   Parts(const Problem& p, const DirectOptions& options)
       : problem(p),
-        sites(make_sites(problem, options.scale, options.spacing)),
-        stepper(problem, sites, options.threads) {
-    Start lines = lines_at_rest(problem, sites);
-    check_density(lines.largest_density, options);
-    half_box = std::fmax(2 * pi / std::fmax(lines.largest_density, 1), 1) / sites.scale;
+        ranks(options.ranks ? *options.ranks : Ranks::single()),
+        sites(made_together(ranks,
+                            [&] {
+                              return make_sites(problem, options.scale, options.spacing,
+                                                {.number = ranks.rank(), .bands = ranks.size()});
+                            })),
+        stepper(problem, sites, options.threads, ranks) {
+    Start lines = made_together(ranks, [&] { return lines_at_rest(problem, sites); });
+    const double density = ranks.largest(lines.largest_density);
+    ranks.together([&] { check_density(density, options); });
+    half_box = std::fmax(2 * pi / std::fmax(density, 1), 1) / sites.scale;
     start = lines.u;
     motion = stepper.start(std::move(lines.u));
     stepper.look_at(motion, 0, look);
@@ -77,32 +114,72 @@ struct DirectSolver::Parts {
   double slip(std::size_t at) const { return (look.u[at] - start[at]) / sites.scale; }
   double velocity(std::size_t at) const { return look.velocity[at]; }
 
-  template <class Of>
-  double mean(const Of& of, const Range& columns, const Range& rows) const {
-    double sum = 0;
-    for (std::size_t j = rows.first; j < rows.last; ++j)
-      for (std::size_t i = columns.first; i < columns.last; ++i) sum += of(sites.at(i, j));
-    return sum / static_cast<double>((rows.last - rows.first) * (columns.last - columns.first));
-  }
   Range columns(double from, double to) const {
     return sites_between(from, to, sites.left, sites.hx / sites.scale, sites.nx);
   }
   Range rows(double from, double to) const {
-    return sites_between(from, to, sites.bottom, sites.hy / sites.scale, sites.ny);
+    return sites_between(from, to, sites.bottom, sites.hy / sites.scale, sites.all_rows);
   }
+  std::size_t count() const { return sites.nx * sites.all_rows; }
+
+  /// (all) Sums over parts of the rows. Those of row j of the domain begin at the index j * columns.size().
+  template <class Of>
+  std::vector<double> sums(const Of& of, const std::vector<Range>& columns) const {
+    std::vector<double> mine;
+    mine.reserve(sites.ny * columns.size());
+    for (std::size_t j = 0; j < sites.ny; ++j)
+      for (const Range& range : columns) {
+        double sum = 0;
+        for (std::size_t i = range.first; i < range.last; ++i) sum += of(sites.at(i, j));
+        mine.push_back(sum);
+      }
+    return ranks.joined(mine);
+  }
+  /// The mean over a part of the plane, from `sums` of which it is the part `k` of `parts`.
+  static double mean(const std::vector<double>& sums, std::size_t k, std::size_t parts, const Range& columns,
+                     const Range& rows) {
+    double sum = 0;
+    for (std::size_t j = rows.first; j < rows.last; ++j) sum += sums[j * parts + k];
+    return sum / static_cast<double>((rows.last - rows.first) * (columns.last - columns.first));
+  }
+  /// (all) Means around points.
   template <class Of>
   std::vector<double> around(const Of& of, const std::vector<Point>& points) const {
+    std::vector<Range> of_points;
+    of_points.reserve(points.size());
+    for (const Point& at : points) of_points.push_back(columns(at.x - half_box, at.x + half_box));
+    const std::vector<double> all = sums(of, of_points);
     std::vector<double> means;
     means.reserve(points.size());
-    for (const Point& at : points)
-      means.push_back(mean(of, columns(at.x - half_box, at.x + half_box), rows(at.y - half_box, at.y + half_box)));
+    for (std::size_t k = 0; k < points.size(); ++k)
+      means.push_back(mean(all, k, points.size(), of_points[k], rows(points[k].y - half_box, points[k].y + half_box)));
     return means;
   }
-  /// Integral over the plane, in units of the scenario.
+  /// (all) Means over the cells of a grid.
+  template <class Of>
+  std::vector<double> cells(const Of& of, int nx, int ny) const {
+    const auto edge = [](double from, double to, int i, int n) { return from + (to - from) * i / n; };
+    const auto count = static_cast<std::size_t>(nx);
+    std::vector<Range> of_cells;
+    of_cells.reserve(count);
+    for (int i = 0; i < nx; ++i)
+      of_cells.push_back(
+          columns(edge(problem.left, problem.right, i, nx), edge(problem.left, problem.right, i + 1, nx)));
+    const std::vector<double> all = sums(of, of_cells);
+    std::vector<double> means;
+    means.reserve(count * static_cast<std::size_t>(ny));
+    for (int j = 0; j < ny; ++j) {
+      const Range row = rows(edge(problem.bottom, problem.top, j, ny), edge(problem.bottom, problem.top, j + 1, ny));
+      for (std::size_t i = 0; i < count; ++i) means.push_back(mean(all, i, count, of_cells[i], row));
+    }
+    return means;
+  }
+  /// (all) Integral over the plane, in units of the scenario.
   template <class Of>
   double integral(const Of& of) const {
-    const double area = sites.hx * sites.hy / (sites.scale * sites.scale);
-    return mean(of, {0, sites.nx}, {0, sites.ny}) * area * static_cast<double>(sites.nx * sites.ny);
+    double sum = 0;
+    for (const double row : sums(of, {{0, sites.nx}})) sum += row;
+    return sum * sites.hx * sites.hy / (sites.scale * sites.scale);
   }
 };
 
@@ -148,7 +225,7 @@ DirectSolver::~DirectSolver() = default;
 const Problem& DirectSolver::problem() const { return parts_->problem; }
 double DirectSolver::time() const { return parts_->time; }
 long DirectSolver::steps() const { return parts_->motion.steps; }
-std::size_t DirectSolver::sites() const { return parts_->sites.nx * parts_->sites.ny; }
+std::size_t DirectSolver::sites() const { return parts_->count(); }
 
 bool DirectSolver::advance_to(double time, const std::function<bool()>& interrupted) {
   Parts& p = *parts_;
@@ -172,22 +249,23 @@ std::vector<double> DirectSolver::velocity(const std::vector<Point>& points) con
 
 Field DirectSolver::field(int nx, int ny) const {
   const Parts& p = *parts_;
-  const Problem& problem = p.problem;
-  Field field{.time = time(), .nx = nx, .ny = ny, .slip = {}, .velocity = {}};
-  const auto edge = [](double from, double to, int i, int n) { return from + (to - from) * i / n; };
-  for (int j = 0; j < ny; ++j) {
-    const Range rows = p.rows(edge(problem.bottom, problem.top, j, ny), edge(problem.bottom, problem.top, j + 1, ny));
-    for (int i = 0; i < nx; ++i) {
-      const Range columns =
-          p.columns(edge(problem.left, problem.right, i, nx), edge(problem.left, problem.right, i + 1, nx));
-      field.slip.push_back(p.mean([&p](std::size_t at) { return p.slip(at); }, columns, rows));
-      field.velocity.push_back(p.mean([&p](std::size_t at) { return p.velocity(at); }, columns, rows));
-    }
-  }
-  return field;
+  return {.time = time(),
+          .nx = nx,
+          .ny = ny,
+          .slip = p.cells([&p](std::size_t at) { return p.slip(at); }, nx, ny),
+          .velocity = p.cells([&p](std::size_t at) { return p.velocity(at); }, nx, ny)};
 }
 
-std::vector<Line> DirectSolver::lines() const { return lines_of(parts_->look.u, parts_->sites); }
+std::vector<Line> DirectSolver::lines() const {
+  const Parts& p = *parts_;
+  if (p.ranks.size() == 1) return lines_of(p.look.u, p.sites);
+  const std::vector<double> u = p.ranks.joined_at_first(without_ghosts(p.look.u, p.sites));
+  if (u.empty()) return {};
+  Sites whole = p.sites;
+  whole.first_row = 0;
+  whole.ny = whole.all_rows;
+  return lines_of(with_ghosts(u, 0, whole), whole);
+}
 
 double DirectSolver::potency() const {
   return parts_->integral([this](std::size_t at) { return parts_->slip(at); });
@@ -204,7 +282,7 @@ double DirectSolver::front(double y_scale) const {
     for (std::size_t i = 0; i < p.sites.nx; ++i)
       if (p.look.u[p.sites.at(i, j)] >= pi)
         farthest = std::fmax(farthest, p.sites.x(i) * p.sites.x(i) + y_scale * p.sites.y(j) * y_scale * p.sites.y(j));
-  return std::sqrt(farthest);
+  return std::sqrt(p.ranks.largest(farthest));
 }
 
 Energies DirectSolver::energies() const {
@@ -219,32 +297,56 @@ Energies DirectSolver::energies() const {
 }
 
 std::string DirectSolver::saved() const {
-  const Motion& m = parts_->motion;
+  const Parts& p = *parts_;
+  const Motion& m = p.motion;
   bytes::Writer writer;
-  for (const double value : {parts_->time, m.dissipated, m.supplied, m.radiated}) writer.put(value);
+  writer.put(p.time);
   writer.put(static_cast<std::int64_t>(m.steps));
-  for (const auto* values : {&m.u, &m.old, &m.v_old, &parts_->stepper.friction().states()}) writer.put(*values);
+  for (const auto* values : {&m.u, &m.old, &m.v_old})
+    writer.put(p.ranks.joined_at_first(without_ghosts(*values, p.sites)));
+  writer.put(p.ranks.joined_at_first(p.stepper.friction().states()));
+  for (const auto part : {&RowWork::dissipated, &RowWork::supplied, &RowWork::radiated}) {
+    std::vector<double> of_row;
+    of_row.reserve(m.work.size());
+    for (const RowWork& work : m.work) of_row.push_back(work.*part);
+    writer.put(p.ranks.joined_at_first(of_row));
+  }
   return std::move(writer).text();
 }
 
 void DirectSolver::resume(std::string_view saved) {
+  Parts& p = *parts_;
+  const Sites& sites = p.sites;
   bytes::Reader reader(saved);
   Motion m;
-  double time = 0;
-  for (double* value : {&time, &m.dissipated, &m.supplied, &m.radiated}) *value = reader.get<double>();
+  const double time = reader.get<double>();
   m.steps = static_cast<long>(reader.get<std::int64_t>());
-  for (auto* values : {&m.u, &m.old, &m.v_old}) *values = reader.vector();
-  std::vector<double> states = reader.vector();
+  m.work.resize(sites.ny);
+  bool fits = true;
+  for (auto* values : {&m.u, &m.old, &m.v_old}) {
+    const std::vector<double> all = reader.vector();
+    fits = fits && (all.size() == p.count() || (values == &m.v_old && all.empty() && p.motion.v_old.empty()));
+    if (fits) *values = with_ghosts(all, sites.first_row, sites);
+  }
+  const std::vector<double> states = reader.vector();
+  const std::size_t each = p.stepper.friction().states().size() / sites.ny;  // values of a row
+  fits = fits && states.size() == each * sites.all_rows;
+  for (const auto part : {&RowWork::dissipated, &RowWork::supplied, &RowWork::radiated}) {
+    const std::vector<double> all = reader.vector();
+    fits = fits && all.size() == sites.all_rows;
+    for (std::size_t j = 0; j < sites.ny && fits; ++j) m.work[j].*part = all[sites.first_row + j];
+  }
   reader.end();
-  const std::size_t size = parts_->sites.size();
-  if (m.u.size() != size || m.old.size() != size || m.v_old.size() != parts_->motion.v_old.size() ||
-      !parts_->stepper.friction().set_states(std::move(states)))
+  if (!fits)
     throw InputError({.key = "resume",
                       .problem = "the saved state has another number of sites",
                       .allowed = "a file of the same scenario"});
-  parts_->motion = std::move(m);
-  parts_->time = time;
-  parts_->stepper.look_at(parts_->motion, time, parts_->look);
+  const double* const own = states.data() + each * sites.first_row;
+  p.stepper.friction().set_states({own, own + each * sites.ny});
+  for (auto* values : {&m.u, &m.old}) p.stepper.fill_ghosts(*values);
+  p.motion = std::move(m);
+  p.time = time;
+  p.stepper.look_at(p.motion, time, p.look);
 }
 
 }  // namespace slipfront::plane

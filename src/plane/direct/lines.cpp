@@ -104,7 +104,7 @@ class Contours {
     const std::size_t other = c.site + (c.along_y ? sites_.stride() : 1);
     const double from = turns(c.site), part = (c.number - from) / (turns(other) - from);
     const std::size_t column = c.site % sites_.stride(), row = c.site / sites_.stride();
-    const auto i = static_cast<double>(column - Sites::ghosts), j = static_cast<double>(row - Sites::ghosts);
+    const auto i = static_cast<double>(column - Sites::ghosts), j = static_cast<double>(row - Sites::ghost_rows);
     return {sites_.left + (i + 0.5 + (c.along_y ? 0 : part)) * sites_.hx / sites_.scale,
             sites_.bottom + (j + 0.5 + (c.along_y ? part : 0)) * sites_.hy / sites_.scale};
   }

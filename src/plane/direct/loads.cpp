@@ -8,9 +8,8 @@ std::vector<char> patch_of(const Problem& p, const Sites& sites) {
   if (!p.nucleation) return {};
   std::vector<char> patch(sites.size(), 0);
   const Nucleation& n = *p.nucleation;
-  for (std::size_t j = 0; j < sites.ny; ++j)
-    for (std::size_t i = 0; i < sites.nx; ++i)
-      patch[sites.at(i, j)] = std::hypot(sites.x(i) - n.x, sites.y(j) - n.y) <= n.radius ? 1 : 0;
+  sites.for_each_in_reach(
+      [&](std::size_t at, double x, double y) { patch[at] = std::hypot(x - n.x, y - n.y) <= n.radius ? 1 : 0; });
   return patch;
 }
 
@@ -34,9 +33,8 @@ void Loads::find(double time) {
       if (patch_[at] != 0) force_[at] = 0;
   if (!problem_.forcing) return;
   force_.resize(sites_.size());
-  for (std::size_t j = 0; j < sites_.ny; ++j)
-    for (std::size_t i = 0; i < sites_.nx; ++i)
-      force_[sites_.at(i, j)] += problem_.forcing(sites_.x(i), sites_.y(j), time) / sites_.scale;
+  sites_.for_each_in_reach(
+      [&](std::size_t at, double x, double y) { force_[at] += problem_.forcing(x, y, time) / sites_.scale; });
 }
 
 }  // namespace slipfront::plane

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "foundation/team.hpp"
@@ -19,41 +20,35 @@ constexpr std::size_t fewest_rows_of_a_block = 32;
 constexpr double courant = 0.8, courant_with_absorbing_edges = 0.6;
 
 /// A row of an array with ghosts, and its neighbours.
-FiveRows rows_around(const std::vector<double>& array, const Sites& sites, std::size_t j) {
-  const std::size_t n = sites.stride(), at = sites.at(0, j);
+FiveRows rows_around(const std::vector<double>& array, const Sites& sites, std::ptrdiff_t row) {
+  const std::size_t n = sites.stride(), at = sites.start_of(row);
   return {&array[at - 2 * n], &array[at - n], &array[at], &array[at + n], &array[at + 2 * n]};
 }
 
 /// A row of an array; null if the array is empty.
-const double* row_of(const std::vector<double>& array, const Sites& sites, std::size_t j) {
-  return array.empty() ? nullptr : &array[sites.at(0, j)];
+const double* row_of(const std::vector<double>& array, const Sites& sites, std::ptrdiff_t row) {
+  return array.empty() ? nullptr : &array[sites.start_of(row)];
 }
 
 /// Sites next to absorbing edges have no acceleration in v_tt, because v does not contain their dashpots.
-void drop_edges(const Sites& sites, std::size_t row, double* v) {
-  if (row == 0 || row + 1 == sites.ny) std::fill_n(v, sites.nx, 0.0);
+void drop_edges(const Sites& sites, std::ptrdiff_t row, double* v) {
+  if (sites.on_edge(row)) std::fill_n(v, sites.nx, 0.0);
   v[0] = v[sites.nx - 1] = 0;
-}
-
-/// The row which a row outside of the domain mirrors, because its edge is free.
-std::size_t mirrored(std::ptrdiff_t row, std::size_t rows) {
-  const auto n = static_cast<std::ptrdiff_t>(rows);
-  return static_cast<std::size_t>(row < 0 ? -row - 1 : row >= n ? 2 * n - row - 1 : row);
 }
 
 }  // namespace
 
-Stepper::Stepper(const Problem& problem, const Sites& sites, int threads)
+Stepper::Stepper(const Problem& problem, const Sites& sites, int threads, const Ranks& ranks)
     : problem_(problem),
       sites_(sites),
       threads_(threads),
+      ranks_(ranks),
       shape_{.sites = sites.nx, .per_hx2 = 1 / (sites.hx * sites.hx), .per_hy2 = 1 / (sites.hy * sites.hy)},
       dt_((problem.edges == Edges::absorbing ? courant_with_absorbing_edges : courant) *
           std::sqrt(2 / (shape_.per_hx2 + shape_.per_hy2))),
       loads_(problem, sites),
       friction_(problem, sites, dt_),
       work_of_row_(sites.ny),
-      supply_of_row_(sites.ny),
       v_(friction_.is_viscous() ? sites.size() : 0) {}
 
 void Stepper::fill_ends(double* row) const {
@@ -66,15 +61,27 @@ void Stepper::fill_ends(double* row) const {
 
 void Stepper::fill_ghosts(std::vector<double>& f) const {
   for (std::size_t j = 0; j < sites_.ny; ++j) fill_ends(&f[sites_.at(0, j)]);
-  const std::size_t n = sites_.stride(), top = sites_.ny + g;
-  for (std::size_t i = 0; i < g; ++i) {
-    std::copy_n(&f[(g + i) * n], n, &f[(g - 1 - i) * n]);
-    std::copy_n(&f[(top - 1 - i) * n], n, &f[(top + i) * n]);
+  constexpr std::size_t ghosts = Sites::ghost_rows;
+  const std::size_t n = sites_.stride(), top = sites_.ny + ghosts;
+  for (std::size_t i = 0; i < ghosts; ++i) {
+    if (sites_.has_bottom()) std::copy_n(&f[(ghosts + i) * n], n, &f[(ghosts - 1 - i) * n]);
+    if (sites_.has_top()) std::copy_n(&f[(top - 1 - i) * n], n, &f[(top + i) * n]);
   }
+  const std::span<double> all(f);
+  const auto rows = [&](std::size_t first) { return all.subspan(first * n, ghosts * n); };
+  ranks_.exchange(rows(ghosts), rows(top - ghosts), rows(0), rows(top), false);
+}
+
+/// The row itself, or the row that it mirrors outside of the domain, because the edge is free.
+std::ptrdiff_t Stepper::inside(std::ptrdiff_t row) const {
+  const auto rows = static_cast<std::ptrdiff_t>(sites_.ny);
+  if (row < 0 && sites_.has_bottom()) return -row - 1;
+  if (row >= rows && sites_.has_top()) return 2 * rows - row - 1;
+  return row;
 }
 
 /// Finds the acceleration of a row of u.
-void Stepper::accelerate_row(const std::vector<double>& u, std::size_t row, const Acceleration& result) const {
+void Stepper::accelerate_row(const std::vector<double>& u, std::ptrdiff_t row, const Acceleration& result) const {
   accelerate(shape_, rows_around(u, sites_, row), row_of(sites_.contact2, sites_, row), result);
   load(sites_.nx, row_of(sites_.moves, sites_, row), row_of(loads_.force(), sites_, row), result.v);
 }
@@ -85,7 +92,7 @@ void Stepper::for_each_acceleration(const std::vector<double>& u, const Each& ea
   for_each_on_team(sites_.ny, threads_, [&](std::size_t j) {
     std::vector<double> v(sites_.nx), sine(sites_.nx), cosine(sites_.nx);
     const Acceleration now{v.data(), sine.data(), cosine.data()};
-    accelerate_row(u, j, now);
+    accelerate_row(u, static_cast<std::ptrdiff_t>(j), now);
     each(j, now);
   });
 }
@@ -103,13 +110,17 @@ bool Stepper::acts_on_steps() const {
   return friction_.acts() || problem_.edges == Edges::absorbing || !loads_.force().empty();
 }
 
-/// Applies friction to the step of a row, and keeps its accelerations for the next step.
+/// Applies friction to the step of a row, finds the work, and keeps its accelerations for the next step.
 void Stepper::rub(const Motion& m, std::size_t row, const double* v, const double* v_tt, const double* before,
                   double* after) {
   const std::size_t first = sites_.at(0, row);
   if (friction_.is_viscous()) std::copy_n(v, sites_.nx, &v_[first]);
   const Rates rates{v, friction_.is_viscous() ? &m.v_old[first] : nullptr, v_tt};
-  work_of_row_[row] = friction_.slow(row, problem_.nucleation_has_begun(time_of(m)), rates, before, after);
+  const Rubbed work = friction_.slow(row, problem_.nucleation_has_begun(time_of(m)), rates, before, after);
+  const double* const force = row_of(loads_.force(), sites_, static_cast<std::ptrdiff_t>(row));
+  work_of_row_[row] = {.dissipated = work.dissipated,
+                       .supplied = force ? work_of(sites_.nx, force, before, after) : 0,
+                       .radiated = work.radiated};
 }
 
 /// The accelerations of the five rows around one. Each row is found once, and replaces the one five rows before it.
@@ -130,7 +141,7 @@ class Stepper::Window {
   FiveRows rated_around(std::ptrdiff_t j) { return {rated(j - 2), rated(j - 1), rated(j), rated(j + 1), rated(j + 2)}; }
   void find(const std::vector<double>& u, std::ptrdiff_t j) {
     const Sites& sites = stepper_.sites_;
-    const std::size_t row = mirrored(j, sites.ny);
+    const std::ptrdiff_t row = stepper_.inside(j);
     const Acceleration now = at(j);
     stepper_.accelerate_row(u, row, now);
     if (absorbing_) {
@@ -162,16 +173,13 @@ void Stepper::step_rows(const Motion& m, std::size_t first, std::size_t last, st
     const Acceleration now = window.at(j);
     double* const after = &next[sites_.at(0, row)];
     std::copy_n(after, before.size(), before.data());
-    step_row(shape_, dt_, &m.u[sites_.at(0, row)], now, window.rated_around(j), row_of(sites_.moves, sites_, row),
+    step_row(shape_, dt_, &m.u[sites_.at(0, row)], now, window.rated_around(j), row_of(sites_.moves, sites_, j),
              v_tt.data(), after);
-    if (before.empty()) continue;
-    rub(m, row, now.v, v_tt.data(), before.data(), after);
-    const double* const force = row_of(loads_.force(), sites_, row);
-    supply_of_row_[row] = force ? work_of(sites_.nx, force, before.data(), after) : 0;
+    if (!before.empty()) rub(m, row, now.v, v_tt.data(), before.data(), after);
   }
 }
 
-Stepper::Work Stepper::step(const Motion& m, std::vector<double>& next) {
+void Stepper::step(const Motion& m, std::vector<double>& next) {
   loads_.find(time_of(m));
   const auto threads = static_cast<std::size_t>(std::max(threads_, 1));
   const std::size_t rows = std::max(fewest_rows_of_a_block, (sites_.ny + threads - 1) / threads);
@@ -179,14 +187,6 @@ Stepper::Work Stepper::step(const Motion& m, std::vector<double>& next) {
     step_rows(m, block * rows, std::min((block + 1) * rows, sites_.ny), next);
   });
   fill_ghosts(next);
-  Work work{0, 0, 0};
-  const double area = sites_.hx * sites_.hy;
-  for (std::size_t j = 0; j < sites_.ny; ++j) {
-    work.dissipated += area * work_of_row_[j].dissipated;
-    work.radiated += area * work_of_row_[j].radiated;
-    work.supplied += area * supply_of_row_[j];
-  }
-  return work;
 }
 
 std::vector<double> Stepper::accelerations_at_rest(std::vector<double> u) const {
@@ -210,14 +210,16 @@ Motion Stepper::start(std::vector<double> u) {
   for_each_acceleration(u, [&](std::size_t j, const Acceleration& now) {
     const std::size_t first = sites_.at(0, j);
     std::vector<double> v_tt(sites_.nx);
-    laplacian(shape_, rows_around(v, sites_, j), v_tt.data());
-    add_substrate_rate(sites_.nx, &v[first], nullptr, now, row_of(sites_.moves, sites_, j), v_tt.data());
+    const auto row = static_cast<std::ptrdiff_t>(j);
+    laplacian(shape_, rows_around(v, sites_, row), v_tt.data());
+    add_substrate_rate(sites_.nx, &v[first], nullptr, now, row_of(sites_.moves, sites_, row), v_tt.data());
     for (std::size_t i = 0; i < sites_.nx; ++i) {
       m.old[first + i] = u[first + i] + dt2 / 2 * (v[first + i] + dt2 / 12 * v_tt[i]);
       if (!m.v_old.empty()) m.v_old[first + i] += dt2 / 2 * v_tt[i];  // so that v_t = 0
     }
   });
   fill_ghosts(m.old);
+  m.work.resize(sites_.ny);
   m.u = std::move(u);
   return m;
 }
@@ -225,14 +227,15 @@ Motion Stepper::start(std::vector<double> u) {
 bool Stepper::advance(Motion& m, double time, const std::function<bool()>& interrupted) {
   const double near = time - dt_ / 2 / sites_.scale;
   while (time_of(m) < near) {
-    const Work work = step(m, m.old);
+    step(m, m.old);
     std::swap(m.u, m.old);
     std::swap(m.v_old, v_);
-    m.dissipated += work.dissipated;
-    m.supplied += work.supplied;
-    m.radiated += work.radiated;
-    for_each_on_team(sites_.ny, threads_,
-                     [&](std::size_t j) { friction_.age(j, &m.old[sites_.at(0, j)], &m.u[sites_.at(0, j)]); });
+    for_each_on_team(sites_.ny, threads_, [&](std::size_t j) {
+      m.work[j].dissipated += work_of_row_[j].dissipated;
+      m.work[j].supplied += work_of_row_[j].supplied;
+      m.work[j].radiated += work_of_row_[j].radiated;
+      friction_.age(j, &m.old[sites_.at(0, j)], &m.u[sites_.at(0, j)]);
+    });
     ++m.steps;
     if (interrupted && interrupted()) break;
   }
@@ -256,8 +259,9 @@ void Stepper::find_velocity(const std::vector<double>& u, const std::vector<doub
   for_each_acceleration(u, [&](std::size_t j, const Acceleration& now) {
     const std::size_t first = sites_.at(0, j);
     std::vector<double> third(sites_.nx);
-    laplacian(shape_, rows_around(central, sites_, j), third.data());
-    add_substrate_rate(sites_.nx, &central[first], nullptr, now, row_of(sites_.moves, sites_, j), third.data());
+    const auto row = static_cast<std::ptrdiff_t>(j);
+    laplacian(shape_, rows_around(central, sites_, row), third.data());
+    add_substrate_rate(sites_.nx, &central[first], nullptr, now, row_of(sites_.moves, sites_, row), third.data());
     for (std::size_t i = 0; i < sites_.nx; ++i) velocity[first + i] = central[first + i] - dt_ * dt_ / 6 * third[i];
   });
 }
@@ -265,16 +269,13 @@ void Stepper::find_velocity(const std::vector<double>& u, const std::vector<doub
 /// Takes one more step, for the velocity in the middle of two steps.
 void Stepper::look_at(const Motion& m, double time, Look& look) {
   next_ = m.old;
-  const Work work = step(m, next_);
-  const double half = m.steps == 0 ? 0 : 0.5;  // the work is counted to the middle of the last step
+  step(m, next_);
   look.time = time;
-  look.dissipated = m.dissipated + half * work.dissipated;
-  look.supplied = m.supplied + half * work.supplied;
-  look.radiated = m.radiated + half * work.radiated;
   look.u.resize(sites_.size());
   look.velocity.resize(sites_.size());
   find_velocity(m.u, m.old, next_, look.velocity);
   find_energy(m.u, look);
+  find_work(m, look);
   const double later = (time - time_of(m)) * sites_.scale;
   for_each_site([&](std::size_t at) {
     const double v = (next_[at] - 2 * m.u[at] + m.old[at]) / (dt_ * dt_);
@@ -289,19 +290,37 @@ void Stepper::find_energy(const std::vector<double>& u, Look& look) const {
   std::vector<double> kinetic(sites_.ny), elastic(sites_.ny);
   for_each_on_team(sites_.ny, threads_, [&](std::size_t j) {
     const std::size_t at = sites_.at(0, j);
+    const auto row = static_cast<std::ptrdiff_t>(j);
     std::vector<double> curvature(sites_.nx);
-    laplacian(shape_, rows_around(u, sites_, j), curvature.data());
-    elastic[j] = substrate_energy(sites_.nx, &u[at], row_of(sites_.contact2, sites_, j));
+    laplacian(shape_, rows_around(u, sites_, row), curvature.data());
+    elastic[j] = substrate_energy(sites_.nx, &u[at], row_of(sites_.contact2, sites_, row));
     for (std::size_t i = 0; i < sites_.nx; ++i) {
       kinetic[j] += look.velocity[at + i] * look.velocity[at + i] / 2;
       elastic[j] -= u[at + i] * curvature[i] / 2;
     }
   });
-  look.kinetic = look.elastic = 0;
-  for (std::size_t j = 0; j < sites_.ny; ++j) {
-    look.kinetic += kinetic[j] * sites_.hx * sites_.hy;
-    look.elastic += elastic[j] * sites_.hx * sites_.hy;
-  }
+  look.kinetic = integral(kinetic);
+  look.elastic = integral(elastic);
+}
+
+/// The work until the time of the motion, half a step after the time to which it is counted.
+void Stepper::find_work(const Motion& m, Look& look) const {
+  const double half = m.steps == 0 ? 0 : 0.5;
+  const auto until_now = [&](double RowWork::*part) {
+    std::vector<double> of_row(sites_.ny);
+    for (std::size_t j = 0; j < sites_.ny; ++j) of_row[j] = m.work[j].*part + half * work_of_row_[j].*part;
+    return integral(of_row);
+  };
+  look.dissipated = until_now(&RowWork::dissipated);
+  look.supplied = until_now(&RowWork::supplied);
+  look.radiated = until_now(&RowWork::radiated);
+}
+
+/// The integral over the plane of a density whose sum over the sites of each row is `of_row`.
+double Stepper::integral(const std::vector<double>& of_row) const {
+  double sum = 0;
+  for (const double row : ranks_.joined(of_row)) sum += row;
+  return sum * sites_.hx * sites_.hy;
 }
 
 }  // namespace slipfront::plane

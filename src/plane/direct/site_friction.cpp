@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
-#include <utility>
 
 #include "plane/direct/loads.hpp"
 #include "plane/direct/rows.hpp"
@@ -39,7 +38,7 @@ double SiteFriction::absorb(std::size_t j, const double* before, double* after) 
     const double velocity = (after[i] - before[i]) / (2 * dt_);
     work += rate * velocity * velocity * dt_;
   };
-  const bool last_row = j == 0 || j + 1 == sites_.ny;
+  const bool last_row = sites_.on_edge(static_cast<std::ptrdiff_t>(j));
   for (std::size_t i = 0; i < sites_.nx; ++i) {
     const bool last_column = i == 0 || i + 1 == sites_.nx;
     if (last_row || last_column) slow_site(i, (last_row ? 1 / sites_.hy : 0) + (last_column ? 1 / sites_.hx : 0));
@@ -80,12 +79,6 @@ void SiteFriction::resist(std::size_t j, bool began, double* acceleration) const
     const double strength = friction_.law().strength(0, states_of(j).at(i));
     acceleration[i] = std::copysign(std::fmax(std::fabs(acceleration[i]) - strength, 0), acceleration[i]);
   }
-}
-
-bool SiteFriction::set_states(std::vector<double> values) {
-  if (values.size() != states_.size()) return false;
-  states_ = std::move(values);
-  return true;
 }
 
 }  // namespace slipfront::plane

@@ -2,6 +2,7 @@
 /// \file
 /// Friction on the sites, with its state, and the absorbing edges, which are dashpots of the impedance of waves.
 
+#include <utility>
 #include <vector>
 
 #include "plane/direct/rows.hpp"
@@ -33,8 +34,8 @@ class SiteFriction {
   void resist(std::size_t j, bool began, double* acceleration) const;
 
   const std::vector<double>& states() const { return states_; }
-  /// Whether the values are as many as those of `states`, which they replace then.
-  bool set_states(std::vector<double> values);
+  /// Replaces the states by equally many.
+  void set_states(std::vector<double> values) { states_ = std::move(values); }
 
  private:
   double absorb(std::size_t j, const double* before, double* after) const;
@@ -46,7 +47,7 @@ class SiteFriction {
   double dt_;
   friction::Friction friction_;  ///< stretched; none if it is viscous
   std::size_t each_;             ///< states of a site
-  std::vector<double> states_;   ///< row by row, without ghosts
+  std::vector<double> states_;   ///< row by row of the band, without ghosts
   std::vector<char> patch_;      ///< sites of the nucleation patch, if friction holds the state
 };
 

@@ -30,16 +30,35 @@ double largest_contact(const Problem& p) {
 template <class Value>
 std::vector<double> at_each(const Sites& sites, const Value& value) {
   std::vector<double> all(sites.size(), 0.0);
-  for (std::size_t j = 0; j < sites.ny; ++j)
-    for (std::size_t i = 0; i < sites.nx; ++i) all[sites.at(i, j)] = value(sites.x(i), sites.y(j));
+  sites.for_each_in_reach([&](std::size_t at, double x, double y) { all[at] = value(x, y); });
   return all;
 }
 
 void fix_edges(Sites& sites) {
   if (sites.moves.empty()) sites.moves = at_each(sites, [](double, double) { return 1.0; });
-  for (std::size_t j = 0; j < sites.ny; ++j)
-    for (std::size_t i = 0; i < sites.nx; ++i)
-      if (i == 0 || j == 0 || i + 1 == sites.nx || j + 1 == sites.ny) sites.moves[sites.at(i, j)] = 0;
+  const auto ghosts = static_cast<std::ptrdiff_t>(Sites::ghost_rows), rows = static_cast<std::ptrdiff_t>(sites.ny);
+  for (std::ptrdiff_t row = -ghosts; row < rows + ghosts; ++row) {
+    double* const moves = &sites.moves[sites.start_of(row)];
+    if (sites.on_edge(row)) std::fill_n(moves, sites.nx, 0.0);
+    moves[0] = moves[sites.nx - 1] = 0;
+  }
+}
+
+/// Finds what acts on each site.
+void fill(const Problem& p, Sites& sites) {
+  if (p.contact)
+    sites.contact2 = at_each(sites, [&](double x, double y) {
+      const double a = p.contact(x, y);
+      return a * a;
+    });
+  if (p.viscous) sites.viscous = at_each(sites, [&](double x, double y) { return p.viscous(x, y) / sites.scale; });
+  if (p.fixed) sites.moves = at_each(sites, [&](double x, double y) { return p.fixed(x, y) == 0 ? 1.0 : 0.0; });
+  if (p.edges == Edges::fixed) fix_edges(sites);
+}
+
+/// The first row of a band.
+std::size_t first_of(int number, int bands, std::size_t rows) {
+  return rows * static_cast<std::size_t>(number) / static_cast<std::size_t>(bands);
 }
 
 }  // namespace
@@ -54,25 +73,30 @@ Counts count_sites(const Problem& p, double scale, double spacing) {
   return n;
 }
 
-Sites make_sites(const Problem& p, double scale, double spacing) {
+Sites make_sites(const Problem& p, double scale, double spacing, Band band) {
   const auto [nx, ny] = count_sites(p, scale, spacing);
   Sites sites;
   sites.nx = static_cast<std::size_t>(nx);
-  sites.ny = static_cast<std::size_t>(ny);
+  sites.all_rows = static_cast<std::size_t>(ny);
+  if (!(sites.all_rows >= Sites::ghost_rows * static_cast<std::size_t>(band.bands)))
+    throw refusal("ranks", band.bands, "too many for so few rows of sites", "a rank for each four rows, or fewer");
+  sites.first_row = first_of(band.number, band.bands, sites.all_rows);
+  sites.ny = first_of(band.number + 1, band.bands, sites.all_rows) - sites.first_row;
   sites.scale = scale;
   sites.left = p.left;
   sites.bottom = p.bottom;
   sites.hx = (p.right - p.left) * scale / nx;
   sites.hy = (p.top - p.bottom) * scale / ny;
-  if (p.contact)
-    sites.contact2 = at_each(sites, [&](double x, double y) {
-      const double a = p.contact(x, y);
-      return a * a;
-    });
-  if (p.viscous) sites.viscous = at_each(sites, [&](double x, double y) { return p.viscous(x, y) / scale; });
-  if (p.fixed) sites.moves = at_each(sites, [&](double x, double y) { return p.fixed(x, y) == 0 ? 1.0 : 0.0; });
-  if (p.edges == Edges::fixed) fix_edges(sites);
+  fill(p, sites);
   return sites;
+}
+
+Sites widened(const Problem& p, const Sites& sites, std::size_t rows) {
+  Sites wide = sites;
+  wide.first_row -= std::min(rows, sites.first_row);
+  wide.ny = std::min(sites.first_row + sites.ny + rows, sites.all_rows) - wide.first_row;
+  fill(p, wide);
+  return wide;
 }
 
 }  // namespace slipfront::plane

@@ -9,10 +9,12 @@
 
 namespace slipfront::plane {
 
-/// Arrays have two ghost sites at each side of each row, and two ghost rows below and above.
+/// The sites of a rank: all columns, and a band of rows. Arrays have two ghost sites at each side of each row, and four
+/// ghost rows below and above. Ghosts mirror the sites inside the domain, or are the rows of the neighbouring ranks.
 struct Sites {
-  static constexpr std::size_t ghosts = 2;
+  static constexpr std::size_t ghosts = 2, ghost_rows = 4;
   std::size_t nx = 0, ny = 0;
+  std::size_t first_row = 0, all_rows = 0;  ///< the first row of the band, and the number of rows of the domain
   double scale = 1;
   double left = 0, bottom = 0;  ///< edges of the domain, in units of the scenario
   double hx = 0, hy = 0;        ///< spacings, stretched
@@ -22,10 +24,34 @@ struct Sites {
   std::vector<double> moves;     ///< 1, or 0 where the interface is held; empty: 1
 
   std::size_t stride() const { return nx + 2 * ghosts; }
-  std::size_t size() const { return stride() * (ny + 2 * ghosts); }
-  std::size_t at(std::size_t i, std::size_t j) const { return (j + ghosts) * stride() + i + ghosts; }
+  std::size_t size() const { return stride() * (ny + 2 * ghost_rows); }
+  std::size_t at(std::size_t i, std::size_t j) const { return (j + ghost_rows) * stride() + i + ghosts; }
+  /// The first site of a row of the band, or of a ghost row.
+  std::size_t start_of(std::ptrdiff_t row) const {
+    return static_cast<std::size_t>(row + static_cast<std::ptrdiff_t>(ghost_rows)) * stride() + ghosts;
+  }
   double x(std::size_t i) const { return left + (static_cast<double>(i) + 0.5) * hx / scale; }
-  double y(std::size_t j) const { return bottom + (static_cast<double>(j) + 0.5) * hy / scale; }
+  double y(std::size_t j) const { return y_of(first_row + j); }
+  double y_of(std::size_t row_of_domain) const {
+    return bottom + (static_cast<double>(row_of_domain) + 0.5) * hy / scale;
+  }
+
+  bool has_bottom() const { return first_row == 0; }
+  bool has_top() const { return first_row + ny == all_rows; }
+  /// Whether a row of the band, or a ghost row, is next to an edge of the domain.
+  bool on_edge(std::ptrdiff_t row) const {
+    const std::ptrdiff_t of_domain = row + static_cast<std::ptrdiff_t>(first_row);
+    return of_domain == 0 || of_domain + 1 == static_cast<std::ptrdiff_t>(all_rows);
+  }
+  /// Calls each(at, x, y) for the sites of the band, and for those of ghost rows that lie inside the domain.
+  template <class Each>
+  void for_each_in_reach(const Each& each) const {
+    for (std::size_t row = 0; row < ny + 2 * ghost_rows; ++row) {
+      const std::size_t shifted = first_row + row;
+      if (shifted < ghost_rows || shifted >= all_rows + ghost_rows) continue;
+      for (std::size_t i = 0; i < nx; ++i) each(row * stride() + ghosts + i, x(i), y_of(shifted - ghost_rows));
+    }
+  }
 };
 
 /// Numbers of sites along x and y that are at most `spacing` widths of a dislocation apart. \throws InputError for
@@ -35,14 +61,22 @@ struct Counts {
 };
 Counts count_sites(const Problem& problem, double scale, double spacing);
 
-/// The sites of a problem, at most `spacing` widths of a dislocation apart. \throws InputError for numbers out of
-/// range.
-Sites make_sites(const Problem& problem, double scale, double spacing);
+/// One of several equal bands of rows.
+struct Band {
+  int number = 0, bands = 1;
+};
+
+/// The sites of a band of a problem, at most `spacing` widths of a dislocation apart. \throws InputError for numbers
+/// out of range.
+Sites make_sites(const Problem& problem, double scale, double spacing, Band band = {});
+
+/// The sites of the same problem with so many more rows below and above, as far as the domain reaches.
+Sites widened(const Problem& problem, const Sites& sites, std::size_t rows);
 
 /// Lines at rest whose mean is the initial slip: at each site the train whose density is the gradient of the slip.
 struct Start {
   std::vector<double> u;
-  double largest_density = 0;  ///< largest gradient of the slip, in local units
+  double largest_density = 0;  ///< largest gradient of the slip in the band, in local units
 };
 /// \throws InputError for a slip that is negative or not finite.
 Start lines_at_rest(const Problem& problem, const Sites& sites);

@@ -13,6 +13,11 @@ namespace {
 
 using std::numbers::pi;
 
+/// A held site takes the density of a site so many rows away.
+constexpr int passes = 4;
+/// The start of a row depends on so many rows on each side: those of the density, and one more for its slope.
+constexpr std::size_t reach = passes + 1;
+
 /// The mean slip, stretched, at each site.
 std::vector<double> mean_slip(const Problem& problem, const Sites& sites) {
   std::vector<double> mean(sites.size(), 0.0);
@@ -64,7 +69,7 @@ void extend_into_held(const Sites& sites, std::vector<double>& density) {
         next_to_it = std::fmax(next_to_it, density[other] * sites.moves[other]);
       if (next_to_it > 0) density[c] = next_to_it;
     }
-  for (int pass = 1; pass < 2 * static_cast<int>(Sites::ghosts); ++pass) {
+  for (int pass = 1; pass < passes; ++pass) {
     const std::vector<double> before = density;
     for (std::size_t j = 0; j < sites.ny; ++j)
       for (std::size_t i = 0; i < sites.nx; ++i)
@@ -81,21 +86,27 @@ double train_of(double k, double mean) {
   return 2 * pi * wells + 2 * elliptic::jacobi(at.K * (1 - phase / pi), at).coamplitude;
 }
 
-}  // namespace
-
-Start lines_at_rest(const Problem& problem, const Sites& sites) {
-  const std::vector<double> mean = mean_slip(problem, sites);
-  std::vector<double> density = densities(mean, sites);
-  extend_into_held(sites, density);
+/// The start of the rows of `sites`, a part of the rows of `wide`.
+Start in_band(const Problem& problem, const Sites& wide, const Sites& sites) {
+  const std::vector<double> mean = mean_slip(problem, wide);
+  std::vector<double> density = densities(mean, wide);
+  extend_into_held(wide, density);
   Start start{.u = std::vector<double>(sites.size(), 0.0)};
   for (std::size_t j = 0; j < sites.ny; ++j)
     for (std::size_t i = 0; i < sites.nx; ++i) {
-      const std::size_t c = sites.at(i, j);
-      const double k = density[c] / (sites.contact2.empty() ? 1 : std::sqrt(sites.contact2[c]));
-      start.u[c] = train_of(k, mean[c]);
+      const std::size_t c = wide.at(i, j + sites.first_row - wide.first_row);
+      const double k = density[c] / (wide.contact2.empty() ? 1 : std::sqrt(wide.contact2[c]));
+      start.u[sites.at(i, j)] = train_of(k, mean[c]);
       start.largest_density = std::fmax(start.largest_density, k);
     }
   return start;
+}
+
+}  // namespace
+
+Start lines_at_rest(const Problem& problem, const Sites& sites) {
+  if (sites.has_bottom() && sites.has_top()) return in_band(problem, sites, sites);
+  return in_band(problem, widened(problem, sites, reach), sites);
 }
 
 }  // namespace slipfront::plane

@@ -40,11 +40,13 @@ int opaque(Writer& file, const char* name, const char* long_name, std::size_t si
 /// Variables with the values that `write` gives them after all are defined.
 class PlaneWriter {
  public:
-  PlaneWriter(Writer& file, const PulseMetadata& metadata, const PlaneGrid& grid, const plane::Run& run)
+  PlaneWriter(Writer& file, const PulseMetadata& metadata, const PlaneGrid& grid, const plane::Run& run,
+              const std::string& state)
       : file_(file),
         metadata_(metadata),
         grid_(grid),
         run_(run),
+        state_(state),
         frequencies_(plane::spectrum_frequencies(run.series())) {
     dimensions_.time = file.dimension("time", run.snapshots().size());
     dimensions_.y = file.dimension("y", static_cast<std::size_t>(grid.ny));
@@ -70,7 +72,6 @@ class PlaneWriter {
       series_.push_back(cf::reals(file_, series.about, {dimensions_.series}, metadata_));
     frequency_ = cf::reals(file_, plane_frequency, {dimensions_.frequency}, metadata_);
     spectrum_ = cf::reals(file_, plane_spectrum, {dimensions_.frequency}, metadata_);
-    state_ = run_.saved();
     state_id_ = opaque(file_, "checkpoint", "state of the run, to resume it", state_.size());
     scenario_id_ = opaque(file_, "scenario_text", "the scenario, byte by byte", metadata_.scenario_text.size());
   }
@@ -112,12 +113,12 @@ class PlaneWriter {
   const PulseMetadata& metadata_;
   const PlaneGrid& grid_;
   const plane::Run& run_;
+  const std::string& state_;
   Dimensions dimensions_{};
   std::vector<double> frequencies_;
   int time_ = 0, y_ = 0, x_ = 0, frequency_ = 0, spectrum_ = 0, state_id_ = 0, scenario_id_ = 0;
   std::vector<int> fields_, maps_, series_, line_ids_;
   LinePoints lines_;
-  std::string state_;
 };
 
 }  // namespace
@@ -125,14 +126,15 @@ class PlaneWriter {
 std::vector<double> PlaneGrid::x() const { return centres(left, right, nx); }
 std::vector<double> PlaneGrid::y() const { return centres(bottom, top, ny); }
 
-void write_plane(const std::string& path, const PulseMetadata& metadata, const PlaneGrid& grid, const plane::Run& run) {
+void write_plane(const std::string& path, const PulseMetadata& metadata, const PlaneGrid& grid, const plane::Run& run,
+                 const std::string& state) {
   const std::size_t cells = static_cast<std::size_t>(grid.nx) * static_cast<std::size_t>(grid.ny);
   std::size_t values = cells * (plane_fields().size() * run.snapshots().size() + 2 * plane_maps().size());
   for (const plane::Field& snapshot : run.snapshots())
     for (const plane::Line& line : snapshot.lines) values += 4 * (line.points.size() + 1);
   write_netcdf(path, values * sizeof(double) + (1 << 16), [&](Writer& file) {
     cf::describe_file(file, metadata, plane_format, run.finished());
-    PlaneWriter writer(file, metadata, grid, run);
+    PlaneWriter writer(file, metadata, grid, run, state);
     writer.define();
     file.end_definitions();
     writer.write();

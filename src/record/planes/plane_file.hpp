@@ -31,8 +31,10 @@ struct PlaneCheckpoint {
   bool finished = false;
 };
 
-/// Writes `path` completely or not at all. \throws FileError (one line: path and reason).
-void write_plane(const std::string& path, const PulseMetadata& metadata, const PlaneGrid& grid, const plane::Run& run);
+/// Writes `path` completely or not at all, with the saved state of the run. \throws FileError (one line: path and
+/// reason).
+void write_plane(const std::string& path, const PulseMetadata& metadata, const PlaneGrid& grid, const plane::Run& run,
+                 const std::string& state);
 
 /// Reads a file by write_plane, with every bit as it was written. \throws FileError if the file is missing, not by
 /// slipfront, truncated, damaged, or changed by another program.
