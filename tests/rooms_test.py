@@ -22,7 +22,7 @@ MODULES = {
     "rupture": "modulation train elliptic",
     "chain": "output friction modulation train elliptic",
     "pulse": "output friction modulation train elliptic",
-    "plane": "output friction modulation train elliptic",
+    "plane": "output pulse friction modulation train elliptic",
     "friction_ratio": "pulse rupture friction",
     "scenario": "chain pulse plane friction train medium",
     "catalogue": "friction_ratio rupture medium",

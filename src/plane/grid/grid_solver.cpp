@@ -24,11 +24,6 @@ void check(const Problem& p, int cells) {
                       .value = std::to_string(cells),
                       .problem = "too few cells",
                       .allowed = "at least " + std::to_string(fewest)});
-  if (!p.viscous && p.friction.steep_at_rest() && !p.friction.sticks())
-    throw InputError({.key = "friction.law",
-                      .value = std::string(p.friction.name()),
-                      .problem = "rises too steeply from rest for the averaged equations on a grid",
-                      .allowed = "a law with strength at rest, one that rises smoothly, or slipfront plane --direct"});
   if (!p.viscous && p.friction.changes_contacts())
     throw InputError({.key = "friction.law",
                       .value = std::string(p.friction.name()),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <span>
 
@@ -11,6 +12,8 @@
 namespace slipfront::plane {
 
 namespace {
+
+using std::numbers::pi;
 
 constexpr double courant = 0.4;
 /// A step is at most courant / friction_share of the time in which friction takes the wave action, because half steps
@@ -27,7 +30,10 @@ GridSteps::GridSteps(const Problem& problem, const Cells& cells, GridMotion& mot
       equations_(problem, cells, walls_),
       front_(problem, cells),
       friction_acts_(problem.viscous || problem.friction.acts()),
-      sticks_(!problem.viscous && problem.friction.steep_at_rest()) {
+      acts_in_stages_(!problem.viscous && problem.friction.acts() && problem.friction.steep_at_rest()),
+      sticks_(!problem.viscous && problem.friction.sticks()),
+      free_(cells.size(), 0.0) {
+  if (acts_in_stages_ && !sticks_) slowed_ = std::make_unique<Slowed>(problem.friction, cells.size());
   for (auto* averages : {&rate_, &old_}) {
     averages->slip.assign(cells.size(), 0);
     averages->action.assign(cells.size(), 0);
@@ -45,6 +51,10 @@ GridSteps::GridSteps(const Problem& problem, const Cells& cells, GridMotion& mot
     });
   }
   if (problem.hold) hold();
+}
+
+GridSteps::Slowed::Slowed(const friction::Friction& friction, std::size_t cells) : trains(friction, cells) {
+  for (auto* values : {&momentum, &velocity, &typical_speed, &force, &slope, &s}) values->assign(cells, 0);
 }
 
 /// The static load is the opposite of what would move the lines at t = 0.
@@ -102,7 +112,6 @@ void GridSteps::find_strengths() {
   const Trains& trains = equations_.trains();
   const std::optional<double> C = problem_.viscous ? std::nullopt : problem_.friction.linear_coefficient();
   const bool is_linear = C && problem_.friction.closure() == friction::Closure::consistent;
-  const bool released = problem_.nucleation_has_begun(motion_.time);
   for (std::size_t i = 0; i < trains.at.size(); ++i) {
     const std::size_t cell = trains.at[i];
     const Point at = cells_.centre(cell);
@@ -112,9 +121,9 @@ void GridSteps::find_strengths() {
       motion_.strength[cell] = problem_.viscous ? problem_.viscous(at.x, at.y) : *C;
       force = motion_.strength[cell] * size;
     } else {
-      const bool is_on = !(sticks_ && released && is_free(cell));
       const double a = trains.contact.empty() ? 1 : trains.contact[i];
-      force = is_on ? problem_.friction.mean_strength({trains.phi[i], trains.psi[i]}, a, state_of(cell)) : 0;
+      if (!is_released(cell))
+        force = problem_.friction.mean_strength({trains.phi[i], trains.psi[i]}, a, state_of(cell));
       motion_.strength[cell] = sticks_ ? force : (size > 0 ? force / size : 0);
     }
     if (motion_.now.slip[cell] > 0) motion_.power += force * std::fabs(rate_.slip[cell]) * cells_.hx * cells_.hy;
@@ -123,7 +132,7 @@ void GridSteps::find_strengths() {
 
 double GridSteps::longest_step() const {
   const double rate = 1 / std::fmin(cells_.hx, cells_.hy);
-  if (!friction_acts_ || sticks_) return courant / rate;
+  if (!friction_acts_ || acts_in_stages_) return courant / rate;
   double strongest = 0;
   for (const std::size_t cell : equations_.trains().at) strongest = std::fmax(strongest, motion_.strength[cell]);
   return courant / (rate + friction_share * strongest);
@@ -157,9 +166,37 @@ void GridSteps::age(double time) {
 }
 
 void GridSteps::slow(double time) {
-  if (!friction_acts_ || sticks_) return;
+  if (!friction_acts_ || acts_in_stages_) return;
   for (const std::size_t cell : equations_.trains().at)
     motion_.now.action[cell] *= std::exp(-motion_.strength[cell] * time);
+}
+
+/// Slows the action in `free_` by the friction of the trains that it leaves.
+void GridSteps::slow_implicitly(double step) {
+  constexpr double least = 1e-300;
+  const Trains& trains = equations_.trains();
+  Slowed& slowed = *slowed_;
+  for (std::size_t i = 0; i < trains.at.size(); ++i) {
+    const std::size_t cell = trains.at[i];
+    const double size = 2 * pi * std::fabs(free_[cell]), before = 2 * pi * std::fabs(motion_.now.action[cell]);
+    if (size < least || is_released(cell)) continue;
+    slowed.trains.add({.cell = cell,
+                       .spacing = trains.spacing[i],
+                       .contact = trains.contact.empty() ? 1 : trains.contact[i],
+                       .state_values = motion_.states.data() + cell * each_,
+                       .free = size,
+                       .guess = std::clamp(before, 1e-6 * size, size),
+                       .s_guess = trains.s[i]});
+  }
+  slowed.trains.solve(step, {.momentum = slowed.momentum.data(),
+                             .velocity = slowed.velocity.data(),
+                             .typical_speed = slowed.typical_speed.data(),
+                             .force = slowed.force.data(),
+                             .slope = slowed.slope.data(),
+                             .s = slowed.s.data()});
+  for (const std::size_t cell : trains.at)
+    if (2 * pi * std::fabs(free_[cell]) >= least && !is_released(cell))
+      free_[cell] = std::copysign(slowed.momentum[cell] / (2 * pi), free_[cell]);
 }
 
 /// now = of_old * old + (1 - of_old) (now + step * rates). The state variables change for half a step in the first
@@ -170,9 +207,13 @@ void GridSteps::stage(double t, double step, double of_old) {
   add_loads(t);
   Averages& now = motion_.now;
   for (const std::size_t cell : equations_.trains().at) {
-    double action = now.action[cell] + step * rate_.action[cell];
+    double& action = free_[cell];
+    action = now.action[cell] + step * rate_.action[cell];
     if (sticks_) action = std::copysign(std::fmax(std::fabs(action) - step * motion_.strength[cell], 0.0), action);
-    now.action[cell] = of_old * old_.action[cell] + (1 - of_old) * action;
+  }
+  if (slowed_) slow_implicitly(step);
+  for (const std::size_t cell : equations_.trains().at) {
+    now.action[cell] = of_old * old_.action[cell] + (1 - of_old) * free_[cell];
     now.slip[cell] = of_old * old_.slip[cell] + (1 - of_old) * (now.slip[cell] + step * rate_.slip[cell]);
   }
 }

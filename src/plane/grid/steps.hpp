@@ -2,12 +2,15 @@
 /// \file
 /// Time steps of the averaged solver on a grid: half a step of friction, a step of the equations in space by the
 /// strong-stability-preserving Runge-Kutta method of third order, and half a step of friction. Friction with strength
-/// at rest acts after each stage instead, so that it holds what it can hold.
+/// at rest acts after each stage instead, so that it holds what it can hold, and so does friction that rises steeply
+/// from rest, by an implicit step.
 
+#include <memory>
 #include <vector>
 
 #include "plane/grid/equations.hpp"
 #include "plane/grid/front.hpp"
+#include "pulse/friction/friction_solve.hpp"
 
 namespace slipfront::plane {
 
@@ -46,10 +49,15 @@ class GridSteps {
   void age(double time);
   void slow(double time);
   void stage(double t, double step, double of_old);
+  void slow_implicitly(double step);
   void remove_idle_actions();
   double longest_step() const;
   friction::LocalState state_of(std::size_t cell) const { return {motion_.states.data() + cell * each_, each_}; }
   bool is_free(std::size_t cell) const { return !patch_.empty() && patch_[cell] != 0; }
+  /// Whether friction does not act in a cell, because nucleation has begun there.
+  bool is_released(std::size_t cell) const {
+    return acts_in_stages_ && is_free(cell) && problem_.nucleation_has_begun(motion_.time);
+  }
 
   const Problem& problem_;
   const Cells& cells_;
@@ -57,11 +65,22 @@ class GridSteps {
   Walls walls_;
   GridEquations equations_;
   Front front_;
-  bool friction_acts_, sticks_;
+  bool friction_acts_;
+  bool acts_in_stages_;       ///< friction acts after each stage, not before and after a step
+  bool sticks_;               ///< friction has strength at rest
   std::size_t each_ = 0;      ///< state variables of a cell
   std::vector<char> patch_;   ///< whether each cell lies in the nucleation patch; empty: none
   std::vector<double> held_;  ///< static load; empty: none
   Averages rate_, old_;
+  std::vector<double> free_;  ///< wave action of a stage, without friction at first
+
+  /// Trains that friction slows by an implicit step, and the results, by cell.
+  struct Slowed {
+    pulse::SlowedTrains trains;
+    std::vector<double> momentum, velocity, typical_speed, force, slope, s;
+    Slowed(const friction::Friction& friction, std::size_t cells);
+  };
+  std::unique_ptr<Slowed> slowed_;  ///< null unless friction rises steeply from rest without strength
 };
 
 }  // namespace slipfront::plane
