@@ -223,9 +223,9 @@ test('a rupture on a plane is that of the program, by the averages and line by l
   const text = (name) => readFileSync(join(source, 'cases', name), 'utf8');
   const [r, slip] = [0, 1].map((column) => Float64Array.from(text('plane-rings.csv').trim().split('\n').slice(1), (row) => Number(row.split(',')[column])));
   const changes = ['time.end=0.6', 'output.every=0.01', 'plane.cells=100', 'plane.loops=40', 'plane.angles=32', 'chain.scale=10', 'output.probes=[]'];
-  for (const direct of [0, 1]) {
-    const theirs = program('plane', join(source, 'cases/plane-friction.toml'), ...(direct ? ['--direct'] : []), '--quiet', '--set', ...changes);
-    const begun = call('plane_begin', text('plane-friction.toml'), changes.join('\n'), r, slip, r.length, direct);
+  for (const [name, direct] of [['plane-friction.toml', 0], ['plane-friction.toml', 1], ['plane-barrier.toml', 0]]) {
+    const theirs = program('plane', join(source, 'cases', name), ...(direct ? ['--direct'] : []), '--quiet', '--set', ...changes);
+    const begun = call('plane_begin', text(name), changes.join('\n'), r, slip, r.length, direct);
     assert.equal(begun.error, undefined);
     const all = { time: 0, front: [], moment_rate: [], series_time: [], lines: [] };
     let more = {};

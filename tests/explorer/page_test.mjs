@@ -10,7 +10,7 @@ import { gzipSync } from 'node:zlib';
 import { axe, browser, collisions, eventually, factOf, keepTexts, open, ready, type, url } from './browser.mjs';
 
 const calm = { reducedMotion: 'reduce' };
-const routes = ['#/', '#/pulse', '#/pulse?compare=1&si=1', '#/dislocations?beads=20', '#/stress?event=Parkfield+2004', '#/riemann', '#/loading', '#/loading?setup=edge&time.end=0.8', '#/plane?time.end=0.5', '#/plane?setup=barrier&chain.scale=8&time.end=1', '#/tour-is-none',
+const routes = ['#/', '#/pulse', '#/pulse?compare=1&si=1', '#/dislocations?beads=20', '#/stress?event=Parkfield+2004', '#/riemann', '#/loading', '#/loading?setup=edge&time.end=0.8', '#/plane?time.end=0.5', '#/plane?setup=barrier&time.end=1', '#/tour-is-none',
   ...[2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12].map((fig) => `#/paper?fig=${fig}`)];
 
 async function violations(page) {
@@ -385,6 +385,9 @@ test('a rupture on a plane: the averages have a front, every line is followed, a
   await eventually(async () => assert.match(await page.locator('.field .error').innerText(), />= 0/));
   await page.getByText('A rupture that stops').click();
   await eventually(async () => assert.match(await page.locator('.controls').innerText(), /tension/));
+  await page.getByText('A barrier').click();
+  await page.getByText('the averages', { exact: true }).click();
+  await eventually(async () => assert.match(await page.locator('.command code').textContent(), /plane-barrier\.toml --set .*plane\.cells=100/));
   assert.deepEqual(page.complaints, []);
 });
 

@@ -39,8 +39,8 @@ interface Setup {
   controls: Control[];
   /** The scale at which lines are followed, as text. */
   scale: string;
-  /** Whether only the lines can do it. */
-  linesOnly?: boolean;
+  /** Whether its averages are those on a grid. */
+  onGrid?: boolean;
 }
 
 const setups: Record<string, Setup> = {
@@ -61,7 +61,7 @@ const setups: Record<string, Setup> = {
     ],
   },
   barrier: {
-    name: 'A barrier', file: 'cases/plane-barrier.toml', toml: barrierToml, scale: '15', linesOnly: true,
+    name: 'A barrier', file: 'cases/plane-barrier.toml', toml: barrierToml, scale: '15', onGrid: true,
     text: 'A force drives lines against a small region that is held. They walk around it, and each leaves a loop on it.',
     controls: [
       { key: 'forcing.formula', label: 'Force F', value: '3', range: [0.5, 6] },
@@ -73,13 +73,13 @@ const setups: Record<string, Setup> = {
 
 const player = makePlayer(1);
 const scaleKey = 'chain.scale';
-const cellsOfPage = { loops: 60, angles: 64 };
+const cellsOfLoops = ['plane.loops=60', 'plane.angles=64'], cellsOfGrid = ['plane.cells=100'];
 
 /** The settings of the form, in the notation of the program's option `--set`. */
-function changesOf({ controls, scale }: Setup, direct: boolean): string[] {
+function changesOf({ controls, scale, onGrid }: Setup, direct: boolean): string[] {
   const typed = (key: string, value: string) => route.value.params[key] ?? value;
   const all = controls.flatMap(({ key, value }) => (typed(key, value) === '' ? [] : [`${key}=${typed(key, value)}`]));
-  return [...all, ...(direct ? [`${scaleKey}=${typed(scaleKey, scale)}`] : Object.entries(cellsOfPage).map(([key, value]) => `plane.${key}=${value}`))];
+  return [...all, ...(direct ? [`${scaleKey}=${typed(scaleKey, scale)}`] : onGrid ? cellsOfGrid : cellsOfLoops)];
 }
 
 /** The map of a quantity of one snapshot, with the lines on it. */
@@ -127,7 +127,7 @@ export function PlanePanel() {
   const params = route.value.params;
   const name = Object.hasOwn(setups, params.setup ?? '') ? params.setup : 'friction';
   const setup = setups[name];
-  const direct = setup.linesOnly || params.lines === '1';
+  const direct = params.lines === '1';
   const changes = changesOf(setup, direct);
   const { run, error, busy } = usePlane(setup.toml, changes.join('\n'), rings, direct);
   useEffect(() => {
@@ -160,7 +160,7 @@ export function PlanePanel() {
         <Segments label="Set-up" value={name} choices={Object.entries(setups).map(([value, one]) => ({ value, label: one.name }))}
           onInput={(text) => setParams(Object.fromEntries([['setup', text], ['t', null], [scaleKey, null], ...Object.values(setups).flatMap((one) => one.controls).map(({ key }) => [key, null])]))} />
         <p class="hint">{setup.text}</p>
-        {!setup.linesOnly && <Segments label="Follow" value={direct ? '1' : '0'} choices={[{ value: '0', label: 'the averages' }, { value: '1', label: 'every line' }]} onInput={(text) => setParams({ lines: text === '1' ? '1' : null })} />}
+        <Segments label="Follow" value={direct ? '1' : '0'} choices={[{ value: '0', label: 'the averages' }, { value: '1', label: 'every line' }]} onInput={(text) => setParams({ lines: text === '1' ? '1' : null })} />
         {direct && <NumberField label="Scale: more lines" value={params[scaleKey] ?? setup.scale} least={5} most={50} log onInput={(text) => setParams({ [scaleKey]: text })} error={sentence(about(error, scaleKey))} hint="Twice the scale takes eight times as long." />}
         {setup.controls.map(({ key, label, value, range }) =>
           range
