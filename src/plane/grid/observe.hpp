@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What observers see of the averages on a grid.
+/// Values of the averages on a grid, for observers.
 
 #include "plane/grid/steps.hpp"
 
