@@ -14,8 +14,8 @@ namespace slipfront::plane {
 class GridSolver : public Solver {
  public:
   /// `cells`: cells along x, at least 8. Those along y have nearly the same size. \throws InputError for an initial
-  /// slip that is negative, not finite, or 0 everywhere; for friction that changes contacts; for fixed or absorbing edges where there is slip; and for a static load where the
-  /// slip ends with a gradient above 0.7.
+  /// slip that is negative, not finite, or 0 everywhere; for friction that changes contacts; for fixed or absorbing
+  /// edges where there is slip; and for a static load where the slip ends with a gradient above 0.7.
   GridSolver(const Problem& problem, int cells);
   ~GridSolver() override;
 
