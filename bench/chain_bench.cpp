@@ -12,6 +12,7 @@
 #include "chain/explicit/explicit_chain.hpp"
 #include "chain/explicit/levels/kernel.hpp"
 #include "foundation/simd/vector_code.hpp"
+#include "multiply_adds.hpp"
 #include "slipfront/chain/chain.hpp"
 #include "slipfront/chain/run.hpp"
 #include "slipfront/setup/problem.hpp"
@@ -29,21 +30,6 @@ SLIPFRONT_CLONES void sines(const PeriodicForce& force, const double* z, double*
   const PeriodicForce f = force;
   SLIPFRONT_INDEPENDENT
   for (std::size_t j = 0; j < n; ++j) S[j] = f(z[j]);
-}
-
-/// 32 multiply-adds per value, in four independent sequences.
-SLIPFRONT_CLONES void multiply_adds(double* v, std::size_t n, double a, double b) {
-  SLIPFRONT_INDEPENDENT
-  for (std::size_t j = 0; j < n; ++j) {
-    double p = v[j], q = p + b, r = p - b, s = q + a;
-    for (int k = 0; k < 8; ++k) {
-      p = p * a + b;
-      q = q * a + b;
-      r = r * a + b;
-      s = s * a + b;
-    }
-    v[j] = (p + q) + (r + s);
-  }
 }
 
 void chain_limit_sine(benchmark::State& state) {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "chain/explicit/explicit_chain.hpp"
-#include "foundation/simd/vector_code.hpp"
+#include "multiply_adds.hpp"
 #include "plane/direct/motion.hpp"
 #include "plane/direct/sites.hpp"
 
@@ -20,20 +20,6 @@ using namespace slipfront;
 /// Multiplications and additions per site and step, where a fused pair counts once: 9 for each of two Laplacians, 24
 /// for sine and cosine, 17 for v, its rate, u_t and u.
 constexpr double operations_a_site = 59;
-
-SLIPFRONT_CLONES void multiply_adds(double* v, std::size_t n, double a, double b) {
-  SLIPFRONT_INDEPENDENT
-  for (std::size_t j = 0; j < n; ++j) {
-    double p = v[j], q = p + b, r = p - b, s = q + a;
-    for (int k = 0; k < 8; ++k) {
-      p = p * a + b;
-      q = q * a + b;
-      r = r * a + b;
-      s = s * a + b;
-    }
-    v[j] = (p + q) + (r + s);
-  }
-}
 
 /// Calls `work`, which does so many updates, for a fifth of a second. Returns updates per second.
 template <class Work>

@@ -176,10 +176,13 @@ void GridSteps::slow_implicitly(double step) {
   constexpr double least = 1e-300;
   const Trains& trains = equations_.trains();
   Slowed& slowed = *slowed_;
+  const auto is_slowed = [&](std::size_t cell) {
+    return 2 * pi * std::fabs(free_[cell]) >= least && !is_released(cell);
+  };
   for (std::size_t i = 0; i < trains.at.size(); ++i) {
     const std::size_t cell = trains.at[i];
+    if (!is_slowed(cell)) continue;
     const double size = 2 * pi * std::fabs(free_[cell]), before = 2 * pi * std::fabs(motion_.now.action[cell]);
-    if (size < least || is_released(cell)) continue;
     slowed.trains.add({.cell = cell,
                        .spacing = trains.spacing[i],
                        .contact = trains.contact.empty() ? 1 : trains.contact[i],
@@ -195,8 +198,7 @@ void GridSteps::slow_implicitly(double step) {
                              .slope = slowed.slope.data(),
                              .s = slowed.s.data()});
   for (const std::size_t cell : trains.at)
-    if (2 * pi * std::fabs(free_[cell]) >= least && !is_released(cell))
-      free_[cell] = std::copysign(slowed.momentum[cell] / (2 * pi), free_[cell]);
+    if (is_slowed(cell)) free_[cell] = std::copysign(slowed.momentum[cell] / (2 * pi), free_[cell]);
 }
 
 /// now = of_old * old + (1 - of_old) (now + step * rates). The state variables change for half a step in the first
