@@ -101,7 +101,7 @@ int main(int argc, char** argv) {
       std::string arguments;
       for (int i = 1; i < argc; ++i) arguments.append(argv[i]).append(1, '\0');
       ranks.require_same("command line", arguments);
-      return run(argc, argv);
+      return ranks.code_of(run(argc, argv));
     } catch (const slipfront::InputError& error) {
       return ranks.failed(exit_input, [&] {
         for (const slipfront::Complaint& complaint : error.complaints()) complain(slipfront::one_line(complaint));

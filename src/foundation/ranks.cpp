@@ -40,7 +40,7 @@ int Ranks::failed(int code, const std::function<void()>& say) const {
 #ifdef SLIPFRONT_MPI
   if (size_ > 1 && !agreed_) MPI_Abort(MPI_COMM_WORLD, code);
 #endif
-  return code;
+  return code_of(code);
 }
 
 #ifdef SLIPFRONT_MPI

@@ -62,8 +62,12 @@ class Ranks {
   void exchange(std::span<const double> to_left, std::span<const double> to_right, std::span<double> from_left,
                 std::span<double> from_right, bool around) const;
 
+  /// The code with which this rank ends a program that all ranks end with `code`: mpirun returns that of rank 0. The
+  /// others end with 0, because mpirun kills all ranks, and so rank 0, when one of them ends with another code.
+  int code_of(int code) const { return rank_ == 0 ? code : 0; }
   /// For the last catch block of a program. If all ranks threw the error together, rank 0 calls `say` and all return
-  /// `code`. If only this rank threw it, the function calls `say`, ends all ranks with `code` and does not return.
+  /// `code_of(code)`. If only this rank threw it, the function calls `say`, ends all ranks with `code` and does not
+  /// return.
   int failed(int code, const std::function<void()>& say) const;
 
  private:

@@ -96,6 +96,19 @@ class Ranks(CommandLine):
             self.assertEqual(refused.returncode, 2, refused.stderr)
             self.assertEqual(refused.stderr.count("slipfront: "), 1, refused.stderr)
 
+    def test_only_the_first_rank_ends_with_a_code(self):
+        # mpirun kills all ranks when one ends with a code, and the first one would report that.
+        refused = self.file("refused.toml", HELD + "[medium]\nspeed = -1\n")
+        script = "trap '' TERM; \"$0\" \"$@\"; echo $OMPI_COMM_WORLD_RANK $? > $OMPI_COMM_WORLD_RANK.txt"
+        for arguments in (["plane", "--direct", refused], ["chain", "--no-such-option"]):
+            folder = os.path.dirname(self.file("x", ""))
+            subprocess.run(["mpirun", "-n", "3", "sh", "-c", script, PROGRAM, *arguments], env=ENVIRONMENT, cwd=folder, capture_output=True, timeout=PATIENCE)
+            codes = []
+            for rank in range(3):
+                with open(os.path.join(folder, f"{rank}.txt"), encoding="utf-8") as file:
+                    codes.append(file.read().split())
+            self.assertEqual(codes, [["0", "2"], ["1", "0"], ["2", "0"]])
+
     def test_a_plane_resumes_on_any_number_of_ranks(self):
         case = self.file("held.toml", HELD)
         alone, begun, shared = (os.path.join(os.path.dirname(case), name) for name in ("alone.nc", "begun.nc", "shared.nc"))
