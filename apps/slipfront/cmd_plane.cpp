@@ -55,7 +55,7 @@ int run_scenario(const ScenarioArguments& a, const scenario::Scenario& s, setup:
   run::PlanePlan plan;
   std::optional<record::PlaneCheckpoint> saved;
   const auto prepare = [&] {
-    plan = run::plan_plane(s);
+    plan = run::plan_plane(s, lines);
     if (!a.resume.empty()) saved = run::plane_checkpoint_of(a.resume, s);
     if (a.check) require_output(a, saved && saved->finished, plan.disk);
   };
@@ -66,8 +66,7 @@ int run_scenario(const ScenarioArguments& a, const scenario::Scenario& s, setup:
     return exit_done;
   }
   LongRun long_run(a, s, saved && saved->finished, ranks);
-  const auto result =
-      run::plane(s, plan, {.common = long_run.options({}, begun), .lines = lines, .checkpoint = std::move(saved)});
+  const auto result = run::plane(s, plan, {.common = long_run.options({}, begun), .checkpoint = std::move(saved)});
   if (const int code = long_run.end(result.finished()); code != exit_done) return code;
   if (the_ranks->rank() == 0) print_plane(s, result, errors_of(s, result.numbers, lines), model, a);
   return exit_done;

@@ -162,21 +162,20 @@ py::dict run_plane(const py::dict& arguments, bool direct, bool with_errors, int
   const RunRequest a = request_of(arguments);
   const Requested all = requested(a);
   const scenario::Scenario& s = all.scenario;
-  direct = direct || is_model(a);
+  const setup::Lines lines = direct || is_model(a) ? setup::Lines::direct : setup::Lines::averaged;
   Watch watch(a.progress, s.end);
   run::PlanePlan plan;
   run::PlaneResult result;
   run::PlaneNumbers errors;
   {
     const py::gil_scoped_release others_may_run;
-    plan = run::plan_plane(s);
-    run::PlaneOptions options{.common = {.threads = threads, .begun = begun},
-                              .lines = direct ? setup::Lines::direct : setup::Lines::averaged};
+    plan = run::plan_plane(s, lines);
+    run::PlaneOptions options{.common = {.threads = threads, .begun = begun}};
     if (!a.resume.empty()) options.checkpoint = run::plane_checkpoint_of(a.resume, s);
     options.common.output = run::output_of(a.output, a.resume, options.checkpoint && options.checkpoint->finished);
     options.common.after_step = [&](double time, long steps) { return watch(time, steps); };
     result = run::plane(s, plan, options);
-    errors = with_errors && !direct && result.finished()
+    errors = with_errors && lines == setup::Lines::averaged && result.finished()
                  ? run::plane_errors(s, result.numbers, [&] { return watch.interrupted(); })
                  : run::unknown_errors(result.numbers);
   }
@@ -190,8 +189,9 @@ py::dict check_plane(const py::dict& arguments, bool direct) {
   using namespace pybind11::literals;
   const RunRequest a = request_of(arguments);
   const scenario::Scenario s = requested(a).scenario;
-  const run::PlanePlan plan = run::plan_plane(s);
-  setup::plane_solver(s, direct || is_model(a) ? setup::Lines::direct : setup::Lines::averaged, 1);
+  const setup::Lines lines = direct || is_model(a) ? setup::Lines::direct : setup::Lines::averaged;
+  const run::PlanePlan plan = run::plan_plane(s, lines);
+  setup::plane_solver(s, lines, 1);
   return py::dict("title"_a = s.title, "loops"_a = s.plane->loops, "angles"_a = s.plane->angles,
                   "left"_a = plan.grid.left, "right"_a = plan.grid.right, "bottom"_a = plan.grid.bottom,
                   "top"_a = plan.grid.top, "cells_x"_a = plan.grid.nx, "cells_y"_a = plan.grid.ny, "end"_a = s.end,

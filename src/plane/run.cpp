@@ -41,8 +41,7 @@ double largest_size(const std::vector<double>& values) {
   return largest;
 }
 
-}  // namespace
-
+/// The row at the present time of a solver, without the peak slip velocity, which needs the cells.
 SeriesRow row_at(const Solver& solver, double ratio) {
   const Energies e = solver.energies();
   return {.time = solver.time(),
@@ -57,6 +56,8 @@ SeriesRow row_at(const Solver& solver, double ratio) {
                        .vanished = ratio * e.vanished,
                        .radiated = ratio * e.radiated}};
 }
+
+}  // namespace
 
 Run::Run(std::unique_ptr<Solver> solver, Schedule schedule)
     : solver_(std::move(solver)), schedule_(std::move(schedule)) {
@@ -93,7 +94,8 @@ void Run::observe(bool snapshot) {
   for (std::size_t i = 0; i < field.slip.size(); ++i) {
     peak_slip_velocity_[i] = std::fmax(peak_slip_velocity_[i], std::fabs(field.velocity[i]));
     const double was = last_slip_[i], is = field.slip[i];
-    if (is >= limit && std::isnan(rupture_time_[i])) rupture_time_[i] = before + since * (limit - was) / (is - was);
+    if (std::fabs(is) > limit && std::isnan(rupture_time_[i]))
+      rupture_time_[i] = before + since * (std::copysign(limit, is) - was) / (is - was);
     if (since > 0) velocity_squared_[i] += (is - was) * (is - was) / since;
   }
   if (row.time >= schedule_.interval * static_cast<double>(rows_on_time_)) ++rows_on_time_;

@@ -149,7 +149,7 @@ scenario::Scenario scenario_of_fault(const FaultOnPlane& model, const std::strin
   const scenario::Scenario without =
       scenario::read_scenario(text_of(model, file, *contact_ratio, 1), file, overrides, read_table);
   setup::plane_solver(without, setup::Lines::direct, 1);  // refuses what needs too much memory
-  const plane::Schedule grid = setup::plane_schedule(without);
+  const plane::Schedule grid = setup::plane_schedule(without, setup::Lines::direct);
   const double unbalanced = plane::largest_unbalanced_force(
       without.plane->problem, {.scale = without.chain.scale.value_or(1), .spacing = *without.chain.spacing}, grid.nx,
       grid.ny);

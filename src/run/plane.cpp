@@ -13,7 +13,7 @@ namespace {
 
 std::unique_ptr<plane::Run> begun(const scenario::Scenario& s, const PlanePlan& plan, const PlaneOptions& options) {
   std::unique_ptr<plane::Solver> solver =
-      setup::plane_solver(s, options.lines, options.common.threads, options.common.ranks);
+      setup::plane_solver(s, plan.lines, options.common.threads, options.common.ranks);
   if (!options.checkpoint) return std::make_unique<plane::Run>(std::move(solver), plan.schedule);
   const record::PlaneCheckpoint& saved = *options.checkpoint;
   return std::make_unique<plane::Run>(std::move(solver), plan.schedule, saved.run_state, saved.snapshots);
@@ -29,6 +29,13 @@ std::vector<double*> all_of(PlaneNumbers& n) {
   return all;
 }
 
+/// The numbers at the end of a run.
+PlaneNumbers numbers_of(const plane::Run& run, const scenario::Scenario& s) {
+  return {.end = run.series().back(),
+          .slip_at_probes = run.solver().slip(s.plane->probes),
+          .slip_velocity_at_probes = run.solver().velocity(s.plane->probes)};
+}
+
 /// The numbers with a fraction of the cells; empty if the run fails or is interrupted.
 std::optional<PlaneNumbers> with_fewer_cells(scenario::Scenario s, int divisor,
                                              const std::function<bool()>& interrupted) {
@@ -36,11 +43,10 @@ std::optional<PlaneNumbers> with_fewer_cells(scenario::Scenario s, int divisor,
   s.plane->angles = std::max(8, s.plane->angles / divisor);
   s.plane->cells = std::max(8, s.plane->cells / divisor);
   try {
-    const std::unique_ptr<plane::Solver> solver = setup::plane_solver(s, setup::Lines::averaged, 1);
-    if (!solver->advance_to(s.end, interrupted)) return std::nullopt;
-    return PlaneNumbers{.end = plane::row_at(*solver, s.plane->wave_speed_ratio),
-                        .slip_at_probes = solver->slip(s.plane->probes),
-                        .slip_velocity_at_probes = solver->velocity(s.plane->probes)};
+    plane::Schedule schedule = setup::plane_schedule(s, setup::Lines::averaged);
+    schedule.times = {s.end};
+    plane::Run run(setup::plane_solver(s, setup::Lines::averaged, 1), std::move(schedule));
+    return run.go(interrupted) ? std::optional(numbers_of(run, s)) : std::nullopt;
   } catch (const NumericsError&) {
     return std::nullopt;
   } catch (const InputError&) {  // fewer cells do not see a held region
@@ -50,8 +56,8 @@ std::optional<PlaneNumbers> with_fewer_cells(scenario::Scenario s, int divisor,
 
 }  // namespace
 
-PlanePlan plan_plane(const scenario::Scenario& s) {
-  PlanePlan plan{.schedule = setup::plane_schedule(s), .grid = {}, .disk = 0};
+PlanePlan plan_plane(const scenario::Scenario& s, setup::Lines lines) {
+  PlanePlan plan{.lines = lines, .schedule = setup::plane_schedule(s, lines), .grid = {}, .disk = 0};
   plan.disk = setup::plane_file_size(plan.schedule);
   const plane::Problem& p = s.plane->problem;
   const double ratio = s.plane->wave_speed_ratio;
@@ -80,7 +86,7 @@ record::PlaneCheckpoint plane_checkpoint_of(const std::string& path, const scena
 PlaneResult plane(const scenario::Scenario& s, const PlanePlan& plan, const PlaneOptions& options) {
   const Options& common = options.common;
   PlaneResult result{.run = begun(s, plan, options),
-                     .metadata = metadata_of(s, options.lines == setup::Lines::direct ? "plane --direct" : "plane", {}),
+                     .metadata = metadata_of(s, plan.lines == setup::Lines::direct ? "plane --direct" : "plane", {}),
                      .wall = 0};
   const plane::Solver& solver = result.run->solver();
   const bool reached = carry_out(
@@ -96,9 +102,7 @@ PlaneResult plane(const scenario::Scenario& s, const PlanePlan& plan, const Plan
       });
   if (!reached) return result;
   add_warnings(result.run->warnings(), result.metadata);
-  result.numbers = {.end = result.run->series().back(),
-                    .slip_at_probes = solver.slip(s.plane->probes),
-                    .slip_velocity_at_probes = solver.velocity(s.plane->probes)};
+  result.numbers = numbers_of(*result.run, s);
   result.wall = seconds_since(common.begun);
   return result;
 }

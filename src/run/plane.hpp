@@ -16,13 +16,14 @@ namespace slipfront::run {
 
 /// A run on a plane that has been checked.
 struct PlanePlan {
+  setup::Lines lines = setup::Lines::averaged;
   plane::Schedule schedule;
   record::PlaneGrid grid;
   double disk = 0;  ///< approximate number of bytes of the file
 };
 
 /// \throws InputError.
-PlanePlan plan_plane(const scenario::Scenario& scenario);
+PlanePlan plan_plane(const scenario::Scenario& scenario, setup::Lines lines);
 
 /// Reads the state from which a planned run continues. The scenario must be that of the file. \throws FileError;
 /// InputError if the file is from another scenario or version.
@@ -31,7 +32,6 @@ record::PlaneCheckpoint plane_checkpoint_of(const std::string& path, const scena
 /// How to run it: `Options::checkpoint` is not used.
 struct PlaneOptions {
   Options common;
-  setup::Lines lines = setup::Lines::averaged;
   std::optional<record::PlaneCheckpoint> checkpoint = {};
 };
 

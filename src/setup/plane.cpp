@@ -26,8 +26,8 @@ double largest_slip(const plane::Problem& p, int nx, int ny) {
   double largest = 0;
   for (int j = 0; j < ny; ++j)
     for (int i = 0; i < nx; ++i)
-      largest = std::fmax(largest, p.slip(p.left + (p.right - p.left) * (i + 0.5) / nx,
-                                          p.bottom + (p.top - p.bottom) * (j + 0.5) / ny));
+      largest = std::fmax(largest, std::fabs(p.slip(p.left + (p.right - p.left) * (i + 0.5) / nx,
+                                                    p.bottom + (p.top - p.bottom) * (j + 0.5) / ny)));
   return largest;
 }
 
@@ -86,9 +86,9 @@ std::unique_ptr<plane::Solver> plane_solver(const scenario::Scenario& s, Lines l
   }
 }
 
-plane::Schedule plane_schedule(const scenario::Scenario& s) {
+plane::Schedule plane_schedule(const scenario::Scenario& s, Lines lines) {
   require_plane(s);
-  constexpr double most_rows = 1000, seen = 1e-3;
+  constexpr double most_rows = 1000;
   const plane::Problem& p = s.plane->problem;
   const double width = p.right - p.left, cell = width / s.plane->cells;
   plane::Schedule schedule;
@@ -103,9 +103,10 @@ plane::Schedule plane_schedule(const scenario::Scenario& s) {
                                  " GB of memory, this process may have " + digits(usable_memory() / 1e9, 3) + " GB",
                       .allowed = "fewer cells or fewer output times"});
   schedule.interval = std::fmax(cell, s.end / most_rows);
+  // A state that is held settles a little at t = 0. With --direct at least half a line must pass.
+  const double seen = p.nucleation ? 1e-2 : 1e-3;
   schedule.rupture_slip = seen * largest_slip(p, schedule.nx, schedule.ny);
-  // Lines that are held settle a little at t = 0. A cell has ruptured when half a line has passed.
-  if (p.nucleation)
+  if (p.nucleation && lines == Lines::direct)
     schedule.rupture_slip = std::fmax(schedule.rupture_slip, std::numbers::pi / s.chain.scale.value_or(1));
   schedule.wave_speed_ratio = s.plane->wave_speed_ratio;
   schedule.lines = s.plane->lines;

@@ -220,6 +220,29 @@ end = 3
         self.refused(2, "plane", case, says=["nucleation", "--direct"])
         self.refused(2, "plane", case, "--direct", "--set", "nucleation.x=8", says=["nucleation.radius", "outside"])
 
+    def test_lines_and_averages_rupture_alike_from_a_patch(self):
+        case = os.path.join(SOURCE, "cases/plane-nucleation.toml")
+        folder, out, maps = self.folder(), {}, {}
+        for name, more in (("averaged", []), ("direct", ["--direct"])):
+            path = os.path.join(folder, name + ".nc")
+            out[name] = self.plane(case, *more, "--set", "plane.cells=80", "time.end=1", "-o", path)
+            with netCDF4.Dataset(path) as file:
+                maps[name] = np.ma.filled(file["rupture_time"][:], np.nan)
+                x, y = np.meshgrid(file["x"][:], file["y"][:])
+                slip = np.array(file["slip"][-1])
+        # Slip lowers the mean slip U here, and stays within 1.2 of the patch and outside the held disc.
+        self.assertLess(slip.min(), -0.5)
+        for name, rupture in maps.items():
+            reached = ~np.isnan(rupture)
+            self.assertTrue(np.all(reached[np.hypot(x - 1.5, y) < 0.5]), name)
+            self.assertFalse(np.any(reached[(np.hypot(x - 1.5, y) > 1.2) | (np.hypot(x, y) < 0.6)]), name)
+            self.assertAlmostEqual(out[name]["ruptured_area"], np.count_nonzero(reached) * 0.1 ** 2)
+            self.assertAlmostEqual(out[name]["front"], np.hypot(x, y)[reached].max())
+        # A cell of the averages ruptures at a smaller slip than half a line of the 40.
+        self.assertLess(abs(out["averaged"]["ruptured_area"] / out["direct"]["ruptured_area"] - 1), 0.25)
+        self.assertLess(abs(out["averaged"]["front"] - out["direct"]["front"]), 0.1)
+        self.assertLess(out["averaged"]["errors"]["front"], 0.3)
+
     def test_a_grid_is_the_initial_slip(self):
         rows = "".join(f"{x / 20},{y / 20},{2 - min(2, max(1, math.hypot(x / 20, y / 20)))}\n" for x in range(-65, 66) for y in range(-65, 66))
         tables = ("[plane]\nleft = -3.2\nright = 3.2\nbottom = -3.2\ntop = 3.2\nfixed = \"x^2 + y^2 < 1\"\ncells = 40\n"

@@ -97,11 +97,12 @@ SLIPFRONT_EXPORT const char* plane_begin(const char* toml, const char* changes, 
     setup::require_plane(s);
     check_size(s, direct != 0);
     s.plane->cells = cells;
-    plane::Schedule schedule = setup::plane_schedule(s);
+    const setup::Lines which = direct != 0 ? setup::Lines::direct : setup::Lines::averaged;
+    plane::Schedule schedule = setup::plane_schedule(s, which);
     schedule.lines = true;
     schedule.times.clear();
     for (int i = 0; i <= frames; ++i) schedule.times.push_back(s.end * i / frames);
-    auto solver = setup::plane_solver(s, direct != 0 ? setup::Lines::direct : setup::Lines::averaged, 1);
+    auto solver = setup::plane_solver(s, which, 1);
     const plane::Problem& p = solver->problem();
     const double ratio = schedule.wave_speed_ratio;
     const Object begun = Object()

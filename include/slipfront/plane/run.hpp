@@ -18,7 +18,7 @@ struct Schedule {
   std::vector<double> times;  ///< ascending, from 0: one snapshot each
   int nx = 0, ny = 0;         ///< cells of the maps and snapshots
   double interval = 0;        ///< time between two rows of the series
-  double rupture_slip = 0;    ///< a cell has ruptured when its slip exceeds this
+  double rupture_slip = 0;    ///< a cell has ruptured when its slip, of either sign, exceeds this
   /// y of the results over y of the problem: the speed of waves along y over that along x.
   double wave_speed_ratio = 1;
   bool lines = false;  ///< whether snapshots have the dislocation lines
@@ -34,9 +34,6 @@ struct SeriesRow {
   double front = 0;
   Energies energies;
 };
-
-/// The row at the present time of a solver, without the peak slip velocity, which needs the cells.
-SeriesRow row_at(const Solver& solver, double wave_speed_ratio);
 
 /// Values of the cells, row by row from the bottom (source_parameters.hpp defines them).
 struct Maps {

@@ -29,7 +29,7 @@ std::unique_ptr<plane::Solver> plane_solver(const scenario::Scenario& scenario, 
 
 /// The times and the grid of the results. A row of the series follows each time in which a wave crosses a cell, with at
 /// most 1000 rows. \throws InputError if the results need more memory than this process may have.
-plane::Schedule plane_schedule(const scenario::Scenario& scenario);
+plane::Schedule plane_schedule(const scenario::Scenario& scenario, Lines lines);
 
 /// Approximate number of bytes of the file of a run.
 double plane_file_size(const plane::Schedule& schedule);
