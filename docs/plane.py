@@ -1,6 +1,6 @@
 """Draws the pictures of docs/plane.md, and prints their numbers.
 
-Usage: plane.py PROGRAM [picture] [fault] [barrier] [grid] [motion]
+Usage: plane.py PROGRAM [picture] [fault] [barrier] [grid] [nucleation] [motion]
 
 PROGRAM is build/release/bin/slipfront. The script needs python3-matplotlib and python3-xarray, and runs for some minutes.
 """
@@ -107,6 +107,26 @@ def grid(folder):
               f"potency {float(runs['averages on a grid']['potency'].values[-1]):.3f} and {float(runs['every line']['potency'].values[-1]):.3f} at the end")
 
 
+def nucleation(folder):
+    """Draws plane-nucleation.png: a rupture from a patch, by the averages and line by line."""
+    case, fine = CASES / "plane-nucleation.toml", {"plane.cells": 320}
+    runs = {"averages on a grid": run(folder, case, fine), "every line": run(folder, case, fine | {"chain.scale": 160}, ("--direct",))}
+    figure, (left, middle, right) = plt.subplots(1, 3, figsize=(10.5, 3.3))
+    for axis, (name, data) in zip((left, middle), runs.items()):
+        seen = axis.contourf(data["x"], data["y"], data["rupture_time"], levels=np.linspace(0, 1.5, 11), cmap="viridis_r")
+        axis.set(title=name, xlabel="x, b / A", aspect="equal", xlim=(0, 2.4), ylim=(-1.3, 1.3))
+        axis.grid(False)
+        right.plot(data["series_time"], -data["moment_rate"], label=name)
+        print(f"nucleation, {name}: potency {float(data['potency'][-1]):.4f}, farthest rupture {float(data['front'][-1]):.3f}")
+    left.set_ylabel("y, b / A")
+    figure.colorbar(seen, ax=middle, label="rupture time, b / (c A)")
+    right.set(title="moment rate", xlabel="t, b / (c A)", ylabel="potency rate, $-b^2 c / (2 \\pi A)$", ylim=(0, None))
+    right.legend()
+    figure.savefig(HERE / "plane-nucleation.png")
+    averaged, direct = (data["slip"][-1].values for data in runs.values())
+    print(f"nucleation: slip, L1 {np.abs(averaged - direct).sum() / np.abs(direct).sum():.3f}")
+
+
 def motion(folder):
     """Draws plane.gif: the slip velocity of the averages and of every line, side by side."""
     settings = {"time.end": 2, "output.every": 0.08, "plane.cells": 190} | WIDE
@@ -130,7 +150,7 @@ def motion(folder):
 
 if __name__ == "__main__":
     plt.style.use(STYLE)
-    parts = {"picture": picture, "fault": fault, "barrier": barrier, "grid": grid, "motion": motion}
+    parts = {"picture": picture, "fault": fault, "barrier": barrier, "grid": grid, "nucleation": nucleation, "motion": motion}
     with tempfile.TemporaryDirectory() as scratch:
         for chosen in sys.argv[2:] or parts:
             parts[chosen](scratch)
