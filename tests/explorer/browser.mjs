@@ -3,7 +3,7 @@
 import { spawn } from 'node:child_process';
 import { createRequire } from 'node:module';
 import { once } from 'node:events';
-import { after } from 'node:test';
+import { after, afterEach } from 'node:test';
 
 const patience = 300000; // ms; longer than any wait on a busy machine
 const require = createRequire(`${process.env.SLIPFRONT_NODE_MODULES}/`);
@@ -14,6 +14,10 @@ const server = spawn(process.env.SLIPFRONT, ['explore', '--no-open', '--json', '
 const [line] = await once(server.stdout, 'data');
 export const url = JSON.parse(String(line)).url;
 export const browser = await chromium.launch({ executablePath: '/usr/bin/chromium', args: ['--no-sandbox'] });
+// A page that stays open goes on to compute and to draw, and slows those that follow.
+afterEach(async () => {
+  for (const context of browser.contexts()) await context.close();
+});
 after(async () => {
   await browser.close();
   server.kill();
