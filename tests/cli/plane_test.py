@@ -220,7 +220,7 @@ end = 3
         self.refused(2, "plane", case, says=["nucleation", "--direct"])
         self.refused(2, "plane", case, "--direct", "--set", "nucleation.x=8", says=["nucleation.radius", "outside"])
 
-    def test_lines_and_averages_rupture_alike_from_a_patch(self):
+    def test_lines_and_averages_have_the_same_rupture_from_a_patch(self):
         case = os.path.join(SOURCE, "cases/plane-nucleation.toml")
         folder, out, maps = self.folder(), {}, {}
         for name, more in (("averaged", []), ("direct", ["--direct"])):

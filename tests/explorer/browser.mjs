@@ -14,7 +14,7 @@ const server = spawn(process.env.SLIPFRONT, ['explore', '--no-open', '--json', '
 const [line] = await once(server.stdout, 'data');
 export const url = JSON.parse(String(line)).url;
 export const browser = await chromium.launch({ executablePath: '/usr/bin/chromium', args: ['--no-sandbox'] });
-// A page that stays open goes on to compute and to draw, and slows those that follow.
+// A page that stays open computes and draws all the time, and slows those that follow.
 afterEach(async () => {
   for (const context of browser.contexts()) await context.close();
 });

@@ -27,8 +27,9 @@ enum class Lines { averaged, direct };
 std::unique_ptr<plane::Solver> plane_solver(const scenario::Scenario& scenario, Lines lines, int threads,
                                             const Ranks* ranks = nullptr);
 
-/// The times and the grid of the results. A row of the series follows each time in which a wave crosses a cell, with at
-/// most 1000 rows. \throws InputError if the results need more memory than this process may have.
+/// The times and the grid of the results, and the slip at which a cell has ruptured, which depends on `lines`. A row of
+/// the series follows each time in which a wave crosses a cell, with at most 1000 rows. \throws InputError if the
+/// results need more memory than this process may have.
 plane::Schedule plane_schedule(const scenario::Scenario& scenario, Lines lines);
 
 /// Approximate number of bytes of the file of a run.
