@@ -103,10 +103,10 @@ plane::Schedule plane_schedule(const scenario::Scenario& s, Lines lines) {
                                  " GB of memory, this process may have " + digits(usable_memory() / 1e9, 3) + " GB",
                       .allowed = "fewer cells or fewer output times"});
   schedule.interval = std::fmax(cell, s.end / most_rows);
-  // A state that is held settles a little at t = 0. With --direct at least half a line must pass.
-  const double seen = p.nucleation ? 1e-2 : 1e-3;
-  schedule.rupture_slip = seen * largest_slip(p, schedule.nx, schedule.ny);
-  if (p.nucleation && lines == Lines::direct)
+  // A state that is held settles a little at t = 0. There, and without initial slip, half a line must pass.
+  const double seen = p.nucleation ? 1e-2 : 1e-3, largest = largest_slip(p, schedule.nx, schedule.ny);
+  schedule.rupture_slip = seen * largest;
+  if (lines == Lines::direct && (p.nucleation || !(largest > 0)))
     schedule.rupture_slip = std::fmax(schedule.rupture_slip, std::numbers::pi / s.chain.scale.value_or(1));
   schedule.wave_speed_ratio = s.plane->wave_speed_ratio;
   schedule.lines = s.plane->lines;

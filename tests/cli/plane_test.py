@@ -243,6 +243,34 @@ end = 3
         self.assertLess(abs(out["averaged"]["front"] - out["direct"]["front"]), 0.1)
         self.assertLess(out["averaged"]["errors"]["front"], 0.3)
 
+    def test_without_initial_slip_a_cell_ruptures_when_half_a_line_has_passed(self):
+        case = self.file("case.toml", """
+[plane]
+left = -4
+right = 4
+bottom = -4
+top = 4
+cells = 40
+edges = "absorbing"
+[initial]
+profile = "formula"
+formula = "0"
+[forcing]
+formula = "20 * exp(-x^2 - y^2)"
+[chain]
+scale = 10
+[time]
+end = 1
+""")
+        path = os.path.join(self.folder(), "out.nc")
+        out = self.plane(case, "--direct", "-o", path)
+        with netCDF4.Dataset(path) as file:
+            reached = ~np.isnan(np.ma.filled(file["rupture_time"][:], np.nan))
+            x, y = np.meshgrid(file["x"][:], file["y"][:])
+        self.assertGreater(np.count_nonzero(reached), 10)
+        self.assertLess(np.hypot(x, y)[reached].max(), 2)
+        self.assertAlmostEqual(out["ruptured_area"], np.count_nonzero(reached) * 0.2 ** 2)
+
     def test_a_grid_is_the_initial_slip(self):
         rows = "".join(f"{x / 20},{y / 20},{2 - min(2, max(1, math.hypot(x / 20, y / 20)))}\n" for x in range(-65, 66) for y in range(-65, 66))
         tables = ("[plane]\nleft = -3.2\nright = 3.2\nbottom = -3.2\ntop = 3.2\nfixed = \"x^2 + y^2 < 1\"\ncells = 40\n"
