@@ -21,13 +21,13 @@ constexpr double maps = 10;   // maps of the file, and those of the saved state
 
 double cells_of(const plane::Schedule& schedule) { return static_cast<double>(schedule.nx) * schedule.ny; }
 
-/// The largest initial slip, on the grid of the results.
+/// The largest initial slip, which no solver takes below 0, on the grid of the results.
 double largest_slip(const plane::Problem& p, int nx, int ny) {
   double largest = 0;
   for (int j = 0; j < ny; ++j)
     for (int i = 0; i < nx; ++i)
-      largest = std::fmax(largest, std::fabs(p.slip(p.left + (p.right - p.left) * (i + 0.5) / nx,
-                                                    p.bottom + (p.top - p.bottom) * (j + 0.5) / ny)));
+      largest = std::fmax(largest, p.slip(p.left + (p.right - p.left) * (i + 0.5) / nx,
+                                          p.bottom + (p.top - p.bottom) * (j + 0.5) / ny));
   return largest;
 }
 
