@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -58,14 +57,12 @@ int run_chain(const ScenarioArguments& a) {
 
 }  // namespace
 
-Runner add_chain(CLI::App& app) {
+Runner add_chain(CommandLine& program) {
   auto a = std::make_shared<ScenarioArguments>();
-  CLI::App* command =
-      app.add_subcommand("chain", "The chain, which follows every dislocation: Eqs. (1) and (3), on a scenario");
-  command->footer(
-      "Examples:"
-      "\n  slipfront chain cases/step-viscous.toml --set chain.scale=100 -o chain.nc"
-      "\n  slipfront chain cases/stick-slip.toml --check");
-  add_scenario_options(*command, *a);
+  CommandLine command =
+      program.command("chain", "The chain, which follows every dislocation: Eqs. (1) and (3), on a scenario",
+                      {"slipfront chain cases/step-viscous.toml --set chain.scale=100 -o chain.nc",
+                       "slipfront chain cases/stick-slip.toml --check"});
+  add_scenario_options(command, *a);
   return [a] { return run_chain(*a); };
 }

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <optional>
 
@@ -18,7 +17,7 @@ namespace {
 using namespace slipfront;
 using namespace slipfront::setup;
 
-struct Arguments : ScenarioArguments {
+struct CompareArguments : ScenarioArguments {
   std::vector<double> scales;
 };
 
@@ -34,7 +33,7 @@ void describe(const scenario::Scenario& s, const Comparison& c, const std::strin
                          in_results(s, c.problem.right, "b / A"), in_results(s, s.end, "b / (c A)"), in_words(need)));
 }
 
-int run_compare(const Arguments& a) {
+int run_compare(const CompareArguments& a) {
   const scenario::Scenario s = read_scenario_of(a);
   const Comparison comparison = comparison_of(s, a.scales);
   if (a.check) {
@@ -67,16 +66,13 @@ int run_compare(const Arguments& a) {
 
 }  // namespace
 
-Runner add_compare(CLI::App& app) {
-  auto a = std::make_shared<Arguments>();
-  CLI::App* command =
-      app.add_subcommand("compare", "Closed form, pulse with both closures and chain, side by side on a scenario");
-  command->footer(
-      "Examples:"
-      "\n  slipfront compare cases/step-viscous.toml");
-  add_scenario_options(*command, *a, false);
-  command->add_option("--scale", a->scales, "Scale of a chain; repeatable (default: the scenario's, or 100, 300, 1000)")
-      ->allow_extra_args(false)
-      ->type_name("S");
+Runner add_compare(CommandLine& program) {
+  auto a = std::make_shared<CompareArguments>();
+  CommandLine command =
+      program.command("compare", "Closed form, pulse with both closures and chain, side by side on a scenario",
+                      {"slipfront compare cases/step-viscous.toml"});
+  add_scenario_options(command, *a, false);
+  command.option("--scale", "S", a->scales, "Scale of a chain; repeatable (default: the scenario's, or 100, 300, 1000)")
+      .repeatable();
   return [a] { return run_compare(*a); };
 }

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -122,10 +121,10 @@ int run_doctor(bool json) {
 
 }  // namespace
 
-Runner add_doctor(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("doctor", "What works on this machine, and what to install for the rest");
-  command->footer("Examples:\n  slipfront doctor\n  slipfront doctor --json");
+Runner add_doctor(CommandLine& program) {
+  CommandLine command = program.command("doctor", "What works on this machine, and what to install for the rest",
+                                        {"slipfront doctor", "slipfront doctor --json"});
   auto json = std::make_shared<bool>(false);
-  command->add_flag("--json", *json, "One JSON object on stdout, nothing else");
+  command.flag("--json", *json, "One JSON object on stdout, nothing else");
   return [json] { return run_doctor(*json); };
 }

@@ -3,7 +3,7 @@
 #include <spawn.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -27,14 +27,14 @@ using slipfront::InputError;
 
 constexpr int usual_port = 8757;
 
-struct Arguments {
+struct ExploreArguments {
   CommonOptions common;
   std::string folder, address = "127.0.0.1";
   int port = 0;
   bool no_open = false, anyone = false;
 };
 
-std::filesystem::path page(const Arguments& a) {
+std::filesystem::path page(const ExploreArguments& a) {
   std::filesystem::path folder = a.folder.empty() ? shipped_page() : std::filesystem::path(a.folder);
   std::error_code error;
   if (std::filesystem::is_regular_file(std::filesystem::symlink_status(folder / "index.html", error))) return folder;
@@ -42,7 +42,7 @@ std::filesystem::path page(const Arguments& a) {
   throw FileError("the page has not been built; ./run explore builds it and serves it");
 }
 
-void check(const Arguments& a) {
+void check(const ExploreArguments& a) {
   if (a.port < 0 || a.port > 65535)
     throw InputError({.file = "command line",
                       .key = "--port",
@@ -65,7 +65,7 @@ void open_browser(const std::string& url) {
   posix_spawn_file_actions_destroy(&actions);
 }
 
-void announce(const Arguments& a, const std::string& folder, int port) {
+void announce(const ExploreArguments& a, const std::string& folder, int port) {
   const std::string host = a.address.find(':') == std::string::npos ? a.address : "[" + a.address + "]";
   const std::string url = fmt::format("http://{}:{}/", host, port);
   interrupted_means("; the page is no longer served");
@@ -77,7 +77,7 @@ void announce(const Arguments& a, const std::string& folder, int port) {
   if (!a.no_open) open_browser(url);
 }
 
-int serve(const Arguments& a, bool asked_port) {
+int serve(const ExploreArguments& a, bool asked_port) {
   check(a);
   const std::string folder = page(a).string();
   const std::vector<int> ports = asked_port ? std::vector{a.port} : std::vector{usual_port, 0};
@@ -87,24 +87,22 @@ int serve(const Arguments& a, bool asked_port) {
 
 }  // namespace
 
-Runner add_explore(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
-  CLI::App* command =
-      app.add_subcommand("explore", "The theory in the browser: serves the page on this machine, and opens it");
-  command->footer(
-      "Examples:"
-      "\n  slipfront explore --port 0 --no-open");
-  CLI::Option* port =
-      command->add_option("--port", arguments->port, fmt::format("Port (default: {}, or any that is free)", usual_port))
-          ->type_name("PORT");
-  command->add_flag("--no-open", arguments->no_open, "Do not open a browser");
-  command
-      ->add_option("--folder", arguments->folder,
-                   "Serve the page in this folder (default: the one next to the program)")
-      ->type_name("DIR");
-  command->add_option("--address", arguments->address, "Address to serve on (default: 127.0.0.1, this machine only)")
-      ->type_name("ADDRESS");
-  command->add_flag("--anyone", arguments->anyone, "Allow an address that other machines reach");
-  add_common_options(*command, arguments->common, false);
-  return [arguments, port] { return serve(*arguments, port->count() > 0); };
+Runner add_explore(CommandLine& program) {
+  auto arguments = std::make_shared<ExploreArguments>();
+  CommandLine command =
+      program.command("explore", "The theory in the browser: serves the page on this machine, and opens it",
+                      {"slipfront explore --port 0 --no-open"});
+  const Option port = command.option("--port", "PORT", arguments->port,
+                                     fmt::format("Port (default: {}, or any that is free)", usual_port));
+  command.flag("--no-open", arguments->no_open, "Do not open a browser");
+  command.option("--folder", "DIR", arguments->folder,
+                 "Serve the page in this folder (default: the one next to the program)");
+  command.option("--address", "ADDRESS", arguments->address,
+                 "Address to serve on (default: 127.0.0.1, this machine only)");
+  command.flag("--anyone", arguments->anyone, "Allow an address that other machines reach");
+  add_common_options(command, arguments->common, false);
+  return [arguments, port, command] {
+    const std::vector<Option> given = command.given();
+    return serve(*arguments, std::find(given.begin(), given.end(), port) != given.end());
+  };
 }

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 #include <string>
@@ -22,7 +21,7 @@ struct KeysArguments {
   bool json = false;
 };
 
-Json json_of(const Key& key) {
+Json json_of_key(const Key& key) {
   Json row;
   row["table"] = key.table;
   row["key"] = key.name;
@@ -65,7 +64,7 @@ int run_keys(const KeysArguments& arguments) {
   const std::vector<Key> keys = chosen(arguments.table);
   if (arguments.json) {
     Json all;
-    for (const Key& key : keys) all["keys"].push_back(json_of(key));
+    for (const Key& key : keys) all["keys"].push_back(json_of_key(key));
     put(text_of(all) + "\n");
     return exit_done;
   }
@@ -80,15 +79,11 @@ int run_keys(const KeysArguments& arguments) {
 
 }  // namespace
 
-Runner add_keys(CLI::App& app) {
+Runner add_keys(CommandLine& program) {
   auto arguments = std::make_shared<KeysArguments>();
-  CLI::App* command = app.add_subcommand("keys", "All keys of a scenario file, with types, units, ranges and defaults");
-  command->footer(
-      "Examples:"
-      "\n  slipfront keys pulse"
-      "\n  slipfront keys --json");
-  command->add_option("TABLE", arguments->table, "A table of the scenario, such as pulse (default: all)")
-      ->type_name("");
-  command->add_flag("--json", arguments->json, "One JSON object on stdout, nothing else");
+  CommandLine command = program.command("keys", "All keys of a scenario file, with types, units, ranges and defaults",
+                                        {"slipfront keys pulse", "slipfront keys --json"});
+  command.option("TABLE", "", arguments->table, "A table of the scenario, such as pulse (default: all)");
+  command.flag("--json", arguments->json, "One JSON object on stdout, nothing else");
   return [arguments] { return run_keys(*arguments); };
 }

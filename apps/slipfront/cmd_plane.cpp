@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -93,19 +92,17 @@ int run_plane(const ScenarioArguments& a, setup::Lines lines) {
 
 }  // namespace
 
-Runner add_plane(CLI::App& app) {
+Runner add_plane(CommandLine& program) {
   auto a = std::make_shared<ScenarioArguments>();
-  CLI::App* command = app.add_subcommand("plane", "A rupture on a fault plane, on a scenario with the table [plane]");
-  command->footer(
-      "Examples:"
-      "\n  slipfront plane cases/plane-friction.toml -o plane.nc"
-      "\n  slipfront plane cases/plane-friction.toml --set plane.loops=240 --json"
-      "\n  slipfront plane cases/plane-friction.toml --direct --set chain.scale=40"
-      "\n  slipfront plane cases/synthetic-fault.fsp -o fault.nc"
-      "\n  slipfront plane cases/plane-friction.toml --check");
-  add_scenario_options(*command, *a);
+  CommandLine command = program.command(
+      "plane", "A rupture on a fault plane, on a scenario with the table [plane]",
+      {"slipfront plane cases/plane-friction.toml -o plane.nc",
+       "slipfront plane cases/plane-friction.toml --set plane.loops=240 --json",
+       "slipfront plane cases/plane-friction.toml --direct --set chain.scale=40",
+       "slipfront plane cases/synthetic-fault.fsp -o fault.nc", "slipfront plane cases/plane-friction.toml --check"});
+  add_scenario_options(command, *a);
   auto direct = std::make_shared<bool>(false);
-  command->add_flag(
+  command.flag(
       "--direct", *direct,
       "Follow every dislocation line, as a finite-fault model always does; chain.scale sets how many there are");
   return [a, direct] { return run_plane(*a, *direct ? setup::Lines::direct : setup::Lines::averaged); };

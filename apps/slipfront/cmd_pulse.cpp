@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -75,20 +74,16 @@ int run_pulse(ScenarioArguments a, std::optional<double> tolerance) {
 
 }  // namespace
 
-Runner add_pulse(CLI::App& app) {
+Runner add_pulse(CommandLine& program) {
   auto a = std::make_shared<ScenarioArguments>();
-  CLI::App* command = app.add_subcommand("pulse", "The modulation equations with friction, Eqs. (7), on a scenario");
-  command->footer(
-      "Examples:"
-      "\n  slipfront pulse cases/fig-08.toml -o pulse.nc"
-      "\n  slipfront pulse cases/fig-08.toml --set friction.coefficient=2 --json"
-      "\n  slipfront pulse cases/fig-08.toml --check");
-  add_scenario_options(*command, *a);
+  CommandLine command = program.command("pulse", "The modulation equations with friction, Eqs. (7), on a scenario",
+                                        {"slipfront pulse cases/fig-08.toml -o pulse.nc",
+                                         "slipfront pulse cases/fig-08.toml --set friction.coefficient=2 --json",
+                                         "slipfront pulse cases/fig-08.toml --check"});
+  add_scenario_options(command, *a);
   auto tolerance = std::make_shared<std::optional<double>>();
-  command
-      ->add_option(
-          "--tolerance", *tolerance,
-          "Relative error of slip, slip velocity and stress at x = 0; pulse.cells is doubled until it is reached")
-      ->type_name("ERROR");
+  command.option(
+      "--tolerance", "ERROR", *tolerance,
+      "Relative error of slip, slip velocity and stress at x = 0; pulse.cells is doubled until it is reached");
   return [a, tolerance] { return run_pulse(*a, *tolerance); };
 }

@@ -1,6 +1,5 @@
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <cerrno>
 #include <csignal>
@@ -22,7 +21,7 @@ struct PythonCommand {
   const char* name;
   const char* help;
 };
-constexpr std::array<PythonCommand, 7> commands = {{
+constexpr std::array<PythonCommand, 7> python_commands = {{
     {"sweep", "A scenario at every point of a grid of settings"},
     {"fronts", "Fronts of a run: path, velocity, and the stress ahead"},
     {"laboratory", "Hardness over modulus from the velocities of fronts in the laboratory"},
@@ -80,13 +79,13 @@ void block_interrupts() {
 
 }  // namespace
 
-void add_python_commands(CLI::App& app) {
-  for (const PythonCommand& command : commands) app.add_subcommand(command.name, command.help);
+void add_python_commands(CommandLine program) {
+  for (const PythonCommand& command : python_commands) program.command(command.name, command.help);
 }
 
 void become_python(int argc, char** argv) {
   if (argc < 2) return;
-  for (const PythonCommand& command : commands)
+  for (const PythonCommand& command : python_commands)
     if (std::strcmp(argv[1], command.name) == 0) hand_over(command.name, argv + 2, argv + argc);
 }
 

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <cstddef>
 #include <memory>
@@ -27,15 +26,15 @@ struct Given {
   Relations (*solve)(double);
   std::vector<std::string> texts;
   std::size_t used = 0;
-  CLI::Option* parsed = nullptr;
+  std::optional<Option> parsed = {};
 };
 
-struct State {
+struct AskedState {
   const Given* given;
   StateValue at;
 };
 
-Relations solve(const State& state) {
+Relations solve(const AskedState& state) {
   try {
     return state.given->solve(state.at.value);
   } catch (const InputError& error) {
@@ -69,7 +68,7 @@ std::string csv_row(const Relations& r) {
   return row + "\n";
 }
 
-constexpr std::array<TableColumn, 9> table_columns = {{{12}, {12}, {12}, {12}, {12}, {12}, {12}, {12}, {12}}};
+constexpr std::array<TableColumn, 9> relations_columns = {{{12}, {12}, {12}, {12}, {12}, {12}, {12}, {12}, {12}}};
 
 std::vector<std::string> table_row(const Relations& r) {
   std::vector<std::string> cells;
@@ -112,7 +111,7 @@ void print_csv(const std::vector<Relations>& results, int threads) {
 }
 
 void print_table(const std::vector<Relations>& results, const RelationsUnits& units, int threads) {
-  TerminalTable table(table_columns);
+  TerminalTable table(relations_columns);
   table.add({"stress", "rupture vel", "leading vel", "ratio", "slip vel", "stress(x=0)", "U(x=0)", "psi", "psi(x=0)"});
   std::vector<std::string> names;
   for (const auto& unit : units.each) names.push_back(unit.name);
@@ -124,8 +123,8 @@ void print_table(const std::vector<Relations>& results, const RelationsUnits& un
   put(table.text());
 }
 
-int print(const std::vector<State>& states, const FrictionOptions& friction, const SiOptions& si_options,
-          const CommonOptions& options) {
+int print_relations(const std::vector<AskedState>& states, const FrictionOptions& friction, const SiOptions& si_options,
+                    const CommonOptions& options) {
   const RelationsUnits units = units_of(si_options);
   auto results =
       in_parallel<Relations>(states.size(), options.threads, [&](std::size_t i) { return solve(states[i]); });
@@ -146,10 +145,10 @@ int print(const std::vector<State>& states, const FrictionOptions& friction, con
 }
 
 /// The states of all options, in the order of the command line.
-std::vector<State> states_asked_for(const CLI::App& command, std::array<Given, 3>& all) {
-  std::vector<State> states;
+std::vector<AskedState> states_asked_for(const CommandLine& command, std::array<Given, 3>& all) {
+  std::vector<AskedState> states;
   bool stdin_taken = false;
-  for (CLI::Option* const option : command.parse_order()) {
+  for (const Option& option : command.given()) {
     for (Given& given : all) {
       if (given.parsed != option) continue;
       const std::string& text = given.texts.at(given.used++);
@@ -174,7 +173,7 @@ std::vector<State> states_asked_for(const CLI::App& command, std::array<Given, 3
 
 }  // namespace
 
-Runner add_relations(CLI::App& app) {
+Runner add_relations(CommandLine& program) {
   struct Arguments {
     CommonOptions common;
     FrictionOptions friction;
@@ -184,31 +183,27 @@ Runner add_relations(CLI::App& app) {
                                    {"--slip-velocity", slipfront::rupture::from_slip_velocity, {}}}};
   };
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand(
+  CommandLine command = program.command(
       "relations",
       "Stress, rupture velocity and slip velocity of a frictionless slip pulse, each from any other (Eqs. 8-10). With "
-      "friction: the ratio of slip velocities from the friction coefficient, or the reverse (Fig. 10)");
-  command->footer(
-      "Examples:"
-      "\n  slipfront relations --stress 1.03"
-      "\n  slipfront relations --stress 0.855 --si --contact-ratio 0.003"
-      "\n  slipfront relations --rupture-velocity 1e-9:0.9:6:log --csv"
-      "\n  slipfront relations --stress 0.855 --slip-velocity-ratio 0.5");
+      "friction: the ratio of slip velocities from the friction coefficient, or the reverse (Fig. 10)",
+      {"slipfront relations --stress 1.03", "slipfront relations --stress 0.855 --si --contact-ratio 0.003",
+       "slipfront relations --rupture-velocity 1e-9:0.9:6:log --csv",
+       "slipfront relations --stress 0.855 --slip-velocity-ratio 0.5"});
   const std::array<const char*, 3> help = {"Stress before the rupture, in mu A / pi",
                                            "Velocity of the fast front, in c", "Slip velocity at x = 0, in c A / pi"};
   for (std::size_t i = 0; i < 3; ++i) {
     Given& given = arguments->given[i];
     given.parsed = command
-                       ->add_option(given.option, given.texts,
-                                    std::string(help[i]) + "; repeatable; a:b:n or a:b:n:log for a range, - for stdin")
-                       ->allow_extra_args(false)
-                       ->type_name("VALUE");
+                       .option(given.option, "VALUE", given.texts,
+                               std::string(help[i]) + "; repeatable; a:b:n or a:b:n:log for a range, - for stdin")
+                       .repeatable();
   }
-  add_friction_options(*command, arguments->friction);
-  add_si_options(*command, arguments->si);
-  add_common_options(*command, arguments->common);
+  add_friction_options(command, arguments->friction);
+  add_si_options(command, arguments->si);
+  add_common_options(command, arguments->common);
   return [arguments, command] {
-    const std::vector<State> states = states_asked_for(*command, arguments->given);
-    return print(states, arguments->friction, arguments->si, arguments->common);
+    const std::vector<AskedState> states = states_asked_for(command, arguments->given);
+    return print_relations(states, arguments->friction, arguments->si, arguments->common);
   };
 }

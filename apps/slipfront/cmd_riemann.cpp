@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -28,7 +27,7 @@ using slipfront::rupture::ProfileQuantity;
 using slipfront::rupture::RiemannSolution;
 using slipfront::rupture::Wave;
 
-struct Arguments {
+struct RiemannArguments {
   CommonOptions common;
   SiOptions si;
   std::string left, right;
@@ -61,8 +60,8 @@ State train_of(const std::string& text, const std::string& side) {
 }
 
 /// The units of the results: that of velocities, and those of profile_quantities().
-struct Units {
-  explicit Units(const ResultUnits& units)
+struct RiemannUnits {
+  explicit RiemannUnits(const ResultUnits& units)
       : si(units.si()), c(units.of("c")), each(units.of_each(slipfront::rupture::profile_quantities())) {}
   bool si;
   slipfront::medium::UnitInSi c;
@@ -70,14 +69,14 @@ struct Units {
 };
 
 /// The values of profile_quantities() in the units of the results.
-std::vector<double> values_of(const ProfilePoint& point, const Units& units) {
+std::vector<double> values_of(const ProfilePoint& point, const RiemannUnits& units) {
   std::vector<double> values;
   for (std::size_t i = 0; i < units.each.size(); ++i)
     values.push_back(point.*slipfront::rupture::profile_quantities()[i].value * units.each[i].value);
   return values;
 }
 
-Json json_of(const State& state, const Units& units) {
+Json riemann_json(const State& state, const RiemannUnits& units) {
   Json json;
   const std::vector<double> values = values_of(slipfront::rupture::profile_point(state), units);
   for (std::size_t i = 0; i < values.size(); ++i)
@@ -85,18 +84,18 @@ Json json_of(const State& state, const Units& units) {
   return json;
 }
 
-Json json_of(const Wave& wave, double c) {
+Json riemann_json(const Wave& wave, double c) {
   return {{"kind", slipfront::rupture::name_of(wave.kind)}, {"outer", wave.outer * c}, {"inner", wave.inner * c}};
 }
 
-void print_json(const RiemannSolution& s, const Units& units) {
+void print_json(const RiemannSolution& s, const RiemannUnits& units) {
   const double c = units.c.value;
   const auto [left_edge, right_edge] = slipfront::rupture::edges_of(s);
-  Json json = {{"left", json_of(s.left, units)},
-               {"star", json_of(s.star, units)},
-               {"right", json_of(s.right, units)},
-               {"left_wave", json_of(s.left_wave, c)},
-               {"right_wave", json_of(s.right_wave, c)},
+  Json json = {{"left", riemann_json(s.left, units)},
+               {"star", riemann_json(s.star, units)},
+               {"right", riemann_json(s.right, units)},
+               {"left_wave", riemann_json(s.left_wave, c)},
+               {"right_wave", riemann_json(s.right_wave, c)},
                {"left_edge", left_edge * c},
                {"right_edge", right_edge * c}};
   if (units.si) {
@@ -110,7 +109,7 @@ void print_json(const RiemannSolution& s, const Units& units) {
 }
 
 /// The solution over x/t, from a quarter of its width on the left of its left edge to as much on the right.
-void print_csv(const RiemannSolution& s, const Units& units, int points) {
+void print_csv(const RiemannSolution& s, const RiemannUnits& units, int points) {
   std::string head = "x_over_t";
   for (const ProfileQuantity& quantity : slipfront::rupture::profile_quantities())
     head += "," + std::string(quantity.about.name);
@@ -125,12 +124,13 @@ void print_csv(const RiemannSolution& s, const Units& units, int points) {
   }
 }
 
-void print_table(const RiemannSolution& s, const Units& units) {
-  static constexpr std::array<TableColumn, 7> table_columns = {{{8, true}, {12}, {12}, {13, false}, {12}, {12}, {12}}};
+void print_table(const RiemannSolution& s, const RiemannUnits& units) {
+  static constexpr std::array<TableColumn, 7> riemann_columns = {
+      {{8, true}, {12}, {12}, {13, false}, {12}, {12}, {12}}};
   const double c = units.c.value;
   const auto number = [](double value) { return fmt::format("{:.6g}", value); };
   const auto [left_edge, right_edge] = slipfront::rupture::edges_of(s);
-  TerminalTable table(table_columns);
+  TerminalTable table(riemann_columns);
   std::vector<std::string> titles = {"", "x/t from", "to"}, names = {"", units.c.name, units.c.name};
   for (const ProfileQuantity& quantity : slipfront::rupture::profile_quantities())
     titles.emplace_back(quantity.about.name);
@@ -162,7 +162,7 @@ void print_table(const RiemannSolution& s, const Units& units) {
   put(table.text());
 }
 
-int run(const Arguments& arguments) {
+int run_riemann(const RiemannArguments& arguments) {
   const State left = train_of(arguments.left, "left"), right = train_of(arguments.right, "right");
   if (left.empty() && right.empty())
     throw InputError({.file = "command line",
@@ -170,7 +170,7 @@ int run(const Arguments& arguments) {
                       .value = arguments.left,
                       .problem = "both sides are empty",
                       .allowed = "a stress above 0 on one side"});
-  const Units units{ResultUnits(arguments.si)};
+  const RiemannUnits units{ResultUnits(arguments.si)};
   const RiemannSolution solution = slipfront::rupture::solve_riemann(left, right);
   if (arguments.common.json)
     print_json(solution, units);
@@ -183,33 +183,27 @@ int run(const Arguments& arguments) {
 
 }  // namespace
 
-Runner add_riemann(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand(
+Runner add_riemann(CommandLine& program) {
+  auto arguments = std::make_shared<RiemannArguments>();
+  CommandLine command = program.command(
       "riemann",
       "The motion without friction if two uniform trains of dislocations meet: the exact Riemann problem. Each wave "
-      "is a fan or a shock");
-  command->footer(
-      "Examples:"
-      "\n  slipfront riemann --left 0.855 --right 0"
-      "\n  slipfront riemann --left 2,0.3 --right 0.5,-0.2"
-      "\n  slipfront riemann --left 1 --right 0.5 --csv --points 400"
-      "\n  slipfront riemann --left 1 --right 0.5 --si --contact-ratio 0.003");
+      "is a fan or a shock",
+      {"slipfront riemann --left 0.855 --right 0", "slipfront riemann --left 2,0.3 --right 0.5,-0.2",
+       "slipfront riemann --left 1 --right 0.5 --csv --points 400",
+       "slipfront riemann --left 1 --right 0.5 --si --contact-ratio 0.003"});
   const auto add = [&](const char* name, std::string& text, const char* side) {
     command
-        ->add_option(name, text,
-                     std::string("Train on the ") + side +
-                         ": its stress in mu A / pi, and the velocity U of its dislocations in c (default: 0). A "
-                         "stress of 0 is the empty interface")
-        ->required()
-        ->type_name("STRESS[,U]");
+        .option(name, "STRESS[,U]", text,
+                std::string("Train on the ") + side +
+                    ": its stress in mu A / pi, and the velocity U of its dislocations in c (default: 0). A "
+                    "stress of 0 is the empty interface")
+        .required();
   };
   add("--left", arguments->left, "left");
   add("--right", arguments->right, "right");
-  command->add_option("--points", arguments->points, "Number of rows of --csv (default: 201)")
-      ->check(CLI::Range(2, 10000000))
-      ->type_name("N");
-  add_si_options(*command, arguments->si);
-  add_common_options(*command, arguments->common);
-  return [arguments] { return run(*arguments); };
+  command.option("--points", "N", arguments->points, "Number of rows of --csv (default: 201)").in_range(2, 10000000);
+  add_si_options(command, arguments->si);
+  add_common_options(command, arguments->common);
+  return [arguments] { return run_riemann(*arguments); };
 }

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 #include <utility>
@@ -85,8 +84,8 @@ void print(const scenario::Scenario& s, const std::vector<scenario::Quantity>& q
   put(fitted("cost: " + cost_of(s)) + "\n");
 }
 
-Json json_of(const scenario::Scenario& s, const std::vector<scenario::Quantity>& quantities,
-             const setup::Numbers& numbers) {
+Json json_of_units(const scenario::Scenario& s, const std::vector<scenario::Quantity>& quantities,
+                   const setup::Numbers& numbers) {
   Json all;
   for (const scenario::Scale& scale : scenario::scales_of(s.medium))
     all["units"].push_back(
@@ -109,7 +108,7 @@ int run_units(const ScenarioArguments& a) {
   const auto quantities = scenario::quantities_of(s.text, s.file, {});
   const setup::Numbers numbers = setup::numbers_of(s);
   if (a.common.json)
-    put(text_of(json_of(s, quantities, numbers)) + "\n");
+    put(text_of(json_of_units(s, quantities, numbers)) + "\n");
   else
     print(s, quantities, numbers);
   return exit_done;
@@ -117,16 +116,14 @@ int run_units(const ScenarioArguments& a) {
 
 }  // namespace
 
-Runner add_units(CLI::App& app) {
+Runner add_units(CommandLine& program) {
   auto a = std::make_shared<ScenarioArguments>();
-  CLI::App* command = app.add_subcommand(
+  CommandLine command = program.command(
       "units",
-      "The numbers of a scenario in the units of the model and in SI units, and those that decide its behaviour");
-  command->footer(
-      "Examples:"
-      "\n  slipfront units cases/rate-and-state.toml"
-      "\n  slipfront units cases/stick-slip.toml --set medium.contact_ratio=0.01 medium.asperity_spacing='1 mm'");
-  add_scenario_words(*command, *a);
-  add_common_options(*command, a->common, false);
+      "The numbers of a scenario in the units of the model and in SI units, and those that decide its behaviour",
+      {"slipfront units cases/rate-and-state.toml",
+       "slipfront units cases/stick-slip.toml --set medium.contact_ratio=0.01 medium.asperity_spacing='1 mm'"});
+  add_scenario_words(command, *a);
+  add_common_options(command, a->common, false);
   return [a] { return run_units(*a); };
 }

@@ -1,8 +1,6 @@
 #include "commands.hpp"
 
-#include <CLI/CLI.hpp>
-
-using AddCommand = Runner(CLI::App& app);
+using AddCommand = Runner(CommandLine& program);
 
 // One line a subcommand, in the order of --help; each is defined in cmd_<name>.cpp.
 #define SLIPFRONT_COMMANDS(COMMAND) \
@@ -21,7 +19,7 @@ using AddCommand = Runner(CLI::App& app);
 #define DECLARE(name) AddCommand add_##name;
 SLIPFRONT_COMMANDS(DECLARE)
 
-std::vector<Command> add_commands(CLI::App& app) {
-#define ADD(name) {#name, add_##name(app)},
+std::vector<Command> add_commands(CommandLine program) {
+#define ADD(name) {#name, add_##name(program)},
   return {SLIPFRONT_COMMANDS(ADD)};
 }

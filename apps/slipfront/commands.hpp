@@ -5,11 +5,10 @@
 #include <string_view>
 #include <vector>
 
+#include "command_line.hpp"
+
 namespace slipfront {
 class Ranks;
-}
-namespace CLI {
-class App;
 }
 
 /// Options of every subcommand.
@@ -24,7 +23,7 @@ struct CommonOptions {
 enum ExitCode { exit_done = 0, exit_input = 2, exit_file = 3, exit_numerics = 4, exit_interrupted = 130 };
 
 /// Adds --json, --csv (if the output has rows), --quiet and --threads.
-void add_common_options(CLI::App& command, CommonOptions& options, bool with_csv = true);
+void add_common_options(CommandLine& command, CommonOptions& options, bool with_csv = true);
 
 /// Prints one line on stderr that begins with the name of the program.
 void complain(std::string_view line);
@@ -36,10 +35,10 @@ struct Command {
   Runner run;
 };
 /// Adds the subcommands that are written in C++ (commands.cpp).
-std::vector<Command> add_commands(CLI::App& app);
+std::vector<Command> add_commands(CommandLine program);
 
 /// Adds the subcommands that are written in Python to the help.
-void add_python_commands(CLI::App& app);
+void add_python_commands(CommandLine program);
 /// Replaces this process by Python if the first argument names one of these subcommands. Otherwise it returns.
 /// \throws FileError if the package or the interpreter is missing.
 void become_python(int argc, char** argv);

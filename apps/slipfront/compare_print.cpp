@@ -16,18 +16,18 @@ using namespace slipfront::setup;
 
 namespace {
 
-using Units = std::optional<medium::SiUnits>;
+using CompareUnits = std::optional<medium::SiUnits>;
 
 /// The unit of a key in the units of the results.
-medium::UnitInSi unit_of(const Units& units, std::string_view key) {
+medium::UnitInSi unit_of(const CompareUnits& units, std::string_view key) {
   return units ? units->of(run::unit_of(key)) : medium::UnitInSi{};
 }
 
-double last(const Level& level, const Quantity& quantity, const Units& units) {
+double last(const Level& level, const Quantity& quantity, const CompareUnits& units) {
   return quantity.get(level.snapshots.back()) * unit_of(units, quantity.key).value;
 }
 
-Json json_level(const Level& level, const Level* reference, const Units& units) {
+Json json_level(const Level& level, const Level* reference, const CompareUnits& units) {
   const output::Snapshot& s = level.snapshots.back();
   Json j = {{"level", level.name},
             {"closure", level.closure.empty() ? Json() : Json(level.closure)},
@@ -51,7 +51,7 @@ Json json_level(const Level& level, const Level* reference, const Units& units) 
 
 void print_json(const scenario::Scenario& s, const std::vector<Level>& levels) {
   const std::optional<double> C = s.friction.linear_coefficient();
-  const Units& units = s.results_in;
+  const CompareUnits& units = s.results_in;
   Json j = {{"time", s.end * unit_of(units, "time").value},
             {"friction_coefficient", json_of(C)},
             {"damping_number", C ? Json(*C * s.end) : Json()},
@@ -86,21 +86,21 @@ std::string cell(double value) { return std::isfinite(value) ? fmt::format("{:.5
 /// Slip and slip velocities differ by a share of the reference, fronts by a length.
 bool is_front(const Quantity& q) { return std::string_view(q.key).find("front") != std::string_view::npos; }
 
-std::string difference_cell(double difference, double theory, const Quantity& q, const Units& units) {
+std::string difference_cell(double difference, double theory, const Quantity& q, const CompareUnits& units) {
   if (is_front(q) && units) return std::isfinite(difference) ? fmt::format("{:+.3g}", difference) : cell(difference);
   if (is_front(q)) return std::isfinite(difference) ? fmt::format("{:+.5f}", difference) : cell(difference);
   const double percent = 100 * difference / theory;
   return std::isfinite(percent) ? fmt::format("{:+.3f} %", percent) : cell(percent);
 }
 
-constexpr std::array<TableColumn, 8> table_columns = {{{18, true},
-                                                       {13, false, 0},
-                                                       {13, false, 0},
-                                                       {13, false, 0},
-                                                       {13, false, 0},
-                                                       {13, false, 0},
-                                                       {13, false, 0},
-                                                       {10, false, 0}}};
+constexpr std::array<TableColumn, 8> compare_columns = {{{18, true},
+                                                         {13, false, 0},
+                                                         {13, false, 0},
+                                                         {13, false, 0},
+                                                         {13, false, 0},
+                                                         {13, false, 0},
+                                                         {13, false, 0},
+                                                         {10, false, 0}}};
 
 using Cells = std::vector<std::string>;
 
@@ -112,7 +112,7 @@ void add_row(TerminalTable& table, const std::string& name, Cell&& cell) {
   table.add(std::move(cells));
 }
 
-void add_levels(TerminalTable& table, const std::vector<Level>& levels, const Units& units) {
+void add_levels(TerminalTable& table, const std::vector<Level>& levels, const CompareUnits& units) {
   Cells head = {"at the end"};
   for (const Quantity& q : compared_quantities()) head.emplace_back(q.heading);
   head.emplace_back("seconds");
@@ -128,7 +128,7 @@ void add_levels(TerminalTable& table, const std::vector<Level>& levels, const Un
 }
 
 void add_differences(TerminalTable& table, const std::vector<Level>& levels, const Level& reference,
-                     const Units& units) {
+                     const CompareUnits& units) {
   const auto theory = [&](const Quantity& q) { return last(reference, q, units); };
   const auto unit = [&](const Quantity& q) { return unit_of(units, q.key).value; };
   table.add_title("");
@@ -152,7 +152,7 @@ void print_table(const scenario::Scenario& s, const std::vector<Level>& levels) 
   put(fitted(fmt::format("{}{}t = {}, {}", s.title, s.title.empty() ? "" : ": ", in_results(s, s.end, "b / (c A)"),
                          friction_in_words(s.friction, s.end))));
   put("\n");
-  TerminalTable table(table_columns);
+  TerminalTable table(compare_columns);
   add_levels(table, levels, s.results_in);
   const Level* reference = reference_level(levels);
   if (reference) add_differences(table, levels, *reference, s.results_in);

@@ -10,12 +10,12 @@
 namespace {
 
 using slipfront::finite_fault::FaultPulse;
-using slipfront::inference::Estimate;
+using EventEstimate = slipfront::inference::Estimate;
 using slipfront::inference::Inferred;
 using slipfront::results::EventResult;
 
 constexpr std::size_t name_width = 34;
-constexpr std::array<TableColumn, 10> table_columns = {
+constexpr std::array<TableColumn, 10> event_columns = {
     {{name_width, true}, {12}, {12}, {9}, {9}, {12}, {12}, {11}, {9}, {9}}};
 
 /// The name of an event. Of a longer one only the first `name_width` characters.
@@ -27,29 +27,30 @@ std::string name_cell(const std::string& name) {
 }
 
 /// An inferred quantity and its column. If only a lower bound is known, the column shows `bound`.
-struct Column {
+struct InferredColumn {
   std::size_t cell;
-  std::optional<Inferred> Estimate::*value;
+  std::optional<Inferred> EventEstimate::*value;
   double unit = 1;
   int digits = 4;
-  std::optional<Inferred> Estimate::*bound = nullptr;
+  std::optional<Inferred> EventEstimate::*bound = nullptr;
 
-  bool is_bound(const Estimate& e) const { return bound && e.*bound; }
-  const std::optional<Inferred>& of(const Estimate& e) const { return is_bound(e) ? e.*bound : e.*value; }
+  bool is_bound(const EventEstimate& e) const { return bound && e.*bound; }
+  const std::optional<Inferred>& of(const EventEstimate& e) const { return is_bound(e) ? e.*bound : e.*value; }
 };
-constexpr std::array<Column, 7> columns = {{{3, &Estimate::rupture_velocity},
-                                            {4, &Estimate::stress, 1, 4, &Estimate::stress_bound},
-                                            {5, &Estimate::frictionless_slip_velocity},
-                                            {6, &Estimate::slip_velocity_ratio},
-                                            {7, &Estimate::contact_ratio, 1, 3, &Estimate::contact_ratio_bound},
-                                            {8, &Estimate::stress_pa, 1e6, 4, &Estimate::stress_pa_bound},
-                                            {9, &Estimate::damping_number, 1, 3}}};
+constexpr std::array<InferredColumn, 7> inferred_columns = {
+    {{3, &EventEstimate::rupture_velocity},
+     {4, &EventEstimate::stress, 1, 4, &EventEstimate::stress_bound},
+     {5, &EventEstimate::frictionless_slip_velocity},
+     {6, &EventEstimate::slip_velocity_ratio},
+     {7, &EventEstimate::contact_ratio, 1, 3, &EventEstimate::contact_ratio_bound},
+     {8, &EventEstimate::stress_pa, 1e6, 4, &EventEstimate::stress_pa_bound},
+     {9, &EventEstimate::damping_number, 1, 3}}};
 
 /// Adds a line with one end of each interval below the values, if there are intervals.
-void add_interval_line(TerminalTable& table, const Estimate& e, const char* label,
+void add_interval_line(TerminalTable& table, const EventEstimate& e, const char* label,
                        double slipfront::inference::Interval::*end) {
   std::vector<std::string> cells = {label};
-  for (const Column& c : columns) {
+  for (const InferredColumn& c : inferred_columns) {
     const auto& x = c.of(e);
     if (!x || !x->interval) continue;
     cells.resize(c.cell);
@@ -72,7 +73,7 @@ std::string front_text(const std::optional<double>& v) {
 }
 
 TerminalTable event_table_head() {
-  TerminalTable table(table_columns);
+  TerminalTable table(event_columns);
   table.add({"", "observed", "observed"});
   table.add({"", "rupture", "slip", "", "stress", "frictionless", "observed /", "contact", "stress", "damping"});
   table.add(
@@ -81,19 +82,19 @@ TerminalTable event_table_head() {
 }
 
 TerminalTable event_table_row(const EventResult& result) {
-  TerminalTable table(table_columns);
+  TerminalTable table(event_columns);
   std::string name = name_cell(result.observation.name);
   if (!result.estimate) {
     name.append(name_width - characters(name), ' ');
     table.add_note(name + " error: " + result.error);
     return table;
   }
-  const Estimate& e = *result.estimate;
-  std::vector<std::string> cells(table_columns.size());
+  const EventEstimate& e = *result.estimate;
+  std::vector<std::string> cells(event_columns.size());
   cells[0] = std::move(name);
   cells[1] = front_text(e.observed_rupture_velocity_m_s);
   cells[2] = speed_text(e.observed_slip_velocity_m_s);
-  for (const Column& c : columns) {
+  for (const InferredColumn& c : inferred_columns) {
     const auto& x = c.of(e);
     cells[c.cell] = x ? fmt::format("{}{:.{}g}", c.is_bound(e) ? ">=" : "", x->value / c.unit, c.digits) : "-";
   }

@@ -2,12 +2,18 @@
 /// \file
 /// How the program writes JSON.
 
+#include <fmt/format.h>
+
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
 /// Keys keep their order. A number that is NaN or infinite becomes null.
 using Json = nlohmann::ordered_json;
+
+/// An error with three digits, because it is not known more precisely.
+inline double rounded(double error) { return std::strtod(fmt::format("{:.3g}", error).c_str(), nullptr); }
 
 inline Json json_of(const std::optional<double>& x) { return x ? Json(*x) : Json(); }
 

@@ -1,6 +1,5 @@
 #include "long_run.hpp"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -17,8 +16,6 @@ using namespace slipfront;
 
 namespace {
 
-constexpr int most_words = 1000;
-
 /// Divides the positional arguments into the scenario and further values of one --set, as in --set a.b=1 c.d=2.
 void take_words(ScenarioArguments& a, const std::vector<std::string>& words) {
   for (const std::string& word : words) {
@@ -32,7 +29,7 @@ void take_words(ScenarioArguments& a, const std::vector<std::string>& words) {
   }
 }
 
-/// The error in the name of an output, as a text for CLI11. Empty if there is none.
+/// The error in the name of an output, as a text for the parser. Empty if there is none.
 std::string netcdf_name(const std::string& path) {
   try {
     record::require_netcdf_name(path, "-o");
@@ -44,34 +41,29 @@ std::string netcdf_name(const std::string& path) {
 
 }  // namespace
 
-void add_scenario_words(CLI::App& command, ScenarioArguments& a) {
+void add_scenario_words(CommandLine& command, ScenarioArguments& a) {
   command
-      .add_option_function<std::vector<std::string>>(
+      .arguments(
           "SCENARIO", [&a](const std::vector<std::string>& words) { take_words(a, words); }, "Scenario file, TOML")
-      ->required()
-      ->expected(1, most_words)
-      ->type_name("");
-  command.add_option("--set", a.set, "table.key=value, which replaces that of the scenario; repeatable")
-      ->allow_extra_args(false)
-      ->type_name("KEY=VALUE");
+      .required();
+  command.option("--set", "KEY=VALUE", a.set, "table.key=value, which replaces that of the scenario; repeatable")
+      .repeatable();
 }
 
-void add_scenario_options(CLI::App& command, ScenarioArguments& a, bool with_resume) {
+void add_scenario_options(CommandLine& command, ScenarioArguments& a, bool with_resume) {
   add_scenario_words(command, a);
   command
-      .add_option("-o,--output", a.output, "NetCDF file to write; an existing file is replaced at the end of the run")
-      ->check(netcdf_name)
-      ->type_name("OUT.nc");
+      .option("-o,--output", "OUT.nc", a.output,
+              "NetCDF file to write; an existing file is replaced at the end of the run")
+      .checked_by(netcdf_name);
   if (with_resume)
-    command
-        .add_option("--resume", a.resume,
-                    "Resume from a file of this scenario, also to a later time.end, and write to it")
-        ->type_name("OUT.nc");
-  CLI::Option* const si = command.add_flag(
+    command.option("--resume", "OUT.nc", a.resume,
+                   "Resume from a file of this scenario, also to a later time.end, and write to it");
+  const Option si = command.flag(
       "--si", a.si, "Results in SI units (default if the scenario has values with units outside of [medium])");
-  command.add_flag("--dimensionless", a.dimensionless, "Results in the units of the model (default otherwise)")
-      ->excludes(si);
-  command.add_flag("--check", a.check, "Read and check the scenario, print what would run, and stop");
+  command.flag("--dimensionless", a.dimensionless, "Results in the units of the model (default otherwise)")
+      .excludes(si);
+  command.flag("--check", a.check, "Read and check the scenario, print what would run, and stop");
   add_common_options(command, a.common, false);
 }
 
@@ -141,7 +133,7 @@ std::string table_of(const std::vector<output::SlipEvent>& events, const scenari
   return count + table.text();
 }
 
-Json json_of(const std::vector<output::SlipEvent>& events, const scenario::Scenario& scenario) {
+Json json_of_events(const std::vector<output::SlipEvent>& events, const scenario::Scenario& scenario) {
   Json all = Json::array();
   for (const output::SlipEvent& event : events) {
     Json row;
@@ -151,9 +143,6 @@ Json json_of(const std::vector<output::SlipEvent>& events, const scenario::Scena
   }
   return all;
 }
-
-/// Rounds to three digits, because an error is not known more precisely.
-double rounded(double error) { return std::strtod(fmt::format("{:.3g}", error).c_str(), nullptr); }
 
 /// The units of the rows and of the events, unless they are numbers.
 Json json_units(const std::vector<run::SummaryValue>& summary, const std::vector<output::SlipEvent>* events,
@@ -176,7 +165,7 @@ std::string summary_json(const std::vector<run::SummaryValue>& summary, const st
   if (!errors.empty()) j["errors"] = Json::object();
   for (std::size_t i = 0; i < errors.size(); ++i)
     if (std::isfinite(errors[i])) j["errors"][summary[i].key] = rounded(errors[i]);
-  if (events) j["events"] = json_of(*events, scenario);
+  if (events) j["events"] = json_of_events(*events, scenario);
   if (scenario.results_in) {
     j["unit_system"] = "SI";
     j["units"] = json_units(summary, events, scenario);

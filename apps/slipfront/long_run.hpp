@@ -26,8 +26,8 @@ struct ScenarioArguments {
 };
 
 /// Adds SCENARIO and --set.
-void add_scenario_words(CLI::App& command, ScenarioArguments& arguments);
-void add_scenario_options(CLI::App& command, ScenarioArguments& arguments, bool with_resume = true);
+void add_scenario_words(CommandLine& command, ScenarioArguments& arguments);
+void add_scenario_options(CommandLine& command, ScenarioArguments& arguments, bool with_resume = true);
 
 /// \throws InputError if no scenario or a second one is given.
 void require_one_scenario(const ScenarioArguments& arguments);

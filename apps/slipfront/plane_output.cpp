@@ -14,15 +14,10 @@ using namespace slipfront;
 
 namespace {
 
-Json json_of(const run::PlaneRow& row) {
+Json json_of_row(const run::PlaneRow& row) {
   if (row.is_list) return row.values;
   if (row.is_whole) return static_cast<long>(row.values.front());
   return row.values.front();
-}
-
-/// An error with three digits, because it is not known more precisely.
-double rounded(double error) {
-  return std::isfinite(error) ? std::strtod(fmt::format("{:.3g}", error).c_str(), nullptr) : error;
 }
 
 /// The values, errors and units of rows as JSON objects.
@@ -31,7 +26,7 @@ struct JsonParts {
 
   void add(const std::vector<run::PlaneRow>& rows, const scenario::Scenario& s) {
     for (const run::PlaneRow& row : rows) {
-      values[row.key] = json_of(row);
+      values[row.key] = json_of_row(row);
       if (s.results_in && !row.unit.empty()) units[row.key] = row.unit;
       if (std::none_of(row.errors.begin(), row.errors.end(), [](double e) { return std::isfinite(e); })) continue;
       if (row.is_list)

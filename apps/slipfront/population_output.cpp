@@ -46,7 +46,7 @@ std::string stress_text(const Spread& known, const Spread& bound) {
   return (known.events > 0 ? spread_text(known, 1e6) + ", " : "") + ">= " + spread_text(bound, 1e6);
 }
 
-constexpr std::array<TableColumn, 8> table_columns = {
+constexpr std::array<TableColumn, 8> population_columns = {
     {{13, true}, {7}, {16}, {11}, {24, true, 2}, {35, true}, {32, true}, {0, true}}};
 
 }  // namespace
@@ -95,7 +95,7 @@ std::string population_table(const std::vector<Decade>& decades, std::size_t eve
       "{} of {} events have a rupture velocity{}. Medians (5 % to 95 %) are over the events of a decade. "
       "The closed form is that in the middle of the decade.",
       binned, events, errors > 0 ? fmt::format(" ({} refused)", errors) : "");
-  TerminalTable table(table_columns);
+  TerminalTable table(population_columns);
   table.add({"", "", "rupture", "stress by"});
   table.add({"V / c", "events", "velocity", "closed form", "stress, mu A / pi", "slip velocity", "contact ratio A",
              "stress, MPa"});

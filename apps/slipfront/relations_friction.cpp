@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <cmath>
 
@@ -30,20 +29,20 @@ struct Row {
 constexpr double threshold = 1e-3;
 
 /// The numbers of a row, with their names in JSON and CSV. The closure is in front of them.
-struct Column {
+struct FrictionColumn {
   const char* name;
   double Row::*value;
 };
-constexpr std::array<Column, 10> columns = {{{"stress", &Row::stress},
-                                             {"rupture_velocity", &Row::rupture_velocity},
-                                             {"slip_velocity_ratio", &Row::ratio},
-                                             {"slip_velocity_ratio_error", &Row::ratio_error},
-                                             {"damping_number", &Row::damping_number},
-                                             {"friction_coefficient", &Row::coefficient},
-                                             {"friction_coefficient_error", &Row::coefficient_error},
-                                             {"slip_velocity", &Row::slip_velocity},
-                                             {"front_ratio", &Row::front_ratio},
-                                             {"stress_drop_share", &Row::stress_drop_share}}};
+constexpr std::array<FrictionColumn, 10> friction_columns = {{{"stress", &Row::stress},
+                                                              {"rupture_velocity", &Row::rupture_velocity},
+                                                              {"slip_velocity_ratio", &Row::ratio},
+                                                              {"slip_velocity_ratio_error", &Row::ratio_error},
+                                                              {"damping_number", &Row::damping_number},
+                                                              {"friction_coefficient", &Row::coefficient},
+                                                              {"friction_coefficient_error", &Row::coefficient_error},
+                                                              {"slip_velocity", &Row::slip_velocity},
+                                                              {"front_ratio", &Row::front_ratio},
+                                                              {"stress_drop_share", &Row::stress_drop_share}}};
 
 Row from_ratio(const Relations& r, Closure closure, const char* name, friction_ratio::Measure measure, double ratio,
                double time) {
@@ -103,12 +102,12 @@ void print_json(const std::vector<Row>& rows, const FrictionOptions& friction, c
   Json j = {{"measure", friction.measure}, {"time", friction.time}, {"friction", Json::array()}};
   for (const Row& row : rows) {
     Json one = {{"closure", row.closure}};
-    for (const Column& column : columns) one[column.name] = row.*column.value;
+    for (const FrictionColumn& column : friction_columns) one[column.name] = row.*column.value;
     j["friction"].push_back(one);
   }
   if (units.si) {
     j["unit_system"] = "SI";
-    for (const Column& column : columns)
+    for (const FrictionColumn& column : friction_columns)
       if (const auto unit = unit_of(column.name, units); !unit.name.empty()) j["units"][column.name] = unit.name;
   }
   put(text_of(j) + "\n");
@@ -116,11 +115,11 @@ void print_json(const std::vector<Row>& rows, const FrictionOptions& friction, c
 
 void print_csv(const std::vector<Row>& rows) {
   std::string head = "closure";
-  for (const Column& column : columns) head += std::string(",") + column.name;
+  for (const FrictionColumn& column : friction_columns) head += std::string(",") + column.name;
   put(head + "\n");
   for (const Row& row : rows) {
     std::string text = row.closure;
-    for (const Column& column : columns) text += fmt::format(",{}", row.*column.value);
+    for (const FrictionColumn& column : friction_columns) text += fmt::format(",{}", row.*column.value);
     put(text + "\n");
   }
 }
@@ -166,21 +165,20 @@ void check(const char* option, double value, bool zero_too) {
 
 }  // namespace
 
-void add_friction_options(CLI::App& command, FrictionOptions& options) {
-  const auto one_each = [](CLI::Option* option) { option->allow_extra_args(false)->type_name("VALUE"); };
-  one_each(command.add_option("--slip-velocity-ratio", options.ratios,
-                              "Ratio of the slip velocity with viscous friction to the frictionless one; prints the "
-                              "friction coefficient C for both closures; repeatable"));
-  one_each(command.add_option("--friction-coefficient", options.coefficients,
-                              "Coefficient C of viscous friction f = C w; prints that ratio; repeatable"));
+void add_friction_options(CommandLine& command, FrictionOptions& options) {
   command
-      .add_option("--time", options.time,
-                  "Time T since the rupture began, in b / (c A); only C T matters (default: 2 pi)")
-      ->type_name("T");
+      .option("--slip-velocity-ratio", "VALUE", options.ratios,
+              "Ratio of the slip velocity with viscous friction to the frictionless one; prints the friction "
+              "coefficient C for both closures; repeatable")
+      .repeatable();
   command
-      .add_option("--measure", options.measure,
-                  "Which slip velocity: origin (x = 0 at T; default), mean, peak or time-mean (slip over duration)")
-      ->type_name("NAME:{origin,mean,peak,time-mean}");
+      .option("--friction-coefficient", "VALUE", options.coefficients,
+              "Coefficient C of viscous friction f = C w; prints that ratio; repeatable")
+      .repeatable();
+  command.option("--time", "T", options.time,
+                 "Time T since the rupture began, in b / (c A); only C T matters (default: 2 pi)");
+  command.option("--measure", "NAME:{origin,mean,peak,time-mean}", options.measure,
+                 "Which slip velocity: origin (x = 0 at T; default), mean, peak or time-mean (slip over duration)");
 }
 
 void print_friction(const std::vector<Relations>& states, const FrictionOptions& friction, const RelationsUnits& units,
@@ -189,7 +187,7 @@ void print_friction(const std::vector<Relations>& states, const FrictionOptions&
   for (const double c : friction.coefficients) check("--friction-coefficient", c, true);
   std::vector<Row> rows = of_command_line([&] { return rows_of(states, friction); });
   for (Row& row : rows)
-    for (const Column& column : columns) row.*column.value *= unit_of(column.name, units).value;
+    for (const FrictionColumn& column : friction_columns) row.*column.value *= unit_of(column.name, units).value;
   if (options.json)
     print_json(rows, friction, units);
   else if (options.csv)

@@ -18,7 +18,7 @@ struct FrictionOptions {
   bool wanted() const { return !ratios.empty() || !coefficients.empty(); }
 };
 
-void add_friction_options(CLI::App& command, FrictionOptions& options);
+void add_friction_options(CommandLine& command, FrictionOptions& options);
 
 /// The unit of each of relations_quantities() in the results.
 struct RelationsUnits {

@@ -1,20 +1,17 @@
 #include "si_options.hpp"
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 
 #include "slipfront/error.hpp"
 
-void add_si_options(CLI::App& command, SiOptions& options) {
-  CLI::Option* const si = command.add_flag("--si", options.si, "Results in SI units; needs --contact-ratio");
-  command.add_option("--contact-ratio", options.contact_ratio, "Contact ratio A, for --si")
-      ->check(CLI::Range(1e-300, 1.0))
-      ->type_name("A")
-      ->needs(si);
+void add_si_options(CommandLine& command, SiOptions& options) {
+  const Option si = command.flag("--si", options.si, "Results in SI units; needs --contact-ratio");
+  command.option("--contact-ratio", "A", options.contact_ratio, "Contact ratio A, for --si")
+      .in_range(1e-300, 1.0)
+      .needs(si);
   const auto add = [&](const char* name, std::string& text, const char* otherwise, const char* type) {
-    command.add_option(name, text, std::string("Constant of the rock, for --si (default: ") + otherwise + ")")
-        ->type_name(type)
-        ->needs(si);
+    command.option(name, type, text, std::string("Constant of the rock, for --si (default: ") + otherwise + ")")
+        .needs(si);
   };
   add("--p-wave-speed", options.rock.p_wave_speed, "6 km/s", "SPEED");
   add("--poisson-ratio", options.rock.poisson_ratio, "0.3", "RATIO");

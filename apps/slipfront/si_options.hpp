@@ -6,12 +6,9 @@
 #include <string_view>
 #include <vector>
 
+#include "command_line.hpp"
 #include "slipfront/medium/constants.hpp"
 #include "slipfront/medium/si_units.hpp"
-
-namespace CLI {
-class App;
-}
 
 /// Options for results in SI units.
 struct SiOptions {
@@ -20,7 +17,7 @@ struct SiOptions {
   slipfront::medium::StatedDefaults rock;
 };
 
-void add_si_options(CLI::App& command, SiOptions& options);
+void add_si_options(CommandLine& command, SiOptions& options);
 
 /// The units of results: those of the model, or SI units.
 class ResultUnits {
