@@ -42,7 +42,7 @@ struct Quantity {
   const char* name;
   std::optional<Measured> Observation::*member;
 };
-constexpr std::array<Quantity, 4> quantities = {{{"rupture_velocity", &Observation::rupture_velocity_m_s},
+constexpr std::array<Quantity, 4> observables = {{{"rupture_velocity", &Observation::rupture_velocity_m_s},
                                                  {"slip", &Observation::slip},
                                                  {"rise_time", &Observation::rise_time},
                                                  {"duration", &Observation::duration}}};
@@ -53,7 +53,7 @@ py::dict row_of(const catalogue::Entry& entry, const medium::Defaults& defaults)
   row["name"] = o.name, row["kind"] = o.kind, row["citation"] = o.citation, row["line"] = o.line;
   row["front_threshold"] = o.front_threshold;
   row["rupture_velocity_is"] = catalogue::name_of(o.rupture_velocity_is);
-  for (const Quantity& q : quantities) {
+  for (const Quantity& q : observables) {
     const auto [median, deviation] = logarithm_of(o.*q.member);
     row[q.name] = py::make_tuple(median, deviation);
   }

@@ -107,7 +107,7 @@ py::list lines_of(const plane::Run& run, Describer& described_in) {
 
 /// Returns {attributes, axes, fields, maps, lines, series, spectrum, warnings, units, summary, errors} for the Python
 /// part.
-py::dict dataset_of(const scenario::Scenario& s, const run::PlanePlan& plan, const run::PlaneResult& result,
+py::dict plane_dataset(const scenario::Scenario& s, const run::PlanePlan& plan, const run::PlaneResult& result,
                     const run::PlaneNumbers& errors) {
   const plane::Run& run = *result.run;
   const Shape cells = {plan.grid.ny, plan.grid.nx};
@@ -180,7 +180,7 @@ py::dict run_plane(const py::dict& arguments, bool direct, bool with_errors, int
                  : run::unknown_errors(result.numbers);
   }
   watch.finish();
-  py::dict data = dataset_of(s, plan, result, errors);
+  py::dict data = plane_dataset(s, plan, result, errors);
   if (all.model && result.finished()) add_model(data, *all.model, s, result);
   return data;
 }

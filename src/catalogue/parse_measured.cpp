@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "catalogue/plain_text.hpp"
+#include "foundation/text/characters.hpp"
 #include "foundation/text/nearest.hpp"
 #include "foundation/text/trimmed.hpp"
 #include "slipfront/catalogue/measured.hpp"
@@ -26,8 +27,6 @@ struct Parts {
   bool percent = false;    ///< the second number is a percentage of the first
   std::string third = {};  ///< the error below the value, if `second` is only that above
 };
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 /// Removes the number that `text` begins with, and returns it as it is written. Empty if there is none.
 std::string take_number(std::string_view& text, bool may_have_sign) {

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "foundation/text/characters.hpp"
 #include "foundation/text/trimmed.hpp"
 #include "medium/units.hpp"
 
 namespace slipfront::catalogue {
 namespace {
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 void replace_all(std::string& text, std::string_view from, std::string_view to) {
   for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))

@@ -4,13 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "foundation/math/constants.hpp"
 #include "slipfront/rupture/relations.hpp"
 
 namespace slipfront::catalogue {
 
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// k with 10^k <= V < 10^(k + 1), whatever log10 rounds to.
 int exponent_of(double V) {

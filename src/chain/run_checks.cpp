@@ -7,13 +7,13 @@
 #include <utility>
 
 #include "chain/model/barrier.hpp"
+#include "foundation/math/constants.hpp"
 #include "foundation/text/digits.hpp"
 
 namespace slipfront::chain {
 namespace {
 
 using output::Findings;
-constexpr double turn = 2 * std::numbers::pi;
 
 /// Whether the chain contains only the dislocations of the start. A force can create others anywhere. At a free end
 /// they can enter, and around a ring they return.

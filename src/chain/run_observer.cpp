@@ -10,6 +10,7 @@
 #include "chain/measure/average.hpp"
 #include "chain/measure/dislocations.hpp"
 #include "chain/measure/smooth_average.hpp"
+#include "foundation/math/constants.hpp"
 #include "foundation/text/digits.hpp"
 #include "output/further_scalars.hpp"
 #include "slipfront/error.hpp"
@@ -19,7 +20,6 @@ namespace slipfront::chain {
 namespace {
 
 using output::Snapshot;
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// Number of dislocations in the window of velocities and stresses (smooth_average). Their ripple is then some 0.1 %.
 constexpr double dislocations_in_window = 8;

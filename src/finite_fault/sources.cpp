@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "foundation/text/characters.hpp"
 #include "foundation/text/digits.hpp"
 
 namespace slipfront::finite_fault {
@@ -13,8 +14,6 @@ using inference::Estimate;
 using inference::estimate;
 
 namespace {
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 /// Groups of digits in a date such as 2004-09-28 or 09/28/2004, up to a blank or a T, after which comes the time of
 /// day.

@@ -20,7 +20,7 @@ namespace {
 std::size_t index_of(friction::Closure closure) { return closure == friction::Closure::paper ? 1 : 0; }
 
 /// ln(1 + Gamma) at the ends of the pieces.
-const std::array<double, front_layout::pieces + 1> ends = [] {
+const std::array<double, front_layout::pieces + 1> log_ends = [] {
   std::array<double, front_layout::pieces + 1> u{};
   for (std::size_t i = 0; i < u.size(); ++i) u[i] = std::log1p(front_layout::ends[i]);
   return u;
@@ -36,8 +36,8 @@ Along<n_y> at_damping_number(const Number* pieces, double damping) {
   if (!(damping >= 0) || std::isinf(damping)) refuse("damping_number", damping, ">= 0, finite");
   const double u = std::log1p(std::fmin(damping, layout::most_damping));
   std::size_t piece = 0;
-  while (piece + 1 < front_layout::pieces && u >= ends[piece + 1]) ++piece;
-  const layout::Range u_range{ends[piece], ends[piece + 1]};
+  while (piece + 1 < front_layout::pieces && u >= log_ends[piece + 1]) ++piece;
+  const layout::Range u_range{log_ends[piece], log_ends[piece + 1]};
   const auto in_u = layout::chebyshev<n_u>(u_range.to_unit(u));
   const Number* a = pieces + piece * n_y * n_u;
   Along<n_y> along{};

@@ -10,7 +10,7 @@ using catalogue::Observation;
 
 namespace {
 
-constexpr std::array<ObservedQuantity, std::tuple_size_v<ObservedValues>> declarations = {{
+constexpr std::array<ObservedQuantity, std::tuple_size_v<ObservedValues>> observed_declarations = {{
     {"rupture_velocity", "rupture velocity", "m s-1"},
     {"slip_velocity", "slip velocity", "m s-1"},
     {"slip", "slip", "m"},
@@ -22,11 +22,11 @@ constexpr std::array<ObservedQuantity, std::tuple_size_v<ObservedValues>> declar
 
 }  // namespace
 
-std::span<const ObservedQuantity> observed_quantities() { return declarations; }
+std::span<const ObservedQuantity> observed_quantities() { return observed_declarations; }
 
 std::size_t position_of(std::string_view name) {
-  for (std::size_t i = 0; i < declarations.size(); ++i)
-    if (declarations[i].name == name) return i;
+  for (std::size_t i = 0; i < observed_declarations.size(); ++i)
+    if (observed_declarations[i].name == name) return i;
   throw std::out_of_range("no observed quantity of this name");
 }
 

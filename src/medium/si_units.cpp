@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "foundation/text/characters.hpp"
 #include "foundation/text/digits.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/medium/medium.hpp"
@@ -23,12 +24,10 @@ struct Symbol {
   Powers powers;
 };
 /// Longer names before their beginnings.
-constexpr Symbol symbols[] = {
+constexpr Symbol model_symbols[] = {
     {"mu", &SymbolValues::mu, {1, 0, 0}}, {"nu", &SymbolValues::nu, {}},      {"pi", nullptr, {}},
     {"A", &SymbolValues::A, {}},          {"b", &SymbolValues::b, {0, 1, 0}}, {"c", &SymbolValues::c, {0, 1, -1}},
 };
-
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
 struct Amount {
   double value = 1;
@@ -109,7 +108,7 @@ class Parser {
     }
     const char c = next();
     if (c >= '0' && c <= '9') return {static_cast<double>(whole_number()), {}};
-    for (const Symbol& symbol : symbols) {
+    for (const Symbol& symbol : model_symbols) {
       if (!rest_.starts_with(symbol.name)) continue;
       rest_.remove_prefix(symbol.name.size());
       if (!rest_.empty() && is_letter(rest_.front())) refuse();

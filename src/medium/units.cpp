@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <string>
 
+#include "foundation/text/characters.hpp"
 #include "medium/unit_names.hpp"
 
 namespace slipfront::medium {
@@ -21,9 +22,6 @@ constexpr Prefix prefixes[] = {
     {"giga", "G", 1e9},   {"mega", "M", 1e6},    {"kilo", "k", 1e3},   {"hecto", "h", 100},   {"deka", "da", 10},
     {"deci", "d", 0.1},   {"centi", "c", 0.01},  {"milli", "m", 1e-3}, {"micro", "u", 1e-6},  {"nano", "n", 1e-9},
     {"pico", "p", 1e-12}, {"femto", "f", 1e-15}, {"atto", "a", 1e-18}, {"zepto", "z", 1e-21}, {"yocto", "y", 1e-24}};
-
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 std::string small_letters(std::string_view text) {
   std::string small(text);

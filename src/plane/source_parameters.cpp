@@ -5,12 +5,12 @@
 #include <limits>
 #include <numbers>
 
+#include "foundation/math/constants.hpp"
+
 namespace slipfront::plane {
 namespace {
 
 using std::numbers::pi;
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// The difference of f per cell, between the neighbours of `here` that are known; NaN without any, or without `here`.
 double difference(double before, double here, double after) {

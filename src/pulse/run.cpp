@@ -19,19 +19,19 @@
 #include "slipfront/error.hpp"
 
 namespace slipfront::pulse {
-namespace {
-
-/// Expected number of steps. Each output time adds two, because a step must end on it and the step before is shortened.
-double expected_steps(const Solver& start, const output::Schedule& schedule) {
-  return start.expected_steps(schedule.times.back()) + 2 * static_cast<double>(schedule.times.size());
-}
-
 /// The part of a checkpoint that describes the run at one time.
 struct SavedState {
   Cells cells = {};
   double trailing_characteristic = 0;
   SlipRecord slip = {};
 };
+
+namespace {
+
+/// Expected number of steps. Each output time adds two, because a step must end on it and the step before is shortened.
+double expected_steps(const Solver& start, const output::Schedule& schedule) {
+  return start.expected_steps(schedule.times.back()) + 2 * static_cast<double>(schedule.times.size());
+}
 
 void put(bytes::Writer& writer, const SavedState& state, const friction::Friction& friction) {
   checkpoint::put(writer, state.cells, friction);

@@ -3,6 +3,7 @@
 #include <limits>
 #include <utility>
 
+#include "foundation/math/constants.hpp"
 #include "foundation/text/digits.hpp"
 #include "results/quantities.hpp"
 
@@ -20,8 +21,6 @@ using inference::quantities;
 using inference::Quantity;
 
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 template <class Get>
 NumberColumn column(const Description& about, std::string name, const std::string& of, Axis axis, std::size_t count,

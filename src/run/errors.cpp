@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "foundation/math/constants.hpp"
 #include "foundation/text/digits.hpp"
 #include "pulse/checks/slip_record.hpp"
 #include "slipfront/error.hpp"
@@ -16,8 +17,6 @@
 
 namespace slipfront::run {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// Rows without an error: they are inputs, or they describe the computation and not the physics.
 constexpr std::array<std::string_view, 6> without_error{"friction_coefficient", "damping_number", "time",

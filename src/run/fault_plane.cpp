@@ -21,8 +21,8 @@ namespace {
 using finite_fault::OnPlane;
 using std::numbers::pi;
 
-constexpr double stronger = 1.2;  ///< strength over what holds the initial state
-constexpr double lines = 10;      ///< dislocation lines that the largest slip has
+constexpr double stronger = 1.2;           ///< strength over what holds the initial state
+constexpr double largest_slip_lines = 10;  ///< dislocation lines that the largest slip has
 
 std::string in_unit(double value, const char* unit) { return '"' + shortest(value) + ' ' + unit + '"'; }
 
@@ -32,7 +32,8 @@ std::string medium_table(const FaultOnPlane& model, double contact_ratio) {
   const double nu = rock.poisson_ratio, density = rock.shear_modulus * 2 / (1 - nu) / (rock.speed * rock.speed);
   return "[medium]\nshear_modulus = " + in_unit(rock.shear_modulus, "Pa") + "\npoisson_ratio = " + shortest(nu) +
          "\ndensity = " + in_unit(density, "kg/m3") + "\ncontact_ratio = " + shortest(contact_ratio) +
-         "\nasperity_spacing = " + in_unit(model.fault.largest_slip / (medium::face_factor * lines), "m") + "\n";
+         "\nasperity_spacing = " + in_unit(model.fault.largest_slip / (medium::face_factor * largest_slip_lines), "m") +
+         "\n";
 }
 
 /// Spacing of the sites, for lines that are up to 1.5 times as dense as the differences of the slip imply.

@@ -126,14 +126,14 @@ State in_left_fan(const State& left, double x_over_t) {
 }
 
 /// Squares of larger stresses overflow. A jump between faster trains loses more than half of its digits.
-constexpr double most_psi = 300, most_phi = 18;
+constexpr double most_psi_of_state = 300, most_phi = 18;
 
 void check(const State& state, const char* side) {
-  if (!(state.psi >= 0 && state.psi <= most_psi))
+  if (!(state.psi >= 0 && state.psi <= most_psi_of_state))
     throw InputError({.key = std::string(side) + " psi",
                       .value = digits(state.psi),
                       .problem = "not a density that the Riemann problem can be solved for",
-                      .allowed = "0 <= psi <= " + digits(most_psi) + ", a stress of up to 2e130"});
+                      .allowed = "0 <= psi <= " + digits(most_psi_of_state) + ", a stress of up to 2e130"});
   if (!state.empty() && !(std::fabs(state.phi) <= most_phi))
     throw InputError({.key = std::string(side) + " phi",
                       .value = digits(state.phi),

@@ -19,7 +19,7 @@ using enum KeyType;
 
 constexpr Limits positive{.least = 0, .without_least = true};
 constexpr Limits position{.least = -farthest, .most = farthest};
-constexpr Limits stress{.least = 0, .most = largest_stress};
+constexpr Limits stress_limits{.least = 0, .most = largest_stress};
 constexpr Limits fraction{.least = 0, .most = 1, .without_least = true, .without_most = true};
 constexpr Limits tolerance{.least = 1e-12, .most = 0.1};
 
@@ -70,9 +70,9 @@ std::vector<Key> initial_keys() {
   return {
       word_key(table, "profile", {"step", "tanh", "formula", "table", "radial", "grid"}, "step",
                "form of the initial stress; of the initial slip on a plane: formula, radial or grid"),
-      number_key(table, "stress_left", ModelUnit::stress, stress, step_or_tanh,
+      number_key(table, "stress_left", ModelUnit::stress, stress_limits, step_or_tanh,
                  "stress of a step or tanh at x < 0; 0 is an empty interface"),
-      number_key(table, "stress_right", ModelUnit::stress, stress, step_or_tanh,
+      number_key(table, "stress_right", ModelUnit::stress, stress_limits, step_or_tanh,
                  "stress of a step or tanh at x > 0; 0 is an empty interface"),
       number_key(table, "width", ModelUnit::position, widths, "1",
                  "width of a tanh: right + (left - right)(1 - tanh(x / width)) / 2"),

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <limits>
 
+#include "foundation/math/constants.hpp"
 #include "output/further_scalars.hpp"
 #include "slipfront/rupture/riemann.hpp"
 #include "slipfront/setup/compare.hpp"
@@ -11,7 +12,6 @@ namespace {
 
 using rupture::Edges;
 using rupture::RiemannSolution;
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 train::Averages at(const RiemannSolution& solution, double x_over_t) {
   return train::averages(rupture::sample(solution, x_over_t));

@@ -13,7 +13,7 @@ bool is_bare_error(const Title& t) {
   return t.small.size() == 1 && (deviations_of(t.small[0]) > 0 || t.small[0] == "+" || t.small[0] == "-");
 }
 
-Column physical(const std::string& title) {
+Column physical_column(const std::string& title) {
   Column unknown{.title = title};
   unknown.looks_physical = true;
   return unknown;
@@ -30,13 +30,13 @@ Column bare_error(const std::string& title, const Title& t, const std::vector<Co
   const bool names_another = name.find(' ') != std::string::npos;
   if (!names_another && owner && owner->role == Role::unused) return {.role = Role::unused, .title = title};
   const bool is_described = owner && owner->role == Role::provenance;
-  if (name.empty() || (!names_another && is_described)) return physical(title);
+  if (name.empty() || (!names_another && is_described)) return physical_column(title);
   try {
     Column column = parse_column(names_another ? name : name + " " + title);
     column.title = title;
-    return column.is_error() ? column : physical(title);
+    return column.is_error() ? column : physical_column(title);
   } catch (const InputError&) {
-    return physical(title);  // the unit is that of something else
+    return physical_column(title);  // the unit is that of something else
   }
 }
 

@@ -33,8 +33,6 @@ constexpr std::pair<std::string_view, Role> texts[] = {{"ignore", Role::unused},
                                                        {"stress_drop_is", Role::stress_drop_is},
                                                        {"front_threshold", Role::front_threshold}};
 
-std::size_t line_of(const toml::node& node) { return node.source().begin.line; }
-
 std::vector<std::string_view> meanings() {
   std::vector<std::string_view> all;
   for (const auto& [name, role] : texts) all.push_back(name);

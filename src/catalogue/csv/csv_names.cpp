@@ -107,11 +107,11 @@ constexpr std::string_view neutral[] = {"mean",     "average", "avg",      "ave"
                                         "observed", "obs",     "measured", "seismic", "geodetic", "coseismic", "source",
                                         "event",    "rupture", "fault",    "total",   "local",    "est."};
 
-constexpr std::string_view physical[] = {"velocity",   "speed",    "slip",   "stress",   "rate",      "drop",
-                                         "duration",   "moment",   "energy", "modulus",  "frequency", "length",
-                                         "width",      "area",     "radius", "strain",   "friction",  "displacement",
-                                         "efficiency", "rigidity", "period", "pressure", "density",   "sliprate",
-                                         "stressdrop", "risetime", "fc",     "offset",   "viscosity"};
+constexpr std::string_view physical_words[] = {
+    "velocity",   "speed",        "slip",       "stress",   "rate",     "drop",     "duration", "moment",
+    "energy",     "modulus",      "frequency",  "length",   "width",    "area",     "radius",   "strain",
+    "friction",   "displacement", "efficiency", "rigidity", "period",   "pressure", "density",  "sliprate",
+    "stressdrop", "risetime",     "fc",         "offset",   "viscosity"};
 
 template <class Words>
 bool contains(const Words& words, std::string_view word) {
@@ -140,7 +140,7 @@ std::optional<Role> role_of_name(std::string_view name) {
 
 bool is_neutral(std::string_view word) { return contains(neutral, word); }
 
-bool is_physical_word(std::string_view word) { return contains(physical, word); }
+bool is_physical_word(std::string_view word) { return contains(physical_words, word); }
 
 double deviations_of(std::string_view word) {
   constexpr std::string_view one[] = {"err",      "error",    "errors",    "sd",          "std",     "stdev",

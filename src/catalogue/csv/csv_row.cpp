@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "catalogue/plain_text.hpp"
+#include "foundation/text/characters.hpp"
 #include "foundation/text/trimmed.hpp"
 
 namespace slipfront::catalogue {
@@ -20,8 +21,6 @@ struct FurtherCells {
   std::optional<double> error, above, below;
   bool in_percent = false;
 };
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 /// Replaces the decimal comma of a number by a point.
 std::string with_point(const std::string& cell, bool decimal_comma) {

@@ -121,9 +121,8 @@ std::optional<double> given(const fsp::Field& field, const std::string& key, dou
 bool is_positive(double value) { return std::isfinite(value) && value > 0; }
 
 void Reader::fill_velocities(Observation& out) const {
-  constexpr double m_per_km = 1000;
   if (const auto v = given(header_.rupture_velocity_km_s, "avVr", 99, out.warnings)) {
-    out.rupture_velocity_m_s = Measured{*v * m_per_km, *v * m_per_km};
+    out.rupture_velocity_m_s = Measured{*v * fsp::m_per_km, *v * fsp::m_per_km};
   }
   std::optional<double> rise = given(header_.rise_time, "avTr", 900, out.warnings);
   if (!rise) {
@@ -178,8 +177,7 @@ FaultModel Reader::finish_model() {
   FaultModel out;
   out.observation = finish();
   out.rock = layers_.rock();
-  constexpr double m_per_km = 1000;
-  if (const auto depth = header_.hypocentre_depth()) out.hypocentre_depth = m_per_km * *depth;
+  if (const auto depth = header_.hypocentre_depth()) out.hypocentre_depth = fsp::m_per_km * *depth;
   out.moment = header_.moment;
   out.rake = header_.rake;
   tables_.fill(header_, out);

@@ -13,6 +13,8 @@
 
 namespace slipfront::catalogue::fsp {
 
+inline constexpr double m_per_km = 1000;
+
 // Text (fsp_text.cpp). Control characters count as blanks. No function depends on the locale.
 
 /// The file and the line that the reader has reached, for error messages.

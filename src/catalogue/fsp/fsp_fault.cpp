@@ -7,7 +7,6 @@
 namespace slipfront::catalogue::fsp {
 namespace {
 
-constexpr double m_per_km = 1000;
 constexpr double least_gap = 10;  // m; depths that differ by less are one row, because files round positions
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "catalogue/fsp/fsp.hpp"
+#include "foundation/math/constants.hpp"
 
 namespace slipfront::catalogue::fsp {
 namespace {
@@ -17,14 +17,12 @@ constexpr double longest_rise_time = 900;  // s; larger values are placeholders
                     .allowed = "a line of column names and the rows it announces"});
 }
 
-constexpr double absent = std::numeric_limits<double>::quiet_NaN();
-
 /// The numbers of a row. A word that stands for an absent value is NaN if the row has one word a column. Other words
 /// are skipped.
 std::vector<double> numbers(const Words& row, std::size_t columns, const Place& place) {
   std::vector<double> out;
   for (const std::string_view word : row) {
-    const auto value = row.size() == columns && is_placeholder(word) ? std::optional(absent) : number(word);
+    const auto value = row.size() == columns && is_placeholder(word) ? std::optional(none) : number(word);
     if (!value) continue;
     if (std::isinf(*value)) {
       throw InputError({.file = place.file,
@@ -134,7 +132,6 @@ void SubfaultTables::keep_subfault(Segment& segment, const std::vector<double>& 
   for (const auto column : {segment.x_column, segment.y_column, segment.z_column})
     if (std::isnan(values[*column])) return;
   if (std::isnan(values[segment.longitude_column]) || std::isnan(values[segment.latitude_column])) return;
-  constexpr double m_per_km = 1000;
   Subfault s{.segment = segments_.size() - 1,
              .x = values[*segment.x_column] * m_per_km,
              .y = values[*segment.y_column] * m_per_km,

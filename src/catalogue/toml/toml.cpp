@@ -13,8 +13,6 @@
 namespace slipfront::catalogue {
 namespace {
 
-std::size_t line_of(const toml::node& node) { return node.source().begin.line; }
-
 std::string text_value(const toml::node& node, const std::string& key) {
   if (const auto text = node.value<std::string>()) return *text;
   if (node.is_integer() || node.is_date() || node.is_date_time()) return toml_text(node);

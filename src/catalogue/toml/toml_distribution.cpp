@@ -21,8 +21,6 @@ constexpr Form forms[] = {
     {"mean", "sd", Shape::normal}, {"median", "factor", Shape::lognormal}, {"low", "high", Shape::range}};
 constexpr const char* allowed = "{ mean, sd }, { median, factor } or { low, high }";
 
-std::size_t line_of(const toml::node& node) { return node.source().begin.line; }
-
 void require_known(const toml::table& table, const std::string& full_key) {
   std::vector<std::string_view> known;
   for (const Form& form : forms) known.insert(known.end(), {form.first, form.second});

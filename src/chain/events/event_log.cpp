@@ -5,15 +5,10 @@
 #include <limits>
 #include <utility>
 
+#include "foundation/math/constants.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::chain {
-namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
-
 double crossing(double t0, double v0, double t1, double v1, double threshold) {
   if (!(v0 > 0) || !(v0 < threshold) || !(v1 > v0)) return t1;
   return t0 + (t1 - t0) * std::log(threshold / v0) / std::log(v1 / v0);

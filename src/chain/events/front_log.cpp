@@ -7,12 +7,11 @@
 #include <utility>
 
 #include "chain/events/event_log.hpp"
+#include "foundation/math/constants.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::chain {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 auto columns(auto& record) { return std::array{&record.arrival, &record.stress, &record.traction}; }
 

@@ -4,10 +4,10 @@
 #include <numbers>
 #include <vector>
 
+#include "foundation/math/constants.hpp"
+
 namespace slipfront::chain {
 namespace {
-
-constexpr double turn = 2 * std::numbers::pi;
 
 /// z / 2 pi of `wide` sites from `low` on at three levels. The arrays begin `lanes` elements before.
 struct Displaced {

@@ -5,10 +5,10 @@
 #include <numbers>
 #include <vector>
 
+#include "foundation/math/constants.hpp"
+
 namespace slipfront::chain {
 namespace {
-
-constexpr double turn = 2 * std::numbers::pi;
 
 /// A quantity on sites [low, high) of a chain. Around a ring they may be past its ends. There the field holds the
 /// values of the sites themselves, so that the bits of a site do not depend on the piece that is computed.

@@ -6,10 +6,11 @@
 #include <span>
 #include <utility>
 
+#include "foundation/math/constants.hpp"
+
 namespace slipfront::chain {
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
 constexpr std::size_t together = 64;  ///< sites in one pass of the friction loops; a pass with no moving site is cheap
 
 /// Number of sites by which arrays extend past both ends. A chain that advances many levels at a time needs a^2 in its

@@ -10,6 +10,7 @@
 #include "chain/implicit/check_implicit.hpp"
 #include "chain/model/start_check.hpp"
 #include "foundation/bytes.hpp"
+#include "foundation/math/constants.hpp"
 #include "foundation/math/step_control.hpp"
 #include "foundation/ranks.hpp"
 #include "foundation/text/digits.hpp"
@@ -17,8 +18,6 @@
 
 namespace slipfront::chain {
 namespace {
-
-constexpr double turn = 2 * std::numbers::pi;
 
 /// (all) The motion of the sites of this rank at the start.
 Motion start_of(const Problem& p, const MotionOf& start, const Execution& execution, const Ranks& ranks) {

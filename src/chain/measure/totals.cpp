@@ -9,11 +9,10 @@
 
 #include "chain/measure/elastic.hpp"
 #include "chain/measure/own_sites.hpp"
+#include "foundation/math/constants.hpp"
 
 namespace slipfront::chain {
 namespace {
-
-constexpr double turn = 2 * std::numbers::pi;
 
 /// The sums among the totals, as so many numbers in a row.
 constexpr std::size_t sums = 7;

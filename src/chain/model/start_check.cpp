@@ -6,13 +6,12 @@
 #include <vector>
 
 #include "chain/model/blocks.hpp"
+#include "foundation/math/constants.hpp"
 #include "foundation/text/digits.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::chain {
 namespace {
-
-constexpr double turn = 2 * std::numbers::pi;
 
 [[noreturn]] void refuse_size(std::size_t size, const std::string& allowed) {
   throw InputError({.key = "initial motion",

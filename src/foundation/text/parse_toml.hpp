@@ -17,6 +17,7 @@
 #include <toml++/toml.h>
 // clang-format on
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -24,5 +25,8 @@ namespace slipfront {
 
 /// A TOML document. \throws InputError with file and line.
 toml::table parse_toml(std::string_view text, const std::string& file);
+
+/// The line on which a node of a document begins, for messages.
+inline std::size_t line_of(const toml::node& node) { return node.source().begin.line; }
 
 }  // namespace slipfront

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 constexpr int bits_of_place = 48;  ///< bits within a piece; its index is the exponent and the 4 bits above these
-constexpr double slowest = 0x1p-84, fastest = 0x1p6;  // rounding causes speeds not far below 1e-20
+constexpr double slowest_piece = 0x1p-84, fastest_piece = 0x1p6;  // rounding causes speeds not far below 1e-20
 
 std::uint64_t piece_of(double speed) { return std::bit_cast<std::uint64_t>(speed) >> bits_of_place; }
 double start_of(std::uint64_t piece) { return std::bit_cast<double>(piece << bits_of_place); }
@@ -61,14 +61,14 @@ SLIPFRONT_CLONES std::size_t evaluate(std::size_t size, const double* speed, con
 
 TabulatedCurve::TabulatedCurve(Curve curve) : curve_(std::move(curve)), at_rest_(curve_(0)) {
   const ChebyshevFit<Piece::terms> through;
-  for (std::uint64_t piece = piece_of(slowest); piece < piece_of(fastest); ++piece)
+  for (std::uint64_t piece = piece_of(slowest_piece); piece < piece_of(fastest_piece); ++piece)
     fit(through, curve_, start_of(piece), start_of(piece + 1), pieces_.emplace_back().c);
   pieces_.push_back({{no_number}});
 }
 
 void TabulatedCurve::values(std::size_t size, const double* speed, double* value) const {
   const std::uint64_t count = pieces_.size() - 1;
-  if (evaluate(size, speed, pieces_.data(), piece_of(slowest), count, value) == 0) return;
+  if (evaluate(size, speed, pieces_.data(), piece_of(slowest_piece), count, value) == 0) return;
   for (std::size_t i = 0; i < size; ++i)
     if (std::isnan(value[i])) value[i] = speed[i] == 0 ? at_rest_ : curve_(speed[i]);
 }

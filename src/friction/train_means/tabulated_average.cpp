@@ -12,7 +12,7 @@
 namespace slipfront::friction {
 namespace {
 
-constexpr std::size_t terms = ChebyshevPatch::terms;
+constexpr std::size_t patch_terms = ChebyshevPatch::terms;
 constexpr double side = 0.25;                             ///< size of a patch in ln(fastest) and in ln s
 constexpr double first_row = -138.5, first_column = -14;  ///< logarithms at which the patches begin
 constexpr std::size_t rows = 571, columns = 56;           ///< they end at ln(fastest) = 4.25 and s = 1
@@ -76,18 +76,18 @@ TabulatedAverage::Patch TabulatedAverage::made(std::size_t row, std::size_t colu
   static const Fit through;
   Patch patch{};
   ChebyshevPatch::Values values;
-  means_at<terms * terms>(
+  means_at<patch_terms * patch_terms>(
       law_.loops(), row, column,
       [](std::size_t i) {
-        return Node{Fit::extremum(i / terms), Fit::extremum(i % terms)};
+        return Node{Fit::extremum(i / patch_terms), Fit::extremum(i % patch_terms)};
       },
       &values[0][0]);
   patch.polynomial.fit(through, values);
   // Check the polynomial between the nodes, along both diagonals.
-  constexpr std::size_t between = 2 * (terms - 1);
+  constexpr std::size_t between = 2 * (patch_terms - 1);
   const auto node = [](std::size_t i) {
     const std::size_t pair = i / 2;
-    const double x = std::cos(std::numbers::pi * (static_cast<double>(pair) + 0.5) / (terms - 1));
+    const double x = std::cos(std::numbers::pi * (static_cast<double>(pair) + 0.5) / (patch_terms - 1));
     return Node{x, i % 2 == 0 ? x : -x};
   };
   double mean[between];

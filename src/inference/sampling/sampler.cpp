@@ -260,8 +260,8 @@ std::vector<FaultState> Sampler::draw_prior(std::size_t count) {
   for (point_ = 0; point_ < most && all.size() < count; ++point_) {
     if (!draw_surroundings()) continue;
     const double u = points_(point_, 1) * std::log1p(most_damping_number);
-    const double least_ln_A = std::log(least_contact_ratio);
-    const double A = std::exp(least_ln_A + points_(point_, 2) * (std::log(around_.plastic) - least_ln_A));
+    const double least = std::log(least_contact_ratio);
+    const double A = std::exp(least + points_(point_, 2) * (std::log(around_.plastic) - least));
     const PulseState p = model_.of_prior(points_(point_, 0), u);
     FaultState s = unknown_state();
     s.rupture_velocity = model_.seen(p, u);

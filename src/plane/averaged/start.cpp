@@ -12,12 +12,12 @@ constexpr std::size_t samples = 2000;  ///< points of a ray on which the contour
 constexpr double whole = 1e-6;         ///< fraction of the slip at which the outermost line is found
 
 /// The initial slip on a ray from the origin.
-struct Ray {
+struct StartRay {
   const Problem& problem;
   double cosine, sine;
   double end;  ///< distance of the edge of the domain
 
-  Ray(const Problem& p, double angle) : problem(p), cosine(std::cos(angle)), sine(std::sin(angle)), end(HUGE_VAL) {
+  StartRay(const Problem& p, double angle) : problem(p), cosine(std::cos(angle)), sine(std::sin(angle)), end(HUGE_VAL) {
     if (cosine > 1e-12) end = std::min(end, p.right / cosine);
     if (cosine < -1e-12) end = std::min(end, p.left / cosine);
     if (sine > 1e-12) end = std::min(end, p.top / sine);
@@ -34,7 +34,7 @@ InputError refusal(const std::string& key, const std::string& problem, const std
 }
 
 /// Distance of the end of the held region around the origin.
-double wall_of(const Ray& ray) {
+double wall_of(const StartRay& ray) {
   std::size_t last = 0;
   for (std::size_t i = 0; i < samples; ++i) {
     if (!ray.held(ray.at(i))) continue;
@@ -53,7 +53,7 @@ double wall_of(const Ray& ray) {
 }
 
 /// Checks that the slip never rises along the ray, and falls to 0.
-void check_ray(const Ray& ray, double wall, double top) {
+void check_ray(const StartRay& ray, double wall, double top) {
   double before = top;
   for (std::size_t i = 0; i <= samples; ++i) {
     const double r = ray.at(i);
@@ -72,7 +72,7 @@ void check_ray(const Ray& ray, double wall, double top) {
 }
 
 /// Distance at which the slip of the ray falls through `level`, outside `wall`.
-double distance_of(const Ray& ray, double wall, double level) {
+double distance_of(const StartRay& ray, double wall, double level) {
   double inside = wall, outside = ray.end;
   for (int i = 0; i < 200 && outside - inside > 1e-15 * ray.end; ++i) {
     const double middle = (inside + outside) / 2;
@@ -82,7 +82,7 @@ double distance_of(const Ray& ray, double wall, double level) {
 }
 
 void find_ray(const Problem& problem, std::size_t k, double top, Loops& loops) {
-  const Ray ray(problem, loops.angle(k));
+  const StartRay ray(problem, loops.angle(k));
   const double wall = wall_of(ray), on_wall = ray.slip(wall);
   if (!(std::fabs(on_wall - top) <= 1e-4 * top))
     throw refusal("slip",
@@ -107,7 +107,7 @@ Loops initial_loops(const Problem& problem, std::size_t rows, std::size_t angles
   Loops loops;
   loops.rows = rows;
   loops.angles = angles;
-  const Ray first(problem, 0);
+  const StartRay first(problem, 0);
   const double top = first.slip(wall_of(first));
   if (!(top > 0)) throw refusal("slip", "there is no slip around the origin", "a slip > 0 there");
   const double number = top / (2 * std::numbers::pi), count = static_cast<double>(rows);

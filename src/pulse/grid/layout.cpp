@@ -130,7 +130,7 @@ namespace {
 struct Stressed {
   double from, to;
 };
-constexpr int samples = 4096;
+constexpr int gap_samples = 4096;
 
 /// Checks fifteen more points between two neighbouring samples without stress. A stretch of stress there would get no
 /// cells, so it is an error.
@@ -141,17 +141,17 @@ void refuse_narrow_stress(const std::function<double(double)>& stress, double fr
     if (stress(x) > 0)
       throw InputError({.key = "initial",
                         .problem = "the stress at x = " + digits(x) + " is on a stretch narrower than 1 / " +
-                                   std::to_string(samples) + " of the domain",
+                                   std::to_string(gap_samples) + " of the domain",
                         .allowed = "wider stretches of stress, or a smaller domain"});
   }
 }
 
 std::vector<Stressed> stressed_stretches(const std::function<double(double)>& stress, double left, double right) {
-  const double h = (right - left) / samples;
-  const auto place = [&](int i) { return i == samples ? right : left + i * h; };
+  const double h = (right - left) / gap_samples;
+  const auto place = [&](int i) { return i == gap_samples ? right : left + i * h; };
   std::vector<Stressed> found;
   bool before = false;
-  for (int i = 0; i <= samples; ++i) {
+  for (int i = 0; i <= gap_samples; ++i) {
     const bool now = stress(place(i)) > 0;
     if (now && !before) found.push_back({i == 0 ? left : edge_between(stress, place(i - 1), place(i)), right});
     if (!now && before) found.back().to = edge_between(stress, place(i), place(i - 1));

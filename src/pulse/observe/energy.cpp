@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "foundation/math/constants.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
 
 namespace slipfront::pulse {
@@ -12,7 +13,6 @@ namespace {
 
 using output::Energy;
 using std::numbers::pi;
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// Sums values per dislocation, given at the cell centres, over all dislocations. The sum is of fourth order in the
 /// coordinate of the cells where the values are smooth, and of second order next to a jump or a free edge.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "foundation/math/constants.hpp"
 #include "foundation/math/parabola.hpp"
 
 namespace slipfront::pulse {
@@ -11,8 +12,6 @@ namespace slipfront::pulse {
 bool free_at(const View& v, bool right) { return right ? v.right_free : v.left_free; }
 
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// Position of a shock at which W falls in cell `in`, seen from the front. We add up the widths of this cell and up to
 /// six cells outwards, each times its slip velocity in units of that behind the shock. The sum is the distance of the

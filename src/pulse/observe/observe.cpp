@@ -6,6 +6,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "foundation/math/constants.hpp"
 #include "foundation/math/interval.hpp"
 #include "foundation/math/parabola.hpp"
 #include "pulse/observe/energy.hpp"
@@ -19,7 +20,6 @@ using output::Observed;
 using output::observed_fronts;
 using output::Snapshot;
 using std::numbers::pi;
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<double> slip_velocities(const View& v) {
   std::vector<double> W(v.states.size());

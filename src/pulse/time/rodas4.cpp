@@ -116,13 +116,14 @@ void Rodas4::factorise(double diagonal) {  // diagonal dominance comes from 1 / 
 }
 
 void Rodas4::solve(std::vector<double>& b) {
-  const auto at = [this](std::size_t i, std::size_t j) { return lu_[i * stride_ + (j + reach_ - i)]; };
+  const auto entry = [this](std::size_t i, std::size_t j) { return lu_[i * stride_ + (j + reach_ - i)]; };
   to_positions(b);
   for (std::size_t i = 0; i < unknowns_; ++i)
-    for (std::size_t j = i > reach_ ? i - reach_ : 0; j < i; ++j) positions_[i] -= at(i, j) * positions_[j];
+    for (std::size_t j = i > reach_ ? i - reach_ : 0; j < i; ++j) positions_[i] -= entry(i, j) * positions_[j];
   for (std::size_t i = unknowns_; i-- > 0;) {
-    for (std::size_t j = i + 1; j < std::min(unknowns_, i + reach_ + 1); ++j) positions_[i] -= at(i, j) * positions_[j];
-    positions_[i] /= at(i, i);
+    for (std::size_t j = i + 1; j < std::min(unknowns_, i + reach_ + 1); ++j)
+      positions_[i] -= entry(i, j) * positions_[j];
+    positions_[i] /= entry(i, i);
   }
   to_widths(b);
 }

@@ -36,7 +36,7 @@ class Contents {
       file_.attribute(id, "dimensional_unit", about.dimensional_unit);
       file_.attribute(id, "references", reference_of({{}, {}, {}, about.reference}));
     }
-    file_.fill_value(id, event_layout::none);
+    file_.fill_value(id, none);
     numbers_.emplace_back(id, std::move(values));
     return id;
   }
@@ -91,7 +91,7 @@ void add_events(Contents& contents, const Dimensions& d, Results results, const 
   }
 }
 
-std::string joined(const std::vector<std::string>& titles) {
+std::string in_one_line(const std::vector<std::string>& titles) {
   std::string all;
   for (const std::string& title : titles) all += (all.empty() ? "" : ", ") + title;
   return all;
@@ -114,8 +114,8 @@ void describe_file(Writer& file, const EventMetadata& metadata, bool finished) {
       "the "
       "speed of strain waves and mu the shear modulus. Values that are not known are NaN.");
   for (const auto& [name, text] : metadata.settings) say(name, text);
-  say("ignored_columns", joined(metadata.ignored_columns));
-  say("ignored_quantities", joined(metadata.ignored_quantities));
+  say("ignored_columns", in_one_line(metadata.ignored_columns));
+  say("ignored_quantities", in_one_line(metadata.ignored_quantities));
   file.attribute(Writer::global, "finished", finished ? 1 : 0);
 }
 

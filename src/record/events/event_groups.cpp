@@ -37,7 +37,7 @@ int define(Writer& file, const NumberColumn& about, const std::vector<int>& dime
     file.attribute(id, "dimensional_unit", about.dimensional_unit);
     file.attribute(id, "references", reference_of({{}, {}, {}, about.reference}));
   }
-  file.fill_value(id, event_layout::none);
+  file.fill_value(id, none);
   return id;
 }
 
@@ -109,7 +109,7 @@ void EventGroups::add_states(Group& group, std::vector<FaultState> Posterior::*s
     about.reference = q.about.reference;
     add_draws(group, about, [states, value = q.state](const Result& r, std::size_t i) {
       return r.posterior && i < ((*r.posterior).*states).size() ? ((*r.posterior).*states)[i].*value
-                                                                : event_layout::none;
+                                                                : none;
     });
   }
 }
@@ -119,7 +119,7 @@ void EventGroups::add_repeated(Group& group) {
     add_draws(group, described(q.name, "repeated observation of: " + std::string(q.long_name), q.unit),
               [position = inference::position_of(q.name)](const Result& r, std::size_t i) {
                 return r.posterior && i < r.posterior->repeated.size() ? r.posterior->repeated[i][position]
-                                                                       : event_layout::none;
+                                                                       : none;
               });
 }
 
@@ -134,7 +134,7 @@ void EventGroups::add_observed(Group& group) {
 void EventGroups::add_statistics(Group& group) {
   const auto add = [&](std::string_view name, std::string_view long_name, double (*get)(const Posterior&)) {
     add_events(group, described(name, long_name, "1"),
-               [get](const Result& r) { return r.posterior ? get(*r.posterior) : event_layout::none; });
+               [get](const Result& r) { return r.posterior ? get(*r.posterior) : none; });
   };
   add("effective_samples", "effective number of samples before resampling",
       [](const Posterior& p) { return p.effective_samples; });

@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "catalogue/population.hpp"
+#include "foundation/math/constants.hpp"
 #include "record/netcdf/netcdf.hpp"
 #include "results/columns.hpp"
 
 namespace slipfront::record::event_layout {
 
 inline constexpr const char* state = "done";
-inline constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// A variable of numbers with its values. `about.get` is not used.
 struct Variable {

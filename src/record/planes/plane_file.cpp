@@ -2,10 +2,10 @@
 
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <span>
 #include <utility>
 
+#include "foundation/math/constants.hpp"
 #include "record/netcdf/netcdf_file.hpp"
 #include "record/planes/plane_variables.hpp"
 #include "record/pulses/cf.hpp"
@@ -15,8 +15,6 @@ namespace slipfront::record {
 namespace {
 
 using netcdf::Writer;
-
-constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
 
 struct Dimensions {
   int time, y, x, series, frequency;
@@ -66,7 +64,7 @@ class PlaneWriter {
       fields_.push_back(cf::reals(file_, field.about, {dimensions_.time, dimensions_.y, dimensions_.x}, metadata_));
     for (const PlaneMap& map : plane_maps()) {
       maps_.push_back(cf::reals(file_, map.about, {dimensions_.y, dimensions_.x}, metadata_));
-      file_.fill_value(maps_.back(), not_there);
+      file_.fill_value(maps_.back(), none);
     }
     for (const PlaneSeries& series : plane_series())
       series_.push_back(cf::reals(file_, series.about, {dimensions_.series}, metadata_));

@@ -1,6 +1,6 @@
 #include "record/planes/plane_variables.hpp"
 
-#include <limits>
+#include "foundation/math/constants.hpp"
 
 namespace slipfront::record {
 namespace {
@@ -84,12 +84,11 @@ void LinePoints::add(double at, const plane::Line& line, const plane::Point& poi
 }
 
 LinePoints line_points(const std::vector<plane::Field>& snapshots) {
-  constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
   LinePoints all;
   for (const plane::Field& snapshot : snapshots)
     for (const plane::Line& line : snapshot.lines) {
       for (const plane::Point& point : line.points) all.add(snapshot.time, line, point);
-      all.add(snapshot.time, line, {not_there, not_there});
+      all.add(snapshot.time, line, {none, none});
     }
   return all;
 }

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "foundation/math/constants.hpp"
 #include "record/netcdf/netcdf_file.hpp"
 #include "record/pulses/cf.hpp"
 #include "record/pulses/pulse_variables.hpp"
@@ -15,8 +16,6 @@ namespace {
 using netcdf::Writer;
 using output::Snapshot;
 using Levels = std::vector<ComparedLevel>;
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// A value of every snapshot, level by level.
 std::vector<double> over_time(const Levels& levels, const ScalarVariable& variable) {

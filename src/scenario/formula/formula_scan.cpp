@@ -1,3 +1,4 @@
+#include "foundation/text/characters.hpp"
 #include "foundation/text/nearest.hpp"
 #include "scenario/formula/formula.hpp"
 #include "slipfront/error.hpp"
@@ -9,7 +10,6 @@ namespace {
 constexpr std::size_t longest = 4096;
 constexpr int deepest = 100;
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 
 InputError refusal(const std::string& problem, std::size_t at, std::string allowed) {

@@ -12,7 +12,7 @@ namespace slipfront::scenario {
 namespace {
 
 Value convert(const toml::node& node, bool overridden) {
-  Value value{.line = overridden ? 0 : node.source().begin.line, .overridden = overridden};
+  Value value{.line = overridden ? 0 : line_of(node), .overridden = overridden};
   if (const auto* text = node.as_string()) {
     value.kind = Value::Kind::text;
     value.text = text->get();
@@ -33,7 +33,7 @@ Value convert(const toml::node& node, bool overridden) {
 }
 
 Table convert_table(const toml::table& from, const std::string& name, const Overridden& overridden) {
-  Table table{.line = from.source().begin.line};
+  Table table{.line = line_of(from)};
   for (const auto& [key_node, node] : from) {
     const std::string key(key_node.str());
     const auto mark = overridden.find(name + "." + key);
@@ -48,8 +48,7 @@ void convert_document(Document& document, const toml::table& root, const Overrid
   for (const auto& [key_node, node] : root) {
     const std::string key(key_node.str());
     const auto refuse = [&, &value = node](const char* problem, const std::string& allowed) {
-      document.errors.add(
-          InputError({.line = value.source().begin.line, .key = key, .problem = problem, .allowed = allowed}));
+      document.errors.add(InputError({.line = line_of(value), .key = key, .problem = problem, .allowed = allowed}));
     };
     if (key == "title") {
       document.title = convert(node, overridden.count(key) > 0);

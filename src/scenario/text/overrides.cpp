@@ -52,8 +52,7 @@ toml::table& table_named(toml::table& root, const std::string& name, const std::
   if (!root.contains(name)) root.insert(name, toml::table{});
   toml::node* const node = root.get(name);
   if (!node->is_table())
-    throw InputError(
-        {.line = node->source().begin.line, .key = name, .problem = "not a table", .allowed = "[" + name + "]"});
+    throw InputError({.line = line_of(*node), .key = name, .problem = "not a table", .allowed = "[" + name + "]"});
   return *node->as_table();
 }
 

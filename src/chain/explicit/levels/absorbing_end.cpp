@@ -4,12 +4,11 @@
 #include <numbers>
 #include <utility>
 
+#include "foundation/math/constants.hpp"
 #include "slipfront/elliptic/complete.hpp"
 
 namespace slipfront::chain {
 namespace {
-
-constexpr double turn = 2 * std::numbers::pi;
 
 /// The slope of a train of dislocations as a function of its displacement u (Eq. 4):
 ///     u_x^2 = 4 C (sinh^2 psi + sin^2(u / 2)),    C = a^2 cosh^2 phi,    hence u_xx = C sin u.

@@ -2,12 +2,12 @@
 
 #include <cmath>
 
+#include "foundation/math/constants.hpp"
 #include "foundation/simd/vector_code.hpp"
 
 namespace slipfront::chain {
 namespace {
 
-constexpr double turn = 6.283185307179586;
 constexpr std::size_t terms = PeriodicForce::terms;
 
 }  // namespace

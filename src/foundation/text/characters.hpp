@@ -1,0 +1,10 @@
+#pragma once
+/// \file
+/// Classes of ASCII characters, whatever the locale is.
+
+namespace slipfront {
+
+inline bool is_digit(char c) { return c >= '0' && c <= '9'; }
+inline bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
+}  // namespace slipfront
