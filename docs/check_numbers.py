@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Compares numbers in the documentation with the program, or with the page that they come from.
 
-Usage: check_numbers.py PROGRAM [--all] [PAGE...]     (build/dev/bin/slipfront; pages by name, as friction.md; default: all of them)
+Usage: check_numbers.py PROGRAM [--all] [PAGE...]     (build/release/bin/slipfront; pages by name, as friction.md; default: all of them)
 
 Without --all it does what takes seconds; CTest runs it so (docs_numbers). With --all it takes an hour or so. Each number may be off
 by one unit of its last digit. Prints the numbers that are not what was computed and exits with 1 if there are any.

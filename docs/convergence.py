@@ -1,6 +1,6 @@
 """Draws docs/convergence.png: error of the pulse solver against cells, and schemes by error against cost.
 
-Usage: convergence.py PROGRAM SCHEME_COMPARISON   (build/dev/bin/slipfront build/dev/bin/scheme_comparison).   Needs python3-matplotlib.
+Usage: convergence.py PROGRAM SCHEME_COMPARISON   (build/release/bin/slipfront build/release/bin/scheme_comparison).   Needs python3-matplotlib.
 """
 
 import csv

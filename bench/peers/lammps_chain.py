@@ -116,7 +116,7 @@ def difference(a, b):
 
 
 def main():
-    chain_run = sys.argv[1] if len(sys.argv) > 1 else "build/dev/bin/chain_run"
+    chain_run = sys.argv[1] if len(sys.argv) > 1 else "build/release/bin/chain_run"
     lmp = sys.argv[2] if len(sys.argv) > 2 else "lmp"
     with tempfile.TemporaryDirectory() as folder:
         for sites, steps in SIZES:

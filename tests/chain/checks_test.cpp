@@ -23,7 +23,7 @@ ScaledProblem uniform(double stress, double half, double scale) {
   return s;
 }
 
-output::Schedule until(const ScaledProblem& s, double end, int cells = 40) {
+output::Schedule outputs_until(const ScaledProblem& s, double end, int cells = 40) {
   output::Schedule when{.times = {0, end}, .x_edges = {}};
   for (int i = 0; i <= cells; ++i) when.x_edges.push_back(s.left + (s.right - s.left) * i / cells);
   return when;
@@ -38,7 +38,7 @@ TEST(ChainChecks, WorkOfAFastForceBalances) {
     s.friction = f;
     s.spacing = 0.25;
     s.forcing = [](double x, double t) { return t < 30 ? 0.4 * std::cos(1.3 * t) * (1 + 0.2 * std::sin(x / 7)) : 0; };
-    chain::Run run(s, until(s, 60), {});
+    chain::Run run(s, outputs_until(s, 60), {});
     run.go();
     const output::Energy &first = run.snapshots().front().energy, &last = run.snapshots().back().energy;
     const double gained = last.elastic + last.kinetic - first.elastic - first.kinetic;
@@ -54,7 +54,7 @@ TEST(ChainChecks, ViscousFrictionOfAFewDislocationsBalances) {
   ScaledProblem s = uniform(0, 60, 1);
   s.stress = [](double x) { return x < -20 ? 0.6 : 0; };
   s.friction = friction::viscous(0.05);
-  chain::Run run(s, until(s, 80), {});
+  chain::Run run(s, outputs_until(s, 80), {});
   run.go();
   EXPECT_LT(run.balance().energy_drift, 1e-3);
 }
@@ -65,7 +65,7 @@ TEST(ChainChecks, DislocationsAreSlowerThanC) {
   ScaledProblem s = uniform(0.855, 3, 200);
   s.stress = [](double x) { return x < 0 ? 0.855 : 0; };
   s.boundary = {.left = End::free, .right = End::fixed};
-  chain::Run run(s, until(s, 6), {});
+  chain::Run run(s, outputs_until(s, 6), {});
   run.go();
   const output::Profile& p = run.snapshots().back().profile;
   int moving = 0;
@@ -85,7 +85,7 @@ TEST(ChainChecks, WarnsOfTooFewDislocations) {
   for (const double scale : {1.0, 1000.0}) {
     ScaledProblem s = uniform(0.855, 3, scale);
     s.stress = [](double x) { return x < 0 ? 0.855 : 0; };
-    chain::Run run(s, until(s, 6), {});
+    chain::Run run(s, outputs_until(s, 6), {});
     run.go();
     std::string all;
     for (const std::string& warning : run.warnings()) all += warning + "\n";
@@ -101,7 +101,7 @@ TEST(ChainChecks, WarnsIfTheGridPinsDislocations) {
     s.stress = [](double x) { return 0.533 + 0.148 * (1 - std::tanh(x / 0.5)) / 2; };
     s.friction = friction::viscous(0.257);
     s.spacing = spacing;
-    chain::Run run(s, until(s, 0.05), {});
+    chain::Run run(s, outputs_until(s, 0.05), {});
     run.go();
     std::string all;
     for (const std::string& warning : run.warnings()) all += warning + "\n";
@@ -116,7 +116,7 @@ TEST(ChainChecks, NamesNarrowDislocationsInTheError) {
   s.boundary = {.periodic = true};
   s.forcing = [](double, double) { return 0.5; };
   s.spacing = 0.5;
-  chain::Run run(s, until(s, 6.28), {});
+  chain::Run run(s, outputs_until(s, 6.28), {});
   try {
     run.go();
     ADD_FAILURE() << run.balance().energy_drift;
@@ -131,7 +131,7 @@ TEST(ChainChecks, FrontsAreSlowerThanC) {
     ScaledProblem s = uniform(stress, 4, 200);
     s.stress = [stress](double x) { return x < 0 ? stress : 0; };
     s.spacing = default_spacing / std::cosh(train::psi_of_stress(stress));
-    output::Schedule when = until(s, 3, 200);
+    output::Schedule when = outputs_until(s, 3, 200);
     when.times = {0, 0.5, 1, 2, 3};
     chain::Run run(s, when, {});
     run.go();
@@ -146,7 +146,7 @@ TEST(ChainChecks, FailsIfTheEnergyDrifts) {
   ScaledProblem s = uniform(1.5, 3, 200);
   s.spacing = 0.6;
   s.boundary = {.left = End::free, .right = End::free};
-  chain::Run run(s, until(s, 12), {});
+  chain::Run run(s, outputs_until(s, 12), {});
   try {
     run.go();
     ADD_FAILURE() << run.balance().energy_drift;
@@ -180,11 +180,11 @@ std::string with_pairs(std::string saved, std::size_t sites) {
 /// Fixed ends conserve the charge, so the charge does not reveal false pairs. The check counts dislocations.
 TEST(ChainChecks, DetectsFalsePairsOfDislocations) {
   const ScaledProblem s = uniform(0.855, 80, 1);
-  chain::Run cut(s, until(s, 5), {});
+  chain::Run cut(s, outputs_until(s, 5), {});
   EXPECT_FALSE(cut.go([] { return true; }));
   for (const std::string& sentence : cut.warnings()) EXPECT_EQ(sentence.find("the ends require"), std::string::npos);
   const std::size_t sites = cut.chain().problem().grid.sites;
-  chain::Run broken(s, until(s, 5), {}, with_pairs(cut.saved(), sites), cut.snapshots());
+  chain::Run broken(s, outputs_until(s, 5), {}, with_pairs(cut.saved(), sites), cut.snapshots());
   EXPECT_NEAR(broken.balance().charge_error, 0, 1e-12);
   EXPECT_GE(broken.balance().dislocations - cut.balance().dislocations, 6);
   std::string all;

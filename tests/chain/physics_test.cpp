@@ -17,7 +17,7 @@ namespace {
 
 using namespace slipfront;
 using namespace slipfront::chain;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Problem line(double left, double right, double h) {
   return {.grid = {left, h, static_cast<std::size_t>(std::lround((right - left) / h)) + 1},

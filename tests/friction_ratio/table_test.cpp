@@ -15,7 +15,7 @@ using namespace slipfront;
 using namespace slipfront::friction_ratio;
 using friction::Closure;
 
-constexpr Closure closures[] = {Closure::consistent, Closure::paper};
+constexpr Closure both_closures[] = {Closure::consistent, Closure::paper};
 constexpr auto& measures = all_measures;
 
 /// Checks a few points of `friction_ratio_table check`. None of them is a node of the table.
@@ -23,7 +23,7 @@ TEST(FrictionRatio, AgreesWithThePulseSolver) {
   struct Point {
     double stress, damping;
   };
-  for (const Closure closure : closures)
+  for (const Closure closure : both_closures)
     for (const Point p :
          {Point{0.06, 0.4}, {0.213, 0.05}, {0.855, 2.7}, {2.6, 1.3}, {0.9, 3e4}, {1.7, 4e6}, {0.3, 7e7}}) {
       const SlipVelocities w = solve({.stress = p.stress, .damping_number = p.damping, .closure = closure});
@@ -65,7 +65,7 @@ TEST(FrictionRatio, FollowsTheCorners) {
 /// the table's own W(0). Only Gamma = C t matters, so this mean is (1 / Gamma) times the integral of the ratio from 0
 /// to Gamma. We integrate over u = ln(1 + Gamma).
 TEST(FrictionRatio, IntegratesTheSlipVelocityForTheTimeMean) {
-  for (const Closure closure : closures)
+  for (const Closure closure : both_closures)
     for (const double stress : {0.05, 0.2117, 0.855, 2.9})
       for (const double damping : {0.01, 0.7, 21.4, 137.0, 3e3, 2e5, 9e7}) {
         constexpr int intervals = 4000;
@@ -110,13 +110,13 @@ TEST(FrictionRatio, TendsToTheDiffusionLimit) {
 }
 
 TEST(FrictionRatio, IsOneWithoutFriction) {
-  for (const Closure closure : closures)
+  for (const Closure closure : both_closures)
     for (const double stress : {0.05, 0.0731, 0.5, 3.0})
       EXPECT_NEAR(evaluate(Measure::origin, closure, stress, 0).value, 1, 1e-6);
 }
 
 TEST(FrictionRatio, HasDerivativesThatAgreeWithDifferences) {
-  for (const Closure closure : closures)
+  for (const Closure closure : both_closures)
     for (const Measure m : measures)
       for (const double damping : {0.3, 1.5, 2.2, 20.0, 5e3, 1e7, 1e9})
         for (const double stress : {0.07, 0.9, 2.5}) {
@@ -131,7 +131,7 @@ TEST(FrictionRatio, HasDerivativesThatAgreeWithDifferences) {
 }
 
 TEST(FrictionRatio, HasTheSameValueWithoutDerivatives) {
-  for (const Closure closure : closures)
+  for (const Closure closure : both_closures)
     for (const Measure m : measures)
       for (const double damping : {0.0, 0.3, 1.5, 20.0, 1e7, 1e9})
         for (const double stress : {0.07, 0.9, 2.5})
@@ -139,7 +139,7 @@ TEST(FrictionRatio, HasTheSameValueWithoutDerivatives) {
 }
 
 TEST(FrictionRatio, FallsSmoothlyWithFriction) {
-  for (const Closure closure : closures)
+  for (const Closure closure : both_closures)
     for (const Measure m : measures)
       for (const double stress : {0.05, 0.12, 0.5, 1.3, 3.0}) {
         double last = evaluate(m, closure, stress, 0).value;

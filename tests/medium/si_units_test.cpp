@@ -26,7 +26,7 @@ Constants interface(double contact_ratio) {
   return constants;
 }
 
-Constants rock() {
+Constants rock_constants() {
   Constants constants = interface(A);
   constants.shear_modulus = mu;
   constants.density = rho;
@@ -35,7 +35,7 @@ Constants rock() {
 }
 
 TEST(SiUnits, AgreeWithTheUnitsOfTheModel) {
-  const SiUnits units(rock());
+  const SiUnits units(rock_constants());
   const double c = std::sqrt(2 * mu / (rho * (1 - nu)));
   const auto model = slipfront::medium::units(mu, c, A, b);
   EXPECT_DOUBLE_EQ(units.of("b / A").value, model.length);
@@ -48,7 +48,7 @@ TEST(SiUnits, AgreeWithTheUnitsOfTheModel) {
 }
 
 TEST(SiUnits, SlipIsTheIntegralOfTheSlipVelocity) {
-  const SiUnits units(rock());
+  const SiUnits units(rock_constants());
   const auto slip = units.of("b / (2 pi)");
   EXPECT_DOUBLE_EQ(slip.value, units.of("c A / pi").value * units.of("b / (c A)").value);
   EXPECT_TRUE(slip.between_faces);
@@ -56,7 +56,7 @@ TEST(SiUnits, SlipIsTheIntegralOfTheSlipVelocity) {
 }
 
 TEST(SiUnits, HaveTheNamesOfUdunits) {
-  const SiUnits units(rock());
+  const SiUnits units(rock_constants());
   EXPECT_EQ(units.of("A / b").name, "m-1");
   EXPECT_EQ(units.of("c A / pi").name, "m s-1");
   EXPECT_EQ(units.of("mu A^2 b / (2 pi^2 (1 - nu))").name, "J m-2");

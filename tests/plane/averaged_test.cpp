@@ -16,22 +16,18 @@ using namespace slipfront;
 using plane::AveragedSolver;
 using plane::Point;
 using plane::Problem;
+using rings::polar;
 
 const rings::Slip& slip_of_rings() {
   static const rings::Slip slip;
   return slip;
 }
 
-Point at(double r, double degrees) {
-  const double angle = degrees * std::numbers::pi / 180;
-  return {r * std::cos(angle), r * std::sin(angle)};
-}
-
 /// Slip and front of the rings agree with those of 4365 rings, followed one by one by the radial sine-Gordon equation.
 TEST(PlaneAveraged, RingsAgreeWithEveryRing) {
   AveragedSolver solver(rings::problem(slip_of_rings()), {60, 1});
   EXPECT_TRUE(solver.advance_to(1, {}));
-  const std::vector<double> slip = solver.slip({at(1.25, 0), at(1.65, 0), at(2.05, 0)});
+  const std::vector<double> slip = solver.slip({polar(1.25, 0), polar(1.65, 0), polar(2.05, 0)});
   EXPECT_NEAR(slip[0] / 0.10733, 1, 0.01);
   EXPECT_NEAR(slip[1] / 0.34079, 1, 0.003);
   EXPECT_NEAR(slip[2] / 0.45870, 1, 0.003);
@@ -43,7 +39,7 @@ TEST(PlaneAveraged, RingsWithFrictionAgreeWithEveryRing) {
   problem.viscous = [](double, double) { return 0.5; };
   AveragedSolver solver(problem, {60, 1});
   solver.advance_to(3, {});
-  const std::vector<double> slip = solver.slip({at(1.45, 0), at(2.05, 0)});
+  const std::vector<double> slip = solver.slip({polar(1.45, 0), polar(2.05, 0)});
   EXPECT_NEAR(slip[0] / 0.40487, 1, 0.01);
   EXPECT_NEAR(slip[1] / 0.72095, 1, 0.01);
   EXPECT_NEAR(solver.front(1) / 2.7887, 1, 0.01);
@@ -68,7 +64,7 @@ TEST(PlaneAveraged, RingsConverge) {
   const auto run = [](int loops) {
     AveragedSolver solver(rings::problem(slip_of_rings()), {loops, 1});
     solver.advance_to(1, {});
-    return std::pair(solver.slip({at(1.25, 0)}).front(), solver.front(1));
+    return std::pair(solver.slip({polar(1.25, 0)}).front(), solver.front(1));
   };
   const auto coarse = run(30), middle = run(60), fine = run(480);
   EXPECT_GT(std::fabs(coarse.first - fine.first), 2.8 * std::fabs(middle.first - fine.first));
@@ -95,7 +91,8 @@ TEST(PlaneAveraged, FrictionOnOneSideAgreesWithEveryLine) {
   problem.viscous = rings::friction_on_one_side;
   AveragedSolver solver(problem, {60, 64});
   solver.advance_to(1, {});
-  const std::vector<double> slip = solver.slip({at(1.6, 90), at(1.6, 0), at(1.6, -90), at(2.2, 0), at(2.2, -90)});
+  const std::vector<double> slip =
+      solver.slip({polar(1.6, 90), polar(1.6, 0), polar(1.6, -90), polar(2.2, 0), polar(2.2, -90)});
   const std::vector<double> direct = {0.17662, 0.23793, 0.30931, 0.17312, 0.2655};
   for (std::size_t i = 0; i < slip.size(); ++i) EXPECT_NEAR(slip[i] / direct[i], 1, 0.02) << i;
   EXPECT_NEAR(solver.potency() / 3.1787, 1, 0.01);
@@ -125,7 +122,7 @@ TEST(PlaneAveraged, ResumesToTheSameBits) {
   EXPECT_THROW(other.resume(part.saved()), InputError);
 }
 
-std::string message_of(const Problem& problem) {
+std::string loops_message_of(const Problem& problem) {
   try {
     const AveragedSolver solver(problem, {20, 16});
   } catch (const InputError& error) {
@@ -137,14 +134,17 @@ std::string message_of(const Problem& problem) {
 TEST(PlaneAveraged, RefusesLinesThatAreNotStarShaped) {
   Problem problem = rings::problem(slip_of_rings());
   problem.slip = [](double x, double y) { return std::hypot(x, y) < 3 ? 1 + x * x : 0; };
-  EXPECT_NE(message_of(problem).find("rises away from the origin"), std::string::npos) << message_of(problem);
+  EXPECT_NE(loops_message_of(problem).find("rises away from the origin"), std::string::npos)
+      << loops_message_of(problem);
   problem.slip = [](double, double) { return 1; };
-  EXPECT_NE(message_of(problem).find("at the edge of the domain"), std::string::npos) << message_of(problem);
+  EXPECT_NE(loops_message_of(problem).find("at the edge of the domain"), std::string::npos)
+      << loops_message_of(problem);
   problem.slip = [](double x, double) { return x > 2.5 ? 0 : NAN; };
-  EXPECT_NE(message_of(problem).find("there is no slip around the origin"), std::string::npos) << message_of(problem);
+  EXPECT_NE(loops_message_of(problem).find("there is no slip around the origin"), std::string::npos)
+      << loops_message_of(problem);
   problem = rings::problem(slip_of_rings());
   problem.fixed = [](double x, double y) { return std::hypot(x - 2, y) < 0.3 ? 1 : 0; };
-  EXPECT_NE(message_of(problem).find("is not around the origin"), std::string::npos) << message_of(problem);
+  EXPECT_NE(loops_message_of(problem).find("is not around the origin"), std::string::npos) << loops_message_of(problem);
 }
 
 TEST(PlaneAveraged, RefusesTooFewCells) {
@@ -154,7 +154,7 @@ TEST(PlaneAveraged, RefusesTooFewCells) {
     EXPECT_THROW(AveragedSolver(problem, few), InputError) << few.loops << " x " << few.angles;
   AveragedSolver least(problem, {4, 8});
   least.advance_to(0.1, {});
-  EXPECT_GT(least.slip({at(2.02, 0)}).front(), 0);
+  EXPECT_GT(least.slip({polar(2.02, 0)}).front(), 0);
 }
 
 /// Friction takes the elastic energy that the lines release, and no more.
@@ -177,7 +177,7 @@ TEST(PlaneAveraged, StopsWhereFrictionTakesEnergyFromNothing) {
 TEST(PlaneAveraged, RefusesStrengthAtRest) {
   Problem problem = rings::problem(slip_of_rings());
   problem.friction = friction::coulomb(0.3);
-  EXPECT_NE(message_of(problem).find("holds slip at rest"), std::string::npos) << message_of(problem);
+  EXPECT_NE(loops_message_of(problem).find("holds slip at rest"), std::string::npos) << loops_message_of(problem);
 }
 
 TEST(PlaneAveraged, StopsWhereTheFrontLeavesTheDomain) {

@@ -16,9 +16,8 @@
 namespace slipfront::plane {
 namespace {
 
+using rings::polar;
 using std::numbers::pi;
-
-Point at(double r, double degrees) { return {r * std::cos(degrees * pi / 180), r * std::sin(degrees * pi / 180)}; }
 
 /// A quarter of a single ring around the corner of a square, at rest at first, without a scale. Free edges mirror it.
 class SingleRing {
@@ -90,7 +89,7 @@ TEST(PlaneDirect, FrictionOnOneSideAgreesWithAnotherProgram) {
   p.viscous = rings::friction_on_one_side;
   DirectSolver solver(p, {.scale = 40, .spacing = 0.25, .threads = 2});
   solver.advance_to(1, {});
-  const std::vector<double> slips = solver.slip({at(1.6, 90), at(1.6, 0), at(1.6, -90), at(2, -90)});
+  const std::vector<double> slips = solver.slip({polar(1.6, 90), polar(1.6, 0), polar(1.6, -90), polar(2, -90)});
   const double references[] = {0.17259, 0.23368, 0.30096, 0.49563};
   for (std::size_t i = 0; i < slips.size(); ++i) EXPECT_NEAR(slips[i] / references[i], 1, 0.015) << i;
   EXPECT_NEAR(solver.potency() / 3.1128, 1, 0.01);
@@ -110,7 +109,7 @@ TEST(PlaneDirect, AgreesWithTheAverages) {
   direct.advance_to(0.6, {});
   EXPECT_NEAR(direct.potency() / averaged.potency(), 1, 0.05);
   EXPECT_NEAR(direct.front(1) / averaged.front(1), 1, 0.04);
-  const std::vector<Point> points = {at(1.6, 0), at(1.7, 90), at(1.7, 180), at(1.9, 45)};
+  const std::vector<Point> points = {polar(1.6, 0), polar(1.7, 90), polar(1.7, 180), polar(1.9, 45)};
   const std::vector<double> a = averaged.slip(points), d = direct.slip(points);
   for (std::size_t i = 0; i < points.size(); ++i) EXPECT_NEAR(d[i], a[i], 0.02) << i;
 }

@@ -19,11 +19,7 @@ using namespace slipfront;
 using plane::GridSolver;
 using plane::Point;
 using plane::Problem;
-
-Point at(double r, double degrees) {
-  const double angle = degrees * std::numbers::pi / 180;
-  return {r * std::cos(angle), r * std::sin(angle)};
-}
+using rings::polar;
 
 Problem friction_on_one_side() {
   static const rings::Slip slip;
@@ -36,7 +32,8 @@ Problem friction_on_one_side() {
 TEST(PlaneGrid, FrictionOnOneSideAgreesWithEveryLine) {
   GridSolver solver(friction_on_one_side(), 100);
   EXPECT_TRUE(solver.advance_to(1, {}));
-  const std::vector<double> slip = solver.slip({at(1.6, 90), at(1.6, 0), at(1.6, -90), at(2.2, 0), at(2.2, -90)});
+  const std::vector<double> slip =
+      solver.slip({polar(1.6, 90), polar(1.6, 0), polar(1.6, -90), polar(2.2, 0), polar(2.2, -90)});
   const std::vector<double> direct = {0.17662, 0.23793, 0.30931, 0.17312, 0.2655};
   for (std::size_t i = 0; i < slip.size(); ++i) EXPECT_NEAR(slip[i] / direct[i], 1, 0.04) << i;
   EXPECT_NEAR(solver.potency() / 3.1787, 1, 0.01);
@@ -50,7 +47,7 @@ TEST(PlaneGrid, Converges) {
   const auto slip = [](int cells) {
     GridSolver solver(friction_on_one_side(), cells);
     solver.advance_to(1, {});
-    return solver.slip({at(1.6, -90)}).front();
+    return solver.slip({polar(1.6, -90)}).front();
   };
   const double exact = 0.3133;  // the averages along loops give this
   const double coarse = std::fabs(slip(50) - exact), middle = std::fabs(slip(100) - exact);
@@ -226,7 +223,7 @@ TEST(PlaneGrid, ResumesToTheSameBits) {
   for (const Problem& p : {barrier(), weakening(), ageing()}) expect_the_same_bits(p);
 }
 
-std::string message_of(const Problem& problem, int cells = 20) {
+std::string grid_message_of(const Problem& problem, int cells = 20) {
   try {
     GridSolver solver(problem, cells);
     solver.advance_to(5, {});
@@ -243,15 +240,15 @@ TEST(PlaneGrid, RefusesWhatItCannotSolve) {
   steep.hold = true;
   edges.slip = [](double, double) { return 1.0; };
   edges.edges = plane::Edges::fixed;
-  EXPECT_NE(message_of(negative).find("the slip is -1"), std::string::npos);
-  EXPECT_NE(message_of(none).find("there is no slip"), std::string::npos);
-  EXPECT_NE(message_of(steep).find("a static load would be infinite"), std::string::npos);
-  EXPECT_NE(message_of(edges).find("has no such edges"), std::string::npos);
+  EXPECT_NE(grid_message_of(negative).find("the slip is -1"), std::string::npos);
+  EXPECT_NE(grid_message_of(none).find("there is no slip"), std::string::npos);
+  EXPECT_NE(grid_message_of(steep).find("a static load would be infinite"), std::string::npos);
+  EXPECT_NE(grid_message_of(edges).find("has no such edges"), std::string::npos);
   Problem unseen = bump(0, 1);
   unseen.fixed = [](double x, double y) { return std::hypot(x - 2.1, y - 2.1) < 0.1 ? 1.0 : 0.0; };
-  EXPECT_NE(message_of(unseen, 21).find("lies between the centres"), std::string::npos);
-  EXPECT_NE(message_of(bump(0, 1), 7).find("too few cells"), std::string::npos);
-  EXPECT_NE(message_of(barrier()).find("the front has reached the edge"), std::string::npos);
+  EXPECT_NE(grid_message_of(unseen, 21).find("lies between the centres"), std::string::npos);
+  EXPECT_NE(grid_message_of(bump(0, 1), 7).find("too few cells"), std::string::npos);
+  EXPECT_NE(grid_message_of(barrier()).find("the front has reached the edge"), std::string::npos);
 }
 
 }  // namespace

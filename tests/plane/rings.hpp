@@ -53,6 +53,12 @@ inline slipfront::plane::Problem problem(const Slip& slip) {
   return p;
 }
 
+/// The point at the distance r from the origin, in the direction of an angle in degrees.
+inline slipfront::plane::Point polar(double r, double degrees) {
+  const double angle = degrees * std::numbers::pi / 180;
+  return {r * std::cos(angle), r * std::sin(angle)};
+}
+
 inline double friction_on_one_side(double, double y) { return 1 + std::tanh(y / 0.1); }
 
 }  // namespace rings

@@ -6,6 +6,7 @@
 #include <functional>
 #include <vector>
 
+#include "law_values.hpp"
 #include "pulse/grid/start.hpp"
 #include "pulse/steps/stepper.hpp"
 #include "slipfront/friction/friction.hpp"
@@ -26,12 +27,6 @@ Problem problem(const friction::Friction& friction) {
           .left_end = pulse::End::fixed,
           .right_end = pulse::End::fixed,
           .cells = 100};
-}
-
-friction::Friction law(const std::string& name, std::vector<double> values) {
-  for (const friction::Definition* definition : friction::laws())
-    if (definition->name == name) return {*definition, std::move(values)};
-  throw std::invalid_argument(name);
 }
 
 /// Takes 40 steps twice from the start. In the second round all arrays and tables of the law exist.
@@ -79,7 +74,8 @@ TEST(PulseAllocations, ImplicitStepsMakeNone) {
 }
 
 TEST(PulseAllocations, StepsThatSplitFrictionOffMakeNone) {
-  expect_no_allocations(problem(law("rate-and-state", {0.0125, 0.003, 0, 1, 0.05, 0, 0})), "rate-and-state");
+  expect_no_allocations(problem(friction::law_of("rate-and-state", {0.0125, 0.003, 0, 1, 0.05, 0, 0})),
+                        "rate-and-state");
   expect_no_allocations(problem(friction::power(0.0125, 0.7)), "power");
 }
 

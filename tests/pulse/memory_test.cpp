@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "law_values.hpp"
 #include "pulse/solver.hpp"
 #include "slipfront/chain/run.hpp"
 #include "slipfront/error.hpp"
@@ -12,16 +13,12 @@ namespace {
 
 using namespace slipfront;
 
-friction::Friction law(const std::string& name, std::vector<double> values) {
-  for (const friction::Definition* law : friction::laws())
-    if (law->name == name) return {*law, std::move(values)};
-  throw std::runtime_error("no law " + name);
-}
-
 /// f_0, a, b, D_c, w_0, age, state.
-friction::Friction rate_and_state() { return law("rate-and-state", {0.05, 0.01, 0.015, 0.05, 0.05, 0, 0}); }
-friction::Friction slip_law() { return law("rate-and-state", {0.05, 0.01, 0.015, 0.05, 0.05, 0, 1}); }
-friction::Friction slip_weakening() { return law("slip-weakening", {0.08, 0.02, 0.1}); }
+friction::Friction rate_and_state() {
+  return friction::law_of("rate-and-state", {0.05, 0.01, 0.015, 0.05, 0.05, 0, 0});
+}
+friction::Friction slip_law() { return friction::law_of("rate-and-state", {0.05, 0.01, 0.015, 0.05, 0.05, 0, 1}); }
+friction::Friction slip_weakening() { return friction::law_of("slip-weakening", {0.08, 0.02, 0.1}); }
 
 pulse::Problem step(const friction::Friction& friction, int cells) {
   pulse::Problem p;
@@ -78,7 +75,7 @@ TEST(PulseState, ConvergesWithTheCells) {
 
 /// With f_s = f_d the state has no effect, and the law is Coulomb friction. Two solvers must agree on the same problem.
 TEST(PulseState, SlipWeakeningWithoutWeakeningIsCoulombFriction) {
-  const double implicit = slip(law("slip-weakening", {0.05, 0.05, 1}), 200, 2);
+  const double implicit = slip(friction::law_of("slip-weakening", {0.05, 0.05, 1}), 200, 2);
   const double by_events = slip(friction::coulomb(0.05), 200, 2);
   EXPECT_NEAR(implicit / by_events, 1, 2e-3);
 }
@@ -98,7 +95,7 @@ TEST(PulseState, StopsChangeNoBits) {
 /// the step, and the next one crashed.
 TEST(PulseState, DenseTrainsRunIntoSparseOnes) {
   for (const auto& friction :
-       {law("rate-and-state", {0.0125, 0.003, 0, 1, 0.05, 0, 0}), friction::power(0.0125, 0.7)}) {
+       {friction::law_of("rate-and-state", {0.0125, 0.003, 0, 1, 0.05, 0, 0}), friction::power(0.0125, 0.7)}) {
     pulse::Problem p = step(friction, 200);
     p.stress = [](double x) { return x < 0 ? 0.517 : 0.00833; };
     p.left = -3.27;
@@ -125,7 +122,7 @@ TEST(PulseState, DoesNotMoveUnderAForceBelowTheStrength) {
     EXPECT_TRUE(run.go());
     return std::fabs(run.snapshots().back().slip_at_origin);
   };
-  EXPECT_LT(slip_with(law("slip-weakening", {1, 0.5, 1})), 1e-3 * slip_with({}));
+  EXPECT_LT(slip_with(friction::law_of("slip-weakening", {1, 0.5, 1})), 1e-3 * slip_with({}));
 }
 
 }  // namespace

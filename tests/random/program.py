@@ -17,7 +17,7 @@ import numpy as np
 import scenarios
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-PROGRAM = os.environ.get("SLIPFRONT", str(ROOT / "build/dev/bin/slipfront"))
+PROGRAM = os.environ.get("SLIPFRONT", str(ROOT / "build/release/bin/slipfront"))
 RESUME_CHECK = pathlib.Path(PROGRAM).with_name("resume_check")
 CPU_LIMIT = int(os.environ.get("SLIPFRONT_CPU_LIMIT", "20"))  # seconds of processor time for one run
 

@@ -23,7 +23,8 @@ using namespace slipfront::catalogue;
 using namespace slipfront::results;
 using namespace slipfront::record;
 
-const EventMetadata metadata = {.version = "1", .command_line = "slipfront event a.csv", .settings = {{"seed", "1"}}};
+const EventMetadata event_metadata = {
+    .version = "1", .command_line = "slipfront event a.csv", .settings = {{"seed", "1"}}};
 
 std::vector<EventResult> results() {
   std::vector<EventResult> all;
@@ -46,7 +47,7 @@ std::vector<Decade> population_of(const std::vector<EventResult>& all) {
 
 class EventFile : public testing::Test {
  protected:
-  void write(bool finished = true) { write_events(path, metadata, all, population_of(all), finished); }
+  void write(bool finished = true) { write_events(path, event_metadata, all, population_of(all), finished); }
 
   TemporaryFolder folder;
   const std::string path = folder / "a.nc";
@@ -55,13 +56,13 @@ class EventFile : public testing::Test {
 
 TEST_F(EventFile, HoldsWhatIsNeededToResume) {
   write(false);
-  EXPECT_EQ(read_events_done(path, metadata), serialize(all));
-  EXPECT_EQ(deserialize(read_events_done(path, metadata)).size(), 3u);
+  EXPECT_EQ(read_events_done(path, event_metadata), serialize(all));
+  EXPECT_EQ(deserialize(read_events_done(path, event_metadata)).size(), 3u);
   const std::string first = read_text(path);
   write(false);
   EXPECT_EQ(read_text(path), first);
-  write_events(path, metadata, {}, {}, false);  // nothing done yet
-  EXPECT_EQ(read_events_done(path, metadata), "");
+  write_events(path, event_metadata, {}, {}, false);  // nothing done yet
+  EXPECT_EQ(read_events_done(path, event_metadata), "");
 }
 
 TEST_F(EventFile, HoldsTheColumnsAndThePopulation) {
@@ -89,20 +90,20 @@ TEST_F(EventFile, HoldsTheColumnsAndThePopulation) {
 
 TEST_F(EventFile, RejectsAFileOfAnotherCatalogue) {
   write(false);
-  EventMetadata other = metadata;
+  EventMetadata other = event_metadata;
   other.settings[0].second = "2";
   const std::string says = message_of<InputError>([&] { read_events_done(path, other); });
   EXPECT_NE(says.find("another seed"), std::string::npos) << says;
   EXPECT_NE(says.find("'2'"), std::string::npos) << says;
-  other = metadata;
+  other = event_metadata;
   other.version = "2";
   EXPECT_THROW(read_events_done(path, other), InputError);
-  EXPECT_THROW(read_events_done(folder / "none.nc", metadata), FileError);
+  EXPECT_THROW(read_events_done(folder / "none.nc", event_metadata), FileError);
   EXPECT_THROW(read_checkpoint(path), FileError);
   write_pulse(
       path, {.title = {}, .scenario_text = {}, .version = "1", .command_line = {}, .x_edges = {0, 1}, .variables = {}},
       {}, "", false);
-  EXPECT_THROW(read_events_done(path, metadata), FileError);
+  EXPECT_THROW(read_events_done(path, event_metadata), FileError);
 }
 
 TEST_F(EventFile, RejectsDamage) {
@@ -112,9 +113,9 @@ TEST_F(EventFile, RejectsDamage) {
     std::string damaged = whole;
     damaged[at] = static_cast<char>(damaged[at] ^ 1);
     write_text(path, damaged);
-    EXPECT_THROW(read_events_done(path, metadata), FileError);
+    EXPECT_THROW(read_events_done(path, event_metadata), FileError);
     write_text(path, whole.substr(0, at));
-    EXPECT_THROW(read_events_done(path, metadata), FileError);
+    EXPECT_THROW(read_events_done(path, event_metadata), FileError);
   }
 }
 

@@ -11,18 +11,18 @@ namespace slipfront::scenario {
 namespace {
 
 std::string friction(const std::string& rest) { return step + "[friction]\n" + rest; }
-std::string formula(const std::string& text) { return friction("law = \"formula\"\nformula = \"" + text + "\"\n"); }
+std::string formula_law(const std::string& text) { return friction("law = \"formula\"\nformula = \"" + text + "\"\n"); }
 Complaint refused_text(const std::string& text, const Rows& rows = {}) {
   return refused([&] { read(text, {}, rows); });
 }
 
 TEST(FrictionCurve, AgreesWithTheFormula) {
-  const Scenario s = read(formula("0.1*w/(1 + w^2)") + "coefficient = 2\n");
+  const Scenario s = read(formula_law("0.1*w/(1 + w^2)") + "coefficient = 2\n");
   for (const double w : {1e-9, 0.3, 4.0}) EXPECT_DOUBLE_EQ(s.friction.force(-w), -0.2 * w / (1 + w * w));
   EXPECT_FALSE(s.friction.sticks());
-  EXPECT_TRUE(read(formula("0.1 + 0.2*w")).friction.sticks());
-  EXPECT_TRUE(read(formula("0.1*sqrt(w)")).friction.steep_at_rest());
-  EXPECT_FALSE(read(formula("0.1*w")).friction.steep_at_rest());
+  EXPECT_TRUE(read(formula_law("0.1 + 0.2*w")).friction.sticks());
+  EXPECT_TRUE(read(formula_law("0.1*sqrt(w)")).friction.steep_at_rest());
+  EXPECT_FALSE(read(formula_law("0.1*w")).friction.steep_at_rest());
 }
 
 TEST(FrictionCurve, InterpolatesTheTableMonotonically) {
@@ -38,10 +38,10 @@ TEST(FrictionCurve, InterpolatesTheTableMonotonically) {
 }
 
 TEST(FrictionCurve, RejectsCurvesThatAreNotForces) {
-  EXPECT_TRUE(contains(refused_text(formula("1/w")).problem, "inf at the slip velocity w = 0"));
-  EXPECT_TRUE(contains(refused_text(formula("w - 0.1")).problem, "-0.1"));
-  EXPECT_TRUE(contains(refused_text(formula("w > 0 ? 0.1 : 0")).allowed, "coulomb"));
-  EXPECT_TRUE(contains(refused_text(formula("0.1*v")).problem, "v"));
+  EXPECT_TRUE(contains(refused_text(formula_law("1/w")).problem, "inf at the slip velocity w = 0"));
+  EXPECT_TRUE(contains(refused_text(formula_law("w - 0.1")).problem, "-0.1"));
+  EXPECT_TRUE(contains(refused_text(formula_law("w > 0 ? 0.1 : 0")).allowed, "coulomb"));
+  EXPECT_TRUE(contains(refused_text(formula_law("0.1*v")).problem, "v"));
   EXPECT_EQ(refused_text(friction("law = \"formula\"\n")).key, "friction.formula");
   EXPECT_EQ(refused_text(friction("law = \"viscous\"\ncoefficient = 1\nformula = \"w\"\n")).key, "friction.formula");
   const std::string table = friction("law = \"table\"\nfile = \"f.csv\"\n");
@@ -52,14 +52,14 @@ TEST(FrictionCurve, RejectsCurvesThatAreNotForces) {
 
 /// Steep curves are accepted; only a curve that jumps at w = 0 is refused.
 TEST(FrictionCurve, AcceptsSteepCurvesAtRest) {
-  EXPECT_NEAR(read(formula("0.02*w^0.1")).friction.law().strength(1e-10, {}), 0.002, 1e-12);
-  EXPECT_NEAR(read(formula("0.02*w^0.02")).friction.law().strength(1, {}), 0.02, 1e-12);
-  EXPECT_TRUE(contains(refused_text(formula("w > 0 ? 0.1 + w : 0")).problem, "jumps from 0 at w = 0 to 0.1"));
+  EXPECT_NEAR(read(formula_law("0.02*w^0.1")).friction.law().strength(1e-10, {}), 0.002, 1e-12);
+  EXPECT_NEAR(read(formula_law("0.02*w^0.02")).friction.law().strength(1, {}), 0.02, 1e-12);
+  EXPECT_TRUE(contains(refused_text(formula_law("w > 0 ? 0.1 + w : 0")).problem, "jumps from 0 at w = 0 to 0.1"));
 }
 
 /// Two threads must not call the parser of a formula at the same time, but they may call the curve.
 TEST(FrictionCurve, MayBeCalledByThreads) {
-  const friction::Friction f = read(formula("0.1*w/(1 + w^2)")).friction;
+  const friction::Friction f = read(formula_law("0.1*w/(1 + w^2)")).friction;
   std::vector<std::thread> threads;
   std::vector<int> wrong(4);
   for (std::size_t t = 0; t < wrong.size(); ++t)

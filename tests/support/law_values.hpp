@@ -5,12 +5,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "slipfront/friction/law.hpp"
+#include "slipfront/friction/friction.hpp"
 
 namespace slipfront::friction {
+
+/// The law of friction `name` with values of its parameters.
+inline Friction law_of(const std::string& name, std::vector<double> values) {
+  for (const Definition* definition : laws())
+    if (definition->name == name) return {*definition, std::move(values)};
+  throw std::invalid_argument(name);
+}
 
 /// The sizes of forces, slips, times and velocities among the parameters.
 struct Sizes {

@@ -10,7 +10,7 @@ namespace {
 
 using namespace slipfront;
 using namespace slipfront::chain;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 struct Result {
   double slip, drift, energy_lost;

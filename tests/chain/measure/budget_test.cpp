@@ -10,7 +10,7 @@ namespace {
 
 using namespace slipfront;
 using namespace slipfront::chain;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Problem ring(double length, std::size_t sites, long charge) {
   return {.grid = {-length / 2, length / static_cast<double>(sites), sites},
