@@ -48,12 +48,11 @@ template Option CommandLine::option(const std::string&, const std::string&, std:
                                     const std::string&);
 template Option CommandLine::option(const std::string&, const std::string&, std::vector<double>&, const std::string&);
 
-Option CommandLine::arguments(const std::string& name, std::function<void(const std::vector<std::string>&)> take,
+Option CommandLine::arguments(const std::string& name, const std::function<void(const std::vector<std::string>&)>& take,
                               const std::string& help) {
   constexpr int most = 1000;
-  return Option(app_->add_option_function<std::vector<std::string>>(name, std::move(take), help)
-                    ->expected(1, most)
-                    ->type_name(""));
+  return Option(
+      app_->add_option_function<std::vector<std::string>>(name, take, help)->expected(1, most)->type_name(""));
 }
 
 void CommandLine::when_parsed(std::function<void()> action) { app_->parse_complete_callback(std::move(action)); }

@@ -53,7 +53,7 @@ class CommandLine {
   template <class Value>
   Option option(const std::string& names, const std::string& type, Value& value, const std::string& help);
   /// Adds one or more arguments, which are given to `take` together.
-  Option arguments(const std::string& name, std::function<void(const std::vector<std::string>&)> take,
+  Option arguments(const std::string& name, const std::function<void(const std::vector<std::string>&)>& take,
                    const std::string& help);
   /// Calls `action` when the whole command line was read.
   void when_parsed(std::function<void()> action);
