@@ -125,7 +125,7 @@ class Chain(CommandLine):
         self.refused(2, "chain", case, "--resume", made, says=["resume"])
 
     def test_a_killed_and_resumed_run_writes_the_same_file(self):
-        self.killed_and_resumed("chain", 6)
+        self.killed_and_resumed("chain", 4)
 
 
 if __name__ == "__main__":

@@ -1,41 +1,16 @@
 """Behaviour that all commands share: help, version, a full disk."""
 
 import json
-import os
-import re
-import shutil
 import subprocess
-import tempfile
 import unittest
 
-from support import CommandLine, PATIENCE, PROGRAM, SANITIZED, SOURCE, run
-
-COMMANDS = ("relations", "event", "pulse", "chain", "compare", "keys", "doctor", "explore")
-#: Commands of the Python package, which a build with sanitizers does not have.
-PYTHON_COMMANDS = () if SANITIZED else ("sweep", "fronts", "laboratory", "reproduce", "plot", "animate")
-#: Examples that other tests run, because they serve a page or take long.
-ELSEWHERE = ("slipfront explore", "slipfront reproduce", "slipfront animate")
+from support import CommandLine, PROGRAM
 
 
 class Common(CommandLine):
     def test_help_and_version(self):
         for arguments in (["--help"], ["relations", "--help"], ["event", "--help"], ["pulse", "--help"], ["chain", "--help"], ["--version"]):
             self.assertTrue(self.ok(*arguments).strip())
-
-    def test_every_help_has_examples_that_run(self):
-        with tempfile.TemporaryDirectory() as folder:
-            shutil.copytree(os.path.join(SOURCE, "cases"), os.path.join(folder, "cases"))
-            os.symlink(PROGRAM, os.path.join(folder, "slipfront"))
-            environment = os.environ | {"PATH": f"{folder}:{os.environ['PATH']}"}
-            for command in (*COMMANDS, *PYTHON_COMMANDS):
-                help_text = run(command, "--help").stdout
-                examples = re.findall(r"^  (slipfront .*)$", help_text.partition("Examples:")[2], re.MULTILINE)
-                self.assertTrue(examples, command)
-                for example in examples:
-                    if not example.startswith(ELSEWHERE):
-                        with self.subTest(example):
-                            done = subprocess.run(["bash", "-c", example], cwd=folder, env=environment, capture_output=True, text=True, timeout=PATIENCE)
-                            self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_mistyped_names_have_a_suggestion(self):
         self.refused(2, "pulze", says=["did you mean pulse?", "slipfront --help"])

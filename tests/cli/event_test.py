@@ -191,7 +191,7 @@ class Event(CommandLine):
         self.assertEqual([e["stress"] is None for e in json.loads(done.stdout)["events"]], [True, False])
 
     def test_reads_tens_of_thousands_of_rows_from_stdin(self):
-        rows = 4000 if SANITIZED else 60000
+        rows = 2000 if SANITIZED else 12000
         stdin = "name,rupture_velocity_km_s,slip_velocity_m_s\n" + "E,2.8,0.5\n" * rows
         out = self.ok("event", "-", "--csv", "--quiet", stdin=stdin)
         self.assertEqual(out.count("\n"), rows + 1)
@@ -307,7 +307,7 @@ class Event(CommandLine):
             self.assertEqual(file.read(), before)
 
     def test_killed_and_resumed(self):
-        events = 300 if SANITIZED else 1500
+        events = 100 if SANITIZED else 500
         case = self.catalogue(events)
         quiet = subprocess.DEVNULL
         slowly = ["--samples", "3000"]  # so many that the run writes several checkpoints on any machine

@@ -40,10 +40,10 @@ class Relations(CommandLine):
         out = json.loads(self.ok("relations", "--stress", "-", "--json", stdin="1.03  # Parkfield\n\n 0.213\r\n"))
         self.assertEqual([r["stress"] for r in out["relations"]], [1.03, 0.213])
 
-    def test_a_million_rows_and_any_number_of_threads(self):
-        stdin = "".join(f"{0.05 + i * 1e-6:.8f}\n" for i in range(1000000))
+    def test_many_rows_and_any_number_of_threads(self):
+        stdin = "".join(f"{0.05 + i * 1e-5:.8f}\n" for i in range(100000))
         one = self.ok("relations", "--stress", "-", "--csv", "--threads", "1", stdin=stdin)
-        self.assertEqual(one.count("\n"), 1000001)
+        self.assertEqual(one.count("\n"), 100001)
         self.assertEqual(one, self.ok("relations", "--stress", "-", "--csv", "--threads", "3", stdin=stdin))
 
     def test_full_precision_for_one_state(self):

@@ -76,13 +76,16 @@ def until_it_answers(process, number):
 
 
 class CommandLine(unittest.TestCase):
+    #: Runs a command. tests/python/commands.py has another way.
+    run_command = staticmethod(run)
+
     def ok(self, *arguments, stdin=""):
-        done = run(*arguments, stdin=stdin)
+        done = self.run_command(*arguments, stdin=stdin)
         self.assertEqual(done.returncode, 0, done.stderr)
         return done.stdout
 
     def refused(self, code, *arguments, stdin="", says=()):
-        done = run(*arguments, stdin=stdin)
+        done = self.run_command(*arguments, stdin=stdin)
         self.assertEqual(done.returncode, code, (arguments, done.stdout[:300], done.stderr))
         self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
         self.assertTrue(done.stderr.startswith("slipfront: "), done.stderr)

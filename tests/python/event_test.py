@@ -102,20 +102,20 @@ class Event(CommandLine):
 
     def test_an_interrupted_catalogue_is_resumed_to_the_same_bytes(self):
         rows = "name,rupture_velocity,slip_velocity,contact_ratio\n" + "".join(
-            f"e{i},3.{i % 10} +- 0.2 km/s,0.5 */ 1.3 m/s,0.00{i % 7 + 4} */ 1.4\n" for i in range(600))
+            f"e{i},3.{i % 10} +- 0.2 km/s,0.5 */ 1.3 m/s,0.00{i % 7 + 4} */ 1.4\n" for i in range(250))
         catalogue = self.file("catalogue.csv", rows)
         folder = os.path.dirname(catalogue)
         whole, stopped, of_program = (os.path.join(folder, name) for name in ("whole.nc", "stopped.nc", "program.nc"))
         seen = []
         data = slipfront.event(catalogue, output=whole, draws=5, progress=lambda *done: seen.append(done[:2]))
-        self.assertTrue(all(total == 600 for _, total in seen))
+        self.assertTrue(all(total == 250 for _, total in seen))
 
         def stop(*_):
             raise KeyboardInterrupt
 
         with self.assertRaises(KeyboardInterrupt):
             slipfront.event(catalogue, output=stopped, draws=5, progress=stop)
-        self.assertLess(slipfront.open(stopped).sizes["event"], 600)
+        self.assertLess(slipfront.open(stopped).sizes["event"], 250)
         with self.assertRaisesRegex(slipfront.InputError, "another seed"):
             slipfront.event(catalogue, resume=stopped, draws=5, seed=2)
         resumed = slipfront.event(catalogue, resume=stopped, draws=5)

@@ -8,9 +8,10 @@ import tomllib
 import unittest
 
 import numpy as np
+from commands import PythonCommands, run_here
 import slipfront
 from slipfront import _front_paths
-from support import SOURCE, CommandLine, run
+from support import SOURCE, run
 
 STEP = os.path.join(SOURCE, "cases/step.toml")
 CASE = os.path.join(SOURCE, "cases/precursors.toml")
@@ -96,13 +97,20 @@ class Exact(unittest.TestCase):
         self.assertAlmostEqual(fast[0] / fast[1], 1, delta=0.03)
 
 
-class Recorded(CommandLine):
+class Recorded(PythonCommands):
     """Arrivals that a loaded chain records."""
 
     @classmethod
     def setUpClass(cls):
-        cls.block = slipfront.chain(CASE, si=False)
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.file_of_block = os.path.join(cls.folder.name, "block.nc")
+        slipfront.chain(CASE, output=cls.file_of_block)
+        cls.block = slipfront.open(cls.file_of_block, si=False)
         cls.found = slipfront.fronts(cls.block)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
 
     def test_precursors_grow_until_a_front_crosses_the_block(self):
         found = self.found
@@ -159,9 +167,8 @@ class Recorded(CommandLine):
 
     def test_the_command_prints_and_writes_the_fronts(self):
         with tempfile.TemporaryDirectory() as folder:
-            block, out, table = (os.path.join(folder, name) for name in ("block.nc", "fronts.nc", "fronts.csv"))
-            self.ok("chain", CASE, "-o", block, "--quiet")
-            text = self.ok("fronts", block, "-o", out)
+            block, out, table = self.file_of_block, os.path.join(folder, "fronts.nc"), os.path.join(folder, "fronts.csv")
+            text = run("fronts", block, "-o", out).stdout  # starts the program
             self.assertNotIn("m/s", self.ok("fronts", block, "--dimensionless").splitlines()[1])
             self.assertIn("cross the whole block", text)
             fronts = json.loads(self.ok("fronts", block, "--json"))["fronts"]
@@ -171,7 +178,7 @@ class Recorded(CommandLine):
             self.assertEqual(written.front_kind.values.tolist(), self.found.front_kind.values.tolist())
             with open(table, "w", encoding="utf-8") as file:
                 file.write(self.ok("fronts", block, "--csv"))
-            done = run("laboratory", table, "--poisson-ratio", "0.33", "--shear-modulus", "3 GPa", "--density", "1180 kg/m3")
+            done = run_here("laboratory", table, "--poisson-ratio", "0.33", "--shear-modulus", "3 GPa", "--density", "1180 kg/m3")
             self.assertIn("hardness over modulus", done.stdout)
             self.assertEqual(written.front_velocity.units, "m s-1")
             self.ok("plot", out, "-o", os.path.join(folder, "fronts.png"))
@@ -179,7 +186,7 @@ class Recorded(CommandLine):
             self.refused(2, "fronts", block, "--threshold", "0.1", says=["threshold"])
 
     def test_a_run_in_si_units_has_the_same_fronts(self):
-        block = slipfront.chain(CASE)
+        block = slipfront.open(self.file_of_block)
         found, metric = slipfront.fronts(block, si=False), slipfront.fronts(block)
         np.testing.assert_allclose(found.front_velocity, self.found.front_velocity, rtol=1e-9)
         np.testing.assert_allclose(found.arrival, self.found.arrival, rtol=1e-12)

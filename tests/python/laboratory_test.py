@@ -10,11 +10,12 @@ import unittest
 
 import numpy as np
 import pandas
+from commands import PythonCommands
 import slipfront
 from slipfront.__main__ import run as run_in_this_process
 from slipfront import _laboratory, _laboratory_table, _slipfront
 from slipfront._hardness_posterior import Evidence, Posterior
-from support import SOURCE, CommandLine
+from support import SOURCE, run
 
 FRONTS = os.path.join(SOURCE, "cases", "synthetic-laboratory-fronts.csv")
 POLYMER = {"poisson_ratio": 0.35, "s_wave_speed": "1300 m/s"}
@@ -222,10 +223,10 @@ def _made_by_docs():
         return module.OUTPUT.read_text(encoding="utf-8")
 
 
-class Command(CommandLine):
+class Command(PythonCommands):
     def test_equals_the_python_function_and_has_a_picture(self):
         output = os.path.join(os.path.dirname(self.file("unused", "")), "fronts.nc")
-        printed = self.ok("laboratory", FRONTS, *OPTIONS, "-o", output)
+        printed = run("laboratory", FRONTS, *OPTIONS, "-o", output).stdout  # starts the program
         found = slipfront.laboratory(FRONTS, **POLYMER)
         stored = slipfront.open(output)
         for name in ("hardness_over_modulus", "predicted_front_velocity", "draw_scatter", "curve_front_velocity"):

@@ -5,11 +5,12 @@ import unittest
 
 import numpy as np
 
+from commands import PythonCommands
 import slipfront
 from slipfront import plots
 from slipfront.plots import choose, files
 from slipfront.plots.loaded_parts import force_with_events, slip_rates
-from support import CommandLine, SOURCE
+from support import SOURCE
 
 #: A block on a spring (docs/loading.md). Its period is about 5e4.
 BLOCK = {"title": "Block", "initial": {"profile": "step", "stress_left": 0, "stress_right": 0}, "interface": {"contact": "0"},
@@ -29,7 +30,7 @@ def texts(axes):
     return [text.get_text() for text in axes.texts]
 
 
-class Loaded(CommandLine):
+class Loaded(PythonCommands):
     @classmethod
     def setUpClass(cls):
         cls.block = slipfront.chain(BLOCK)

@@ -8,12 +8,13 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
+from commands import PythonCommands
 import slipfront
 from slipfront import plots
 from slipfront.plots import choose, files
 from slipfront.plots.between import between
 from slipfront.plots.style import label
-from support import CommandLine, SOURCE
+from support import SOURCE
 
 CASE = os.path.join(SOURCE, "cases/fig-08.toml")
 STEP = os.path.join(SOURCE, "cases/step.toml")
@@ -25,7 +26,7 @@ def samples(count=200):
     return xr.Dataset({"stress": ("sample", 1 + 0.1 * chance.normal(size=count)), "damping_number": ("sample", np.exp(chance.normal(size=count)))})
 
 
-class Figures(CommandLine):
+class Figures(PythonCommands):
     def labels(self, figure):
         """The texts on the axes. Every axes must have a label, or share one with axes next to it."""
         shown = [axes for axes in figure.axes if axes.axison]
@@ -228,7 +229,7 @@ class Figures(CommandLine):
         self.assertEqual(before, dict(matplotlib.rcParams))
 
 
-class Command(CommandLine):
+class Command(PythonCommands):
     def made(self, name, *arguments):
         path = os.path.join(os.path.dirname(self.file("x", "")), name)
         text = self.ok(*arguments) if arguments[0] in ("relations", "event") else self.ok(*arguments, "-o", path)

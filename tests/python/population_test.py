@@ -11,12 +11,12 @@ import warnings
 import numpy as np
 from scipy import special
 
+from commands import PythonCommands
 import slipfront
 import support
 from slipfront import _hierarchy
 from slipfront._population import forward, priors, rows, sample, single, synthetic
 from slipfront._population.likelihood import Likelihood
-from support import CommandLine
 
 SOURCE = pathlib.Path(support.SOURCE)
 LOG_HARDNESS = math.log(1e10)
@@ -167,7 +167,7 @@ class Populations(unittest.TestCase):
         self.assertGreater(min(slopes), 0.85)
 
 
-class Catalogues(CommandLine):
+class Catalogues(PythonCommands):
     ROWS = "name,study,rupture_velocity_km_s,length_km,slip_m,moment_N_m,Mw,width_km,duration_s\n"
 
     def test_reads_moments_and_lengths(self):
@@ -196,7 +196,7 @@ class Catalogues(CommandLine):
 
     def test_the_command_writes_what_it_prints(self):
         path = str(pathlib.Path(self.file("c.csv", "")).parent / "p.nc")
-        found = json.loads(self.ok("population", "--kind", "earthquake", "--steps", "20", "--json", "-o", path))
+        found = json.loads(support.run("population", "--kind", "earthquake", "--steps", "20", "--json", "-o", path).stdout)
         data = slipfront.open(path)
         self.assertEqual(data.sizes["event"], 27)
         self.assertEqual(found["left_out"], list(data.left_out.values))

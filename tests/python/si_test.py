@@ -10,10 +10,11 @@ import netCDF4
 import numpy as np
 import xarray
 
+from commands import PythonCommands
 import slipfront
 from slipfront import plots
 from slipfront.plots.style import prefixed
-from support import SOURCE, CommandLine
+from support import SOURCE
 
 STEP = os.path.join(SOURCE, "cases/step-viscous.toml")
 SHORT = ["--set", "pulse.cells=100", "output.every=2"]
@@ -91,7 +92,7 @@ def written(folder, text=BLOCK, name="block.toml"):
     return path
 
 
-class Results(CommandLine):
+class Results(PythonCommands):
     """Numbers that the program prints and writes."""
 
     def setUp(self):

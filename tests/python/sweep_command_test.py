@@ -10,9 +10,10 @@ import subprocess
 import time
 import unittest
 
+from commands import PythonCommands
 import slipfront
 from slipfront._grid import values_of
-from support import PATIENCE, PROGRAM, SOURCE, CommandLine
+from support import PATIENCE, PROGRAM, SOURCE
 
 STEP = os.path.join(SOURCE, "cases/step-viscous.toml")
 SMALL = ("--set", "pulse.cells=60")
@@ -44,7 +45,7 @@ class Values(unittest.TestCase):
                 values_of(text, "number")
 
 
-class Command(CommandLine):
+class Command(PythonCommands):
     def setUp(self):
         self.folder = os.path.dirname(self.file("unused", ""))
         self.output = os.path.join(self.folder, "sweep.nc")
