@@ -1,6 +1,7 @@
 """./run, ./test and .ci/packages on machines of all kinds: the tools that they call are stand-ins. With SLIPFRONT_BUILD, also
 which files a build reads."""
 
+import fcntl
 import os
 import pathlib
 import pty
@@ -30,6 +31,7 @@ case "$arguments" in
     [ -z "$BUILD_OUTPUT" ] || printf '%b\n' "$BUILD_OUTPUT"
     [ -z "$BUILD_FILLS" ] || { echo 1 >"$BUILD_FILLS"; exit 1; }
     [[ $BUILD_OUTPUT != *FAILED* ]] || exit 1
+    [ -z "$EDITED_MEANWHILE" ] || { sleep 0.02; echo new >"$EDITED_MEANWHILE"; }  # file times advance in steps of milliseconds
     for program in slipfront unit_pulse; do
       printf '#!/bin/bash\necho "%s $* of %s"\n' $program "$build" >"$build/bin/$program"
       chmod +x "$build/bin/$program"
@@ -43,7 +45,7 @@ while [ $# -gt 0 ]; do case "$1" in -W) ;; -f) shift ;; *) printf '%s:installed 
 """
 NONE_INSTALLED = "#!/bin/bash\nexit 1\n"
 CONFIGURING = "slipfront: looking for the compiler and the libraries"
-TOOLS = "bash env flock grep cksum cut mkdir find rm id mktemp touch chmod readlink df awk mv"
+TOOLS = "bash env flock grep cksum cut mkdir find rm id mktemp touch chmod readlink df awk mv sleep"
 READ_BY_BUILD = re.search(r'"\$root"/\{(.*)\}', (SOURCE / "run").read_text()).group(1).split(",")
 
 
@@ -91,8 +93,8 @@ class Scripts(unittest.TestCase):
     def run_in(self, checkout, *arguments, **variables):
         return self.script("run", *arguments, checkout=checkout, **variables)
 
-    def on_terminal(self, name, *arguments, **variables):
-        """What the script writes to a terminal that is its stderr."""
+    def on_terminal(self, name, *arguments, at_output=lambda: None, **variables):
+        """What the script writes to a terminal that is its stderr. Calls `at_output` when it has written something."""
         ours, theirs = pty.openpty()
         process = subprocess.Popen([self.checkout / name, *arguments], env=self.environment(TERM="xterm", **variables), stdout=subprocess.DEVNULL, stderr=theirs)
         os.close(theirs)
@@ -100,6 +102,7 @@ class Scripts(unittest.TestCase):
         try:
             while part := os.read(ours, 4096):
                 shown += part
+                at_output()
         except OSError:  # nobody has the terminal any more
             pass
         os.close(ours)
@@ -160,6 +163,12 @@ class Run(Scripts):
                 self.assertIn(f"cmake --build {self.checkout}/build/release --target slipfront_run", self.made_calls())
                 self.run_in(self.checkout)
                 self.assertEqual(self.made_calls(), [])
+
+    def test_builds_again_when_something_changes_during_the_build(self):
+        self.run_in(self.checkout, EDITED_MEANWHILE=str(self.checkout / "src/a.cpp"))
+        self.made_calls()
+        self.run_in(self.checkout)
+        self.assertEqual(len(self.made_calls()), 2)
 
     def test_files_that_python_stores_start_no_build(self):
         self.run_in(self.checkout)
@@ -247,8 +256,10 @@ printf 'dlstatus:3:2.5:Retrieving file 3 of 266 (5s remaining)\npmstatus:dpkg-ex
 
     def test_a_second_call_waits_on_a_terminal_with_a_reason(self):
         (self.checkout / "build/release").mkdir(parents=True)
-        with subprocess.Popen(["flock", self.checkout / "build/release/lock", "sleep", "0.5"]):
-            self.assertRegex(self.on_terminal("run"), "^slipfront: waiting for another call that builds in ")
+        with open(self.checkout / "build/release/lock", "w") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            shown = self.on_terminal("run", at_output=lambda: fcntl.flock(lock, fcntl.LOCK_UN))
+        self.assertRegex(shown, "^slipfront: waiting for another call that builds in ")
 
 
 class Elsewhere(Scripts):
