@@ -94,7 +94,7 @@ class Scripts(unittest.TestCase):
         return self.script("run", *arguments, checkout=checkout, **variables)
 
     def on_terminal(self, name, *arguments, at_output=lambda: None, **variables):
-        """What the script writes to a terminal that is its stderr. Calls `at_output` when it has written something."""
+        """Returns what the script writes to a terminal that is its stderr. Calls `at_output` when it has written something."""
         ours, theirs = pty.openpty()
         process = subprocess.Popen([self.checkout / name, *arguments], env=self.environment(TERM="xterm", **variables), stdout=subprocess.DEVNULL, stderr=theirs)
         os.close(theirs)
