@@ -1,12 +1,7 @@
-"""Checks report.html: one self-contained, well formed file with the command of each figure. In a browser, it shows values under the cursor.
+"""Checks report.html: one self-contained, well formed file with the command of each figure, and the values that it shows under the cursor."""
 
-The tests in a browser are skipped if chromium is not installed."""
-
-import json
 import pathlib
 import re
-import shutil
-import subprocess
 import tempfile
 import unittest
 
@@ -15,12 +10,10 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from page import Page
-from support import PATIENCE
 from slipfront.plots.style import styled
 from slipfront.reproduce import outputs, report, report_hover
 from slipfront.reproduce.picture import Picture
 
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 NUMBER = {"what": "a number " * 8, "where": "4, Fig. 5", "unit": "c", "printed": "0.5", "computed": 0.51, "printed_digits": "0.5", "difference": 0.02,
           "verdict": "same", "remark": "why " * 20}
 FORMULA = {"where": "Eq. 1", "printed": "u < 1 & more", "mended": "2 u", "check": "slip", "by_printed": 0.5, "by_mended": None}
@@ -56,7 +49,9 @@ def solid(name) -> Picture:
     return Picture(name, "A solid", "caption", figure, xr.Dataset({"y": ("x", [1.0, 2.0])}), command="slipfront draw")
 
 
-class Report(unittest.TestCase):
+class Drawn(unittest.TestCase):
+    """A page of two figures."""
+
     @classmethod
     def setUpClass(cls):
         cls.temporary = tempfile.TemporaryDirectory()
@@ -75,6 +70,8 @@ class Report(unittest.TestCase):
         """The data on the axes of a figure that the page has."""
         return report_hover.axes_of(picture.figure, (self.folder / f"{picture.name}.svg").read_text(encoding="utf-8"))
 
+
+class Report(Drawn):
     def test_is_well_formed(self):
         self.assertEqual(self.page.errors, [])
 
@@ -117,39 +114,6 @@ class Report(unittest.TestCase):
         at = map_["map"]
         np.testing.assert_allclose(np.reshape(at["z"], (len(at["y"]), len(at["x"]))), np.array(at["x"]) + 10 * np.array(at["y"])[:, None], rtol=1e-4)
         self.assertTrue(all(0 < share < 1 for share in lines["box"]))
-
-
-@unittest.skipUnless(CHROMIUM, "no chromium here")
-class Browser(Report):
-    def ends_with(self, script, width):
-        """The value of a script at the end of the page, in a window of this width. The page is the only file in its folder."""
-        with tempfile.TemporaryDirectory() as folder:
-            page = pathlib.Path(folder) / "moved.html"
-            page.write_text(self.text.replace("</body>", f"<script>document.title=JSON.stringify({script})</script></body>"), encoding="utf-8")
-            done = subprocess.run([CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu", "--enable-logging=stderr", f"--user-data-dir={folder}/profile",
-                                   f"--window-size={width},900", "--dump-dom", page.as_uri()], capture_output=True, text=True, timeout=PATIENCE)
-            self.assertEqual([line for line in done.stderr.splitlines() if "CONSOLE" in line], [])
-            return json.loads(re.search(r"<title>(.*?)</title>", done.stdout, re.DOTALL).group(1))
-
-    def test_fits(self):
-        for width in (1400, 400):
-            scroll, inner = self.ends_with("[document.documentElement.scrollWidth,innerWidth]", width)
-            self.assertLessEqual(scroll, inner)
-
-    def test_pointing_reads_a_value(self):
-        """Points at the middle of the logarithmic line, (10, 20), and at a point of the map."""
-        lines, map_ = self.axes_in_page(self.pictures[0])
-        shares = {"line": (lines["box"], (np.log(10 / lines["x"]["ends"][0]) / np.log(lines["x"]["ends"][1] / lines["x"]["ends"][0]),
-                                          np.log(20 / lines["y"]["ends"][0]) / np.log(lines["y"]["ends"][1] / lines["y"]["ends"][0]))),
-                  "map": (map_["box"], (0.55, 0.525))}
-        shown = {}
-        for name, ((left, top, width, height), (across, up)) in shares.items():
-            shown[name] = self.ends_with(f"""(()=>{{const p=document.querySelector('.picture'), r=p.getBoundingClientRect();
-                p.dispatchEvent(new PointerEvent('pointermove',{{clientX:r.left+{left + across * width}*r.width,clientY:r.top+{top + (1 - up) * height}*r.height}}));
-                return document.getElementById('value').textContent}})()""", 1400)
-        self.assertEqual(shown["line"], "twice\nstress: 10\nvelocity: 20")
-        value = float(shown["map"].split("value: ")[1])
-        self.assertLess(abs(value - (0.55 + 10 * 1.05)), 0.02)
 
 
 if __name__ == "__main__":

@@ -106,7 +106,7 @@ class Run(CommandLine):
 
     def test_check_reports_sizes_without_a_run(self):
         self.assertEqual(slipfront.check(CASE)["cells"], 400)
-        self.assertGreater(slipfront.check(CASE, command="chain", set={"chain.scale": 1e5})["sites"], 1e6)
+        self.assertGreater(slipfront.check(CASE, command="chain", set={"chain.scale": 1e4})["sites"], 1e5)
         self.assertEqual(slipfront.check(STEP, command="compare", scales=[10])["levels"], 4)
 
     def test_stated_errors_hold_and_a_tolerance_is_reached(self):
@@ -123,7 +123,7 @@ class Run(CommandLine):
 
     def test_progress_is_reported_and_may_stop_the_run(self):
         reports = []
-        slipfront.pulse(self.slow_case(), set={"pulse.cells": 2000}, progress=lambda *at: reports.append(at))
+        slipfront.pulse(self.slow_case(), progress=lambda *at: reports.append(at))
         self.assertGreater(len(reports), 2)
         done, end, steps, level = zip(*reports)
         self.assertTrue(all(a < b for a, b in zip(done, done[1:])) and all(a < b for a, b in zip(steps, steps[1:])))
@@ -138,11 +138,11 @@ class Run(CommandLine):
         output = os.path.join(self.folder(), "stopped.nc")
         case = self.slow_case()
         with self.assertRaises(Enough):
-            slipfront.chain(case, set={"chain.scale": 2000}, output=output, progress=stop, threads=1)
+            slipfront.chain(case, set={"chain.scale": 1200}, output=output, progress=stop, threads=1)
         self.assertEqual(slipfront.open(output).attrs["finished"], 0)
-        slipfront.chain(case, set={"chain.scale": 2000}, resume=output, threads=1)
+        slipfront.chain(case, set={"chain.scale": 1200}, resume=output, threads=1)
         whole = os.path.join(self.folder(), "whole.nc")
-        self.ok("chain", case, "--set", "chain.scale=2000", "--threads", "1", "-o", whole)
+        self.ok("chain", case, "--set", "chain.scale=1200", "--threads", "1", "-o", whole)
         self.same(output, whole)
 
     def test_a_finished_run_continues_to_a_later_end(self):
@@ -162,7 +162,7 @@ class Run(CommandLine):
         case, rounds = self.slow_case(), 0
 
         def work():
-            slipfront.chain(case, set={"chain.scale": 3000}, threads=1)
+            slipfront.chain(case, set={"chain.scale": 2000}, threads=1)
 
         thread = threading.Thread(target=work)
         thread.start()
