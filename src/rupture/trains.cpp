@@ -15,7 +15,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double least_width = 1e-280, most_spread = 60;
+constexpr double least_width = 1e-303, most_spread = 80;
 
 void check_bands(const FilledBands& bands, bool zero_allowed) {
   const auto refuse = [](double value, const char* key, std::string allowed) {

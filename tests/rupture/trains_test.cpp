@@ -90,7 +90,7 @@ TEST(Trains, ReproduceThePrintedState) {
 
 /// The second route is the closed form with K and E of Eqs. (4) to (7).
 TEST(Trains, AreTheClosedFormForOneTrain) {
-  for (const double psi : {1e-250, 1e-30, 1e-9, 1e-3, 0.1, 0.7, 1.5, 2.5})
+  for (const double psi : {1e-302, 1e-30, 1e-9, 1e-3, 0.1, 0.7, 1.5, 2.5})
     for (const double phi : {-1.0, 0.0, 0.4, 2.0}) {
       const State state{phi, psi};
       const BandAverages a = rupture::averages(rupture::bands_of_train(state));
@@ -282,9 +282,9 @@ TEST(Trains, RefuseWidthsWithoutAMeaning) {
   EXPECT_THROW(rupture::averages({0, {1, 0, 1}}), InputError);
   EXPECT_THROW(rupture::averages({0, {NAN}}), InputError);
   EXPECT_THROW(rupture::averages({NAN, {1}}), InputError);
-  EXPECT_THROW(rupture::averages({0, {61}}), InputError);
+  EXPECT_THROW(rupture::averages({0, {81}}), InputError);
   EXPECT_THROW(rupture::edge_speeds({0, {1, -0.1, 1}}), InputError);
-  EXPECT_THROW(rupture::edge_speeds({0, {1e-290}}), InputError);
+  EXPECT_THROW(rupture::edge_speeds({0, {1e-305}}), InputError);
 }
 
 }  // namespace
