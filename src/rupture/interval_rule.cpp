@@ -26,7 +26,7 @@ double arithmetic_geometric_mean(double a, double b) {
 struct LandenChain {
   std::array<double, 8> moduli;
   std::size_t count = 0;
-  double product = 1;  ///< of all 1 + k
+  double product = 1;  ///< the product of all 1 + k
 };
 
 LandenChain landen_chain(double k2, double other2, double negligible) {

@@ -47,7 +47,7 @@ struct EdgeDifferences {
 double speed_in_lower(const EdgeDifferences& edges, double width) { return edge_speeds(edges.in_lower(width))[1]; }
 double speed_in_upper(const EdgeDifferences& edges, double width) { return edge_speeds(edges.in_upper(width))[2]; }
 
-/// The same trains without bands and gaps that have no width.
+/// Removes bands and gaps that have no width.
 FilledBands without_empty(const FilledBands& bands) {
   if (bands.widths.size() != 3) return bands;
   const double low = bands.widths[0], gap = bands.widths[1], high = bands.widths[2];
@@ -60,15 +60,16 @@ FilledBands without_empty(const FilledBands& bands) {
 FilledBands bands_or_none(const State& state) { return state.empty() ? FilledBands{} : bands_of_train(state); }
 
 void check_side(const State& state, const char* side) {
-  constexpr double most_psi = 20, most_phi = 18;
+  constexpr double widest_psi = 20, fastest_phi = 18;
   const auto refuse = [&](double value, const char* key, double least, double most) {
     return InputError({.key = std::string(side) + key,
                        .value = digits(value),
                        .problem = "not a train that the Riemann problem can be solved for",
                        .allowed = digits(least) + " ... " + digits(most)});
   };
-  if (!(state.psi >= 0 && state.psi <= most_psi)) throw refuse(state.psi, " psi", 0, most_psi);
-  if (!state.empty() && !(std::fabs(state.phi) <= most_phi)) throw refuse(state.phi, " phi", -most_phi, most_phi);
+  if (!(state.psi >= 0 && state.psi <= widest_psi)) throw refuse(state.psi, " psi", 0, widest_psi);
+  if (!state.empty() && !(std::fabs(state.phi) <= fastest_phi))
+    throw refuse(state.phi, " phi", -fastest_phi, fastest_phi);
 }
 
 Wave fan_wave(double outer, double inner) { return {Wave::Kind::fan, outer, inner}; }
@@ -169,6 +170,11 @@ FilledBands bands_at(const TrainsSolution& s, double x_over_t) {
 
 TrainsPoint profile_point(const FilledBands& bands) {
   if (bands.widths.empty()) return {};
+  if (bands.widths.size() == 1) {  // the closed form, which is exact at rest
+    const State one{bands.centre, bands.widths[0] / 2};
+    const ProfilePoint point = profile_point(one);
+    return {point, 0, {{one.phi - one.psi, one.phi + one.psi, point.Sigma, point.W}}};
+  }
   const BandAverages a = averages(bands);
   TrainsPoint point{{a.W / a.k, a.k, a.W, a.P}, 0, {}};
   const std::vector<double> edges = bands.edges();

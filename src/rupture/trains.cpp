@@ -55,8 +55,8 @@ struct OpenBands {
     double from_low = 0;
   };
   std::vector<double> widths;
-  std::vector<Position> at;  ///< of each given edge
-  double shift = 0;          ///< of the centre
+  std::vector<Position> at;  ///< the position of each given edge
+  double shift = 0;          ///< added to the centre of the given bands
 };
 
 OpenBands open_bands(const std::vector<double>& widths) {
@@ -115,7 +115,6 @@ std::vector<double> edge_speeds(const FilledBands& bands) {
   double total = 0;
   for (const double width : bands.widths) total += width;
   std::vector<double> speeds(bands.widths.size() + 1);
-  // What has a width: bands that touch are one band, and a band without width is part of the gap around it.
   const OpenBands open = open_bands(bands.widths);
   if (!open.widths.empty()) {
     const BandDifferentials at(open.widths);

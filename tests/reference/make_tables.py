@@ -175,7 +175,7 @@ TRAINS = [  # the middle of all bands, and the widths of band, gap, ... band
 def table_trains():
     """Averages of several trains at one position. The flux of energy must equal the momentum, and sum k_i I_i too."""
     def row(centre, widths, digits):
-        size = sum(widths) + abs(centre)  # of the velocities, if small
+        size = sum(widths) + abs(centre)  # the velocities have this size if it is small
         goal = 40 + (mp.dps - digits) // 5 - min(0, int(2 * math.log10(size)))
         speeds, k, omega, action, flux, p, h, q, energy_flux = trains(centre, widths, goal)
         scale = mpf(10)**-28 * h

@@ -270,7 +270,7 @@ def trains(centre, widths, goal):
         return sums
 
     def outer(side):
-        """The same over the lowest (side = -1) or highest gap. exp(|r|) / 2 is subtracted from the term with the pole."""
+        """Like inner, over the lowest (side = -1) or highest gap. exp(|r|) / 2 is subtracted from the term with the pole."""
         end = r[0] if side < 0 else r[-1]
         sums = {(j, n): mpf(0) for j in powers for n in (0, 1)}
         for s, weight in outwards(step, goal):
@@ -287,7 +287,7 @@ def trains(centre, widths, goal):
 
     bands, gaps = ([inner(low) for low in range(first, len(widths), 2)] for first in (0, 1))
     lowest, highest = outer(-1), outer(1)
-    sign = (-1)**trains_  # of the root in the lowest gap
+    sign = (-1)**trains_  # the sign of the root in the lowest gap
     upper, lower = exp(-total / 2) / 2, exp(total / 2) / 2 * -sign
 
     def differential(kind):

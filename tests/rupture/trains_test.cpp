@@ -105,8 +105,9 @@ TEST(Trains, AreTheClosedFormForOneTrain) {
       expect(a.speeds[1], speeds.plus, std::fabs(speeds.plus) * std::exp(2 * psi));
       expect(a.k, one.k, one.k);
       expect(a.W, one.W, std::fabs(one.W) + one.k * modulation::sound(psi).c0);
-      expect(a.trains[0].I, one.I, one.J);
-      expect(a.trains[0].J, one.J, one.J);
+      const double of_actions = psi < 1e-100 ? 10 : 1;
+      expect(a.trains[0].I, one.I, of_actions * one.J);
+      expect(a.trains[0].J, one.J, of_actions * one.J);
       expect(a.P, one.P, std::fabs(one.P) + one.k * modulation::sound(psi).c0);
       expect(a.H, one.H, one.H);
       expect(a.Q, one.Q, one.Q + DBL_MIN);
@@ -233,6 +234,9 @@ TEST(Trains, HaveTheDerivativesOfTheirAverages) {
     for (std::size_t i = 0; i < 3; ++i) {
       EXPECT_NEAR(d.k[j][i], slope([i](const auto& x) { return x.trains[i].k; }), 1e-8);
       EXPECT_NEAR(v * d.k[j][i], slope([i](const auto& x) { return x.trains[i].omega; }), 1e-8);
+      // wave action is conserved: I_t + J_x = 0
+      EXPECT_NEAR(v * slope([i](const auto& x) { return x.trains[i].I; }),
+                  slope([i](const auto& x) { return x.trains[i].J; }), 1e-8);
     }
   }
 }
@@ -258,11 +262,11 @@ TEST(Trains, HaveSpeedsThatAreContinuousWhereABandOrGapCloses) {
 TEST(Trains, AreNotAffectedByABandWithoutWidth) {
   const auto all = rupture::edge_speeds({0.15, {0.2, 0.3, 0, 0.1, 0.4}}),
              without = rupture::edge_speeds({0.15, {0.2, 0.4, 0.4}});
-  for (const std::size_t j : {0, 1}) EXPECT_NEAR(all[j], without[j], 1e-15);
-  for (const std::size_t j : {4, 5}) EXPECT_NEAR(all[j], without[j - 2], 1e-15);
+  for (const std::size_t j : {0U, 1U}) EXPECT_NEAR(all[j], without[j], 1e-15);
+  for (const std::size_t j : {4U, 5U}) EXPECT_NEAR(all[j], without[j - 2], 1e-15);
   const auto touching = rupture::edge_speeds({0.15, {0.2, 0.3, 0, 0, 0.4}}),
              one = rupture::edge_speeds({0.15, {0.2, 0.3, 0.4}});
-  for (const std::size_t j : {2, 3, 4}) EXPECT_EQ(touching[j], one[2]);
+  for (const std::size_t j : {2U, 3U, 4U}) EXPECT_EQ(touching[j], one[2]);
   const auto free = rupture::edge_speeds({0.15, {0, 0.4, 0}});
   EXPECT_NEAR(free[0], std::tanh(-0.05), 1e-15);
   EXPECT_NEAR(free[3], std::tanh(0.35), 1e-15);

@@ -49,7 +49,7 @@ struct TrainShare {
 /// The averages over all trains. Conservation laws without friction: k_t + W_x = 0, P_t + Q_x = 0, H_t + P_x = 0, and
 /// d k / d t + d omega / d x = 0, d I / d t + d J / d x = 0 for each train.
 struct BandAverages {
-  std::vector<double> speeds;      ///< of the edges, like edge_speeds
+  std::vector<double> speeds;      ///< edge_speeds of the bands
   std::vector<TrainShare> trains;  ///< from the lowest band up
   double k;                        ///< stress, the sum of all k
   double W;                        ///< slip velocity, the sum of all omega
@@ -60,9 +60,9 @@ struct BandAverages {
 
 /// The averages of N trains (docs/theory/9_trains.md 9.2), for widths from 1e-303 to 5. The relative error is 1e-12 of
 /// k and H; of omega, P and Q too, where the lowest and highest edge do not differ in sign. There it is 1e-12 of the
-/// sizes that cancel, and 1e-11 for three or more trains that spread over more than 7. The error of I and J is 1e-12 of
-/// |I| + |J|. Two trains take about 10 microseconds, and their speeds 2 microseconds. \throws InputError like
-/// edge_speeds, and if a width is 0.
+/// sizes that cancel. For three or more trains that spread over more than 7, 1e-11 replaces 1e-12. The error of I and J
+/// is 1e-12 of |I| + |J|, and 1e-11 for widths below 1e-100. Two trains take about 10 microseconds, and their speeds 2
+/// microseconds. \throws InputError like edge_speeds, and if a width is 0.
 BandAverages averages(const FilledBands& bands);
 
 /// Derivatives with respect to the edges, at [j] for edge j. Those of W, P, Q follow: each is v_j times that of k, H,
