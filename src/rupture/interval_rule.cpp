@@ -137,16 +137,28 @@ std::vector<double> log_sn_weights(const MidpointGrid& grid) {
   std::vector<double> coefficient(n, 0.0), weights(n);
   for (std::size_t k = 1; k < n; ++k)
     coefficient[k] = -std::tanh(static_cast<double>(k) * grid.log_nome / 2) / static_cast<double>(k);
-  for (std::size_t j = 0; j < n; ++j) {
-    // Clenshaw's recurrence for the sum of coefficient[k] cos(k y)
-    const double y = pi * (static_cast<double>(j) + 0.5) / static_cast<double>(n), cos_y = std::cos(y);
-    double one = 0, two = 0;
-    for (std::size_t k = n; k-- > 1;) {
-      const double next = coefficient[k] + 2 * cos_y * one - two;
-      two = one;
-      one = next;
+  // Clenshaw's recurrences for the sums over even and over odd k of coefficient[k] cos(k y), for half of all y at once.
+  // At pi - y the odd sum has the other sign.
+  const std::size_t half = n / 2;
+  std::vector<double> cos_y(half), twice_cos(half), even_1(half, 0.0), even_2(half, 0.0), odd_1(half, 0.0),
+      odd_2(half, 0.0);
+  for (std::size_t j = 0; j < half; ++j) {
+    cos_y[j] = std::cos(pi * (static_cast<double>(j) + 0.5) / static_cast<double>(n));
+    twice_cos[j] = 4 * cos_y[j] * cos_y[j] - 2;  // 2 cos(2 y)
+  }
+  for (std::size_t k = half; k-- > 0;)
+    for (std::size_t j = 0; j < half; ++j) {
+      const double even = coefficient[2 * k] + twice_cos[j] * even_1[j] - even_2[j];
+      const double odd = coefficient[2 * k + 1] + twice_cos[j] * odd_1[j] - odd_2[j];
+      even_2[j] = even_1[j];
+      odd_2[j] = odd_1[j];
+      even_1[j] = even;
+      odd_1[j] = odd;
     }
-    weights[j] = one * cos_y - two;
+  for (std::size_t j = 0; j < half; ++j) {
+    const double even = even_1[j] - even_2[j] * twice_cos[j] / 2, odd = cos_y[j] * (odd_1[j] - odd_2[j]);
+    weights[j] = even + odd;
+    weights[n - 1 - j] = even - odd;
   }
   return weights;
 }

@@ -105,7 +105,7 @@ TEST(Trains, AreTheClosedFormForOneTrain) {
       expect(a.speeds[1], speeds.plus, std::fabs(speeds.plus) * std::exp(2 * psi));
       expect(a.k, one.k, one.k);
       expect(a.W, one.W, std::fabs(one.W) + one.k * modulation::sound(psi).c0);
-      const double of_actions = psi < 1e-100 ? 10 : 1;
+      const double of_actions = psi < 1e-20 ? 10 : 1;
       expect(a.trains[0].I, one.I, of_actions * one.J);
       expect(a.trains[0].J, one.J, of_actions * one.J);
       expect(a.P, one.P, std::fabs(one.P) + one.k * modulation::sound(psi).c0);
