@@ -6,6 +6,12 @@ from ._numbers import flat, np, one_number
 from ._slipfront import InputError
 
 
+_about_waves = {"kind": {"long_name": "kind of the wave"},
+                "from": {"long_name": "x / t of its left edge", "units": "1", "dimensional_unit": "c"},
+                "to": {"long_name": "x / t of its right edge", "units": "1", "dimensional_unit": "c"},
+                "trains": {"long_name": "number of trains at one position in the wave", "units": "1"}}
+
+
 def _train(name, value):
     """Returns stress and velocity of a side, which is a stress or a pair."""
     if isinstance(value, (tuple, list)):
@@ -39,8 +45,9 @@ def riemann(left, right, x_over_t=None, solution="trains"):
     star_P. The exact solution also has slip (slip since t = 0 over t), trains (the number of trains at a position), and
     Sigma_1, W_1, Sigma_2 and W_2 of each train, from the slower one; those of absent trains are NaN. Attributes: left_wave and
     right_wave ("fan", "two-trains", "shock" or "none"), left_wave_edges and right_wave_edges (x/t of the edges of the wave, in
-    c, the outer one first), left_edge and right_edge (x/t of the edges of all that moves). waves has a dict for each wave of
-    the exact solution, from left to right: kind ("fan", "two-trains", "vacuum" or "constant"), from, to and trains.
+    c, the outer one first), left_edge and right_edge (x/t of the edges of all that moves). The exact solution lists its waves
+    from left to right along the dimension wave: wave_kind ("fan", "two-trains", "vacuum" or "constant"), wave_from and wave_to
+    (x/t), and wave_trains.
     The relative error is 1e-12 for |U| below 0.9999.
 
     Raises
@@ -70,5 +77,7 @@ def riemann(left, right, x_over_t=None, solution="trains"):
         data = data.rename(state="x_over_t").assign_coords(x_over_t=("x_over_t", x, about))
     star = {f"star_{about[0]}": ((), value, {**data[about[0]].attrs, "long_name": f"{about[1]} between the waves"})
             for about, value in zip(_slipfront.profile_described, between)}
+    if exact:
+        data = data.assign({f"wave_{key}": ("wave", [each[key] for each in waves[0]], _about_waves[key]) for key in _about_waves})
     return data.assign(star).assign_attrs(left_wave=left_wave[0], left_wave_edges=left_wave[1:], right_wave=right_wave[0], right_wave_edges=right_wave[1:],
-                                          left_edge=edges[0], right_edge=edges[1], **({"waves": waves[0]} if exact else {}))
+                                          left_edge=edges[0], right_edge=edges[1])
