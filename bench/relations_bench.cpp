@@ -7,6 +7,7 @@
 #include "slipfront/elliptic/jacobi.hpp"
 #include "slipfront/rupture/relations.hpp"
 #include "slipfront/rupture/riemann.hpp"
+#include "slipfront/rupture/trains.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace {
@@ -44,6 +45,17 @@ void train_averages(benchmark::State& state) {
   run(state, 1e-12, 5, [](double psi) { return slipfront::train::averages({0.3, psi}); });
 }
 BENCHMARK(train_averages);
+
+/// Two trains, with a gap from 1e-9 to 5 between bands of width 0.3.
+void two_trains_speeds(benchmark::State& state) {
+  run(state, 1e-9, 5, [](double gap) { return slipfront::rupture::edge_speeds({0.2, {0.3, gap, 0.3}}); });
+}
+BENCHMARK(two_trains_speeds);
+
+void two_trains_averages(benchmark::State& state) {
+  run(state, 1e-9, 5, [](double gap) { return slipfront::rupture::averages({0.2, {0.3, gap, 0.3}}); });
+}
+BENCHMARK(two_trains_averages);
 
 /// Nine outputs each.
 void relations_from_stress(benchmark::State& state) { run(state, 0.01, 10, slipfront::rupture::from_stress); }

@@ -9,7 +9,10 @@
 #include "json.hpp"
 #include "relations_friction.hpp"
 #include "si_options.hpp"
+#include "slipfront/error.hpp"
+#include "slipfront/medium/quantity.hpp"
 #include "slipfront/rupture/relations.hpp"
+#include "slipfront/rupture/riemann_trains.hpp"
 #include "state_values.hpp"
 #include "terminal_table.hpp"
 
@@ -18,7 +21,8 @@ namespace {
 using slipfront::InputError;
 using slipfront::rupture::Relations;
 using slipfront::rupture::relations_quantities;
-using slipfront::rupture::RelationsQuantity;
+using slipfront::rupture::step_quantities;
+using slipfront::rupture::StepRelations;
 
 /// An option that gives states, such as --stress.
 struct Given {
@@ -34,9 +38,11 @@ struct AskedState {
   StateValue at;
 };
 
-Relations solve(const AskedState& state) {
+/// Calls solve(value) for a state. Errors name the line of stdin.
+template <class Solve>
+auto solved(const AskedState& state, const Solve& solve) {
   try {
-    return state.given->solve(state.at.value);
+    return solve(state.at.value);
   } catch (const InputError& error) {
     slipfront::Complaint complaint = error.complaint();
     complaint.file = state.at.line > 0 ? "stdin" : "command line";
@@ -45,27 +51,29 @@ Relations solve(const AskedState& state) {
   }
 }
 
-RelationsUnits units_of(const SiOptions& options) {
+RelationsUnits units_of(const SiOptions& options, const auto& quantities) {
   const ResultUnits units(options);
-  return {units.si(), units.of_each(relations_quantities())};
+  return {units.si(), units.of_each(quantities)};
 }
 
-Relations in_units(Relations r, const RelationsUnits& units) {
-  for (std::size_t i = 0; i < units.each.size(); ++i) r.*relations_quantities()[i].value *= units.each[i].value;
-  return r;
+template <class Row>
+Row in_units(Row row, const auto& quantities, const RelationsUnits& units) {
+  for (std::size_t i = 0; i < units.each.size(); ++i) row.*quantities[i].value *= units.each[i].value;
+  return row;
 }
 
-std::string json_row(const Relations& r) {
-  Json row;
-  for (const RelationsQuantity& q : relations_quantities()) row[std::string(q.about.name)] = r.*q.value;
-  return text_of(row);
+template <class Row>
+std::string json_row(const Row& row, const auto& quantities) {
+  Json json;
+  for (const auto& q : quantities) json[std::string(q.about.name)] = row.*q.value;
+  return text_of(json);
 }
 
-std::string csv_row(const Relations& r) {
-  std::string row;
-  for (const RelationsQuantity& q : relations_quantities())
-    row += fmt::format("{}{}", row.empty() ? "" : ",", r.*q.value);
-  return row + "\n";
+template <class Row>
+std::string csv_row(const Row& row, const auto& quantities) {
+  std::string text;
+  for (const auto& q : quantities) text += fmt::format("{}{}", text.empty() ? "" : ",", row.*q.value);
+  return text + "\n";
 }
 
 constexpr std::array<TableColumn, 9> relations_columns = {{{12}, {12}, {12}, {12}, {12}, {12}, {12}, {12}, {12}}};
@@ -78,44 +86,64 @@ std::vector<std::string> table_row(const Relations& r) {
   return cells;
 }
 
-void print_one(const Relations& r, const RelationsUnits& units) {
+std::vector<std::string> table_row(const StepRelations& r) {
+  std::vector<std::string> cells;
+  for (const double value : {r.stress, r.stress_right, r.rupture_velocity, r.leading_velocity, r.velocity_ratio,
+                             r.slip_velocity, r.stress_at_origin, r.dislocation_velocity_at_origin, r.trains_at_origin})
+    cells.push_back(fmt::format("{:.6g}", value));
+  return cells;
+}
+
+template <class Row>
+void print_one(const Row& row, const auto& quantities, const RelationsUnits& units) {
   for (std::size_t i = 0; i < units.each.size(); ++i) {
-    const RelationsQuantity& q = relations_quantities()[i];
+    const auto& q = quantities[i];
     const auto& [name, long_name, of_model, reference] = q.about;
     const std::string& unit = units.each[i].name;
-    put(fitted(fmt::format("{:<31} {:<24} {}{}{}", name, r.*q.value, long_name, unit.empty() ? "" : ", in ", unit),
+    put(fitted(fmt::format("{:<31} {:<24} {}{}{}", name, row.*q.value, long_name, unit.empty() ? "" : ", in ", unit),
                31 + 1 + 24 + 1));
   }
 }
 
-void print_json(const std::vector<Relations>& results, const RelationsUnits& units, int threads) {
+template <class Row>
+void print_json(const std::vector<Row>& results, const auto& quantities, const RelationsUnits& units, int threads) {
   put("{\"relations\": [");
-  const auto rows =
-      in_parallel<std::string>(results.size(), threads, [&](std::size_t i) { return json_row(results[i]); });
+  const auto rows = in_parallel<std::string>(results.size(), threads,
+                                             [&](std::size_t i) { return json_row(results[i], quantities); });
   for (std::size_t i = 0; i < rows.size(); ++i) put((i == 0 ? "\n" : ",\n") + rows[i]);
   if (!units.si) return put("\n]}\n");
   Json names;
   for (std::size_t i = 0; i < units.each.size(); ++i)
-    if (!units.each[i].name.empty()) names[std::string(relations_quantities()[i].about.name)] = units.each[i].name;
+    if (!units.each[i].name.empty()) names[std::string(quantities[i].about.name)] = units.each[i].name;
   put("\n], \"unit_system\": \"SI\", \"units\": " + text_of(names) + "}\n");
 }
 
-void print_csv(const std::vector<Relations>& results, int threads) {
+template <class Row>
+void print_csv(const std::vector<Row>& results, const auto& quantities, int threads) {
   std::string head;
-  for (const RelationsQuantity& q : relations_quantities())
-    head += (head.empty() ? "" : ",") + std::string(q.about.name);
+  for (const auto& q : quantities) head += (head.empty() ? "" : ",") + std::string(q.about.name);
   put(head + "\n");
   const auto rows =
-      in_parallel<std::string>(results.size(), threads, [&](std::size_t i) { return csv_row(results[i]); });
+      in_parallel<std::string>(results.size(), threads, [&](std::size_t i) { return csv_row(results[i], quantities); });
   for (const std::string& row : rows) put(row);
 }
 
-void print_table(const std::vector<Relations>& results, const RelationsUnits& units, int threads) {
+std::vector<std::string> table_titles(const Relations&) {
+  return {"stress", "rupture vel", "leading vel", "ratio", "slip vel", "stress(x=0)", "U(x=0)", "psi", "psi(x=0)"};
+}
+std::vector<std::string> table_titles(const StepRelations&) {
+  return {"stress", "ahead", "rupture vel", "leading vel", "ratio", "slip vel", "stress(x=0)", "U(x=0)", "trains(x=0)"};
+}
+
+template <class Row>
+void print_table(const std::vector<Row>& results, const auto& quantities, const RelationsUnits& units, int threads) {
   TerminalTable table(relations_columns);
-  table.add({"stress", "rupture vel", "leading vel", "ratio", "slip vel", "stress(x=0)", "U(x=0)", "psi", "psi(x=0)"});
+  table.add(table_titles(results.front()));
   std::vector<std::string> names;
-  for (const auto& unit : units.each) names.push_back(unit.name);
-  names[3] = "|V- / V+|";
+  for (std::size_t i = 0; i < units.each.size(); ++i) {
+    if (quantities[i].about.name == "slip") continue;  // equal to the slip velocity
+    names.push_back(quantities[i].about.name == "velocity_ratio" ? "|V- / V+|" : units.each[i].name);
+  }
   table.add(std::move(names));
   auto rows = in_parallel<std::vector<std::string>>(results.size(), threads,
                                                     [&](std::size_t i) { return table_row(results[i]); });
@@ -123,25 +151,53 @@ void print_table(const std::vector<Relations>& results, const RelationsUnits& un
   put(table.text());
 }
 
-int print_relations(const std::vector<AskedState>& states, const FrictionOptions& friction, const SiOptions& si_options,
+template <class Row>
+int print_relations(std::vector<Row> results, const auto& quantities, const RelationsUnits& units,
                     const CommonOptions& options) {
-  const RelationsUnits units = units_of(si_options);
-  auto results =
-      in_parallel<Relations>(states.size(), options.threads, [&](std::size_t i) { return solve(states[i]); });
+  for (Row& row : results) row = in_units(row, quantities, units);
+  if (options.json)
+    print_json(results, quantities, units, options.threads);
+  else if (options.csv)
+    print_csv(results, quantities, options.threads);
+  else if (results.size() == 1)
+    print_one(results.front(), quantities, units);
+  else
+    print_table(results, quantities, units, options.threads);
+  return exit_done;
+}
+
+int run_closed_forms(const std::vector<AskedState>& states, const FrictionOptions& friction,
+                     const SiOptions& si_options, const CommonOptions& options) {
+  const RelationsUnits units = units_of(si_options, relations_quantities());
+  auto results = in_parallel<Relations>(states.size(), options.threads,
+                                        [&](std::size_t i) { return solved(states[i], states[i].given->solve); });
   if (friction.wanted()) {
     print_friction(results, friction, units, options);
     return exit_done;
   }
-  for (Relations& r : results) r = in_units(r, units);
-  if (options.json)
-    print_json(results, units, options.threads);
-  else if (options.csv)
-    print_csv(results, options.threads);
-  else if (results.size() == 1)
-    print_one(results.front(), units);
-  else
-    print_table(results, units, options.threads);
-  return exit_done;
+  return print_relations(std::move(results), relations_quantities(), units, options);
+}
+
+/// The pulses from steps of stress into a side with the stress of --stress-right.
+int run_steps(const std::vector<AskedState>& states, const std::string& stress_right, const FrictionOptions& friction,
+              const SiOptions& si_options, const CommonOptions& options) {
+  const auto refuse = [&](std::string problem, std::string allowed) {
+    return InputError({.file = "command line",
+                       .key = "--stress-right",
+                       .value = stress_right,
+                       .problem = std::move(problem),
+                       .allowed = std::move(allowed)});
+  };
+  const auto right = slipfront::medium::number(stress_right);
+  if (!right) throw refuse("not a stress", "a number, in mu A / pi");
+  if (friction.wanted()) throw refuse("without friction only", "no option of friction");
+  for (const AskedState& state : states)
+    if (std::string_view(state.given->option) != "--stress")
+      throw refuse("needs the stress on the left", "only --stress with it, no " + std::string(state.given->option));
+  auto results = in_parallel<StepRelations>(states.size(), options.threads, [&](std::size_t i) {
+    return solved(states[i], [&](double stress) { return slipfront::rupture::step_relations(stress, *right); });
+  });
+  return print_relations(std::move(results), step_quantities(), units_of(si_options, step_quantities()), options);
 }
 
 /// The states of all options, in the order of the command line.
@@ -178,6 +234,7 @@ Runner add_relations(CommandLine& program) {
     CommonOptions common;
     FrictionOptions friction;
     SiOptions si;
+    std::string stress_right;
     std::array<Given, 3> given = {{{"--stress", slipfront::rupture::from_stress, {}},
                                    {"--rupture-velocity", slipfront::rupture::from_rupture_velocity, {}},
                                    {"--slip-velocity", slipfront::rupture::from_slip_velocity, {}}}};
@@ -189,6 +246,7 @@ Runner add_relations(CommandLine& program) {
       "friction: the ratio of slip velocities from the friction coefficient, or the reverse (Fig. 10)",
       {"slipfront relations --stress 1.03", "slipfront relations --stress 0.855 --si --contact-ratio 0.003",
        "slipfront relations --rupture-velocity 1e-9:0.9:6:log --csv",
+       "slipfront relations --stress 0.855 --stress-right 0.179",
        "slipfront relations --stress 0.855 --slip-velocity-ratio 0.5"});
   const std::array<const char*, 3> help = {"Stress before the rupture, in mu A / pi",
                                            "Velocity of the fast front, in c", "Slip velocity at x = 0, in c A / pi"};
@@ -199,11 +257,15 @@ Runner add_relations(CommandLine& program) {
                                std::string(help[i]) + "; repeatable; a:b:n or a:b:n:log for a range, - for stdin")
                        .repeatable();
   }
+  command.option("--stress-right", "VALUE", arguments->stress_right,
+                 "Stress ahead of the leading front, in mu A / pi, instead of an empty interface; with --stress");
   add_friction_options(command, arguments->friction);
   add_si_options(command, arguments->si);
   add_common_options(command, arguments->common);
   return [arguments, command] {
     const std::vector<AskedState> states = states_asked_for(command, arguments->given);
-    return print_relations(states, arguments->friction, arguments->si, arguments->common);
+    if (!arguments->stress_right.empty())
+      return run_steps(states, arguments->stress_right, arguments->friction, arguments->si, arguments->common);
+    return run_closed_forms(states, arguments->friction, arguments->si, arguments->common);
   };
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,6 +17,7 @@
 #include "slipfront/error.hpp"
 #include "slipfront/medium/quantity.hpp"
 #include "slipfront/rupture/riemann.hpp"
+#include "slipfront/rupture/riemann_trains.hpp"
 #include "terminal_table.hpp"
 
 namespace {
@@ -24,15 +26,55 @@ using slipfront::InputError;
 using slipfront::State;
 using slipfront::rupture::ProfilePoint;
 using slipfront::rupture::ProfileQuantity;
-using slipfront::rupture::RiemannSolution;
+using slipfront::rupture::Region;
+using slipfront::rupture::TrainsPoint;
 using slipfront::rupture::Wave;
 
 struct RiemannArguments {
   CommonOptions common;
   SiOptions si;
-  std::string left, right;
+  std::string left, right, solution = "trains";
   int points = 201;
 };
+
+/// Either solution. Only the exact one has regions, slip and trains.
+struct Shown {
+  bool exact;
+  State left, right;
+  TrainsPoint star;
+  Wave left_wave, right_wave;
+  slipfront::rupture::Edges edges;
+  std::vector<Region> regions;
+  std::function<TrainsPoint(double)> at;
+};
+
+Shown with_trains(const State& left, const State& right) {
+  const auto s = slipfront::rupture::solve_trains(left, right);
+  return {true,
+          left,
+          right,
+          slipfront::rupture::profile_point(s.star),
+          s.left_wave,
+          s.right_wave,
+          slipfront::rupture::edges_of(s),
+          s.regions,
+          [s](double x) { return slipfront::rupture::profile_point(s, x); }};
+}
+
+Shown with_shocks(const State& left, const State& right) {
+  const auto s = slipfront::rupture::solve_riemann(left, right);
+  return {false,
+          left,
+          right,
+          {slipfront::rupture::profile_point(s.star), 0, {}},
+          s.left_wave,
+          s.right_wave,
+          slipfront::rupture::edges_of(s),
+          {},
+          [s](double x) {
+            return TrainsPoint{slipfront::rupture::profile_point(s, x), 0, {}};
+          }};
+}
 
 /// The train of an option STRESS[,U]. `side` is left or right.
 State train_of(const std::string& text, const std::string& side) {
@@ -76,9 +118,9 @@ std::vector<double> values_of(const ProfilePoint& point, const RiemannUnits& uni
   return values;
 }
 
-Json riemann_json(const State& state, const RiemannUnits& units) {
+Json riemann_json(const ProfilePoint& point, const RiemannUnits& units) {
   Json json;
-  const std::vector<double> values = values_of(slipfront::rupture::profile_point(state), units);
+  const std::vector<double> values = values_of(point, units);
   for (std::size_t i = 0; i < values.size(); ++i)
     json[std::string(slipfront::rupture::profile_quantities()[i].about.name)] = values[i];
   return json;
@@ -88,16 +130,42 @@ Json riemann_json(const Wave& wave, double c) {
   return {{"kind", slipfront::rupture::name_of(wave.kind)}, {"outer", wave.outer * c}, {"inner", wave.inner * c}};
 }
 
-void print_json(const RiemannSolution& s, const RiemannUnits& units) {
+/// The units of stress and of slip velocity among those of profile_quantities().
+constexpr std::size_t of_stress = 1, of_slip_velocity = 2;
+
+Json riemann_json(const TrainsPoint& point, const RiemannUnits& units) {
+  const double stress = units.each[of_stress].value, slip_velocity = units.each[of_slip_velocity].value;
+  Json each = Json::array();
+  for (const auto& train : point.trains)
+    each.push_back({{"Sigma", train.Sigma * stress},
+                    {"W", train.W * slip_velocity},
+                    {"lowest_rapidity", train.lowest},
+                    {"highest_rapidity", train.highest}});
+  return {{"stress", point.all.Sigma * stress},
+          {"slip_velocity", point.all.W * slip_velocity},
+          {"trains", point.trains.size()},
+          {"each", std::move(each)}};
+}
+
+void print_json(const Shown& s, const RiemannUnits& units) {
   const double c = units.c.value;
-  const auto [left_edge, right_edge] = slipfront::rupture::edges_of(s);
-  Json json = {{"left", riemann_json(s.left, units)},
-               {"star", riemann_json(s.star, units)},
-               {"right", riemann_json(s.right, units)},
+  Json json = {{"left", riemann_json(slipfront::rupture::profile_point(s.left), units)},
+               {"star", riemann_json(s.star.all, units)},
+               {"right", riemann_json(slipfront::rupture::profile_point(s.right), units)},
                {"left_wave", riemann_json(s.left_wave, c)},
                {"right_wave", riemann_json(s.right_wave, c)},
-               {"left_edge", left_edge * c},
-               {"right_edge", right_edge * c}};
+               {"left_edge", s.edges.left * c},
+               {"right_edge", s.edges.right * c},
+               {"solution", s.exact ? "trains" : "shocks"}};
+  if (s.exact) {
+    json["waves"] = Json::array();
+    for (const Region& region : s.regions)
+      json["waves"].push_back({{"kind", slipfront::rupture::name_of(region.kind)},
+                               {"from", region.from * c},
+                               {"to", region.to * c},
+                               {"trains", region.trains}});
+    json["at_origin"] = riemann_json(s.at(0), units);
+  }
   if (units.si) {
     json["unit_system"] = "SI";
     for (std::size_t i = 0; i < units.each.size(); ++i)
@@ -109,27 +177,33 @@ void print_json(const RiemannSolution& s, const RiemannUnits& units) {
 }
 
 /// The solution over x/t, from a quarter of its width on the left of its left edge to as much on the right.
-void print_csv(const RiemannSolution& s, const RiemannUnits& units, int points) {
+void print_csv(const Shown& s, const RiemannUnits& units, int points) {
   std::string head = "x_over_t";
   for (const ProfileQuantity& quantity : slipfront::rupture::profile_quantities())
     head += "," + std::string(quantity.about.name);
-  put(head + "\n");
-  const auto [left, right] = slipfront::rupture::edges_of(s);
+  put(head + (s.exact ? ",slip,trains,Sigma_1,W_1,Sigma_2,W_2\n" : "\n"));
+  const auto [left, right] = s.edges;
   for (int i = 0; i < points; ++i) {
     const double x = left + (right - left) * (1.5 * i / (points - 1) - 0.25);
+    const TrainsPoint point = s.at(x);
     std::string row = fmt::format("{}", x * units.c.value);
-    for (const double value : values_of(slipfront::rupture::profile_point(s, x), units))
-      row += fmt::format(",{}", value);
+    for (const double value : values_of(point.all, units)) row += fmt::format(",{}", value);
+    if (s.exact) {
+      const double stress = units.each[of_stress].value, slip_velocity = units.each[of_slip_velocity].value;
+      row += fmt::format(",{},{}", point.slip * slip_velocity, point.trains.size());
+      for (const auto& train : point.trains)
+        row += fmt::format(",{},{}", train.Sigma * stress, train.W * slip_velocity);
+      for (std::size_t train = point.trains.size(); train < 2; ++train) row += ",,";
+    }
     put(row + "\n");
   }
 }
 
-void print_table(const RiemannSolution& s, const RiemannUnits& units) {
+void print_table(const Shown& s, const RiemannUnits& units) {
   static constexpr std::array<TableColumn, 7> riemann_columns = {
-      {{8, true}, {12}, {12}, {13, false}, {12}, {12}, {12}}};
+      {{10, true}, {12}, {12}, {13, false}, {12}, {12}, {12}}};
   const double c = units.c.value;
   const auto number = [](double value) { return fmt::format("{:.6g}", value); };
-  const auto [left_edge, right_edge] = slipfront::rupture::edges_of(s);
   TerminalTable table(riemann_columns);
   std::vector<std::string> titles = {"", "x/t from", "to"}, names = {"", units.c.name, units.c.name};
   for (const ProfileQuantity& quantity : slipfront::rupture::profile_quantities())
@@ -137,11 +211,10 @@ void print_table(const RiemannSolution& s, const RiemannUnits& units) {
   for (const auto& unit : units.each) names.push_back(unit.name);
   table.add(std::move(titles));
   table.add(std::move(names));
-  const auto add = [&](std::string_view region, std::string from, std::string to, const State* state) {
+  const auto add = [&](std::string_view region, std::string from, std::string to, const ProfilePoint* point) {
     std::vector<std::string> cells = {std::string(region), std::move(from), std::move(to)};
-    if (state != nullptr)
-      for (const double value : values_of(slipfront::rupture::profile_point(*state), units))
-        cells.push_back(number(value));
+    if (point != nullptr)
+      for (const double value : values_of(*point, units)) cells.push_back(number(value));
     table.add(std::move(cells));
   };
   const auto add_wave = [&](const Wave& wave) {
@@ -149,17 +222,28 @@ void print_table(const RiemannSolution& s, const RiemannUnits& units) {
     if (wave.kind != Wave::Kind::none)
       add(slipfront::rupture::name_of(wave.kind), number(first), number(last), nullptr);
   };
+  const ProfilePoint left = slipfront::rupture::profile_point(s.left),
+                     right = slipfront::rupture::profile_point(s.right);
   if (s.left_wave.kind == Wave::Kind::none && s.right_wave.kind == Wave::Kind::none) {
-    add("all", "", "", &s.left);
+    add("all", "", "", &left);
     return put(table.text());
   }
-  add("left", "", number(left_edge * c), &s.left);
+  add("left", "", number(s.edges.left * c), &left);
   add_wave(s.left_wave);
   if (!s.left.empty() && !s.right.empty() && s.left_wave.inner < s.right_wave.inner)
-    add("between", number(s.left_wave.inner * c), number(s.right_wave.inner * c), &s.star);
+    add("between", number(s.left_wave.inner * c), number(s.right_wave.inner * c), &s.star.all);
   add_wave(s.right_wave);
-  add("right", number(right_edge * c), "", &s.right);
+  add("right", number(s.edges.right * c), "", &right);
   put(table.text());
+  if (!s.exact) return;
+  const TrainsPoint origin = s.at(0);
+  const std::size_t count = origin.trains.size();
+  put(fmt::format("at x = 0: {}, Sigma = {}, W = {}\n",
+                  count == 0   ? "no dislocations"
+                  : count == 1 ? "one train"
+                               : "two trains",
+                  number(origin.all.Sigma * units.each[of_stress].value),
+                  number(origin.all.W * units.each[of_slip_velocity].value)));
 }
 
 int run_riemann(const RiemannArguments& arguments) {
@@ -171,7 +255,7 @@ int run_riemann(const RiemannArguments& arguments) {
                       .problem = "both sides are empty",
                       .allowed = "a stress above 0 on one side"});
   const RiemannUnits units{ResultUnits(arguments.si)};
-  const RiemannSolution solution = slipfront::rupture::solve_riemann(left, right);
+  const Shown solution = arguments.solution == "shocks" ? with_shocks(left, right) : with_trains(left, right);
   if (arguments.common.json)
     print_json(solution, units);
   else if (arguments.common.csv)
@@ -187,10 +271,11 @@ Runner add_riemann(CommandLine& program) {
   auto arguments = std::make_shared<RiemannArguments>();
   CommandLine command = program.command(
       "riemann",
-      "The motion without friction if two uniform trains of dislocations meet: the exact Riemann problem. Each wave "
-      "is a fan or a shock",
+      "The motion without friction if two uniform trains of dislocations meet: the exact Riemann problem. Where "
+      "dislocations overtake each other, there are two trains at one position",
       {"slipfront riemann --left 0.855 --right 0", "slipfront riemann --left 2,0.3 --right 0.5,-0.2",
        "slipfront riemann --left 1 --right 0.5 --csv --points 400",
+       "slipfront riemann --left 1 --right 0.5 --solution shocks",
        "slipfront riemann --left 1 --right 0.5 --si --contact-ratio 0.003"});
   const auto add = [&](const char* name, std::string& text, const char* side) {
     command
@@ -203,6 +288,11 @@ Runner add_riemann(CommandLine& program) {
   add("--left", arguments->left, "left");
   add("--right", arguments->right, "right");
   command.option("--points", "N", arguments->points, "Number of rows of --csv (default: 201)").in_range(2, 10000000);
+  command
+      .option("--solution", "KIND", arguments->solution,
+              "trains: exact. shocks: one train at each position, with shocks that conserve dislocations and momentum, "
+              "as in pulse (default: trains)")
+      .one_of({"trains", "shocks"});
   add_si_options(command, arguments->si);
   add_common_options(command, arguments->common);
   return [arguments] { return run_riemann(*arguments); };

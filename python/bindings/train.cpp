@@ -9,6 +9,7 @@
 #include "slipfront/elliptic/jacobi.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/rupture/riemann.hpp"
+#include "slipfront/rupture/riemann_trains.hpp"
 #include "slipfront/scenario/scenario.hpp"
 
 namespace {
@@ -138,6 +139,53 @@ py::tuple riemann(double left_stress, double left_velocity, double right_stress,
                         star, py::cpp_function([solution](const Numbers& x) { return profile(solution, x); }));
 }
 
+constexpr std::array<Description, 6> shares_described = {{
+    {"slip", "slip since t = 0 over t", "c A / pi", ""},
+    {"trains", "number of trains at one position", "", ""},
+    {"Sigma_1", "stress of the slower train", "mu A / pi", ""},
+    {"W_1", "slip velocity of the slower train", "c A / pi", ""},
+    {"Sigma_2", "stress of the faster train", "mu A / pi", ""},
+    {"W_2", "slip velocity of the faster train", "c A / pi", ""},
+}};
+
+/// The exact solution at each x/t: profile_quantities(), then shares_described, which are NaN for a train that is
+/// absent.
+py::list profile_of_trains(const rupture::TrainsSolution& solution, const Numbers& x_over_t) {
+  const double* x = x_over_t.data();
+  return columns<10>(x_over_t.size(), [&, x](py::ssize_t i) {
+    if (!std::isfinite(x[i]))
+      throw InputError({.key = "x_over_t", .value = digits(x[i]), .problem = "not finite", .allowed = "a number"});
+    const rupture::TrainsPoint point = rupture::profile_point(solution, x[i]);
+    std::array<double, 10> row{};
+    row.fill(std::nan(""));
+    for (std::size_t q = 0; q < 4; ++q) row.at(q) = point.all.*rupture::profile_quantities()[q].value;
+    row[4] = point.slip;
+    row[5] = static_cast<double>(point.trains.size());
+    for (std::size_t train = 0; train < point.trains.size(); ++train) {
+      row.at(6 + 2 * train) = point.trains[train].Sigma;
+      row.at(7 + 2 * train) = point.trains[train].W;
+    }
+    return row;
+  });
+}
+
+/// The exact Riemann problem between two trains: as riemann(), and the waves from left to right.
+py::tuple riemann_trains(double left_stress, double left_velocity, double right_stress, double right_velocity) {
+  const rupture::TrainsSolution solution =
+      rupture::solve_trains(rupture::moving_train(left_stress, left_velocity, "left"),
+                            rupture::moving_train(right_stress, right_velocity, "right"));
+  const rupture::Edges edges = rupture::edges_of(solution);
+  const rupture::TrainsPoint point = rupture::profile_point(solution.star);
+  py::list star, waves;
+  for (const auto& quantity : rupture::profile_quantities()) star.append(point.all.*quantity.value);
+  for (const rupture::Region& region : solution.regions)
+    waves.append(py::dict(py::arg("kind") = std::string(rupture::name_of(region.kind)), py::arg("from") = region.from,
+                          py::arg("to") = region.to, py::arg("trains") = region.trains));
+  return py::make_tuple(py::make_tuple(edges.left, edges.right), wave(solution.left_wave), wave(solution.right_wave),
+                        star, py::cpp_function([solution](const Numbers& x) { return profile_of_trains(solution, x); }),
+                        waves);
+}
+
 }  // namespace
 
 void bind_train(py::module_& m) {
@@ -149,10 +197,12 @@ void bind_train(py::module_& m) {
   m.def("stress_at_rest", stress_at_rest);
   m.def("profile", profile_at_rest);
   m.def("riemann", riemann);
+  m.def("riemann_trains", riemann_trains);
   m.attr("averages_described") = all(averages_described);
   m.attr("fields_described") = all(fields_described);
   m.attr("jacobi_described") = all(jacobi_described);
   py::list about;
   for (const auto& quantity : rupture::profile_quantities()) about.append(described(quantity.about));
   m.attr("profile_described") = about;
+  m.attr("profile_of_trains_described") = about + all(shares_described);
 }

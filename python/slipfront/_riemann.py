@@ -6,6 +6,12 @@ from ._numbers import flat, np, one_number
 from ._slipfront import InputError
 
 
+_about_waves = {"kind": {"long_name": "kind of the wave"},
+                "from": {"long_name": "x / t of its left edge", "units": "1", "dimensional_unit": "c"},
+                "to": {"long_name": "x / t of its right edge", "units": "1", "dimensional_unit": "c"},
+                "trains": {"long_name": "number of trains at one position in the wave", "units": "1"}}
+
+
 def _train(name, value):
     """Returns stress and velocity of a side, which is a stress or a pair."""
     if isinstance(value, (tuple, list)):
@@ -15,9 +21,10 @@ def _train(name, value):
     return one_number(name, value), 0.0
 
 
-def riemann(left, right, x_over_t=None):
-    """The motion without friction that follows if two uniform trains of dislocations meet at x = 0: the exact Riemann problem of the
-    modulation equations (Eqs. 6-7), of which the slip pulse (Eqs. 8-9) is the case with an empty right side.
+def riemann(left, right, x_over_t=None, solution="trains"):
+    """The motion without friction that follows if two uniform trains of dislocations meet at x = 0: the exact Riemann problem, of
+    which the slip pulse (Eqs. 8-9) is the case with an empty right side. Where dislocations overtake each other, there are two
+    trains at one position.
 
     Parameters
     ----------
@@ -28,35 +35,49 @@ def riemann(left, right, x_over_t=None):
         Positions in the solution, in c. By default there are 201, from a quarter of the width on the left of what moves to as
         much on the right.
 
+    solution : str
+        "trains": exact. "shocks": one train at each position, with shocks that conserve dislocations and momentum, as in
+        slipfront.pulse.
+
     Returns
     -------
     xarray.Dataset with U, Sigma, W and P at x_over_t, and the same four between the waves as star_U, star_Sigma, star_W and
-    star_P. Attributes: left_wave and right_wave ("fan", "shock" or "none"), left_wave_edges and right_wave_edges (x/t of the
-    edges of the wave, in c, the outer one first), left_edge and right_edge (x/t of the edges of all that moves).
+    star_P. The exact solution also has slip (slip since t = 0 over t), trains (the number of trains at a position), and
+    Sigma_1, W_1, Sigma_2 and W_2 of each train, from the slower one; those of absent trains are NaN. Attributes: left_wave and
+    right_wave ("fan", "two-trains", "shock" or "none"), left_wave_edges and right_wave_edges (x/t of the edges of the wave, in
+    c, the outer one first), left_edge and right_edge (x/t of the edges of all that moves). The exact solution lists its waves
+    from left to right along the dimension wave: wave_kind ("fan", "two-trains", "vacuum" or "constant"), wave_from and wave_to
+    (x/t), and wave_trains.
     The relative error is 1e-12 for |U| below 0.9999.
 
     Raises
     ------
-    InputError if a number is out of range, or both sides are empty.
+    InputError if a number is out of range, both sides are empty, or the solution is neither "trains" nor "shocks".
 
     Examples
     --------
     >>> meeting = slipfront.riemann((1.0, 0.3), (0.5, -0.2))
     >>> meeting.left_wave, meeting.right_wave, round(float(meeting.star_Sigma), 4)
-    ('shock', 'shock', 1.22)
+    ('two-trains', 'two-trains', 1.1814)
     """
+    if solution not in ("trains", "shocks"):
+        raise InputError(f"solution = {solution!r}: not a solution of the Riemann problem; allowed: trains, shocks")
+    exact = solution == "trains"
     sides = _train("left", left), _train("right", right)
     if not any(stress for stress, _ in sides):
         raise InputError("left = 0: both sides are empty; allowed: a stress above 0 on one side")
-    edges, left_wave, right_wave, between, solution = _slipfront.riemann(*sides[0], *sides[1])
+    solve = _slipfront.riemann_trains if exact else _slipfront.riemann
+    edges, left_wave, right_wave, between, at, *waves = solve(*sides[0], *sides[1])
     width = edges[1] - edges[0]
     given = np.linspace(edges[0] - width / 4, edges[1] + width / 4, 201) if x_over_t is None else x_over_t
     (x,), *rest = flat(x_over_t=given)
-    data = of_columns(_slipfront.profile_described, solution(x), *rest)
+    data = of_columns(_slipfront.profile_of_trains_described if exact else _slipfront.profile_described, at(x), *rest)
     if rest[1] == ("state",):
         about = {"long_name": "x / t", "units": "1", "dimensional_unit": "c"}
         data = data.rename(state="x_over_t").assign_coords(x_over_t=("x_over_t", x, about))
     star = {f"star_{about[0]}": ((), value, {**data[about[0]].attrs, "long_name": f"{about[1]} between the waves"})
             for about, value in zip(_slipfront.profile_described, between)}
+    if exact:
+        data = data.assign({f"wave_{key}": ("wave", [each[key] for each in waves[0]], _about_waves[key]) for key in _about_waves})
     return data.assign(star).assign_attrs(left_wave=left_wave[0], left_wave_edges=left_wave[1:], right_wave=right_wave[0], right_wave_edges=right_wave[1:],
                                           left_edge=edges[0], right_edge=edges[1])

@@ -42,6 +42,13 @@ double psi_of_fan(double r) {
   return newton_in_log(r < 2 ? r / (L + std::log(L)) : (r - 0.34) / 3, residual, "psi in the fan");
 }
 
+State state_in_left_fan(double upper_edge, double x_over_t) {
+  const double above = upper_edge - std::atanh(x_over_t);
+  if (!(above > 0)) return {upper_edge, 0};
+  const double psi = psi_of_fan(above);
+  return {upper_edge - psi, psi};
+}
+
 double psi_of_origin_slip_velocity(double W) {
   const auto residual = [W](double psi) {
     const elliptic::AtPsi at = elliptic::at_psi(psi);

@@ -12,7 +12,8 @@ namespace slipfront::rupture {
 RiemannSolution slip_pulse(double stress) { return solve_riemann({0, from_stress(stress).psi}, State{}); }
 
 std::string_view name_of(Wave::Kind kind) {
-  return kind == Wave::Kind::fan ? "fan" : kind == Wave::Kind::shock ? "shock" : "none";
+  static constexpr std::array<std::string_view, 4> names = {"none", "fan", "shock", "two-trains"};
+  return names[static_cast<std::size_t>(kind)];
 }
 
 ProfilePoint profile_point(const State& state) {

@@ -116,15 +116,6 @@ Wave first_wave(const State& left, const State& star) {
 
 Wave mirrored(const Wave& w) { return {w.kind, -w.outer, -w.inner}; }
 
-/// The state in the left fan. There phi + psi = r and x/t = tanh(phi - atanh c0), so psi + atanh c0 = r - atanh(x/t).
-State in_left_fan(const State& left, double x_over_t) {
-  const double r = left.phi + left.psi;
-  const double above = r - std::atanh(x_over_t);
-  if (!(above > 0)) return {r, 0};
-  const double psi = psi_of_fan(above);
-  return {r - psi, psi};
-}
-
 /// Squares of larger stresses overflow. A jump between faster trains loses more than half of its digits.
 constexpr double most_psi_of_state = 300, most_phi = 18;
 
@@ -174,11 +165,11 @@ Edges edges_of(const RiemannSolution& solution) {
 State sample(const RiemannSolution& s, double x_over_t) {
   if (s.left_wave.kind != Wave::Kind::none || !s.left.empty()) {
     if (x_over_t <= s.left_wave.outer) return s.left;
-    if (x_over_t < s.left_wave.inner) return in_left_fan(s.left, x_over_t);
+    if (x_over_t < s.left_wave.inner) return state_in_left_fan(s.left.phi + s.left.psi, x_over_t);
   }
   if (s.right_wave.kind != Wave::Kind::none || !s.right.empty()) {
     if (x_over_t >= s.right_wave.outer) return s.right;
-    if (x_over_t > s.right_wave.inner) return mirrored(in_left_fan(mirrored(s.right), -x_over_t));
+    if (x_over_t > s.right_wave.inner) return mirrored(state_in_left_fan(s.right.psi - s.right.phi, -x_over_t));
   }
   return s.star;
 }

@@ -67,6 +67,25 @@ class Relations(CommandLine):
         self.refused(2, "relations", "--stress", "-", stdin="", says=["stdin"])
         self.refused(2, "relations", "--stress", "-", "--stress", "-", stdin="1\n")
 
+    def test_stress_ahead_of_the_leading_front(self):
+        """Numbers of docs/theory/9_trains.md."""
+        row = json.loads(self.ok("relations", "--stress", "0.855", "--stress-right", "0.179", "--json"))["relations"][0]
+        self.assertAlmostEqual(row["leading_velocity"], 0.1207373, 7)
+        self.assertAlmostEqual(row["slip_velocity"], 0.0442333337, 10)
+        self.assertEqual((row["slip"], row["trains_at_origin"]), (row["slip_velocity"], 2))
+        closed = json.loads(self.ok("relations", "--stress", "0.855", "--json"))["relations"][0]
+        empty = json.loads(self.ok("relations", "--stress", "0.855", "--stress-right", "0", "--json"))["relations"][0]
+        for name in ("rupture_velocity", "leading_velocity", "slip_velocity", "stress_at_origin"):
+            self.assertAlmostEqual(empty[name] / closed[name], 1, 12)
+        self.assertEqual(row["rupture_velocity"], closed["rupture_velocity"])
+        table = self.ok("relations", "--stress", "0.855", "--stress", "1.03", "--stress-right", "0.179")
+        self.assertIn("ahead", table)
+        self.assertIn("0.0442333", table)
+        for arguments, says in [(("--stress", "0.1"), "larger"), (("--slip-velocity", "0.1"), "only --stress"),
+                                (("--stress", "1", "--slip-velocity-ratio", "0.5"), "friction")]:
+            self.refused(2, "relations", *arguments, "--stress-right", "0.179", says=[says])
+        self.refused(2, "relations", "--stress", "1", "--stress-right", "x", says=["--stress-right", "'x'"])
+
     def test_friction_coefficient_from_a_ratio_and_back(self):
         forward = json.loads(self.ok("relations", "--stress", "0.855", "--stress", "0.3", "--friction-coefficient", "0.5", "--json"))
         self.assertEqual([(row["stress"], row["closure"]) for row in forward["friction"]],

@@ -23,12 +23,37 @@ class Riemann(CommandLine):
 
     def test_shocks_conserve_dislocations(self):
         """The speed s of a shock obeys s [Sigma] = [W]."""
-        out = json.loads(self.ok("riemann", "--left", "1,0.3", "--right", "0.5,-0.2", "--json"))
+        out = json.loads(self.ok("riemann", "--left", "1,0.3", "--right", "0.5,-0.2", "--solution", "shocks", "--json"))
+        self.assertNotIn("waves", out)
         for side in ("left", "right"):
             wave, state, star = out[side + "_wave"], out[side], out["star"]
             self.assertEqual(wave["kind"], "shock")
             self.assertAlmostEqual(wave["outer"] * (star["Sigma"] - state["Sigma"]), star["W"] - state["W"], 12)
         self.assertGreater(out["star"]["Sigma"], 1)
+
+    def test_two_trains_where_dislocations_overtake_each_other(self):
+        """Numbers of docs/theory/9_trains.md."""
+        asked = ["riemann", "--left", "1,0.3", "--right", "0.5,-0.2"]
+        out = json.loads(self.ok(*asked, "--json"))
+        self.assertEqual([(wave["kind"], wave["trains"]) for wave in out["waves"]], [("two-trains", 2), ("constant", 2), ("two-trains", 2)])
+        for wave, after in zip(out["waves"], out["waves"][1:]):
+            self.assertEqual(wave["to"], after["from"])
+        self.assertEqual((out["waves"][0]["from"], out["waves"][2]["to"]), (out["left_edge"], out["right_edge"]))
+        self.assertAlmostEqual(out["at_origin"]["stress"], 1.163300692, 9)
+        self.assertAlmostEqual(out["at_origin"]["slip_velocity"], 0.201413471, 9)
+        self.assertEqual(out["at_origin"]["trains"], 2)
+        self.assertAlmostEqual(sum(train["W"] for train in out["at_origin"]["each"]), out["at_origin"]["slip_velocity"], 15)
+        self.assertIn("at x = 0: two trains", self.ok(*asked))
+        rows = list(csv.DictReader(io.StringIO(self.ok(*asked, "--csv", "--points", "41"))))
+        self.assertEqual({row["trains"] for row in rows}, {"1", "2"})
+        for row in rows:
+            self.assertEqual(row["W_2"] != "", row["trains"] == "2")
+            self.assertAlmostEqual(sum(float(row[name] or 0) for name in ("Sigma_1", "Sigma_2")), float(row["Sigma"]), 12)
+
+    def test_a_vacuum_between_trains_that_part(self):
+        out = json.loads(self.ok("riemann", "--left", "1,-0.9", "--right", "1,0.9", "--json"))
+        self.assertEqual([(wave["kind"], wave["trains"]) for wave in out["waves"]], [("fan", 1), ("vacuum", 0), ("fan", 1)])
+        self.assertEqual(out["at_origin"], {"stress": 0, "slip_velocity": 0, "trains": 0, "each": []})
 
     def test_mirrored_trains_have_mirrored_waves(self):
         one = json.loads(self.ok("riemann", "--left", "1,-0.3", "--right", "0.5,0.1", "--json"))
@@ -56,6 +81,7 @@ class Riemann(CommandLine):
                                    ("1e-5", "1", ["--left", "0.0045"]), ("1", "1e7", ["--right", "1e6"]), ("1,", "1", ["STRESS,U"]), ("nan", "1", ["--left"])]:
             with self.subTest(left=left, right=right):
                 self.refused(2, "riemann", "--left", left, "--right", right, says=["command line", *words])
+        self.refused(2, "riemann", "--left", "1", "--right", "0", "--solution", "x", says=["--solution"])
         self.refused(2, "riemann", "--left", "1", says=["--right"])
         self.refused(2, "riemann", "--left", "1", "--right", "0", "--points", "1", says=["--points"])
         self.refused(2, "riemann", "--left", "1", "--right", "0", "--si", says=["--contact-ratio"])

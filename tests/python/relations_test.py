@@ -164,16 +164,41 @@ class FrictionRatio(unittest.TestCase):
 
 class Riemann(CommandLine):
     def test_is_what_the_command_line_says_to_the_bit(self):
-        out = slipfront.riemann((1.0, 0.3), (0.5, -0.2))
-        said = json.loads(self.ok("riemann", "--left", "1,0.3", "--right", "0.5,-0.2", "--json"))
+        for solution in ("trains", "shocks"):
+            with self.subTest(solution):
+                self.compare(slipfront.riemann((1.0, 0.3), (0.5, -0.2), solution=solution),
+                             json.loads(self.ok("riemann", "--left", "1,0.3", "--right", "0.5,-0.2", "--solution", solution, "--json")))
+
+    def compare(self, out, said):
         self.assertEqual({name: float(out[f"star_{name}"]) for name in said["star"]}, said["star"])
         self.assertEqual([out.left_wave, *out.left_wave_edges], list(said["left_wave"].values()))
         self.assertEqual((out.left_edge, out.right_edge), (said["left_edge"], said["right_edge"]))
         self.assertEqual(out.sizes["x_over_t"], 201)
+        for i, wave in enumerate(said.get("waves", [])):
+            self.assertEqual({key: out[f"wave_{key}"].values[i] for key in wave}, wave)
+        self.assertEqual(out.sizes.get("wave", 0), len(said.get("waves", [])))
+
+    def test_gives_each_train(self):
+        out = slipfront.riemann((1.0, 0.3), (0.5, -0.2), [-0.9, 0.0])
+        self.assertEqual(out.trains.values.tolist(), [1, 2])
+        self.assertTrue(np.isnan(out.W_2[0]))
+        self.assertAlmostEqual(float(out.W_1[1] + out.W_2[1]), 0.201413471, 9)
+        self.assertEqual(float(out.slip[1]), float(out.W[1]))
+
+    def test_gives_the_leading_front_for_any_stress_ahead(self):
+        out = slipfront.relations(stress=[0.855, 1.03], stress_right=[0.179, 0.4])
+        np.testing.assert_allclose(out.leading_velocity, [0.1207373, 0.2607497], atol=6e-8)
+        np.testing.assert_allclose(out.slip_velocity, [0.0442333337, 0.0828168462], atol=6e-11)
+        said = json.loads(self.ok("relations", "--stress", "0.855", "--stress-right", "0.179", "--json"))["relations"][0]
+        self.assertEqual({name: float(out[name][0]) for name in said}, said)
+        with self.assertRaisesRegex(slipfront.InputError, "stress_right"):
+            slipfront.relations(stress=0.5, stress_right=0.6)
+        with self.assertRaisesRegex(slipfront.InputError, "stress_right"):
+            slipfront.relations(slip_velocity=0.5, stress_right=0.1)
 
     def test_is_the_profile_of_trains_at_rest(self):
         x = np.linspace(-0.5, 0.3, 20)
-        rest, same = slipfront.riemann(0.855, 0.2, x), slipfront.train.profile(0.855, x, stress_right=0.2)
+        rest, same = slipfront.riemann(0.855, 0.2, x, solution="shocks"), slipfront.train.profile(0.855, x, stress_right=0.2)
         for name in ("U", "Sigma", "W", "P"):
             np.testing.assert_array_equal(rest[name], same[name])
 
@@ -181,6 +206,8 @@ class Riemann(CommandLine):
         for left, right, words in [((1, 2), 0, "left_velocity"), (0, 0, "empty"), ((1, 2, 3), 0, "3 numbers"), ("a", 1, "left"), (1, 1e7, "right_stress")]:
             with self.assertRaisesRegex(slipfront.InputError, words):
                 slipfront.riemann(left, right)
+        with self.assertRaisesRegex(slipfront.InputError, "solution"):
+            slipfront.riemann(1, 0, solution="x")
 
 
 if __name__ == "__main__":

@@ -13,7 +13,7 @@ import sys
 sys.dont_write_bytecode = True  # the tables' folder holds sources and tables only
 from mpmath import (asinh, atanh, cos, ellipe, ellipk, exp, log, mp, mpf, nstr, pi, quad, sech, sin, sinh, sqrt, tanh)
 from oracle import (DIGITS, amplitude, averages_by_formula, averages_by_quadrature, carlson_rf, complete, psi_of,
-                    psi_of_stress, pulse, rapidity, riemann, slip_velocity, twice)
+                    psi_of_stress, pulse, rapidity, riemann, slip_velocity, trains, twice)
 
 
 def decades(exponents):
@@ -164,6 +164,33 @@ def table_riemann():
         both += [row] if mirror[:4] == row[:4] else [row, mirror]
     return ("phi_left,psi_left,phi_right,psi_right,phi_star,psi_star,k_star,W_star,left_kind,left_head,left_tail,"
             "right_tail,right_head,right_kind"), both
+
+
+TRAINS = [  # the middle of all bands, and the widths of band, gap, ... band
+    (.3, .8), (-1.0, 1e-9), (.1, 5.0),
+    (.175, .15, .15, .25), (.5, 1e-9, 1e-9, 1e-9), (1e-8, 2e-7, 3e-8, 1e-7), (.2, 1.0, 1e-9, 1.0), (-.3, 1e-9, 1.0, 1e-9),
+    (.05, 5.0, .1, 5.0), (1.5, .01, 2.0, 3.0), (-.4, 1.0, 1e-9, 1e-4), (.1, .2, .1, .3, .05, .4), (-.7, 1e-6, 1e-3, .5, 1e-8, .2)]
+
+
+def table_trains():
+    """Averages of several trains at one position. The flux of energy must equal the momentum, and sum k_i I_i too."""
+    def row(centre, widths, digits):
+        size = sum(widths) + abs(centre)  # the velocities have this size if it is small
+        goal = 40 + (mp.dps - digits) // 5 - min(0, int(2 * math.log10(size)))
+        speeds, k, omega, action, flux, p, h, q, energy_flux = trains(centre, widths, goal)
+        scale = mpf(10)**-28 * h
+        assert abs(energy_flux - p) <= scale and abs(sum(a * b for a, b in zip(k, action)) - p) <= scale
+        total = sum(a * b for a, b in zip(omega, action)) + sum(a * b for a, b in zip(k, flux))
+        assert abs(total - h - q) <= scale
+        return [*speeds, *k, *omega, *action, *flux, p, h, q]
+    rows = []
+    for centre, *widths in TRAINS:
+        digits = 90 + int(-2.2 * len(widths) * min(0, math.log10(min(widths))) + sum(widths))
+        result = list(map(text, twice(lambda: row(mpf(centre), list(map(mpf, widths)), digits), digits)))
+        n = len(widths) // 2 + 1
+        lists = [result[:2 * n], *(result[2 * n + i * n:3 * n + i * n] for i in range(4))]
+        rows.append([centre, " ".join(map(text, widths)), *map(" ".join, lists), *result[-3:]])
+    return "centre,widths,speeds,k,omega,I,J,P,H,Q", rows
 
 
 FORCES = {  # law of a scenario: f(w, its parameters, state), and the ranges of its random parameters

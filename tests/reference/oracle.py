@@ -6,7 +6,8 @@ It shares no code with the library. Functions take mpf and work at the current p
 """
 from collections import namedtuple
 from functools import lru_cache
-from mpmath import agm, asin, atanh, cos, cosh, exp, log, mp, mpf, nint, nstr, pi, sin, sinh, sqrt, tanh
+from mpmath import (agm, asin, asinh, atanh, cos, cosh, exp, log, lu_solve, matrix, mp, mpf, nint, nstr, pi, sin, sinh,
+                    sqrt, tanh)
 
 DIGITS = 60  # working digits if nothing cancels; the second pass of `twice` has 40 more
 
@@ -213,3 +214,110 @@ def riemann(phi_l, psi_l, phi_r, psi_r):
     left_speeds, right_speeds = speeds(left, star, -1), speeds(right, star, 1)
     k = 2 * pi / star.l
     return [star.phi, psi, k, star.U * k, *left_speeds, *reversed(right_speeds)]
+
+
+# --- several trains at one position ----------------------------------------------------------------------------------
+
+def between(a, b, step, goal):
+    """Nodes (x, x - a, b - x, weight) of the tanh-sinh rule for an integral from a to b with ends like 1 / sqrt."""
+    count = int(asinh(goal * log(10) * 2.2 / pi) / step) + 1
+    for n in range(-count, count + 1):
+        q = exp(-pi * sinh(n * step))
+        weight = step * pi * cosh(n * step) * q / (1 + q)**2
+        yield a + (b - a) / (1 + q), (b - a) / (1 + q), (b - a) * q / (1 + q), (b - a) * weight
+
+
+def outwards(step, goal):
+    """Nodes (s, weight) of the double-exponential rule for 0 < s < inf, for 1 / sqrt(s) at 0 and exp(-s) far away."""
+    n = -int((log(goal * log(10) * 2.2) + 1) / step)
+    while True:
+        s = exp(n * step - exp(-n * step))
+        if s > goal * log(10):
+            return
+        yield s, step * s * (1 + exp(-n * step))
+        n += 1
+
+
+def trains(centre, widths, goal):
+    """The averages of N trains from the 2 N edges of their bands, by the formulas of docs/theory/9_trains.md 9.2 as they
+    are printed: powers of exp(r), and double-exponential rules. `goal` is the number of digits of these rules; the
+    working precision must be higher, because the powers cancel if bands or gaps are narrow.
+
+    Returns the lists of speeds, k, omega, I and J, and P, H, Q, and the flux of H, which equals P."""
+    r = [centre - sum(widths) / 2]
+    for width in widths:
+        r.append(r[-1] + width)
+    trains_, total = len(r) // 2, sum(r)
+    top = trains_ + 1
+    powers, all_powers = range(-top, top + 1, 2), range(-top - 1, top + 2)
+    # The integrands have singularities at the other edges. In the variable of the rule, their distance is pi / log(1 / gap).
+    reach = max(-log(min(widths)), mpf(3)) + r[-1] - r[0] + 2
+    step = 3 * pi * pi / reach / (goal * log(10) + 5)
+
+    def inner(low):
+        """[j, n]: integral of (r - r_low)^n exp(j r) / sqrt(R) from edge `low` to the next."""
+        sums = {(j, n): mpf(0) for j in all_powers for n in (0, 1)}
+        for x, above, below, weight in between(r[low], r[low + 1], step, goal):
+            square = 4 * sinh(above) * sinh(below)
+            for j, edge in enumerate(r):
+                if j not in (low, low + 1):
+                    square *= 2 * abs(sinh(x - edge))
+            term, factor = weight * exp(all_powers[0] * x) / sqrt(square), exp(x)
+            for j in all_powers:
+                sums[j, 0] += term
+                sums[j, 1] += term * above
+                term *= factor
+        return sums
+
+    def outer(side):
+        """Like inner, over the lowest (side = -1) or highest gap. exp(|r|) / 2 is subtracted from the term with the pole."""
+        end = r[0] if side < 0 else r[-1]
+        sums = {(j, n): mpf(0) for j in powers for n in (0, 1)}
+        for s, weight in outwards(step, goal):
+            x, square = end + side * s, 2 * sinh(s)
+            for edge in r[1:] if side < 0 else r[:-1]:
+                square *= 2 * abs(sinh(x - edge))
+            for j in powers:
+                term = exp(j * x) / sqrt(square)
+                if j == side * top:
+                    term = exp(-side * total / 2) / 2 * term - exp(side * x) / 2
+                sums[j, 0] += term * weight
+                sums[j, 1] += term * weight * side * s
+        return sums
+
+    bands, gaps = ([inner(low) for low in range(first, len(widths), 2)] for first in (0, 1))
+    lowest, highest = outer(-1), outer(1)
+    sign = (-1)**trains_  # the sign of the root in the lowest gap
+    upper, lower = exp(-total / 2) / 2, exp(total / 2) / 2 * -sign
+
+    def differential(kind):
+        """The coefficients of dp (kind = 1) or dw (-1)."""
+        free = powers[1:-1]
+        conditions, known = matrix(trains_, trains_), matrix(trains_, 1)
+        known[0] = kind * (lowest[-top, 0] - exp(-r[0]) / 2) - sign * upper * lowest[top, 0]
+        for column, j in enumerate(free):
+            conditions[0, column] = sign * lowest[j, 0]
+            for row, gap in enumerate(gaps, 1):
+                conditions[row, column] = gap[j, 0]
+        for row, gap in enumerate(gaps, 1):
+            known[row] = -upper * gap[top, 0] - kind * lower * gap[-top, 0]
+        return {**dict(zip(free, lu_solve(conditions, known))), top: upper, -top: kind * lower}
+
+    def over_band(f, i, shift=0):  # with exp(shift r)
+        return (-1)**(trains_ - 1 - i) * sum(f[j] * bands[i][j + shift, 0] for j in powers)
+
+    def action(f, kind, i):
+        """I (of p) or J (of w): finite parts over the gaps below band i, minus those above, by parts."""
+        parts = [kind * lowest[-top, 1] - sign * sum(f[j] * lowest[j, 1] for j in powers[1:]) - kind * exp(-r[0]) / 2]
+        for m, gap in enumerate(gaps, 1):
+            parts.append(-(-1)**(trains_ - m) * sum(f[j] * gap[j, 1] for j in powers))
+        parts.append(-highest[top, 1] - sum(f[j] * highest[j, 1] for j in powers[:-1]) - exp(r[-1]) / 2)
+        return 2 / pi * (sum(parts[:i + 1]) - sum(parts[i + 1:]))
+
+    p, w = differential(1), differential(-1)
+    up, down, w_up, w_down = (4 / (2 * pi) * sum(over_band(f, i, shift) for i in range(trains_))
+                              for f in (p, w) for shift in (1, -1))
+    each = range(trains_)
+    return ([sum(w[j] * exp(j * x) for j in powers) / sum(p[j] * exp(j * x) for j in powers) for x in r],
+            [over_band(p, i) for i in each], [over_band(w, i) for i in each], [action(p, 1, i) for i in each],
+            [action(w, -1, i) for i in each], up - down, up + down, w_up - w_down, w_up + w_down)

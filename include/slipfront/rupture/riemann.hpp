@@ -1,8 +1,9 @@
 #pragma once
 /// \file
-/// The exact solution of the Riemann problem of the modulation equations, by the jump conditions of (k, P): two uniform
-/// trains meet at x = 0. Every scheme is tested against it. The slip pulse of Eqs. 8-9 is the special case with an
-/// empty right side; Figs. 4-6 show its profiles over x/t.
+/// The solution of the Riemann problem of the modulation equations by the jump conditions of (k, P): two uniform trains
+/// meet at x = 0, and one train is everywhere. Schemes for one train are tested against it. Without friction,
+/// riemann_trains.hpp has the exact solution where dislocations overtake each other. The slip pulse of Eqs. 8-9 is the
+/// special case with an empty right side; Figs. 4-6 show its profiles over x/t.
 
 #include <span>
 #include <string>
@@ -21,14 +22,15 @@ namespace slipfront::rupture {
 State moving_train(double stress, double velocity, const std::string& side);
 
 /// A wave between two states. In a fan the solution depends on x/t between head and tail; a shock has head == tail.
+/// Only the solution of riemann_trains.hpp has two trains in a wave.
 struct Wave {
-  enum class Kind { none, fan, shock };
+  enum class Kind { none, fan, shock, two_trains };
   Kind kind = Kind::none;
   double outer = 0;  ///< x/t of the edge next to the given state
   double inner = 0;  ///< x/t of the edge next to the star state
 };
 
-/// "none", "fan" or "shock".
+/// "none", "fan", "shock" or "two-trains".
 std::string_view name_of(Wave::Kind kind);
 
 /// The solution for all x/t.

@@ -1,0 +1,190 @@
+#include "slipfront/rupture/trains.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include "foundation/text/digits.hpp"
+#include "rupture/band_differentials.hpp"
+#include "slipfront/error.hpp"
+
+namespace slipfront::rupture {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double least_width = 1e-303, most_spread = 80;
+
+void check_bands(const FilledBands& bands, bool zero_allowed) {
+  const auto refuse = [](double value, const char* key, std::string allowed) {
+    return InputError({.key = key,
+                       .value = digits(value),
+                       .problem = "not a state that the averages of several trains exist for",
+                       .allowed = std::move(allowed)});
+  };
+  double total = 0;
+  for (const double width : bands.widths) {
+    if (!((zero_allowed && width == 0) || width >= least_width))
+      throw refuse(width, "width",
+                   (zero_allowed ? "0, or " : "") + digits(least_width) + " ... " + digits(most_spread));
+    total += width;
+  }
+  if (bands.widths.size() % 2 == 0)
+    throw refuse(static_cast<double>(bands.widths.size()), "number of widths", "an odd number: band, gap, ... band");
+  if (!(total <= most_spread)) throw refuse(total, "sum of the widths", "at most " + digits(most_spread));
+  if (!(std::fabs(bands.centre) <= most_spread))
+    throw refuse(bands.centre, "centre", "-" + digits(most_spread) + " ... " + digits(most_spread));
+}
+
+/// The speed tanh(centre + atanh(v)) of what moves at v in the frame of the centre.
+double boosted(double v, double centre) {
+  const double frame = std::tanh(centre);
+  return (v + frame) / (1 + v * frame);
+}
+
+/// A band of this width, times the range, has the speed of its limit: the difference is of the order of the width.
+constexpr double as_good_as_empty = 1e-30;
+
+/// The bands that have a width. Bands that touch are one band, and a band without width is part of the gap around it.
+struct OpenBands {
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+  struct Position {
+    std::size_t band = none;  ///< none: in a gap
+    double from_low = 0;
+  };
+  std::vector<double> widths;
+  std::vector<Position> at;  ///< the position of each given edge
+  double shift = 0;          ///< added to the centre of the given bands
+};
+
+OpenBands open_bands(const std::vector<double>& widths) {
+  OpenBands open;
+  open.at.resize(widths.size() + 1);
+  double gap = 1;            // since the last band with a width
+  std::size_t touching = 0;  // the edges from here on are at the lower edge of the next band
+  double outside = 0;        // from the lowest edge to the first band with a width
+  for (std::size_t low = 0; low < widths.size(); low += 2) {
+    if (low > 0) {
+      gap += widths[low - 1];
+      outside += open.widths.empty() ? widths[low - 1] : 0;
+      if (widths[low - 1] > 0) touching = low;
+    }
+    if (widths[low] == 0 && gap > 0) continue;
+    if (gap > 0) {
+      if (!open.widths.empty()) open.widths.push_back(gap);
+      open.widths.push_back(0);
+    } else {
+      touching = low;
+    }
+    const std::size_t band = open.widths.size() / 2;
+    for (std::size_t j = touching; j <= low; ++j) open.at[j] = {band, open.widths.back()};
+    open.at[low + 1] = {band, open.widths.back() += widths[low]};
+    gap = 0;
+    touching = low + 2;
+  }
+  open.shift = (outside - gap) / 2;
+  return open;
+}
+
+}  // namespace
+
+std::vector<double> FilledBands::edges() const {
+  double total = 0;
+  for (const double width : widths) total += width;
+  std::vector<double> edges(widths.size() + 1);
+  double below = 0;
+  edges[0] = centre - total / 2;
+  for (std::size_t i = 0; i < widths.size(); ++i) edges[i + 1] = centre + ((below += widths[i]) - total / 2);
+  return edges;
+}
+
+FilledBands bands_of_edges(std::span<const double> edges) {
+  FilledBands bands;
+  if (edges.empty()) return bands;
+  bands.centre = edges.front() / 2 + edges.back() / 2;
+  for (std::size_t i = 1; i < edges.size(); ++i) bands.widths.push_back(edges[i] - edges[i - 1]);
+  return bands;
+}
+
+FilledBands bands_of_train(const State& train) { return {train.phi, {2 * train.psi}}; }
+
+std::vector<double> edge_speeds(const FilledBands& bands) {
+  check_bands(bands, true);
+  double total = 0;
+  for (const double width : bands.widths) total += width;
+  std::vector<double> speeds(bands.widths.size() + 1);
+  const OpenBands open = open_bands(bands.widths);
+  if (!open.widths.empty()) {
+    const BandDifferentials at(open.widths);
+    for (std::size_t j = 0; j < speeds.size(); ++j) {
+      const auto [band, from_low] = open.at[j];
+      if (band == OpenBands::none) continue;
+      const double v = from_low == 0                       ? at.speed(2 * band)
+                       : from_low == open.widths[2 * band] ? at.speed(2 * band + 1)
+                                                           : at.speed_inside(band, from_low);
+      speeds[j] = boosted(v, bands.centre + open.shift);
+    }
+  }
+  // A band without width contains one dislocation among the others.
+  for (std::size_t i = 0; i < bands.widths.size(); i += 2) {
+    if (open.at[i].band != OpenBands::none) continue;
+    std::vector<double> widths = bands.widths;
+    widths[i] = as_good_as_empty * (total > 0 ? total : 1);
+    const OpenBands with_one = open_bands(widths);
+    const double v = BandDifferentials(with_one.widths).speed(2 * with_one.at[i].band);
+    speeds[i] = speeds[i + 1] = boosted(v, bands.centre + with_one.shift);
+  }
+  return speeds;
+}
+
+BandAverages averages(const FilledBands& bands) {
+  check_bands(bands, false);
+  const BandDifferentials at(bands.widths);
+  BandAverages result{};
+  for (std::size_t j = 0; j <= bands.widths.size(); ++j) result.speeds.push_back(boosted(at.speed(j), bands.centre));
+  // Under a boost, (k, omega), (I, J) are vectors and H, P, Q are the components of a tensor.
+  const double c = std::cosh(bands.centre), s = std::sinh(bands.centre);
+  double P = 0, H = 0, Q = 0;
+  const GapIntegrals gaps = at.over_gaps();
+  for (std::size_t i = 0; i < bands.trains(); ++i) {
+    const BandIntegrals band = at.over_band(i);
+    double p = 0, w = 0;
+    for (std::size_t m = 0; m <= bands.trains(); ++m) {
+      p += m <= i ? gaps.p[m] : -gaps.p[m];
+      w += m <= i ? gaps.w[m] : -gaps.w[m];
+    }
+    const double I = 2 / pi * p, J = 2 / pi * w;
+    result.trains.push_back({c * band.dp + s * band.dw, c * band.dw + s * band.dp, c * I + s * J, c * J + s * I});
+    result.k += result.trains.back().k;
+    result.W += result.trains.back().omega;
+    P += 4 / pi * band.sinh_dp;
+    H += 4 / pi * band.cosh_dp;
+    Q += 4 / pi * band.sinh_dw;
+  }
+  result.P = (c * c + s * s) * P + c * s * (H + Q);
+  result.H = c * c * H + 2 * c * s * P + s * s * Q;
+  result.Q = s * s * H + 2 * c * s * P + c * c * Q;
+  return result;
+}
+
+BandDerivatives derivatives(const FilledBands& bands) {
+  check_bands(bands, false);
+  const BandDifferentials at(bands.widths);
+  const std::vector<std::vector<double>> normal = at.normal_differentials();
+  const double c = std::cosh(bands.centre), s = std::sinh(bands.centre);
+  BandDerivatives result;
+  for (std::size_t j = 0; j <= bands.widths.size(); ++j) {
+    const EdgeStrength edge = at.strength(j);
+    const double side = j % 2 == 0 ? -1 : 1;
+    const double dp = c * edge.p + s * edge.w;
+    result.speeds.push_back(boosted(at.speed(j), bands.centre));
+    result.H.push_back(side * 4 * dp * dp);
+    result.k.emplace_back();
+    for (std::size_t i = 0; i < bands.trains(); ++i) result.k.back().push_back(side * dp * normal[j][i]);
+  }
+  return result;
+}
+
+}  // namespace slipfront::rupture
