@@ -128,7 +128,7 @@ void BandDifferentials::solve(double bands) {
   // Y = -sqrt((E_1 - lambda) (U_N - lambda) / lambda) / 2 from w, because w - Y is as small as the widths.
   const double lowest = lambda_[0], root_lowest = std::sqrt(lowest), lowest_minus_1 = std::expm1(-total_),
                nu_minus_1 = std::expm1(bands - total_), kappa_minus_lowest = std::expm1(bands) - lowest_minus_1;
-  const MidpointGrid grid = midpoint_grid(lowest / lambda_[1], apart(0, 1) / lambda_[1]);
+  const MidpointGrid grid = midpoint_grid(lowest / lambda_[1], std::sqrt(apart(0, 1) / lambda_[1]));
   for (const auto& [sn2, cn2, dn2] : grid.at) {
     const Point at{lowest * sn2, 0, lowest * sn2, lowest * cn2};
     const double weight = root_lowest * std::sqrt(cn2) * std::sqrt(dn2) * grid.step();  // d lambda / (2 sqrt(lambda))
@@ -239,7 +239,7 @@ GapIntegrals BandDifferentials::over_gaps() const {
   const std::size_t N = trains_, last = edges_ - 1;
   // Lowest gap: p = X + rest, w = -X + rest, and the finite part of the integral of X dr is -(pi / 4) / sqrt(E_1).
   const double lowest = lambda_[0], highest = lambda_[last];
-  MidpointGrid grid = midpoint_grid(lowest / lambda_[1], apart(0, 1) / lambda_[1], Resolution::series);
+  MidpointGrid grid = midpoint_grid(lowest / lambda_[1], std::sqrt(apart(0, 1) / lambda_[1]), Resolution::series);
   std::vector<double> weights = log_sn_weights(grid);
   double p_sum = -pi / (4 * std::sqrt(lowest)), w_sum = -p_sum;
   for (std::size_t j = 0; j < weights.size(); ++j) {
@@ -278,7 +278,7 @@ GapIntegrals BandDifferentials::over_gaps() const {
     result.w.push_back(w_sum);
   }
   // Highest gap: lambda = U_N / sn^2, and X = sqrt(lambda - U_N) / 2 for both.
-  grid = midpoint_grid(lambda_[last - 1] / highest, apart(last - 1, last) / highest, Resolution::series);
+  grid = midpoint_grid(lambda_[last - 1] / highest, std::sqrt(apart(last - 1, last) / highest), Resolution::series);
   weights = log_sn_weights(grid);
   p_sum = w_sum = -pi / 4 * std::sqrt(highest);
   for (std::size_t j = 0; j < weights.size(); ++j) {

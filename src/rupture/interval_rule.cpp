@@ -68,10 +68,9 @@ constexpr double points_per_ratio = 7;
 
 }  // namespace
 
-MidpointGrid midpoint_grid(double m, double m1, Resolution resolution) {
-  const double k = std::sqrt(m), k1 = std::sqrt(m1);
+MidpointGrid midpoint_grid(double m, double k1, Resolution resolution) {
+  const double k = std::sqrt(m), m1 = k1 * k1;
   MidpointGrid grid;
-  grid.m1 = m1;
   grid.K = pi / (2 * arithmetic_geometric_mean(1, k1));
   const double ratio = arithmetic_geometric_mean(1, k) / arithmetic_geometric_mean(1, k1);  // K / K'
   grid.log_nome = -pi / ratio;
@@ -115,18 +114,21 @@ std::vector<RulePoint> interval_rule(const IntervalEnds& ends) {
   // With cross-ratios, m = (b - a) (b_out - a_out) / ((b_out - a) (b - a_out)) and m1 its complement.
   const double to_low = std::isinf(low) ? 1 : low / (low + width);
   const double to_high = std::isinf(high) ? 1 : high / (high + width);
-  const double m1 = to_low * to_high;
   const double m = std::isinf(low)    ? width / (high + width)
                    : std::isinf(high) ? width / (low + width)
                                       : width / (high + width) * ((high + width + low) / (low + width));
-  const MidpointGrid grid = midpoint_grid(m, m1);
-  const double rho = 1 / to_low;  // (b - a_out) / (a - a_out)
-  std::vector<RulePoint> points(grid.at.size());
-  const double scale = 2 * width * rho * grid.step();
-  for (std::size_t j = 0; j < points.size(); ++j) {
+  const MidpointGrid grid = midpoint_grid(m, std::sqrt(to_low) * std::sqrt(to_high));
+  // The second half follows from the first one by exchanging the ends, where 1 - m itself might underflow.
+  const std::size_t n = grid.at.size();
+  std::vector<RulePoint> points(n);
+  const double step = 2 * width * grid.step(), rho = 1 / to_low, mirror_rho = 1 / to_high;
+  for (std::size_t j = 0; j < n / 2; ++j) {
     const auto& [s, c, d] = grid.at[j];
-    const double r = 1 / (rho * c + s);
-    points[j] = {width * s * r, width * rho * c * r, scale * std::sqrt(s * c) * std::sqrt(d) * r * r};
+    const double root = step * std::sqrt(s * c) * std::sqrt(d);
+    const double r = 1 / (rho * c + s), mirror_r = 1 / (mirror_rho * c + s);
+    points[j] = {width * s * r, width * rho * c * r, root * rho * r * r};
+    points[n - 1 - j] = {width * mirror_rho * c * mirror_r, width * s * mirror_r,
+                         root * mirror_rho * mirror_r * mirror_r};
   }
   return points;
 }

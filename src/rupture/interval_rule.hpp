@@ -14,9 +14,8 @@ struct EllipticSquares {
   double sn2, cn2, dn2;
 };
 
-/// The midpoints K (j + 1/2) / n, j = 0 ... n - 1, of the parameter m = 1 - m1.
+/// The midpoints K (j + 1/2) / n, j = 0 ... n - 1.
 struct MidpointGrid {
-  double m1;
   double K;
   double log_nome;  ///< -pi K' / K
   std::vector<EllipticSquares> at;
@@ -27,8 +26,8 @@ struct MidpointGrid {
 /// How many points a grid has. The Fourier coefficients of an integrand need twice as many as its integral.
 enum class Resolution { integral = 1, series = 2 };
 
-/// Both m and m1 have to be precise, because either may be tiny.
-MidpointGrid midpoint_grid(double m, double m1, Resolution resolution = Resolution::integral);
+/// Both m and the complementary modulus sqrt(1 - m) have to be precise, because either may be tiny.
+MidpointGrid midpoint_grid(double m, double complementary_modulus, Resolution resolution = Resolution::integral);
 
 /// One point lambda between the ends a and b, with the distances from both to full relative precision.
 struct RulePoint {
