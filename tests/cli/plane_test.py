@@ -44,6 +44,13 @@ class Plane(CommandLine):
             self.assertLess(abs(slip / reference - 1), 0.02)
         self.assertLess(abs(out["potency"] / 3.1787 - 1), 0.01)
 
+    def test_viscous_friction_follows_its_closure(self):
+        coarse = ("--set", "plane.loops=24", "plane.angles=16", "plane.cells=48")
+        for solver in ("loops", "grid"):
+            paper, consistent = (self.plane(FRICTION, *coarse, f"plane.solver={solver}", f"friction.closure={closure}")["potency"]
+                                 for closure in ("paper", "consistent"))
+            self.assertGreater(paper, 1.02 * consistent)
+
     def test_the_file_opens_in_xarray_and_holds_maps_and_series(self):
         path = os.path.join(self.folder(), "out.nc")
         out = self.plane(FRICTION, *COARSE, "-o", path)

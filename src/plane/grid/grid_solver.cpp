@@ -24,7 +24,7 @@ void check(const Problem& p, int cells) {
                       .value = std::to_string(cells),
                       .problem = "too few cells",
                       .allowed = "at least " + std::to_string(fewest)});
-  if (!p.viscous && p.friction.changes_contacts())
+  if (p.friction.changes_contacts())
     throw InputError({.key = "friction.law",
                       .value = std::string(p.friction.name()),
                       .problem = "on a plane, friction cannot change contacts or pores",
