@@ -144,6 +144,7 @@ void GridSteps::look() { look_after(0); }
 /// Looks at the end of a step, in the second half of which the state variables change for `half_step`.
 void GridSteps::look_after(double half_step) {
   release();
+  guesses_ = equations_.guesses();
   equations_.set_known(front_.extend(motion_.now));
   equations_.find_rates(motion_.time, motion_.now, rate_);
   age(half_step);
