@@ -278,6 +278,16 @@ end = 1
         self.assertLess(np.hypot(x, y)[reached].max(), 2)
         self.assertAlmostEqual(out["ruptured_area"], np.count_nonzero(reached) * 0.2 ** 2)
 
+    def test_lines_have_a_scale_with_enough_of_them_and_errors(self):
+        """At scale 1, where the initial slip has 0.44 of a line, the potency was 2.648 and the front 0. 3.203 and 2.466 are the limits."""
+        out = self.plane(FRICTION, "--direct", "--set", "plane.cells=60")
+        self.assertIn("20 dislocation lines", " ".join(out["warnings"]))
+        for key, limit in (("potency", 3.203), ("front", 2.466)):
+            self.assertLess(abs(out[key] - limit), out["errors"][key], key)
+            self.assertLess(out["errors"][key], 0.1 * limit, key)
+        given = self.plane(FRICTION, "--direct", "--set", "chain.scale=20", "time.end=0.1")
+        self.assertNotIn("20 dislocation lines", " ".join(given["warnings"]))
+
     def test_a_grid_is_the_initial_slip(self):
         rows = "".join(f"{x / 20},{y / 20},{2 - min(2, max(1, math.hypot(x / 20, y / 20)))}\n" for x in range(-65, 66) for y in range(-65, 66))
         tables = ("[plane]\nleft = -3.2\nright = 3.2\nbottom = -3.2\ntop = 3.2\nfixed = \"x^2 + y^2 < 1\"\ncells = 40\n"
