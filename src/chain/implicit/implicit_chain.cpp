@@ -80,7 +80,8 @@ ImplicitChain::ImplicitChain(const Problem& p, const Motion& start, const Execut
     : ImplicitChain(p, pieces_of(start, p.grid.sites), execution) {}
 
 SpringEnergy ImplicitChain::spring_energy() const {
-  return {forces_.springs().energy(now_.u), forces_.loading_energy(now_)};
+  const double pulled = forces_.loading_energy(now_), of_end = forces_.share_of_end() * pulled;
+  return {forces_.springs().energy(now_.u) + of_end, pulled - of_end};
 }
 
 Flows ImplicitChain::flows() const {
