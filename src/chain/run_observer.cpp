@@ -256,7 +256,8 @@ void RunObserver::add_energy(Snapshot& s, const Totals& now) const {
   if (scaled_.loading.acts()) {
     const bool everywhere = scaled_.loading.where == Pulled::everywhere;
     s.further["energy_loading"] = now.loading / c;
-    s.further[everywhere ? "loading_force" : "loading_stress"] = chain_.load() * (everywhere ? c : 1);
+    const double stress = scaled_.loading.where == Pulled::right ? -chain_.load() : chain_.load();  // -u_x at the end
+    s.further[everywhere ? "loading_force" : "loading_stress"] = everywhere ? c * chain_.load() : stress;
   }
   if (!chain_.problem().friction.changes_contacts()) return;
   s.further["energy_contacts"] = flows.by_contacts / c;

@@ -170,4 +170,24 @@ TEST(ChainRun, RejectsTheStateOfAnotherRun) {
   EXPECT_THROW(chain::Run(step(100), schedule({0, 0.1}), {}, "nonsense", {}), InputError);
 }
 
+/// The stress at a pulled end is -u_x: a force that pulls a right end forward makes it negative.
+TEST(ChainRun, StressAtAPulledEndMirrors) {
+  const auto stress_at = [](chain::Pulled where) {
+    chain::ScaledProblem s = step(1, 5);
+    s.left = -3.1;
+    s.right = 3.1;
+    s.stress = [](double) { return 0.0; };
+    s.substrate = false;
+    s.boundary = {.left = chain::End::free, .right = chain::End::free};
+    s.loading = {.stiffness = 2, .velocity = 0.01, .where = where};
+    output::Schedule when{.times = {0, 2000}, .x_edges = {-3.1, 0, 3.1}};
+    chain::Run run(s, when, {});
+    run.go();
+    return run.snapshots().back().further.at("loading_stress");
+  };
+  EXPECT_NEAR(stress_at(chain::Pulled::left), 5 * 0.01 * 6.2,
+              1e-5);  // the length of the domain, in which 0.4 does not fit
+  EXPECT_NEAR(stress_at(chain::Pulled::right), -5 * 0.01 * 6.2, 1e-5);
+}
+
 }  // namespace
