@@ -72,7 +72,7 @@ void plane_sites(benchmark::State& state) {
   plane::Problem p;
   p.left = p.bottom = -side / 2;
   p.right = p.top = side / 2;
-  if (state.range(2) == 1) p.viscous = [](double, double) { return 1e-3; };
+  if (state.range(2) == 1) p.friction = friction::viscous(1e-3);
   if (state.range(2) == 2) {
     p.contact = [](double x, double) { return 1 - 0.1 * std::cos(x); };
     p.forcing = [](double, double, double) { return 1e-3; };

@@ -18,7 +18,7 @@ using namespace slipfront;
 /// The lines that a run would follow, in words. Refuses what a run refuses at its start.
 std::string solver_in_words(const scenario::Scenario& s, setup::Lines lines, int threads, const Ranks* ranks) {
   if (lines == setup::Lines::direct) {
-    const plane::DirectOptions options{.scale = s.chain.scale.value_or(1), .threads = threads};
+    const plane::DirectOptions options{.scale = setup::scale_of_lines(s), .threads = threads};
     setup::plane_solver(s, lines, threads, ranks);
     return fmt::format("every dislocation line at scale {}, which needs about {:.2g} GB of memory,", options.scale,
                        plane::memory_of_direct(s.plane->problem, options) / 1e9);
@@ -38,10 +38,11 @@ void describe(const scenario::Scenario& s, const run::PlanePlan& plan, const std
       grid.ny, plan.schedule.times.size(), plan.disk / 1e9));
 }
 
-/// Errors of a direct run are not known.
-run::PlaneNumbers errors_of(const scenario::Scenario& s, const run::PlaneNumbers& numbers, setup::Lines lines) {
-  if (lines == setup::Lines::averaged) return run::plane_errors(s, numbers, {});
-  return run::unknown_errors(numbers);
+/// Errors of a run that processes share, and of one that a finite-fault model gives, are not estimated.
+run::PlaneNumbers errors_of(const scenario::Scenario& s, const run::PlaneResult& result, setup::Lines lines,
+                            bool estimated, int threads) {
+  if (!estimated) return run::unknown_errors(result.numbers);
+  return run::plane_errors(s, result.numbers, {}, lines, threads);
 }
 
 bool is_model(const ScenarioArguments& a) { return a.scenario.ends_with(".fsp"); }
@@ -67,7 +68,9 @@ int run_scenario(const ScenarioArguments& a, const scenario::Scenario& s, setup:
   LongRun long_run(a, s, saved && saved->finished, ranks);
   const auto result = run::plane(s, plan, {.common = long_run.options({}, begun), .checkpoint = std::move(saved)});
   if (const int code = long_run.end(result.finished()); code != exit_done) return code;
-  if (the_ranks->rank() == 0) print_plane(s, result, errors_of(s, result.numbers, lines), model, a);
+  const bool estimated = !ranks && !model;
+  if (the_ranks->rank() == 0)
+    print_plane(s, result, errors_of(s, result, lines, estimated, a.common.threads), model, a);
   return exit_done;
 }
 

@@ -108,7 +108,7 @@ py::list lines_of(const plane::Run& run, Describer& described_in) {
 /// Returns {attributes, axes, fields, maps, lines, series, spectrum, warnings, units, summary, errors} for the Python
 /// part.
 py::dict plane_dataset(const scenario::Scenario& s, const run::PlanePlan& plan, const run::PlaneResult& result,
-                    const run::PlaneNumbers& errors) {
+                       const run::PlaneNumbers& errors) {
   const plane::Run& run = *result.run;
   const Shape cells = {plan.grid.ny, plan.grid.nx};
   Describer described_in(result.metadata.units);
@@ -175,8 +175,9 @@ py::dict run_plane(const py::dict& arguments, bool direct, bool with_errors, int
     options.common.output = run::output_of(a.output, a.resume, options.checkpoint && options.checkpoint->finished);
     options.common.after_step = [&](double time, long steps) { return watch(time, steps); };
     result = run::plane(s, plan, options);
-    errors = with_errors && lines == setup::Lines::averaged && result.finished()
-                 ? run::plane_errors(s, result.numbers, [&] { return watch.interrupted(); })
+    errors = with_errors && !all.model && result.finished()
+                 ? run::plane_errors(
+                       s, result.numbers, [&] { return watch.interrupted(); }, lines, threads)
                  : run::unknown_errors(result.numbers);
   }
   watch.finish();

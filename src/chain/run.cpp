@@ -71,8 +71,12 @@ std::string Run::saved() const {
 const std::vector<Snapshot>& Run::snapshots() const { return outputs_->all(); }
 bool Run::finished() const { return outputs_->scheduled() == schedule_.times.size(); }
 double Run::window() const { return observer_->window(); }
-double Run::smooth_window() const { return observer_->smooth_window(); }
 Balance Run::balance() const { return observer_->balance(); }
+
+Averages Run::averages() const {
+  const Snapshot& last = snapshots().back();
+  return observer_->averages(last.time, last.peak_position);
+}
 
 bool Run::advance_to(double time, const std::function<bool()>& interrupted) {
   // Work for a tenth of a second or so. The steps at which a run stops change no bits.

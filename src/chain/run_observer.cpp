@@ -27,11 +27,22 @@ constexpr double dislocations_in_window = 8;
 /// Dislocations are much wider than 1/8 of a site. A chain with more dislocations has diverged.
 constexpr double most_dislocations_a_site = 8;
 
-/// Spacing of the train just left of x = 0. If there is no train, the spacing at an end, or else a default.
-double spacing_of_train(const ScaledProblem& s) {
-  for (const double x : {-1e-9 * (s.right - s.left), s.left, s.right})
-    if (const double k = s.stress(x); k > 0) return 2 * std::numbers::pi / k / s.scale;
-  return (s.right - s.left) / 16;
+/// Spacings of the trains just left and right of x = 0.
+struct Spacings {
+  double dense, dilute;
+};
+
+/// If there is only one train, both spacings are its own; if there is none at x = 0, that at an end, or else a default.
+Spacings spacings_of_trains(const ScaledProblem& s) {
+  const double next = 1e-9 * (s.right - s.left), k_left = s.stress(-next), k_right = s.stress(next);
+  const auto spacing = [&](double k) { return 2 * std::numbers::pi / k / s.scale; };
+  if (const double most = std::fmax(k_left, k_right); most > 0) {
+    const double least = std::fmin(k_left, k_right);
+    return {spacing(most), spacing(least > 0 ? least : most)};
+  }
+  for (const double x : {s.left, s.right})
+    if (const double k = s.stress(x); k > 0) return {spacing(k), spacing(k)};
+  return {(s.right - s.left) / 16, (s.right - s.left) / 16};
 }
 
 /// The number of steps to each sample of the rates, from which we integrate them. It grows with the number of steps so
@@ -103,9 +114,11 @@ RunObserver::RunObserver(const ScaledProblem& scaled, const output::Schedule& sc
 
 void RunObserver::choose_windows() {
   const double length = scaled_.right - scaled_.left;
-  window_ = scaled_.window > 0 ? scaled_.window : std::min(spacing_of_train(scaled_), length / 4);
-  smooth_window_ =
-      scaled_.window > 0 ? scaled_.window : std::min(dislocations_in_window * spacing_of_train(scaled_), length / 4);
+  const Spacings spacings = spacings_of_trains(scaled_);
+  const auto width = [&](double chosen) { return scaled_.window > 0 ? scaled_.window : std::min(chosen, length / 4); };
+  window_ = width(spacings.dense);
+  smooth_window_ = width(dislocations_in_window * spacings.dense);
+  widest_window_ = width(dislocations_in_window * spacings.dilute);
 }
 
 double RunObserver::middle_of_cell(std::size_t i) const {
@@ -119,7 +132,7 @@ double RunObserver::centre_of_cell(std::size_t i) const {
 
 double RunObserver::width_of_cell(std::size_t i) const {
   const double cell = schedule_.x_edges[i + 1] - schedule_.x_edges[i];
-  return std::min(std::max(cell, spacing_of_train(scaled_)), (last_site() - scaled_.left) * (1 - 1e-6));
+  return std::min(std::max(cell, spacings_of_trains(scaled_).dense), (last_site() - scaled_.left) * (1 - 1e-6));
 }
 
 /// The last site of a ring is a spacing before its end.
@@ -152,28 +165,37 @@ Work RunObserver::work_until(const Totals& now) const {
 Snapshot RunObserver::snapshot(double time) const {
   Snapshot s{};
   s.time = time;
-  add_profile(s, time);
+  const std::vector<double> velocities = add_profile(s, time);
   add_origin(s, time);
   const Totals now = totals(chain_);
   if (static_cast<double>(now.dislocations) >
       most_dislocations_a_site * static_cast<double>(chain_.problem().grid.sites))
     throw NumericsError("The chain diverged: more than " + digits(most_dislocations_a_site) +
                         " dislocations per site at t = " + digits(time));
-  find_fronts(s);
+  find_fronts(s, velocities);
   add_energy(s, now);
   output::add_further_scalars(s, schedule_);
   return s;
 }
 
+double RunObserver::least_width(std::size_t i) const {
+  return std::max(2 * (schedule_.x_edges[i + 1] - schedule_.x_edges[i]), smooth_window_);
+}
+
 /// Adds averages over the output cells, their peak, and the energy of phonons.
-void RunObserver::add_profile(Snapshot& s, double time) const {
+std::vector<double> RunObserver::add_profile(Snapshot& s, double time) const {
   const double c = scaled_.scale;
+  std::vector<double> velocities;
   std::size_t peak = 0;
   for (std::size_t i = 0; i < first_u_.size(); ++i) {
     const double u = average(chain_, c * centre_of_cell(i), c * width_of_cell(i), c * time).u;
     const double cell = schedule_.x_edges[i + 1] - schedule_.x_edges[i], middle = middle_of_cell(i);
-    const double wide = std::max(2 * cell, smooth_window_);
-    const SmoothAverage a = smooth_average(chain_, c * middle, c * wide, c * time);
+    const double least = least_width(i);
+    BestAverage best{smooth_average(chain_, c * middle, c * least, c * time), c * least, none, none};
+    velocities.push_back(best.average.velocity);
+    if (widest_window_ > least) best = best_average(chain_, c * middle, c * least, c * widest_window_, c * time);
+    const SmoothAverage& a = best.average;
+    const double wide = best.width / c;
     s.profile.k.push_back(a.stress);
     s.profile.W.push_back(a.velocity);
     // If waves or antidislocations move as well, W / k is not the velocity U of any dislocation.
@@ -189,13 +211,33 @@ void RunObserver::add_profile(Snapshot& s, double time) const {
   }
   s.peak_slip_velocity = s.profile.W[peak];
   s.peak_position = middle_of_cell(peak);
+  return velocities;
+}
+
+BestAverage RunObserver::average_at_origin(double time) const {
+  const double c = scaled_.scale;
+  return best_average(chain_, 0, c * smooth_window_, c * widest_window_, c * time);
+}
+
+Averages RunObserver::averages(double time, double peak) const {
+  Averages averages{.width = smooth_window_, .velocity_error = none, .stress_error = none, .peak_error = none};
+  if (sees_origin()) {
+    const BestAverage origin = average_at_origin(time);
+    averages = {origin.width / scaled_.scale, origin.velocity_error, origin.stress_error, none};
+  }
+  const double c = scaled_.scale;
+  for (std::size_t i = 0; i + 1 < schedule_.x_edges.size(); ++i)
+    if (middle_of_cell(i) == peak)
+      averages.peak_error =
+          best_average(chain_, c * peak, c * least_width(i), c * widest_window_, c * time).velocity_error;
+  return averages;
 }
 
 void RunObserver::add_origin(Snapshot& s, double time) const {
   s.slip_velocity_at_origin = s.stress_at_origin = s.slip_at_origin = none;
   if (!sees_origin()) return;
   const double c = scaled_.scale;
-  const SmoothAverage origin = smooth_average(chain_, 0, c * smooth_window_, c * time);
+  const SmoothAverage origin = average_at_origin(time).average;
   s.slip_velocity_at_origin = origin.velocity;
   s.stress_at_origin = origin.stress;
   s.slip_at_origin = (average(chain_, 0, c * window_, c * time).u - first_u_at_origin_) / c;
@@ -214,7 +256,8 @@ void RunObserver::add_energy(Snapshot& s, const Totals& now) const {
   if (scaled_.loading.acts()) {
     const bool everywhere = scaled_.loading.where == Pulled::everywhere;
     s.further["energy_loading"] = now.loading / c;
-    s.further[everywhere ? "loading_force" : "loading_stress"] = chain_.load() * (everywhere ? c : 1);
+    const double stress = scaled_.loading.where == Pulled::right ? -chain_.load() : chain_.load();  // -u_x at the end
+    s.further[everywhere ? "loading_force" : "loading_stress"] = everywhere ? c * chain_.load() : stress;
   }
   if (!chain_.problem().friction.changes_contacts()) return;
   s.further["energy_contacts"] = flows.by_contacts / c;
@@ -222,7 +265,7 @@ void RunObserver::add_energy(Snapshot& s, const Totals& now) const {
 }
 
 /// Finds fronts in the profile, and the leading front also from the outermost dislocation if one side is empty.
-void RunObserver::find_fronts(Snapshot& s) const {
+void RunObserver::find_fronts(Snapshot& s, const std::vector<double>& velocities) const {
   s.fronts = {none, none, none, none, none};
   const double stress_left = scaled_.stress(scaled_.left), stress_right = scaled_.stress(scaled_.right);
   const bool stressed_left = stress_left >= stress_right;
@@ -234,10 +277,10 @@ void RunObserver::find_fronts(Snapshot& s) const {
   // average out.
   const double half = std::min(smooth_window_ / 2, (scaled_.right - scaled_.left) / 4);
   std::vector<double> x, speed;
-  for (std::size_t i = 0; i < s.profile.W.size(); ++i) {
+  for (std::size_t i = 0; i < velocities.size(); ++i) {
     x.push_back(middle_of_cell(i));
     const bool cut = x[i] - half < scaled_.left || x[i] + half > scaled_.right;
-    speed.push_back(cut ? 0 : std::fabs(s.profile.W[i]));
+    speed.push_back(cut ? 0 : std::fabs(velocities[i]));
   }
   const output::Observed seen =
       output::observed_fronts(x, speed, schedule_.threshold * std::fabs(s.peak_slip_velocity), x.front(), x.back());

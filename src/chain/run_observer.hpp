@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "chain/measure/smooth_average.hpp"
 #include "chain/measure/totals.hpp"
 #include "foundation/bytes.hpp"
 #include "slipfront/chain/run.hpp"
@@ -22,6 +23,8 @@ class RunObserver {
   const Chain& chain() const { return chain_; }
   double window() const { return window_; }
   double smooth_window() const { return smooth_window_; }
+  /// (all) The averages of the last snapshot, of which `peak` is the position of its largest slip velocity.
+  Averages averages(double time, double peak) const;
 
   /// The number of steps to the next sample.
   long steps_to_sample() const;
@@ -65,17 +68,23 @@ class RunObserver {
   double middle_of_cell(std::size_t i) const;
   double centre_of_cell(std::size_t i) const;  ///< centre of the window of its slip, which must not leave the chain
   Work work_until(const Totals& now) const;
-  void add_profile(output::Snapshot& snapshot, double time) const;
+  /// The widths of the average around the middle of cell i.
+  double least_width(std::size_t i) const;
+  BestAverage average_at_origin(double time) const;
+  /// Returns the slip velocities of windows of the least width, in which observers look for fronts.
+  std::vector<double> add_profile(output::Snapshot& snapshot, double time) const;
   void add_origin(output::Snapshot& snapshot, double time) const;
   void add_energy(output::Snapshot& snapshot, const Totals& now) const;
-  void find_fronts(output::Snapshot& snapshot) const;
+  void find_fronts(output::Snapshot& snapshot, const std::vector<double>& velocities) const;
   double contact_at(double x) const;
   double pore_pressure_at_origin() const;
 
   ScaledProblem scaled_;
   output::Schedule schedule_;
   const Chain& chain_;
-  double window_ = 0, smooth_window_ = 0;
+  /// Widths of the windows: of slip, and of velocity and stress. Where two trains meet, that of velocity and stress is
+  /// the best of those from smooth_window_ to widest_window_.
+  double window_ = 0, smooth_window_ = 0, widest_window_ = 0;
   // Values at t = 0.
   std::vector<double> first_u_;  ///< averages over the output cells
   double first_u_at_origin_ = 0, first_energy_ = 0, first_charge_ = 0;

@@ -59,7 +59,8 @@ std::string text_of(const FaultOnPlane& model, const std::string& file, double c
          "'\n[friction]\nlaw = \"slip-weakening\"\nstrength = " + digits(strength, 3) + "\nresidual = 0" +
          "\ncharacteristic_slip = 1\n[nucleation]\nradius = " + in_unit(radius, "m") +
          "\n[time]\nend = " + in_unit(2 * f.end, "s") +
-         "\n[chain]\nspacing = " + digits(spacing_for(f, contact_ratio), 3) + "\n" + medium_table(model, contact_ratio);
+         "\n[chain]\nscale = 1\nspacing = " + digits(spacing_for(f, contact_ratio), 3) + "\n" +
+         medium_table(model, contact_ratio);
 }
 
 /// Times at which two sources rupture the same subfaults, in s since the first of them.
@@ -152,7 +153,7 @@ scenario::Scenario scenario_of_fault(const FaultOnPlane& model, const std::strin
   setup::plane_solver(without, setup::Lines::direct, 1);  // refuses what needs too much memory
   const plane::Schedule grid = setup::plane_schedule(without, setup::Lines::direct);
   const double unbalanced = plane::largest_unbalanced_force(
-      without.plane->problem, {.scale = without.chain.scale.value_or(1), .spacing = *without.chain.spacing}, grid.nx,
+      without.plane->problem, {.scale = setup::scale_of_lines(without), .spacing = *without.chain.spacing}, grid.nx,
       grid.ny);
   return scenario::read_scenario(text_of(model, file, *contact_ratio, stronger * unbalanced), file, overrides,
                                  read_table);

@@ -36,16 +36,18 @@ PlaneNumbers numbers_of(const plane::Run& run, const scenario::Scenario& s) {
           .slip_velocity_at_probes = run.solver().velocity(s.plane->probes)};
 }
 
-/// The numbers with a fraction of the cells; empty if the run fails or is interrupted.
+/// The numbers with a fraction of the cells or of the scale; empty if the run fails or is interrupted.
 std::optional<PlaneNumbers> with_fewer_cells(scenario::Scenario s, int divisor,
-                                             const std::function<bool()>& interrupted) {
+                                             const std::function<bool()>& interrupted, setup::Lines lines,
+                                             int threads) {
+  if (lines == setup::Lines::direct) s.chain.scale = setup::scale_of_lines(s) / divisor;
   s.plane->loops = std::max(4, s.plane->loops / divisor);
   s.plane->angles = std::max(8, s.plane->angles / divisor);
-  s.plane->cells = std::max(8, s.plane->cells / divisor);
+  if (lines == setup::Lines::averaged) s.plane->cells = std::max(8, s.plane->cells / divisor);
   try {
-    plane::Schedule schedule = setup::plane_schedule(s, setup::Lines::averaged);
+    plane::Schedule schedule = setup::plane_schedule(s, lines);
     schedule.times = {s.end};
-    plane::Run run(setup::plane_solver(s, setup::Lines::averaged, 1), std::move(schedule));
+    plane::Run run(setup::plane_solver(s, lines, threads), std::move(schedule));
     return run.go(interrupted) ? std::optional(numbers_of(run, s)) : std::nullopt;
   } catch (const NumericsError&) {
     return std::nullopt;
@@ -102,6 +104,11 @@ PlaneResult plane(const scenario::Scenario& s, const PlanePlan& plan, const Plan
       });
   if (!reached) return result;
   add_warnings(result.run->warnings(), result.metadata);
+  if (const double scale = setup::scale_of_lines(s); plan.lines == setup::Lines::direct && !s.chain.scale && scale > 1)
+    add_warnings({"chain.scale is not given. At scale " + digits(scale) +
+                  " the largest initial slip has 20 dislocation lines; a larger one brings results closer to those of "
+                  "many lines"},
+                 result.metadata);
   result.numbers = numbers_of(*result.run, s);
   result.wall = seconds_since(common.begun);
   return result;
@@ -113,9 +120,9 @@ PlaneNumbers unknown_errors(PlaneNumbers numbers) {
 }
 
 PlaneNumbers plane_errors(const scenario::Scenario& s, const PlaneNumbers& numbers,
-                          const std::function<bool()>& interrupted) {
-  const std::optional<PlaneNumbers> half_of = with_fewer_cells(s, 2, interrupted),
-                                    quarter_of = with_fewer_cells(s, 4, interrupted);
+                          const std::function<bool()>& interrupted, setup::Lines lines, int threads) {
+  const std::optional<PlaneNumbers> half_of = with_fewer_cells(s, 2, interrupted, lines, threads),
+                                    quarter_of = with_fewer_cells(s, 4, interrupted, lines, threads);
   if (!half_of || !quarter_of) return unknown_errors(numbers);
   PlaneNumbers fine = numbers, half = *half_of, quarter = *quarter_of, errors = numbers;
   const std::vector<double*> f = all_of(fine), h = all_of(half), q = all_of(quarter), e = all_of(errors);

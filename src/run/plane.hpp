@@ -55,11 +55,12 @@ PlaneResult plane(const scenario::Scenario& scenario, const PlanePlan& plan, con
 /// Errors that are all NaN, for a run whose errors are not known.
 PlaneNumbers unknown_errors(PlaneNumbers numbers);
 
-/// Estimates the discretisation errors of the numbers of a finished averaged run by runs with half and a quarter of the
-/// cells, which take a quarter of its time. An error is 1.5 times the larger of two changes: that of the last doubling,
-/// and half of that at the doubling before. It is NaN if a run with fewer cells fails, or if `interrupted` returned
-/// true. The peak slip velocity has no error.
+/// Estimates the errors of the numbers of a finished run by runs with half and a quarter of the cells, or of the scale
+/// of a direct run, which take a quarter of its time. An error is 1.5 times the larger of two changes: that of the last
+/// doubling, and half of that at the doubling before. It is NaN if a run with fewer cells fails, or if `interrupted`
+/// returned true. The peak slip velocity has no error.
 PlaneNumbers plane_errors(const scenario::Scenario& scenario, const PlaneNumbers& numbers,
-                          const std::function<bool()>& interrupted);
+                          const std::function<bool()>& interrupted, setup::Lines lines = setup::Lines::averaged,
+                          int threads = 1);
 
 }  // namespace slipfront::run

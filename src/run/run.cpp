@@ -1,5 +1,6 @@
 #include "run/run.hpp"
 
+#include <limits>
 #include <utility>
 
 #include "record/pulses/comparison_file.hpp"
@@ -130,16 +131,23 @@ Result<chain::Run> chain(const scenario::Scenario& scenario, const ChainPlan& pl
   if (!reached) return result;
   const double stepping = seconds_since(begun);
   add_warnings(run.warnings(), result.metadata);  // asks all ranks
+  const chain::Averages averages = run.averages();
   result.summary = summary(chain_summary(), {.run = run,
                                              .balance = run.balance(),  // asks all ranks
+                                             .averages = averages,
                                              .stepping = stepping,
                                              .wall = seconds_since(options.begun),
                                              .steps = run.chain().steps() - first,
                                              .ranks = options.ranks ? options.ranks->size() : 1,
                                              .threads = options.threads});
-  for (SummaryValue& row : result.summary)
+  for (SummaryValue& row : result.summary) {
+    result.errors.push_back(row.key == "slip_velocity_at_origin" ? averages.velocity_error
+                            : row.key == "stress_at_origin"      ? averages.stress_error
+                            : row.key == "peak_slip_velocity"    ? averages.peak_error
+                                                                 : std::numeric_limits<double>::quiet_NaN());
     if (row.key == "event_median_stress_drop")
       row.unit = result.metadata.pulled_end ? "mu A / pi" : "mu A^2 / (pi (1 - nu))";
+  }
   return result;
 }
 

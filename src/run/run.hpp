@@ -84,6 +84,7 @@ struct Result {
   std::unique_ptr<Run> run;
   record::PulseMetadata metadata;  ///< includes the warnings of a finished run
   std::vector<SummaryValue> summary = {};
+  std::vector<double> errors = {};  ///< errors of the averages in the summary of a chain; NaN for its other rows
   bool finished() const { return run->finished(); }
 };
 

@@ -37,9 +37,10 @@ std::span<const SummaryItem<FinishedPulse>> pulse_summary();
 /// A chain that has reached its end, and how it was run.
 struct FinishedChain {
   const chain::Run& run;
-  chain::Balance balance;  ///< result of run.balance(), in which all ranks take part
-  double stepping, wall;   ///< seconds of the run only, and of everything
-  long steps;              ///< steps in these seconds
+  chain::Balance balance;    ///< result of run.balance(), in which all ranks take part
+  chain::Averages averages;  ///< result of run.averages(), like `balance`
+  double stepping, wall;     ///< seconds of the run only, and of everything
+  long steps;                ///< steps in these seconds
   int ranks, threads;
 };
 std::span<const SummaryItem<FinishedChain>> chain_summary();

@@ -94,8 +94,8 @@ bool run_levels(const Comparison& c, int threads, std::vector<Level>& levels, co
     Level level{.name = "chain-" + digits(scaled.scale), .scale = scaled.scale};
     chain::Run run(scaled, c.schedule, {.threads = threads});
     level.window = run.window();
-    level.smooth_window = run.smooth_window();
     if (!carry(run, level, [&] { return after_step(level.name, run.time(), run.chain().steps()); })) return false;
+    level.smooth_window = run.averages().width;
     levels.push_back(std::move(level));
   }
   return true;

@@ -60,6 +60,14 @@ void require_line(const scenario::Scenario& s) {
                       .allowed = "slipfront plane"});
 }
 
+double scale_of_lines(const scenario::Scenario& s) {
+  constexpr double enough = 20;
+  constexpr int samples = 100;
+  if (s.chain.scale) return *s.chain.scale;
+  const double largest = largest_slip(s.plane->problem, samples, samples);
+  return largest > 0 ? std::fmax(1, std::ceil(enough * 2 * std::numbers::pi / largest)) : 1;
+}
+
 std::unique_ptr<plane::Solver> plane_solver(const scenario::Scenario& s, Lines lines, int threads, const Ranks* ranks) {
   require_plane(s);
   try {
@@ -68,7 +76,7 @@ std::unique_ptr<plane::Solver> plane_solver(const scenario::Scenario& s, Lines l
     if (lines == Lines::averaged)
       return std::make_unique<plane::AveragedSolver>(
           s.plane->problem, plane::Resolution{.loops = s.plane->loops, .angles = s.plane->angles});
-    const plane::DirectOptions options{.scale = s.chain.scale.value_or(1),
+    const plane::DirectOptions options{.scale = scale_of_lines(s),
                                        .spacing = s.chain.spacing.value_or(plane::DirectOptions{}.spacing),
                                        .threads = threads,
                                        .ranks = ranks};
@@ -107,7 +115,7 @@ plane::Schedule plane_schedule(const scenario::Scenario& s, Lines lines) {
   const double seen = p.nucleation ? 1e-2 : 1e-3, largest = largest_slip(p, schedule.nx, schedule.ny);
   schedule.rupture_slip = seen * largest;
   if (lines == Lines::direct && (p.nucleation || !(largest > 0)))
-    schedule.rupture_slip = std::fmax(schedule.rupture_slip, std::numbers::pi / s.chain.scale.value_or(1));
+    schedule.rupture_slip = std::fmax(schedule.rupture_slip, std::numbers::pi / scale_of_lines(s));
   schedule.wave_speed_ratio = s.plane->wave_speed_ratio;
   schedule.lines = s.plane->lines;
   return schedule;

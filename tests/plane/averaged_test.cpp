@@ -9,6 +9,7 @@
 
 #include "rings.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/plane/grid.hpp"
 
 namespace {
 
@@ -36,7 +37,7 @@ TEST(PlaneAveraged, RingsAgreeWithEveryRing) {
 
 TEST(PlaneAveraged, RingsWithFrictionAgreeWithEveryRing) {
   Problem problem = rings::problem(slip_of_rings());
-  problem.viscous = [](double, double) { return 0.5; };
+  problem.friction = friction::viscous(0.5);
   AveragedSolver solver(problem, {60, 1});
   solver.advance_to(3, {});
   const std::vector<double> slip = solver.slip({polar(1.45, 0), polar(2.05, 0)});
@@ -45,17 +46,44 @@ TEST(PlaneAveraged, RingsWithFrictionAgreeWithEveryRing) {
   EXPECT_NEAR(solver.front(1) / 2.7887, 1, 0.01);
 }
 
-/// The law f = C w as a law of the module friction gives the numbers of C as a formula.
-TEST(PlaneAveraged, ViscousLawIsTheViscousCoefficient) {
-  Problem problem = rings::problem(slip_of_rings());
-  problem.friction = friction::viscous(0.5);
-  AveragedSolver by_law(problem, {30, 1});
-  problem.friction = {};
-  problem.viscous = [](double, double) { return 0.5; };
-  AveragedSolver by_formula(problem, {30, 1});
-  by_law.advance_to(1, {});
-  by_formula.advance_to(1, {});
-  EXPECT_NEAR(by_law.potency() / by_formula.potency(), 1, 1e-6);
+/// The paper's closure takes C W from the wave action, the consistent one C I. A power law with nearly the exponent 1
+/// takes another path through the module friction.
+TEST(PlaneAveraged, ViscousFrictionFollowsItsClosure) {
+  const auto loops = [](const friction::Friction& friction) {
+    Problem problem = rings::problem(slip_of_rings());
+    problem.friction = friction;
+    AveragedSolver solver(problem, {30, 1});
+    solver.advance_to(1, {});
+    return solver.potency();
+  };
+  const auto grid = [](const friction::Friction& friction) {
+    Problem problem = rings::problem(slip_of_rings());
+    problem.friction = friction;
+    plane::GridSolver solver(problem, 50);
+    solver.advance_to(1, {});
+    return solver.potency();
+  };
+  const auto paper = friction::Closure::paper, consistent = friction::Closure::consistent;
+  const double by_paper = loops(friction::viscous(0.5, paper));
+  EXPECT_NEAR(by_paper / loops(friction::power(0.5, 1 + 1e-9, paper)), 1, 1e-6);
+  const double ratio = by_paper / loops(friction::viscous(0.5, consistent));
+  EXPECT_GT(ratio, 1.025);
+  EXPECT_NEAR(grid(friction::viscous(0.5, paper)) / grid(friction::viscous(0.5, consistent)), ratio,
+              0.25 * (ratio - 1));
+}
+
+/// The share of friction at a position multiplies its force, with both closures.
+TEST(PlaneAveraged, ShareOfFrictionMultipliesItsForce) {
+  for (const auto closure : {friction::Closure::consistent, friction::Closure::paper}) {
+    Problem whole = rings::problem(slip_of_rings()), shared = whole;
+    whole.friction = friction::viscous(0.5, closure);
+    shared.friction = friction::viscous(1, closure);
+    shared.friction_share = [](double, double) { return 0.5; };
+    AveragedSolver a(whole, {30, 1}), b(shared, {30, 1});
+    a.advance_to(1, {});
+    b.advance_to(1, {});
+    EXPECT_NEAR(a.potency() / b.potency(), 1, 1e-12);
+  }
 }
 
 /// Errors of the slip fall at least as the power 1.5 of the size of the cells, and those of the front at least
@@ -88,7 +116,8 @@ TEST(PlaneAveraged, EnergyIsKept) {
 /// Without symmetry: friction on one side. The direct run has the scale 160 and averages over boxes.
 TEST(PlaneAveraged, FrictionOnOneSideAgreesWithEveryLine) {
   Problem problem = rings::problem(slip_of_rings());
-  problem.viscous = rings::friction_on_one_side;
+  problem.friction = friction::viscous(1);
+  problem.friction_share = rings::friction_on_one_side;
   AveragedSolver solver(problem, {60, 64});
   solver.advance_to(1, {});
   const std::vector<double> slip =
@@ -109,7 +138,8 @@ TEST(PlaneAveraged, AnglesGiveTheRings) {
 
 TEST(PlaneAveraged, ResumesToTheSameBits) {
   Problem problem = rings::problem(slip_of_rings());
-  problem.viscous = rings::friction_on_one_side;
+  problem.friction = friction::viscous(1);
+  problem.friction_share = rings::friction_on_one_side;
   AveragedSolver whole(problem, {20, 32}), part(problem, {20, 32}), resumed(problem, {20, 32});
   whole.advance_to(0.5, {});
   part.advance_to(0.5, [] { return true; });  // one step
@@ -160,7 +190,7 @@ TEST(PlaneAveraged, RefusesTooFewCells) {
 /// Friction takes the elastic energy that the lines release, and no more.
 TEST(PlaneAveraged, StrongFrictionKeepsTheBudget) {
   Problem problem = rings::problem(slip_of_rings());
-  problem.viscous = [](double, double) { return 10; };
+  problem.friction = friction::viscous(10);
   AveragedSolver solver(problem, {60, 1});
   solver.advance_to(1, {});
   const plane::Energies e = solver.energies();
@@ -169,7 +199,7 @@ TEST(PlaneAveraged, StrongFrictionKeepsTheBudget) {
 
 TEST(PlaneAveraged, StopsWhereFrictionTakesEnergyFromNothing) {
   Problem problem = rings::problem(slip_of_rings());
-  problem.viscous = [](double, double) { return 1000; };
+  problem.friction = friction::viscous(1000);
   AveragedSolver solver(problem, {60, 1});
   EXPECT_THROW(solver.advance_to(1, {}), NumericsError);
 }

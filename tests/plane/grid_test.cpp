@@ -24,7 +24,8 @@ using rings::polar;
 Problem friction_on_one_side() {
   static const rings::Slip slip;
   Problem problem = rings::problem(slip);
-  problem.viscous = rings::friction_on_one_side;
+  problem.friction = friction::viscous(1);
+  problem.friction_share = rings::friction_on_one_side;
   return problem;
 }
 
@@ -62,7 +63,7 @@ Problem barrier() {
   p.right = p.top = 4;
   p.fixed = [](double x, double y) { return std::hypot(x, y) < 1 || std::hypot(x - 2.2, y) < 0.25 ? 1.0 : 0.0; };
   p.slip = [](double x, double y) { return 4 * std::fmax(0, 2 - std::fmax(1, std::hypot(x, y))); };
-  p.viscous = [](double, double) { return 2.0; };
+  p.friction = friction::viscous(2.0);
   p.forcing = [](double, double, double) { return 3.0; };
   return p;
 }
@@ -110,7 +111,7 @@ TEST(PlaneGrid, ALoadHoldsUntilNucleation) {
   p.slip = [](double x, double y) { return 3 * std::exp(-(x * x / 2 + y * y)); };
   p.hold = true;
   p.nucleation = plane::Nucleation{.x = 1, .y = 0, .radius = 0.5, .time = 1};
-  p.viscous = [](double, double) { return 2.0; };
+  p.friction = friction::viscous(2.0);
   GridSolver averaged(p, 100);
   averaged.advance_to(1, {});
   for (const double slip : averaged.field(40, 40).slip) EXPECT_NEAR(slip, 0, 2e-4);
@@ -217,6 +218,25 @@ void expect_the_same_bits(const Problem& p) {
   EXPECT_EQ(resumed.steps(), whole.steps());
   EXPECT_EQ(resumed.saved(), whole.saved());
   EXPECT_THROW(other.resume(part.saved()), InputError);
+}
+
+/// A run that was saved at an output time, before its observers looked, gives them the same bits.
+TEST(PlaneGrid, ObserversOfAResumedRunSeeTheSameBits) {
+  for (const Problem& p : {barrier(), weakening(), ageing(), friction_on_one_side()}) {
+    GridSolver whole(p, 40), resumed(p, 40);
+    std::string saved;
+    whole.advance_to(0.2, [&] {
+      saved = whole.saved();
+      return false;
+    });
+    resumed.resume(saved);
+    EXPECT_TRUE(resumed.advance_to(0.2, {}));
+    EXPECT_EQ(resumed.potency_rate(), whole.potency_rate());
+    EXPECT_EQ(resumed.energies().kinetic, whole.energies().kinetic);
+    EXPECT_EQ(resumed.energies().elastic, whole.energies().elastic);
+    EXPECT_EQ(resumed.field(20, 20).velocity, whole.field(20, 20).velocity);
+    EXPECT_EQ(resumed.saved(), whole.saved());
+  }
 }
 
 TEST(PlaneGrid, ResumesToTheSameBits) {

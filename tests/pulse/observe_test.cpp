@@ -238,6 +238,33 @@ TEST(Observe, MirroredScenarioHasMirroredFronts) {
   }
 }
 
+/// With free ends, too, fronts are named by the side with the larger stress at the start.
+TEST(Observe, MirroredScenarioWithFreeEndsHasMirroredFronts) {
+  Problem p = smooth(0.5, friction::Closure::consistent);
+  p.left = -1;
+  p.right = 1;
+  p.cells = 100;
+  p.left_end = p.right_end = pulse::End::free;
+  Problem mirrored = p;
+  const auto stress = [](double x) { return 0.6 - 0.3 * std::tanh(x / 0.1); };
+  p.stress = stress;
+  mirrored.stress = [stress](double x) { return stress(-x); };
+  pulse::Run run(p, schedule(0.5)), mirror(mirrored, schedule(0.5));
+  run.go();
+  mirror.go();
+  const output::Fronts a = run.snapshots().back().fronts, b = mirror.snapshots().back().fronts;
+  EXPECT_FALSE(std::isnan(a.leading_observed) && std::isnan(a.trailing_observed));
+  const auto expect_mirrored = [](double x, double y) {
+    EXPECT_EQ(std::isnan(x), std::isnan(y));
+    if (!std::isnan(x)) {
+      EXPECT_NEAR(x, -y, 1e-7);
+    }
+  };
+  expect_mirrored(a.leading_observed, b.leading_observed);
+  expect_mirrored(a.trailing_observed, b.trailing_observed);
+  expect_mirrored(a.leading, b.leading);
+}
+
 TEST(Observe, FrontsDoNotDependOnOutputTimes) {
   output::Schedule often = schedule(2);
   for (double t = 1.9; t > 0.05; t -= 0.1) often.times.insert(often.times.begin() + 1, t);

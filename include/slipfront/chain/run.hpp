@@ -35,8 +35,8 @@ struct ScaledProblem {
   bool implicit = false;
   double tolerance = 5e-5;
   double step = 0;  ///< time step, in the chain's own t; 0: chosen_step
-  /// Width of the averages at x = 0, in the scenario's x. With 0, the slip is averaged over one spacing of the train
-  /// left of x = 0, and velocity and stress over eight.
+  /// Width of the averages at x = 0, in the scenario's x. With 0, the slip is averaged over one spacing of the denser
+  /// train next to x = 0. Velocity and stress are averaged over eight, or over up to eight of the other train.
   double window = 0;
 };
 
@@ -53,6 +53,15 @@ struct Balance {
   double charge_error;  ///< charge minus charge at t = 0
   long dislocations;    ///< number of dislocations and antidislocations
   double steepest;      ///< largest difference of u between neighbouring sites
+};
+
+/// Averages of velocity and stress at the end, over the windows that show the beat of trains and the shape of the pulse
+/// least (best_average). The errors compare windows of other widths.
+struct Averages {
+  double width;           ///< of the window at x = 0, in the scenario's x
+  double velocity_error;  ///< of the slip velocity at x = 0
+  double stress_error;    ///< of the stress there
+  double peak_error;      ///< of the largest slip velocity
 };
 
 class EventOutputs;
@@ -83,12 +92,10 @@ class Run {
   double time() const { return chain_->time() / scale_; }  ///< in the scenario's units
   double scale() const { return scale_; }
   /// Width of the average of the slip at x = 0, a box, in the scenario's x.
-
   double window() const;
-  /// Width of the average of velocity and stress at x = 0 (smooth_average), in the scenario's x. Profiles use the same
-  /// width, or two output cells if these are wider.
-  double smooth_window() const;
-  /// Reads every site.
+  /// (all) The averages of the last snapshot. Those of profiles have windows of at least two output cells.
+  Averages averages() const;
+  /// (all) Reads every site.
   Balance balance() const;
 
   /// The slip events of a loaded chain so far, in the scenario's units. Their stress drop is the drop of the force F on

@@ -21,6 +21,10 @@ void require_line(const scenario::Scenario& scenario);
 /// Whether a run follows the averages or every dislocation line.
 enum class Lines { averaged, direct };
 
+/// The scale of a direct run. Unless the scenario has chain.scale, the largest initial slip has at least 20 lines, and
+/// the scale is a whole number. Without initial slip it is 1.
+double scale_of_lines(const scenario::Scenario& scenario);
+
 /// The solver of a scenario. \throws InputError for what it cannot solve, and for a direct solver that needs more
 /// memory than this process may have.
 /// `ranks` are the processes that share a direct solver (plane::DirectOptions).

@@ -57,7 +57,7 @@ def force_with_events(run) -> tuple:
     """
     force, times = force_of(run), run["time"].values
     values, (onsets, ends) = force.values, spans(run)
-    drops = run["event_stress_drop"].values * direction(run) if onsets.size else onsets
+    drops = run["event_stress_drop"].values * _sign_of(force, run) if onsets.size else onsets
     first, last = (numpy.searchsorted(times, numbers) for numbers in (onsets, ends))
     corners, rate = [(times[0], values[0])], 0.0
     for row in range(1, times.size):
@@ -74,6 +74,13 @@ def force_with_events(run) -> tuple:
         corners.append((times[row], values[row]))
     line = numpy.array(corners).T
     return (*line, numpy.interp(onsets, *line))
+
+
+def _sign_of(force, run) -> int:
+    """Returns the sign that the force has while it holds the slip. A stress that pushes a right end forward is negative."""
+    if force.name == "loading_force":
+        return direction(run)
+    return -1 if float(force.mean()) < 0 else 1
 
 
 def direction(run) -> int:

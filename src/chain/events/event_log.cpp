@@ -62,6 +62,7 @@ void EventLog::follow(double time, double load, const ChainParts& parts, double 
   if (largest >= threshold_ / 2) return;
   event.complete = 1;
   within_ = false;
+  if (event.largest_slip < least_slip_) events_.pop_back();
 }
 
 /// The slope of distance from the origin against time, by least squares over the parts that moved. On a ring the

@@ -23,7 +23,9 @@ struct ChainParts {
 class EventLog {
  public:
   EventLog() = default;
-  explicit EventLog(double threshold) : threshold_(threshold) {}
+  /// An event begins where a part is faster than `threshold`. It counts if a part has slipped by `least_slip` at its
+  /// end: the velocities of steps are noisy, and errors of the steps are no slip.
+  explicit EventLog(double threshold, double least_slip = 0) : threshold_(threshold), least_slip_(least_slip) {}
 
   bool active() const { return threshold_ > 0; }
   /// Call this after each step. `time` is the end of the step, and `load` the mean force of the springs at that time.
@@ -51,7 +53,7 @@ class EventLog {
     return std::array{&log.x_, &log.last_u_, &log.last_velocity_, &log.first_u_, &log.arrivals_};
   }
 
-  double threshold_ = 0;
+  double threshold_ = 0, least_slip_ = 0;
   bool within_ = false;
   double last_time_ = 0, last_load_ = 0, last_largest_ = 0;
   std::vector<double> x_, last_u_, last_velocity_, first_u_;

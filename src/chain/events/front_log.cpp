@@ -32,6 +32,7 @@ void FrontLog::look(double time, const std::vector<double>& velocity, std::size_
   }
   last_time_ = time;
   last_velocity_ = velocity;
+  if (events < records_.events.size()) records_.events.resize(events);  // the last one was no event
   if (events > records_.events.size()) {
     Tractions now = ahead();
     records_.events.push_back({above_since_, std::move(now.stress), std::move(now.traction)});

@@ -39,6 +39,12 @@ Motion start_of(const Problem& p, const MotionOf& start, const Execution& execut
   return motion;
 }
 
+/// The error of a step in u, or a tenth of the slip that renews contacts if that is less.
+double least_slip_of_event(const Problem& p) {
+  const double renewal = p.friction.parameter("characteristic_slip");
+  return renewal > 0 ? std::fmin(p.tolerance, renewal / 10) : p.tolerance;
+}
+
 Moment first_moment(const Problem& p, Motion motion, const Ranks& ranks) {
   const OwnBlocks own(p.grid.sites, ranks);
   const std::size_t n = own.size();
@@ -48,7 +54,7 @@ Moment first_moment(const Problem& p, Motion motion, const Ranks& ranks) {
   for (auto* column : {&now.w, &now.slope, &now.acceleration, &now.earlier}) column->assign(n, 0.0);
   now.flows.assign(3 * own.count, 0.0);
   now.next_step = 1e-3 * std::fmin(1, p.grid.spacing);
-  now.log = EventLog(p.loading.event_velocity);
+  now.log = EventLog(p.loading.event_velocity, least_slip_of_event(p));
   if (p.loading.fronts > 0) now.fronts = FrontLog(p.loading.event_velocity, middles_of_parts(p, p.loading.fronts));
   return now;
 }
@@ -74,7 +80,8 @@ ImplicitChain::ImplicitChain(const Problem& p, const Motion& start, const Execut
     : ImplicitChain(p, pieces_of(start, p.grid.sites), execution) {}
 
 SpringEnergy ImplicitChain::spring_energy() const {
-  return {forces_.springs().energy(now_.u), forces_.loading_energy(now_)};
+  const double pulled = forces_.loading_energy(now_), of_end = forces_.share_of_end() * pulled;
+  return {forces_.springs().energy(now_.u) + of_end, pulled - of_end};
 }
 
 Flows ImplicitChain::flows() const {

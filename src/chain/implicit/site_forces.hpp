@@ -55,7 +55,15 @@ class SiteForces {
     const Loading& l = problem_.loading;
     if (l.where == Pulled::everywhere) return l.stiffness;
     const bool pulled = l.where == Pulled::left ? springs_.at_left_end(site) : springs_.at_right_end(site);
-    return pulled ? l.stiffness / springs_.weight(site) : 0;
+    return pulled ? (1 - share_of_end()) * l.stiffness / springs_.weight(site) : 0;
+  }
+  /// The share of the stretch of a spring at a pulled end that lies between the end and its site. With 1 + m d2 on the
+  /// left side (CompactSprings), a stress on the end displaces its site by 2 m h times the stress less than the end.
+  double share_of_end() const {
+    const Loading& l = problem_.loading;
+    if (l.where == Pulled::everywhere) return 0;
+    const double at_end = 2 * springs_.coupling() * springs_.spacing() * l.stiffness;
+    return at_end / (1 + at_end);
   }
   /// F(x, t) as the problem has it, and with the pull of the springs.
   double given_forcing(std::size_t j, double time) const { return problem_.forcing ? problem_.forcing(x(j), time) : 0; }

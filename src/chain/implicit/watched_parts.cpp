@@ -34,7 +34,8 @@ WatchedParts::WatchedParts(const SiteForces& forces, const Moment& now)
   const Problem& p = forces.problem();
   const OwnBlocks& own = forces.own();
   const std::size_t count = count_of_parts(p, forces.ranks().joined({now.u.front(), now.u.back()}));
-  parts_.length = static_cast<double>(p.grid.sites) * p.grid.spacing / static_cast<double>(count);
+  const std::size_t intervals = p.boundary.periodic ? p.grid.sites : p.grid.sites - 1;
+  parts_.length = static_cast<double>(intervals) * p.grid.spacing / static_cast<double>(count);
   parts_.ring = p.boundary.periodic;
   for (auto* column : {&parts_.u, &parts_.velocity}) column->resize(count);
   parts_.x = middles_of_parts(p, count);

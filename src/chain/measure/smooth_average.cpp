@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "chain/measure/elastic.hpp"
 #include "chain/measure/interpolation.hpp"
+#include "foundation/math/constants.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::chain {
@@ -24,6 +26,17 @@ Range around(const Grid& grid, double x, double width) {
   if (!(width > 0) || !(from <= to)) refuse_window(grid, x, width);
   const auto begin = static_cast<std::size_t>(from), end = static_cast<std::size_t>(to) + 1;
   return {begin, end, begin < 2 ? 0 : begin - 2, std::min(end + 2, grid.sites)};
+}
+
+/// Windows are up to these many factors of sqrt(2) narrower and wider than the one whose error they measure.
+constexpr int narrower = 2, wider = 2;
+/// In 108 averages at x = 0 of steps between stressed sides, at scales from 500 to 8000, this factor of the change
+/// covers all errors; a factor of 1 covers 92 % of those of the step from 0.855 to 0.179.
+constexpr double safety_of_change = 1.5;
+
+/// Whether the window around x is on the chain.
+bool is_whole(const Grid& grid, double x, double width) {
+  return x - width / 2 >= grid.left && x + width / 2 <= grid.x(grid.sites - 1);
 }
 
 }  // namespace
@@ -55,6 +68,34 @@ SmoothAverage smooth_average(const Sites& chain, const Window& w, double x, doub
   a.stress /= sum;
   a.energy /= sum;
   return a;
+}
+
+BestAverage best_average(const Sites& chain, double x, double least, double most, double time) {
+  const Grid& grid = chain.problem().grid;
+  const auto width_of = [&](int i) { return least * std::exp2(0.5 * i); };
+  int candidates = 1, last = 0;  // the first window may be cut by an end, others not
+  while (width_of(candidates) <= most * (1 + 1e-9) && is_whole(grid, x, width_of(candidates + wider))) ++candidates;
+  while (last < candidates - 1 + wider && is_whole(grid, x, width_of(last + 1))) ++last;
+  const Range all = around(grid, x, width_of(last));
+  const Window sites = chain.window(all.low, all.high, time);
+  std::vector<SmoothAverage> averages;  // the first is that of width_of(-narrower)
+  for (int i = -narrower; i <= last; ++i)
+    averages.push_back(i < 0 && width_of(i) < 2 * grid.spacing ? SmoothAverage{none, none, none}
+                                                               : smooth_average(chain, sites, x, width_of(i)));
+  BestAverage best{};
+  for (int i = 0; i < candidates; ++i) {
+    const SmoothAverage& here = averages[static_cast<std::size_t>(i + narrower)];
+    BestAverage tried{here, width_of(i), none, none};
+    for (int j = i - narrower; j <= std::min(i + wider, last); ++j) {
+      const SmoothAverage& other = averages[static_cast<std::size_t>(j + narrower)];
+      if (j == i || std::isnan(other.velocity)) continue;
+      tried.velocity_error =
+          std::fmax(tried.velocity_error, safety_of_change * std::fabs(other.velocity - here.velocity));
+      tried.stress_error = std::fmax(tried.stress_error, safety_of_change * std::fabs(other.stress - here.stress));
+    }
+    if (i == 0 || tried.velocity_error < best.velocity_error) best = tried;
+  }
+  return best;
 }
 
 double energy_of_train(double stress, double velocity, double contact) {

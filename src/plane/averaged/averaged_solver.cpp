@@ -81,7 +81,7 @@ AveragedSolver::AveragedSolver(const Problem& problem, const Resolution& resolut
                       .value = std::string(problem.friction.name()),
                       .problem = "the averaged equations on a plane do not follow the state of friction",
                       .allowed = "a law without state variables, or slipfront plane --direct"});
-  if (!problem.viscous && problem.friction.steep_at_rest())
+  if (problem.friction.steep_at_rest())
     throw InputError({.key = "friction.law",
                       .value = std::string(problem.friction.name()),
                       .problem = "the averaged equations on a plane do not follow friction that holds slip at rest",

@@ -22,7 +22,7 @@ LoopSteps::LoopSteps(const Problem& problem, Loops& loops)
   r_rate_.assign(loops.r.size(), 0);
   momentum_rate_.assign(loops.momentum.size(), 0);
   loops.loss.assign(loops.momentum.size(), 0);
-  friction_acts_ = problem.viscous || problem.friction.acts();
+  friction_acts_ = problem.friction.acts();
 }
 
 void LoopSteps::look() {
@@ -37,19 +37,16 @@ void LoopSteps::look() {
 /// Finds the rate at which friction takes momentum.
 void LoopSteps::find_strengths() {
   if (!friction_acts_) return;
-  const std::optional<double> C = problem_.viscous ? std::nullopt : problem_.friction.linear_coefficient();
+  const std::optional<double> C = problem_.friction.linear_coefficient();
   for (std::size_t i = 0; i < loops_.loss.size(); ++i) {
     const Point at = equations_.centre(i);
+    const double share = problem_.share_of_friction(at.x, at.y);
     if (C && problem_.friction.closure() == friction::Closure::consistent) {
-      loops_.loss[i] = *C;
-      continue;
-    }
-    if (problem_.viscous) {
-      loops_.loss[i] = problem_.viscous(at.x, at.y);
+      loops_.loss[i] = *C * share;
       continue;
     }
     const State train{equations_.phi()[i], equations_.psi()[i]};
-    const double mean = problem_.friction.mean_strength(train, equations_.contact(i));
+    const double mean = share * problem_.friction.mean_strength(train, equations_.contact(i));
     const double force = modulation::force_per_dislocation(mean) * equations_.middle(i);
     loops_.loss[i] = loops_.momentum[i] == 0 ? 0 : force / std::fabs(loops_.momentum[i]);
   }

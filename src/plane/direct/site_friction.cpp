@@ -11,7 +11,7 @@ namespace slipfront::plane {
 
 SiteFriction::SiteFriction(const Problem& problem, const Sites& sites, double dt)
     : problem_(problem), sites_(sites), dt_(dt) {
-  if (!problem.viscous && problem.friction.acts()) friction_ = problem.friction.scaled_by(sites.scale);
+  if (!is_viscous() && problem.friction.acts()) friction_ = problem.friction.scaled_by(sites.scale);
   each_ = friction_.state_size();
   if (friction_.steep_at_rest()) patch_ = patch_of(problem, sites);
   states_.resize(each_ * sites.nx * sites.ny);

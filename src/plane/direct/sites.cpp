@@ -51,7 +51,8 @@ void fill(const Problem& p, Sites& sites) {
       const double a = p.contact(x, y);
       return a * a;
     });
-  if (p.viscous) sites.viscous = at_each(sites, [&](double x, double y) { return p.viscous(x, y) / sites.scale; });
+  if (const double C = p.friction.linear_coefficient().value_or(0); C > 0)
+    sites.viscous = at_each(sites, [&](double x, double y) { return C * p.share_of_friction(x, y) / sites.scale; });
   if (p.fixed) sites.moves = at_each(sites, [&](double x, double y) { return p.fixed(x, y) == 0 ? 1.0 : 0.0; });
   if (p.edges == Edges::fixed) fix_edges(sites);
 }

@@ -64,7 +64,13 @@ class GridEquations {
   };
   Inside inside(std::size_t cell, const std::vector<double>& slip) const;
   /// The initial guesses of the next solution, in cells and at faces along x and y.
-  std::array<std::vector<double>*, 3> guesses() { return {&in_cells_.guess, &in_faces_[0].guess, &in_faces_[1].guess}; }
+  using Guesses = std::array<std::vector<double>, 3>;
+  Guesses guesses() const { return {in_cells_.guess, in_faces_[0].guess, in_faces_[1].guess}; }
+  void set_guesses(const Guesses& guesses) {
+    in_cells_.guess = guesses[0];
+    in_faces_[0].guess = guesses[1];
+    in_faces_[1].guess = guesses[2];
+  }
 
  private:
   double gradient_in(std::size_t cell) const { return std::hypot(slope_[0][cell], slope_[1][cell]); }

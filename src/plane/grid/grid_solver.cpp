@@ -24,7 +24,7 @@ void check(const Problem& p, int cells) {
                       .value = std::to_string(cells),
                       .problem = "too few cells",
                       .allowed = "at least " + std::to_string(fewest)});
-  if (!p.viscous && p.friction.changes_contacts())
+  if (p.friction.changes_contacts())
     throw InputError({.key = "friction.law",
                       .value = std::string(p.friction.name()),
                       .problem = "on a plane, friction cannot change contacts or pores",
@@ -222,7 +222,7 @@ std::string GridSolver::saved() const {
   for (const double value : {m.time, m.power, m.supply, m.dissipated, m.supplied, m.met_at}) writer.put(value);
   writer.put(static_cast<std::int64_t>(m.steps));
   for (const auto* values : {&m.now.slip, &m.now.action, &m.strength, &m.states}) writer.put(*values);
-  for (const auto* guess : parts_->steps->equations().guesses()) writer.put(*guess);
+  for (const auto& guess : parts_->steps->guesses()) writer.put(guess);
   return std::move(writer).text();
 }
 
@@ -239,10 +239,10 @@ void GridSolver::resume(std::string_view saved) {
   }
   m.states = reader.vector();
   fits = fits && m.states.size() == parts_->motion.states.size();
-  std::vector<std::vector<double>> guesses;
-  for (int i = 0; i < 3; ++i) {
-    guesses.push_back(reader.vector());
-    fits = fits && guesses.back().size() == parts_->cells.size();
+  GridEquations::Guesses guesses;
+  for (std::vector<double>& guess : guesses) {
+    guess = reader.vector();
+    fits = fits && guess.size() == parts_->cells.size();
   }
   reader.end();
   if (!fits)
@@ -250,9 +250,9 @@ void GridSolver::resume(std::string_view saved) {
                       .problem = "the saved state has another number of cells",
                       .allowed = "a file of the same scenario"});
   parts_->motion = m;
+  parts_->steps->set_guesses(guesses);
   parts_->steps->look();  // for observers
   parts_->motion = std::move(m);
-  for (std::size_t i = 0; i < guesses.size(); ++i) *parts_->steps->equations().guesses().at(i) = std::move(guesses[i]);
 }
 
 }  // namespace slipfront::plane

@@ -29,9 +29,9 @@ GridSteps::GridSteps(const Problem& problem, const Cells& cells, GridMotion& mot
       walls_(problem, cells),
       equations_(problem, cells, walls_),
       front_(problem, cells),
-      friction_acts_(problem.viscous || problem.friction.acts()),
-      acts_in_stages_(!problem.viscous && problem.friction.acts() && problem.friction.steep_at_rest()),
-      sticks_(!problem.viscous && problem.friction.sticks()),
+      friction_acts_(problem.friction.acts()),
+      acts_in_stages_(problem.friction.acts() && problem.friction.steep_at_rest()),
+      sticks_(problem.friction.sticks()),
       free_(cells.size(), 0.0) {
   if (acts_in_stages_ && !sticks_) slowed_ = std::make_unique<Slowed>(problem.friction, cells.size());
   for (auto* averages : {&rate_, &old_}) {
@@ -110,20 +110,21 @@ void GridSteps::find_strengths() {
   motion_.power = 0;
   if (!friction_acts_) return;
   const Trains& trains = equations_.trains();
-  const std::optional<double> C = problem_.viscous ? std::nullopt : problem_.friction.linear_coefficient();
+  const std::optional<double> C = problem_.friction.linear_coefficient();
   const bool is_linear = C && problem_.friction.closure() == friction::Closure::consistent;
   for (std::size_t i = 0; i < trains.at.size(); ++i) {
     const std::size_t cell = trains.at[i];
     const Point at = cells_.centre(cell);
     const double size = std::fabs(motion_.now.action[cell]);
     double force = 0;
-    if (problem_.viscous || is_linear) {
-      motion_.strength[cell] = problem_.viscous ? problem_.viscous(at.x, at.y) : *C;
+    const double share = problem_.share_of_friction(at.x, at.y);
+    if (is_linear) {
+      motion_.strength[cell] = *C * share;
       force = motion_.strength[cell] * size;
     } else {
       const double a = trains.contact.empty() ? 1 : trains.contact[i];
       if (!is_released(cell))
-        force = problem_.friction.mean_strength({trains.phi[i], trains.psi[i]}, a, state_of(cell));
+        force = share * problem_.friction.mean_strength({trains.phi[i], trains.psi[i]}, a, state_of(cell));
       motion_.strength[cell] = sticks_ ? force : (size > 0 ? force / size : 0);
     }
     if (motion_.now.slip[cell] > 0) motion_.power += force * std::fabs(rate_.slip[cell]) * cells_.hx * cells_.hy;
@@ -143,6 +144,7 @@ void GridSteps::look() { look_after(0); }
 /// Looks at the end of a step, in the second half of which the state variables change for `half_step`.
 void GridSteps::look_after(double half_step) {
   release();
+  guesses_ = equations_.guesses();
   equations_.set_known(front_.extend(motion_.now));
   equations_.find_rates(motion_.time, motion_.now, rate_);
   age(half_step);

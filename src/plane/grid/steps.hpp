@@ -35,7 +35,10 @@ class GridSteps {
   void look();
 
   const GridEquations& equations() const { return equations_; }
-  GridEquations& equations() { return equations_; }
+  /// The guesses with which the last look began. A run that resumes from them, and not from those that the look left,
+  /// finds the states of the last look to the last bit.
+  const GridEquations::Guesses& guesses() const { return guesses_; }
+  void set_guesses(const GridEquations::Guesses& guesses) { equations_.set_guesses(guesses); }
   const Walls& walls() const { return walls_; }
   const Averages& rates() const { return rate_; }  ///< without friction, at the last look
 
@@ -64,6 +67,7 @@ class GridSteps {
   GridMotion& motion_;
   Walls walls_;
   GridEquations equations_;
+  GridEquations::Guesses guesses_;
   Front front_;
   bool friction_acts_;
   bool acts_in_stages_;       ///< friction acts after each stage, not before and after a step

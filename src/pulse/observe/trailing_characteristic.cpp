@@ -13,7 +13,11 @@ TrailingCharacteristic::TrailingCharacteristic(const Solver& start) {
   const std::size_t n = v.states.size();
   constexpr double rounding = 1e-9;  // if both ends have equal stress, we take the left one on any grid
   // Free edges are tested first: there the stress falls to zero at the face, and not in the last cell.
-  stressed_left_ = v.right_free || (!v.left_free && v.states.front().psi >= (1 - rounding) * v.states.back().psi);
+  const auto is_left = [](double left, double right) { return left >= (1 - rounding) * right; };
+  const Problem& p = start.problem();
+  stressed_left_ = v.left_free != v.right_free ? v.right_free
+                   : v.left_free               ? is_left(p.stress(p.left), p.stress(p.right))
+                                               : is_left(v.states.front().psi, v.states.back().psi);
   const auto from_stressed = [&](std::size_t i) { return stressed_left_ ? i : n - 1 - i; };
   const auto stress = [&](double x) { return start.problem().stress(x) / (v.contact ? v.contact(x) : 1); };
   const double end = v.faces[stressed_left_ ? 0 : n];

@@ -145,16 +145,12 @@ void read_formulas(const Document& document, const std::string& coefficient, Sce
     forcing.ratio = ratio;
     plane.problem.forcing = forcing;
   }
-  if (coefficient.empty()) {
-    if (const auto constant = scenario.friction.linear_coefficient(); constant && *constant > 0)
-      plane.problem.viscous = [c = *constant](double, double) { return c; };
-    return;
-  }
-  PlaneFormula viscous = read_formula(Section(document, "friction"), "coefficient", coefficient, {"x", "y"},
-                                      "the coefficient", "a finite number >= 0");
-  viscous.least = 0;
-  viscous.ratio = ratio;
-  plane.problem.viscous = viscous;
+  if (coefficient.empty()) return;
+  PlaneFormula share = read_formula(Section(document, "friction"), "coefficient", coefficient, {"x", "y"},
+                                    "the coefficient", "a finite number >= 0");
+  share.least = 0;
+  share.ratio = ratio;
+  plane.problem.friction_share = share;
 }
 
 void read_nucleation(const Document& document, Scenario& scenario) {
@@ -169,7 +165,7 @@ void read_nucleation(const Document& document, Scenario& scenario) {
     throw section.refuse("radius",
                          "the patch around x = " + shortest(x) + ", y = " + shortest(y) + " is outside the plane",
                          "a patch that overlaps the plane");
-  if (!scenario.initial.hold && !(scenario.friction.steep_at_rest() && !p.viscous))
+  if (!scenario.initial.hold && !scenario.friction.steep_at_rest())
     throw section.refuse("radius", "nothing holds the initial state, so that the rupture begins everywhere",
                          "initial.hold = true, or a friction law with strength at rest");
   p.nucleation =
@@ -184,7 +180,7 @@ void try_out(const Plane& plane, double end) {
     for (int i = 0; i < samples; ++i) {
       const double x = p.left + (p.right - p.left) * i / (samples - 1),
                    y = p.bottom + (p.top - p.bottom) * j / (samples - 1);
-      for (const auto* function : {&p.slip, &p.fixed, &p.viscous, &p.contact})
+      for (const auto* function : {&p.slip, &p.fixed, &p.friction_share, &p.contact})
         if (*function) (*function)(x, y);
       if (!p.forcing) continue;
       p.forcing(x, y, 0);
@@ -231,7 +227,7 @@ void read_plane(const Document& document, const TableReader& tables, const std::
                             .value_or(plane::Edges::free);
   plane.problem.slip = read_slip(document, tables, plane, scenario.initial);
   read_formulas(document, coefficient, scenario);
-  if (!plane.problem.viscous) plane.problem.friction = scenario.friction;
+  plane.problem.friction = scenario.friction;
   plane.problem.hold = scenario.initial.hold;
   read_nucleation(document, scenario);
   try_out(plane, scenario.end);

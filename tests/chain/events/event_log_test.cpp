@@ -42,4 +42,26 @@ TEST(EventLog, PartsThatMoveFasterThanWavesHaveNoFront) {
   EXPECT_NEAR(rupture_velocity({0, 1, 2, 3, 4, 5}, false), 1, 1e-12);
 }
 
+/// Steps are noisy: a part that is fast for one step, in which it hardly slips, does not begin an event.
+TEST(EventLog, CountsOnlyEventsThatSlip) {
+  EventLog log(0.5, 1e-3);
+  ChainParts parts{.x = {0}, .u = {0}, .velocity = {0}, .length = 1};
+  const auto look = [&](double time, double velocity, double slip) {
+    parts.velocity = {velocity};
+    parts.u[0] += slip;
+    log.look(time, 0, parts);
+  };
+  look(0, 0, 0);
+  look(1, 1, 1);
+  look(2, 0, 1);
+  look(2.1, 1, 1e-7);
+  look(2.2, 0, 1e-7);
+  EXPECT_EQ(log.in_progress(), 0u);
+  ASSERT_EQ(log.events().size(), 1u);
+  look(5, 1, 1);
+  look(6, 0, 1);
+  ASSERT_EQ(log.events().size(), 2u);
+  EXPECT_NEAR(log.events()[1].slip, 2, 1e-12);
+}
+
 }  // namespace

@@ -64,6 +64,30 @@ TEST(Loading, PulledEndSendsTheExactWave) {
   }
 }
 
+/// A string between a pulled and a free end that slides steadily: C v = u_xx, and the stress on the pulled end is C v
+/// times the length. Each length and spacing gives the same numbers to rounding.
+TEST(Loading, SteadySlidingOfAPulledStringIsExact) {
+  const double C = 5, v = 0.01, kappa = 2, end = 2000;
+  for (const double h : {0.4, 0.2, 0.1})
+    for (const Pulled where : {Pulled::left, Pulled::right}) {
+      Problem p = smooth_block();
+      p.grid = {-3, h, static_cast<std::size_t>(std::lround(6 / h)) + 1};
+      p.friction = friction::viscous(C);
+      p.loading = {.stiffness = kappa, .velocity = v, .where = where};
+      p.tolerance = 1e-9;
+      ImplicitChain chain(p, at_rest(p));
+      chain.advance_to(end);
+      const double length = h * static_cast<double>(p.grid.sites - 1), stress = C * v * length, t = chain.time();
+      EXPECT_NEAR(chain.load(), stress, 1e-7) << h;
+      const auto w = chain.window(0, p.grid.sites);
+      for (std::size_t j = 1; j + 1 < w.u.size(); ++j) {
+        const double x = where == Pulled::left ? w.x[j] + 3 : 3 - w.x[j];
+        const double exact = v * t - stress / kappa - stress * x + C * v * x * x / 2;
+        EXPECT_NEAR(w.u[j], exact, 1e-6) << h << " " << j;
+      }
+    }
+}
+
 /// Damped motion ends at the velocity of the springs, stretched by C v / kappa.
 TEST(Loading, ViscousBlockFollowsItsSprings) {
   Problem p = smooth_block();
