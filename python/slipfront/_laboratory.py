@@ -8,7 +8,7 @@ from ._dataset import dataset
 from ._files import write_dataset
 from ._hardness_posterior import LEAST_STRESS, Evidence, Posterior, closed_form
 from ._numbers import np
-from ._scenario import path
+from ._scenario import output_path
 from ._shown import shown
 from ._slipfront import InputError
 from ._units import constant, values_of
@@ -223,7 +223,7 @@ def laboratory(table, *, poisson_ratio=None, shear_modulus=None, density=None, p
     speed, nu, modulus = _medium({"poisson_ratio": poisson_ratio, "shear_modulus": shear_modulus, "density": density, "p_wave_speed": p_wave_speed,
                                   "s_wave_speed": s_wave_speed})
     prior, scatter_prior = _range("prior", prior, 1e-12, 1e12), _range("scatter_prior", scatter_prior, 1e-6, 10)
-    draws, seed, file = _count("draws", draws, 1), _count("seed", seed, 0), path("output", output)
+    draws, seed, file = _count("draws", draws, 1), _count("seed", seed, 0), output_path(output, table)
     found = _laboratory_table.read(table, strict)
     plastic = float(laws.plastic_contact_ratio(nu))
     analysis = _Analysis(found.fronts, speed, plastic, prior, scatter_prior, found.file)
