@@ -65,7 +65,7 @@ def scales(mu, rho, nu, A, b):
     force = mu * A**2 / (math.pi * (1 - nu))
     length, time, slip = b / A, b / (c * A), b / math.pi  # slip between the faces
     return {"m": length, "s": time, "slip": slip, "stress": mu * A / math.pi, "velocity": c * A / math.pi, "force": force, "c": c,
-            "energy": force * b / (2 * math.pi) * length, "H": force * b / (2 * math.pi), "potency": slip * length, "k": 1 / length}
+            "energy": force * slip * length, "H": force * slip, "potency": slip * length, "k": 1 / length}
 
 
 ROCK_SCALES, PMMA = scales(30e9, 2700, 0.25, 0.01, 2e-3), scales(3e9, 1180, 0.33, 0.0041, 20e-6)
