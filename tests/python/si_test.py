@@ -266,9 +266,15 @@ class Datasets(unittest.TestCase):
         self.assertEqual(data.attrs["unit_system"], "SI")
         self.assertEqual((data.loading_force.units, data.slip_at_origin.units), ("Pa", "m"))
         self.assertEqual(float(data.loading_force[1]), float(run.loading_force[-1]))
+        self.assertEqual(data.event_median_stress_drop.units, "Pa")
         plain = slipfront.sweep(BLOCK, {"loading.velocity": ["1 um/s"]}, command="chain", set={"time.end": "10 s"}, si=False)
         self.assertAlmostEqual(float(data.loading_force[0]), float(plain.loading_force[0]) * PMMA["force"])
         self.assertNotIn("unit_system", plain.attrs)
+        self.assertEqual(plain.event_median_stress_drop.dimensional_unit, "mu A^2 / (pi (1 - nu))")
+        short = {"time.end": "1 s", "output.every": "1 s"}
+        for axis, settings, unit in (({"loading.where": ["left"]}, {}, "mu A / pi"), ({"loading.where": ["left", "everywhere"]}, {}, ""), ({"pulse.cells": [8]}, {"loading.where": "right"}, "mu A / pi")):
+            of_model = slipfront.sweep(BLOCK, axis, command="chain", set={**short, **settings}, si=False)
+            self.assertEqual(of_model.event_median_stress_drop.dimensional_unit, unit)
 
 
 class Pictures(unittest.TestCase):
