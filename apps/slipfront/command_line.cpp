@@ -6,6 +6,8 @@
 #include <sstream>
 
 #include "foundation/text/nearest.hpp"
+#include "record/files/unfinished.hpp"
+#include "slipfront/error.hpp"
 
 Option& Option::required() { return option_->required(), *this; }
 Option& Option::repeatable() { return option_->allow_extra_args(false), *this; }
@@ -110,6 +112,18 @@ std::string nearest(const CLI::App& app) {
   return best.empty() ? "" : "; did you mean " + best + "?";
 }
 
+/// Refuses to write to a file that another word of the command names. A run may write to the file from which it
+/// resumes.
+void require_other_output(const CLI::App& command) {
+  const CLI::Option* const output = command.get_option_no_throw("--output");
+  if (!output || output->count() == 0) return;
+  std::vector<std::string> words;
+  for (const CLI::Option* option : command.get_options())
+    if (option != output && !option->check_lname("resume"))
+      words.insert(words.end(), option->results().begin(), option->results().end());
+  slipfront::record::require_other_file(output->results().back(), words);
+}
+
 /// If a subcommand or an option is unknown, the text names the nearest known one.
 std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
   std::string text = error.what();
@@ -135,7 +149,10 @@ CommandLine ProgramLine::top() const { return CommandLine(app_.get()); }
 ProgramLine::Parsed ProgramLine::parse(int argc, char** argv) {
   try {
     app_->parse(argc, argv);
+    require_other_output(chosen(*app_));
     return {Parsed::Kind::arguments, {}};
+  } catch (const slipfront::InputError& error) {
+    return {Parsed::Kind::error, error.what()};
   } catch (const CLI::Success& request) {
     std::ostringstream text;
     app_->exit(request, text, text);

@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
 #include "batch.hpp"
@@ -75,9 +73,6 @@ void check_names(const EventArguments& a) {
   const auto is_netcdf = [](const std::string& path) { return std::string_view(path).ends_with(".nc"); };
   if (!a.output.empty() && !is_netcdf(a.output) && !is_csv(a.output) && !describes_fault(a))
     refuse("-o", a.output, "OUT.nc, OUT.csv or OUT.srf");
-  std::error_code not_there;
-  for (const std::string& file : a.files)
-    if (std::filesystem::equivalent(file, a.output, not_there)) refuse("-o", a.output, "a file other than those read");
   if (!a.resume.empty() && !is_netcdf(a.resume)) refuse("--resume", a.resume, "OUT.nc, as -o wrote it");
   const bool holds_events = is_netcdf(a.output) && !describes_fault(a);
   if (a.draws > 0 && !a.output.empty() && !holds_events) refuse("-o", a.output, "OUT.nc, with --draws");

@@ -89,6 +89,7 @@ std::vector<std::string> settings_of(const ScenarioArguments& a) {
 }
 
 scenario::Scenario prepared(scenario::Scenario s, const ScenarioArguments& a) {
+  run::require_inputs_kept(s, a.output);
   run::choose_units(s, a.si || a.dimensionless ? std::optional(a.si) : std::nullopt);
   if (!a.common.quiet)
     for (const std::string& warning : s.warnings) complain("warning: " + warning);

@@ -12,6 +12,7 @@
 #include "foundation/machine.hpp"
 #include "foundation/text/printable.hpp"
 #include "record/files/text_file.hpp"
+#include "record/files/unfinished.hpp"
 #include "record/netcdf/dataset_file.hpp"
 
 namespace {
@@ -73,6 +74,7 @@ void bind_files(py::module_& m) {
   m.def("sensible_threads", sensible_threads);
   m.def("read_text", record::read_text);
   m.def("write_file", record::write_text, py::call_guard<py::gil_scoped_release>());
+  m.def("require_other_file", record::require_other_file);
   m.def("write_dataset", write_dataset);
   py::class_<NetcdfLock>(m, "NetcdfLock")
       .def(py::init<>())

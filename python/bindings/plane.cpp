@@ -145,6 +145,7 @@ Requested requested(const RunRequest& a) {
   Requested all;
   all.model = run::fault_on_plane(record::read_text(a.path), a.path);
   all.scenario = run::scenario_of_fault(*all.model, a.path, a.set);
+  run::require_inputs_kept(all.scenario, a.output);
   run::choose_units(all.scenario, a.si);
   return all;
 }

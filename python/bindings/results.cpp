@@ -42,6 +42,7 @@ scenario::Scenario scenario_of(const RunRequest& request) {
   const bool is_file = !request.path.empty();
   scenario::Scenario s = scenario::read_scenario(is_file ? record::read_text(request.path) : request.text,
                                                  is_file ? request.path : "scenario", request.set, read_table);
+  run::require_inputs_kept(s, request.output);
   run::choose_units(s, request.si);
   return s;
 }

@@ -4,7 +4,7 @@ import argparse
 import os
 import sys
 
-from ._slipfront import printable, sensible_threads
+from ._slipfront import printable, require_other_file, sensible_threads
 
 
 class Help(argparse.HelpFormatter):
@@ -24,6 +24,14 @@ class Arguments(argparse.ArgumentParser):
         self.add_argument("--quiet", action="store_true", help="no notes, no progress")
         self.add_argument("--threads", type=threads, default=len(os.sched_getaffinity(0)), metavar="N",
                           help="threads; results do not depend on it (default: all cores)")
+
+    def parse_args(self, args=None, namespace=None):
+        """Parses the words, and refuses to write to a file that another word names. A sweep may write to the file from which it resumes."""
+        options = super().parse_args(args, namespace)
+        if output := getattr(options, "output", None):
+            words = [value for name, value in vars(options).items() if name not in ("output", "resume")]
+            require_other_file(os.fsencode(output), [os.fsencode(text) for value in words for text in (value if isinstance(value, list) else [value]) if isinstance(text, str)])
+        return options
 
     def error(self, message):
         raise ValueError(f"{message}; see {self.prog} --help")

@@ -4,7 +4,7 @@ import pickle
 
 from . import _slipfront
 from ._optional import import_optional
-from ._slipfront import NumericsError
+from ._slipfront import InputError, NumericsError
 
 _most_points_a_task = 256
 _tasks_a_thread = 4  # into which the remaining points are divided
@@ -47,6 +47,8 @@ def on_cluster(client, command, request, work, variables, deliver):
     crashes its worker does not affect the others. Raises NumericsError if the connection to the cluster is lost.
     """
     distributed = import_optional("distributed")
+    if not isinstance(client, distributed.Client):
+        raise InputError(f"client: a {type(client).__name__}; allowed: a distributed.Client")
     gone = (distributed.client.CancelledError, OSError, TimeoutError)
     threads = sum(client.nthreads().values()) or 1
 

@@ -9,7 +9,7 @@ from . import _slipfront
 from ._dataset import attributes, dataset
 from ._numbers import np, thread_count
 from ._progress import showing
-from ._scenario import is_path, path, to_toml
+from ._scenario import is_path, output_path, path, to_toml
 from ._shown import shown
 from ._slipfront import InputError
 
@@ -46,6 +46,13 @@ def _whole(name, value):
     if value is None or (isinstance(value, int) and not isinstance(value, bool) and 0 <= value < 2**63):
         return value
     raise InputError(f"{name} = '{shown(value)}': not a whole number; allowed: >= 0")
+
+
+def _number_of(name, value):
+    """Like _whole, for a parameter whose default is a number."""
+    if value is None:
+        raise InputError(f"{name} = 'None': not a whole number; allowed: >= 0")
+    return _whole(name, value)
 
 
 def _default(value):
@@ -141,8 +148,8 @@ def event(events=None, *, p_wave_speed=None, poisson_ratio=None, shear_modulus=N
     with showing(progress) as call:
         found = _slipfront.event(sources, {
             "p_wave_speed": _default(p_wave_speed), "poisson_ratio": _default(poisson_ratio), "shear_modulus": _default(shear_modulus),
-            "samples": _whole("samples", samples), "seed": _whole("seed", seed), "closure": str(closure), "pulse": bool(pulse),
-            "draws": _whole("draws", draws), "output": path("output", output), "resume": path("resume", resume), "progress": call,
+            "samples": _whole("samples", samples), "seed": _number_of("seed", seed), "closure": str(closure), "pulse": bool(pulse),
+            "draws": _number_of("draws", draws), "output": output_path(output, events, columns), "resume": path("resume", resume), "progress": call,
             "threads": thread_count(threads), "columns": to_toml(columns) if is_map else "",
             "columns_file": "" if is_map else path("columns", columns), "strict": bool(strict)})
     texts = {name: (values, long_name) for name, values, long_name in found["texts"]}

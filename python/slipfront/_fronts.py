@@ -10,7 +10,7 @@ from ._dataset import dataset
 from ._files import write_dataset
 from ._numbers import np
 from ._run import read
-from ._scenario import is_path, path
+from ._scenario import is_path, output_path
 from ._shown import shown
 from ._slipfront import InputError
 
@@ -213,7 +213,9 @@ def fronts(run, *, threshold=None, slow=0.1, output=None, si=None):
     ([0.37, 0.1], ['sub-Rayleigh', 'sub-Rayleigh'])
     """
     limits = _number("slow", slow, 1), None if threshold is None else _number("threshold", threshold, 1)
-    file = path("output", output)
+    file = output_path(output, run)
+    if not is_path(run) and not hasattr(run, "data_vars"):
+        raise InputError(f"run: a {type(run).__name__}; allowed: the Dataset of a run, or the path of its file")
     given = read(run) if is_path(run) else run
     run_in_si = given.attrs.get("unit_system") == "SI"
     run = read(run, si=False) if is_path(run) and run_in_si else in_model(given)

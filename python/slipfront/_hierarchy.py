@@ -10,7 +10,7 @@ from ._files import write_dataset
 from ._numbers import np
 from ._optional import import_optional
 from ._population import forward, priors, rows
-from ._scenario import path
+from ._scenario import output_path
 from ._shown import shown
 from ._slipfront import InputError
 
@@ -165,6 +165,7 @@ def population(events=None, *, kind=None, prior=None, hardness="10 GPa", smalles
     for name, value in (("steps", steps), ("seed", seed)):
         if isinstance(value, bool) or not isinstance(value, int) or not (20 if name == "steps" else 0) <= value < 2**31:
             raise InputError(f"{name} = '{shown(value)}': out of range; allowed: a whole number from {20 if name == 'steps' else 0}")
+    file = output_path(output, events)
     import_optional("emcee")
     errors = {"velocity": math.log(_positive("velocity_error", velocity_error, 1.0)), "size": math.log(_positive("size_error", size_error, 1.0))}
     limits = {}
@@ -182,6 +183,6 @@ def population(events=None, *, kind=None, prior=None, hardness="10 GPa", smalles
     draws = sample.sample(likelihood, steps, seed, progress)
     data = _result(likelihood, draws, left_out, [entry["study"] for entry in found], seed,
                    {"hardness_Pa": math.exp(log_hardness), "wall_seconds": time.monotonic() - began})
-    if output is not None:
-        write_dataset(data, path("output", output))
+    if file:
+        write_dataset(data, file)
     return data

@@ -1,6 +1,7 @@
 """The function slipfront.laboratory."""
 
 import math
+from statistics import NormalDist
 
 from . import _laboratory_table, _slipfront
 from . import medium as laws
@@ -8,7 +9,7 @@ from ._dataset import dataset
 from ._files import write_dataset
 from ._hardness_posterior import LEAST_STRESS, Evidence, Posterior, closed_form
 from ._numbers import np
-from ._scenario import path
+from ._scenario import output_path
 from ._shown import shown
 from ._slipfront import InputError
 from ._units import constant, values_of
@@ -17,6 +18,9 @@ SHARES = (0.05, 0.5, 0.95)
 
 #: Draws from which predictions are computed, and points of the predicted curve.
 PREDICTIONS, CURVE = 20000, 120
+
+#: Fronts whose tau / sigma_N differs by less than this share have the same.
+SAME_RATIO = 0.02
 
 
 def _range(name, values, least, most):
@@ -223,7 +227,7 @@ def laboratory(table, *, poisson_ratio=None, shear_modulus=None, density=None, p
     speed, nu, modulus = _medium({"poisson_ratio": poisson_ratio, "shear_modulus": shear_modulus, "density": density, "p_wave_speed": p_wave_speed,
                                   "s_wave_speed": s_wave_speed})
     prior, scatter_prior = _range("prior", prior, 1e-12, 1e12), _range("scatter_prior", scatter_prior, 1e-6, 10)
-    draws, seed, file = _count("draws", draws, 1), _count("seed", seed, 0), path("output", output)
+    draws, seed, file = _count("draws", draws, 1), _count("seed", seed, 0), output_path(output, table)
     found = _laboratory_table.read(table, strict)
     plastic = float(laws.plastic_contact_ratio(nu))
     analysis = _Analysis(found.fronts, speed, plastic, prior, scatter_prior, found.file)
@@ -237,7 +241,8 @@ def laboratory(table, *, poisson_ratio=None, shear_modulus=None, density=None, p
     if any(front.stress_drop for front in found.fronts):
         variables.update(_without_drops(found.fronts, speed, plastic, prior, scatter_prior))
     data = dataset(variables, _coordinates(ratios), {**_attributes(found, analysis, (speed, nu, modulus), prior, scatter_prior),
-                                                     "warnings": "\n".join(_warnings(y_shares, scatter_shares, prior, scatter_prior))})
+                                                     "warnings": "\n".join(_warnings(y_shares, scatter_shares, prior, scatter_prior)
+                                                                           + _contradictions(variables, np.exp(scatter_shares)))})
     if file:
         write_dataset(data, file)
     return data
@@ -247,6 +252,23 @@ def _without_drops(fronts, speed, plastic, prior, scatter_prior):
     fronts = [_laboratory_table.Front(f.name, f.line, f.shear_stress, f.normal_stress, f.front_velocity) for f in fronts]
     shares = _Analysis(fronts, speed, plastic, prior, scatter_prior).posterior.quantiles(SHARES)[0]
     return _scalars("hardness_over_modulus_from_velocity", "penetration hardness over shear modulus without the stress drops", np.exp(shares))
+
+
+def _contradictions(variables, scatter):
+    """Returns where the fronts contradict the theory, and whether they can test it. `scatter` has its quantiles from front to front."""
+    found = []
+    names, used, sigmas = variables["name"][1], variables["included"][1] == 1, variables["stress_drop_deviation"][1]
+    compared = np.isfinite(sigmas).sum()
+    farthest = int(np.abs(np.nan_to_num(sigmas)).argmax())
+    if compared and abs(sigmas[farthest]) > NormalDist().inv_cdf(1 - 0.025 / compared):  # chance explains so much in 5 % of tables
+        side = "above" if sigmas[farthest] > 0 else "below"
+        found.append(f"the stress drops contradict the theory: {names[farthest]} is {abs(sigmas[farthest]):.2g} standard deviations {side} its prediction, "
+                     f"and {int((np.abs(np.nan_to_num(sigmas)) >= 2).sum())} of {compared} are 2 or more away")
+    ratios, velocities = variables["stress_ratio"][1][used], variables["front_velocity"][1][used]
+    if used.sum() > 1 and np.ptp(np.log(ratios)) < max(scatter[0], SAME_RATIO):
+        found.append(f"the fronts cannot test the theory: tau / sigma_N spans only {ratios.min():.3g} to {ratios.max():.3g}; the scatter from front to front is "
+                     f"{100 * scatter[1]:.2g} %, while the velocity spans a factor of {velocities.max() / velocities.min():.3g}")
+    return found
 
 
 def _warnings(y_shares, scatter_shares, prior, scatter_prior):

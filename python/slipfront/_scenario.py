@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 from ._numbers import np
 from ._shown import shown
-from ._slipfront import InputError
+from ._slipfront import InputError, require_other_file
 
 
 #: Largest depth of nested tables and lists. A scenario needs three.
@@ -79,6 +79,14 @@ def path(name, value):
     return text
 
 
+def output_path(output, *inputs):
+    """Returns the path of an output as `path` does. Raises InputError if it is one of the input files; inputs that are no paths cannot be."""
+    file = path("output", output)
+    sources = [source for given in inputs for source in (given if isinstance(given, (list, tuple)) else [given]) if is_path(source)]
+    require_other_file(os.fsencode(file), [os.fsencode(source) for source in sources])
+    return file
+
+
 def arguments(scenario, *, set=None, output=None, resume=None, progress=None, si=None):
     """Returns the arguments of a run as the bindings take them."""
     text = source = ""
@@ -96,6 +104,7 @@ def arguments(scenario, *, set=None, output=None, resume=None, progress=None, si
         _encodable(key, result[key])
     for override in result["set"]:
         _encodable("set", override)
+    output_path(output, scenario)
     return result
 
 

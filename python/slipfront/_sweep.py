@@ -5,6 +5,7 @@ import itertools
 import json
 import math
 import os
+import tomllib
 import warnings
 
 from . import _slipfront
@@ -196,6 +197,14 @@ def sweep(scenario, axes, *, variables=None, set=None, command="pulse", output=N
     return data
 
 
+def _unit_of_stress_drop(about):
+    """Returns the unit of event_median_stress_drop: that of a force per area of all sites, or of the stress at a pulled end. "" if both occur."""
+    given = [value.partition("=")[2].strip("'\"") for value in about["set"] if value.startswith("loading.where=")]
+    places = about["axes"].get("loading.where") or given[-1:] or [tomllib.loads(about["scenario"]).get("loading", {}).get("where", "everywhere")]
+    units = {"mu A^2 / (pi (1 - nu))" if place == "everywhere" else "mu A / pi" for place in places}
+    return units.pop() if len(units) == 1 or "si" in about else ""  # both are Pa in SI units
+
+
 def _unit_of_axis(key, values):
     """Returns the unit of an axis, or "" if it has none. That of a friction parameter depends on the law and on normal_stress."""
     _, unit = _slipfront.scenario_keys().get(key, ("", ""))
@@ -222,6 +231,8 @@ def _dataset(about, axes, kept, values, reasons):
     dims = tuple(dimension_of(key) for key in axes)
     variables = {}
     for (name, (words, unit)), array in zip(kept.items(), values):
+        if name == "event_median_stress_drop":
+            unit = _unit_of_stress_drop(about)
         if name not in dims:  # friction_coefficient is then the coordinate
             attrs = {"long_name": words or name.replace("_", " "), "units": "1", "dimensional_unit": unit}
             variables[name] = (dims, array, converted(attrs, in_si(unit, _any_medium)) if unit and "si" in about else attrs)

@@ -1,10 +1,12 @@
 """slipfront plot: pictures of the files that slipfront writes."""
 
 import json
+import os
 import pathlib
 
 from ._arguments import Arguments, add_units, chosen_units, file_name, put
 from ._optional import import_optional
+from ._slipfront import require_other_file
 
 FORMATS = ("png", "svg", "pdf", "jpg", "webp")
 
@@ -80,6 +82,7 @@ def main(argv) -> int:
     written = []
     for kind in kinds:
         path = output if len(kinds) == 1 else output.with_stem(f"{output.stem}-{kind}")
+        require_other_file(os.fsencode(path), [os.fsencode(options.file)])
         save(draw(dataset, kind, drawings[kind]), path)
         written.append(str(path))
         if not options.json and not options.quiet:

@@ -59,8 +59,8 @@ struct FaultModel {
 FaultModel read_fault_model(std::string_view text, const std::string& file);
 
 /// Computes `Subfault::moment_share` of all subfaults. Without a velocity table the shear modulus is uniform, and
-/// without sizes the areas are equal.
-void share_moment(FaultModel& model);
+/// without sizes the areas are equal. Returns the moment in N m; 0 without a velocity table or sizes.
+double share_moment(FaultModel& model);
 
 /// The layer at a depth in m. Above the first layer it is the first. `rock` must not be empty.
 const RockLayer& rock_at(const std::vector<RockLayer>& rock, double depth);

@@ -1,7 +1,10 @@
 #include "inference/tension.hpp"
 
 #include <algorithm>
+#include <boost/math/special_functions/erf.hpp>
 #include <cmath>
+#include <cstdint>
+#include <numbers>
 
 #include "inference/sampling/weighted_samples.hpp"
 
@@ -16,10 +19,69 @@ constexpr std::size_t first_samples = 128, most_samples_of_prediction = 1024;
 constexpr double least_effective_of_prediction = 64;
 constexpr double least_sigmas = 2;
 
+/// The seed of the samples is fixed, so that a tension does not depend on that of the posterior.
+constexpr std::uint64_t seed_of_tensions = 1;
+constexpr std::size_t samples_of_range = 256;
+constexpr double least_ratio = 1e-14, most_ratio = 1e14;  // of predicted to observed values
+
+/// Ranges of the predicted value, next to each other, which together cover all. They are narrow around the observed
+/// value, because the probability of a tension comes from there, however small it is.
+std::vector<Measured> ranges_of(const Measured& m) {
+  std::vector<double> edges;
+  if (m.shape == Measured::Shape::range) {
+    edges = m.is_exact() ? std::vector<double>{m.low} : std::vector<double>{m.low, m.high};
+  } else {
+    for (const double z : {-5.0, -3.0, -1.0, 1.0, 3.0, 5.0}) {
+      const double spread = m.shape == Measured::Shape::split && z < 0 ? m.spread_below : m.spread;
+      edges.push_back(m.shape == Measured::Shape::lognormal ? m.low * std::pow(spread, z) : m.low + z * spread);
+    }
+  }
+  std::vector<Measured> ranges;
+  double from = least_ratio * m.low;
+  for (const double edge : edges)
+    if (edge > from) {
+      ranges.push_back(Measured{from, edge});
+      from = edge;
+    }
+  ranges.push_back(Measured{from, most_ratio * m.low});
+  return ranges;
+}
+
+/// The number of standard deviations of a normal distribution that has the probability `part` of `all` above it.
+double sigmas_of(double part, double all) { return std::numbers::sqrt2 * boost::math::erfc_inv(2 * part / all); }
+
+/// How far the observation is above the prediction of the others: the normal quantile of the probability that a
+/// repeated observation is below the actual one. That probability is a sum over ranges of the predicted value. Each
+/// range has samples of its own, so that a small probability has as small a relative error as a large one. Absent if no
+/// state of the fault predicts a value on that side.
+std::optional<double> sigmas_above(const std::string& name, const Measured& measured, const Observation& o,
+                                   const medium::Defaults& defaults, const Sampling& sampling) {
+  Shares sum{0, 0};
+  for (const Measured& range : ranges_of(measured)) {
+    Sampler sampler(o, defaults, sampling, name, range);
+    if (sampler.mode() != Mode::friction || !std::isfinite(sampler.least_misfit())) continue;
+    std::optional<std::size_t> position;
+    for (std::size_t i = 0; i < sampler.evidence().size(); ++i)
+      if (sampler.evidence()[i].name == name) position = i;
+    for (std::size_t i = 0; i < samples_of_range; ++i) {
+      const Sample s = sampler.draw(i);
+      if (!(s.weight > 0)) continue;
+      const Shares share =
+          shares_of(measured, position ? std::exp(s.predicted[*position]) : s.state.rupture_velocity_m_s);
+      sum.below += s.weight * share.below;
+      sum.above += s.weight * share.above;
+    }
+  }
+  const double all = sum.below + sum.above, part = std::fmin(sum.below, sum.above);
+  if (!(part / all > 0)) return {};
+  return sum.below < sum.above ? -sigmas_of(part, all) : sigmas_of(part, all);
+}
+
 std::optional<Tension> tension_of(const std::string& name, const Measured& measured, const Observation& o,
                                   const medium::Defaults& defaults, const Sampling& sampling) {
   Sampling few = sampling;
-  few.samples = first_samples;
+  few.samples = samples_of_range;
+  few.seed = seed_of_tensions;
   Sampler sampler(o, defaults, few, name);
   if (sampler.mode() != Mode::friction || !(sampler.least_misfit() < hopeless_misfit)) return {};
   const WeightedSamples samples =
@@ -28,7 +90,8 @@ std::optional<Tension> tension_of(const std::string& name, const Measured& measu
   std::optional<std::size_t> position;
   for (std::size_t i = 0; i < sampler.evidence().size(); ++i)
     if (sampler.evidence()[i].name == name) position = i;
-  Tension t{name, samples.sigmas_above(measured, position), {}};
+  Tension t{name, sigmas_above(name, measured, o, defaults, few), {}};
+  if (!t.sigmas) t.sigmas = samples.nearest_deviation(measured, position);
   if (t.sigmas && std::fabs(*t.sigmas) < least_sigmas) return {};
   for (const Quantity& q : posterior_quantities()) t.without.*q.quantiles = samples.quantiles(q.state);
   return t;

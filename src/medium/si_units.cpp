@@ -161,7 +161,9 @@ std::string name_of(const Powers& powers, bool moment) {
 UnitInSi in_si(std::string_view unit, const SymbolValues& values) {
   const Amount amount = Parser(unit, values).whole();
   const bool slip = std::find(slip_units.begin(), slip_units.end(), unit) != slip_units.end();
-  return {slip ? face_factor * amount.value : amount.value, name_of(amount.powers, slip), slip};
+  // Energies and powers are stress times slip, so that those in SI units are of both faces too.
+  const bool work = amount.powers[0] == 1 && amount.powers[1] >= 1;
+  return {slip || work ? face_factor * amount.value : amount.value, name_of(amount.powers, slip), slip};
 }
 
 std::string symbols_of(std::string_view unit) {

@@ -3,8 +3,10 @@
 #include <limits>
 #include <utility>
 
+#include "record/files/unfinished.hpp"
 #include "record/pulses/comparison_file.hpp"
 #include "run/carry_out.hpp"
+#include "slipfront/scenario/files.hpp"
 #include "slipfront/setup/problem.hpp"
 
 namespace slipfront::run {
@@ -31,6 +33,10 @@ auto naming(const std::string& file, const Task& task) {
 }
 
 }  // namespace
+
+void require_inputs_kept(const scenario::Scenario& scenario, const std::string& output) {
+  if (!output.empty()) record::require_other_file(output, scenario::files_of(scenario));
+}
 
 void choose_units(scenario::Scenario& scenario, std::optional<bool> in_si) {
   scenario.results_in.reset();

@@ -58,6 +58,9 @@ struct ChainPlan {
   std::string file;  ///< the file of the scenario, which errors name
 };
 
+/// \throws InputError if `output` is the scenario file or one of its tables (record::require_other_file).
+void require_inputs_kept(const scenario::Scenario& scenario, const std::string& output);
+
 /// Plans a pulse run. \throws InputError.
 PulsePlan plan_pulse(const scenario::Scenario& scenario);
 /// Plans a chain run. If several processes share the chain, `share_of_machine` is the part on this machine. \throws

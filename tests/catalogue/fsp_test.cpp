@@ -1,5 +1,6 @@
 // The reader of finite-fault models (.fsp): values that it reads, and warnings.
 
+#include "catalogue/fault_model.hpp"
 #include "fsp_texts.hpp"
 
 namespace slipfront::catalogue {
@@ -116,6 +117,59 @@ TEST(Fsp, LeavesOutSubfaultsWithoutSlip) {
   const Observation o = read(single(row, "34.990 -119.990 nan -2.000 0.500 1.500 180.000"));
   expect_value(o.slip, 1);
   EXPECT_EQ(o.subfaults.size(), 5U);
+}
+
+/// The upper row of subfaults is in water if the first layer is. The layers of water are those of SRCMOD and the USGS.
+TEST(Fsp, LeavesOutTheSlipOfSubfaultsInWater) {
+  for (const std::string layer : {"1.50 0.00 1.03", "1.46 0.01 1.02"}) {
+    const std::string text = edited(single("0.00       3.00       1.50        2.00", "0.00 " + layer),
+                                    "4.00       6.00       3.00        2.50", "2.00       6.00       3.00        2.50");
+    const FaultModel model = read_fault_model(text, "m.fsp");
+    expect_value(model.observation.slip, (2.0 + 0.25 + 0.75) / 3);
+    EXPECT_EQ(warnings_with(model.observation, "water layer, which has no rigidity; their slip is left out: 3"), 1U);
+    double share = 0;
+    for (const FaultPatch& p : model.segments.front().patches) {
+      const Subfault& s = model.observation.subfaults[p.row];
+      EXPECT_EQ(p.slip, s.slip);
+      EXPECT_EQ(p.slip == 0, p.depth < 2000);
+      EXPECT_EQ(s.moment_share == 0, p.depth < 2000);
+      share += s.moment_share;
+    }
+    EXPECT_NEAR(share, 1, 1e-15);
+  }
+  EXPECT_EQ(warnings_with(read(text_of("fsp_srcmod_single")), "water"), 0U);
+}
+
+/// A slip of 0 is a slip: the mean is that over the whole fault.
+TEST(Fsp, CountsSubfaultsWithZeroSlip) {
+  expect_value(read(single("0.500     1.500   180.000", "0.500     0.000   180.000")).slip,
+               (0.5 + 1 + 2 + 0.25 + 0.75) / 6);
+}
+
+TEST(Fsp, StatesHowManySubfaultsHaveARiseTime) {
+  std::string text = edited(text_of("fsp_srcmod_single"), "SLIP      RAKE", "SLIP RAKE RISE TRUP");
+  text = edited(text, "avTr = 2.0 s", "avTr = 0 s");
+  std::size_t row = 0;
+  for (const std::string rest : {"5 1", "0 1", "900 901", "-99 999", "950 1", "999 1"}) {
+    std::size_t at = text.find("180.000\n");
+    ASSERT_NE(at, std::string::npos) << row++;
+    text.replace(at, 8, "180.0 " + rest + "\n");
+  }
+  const Observation o = read(text);
+  expect_value(o.rise_time, 5);
+  EXPECT_EQ(warnings_with(o, "column RISE, which only 1 of 6 subfaults with slip have"), 1U);
+  EXPECT_EQ(warnings_with(o, "times of 900 s or more in column RISE are taken as placeholders: 2"), 1U);
+  EXPECT_EQ(warnings_with(o, "times of 900 s or more in column TRUP are taken as placeholders: 1"), 1U);
+}
+
+TEST(Fsp, ReadsExponentsOfFortran) {
+  expect_value(read(single("0.500     1.500   180.000", "5.0D-01   1.5d+00   180.000")).slip, 1);
+  EXPECT_TRUE(is_refused(single("0.500     1.500   180.000", "5.0D-01   1.5D   180.000")));
+}
+
+TEST(Fsp, WarnsOfAMomentFarFromThatOfTheHeader) {
+  EXPECT_EQ(warnings_with(read(text_of("fsp_srcmod_single")), "times that of the header"), 0U);
+  EXPECT_EQ(warnings_with(read(single("Dx  =   2.00 km", "Dx  = 2000.00 km")), "times that of the header"), 1U);
 }
 
 TEST(Fsp, LeavesABlankValueBlank) {

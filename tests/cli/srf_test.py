@@ -303,6 +303,15 @@ class Srf(CommandLine):
             for variable in grid.variables.values():
                 self.assertTrue(variable.attrs["long_name"] and variable.attrs["units"])
 
+    def test_points_one_centimetre_apart_are_distinct(self):
+        rows = "\n".join(f"{40 + 1e-5 / 111.19 * i!r} 180 0 {1e-5 * i!r} {1e-5 * (j + 10)!r} 1e-6 180 {1e-5 * (1 + i)!r} 1e-5" for j in range(4) for i in range(6))
+        text = ("% FINITE-SOURCE RUPTURE MODEL\n% Event : Tiny 01/01/2000 [nobody]\n% Loc : LAT = 40 LON = 180 DEP = 0.0001\n% Size : LEN = 6e-05 km WID = 4e-05 km Mo = 24 Nm\n"
+                "% Mech : STRK = 0 DIP = 90 RAKE = 180 Htop = 0.000095 km\n% Rupt : HypX = 0 km HypZ = 0 km avTr = 1e-5 s avVr = 2.6 km/s\n% Invs : Nx = 6 Nz = 4\n"
+                "% Invs : Dx = 1e-05 km Dz = 1e-05 km\n% SOURCE MODEL PARAMETERS\n% Nsbfs = 24 subfaults\n% LAT LON X==EW Y==NS Z SLIP RAKE TRUP RISE\n" + rows + "\n")
+        (_, (block,), _), _ = self.source(text)
+        self.assertEqual(len({(p.longitude, p.latitude, p.depth) for p in block}), 24)
+        self.assertAlmostEqual(max(p.latitude for p in block) - 40, 5e-5 / 111.19, delta=1e-11)
+
     def test_bad_input_is_one_line(self):
         text, _ = model_text()
         model = self.file("model.fsp", text)

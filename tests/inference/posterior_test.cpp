@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 #include <functional>
 #include <random>
@@ -324,6 +326,84 @@ TEST(Posterior, StatesWhichObservationsAreInTension) {
   }
   o.uncertain_constants.back().measured = lognormal(0.0005, 5);  // now they agree
   EXPECT_TRUE(posterior(o, defaults, {})->tension.empty());
+}
+
+/// A velocity of the fault, a slip velocity and a contact ratio, each with a lognormal error.
+struct Contradiction {
+  double V, w, A, V_factor, w_factor, A_factor;
+
+  Observation observation() const {
+    Observation o;
+    o.rupture_velocity_m_s = catalogue::Measured{V, V, Shape::lognormal, V_factor};
+    o.rupture_velocity_is = RuptureVelocityIs::characteristic;
+    o.slip_velocity_m_s = catalogue::Measured{w, w, Shape::lognormal, w_factor};
+    o.contact_ratio = A;
+    o.uncertain_constants.push_back(
+        {&medium::Constants::contact_ratio, catalogue::Measured{A, A, Shape::lognormal, A_factor}});
+    return o;
+  }
+
+  /// The standard deviations by which each observation is above the prediction of the other two, from sums over a grid
+  /// of V, the damping number and A. The order is that of the members.
+  std::array<double, 3> tensions() const {
+    const double sV = std::log(V_factor), sw = std::log(w_factor), sA = std::log(A_factor);
+    const auto above = [](double z) { return std::erfc(z / std::sqrt(2.0)) / 2; };
+    const auto range = friction_ratio::stress_range();
+    // Cells of equal size in ln Sigma-, because V hardly changes with stress near c.
+    const auto ln_V_at = [&](double part) {
+      const double stress = range.least * std::pow(range.most / range.least, part);
+      return std::log(rupture::from_stress(stress).rupture_velocity * c);
+    };
+    std::array<double, 3> below{}, over{};
+    constexpr int cells = 120, cells_of_A = 300;
+    const double least_A = std::log(1e-8), step_A = (std::log(plastic) - least_A) / cells_of_A;
+    for (int i = 0; i < cells; ++i)
+      for (int j = 0; j < cells; ++j) {
+        const double ln_V = ln_V_at((i + 0.5) / cells), width = ln_V_at((i + 1.0) / cells) - ln_V_at(double(i) / cells);
+        const double share = (j + 0.5) / cells;  // fine near 0, where the largest slip velocities are
+        const double damping = std::expm1(std::log1p(most_damping_number) * share * share);
+        const Truth truth{std::exp(ln_V), 1, damping};
+        const double ln_w = std::log(truth.slip_velocity(observation().measure(), Closure::consistent));
+        const double zV = (ln_V - std::log(V)) / sV, LV = std::exp(-zV * zV / 2), below_V = above(zV);
+        for (int k = 0; k < cells_of_A; ++k) {
+          const double ln_A = least_A + step_A * (k + 0.5);
+          const double zA = (ln_A - std::log(A)) / sA, zw = (ln_A + ln_w - std::log(w)) / sw;
+          if (std::fabs(zA) > 12 && std::fabs(zw) > 12) continue;
+          const double LA = std::exp(-zA * zA / 2), Lw = std::exp(-zw * zw / 2);
+          const double others[] = {LA * Lw, LV * LA, LV * Lw};
+          const double under[] = {below_V, above(zw), above(zA)};
+          for (std::size_t m = 0; m < 3; ++m) {
+            below[m] += width * share * others[m] * under[m];
+            over[m] += width * share * others[m] * (1 - under[m]);
+          }
+        }
+      }
+    std::array<double, 3> sigmas{};
+    for (std::size_t m = 0; m < 3; ++m) {
+      const double part = std::fmin(below[m], over[m]) / (below[m] + over[m]);
+      const double z = std::sqrt(2.0) * boost::math::erfc_inv(2 * part);
+      sigmas[m] = below[m] < over[m] ? -z : z;
+    }
+    return sigmas;
+  }
+};
+
+TEST(Posterior, ComputesTensionsAsADenseGridDoes) {
+  for (const Contradiction& example :
+       {Contradiction{3000, 0.5, 0.0005, 1.1, 1.1, 1.2}, Contradiction{3000, 0.5, 0.001, 1.06, 1.2, 1.3},
+        Contradiction{1200, 2, 0.004, 1.2, 1.3, 1.5}}) {
+    const Observation o = example.observation();
+    const std::array<double, 3> expected = example.tensions();
+    const Posterior p = *posterior(o, defaults, {}), other_seed = *posterior(o, defaults, {.seed = 7});
+    ASSERT_GE(p.tension.size(), 2u);
+    for (const Tension& t : p.tension) {
+      const std::size_t m = t.observation == "rupture_velocity" ? 0 : t.observation == "slip_velocity" ? 1 : 2;
+      ASSERT_TRUE(t.sigmas) << t.observation;
+      EXPECT_NEAR(*t.sigmas, expected[m], 0.1) << t.observation;
+    }
+    ASSERT_EQ(p.tension.size(), other_seed.tension.size());
+    for (std::size_t i = 0; i < p.tension.size(); ++i) EXPECT_EQ(p.tension[i].sigmas, other_seed.tension[i].sigmas);
+  }
 }
 
 /// A normal error of 60 % reaches 0, but must not make the smallest numbers decide.

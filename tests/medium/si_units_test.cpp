@@ -55,6 +55,14 @@ TEST(SiUnits, SlipIsTheIntegralOfTheSlipVelocity) {
   EXPECT_DOUBLE_EQ(units.of("b^2 / (2 pi A)").value, slip.value * units.of("b / A").value);
 }
 
+/// In each description an energy is the work of a force along a slip.
+TEST(SiUnits, EnergyIsForceTimesSlip) {
+  const SiUnits units(rock_constants());
+  const double work = units.of("mu A^2 / (pi (1 - nu))").value * units.of("b / (2 pi)").value;
+  EXPECT_DOUBLE_EQ(units.of("mu A^2 b / (2 pi^2 (1 - nu))").value, work);
+  EXPECT_DOUBLE_EQ(units.of("mu b^2 A / (2 pi^2 (1 - nu))").value, work * units.of("b / A").value);
+}
+
 TEST(SiUnits, HaveTheNamesOfUdunits) {
   const SiUnits units(rock_constants());
   EXPECT_EQ(units.of("A / b").name, "m-1");

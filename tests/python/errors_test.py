@@ -65,6 +65,8 @@ class Errors(CommandLine):
             ("events[0]", slipfront.event, [3]), ("events", slipfront.event, {}), ("-3 km/s", slipfront.event, {**event, "rupture_velocity": "-3 km/s"}),
             ("3 kg", slipfront.event, {**event, "rupture_velocity": "3 kg"}), ("30", slipfront.event, {**event, "rupture_velocity": "30 km/s"}),
             ("rupture_velocity", slipfront.event, {"event": {"rupture_velocty": "3 km/s"}}), ("p-wave-speed", slipfront.event, event, {"p_wave_speed": "6"}),
+            ("run: a int", slipfront.fronts, 5), ("run: a dict", slipfront.fronts, {}), ("client: a str", slipfront.sweep, good, {"axes": {"time.end": [1]}, "client": "x"}),
+            ("seed = 'None'", slipfront.event, event, {"seed": None}), ("draws = 'None'", slipfront.event, event, {"draws": None}),
             ("poisson", slipfront.event, event, {"poisson_ratio": 0.7}), ("p-wave-speed", slipfront.event, event, {"p_wave_speed": math.nan})]
         for says, call, argument, *rest in table:
             with self.subTest(says=says, argument=str(argument)[:60]), self.assertRaises(slipfront.InputError) as caught:

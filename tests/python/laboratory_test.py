@@ -196,6 +196,22 @@ class Results(unittest.TestCase):
         self.assertIn("from below, at 1", slipfront.laboratory(fronts, prior=(1, 10), **POLYMER).attrs["warnings"])
         self.assertIn("from above, at 0.1", slipfront.laboratory(fronts, prior=(0.01, 0.1), **POLYMER).attrs["warnings"])
 
+    def test_stress_drops_that_contradict_the_theory_are_named(self):
+        fronts = {"name": list("bcd"), "tau [MPa]": [0.66, 0.67, 0.68], "normal_stress [MPa]": [2] * 3, "front_velocity [m/s]": ["120 +- 6", "150 +- 8", "180 +- 9"]}
+        agrees = slipfront.laboratory(fronts, **POLYMER)
+        self.assertNotIn("contradict", agrees.attrs["warnings"])
+        drops = [f"{drop / 1e6} */ 1.1" for drop in agrees.predicted_stress_drop.values]
+        self.assertNotIn("contradict", slipfront.laboratory({**fronts, "stress_drop [MPa]": drops}, **POLYMER).attrs["warnings"])
+        found = slipfront.laboratory({**fronts, "stress_drop [MPa]": ["0.02 */ 1.1"] * 3}, **POLYMER)
+        self.assertRegex(found.attrs["warnings"], "the stress drops contradict the theory: [bcd] is [0-9.]+ standard deviations below its prediction, and 3 of 3 are 2 or more away")
+
+    def test_a_table_of_one_stress_ratio_cannot_test_the_theory(self):
+        fronts = {"tau [MPa]": [1.6, 1.62, 1.65], "normal_stress [MPa]": [5] * 3, "front_velocity [m/s]": ["20 +- 1", "100 +- 5", "600 +- 30"]}
+        says = r"cannot test the theory: tau / sigma_N spans only 0.32 to 0.33;.*while the velocity spans a factor of 30"
+        self.assertRegex(slipfront.laboratory(fronts, **POLYMER).attrs["warnings"], says)
+        wide = {**fronts, "tau [MPa]": [1, 1.6, 3], "front_velocity [m/s]": ["20 +- 1", "100 +- 5", "600 +- 30"]}
+        self.assertNotIn("cannot test", slipfront.laboratory(wide, **POLYMER).attrs["warnings"])
+
     def test_a_drop_that_the_theory_excludes_is_named(self):
         fronts = {"tau [MPa]": [2.5, 2.5], "normal_stress [MPa]": [5, 5], "front_velocity [m/s]": ["200 +- 20"] * 2, "stress_drop [MPa]": ["0.5 +- 0.05", "2.0..2.2"]}
         found = slipfront.laboratory(fronts, **POLYMER)

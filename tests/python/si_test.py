@@ -66,7 +66,7 @@ def scales(mu, rho, nu, A, b):
     force = mu * A**2 / (math.pi * (1 - nu))
     length, time, slip = b / A, b / (c * A), b / math.pi  # slip between the faces
     return {"m": length, "s": time, "slip": slip, "stress": mu * A / math.pi, "velocity": c * A / math.pi, "force": force, "c": c,
-            "energy": force * b / (2 * math.pi) * length, "H": force * b / (2 * math.pi), "potency": slip * length, "k": 1 / length}
+            "energy": force * slip * length, "H": force * slip, "potency": slip * length, "k": 1 / length}
 
 
 ROCK_SCALES, PMMA = scales(30e9, 2700, 0.25, 0.01, 2e-3), scales(3e9, 1180, 0.33, 0.0041, 20e-6)
@@ -267,9 +267,15 @@ class Datasets(unittest.TestCase):
         self.assertEqual(data.attrs["unit_system"], "SI")
         self.assertEqual((data.loading_force.units, data.slip_at_origin.units), ("Pa", "m"))
         self.assertEqual(float(data.loading_force[1]), float(run.loading_force[-1]))
+        self.assertEqual(data.event_median_stress_drop.units, "Pa")
         plain = slipfront.sweep(BLOCK, {"loading.velocity": ["1 um/s"]}, command="chain", set={"time.end": "10 s"}, si=False)
         self.assertAlmostEqual(float(data.loading_force[0]), float(plain.loading_force[0]) * PMMA["force"])
         self.assertNotIn("unit_system", plain.attrs)
+        self.assertEqual(plain.event_median_stress_drop.dimensional_unit, "mu A^2 / (pi (1 - nu))")
+        short = {"time.end": "1 s", "output.every": "1 s"}
+        for axis, settings, unit in (({"loading.where": ["left"]}, {}, "mu A / pi"), ({"loading.where": ["left", "everywhere"]}, {}, ""), ({"pulse.cells": [8]}, {"loading.where": "right"}, "mu A / pi")):
+            of_model = slipfront.sweep(BLOCK, axis, command="chain", set={**short, **settings}, si=False)
+            self.assertEqual(of_model.event_median_stress_drop.dimensional_unit, unit)
 
 
 class Pictures(unittest.TestCase):

@@ -23,6 +23,7 @@ class Reader {
 
  private:
   Observation finish();
+  std::size_t leave_out_water(FaultModel& model);
   void take_text(std::string_view text, const Place& place);
   void refuse_unless_model(const Place& end) const;
   void fill_velocities(Observation& out) const;
@@ -125,10 +126,7 @@ void Reader::fill_velocities(Observation& out) const {
     out.rupture_velocity_m_s = Measured{*v * fsp::m_per_km, *v * fsp::m_per_km};
   }
   std::optional<double> rise = given(header_.rise_time, "avTr", 900, out.warnings);
-  if (!rise) {
-    rise = tables_.mean_rise_time();
-    if (rise) out.warnings.push_back("rise time from the slip-weighted mean of column RISE");
-  }
+  if (!rise) rise = tables_.mean_rise_time(out.warnings);
   if (rise) out.rise_time = Measured{*rise, *rise};
 
   const double slip = tables_.mean_slip(header_, out.warnings);
@@ -173,15 +171,42 @@ Observation Reader::finish() {
   return out;
 }
 
+/// Sets the slip of subfaults in water to 0. Their slip is no dislocation of rock, and has no moment.
+std::size_t Reader::leave_out_water(FaultModel& model) {
+  std::size_t count = 0;
+  for (FaultSegment& segment : model.segments)
+    for (FaultPatch& p : segment.patches) {
+      if (p.slip == 0 || !layers_.is_water_at(p.depth / fsp::m_per_km)) continue;
+      tables_.leave_out(p.row);
+      p.slip = 0;
+      ++count;
+    }
+  return count;
+}
+
+/// Warns of sizes or slip that are in another unit than the file states: their moment is far from that of the header.
+void check_moment(FaultModel& model, double moment) {
+  if (!model.moment || !(moment > 0)) return;
+  const double ratio = moment / *model.moment;
+  constexpr double most = 100;
+  if (ratio > 1 / most && ratio < most) return;
+  model.observation.warnings.push_back("slip, area and shear modulus of the subfaults give a moment of " +
+                                       digits(moment, 3) + " N m, " + digits(ratio, 3) + " times that of the header");
+}
+
 FaultModel Reader::finish_model() {
   FaultModel out;
+  tables_.fill(header_, out);
+  const std::size_t in_water = leave_out_water(out);
   out.observation = finish();
+  if (in_water > 0)
+    out.observation.warnings.push_back("subfaults in the water layer, which has no rigidity; their slip is left out: " +
+                                       std::to_string(in_water));
   out.rock = layers_.rock();
   if (const auto depth = header_.hypocentre_depth()) out.hypocentre_depth = fsp::m_per_km * *depth;
   out.moment = header_.moment;
   out.rake = header_.rake;
-  tables_.fill(header_, out);
-  share_moment(out);
+  check_moment(out, share_moment(out));
   return out;
 }
 

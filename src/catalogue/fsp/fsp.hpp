@@ -104,6 +104,8 @@ class VelocityTable {
   void take(std::string_view text, const Place& place);
   /// Sets the elastic constants at a depth in km. Adds a warning if the table does not give them.
   void fill(std::optional<double> depth, Observation& out) const;
+  /// Whether the layer at a depth in km is water, which has no rigidity.
+  bool is_water_at(double depth) const;
   /// All layers of rock, downwards. There are none if the table is not usable.
   std::vector<RockLayer> rock() const;
 
@@ -152,8 +154,11 @@ class SubfaultTables {
   double mean_slip(const Header& header, std::vector<std::string>& warnings) const;
   /// The single rows of those segments that give X, Y and Z.
   const std::vector<Subfault>& subfaults() const { return subfaults_; }
-  /// Mean of column RISE in s, weighted by slip, over the rows that give both.
-  std::optional<double> mean_rise_time() const;
+  /// Mean of column RISE in s, weighted by slip, over the rows that give both. Adds where it comes from to the
+  /// warnings.
+  std::optional<double> mean_rise_time(std::vector<std::string>& warnings) const;
+  /// Removes the slip of a row of subfaults() from all means.
+  void leave_out(std::size_t row);
   /// The segments with their subfaults, and the decisions about positions.
   void fill(const Header& header, FaultModel& out) const;
 
@@ -169,7 +174,7 @@ class SubfaultTables {
     std::optional<double> length, width, dx, dz;  ///< km
     std::size_t columns = 0, slip_column = 0;
     std::optional<std::size_t> rise_column, time_column, x_column, y_column, z_column;
-    std::size_t line = 0, rows = 0, rows_with_slip = 0;
+    std::size_t line = 0, rows = 0, rows_with_slip = 0, rows_left_out = 0;
     double slip = 0, slip_with_rise = 0, slip_times_rise = 0;
 
     std::optional<double> area(const Header& header) const;
@@ -188,6 +193,8 @@ class SubfaultTables {
   std::size_t stray_rows_ = 0;  ///< rows that hold words other than numbers
   std::size_t negative_rows_ = 0;
   std::size_t rows_without_slip_ = 0;
+  std::size_t slipping_rows_ = 0, rows_with_rise_ = 0;  ///< with slip > 0, and those of them that have a rise time
+  std::size_t long_rises_ = 0, late_rows_ = 0;          ///< values of RISE and TRUP that count as placeholders
 };
 
 }  // namespace slipfront::catalogue::fsp

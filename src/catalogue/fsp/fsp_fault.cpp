@@ -137,7 +137,7 @@ void SubfaultTables::fill(const Header& header, FaultModel& out) const {
 
 namespace slipfront::catalogue {
 
-void share_moment(FaultModel& model) {
+double share_moment(FaultModel& model) {
   const bool sized = std::all_of(model.segments.begin(), model.segments.end(),
                                  [](const FaultSegment& s) { return s.cell_length && s.cell_width; });
   std::vector<double> moments(model.observation.subfaults.size(), 0);
@@ -154,6 +154,7 @@ void share_moment(FaultModel& model) {
     }
   for (std::size_t i = 0; i < moments.size(); ++i)
     if (sum > 0) model.observation.subfaults[i].moment_share = moments[i] / sum;
+  return sized && !model.rock.empty() ? sum : 0;
 }
 
 const RockLayer& rock_at(const std::vector<RockLayer>& rock, double depth) {

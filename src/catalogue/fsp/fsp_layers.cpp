@@ -83,6 +83,10 @@ std::size_t VelocityTable::layer_at(double depth) const {
 /// USGS tables give water 0.01 km/s instead of 0.
 bool VelocityTable::is_water(const Layer& layer) { return layer.s >= 0 && layer.s < least_s_velocity; }
 
+bool VelocityTable::is_water_at(double depth) const {
+  return !layers_.empty() && why_unusable().empty() && is_water(layers_[layer_at(depth)]);
+}
+
 bool VelocityTable::is_physical(const Layer& layer) {
   // vp > sqrt(2) vs is a Poisson ratio above 0; with vs and vp bounded it stays below 0.5 in floating point too.
   return layer.s >= least_s_velocity && layer.p > 1.42 * layer.s && layer.p < 20 && layer.density >= 0.9 &&

@@ -7,7 +7,12 @@
 namespace slipfront::catalogue::fsp {
 namespace {
 
-constexpr double longest_rise_time = 900;  // s; larger values are placeholders
+constexpr double longest_rise_time = 900;  // s; this and larger values are placeholders
+
+/// Whether a time of a row counts as absent only because it is so long.
+bool is_too_long(const std::optional<std::size_t>& column, const std::vector<double>& values) {
+  return column && values[*column] >= longest_rise_time && !is_placeholder(values[*column]);
+}
 
 [[noreturn]] void refuse_heading(std::size_t line, const std::string& file, const std::string& segment) {
   throw InputError({.file = file,
@@ -117,14 +122,33 @@ void SubfaultTables::take_row(const Words& row, const Place& place) {
 void SubfaultTables::add_slip(Segment& segment, const std::vector<double>& values) {
   const double slip = values[segment.slip_column];
   if (slip < 0) ++negative_rows_;
+  if (slip > 0) ++slipping_rows_;
+  if (is_too_long(segment.rise_column, values)) ++long_rises_;
+  if (is_too_long(segment.time_column, values)) ++late_rows_;
   segment.slip += slip;
   ++segment.rows_with_slip;
   if (!segment.rise_column) return;
   const double rise = values[*segment.rise_column];
   if (slip > 0 && rise > 0 && rise < longest_rise_time) {
+    ++rows_with_rise_;
     segment.slip_with_rise += slip;
     segment.slip_times_rise += slip * rise;
   }
+}
+
+void SubfaultTables::leave_out(std::size_t row) {
+  Subfault& s = subfaults_[row];
+  Segment& segment = segments_[s.segment];
+  segment.slip -= s.slip;
+  --segment.rows_with_slip;
+  ++segment.rows_left_out;
+  if (s.slip > 0) --slipping_rows_;
+  if (s.slip > 0 && s.rise_time) {
+    segment.slip_with_rise -= s.slip;
+    segment.slip_times_rise -= s.slip * *s.rise_time;
+    --rows_with_rise_;
+  }
+  s.slip = 0;
 }
 
 void SubfaultTables::keep_subfault(Segment& segment, const std::vector<double>& values) {
@@ -183,6 +207,10 @@ void SubfaultTables::check(const Header& header, const Place& end, std::vector<s
   if (negative_rows_ > 0) {
     warnings.push_back("subfaults that slip backwards, counted as written: " + std::to_string(negative_rows_));
   }
+  for (const auto& [count, column] : {std::pair(long_rises_, "RISE"), std::pair(late_rows_, "TRUP")})
+    if (count > 0)
+      warnings.push_back(std::string("times of 900 s or more in column ") + column +
+                         " are taken as placeholders: " + std::to_string(count));
 }
 
 /// Both Nsbfs and Nx*Nz can be wrong in a complete file. A table counts as complete if its number of rows equals one of
@@ -235,21 +263,26 @@ double SubfaultTables::mean_slip(const Header& header, std::vector<std::string>&
   for (const Segment& segment : segments_) {
     if (segment.rows_with_slip == 0) continue;
     const double rows = static_cast<double>(segment.rows_with_slip);
-    const double area = areas ? segment.area(header).value() : rows;
+    const double left = 1 - static_cast<double>(segment.rows_left_out) / static_cast<double>(segment.rows);
+    const double area = areas ? segment.area(header).value() * left : rows;
     potency += segment.slip / rows * area;
     total += area;
   }
   return total > 0 ? potency / total : 0;
 }
 
-std::optional<double> SubfaultTables::mean_rise_time() const {
+std::optional<double> SubfaultTables::mean_rise_time(std::vector<std::string>& warnings) const {
   double slip = 0, slip_times_rise = 0;
   for (const Segment& segment : segments_) {
     slip += segment.slip_with_rise;
     slip_times_rise += segment.slip_times_rise;
   }
   const double mean = slip_times_rise / slip;
-  return slip > 0 && std::isfinite(mean) && mean > 0 ? std::optional(mean) : std::nullopt;
+  if (!(slip > 0 && std::isfinite(mean) && mean > 0)) return std::nullopt;
+  const std::string from = std::to_string(rows_with_rise_) + " of " + std::to_string(slipping_rows_);
+  warnings.push_back("rise time from the slip-weighted mean of column RISE" +
+                     (rows_with_rise_ < slipping_rows_ ? ", which only " + from + " subfaults with slip have" : ""));
+  return mean;
 }
 
 }  // namespace slipfront::catalogue::fsp

@@ -117,6 +117,13 @@ std::optional<std::size_t> index_of(const Words& words, std::string_view word) {
 }
 
 std::optional<double> number(std::string_view word) {
+  // Fortran writes 1.0D+00, with a D for double precision.
+  if (const std::size_t at = word.find_first_of("Dd"); at != std::string_view::npos && at > 0 && at + 1 < word.size()) {
+    std::string plain(word);
+    plain[at] = 'e';
+    const auto [value, length] = leading_number(plain);
+    return length == plain.size() ? value : std::nullopt;
+  }
   const auto [value, length] = leading_number(word);
   return length == word.size() ? value : std::nullopt;
 }

@@ -82,6 +82,13 @@ double Evidence::offset(const PulseState& p, double u, const Surroundings& aroun
   return 0;
 }
 
+void sort_by_precision(std::vector<Evidence>& evidence) {
+  std::stable_sort(evidence.begin(), evidence.end(), [](const Evidence& a, const Evidence& b) {
+    if (a.measured.is_exact() || b.measured.is_exact()) return a.measured.is_exact() && !b.measured.is_exact();
+    return a.spread() < b.spread();
+  });
+}
+
 std::vector<Evidence> evidence_of(const Observation& o) {
   std::vector<Evidence> all;
   const double elastic = elastic_blur(o);
@@ -102,10 +109,7 @@ std::vector<Evidence> evidence_of(const Observation& o) {
                         squared_spread(uncertain_constant(o, &Constants::asperity_spacing));
     all.push_back({Source::friction, "friction_coefficient", *o.friction_coefficient, std::sqrt(blur)});
   }
-  std::stable_sort(all.begin(), all.end(), [](const Evidence& a, const Evidence& b) {
-    if (a.measured.is_exact() || b.measured.is_exact()) return a.measured.is_exact() && !b.measured.is_exact();
-    return a.spread() < b.spread();
-  });
+  sort_by_precision(all);
   return all;
 }
 

@@ -52,6 +52,9 @@ struct Evidence {
 /// Standard deviation of ln x, approximately.
 double log_spread(const catalogue::Measured& measured);
 
+/// Sorts evidence: first exact numbers in the present order, then the others, most precise first.
+void sort_by_precision(std::vector<Evidence>& evidence);
+
 /// All evidence of an observation: first exact numbers in the order of Source, then the others, most precise first.
 std::vector<Evidence> evidence_of(const catalogue::Observation& observation);
 

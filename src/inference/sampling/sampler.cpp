@@ -58,7 +58,7 @@ bool has_errors(const Observation& o) {
 }  // namespace
 
 Sampler::Sampler(const Observation& o, const medium::Defaults& defaults, const Sampling& sampling,
-                 std::string_view without)
+                 std::string_view without, const std::optional<Measured>& within)
     : o_(o),
       defaults_(defaults),
       velocity_(o.rupture_velocity_m_s),
@@ -70,9 +70,14 @@ Sampler::Sampler(const Observation& o, const medium::Defaults& defaults, const S
       constants_(static_cast<const Constants&>(o)),
       around_(middle_) {
   const double c = middle_.elastic.speed;
-  if (without == "rupture_velocity") velocity_ = Measured{model_.least_seen() * c, model_.most_seen() * c};
-  for (const Evidence& e : all_)
-    if (e.name != without) used_.push_back(e);
+  if (without == "rupture_velocity")
+    velocity_ = within.value_or(Measured{model_.least_seen() * c, model_.most_seen() * c});
+  for (const Evidence& e : all_) {
+    if (e.name == without && !within) continue;
+    used_.push_back(e);
+    if (e.name == without) used_.back().measured = *within;
+  }
+  if (within) sort_by_precision(used_);
   choose_mode(!without.empty());
   if (mode_ != Mode::nothing) make_cells();
 }

@@ -50,9 +50,10 @@ enum class Mode {
 /// that divides slip, 6 and up the constants of the medium.
 class Sampler {
  public:
-  /// `without` is the key of an observation to leave out; the samples then predict it. It may be empty.
+  /// `without` is the key of an observation to leave out; the samples then predict it. It may be empty. With a range
+  /// `within`, only states that predict a value in that range count.
   Sampler(const catalogue::Observation& o, const medium::Defaults& defaults, const Sampling& sampling,
-          std::string_view without = {});
+          std::string_view without = {}, const std::optional<catalogue::Measured>& within = {});
 
   Mode mode() const { return mode_; }
   bool knows_contact() const { return knows_contact_; }

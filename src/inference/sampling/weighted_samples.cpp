@@ -1,7 +1,6 @@
 #include "inference/sampling/weighted_samples.hpp"
 
 #include <algorithm>
-#include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -36,13 +35,6 @@ double deviations_above(const Measured& m, double x) {
   return (std::clamp(x, m.low, m.high) - x) / deviation;
 }
 
-/// Probability that an observation of the true value x is below the middle of the actual one.
-double share_below(const Measured& m, double x) {
-  if (m.shape != Measured::Shape::range) return normal_share_below(deviations_above(m, x));
-  if (m.is_exact()) return std::fabs(x / m.low - 1) < 1e-9 ? 0.5 : x < m.low ? 1 : 0;
-  return std::clamp((m.high - x) / (m.high - m.low), 0.0, 1.0);
-}
-
 void weigh(WeightedSamples& s) {
   double sum = 0, squares = 0;
   std::vector<double> weights;
@@ -57,6 +49,19 @@ void weigh(WeightedSamples& s) {
 }
 
 }  // namespace
+
+Shares shares_of(const Measured& m, double x) {
+  if (m.shape != Measured::Shape::range) {
+    const double z = deviations_above(m, x);
+    return {normal_share_below(z), normal_share_below(-z)};
+  }
+  if (m.is_exact()) {
+    const double below = std::fabs(x / m.low - 1) < 1e-9 ? 0.5 : x < m.low ? 1 : 0;
+    return {below, 1 - below};
+  }
+  const double below = std::clamp((m.high - x) / (m.high - m.low), 0.0, 1.0);
+  return {below, 1 - below};
+}
 
 bool WeightedSamples::tail_is_light() const { return pareto_k <= most_pareto_k(static_cast<double>(accepted.size())); }
 
@@ -94,14 +99,12 @@ double WeightedSamples::below(const Measured& measured, std::optional<std::size_
   for (const Sample& s : accepted) {
     const double x = i ? std::exp(s.predicted[*i]) : s.state.rupture_velocity_m_s;
     sum += s.weight;
-    share += s.weight * share_below(measured, x);
+    share += s.weight * shares_of(measured, x).below;
   }
   return share / sum;
 }
 
-std::optional<double> WeightedSamples::sigmas_above(const Measured& measured, std::optional<std::size_t> i) const {
-  const double share = below(measured, i);
-  if (share > 1e-12 && share < 1 - 1e-12) return -std::numbers::sqrt2 * boost::math::erfc_inv(2 * share);
+std::optional<double> WeightedSamples::nearest_deviation(const Measured& measured, std::optional<std::size_t> i) const {
   std::optional<double> nearest;
   for (const Sample& s : accepted) {
     const double z = deviations_above(measured, i ? std::exp(s.predicted[*i]) : s.state.rupture_velocity_m_s);

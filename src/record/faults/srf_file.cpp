@@ -16,6 +16,7 @@ using finite_fault::SourceSegment;
 
 constexpr double cm = 100, cm2 = 1e4, km = 1e-3, g_per_cm3 = 1e-3;  // factors from SI units
 constexpr int precision = 9;                                        // sums of slip rates keep the moment to 1e-8
+constexpr int precision_of_place = 13;  // degrees to 1e-11, or a micrometre: also subfaults of 1 cm are distinct
 constexpr std::size_t rates_per_line = 6;
 constexpr double no_hypocentre = -999.9;  // the value of Graves' programs
 
@@ -23,6 +24,10 @@ std::string line_of(std::initializer_list<double> values) {
   std::string line;
   for (const double value : values) line += (line.empty() ? "" : " ") + digits(value, precision);
   return line + "\n";
+}
+
+std::string place_of(double longitude, double latitude) {
+  return digits(longitude, precision_of_place) + " " + digits(latitude, precision_of_place) + " ";
 }
 
 /// A comment. Names from files hold no control characters, but a line break would begin a line of data.
@@ -34,18 +39,18 @@ std::string comment(std::string_view text) {
 
 std::string plane_text(const SourceSegment& s) {
   const auto counts = std::to_string(s.along_strike) + " " + std::to_string(s.down_dip);
-  const std::string place = line_of({s.longitude, s.latitude});
   const double length = s.cell_length * static_cast<double>(s.along_strike);
   const double width = s.cell_width * static_cast<double>(s.down_dip);
-  return place.substr(0, place.size() - 1) + " " + counts + " " + line_of({km * length, km * width}) +
+  return place_of(s.longitude, s.latitude) + counts + " " + line_of({km * length, km * width}) +
          line_of({s.strike, s.dip, km * s.top, s.has_hypocentre ? km * s.hypocentre_along_strike : no_hypocentre,
                   s.has_hypocentre ? km * s.hypocentre_down_dip : no_hypocentre});
 }
 
 void add_point(std::string& text, const FiniteSource& source, const SourceSegment& s, const SourcePoint& p) {
   const std::vector<double> rates = slip_rates(source, p);
-  text += line_of({p.longitude, p.latitude, km * p.depth, s.strike, s.dip, cm2 * s.cell_area(), p.rupture_time,
-                   source.time_step, cm * p.s_wave_speed, g_per_cm3 * p.density});
+  text += place_of(p.longitude, p.latitude);
+  text += line_of({km * p.depth, s.strike, s.dip, cm2 * s.cell_area(), p.rupture_time, source.time_step,
+                   cm * p.s_wave_speed, g_per_cm3 * p.density});
   text += digits(p.rake, precision) + " " + digits(cm * p.slip, precision) + " " + std::to_string(rates.size()) +
           " 0 0 0 0\n";
   for (std::size_t i = 0; i < rates.size(); ++i) {

@@ -43,6 +43,18 @@ void require_netcdf_name(const std::string& path, const std::string& option) {
                     .allowed = "a name that ends in .nc"});
 }
 
+void require_other_file(const std::string& output, const std::vector<std::string>& inputs) {
+  for (const std::string& input : inputs) {
+    std::error_code not_there;
+    if (output.empty() || input.empty() || !fs::equivalent(input, output, not_there)) continue;
+    throw InputError({.file = "command line",
+                      .key = "-o",
+                      .value = output,
+                      .problem = "is the input file " + input + ", which it would replace",
+                      .allowed = "a file other than those read"});
+  }
+}
+
 void require_disk_space(const std::string& path, double bytes) {
   if (path.empty()) return;
   std::error_code unknown;

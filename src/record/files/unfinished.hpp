@@ -3,6 +3,7 @@
 /// The output file of a run, and the file that holds an unfinished result.
 
 #include <string>
+#include <vector>
 
 namespace slipfront::record {
 
@@ -31,6 +32,10 @@ class Output {
 
 /// \throws InputError unless the name `path` ends in .nc. The user gave it with `option`.
 void require_netcdf_name(const std::string& path, const std::string& option);
+
+/// \throws InputError if writing `output` would destroy one of the files that a command reads: the same file, under the
+/// same name, another spelling or a link. Empty names are no files.
+void require_other_file(const std::string& output, const std::vector<std::string>& inputs);
 
 /// \throws FileError if the disk of `path` has fewer than `bytes` free bytes. Does nothing if `path` is empty.
 void require_disk_space(const std::string& path, double bytes);
