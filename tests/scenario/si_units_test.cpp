@@ -90,6 +90,31 @@ TEST(ScenarioInSi, ReadsTablesInMetresAndPascals) {
   EXPECT_NEAR(s.stress(0) * units().stress, 2e6, 1e-3);
 }
 
+TEST(ScenarioInSi, ReadsFrictionCurvesInPascals) {
+  const std::string formula = "[friction]\nlaw = \"formula\"\nunits = \"SI\"\nformula = \"2e3 * w / (1 + w)\"\n";
+  const double w = 0.3, W = w * units().slip_velocity, pascals = 2e3 * W / (1 + W);
+  EXPECT_NEAR(with(formula).friction.force(-w) * force() / pascals, -1, 1e-14);
+  EXPECT_NEAR(with(formula + "coefficient = 3\n").friction.force(-w) * force() / pascals, -3, 1e-14);
+  const std::string file = "[friction]\nlaw = \"table\"\nunits = \"SI\"\nfile = \"f.csv\"\n";
+  const Rows rows = {{0, 0}, {1e3, 4e6}};
+  EXPECT_NEAR(read(step + file + pmma, {}, rows).friction.force(-w) * force() / (4e3 * W), -1, 1e-14);
+}
+
+/// A coefficient that is a stress makes the curve a pure number.
+TEST(ScenarioInSi, MultipliesFrictionCurvesByAStress) {
+  const double w = 0.3, W = w * units().slip_velocity;
+  for (const std::string stress : {"coefficient = \"2 kPa\"\n", "normal_stress = \"2 kPa\"\n",
+                                   "normal_stress = \"8 kPa\"\ncoefficient = 0.25\n"}) {
+    const std::string units_key = "units = \"SI\"\n" + stress;
+    const Scenario formula = with("[friction]\nlaw = \"formula\"\nformula = \"w / (1 + w)\"\n" + units_key);
+    EXPECT_NEAR(formula.friction.force(-w) * force() / (2e3 * W / (1 + W)), -1, 1e-14) << stress;
+    const Rows rows = {{0, 0}, {1e3, 1e3}};
+    const Scenario table =
+        read(si_step + "[friction]\nlaw = \"table\"\nfile = \"f.csv\"\n" + units_key + pmma, {}, rows);
+    EXPECT_NEAR(table.friction.force(-w) * force() / (2e3 * W), -1, 1e-14) << stress;
+  }
+}
+
 /// In a scenario with values in SI units, a number without a unit would be one of the model.
 TEST(ScenarioInSi, RefusesNumbersWithoutAUnit) {
   const auto names = [&](const std::string& rest, const std::string& key, const std::string& allowed,
