@@ -197,7 +197,7 @@ py::dict check_plane(const py::dict& arguments, bool direct) {
   return py::dict("title"_a = s.title, "loops"_a = s.plane->loops, "angles"_a = s.plane->angles,
                   "left"_a = plan.grid.left, "right"_a = plan.grid.right, "bottom"_a = plan.grid.bottom,
                   "top"_a = plan.grid.top, "cells_x"_a = plan.grid.nx, "cells_y"_a = plan.grid.ny, "end"_a = s.end,
-                  "disk_bytes"_a = plan.disk);
+                  "time_unit"_a = time_unit_of(s), "disk_bytes"_a = plan.disk);
 }
 
 }  // namespace

@@ -54,7 +54,8 @@ py::dict check_pulse(const py::dict& arguments) {
   for (const friction::Parameter& p : s.friction.definition().parameters)
     friction[py::str(std::string(p.name))] = s.friction.parameter(p.name);
   return py::dict("title"_a = s.title, "cells"_a = problem.cells, "left"_a = problem.left, "right"_a = problem.right,
-                  "end"_a = s.end, "friction_law"_a = std::string(s.friction.definition().adjective),
+                  "end"_a = s.end, "time_unit"_a = time_unit_of(s),
+                  "friction_law"_a = std::string(s.friction.definition().adjective),
                   "friction_coefficient"_a = s.friction.linear_coefficient(), "friction_parameters"_a = friction,
                   "closure"_a = name_of(s.friction.closure()), "times"_a = plan.schedule.times.size(),
                   "memory_bytes"_a = plan.need.memory_with_file(), "disk_bytes"_a = plan.need.disk);

@@ -38,6 +38,11 @@ std::vector<std::vector<double>> read_table(const std::string& path, const std::
 
 }  // namespace
 
+py::object time_unit_of(const scenario::Scenario& scenario) {
+  if (!scenario.in_si || !scenario.results_in) return py::none();
+  return py::float_(scenario.results_in->of("b / (c A)").value);
+}
+
 scenario::Scenario scenario_of(const RunRequest& request) {
   const bool is_file = !request.path.empty();
   scenario::Scenario s = scenario::read_scenario(is_file ? record::read_text(request.path) : request.text,

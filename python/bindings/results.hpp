@@ -23,6 +23,9 @@ RunRequest request_of(const py::dict& arguments);
 
 slipfront::scenario::Scenario scenario_of(const RunRequest& request);
 
+/// The unit of time in s if the scenario is in SI units, where settings need units; else None.
+py::object time_unit_of(const slipfront::scenario::Scenario& scenario);
+
 /// Returns the attributes of the file of a run.
 py::dict attributes_of(const slipfront::record::PulseMetadata& metadata, const std::string& format, bool finished);
 

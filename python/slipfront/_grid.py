@@ -7,7 +7,7 @@ import re
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 #: A number and its unit.
 QUANTITY = re.compile(rf"({NUMBER})\s*([^\W\d].*)")
-_range = re.compile(rf"({NUMBER}):({NUMBER}):(\d+)(:log)?(\s*[^\W\d].*)?")
+_range = re.compile(rf"({NUMBER}):({NUMBER}):({NUMBER})(:log)?(\s*[^\W\d].*)?")
 _most_values = 10_000_000
 _truths = {"true": True, "false": False}
 
@@ -44,7 +44,7 @@ def _values(part, kind):
     found = _range.fullmatch(part)
     if found:
         first, last, count, logarithmic, unit = found.groups()
-        numbers = _between(float(first), float(last), int(count), bool(logarithmic))
+        numbers = _between(float(first), float(last), float(count), bool(logarithmic))
         return [f"{number!r} {unit.strip()}" for number in numbers] if unit else [_one(repr(number), kind, rounds=True) for number in numbers]
     if kind in ("number", "whole number", "quantity") and ":" in part:
         raise ValueError(f"'{part}': not a range; allowed: first:last:count or first:last:count:log, such as 0:2:9 or 0.1:10:5:log")
@@ -55,8 +55,8 @@ def _between(first, last, count, logarithmic):
     """Returns the numbers of a range. They are equal to those of `slipfront relations --stress first:last:count`."""
     if not (math.isfinite(first) and math.isfinite(last)):
         raise ValueError("an end of a range is not finite; allowed: finite numbers")
-    if not 1 <= count <= _most_values:
-        raise ValueError(f"a range of {count} values; allowed: 1 to {_most_values}")
+    if not 1 <= count <= _most_values or count % 1:
+        raise ValueError(f"a range of {count:.15g} values; allowed: a whole number from 1 to {_most_values}")
     if logarithmic and not (first > 0 and last > 0):
         raise ValueError("a logarithmic range has an end that is not positive; allowed: ends > 0")
 
@@ -65,7 +65,7 @@ def _between(first, last, count, logarithmic):
             return math.exp(math.log(first) * (1 - share) + math.log(last) * share)
         return first * (1 - share) + last * share
 
-    return [first, *(at(i / (count - 1)) for i in range(1, count - 1)), *([last] if count > 1 else [])]
+    return [first, *(at(i / (count - 1)) for i in range(1, int(count) - 1)), *([last] if count > 1 else [])]
 
 
 def _one(text, kind, rounds=False):

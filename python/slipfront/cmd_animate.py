@@ -32,7 +32,8 @@ def run(scenario, si, direct):
     if direct and not on_plane:
         raise ValueError(f"{scenario}: --direct: not a scenario on a plane; allowed: with the table [plane]")
     plan = slipfront.check(scenario, command="plane" if on_plane else "pulse", direct=direct)
-    settings = {} if "times" in content.get("output", {}) else {"output.every": plan["end"] / (FRAMES - 1)}
+    unit, every = plan["time_unit"], plan["end"] / (FRAMES - 1)
+    settings = {} if "times" in content.get("output", {}) else {"output.every": f"{every * unit!r} s" if unit else every}
     if not on_plane:
         result = slipfront.pulse(scenario, set=settings, si=si)
     elif direct:

@@ -3,8 +3,8 @@
 #include <string>
 #include <utility>
 
-#include "catalogue/plain_text.hpp"
 #include "foundation/text/trimmed.hpp"
+#include "medium/plain_text.hpp"
 
 namespace slipfront::catalogue {
 
@@ -42,7 +42,7 @@ const Key* find_key(std::string_view name) {
 
 void store(Observation& observation, const Key& key, std::string_view text, std::string_view default_unit) {
   const std::string name(key.name);
-  std::string plain = plain_number(text);
+  std::string plain = medium::plain_number(text);
   if (auto bound = parse_bound(plain, key.dimension, default_unit)) {
     observation.warnings.push_back(name + " is only bounded (" + std::string(trimmed(text)) + "): not used as a value");
     bound->quantity = name;

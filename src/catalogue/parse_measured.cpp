@@ -4,10 +4,10 @@
 #include <string>
 #include <utility>
 
-#include "catalogue/plain_text.hpp"
 #include "foundation/text/characters.hpp"
 #include "foundation/text/nearest.hpp"
 #include "foundation/text/trimmed.hpp"
+#include "medium/plain_text.hpp"
 #include "slipfront/catalogue/measured.hpp"
 #include "slipfront/error.hpp"
 
@@ -54,7 +54,7 @@ std::pair<std::string, std::string> number_and_unit(std::string_view text) {
 /// The unit of a text that may give it behind both numbers.
 std::string one_unit(std::string_view a, std::string_view b) {
   const std::string first(trimmed(a)), second(trimmed(b));
-  if (!first.empty() && !second.empty() && plain_unit(first) != plain_unit(second))
+  if (!first.empty() && !second.empty() && medium::plain_unit(first) != medium::plain_unit(second))
     throw InputError({.problem = "two units, '" + first + "' and '" + second + "'", .allowed = forms});
   return first.empty() ? second : first;
 }
@@ -150,7 +150,7 @@ double value_of(std::string_view number, std::string_view unit, medium::Dimensio
                 std::string_view default_unit) {
   if (!medium::number(number))
     throw InputError({.problem = "'" + std::string(number) + "' is not a finite number", .allowed = forms});
-  return medium::parse_quantity(std::string(number) + " " + plain_unit(unit), dimension, default_unit).low;
+  return medium::parse_quantity(std::string(number) + " " + std::string(unit), dimension, default_unit).low;
 }
 
 /// A normal error that is given as a percentage of the value, as in "2.7 +- 10 % km/s".
@@ -183,22 +183,18 @@ Measured measured(const Parts& parts, medium::Dimension dimension, std::string_v
   return split(first, second, value_of(parts.third, parts.unit, dimension, default_unit));
 }
 
-/// The text of a single number or of a range, with its unit in the spelling of UDUNITS.
-std::string with_plain_unit(const std::string& text) {
-  std::string_view rest = text;
-  if (take_number(rest, true).empty()) return text;
-  std::string_view after = trimmed(rest);
+/// Refuses "2,7 km/s", a number or a range with a comma inside.
+void refuse_comma(std::string_view text) {
+  if (take_number(text, true).empty()) return;
+  std::string_view after = trimmed(text);
   if (after.starts_with('-')) {
     after = trimmed(after.substr(1));
-    if (take_number(after, true).empty()) return text;
+    if (take_number(after, true).empty()) return;
     after = trimmed(after);
   }
   if (after.size() > 1 && after.front() == ',' && is_digit(after[1]))
     throw InputError({.problem = "a comma inside a number",
                       .allowed = "a decimal point, or in a table the line '# decimal: ,' before the header"});
-  const std::string number(
-      trimmed(std::string_view(text).substr(0, static_cast<std::size_t>(after.data() - text.data()))));
-  return after.empty() ? text : number + " " + plain_unit(after);
 }
 
 }  // namespace
@@ -211,13 +207,14 @@ Measured split(double value, double above, double below) {
 }
 
 Measured parse_measured(std::string_view text, medium::Dimension dimension, std::string_view default_unit) {
-  const std::string written(trimmed(text)), whole = plain_number(text);
+  const std::string written(trimmed(text)), whole = medium::plain_number(text);
   try {
     if (const auto parts = unequal(whole)) return measured(*parts, dimension, default_unit);
     if (const auto parts = concise(whole)) return measured(*parts, dimension, default_unit);
     if (const auto parts = named(whole)) return measured(*parts, dimension, default_unit);
     if (const auto parts = with_sign(whole)) return measured(*parts, dimension, default_unit);
-    const medium::Span span = medium::parse_quantity(with_plain_unit(whole), dimension, default_unit);
+    refuse_comma(whole);
+    const medium::Span span = medium::parse_quantity(whole, dimension, default_unit);
     return {span.low, span.high};
   } catch (const InputError& error) {
     Complaint c = error.complaint();
@@ -227,7 +224,7 @@ Measured parse_measured(std::string_view text, medium::Dimension dimension, std:
 }
 
 std::optional<Bound> parse_bound(std::string_view text, medium::Dimension dimension, std::string_view default_unit) {
-  const std::string whole = plain_number(text);
+  const std::string whole = medium::plain_number(text);
   if (whole.empty() || (whole.front() != '<' && whole.front() != '>')) return std::nullopt;
   std::string_view rest = std::string_view(whole).substr(1);
   if (rest.starts_with('=')) rest.remove_prefix(1);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "foundation/text/trimmed.hpp"
+#include "medium/plain_text.hpp"
 #include "medium/units.hpp"
 #include "slipfront/error.hpp"
 
@@ -81,6 +82,14 @@ std::optional<double> number(std::string_view text) {
 
 bool is_unit(std::string_view text) { return parse_unit(text).has_value(); }
 
+std::optional<std::string> unit_of(std::string_view text) {
+  const std::string whole = plain_number(text);
+  std::string_view rest = whole;
+  if (!take_number(rest) || trimmed(rest).empty()) return std::nullopt;
+  std::string unit = plain_unit(rest);
+  return parse_unit(unit) ? std::optional(std::move(unit)) : std::nullopt;
+}
+
 double unit_factor(std::string_view unit, Dimension dimension) {
   const Kind& wanted = kind(dimension);
   // UDUNITS reads "% km/s" as a hundredth of km/s, which nobody means.
@@ -96,7 +105,7 @@ double unit_factor(std::string_view unit, Dimension dimension) {
 }
 
 Span parse_quantity(std::string_view text, Dimension dimension, std::string_view default_unit) {
-  const std::string whole(trimmed(text));
+  const std::string whole = plain_number(text);
   const auto refuse = [&](std::string problem, std::string allowed) {
     return InputError({.value = whole, .problem = std::move(problem), .allowed = std::move(allowed)});
   };
@@ -114,7 +123,7 @@ Span parse_quantity(std::string_view text, Dimension dimension, std::string_view
     rest = trimmed(rest);
   }
   double factor = 1;
-  const std::string_view unit = rest.empty() ? default_unit : rest;
+  const std::string unit = rest.empty() ? std::string(default_unit) : plain_unit(rest);
   if (unit.empty() && dimension != Dimension::ratio) throw refuse("a number without a unit", kind(dimension).example);
   if (!unit.empty()) {
     try {

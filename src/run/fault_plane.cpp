@@ -26,14 +26,17 @@ constexpr double largest_slip_lines = 10;  ///< dislocation lines that the large
 
 std::string in_unit(double value, const char* unit) { return '"' + shortest(value) + ' ' + unit + '"'; }
 
+double asperity_spacing(const FaultOnPlane& model) {
+  return model.fault.largest_slip / (medium::face_factor * largest_slip_lines);
+}
+
 /// [medium]: what the model gives, the contact ratio, and the spacing that makes the number of lines.
 std::string medium_table(const FaultOnPlane& model, double contact_ratio) {
   const medium::Elastic rock = medium::elastic(model.event.observation, {});
   const double nu = rock.poisson_ratio, density = rock.shear_modulus * 2 / (1 - nu) / (rock.speed * rock.speed);
   return "[medium]\nshear_modulus = " + in_unit(rock.shear_modulus, "Pa") + "\npoisson_ratio = " + shortest(nu) +
          "\ndensity = " + in_unit(density, "kg/m3") + "\ncontact_ratio = " + shortest(contact_ratio) +
-         "\nasperity_spacing = " + in_unit(model.fault.largest_slip / (medium::face_factor * largest_slip_lines), "m") +
-         "\n";
+         "\nasperity_spacing = " + in_unit(asperity_spacing(model), "m") + "\n";
 }
 
 /// Spacing of the sites, for lines that are up to 1.5 times as dense as the differences of the slip imply.
@@ -48,6 +51,10 @@ std::string text_of(const FaultOnPlane& model, const std::string& file, double c
   const double width = f.x.back() - f.x.front() + 2 * (half_x + margin);
   const double radius = std::fmax(2 * std::fmax(f.cell_length, f.cell_width),
                                   0.1 * std::fmin(f.x.back() - f.x.front(), f.y.back() - f.y.front()));
+  const medium::Elastic rock = medium::elastic(model.event.observation, {});
+  const medium::Units unit = medium::units(rock.shear_modulus, rock.speed, contact_ratio, asperity_spacing(model));
+  const double force = medium::traction_unit(rock.shear_modulus, rock.poisson_ratio, contact_ratio);
+  const auto rounded = [](double number) { return medium::number(digits(number, 3)).value(); };
   const int cells = static_cast<int>(std::clamp(std::round(3 * width / f.cell_length), 40.0, 400.0));
   return "title = \"rupture from the slip of " + std::filesystem::path(file).filename().string() +
          "\"\n[plane]\nleft = " + in_unit(f.x.front() - half_x - margin, "m") +
@@ -56,11 +63,11 @@ std::string text_of(const FaultOnPlane& model, const std::string& file, double c
          "\ntop = " + in_unit(f.y.back() + half_y + margin, "m") + "\ncells = " + std::to_string(cells) +
          "\nedges = \"absorbing\"\n[initial]\nprofile = \"grid\"\nunits = \"SI\"\nfile = '" +
          std::filesystem::path(file).filename().string() +
-         "'\n[friction]\nlaw = \"slip-weakening\"\nstrength = " + digits(strength, 3) + "\nresidual = 0" +
-         "\ncharacteristic_slip = 1\n[nucleation]\nradius = " + in_unit(radius, "m") +
-         "\n[time]\nend = " + in_unit(2 * f.end, "s") +
-         "\n[chain]\nscale = 1\nspacing = " + digits(spacing_for(f, contact_ratio), 3) + "\n" +
-         medium_table(model, contact_ratio);
+         "'\n[friction]\nlaw = \"slip-weakening\"\nstrength = " + in_unit(rounded(strength) * force, "Pa") +
+         "\nresidual = 0" + "\ncharacteristic_slip = " + in_unit(medium::face_factor * unit.slip, "m") +
+         "\n[nucleation]\nradius = " + in_unit(radius, "m") + "\n[time]\nend = " + in_unit(2 * f.end, "s") +
+         "\n[chain]\nscale = 1\nspacing = " + in_unit(rounded(spacing_for(f, contact_ratio)) * unit.length, "m") +
+         "\n" + medium_table(model, contact_ratio);
 }
 
 /// Times at which two sources rupture the same subfaults, in s since the first of them.

@@ -135,8 +135,10 @@ std::vector<Key> friction_keys() {
   all.push_back(with_laws(other_key(table, "file", text, "required by the law table",
                                     "CSV or NetCDF file with w and f; relative to the scenario file"),
                           friction::CurveSource::table));
-  all.push_back(word_key(table, "units", {"model", "SI"}, "model",
-                         "units of w in formula or file: c A / pi, or m/s (and Pa for f in a file)"));
+  all.push_back(
+      word_key(table, "units", {"model", "SI"}, "model",
+               "units of w and f in formula or file, and of x and y in coefficient: those of the model, or m, m/s and "
+               "Pa; f is a pure number if coefficient is a stress"));
   all.push_back(word_key(table, "closure", {"consistent", "paper"}, "consistent",
                          "average of friction: the exact one, or the printed one, which understates friction"));
   all.push_back(other_key(table, "normal_stress", quantity, "forces are in the unit of F",
@@ -190,6 +192,7 @@ std::vector<Key> plane_keys() {
       count("loops", {.least = 4, .most = 10'000}, "120", "cells of the averaged solver across the lines"),
       count("angles", {.least = 8, .most = 10'000}, "128", "directions of the averaged solver around the origin"),
       other_key(table, "fixed", formula, "nowhere", "the interface is held where this formula of x and y is not 0"),
+      units_key(table, "x and y in fixed"),
       number_key(table, "wave_speed_ratio", ModelUnit::none, positive, "1",
                  "speed of waves along y over that along x, the direction of slip"),
       word_key(table, "edges", {"free", "fixed", "absorbing"}, "free",

@@ -78,6 +78,7 @@ std::vector<Quantity> quantities_of(std::string_view text, const std::string& fi
   Document document = read_document(text, file, overrides);
   document.errors.throw_if_any();
   if (is_plane(document)) take_coefficient(document);
+  document.in_si = first_in_si(document);
   medium::Constants medium;
   read_medium(document, medium);
   document.units = ModelUnits(medium, true);

@@ -85,6 +85,7 @@ Scenario read(std::string_view text, const std::string& file, const std::vector<
   scenario.file = file;
   scenario.text = document.text;
   scenario.overrides = overrides;
+  document.in_si = first_in_si(document);
   const bool units = errors.attempt([&] { read_medium(document, scenario.medium); });
   document.units = ModelUnits(scenario.medium, units);
   const RawStress raw = read_tables(document, tables, scenario, errors);

@@ -48,7 +48,9 @@ void read_domain(const Document& document, Domain& domain) {
   domain.left = section.number("left");
   domain.right = section.number("right");
   if (domain.left && domain.right && !(*domain.left < *domain.right))
-    throw section.refuse("right", "not to the right of domain.left", "> " + shortest(*domain.left));
+    throw section.refuse(
+        "right", "not to the right of domain.left",
+        "> " + section.bound_as_written("right", *section.find("right"), ModelUnit::position, *domain.left));
 }
 
 double read_end(const Document& document, double otherwise) {
@@ -103,7 +105,9 @@ Output read_output(const Document& document, double end) {
   if (output.every && section.has("times"))
     throw section.refuse("every", "output.times is given too", "one of the two");
   if (output.every && end / *output.every > most_outputs)
-    throw section.refuse("every", "more than a million outputs", ">= " + shortest(end / most_outputs));
+    throw section.refuse(
+        "every", "more than a million outputs",
+        ">= " + section.bound_as_written("every", *section.find("every"), ModelUnit::time, end / most_outputs));
   output.per_event = section.whole_number("per_event").value_or(0);
   if (output.per_event > 0 && document.tables.count("loading") == 0)
     throw section.refuse("per_event", "without [loading] there are no slip events", "with [loading]");

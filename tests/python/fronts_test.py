@@ -135,12 +135,13 @@ class Recorded(PythonCommands):
         times = np.linspace(onset - duration / 2, onset + duration, 400)
         with open(CASE, encoding="utf-8") as file:
             scenario = tomllib.loads(file.read())
-        scenario["output"] = {"times": times.tolist(), "fronts": count}
-        dense = slipfront.chain(scenario, set={"time.end": float(times[-1]), "pulse.cells": count}, si=False)
-        self.assertEqual(float(dense["event_onset"][event]), onset)
         speed = float(slipfront.medium.speed_from_shear_modulus(3e9, 1180, 0.33))
+        seconds = [f"{time * 0.01 / (speed * 0.5)!r} s" for time in times.tolist()]
+        scenario["output"] = {"times": seconds, "fronts": count}
+        dense = slipfront.chain(scenario, set={"time.end": seconds[-1], "pulse.cells": count}, si=False)
+        self.assertEqual(float(dense["event_onset"][event]), onset)
         level = 1e-3 / float(slipfront.medium.slip_velocity_unit(speed, 0.5))
-        rates = np.diff(dense["slip"].sel(time=times).values, axis=0) / np.diff(times)[:, None]
+        rates = np.diff(dense["slip"].sel(time=times, method="nearest").values, axis=0) / np.diff(times)[:, None]
         seen = _front_paths.arrivals((times[1:] + times[:-1]) / 2, rates, level)
         recorded = dense["event_arrival"].values[event]
         both = np.isfinite(recorded) & np.isfinite(seen) & (recorded > times[1])

@@ -40,7 +40,8 @@ class Values(unittest.TestCase):
 
     def test_refuses(self):
         for text, says in [("", "empty"), ("1,,2", "empty"), ("0:1", "not a range"), ("0:1:2:lin", "not a range"), ("0:1:0", "1 to"), ("0:1:99999999", "1 to"),
-                           ("1,3 MPa", "1.0 has no unit, but 3 MPa has one"), ("0:1:3:log", "positive"), ("0:1e999:3", "finite")]:
+                           ("1,3 MPa", "1.0 has no unit, but 3 MPa has one"), ("0:1:3:log", "positive"), ("0:1e999:3", "finite"),
+                           ("0:2:1e13", "a range of 10000000000000 values"), ("0:2:2.5", "a range of 2.5 values")]:
             with self.subTest(text), self.assertRaisesRegex(ValueError, says):
                 values_of(text, "number")
 

@@ -90,7 +90,8 @@ class Sweep(CommandLine):
     def test_an_axis_in_si_units_has_numbers_and_a_unit(self):
         rock = {"medium.shear_modulus": "30 GPa", "medium.p_wave_speed": "6 km/s", "medium.poisson_ratio": 0.3, "medium.asperity_spacing": "1 mm",
                 "medium.contact_ratio": 0.01}
-        data = slipfront.sweep(SCENARIO, {"initial.stress_left": ["60 MPa", "70 MPa"], "time.end": ["3 us", "0.004 ms"]}, set={**rock, "domain.left": -9.0, "domain.right": 9.0})
+        data = slipfront.sweep(SCENARIO, {"initial.stress_left": ["60 MPa", "70 MPa"], "time.end": ["3 us", "0.004 ms"]},
+                               set={**rock, "domain.left": "-0.9 m", "domain.right": "0.9 m", "initial.stress_right": "17 MPa", "initial.width": "10 cm"})
         self.assertEqual((data.initial_stress_left.values.tolist(), data.initial_stress_left.units), ([60, 70], "MPa"))
         self.assertEqual(data.time_end.values.tolist(), ["3 us", "0.004 ms"])
 

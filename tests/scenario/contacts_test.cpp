@@ -35,15 +35,19 @@ TEST(ContactKeys, SetTheContactAtTheStart) {
 }
 
 TEST(ContactKeys, AcceptSiUnits) {
-  const Scenario s = read(law +
-                          "normal_stress = \"50 MPa\"\ndilatancy = \"0.5 MPa\"\npore_pressure = \"20 MPa\"\n"
-                          "drainage_time = \"1 ms\"\n[medium]\nshear_modulus = \"30 GPa\"\npoisson_ratio = 0.25\n"
-                          "p_wave_speed = \"6 km/s\"\ncontact_ratio = 0.01\nasperity_spacing = \"1 mm\"\n");
+  const std::string in_si = si_step +
+                            "[domain]\nleft = \"-1 m\"\nright = \"1 m\"\n[friction]\nlaw = \"rate-and-state\"\n"
+                            "strength = \"1 kPa\"\n";
+  const std::string rock =
+      "[medium]\nshear_modulus = \"30 GPa\"\npoisson_ratio = 0.25\np_wave_speed = \"6 km/s\"\ncontact_ratio = "
+      "0.01\nasperity_spacing = \"1 mm\"\n";
+  const std::string law_in_si = "normal_stress = \"50 MPa\"\ndilatancy = \"0.5 MPa\"\npore_pressure = \"20 MPa\"\n";
+  const Scenario s = read(in_si + law_in_si + "drainage_time = \"1 ms\"\n" + rock);
   const friction::Contacts& c = s.friction.contacts();
   EXPECT_NEAR(c.dilatancy, 0.01, 1e-15);
   EXPECT_NEAR(c.ambient, 0.4, 1e-15);
   EXPECT_GT(c.drainage, 0);
-  EXPECT_EQ(refused(law + "dilatancy = \"0.5 MPa\"\n").key, "friction.dilatancy");
+  EXPECT_EQ(refused(in_si + "dilatancy = \"0.5 MPa\"\n" + rock).key, "friction.dilatancy");
 }
 
 TEST(ContactKeys, RejectWrongValues) {

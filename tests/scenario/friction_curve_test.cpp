@@ -11,6 +11,11 @@ namespace slipfront::scenario {
 namespace {
 
 std::string friction(const std::string& rest) { return step + "[friction]\n" + rest; }
+/// Without stress: a friction law is all that is in SI units.
+std::string unstressed(const std::string& rest) {
+  return "[initial]\nstress_left = 0\nstress_right = 0\n[friction]\n" + rest;
+}
+std::string in_si(const std::string& rest) { return si_step + "[friction]\n" + rest; }
 std::string formula_law(const std::string& text) { return friction("law = \"formula\"\nformula = \"" + text + "\"\n"); }
 Complaint refused_text(const std::string& text, const Rows& rows = {}) {
   return refused([&] { read(text, {}, rows); });
@@ -87,9 +92,9 @@ TEST(FrictionUnits, FollowFromTheMedium) {
   const std::string rock =
       "[medium]\nshear_modulus = \"30 GPa\"\np_wave_speed = \"6 km/s\"\npoisson_ratio = 0.3\ncontact_ratio = "
       "0.01\nasperity_spacing = \"1 mm\"\n";
-  const Scenario s = read(friction("law = \"rate-and-state\"\nnormal_stress = \"50 MPa\"\nstrength = 0.6\n"
-                                   "direct_effect = 0.01\nevolution_effect = \"0.75 MPa\"\ncharacteristic_slip = \"10 "
-                                   "um\"\nreference_velocity = \"1 um/s\"\ninitial_state = \"2 s\"\n") +
+  const Scenario s = read(in_si("law = \"rate-and-state\"\nnormal_stress = \"50 MPa\"\nstrength = 0.6\n"
+                                "direct_effect = 0.01\nevolution_effect = \"0.75 MPa\"\ncharacteristic_slip = \"10 "
+                                "um\"\nreference_velocity = \"1 um/s\"\ninitial_state = \"2 s\"\n") +
                           rock);
   const double pi = std::acos(-1), A = 0.01, b = 1e-3, c = 6000 * std::sqrt(1 - 0.6) / 0.7;
   const double traction = 30e9 * A * A / (pi * 0.7);
@@ -109,16 +114,17 @@ TEST(FrictionUnits, FollowFromTheMedium) {
 
 TEST(FrictionUnits, NameMissingConstants) {
   const std::string law = "law = \"slip-weakening\"\nstrength = ";
-  EXPECT_TRUE(contains(refused_text(friction(law + "\"30 MPa\"\n")).problem, "medium.contact_ratio"));
+  EXPECT_TRUE(contains(refused_text(unstressed(law + "\"30 MPa\"\n")).problem, "medium.contact_ratio"));
   const std::string rock = "[medium]\ncontact_ratio = 0.01\n";
-  EXPECT_EQ(read(friction(law + "\"0.3 MPa\"\n") + rock).warnings.size(), 1u);  // names the assumed constants
-  EXPECT_TRUE(contains(refused_text(friction(law + "0.1\ncharacteristic_slip = \"1 mm\"\n") + rock).problem,
+  EXPECT_EQ(read(unstressed(law + "\"0.3 MPa\"\n") + rock).warnings.size(), 1u);  // names the assumed constants
+  EXPECT_TRUE(contains(refused_text(unstressed(law + "\"0.1 MPa\"\ncharacteristic_slip = \"1 mm\"\n") + rock).problem,
                        "medium.asperity_spacing"));
-  EXPECT_TRUE(contains(refused_text(friction(law + "\"3 km\"\n") + rock).problem, "km"));
-  EXPECT_EQ(refused_text(friction(law + "0.6\nnormal_stress = \"-5 MPa\"\n") + rock).key, "friction.normal_stress");
-  EXPECT_EQ(refused_text(friction("law = \"none\"\nnormal_stress = \"5 MPa\"\n") + rock).key, "friction.normal_stress");
+  EXPECT_TRUE(contains(refused_text(unstressed(law + "\"3 km\"\n") + rock).problem, "km"));
+  EXPECT_EQ(refused_text(unstressed(law + "0.6\nnormal_stress = \"-5 MPa\"\n") + rock).key, "friction.normal_stress");
+  EXPECT_EQ(refused_text(unstressed("law = \"none\"\nnormal_stress = \"5 MPa\"\n") + rock).key,
+            "friction.normal_stress");
   EXPECT_TRUE(
-      contains(refused_text(friction("law = \"viscous\"\ncoefficient = \"5 MPa\"\n") + rock).problem, "no SI unit"));
+      contains(refused_text(unstressed("law = \"viscous\"\ncoefficient = \"5 MPa\"\n") + rock).problem, "no SI unit"));
 }
 
 std::vector<std::string> strength_warnings(const std::string& text, const Rows& rows = {}) {

@@ -16,6 +16,9 @@ using Overrides = std::vector<std::string>;
 
 inline const std::string step = "[initial]\nstress_left = 1\nstress_right = 0\n";
 
+/// In SI units; it needs [medium].
+inline const std::string si_step = "[initial]\nstress_left = \"1 MPa\"\nstress_right = 0\n";
+
 inline Scenario read(const std::string& text, const Overrides& overrides = {}, const Rows& rows = {}) {
   return read_scenario(text, "dir/s.toml", overrides, [&](const std::string&, const std::vector<std::string>&) {
     std::vector<std::vector<double>> table;

@@ -5,10 +5,10 @@
 #include "catalogue/csv/csv_row.hpp"
 #include "catalogue/csv/csv_subfaults.hpp"
 #include "catalogue/format.hpp"
-#include "catalogue/plain_text.hpp"
 #include "foundation/text/csv_records.hpp"
 #include "foundation/text/latin1.hpp"
 #include "foundation/text/trimmed.hpp"
+#include "medium/plain_text.hpp"
 
 namespace slipfront::catalogue {
 namespace {
@@ -65,7 +65,7 @@ class UnknownColumns {
 
  private:
   static bool is_numeric(const std::string& cell) {
-    std::string text = plain_number(cell);
+    std::string text = medium::plain_number(cell);
     std::replace(text.begin(), text.end(), ',', '.');
     if (!text.empty() && std::string_view("<>~").find(text.front()) != std::string_view::npos) text.erase(0, 1);
     return medium::number(text).has_value() || (text.find("+-") != std::string::npos && text.front() <= '9');

@@ -8,9 +8,9 @@
 
 #include "catalogue/csv/csv_names.hpp"
 #include "catalogue/csv/csv_title.hpp"
-#include "catalogue/plain_text.hpp"
 #include "foundation/text/nearest.hpp"
 #include "foundation/text/trimmed.hpp"
+#include "medium/plain_text.hpp"
 #include "medium/units.hpp"
 
 namespace slipfront::catalogue {
@@ -123,7 +123,7 @@ bool is_symbol(std::string_view group) { return group.size() <= 2; }
 
 /// Removes the power of ten from "x 10^18 N m" or "1e18 N m", and stores it.
 std::string without_power(const std::string& group, int& exponent) {
-  std::string text = plain_number(group);
+  std::string text = medium::plain_number(group);
   if (text.starts_with('x')) text = trimmed(std::string_view(text).substr(1));
   const std::size_t digits = text.starts_with("10^") ? 3 : text.starts_with("1e") ? 2 : 0;
   const auto blank = text.find(' ');
@@ -142,7 +142,8 @@ bool read_unit(const Title& t, const std::vector<std::string>& words, Column& co
     } else if (const double deviations = deviations_of(joined(divide_title(group).small, 0, 3)); deviations > 0) {
       if (!column.is_error()) column.role = Role::error;
       column.deviations = deviations;
-    } else if (const std::string unit = plain_unit(without_power(group, column.exponent)); medium::parse_unit(unit)) {
+    } else if (const std::string unit = medium::plain_unit(without_power(group, column.exponent));
+               medium::parse_unit(unit)) {
       column.unit = unit;
     } else if (!is_symbol(group)) {
       return false;
@@ -157,7 +158,7 @@ bool read_unit(const Title& t, const std::vector<std::string>& words, Column& co
   // "km_s" is km/s, but "N_m" of a moment is N m.
   const char* between = column.key && column.key->dimension == medium::Dimension::moment ? " " : "/";
   for (const std::string& word : words) unit += (unit.empty() ? "" : between) + word;
-  column.unit = plain_unit(unit);
+  column.unit = medium::plain_unit(unit);
   return medium::parse_unit(column.unit).has_value();
 }
 
@@ -183,7 +184,7 @@ bool is_detail(const std::vector<std::string>& words, std::size_t begin) {
 
 bool has_unit(const Title& t) {
   return std::any_of(t.groups.begin(), t.groups.end(), [](const std::string& group) {
-    const auto unit = medium::parse_unit(plain_unit(group));
+    const auto unit = medium::parse_unit(medium::plain_unit(group));
     return unit && unit->powers != std::array<int, 3>{};
   });
 }
@@ -233,7 +234,7 @@ void state_assumptions(const Named& n, Column& column) {
 
 /// "Vs (km/s)" and "Vp (km/s)" are wave speeds. With another unit, "Vs" may be a slip velocity.
 void find_wave_speed(const Title& t, Named& n) {
-  const bool in_km_s = t.groups.size() == 1 && plain_unit(t.groups[0]) == "km/s";
+  const bool in_km_s = t.groups.size() == 1 && medium::plain_unit(t.groups[0]) == "km/s";
   if (n.key || t.small.size() != 1 || !in_km_s) return;
   if (t.small[0] == "vs") n.key = find_key("s_wave_speed");
   if (t.small[0] == "vp") n.key = find_key("p_wave_speed");

@@ -5,9 +5,9 @@
 #include <tuple>
 #include <utility>
 
-#include "catalogue/plain_text.hpp"
 #include "foundation/text/csv_records.hpp"
 #include "foundation/text/trimmed.hpp"
+#include "medium/plain_text.hpp"
 
 namespace slipfront::catalogue {
 namespace {
@@ -147,7 +147,7 @@ std::optional<std::vector<std::string>> units_of(const Record& record, const std
   std::vector<std::string> units(columns.size());
   bool any = false;
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    const std::string unit = plain_unit(record.cells[i]);
+    const std::string unit = medium::plain_unit(record.cells[i]);
     if (!columns[i].key || unit.empty() || unit == "-") continue;
     try {
       medium::unit_factor(unit, columns[i].key->dimension);

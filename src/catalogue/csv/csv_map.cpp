@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "catalogue/plain_text.hpp"
 #include "foundation/text/nearest.hpp"
 #include "foundation/text/parse_toml.hpp"
 #include "foundation/text/trimmed.hpp"
+#include "medium/plain_text.hpp"
 #include "slipfront/catalogue/read.hpp"
 
 namespace slipfront::catalogue {
@@ -56,7 +56,7 @@ Column meaning_of(const std::string& title, std::string_view text) {
   column.key = find_key(name);
   if (!column.key)
     throw InputError({.value = name, .problem = "unknown quantity", .allowed = nearest_or_all(name, meanings())});
-  column.unit = plain_unit(text.substr(name.size()));
+  column.unit = medium::plain_unit(text.substr(name.size()));
   if (column.unit == "%" && column.is_error()) {
     column.in_percent = true;
     column.unit.clear();

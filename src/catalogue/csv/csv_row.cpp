@@ -5,9 +5,9 @@
 #include <optional>
 #include <utility>
 
-#include "catalogue/plain_text.hpp"
 #include "foundation/text/characters.hpp"
 #include "foundation/text/trimmed.hpp"
+#include "medium/plain_text.hpp"
 
 namespace slipfront::catalogue {
 namespace {
@@ -81,7 +81,7 @@ FurtherCells& Row::further(const Column& column) {
 std::string Row::number_text(const Column& column, const std::string& cell) const {
   std::string text = with_point(cell, layout_.decimal_comma);
   if (column.exponent == 0) return text;
-  text = plain_number(text);
+  text = medium::plain_number(text);
   if (!medium::number(text) || text.find_first_of("eE") != std::string::npos)
     throw InputError(
         {.value = cell, .problem = "not a number", .allowed = "a number, as the title has a power of ten"});
@@ -113,7 +113,7 @@ void Row::take_error(const Column& column, const std::string& cell) {
   for (const Column& main : layout_.columns)
     if (unit.empty() && main.key == column.key && main.role == Role::quantity) unit = main.unit;
   double error = 0;
-  std::string text = plain_number(number_text(column, cell));
+  std::string text = medium::plain_number(number_text(column, cell));
   if (text.ends_with('%')) text.pop_back(), b.in_percent = true;
   if (column.in_percent) b.in_percent = true;
   if (b.in_percent) {

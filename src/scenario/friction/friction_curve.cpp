@@ -68,6 +68,14 @@ void try_out(const Section& section, const friction::Curve& curve, double fastes
         "f(0) is the force that the interface withstands at rest; for a constant force: law = \"coulomb\"");
 }
 
+/// The unit of the model in the unit of the curve. With units = "SI" the curve is in Pa, unless its coefficient is a
+/// stress, by its unit or by the normal stress. The curve is then a pure number, as it is in the units of the model.
+double force_in_file(const Section& section) {
+  const Value* const coefficient = section.find("coefficient");
+  const bool stress = section.has("normal_stress") || (coefficient && coefficient->kind == Value::Kind::text);
+  return stress ? 1 : section.in_file(ModelUnit::force);
+}
+
 friction::Curve from_formula(const Section& section) {
   const std::string text = *section.formula("formula");
   const Complaint where = section.where("formula");
@@ -78,8 +86,9 @@ friction::Curve from_formula(const Section& section) {
     throw section.refuse("formula", error.complaint().problem, error.complaint().allowed);
   }
   const double velocity = section.in_file(ModelUnit::slip_velocity);
-  friction::Curve curve = [formula, where, velocity](double w) {
-    const double f = (*formula)(w * velocity);
+  const double force = force_in_file(section);
+  friction::Curve curve = [formula, where, velocity, force](double w) {
+    const double f = (*formula)(w * velocity) / force;
     if (!(f >= 0 && std::isfinite(f)))
       throw refusal(where, "the friction is " + shortest(f) + " at the slip velocity w = " + shortest(w),
                     "a finite force >= 0");
@@ -91,7 +100,7 @@ friction::Curve from_formula(const Section& section) {
 
 friction::Curve from_table(const Section& section, const TableReader& tables) {
   const Column w{"w", {.least = 0, .most = farthest}, section.in_file(ModelUnit::slip_velocity)};
-  const Column f{"f", {.least = 0, .most = largest_stress}, section.in_file(ModelUnit::force)};
+  const Column f{"f", {.least = 0, .most = largest_stress}, force_in_file(section)};
   const auto curve = std::make_shared<const MonotoneCurve>(read_rows(section, tables, w, f));
   if (curve->first() != 0)
     throw section.refuse("file", "the table begins at w = " + shortest(curve->first()),
@@ -115,7 +124,9 @@ friction::Curve read_curve(const Section& section, const TableReader& tables, fr
     if (section.has(key) && !wanted) throw section.refuse(key, "contradicts friction.law", with);
     if (!section.has(key) && wanted) throw section.refuse(key, "missing", std::string("friction.law needs it"));
   }
-  if (!formula && !table && section.in_si())
+  const Value* const coefficient = section.find("coefficient");
+  const bool along_plane = coefficient && coefficient->stands_for_formula;
+  if (!formula && !table && !along_plane && section.in_si())
     throw section.refuse("units", "concerns formula and file only", "texts with units, such as \"1 um/s\"");
   if (formula) return from_formula(section);
   if (table) return from_table(section, tables);

@@ -54,6 +54,9 @@ double FrictionUnits::in_model(const Parameter& p) {
   const bool coefficient = force && number && friction_.has(normal_stress);
   if (value && (p.dimension == Dimension::number || (number && !coefficient))) {
     friction_.check(p.name, *value, {});
+    // The coefficient of a power of w has no SI unit, and that of a formula or a file is a factor.
+    const bool curve = friction_.has("formula") || friction_.has("file");
+    if (!force || (p.unit == friction::force_unit && !curve)) friction_.check_unit(p.name, *value, unit_of(p));
     return value->number;
   }
   if (value && force && p.unit != friction::force_unit)

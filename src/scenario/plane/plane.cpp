@@ -122,6 +122,7 @@ void read_formulas(const Document& document, const std::string& coefficient, Sce
   if (const Section section(document, "plane"); section.has("fixed")) {
     PlaneFormula fixed =
         read_formula(section, "fixed", *section.formula("fixed"), {"x", "y"}, "plane.fixed", "a finite number");
+    fixed.length = section.in_file(ModelUnit::position);
     fixed.ratio = ratio;
     plane.problem.fixed = fixed;
   }
@@ -146,8 +147,10 @@ void read_formulas(const Document& document, const std::string& coefficient, Sce
     plane.problem.forcing = forcing;
   }
   if (coefficient.empty()) return;
-  PlaneFormula share = read_formula(Section(document, "friction"), "coefficient", coefficient, {"x", "y"},
-                                    "the coefficient", "a finite number >= 0");
+  const Section friction(document, "friction");
+  PlaneFormula share =
+      read_formula(friction, "coefficient", coefficient, {"x", "y"}, "the coefficient", "a finite number >= 0");
+  share.length = friction.in_file(ModelUnit::position);
   share.least = 0;
   share.ratio = ratio;
   plane.problem.friction_share = share;
@@ -199,12 +202,14 @@ std::string take_coefficient(Document& document) {
   const auto found = values.find("coefficient");
   if (found == values.end() || found->second.kind != Value::Kind::text) return {};
   const auto law = values.find("law");
+  if (law != values.end() && law->second.text != "viscous" && is_quantity(found->second.text)) return {};
   const InputError refusal =
       Section(document, "friction")
           .refuse("coefficient", "a formula, which only viscous friction may have", "a number, or law = \"viscous\"");
   std::string formula = std::exchange(found->second.text, std::string("1"));
   found->second.kind = Value::Kind::number;
   found->second.number = 1;
+  found->second.stands_for_formula = true;
   if (law == values.end() || law->second.text != "viscous") throw refusal;
   return formula;
 }

@@ -20,7 +20,8 @@ struct Value {
   std::string text = {};  ///< the text, or the number as messages show it
   std::vector<Value> items = {};
   std::size_t line = 0;
-  bool overridden = false;  ///< came from the command line, not from the file
+  bool overridden = false;          ///< came from the command line, not from the file
+  bool stands_for_formula = false;  ///< a formula of x and y, which is read elsewhere, was here
 };
 
 struct Table {
@@ -34,8 +35,9 @@ struct Document {
   std::string text;  ///< TOML that reads back as this document
   std::optional<Value> title;
   std::map<std::string, Table, std::less<>> tables;
-  ModelUnits units = {};  ///< units for texts such as "2 mm"; known after [medium] was read
-  Errors errors = {};     ///< tables that are not known
+  std::string in_si = {};  ///< the first value with a unit (first_in_si); empty in a scenario in units of the model
+  ModelUnits units = {};   ///< units for texts such as "2 mm"; known after [medium] was read
+  Errors errors = {};      ///< tables that are not known
 };
 
 /// Tables that a scenario may have. The table [event] belongs to another command.

@@ -6,21 +6,36 @@
 
 #include "foundation/text/digits.hpp"
 #include "foundation/text/trimmed.hpp"
+#include "medium/plain_text.hpp"
 #include "slipfront/medium/quantity.hpp"
 
 namespace slipfront::scenario {
 namespace {
 
-/// Whether the text is a number and a unit, which no formula is.
-bool is_quantity(std::string_view text) {
-  text = trimmed(text);
-  if (text.ends_with("sigma_N")) return true;
-  const std::size_t blank = text.rfind(' ');
-  return blank != std::string_view::npos && medium::number(text.substr(0, blank)) &&
-         medium::is_unit(text.substr(blank + 1));
+/// Whether the key of a scenario gives this value with a unit.
+bool has_unit(const Key& key, const Value& value) {
+  for (const Value& item : value.items)
+    if (has_unit(key, item)) return true;
+  const bool numeric = key.type == KeyType::number || key.type == KeyType::numbers || key.type == KeyType::points;
+  const bool may = numeric || (key.type == KeyType::formula && key.scale != ModelUnit::none);
+  return may && value.kind == Value::Kind::text && is_quantity(value.text);
 }
 
 }  // namespace
+
+bool is_quantity(std::string_view text) {
+  return trimmed(text).ends_with("sigma_N") || medium::unit_of(text).has_value();
+}
+
+std::string first_in_si(const Document& document) {
+  for (const Key& key : keys()) {
+    const Value* const value = key.table == "medium" ? nullptr : Section(document, key.table).find(key.name);
+    if (value && has_unit(key, *value))
+      return std::string(key.table) + "." + std::string(key.name) +
+             (value->text.empty() ? "" : " = '" + value->text + "'");
+  }
+  return {};
+}
 
 Section::Section(const Document& document, std::string_view name) : document_(document), table_(nullptr), name_(name) {
   const auto found = document.tables.find(name);
@@ -37,7 +52,10 @@ void Section::check_values() const {
     if (std::find(known.begin(), known.end(), name) == known.end())
       errors.add(refuse(name, "unknown key", nearest_or_all(name, known)));
     else
-      errors.attempt([&, &key = name, &item = value] { check_value(this->key(key), item); });
+      errors.attempt([&, &key = name, &item = value] {
+        check_value(this->key(key), item);
+        check_units_key(this->key(key), item);
+      });
   }
   errors.throw_if_any();
 }
@@ -97,12 +115,52 @@ std::optional<double> Section::number_in(std::string_view key, ModelUnit unit) c
 double Section::item_in(std::string_view key, const Value& item, ModelUnit unit, const Limits& limits) const {
   if (item.kind != Value::Kind::text || unit == ModelUnit::none) {
     check(key, item, limits);
+    check_unit(key, item, unit);
     return item.number;
   }
   const double number = converted(key, item, unit);
   if (!limits.hold(number) && !std::isnan(number))  // NaN: the constants of the medium have an error
-    throw refuse(key, item, "out of range, " + shortest(number) + " in " + std::string(symbol_of(unit)), limits.text());
+    throw refuse(key, item, "out of range", limits_as_written(key, item, unit, limits));
   return number;
+}
+
+void Section::check_unit(std::string_view key, const Value& item, ModelUnit unit) const {
+  if (document_.in_si.empty() || unit == ModelUnit::none || item.number == 0) return;
+  throw refuse(
+      key, item, "a number without a unit, in a scenario in SI units (" + document_.in_si + ")",
+      "a text with a unit, such as \"" + item.text + " " + std::string(medium::si_unit(dimension_of(unit))) + '"');
+}
+
+void Section::check_units_key(const Key& key, const Value& value) const {
+  if (document_.in_si.empty() || has("units") || (key.name != "file" && key.type != KeyType::formula)) return;
+  const std::optional<double> number = value.kind == Value::Kind::number ? value.number : medium::number(value.text);
+  if (key.type == KeyType::formula && number) {
+    Value constant = value;
+    constant.number = *number;
+    return check_unit(key.name, constant, key.scale);
+  }
+  if (key.type == KeyType::formula && key.scale != ModelUnit::none && is_quantity(value.text)) return;
+  throw refuse(key.name, "no units are given, in a scenario in SI units (" + document_.in_si + ")",
+               name_ + ".units = \"SI\" if it is in m, s and Pa; \"model\" if in the units of the model");
+}
+
+std::string Section::bound_as_written(std::string_view key, const Value& item, ModelUnit unit, double bound) const {
+  const auto written = medium::unit_of(item.text);
+  if (item.kind != Value::Kind::text || !written) return shortest(bound);
+  return digits(bound * si(key, unit) / medium::unit_factor(*written, dimension_of(unit)), 6) + " " + *written;
+}
+
+std::string Section::limits_as_written(std::string_view key, const Value& item, ModelUnit unit,
+                                       const Limits& limits) const {
+  std::string text;
+  const auto add = [&](bool strict, const char* sign, double bound) {
+    if (std::isfinite(bound))
+      text += (text.empty() ? "" : " and ") + std::string(sign) + (strict ? " " : "= ") +
+              bound_as_written(key, item, unit, bound);
+  };
+  add(limits.without_least, ">", limits.least);
+  add(limits.without_most, "<", limits.most);
+  return text.empty() ? limits.text() : text;
 }
 
 double Section::si(std::string_view key, ModelUnit unit) const {
@@ -129,8 +187,8 @@ double Section::quantity(std::string_view key, const Value& item, medium::Dimens
 
 std::optional<double> Section::times_normal_stress(std::string_view key, const Value& item) const {
   constexpr std::string_view symbol = "sigma_N";
-  const std::string_view text = trimmed(item.text);
-  if (!text.ends_with(symbol)) return std::nullopt;
+  if (!trimmed(item.text).ends_with(symbol)) return std::nullopt;
+  const std::string text = medium::plain_number(item.text);
   const std::optional<double> factor = medium::number(text.substr(0, text.size() - symbol.size()));
   if (!factor) throw refuse(key, item, "no number before sigma_N", "a stress, such as 3 MPa or 0.6 sigma_N");
   const Section friction(document_, "friction");

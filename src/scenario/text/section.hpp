@@ -13,6 +13,13 @@
 
 namespace slipfront::scenario {
 
+/// Whether the text is a number and a unit, which no formula is.
+bool is_quantity(std::string_view text);
+
+/// The first value with a unit outside of [medium], as "key = 'text'"; empty if there is none. Pure numbers and the
+/// normal stress, which exist in SI units only, do not count.
+std::string first_in_si(const Document& document);
+
 /// One table of a scenario. It checks values against the list of keys (scenario/keys.hpp). If a value is wrong, it
 /// throws an InputError that names file, line, key and value.
 class Section {
@@ -69,8 +76,14 @@ class Section {
   InputError refuse(std::string_view key, std::string problem, std::string allowed) const;
   InputError refuse(std::string_view key, const Value& item, std::string problem, std::string allowed) const;
   void check(std::string_view key, const Value& value, const Limits& limits) const;
+  /// A bound that is known in the unit of the model, in the unit in which the user wrote a value.
+  std::string bound_as_written(std::string_view key, const Value& item, ModelUnit unit, double bound) const;
+  /// Refuses a number without a unit in a scenario that has values with units. 0 needs no unit.
+  void check_unit(std::string_view key, const Value& item, ModelUnit unit) const;
 
  private:
+  std::string limits_as_written(std::string_view key, const Value& item, ModelUnit unit, const Limits& limits) const;
+  void check_units_key(const Key& key, const Value& value) const;
   void check_word(std::string_view key, const Value& value, const std::vector<std::string_view>& words) const;
   void check_value(const Key& key, const Value& value) const;
   double converted(std::string_view key, const Value& item, ModelUnit unit) const;

@@ -1,9 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
-namespace slipfront::catalogue {
+namespace slipfront::medium {
 
 /// The text of a number or unit in plain characters: typographic blanks become blanks, a minus sign becomes '-', an en
 /// dash between two numbers "..", "x 10^18" becomes "e18", and superscripts, a raised dot and the micro sign become
@@ -14,4 +15,7 @@ std::string plain_number(std::string_view text);
 /// Returns the text itself if no change makes it a known unit.
 std::string plain_unit(std::string_view text);
 
-}  // namespace slipfront::catalogue
+/// The unit of a text that is one number and a unit, in the spelling of UDUNITS. Nothing for other texts.
+std::optional<std::string> unit_of(std::string_view text);
+
+}  // namespace slipfront::medium

@@ -1,4 +1,4 @@
-#include "catalogue/plain_text.hpp"
+#include "medium/plain_text.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -7,7 +7,7 @@
 #include "foundation/text/trimmed.hpp"
 #include "medium/units.hpp"
 
-namespace slipfront::catalogue {
+namespace slipfront::medium {
 namespace {
 
 void replace_all(std::string& text, std::string_view from, std::string_view to) {
@@ -43,6 +43,7 @@ std::string plain_characters(std::string_view text) {
   std::string plain(text);
   if (std::all_of(plain.begin(), plain.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; }))
     return plain;
+  replace_all(plain, "10\xE2\x81\xBB", "10^-");  // a superscript minus
   for (const auto& digit : superscripts) replace_all(plain, "10" + std::string(digit), "10^" + std::string(digit));
   for (std::size_t i = 0; i < std::size(superscripts); ++i)
     replace_all(plain, superscripts[i], std::string(1, static_cast<char>('0' + i)));
@@ -74,7 +75,7 @@ void join_ranges(std::string& text) {
   }
 }
 
-bool is_known(std::string_view unit) { return medium::parse_unit(unit).has_value(); }
+bool is_known(std::string_view unit) { return parse_unit(unit).has_value(); }
 
 }  // namespace
 
@@ -87,10 +88,8 @@ std::string plain_number(std::string_view text) {
 
 std::string plain_unit(std::string_view text) {
   std::string unit = plain_characters(trimmed(text));
-  if (unit.size() > 1 && std::string_view("([").find(unit.front()) != std::string_view::npos) {
-    unit.erase(0, 1);
-    if (!unit.empty() && std::string_view(")]").find(unit.back()) != std::string_view::npos) unit.pop_back();
-  }
+  if (unit.size() > 1 && ((unit.front() == '(' && unit.back() == ')') || (unit.front() == '[' && unit.back() == ']')))
+    unit = unit.substr(1, unit.size() - 2);
   unit = trimmed(unit);
   for (const auto& [from, to] : {std::pair<std::string_view, std::string_view>{"Nm", "N m"},
                                  {"N-m", "N m"},
@@ -114,4 +113,4 @@ std::string plain_unit(std::string_view text) {
   return unit;
 }
 
-}  // namespace slipfront::catalogue
+}  // namespace slipfront::medium
