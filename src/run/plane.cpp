@@ -121,6 +121,11 @@ PlaneNumbers unknown_errors(PlaneNumbers numbers) {
 
 PlaneNumbers plane_errors(const scenario::Scenario& s, const PlaneNumbers& numbers,
                           const std::function<bool()>& interrupted, setup::Lines lines, int threads) {
+  if (lines == setup::Lines::direct && s.chain.scale) {
+    scenario::Scenario by_default = s;
+    by_default.chain.scale.reset();
+    if (*s.chain.scale < setup::scale_of_lines(by_default)) return unknown_errors(numbers);
+  }
   const std::optional<PlaneNumbers> half_of = with_fewer_cells(s, 2, interrupted, lines, threads),
                                     quarter_of = with_fewer_cells(s, 4, interrupted, lines, threads);
   if (!half_of || !quarter_of) return unknown_errors(numbers);

@@ -58,7 +58,8 @@ PlaneNumbers unknown_errors(PlaneNumbers numbers);
 /// Estimates the errors of the numbers of a finished run by runs with half and a quarter of the cells, or of the scale
 /// of a direct run, which take a quarter of its time. An error is 1.5 times the larger of two changes: that of the last
 /// doubling, and half of that at the doubling before. It is NaN if a run with fewer cells fails, or if `interrupted`
-/// returned true. The peak slip velocity has no error.
+/// returned true, and for a direct run with fewer than 20 lines, whose convergence is not regular. The peak slip
+/// velocity has no error.
 PlaneNumbers plane_errors(const scenario::Scenario& scenario, const PlaneNumbers& numbers,
                           const std::function<bool()>& interrupted, setup::Lines lines = setup::Lines::averaged,
                           int threads = 1);

@@ -23,7 +23,7 @@ SmoothAverage smooth_average(const Sites& chain, const Window& sites, double x, 
 /// A smooth average over the best of several windows.
 struct BestAverage {
   SmoothAverage average;
-  double width;           ///< of the window
+  double width;           ///< width of the window
   double velocity_error;  ///< NaN if the chain has room for one width only
   double stress_error;
 };
