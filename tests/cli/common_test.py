@@ -13,7 +13,7 @@ from support import CommandLine, PATIENCE, PROGRAM, SANITIZED, SOURCE, run
 COMMANDS = ("relations", "event", "pulse", "chain", "compare", "keys", "doctor", "explore")
 #: Commands of the Python package, which a build with sanitizers does not have.
 PYTHON_COMMANDS = () if SANITIZED else ("sweep", "fronts", "laboratory", "reproduce", "plot", "animate")
-#: Examples that other tests run, because they serve a page or take long.
+#: Examples that other tests run, because they need a page that is not always built or take long.
 ELSEWHERE = ("slipfront explore", "slipfront reproduce", "slipfront animate")
 
 
