@@ -79,15 +79,14 @@ std::vector<Check> all_checks() {
   const Json facts = build_facts();
   std::map<std::string, std::string> versions = python_versions();
   const std::string version = versions["Python"];
-  const std::filesystem::path package = package_folder(), page = shipped_page();
-  std::error_code error;
-  const bool has_page = std::filesystem::exists(page / "index.html", error);
+  const std::filesystem::path package = package_folder();
+  const std::string page = shipped_page();
   const bool has_mpi = facts["mpi"].get<bool>();
   std::vector<Check> checks = {
       {"NetCDF", "output files", true, facts["netcdf"].get<std::string>(), ""},
       {"MPI", "chains over several processes (mpirun)", has_mpi, has_mpi ? "built in" : "",
        "install libopenmpi-dev and openmpi-bin, and build again"},
-      {"explorer", "slipfront explore", has_page, has_page ? page.string() : "", "build it with ./run explore"},
+      {"explorer", "slipfront explore", !page.empty(), page, "build it with ./run explore"},
       {"Python", "plot, animate and reproduce", !version.empty(), version, "apt-get install python3"},
       {"slipfront", "the Python package of this program", !package.empty(), package.string(),
        "apt-get install python3-slipfront, or pybind11-dev and build again"},

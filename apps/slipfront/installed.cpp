@@ -23,7 +23,11 @@ std::filesystem::path package_folder() {
   return {};
 }
 
-std::filesystem::path shipped_page() { return prefix() / "share" / "slipfront" / "explorer"; }
+std::string shipped_page() {
+  const std::filesystem::path page = prefix() / "share" / "slipfront" / "explorer" / "index.html";
+  std::error_code error;
+  return std::filesystem::is_regular_file(page, error) ? page.string() : std::string();
+}
 
 std::string python_interpreter() {
   const char* chosen = std::getenv("SLIPFRONT_PYTHON");

@@ -1,40 +1,34 @@
-// Helpers for tests of the page in a browser. The program serves the page, and Debian's chromium shows it.
+// Helpers for tests of the page in a browser. Debian's chromium opens the file.
 
-import { spawn } from 'node:child_process';
 import { createRequire } from 'node:module';
-import { once } from 'node:events';
 import { after, afterEach } from 'node:test';
+import { pathToFileURL } from 'node:url';
 
 const patience = 300000; // ms; longer than any wait on a busy machine
 const require = createRequire(`${process.env.SLIPFRONT_NODE_MODULES}/`);
 const { chromium } = require('playwright-core');
 export const axe = require.resolve('axe-core/axe.min.js');
 
-const server = spawn(process.env.SLIPFRONT, ['explore', '--no-open', '--json', '--port', '0', '--folder', process.env.SLIPFRONT_PAGE]);
-const [line] = await once(server.stdout, 'data');
-export const url = JSON.parse(String(line)).url;
+export const url = pathToFileURL(process.env.SLIPFRONT_PAGE).href;
 export const browser = await chromium.launch({ executablePath: '/usr/bin/chromium', args: ['--no-sandbox'] });
 // A page that stays open computes and draws all the time, and slows those that follow.
 afterEach(async () => {
   for (const context of browser.contexts()) await context.close();
 });
-after(async () => {
-  await browser.close();
-  server.kill();
-});
+after(() => browser.close());
 
-/** Opens the page at a fragment of its address, as #/pulse. `complaints` collects console errors and requests to other servers. */
-export async function open(hash, { init, ...options } = {}) {
+/** Opens the page at a fragment of its address, as #/pulse. `complaints` collects console errors and requests for anything but the page. */
+export async function open(hash, { init, address = url, ...options } = {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, ...options });
-  await context.grantPermissions(['clipboard-read', 'clipboard-write'], { origin: url.slice(0, -1) });
+  await context.grantPermissions(['clipboard-read', 'clipboard-write']);
   context.setDefaultTimeout(patience);
   const page = await context.newPage();
   page.complaints = [];
   if (init) await page.addInitScript(init);
   page.on('console', (message) => message.type() === 'error' && page.complaints.push(message.text()));
   page.on('pageerror', (error) => page.complaints.push(String(error)));
-  page.on('request', (request) => !request.url().startsWith(url) && !/^(data|blob):/.test(request.url()) && page.complaints.push(`request to ${request.url()}`));
-  await page.goto(url + hash);
+  page.on('request', (request) => !request.isNavigationRequest() && !/^(data|blob):/.test(request.url()) && page.complaints.push(`request to ${request.url()}`));
+  await page.goto(address + hash);
   return page;
 }
 

@@ -1,4 +1,4 @@
-// Runs the WebAssembly modules under node, and the program for comparison. $SLIPFRONT_WASM is their folder.
+// Runs the WebAssembly module under node, and the program for comparison. $SLIPFRONT_WASM is its folder.
 
 import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
@@ -7,31 +7,25 @@ import { join } from 'node:path';
 
 const folder = process.env.SLIPFRONT_WASM;
 
-async function load(name) {
-  const bytes = readFileSync(join(folder, `${name}.wasm`));
-  // We pass the bytes, because under node the module would try to fetch its file.
-  const make = (await import(join(folder, `${name}.mjs`))).default;
-  return make({
-    instantiateWasm(imports, receive) {
-      WebAssembly.instantiate(bytes, imports).then((made) => receive(made.instance));
-      return {};
-    },
-  });
-}
-const main = await load('slipfront');
-const events = await load('slipfront_events');
-const plane = await load('slipfront_plane');
+const bytes = readFileSync(join(folder, 'slipfront.wasm'));
+// We pass the bytes, because under node the module would try to fetch its file.
+const make = (await import(join(folder, 'slipfront.mjs'))).default;
+const module = await make({
+  instantiateWasm(imports, receive) {
+    WebAssembly.instantiate(bytes, imports).then((made) => receive(made.instance));
+    return {};
+  },
+});
 
-function withArrays(value, module, base) {
-  if (Array.isArray(value)) return value.map((item) => withArrays(item, module, base));
+function withArrays(value, base) {
+  if (Array.isArray(value)) return value.map((item) => withArrays(item, base));
   if (value === null || typeof value !== 'object') return value;
   if (Array.isArray(value.$)) return module.HEAPF64.slice(base + value.$[0], base + value.$[0] + value.$[1]);
-  for (const key of Object.keys(value)) value[key] = withArrays(value[key], module, base);
+  for (const key of Object.keys(value)) value[key] = withArrays(value[key], base);
   return value;
 }
 
 export function call(name, ...args) {
-  const module = name === 'event' ? events : name.startsWith('plane_') ? plane : main;
   const taken = [];
   const addresses = args.map((argument) => {
     if (typeof argument === 'number') return argument;
@@ -44,7 +38,7 @@ export function call(name, ...args) {
   });
   const answer = JSON.parse(module.UTF8ToString(module[`_${name}`](...addresses)));
   taken.forEach((address) => module._free(address));
-  return withArrays(answer, module, module._numbers() / 8);
+  return withArrays(answer, module._numbers() / 8);
 }
 
 const scratch = mkdtempSync(join(tmpdir(), 'explorer-'));

@@ -14,7 +14,7 @@ import unittest
 MANUAL = pathlib.Path(os.environ["SLIPFRONT_MANUAL"])
 BASH_COMPLETION = "/usr/share/bash-completion/bash_completion"
 PATIENCE = 120  # seconds for a shell that hangs
-FILES = ("a.toml", "b.csv", "c.nc", "d.fsp", "e.srf", "e.txt", "two words.toml", "folder/inside.toml")
+FILES = ("a.toml", "b.csv", "c.nc", "d.fsp", "e.srf", "e.txt", "f.html", "two words.toml", "folder/inside.toml")
 
 ASK_BASH = r"""
 source "$1"
@@ -68,7 +68,8 @@ class Bash(Completion):
         self.assertEqual(self.completions("event", ""), {"a.toml", "b.csv", "d.fsp", "two words.toml", "folder"})
         self.assertEqual(self.completions("event", "a.toml", "-o", ""), {"b.csv", "c.nc", "e.srf", "folder"})
         self.assertEqual(self.completions("pulse", "folder/"), {"folder/inside.toml"})
-        self.assertEqual(self.completions("explore", "--folder", ""), {"folder"})
+        self.assertEqual(self.completions("explore", "-o", ""), {"f.html", "folder"})
+        self.assertEqual(self.completions("reproduce", "-o", ""), {"folder"})
 
     def test_completes_words(self):
         self.assertEqual(self.completions("event", "--closure", ""), {"consistent", "paper"})

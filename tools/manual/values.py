@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from command_help import Argument, output_of
 
 ENDINGS = {"toml": "toml", "netcdf": "nc", "nc": "nc", "csv": "csv", "fsp": "fsp", "srf": "srf", "png": "png", "svg": "svg", "pdf": "pdf", "jpg": "jpg",
-           "webp": "webp", "gif": "gif", "mp4": "mp4"}
+           "webp": "webp", "gif": "gif", "mp4": "mp4", "html": "html"}
 FILES = ("FILE", "SCENARIO", "PICTURE", "OUT.nc")
 
 

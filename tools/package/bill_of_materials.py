@@ -28,11 +28,12 @@ def _package_of(file):
 
 
 def _page_components(root):
-    """The components that the page of the explorer contains."""
+    """The components that the page of the explorer contains. KaTeX is only used to build it, but its style sheet and fonts are in the page."""
     packages = json.loads((root / "apps/explorer/package-lock.json").read_text(encoding="utf-8"))["packages"]
     return [{"type": "library", "name": path.split("node_modules/")[-1], "version": entry["version"],
              "purl": f"pkg:npm/{path.split('node_modules/')[-1]}@{entry['version']}"}
-            for path, entry in packages.items() if path and not entry.get("dev")]
+            for path, entry in packages.items()
+            if path == "node_modules/katex" or path and not entry.get("dev") and "/@types/" not in path]
 
 
 def write(info, libraries, netcdf, root):
@@ -56,7 +57,8 @@ def write(info, libraries, netcdf, root):
         shutil.copy(pathlib.Path("/usr/share/doc") / package / "copyright", licenses / f"{package}.copyright")
     for text in (root / "LICENSES").iterdir():
         shutil.copy(text, licenses)
-    bill = {"bomFormat": "CycloneDX", "specVersion": "1.5", "version": 1, "components": components + _page_components(root)}
+    bill = {"bomFormat": "CycloneDX", "specVersion": "1.5", "version": 1, "components": components + _page_components(root)
+            + [_component("emscripten", _version("emscripten"), "emscripten")]}
     folder = info / "sboms"
     folder.mkdir(exist_ok=True)
     (folder / "slipfront.cdx.json").write_text(json.dumps(bill, indent=1) + "\n")

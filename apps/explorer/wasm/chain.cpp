@@ -21,23 +21,23 @@
 namespace slipfront::explorer {
 namespace {
 
-constexpr std::size_t most_sites = 200000;
+constexpr std::size_t most_chain_sites = 200000;
 constexpr int average_points = 200;
 
 /// The chain that the panel shows. Lengths and times are in the units of the scenario.
-struct Live {
+struct LiveChain {
   double scale = 1, left = 0, right = 0, end = 0, window = 0;
   std::unique_ptr<chain::Chain> chain;
 };
 
-Live& live() {
-  static Live now;
+LiveChain& live_chain() {
+  static LiveChain now;
   return now;
 }
 
 std::unique_ptr<chain::Chain> started(const chain::ScaledProblem& s) {
   const std::size_t sites = chain::problem_of(s).grid.sites;
-  if (sites > most_sites)
+  if (sites > most_chain_sites)
     throw InputError({.key = "chain.scale",
                       .problem = "too many sites for a page: " + std::to_string(sites),
                       .allowed = "a smaller scale; slipfront chain runs larger ones"});
@@ -59,7 +59,7 @@ SLIPFRONT_EXPORT const char* chain_begin(const char* toml, int dislocations, dou
       number += s.stress(problem.left + (problem.right - problem.left) * (i + 0.5) / samples) / samples;
     number *= (problem.right - problem.left) / (2 * std::numbers::pi);
     if (dislocations > 0) problem.scale = dislocations / number;
-    Live& now = live();
+    LiveChain& now = live_chain();
     now = {problem.scale, problem.left, problem.right, s.end, 0, nullptr};
     now.window = std::min(window, number * problem.scale) / (number * problem.scale) * (problem.right - problem.left);
     now.chain = started(problem);
@@ -81,7 +81,7 @@ SLIPFRONT_EXPORT const char* chain_begin(const char* toml, int dislocations, dou
 /// 0.
 SLIPFRONT_EXPORT const char* chain_go(double time, double milliseconds, double half) {
   return answer([=] {
-    Live& now = live();
+    LiveChain& now = live_chain();
     if (!now.chain) throw InputError({.key = "chain", .problem = "no chain was started"});
     chain::Chain& c = *now.chain;
     const auto begun = Clock::now();

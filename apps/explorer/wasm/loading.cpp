@@ -23,7 +23,7 @@
 namespace slipfront::explorer {
 namespace {
 
-constexpr std::size_t most_sites = 400;
+constexpr std::size_t most_loaded_sites = 400;
 
 /// The units of the panel's numbers, in SI units.
 struct Units {
@@ -31,7 +31,7 @@ struct Units {
 };
 
 /// The run of the panel, and what it showed last. Values are in the units of the chain.
-struct Live {
+struct LiveLoading {
   std::unique_ptr<chain::Chain> chain;
   medium::SiUnits si;
   Units unit;
@@ -40,8 +40,8 @@ struct Live {
   double time = -1, load = 0, speed = 0, most_load = 0;
 };
 
-std::unique_ptr<Live>& live() {
-  static std::unique_ptr<Live> now;
+std::unique_ptr<LiveLoading>& live_loading() {
+  static std::unique_ptr<LiveLoading> now;
   return now;
 }
 
@@ -56,17 +56,17 @@ chain::ScaledProblem loaded_problem(const scenario::Scenario& s) {
   chain::ScaledProblem problem = setup::chain_problem(s);
   if (problem.scale != 1) throw InputError({.key = "chain.scale", .problem = "not 1", .allowed = "1 on this page"});
   const std::size_t sites = chain::problem_of(problem).grid.sites;
-  if (sites > most_sites)
+  if (sites > most_loaded_sites)
     throw InputError({.key = "chain.spacing",
                       .problem = "too many sites for a page: " + std::to_string(sites),
-                      .allowed = "at most " + std::to_string(most_sites) + "; slipfront chain runs more"});
+                      .allowed = "at most " + std::to_string(most_loaded_sites) + "; slipfront chain runs more"});
   return problem;
 }
 
 bool pulls_an_end(const chain::Chain& chain) { return chain.problem().loading.where != chain::Pulled::everywhere; }
 
 /// Looks at the chain after a step. A result is kept if something has changed visibly since the last one.
-void look(Live& now, Results& results) {
+void look(LiveLoading& now, Results& results) {
   const chain::Chain& c = *now.chain;
   const chain::Window all = c.window(0, c.problem().grid.sites);
   double speed = 0;
@@ -89,7 +89,7 @@ void look(Live& now, Results& results) {
 }
 
 /// The slip events so far. Each has its quantities under their names in files, in SI units.
-std::vector<Object> events_of(const Live& now) {
+std::vector<Object> events_of(const LiveLoading& now) {
   const bool end = pulls_an_end(*now.chain);
   std::vector<Object> all;
   for (const output::SlipEvent& event : now.chain->events()) {
@@ -109,8 +109,8 @@ SLIPFRONT_EXPORT const char* loading_begin(const char* toml, const char* changes
   return answer([=] {
     const scenario::Scenario s = scenario_of(toml, lines_of(changes));
     const chain::ScaledStart start = chain::scaled_start(loaded_problem(s));
-    auto made = std::make_unique<Live>(
-        Live{.chain = chain::make_chain(start.problem, std::cref(start.train)), .si = medium::SiUnits(s.medium)});
+    auto made = std::make_unique<LiveLoading>(LiveLoading{
+        .chain = chain::make_chain(start.problem, std::cref(start.train)), .si = medium::SiUnits(s.medium)});
     const chain::Grid& grid = made->chain->problem().grid;
     const auto in_si = [&](std::string_view unit) { return made->si.of(unit).value; };
     made->unit = {.time = in_si("b / (c A)"),
@@ -124,8 +124,8 @@ SLIPFRONT_EXPORT const char* loading_begin(const char* toml, const char* changes
     for (std::size_t j = 0; j < grid.sites; ++j) x.push_back(grid.x(j) * made->unit.length);
     for (const double at : made->chain->fronts().x) fronts.push_back(at * made->unit.length);
     const chain::Loading& loading = made->chain->problem().loading;
-    live() = std::move(made);
-    const Live& now = *live();
+    live_loading() = std::move(made);
+    const LiveLoading& now = *live_loading();
     return Object()
         .put("end", now.end * now.unit.time)
         .put("pulls_an_end", pulls_an_end(*now.chain))
@@ -141,8 +141,8 @@ SLIPFRONT_EXPORT const char* loading_begin(const char* toml, const char* changes
 /// with the times after their onset at which they arrived.
 SLIPFRONT_EXPORT const char* loading_go(double milliseconds) {
   return answer([=] {
-    if (!live()) throw InputError({.key = "chain", .problem = "no chain was started"});
-    Live& now = *live();
+    if (!live_loading()) throw InputError({.key = "chain", .problem = "no chain was started"});
+    LiveLoading& now = *live_loading();
     const auto begun = Clock::now();
     Results results;
     if (now.time < 0) look(now, results);

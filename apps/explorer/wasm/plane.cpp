@@ -20,17 +20,17 @@ namespace slipfront::explorer {
 namespace {
 
 constexpr int frames = 60, cells = 100;
-constexpr double most_sites = 1e6;
+constexpr double most_plane_sites = 1e6;
 
 /// The run of the panel, and how much of it the page has got.
-struct Live {
+struct LivePlane {
   std::unique_ptr<plane::Run> run;
   std::size_t frames_told = 0, rows_told = 0;
   std::string gave_up;  ///< why the run ended early
 };
 
-std::unique_ptr<Live>& live() {
-  static std::unique_ptr<Live> now;
+std::unique_ptr<LivePlane>& live_plane() {
+  static std::unique_ptr<LivePlane> now;
   return now;
 }
 
@@ -39,7 +39,7 @@ void check_size(const scenario::Scenario& s, bool direct) {
   plane::DirectOptions options{.scale = s.chain.scale.value_or(1)};
   options.spacing = s.chain.spacing.value_or(options.spacing);
   constexpr double bytes_a_site = 100;
-  if (plane::memory_of_direct(s.plane->problem, options) > bytes_a_site * most_sites)
+  if (plane::memory_of_direct(s.plane->problem, options) > bytes_a_site * most_plane_sites)
     throw InputError({.key = "chain.scale",
                       .problem = "too many lines for a page",
                       .allowed = "a smaller scale; slipfront plane --direct runs more"});
@@ -72,7 +72,7 @@ struct News {
   }
 };
 
-News news_of(Live& now) {
+News news_of(LivePlane& now) {
   News news;
   const auto& snapshots = now.run->snapshots();
   const auto& series = now.run->series();
@@ -114,8 +114,8 @@ SLIPFRONT_EXPORT const char* plane_begin(const char* toml, const char* changes, 
                              .put("nx", schedule.nx)
                              .put("ny", schedule.ny)
                              .put("warnings", s.warnings);
-    live() = std::make_unique<Live>();
-    live()->run = std::make_unique<plane::Run>(std::move(solver), std::move(schedule));
+    live_plane() = std::make_unique<LivePlane>();
+    live_plane()->run = std::make_unique<plane::Run>(std::move(solver), std::move(schedule));
     return begun;
   });
 }
@@ -123,8 +123,8 @@ SLIPFRONT_EXPORT const char* plane_begin(const char* toml, const char* changes, 
 /// Advances the rupture for about so many milliseconds. Returns what is new since the last call.
 SLIPFRONT_EXPORT const char* plane_go(double milliseconds) {
   return answer([=] {
-    if (!live()) throw InputError({.key = "plane", .problem = "no rupture was started"});
-    Live& now = *live();
+    if (!live_plane()) throw InputError({.key = "plane", .problem = "no rupture was started"});
+    LivePlane& now = *live_plane();
     const auto begun = Clock::now();
     try {
       now.run->go([=] { return 1e3 * seconds_since(begun) > milliseconds; });

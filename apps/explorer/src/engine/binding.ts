@@ -16,9 +16,14 @@ export interface Module {
 
 export type Make = (options: object) => Promise<Module>;
 
-/** Compiles a module while it arrives, or afterwards if the server does not name its type. */
-export const compiled = (address: string) =>
-  WebAssembly.compileStreaming(fetch(address)).catch(async () => WebAssembly.compile(await (await fetch(address)).arrayBuffer()));
+/** Compiles a module that the page contains as base64 of its gzipped bytes. */
+export function compiled(packed: string): Promise<WebAssembly.Module> {
+  const letters = atob(packed);
+  const bytes = new Uint8Array(letters.length);
+  for (let i = 0; i < bytes.length; ++i) bytes[i] = letters.charCodeAt(i);
+  const stream = new Response(bytes).body!.pipeThrough(new DecompressionStream('gzip'));
+  return WebAssembly.compileStreaming(new Response(stream, { headers: { 'Content-Type': 'application/wasm' } }));
+}
 
 export const instanceOf = (make: Make, wasm: WebAssembly.Module) =>
   make({

@@ -1,6 +1,7 @@
 /** The page's side of the worker. */
 
-import address from '@wasm/slipfront.wasm?url';
+import packed from '@wasm/slipfront.wasm';
+import code from '@worker';
 import { compiled } from './binding';
 import { begunRun, grown, type PulseRun } from '../model/pulse_run';
 import type { AnswerOf, Calls, Complaint, Message, Name, News, PulseQuestion, Question } from './protocol';
@@ -10,13 +11,14 @@ type Listener = (news: News, last: boolean) => void;
 let worker: Worker | undefined;
 let last = 0;
 const listeners = new Map<number, Listener>();
-const wasm = compiled(address);
+const wasm = compiled(packed);
+const codeAddress = URL.createObjectURL(new Blob([code], { type: 'text/javascript' }));
 
 const post = (to: Worker | undefined, question: Question) => to?.postMessage(question);
 
 function started(): Worker {
   if (worker) return worker;
-  worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module' });
+  worker = new Worker(codeAddress);
   worker.onmessage = ({ data }: MessageEvent<Message>) => {
     const listener = listeners.get(data.id);
     if (data.last) listeners.delete(data.id);

@@ -8,13 +8,6 @@ const milliseconds = 12;
 let begin!: (made: Promise<Module>) => void;
 /** Questions that arrive before the module wait for it. */
 const module = new Promise<Module>((resolve) => (begin = resolve));
-let events: Promise<Module> | undefined;
-/** The module for typed events. The page fetches it when somebody types the first one. */
-const eventModule = () => (events ??= import('./event_module').then((loaded) => loaded.eventModule()));
-let plane: Promise<Module> | undefined;
-/** The module for ruptures on a plane. The page fetches it when its panel is first shown. */
-const planeModule = () => (plane ??= import('./plane_module').then((loaded) => loaded.planeModule()));
-const moduleOf = (name: Name) => (name === 'event' ? eventModule() : name === 'plane_begin' || name === 'plane_go' ? planeModule() : module);
 const cancelled = new Set<number>();
 const latest = new Map<number, number>();
 
@@ -66,7 +59,7 @@ onmessage = async ({ data }: MessageEvent<Question>) => {
   } else if (data.type === 'pulse') {
     await pulse(data);
   } else {
-    const m = await moduleOf(data.name);
+    const m = await module;
     say(data.id, { type: 'answer', answer: call(m, data.name, data.args as Calls[Name]['arguments']) }, true);
   }
 };

@@ -4,7 +4,6 @@ import { useEffect, useMemo } from 'preact/hooks';
 import { linkTo } from '../state/route';
 import { addressOfStop } from './tour_bar';
 import { tomlOf } from '../state/scenario';
-import { Sources } from '../ui/site';
 import { makePlayer, reducedMotion, Transport } from '../ui/player';
 import { Plot } from '../ui/picture/plot';
 import { rangeAround } from '../ui/picture/spec';
@@ -66,7 +65,6 @@ export function HomePanel() {
           <li class="card"><a href={linkTo(door.panel)}>{door.name}</a><p>{door.text}</p></li>
         ))}
       </ul>
-      <Sources />
     </div>
   );
 }

@@ -1,8 +1,8 @@
 /** Panel "Stick-slip": a block on a spring, and a block that is pushed at its edge, with rate-and-state friction, live. */
 
 import { useEffect, useMemo, useRef } from 'preact/hooks';
-import edgeToml from '@cases/precursors.toml?raw';
-import blockToml from '@cases/laboratory-block.toml?raw';
+import edgeToml from '@cases/precursors.toml';
+import blockToml from '@cases/laboratory-block.toml';
 import { csvOfEvents, crosses, median, type LoadedRun } from '../model/loading';
 import { route, setParams } from '../state/route';
 import { commandOf } from '../state/scenario';

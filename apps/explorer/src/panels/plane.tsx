@@ -1,10 +1,10 @@
 /** Panel "Fault plane": a rupture on a plane, live, by the averages or dislocation line by line. */
 
 import { useEffect, useMemo } from 'preact/hooks';
-import barrierToml from '@cases/plane-barrier.toml?raw';
-import arrestToml from '@cases/plane-arrest.toml?raw';
-import frictionToml from '@cases/plane-friction.toml?raw';
-import rings from '@cases/plane-rings.csv?raw';
+import barrierToml from '@cases/plane-barrier.toml';
+import arrestToml from '@cases/plane-arrest.toml';
+import frictionToml from '@cases/plane-friction.toml';
+import rings from '@cases/plane-rings.csv';
 import { seriesAt, type PlaneRun, type Snapshot } from '../model/plane';
 import { route, setParams } from '../state/route';
 import { commandOf } from '../state/scenario';

@@ -8,8 +8,6 @@ export interface Route {
   params: Params;
 }
 
-export const panels = ['', 'pulse', 'dislocations', 'stress', 'riemann', 'paper', 'tour'] as const;
-
 function readable(text: string): string {
   try {
     return decodeURIComponent(text.replace(/\+/g, ' '));
@@ -82,6 +80,9 @@ export function setParams(changes: Record<string, string | null>) {
   clearTimeout(pending);
   pending = window.setTimeout(() => history.replaceState(null, '', addressOf(route.value)), 120);
 }
+
+/** The address that exported pictures state. The folder of a file on this machine is private and leads nowhere elsewhere. */
+export const statedAddress = () => (location.protocol === 'file:' ? `slipfront explorer ${location.hash}` : location.href);
 
 export function go(panel: string, params: Params = {}) {
   location.hash = addressOf({ panel, params });

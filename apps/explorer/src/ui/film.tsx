@@ -1,6 +1,7 @@
 /** A film of a run, as WebM: the browser encodes one picture after the other. */
 
 import { useRef, useState } from 'preact/hooks';
+import { ArrayBufferTarget, Muxer } from 'webm-muxer';
 import { color } from './colors';
 import { imageOf } from './picture/raster';
 import { save } from './save';
@@ -11,7 +12,7 @@ const enlarged = 4 / 3;
 const [width, height] = [enlarged * filmWidth, enlarged * filmHeight];
 const perSecond = 25;
 const seconds = 8;
-const missing = 'This browser cannot encode films. It may be able to on a page that https or this machine serves.';
+const missing = 'This browser cannot encode films. It may be able to if it opens the page from a disk or by https.';
 
 /** Pictures as SVG at 0 ... 1 of the run, which the film shows below one another. */
 type Pictures = (at: number) => string[] | Promise<string[]>;
@@ -26,7 +27,6 @@ async function show(ctx: CanvasRenderingContext2D, pictures: string[]) {
 
 /** Encodes a film. It calls `progress` with the finished fraction, and stops if the answer is false. */
 async function encoded(pictures: Pictures, progress: (share: number) => boolean): Promise<Blob | null> {
-  const { ArrayBufferTarget, Muxer } = await import('webm-muxer');
   const canvas = document.createElement('canvas');
   Object.assign(canvas, { width, height });
   const ctx = canvas.getContext('2d')!;

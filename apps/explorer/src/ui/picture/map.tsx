@@ -1,6 +1,7 @@
 /** A picture of a field over x and t, with the fronts on it. */
 
 import { useEffect, useRef, useState } from 'preact/hooks';
+import { statedAddress } from '../../state/route';
 import { color, theme } from '../colors';
 import { Data } from './data';
 import { short } from '../format';
@@ -186,7 +187,7 @@ function csvOf(f: Field): string {
 }
 
 function MapData({ field: f, picture }: { field: Field; picture: Picture }) {
-  const svg = async () => mapSvgOf(f, picture.scale, await addressOf(picture.canvas), location.href);
+  const svg = async () => mapSvgOf(f, picture.scale, await addressOf(picture.canvas), statedAddress());
   const columns = Array.from({ length: 9 }, (_, k) => Math.round((k / 8) * (f.x.length - 1)));
   const rows = Array.from({ length: 13 }, (_, k) => Math.round((k / 12) * (f.t.length - 1)));
   return (

@@ -3,6 +3,7 @@
 import { useEffect, useRef, useState } from 'preact/hooks';
 import uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
+import { statedAddress } from '../../state/route';
 import { color, theme } from '../colors';
 import { Data } from './data';
 import { short } from '../format';
@@ -250,7 +251,7 @@ function Legend({ spec }: { spec: Spec }) {
 }
 
 function PlotData({ spec }: { spec: Spec }) {
-  const svg = () => svgOf(spec, color, location.href);
+  const svg = () => svgOf(spec, color, statedAddress());
   return (
     <Data
       of={spec.title}
