@@ -73,8 +73,8 @@ class ProgramLine {
   ~ProgramLine();
 
   CommandLine top() const;
-  /// What was parsed: arguments; or a request for help, whose text follows; or an error, in one line that ends with the
-  /// command that prints the help.
+  /// The command line gave arguments, or asked for help, which is `text`, or has an error. Then `text` is one line that
+  /// ends with the command that prints the help.
   struct Parsed {
     enum class Kind { arguments, help, error } kind;
     std::string text;

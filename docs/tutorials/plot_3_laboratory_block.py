@@ -86,9 +86,8 @@ print(f"position     b / A                       {unit_of_length:.4g} m")
 # Write the scenario
 # ------------------
 #
-# Everything in ``friction`` and ``medium`` keeps its unit. With a normal stress, a strength is a
-# friction coefficient. In ``loading``, ``domain`` and ``time`` we divide by the units from above.
-# Three more settings make a block of the chain:
+# Every number keeps its SI unit. With a normal stress, a strength is a friction coefficient. Three
+# more settings make a block of the chain:
 #
 # - a contact of 0 removes the asperities, so that only friction resists;
 # - both ends are free, and nothing is stressed at the start;
@@ -97,10 +96,6 @@ print(f"position     b / A                       {unit_of_length:.4g} m")
 
 def block(velocity, stiffness, end, contact_ratio=0.5):
     """Scenario of the block up to the time `end` in seconds."""
-    unit_of_force = medium.traction_unit(shear_modulus, poisson_ratio, contact_ratio)
-    unit_of_velocity = medium.slip_velocity_unit(c, contact_ratio)
-    units = medium.units(shear_modulus, c, contact_ratio, spacing)
-    x = length / units["length"]
     return {
         "title": "A block of granite that sticks and slips",
         "initial": {"stress_left": 0, "stress_right": 0},
@@ -123,19 +118,19 @@ def block(velocity, stiffness, end, contact_ratio=0.5):
             "asperity_spacing": f"{spacing} m",
         },
         "loading": {
-            "stiffness": float(stiffness * unit_of_slip / unit_of_force),
-            "velocity": float(velocity / unit_of_velocity),
+            "stiffness": f"{stiffness:.10g} Pa/m",
+            "velocity": f"{velocity} m/s",
         },
-        "domain": {"left": -x / 2, "right": x / 2},
-        "chain": {"left": "free", "right": "free", "spacing": x / 10},
-        "time": {"end": end / units["time"]},
-        "output": {"every": end / units["time"] / 600},
+        "domain": {"left": f"{-length / 2} m", "right": f"{length / 2} m"},
+        "chain": {"left": "free", "right": "free", "spacing": f"{length / 10} m"},
+        "time": {"end": f"{end} s"},
+        "output": {"every": f"{end / 600} s"},
     }
 
 
 scenario = block(velocity, stiffness, end=300)
 for key, value in scenario["loading"].items():
-    print(f"loading.{key} = {value:.4g}")
+    print(f"loading.{key} = {value}")
 
 # %%
 # Pull the block
@@ -214,8 +209,8 @@ onset = float(run.event_onset[-1]) * unit_of_time
 end = onset + float(run.event_duration[-1]) * unit_of_time
 before = onset - np.geomspace(20, 1e-3, 60)
 during = end + np.linspace(-3e-3, 1e-3, 201)
-times = np.sort(np.concatenate([before, during])) / unit_of_time
-event = slipfront.chain({**scenario, "output": {"times": times.tolist()}}, si=False)
+times = [f"{time} s" for time in np.sort(np.concatenate([before, during]))]
+event = slipfront.chain({**scenario, "output": {"times": times}}, si=False)
 
 time, tau = force(event)
 speed = event.W.mean("x").values * unit_of_velocity

@@ -43,9 +43,9 @@ struct Quantity {
   std::optional<Measured> Observation::*member;
 };
 constexpr std::array<Quantity, 4> observables = {{{"rupture_velocity", &Observation::rupture_velocity_m_s},
-                                                 {"slip", &Observation::slip},
-                                                 {"rise_time", &Observation::rise_time},
-                                                 {"duration", &Observation::duration}}};
+                                                  {"slip", &Observation::slip},
+                                                  {"rise_time", &Observation::rise_time},
+                                                  {"duration", &Observation::duration}}};
 
 py::dict row_of(const catalogue::Entry& entry, const medium::Defaults& defaults) {
   const Observation& o = entry.observation;

@@ -22,7 +22,7 @@ constexpr double least_sigmas = 2;
 /// The seed of the samples is fixed, so that a tension does not depend on that of the posterior.
 constexpr std::uint64_t seed_of_tensions = 1;
 constexpr std::size_t samples_of_range = 256;
-constexpr double least_ratio = 1e-14, most_ratio = 1e14;  // of predicted to observed values
+constexpr double least_ratio = 1e-14, most_ratio = 1e14;  // ratios of predicted to observed values
 
 /// Ranges of the predicted value, next to each other, which together cover all. They are narrow around the observed
 /// value, because the probability of a tension comes from there, however small it is.

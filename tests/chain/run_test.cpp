@@ -105,7 +105,7 @@ TEST(ChainRun, AveragesDoNotDependOnTheSideOfTheDenserTrain) {
     const output::Snapshot &a = run.snapshots().back(), &b = mirrored.snapshots().back();
     const chain::Averages of_a = run.averages(), of_b = mirrored.averages();
     EXPECT_EQ(run.window(), mirrored.window());
-    EXPECT_NEAR(a.slip_at_origin, -b.slip_at_origin, 0.05 * 2 * pi / 300);  // of a dislocation
+    EXPECT_NEAR(a.slip_at_origin, -b.slip_at_origin, 0.05 * 2 * pi / 300);  // a twentieth of a dislocation
     const auto expect_mirrored = [](double x, double y, double error_x, double error_y) {
       EXPECT_NEAR(x, y, error_x + error_y);
     };
@@ -115,7 +115,7 @@ TEST(ChainRun, AveragesDoNotDependOnTheSideOfTheDenserTrain) {
   }
 }
 
-/// Where only one train is at x = 0, the window holds eight dislocations.
+/// The window holds eight dislocations if only one train is at x = 0.
 TEST(ChainRun, AverageOfOneTrainHasEightDislocations) {
   chain::Run run(step(400), schedule({0, 2}), {});
   run.go();

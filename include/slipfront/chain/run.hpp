@@ -58,10 +58,10 @@ struct Balance {
 /// Averages of velocity and stress at the end, over the windows that show the beat of trains and the shape of the pulse
 /// least (best_average). The errors compare windows of other widths.
 struct Averages {
-  double width;           ///< of the window at x = 0, in the scenario's x
-  double velocity_error;  ///< of the slip velocity at x = 0
-  double stress_error;    ///< of the stress there
-  double peak_error;      ///< of the largest slip velocity
+  double width;           ///< width of the window at x = 0, in the scenario's x
+  double velocity_error;  ///< error of the slip velocity at x = 0
+  double stress_error;    ///< error of the stress there
+  double peak_error;      ///< error of the largest slip velocity
 };
 
 class EventOutputs;

@@ -108,8 +108,7 @@ void EventGroups::add_states(Group& group, std::vector<FaultState> Posterior::*s
     about.dimensional_unit = q.about.dimensional_unit;
     about.reference = q.about.reference;
     add_draws(group, about, [states, value = q.state](const Result& r, std::size_t i) {
-      return r.posterior && i < ((*r.posterior).*states).size() ? ((*r.posterior).*states)[i].*value
-                                                                : none;
+      return r.posterior && i < ((*r.posterior).*states).size() ? ((*r.posterior).*states)[i].*value : none;
     });
   }
 }
@@ -118,8 +117,7 @@ void EventGroups::add_repeated(Group& group) {
   for (const ObservedQuantity& q : observed_quantities())
     add_draws(group, described(q.name, "repeated observation of: " + std::string(q.long_name), q.unit),
               [position = inference::position_of(q.name)](const Result& r, std::size_t i) {
-                return r.posterior && i < r.posterior->repeated.size() ? r.posterior->repeated[i][position]
-                                                                       : none;
+                return r.posterior && i < r.posterior->repeated.size() ? r.posterior->repeated[i][position] : none;
               });
 }
 
