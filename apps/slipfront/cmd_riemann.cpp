@@ -199,6 +199,15 @@ void print_csv(const Shown& s, const RiemannUnits& units, int points) {
   }
 }
 
+void print_origin(const TrainsPoint& origin, const RiemannUnits& units) {
+  const std::size_t count = origin.trains.size();
+  put(fmt::format("at x = 0: {}, Sigma = {:.6g}, W = {:.6g}\n",
+                  count == 0   ? "no dislocations"
+                  : count == 1 ? "one train"
+                               : "two trains",
+                  origin.all.Sigma * units.each[of_stress].value, origin.all.W * units.each[of_slip_velocity].value));
+}
+
 void print_table(const Shown& s, const RiemannUnits& units) {
   static constexpr std::array<TableColumn, 7> riemann_columns = {
       {{10, true}, {12}, {12}, {13, false}, {12}, {12}, {12}}};
@@ -235,15 +244,7 @@ void print_table(const Shown& s, const RiemannUnits& units) {
   add_wave(s.right_wave);
   add("right", number(s.edges.right * c), "", &right);
   put(table.text());
-  if (!s.exact) return;
-  const TrainsPoint origin = s.at(0);
-  const std::size_t count = origin.trains.size();
-  put(fmt::format("at x = 0: {}, Sigma = {}, W = {}\n",
-                  count == 0   ? "no dislocations"
-                  : count == 1 ? "one train"
-                               : "two trains",
-                  number(origin.all.Sigma * units.each[of_stress].value),
-                  number(origin.all.W * units.each[of_slip_velocity].value)));
+  if (s.exact) print_origin(s.at(0), units);
 }
 
 int run_riemann(const RiemannArguments& arguments) {

@@ -119,13 +119,19 @@ std::vector<RulePoint> BandDifferentials::rule(std::size_t low) const {
 }
 
 void BandDifferentials::solve(double bands) {
+  matrix_.assign(trains_ * trains_, 0);
+  alpha_.assign(trains_, 0);
+  beta_.assign(trains_, 0);
+  add_lowest_gap(bands);
+  add_inner_gaps();
+  solve_conditions(matrix_, alpha_, beta_);
+}
+
+/// In the lowest gap, lambda = E_1 sn^2. From dp and dw we subtract functions with their poles at r = -infinity, which
+/// vanish at E_1: X = sqrt(1 / lambda - 1 / E_1) / 2 from p, and -X from w. For narrow states we subtract
+/// Y = -sqrt((E_1 - lambda) (U_N - lambda) / lambda) / 2 from w, because w - Y is as small as the widths.
+void BandDifferentials::add_lowest_gap(double bands) {
   const std::size_t N = trains_;
-  matrix_.assign(N * N, 0);
-  alpha_.assign(N, 0);
-  beta_.assign(N, 0);
-  // In the lowest gap, lambda = E_1 sn^2. From dp and dw we subtract functions with their poles at r = -infinity, which
-  // vanish at E_1: X = sqrt(1 / lambda - 1 / E_1) / 2 from p, and -X from w. For narrow states we subtract
-  // Y = -sqrt((E_1 - lambda) (U_N - lambda) / lambda) / 2 from w, because w - Y is as small as the widths.
   const double lowest = lambda_[0], root_lowest = std::sqrt(lowest), lowest_minus_1 = std::expm1(-total_),
                nu_minus_1 = std::expm1(bands - total_), kappa_minus_lowest = std::expm1(bands) - lowest_minus_1;
   const MidpointGrid grid = midpoint_grid(lowest / lambda_[1], std::sqrt(apart(0, 1) / lambda_[1]));
@@ -158,6 +164,10 @@ void BandDifferentials::solve(double bands) {
                   (from_gaps - (1 + gain) * at.lambda * kappa_minus_lowest);
     }
   }
+}
+
+void BandDifferentials::add_inner_gaps() {
+  const std::size_t N = trains_;
   for (std::size_t m = 1; m < N; ++m) {
     for (const RulePoint& node : rule(2 * m - 1)) {
       const Point at = point(node, 2 * m);
@@ -169,7 +179,6 @@ void BandDifferentials::solve(double bands) {
       beta_[m] -= weight * (top + pole) / 2;
     }
   }
-  solve_conditions(matrix_, alpha_, beta_);
 }
 
 /// The part of f_w - f_p with the pole at lambda = 0.
@@ -234,13 +243,12 @@ BandIntegrals BandDifferentials::over_band(std::size_t band) const {
   return sum;
 }
 
-GapIntegrals BandDifferentials::over_gaps() const {
-  GapIntegrals result;
-  const std::size_t N = trains_, last = edges_ - 1;
-  // Lowest gap: p = X + rest, w = -X + rest, and the finite part of the integral of X dr is -(pi / 4) / sqrt(E_1).
-  const double lowest = lambda_[0], highest = lambda_[last];
-  MidpointGrid grid = midpoint_grid(lowest / lambda_[1], std::sqrt(apart(0, 1) / lambda_[1]), Resolution::series);
-  std::vector<double> weights = log_sn_weights(grid);
+/// Lowest gap: p = X + rest, w = -X + rest, and the finite part of the integral of X dr is -(pi / 4) / sqrt(E_1).
+GapIntegral BandDifferentials::over_lowest_gap() const {
+  const std::size_t N = trains_;
+  const double lowest = lambda_[0];
+  const MidpointGrid grid = midpoint_grid(lowest / lambda_[1], std::sqrt(apart(0, 1) / lambda_[1]), Resolution::series);
+  const std::vector<double> weights = log_sn_weights(grid);
   double p_sum = -pi / (4 * std::sqrt(lowest)), w_sum = -p_sum;
   for (std::size_t j = 0; j < weights.size(); ++j) {
     const auto& [sn2, cn2, dn2] = grid.at[j];
@@ -261,26 +269,32 @@ GapIntegrals BandDifferentials::over_gaps() const {
     p_sum += weight * (p * G + (top + rest) / 2);
     w_sum += weight * (w * G + (top - rest) / 2);
   }
-  result.p.push_back(p_sum);
-  result.w.push_back(w_sum);
-  // An inner gap: by parts, as p vanishes at both ends.
-  for (std::size_t m = 1; m < N; ++m) {
-    p_sum = w_sum = 0;
-    for (const RulePoint& node : rule(2 * m - 1)) {
-      const Point at = point(node, 2 * m);
-      const double from_low = std::log1p(at.below / lambda_[2 * m - 1]) / 2;
-      const double weight = from_low * node.weight * gap_weight(at) / (2 * std::sqrt(at.lambda));
-      const auto [p, w] = values(at);
-      p_sum -= weight * p;
-      w_sum -= weight * w;
-    }
-    result.p.push_back(p_sum);
-    result.w.push_back(w_sum);
+  return {p_sum, w_sum};
+}
+
+/// An inner gap: by parts, as p vanishes at both ends.
+GapIntegral BandDifferentials::over_inner_gap(std::size_t m) const {
+  double p_sum = 0, w_sum = 0;
+  for (const RulePoint& node : rule(2 * m - 1)) {
+    const Point at = point(node, 2 * m);
+    const double from_low = std::log1p(at.below / lambda_[2 * m - 1]) / 2;
+    const double weight = from_low * node.weight * gap_weight(at) / (2 * std::sqrt(at.lambda));
+    const auto [p, w] = values(at);
+    p_sum -= weight * p;
+    w_sum -= weight * w;
   }
-  // Highest gap: lambda = U_N / sn^2, and X = sqrt(lambda - U_N) / 2 for both.
-  grid = midpoint_grid(lambda_[last - 1] / highest, std::sqrt(apart(last - 1, last) / highest), Resolution::series);
-  weights = log_sn_weights(grid);
-  p_sum = w_sum = -pi / 4 * std::sqrt(highest);
+  return {p_sum, w_sum};
+}
+
+/// Highest gap: lambda = U_N / sn^2, and X = sqrt(lambda - U_N) / 2 for both.
+GapIntegral BandDifferentials::over_highest_gap() const {
+  const std::size_t N = trains_;
+  const std::size_t last = edges_ - 1;
+  const double lowest = lambda_[0], highest = lambda_[last];
+  const MidpointGrid grid =
+      midpoint_grid(lambda_[last - 1] / highest, std::sqrt(apart(last - 1, last) / highest), Resolution::series);
+  const std::vector<double> weights = log_sn_weights(grid);
+  double p_sum = -pi / 4 * std::sqrt(highest), w_sum = p_sum;
   for (std::size_t j = 0; j < weights.size(); ++j) {
     const auto& [sn2, cn2, dn2] = grid.at[j];
     const Point at{highest / sn2, edges_, highest * cn2 / sn2, 0};
@@ -297,8 +311,18 @@ GapIntegrals BandDifferentials::over_gaps() const {
     p_sum -= weight * (p * G - (rest + pole) / 2);
     w_sum -= weight * (w * G - (rest - pole) / 2);
   }
-  result.p.push_back(p_sum);
-  result.w.push_back(w_sum);
+  return {p_sum, w_sum};
+}
+
+GapIntegrals BandDifferentials::over_gaps() const {
+  GapIntegrals result;
+  const auto add = [&result](const GapIntegral& gap) {
+    result.p.push_back(gap.p);
+    result.w.push_back(gap.w);
+  };
+  add(over_lowest_gap());
+  for (std::size_t m = 1; m < trains_; ++m) add(over_inner_gap(m));
+  add(over_highest_gap());
   return result;
 }
 

@@ -27,6 +27,11 @@ struct BandIntegrals {
   double dp, dw, cosh_dp, sinh_dp, sinh_dw;
 };
 
+/// The finite parts of the integrals of p dr and w dr over one gap.
+struct GapIntegral {
+  double p, w;
+};
+
 /// The finite parts of the integrals of p dr and w dr over each gap, from the lowest gap up.
 struct GapIntegrals {
   std::vector<double> p, w;
@@ -73,6 +78,11 @@ class BandDifferentials {
   double pole_at_infinity(const Point& at) const;
   double loss_at_lowest_edge(const Point& at, double G, double sn2, double cn2) const;
   void solve(double sum_of_bands);
+  void add_lowest_gap(double sum_of_bands);
+  void add_inner_gaps();
+  GapIntegral over_lowest_gap() const;
+  GapIntegral over_inner_gap(std::size_t m) const;
+  GapIntegral over_highest_gap() const;
   void take_upper_edges();
 
   std::size_t trains_, edges_;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "foundation/math/bracket.hpp"
 #include "foundation/text/digits.hpp"
@@ -93,24 +94,38 @@ std::string_view name_of(Region::Kind kind) {
   return "";
 }
 
+namespace {
+
+void add_region(TrainsSolution& s, Region::Kind kind, double from, double to, std::size_t trains) {
+  if (from < to) s.regions.push_back({kind, from, to, trains});
+}
+
+void add_region(TrainsSolution& s, const Wave& wave) {
+  const auto [from, to] = std::minmax(wave.outer, wave.inner);
+  if (wave.kind == Wave::Kind::fan) add_region(s, Region::Kind::fan, from, to, 1);
+  if (wave.kind == Wave::Kind::two_trains) add_region(s, Region::Kind::two_trains, from, to, 2);
+}
+
+/// The solution if the trains do not meet: a fan on each side that has a train, and a vacuum between them.
+TrainsSolution with_vacuum(TrainsSolution s) {
+  const bool left = !s.left.empty(), right = !s.right.empty();
+  if (left) s.left_wave = fan_wave(modulation::characteristic_speeds(s.left).minus, std::tanh(s.left.phi + s.left.psi));
+  if (right)
+    s.right_wave = fan_wave(modulation::characteristic_speeds(s.right).plus, std::tanh(s.right.phi - s.right.psi));
+  if (left) add_region(s, Region::Kind::fan, s.left_wave.outer, s.left_wave.inner, 1);
+  if (left && right) add_region(s, Region::Kind::vacuum, s.left_wave.inner, s.right_wave.inner, 0);
+  if (right) add_region(s, Region::Kind::fan, s.right_wave.inner, s.right_wave.outer, 1);
+  return s;
+}
+
+}  // namespace
+
 TrainsSolution solve_trains(const State& left, const State& right) {
   check_side(left, "left");
   check_side(right, "right");
   TrainsSolution s{left, right, {}, {}, {}, {}};
-  const auto add = [&s](Region::Kind kind, double from, double to, std::size_t trains) {
-    if (from < to) s.regions.push_back({kind, from, to, trains});
-  };
   const EdgeDifferences edges(left, right);
-  if (left.empty() || right.empty() || edges.outer <= 0) {
-    if (!left.empty())
-      s.left_wave = fan_wave(modulation::characteristic_speeds(left).minus, std::tanh(left.phi + left.psi));
-    if (!right.empty())
-      s.right_wave = fan_wave(modulation::characteristic_speeds(right).plus, std::tanh(right.phi - right.psi));
-    if (!left.empty()) add(Region::Kind::fan, s.left_wave.outer, s.left_wave.inner, 1);
-    if (!left.empty() && !right.empty()) add(Region::Kind::vacuum, s.left_wave.inner, s.right_wave.inner, 0);
-    if (!right.empty()) add(Region::Kind::fan, s.right_wave.inner, s.right_wave.outer, 1);
-    return s;
-  }
+  if (left.empty() || right.empty() || edges.outer <= 0) return with_vacuum(std::move(s));
   const State between{edges.centre, edges.outer / 2};
   const bool both = edges.inner > 0;  // the trains pass through each other
   s.star =
@@ -128,16 +143,11 @@ TrainsSolution solve_trains(const State& left, const State& right) {
     s.right_wave = {Wave::Kind::two_trains, speed_in_upper(edges, 0), speed_in_upper(edges, edges.widest_upper())};
   else
     s.right_wave = {Wave::Kind::none, star.plus, star.plus};
-  const auto add_wave = [&](const Wave& wave) {
-    const auto [from, to] = std::minmax(wave.outer, wave.inner);
-    if (wave.kind == Wave::Kind::fan) add(Region::Kind::fan, from, to, 1);
-    if (wave.kind == Wave::Kind::two_trains) add(Region::Kind::two_trains, from, to, 2);
-  };
-  add_wave(s.left_wave);
+  add_region(s, s.left_wave);
   // If only one edge moves, the state between the waves is that of one side.
   if ((s.left_wave.kind == Wave::Kind::none) == (s.right_wave.kind == Wave::Kind::none))
-    add(Region::Kind::constant, s.left_wave.inner, s.right_wave.inner, both ? 2 : 1);
-  add_wave(s.right_wave);
+    add_region(s, Region::Kind::constant, s.left_wave.inner, s.right_wave.inner, both ? 2 : 1);
+  add_region(s, s.right_wave);
   return s;
 }
 

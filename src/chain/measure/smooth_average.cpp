@@ -82,12 +82,13 @@ BestAverage best_average(const Sites& chain, double x, double least, double most
   for (int i = -narrower; i <= last; ++i)
     averages.push_back(i < 0 && width_of(i) < 2 * grid.spacing ? SmoothAverage{none, none, none}
                                                                : smooth_average(chain, sites, x, width_of(i)));
+  const auto average_at = [&](int i) -> const SmoothAverage& { return *(averages.begin() + narrower + i); };
   BestAverage best{};
   for (int i = 0; i < candidates; ++i) {
-    const SmoothAverage& here = averages[static_cast<std::size_t>(i + narrower)];
+    const SmoothAverage& here = average_at(i);
     BestAverage tried{here, width_of(i), none, none};
     for (int j = i - narrower; j <= std::min(i + wider, last); ++j) {
-      const SmoothAverage& other = averages[static_cast<std::size_t>(j + narrower)];
+      const SmoothAverage& other = average_at(j);
       if (j == i || std::isnan(other.velocity)) continue;
       tried.velocity_error =
           std::fmax(tried.velocity_error, safety_of_change * std::fabs(other.velocity - here.velocity));

@@ -8,6 +8,9 @@
 
 namespace slipfront::pulse {
 
+/// Part of the change of stress at which the front starts.
+constexpr double felt = 0.01;
+
 TrailingCharacteristic::TrailingCharacteristic(const Solver& start) {
   const View v = start.view();
   const std::size_t n = v.states.size();
@@ -19,7 +22,7 @@ TrailingCharacteristic::TrailingCharacteristic(const Solver& start) {
                    : v.left_free               ? is_left(p.stress(p.left), p.stress(p.right))
                                                : is_left(v.states.front().psi, v.states.back().psi);
   const auto from_stressed = [&](std::size_t i) { return stressed_left_ ? i : n - 1 - i; };
-  const auto stress = [&](double x) { return start.problem().stress(x) / (v.contact ? v.contact(x) : 1); };
+  const auto stress = [&](double x) { return p.stress(x) / (v.contact ? v.contact(x) : 1); };
   const double end = v.faces[stressed_left_ ? 0 : n];
   const double stressed = stress(std::lerp(end, v.centres[from_stressed(0)], rounding));
   double low = stressed, high = stressed;
@@ -38,7 +41,6 @@ TrailingCharacteristic::TrailingCharacteristic(const Solver& start) {
     while (i < n && !departs(v.centres[from_stressed(i)], share)) ++i;
     return i;
   };
-  constexpr double felt = 0.01;
   const std::size_t i = first(felt);
   position_ = i < n ? v.centres[from_stressed(i)] : v.faces[stressed_left_ ? n : 0];
   double still = i == n ? position_ : i == 0 ? end : v.centres[from_stressed(i - 1)];
@@ -47,7 +49,7 @@ TrailingCharacteristic::TrailingCharacteristic(const Solver& start) {
     if (middle == still || middle == position_) break;
     (departs(middle, felt) ? position_ : still) = middle;
   }
-  steady_ = first(1e-12) == i && !start.problem().forcing;
+  steady_ = first(1e-12) == i && !p.forcing;
   speed_ = steady_ ? speed_into(v.states[from_stressed(0)]) : speed_at(start);
 }
 
