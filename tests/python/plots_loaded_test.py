@@ -46,7 +46,7 @@ class Loaded(PythonCommands):
         pulled = slipfront.chain(BLOCK, set={"loading.where": "left", "loading.stiffness": 0.05, "time.end": 1e3, "output.every": 100})
         self.assertTrue(pulled["loading_force"].isnull().all())
         end = float(pulled["slip"][-1, 0])
-        self.assertAlmostEqual(float(pulled["loading_stress"][-1]), 0.05 * (0.001 * 1e3 - end), delta=0.05 * 0.02)
+        self.assertAlmostEqual(float(pulled["loading_stress"][-1]), 0.05 * (0.001 * 1e3 - end), delta=0.05 * 0.03)  # the end is up to a spacing past the last average
         self.assertEqual(plots.loading(pulled).axes[0].get_ylabel().split(",")[0], "stress at pulled end")
 
     def test_the_force_falls_by_the_stress_drop_of_each_event(self):
