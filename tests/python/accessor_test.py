@@ -103,7 +103,7 @@ class Units(unittest.TestCase):
         for text, value, name in [("b / A", 0.1, "m"), ("A / b", 10, "m-1"), ("b / (c A)", UNITS["time"], "s"), ("mu A / pi", UNITS["stress"], "Pa"),
                                   ("(mu A / pi)^2", UNITS["stress"] ** 2, "Pa2"), ("pi / (mu A)", 1 / UNITS["stress"], "Pa-1"), ("c", SPEED, "m s-1"),
                                   ("mu A^2 / (pi (1 - nu))", float(slipfront.medium.traction_unit(30e9, 0.3, 0.01)), "Pa"),
-                                  ("mu b^2 A / (2 pi^2 (1 - nu))", 30e9 * 1e-6 * 0.01 / (2 * np.pi**2 * 0.7), "J m-1"), ("b^2 / (2 pi A)", 1e-4 / np.pi, "m2"), ("b / (2 pi)", 1e-3 / np.pi, "m")]:
+                                  ("mu b^2 A / (2 pi^2 (1 - nu))", 2 * 30e9 * 1e-6 * 0.01 / (2 * np.pi**2 * 0.7), "J m-1"), ("b^2 / (2 pi A)", 1e-4 / np.pi, "m2"), ("b / (2 pi)", 1e-3 / np.pi, "m")]:
             found, unit, between_faces = _units.in_si(text, VALUES)
             self.assertAlmostEqual(found / value, 1, places=13, msg=text)
             self.assertEqual((unit, between_faces), (name, text in ("b / (2 pi)", "b^2 / (2 pi A)")))
