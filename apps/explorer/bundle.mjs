@@ -15,9 +15,9 @@ const packages = JSON.parse(read('package-lock.json')).packages;
 const shipped = Object.entries(packages).filter(([path, { dev }]) => path === 'node_modules/katex' || (path && !dev && !path.includes('/@types/')));
 
 const licences = [
-  { name: 'slipfront', text: read(`${root}/LICENSE`) },
-  ...shipped.map(([path, { version }]) => ({ name: `${path.replace('node_modules/', '')} ${version}`, text: read(`${path}/LICENSE`) })),
-  { name: 'Fonts of KaTeX', text: read('LICENSE-fonts.txt') },
+  { name: 'slipfront, BSD-3-Clause', text: read(`${root}/LICENSE`) },
+  ...shipped.map(([path, { version, license }]) => ({ name: `${path.replace('node_modules/', '')} ${version}, ${license}`, text: read(`${path}/LICENSE`) })),
+  { name: 'Fonts of KaTeX, OFL-1.1', text: read('LICENSE-fonts.txt') },
   { name: 'WebAssembly module', text: read('LICENSE-webassembly.txt') },
   { name: 'Names of units from UDUNITS-2', text: read(`${root}/LICENSES/LicenseRef-UDUNITS-2.txt`) },
 ];

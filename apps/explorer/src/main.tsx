@@ -2,7 +2,7 @@
 
 import './style.css';
 import { render, type ComponentType } from 'preact';
-import { useEffect } from 'preact/hooks';
+import { useEffect, useState } from 'preact/hooks';
 import { signal } from '@preact/signals';
 import { addressOf, entryOf, linkTo, route, setParams, unitParams } from './state/route';
 import { refreshUnits, stated, wantsUnits } from './state/units';
@@ -10,16 +10,20 @@ import { said } from './ui/announce';
 import { setTheme, theme } from './ui/colors';
 import { Sources } from './ui/site';
 import { UnitsForm } from './ui/units_form';
-import { DislocationsPanel } from './panels/dislocations';
 import { HomePanel } from './panels/home';
-import { LicencesPanel } from './panels/licences';
-import { LoadingPanel } from './panels/loading';
-import { PaperPanel } from './panels/paper';
-import { PlanePanel } from './panels/plane';
-import { PulsePanel } from './panels/pulse';
-import { RiemannPanel } from './panels/riemann';
-import { StressPanel } from './panels/stress';
 import { TourBar } from './panels/tour_bar';
+
+/** A panel whose code runs when it is first shown, so that the first picture need not wait for it. */
+function lazily(load: () => Promise<ComponentType>): ComponentType {
+  let known: ComponentType | null = null;
+  return () => {
+    const [View, setView] = useState<ComponentType | null>(() => known);
+    useEffect(() => {
+      if (!known) load().then((view) => { known = view; setView(() => view); });
+    }, []);
+    return View ? <View /> : <p class="busy">Loading …</p>;
+  };
+}
 
 interface Page {
   /** The name in the menu, if it is there. */
@@ -30,35 +34,35 @@ interface Page {
 }
 const pages: Record<string, Page> = {
   pulse: {
-    name: 'Pulse', heading: 'A slip pulse', view: PulsePanel,
+    name: 'Pulse', heading: 'A slip pulse', view: lazily(async () => (await import('./panels/pulse')).PulsePanel),
     about: 'Stress is stored on one side. A pulse of slip opens between two fronts: a fast one that runs into the stressed side, and a slow one ahead. Change the stress, change the friction, and press play.',
   },
   dislocations: {
-    name: 'Dislocations', heading: 'Every dislocation', view: DislocationsPanel,
+    name: 'Dislocations', heading: 'Every dislocation', view: lazily(async () => (await import('./panels/dislocations')).DislocationsPanel),
     about: 'The same scenario without any average. Each bead is one dislocation: where it passes, the interface slips by one spacing of its asperities.',
   },
   loading: {
-    name: 'Stick-slip', heading: 'Stick and slip', view: LoadingPanel,
+    name: 'Stick-slip', heading: 'Stick and slip', view: lazily(async () => (await import('./panels/loading')).LoadingPanel),
     about: 'A spring pulls a block over a table. Its friction falls with the velocity, and rises while it rests. So it sticks, and slips, and sticks again. Change the spring, and see where that ends.',
   },
   plane: {
-    name: 'Fault plane', heading: 'A rupture on a fault plane', view: PlanePanel,
+    name: 'Fault plane', heading: 'A rupture on a fault plane', view: lazily(async () => (await import('./panels/plane')).PlanePanel),
     about: 'On a plane, dislocations are lines, and slip grows where they pass. Watch a rupture spread, by its averages or line by line. A bent line pulls back like a stretched string, and that can stop it.',
   },
   stress: {
-    name: 'Stress and velocity', heading: 'Stress from observed velocities', view: StressPanel,
+    name: 'Stress and velocity', heading: 'Stress from observed velocities', view: lazily(async () => (await import('./panels/stress')).StressPanel),
     about: 'Without friction, the stress before a rupture fixes how fast it spreads and how fast it slips. Read backwards, observed velocities give the stress. Six decades of velocity are less than one decade of stress.',
   },
   riemann: {
-    name: 'Riemann', heading: 'Two trains meet', view: RiemannPanel,
+    name: 'Riemann', heading: 'Two trains meet', view: lazily(async () => (await import('./panels/riemann')).RiemannPanel),
     about: 'Left and right of one point lie two uniform trains of dislocations. What happens next depends only on x/t: fans, where they spread, and shocks, where they run into each other.',
   },
   paper: {
-    name: 'The paper', heading: 'The figures of the paper, live', view: PaperPanel,
+    name: 'The paper', heading: 'The figures of the paper, live', view: lazily(async () => (await import('./panels/paper')).PaperPanel),
     about: 'Gershenzon, Bambakidis & Skinner (Lubricants, 2015) drew these figures for a few numbers. Here each has sliders.',
   },
   licences: {
-    heading: 'Licences and citation', view: LicencesPanel,
+    heading: 'Licences and citation', view: lazily(async () => (await import('./panels/licences')).LicencesPanel),
     about: 'slipfront is free software. This page also contains free code and fonts of others.',
   },
 };

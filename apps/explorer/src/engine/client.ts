@@ -28,6 +28,7 @@ function started(): Worker {
   wasm.then((module) => post(one, { type: 'start', wasm: module }));
   return one;
 }
+started(); // while the page draws itself
 
 function ask(question: (id: number) => Question, listener: Listener): number {
   const id = ++last;

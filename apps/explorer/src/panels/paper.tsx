@@ -9,7 +9,7 @@ import { commandOf, tomlOf } from '../state/scenario';
 import { Controls } from '../ui/controls';
 import { Equations } from '../ui/equations';
 import { Check, NumberField, Segments, sentence } from '../ui/fields';
-import type { Name } from '../ui/equations';
+import type { Name } from '../ui/formulas';
 import { short } from '../ui/format';
 import { SpaceTime } from '../ui/picture/map';
 import { Plot } from '../ui/picture/plot';

@@ -1,7 +1,6 @@
 /** A film of a run, as WebM: the browser encodes one picture after the other. */
 
 import { useRef, useState } from 'preact/hooks';
-import { ArrayBufferTarget, Muxer } from 'webm-muxer';
 import { color } from './colors';
 import { imageOf } from './picture/raster';
 import { save } from './save';
@@ -27,6 +26,7 @@ async function show(ctx: CanvasRenderingContext2D, pictures: string[]) {
 
 /** Encodes a film. It calls `progress` with the finished fraction, and stops if the answer is false. */
 async function encoded(pictures: Pictures, progress: (share: number) => boolean): Promise<Blob | null> {
+  const { ArrayBufferTarget, Muxer } = await import('webm-muxer');
   const canvas = document.createElement('canvas');
   Object.assign(canvas, { width, height });
   const ctx = canvas.getContext('2d')!;
