@@ -55,7 +55,7 @@ const pages: Record<string, Page> = {
   },
   riemann: {
     name: 'Riemann', heading: 'Two trains meet', view: lazily(async () => (await import('./panels/riemann')).RiemannPanel),
-    about: 'Left and right of one point lie two uniform trains of dislocations. What happens next depends only on x/t: fans, where they spread, and shocks, where they run into each other.',
+    about: 'Left and right of one point lie two uniform trains of dislocations. What happens next depends only on x/t: fans, where they spread, and two trains at one position, where dislocations overtake each other.',
   },
   paper: {
     name: 'The paper', heading: 'The figures of the paper, live', view: lazily(async () => (await import('./panels/paper')).PaperPanel),

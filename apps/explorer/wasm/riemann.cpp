@@ -1,50 +1,69 @@
 /// \file
-/// Panel "Riemann": two uniform trains meet at x = 0.
-
-#include "slipfront/rupture/riemann.hpp"
+/// Panel "Riemann": two uniform trains meet at x = 0. The solution is exact, with two trains where dislocations
+/// overtake each other.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include "answer.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/rupture/riemann_trains.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::explorer {
 namespace {
 
-using rupture::RiemannSolution;
+using rupture::TrainsSolution;
 using rupture::Wave;
-
-Object described(const State& state) {
-  const train::Averages a = train::averages(state);
-  return Object()
-      .put("phi", state.phi)
-      .put("psi", state.psi)
-      .put("U", std::tanh(state.phi))
-      .put("Sigma", a.k)
-      .put("W", a.W)
-      .put("P", a.P)
-      .put("H", a.H);
-}
 
 Object described(const Wave& wave) {
   return Object().put("kind", rupture::name_of(wave.kind)).put("outer", wave.outer).put("inner", wave.inner);
 }
 
-/// The states that a wave passes through, from the outer to the inner side.
-void put_path(Object& object, const std::string& name, const RiemannSolution& solution, const Wave& wave) {
-  std::vector<double> phi, psi, x;
-  if (wave.kind == Wave::Kind::fan) {
-    constexpr int points = 60;
-    for (int i = 0; i <= points; ++i) {
-      x.push_back(wave.outer + (wave.inner - wave.outer) * i / points);
-      const State state = rupture::sample(solution, x.back());
-      phi.push_back(state.phi);
-      psi.push_back(state.psi);
+std::vector<Object> described(const std::vector<rupture::Region>& regions) {
+  std::vector<Object> all;
+  for (const rupture::Region& region : regions)
+    all.push_back(Object()
+                      .put("kind", rupture::name_of(region.kind))
+                      .put("from", region.from)
+                      .put("to", region.to)
+                      .put("trains", static_cast<int>(region.trains)));
+  return all;
+}
+
+/// Evenly spaced x/t around the waves, and both sides of each edge of a region, where curves bend or jump.
+std::vector<double> positions(const TrainsSolution& solution, const rupture::Edges& edges, int points) {
+  const double width = std::max(edges.right - edges.left, 1e-12);
+  std::vector<double> x;
+  for (int i = 0; i < points; ++i) x.push_back(edges.left - 0.25 * width + 1.5 * width * i / (points - 1));
+  for (const rupture::Region& region : solution.regions)
+    for (const double edge : {region.from, region.to})
+      for (const double side : {-1e-9, 1e-9}) x.push_back(edge + side * width);
+  std::sort(x.begin(), x.end());
+  return x;
+}
+
+/// Profiles of the averages over x/t, and the rapidities of the edges of each train.
+void put_profiles(Object& object, const TrainsSolution& solution, const std::vector<double>& x) {
+  std::vector<double> Sigma, W, slip;
+  std::array<std::vector<double>, 4> edges;
+  for (const double at : x) {
+    const rupture::TrainsPoint point = rupture::profile_point(solution, at);
+    Sigma.push_back(point.all.Sigma);
+    W.push_back(point.all.W);
+    slip.push_back(point.slip);
+    for (std::size_t i = 0; i < edges.size() / 2; ++i) {
+      const bool here = i < point.trains.size();
+      constexpr double none = std::numeric_limits<double>::quiet_NaN();
+      edges[2 * i].push_back(here ? point.trains[i].lowest : none);
+      edges[2 * i + 1].push_back(here ? point.trains[i].highest : none);
     }
   }
-  object.put(name, Object().numbers("phi", phi).numbers("psi", psi).numbers("x_over_t", x));
+  object.numbers("x_over_t", x).numbers("Sigma", Sigma).numbers("W", W).numbers("slip", slip);
+  object.numbers("lowest_1", edges[0]).numbers("highest_1", edges[1]).numbers("lowest_2", edges[2]);
+  object.numbers("highest_2", edges[3]);
 }
 
 }  // namespace
@@ -56,25 +75,17 @@ SLIPFRONT_EXPORT const char* riemann(double left_stress, double left_velocity, d
     const State right = rupture::moving_train(right_stress, right_velocity, "right");
     if (left.empty() && right.empty())
       throw InputError({.key = "left_stress", .problem = "both sides are empty", .allowed = "a stress on one side"});
-    const RiemannSolution s = rupture::solve_riemann(left, right);
-    const rupture::Edges edges = rupture::edges_of(s);
+    const TrainsSolution solution = rupture::solve_trains(left, right);
+    const rupture::Edges edges = rupture::edges_of(solution);
+    const rupture::TrainsPoint between = rupture::profile_point(solution.star);
     Object object;
-    object.put("left", described(s.left)).put("right", described(s.right)).put("star", described(s.star));
-    object.put("left_wave", described(s.left_wave)).put("right_wave", described(s.right_wave));
+    object.put("left_wave", described(solution.left_wave)).put("right_wave", described(solution.right_wave));
+    object.put("regions", described(solution.regions));
+    object.put("Sigma_between", between.all.Sigma).put("W_between", between.all.W);
+    object.put("trains_between", static_cast<int>(between.trains.size()));
     object.put("left_edge", edges.left).put("right_edge", edges.right);
-    put_path(object, "left_path", s, s.left_wave);
-    put_path(object, "right_path", s, s.right_wave);
-    const double width = std::max(edges.right - edges.left, 1e-12);
-    std::vector<double> x, Sigma, W, U;
-    for (int i = 0; i < std::clamp(points, 2, 20000); ++i) {
-      x.push_back(edges.left - 0.25 * width + 1.5 * width * i / (std::clamp(points, 2, 20000) - 1));
-      const State state = rupture::sample(s, x.back());
-      const train::Averages a = train::averages(state);
-      Sigma.push_back(a.k);
-      W.push_back(a.W);
-      U.push_back(state.empty() ? 0 : std::tanh(state.phi));
-    }
-    return object.numbers("x_over_t", x).numbers("Sigma", Sigma).numbers("W", W).numbers("U", U);
+    put_profiles(object, solution, positions(solution, edges, std::clamp(points, 2, 20000)));
+    return object;
   });
 }
 

@@ -22,14 +22,20 @@ export type Relations = Record<RelationsKey, number>;
 export type RelationsCurve = Record<RelationsKey, Float64Array>;
 
 export interface Wave {
-  kind: 'none' | 'fan' | 'shock';
+  kind: 'none' | 'fan' | 'two-trains';
   outer: number;
   inner: number;
 }
-export type TrainState = Record<'phi' | 'psi' | 'U' | 'Sigma' | 'W' | 'P' | 'H', number>;
-export type WavePath = Record<'phi' | 'psi' | 'x_over_t', Float64Array>;
-export type Riemann = Record<'left' | 'right' | 'star', TrainState> & Record<'left_wave' | 'right_wave', Wave> &
-  Record<'left_path' | 'right_path', WavePath> & Record<'left_edge' | 'right_edge', number> & Record<'x_over_t' | 'Sigma' | 'W' | 'U', Float64Array>;
+export interface Region {
+  kind: 'constant' | 'fan' | 'two-trains' | 'vacuum';
+  from: number;
+  to: number;
+  trains: number;
+}
+/** The rapidities of the edges of each train over x/t are NaN where there is no such train. */
+export type Riemann = Record<'left_wave' | 'right_wave', Wave> & { regions: Region[] } &
+  Record<'Sigma_between' | 'W_between' | 'trains_between' | 'left_edge' | 'right_edge', number> &
+  Record<'x_over_t' | 'Sigma' | 'W' | 'slip' | 'lowest_1' | 'highest_1' | 'lowest_2' | 'highest_2', Float64Array>;
 
 export type Train = Record<'spacing' | 'k' | 'W' | 'psi' | 'phi', number> & Record<'xi' | 'u' | 'sigma' | 'w', Float64Array>;
 

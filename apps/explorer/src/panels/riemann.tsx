@@ -1,4 +1,4 @@
-/** Panel "Riemann": two states, and the waves between them. */
+/** Panel "Riemann": two uniform trains meet, and the exact waves between them. */
 
 import { useEffect, useState } from 'preact/hooks';
 import { call } from '../engine/client';
@@ -18,48 +18,43 @@ const fields = [
   { key: 'right_velocity', label: 'Right velocity U, in c', value: '0', least: -0.9, most: 0.9 },
 ];
 
-const inWords: Record<string, string> = { fan: 'a fan: the train spreads', shock: 'a shock: the train is run into', none: 'no wave' };
+const waveInWords: Record<string, string> = { fan: 'a fan', 'two-trains': 'two trains', none: 'no wave' };
+const countInWords = ['no dislocations', 'one train', 'two trains'];
 
-/** Rays of constant state in x-t; t goes to 1. */
+/** The number without a rounding error, that of the sizes which cancel. */
+const free = (value: number, size: number) => (Math.abs(value) < 1e-12 * size ? 0 : value);
+
+/** Rays of constant state in x-t; t goes to 1. A wave has several rays. */
 function rays(a: Riemann): Path[] {
   const all: Path[] = [];
-  const ray = (speed: number, color: string, width: number, dash?: number[], label?: string) => all.push({ x: [0, speed], y: [0, 1], color, width, dash, label });
-  for (const [side, color] of [['left', 'fast'], ['right', 'slow']] as const) {
-    const wave = a[`${side}_wave`];
-    if (wave.kind === 'fan') {
-      const count = 12;
-      for (let i = 0; i <= count; ++i) ray(wave.outer + ((wave.inner - wave.outer) * i) / count, color, i === 0 || i === count ? 2.2 : 0.9, undefined, i === 0 ? `${side} fan` : undefined);
-    } else if (wave.kind === 'shock') ray(wave.outer, color, 3.2, undefined, `${side} shock`);
+  const ray = (speed: number, color: string, width: number, label?: string) => all.push({ x: [0, speed], y: [0, 1], color, width, label });
+  for (const { kind, from, to } of a.regions) {
+    if (kind !== 'fan' && kind !== 'two-trains') continue;
+    const [color, name] = kind === 'fan' ? ['fast', 'fan'] : ['chosen', 'two trains'];
+    const named = all.some(({ label }) => label === name);
+    for (let i = 0; i <= 12; ++i) ray(from + ((to - from) * i) / 12, color, i === 0 || i === 12 ? 2.2 : 0.9, i === 0 && !named ? name : undefined);
   }
   return all;
 }
 
-function planeSpec(a: Riemann): Spec {
-  const states = [
-    { state: a.left, label: 'left', color: 'fast' },
-    { state: a.star, label: 'between', color: 'chosen' },
-    { state: a.right, label: 'right', color: 'slow' },
-  ];
-  const paths: Path[] = [];
-  for (const [side, color] of [['left', 'fast'], ['right', 'slow']] as const) {
-    const wave = a[`${side}_wave`];
-    if (wave.kind === 'fan') paths.push({ label: `${side} fan`, x: a[`${side}_path`].phi, y: a[`${side}_path`].psi, color });
-    if (wave.kind === 'shock') paths.push({ label: `${side} shock`, x: [a[side].phi, a.star.phi], y: [a[side].psi, a.star.psi], color, dash: [6, 4] });
-  }
-  const filled = states.filter(({ state }) => state.psi > 0);
-  const most = Math.max(...filled.map(({ state }) => state.psi));
-  const phis = [...filled.map(({ state }) => state.phi), ...paths.flatMap((path) => Array.from(path.x))];
-  const [low, high] = [Math.min(...phis), Math.max(...phis)];
-  const room = Math.max(0.1 * (high - low), 0.02);
-  return {
-    name: 'states', title: 'The same in the plane of states', x: [], xLabel: 'φ, rapidity of the dislocations', yLabel: 'ψ, how densely they lie', series: [], paths,
-    points: filled.map(({ state, label, color }) => ({ x: state.phi, y: state.psi, label, color, chosen: true })),
-    xRange: [low - room, high + room], yRange: [0, most * 1.15],
-  };
+/** The filled part of the plane of x/t and rapidity, and the edges of its bands. Curves end at the edges of a region, where trains begin or end. */
+function bands(a: Riemann): Path[] {
+  const all: Path[] = [];
+  const ends = a.regions.flatMap(({ from, to }) => [from, to]);
+  for (const [lowest, highest] of [[a.lowest_1, a.highest_1], [a.lowest_2, a.highest_2]])
+    for (let from = 0, to = 0; from < lowest.length; from = to + 1) {
+      to = from;
+      if (!Number.isFinite(lowest[from])) continue;
+      while (to + 1 < lowest.length && Number.isFinite(lowest[to + 1]) && !ends.some((end) => a.x_over_t[to] < end && end < a.x_over_t[to + 1])) ++to;
+      const [x, low, high] = [a.x_over_t, lowest, highest].map((values) => Array.from(values.slice(from, to + 1)));
+      all.push({ x: [...x, ...x.slice().reverse()], y: [...high, ...low.slice().reverse()], color: 'stress', width: 0, fill: true });
+      for (const y of [low, high]) all.push({ x, y, color: 'stress', width: 1.4 });
+    }
+  return all;
 }
 
-function profileSpec(a: Riemann, key: 'Sigma' | 'W', title: string, yLabel: string, color: string): Spec {
-  return { name: key, title, x: a.x_over_t, xLabel: 'x/t, in c', yLabel, series: [{ label: yLabel, y: a[key], color, fill: key === 'W' }] };
+function profileSpec(a: Riemann, key: 'Sigma' | 'W' | 'slip', title: string, yLabel: string, color: string): Spec {
+  return { name: key, title, x: a.x_over_t, xLabel: 'x/t, in c', yLabel, series: [{ label: yLabel, y: a[key], color, fill: key !== 'Sigma' }] };
 }
 
 export function RiemannPanel() {
@@ -98,19 +93,20 @@ export function RiemannPanel() {
       {answer && (
         <section class={`pictures results ${error ? 'stale' : ''}`} aria-label="Waves">
           <dl class="facts">
-            <div><dt>Left wave</dt><dd>{inWords[answer.left_wave.kind]}</dd></div>
-            <div><dt>Right wave</dt><dd>{inWords[answer.right_wave.kind]}</dd></div>
-            <div><dt>Stress between</dt><dd>{short(answer.star.Sigma, 6)} μA/π</dd></div>
-            <div><dt>Slip velocity between</dt><dd>{short(answer.star.W, 6)} cA/π</dd></div>
+            <div><dt>Left wave</dt><dd>{waveInWords[answer.left_wave.kind]}</dd></div>
+            <div><dt>Right wave</dt><dd>{waveInWords[answer.right_wave.kind]}</dd></div>
+            <div><dt>Between the waves</dt><dd>{countInWords[answer.trains_between]}</dd></div>
+            <div><dt>Stress between</dt><dd>{short(answer.Sigma_between, 6)} μA/π</dd></div>
+            <div><dt>Slip velocity between</dt><dd>{short(free(answer.W_between, answer.Sigma_between), 6)} cA/π</dd></div>
             <div><dt>Edges</dt><dd>{short(answer.left_edge)} and {short(answer.right_edge)} c</dd></div>
           </dl>
           <div class="two">
             <Plot spec={{ name: 'waves', title: 'Waves over x and t', x: [], xLabel: 'x', yLabel: 't', series: [], paths: rays(answer), xRange: [-width, width], yRange: [0, 1] }} height={290} />
-            <Plot spec={planeSpec(answer)} height={290} />
+            <Plot spec={{ name: 'rapidities', title: 'Which rapidities are filled', x: [], xLabel: 'x/t, in c', yLabel: 'rapidity r', series: [], paths: bands(answer) }} height={290} />
             <Plot spec={profileSpec(answer, 'Sigma', 'Stress', 'Σ, in μA/π', 'stress')} height={190} />
             <Plot spec={profileSpec(answer, 'W', 'Slip velocity', 'W, in cA/π', 'slip')} height={190} />
           </div>
-          <Equations names={['invariants', 'jump']}><p>Along a fan one of φ ± ψ stays the same, so its path in the plane is a straight line at 45°. A shock jumps.</p></Equations>
+          <Equations names={['edges', 'bands']}><p>Each dislocation has a rapidity r, and alone it moves at tanh r. A train fills a band of rapidities, whose edges move at the speeds of the modulation. Where dislocations overtake others the filled region folds: two bands lie above each other, and there are two trains at one position. No wave is a shock.</p></Equations>
         </section>
       )}
     </div>

@@ -38,7 +38,7 @@ export const stops: Stop[] = [
   },
   {
     panel: 'riemann', params: { left_stress: '0.855', right_stress: '0.179', left_velocity: '0', right_velocity: '0' }, title: 'When the other side is stressed too',
-    text: 'Then the dislocations run into others, and the slow front becomes a shock. Behind it lies a stretch that slips evenly.',
+    text: 'Then the dislocations overtake those ahead of them. At x = 0 two trains lie at one position: the picture of rapidities folds.',
   },
   {
     panel: 'stress', params: { range: 'fast', 'my.rupture_velocity': '3.0 +- 0.2 km/s', 'my.slip_velocity': '0.5 m/s' }, title: 'Parkfield, 2004',

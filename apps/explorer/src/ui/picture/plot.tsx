@@ -48,6 +48,11 @@ function drawPath(u: uPlot, path: Path, spec: Spec) {
       draws = true;
     }
   }
+  if (path.fill) {
+    ctx.fillStyle = color(`${path.color}-soft`);
+    ctx.fill();
+  }
+  if (path.width === 0) return;
   ctx.strokeStyle = color(path.color);
   ctx.lineWidth = (path.width ?? 1.8) * devicePixelRatio;
   ctx.setLineDash((path.dash ?? []).map((d) => d * devicePixelRatio));

@@ -18,6 +18,8 @@ export interface Path {
   color: string;
   dash?: number[];
   width?: number;
+  /** Fills the inside of a closed curve. */
+  fill?: boolean;
 }
 export interface Point {
   x: number;

@@ -35,13 +35,13 @@ export function svgOf(spec: Spec, color: Color, link = '', width = 720, height =
   parts.push(axes(box, color,
     { label: spec.xLabel, ticks: ticks(xRange, 7, spec.xLog).map((tick) => ({ at: frame.x(off(tick, spec.xLog)), text: tickText(tick, spec.xLog) })) },
     { label: spec.yLabel, ticks: ticks(yRange, (box.bottom - box.top) / 60, spec.yLog).map((tick) => ({ at: frame.y(off(tick, spec.yLog)), text: tickText(tick, spec.yLog) })) }));
-  const line = (d: string, name: string, dash?: number[], thickness = 1.8) =>
-    parts.push(`<path clip-path="url(#box)" d="${d}" fill="none" stroke="${color(name)}" stroke-width="${thickness}"${dash ? ` stroke-dasharray="${dash.join(' ')}"` : ''}/>`);
+  const line = (d: string, name: string, dash?: number[], thickness = 1.8, fill?: boolean) =>
+    parts.push(`<path clip-path="url(#box)" d="${d}" fill="${fill ? color(`${name}-soft`) : 'none'}" stroke="${color(name)}" stroke-width="${thickness}"${dash ? ` stroke-dasharray="${dash.join(' ')}"` : ''}/>`);
   const edges = spread(verticals.map((v) => frame.x(v.x)), verticals.map((v) => 6.8 * v.label.length), [box.left, box.right], 8);
   verticals.forEach((v, i) => parts.push(`<text x="${edges[i].toFixed(1)}" y="${box.top - 6}" fill="${color(v.color)}">${escape(v.label)}</text>`));
   verticals.forEach((v) => line(`M${frame.x(v.x)} ${box.bottom}V${box.top}`, v.color, [3, 4], 1));
   spec.series.forEach((s) => line(pathOf(spec.x, s.y, frame), s.color, s.dash, s.width));
-  spec.paths?.forEach((p) => line(pathOf(p.x, p.y, frame), p.color, p.dash, p.width));
+  spec.paths?.forEach((p) => line(pathOf(p.x, p.y, frame), p.color, p.dash, p.width, p.fill));
   spec.points?.forEach((p) => parts.push(`<circle cx="${frame.x(p.x).toFixed(2)}" cy="${frame.y(p.y).toFixed(2)}" r="${p.chosen ? 6 : 3.5}" fill="${color(p.color)}"><title>${escape(p.label)}</title></circle>`));
   parts.push(legend(box.left + 8, color, [...spec.series, ...(spec.paths ?? [])]));
   return sheet(spec.title, link, width, height, color, parts.join('\n'));
