@@ -262,6 +262,38 @@ TEST(PlaneDirect, WavesLeaveThroughAbsorbingEdges) {
   EXPECT_GT(left_behind(Edges::free, 0.002), 0.9);
 }
 
+/// The largest velocity of a plane wave that comes back from edges at a right angle, over that of the wave. Edges with
+/// the impedance Z would send back (1 - Z) / (1 + Z) of it. The edges at the ends of its crest are too distant to be
+/// noticed. What comes back is of first order in the spacing, 0.030 here and 0.061 at twice the spacing.
+double reflected(bool along_y) {
+  Problem p;
+  const double wide = 2.5, long_ = 9;
+  p.left = -(along_y ? long_ : wide), p.right = -p.left;
+  p.bottom = -(along_y ? wide : long_), p.top = -p.bottom;
+  p.slip = [](double, double) { return 0; };
+  p.contact = [](double, double) { return 0.01; };
+  p.forcing = [=](double x, double y, double t) {
+    const double across = along_y ? y : x;
+    return std::exp(-4 * across * across - 4 * (t - 1.5) * (t - 1.5));
+  };
+  p.edges = Edges::absorbing;
+  DirectSolver solver(p, {.scale = 1, .spacing = 0.0005});
+  double sent = 0, returned = 0;
+  for (const double time : {2.0, 2.5, 3.0, 5.6, 6.0, 6.4, 6.8}) {
+    solver.advance_to(time, {});
+    const plane::Field field = along_y ? solver.field(7, 20) : solver.field(20, 7);
+    for (int i = 0; i < 20; ++i) {
+      double& most = time < 4 ? sent : returned;
+      most = std::fmax(most, std::fabs(field.velocity[static_cast<std::size_t>(along_y ? 7 * i + 3 : 60 + i)]));
+    }
+  }
+  return returned / sent;
+}
+
+TEST(PlaneDirect, EdgesHaveTheImpedanceOfTheWave) {
+  for (const bool along_y : {false, true}) EXPECT_LT(reflected(along_y), 0.035);
+}
+
 TEST(PlaneDirect, FixedEdgesDoNotSlip) {
   Problem p = mixed();
   p.slip = [](double x, double) { return 1.5 + x; };

@@ -2,7 +2,13 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
+#include "chain/explicit/explicit_chain.hpp"
+#include "chain/explicit/levels/absorbing_end.hpp"
+#include "chain/measure/totals.hpp"
+#include "chain/model/initial_train.hpp"
+#include "exact_chains.hpp"
 #include "slipfront/chain/run.hpp"
 #include "slipfront/train/train.hpp"
 
@@ -54,6 +60,43 @@ TEST(ChainAbsorbing, PulseLeaves) {
     RecordProperty("reflected_" + std::to_string(right), std::to_string(reflected));
     EXPECT_LT(reflected, 0.1) << right << ": " << near.slip << ", " << far.slip << ", " << held.slip;
     EXPECT_LT(near.drift, 5e-3) << right;  // the budget counts the energy that leaves
+  }
+}
+
+/// The part of its energy that a small wave leaves in an empty chain after it has met an end. An end with the impedance
+/// Z would send back ((1 - Z) / (1 + Z))^2 of it.
+double energy_that_remains(bool at_right) {
+  Problem p;
+  p.grid = {-10, 0.1, 201};
+  p.boundary = {End::absorbing, End::absorbing, false, 0};
+  p.contact = [](double) { return 0.01; };
+  const double sign = at_right ? 1 : -1;
+  const auto wave = [&](double x, double t) { return 0.3 * std::exp(-(x - sign * t) * (x - sign * t)); };
+  ExplicitChain chain(p, exact::motion_of(wave, p.grid, 0));
+  const double before = totals(chain).energy();
+  chain.advance_to(16);
+  return totals(chain).energy() / before;
+}
+
+TEST(ChainAbsorbing, EndsHaveTheImpedanceOfTheWave) {
+  for (const bool at_right : {false, true}) EXPECT_LT(energy_that_remains(at_right), 1e-4);
+}
+
+/// A deviation from a train at rest leaves with the velocity 1. Here it is linear over the last spacing, and 0 at the
+/// end.
+TEST(ChainAbsorbing, DeviationsFromATrainLeaveWithTheVelocityOfWaves) {
+  constexpr double stress = 0.855, h = 0.1, dt = 0.09, deviation = 1e-3;
+  const double psi0 = train::psi_of_stress(stress);
+  const Motion train = static_train([=](double) { return stress; }, {0, h, 101});
+  for (const int outward : {-1, 1}) {
+    const AbsorbingEnd end{psi0, AbsorbingEnd::shocks_into(psi0), 1, h, dt, 0, outward, 20};
+    const std::size_t last = outward > 0 ? 100 : 0, neighbour = outward > 0 ? 99 : 1;
+    std::vector<double> now = train.u, next;
+    now[neighbour] += deviation;
+    for (double& u : now) u /= 2 * pi;
+    next = now;
+    const double found = 2 * pi * end.step(&now[last], &next[last]).next;
+    EXPECT_NEAR(found, train.u[last] + dt / h * deviation, 1e-6);
   }
 }
 
