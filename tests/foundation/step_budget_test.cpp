@@ -9,6 +9,8 @@
 
 #include "pulse/solver.hpp"
 #include "slipfront/pulse/run.hpp"
+#include "slipfront/scenario/scenario.hpp"
+#include "slipfront/setup/problem.hpp"
 
 namespace {
 
@@ -69,6 +71,40 @@ TEST(StepBudget, EndsAPulseAndTellsWhereAndWhy) {
   cut.go([&] { return cut.solver().cells().steps == 5000; });
   pulse::Run resumed(needlessly_exact(), schedule, cut.saved(), cut.snapshots());
   EXPECT_EQ(end_of(resumed), text);
+}
+
+/// A slow pulse under a weak load. At the speed of light, waves would cross its cells 1e35 times. Each step should be
+/// much longer than a friction time, although the state of friction allows no implicit steps.
+TEST(StepBudget, FitsASlowPulseWithRateAndStateFriction) {
+  const std::string text = R"toml([initial]
+profile = "formula"
+formula = "0.03057 - 0.01911*0.5*(1 - tanh((x - 2.944)/4.415)) - 0.01528*exp(-((x - 14.72)/5.887)^2)"
+[friction]
+law = "rate-and-state"
+strength = 5.116e-71
+direct_effect = 2.168e-72
+evolution_effect = 6.082e-73
+characteristic_slip = 0.0001957
+reference_velocity = 1.007e-37
+state = "slip"
+[forcing]
+formula = "6.673e-71*cos(1.289e-34*t + 4.86)*exp(-((x + 10.41)/8.791)^2)"
+[domain]
+left = -64.76
+right = 64.76
+[time]
+end = 4.562e+34
+[pulse]
+cells = 50
+)toml";
+  const auto scenario = slipfront::scenario::read_scenario(text, "slow.toml", {}, {});
+  const pulse::Problem problem = slipfront::setup::pulse_problem(scenario);
+  pulse::Run run(problem, slipfront::setup::pulse_schedule(scenario, problem));
+  EXPECT_LT(run.budget().expected(), 1000);
+  EXPECT_EQ(end_of(run), "no error");
+  EXPECT_LT(run.solver().cells().steps, 300);
+  EXPECT_NEAR(run.snapshots().back().peak_slip_velocity, -3.94e-40,
+              0.02e-40);  // from steps of 1e-8 of the run: 500,000
 }
 
 }  // namespace

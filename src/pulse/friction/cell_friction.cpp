@@ -15,7 +15,7 @@ CellFriction::CellFriction(const Problem& problem, std::size_t cells)
                       &s_, &momentum_, &velocity_, &typical_, &force_, &slope_, &start_slope_})
     array->resize(cells);
   for (auto* array : {&strength_at_rest_, &held_, &free_, &guess_, &moves_, &spacing_, &middle_, &fastest_,
-                      &slipping_fastest_, &slipping_s_, &slipping_force_, &slipping_slope_})
+                      &friction_times_, &slipping_fastest_, &slipping_s_, &slipping_force_, &slipping_slope_})
     array->resize(cells);
   slipping_.resize(cells);
   slipping_state_.resize(state_.size());
@@ -124,6 +124,13 @@ void CellFriction::find_forces(const std::vector<double>& s, std::size_t stride)
   }
 }
 
+const std::vector<double>& CellFriction::friction_times(double time) {
+  for (std::size_t i = 0; i < x_.size(); ++i)
+    friction_times_[i] = momentum_[i] > 0 && slope_[i] > 0 ? 2 * pi * time * slope_[i] / momentum_[i] : 0;
+  return friction_times_;
+}
+
+/// If friction balances the other forces, a change of friction changes the momentum for one friction time only.
 double CellFriction::state_error(const std::vector<double>& forces_before, double time,
                                  const std::vector<double>& scale) {
   const std::size_t stride = std::max<std::size_t>(x_.size() / 64, 1);
@@ -132,8 +139,8 @@ double CellFriction::state_error(const std::vector<double>& forces_before, doubl
   double sum = 0;
   for (std::size_t i = 0; i < x_.size(); i += stride) {
     if (!(fastest_[i] > 0)) continue;
-    const double off =
-        2 * pi * time * charge_[i] * (force_[i] - forces_before[i]) / ConstValues(scale.data(), x_.size()).momentum(i);
+    const double off = 2 * pi * time / (1 + friction_times_[i]) * charge_[i] * (force_[i] - forces_before[i]) /
+                       ConstValues(scale.data(), x_.size()).momentum(i);
     sum += off * off;
   }
   const double error = std::sqrt(sum * static_cast<double>(stride) / static_cast<double>(x_.size()));

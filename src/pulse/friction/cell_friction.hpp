@@ -29,6 +29,8 @@ class CellFriction {
   void operator()(const double* y, const double* free, double time, double* momentum, double* velocity);
   /// Mean friction forces from the last call.
   const std::vector<double>& forces() const { return force_; }
+  /// Length of a step in friction times, for each cell, by the last call: its length times the slope of friction.
+  const std::vector<double>& friction_times(double time);
   /// Error of a step of length `time` that used the forces `forces_before`, if the state variables last looked up are
   /// right. It is the root mean square over a sample of the cells, in units of `scale`.
   double state_error(const std::vector<double>& forces_before, double time, const std::vector<double>& scale);
@@ -50,6 +52,7 @@ class CellFriction {
   std::vector<double> strength_at_rest_, held_;  ///< friction strength at rest, as a force and as a momentum
   std::vector<double> free_, guess_, moves_, spacing_, middle_;
   std::vector<double> fastest_;  ///< largest slip velocity in each cell
+  std::vector<double> friction_times_;
   std::vector<std::size_t> slipping_;
   std::vector<double> slipping_fastest_, slipping_s_, slipping_state_, slipping_force_, slipping_slope_;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -18,18 +19,34 @@ constexpr double friction_times_per_step = 2;
 /// Crossing times of friction above which it rules whatever the waves become.
 constexpr double surely_stiff = 10;
 
-/// Time in which a wave crosses a cell, of the state at rest; or, for `at_c`, something as fast as any wave can be. A
-/// quarter of the cells is narrower: those at a free edge are far narrower at first, but soon widen.
+/// More steps than anyone waits for. If waves at the speed of light required as many, we estimate the speed.
+constexpr double too_many_steps = 1e8;
+
+/// Time in which a wave crosses a cell, if dislocations move at the speed `pushed`, or waves at their speed at rest if
+/// they are faster. A quarter of the cells is narrower: those at a free edge are far narrower at first, but soon widen.
 double typical_crossing_time(const ConstValues& values, const std::vector<double>& charge, const CellStates& trains,
-                             bool at_c) {
+                             double pushed) {
   std::vector<double> times;
   for (std::size_t i = 0; i < charge.size(); ++i)
-    if (charge[i] > 0 && trains.sound_speed[i] > 0)
-      times.push_back(values.width(i) / (at_c ? 1 : trains.sound_speed[i]));
+    if (const double speed = std::fmax(pushed, trains.sound_speed[i]); charge[i] > 0 && speed > 0)
+      times.push_back(values.width(i) / speed);
   if (times.empty()) return HUGE_VAL;
   const auto quarter = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 4);
   std::nth_element(times.begin(), quarter, times.end());
   return *quarter;
+}
+
+/// The speed that the forcing can give a dislocation in a time, at most, as far as samples show: the momentum
+/// 8 sinh(phi) grows by 2 pi F.
+double pushed_speed(const Problem& problem, const Cells& cells, double duration) {
+  constexpr int samples = 32;
+  double largest = 0;
+  for (int i = 0; i < samples; ++i) {
+    const double x = cells.centre(static_cast<std::size_t>(i) * cells.size() / samples);
+    for (int j = 0; j <= samples; ++j)
+      largest = std::fmax(largest, std::fabs(problem.forcing(x, cells.time + duration * j / samples)));
+  }
+  return std::tanh(std::asinh(2 * std::numbers::pi * largest * duration / 8));
 }
 
 }  // namespace
@@ -39,8 +56,12 @@ double Stepper::expected_steps(const Cells& cells, double duration) {
   rates_of(cells);
   const double* unknowns = cells.unknowns.data();
   // A contact profile or a forcing may accelerate trains in which waves at rest are slow.
-  const bool pushed = initial_.contact_varies || problem_.forcing;
-  const double crossing = typical_crossing_time(cells.values(), cells.charge, equations.trains(), pushed);
+  const auto crossing_at = [&](double speed) {
+    return typical_crossing_time(cells.values(), cells.charge, equations.trains(), speed);
+  };
+  double crossing = crossing_at(initial_.contact_varies || problem_.forcing ? 1 : 0);
+  if (!initial_.contact_varies && problem_.forcing && duration > too_many_steps * crossing)
+    crossing = crossing_at(pushed_speed(problem_, cells, duration));
   double shortest = std::fmin(problem_.cfl * crossing, problem_.longest_step);
   const double C = problem_.friction.linear_coefficient().value_or(0);
   if (problem_.periodic && C > 0) shortest = std::fmin(shortest, friction_times_per_step / C);

@@ -51,7 +51,8 @@ void Measures::find_scale(const Cells& cells, const Semidiscrete& equations, dou
   const double damping = rate > 0 ? rate * crossing : 0;  // waves may never cross a cell: 0 times infinity
   double fastest = 8e-3 * *std::max_element(equations.s().begin(), equations.s().end()) / (1 + damping);
   constexpr double slow = 8e-3, rounding = 1e-8;
-  if (!cells.face_momentum.empty()) fastest = std::fmax(fastest, slow * mean_speed(cells));
+  if (!cells.face_momentum.empty() || takes_friction_by_cells(problem_))
+    fastest = std::fmax(fastest, slow * mean_speed(cells));
   if (initial_.contact_varies) fastest = std::fmax(fastest, rounding / (1 + rate));
   for (std::size_t i = 0; i < cells.size(); ++i)
     if (cells.charge[i] > 0) fastest = std::fmax(fastest, std::fabs(cells.momentum(i) / cells.charge[i]));

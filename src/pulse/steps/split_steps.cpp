@@ -54,10 +54,11 @@ StepAttempt SplitSteps::attempt(Cells& cells, Semidiscrete& equations, const std
   if (has_state_) grid_.advance(at_start_, dt / 2, half_);
   friction_.take_state(grid_, half_, dt);
   step_(f, friction, cells.time, dt, cells.unknowns, rate);
+  const std::vector<double>& friction_times = friction_.friction_times(dt);
   const double of_state = has_state_ ? advance_state(cells, dt) : 0;
-  const double error =
-      std::max({step_.error(cells.unknowns, scale_, equations.shocked()), of_state, measures_.unseen_push(cells, dt)}) /
-      problem_.explicit_tolerance;
+  const double error = std::max({step_.error(cells.unknowns, scale_, equations.shocked(), friction_times), of_state,
+                                 measures_.unseen_push(cells, dt)}) /
+                       problem_.explicit_tolerance;
   return {.succeeded = true, .error = error, .resolved = !cells_jump(before_, cells.unknowns, cells.charge)};
 }
 

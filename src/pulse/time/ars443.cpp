@@ -41,12 +41,19 @@ Ars443::Ars443(std::size_t cells, std::size_t size)
       midpoint_(size),
       free_(cells),
       momentum_(cells),
-      velocity_(cells) {}
+      velocity_(cells),
+      mean_off_(cells) {}
 
 void Ars443::operator()(const Rates& f, const Friction& friction, double t, double dt, std::vector<double>& y,
                         const std::vector<double>& rate_at_start) {
   before_ = y;
   rates_[0] = rate_at_start;
+  mean_off_.assign(cells_, 0.0);
+  const auto add_to_mean = [&](double weight, const double* momentum) {
+    for (std::size_t cell = 0; cell < cells_; ++cell) mean_off_[cell] += weight * momentum[cell];
+  };
+  constexpr double trapezoidal = 0.5;
+  add_to_mean(by_rates[stages - 1][0] - trapezoidal, before_.data() + cells_);
   std::array<const double*, 1 + stages> y_and_rates, y_and_friction;  // as far as they are known; with weight 0 else
   y_and_rates.fill(before_.data());
   y_and_friction.fill(stage_.data());
@@ -66,6 +73,7 @@ void Ars443::operator()(const Rates& f, const Friction& friction, double t, doub
     std::copy_n(momentum_.data(), cells_, values.momenta());
     y_and_friction[1 + k] = friction_[k].data();
     for (std::size_t j = 0; j <= k; ++j) values.dissipated() += dt * by_friction[k][j] * friction_[j][cells_];
+    add_to_mean(k + 1 < stages ? by_rates[stages - 1][k + 1] : -trapezoidal, momentum_.data());
     if (k + 1 < stages) f(t + at[k] * dt, stage_.data(), rates_[k + 1].data());
   }
   combine3(midpoint_.size(), {1, dt, 0}, {before_.data(), rates_[1].data(), before_.data()}, midpoint_.data());
@@ -80,13 +88,16 @@ void Ars443::operator()(const Rates& f, const Friction& friction, double t, doub
 }
 
 double Ars443::error(const std::vector<double>& y, const std::vector<double>& scale,
-                     const std::vector<double>& excluded) const {
+                     const std::vector<double>& excluded, const std::vector<double>& friction_times) const {
   double sum = 0;
-  for (std::size_t cell = 0; cell < cells_; ++cell)
-    for (const std::size_t i : {cell, cells_ + cell}) {
-      const double off = (y[i] - midpoint_[i]) / scale[i];
-      sum += (1 - excluded[cell]) * off * off;
-    }
+  for (std::size_t cell = 0; cell < cells_; ++cell) {
+    const std::size_t i = cells_ + cell;
+    const double width = (y[cell] - midpoint_[cell]) / scale[cell];
+    const double full = std::fabs(y[i] - midpoint_[i]), times = 1 + friction_times[cell],
+                 damped = full / (times * times);
+    const double momentum = std::fmin(full, std::fmax(damped, std::fabs(mean_off_[cell]))) / scale[i];
+    sum += (1 - excluded[cell]) * (width * width + momentum * momentum);
+  }
   const double error = std::sqrt(sum / static_cast<double>(2 * cells_));
   return std::isfinite(error) ? error : HUGE_VAL;
 }

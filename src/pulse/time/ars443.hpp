@@ -28,14 +28,21 @@ class Ars443 {
                   const std::vector<double>& rate_at_start);
   /// Error of the last step: the difference of the two solutions in units of `scale`, which has two entries per cell.
   /// It is the root mean square over the cells that are not `excluded` (1; 0 elsewhere).
-  double error(const std::vector<double>& y, const std::vector<double>& scale,
-               const std::vector<double>& excluded) const;
+  ///
+  /// `friction_times` is the length of the step in friction times, for each cell. If it is large, friction balances the
+  /// other forces at the end of the step. The midpoint rule does not damp, so its difference exaggerates the error of a
+  /// momentum, and we divide it by the square of that length. However, the error of the mean momentum, which is that of
+  /// slip, counts in full. We take its difference from the trapezoidal rule. It shows steps that the momentum begins
+  /// far from its balance.
+  double error(const std::vector<double>& y, const std::vector<double>& scale, const std::vector<double>& excluded,
+               const std::vector<double>& friction_times) const;
 
  private:
   std::size_t cells_;
   std::vector<std::vector<double>> rates_;     ///< at the start and at each stage but the last, without friction
   std::vector<std::vector<double>> friction_;  ///< for each stage: loss of momentum by cell, then of energy
   std::vector<double> before_, stage_, midpoint_, free_, momentum_, velocity_;
+  std::vector<double> mean_off_;  ///< mean momentum, less that of the trapezoidal rule
 };
 
 }  // namespace slipfront::pulse

@@ -198,4 +198,36 @@ TEST(Ars443, ConvergesAtThirdOrder) {
     EXPECT_NEAR(order_of([&](int steps) { return error_of(linear, steps); }, 20), 3, 0.15) << linear;
 }
 
+/// Error estimate of one step from the momentum `start` under a force 1 + t and the friction rate `rate`.
+double estimate_under_friction(double start, double rate, double dt) {
+  pulse::Ars443 step(1, pulse::Values::size(1));
+  const Rates f = [](double t, const double*, double* dy) {
+    std::fill_n(dy, pulse::Values::size(1), 0.0);
+    dy[1] = 1 + t;
+  };
+  const auto friction = [rate](const double*, const double* free, double time, double* momentum, double* velocity) {
+    *momentum = *velocity = *free / (1 + rate * time);
+  };
+  std::vector<double> y(pulse::Values::size(1)), rate_at_start(y.size());
+  y[0] = 1;
+  y[1] = start;
+  f(0, y.data(), rate_at_start.data());
+  step(f, friction, 0, dt, y, rate_at_start);
+  return step.error(y, {1, 1 / rate}, {0}, {rate * dt});
+}
+
+/// The mean momentum is off by 0.07 of the change of the force, and the momentum at the end by 0.4 of it. The difference
+/// from the midpoint rule exceeds the change of the force by the length of the step in friction times.
+TEST(Ars443, EstimatesTheErrorOfAMomentumThatFrictionBalances) {
+  for (const double dt : {1e-3, 1e-2, 1e-1}) {
+    const double estimate = estimate_under_friction(1e-8, 1e8, dt);
+    EXPECT_LT(estimate, 0.4 * dt);
+    EXPECT_GT(estimate, 0.07 * dt);
+  }
+}
+
+TEST(Ars443, RejectsAStepInWhichTheMomentumOnlyReachesItsBalance) {
+  for (const double dt : {1e-7, 1e-4, 1e-1}) EXPECT_GT(estimate_under_friction(0, 1e8, dt), 0.1) << dt;
+}
+
 }  // namespace
