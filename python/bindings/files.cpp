@@ -11,9 +11,11 @@
 #include "bindings.hpp"
 #include "foundation/machine.hpp"
 #include "foundation/text/printable.hpp"
+#include "record/files/seal.hpp"
 #include "record/files/text_file.hpp"
 #include "record/files/unfinished.hpp"
 #include "record/netcdf/dataset_file.hpp"
+#include "record/netcdf/netcdf.hpp"
 
 namespace {
 
@@ -58,7 +60,7 @@ class NetcdfLock {
  public:
   void enter() {
     const py::gil_scoped_release others_may_run;
-    lock_ = record::lock_netcdf();
+    lock_ = record::netcdf::lock_netcdf();
   }
   void leave(const py::args&) { lock_.unlock(); }
 
@@ -80,5 +82,5 @@ void bind_files(py::module_& m) {
       .def(py::init<>())
       .def("__enter__", &NetcdfLock::enter)
       .def("__exit__", &NetcdfLock::leave);
-  m.def("require_readable_netcdf", record::require_readable_netcdf, py::call_guard<py::gil_scoped_release>());
+  m.def("require_unbroken_seal", record::require_unbroken_seal, py::call_guard<py::gil_scoped_release>());
 }

@@ -322,7 +322,7 @@ def read(name, any_file=False, group=None, si=None):
     xarray = import_optional("xarray")
     with _slipfront.NetcdfLock():  # the import initialises the libraries of NetCDF
         import_optional("netCDF4")
-    _slipfront.require_readable_netcdf(os.fsencode(name))  # a damaged file would crash the NetCDF library, and Python with it
+    _slipfront.require_unbroken_seal(os.fsencode(name))  # a damaged file can crash the NetCDF library, and Python with it
     try:
         # The NetCDF library is not thread-safe. A process that is forked while another thread uses it would wait for ever.
         with _slipfront.NetcdfLock(), contextlib.ExitStack() as files:

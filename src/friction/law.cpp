@@ -92,19 +92,12 @@ const StateEvolution& Law::evolution() const {
 
 /// The root lies in [0, free], as f >= 0.
 double Law::speed_after(double free, double weight, LocalState state) const {
-  constexpr int most_steps = 200;
   const auto excess = [&](double v) { return v + weight * strength(v, state) - free; };
   Bracket root{.low = 0, .high = free, .at_low = excess(0), .at_high = excess(free)};
   if (root.at_low >= 0) return 0;
   root.x = free - root.at_high;  // a good guess, as the force changes little in a step
   root.keep_inside();
-  for (int i = 0; i < most_steps && root.high - root.low > 2e-16 * root.high; ++i) {
-    const double at = excess(root.x);
-    if (std::fabs(at) <= 2e-16 * free) break;
-    root.take(at);
-    root.aim();
-  }
-  return root.x;
+  return root_of(root, 2e-16 * free, 2e-16, 0, excess);
 }
 
 }  // namespace slipfront::friction

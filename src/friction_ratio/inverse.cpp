@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "foundation/math/bracket.hpp"
 #include "foundation/text/digits.hpp"
 #include "friction_ratio/layout.hpp"
 #include "slipfront/error.hpp"
@@ -11,13 +12,10 @@ namespace {
 /// Least damping number in [0, the table's last] whose ratio is `ratio`, by bisection in ln(1 + Gamma): the ratio
 /// falls.
 double inside(Measure measure, friction::Closure closure, double stress, double ratio) {
-  double low = 0, high = std::log1p(layout::most_damping);
-  while (high - low > 1e-15 * high) {
-    const double middle = low + (high - low) / 2;
-    if (middle <= low || middle >= high) break;
-    (evaluate(measure, closure, stress, std::expm1(middle)).value > ratio ? low : high) = middle;
-  }
-  return std::expm1(low + (high - low) / 2);
+  const auto is_less_damped = [&](double log_damping) {
+    return evaluate(measure, closure, stress, std::expm1(log_damping)).value > ratio;
+  };
+  return std::expm1(bisected({.holding = 0, .failing = std::log1p(layout::most_damping)}, is_less_damped).failing);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "foundation/math/bracket.hpp"
 #include "slipfront/rupture/relations.hpp"
 #include "slipfront/rupture/riemann.hpp"
 
@@ -16,14 +17,10 @@ namespace {
 /// Cells at the trailing edge in which the solver smears the corner of W.
 constexpr std::size_t smeared = 6;
 
-/// x at which an increasing function reaches a value, by bisection.
+/// x at which an increasing function reaches a value.
 template <class Function>
 double where(const Function& increasing, double value, double low, double high) {
-  for (int n = 0; n < 60; ++n) {
-    const double middle = (low + high) / 2;
-    (increasing(middle) < value ? low : high) = middle;
-  }
-  return (low + high) / 2;
+  return bisected({.holding = low, .failing = high}, [&](double x) { return increasing(x) < value; }).failing;
 }
 
 /// Distance from the trailing edge x = edge at which W = `wanted`, in the cells where the solver smears the corner. W

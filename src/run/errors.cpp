@@ -21,9 +21,9 @@ namespace {
 /// Rows without an error: they are inputs, or they describe the computation and not the physics.
 constexpr std::array<std::string_view, 6> without_error{"friction_coefficient", "damping_number", "time",
                                                         "conservation_error",   "solve_seconds",  "wall_seconds"};
-/// Safety factors if the values on three grids converge, and if they do not (Eca & Hoekstra, 2014, J. Comput. Phys.
+/// Safety factor if the values on three grids do not converge (Eca & Hoekstra, 2014, J. Comput. Phys.
 /// 262:104).
-constexpr double safety = 1.5, safety_unordered = 3;
+constexpr double safety_unordered = 3;
 constexpr int fewest_cells = 4, most_cells = 25600;
 /// The largest product of steps and cells in a run that --tolerance makes: about a minute on one processor. Doubling
 /// the cells also doubles the steps, so it costs four times as much.
@@ -82,7 +82,7 @@ double estimated(double fine, double half, double quarter, double factor) {
   const double last = fine - half, before = half - quarter;
   if (std::isnan(last)) return none;
   const bool converges = last * before >= 0 && std::fabs(last) <= std::fabs(before);
-  if (converges) return factor * std::fmax(std::fabs(last), std::fabs(before) / 2);
+  if (converges) return factor * change_of(fine, half, quarter);
   return safety_unordered * std::fmax(std::fabs(last), std::isnan(before) ? 0 : std::fabs(before));
 }
 

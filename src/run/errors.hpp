@@ -2,6 +2,7 @@
 /// \file
 /// Estimates the discretisation errors of the scalars of a pulse.
 
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
@@ -10,6 +11,13 @@
 #include "slipfront/scenario/scenario.hpp"
 
 namespace slipfront::run {
+
+/// The larger of two changes of a value: at the last doubling of the cells, and half of the one before, as for a scheme
+/// of first order. Times `safety`, it is the error of the finest (Richardson) of values that converge.
+inline double change_of(double fine, double half, double quarter) {
+  return std::fmax(std::fabs(fine - half), std::fabs(half - quarter) / 2);
+}
+inline constexpr double safety = 1.5;
 
 /// The errors of the rows of a summary, relative to infinitely many cells.
 struct Errors {

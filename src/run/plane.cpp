@@ -7,6 +7,7 @@
 
 #include "foundation/text/digits.hpp"
 #include "run/carry_out.hpp"
+#include "run/errors.hpp"
 
 namespace slipfront::run {
 namespace {
@@ -131,8 +132,7 @@ PlaneNumbers plane_errors(const scenario::Scenario& s, const PlaneNumbers& numbe
   if (!half_of || !quarter_of) return unknown_errors(numbers);
   PlaneNumbers fine = numbers, half = *half_of, quarter = *quarter_of, errors = numbers;
   const std::vector<double*> f = all_of(fine), h = all_of(half), q = all_of(quarter), e = all_of(errors);
-  for (std::size_t i = 0; i < e.size(); ++i)
-    *e[i] = 1.5 * std::fmax(std::fabs(*f[i] - *h[i]), std::fabs(*h[i] - *q[i]) / 2);
+  for (std::size_t i = 0; i < e.size(); ++i) *e[i] = safety * change_of(*f[i], *h[i], *q[i]);
   return errors;
 }
 

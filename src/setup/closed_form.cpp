@@ -1,6 +1,7 @@
 #include <cmath>
 #include <limits>
 
+#include "foundation/math/bracket.hpp"
 #include "foundation/math/constants.hpp"
 #include "output/further_scalars.hpp"
 #include "slipfront/rupture/riemann.hpp"
@@ -43,11 +44,8 @@ double peak_of(const RiemannSolution& solution, const Edges& edges) {
 /// x/t between a position at rest and the peak, at which the slip velocity passes `level`. The slip velocity is
 /// monotone in each wave.
 double passes(const RiemannSolution& solution, double resting, double peak, double level) {
-  for (int i = 0; i < 100; ++i) {
-    const double middle = (resting + peak) / 2;
-    (speed(solution, middle) < level ? resting : peak) = middle;
-  }
-  return (resting + peak) / 2;
+  const auto is_slower = [&](double x_over_t) { return speed(solution, x_over_t) < level; };
+  return bisected({.holding = resting, .failing = peak}, is_slower).failing;
 }
 
 /// Adds the values without a closed form: the peak of the slip velocity, and the fronts that an observer with a

@@ -16,7 +16,7 @@ struct Estimate {
   double memory;   ///< bytes for the solver and all observations
   double disk;     ///< bytes of the file, including the state to resume from
 
-  /// Bytes of memory while the file is written. A copy of the process creates the file in memory.
+  /// Bytes of memory while the file is written. It is created in memory, by a library that copies it once.
   double memory_with_file() const { return memory + 2 * disk; }
 };
 

@@ -231,27 +231,6 @@ class Inputs(CommandLine):
                 file.write(f"[initial]\nprofile = 'table'\nfile = '{name}'\n[domain]\nleft = -1\nright = 1\n")
             self.refused(3, "pulse", case, says=["not a regular file"])
 
-    def test_damaged_tables_are_refused(self):
-        folder = os.path.dirname(self.file("case.toml", ""))
-        with open(os.path.join(folder, "case.toml"), "w", encoding="ascii") as file:
-            file.write("[initial]\nprofile = 'table'\nfile = 'stress.nc'\n[domain]\nleft = -1\nright = 1\n[pulse]\ncells = 16\n[time]\nend = 0.1\n")
-        whole = content(os.path.join(SOURCE, "tests/data/stress.nc"))
-        step = int(os.environ.get("SLIPFRONT_DAMAGE_STEP", "61"))  # 1: every byte
-        for at in range(0, len(whole), step):
-            with open(os.path.join(folder, "stress.nc"), "wb") as file:
-                file.write(whole[:at] + bytes([whole[at] ^ 0xff]) + whole[at + 1:])
-            done = run("pulse", os.path.join(folder, "case.toml"))
-            self.assertIn(done.returncode, (0, 2, 3), (at, done.stderr))
-            self.assertEqual(done.stderr.count("\n"), int(done.returncode != 0), (at, done.stderr))
-
-    def test_a_table_that_is_read_without_an_end_is_refused(self):
-        """This damage makes HDF5 loop without end. The process has a lower limit of processor time than the program would allow."""
-        case = self.file("case.toml", f"[initial]\nprofile = 'table'\nfile = '{SOURCE}/tests/data/stress_endless.nc'\n[domain]\nleft = -1\nright = 1\n"
-                         "[pulse]\ncells = 16\n[time]\nend = 0.1\n")
-        done = subprocess.run(["prlimit", "--cpu=2", PROGRAM, "pulse", case], capture_output=True, text=True)
-        self.assertEqual((done.returncode, done.stderr.count("\n")), (3, 1), done.stderr)
-        self.assertIn("stress_endless.nc: cannot be read: the NetCDF library did not end within 1 s of processor time", done.stderr)
-
     def test_an_invalid_medium_is_reported_once(self):
         for option, value in (("--poisson-ratio", "0.7"), ("--shear-modulus", "-3 GPa"), ("--p-wave-speed", "0 km/s")):
             self.refused(2, "event", f"{option}={value}", says=[option, "out of range"])

@@ -1,6 +1,6 @@
 """Lets the n-th allocation or file operation of a run fail, for n = 1, 2, ... until a run succeeds, and checks each run. The output
 must be the old file or the new one, and no other file may be left. The run must print one line and return the documented exit
-code. Usage: fail_each_call.py [--places [--one-of=K] | --all] [COMMAND...]
+code. HDF5 can crash if an allocation of its own fails: then the old output must be there. Usage: fail_each_call.py [--places [--one-of=K] | --all] [COMMAND...]
 
 Without an option, only allocations of 16 kB or more fail. With --all, every allocation fails in turn, which takes hours. With
 --places, the script chooses calls by call site (a stack of functions): the first, second, fourth ... and last call of each.
@@ -11,6 +11,7 @@ import concurrent.futures
 import itertools
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -52,6 +53,7 @@ class Job:
     """A command that runs in its own folder."""
 
     def __init__(self, command):
+        self.crashes = 0  #: of HDF5
         self.command, self.folder = command, pathlib.Path(tempfile.mkdtemp(prefix="slipfront-faults-"))
         places = {"OUT": "out.nc", "TABLE": "table.toml", "EVENTS": "events.csv", "UNFINISHED": "unfinished.nc"}
         self.arguments = [str(self.folder / places[word]) if word in places else word for word in JOBS[command]]
@@ -92,7 +94,9 @@ class Job:
         if self.out.exists():
             self.out.write_bytes(old)
         done = self.run({"LD_PRELOAD": SHIM, "FAIL_CALL": kind, "FAIL_AT": str(n), "FAIL_LEAST": str(least), "FAIL_REPORT": str(report)})
-        failed = not report.exists() or "failed" in report.read_text()
+        failed = "failed" in report.read_text()
+        if "in HDF5" in report.read_text() and done.returncode != 0:
+            return True, [f"{self.command}: {kind} {n}: {text}" for text in self.faults_after_hdf5(old, done.returncode)]
         wrong = []
         # Exit code 2 means that the input is wrong. That is false if only memory is short.
         if done.returncode not in ((0, 3, 4) if failed and kind == "malloc" else (0, 2, 3, 4) if failed else (0,)):
@@ -114,6 +118,18 @@ class Job:
                 (self.folder / name).unlink()
         return failed, [f"{self.command}: {kind} {n}: {text}" for text in wrong]
 
+    def faults_after_hdf5(self, old, code):
+        """HDF5 may have crashed. The old result must be there, and no other file but the one that was being written and the completed
+        levels of a comparison."""
+        self.crashes += code < 0 or code == 255
+        wrong = [] if self.bytes() in (old, self.new) else ["the output is neither the old nor the new file"]
+        left = sorted(set(os.listdir(self.folder)) - set(self.rest))
+        allowed = r"out(\.unfinished)?\.nc\.part\d+-\d+" + r"|out\.unfinished\.nc" * (self.command == "compare")
+        wrong += [f"left {name}" for name in left if not re.fullmatch(allowed, name)]
+        for name in left:
+            (self.folder / name).unlink()
+        return wrong
+
 
 def fail_all(command, kinds, least, by_place):
     job, count, wrong = Job(command), 0, []
@@ -126,7 +142,7 @@ def fail_all(command, kinds, least, by_place):
             count += failed
     shutil.rmtree(job.folder)
     job.folder.with_suffix(".report").unlink(missing_ok=True)
-    return count, wrong
+    return count, job.crashes, wrong
 
 
 def main(arguments):
@@ -135,11 +151,11 @@ def main(arguments):
     commands = [word for word in arguments if not word.startswith("--")] or list(JOBS)
     with concurrent.futures.ThreadPoolExecutor(len(os.sched_getaffinity(0))) as workers:
         results = list(workers.map(lambda command: fail_all(command, KINDS, least, by_place), commands))
-    for command, (count, wrong) in zip(commands, results):
-        print(f"{command}: {count} calls failed, {len(wrong)} wrong")
+    for command, (count, crashes, wrong) in zip(commands, results):
+        print(f"{command}: {count} calls failed, {crashes} crashes of HDF5, {len(wrong)} wrong")
         for text in wrong[:20]:
             print("  " + text)
-    return 1 if any(wrong for _, wrong in results) else 0
+    return 1 if any(wrong for *_, wrong in results) else 0
 
 
 if __name__ == "__main__":

@@ -4,7 +4,8 @@
    FAIL_AT     number of the call that fails, from 1. With FAIL_ON=1 all later calls fail too, as on a full disk.
    FAIL_LEAST  smallest allocation that is counted and may fail, in bytes
    FAIL_TRACE  file that gets a line for each call if no call is to fail: its number, and a hash of its stack
-   FAIL_REPORT file that gets the number of counted calls, and "failed" if one of them failed
+   FAIL_REPORT file that gets the number of counted calls, and "failed" if one of them failed, with "in HDF5" if HDF5 or
+               netCDF made the call: these libraries can crash then
    A program may call fail_calls(kind, n) to count from there. Calls on standard input, output and error count like
    others if they use these functions; those within stdio do not. */
 #define _GNU_SOURCE
@@ -29,7 +30,7 @@ extern void* __libc_memalign(size_t, size_t);
 /* All forked processes share this state, so the n-th call of all processes together fails. */
 struct state {
   char wanted[16];
-  long fail_at, seen, failed;
+  long fail_at, seen, failed, in_hdf5;
 };
 static struct state before_mapping, *state = &before_mapping;
 static int counted; /* whether calls of this process and its forks count; those of the waiting parent do not */
@@ -41,21 +42,25 @@ static __thread int tracing; /* backtrace allocates too */
 void fail_calls(const char* kind, long n) {
   state->fail_at = n;
   state->seen = state->failed = 0;
+  if (kind[0] != 0) state->in_hdf5 = 0; /* stays known after the last call */
   strncpy(state->wanted, kind, sizeof state->wanted - 1);
   counted = kind[0] != 0;
 }
 
 long calls_failed(void) { return state->failed; }
+long failed_in_hdf5(void) { return state->in_hdf5; }
 
+/* Uses system calls only, because it also runs within a call that fails. */
 static void report(void) {
   const char* path = getenv("FAIL_REPORT");
   if (path == NULL) return;
-  const long seen = state->seen, failed = state->failed;
-  state->wanted[0] = 0;
-  FILE* file = fopen(path, "w");
-  if (file == NULL) return;
-  fprintf(file, "%ld%s\n", seen, failed ? " failed" : "");
-  fclose(file);
+  char line[64];
+  const int length = snprintf(line, sizeof line, "%ld%s%s\n", state->seen, state->failed ? " failed" : "",
+                              state->in_hdf5 ? " in HDF5" : "");
+  const int file = (int)syscall(SYS_openat, AT_FDCWD, path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+  if (file < 0) return;
+  syscall(SYS_write, file, line, length);
+  syscall(SYS_close, file);
 }
 
 __attribute__((constructor)) static void begin(void) {
@@ -81,12 +86,28 @@ static void note_place(long n) {
   tracing = 0;
 }
 
+static int is_in_hdf5(void) {
+  void* places[64];
+  tracing = 1;
+  const int depth = backtrace(places, 64);
+  int found = 0;
+  for (int i = 0; i < depth && !found; ++i) {
+    Dl_info from;
+    found = dladdr(places[i], &from) != 0 && from.dli_fname != NULL &&
+            (strstr(from.dli_fname, "libhdf5") != NULL || strstr(from.dli_fname, "libnetcdf") != NULL);
+  }
+  tracing = 0;
+  return found;
+}
+
 static int fails(const char* kind) {
   if (!counted || tracing || strcmp(state->wanted, kind) != 0) return 0;
   const long n = __atomic_add_fetch(&state->seen, 1, __ATOMIC_RELAXED);
   if (trace >= 0 && state->fail_at == 0) note_place(n);
   if (n != state->fail_at && !(fail_on && state->fail_at > 0 && n > state->fail_at)) return 0;
   state->failed = 1;
+  state->in_hdf5 |= is_in_hdf5();
+  report();
   return 1;
 }
 

@@ -36,10 +36,4 @@ TEST(TomlText, WritesTheShortestForm) {
   EXPECT_EQ(written("2011-03-11T05:46:23Z"), "2011-03-11T05:46:23Z");
 }
 
-TEST(TomlText, QuotesOnlyTheKeysThatNeedIt) {
-  EXPECT_EQ(slipfront::toml_key("rise_time-2"), "rise_time-2");
-  EXPECT_EQ(slipfront::toml_key(""), "\"\"");
-  EXPECT_EQ(slipfront::toml_key("a b"), "\"a b\"");
-}
-
 }  // namespace

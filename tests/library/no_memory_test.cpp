@@ -19,8 +19,7 @@ namespace {
 
 using namespace slipfront;
 
-/// Repeats `work` with its first, second ... allocation failed until none fails. Returns how many did. One may do no
-/// harm: muParser tries names as numbers first, by streams that keep the failure to themselves.
+/// Repeats `work` with its first, second ... allocation failed until none fails. Returns how many did.
 template <class Work>
 long fail_each(const Work& work) {
   for (long n = 0;; ++n) {

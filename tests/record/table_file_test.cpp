@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "record/files/seal.hpp"
 #include "record/netcdf/netcdf.hpp"
 #include "slipfront/error.hpp"
 #include "temporary_folder.hpp"
@@ -92,6 +93,18 @@ std::string grid(const std::vector<double>& x, const std::vector<double>& y, con
   file.write_all(ids[2], slip);
   const auto image = file.finish();
   return std::string(image.bytes());
+}
+
+/// HDF5 must not see a damaged file, which can crash it.
+TEST(TableFile, RejectsADamagedFileOfSlipfrontByItsChecksum) {
+  const std::string image = netcdf({-1, 0, 0.1}, {0.855, 0.5, 0}), sealed = image + slipfront::record::seal(image);
+  EXPECT_EQ(read("a.nc", sealed), expected);
+  for (std::size_t at = 0; at < image.size(); at += 1 + image.size() / 50) {
+    std::string damaged = sealed;
+    damaged[at] = static_cast<char>(damaged[at] ^ 0xff);
+    const std::string message = message_of<FileError>([&] { read("a.nc", damaged); });
+    EXPECT_NE(message.find(at < 8 ? "not a NetCDF-4 file" : "the checksum does not match"), std::string::npos) << at;
+  }
 }
 
 TEST(TableFile, ReadsAGridOfNetcdfRowByRow) {

@@ -6,6 +6,7 @@
 
 #include "chain/measure/interpolation.hpp"
 #include "chain/measure/own_sites.hpp"
+#include "foundation/math/bracket.hpp"
 
 namespace slipfront::chain {
 namespace {
@@ -22,12 +23,9 @@ void find(const std::vector<double>& turns, std::size_t j, double x, double h, s
   const int sign = a > b ? 1 : -1;
   // Between two sites u passes more than one whole number only on a lattice of dislocations that are narrower than A.
   for (double level = sign > 0 ? std::ceil(a) - 1 : std::floor(a) + 1; sign * (level - b) >= 0; level -= sign) {
-    double low = static_cast<double>(j), high = low + 1;
-    for (int i = 0; i < 50; ++i) {
-      const double middle = (low + high) / 2;
-      (sign * (interpolated(turns, middle) - level) > 0 ? low : high) = middle;
-    }
-    found.push_back({x + h * low, sign});
+    const auto is_before = [&](double at) { return sign * (interpolated(turns, at) - level) > 0; };
+    const auto site = static_cast<double>(j);
+    found.push_back({x + h * bisected({.holding = site, .failing = site + 1}, is_before, 50).holding, sign});
   }
 }
 

@@ -40,6 +40,37 @@ struct Bracket {
   }
 };
 
+/// Finds the root of a rising f in a bracket whose ends are evaluated, from its x, or by a secant if x is not inside.
+/// Ends if |f| is at most `least`, or the bracket is narrower than `precision` times the larger of |x| and `scale`.
+template <class Function>
+double root_of(Bracket root, double least, double precision, double scale, const Function& f) {
+  constexpr int most_steps = 200;
+  if (!(root.x > root.low && root.x < root.high)) root.aim();
+  for (int i = 0; i < most_steps; ++i, root.aim()) {
+    if (root.high - root.low <= precision * std::fmax(scale, std::fmax(std::fabs(root.low), std::fabs(root.high))))
+      break;
+    const double at = f(root.x);
+    if (std::fabs(at) <= least) break;
+    root.take(at);
+  }
+  return root.x;
+}
+
+/// A point at which a condition holds, and one at which it does not.
+struct Ends {
+  double holding, failing;
+};
+
+/// Halves the distance of both points `halvings` times. 60 leave no number between them, unless they enclose 0.
+template <class Condition>
+Ends bisected(Ends ends, const Condition& holds, int halvings = 60) {
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = (ends.holding + ends.failing) / 2;
+    (holds(middle) ? ends.holding : ends.failing) = middle;
+  }
+  return ends;
+}
+
 /// Finds the root of a rising f between 0 < low < high, where f(low) <= 0 <= f(high). It bisects the logarithm until
 /// high <= 4 low, then takes secants down to the resolution of a double.
 template <class Function>

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-namespace slipfront::pulse {
+namespace slipfront {
 
 /// Value at x of the polynomial through n points (at[j], f[j]) with distinct at[j].
 inline double lagrange(std::size_t n, const double* at, const double* f, double x) {
@@ -16,4 +16,4 @@ inline double lagrange(std::size_t n, const double* at, const double* f, double 
   return sum;
 }
 
-}  // namespace slipfront::pulse
+}  // namespace slipfront

@@ -4,7 +4,14 @@
 #include <cmath>
 #include <cstdint>
 
-namespace slipfront::pulse {
+namespace slipfront {
+
+/// The limited difference across a cell from those to its neighbours: monotonized central (van Leer 1977).
+inline double limited(double before, double after) {
+  if (before * after <= 0) return 0;
+  return std::copysign(std::fmin(std::fabs(before + after) / 2, 2 * std::fmin(std::fabs(before), std::fabs(after))),
+                       before);
+}
 
 /// Value at the right face of the middle cell from five cell averages, the face nearest to d and e: fifth order where
 /// smooth, no new extrema at jumps (WENO-Z: Jiang & Shu 1996; Borges et al. 2008). Pass the averages backwards for the
@@ -39,4 +46,4 @@ inline double weno5(double a, double b, double c, double d, double e) {
   return at.above / at.below;
 }
 
-}  // namespace slipfront::pulse
+}  // namespace slipfront

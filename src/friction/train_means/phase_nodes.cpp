@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "foundation/math/bracket.hpp"
 #include "foundation/simd/vector_code.hpp"
 
 namespace slipfront::friction {
@@ -32,12 +33,8 @@ struct StepCounts {
   std::array<double, steps.size()> least_s;
   StepCounts() {
     for (std::size_t i = 0; i < steps.size(); ++i) {
-      double low = std::log(PhaseNodes::least_s), high = 0;
-      for (int halving = 0; halving < 40; ++halving) {
-        const double middle = (low + high) / 2;
-        (steps_for(std::exp(middle)) <= steps[i] ? high : low) = middle;
-      }
-      least_s[i] = std::exp(high);
+      const auto is_enough = [&](double log_s) { return steps_for(std::exp(log_s)) <= steps[i]; };
+      least_s[i] = std::exp(bisected({.holding = 0, .failing = std::log(PhaseNodes::least_s)}, is_enough, 40).holding);
     }
     least_s.back() = 0;
   }

@@ -30,18 +30,12 @@ Surroundings surroundings_of(const Observation& o, const medium::Elastic& elasti
   return s;
 }
 
-/// Root of `f` between two points at which it has opposite signs, by the Illinois method.
+/// Root of `f` between two points at which it has opposite signs.
 template <class F>
-double root_of(double low, double high, double at_low, double at_high, const F& f) {
+double root_between(double low, double high, double at_low, double at_high, const F& f) {
   const double sign = at_low > 0 ? -1 : 1;  // a bracket needs a rising function
-  Bracket root{low, high, sign * at_low, sign * at_high};
-  for (int i = 0; i < 100 && root.high - root.low > 1e-13 * (1 + root.high); ++i) {
-    root.aim();
-    const double at = sign * f(root.x);
-    if (std::fabs(at) < 1e-13) return root.x;
-    root.take(at);
-  }
-  return root.x;
+  return root_of({low, high, sign * at_low, sign * at_high, low}, 1e-13, 1e-13, 1,
+                 [&](double x) { return sign * f(x); });
 }
 
 bool has(const std::vector<Evidence>& evidence, Source source) {
@@ -153,7 +147,7 @@ std::vector<Sampler::Root> Sampler::roots(double seen) {
   for (int i = 1; i <= steps; ++i) {
     const double high = most_u * i / steps, at_high = gap(high);
     if (at_low == 0 || (at_low < 0) != (at_high < 0)) {
-      const double u = at_low == 0 ? low : root_of(low, high, at_low, at_high, gap);
+      const double u = at_low == 0 ? low : root_between(low, high, at_low, at_high, gap);
       const double h = 1e-4, above = std::fmin(u + h, most_u), below = std::fmax(u - h, 0.0);
       const double slope = (gap(above) - gap(below)) / (above - below);
       found.push_back({u, model_.at(seen, u).slope / std::fabs(slope)});

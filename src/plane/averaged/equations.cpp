@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "foundation/math/weno.hpp"
 #include "foundation/text/digits.hpp"
 #include "modulation/equations.hpp"
 #include "modulation/solve_states.hpp"
@@ -28,13 +29,6 @@ double energy_density(double EK, double normal_spacing, double velocity, double 
 double substrate(double EK, double normal_spacing, double velocity, double psi) {
   const double slowed = (1 - velocity) * (1 + velocity);
   return 8 * EK / (normal_spacing * normal_spacing) * slowed - modulation::pressure(psi);
-}
-
-/// The limiter of monotonized central differences.
-double limited(double before, double after) {
-  if (before * after <= 0) return 0;
-  const double size = std::min({std::fabs(before + after) / 2, 2 * std::fabs(before), 2 * std::fabs(after)});
-  return std::copysign(size, before);
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ double Ray::loops_outside(double r) const {
   const std::size_t j = first_face_inside(r), first = std::min(j >= 2 ? j - 2 : 0, loops_.rows - 3);
   std::array<double, 4> faces{};
   for (std::size_t i = 0; i < 4; ++i) faces[i] = face(first + i);
-  const double q = pulse::lagrange(4, faces.data(), &loops_.label[first], r);
+  const double q = lagrange(4, faces.data(), &loops_.label[first], r);
   return std::clamp(q, loops_.label[j - 1], loops_.label[j]);
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <string>
 
+#include "foundation/math/bracket.hpp"
 #include "foundation/text/digits.hpp"
 #include "plane/averaged/loops.hpp"
 #include "slipfront/error.hpp"
@@ -44,12 +45,8 @@ double wall_of(const StartRay& ray) {
     last = i;
   }
   if (!ray.held(0)) return 0;
-  double inside = ray.at(last), outside = ray.at(last + 1);
-  for (int i = 0; i < 60; ++i) {
-    const double middle = (inside + outside) / 2;
-    (ray.held(middle) ? inside : outside) = middle;
-  }
-  return outside;
+  return bisected({.holding = ray.at(last), .failing = ray.at(last + 1)}, [&](double r) { return ray.held(r); })
+      .failing;
 }
 
 /// Checks that the slip never rises along the ray, and falls to 0.
@@ -73,12 +70,7 @@ void check_ray(const StartRay& ray, double wall, double top) {
 
 /// Distance at which the slip of the ray falls through `level`, outside `wall`.
 double distance_of(const StartRay& ray, double wall, double level) {
-  double inside = wall, outside = ray.end;
-  for (int i = 0; i < 200 && outside - inside > 1e-15 * ray.end; ++i) {
-    const double middle = (inside + outside) / 2;
-    (ray.slip(middle) > level ? inside : outside) = middle;
-  }
-  return (inside + outside) / 2;
+  return bisected({.holding = wall, .failing = ray.end}, [&](double r) { return ray.slip(r) > level; }).failing;
 }
 
 void find_ray(const Problem& problem, std::size_t k, double top, Loops& loops) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "foundation/math/ssprk3.hpp"
 #include "modulation/equations.hpp"
 
 namespace slipfront::plane {
@@ -93,9 +94,7 @@ void LoopSteps::take(double end) {
   add_friction(step / 2);
   r_ = loops_.r;
   momentum_ = loops_.momentum;
-  stage(t, step, 0, r_, momentum_);
-  stage(t + step, step, 0.75, r_, momentum_);
-  stage(t + step / 2, step, 1.0 / 3, r_, momentum_);
+  ssprk3(t, step, [this](double at, double length, double of_old) { stage(at, length, of_old, r_, momentum_); });
   look();
   add_friction(step / 2);
   loops_.time = step == remaining ? end : t + step;

@@ -24,13 +24,6 @@ constexpr double meeting_velocity = 0.01;
 
 double g_of(double EK) { return 4 * EK / (pi * pi); }
 
-/// The limiter of monotonized central differences.
-double limited(double before, double after) {
-  if (before * after <= 0) return 0;
-  return std::copysign(std::fmin(std::fabs(before + after) / 2, 2 * std::fmin(std::fabs(before), std::fabs(after))),
-                       before);
-}
-
 struct Sides {
   double below, above;
 };
@@ -39,7 +32,7 @@ Sides sides(const double* value, std::ptrdiff_t step, bool low_order) {
   const double a = value[-3 * step], b = value[-2 * step], c = value[-step], d = value[0], e = value[step],
                f = value[2 * step];
   if (low_order) return {c + limited(c - b, d - c) / 2, d - limited(d - c, e - d) / 2};
-  return {pulse::weno5(a, b, c, d, e), pulse::weno5(f, e, d, c, b)};
+  return {weno5(a, b, c, d, e), weno5(f, e, d, c, b)};
 }
 
 }  // namespace
@@ -131,8 +124,8 @@ void GridEquations::find_slopes() {
       if (!walls_.near(cell, along_y)) {
         const double a = g[cell - 2 * step], b = g[cell - step], c = g[cell], d = g[cell + step],
                      e = g[cell + 2 * step], f = g[cell + 3 * step];
-        below = pulse::weno5(a, b, c, d, e);
-        above = pulse::weno5(f, e, d, c, b);
+        below = weno5(a, b, c, d, e);
+        above = weno5(f, e, d, c, b);
       }
       slope_[along_y ? 1 : 0][cell] = (below + above) / 2;
       spread_[cell] += (above - below) / 2;

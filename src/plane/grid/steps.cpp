@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 
+#include "foundation/math/ssprk3.hpp"
 #include "foundation/text/digits.hpp"
 #include "slipfront/error.hpp"
 
@@ -234,9 +235,7 @@ void GridSteps::take(double end) {
   const double power = motion_.power, supply = motion_.supply, t = motion_.time;
   slow(step / 2);
   old_ = motion_.now;
-  stage(t, step, 0);
-  stage(t + step, step, 0.75);
-  stage(t + step / 2, step, 1.0 / 3);
+  ssprk3(t, step, [this](double at, double length, double of_old) { stage(at, length, of_old); });
   slow(step / 2);
   remove_idle_actions();
   motion_.time = step == remaining ? end : t + step;

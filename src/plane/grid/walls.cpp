@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "foundation/math/bracket.hpp"
 #include "foundation/text/digits.hpp"
 #include "slipfront/error.hpp"
 
@@ -77,14 +78,12 @@ void Walls::find(const Problem& problem, bool along_y) {
       return Point{cells_.x(i) + (along_y ? 0 : along - cells_.hx / 2),
                    cells_.y(j) + (along_y ? along - cells_.hy / 2 : 0)};
     };
-    double inside = -0.5, outside = 0.5;
-    for (int n = 0; n < 40; ++n) {
-      const double middle = (inside + outside) / 2;
-      const Point at = point(middle);
-      (problem.fixed(at.x, at.y) != 0 ? inside : outside) = middle;
-    }
-    crossing.place = outside;
-    const Point at = point(outside);
+    const auto is_fixed = [&](double place) {
+      const Point at = point(place);
+      return problem.fixed(at.x, at.y) != 0;
+    };
+    crossing.place = bisected({.holding = -0.5, .failing = 0.5}, is_fixed, 40).failing;
+    const Point at = point(crossing.place);
     crossing.slip = problem.slip(at.x, at.y);
     crossings_[along_y ? 1 : 0].push_back(crossing);
   });

@@ -18,14 +18,8 @@ constexpr double at_rest_below = SlowedTrains::at_rest_below;
 /// Finds x with excess(size e^x) = 0. We search in x, over which the force of a regularised law changes evenly.
 template <class Excess>
 double root_between(double low, double high, double at_low, double at_high, double size, const Excess& excess) {
-  Bracket root{.low = low, .high = high, .at_low = at_low, .at_high = at_high, .x = high};
-  for (int i = 0; i < 100 && root.high - root.low > 1e-13 * std::fmax(1, -root.low); ++i) {
-    root.aim();
-    const double at = excess(size * std::exp(root.x));
-    if (std::fabs(at) <= precision * size) break;
-    root.take(at);
-  }
-  return root.x;
+  return root_of({.low = low, .high = high, .at_low = at_low, .at_high = at_high, .x = high}, precision * size, 1e-13,
+                 1, [&](double x) { return excess(size * std::exp(x)); });
 }
 
 }  // namespace

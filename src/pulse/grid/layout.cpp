@@ -5,6 +5,7 @@
 #include <numbers>
 #include <string>
 
+#include "foundation/math/bracket.hpp"
 #include "foundation/text/digits.hpp"
 #include "slipfront/error.hpp"
 
@@ -27,12 +28,7 @@ using std::numbers::pi;
 
 /// Finds the boundary of a stressed stretch between an empty point and a stressed one, by bisection.
 double edge_between(const std::function<double(double)>& stress, double empty, double stressed) {
-  for (int i = 0; i < 200; ++i) {
-    const double middle = empty + (stressed - empty) / 2;
-    if (middle == empty || middle == stressed) break;
-    (stress(middle) > 0 ? stressed : empty) = middle;
-  }
-  return stressed;
+  return bisected({.holding = stressed, .failing = empty}, [&](double x) { return stress(x) > 0; }).holding;
 }
 
 /// Maps 0 ... 1 to itself, with zero slope at the free ends.

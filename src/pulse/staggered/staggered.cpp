@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "foundation/math/bracket.hpp"
 #include "foundation/text/digits.hpp"
 #include "modulation/equations.hpp"
 #include "pulse/space/kernels.hpp"
@@ -166,12 +167,11 @@ Staggered::Terminal Staggered::terminal(const double* rates) const {
   }
   const double mass = beside(mass_, face) * contact_at(face);
   const auto momentum = [&](double phi) { return 8 * mass * std::sinh(phi); };
-  double low = -690, high = 3;  // ln phi
-  for (int i = 0; i < 40; ++i) {
-    const double middle = (low + high) / 2, phi = std::exp(middle);
-    (loss_rate(face, phi) * momentum(phi) < force ? low : high) = middle;
-  }
-  const double phi = std::exp(low);
+  const auto gains_speed = [&](double log_phi) {
+    const double phi = std::exp(log_phi);
+    return loss_rate(face, phi) * momentum(phi) < force;
+  };
+  const double phi = std::exp(bisected({.holding = -690, .failing = 3}, gains_speed, 40).holding);
   return force > 0 ? Terminal{momentum(phi), std::tanh(phi), loss_rate(face, phi)} : Terminal{0, 0, 0};
 }
 

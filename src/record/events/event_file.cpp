@@ -9,7 +9,7 @@
 #include "record/events/event_layout.hpp"
 #include "record/files/fnv.hpp"
 #include "record/files/utf8.hpp"
-#include "record/netcdf/netcdf_file.hpp"
+#include "record/netcdf/netcdf.hpp"
 #include "record/pulses/cf.hpp"
 #include "results/columns.hpp"
 #include "results/serialize.hpp"

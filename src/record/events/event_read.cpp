@@ -3,7 +3,7 @@
 #include "record/files/seal.hpp"
 #include "record/files/text_file.hpp"
 #include "record/files/utf8.hpp"
-#include "record/netcdf/netcdf_file.hpp"
+#include "record/netcdf/netcdf.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::record {
@@ -40,8 +40,7 @@ std::string done_in(const netcdf::Reader& file, const std::string& path, const E
 std::string read_events_done(const std::string& path, const EventMetadata& metadata) {
   const std::string content = read_regular(path);
   const std::string_view image = sealed_content(content, path);
-  return read_netcdf(path, image, image.size(),
-                     [&](const netcdf::Reader& file) { return done_in(file, path, metadata); });
+  return done_in(netcdf::Reader(path, image, image.size()), path, metadata);
 }
 
 }  // namespace slipfront::record

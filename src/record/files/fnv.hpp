@@ -5,6 +5,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <string_view>
 
@@ -15,6 +16,15 @@ class Fnv {
   Fnv& bytes(std::string_view data) {
     for (const char c : data) byte(static_cast<unsigned char>(c));
     return *this;
+  }
+  /// Eight bytes at a time: another sum than that of `bytes`, eight times as fast.
+  Fnv& words(std::string_view data) {
+    for (; data.size() >= sizeof(std::uint64_t); data.remove_prefix(sizeof(std::uint64_t))) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, data.data(), sizeof word);
+      sum_ = (sum_ ^ word) * 0x100000001b3ULL;
+    }
+    return bytes(data);
   }
   /// Least significant byte first, on every machine.
   Fnv& number(std::uint64_t value) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "record/files/fnv.hpp"
+#include "record/files/text_file.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::record {
@@ -28,6 +29,8 @@ std::string_view without_broken_seal(std::string_view file, const std::string& n
   const bool sealed = file.size() >= seal_size && file.substr(file.size() - seal_size, magic.size()) == magic;
   return sealed ? sealed_content(file, name) : file;
 }
+
+void require_unbroken_seal(const std::string& path) { without_broken_seal(read_regular(path), path); }
 
 std::string_view sealed_content(std::string_view file, const std::string& name) {
   if (file.empty()) throw FileError(name + ": the file is empty");

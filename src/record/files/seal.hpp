@@ -18,4 +18,7 @@ std::string_view sealed_content(std::string_view file, const std::string& name);
 /// Like `sealed_content`, but for files that other programs may have written. A file without a seal is accepted whole.
 std::string_view without_broken_seal(std::string_view file, const std::string& name);
 
+/// Checks the seal of the file `path`, if it has one. \throws FileError if the file cannot be read or was changed.
+void require_unbroken_seal(const std::string& path);
+
 }  // namespace slipfront::record

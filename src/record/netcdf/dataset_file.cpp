@@ -5,10 +5,8 @@
 #include <map>
 #include <stdexcept>
 
-#include "record/files/seal.hpp"
-#include "record/files/text_file.hpp"
 #include "record/files/utf8.hpp"
-#include "record/netcdf/netcdf_file.hpp"
+#include "record/netcdf/netcdf.hpp"
 
 namespace slipfront::record {
 namespace {
@@ -70,15 +68,6 @@ void write_dataset(const std::string& path, const Dataset& dataset) {
             if (!values.empty()) file.write_all(ids[i], values);  // a dimension of size 0 is an unlimited one
           },
           dataset.variables[i].values);
-  });
-}
-
-void require_readable_netcdf(const std::string& path) {
-  const std::string content = read_regular(path);
-  constexpr std::size_t most_bytes = std::size_t{1} << 34;
-  read_netcdf(path, without_broken_seal(content, path), most_bytes, [](const netcdf::Reader& file) -> std::string {
-    file.read_everything();
-    return {};
   });
 }
 

@@ -3,7 +3,6 @@
 /// NetCDF files of any content: what Python writes of sweeps and figures.
 
 #include <cstdint>
-#include <mutex>
 #include <string>
 #include <utility>
 #include <variant>
@@ -32,13 +31,5 @@ struct Dataset {
 /// Writes `path` whole or not at all. \throws FileError (one line: path and reason), std::invalid_argument where a
 /// variable has not as many values as its dimensions say, or a dimension that is none of `dataset`.
 void write_dataset(const std::string& path, const Dataset& dataset);
-
-/// Reads all of a NetCDF file that others may have written, in a process of its own. \throws FileError if it is not
-/// one, is damaged, or makes the library crash or read without an end.
-void require_readable_netcdf(const std::string& path);
-
-/// The lock of the NetCDF and HDF5 libraries, which are not made for threads. Whoever calls them holds it, and no other
-/// process is started from this one meanwhile. In a process that was started so there is one thread, and no lock.
-std::unique_lock<std::recursive_mutex> lock_netcdf();
 
 }  // namespace slipfront::record

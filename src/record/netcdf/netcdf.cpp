@@ -3,9 +3,14 @@
 #include <netcdf.h>
 #include <netcdf_mem.h>
 
+#include <cstring>
+#include <new>
+#include <stdexcept>
 #include <utility>
 
-#include "record/netcdf/dataset_file.hpp"
+#include "record/files/fnv.hpp"
+#include "record/files/seal.hpp"
+#include "record/files/whole_file.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::record::netcdf {
@@ -26,7 +31,24 @@ Variable::Kind kind_of(nc_type type) {
   return is_number(type) ? Variable::Kind::number : Variable::Kind::other;
 }
 
+template <class T>
+std::string_view bytes_of(const T& value) {
+  return {reinterpret_cast<const char*>(&value), sizeof value};
+}
+
+template <class Text>
+std::uint64_t sum_of_texts(const std::vector<Text>& texts) {
+  Fnv fnv;
+  for (const char* text : texts) fnv.text(text ? text : "");
+  return fnv.sum();
+}
+
 }  // namespace
+
+std::unique_lock<std::recursive_mutex> lock_netcdf() {
+  static std::recursive_mutex mutex;
+  return std::unique_lock(mutex);
+}
 
 std::string library_version() {
   const std::string text = nc_inq_libvers();
@@ -48,7 +70,7 @@ Writer::Writer(std::string name, std::size_t expected_size) : Handle(std::move(n
   require(nc_create_mem(plain_name, NC_NETCDF4, expected_size, &id_), "cannot be created");
 }
 
-Writer::Writer(const Writer& file, const std::string& group) : Handle(file.name_, false) {
+Writer::Writer(const Writer& file, const std::string& group) : Handle(file.name_, false), pieces_(file.pieces_) {
   require(nc_def_grp(file.id_, group.c_str(), &id_), "group " + group);
 }
 
@@ -91,73 +113,105 @@ int Writer::strings(const std::string& name, const std::vector<int>& dimensions)
   return variable(name, NC_STRING, dimensions);
 }
 
+void Writer::note(int variable, const std::string& attribute, std::vector<std::size_t> start,
+                  std::vector<std::size_t> size, std::uint64_t sum) {
+  char name[NC_MAX_NAME + 1] = "";
+  if (variable != global) require(nc_inq_varname(id_, variable, name), "data");
+  std::size_t length = 0;
+  require(nc_inq_grpname_full(id_, &length, nullptr), "data");
+  std::string group(length + 1, '\0');
+  require(nc_inq_grpname_full(id_, nullptr, group.data()), "data");
+  group.resize(length);
+  pieces_->push_back({group, name, attribute, std::move(start), std::move(size), sum});
+}
+
+void Writer::put_attribute(int variable, const std::string& name, int type, std::size_t count, std::string_view bytes) {
+  require(nc_put_att(id_, variable, name.c_str(), type, count, bytes.data()), "attribute " + name);
+  note(variable, name, {}, {}, Fnv().words(bytes).sum());
+}
+
 void Writer::attribute(int variable, const std::string& name, std::string_view text) {
   if (text.size() <= longest_text) {
-    require(nc_put_att_text(id_, variable, name.c_str(), text.size(), text.data()), "attribute " + name);
+    put_attribute(variable, name, NC_CHAR, text.size(), text);
     return;
   }
   const std::string whole(text);  // HDF5 stores a string of variable length elsewhere in the file
   const char* pointer = whole.c_str();
   require(nc_put_att_string(id_, variable, name.c_str(), 1, &pointer), "attribute " + name);
+  note(variable, name, {}, {}, sum_of_texts(std::vector{pointer}));
 }
 
 void Writer::attribute(int variable, const std::string& name, int value) {
-  require(nc_put_att_int(id_, variable, name.c_str(), NC_INT, 1, &value), "attribute " + name);
+  put_attribute(variable, name, NC_INT, 1, bytes_of(value));
 }
 
 void Writer::attribute(int variable, const std::string& name, std::int64_t value) {
-  const long long whole = value;
-  require(nc_put_att_longlong(id_, variable, name.c_str(), NC_INT64, 1, &whole), "attribute " + name);
+  put_attribute(variable, name, NC_INT64, 1, bytes_of(value));
 }
 
 void Writer::attribute(int variable, const std::string& name, double value) {
-  require(nc_put_att_double(id_, variable, name.c_str(), NC_DOUBLE, 1, &value), "attribute " + name);
+  put_attribute(variable, name, NC_DOUBLE, 1, bytes_of(value));
 }
 
-void Writer::fill_value(int variable, double value) {
-  require(nc_put_att_double(id_, variable, "_FillValue", NC_DOUBLE, 1, &value), "attribute _FillValue");
-}
+void Writer::fill_value(int variable, double value) { attribute(variable, "_FillValue", value); }
 
 void Writer::end_definitions() { require(nc_enddef(id_), "cannot be created"); }
 
-void Writer::write(int variable, std::span<const double> values) {
-  if (values.empty()) return;
-  const std::size_t start[] = {0}, size[] = {values.size()};
-  require(nc_put_vara_double(id_, variable, start, size, values.data()), "data");
-}
-
-void Writer::write(int variable, std::string_view values) {
-  if (values.empty()) return;
-  const std::size_t start[] = {0}, size[] = {values.size()};
-  require(nc_put_vara_uchar(id_, variable, start, size, reinterpret_cast<const unsigned char*>(values.data())), "data");
-}
-
-void Writer::write_row(int variable, std::size_t row, std::span<const double> values) {
+std::vector<std::size_t> Writer::shape(int variable) const {
   int rank = 0;
   require(nc_inq_varndims(id_, variable, &rank), "data");
   std::vector<int> dimensions(static_cast<std::size_t>(rank));
   require(nc_inq_vardimid(id_, variable, dimensions.data()), "data");
-  std::vector<std::size_t> start(dimensions.size(), 0), size(dimensions.size(), 1);
+  std::vector<std::size_t> sizes(dimensions.size());
+  for (std::size_t i = 0; i < sizes.size(); ++i) require(nc_inq_dimlen(id_, dimensions[i], &sizes[i]), "data");
+  return sizes;
+}
+
+void Writer::put(int variable, int type, std::vector<std::size_t> start, std::vector<std::size_t> size,
+                 const void* values) {
+  nc_type own_type = NC_NAT;
+  std::size_t bytes = 0;
+  require(nc_inq_vartype(id_, variable, &own_type), "data");
+  if (own_type != type) throw std::invalid_argument("netcdf::Writer: values of another type than the variable");
+  require(nc_inq_type(id_, type, nullptr, &bytes), "data");
+  for (const std::size_t n : size) bytes *= n;
+  require(nc_put_vara(id_, variable, start.data(), size.data(), values), "data");
+  note(variable, "", std::move(start), std::move(size), Fnv().words({static_cast<const char*>(values), bytes}).sum());
+}
+
+void Writer::write(int variable, std::span<const double> values) {
+  if (!values.empty()) put(variable, NC_DOUBLE, {0}, {values.size()}, values.data());
+}
+
+void Writer::write(int variable, std::string_view values) {
+  if (!values.empty()) put(variable, NC_UBYTE, {0}, {values.size()}, values.data());
+}
+
+void Writer::write_row(int variable, std::size_t row, std::span<const double> values) {
+  std::vector<std::size_t> size = shape(variable), start(size.size(), 0);
   start[0] = row;
-  for (std::size_t i = 1; i < dimensions.size(); ++i) require(nc_inq_dimlen(id_, dimensions[i], &size[i]), "data");
-  require(nc_put_vara_double(id_, variable, start.data(), size.data(), values.data()), "data");
+  size[0] = 1;
+  put(variable, NC_DOUBLE, std::move(start), std::move(size), values.data());
 }
 
 void Writer::write_all(int variable, const std::vector<double>& values) {
-  require(nc_put_var_double(id_, variable, values.data()), "data");
+  const std::vector<std::size_t> size = shape(variable);
+  put(variable, NC_DOUBLE, std::vector<std::size_t>(size.size()), size, values.data());
 }
 
 void Writer::write_all(int variable, const std::vector<std::int64_t>& values) {
-  static_assert(sizeof(long long) == sizeof(std::int64_t));
-  require(nc_put_var(id_, variable, values.data()), "data");
+  const std::vector<std::size_t> size = shape(variable);
+  put(variable, NC_INT64, std::vector<std::size_t>(size.size()), size, values.data());
 }
 
 void Writer::write_all(int variable, const std::vector<std::int8_t>& values) {
-  require(nc_put_var_schar(id_, variable, values.data()), "data");
+  const std::vector<std::size_t> size = shape(variable);
+  put(variable, NC_BYTE, std::vector<std::size_t>(size.size()), size, values.data());
 }
 
 void Writer::write_all(int variable, std::string_view characters) {
-  require(nc_put_var_text(id_, variable, characters.data()), "data");
+  const std::vector<std::size_t> size = shape(variable);
+  put(variable, NC_CHAR, std::vector<std::size_t>(size.size()), size, characters.data());
 }
 
 void Writer::write_all(int variable, const std::vector<std::string>& texts) {
@@ -165,6 +219,8 @@ void Writer::write_all(int variable, const std::vector<std::string>& texts) {
   pointers.reserve(texts.size());
   for (const std::string& text : texts) pointers.push_back(text.c_str());
   require(nc_put_var_string(id_, variable, pointers.data()), "data");
+  const std::vector<std::size_t> size = shape(variable);
+  note(variable, "", std::vector<std::size_t>(size.size()), size, sum_of_texts(pointers));
 }
 
 Image Writer::finish() {
@@ -172,6 +228,9 @@ Image Writer::finish() {
   const int status = nc_close_memio(std::exchange(id_, -1), &memory);
   Image image{decltype(Image::memory)(memory.memory), memory.size};
   require(status, "cannot be created");
+  const Reader file(name_, image.bytes(), image.size);
+  for (const Piece& piece : *pieces_)
+    if (file.sum_of(piece) != piece.sum) throw std::bad_alloc();
   return image;
 }
 
@@ -260,29 +319,31 @@ std::string Reader::bytes(const Variable& variable) const {
   return values;
 }
 
-void Reader::read_everything() const {
-  int variables = 0, globals = 0;
-  require(nc_inq(id_, nullptr, &variables, &globals, nullptr), "cannot be read");
-  for (int id = NC_GLOBAL; id < variables; ++id) {
-    int attributes = globals;
-    if (id != NC_GLOBAL) require(nc_inq_varnatts(id_, id, &attributes), "cannot be read");
-    char name[NC_MAX_NAME + 1];
-    for (int i = 0; i < attributes; ++i) {
-      nc_type type = NC_NAT;
-      std::size_t size = 0, width = 0;
-      require(nc_inq_attname(id_, id, i, name), "attribute");
-      require(nc_inq_att(id_, id, name, &type, &size), name);
-      if (nc_inq_type(id_, type, nullptr, &width) != NC_NOERR) continue;
-      if (type == NC_STRING || type > NC_MAX_ATOMIC_TYPE || (width > 0 && size > most_bytes_ / width)) continue;
-      std::vector<char> values(size * width);
-      if (!values.empty()) require(nc_get_att(id_, id, name, values.data()), name);
-    }
-    if (id == NC_GLOBAL) continue;
-    require(nc_inq_varname(id_, id, name), "variable");
-    const std::optional<Variable> variable = find(name);
-    if (!variable || variable->kind == Variable::Kind::other) continue;
-    reals(*variable);
+std::uint64_t Reader::sum_of(const Piece& piece) const {
+  const bool is_attribute = !piece.attribute.empty();
+  const std::string& name = is_attribute ? piece.attribute : piece.variable;
+  int group = -1, variable = NC_GLOBAL;
+  require(nc_inq_grp_full_ncid(id_, piece.group.c_str(), &group), name);
+  if (!piece.variable.empty()) require(nc_inq_varid(group, piece.variable.c_str(), &variable), name);
+  nc_type type = NC_NAT;
+  std::size_t count = 1, width = 0;
+  if (is_attribute) {
+    require(nc_inq_att(group, variable, name.c_str(), &type, &count), name);
+  } else {
+    require(nc_inq_vartype(group, variable, &type), name);
+    for (const std::size_t size : piece.size) count *= size;
   }
+  require(nc_inq_type(group, type, nullptr, &width), name);
+  std::vector<char> bytes(count * width);
+  require(is_attribute ? nc_get_att(group, variable, name.c_str(), bytes.data())
+                       : nc_get_vara(group, variable, piece.start.data(), piece.size.data(), bytes.data()),
+          name);
+  if (type != NC_STRING) return Fnv().words({bytes.data(), bytes.size()}).sum();
+  std::vector<char*> texts(count);
+  std::memcpy(texts.data(), bytes.data(), bytes.size());
+  const std::uint64_t sum = sum_of_texts(texts);
+  nc_free_string(count, texts.data());
+  return sum;
 }
 
 void Reader::read_row(const Variable& variable, std::size_t row, std::span<double> values) const {
@@ -293,3 +354,18 @@ void Reader::read_row(const Variable& variable, std::size_t row, std::span<doubl
 }
 
 }  // namespace slipfront::record::netcdf
+
+namespace slipfront::record {
+
+void write_netcdf(const std::string& path, std::size_t expected_size,
+                  const std::function<void(netcdf::Writer&)>& fill) {
+  replace_file(path, [&](const Put& put) {
+    netcdf::Writer file(path, expected_size);
+    fill(file);
+    const netcdf::Image image = file.finish();
+    put(image.bytes());
+    put(seal(image.bytes()));
+  });
+}
+
+}  // namespace slipfront::record

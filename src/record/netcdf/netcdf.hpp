@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -18,6 +19,9 @@ namespace slipfront::record::netcdf {
 
 /// Longest text of an attribute, in bytes. HDF5 allows 64 KiB, which includes its own bookkeeping.
 inline constexpr std::size_t longest_text = 60000;
+
+/// The lock of the NetCDF and HDF5 libraries, which are not made for threads. All code that calls them holds it.
+std::unique_lock<std::recursive_mutex> lock_netcdf();
 
 /// The version of the NetCDF library, such as "4.9.0".
 std::string library_version();
@@ -50,6 +54,14 @@ struct Image {
   std::unique_ptr<void, Free> memory;
   std::size_t size = 0;
   std::string_view bytes() const { return {static_cast<const char*>(memory.get()), size}; }
+};
+
+/// Values or an attribute that a file must have, and a checksum of their bytes.
+struct Piece {
+  std::string group, variable;           ///< no variable: an attribute of the group
+  std::string attribute;                 ///< empty: values of the variable
+  std::vector<std::size_t> start, size;  ///< of the values
+  std::uint64_t sum = 0;
 };
 
 /// Writes a NetCDF-4 file: first dimensions, variables and attributes, then `end_definitions`, then the data. Because
@@ -93,10 +105,20 @@ class Writer : Handle {
   void write_all(int variable, std::string_view characters);
   void write_all(int variable, const std::vector<std::string>& texts);
 
+  /// Closes the file, reads back all that was written, and compares the checksums. HDF5 can drop data silently when
+  /// memory runs out. \throws std::bad_alloc if anything is missing.
   Image finish();
 
  private:
   int variable(const std::string& name, int type, const std::vector<int>& dimensions);
+  void put_attribute(int variable, const std::string& name, int type, std::size_t count, std::string_view bytes);
+  void put(int variable, int type, std::vector<std::size_t> start, std::vector<std::size_t> size, const void* values);
+  void note(int variable, const std::string& attribute, std::vector<std::size_t> start, std::vector<std::size_t> size,
+            std::uint64_t sum);
+  std::vector<std::size_t> shape(int variable) const;
+
+  std::vector<Piece> own_pieces_;
+  std::vector<Piece>* pieces_ = &own_pieces_;  ///< those of the file, for a group
 };
 
 /// The name, type and shape of a variable in a file.
@@ -125,8 +147,8 @@ class Reader : Handle {
   std::string bytes(const Variable& variable) const;
   /// Makes the checks of `reals` without reading the values. \throws FileError.
   void require_reals(const Variable& variable) const;
-  /// Reads all variables and attributes and discards them. \throws FileError if one cannot be read.
-  void read_everything() const;
+  /// The checksum of what the file has in place of `piece`. \throws FileError if it has nothing there.
+  std::uint64_t sum_of(const Piece& piece) const;
   /// Reads all values at one index of the first dimension. Call require_reals first; values.size() must be their
   /// number.
   void read_row(const Variable& variable, std::size_t row, std::span<double> values) const;
@@ -138,3 +160,11 @@ class Reader : Handle {
 };
 
 }  // namespace slipfront::record::netcdf
+
+namespace slipfront::record {
+
+/// Writes a file that `fill` fills, with a seal (seal.hpp), completely or not at all. \throws FileError (one line: path
+/// and reason), std::bad_alloc.
+void write_netcdf(const std::string& path, std::size_t expected_size, const std::function<void(netcdf::Writer&)>& fill);
+
+}  // namespace slipfront::record

@@ -7,13 +7,12 @@
 #include <string_view>
 #include <utility>
 
-#include "foundation/bytes.hpp"
 #include "foundation/text/csv_records.hpp"
 #include "foundation/text/digits.hpp"
 #include "foundation/text/trimmed.hpp"
 #include "record/files/seal.hpp"
 #include "record/files/text_file.hpp"
-#include "record/netcdf/netcdf_file.hpp"
+#include "record/netcdf/netcdf.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/medium/quantity.hpp"
 
@@ -165,17 +164,7 @@ Table rows_of(const netcdf::Reader& file, const Names& names, const std::string&
 
 Table read_any_netcdf(std::string_view image, const Names& names, const std::string& path) {
   constexpr std::size_t most_bytes = std::size_t{1} << 28;  // a compressed file may hold more than its own size
-  const std::string packed = read_netcdf(path, image, most_bytes, [&](const netcdf::Reader& file) {
-    bytes::Writer out;
-    for (const std::vector<double>& row : rows_of(file, names, path))
-      for (const double value : row) out.put(value);
-    return std::move(out).text();
-  });
-  bytes::Reader in(packed);
-  Table table(packed.size() / sizeof(double) / names.size());
-  for (std::vector<double>& row : table)
-    for (std::size_t i = 0; i < names.size(); ++i) row.push_back(in.get<double>());
-  return table;
+  return rows_of(netcdf::Reader(path, image, most_bytes), names, path);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "foundation/math/constants.hpp"
-#include "record/netcdf/netcdf_file.hpp"
+#include "record/netcdf/netcdf.hpp"
 #include "record/planes/plane_variables.hpp"
 #include "record/pulses/cf.hpp"
 #include "slipfront/plane/source_parameters.hpp"

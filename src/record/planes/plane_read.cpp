@@ -1,12 +1,10 @@
 #include <cmath>
 #include <cstddef>
-#include <optional>
 #include <utility>
 
-#include "foundation/bytes.hpp"
 #include "record/files/seal.hpp"
 #include "record/files/text_file.hpp"
-#include "record/netcdf/netcdf_file.hpp"
+#include "record/netcdf/netcdf.hpp"
 #include "record/planes/plane_file.hpp"
 #include "record/planes/plane_variables.hpp"
 #include "slipfront/error.hpp"
@@ -34,22 +32,17 @@ std::string text(const std::string& path, const Reader& file, const std::string&
   return *std::move(value);
 }
 
-/// The points of lines in a file, packed; no points if it has none.
-void pack_lines(const std::string& path, const Reader& file, bytes::Writer& out) {
-  std::optional<std::size_t> size;
-  for (const PlaneLine& line : plane_lines()) {
-    const auto variable = file.find(std::string(line.about.name));
-    const std::vector<double> values = variable ? file.reals(*variable) : std::vector<double>{};
-    if (size.value_or(values.size()) != values.size()) fail(path, "the points of lines have different sizes");
-    size = values.size();
-    out.put(values);
-  }
+LinePoints points_of_lines(const std::string& path, const Reader& file) {
+  LinePoints points;
+  for (const PlaneLine& line : plane_lines())
+    if (const auto variable = file.find(std::string(line.about.name))) points.*line.values = file.reals(*variable);
+  for (const PlaneLine& line : plane_lines())
+    if ((points.*line.values).size() != points.x.size()) fail(path, "the points of lines have different sizes");
+  return points;
 }
 
 /// Gives each snapshot its lines.
-void unpack_lines(bytes::Reader& in, std::vector<plane::Field>& snapshots) {
-  LinePoints points;
-  for (const PlaneLine& line : plane_lines()) points.*line.values = in.vector();
+void add_lines(const LinePoints& points, std::vector<plane::Field>& snapshots) {
   const std::size_t size = points.x.size();
   std::size_t i = 0;
   for (plane::Field& snapshot : snapshots)
@@ -61,47 +54,31 @@ void unpack_lines(bytes::Reader& in, std::vector<plane::Field>& snapshots) {
     }
 }
 
-/// The content of a file, packed to be sent from the process that reads the file to this one.
-std::string packed(const std::string& path, const Reader& file) {
+PlaneCheckpoint read_file(const std::string& path, const Reader& file) {
   if (const std::string format = text(path, file, "slipfront_format"); format != plane_format)
     fail(path, "its slipfront_format is '" + format.substr(0, 40) + "'; this version reads '" + plane_format + "'");
-  bytes::Writer out;
-  out.put_text(file.bytes(require(path, file, "scenario_text", 1)));
-  out.put_text(text(path, file, "version"));
-  out.put_text(file.bytes(require(path, file, "checkpoint", 1)));
-  out.put(file.number("finished") == 1.0);
+  PlaneCheckpoint run;
+  run.scenario_text = file.bytes(require(path, file, "scenario_text", 1));
+  run.version = text(path, file, "version");
+  run.run_state = file.bytes(require(path, file, "checkpoint", 1));
+  run.finished = file.number("finished") == 1.0;
   const std::vector<double> times = file.reals(require(path, file, "time", 1));
   const std::size_t nx = require(path, file, "x", 1).shape[0], ny = require(path, file, "y", 1).shape[0];
-  out.put(times);
-  out.put(static_cast<int>(nx));
-  out.put(static_cast<int>(ny));
-  std::vector<double> values(nx * ny);
+  for (const double time : times)
+    run.snapshots.push_back(
+        {.time = time, .nx = static_cast<int>(nx), .ny = static_cast<int>(ny), .slip = {}, .velocity = {}});
   for (const PlaneField& field : plane_fields()) {
     const Variable variable = require(path, file, std::string(field.about.name), 3);
     if (variable.shape != std::vector<std::size_t>{times.size(), ny, nx})
       fail(path, variable.name + " has the wrong size");
     file.require_reals(variable);
     for (std::size_t row = 0; row < times.size(); ++row) {
+      std::vector<double>& values = run.snapshots[row].*field.values;
+      values.resize(nx * ny);
       file.read_row(variable, row, values);
-      out.put(values);
     }
   }
-  pack_lines(path, file, out);
-  return std::move(out).text();
-}
-
-PlaneCheckpoint unpacked(std::string_view content) {
-  bytes::Reader in(content);
-  PlaneCheckpoint run;
-  for (std::string* text : {&run.scenario_text, &run.version, &run.run_state}) *text = in.text();
-  run.finished = in.get<bool>();
-  const std::vector<double> times = in.vector();
-  const int nx = in.get<int>(), ny = in.get<int>();
-  for (const double time : times)
-    run.snapshots.push_back({.time = time, .nx = nx, .ny = ny, .slip = {}, .velocity = {}});
-  for (const PlaneField& field : plane_fields())
-    for (plane::Field& snapshot : run.snapshots) snapshot.*field.values = in.vector();
-  unpack_lines(in, run.snapshots);
+  add_lines(points_of_lines(path, file), run.snapshots);
   return run;
 }
 
@@ -110,7 +87,7 @@ PlaneCheckpoint unpacked(std::string_view content) {
 PlaneCheckpoint read_plane(const std::string& path) {
   const std::string file = read_regular(path);
   const std::string_view image = sealed_content(file, path);
-  return unpacked(read_netcdf(path, image, image.size(), [&](const Reader& reader) { return packed(path, reader); }));
+  return read_file(path, Reader(path, image, image.size()));
 }
 
 }  // namespace slipfront::record

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "foundation/math/constants.hpp"
-#include "record/netcdf/netcdf_file.hpp"
+#include "record/netcdf/netcdf.hpp"
 #include "record/pulses/cf.hpp"
 #include "record/pulses/pulse_variables.hpp"
 

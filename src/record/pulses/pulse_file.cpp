@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "record/files/utf8.hpp"
-#include "record/netcdf/netcdf_file.hpp"
+#include "record/netcdf/netcdf.hpp"
 #include "record/pulses/cf.hpp"
 #include "record/pulses/pulse_layout.hpp"
 #include "record/pulses/pulse_variables.hpp"

@@ -3,10 +3,9 @@
 #include <cstdint>
 #include <utility>
 
-#include "foundation/bytes.hpp"
 #include "record/files/seal.hpp"
 #include "record/files/text_file.hpp"
-#include "record/netcdf/netcdf_file.hpp"
+#include "record/netcdf/netcdf.hpp"
 #include "record/pulses/pulse_file.hpp"
 #include "record/pulses/pulse_layout.hpp"
 #include "record/pulses/pulse_variables.hpp"
@@ -127,41 +126,12 @@ class PulseReader {
   std::size_t times_ = 0, cells_ = 0;
 };
 
-/// Converts a checkpoint to bytes, in order to send it from the process that reads the file to this one.
-std::string packed(const Checkpoint& run) {
-  bytes::Writer out;
-  for (const std::string* text : {&run.scenario_text, &run.version, &run.solver_state}) out.put_text(*text);
-  out.put(run.finished);
-  out.put(static_cast<std::uint64_t>(run.snapshots.size()));
-  for (const Snapshot& snapshot : run.snapshots) {
-    out.put(snapshot.time);
-    for (const ScalarVariable& scalar : scalar_variables()) out.put(scalar.get(snapshot));
-    for (const auto values : profile_fields()) out.put(snapshot.profile.*values);
-  }
-  return std::move(out).text();
-}
-
-Checkpoint unpacked(std::string_view packed_run) {
-  bytes::Reader in(packed_run);
-  Checkpoint run{};
-  for (std::string* text : {&run.scenario_text, &run.version, &run.solver_state}) *text = in.text();
-  run.finished = in.get<bool>();
-  run.snapshots.resize(static_cast<std::size_t>(in.get<std::uint64_t>()));
-  for (Snapshot& snapshot : run.snapshots) {
-    snapshot.time = in.get<double>();
-    for (const ScalarVariable& scalar : scalar_variables()) scalar.set(snapshot, in.get<double>());
-    for (const auto values : profile_fields()) snapshot.profile.*values = in.vector();
-  }
-  return run;
-}
-
 }  // namespace
 
 Checkpoint read_checkpoint(const std::string& path) {
   const std::string file = read_regular(path);
   const std::string_view image = sealed_content(file, path);
-  return unpacked(read_netcdf(path, image, image.size(),
-                              [&](const Reader& reader) { return packed(PulseReader(path, reader).read()); }));
+  return PulseReader(path, Reader(path, image, image.size())).read();
 }
 
 Checkpoint read_checkpoint_of(const std::string& path, const std::string& version) {

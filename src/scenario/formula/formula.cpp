@@ -1,107 +1,278 @@
 #include "scenario/formula/formula.hpp"
 
-#include <muParser.h>
-
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
-#include <cstring>
-#include <limits>
 #include <numbers>
-#include <system_error>
+#include <utility>
 
-#include "scenario/formula/formula_functions.hpp"
+#include "foundation/text/characters.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::scenario {
+
+/// One step of a stack machine: pushes a number, or replaces the last one, two or three.
+struct FormulaStep {
+  enum class Kind { number, x, y, t, one, two, choose } kind;
+  double number = 0;
+  double (*one)(double) = nullptr;
+  double (*two)(double, double) = nullptr;
+};
+
 namespace {
 
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+using OfOne = double (*)(double);
+using OfTwo = double (*)(double, double);
 
-double least(const double* values, int count) {
-  double result = count > 0 ? values[0] : not_a_number;
-  for (int i = 1; i < count; ++i) result = values[i] < result || std::isnan(values[i]) ? values[i] : result;
-  return result;
-}
+struct FormulaFunction {
+  std::string_view name;
+  OfOne call;
+};
+constexpr FormulaFunction functions_of_one[] = {
+    {"sin", [](double v) { return std::sin(v); }},     {"cos", [](double v) { return std::cos(v); }},
+    {"tan", [](double v) { return std::tan(v); }},     {"asin", [](double v) { return std::asin(v); }},
+    {"acos", [](double v) { return std::acos(v); }},   {"atan", [](double v) { return std::atan(v); }},
+    {"sinh", [](double v) { return std::sinh(v); }},   {"cosh", [](double v) { return std::cosh(v); }},
+    {"tanh", [](double v) { return std::tanh(v); }},   {"asinh", [](double v) { return std::asinh(v); }},
+    {"acosh", [](double v) { return std::acosh(v); }}, {"atanh", [](double v) { return std::atanh(v); }},
+    {"exp", [](double v) { return std::exp(v); }},     {"log", [](double v) { return std::log(v); }},
+    {"ln", [](double v) { return std::log(v); }},      {"log10", [](double v) { return std::log10(v); }},
+    {"log2", [](double v) { return std::log2(v); }},   {"sqrt", [](double v) { return std::sqrt(v); }},
+    {"abs", [](double v) { return std::fabs(v); }},    {"sign", [](double v) { return v > 0 ? 1 : v < 0 ? -1 : v; }},
+};
 
-double greatest(const double* values, int count) {
-  double result = count > 0 ? values[0] : not_a_number;
-  for (int i = 1; i < count; ++i) result = values[i] > result || std::isnan(values[i]) ? values[i] : result;
-  return result;
-}
+double negative(double v) { return -v; }
+/// These powers of a variable are products, which are faster than std::pow.
+double square(double v) { return v * v; }
+double cube(double v) { return v * v * v; }
+double least(double a, double b) { return b < a || std::isnan(b) ? b : a; }
+double greatest(double a, double b) { return b > a || std::isnan(b) ? b : a; }
 
-/// Reads the number that `text` begins with. muParser's own way is a stream, which without memory calls a good number
-/// none.
-int take_number(const char* text, int* position, double* value) {
-  if (*text != '.' && (*text < '0' || *text > '9')) return 0;
-  const auto [end, error] = std::from_chars(text, text + std::strlen(text), *value);
-  if (error != std::errc{}) return 0;
-  *position += static_cast<int>(end - text);
-  return 1;
-}
+struct Operator {
+  std::string_view sign;
+  int rank;  ///< precedence: higher binds first
+  OfTwo apply;
+};
+constexpr int highest_rank = 6;
+constexpr Operator operators[] = {
+    {"||", 1, [](double a, double b) { return a != 0 || b != 0 ? 1.0 : 0.0; }},
+    {"&&", 2, [](double a, double b) { return a != 0 && b != 0 ? 1.0 : 0.0; }},
+    {"<=", 4, [](double a, double b) { return a <= b ? 1.0 : 0.0; }},
+    {">=", 4, [](double a, double b) { return a >= b ? 1.0 : 0.0; }},
+    {"==", 4, [](double a, double b) { return a == b ? 1.0 : 0.0; }},
+    {"!=", 4, [](double a, double b) { return a != b ? 1.0 : 0.0; }},
+    {"<", 4, [](double a, double b) { return a < b ? 1.0 : 0.0; }},
+    {">", 4, [](double a, double b) { return a > b ? 1.0 : 0.0; }},
+    {"+", 5, [](double a, double b) { return a + b; }},
+    {"-", 5, [](double a, double b) { return a - b; }},
+    {"*", 6, [](double a, double b) { return a * b; }},
+    {"/", 6, [](double a, double b) { return a / b; }},
+};
 
-InputError refusal(const mu::Parser::exception_type& error) {
-  const std::string token = error.GetToken().substr(0, 40);
-  const std::string at = " at character " + std::to_string(std::max(0, error.GetPos()) + 1);
-  std::string problem = token.empty() ? "cannot be read" + at : "'" + token + "' is not allowed" + at;
-  if (error.GetCode() == mu::ecUNEXPECTED_EOF) problem = "ends too early";
-  if (error.GetCode() == mu::ecEMPTY_EXPRESSION) problem = "empty";
-  if (error.GetCode() == mu::ecTOO_MANY_PARAMS) problem = "too many arguments of " + token + at;
-  if (error.GetCode() == mu::ecTOO_FEW_PARAMS) problem = "too few arguments of " + token + at;
-  for (char& c : problem)
-    if (static_cast<unsigned char>(c) < 0x20) c = '?';
-  return InputError({.problem = problem, .allowed = "a formula such as max(0, 1 - x^2)"});
-}
+using Step = FormulaStep;
+using Kind = Step::Kind;
+
+/// Reads a formula by recursive descent. scan_formula has found all errors but those of grammar.
+class FormulaReader {
+ public:
+  FormulaReader(const std::string& text, const std::vector<std::string_view>& variables)
+      : text_(text), variables_(variables) {
+    choice();
+    if (skip() < text_.size()) refuse();
+  }
+
+  std::vector<Step> steps;
+  std::vector<std::string> used;  ///< variables
+
+ private:
+  [[noreturn]] void refuse() {
+    const bool ends = skip() >= text_.size();
+    const std::string token(1, ends ? ' ' : text_[at_]);
+    throw InputError(
+        {.problem = ends ? "ends too early" : "'" + token + "' is not allowed at character " + std::to_string(at_ + 1),
+         .allowed = "a formula such as max(0, 1 - x^2)"});
+  }
+  std::size_t skip() {
+    while (at_ < text_.size() && std::string_view(" \t\r\n").find(text_[at_]) != std::string_view::npos) ++at_;
+    return at_;
+  }
+  bool take(std::string_view sign) {
+    if (std::string_view(text_).substr(skip()).substr(0, sign.size()) != sign) return false;
+    at_ += sign.size();
+    return true;
+  }
+  void need(std::string_view sign) {
+    if (!take(sign)) refuse();
+  }
+  void push(double number) { steps.push_back({.kind = Kind::number, .number = number}); }
+  bool are_numbers(std::size_t count) const {
+    return std::all_of(steps.end() - static_cast<std::ptrdiff_t>(count), steps.end(),
+                       [](const Step& s) { return s.kind == Kind::number; });
+  }
+  void apply(OfOne call) {
+    if (are_numbers(1))
+      steps.back().number = call(steps.back().number);
+    else
+      steps.push_back({.kind = Kind::one, .one = call});
+  }
+  void apply(OfTwo call) {
+    if (!are_numbers(2)) {
+      steps.push_back({.kind = Kind::two, .two = call});
+      return;
+    }
+    const double second = steps.back().number;
+    steps.pop_back();
+    steps.back().number = call(steps.back().number, second);
+  }
+
+  void choice() {
+    binary(1);
+    if (!take("?")) return;
+    choice();
+    need(":");
+    choice();
+    steps.push_back({.kind = Kind::choose});
+  }
+  void binary(int rank) {
+    if (rank > highest_rank) return signed_power();
+    binary(rank + 1);
+    while (true) {
+      const auto found = std::find_if(std::begin(operators), std::end(operators),
+                                      [&](const Operator& o) { return o.rank == rank && take(o.sign); });
+      if (found == std::end(operators)) return;
+      binary(rank + 1);
+      apply(found->apply);
+    }
+  }
+  void signed_power() {
+    if (take("-")) {
+      signed_power();
+      return apply(negative);
+    }
+    if (take("+")) return signed_power();
+    atom();
+    if (!take("^")) return;
+    signed_power();
+    const bool is_of_variable = are_numbers(1) && steps[steps.size() - 2].kind <= Kind::t && !are_numbers(2);
+    const double power = is_of_variable ? steps.back().number : 0;
+    if (power != 2 && power != 3) return apply([](double base, double exponent) { return std::pow(base, exponent); });
+    steps.pop_back();
+    apply(power == 2 ? square : cube);
+  }
+  void atom() {
+    if (take("(")) {
+      choice();
+      return need(")");
+    }
+    skip();
+    if (at_ < text_.size() && (is_digit(text_[at_]) || text_[at_] == '.')) return number();
+    std::size_t end = at_;
+    while (end < text_.size() && (is_letter(text_[end]) || is_digit(text_[end]))) ++end;
+    if (end == at_) refuse();
+    const std::string name = text_.substr(at_, end - at_);
+    const std::size_t begin = std::exchange(at_, end);
+    for (const std::string_view variable : variables_)
+      if (name == variable) return variable_named(name);
+    if (name == "pi") return push(std::numbers::pi);
+    if (name == "e") return push(std::numbers::e);
+    if (name == "min" || name == "max") return extreme(name == "min" ? least : greatest);
+    for (const FormulaFunction& f : functions_of_one)
+      if (name == f.name) {
+        need("(");
+        choice();
+        need(")");
+        return apply(f.call);
+      }
+    at_ = begin;
+    refuse();
+  }
+  void number() {
+    double value = 0;
+    const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
+    if (error != std::errc{}) refuse();
+    at_ = static_cast<std::size_t>(end - text_.data());
+    push(value);
+  }
+  /// The variable of a curve, such as w, is x.
+  void variable_named(const std::string& name) {
+    used.push_back(name);
+    steps.push_back({.kind = name == "t" ? Kind::t : name == "y" ? Kind::y : Kind::x});
+  }
+  void extreme(OfTwo call) {
+    need("(");
+    choice();
+    while (take(",")) {
+      choice();
+      apply(call);
+    }
+    need(")");
+  }
+
+  const std::string& text_;
+  const std::vector<std::string_view>& variables_;
+  std::size_t at_ = 0;
+};
 
 }  // namespace
 
 struct Formula::Compiled {
-  mu::Parser parser;
-  double x = 0, y = 0, t = 0;
+  std::vector<FormulaStep> steps;
+  std::vector<std::string> used;
+  std::size_t most = 0;  ///< largest number of values on the stack
 
-  /// The number to which the parser binds a variable. The variable of a curve, such as w, is x.
-  double* of(std::string_view variable) { return variable == "t" ? &t : variable == "y" ? &y : &x; }
+  double value(double x, double y, double t, double* top) const {
+    for (const FormulaStep& step : steps) switch (step.kind) {
+        case Kind::number:
+          *top++ = step.number;
+          break;
+        case Kind::x:
+          *top++ = x;
+          break;
+        case Kind::y:
+          *top++ = y;
+          break;
+        case Kind::t:
+          *top++ = t;
+          break;
+        case Kind::one:
+          top[-1] = step.one(top[-1]);
+          break;
+        case Kind::two:
+          --top;
+          top[-1] = step.two(top[-1], top[0]);
+          break;
+        case Kind::choose:
+          top -= 2;
+          top[-1] = top[-1] != 0 ? top[0] : top[1];
+          break;
+      }
+    return top[-1];
+  }
 };
 
-Formula::Formula(const std::string& text, const std::vector<std::string_view>& variables)
-    : compiled_(std::make_shared<Compiled>()) {
+Formula::Formula(const std::string& text, const std::vector<std::string_view>& variables) {
   scan_formula(text, variables);
-  mu::Parser& parser = compiled_->parser;
-  try {
-    parser.AddValIdent(take_number);
-    parser.ClearFun();
-    parser.ClearConst();
-    for (const FormulaFunction& function : functions_of_one)
-      parser.DefineFun(std::string(function.name), function.call);
-    parser.DefineFun("min", least);
-    parser.DefineFun("max", greatest);
-    parser.DefineConst("pi", std::numbers::pi);
-    parser.DefineConst("e", std::numbers::e);
-    for (const std::string_view variable : variables) parser.DefineVar(std::string(variable), compiled_->of(variable));
-    parser.SetExpr(text);
-    int results = 0;
-    parser.Eval(results);  // parses; from now on only the values change
-    if (results != 1) throw InputError({.problem = "more than one value", .allowed = "one value"});
-  } catch (const mu::Parser::exception_type& error) {
-    throw refusal(error);
+  FormulaReader reader(text, variables);
+  std::size_t size = 0, most = 0;
+  for (const Step& step : reader.steps) {
+    if (step.kind <= Kind::t) most = std::max(most, ++size);
+    if (step.kind == Kind::two) size -= 1;
+    if (step.kind == Kind::choose) size -= 2;
   }
+  compiled_ = std::make_shared<const Compiled>(Compiled{std::move(reader.steps), std::move(reader.used), most});
 }
 
 double Formula::operator()(double x, double t) const { return (*this)(x, 0, t); }
 
 double Formula::operator()(double x, double y, double t) const {
-  compiled_->x = x;
-  compiled_->y = y;
-  compiled_->t = t;
-  try {
-    return compiled_->parser.Eval();
-  } catch (const mu::Parser::exception_type&) {
-    return not_a_number;
-  }
+  std::array<double, 32> few;
+  if (compiled_->most <= few.size()) return compiled_->value(x, y, t, few.data());
+  return compiled_->value(x, y, t, std::vector<double>(compiled_->most).data());
 }
 
 bool Formula::has(std::string_view variable) const {
-  return compiled_->parser.GetUsedVar().count(std::string(variable)) > 0;
+  return std::find(compiled_->used.begin(), compiled_->used.end(), variable) != compiled_->used.end();
 }
 
 const std::vector<std::string_view>& formula_functions() {

@@ -8,7 +8,7 @@
 namespace slipfront::scenario {
 
 /// A formula of x, or of x, y and t, in a scenario. It may contain + - * / ^ ( ) < <= > >= == != && || and ?:, the
-/// constants pi and e, and the functions of formula_functions(). Two threads must not call an object at the same time.
+/// constants pi and e, and the functions of formula_functions().
 class Formula {
  public:
   /// \throws InputError (problem and allowed only) that gives the position of the error.
@@ -21,7 +21,7 @@ class Formula {
 
  private:
   struct Compiled;
-  std::shared_ptr<Compiled> compiled_;  ///< shared: copying a parser would parse again
+  std::shared_ptr<const Compiled> compiled_;
 };
 
 const std::vector<std::string_view>& formula_functions();

@@ -2,7 +2,7 @@
 
 #include <cmath>
 #include <memory>
-#include <mutex>
+#include <optional>
 #include <utility>
 
 #include "foundation/text/digits.hpp"
@@ -18,37 +18,6 @@ InputError refusal(Complaint where, const std::string& problem, const std::strin
   where.allowed = allowed;
   return InputError(std::move(where));
 }
-
-/// A formula that several threads may call at once. It makes as many copies as there are simultaneous calls.
-class FormulaForThreads {
- public:
-  explicit FormulaForThreads(std::string text) : text_(std::move(text)) { idle_.emplace_back(text_, variables()); }
-  double operator()(double w) {
-    Formula formula = take();
-    const double f = formula(w);
-    const std::scoped_lock lock(mutex_);
-    idle_.push_back(std::move(formula));
-    return f;
-  }
-
- private:
-  static std::vector<std::string_view> variables() { return {"w"}; }
-  Formula take() {
-    {
-      const std::scoped_lock lock(mutex_);
-      if (!idle_.empty()) {
-        Formula formula = std::move(idle_.back());
-        idle_.pop_back();
-        return formula;
-      }
-    }
-    return {text_, variables()};
-  }
-
-  std::string text_;
-  std::mutex mutex_;
-  std::vector<Formula> idle_;
-};
 
 /// Tries the curve at velocities that a `chain` or `pulse` run may need. These are rest, and velocities from far below
 /// slow slip to far above earthquakes.
@@ -79,16 +48,16 @@ double force_in_file(const Section& section) {
 friction::Curve from_formula(const Section& section) {
   const std::string text = *section.formula("formula");
   const Complaint where = section.where("formula");
-  std::shared_ptr<FormulaForThreads> formula;
+  std::optional<Formula> formula;
   try {
-    formula = std::make_shared<FormulaForThreads>(text);
+    formula.emplace(text, std::vector<std::string_view>{"w"});
   } catch (const InputError& error) {
     throw section.refuse("formula", error.complaint().problem, error.complaint().allowed);
   }
   const double velocity = section.in_file(ModelUnit::slip_velocity);
   const double force = force_in_file(section);
-  friction::Curve curve = [formula, where, velocity, force](double w) {
-    const double f = (*formula)(w * velocity) / force;
+  friction::Curve curve = [formula = *formula, where, velocity, force](double w) {
+    const double f = formula(w * velocity) / force;
     if (!(f >= 0 && std::isfinite(f)))
       throw refusal(where, "the friction is " + shortest(f) + " at the slip velocity w = " + shortest(w),
                     "a finite force >= 0");

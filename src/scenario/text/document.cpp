@@ -3,9 +3,9 @@
 #include "foundation/text/digits.hpp"
 #include "foundation/text/nearest.hpp"
 #include "foundation/text/parse_toml.hpp"
+#include "foundation/text/toml_text.hpp"
 #include "scenario/text/key_near.hpp"
 #include "scenario/text/overrides.hpp"
-#include "scenario/text/serialize.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::scenario {
@@ -94,7 +94,9 @@ Document read_document(std::string_view text, const std::string& file, const std
   Document document{.file = file, .text = std::string(text), .title = {}, .tables = {}};
   convert_document(document, root, overridden);
   if (!overrides.empty()) {
-    document.text = serialize(root, overrides);
+    document.text.clear();
+    for (const std::string& override : overrides) document.text += "# --set " + override + "\n";
+    document.text += toml_document(root);
     parse_toml(document.text, file);  // written in another form, it must still be readable
   }
   return document;

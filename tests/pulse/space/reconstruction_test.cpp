@@ -31,7 +31,7 @@ double error_at_faces(int n) {
   double worst = 0;
   for (int i = 0; i < n; ++i) {
     const double* at = f.data() + i + 3;
-    const double face = pulse::weno5(at[-2], at[-1], at[0], at[1], at[2]);
+    const double face = weno5(at[-2], at[-1], at[0], at[1], at[2]);
     worst = std::fmax(worst, std::fabs(face - std::sin(2 * pi * (i + 1.0) / n + 0.3)));
   }
   return worst;
@@ -44,7 +44,7 @@ TEST(Weno5, DoesNotOscillateAtAJump) {
     for (int jump = 1; jump < 5; ++jump) {
       double f[5];
       for (int i = 0; i < 5; ++i) f[i] = i < jump ? 1 : low;
-      const double face = pulse::weno5(f[0], f[1], f[2], f[3], f[4]);
+      const double face = weno5(f[0], f[1], f[2], f[3], f[4]);
       EXPECT_LE(face, 1 + 1e-6) << jump;
       EXPECT_GE(face, low - 1e-6) << jump;
     }
@@ -53,14 +53,14 @@ TEST(Weno5, DoesNotOscillateAtAJump) {
 TEST(Weno5, TakesTheSmoothSideOfAJump) {
   // A parabola to the left of the jump; the face lies on that side.
   const auto average = [](double i) { return (std::pow(i + 0.5, 3) - std::pow(i - 0.5, 3)) / 3; };
-  const double face = pulse::weno5(average(-2), average(-1), average(0), 1000, 1000);
+  const double face = weno5(average(-2), average(-1), average(0), 1000, 1000);
   EXPECT_NEAR(face, 0.25, 1e-3);
 }
 
 TEST(Weno5, DoesNotDependOnTheUnit) {
-  const double face = pulse::weno5(1, 2, 4, 5, 3);
+  const double face = weno5(1, 2, 4, 5, 3);
   for (const double unit : {1e-100, 1e-20, 1e60})
-    EXPECT_NEAR(pulse::weno5(unit, 2 * unit, 4 * unit, 5 * unit, 3 * unit) / unit, face, 1e-12);
+    EXPECT_NEAR(weno5(unit, 2 * unit, 4 * unit, 5 * unit, 3 * unit) / unit, face, 1e-12);
 }
 
 double error_of_centres(int n) {

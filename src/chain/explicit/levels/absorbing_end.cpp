@@ -4,6 +4,7 @@
 #include <numbers>
 #include <utility>
 
+#include "foundation/math/bracket.hpp"
 #include "foundation/math/constants.hpp"
 #include "slipfront/elliptic/complete.hpp"
 
@@ -45,13 +46,9 @@ std::shared_ptr<const std::vector<double>> AbsorbingEnd::shocks_into(double psi0
   std::vector<double> gains;
   for (int i = 0; i <= phi_steps; ++i) {
     const double phi = least_phi * std::exp(i * log_step);
-    double low = 0, high = phi;  // psi - psi0 would be phi in a fan
-    for (int k = 0; k < 60 && jump(phi, psi0 + high, psi0) < 0; ++k) {
-      const double middle = (low + high) / 2;
-      (jump(phi, psi0 + middle, psi0) > 0 ? low : high) = middle;
-      if (high - low < 1e-12 * high) break;
-    }
-    gains.push_back(high);
+    const auto is_shock = [&](double gain) { return jump(phi, psi0 + gain, psi0) > 0; };
+    // psi - psi0 would be phi in a fan.
+    gains.push_back(jump(phi, psi0 + phi, psi0) < 0 ? bisected({.holding = 0, .failing = phi}, is_shock).failing : phi);
   }
   return std::make_shared<const std::vector<double>>(std::move(gains));
 }
