@@ -216,8 +216,8 @@ double estimate_under_friction(double start, double rate, double dt) {
   return step.error(y, {1, 1 / rate}, {0}, {rate * dt});
 }
 
-/// The mean momentum is off by 0.07 of the change of the force, and the momentum at the end by 0.4 of it. The difference
-/// from the midpoint rule exceeds the change of the force by the length of the step in friction times.
+/// The mean momentum is off by 0.07 of the change of the force, and the momentum at the end by 0.4 of it. The
+/// difference from the midpoint rule exceeds the change of the force by the length of the step in friction times.
 TEST(Ars443, EstimatesTheErrorOfAMomentumThatFrictionBalances) {
   for (const double dt : {1e-3, 1e-2, 1e-1}) {
     const double estimate = estimate_under_friction(1e-8, 1e8, dt);
