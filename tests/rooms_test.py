@@ -5,6 +5,7 @@ A new module is one line in MODULES. With an argument, the test checks another c
 tests/rooms_test.py [FOLDER]."""
 
 import os
+import pathlib
 import re
 import sys
 import unittest
@@ -23,7 +24,7 @@ MODULES = {
     "chain": "output friction modulation train elliptic",
     "pulse": "output friction modulation train elliptic",
     "plane": "output pulse friction modulation train elliptic",
-    "friction_ratio": "pulse rupture friction",
+    "friction_ratio": "friction",
     "scenario": "chain pulse plane friction train medium",
     "catalogue": "friction_ratio rupture medium",
     "inference": "catalogue friction_ratio rupture medium elliptic",
@@ -147,6 +148,11 @@ class Modules(unittest.TestCase):
                 wrong += [f"{os.path.relpath(path, SOURCE)} includes {name}, which is internal"
                           for name in INCLUDE.findall(file.read()) if not name.startswith("slipfront/")]
         self.assertFalse(wrong, "\n" + "\n".join(wrong))
+
+    def test_each_equation_is_implemented_on_one_line_that_says_so(self):
+        text = "\n".join(pathlib.Path(path).read_text(encoding="utf-8") for path in [*sources_in(self.include), *sources_in(self.src)])
+        for equation in (*range(1, 11), 8.4, 8.7, 8.8):
+            self.assertEqual(text.count(f"Eq. ({equation})"), 1, f"Eq. ({equation})")
 
     def test_no_module_includes_one_that_it_may_not_use(self):
         wrong = []

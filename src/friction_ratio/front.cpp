@@ -6,7 +6,7 @@
 #include <cstddef>
 
 #include "foundation/text/digits.hpp"
-#include "friction_ratio/front_coefficients.hpp"
+#include "friction_ratio/coefficients.hpp"
 #include "friction_ratio/front_layout.hpp"
 #include "slipfront/error.hpp"
 

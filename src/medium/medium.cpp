@@ -87,6 +87,7 @@ Units units(double shear_modulus, double speed, double contact_ratio, double asp
 
 double traction_unit(double shear_modulus, double poisson_ratio, double contact_ratio) {
   const double A = checked_contact(contact_ratio);
+  // Eq. (2): A^2 sin u = (F - f) 2 pi / (b K_b), so the unit of F is A^2 b K_b / (2 pi), per area b^2.
   return positive(shear_modulus, "shear_modulus") * A * A / (pi * (1 - checked_poisson(poisson_ratio)));
 }
 

@@ -24,6 +24,7 @@ Sound sound(double psi) {
 Speeds characteristic_speeds(const State& state) {
   if (state.empty()) return {std::tanh(state.phi), std::tanh(state.phi)};
   const double a = sound(state.psi).rapidity;
+  // Eq. (6), for the invariants phi +- psi: (phi +- psi)_t + lambda_+- (phi +- psi)_x = 0.
   return {std::tanh(state.phi - a), std::tanh(state.phi + a)};
 }
 

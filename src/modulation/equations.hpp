@@ -34,7 +34,7 @@ inline double pressure_from(double e_2psi_minus_1) {
 
 /// Source of the momentum M by a force per unit length, the load F or the mean friction <f>: in u, a dislocation is a
 /// step of 2 pi.
-inline double force_per_dislocation(double force) {  // Eq. (7): M_t + p_q = 2 pi (F - <f>)
+inline double force_per_dislocation(double force) {  // M_t + p_q = 2 pi (F - <f>)
   return 2 * std::numbers::pi * force;
 }
 
@@ -44,7 +44,7 @@ inline double force_per_dislocation(double force) {  // Eq. (7): M_t + p_q = 2 p
 struct AcrossCell {
   double left, centre, right;
 };
-inline double contact_source(const AcrossCell& substrate, const AcrossCell& a2) {  // Eq. (7): ... - <1 - cos u> (a^2)_x
+inline double contact_source(const AcrossCell& substrate, const AcrossCell& a2) {  // ... - <1 - cos u> (a^2)_x
   return -(substrate.left * (4 * a2.centre - 3 * a2.left - a2.right) + 4 * substrate.centre * (a2.right - a2.left) +
            substrate.right * (a2.left - 4 * a2.centre + 3 * a2.right)) /
          6;

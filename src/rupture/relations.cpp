@@ -49,11 +49,11 @@ Relations assemble(double psi, double psi_at_origin) {
   const double cosh_psi0 = std::cosh(psi_at_origin);
   Relations r{};
   r.stress = pi * std::cosh(psi) / left.K;
-  r.rupture_velocity = left.s / left.ratio;  // |V-| = c0(psi-)
-  r.leading_velocity = left.s;               // V+ = tanh(psi-)
-  r.velocity_ratio = 1 / left.ratio;         // K / E
-  r.stress_at_origin = pi * std::cosh(phi0) * cosh_psi0 / origin.K;
-  r.slip_velocity = pi * std::sinh(phi0) * cosh_psi0 / origin.K;
+  r.rupture_velocity = left.s / left.ratio;                          // Eq. (9): |V-| = c0(psi-)
+  r.leading_velocity = left.s;                                       // V+ = tanh(psi-)
+  r.velocity_ratio = 1 / left.ratio;                                 // K / E
+  r.stress_at_origin = pi * std::cosh(phi0) * cosh_psi0 / origin.K;  // Eq. (8): Sigma = pi cosh(phi) cosh(psi) / K
+  r.slip_velocity = pi * std::sinh(phi0) * cosh_psi0 / origin.K;     // Eq. (10): W(0) = Sigma U at phi0 + psi0 = psi-
   r.dislocation_velocity_at_origin = std::tanh(phi0);
   r.psi = psi;
   r.psi_at_origin = psi_at_origin;

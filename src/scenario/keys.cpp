@@ -230,7 +230,7 @@ std::vector<Key> chain_keys() {
                  "factor by which x and t are stretched and friction is divided"),
       number_key(table, "spacing", ModelUnit::position, positive, "0.4 of the width of a dislocation",
                  "spacing of the sites on the stretched chain; A on a lattice"),
-      word_key(table, "model", {"sine-gordon", "lattice"}, "sine-gordon", "Eq. (3), or the lattice of Eq. (1)"),
+      word_key(table, "model", {"sine-gordon", "lattice"}, "sine-gordon", "Eq. 3, or the lattice of Eq. 1"),
       word_key(table, "left", ends, "fixed", "condition at the left end"),
       word_key(table, "right", ends, "fixed", "condition at the right end"),
       other_key(table, "periodic", truth, "false", "a ring of the length of the domain"),

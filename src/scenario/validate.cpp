@@ -108,7 +108,7 @@ double holding_force(const friction::Friction& friction) {
   return held;
 }
 
-/// The contacts of the substrate hold the force a^2 at most, Eq. (3). Friction acts in addition to them.
+/// The contacts of the substrate hold the force a^2 at most, Eq. 3. Friction acts in addition to them.
 void warn_of_strength(double largest_contact, Scenario& scenario) {
   const double held = holding_force(scenario.friction), substrate = largest_contact * largest_contact;
   if (!scenario.substrate || !(held > substrate)) return;

@@ -21,13 +21,23 @@ Fields fields(const State& state, double xi) {
   const elliptic::AtPsi at = elliptic::at_psi(state.psi);
   const double beta = beta_of(state);
   const elliptic::Jacobi f = elliptic::jacobi(beta * xi, at);
-  const double u = 2 * f.coamplitude;    // Eq. 4: u = pi - 2 am(beta xi)
+  const double u = 2 * f.coamplitude;    // Eq. (4): u = pi - 2 am(beta xi)
   const double sigma = 2 * beta * f.dn;  // -u_x
   const double w = std::tanh(state.phi) * sigma;
   return {u, sigma, w};
 }
 
 double spacing(const State& state) { return 2 * elliptic::at_psi(state.psi).K / beta_of(state); }
+
+namespace {
+
+double one_minus_cos(double cosh_psi, const elliptic::AtPsi& at) {
+  return 2 * cosh_psi * cosh_psi * at.above_m1;  // (2 / m)(E/K - m1)
+}
+
+}  // namespace
+
+double one_minus_cos(double psi) { return psi == 0 ? 0 : one_minus_cos(std::cosh(psi), elliptic::at_psi(psi)); }
 
 Averages averages(const State& state) {
   const double sinh_phi = std::sinh(state.phi), cosh_phi = std::cosh(state.phi);
@@ -40,11 +50,11 @@ Averages averages(const State& state) {
   const double cosh_psi = std::cosh(state.psi), sinh_psi = std::sinh(state.psi);
   const double beta = cosh_phi * cosh_psi, U = std::tanh(state.phi);
 
-  a.k = pi * beta / at.K;                                             // Eq. 5
-  a.W = pi * sinh_phi * cosh_psi / at.K;                              // Eq. 5, W = U k
+  a.k = pi * beta / at.K;                                             // Eq. (5): k = pi beta / K
+  a.W = pi * sinh_phi * cosh_psi / at.K;                              // W = U k
   a.sigma2 = 4 * beta * beta * at.ratio;                              // 4 beta^2 E / K
   a.sigma3 = 2 * pi * beta * beta * beta * (1 + at.s * at.s) / at.K;  // (2 beta)^3 pi (2 - m) / (4 K)
-  a.one_minus_cos = 2 * cosh_psi * cosh_psi * at.above_m1;            // (2 / m)(E/K - m1)
+  a.one_minus_cos = one_minus_cos(cosh_psi, at);
   a.P = U * a.sigma2;
   a.Q = U * a.P + 2 * sinh_psi * sinh_psi;  // (1 + U^2)/2 <sigma^2> - <1 - cos u> without cancellation
   a.H = (1 + U * U) / 2 * a.sigma2 + a.one_minus_cos;

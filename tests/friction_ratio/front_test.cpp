@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "friction_ratio/observed.hpp"
+#include "observed.hpp"
 #include "slipfront/chain/run.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/rupture/relations.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "friction_ratio/solve.hpp"
+#include "solve.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/rupture/relations.hpp"
 

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Compares the posterior of `slipfront event` with that of another sampler: emcee (affine-invariant ensemble) on the same density.
 
-Usage: emcee_posterior.py SLIPFRONT COEFFICIENTS     (src/friction_ratio/coefficients.cpp)
+Usage: emcee_posterior.py SLIPFRONT COEFFICIENTS     (the folder src/friction_ratio)
 Exit codes: 0 if medians and 5/95 % points agree within Monte Carlo error, 1 if they do not, 77 if emcee is not installed.
 
 The relations of Eqs. 8-10 use scipy's elliptic integrals, and numpy evaluates the friction ratio from the shipped table. The
@@ -9,7 +9,6 @@ script uses no code of the library.
 """
 
 import json
-import re
 import subprocess
 import sys
 import tempfile
@@ -39,14 +38,13 @@ EVENTS = [
 ]
 
 
-def numbers(text):
-    return np.array([float(x) for x in re.findall(r"-?\d\.\d+e[-+]\d+", text)])
+def numbers(path):
+    return np.array([float(number) for number in open(path).read().replace("\n", "").rstrip(",").split(",")])
 
 
-def table(path):
+def table(folder):
     """Coefficients [measure, piece, y, u] and corners [measure, y] of closure "consistent"."""
-    coefficients, corners = open(path).read().split("coefficients = ")[1].split("corners = ")
-    return numbers(coefficients).reshape(2, 4, 7, 15, 9)[0], numbers(corners).reshape(2, 4, 9)[0]
+    return numbers(f"{folder}/coefficients.csv").reshape(2, 4, 7, 15, 9)[0], numbers(f"{folder}/corners.csv").reshape(2, 4, 9)[0]
 
 
 def sound_speed(psi):

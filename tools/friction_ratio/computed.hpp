@@ -5,7 +5,7 @@
 #include <array>
 
 #include "friction_ratio/layout.hpp"
-#include "friction_ratio/solve.hpp"
+#include "solve.hpp"
 
 namespace slipfront::friction_ratio {
 

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "friction_ratio/solve.hpp"
 #include "nodes.hpp"
 #include "slipfront/friction_ratio/table.hpp"
+#include "solve.hpp"
 
 namespace slipfront::friction_ratio {
 

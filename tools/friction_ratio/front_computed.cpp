@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "friction_ratio/observed.hpp"
+#include "observed.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/friction_ratio/table.hpp"
 

@@ -69,46 +69,39 @@ std::string solve_all(Solved& solved) {
 
 /// Prints the coefficients of all pieces. `value(i, p, j)` is the function at a node.
 template <class Value>
-void print_pieces(std::size_t y_nodes, const Value& value) {
-  std::fputs("{{", stdout);
-  for (std::size_t p = 0; p < pieces; ++p) {
-    std::fputs("{{", stdout);
+void print_pieces(std::FILE* file, std::size_t y_nodes, const Value& value) {
+  for (std::size_t p = 0; p < pieces; ++p)
     for (std::size_t a = 0; a < y_nodes; ++a) {
       for (std::size_t b = 0; b < u_nodes; ++b) {
         const double found = coefficient(a, y_nodes, [&](std::size_t i) {
           return coefficient(b, u_nodes, [&](std::size_t j) { return value(i, p, j); });
         });
-        std::printf("%s%ld", b == 0 ? "{{" : ",", std::lround(found / unit));
+        std::fprintf(file, "%ld,", std::lround(found / unit));
       }
-      std::fputs(a + 1 < y_nodes ? "}},\n" : "}}", stdout);
+      std::fputc('\n', file);
     }
-    std::puts("}},");
-  }
-  std::puts("}},");
 }
 
-void print_tables(const Solved& solved) {
-  std::puts("const front_layout::FrontTable front_coefficients = {{");
-  for (std::size_t c = 0; c < front_layout::closures; ++c) {
-    std::puts("{{");
+void print_fronts(const Solved& solved) {
+  std::FILE* const file = table_file("front_coefficients");
+  for (std::size_t c = 0; c < front_layout::closures; ++c)
     for (std::size_t k = 0; k < threshold_nodes; ++k)
-      print_pieces(front_layout::front_y_nodes, [&](std::size_t i, std::size_t p, std::size_t j) {
+      print_pieces(file, front_layout::front_y_nodes, [&](std::size_t i, std::size_t p, std::size_t j) {
         return coefficient(k, threshold_nodes, [&](std::size_t t) {
           return front_layout::from_ratio(solved.at({front_layout::front_y_nodes, c, i, p, j}).fronts[t]);
         });
       });
-    std::puts("}},");
-  }
-  std::puts("}};\n\nconst front_layout::DropTable drop_coefficients = {{");
-  for (std::size_t c = 0; c < front_layout::closures; ++c) {
-    std::puts("{{");
+  std::fclose(file);
+}
+
+void print_drops(const Solved& solved) {
+  std::FILE* const file = table_file("drop_coefficients");
+  for (std::size_t c = 0; c < front_layout::closures; ++c)
     for (std::size_t d = 0; d < drops; ++d)
-      print_pieces(front_layout::drop_y_nodes, [&](std::size_t i, std::size_t p, std::size_t j) {
+      print_pieces(file, front_layout::drop_y_nodes, [&](std::size_t i, std::size_t p, std::size_t j) {
         return std::log(solved.at({front_layout::drop_y_nodes, c, i, p, j}).drops[d]);
       });
-    std::puts("}},");
-  }
-  std::puts("}};");
+  std::fclose(file);
 }
 
 }  // namespace
@@ -120,12 +113,8 @@ int make_front() {
     std::fprintf(stderr, "friction_ratio_table: %s\n", failed.c_str());
     return 1;
   }
-  std::puts("// tools/friction_ratio generates this file. Do not edit it.\n");
-  std::puts(
-      "#include \"friction_ratio/front_coefficients.hpp\"\n\nnamespace slipfront::friction_ratio {\n\n"
-      "// clang-format off");
-  print_tables(solved);
-  std::puts("// clang-format on\n\n}  // namespace slipfront::friction_ratio");
+  print_fronts(solved);
+  print_drops(solved);
   return 0;
 }
 

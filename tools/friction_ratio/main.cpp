@@ -1,6 +1,6 @@
 // Makes the tables in src/friction_ratio with the pulse solver, and compares them with the solver at random points.
-//   friction_ratio_table make > src/friction_ratio/coefficients.cpp
-//   friction_ratio_table make-front > src/friction_ratio/front_coefficients.cpp
+//   friction_ratio_table make                in the folder src/friction_ratio: writes coefficients.csv, corners.csv
+//   friction_ratio_table make-front          likewise front_coefficients.csv, drop_coefficients.csv
 //   friction_ratio_table check POINTS        exit code 1 if an error exceeds the stated one
 
 #include <cstdio>
@@ -8,6 +8,17 @@
 #include <string_view>
 
 #include "commands.hpp"
+
+namespace slipfront::friction_ratio {
+
+std::FILE* table_file(const std::string& name) {
+  std::FILE* const file = std::fopen((name + ".csv").c_str(), "w");
+  if (file != nullptr) return file;
+  std::perror(name.c_str());
+  std::exit(3);
+}
+
+}  // namespace slipfront::friction_ratio
 
 int main(int argc, char** argv) {
   if (argc == 2 && std::string_view(argv[1]) == "make") return slipfront::friction_ratio::make();

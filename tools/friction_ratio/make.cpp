@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -68,9 +69,9 @@ std::string solve_all(Solved& solved) {
   return failed;
 }
 
-void print_row(const std::vector<double>& numbers, const char* after) {
-  for (std::size_t n = 0; n < numbers.size(); ++n) std::printf("%s%.6e", n == 0 ? "{{" : ",", numbers[n]);
-  std::printf("}}%s\n", after);
+void print_row(std::FILE* file, const double* numbers, std::size_t size) {
+  for (std::size_t n = 0; n < size; ++n) std::fprintf(file, "%.6e,", numbers[n]);
+  std::fputc('\n', file);
 }
 
 /// The coefficient of T_a(y) T_b(u) in a piece of the table.
@@ -84,31 +85,24 @@ double coefficient_at(const Solved& solved, const layout::Corners& corners, cons
 }
 
 void print_table(const Solved& solved, const layout::Corners& corners) {
-  std::puts("const layout::Table coefficients = {{");
-  for (std::size_t c = 0; c < layout::closures; ++c) {
-    std::puts("{{");
-    for (std::size_t m = 0; m < layout::measures; ++m) {
-      std::puts("{{");
-      for (std::size_t p = 0; p < layout::pieces; ++p) {
-        std::fputs("{{", stdout);
+  std::FILE* const file = table_file("coefficients");
+  for (std::size_t c = 0; c < layout::closures; ++c)
+    for (std::size_t m = 0; m < layout::measures; ++m)
+      for (std::size_t p = 0; p < layout::pieces; ++p)
         for (std::size_t a = 0; a < layout::y_nodes; ++a) {
-          std::vector<double> row;
+          std::array<double, layout::u_nodes> row;
           for (std::size_t b = 0; b < layout::u_nodes; ++b)
-            row.push_back(coefficient_at(solved, corners, {c, m, p, 0, 0}, a, b));
-          print_row(row, a + 1 < layout::y_nodes ? "," : "}},");
+            row[b] = coefficient_at(solved, corners, {c, m, p, 0, 0}, a, b);
+          print_row(file, row.data(), row.size());
         }
-      }
-      std::puts("}},");
-    }
-    std::puts("}},");
-  }
-  std::puts("}};\n\nconst layout::Corners corners = {{");
-  for (const auto& of_closure : corners) {
-    std::puts("{{");
-    for (const layout::Corner& corner : of_closure) print_row({corner.begin(), corner.end()}, ",");
-    std::puts("}},");
-  }
-  std::puts("}};");
+  std::fclose(file);
+}
+
+void print_corners(const layout::Corners& corners) {
+  std::FILE* const file = table_file("corners");
+  for (const auto& of_closure : corners)
+    for (const layout::Corner& corner : of_closure) print_row(file, corner.data(), corner.size());
+  std::fclose(file);
 }
 
 }  // namespace
@@ -121,10 +115,8 @@ int make() {
     std::fprintf(stderr, "friction_ratio_table: %s\n", failed.c_str());
     return 1;
   }
-  std::puts("// tools/friction_ratio generates this file. Do not edit it.\n");
-  std::puts("#include \"coefficients.hpp\"\n\nnamespace slipfront::friction_ratio {\n\n// clang-format off");
   print_table(solved, corners);
-  std::puts("// clang-format on\n\n}  // namespace slipfront::friction_ratio");
+  print_corners(corners);
   return 0;
 }
 

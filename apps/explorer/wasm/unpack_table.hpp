@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "friction_ratio/coefficients.hpp"
-#include "friction_ratio/front_coefficients.hpp"
 
 namespace slipfront::friction_ratio {
 

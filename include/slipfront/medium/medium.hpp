@@ -27,7 +27,7 @@ double plastic_contact_ratio(double poisson_ratio);
 /// \throws InputError if an argument is out of range.
 double contact_ratio(double normal_stress, double hardness, double poisson_ratio, ContactForm form);
 
-/// Constants of the Frenkel-Kontorova chain, Eq. (1).
+/// Constants of the Frenkel-Kontorova chain, Eq. 1.
 struct ChainConstants {
   double mass;             ///< M = rho b^3, kg
   double spring;           ///< K_b = 2 mu b / (1 - nu), N/m
@@ -37,7 +37,7 @@ struct ChainConstants {
 /// \throws InputError that names the constant out of its range.
 ChainConstants chain_constants(const Interface& interface);
 
-/// The speed c of Eq. (3), c^2 = 2 mu / (rho (1 - nu)), from the constants that are known. \throws InputError if an
+/// The speed c of Eq. 3, c^2 = 2 mu / (rho (1 - nu)), from the constants that are known. \throws InputError if an
 /// argument is out of range.
 double speed_from_shear_modulus(double shear_modulus, double density, double poisson_ratio);
 double speed_from_p_wave(double p_wave_speed, double poisson_ratio);  ///< c = c_l sqrt(1 - 2 nu) / (1 - nu)
@@ -68,14 +68,14 @@ Units units(double shear_modulus, double speed, double contact_ratio, double asp
 double stress_unit(double shear_modulus, double contact_ratio);
 double slip_velocity_unit(double speed, double contact_ratio);
 
-/// The unit of F and f in Eq. (3), as a traction on the nominal area, Pa: mu A^2 / (pi (1 - nu)). Eq. (3) is Eq. (1)
+/// The unit of F and f in Eq. 3, as a traction on the nominal area, Pa: mu A^2 / (pi (1 - nu)). Eq. 3 is Eq. 1
 /// divided by F_d. Thus F = 1 is the force F_d = mu b^2 A^2 / (pi (1 - nu)) on each asperity
 /// (`ChainConstants::substrate_force`), and each area b^2 has one asperity. \throws InputError if an argument is out of
 /// range.
 double traction_unit(double shear_modulus, double poisson_ratio, double contact_ratio);
 
 /// The unit of F and f that the paper prints, mu A / (2 pi), Pa. It is F_d over the real contact area A b^2, with
-/// A_plastic rounded to 1. For a traction on the nominal area, such as the stress that loads a fault, Eq. (1) gives
+/// A_plastic rounded to 1. For a traction on the nominal area, such as the stress that loads a fault, Eq. 1 gives
 /// another unit: at A = 0.003 and nu = 0.3 the printed one is 117 times too large. \throws InputError if an argument is
 /// out of range.
 double printed_traction_unit(double shear_modulus, double contact_ratio);

@@ -32,7 +32,7 @@ FilledBands bands_of_train(const State& train);
 
 /// The speed of each edge: d r_j / d t + v_j d r_j / d x = 0. A band or gap may have the width 0, which gives the
 /// limit: in an empty band the speed of one dislocation among the others, at a closed gap that of a wave without
-/// amplitude. For N = 1 they are lambda_- and lambda_+ of Eq. (6). The error is at most 1e-12 of the larger of the
+/// amplitude. For N = 1 they are lambda_- and lambda_+ of Eq. 6. The error is at most 1e-12 of the larger of the
 /// speed and the greatest difference of two speeds, for widths from 1e-303 to 5; it is 1e-11 for three or more trains
 /// that spread over more than 7. Speeds of slow trains keep their relative precision. \throws InputError unless each
 /// width is 0 or at least 1e-303, their sum is at most 80 and |centre| at most 80.

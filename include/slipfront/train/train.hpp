@@ -23,7 +23,7 @@ namespace slipfront::train {
 
 /// Displacement, stress and slip velocity at one point of a train.
 struct Fields {
-  /// Slip in b / (2 pi). It falls by 2 pi at each dislocation as x grows. The print of Eq. (4) lacks a factor 2.
+  /// Slip in b / (2 pi). It falls by 2 pi at each dislocation as x grows. The print of Eq. 4 lacks a factor 2.
   double u;
   double sigma;  ///< stress -u_x, in mu A / pi
   double w;      ///< slip velocity u_t = U sigma, in c A / pi
@@ -48,6 +48,9 @@ struct Averages {
   double I;              ///< wave action density P / k
   double J;              ///< wave action flux
 };
+
+/// <1 - cos u>, which does not depend on phi; 0 for the empty state.
+double one_minus_cos(double psi);
 
 /// All averages, each to a few ulp. For the empty state all are zero except J, whose limit is 4 cosh(phi) / pi.
 Averages averages(const State& state);

@@ -40,6 +40,7 @@ void RelaxationRate::rates(std::size_t size, const double* fastest, const double
 double QuadratureAverage::mean_strength(const State& train, double contact, Closure closure, LocalState state) const {
   if (const auto constant = law_.facts().constant_strength) return *constant;
   const double fastest = 2 * contact * std::sinh(std::fabs(train.phi)) * std::cosh(train.psi);
+  // <f>_u = 1 / (2 pi) integral of f(w(u)) du over a turn; with the paper's closure the mean is over x.
   return mean_over_train(std::tanh(train.psi), closure, {},
                          [&](double r) { return law_.strength(fastest * r, state); });
 }

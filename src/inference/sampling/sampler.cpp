@@ -282,7 +282,7 @@ Sample Sampler::draw(std::size_t i) {
   Sample s{1, unknown_state(), {}};
   if (!draw_surroundings()) return {};
   const Cells::Point point = cells_->at(points_(i, 0), points_(i, 1), points_(i, 2));
-  s.weight /= point.density;
+  s.weight /= point.density;  // weight = prior x likelihood / proposal density; the functions below multiply by both
   if (velocity_ ? draw_pulse(s, point) : draw_without_velocity(s, point)) return s;
   return {};
 }

@@ -28,7 +28,7 @@ enum Refusal : std::size_t {
   refusals
 };
 
-/// One state of the fault. weight = prior x likelihood / proposal density.
+/// One state of the fault, with its weight in the posterior.
 struct Sample {
   double weight = 0;
   FaultState state;

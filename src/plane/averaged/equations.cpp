@@ -193,6 +193,7 @@ void LoopEquations::add_pressure(const std::vector<double>& r, std::vector<doubl
     for (std::size_t k = 0; k < angles_; ++k) {
       const std::size_t i = face(row, k);
       const double a2 = contact(i) * contact(i);
+      // Eq. (8.7): Pi_t = (r p)_q - l H0 + T_theta + g T + 2 pi r (F - <f>). The other terms are added below.
       rate[i] = (push(i + angles_) - push(i)) / charge -
                 spacing_[i] * a2 * energy_density(EK_[i], normal_spacing_[i], velocity_[i], psi_[i]);
     }

@@ -70,7 +70,9 @@ void check_ray(const StartRay& ray, double wall, double top) {
 
 /// Distance at which the slip of the ray falls through `level`, outside `wall`.
 double distance_of(const StartRay& ray, double wall, double level) {
-  return bisected({.holding = wall, .failing = ray.end}, [&](double r) { return ray.slip(r) > level; }).failing;
+  const Ends ends = bisected(
+      {.holding = wall, .failing = ray.end}, [&](double r) { return ray.slip(r) > level; }, 50);
+  return (ends.holding + ends.failing) / 2;
 }
 
 void find_ray(const Problem& problem, std::size_t k, double top, Loops& loops) {

@@ -194,7 +194,7 @@ void GridEquations::find_slip_rates(Averages& rate) {
   for (std::size_t i = 0; i < in_cells_.at.size(); ++i) {
     const std::size_t cell = in_cells_.at[i];
     const double V = in_cells_.velocity[i], damped = std::fmin(1, std::fabs(V) / fully_damped);
-    rate.slip[cell] = V * in_cells_.gradient[i] + damped * spread_[cell];
+    rate.slip[cell] = V * in_cells_.gradient[i] + damped * spread_[cell];  // Eq. (8.8): U_t = tanh(phi) |grad U|
   }
 }
 
@@ -245,7 +245,7 @@ void GridEquations::find_rates(double t, Averages& now, Averages& rate) {
   find_meeting(now);
   for (auto& flux : flux_) std::fill(flux.begin(), flux.end(), 0.0);
   for (const bool along_y : {false, true}) find_fluxes(t, now, along_y);
-  for (const std::size_t cell : in_cells_.at)
+  for (const std::size_t cell : in_cells_.at)  // Eq. (8.4): I_t = div(g grad U) + F - <f>, with I = g U_t
     rate.action[cell] = (flux_[0][cell + 1] - flux_[0][cell]) / cells_.hx +
                         (flux_[1][cell + cells_.stride()] - flux_[1][cell]) / cells_.hy;
 }

@@ -6,7 +6,7 @@
 #include "modulation/equations.hpp"
 #include "pulse/space/kernels.hpp"
 #include "pulse/space/semidiscrete.hpp"
-#include "slipfront/elliptic/complete.hpp"
+#include "slipfront/train/train.hpp"
 
 namespace slipfront::pulse {
 namespace {
@@ -16,13 +16,6 @@ namespace {
 double dry_friction(double momentum, double push, double most) {
   if (momentum != 0) return -std::copysign(most, momentum);
   return -std::copysign(std::fmin(std::fabs(push), most), push);
-}
-
-/// The average <1 - cos u>, which is 2 cosh^2 psi (E/K - m1).
-double substrate(double psi) {
-  if (psi == 0) return 0;
-  const double cosh_psi = std::cosh(psi);
-  return 2 * cosh_psi * cosh_psi * elliptic::at_psi(psi).above_m1;
 }
 
 /// Finds values at the n + 1 faces of a block from those at its centres: fourth order inside, third order next to an
@@ -55,7 +48,7 @@ void Semidiscrete::add_contact_force(const double* y, double* dy) {
   const Values rates(dy, size());
   const auto square = [](double a) { return a * a; };
   std::vector<double>&centre = sources_.substrate, &face = sources_.substrate_at_faces;
-  for (std::size_t i = 0; i < size(); ++i) centre[i] = substrate(centres_.train.psi[i]);
+  for (std::size_t i = 0; i < size(); ++i) centre[i] = train::one_minus_cos(centres_.train.psi[i]);
   for (const Block& r : blocks_) between_centres(r, &centre[r.begin], &face[r.begin]);
   for (std::size_t i = 0; i < size(); ++i) {
     const double a = square(faces_.contact[i]), b = square(centres_.contact[i]), c = square(faces_.contact[i + 1]);

@@ -12,10 +12,12 @@
 
 namespace slipfront::scenario {
 
-/// One step of a stack machine: pushes a number, or replaces the last one, two or three.
+/// One step of a stack machine: pushes a number, or slope times a variable plus a number; or replaces the last value,
+/// or the last two or three.
 struct FormulaStep {
-  enum class Kind { number, x, y, t, one, two, choose } kind;
-  double number = 0;
+  enum class Kind { number, linear, one, two, choose } kind;
+  double number = 0, slope = 0;
+  std::size_t variable = 0;  ///< 0: x, 1: y, 2: t
   double (*one)(double) = nullptr;
   double (*two)(double, double) = nullptr;
 };
@@ -46,6 +48,7 @@ double negative(double v) { return -v; }
 /// These powers of a variable are products, which are faster than std::pow.
 double square(double v) { return v * v; }
 double cube(double v) { return v * v * v; }
+double fourth(double v) { return v * v * v * v; }
 double least(double a, double b) { return b < a || std::isnan(b) ? b : a; }
 double greatest(double a, double b) { return b > a || std::isnan(b) ? b : a; }
 
@@ -116,6 +119,32 @@ class FormulaReader {
     else
       steps.push_back({.kind = Kind::one, .one = call});
   }
+  static bool is_variable(const Step& step) { return step.kind == Kind::linear && step.slope == 1 && step.number == 0; }
+  /// Makes a linear function of one variable a single step. Returns false if the operator does not give one.
+  bool fold(std::string_view sign) {
+    Step& a = steps[steps.size() - 2];
+    const Step b = steps.back();
+    if (a.kind > Kind::linear || b.kind > Kind::linear || are_numbers(2)) return false;
+    const bool has_number = a.kind == Kind::number || b.kind == Kind::number;
+    if (!has_number && a.variable != b.variable) return false;
+    if (sign == "+" || sign == "-") {
+      const double times = sign == "+" ? 1 : -1;
+      a.number += times * b.number;
+      a.slope += times * b.slope;
+    } else if (sign == "*" && has_number) {
+      a.slope = a.slope * b.number + a.number * b.slope;
+      a.number *= b.number;
+    } else if (sign == "/" && b.kind == Kind::number && b.number != 0 && !is_variable(a)) {
+      a.slope /= b.number;
+      a.number /= b.number;
+    } else {
+      return false;
+    }
+    a.kind = Kind::linear;
+    a.variable = std::max(a.variable, b.variable);
+    steps.pop_back();
+    return true;
+  }
   void apply(OfTwo call) {
     if (!are_numbers(2)) {
       steps.push_back({.kind = Kind::two, .two = call});
@@ -142,7 +171,7 @@ class FormulaReader {
                                       [&](const Operator& o) { return o.rank == rank && take(o.sign); });
       if (found == std::end(operators)) return;
       binary(rank + 1);
-      apply(found->apply);
+      if (!fold(found->sign)) apply(found->apply);
     }
   }
   void signed_power() {
@@ -154,11 +183,12 @@ class FormulaReader {
     atom();
     if (!take("^")) return;
     signed_power();
-    const bool is_of_variable = are_numbers(1) && steps[steps.size() - 2].kind <= Kind::t && !are_numbers(2);
+    const bool is_of_variable = are_numbers(1) && is_variable(steps[steps.size() - 2]);
     const double power = is_of_variable ? steps.back().number : 0;
-    if (power != 2 && power != 3) return apply([](double base, double exponent) { return std::pow(base, exponent); });
+    const OfOne product = power == 2 ? square : power == 3 ? cube : power == 4 ? fourth : nullptr;
+    if (product == nullptr) return apply([](double base, double exponent) { return std::pow(base, exponent); });
     steps.pop_back();
-    apply(power == 2 ? square : cube);
+    apply(product);
   }
   void atom() {
     if (take("(")) {
@@ -197,7 +227,7 @@ class FormulaReader {
   /// The variable of a curve, such as w, is x.
   void variable_named(const std::string& name) {
     used.push_back(name);
-    steps.push_back({.kind = name == "t" ? Kind::t : name == "y" ? Kind::y : Kind::x});
+    steps.push_back({.kind = Kind::linear, .slope = 1, .variable = name == "t" ? 2u : name == "y" ? 1u : 0u});
   }
   void extreme(OfTwo call) {
     need("(");
@@ -221,19 +251,13 @@ struct Formula::Compiled {
   std::vector<std::string> used;
   std::size_t most = 0;  ///< largest number of values on the stack
 
-  double value(double x, double y, double t, double* top) const {
+  double value(const std::array<double, 3>& variables, double* top) const {
     for (const FormulaStep& step : steps) switch (step.kind) {
         case Kind::number:
           *top++ = step.number;
           break;
-        case Kind::x:
-          *top++ = x;
-          break;
-        case Kind::y:
-          *top++ = y;
-          break;
-        case Kind::t:
-          *top++ = t;
+        case Kind::linear:
+          *top++ = step.slope * variables[step.variable] + step.number;
           break;
         case Kind::one:
           top[-1] = step.one(top[-1]);
@@ -256,7 +280,7 @@ Formula::Formula(const std::string& text, const std::vector<std::string_view>& v
   FormulaReader reader(text, variables);
   std::size_t size = 0, most = 0;
   for (const Step& step : reader.steps) {
-    if (step.kind <= Kind::t) most = std::max(most, ++size);
+    if (step.kind <= Kind::linear) most = std::max(most, ++size);
     if (step.kind == Kind::two) size -= 1;
     if (step.kind == Kind::choose) size -= 2;
   }
@@ -267,8 +291,8 @@ double Formula::operator()(double x, double t) const { return (*this)(x, 0, t); 
 
 double Formula::operator()(double x, double y, double t) const {
   std::array<double, 32> few;
-  if (compiled_->most <= few.size()) return compiled_->value(x, y, t, few.data());
-  return compiled_->value(x, y, t, std::vector<double>(compiled_->most).data());
+  if (compiled_->most <= few.size()) return compiled_->value({x, y, t}, few.data());
+  return compiled_->value({x, y, t}, std::vector<double>(compiled_->most).data());
 }
 
 bool Formula::has(std::string_view variable) const {

@@ -12,6 +12,9 @@ constexpr std::size_t terms = PeriodicForce::terms;
 
 }  // namespace
 
+// Eq. (3): u_tt - u_xx + sin u = F - f. In z = u + eps sin u it is a rule of five points, with S = sin u as f(z):
+//     next = (keep z - force S - before z_old) + spread (y_left + y_right),    y = z - coupled S
+// The second sum is add_neighbours, and the load and other friction follow.
 SLIPFRONT_CLONES void local_part(const LevelRule& rule, const double* now, const double* old, double* next, double* y,
                                  std::size_t begin, std::size_t end) {
   const LevelRule r = rule;  // a copy: the stores cannot change it

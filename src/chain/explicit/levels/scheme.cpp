@@ -13,7 +13,7 @@ Scheme scheme_of(const Problem& p) {
                lambda2 = dt2 / (s.h * s.h);
   s.rule.before = fall * fall;
   if (p.model == Model::lattice) {
-    // e^g u_N + e^-g u_S - 2 cosh(g) u = lambda^2 d2 u - dt^2 S (Eq. 1 in units of Eq. 3)
+    // Eq. (1), in units of Eq. 3: e^g u_N + e^-g u_S - 2 cosh(g) u = lambda^2 d2 u - dt^2 S
     s.rule.keep = 1 + s.rule.before - 2 * lambda2 * fall;
     s.rule.spread = lambda2 * fall;
     s.rule.force = s.force = dt2 * fall;

@@ -1,4 +1,4 @@
-#include "friction_ratio/solve.hpp"
+#include "solve.hpp"
 
 #include <algorithm>
 #include <cmath>

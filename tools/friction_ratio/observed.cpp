@@ -1,4 +1,4 @@
-#include "friction_ratio/observed.hpp"
+#include "observed.hpp"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 /// The observed front and the stress drops of a computed pulse, and their closed forms without friction. The tables of
 /// `friction_ratio/front.hpp` are generated from these values and checked against them.
 
-#include "friction_ratio/solve.hpp"
+#include "solve.hpp"
 
 namespace slipfront::friction_ratio {
 
