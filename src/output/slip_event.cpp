@@ -24,7 +24,8 @@ constexpr SlipEventColumn columns[] = {
     {{"peak_velocity", "greatest slip velocity of a part", "c A / pi", "Eq. 1"}, &SlipEvent::peak_velocity},
     {{"origin", "position of the part that moves first", "b / A", "Eq. 1"},
      &SlipEvent::origin,
-     "all parts moved within the time that waves take between them, so that rounding decides which of them was first"},
+     "all parts moved within a thousandth of the time that waves take between them, so that rounding decides which was "
+     "first"},
     {{"length", "length of the parts that move", "b / A", "Eq. 1"}, &SlipEvent::length},
     {{"rupture_velocity", "velocity of the front, fitted over the parts that move", "c", "Eq. 1"},
      &SlipEvent::rupture_velocity,

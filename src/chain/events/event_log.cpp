@@ -211,16 +211,17 @@ void EventLog::each_arrival(const Open& open, const Take& take) const {
   }
 }
 
-/// Whether the parts that moved, two or more, did so within a shorter time than waves take to the farthest of them. No
-/// front ran then: each part moved on its own, and which of them is first depends on rounding.
+/// Whether the parts that moved, two or more, did so within a thousandth of the time that waves take to the farthest of
+/// them. Each part moved on its own then, and which of them is first depends on rounding.
 bool EventLog::moves_at_once(const Open& open) const {
+  constexpr double share_of_wave_time = 1e-3;
   double first = HUGE_VAL, last = -HUGE_VAL, farthest = 0;
   each_arrival(open, [&](double t, double d) {
     first = std::fmin(first, t);
     last = std::fmax(last, t);
     farthest = std::fmax(farthest, d);
   });
-  return farthest > 0 && last - first < (1 - 1e-9) * farthest;
+  return farthest > 0 && last - first < share_of_wave_time * farthest;
 }
 
 /// The slope of distance from the nearest origin against time, by least squares over the parts that moved. A slope
