@@ -230,6 +230,30 @@ end = 1
         self.assertGreater(np.count_nonzero(reached), 10)
         self.assertLess(np.hypot(x, y)[reached].max(), 2)
         self.assertAlmostEqual(out["ruptured_area"], np.count_nonzero(reached) * 0.2 ** 2)
+        self.assertIn("has not ended", out["reasons"]["corner_frequency"])
+
+    def test_lines_that_shrink_have_source_parameters_too(self):
+        case = self.file("case.toml", """
+[plane]
+left = -4
+right = 4
+bottom = -4
+top = 4
+cells = 40
+[initial]
+profile = "formula"
+formula = "max(0, 2 - sqrt(x^2 + y^2))"
+[forcing]
+formula = "-8"
+[time]
+end = 0.5
+""")
+        out = self.plane(case)
+        self.assertLess(out["potency"], 0)
+        self.assertGreater(out["stress_drop"], 0)
+        self.assertGreater(out["duration"], 0)
+        for key in ("arrest_radius", "duration", "corner_frequency", "stress_drop", "last_rupture_time"):
+            self.assertEqual(out[key] is None, key in out.get("reasons", {}), key)
 
     def test_lines_have_a_scale_with_enough_of_them_and_errors(self):
         """At scale 1, where the initial slip has 0.44 of a line, the potency was 2.648 and the front 0. 3.203 and 2.466 are the limits."""
