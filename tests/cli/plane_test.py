@@ -199,6 +199,8 @@ end = 3
             self.assertGreater(np.count_nonzero(reached) * 0.1 ** 2, 1)
             for name in ("rupture_velocity", "rise_time", "initial_stress", "final_stress", "moment_rate_spectrum", "frequency"):
                 self.assertIn(name, file.variables)
+            self.assertEqual(file["rupture_time"].long_name, "time at which the slip, of either sign, first exceeds 0.01 of the largest initial mean slip "
+                             "and that of half a line")
             self.assertAlmostEqual(float(np.max(file["initial_stress"][:])), 2 * math.sqrt(2) * math.exp(-0.5), delta=0.05)
         self.refused(2, "plane", case, says=["nucleation", "--direct"])
         self.refused(2, "plane", case, "--direct", "--set", "nucleation.x=8", says=["nucleation.radius", "outside"])
@@ -226,6 +228,7 @@ end = 1
         out = self.plane(case, "--direct", "-o", path)
         with netCDF4.Dataset(path) as file:
             reached = ~np.isnan(np.ma.filled(file["rupture_time"][:], np.nan))
+            self.assertEqual(file["rupture_time"].long_name, "time at which the slip, of either sign, first exceeds that of half a line")
             x, y = np.meshgrid(file["x"][:], file["y"][:])
         self.assertGreater(np.count_nonzero(reached), 10)
         self.assertLess(np.hypot(x, y)[reached].max(), 2)
