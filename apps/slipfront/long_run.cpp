@@ -131,7 +131,10 @@ std::string table_of(const std::vector<output::SlipEvent>& events, const scenari
       cells.push_back(fmt::format("{:.8g}", event.*column.value * unit_of(column, scenario).value));
     table.add(cells);
   }
-  return count + table.text();
+  std::string text = count + table.text();
+  for (const auto& column : columns_without_value(events))
+    text += fmt::format("{} is nan: {}\n", column.about.name, column.reason);
+  return text;
 }
 
 Json json_of_events(const std::vector<output::SlipEvent>& events, const scenario::Scenario& scenario) {
@@ -167,6 +170,11 @@ std::string summary_json(const std::vector<run::SummaryValue>& summary, const st
   for (std::size_t i = 0; i < errors.size(); ++i)
     if (std::isfinite(errors[i])) j["errors"][summary[i].key] = rounded(errors[i]);
   if (events) j["events"] = json_of_events(*events, scenario);
+  for (const auto& row : summary)
+    if (!row.reason.empty()) j["reasons"][row.key] = row.reason;
+  if (events)
+    for (const auto& column : columns_without_value(*events))
+      j["reasons"]["events." + std::string(column.about.name)] = column.reason;
   if (scenario.results_in) {
     j["unit_system"] = "SI";
     j["units"] = json_units(summary, events, scenario);
@@ -219,7 +227,8 @@ void print_summary(const scenario::Scenario& scenario, std::vector<run::SummaryV
     const bool known = i < errors.size() && std::isfinite(errors[i]);
     const std::string error =
         errors.empty() ? "" : fmt::format("{:<12} ", known ? fmt::format("+- {:.2g}", errors[i]) : "");
-    put(fitted(fmt::format("{:<25} {:<24} {}{}", row.key, cell_of(row), error, row.meaning),
+    const std::string meaning = row.meaning + (row.reason.empty() ? "" : "; none, because " + row.reason);
+    put(fitted(fmt::format("{:<25} {:<24} {}{}", row.key, cell_of(row), error, meaning),
                25 + 1 + 24 + 1 + error.size()));
   }
   if (events) put(table_of(*events, scenario));

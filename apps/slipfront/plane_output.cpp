@@ -22,11 +22,12 @@ Json json_of_row(const run::PlaneRow& row) {
 
 /// The values, errors and units of rows as JSON objects.
 struct JsonParts {
-  Json values = Json::object(), errors = Json::object(), units = Json::object();
+  Json values = Json::object(), errors = Json::object(), units = Json::object(), reasons = Json::object();
 
   void add(const std::vector<run::PlaneRow>& rows, const scenario::Scenario& s) {
     for (const run::PlaneRow& row : rows) {
       values[row.key] = json_of_row(row);
+      if (!row.reason.empty()) reasons[row.key] = row.reason;
       if (s.results_in && !row.unit.empty()) units[row.key] = row.unit;
       if (std::none_of(row.errors.begin(), row.errors.end(), [](double e) { return std::isfinite(e); })) continue;
       if (row.is_list)
@@ -50,7 +51,8 @@ void print(const std::string& prefix, const std::vector<run::PlaneRow>& rows) {
     for (std::size_t i = 0; i < row.values.size(); ++i) {
       const std::string key = prefix + row.key + (row.is_list ? fmt::format("[{}]", i) : "");
       const std::string error = std::isfinite(row.errors[i]) ? fmt::format("+- {:.2g}", row.errors[i]) : "";
-      put(fitted(fmt::format("{:<26} {:<24} {:<12} {}", key, shown(row.values[i]), error, row.meaning),
+      const std::string meaning = row.meaning + (row.reason.empty() ? "" : "; none, because " + row.reason);
+      put(fitted(fmt::format("{:<26} {:<24} {:<12} {}", key, shown(row.values[i]), error, meaning),
                  26 + 1 + 24 + 1 + 12 + 1));
     }
 }
@@ -76,6 +78,7 @@ void print_plane(const scenario::Scenario& s, const run::PlaneResult& result, co
     all.add(summary.counts, s);
     Json j = all.values;
     j["errors"] = all.errors;
+    if (!all.reasons.empty()) j["reasons"] = all.reasons;
     if (s.results_in) {
       j["unit_system"] = "SI";
       j["units"] = all.units;

@@ -68,7 +68,7 @@ py::list maps_of(const Shape& cells, const plane::Run& run, Describer& described
   py::list maps;
   const plane::Maps all = run.maps();
   for (const record::PlaneMap& map : record::plane_maps())
-    maps.append(py::make_tuple(described_in(map.about), array(cells, all.*map.values)));
+    maps.append(py::make_tuple(described_in(description_of(map, run.schedule())), array(cells, all.*map.values)));
   return maps;
 }
 

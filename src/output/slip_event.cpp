@@ -1,6 +1,7 @@
 #include "slipfront/output/slip_event.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -12,7 +13,7 @@ constexpr SlipEventColumn columns[] = {
       "Eq. 1"},
      &SlipEvent::onset},
     {{"duration", "time until all parts are below half the threshold", "b / (c A)", "Eq. 1"}, &SlipEvent::duration},
-    {{"slip", "slip, mean over the chain", "b / (2 pi)", "Eq. 1"}, &SlipEvent::slip},
+    {{"slip", "slip, mean over the chain, without slip in other events", "b / (2 pi)", "Eq. 1"}, &SlipEvent::slip},
     {{"largest_slip", "slip of the part that slips most", "b / (2 pi)", "Eq. 1"}, &SlipEvent::largest_slip},
     {{"load", "mean force F on a site, or the stress at a pulled end, before the event", "mu A^2 / (pi (1 - nu))",
       "Eq. 1"},
@@ -21,10 +22,14 @@ constexpr SlipEventColumn columns[] = {
       "Eq. 1"},
      &SlipEvent::stress_drop},
     {{"peak_velocity", "greatest slip velocity of a part", "c A / pi", "Eq. 1"}, &SlipEvent::peak_velocity},
-    {{"origin", "position of the part that moves first", "b / A", "Eq. 1"}, &SlipEvent::origin},
+    {{"origin", "position of the part that moves first", "b / A", "Eq. 1"},
+     &SlipEvent::origin,
+     "all parts moved within a thousandth of the time that waves take between them, so that rounding decides which was "
+     "first"},
     {{"length", "length of the parts that move", "b / A", "Eq. 1"}, &SlipEvent::length},
     {{"rupture_velocity", "velocity of the front, fitted over the parts that move", "c", "Eq. 1"},
-     &SlipEvent::rupture_velocity},
+     &SlipEvent::rupture_velocity,
+     "fewer than three parts moved, all moved at once, or the fit is faster than c"},
     {{"complete", "1, or 0 if the run ended within the event", "", "Eq. 1"}, &SlipEvent::complete},
 };
 
@@ -67,6 +72,14 @@ const Description front_position = {"position", "position at which the arrival o
 std::span<const FrontColumn> front_columns() { return of_fronts; }
 
 std::span<const SlipEventColumn> slip_event_columns() { return columns; }
+
+std::vector<SlipEventColumn> columns_without_value(const std::vector<SlipEvent>& events) {
+  std::vector<SlipEventColumn> found;
+  for (const SlipEventColumn& column : columns)
+    if (std::any_of(events.begin(), events.end(), [&](const SlipEvent& e) { return std::isnan(e.*column.value); }))
+      found.push_back(column);
+  return found;
+}
 
 Description description_of(const SlipEventColumn& column, bool pulled_end) {
   Description about = column.about;

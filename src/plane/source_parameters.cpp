@@ -38,15 +38,15 @@ std::vector<double> gradient(const MapGrid& grid, const std::vector<double>& f) 
 
 double largest_rate(const std::vector<SeriesRow>& series) {
   double largest = 0;
-  for (const SeriesRow& row : series) largest = std::fmax(largest, row.potency_rate);
+  for (const SeriesRow& row : series) largest = std::fmax(largest, std::fabs(row.potency_rate));
   return largest;
 }
 
-/// The time at which the potency first passes `limit`, by a straight line between two rows.
+/// The time at which the potency first passes `limit`, of either sign, by a straight line between two rows.
 double time_of_potency(const std::vector<SeriesRow>& series, double limit) {
   for (std::size_t i = 1; i < series.size(); ++i) {
     const SeriesRow &before = series[i - 1], &after = series[i];
-    if (before.potency < limit && after.potency >= limit)
+    if (before.potency / limit < 1 && after.potency / limit >= 1)
       return before.time + (after.time - before.time) * (limit - before.potency) / (after.potency - before.potency);
   }
   return none;
@@ -91,15 +91,16 @@ double stress_drop(const std::vector<double>& before, const std::vector<double>&
                    const std::vector<double>& slip) {
   double sum = 0, weight = 0;
   for (std::size_t i = 0; i < slip.size(); ++i) {
-    sum += (before[i] - after[i]) * slip[i];
-    weight += slip[i];
+    sum += (before[i] - after[i]) * std::fabs(slip[i]);
+    weight += std::fabs(slip[i]);
   }
   return weight > 0 ? sum / weight : none;
 }
 
 double duration(const std::vector<SeriesRow>& series) {
   double largest = 0;
-  for (const SeriesRow& row : series) largest = std::fmax(largest, row.potency);
+  for (const SeriesRow& row : series)
+    if (std::fabs(row.potency) > std::fabs(largest)) largest = row.potency;
   if (largest == 0) return none;
   return time_of_potency(series, 0.95 * largest) - time_of_potency(series, 0.05 * largest);
 }

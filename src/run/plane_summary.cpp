@@ -20,6 +20,13 @@ PlaneRow one(std::string key, double value, double error, std::string unit, std:
           .meaning = std::move(meaning)};
 }
 
+/// A value that may be absent, with the reason.
+PlaneRow maybe(std::string key, double value, std::string unit, std::string meaning, std::string reason) {
+  PlaneRow row = one(std::move(key), value, no_error, std::move(unit), std::move(meaning));
+  if (std::isnan(value)) row.reason = std::move(reason);
+  return row;
+}
+
 PlaneRow list(std::string key, std::vector<double> values, std::vector<double> errors, std::string unit,
               std::string meaning) {
   return {.key = std::move(key),
@@ -73,14 +80,16 @@ std::vector<PlaneRow> rows_of(const PlaneResult& result, const PlaneNumbers& err
           no_error, velocity, "largest slip velocity of a cell since t = 0"),
       one("front", end.front, error.front, length, "largest distance of the rupture front from the origin"),
       one("ruptured_area", ruptured_area(result, maps), no_error, "b^2 / A^2", "area of the cells that have ruptured"),
-      one("last_rupture_time", last_rupture(maps), no_error, time, "time at which the last of these cells ruptured"),
-      one("arrest_radius", plane::arrest_radius(series), no_error, length,
-          "distance at which the front has stopped, if it has"),
-      one("duration", plane::duration(series), no_error, time, "time in which the potency grows from 5 to 95 %"),
-      one("corner_frequency", plane::corner_frequency(series), no_error, "c A / b",
-          "of the moment rate, if the slip has ended"),
-      one("stress_drop", plane::stress_drop(maps.initial_stress, maps.final_stress, maps.slip), no_error, "mu A / pi",
-          "mean over the plane, weighted by slip"),
+      maybe("last_rupture_time", last_rupture(maps), time, "time at which the last of these cells ruptured",
+            "no cell has ruptured"),
+      maybe("arrest_radius", plane::arrest_radius(series), length, "distance at which the front has stopped",
+            "the front has moved in the last tenth of the run"),
+      maybe("duration", plane::duration(series), time, "time in which the potency grows from 5 to 95 %",
+            "the potency is 0"),
+      maybe("corner_frequency", plane::corner_frequency(series), "c A / b", "of the moment rate",
+            "the slip has not ended: the moment rate is above 5 % of its largest value"),
+      maybe("stress_drop", plane::stress_drop(maps.initial_stress, maps.final_stress, maps.slip), "mu A / pi",
+            "mean over the plane, weighted by the size of the slip", "no cell has slipped, or a cell has no stress"),
   };
   if (s.results_in) rows.push_back(one("moment", end.potency, error.potency, "mu b^3 / (2 pi A^2)", "seismic moment"));
   return rows;

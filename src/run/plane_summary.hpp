@@ -17,7 +17,8 @@ struct PlaneRow {
   std::string unit;            ///< the unit of the model, or the SI unit as UDUNITS reads it; empty for a pure number
   std::string meaning;         ///< with the unit
   bool is_list = false;
-  bool is_whole = false;  ///< a count
+  bool is_whole = false;    ///< a count
+  std::string reason = {};  ///< why it has no value; empty if it has one
 };
 
 struct PlaneSummary {

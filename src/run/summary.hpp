@@ -2,6 +2,7 @@
 /// \file
 /// The summary of a finished run: the keys that `--json` prints and that Python attaches to a result.
 
+#include <cmath>
 #include <functional>
 #include <span>
 #include <string>
@@ -24,6 +25,7 @@ struct SummaryItem {
   std::string key;
   std::function<Value(const End&)> get;
   std::string meaning;
+  std::string (*reason)(const End&) = nullptr;  ///< why it has no value, or an empty text
 };
 
 /// A pulse that has reached its end.
@@ -51,6 +53,7 @@ struct SummaryValue {
   Value value;
   std::string meaning;
   std::string_view unit = {};  ///< its unit, if that depends on the run
+  std::string reason = {};     ///< why it has no value; empty if it has one, or if no reason is known
 };
 
 /// The unit of a key of a summary in the units of the model, such as "b / A". It is empty for a pure number.
@@ -65,7 +68,11 @@ template <class End>
 std::vector<SummaryValue> summary(std::span<const SummaryItem<End>> items, const End& end) {
   std::vector<SummaryValue> values;
   values.reserve(items.size());
-  for (const SummaryItem<End>& item : items) values.push_back({item.key, item.get(end), item.meaning, {}});
+  for (const SummaryItem<End>& item : items) {
+    values.push_back({item.key, item.get(end), item.meaning, {}, {}});
+    const double* const number = std::get_if<double>(&values.back().value);
+    if (number && !std::isfinite(*number) && item.reason) values.back().reason = item.reason(end);
+  }
   return values;
 }
 

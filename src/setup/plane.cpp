@@ -94,6 +94,25 @@ std::unique_ptr<plane::Solver> plane_solver(const scenario::Scenario& s, Lines l
   }
 }
 
+namespace {
+
+/// When a cell has ruptured, as a number and in the words that files have.
+void set_rupture_rule(const scenario::Scenario& s, Lines lines, plane::Schedule& schedule) {
+  const plane::Problem& p = s.plane->problem;
+  // A state that is held settles a little at t = 0. There, and without initial slip, half a line must pass.
+  const double seen = p.nucleation ? 1e-2 : 1e-3, largest = largest_slip(p, schedule.nx, schedule.ny);
+  schedule.rupture_slip = seen * largest;
+  const std::string when = "time at which the slip, of either sign, first exceeds ";
+  schedule.rupture_rule = when + digits(seen) + " of the largest initial mean slip";
+  if (lines != Lines::direct || !(p.nucleation || !(largest > 0))) return;
+  const double half_a_line = std::numbers::pi / scale_of_lines(s);
+  schedule.rupture_rule =
+      largest > 0 ? schedule.rupture_rule + " and that of half a line" : when + "that of half a line";
+  schedule.rupture_slip = std::fmax(schedule.rupture_slip, half_a_line);
+}
+
+}  // namespace
+
 plane::Schedule plane_schedule(const scenario::Scenario& s, Lines lines) {
   require_plane(s);
   constexpr double most_rows = 1000;
@@ -111,11 +130,7 @@ plane::Schedule plane_schedule(const scenario::Scenario& s, Lines lines) {
                                  " GB of memory, this process may have " + digits(usable_memory() / 1e9, 3) + " GB",
                       .allowed = "fewer cells or fewer output times"});
   schedule.interval = std::fmax(cell, s.end / most_rows);
-  // A state that is held settles a little at t = 0. There, and without initial slip, half a line must pass.
-  const double seen = p.nucleation ? 1e-2 : 1e-3, largest = largest_slip(p, schedule.nx, schedule.ny);
-  schedule.rupture_slip = seen * largest;
-  if (lines == Lines::direct && (p.nucleation || !(largest > 0)))
-    schedule.rupture_slip = std::fmax(schedule.rupture_slip, std::numbers::pi / scale_of_lines(s));
+  set_rupture_rule(s, lines, schedule);
   schedule.wave_speed_ratio = s.plane->wave_speed_ratio;
   schedule.lines = s.plane->lines;
   return schedule;

@@ -199,6 +199,8 @@ end = 3
             self.assertGreater(np.count_nonzero(reached) * 0.1 ** 2, 1)
             for name in ("rupture_velocity", "rise_time", "initial_stress", "final_stress", "moment_rate_spectrum", "frequency"):
                 self.assertIn(name, file.variables)
+            self.assertEqual(file["rupture_time"].long_name, "time at which the slip, of either sign, first exceeds 0.01 of the largest initial mean slip "
+                             "and that of half a line")
             self.assertAlmostEqual(float(np.max(file["initial_stress"][:])), 2 * math.sqrt(2) * math.exp(-0.5), delta=0.05)
         self.refused(2, "plane", case, says=["nucleation", "--direct"])
         self.refused(2, "plane", case, "--direct", "--set", "nucleation.x=8", says=["nucleation.radius", "outside"])
@@ -226,10 +228,35 @@ end = 1
         out = self.plane(case, "--direct", "-o", path)
         with netCDF4.Dataset(path) as file:
             reached = ~np.isnan(np.ma.filled(file["rupture_time"][:], np.nan))
+            self.assertEqual(file["rupture_time"].long_name, "time at which the slip, of either sign, first exceeds that of half a line")
             x, y = np.meshgrid(file["x"][:], file["y"][:])
         self.assertGreater(np.count_nonzero(reached), 10)
         self.assertLess(np.hypot(x, y)[reached].max(), 2)
         self.assertAlmostEqual(out["ruptured_area"], np.count_nonzero(reached) * 0.2 ** 2)
+        self.assertIn("has not ended", out["reasons"]["corner_frequency"])
+
+    def test_lines_that_shrink_have_source_parameters_too(self):
+        case = self.file("case.toml", """
+[plane]
+left = -4
+right = 4
+bottom = -4
+top = 4
+cells = 40
+[initial]
+profile = "formula"
+formula = "max(0, 2 - sqrt(x^2 + y^2))"
+[forcing]
+formula = "-8"
+[time]
+end = 0.5
+""")
+        out = self.plane(case)
+        self.assertLess(out["potency"], 0)
+        self.assertGreater(out["stress_drop"], 0)
+        self.assertGreater(out["duration"], 0)
+        for key in ("arrest_radius", "duration", "corner_frequency", "stress_drop", "last_rupture_time"):
+            self.assertEqual(out[key] is None, key in out.get("reasons", {}), key)
 
     def test_lines_have_a_scale_with_enough_of_them_and_errors(self):
         """At scale 1, where the initial slip has 0.44 of a line, the potency was 2.648 and the front 0. 3.203 and 2.466 are the limits."""

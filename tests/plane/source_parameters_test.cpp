@@ -72,7 +72,26 @@ TEST(SourceParameters, RuptureVelocityOfACircularFront) {
 
 TEST(SourceParameters, StressDropIsWeightedBySlip) {
   EXPECT_DOUBLE_EQ(plane::stress_drop({1, 2, 5}, {0.5, 1, 5}, {1, 3, 0}), 3.5 / 4);
+  EXPECT_DOUBLE_EQ(plane::stress_drop({1, 2, 5}, {0.5, 1, 5}, {-1, 3, 0}), 3.5 / 4);
   EXPECT_TRUE(std::isnan(plane::stress_drop({1}, {1}, {0})));
+}
+
+/// Lines that shrink make negative slip, which has the same source parameters as positive slip of this size.
+TEST(SourceParameters, DoNotDependOnTheSignOfTheSlip) {
+  std::vector<SeriesRow> positive, negative;
+  for (int i = 0; i <= 200; ++i) {
+    SeriesRow row;
+    row.time = 0.1 * i;
+    row.potency = 1 - (1 + row.time) * std::exp(-row.time);
+    row.potency_rate = row.time * std::exp(-row.time);
+    positive.push_back(row);
+    row.potency = -row.potency, row.potency_rate = -row.potency_rate;
+    negative.push_back(row);
+  }
+  EXPECT_GT(plane::duration(positive), 3);
+  EXPECT_DOUBLE_EQ(plane::duration(negative), plane::duration(positive));
+  EXPECT_GT(plane::corner_frequency(positive), 0.1);
+  EXPECT_DOUBLE_EQ(plane::corner_frequency(negative), plane::corner_frequency(positive));
 }
 
 TEST(SourceParameters, RiseTimeOfAConstantVelocityIsItsDuration) {

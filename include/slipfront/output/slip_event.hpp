@@ -4,25 +4,28 @@
 
 #include <limits>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "slipfront/description.hpp"
 
 namespace slipfront::output {
 
-/// One slip event of a chain, which is divided into equal parts (docs/loading.md). It begins when the mean slip
-/// velocity of any part exceeds a threshold. It ends when the velocities of all parts are below half the threshold.
+/// One slip event of a chain, which is divided into equal parts (docs/loading.md). It is connected in x and t. It
+/// begins when the mean slip velocity of a part exceeds a threshold, and parts next to those that move join it. It ends
+/// when the velocities of all its parts are below half the threshold.
 struct SlipEvent {
   double onset = 0, duration = 0;  ///< `duration` of an event in progress is that so far
-  double slip = 0;                 ///< mean over the chain
+  double slip = 0;                 ///< mean over the chain, without slip in other events
   double largest_slip = 0;         ///< slip of the part that slips most
   double load = 0;                 ///< mean force that loads a site, or stress at a pulled end, before the event
   double stress_drop = 0;          ///< fall of the mean force that loads a site, or of the stress at a pulled end
   double peak_velocity = 0;        ///< largest mean slip velocity of a part
-  double origin = 0;               ///< x of the part that moved first
+  double origin = 0;               ///< x of the part that moved first; NaN if all moved at once
   double length = 0;               ///< total length of the parts that moved
-  /// |dx / dt| of the front, by least squares through the parts that moved, from `origin`; on a ring by the shorter
-  /// way. NaN if fewer than three parts moved, if all moved at once, or if the fit is faster than c.
+  /// |dx / dt| of the front, by least squares through the parts that moved, from `origin` or from the origin of an
+  /// event that it has met; on a ring by the shorter way. NaN if fewer than three parts moved, if all moved at once, or
+  /// if the fit is faster than c.
   double rupture_velocity = std::numeric_limits<double>::quiet_NaN();
   double complete = 0;  ///< 1, or 0 if the run ended during the event
 };
@@ -52,8 +55,11 @@ extern const Description front_position;  ///< describes FrontRecords::x
 struct SlipEventColumn {
   Description about;
   double SlipEvent::*value;
+  std::string_view reason = {};  ///< why an event may have no value
 };
 std::span<const SlipEventColumn> slip_event_columns();
+/// The columns in which an event has no value.
+std::vector<SlipEventColumn> columns_without_value(const std::vector<SlipEvent>& events);
 
 /// The series of events of a run. A median is over the complete events, and NaN without one.
 struct EventSeries {

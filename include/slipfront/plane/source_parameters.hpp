@@ -32,12 +32,12 @@ std::vector<double> rise_time(const std::vector<double>& slip, const std::vector
 /// differences are one-sided.
 std::vector<double> stress(const MapGrid& grid, const std::vector<double>& mean_slip);
 
-/// Mean of the stress drop over the plane, weighted by slip (Noda and Lapusta, 2013, Geophys. J. Int. 193). NaN
-/// without slip.
+/// Mean of the stress drop over the plane, weighted by the size of the slip (Noda and Lapusta, 2013, Geophys. J. Int.
+/// 193). NaN without slip.
 double stress_drop(const std::vector<double>& before, const std::vector<double>& after,
                    const std::vector<double>& slip);
 
-/// Time in which the potency grows from 5 % to 95 % of its largest value. NaN without potency.
+/// Time in which the potency grows from 5 % to 95 % of its largest value, of either sign. NaN without potency.
 double duration(const std::vector<SeriesRow>& series);
 
 /// Whether the slip has ended: the potency rate at the end is below 5 % of its largest value.

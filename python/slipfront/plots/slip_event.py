@@ -15,7 +15,7 @@ def slip_event(run, event: int | None = None) -> Picture:
     """Draws one slip event: slip velocity over time and position with its front and the fitted velocity, and slip along the interface.
 
     The front is where the slip velocity first exceeds that of the origin at the onset of the event. It is drawn if there are five outputs or
-    more during the event. The lines of the fitted velocity begin at the origin of the event at its onset.
+    more during the event and it has an origin. The lines of the fitted velocity begin at the origin of the event at its onset.
 
     Parameters
     ----------
@@ -49,7 +49,7 @@ def slip_event(run, event: int | None = None) -> Picture:
     left, right = figure.subplots(1, 2, sharey=True, width_ratios=(2.4, 1))
     rates = slip_rates(near)
     draw_rates(figure, left, since, edges_of(run), rates, rate_label(run))
-    if during >= FEWEST:
+    if during >= FEWEST and numpy.isfinite(run["event_origin"][chosen]):
         draw_front(left, near, since, rates, float(run["event_origin"][chosen]))
     draw_fit(left, run, chosen, float(since[-1]))
     left.set(xlim=(since[0], since[-1]), ylim=edges_of(run)[[0, -1]], ylabel=label(run["x"]))
@@ -97,6 +97,9 @@ def crossing(times, values, threshold, during) -> float:
 def draw_fit(axes, run, event, last) -> None:
     """Draws the origin of the event, and lines of the fitted velocity from it if there is one."""
     origin, velocity = float(run["event_origin"][event]), run["event_rupture_velocity"][event]
+    if not numpy.isfinite(origin):
+        axes.plot([], [], linestyle="none", label="no origin: all parts move at once")
+        return
     axes.plot([0], [origin], marker="*", markersize=9, color="C2", markeredgecolor="white", linestyle="none", label="origin", zorder=4, clip_on=False)
     if not numpy.isfinite(velocity):
         axes.plot([], [], linestyle="none", label="no fitted velocity: fewer than three parts, or all at once")

@@ -16,22 +16,38 @@ struct ChainParts {
   std::vector<double> x;            ///< the middle of each part
   std::vector<double> u, velocity;  ///< u at the end of the step; velocity at which friction was evaluated
   double length = 0;                ///< length of each part
+  double stiffness = 0;             ///< fall of the load with the mean slip; 0: not all sites are pulled
   bool ring = false;                ///< the last part is next to the first one
 };
 
 /// Finds the slip events of a loaded chain while it moves (docs/loading.md). All values are in the units of the chain.
+/// An event is connected in x and t: it consists of parts that move next to each other, at the same time or in
+/// successive steps. Events that meet become one.
 class EventLog {
  public:
   EventLog() = default;
-  /// An event begins where a part is faster than `threshold`. It counts if a part has slipped by `least_slip` at its
-  /// end: the velocities of steps are noisy, and errors of the steps are no slip.
+  /// A part moves from the step at which it is faster than `threshold` until it is slower than half of that. An event
+  /// counts if a part has slipped by `least_slip` at its end: the velocities of steps are noisy, and errors of the
+  /// steps are no slip.
   explicit EventLog(double threshold, double least_slip = 0) : threshold_(threshold), least_slip_(least_slip) {}
 
   bool active() const { return threshold_ > 0; }
   /// Call this after each step. `time` is the end of the step, and `load` the mean force of the springs at that time.
   void look(double time, double load, const ChainParts& parts);
   const std::vector<output::SlipEvent>& events() const { return events_; }
-  std::size_t in_progress() const { return within_ ? events_.size() : 0; }  ///< number of the event; 0: none
+  /// Number of the last event in progress, from 1; 0: none.
+  std::size_t in_progress() const;
+
+  /// Identities of the events, for a log of other quantities. They do not change if events before them disappear.
+  const std::vector<std::size_t>& identities() const { return identities_; }
+  /// The events that the last step joined to earlier ones.
+  struct Joined {
+    std::size_t from, to;
+  };
+  const std::vector<Joined>& joined() const { return joined_; }
+  /// Identity of the event in progress to which position x belongs: that of its part, or else of a part next to it.
+  /// 0: none.
+  std::size_t event_at(double x) const;
 
   /// Returns all that the log needs to continue exactly.
   std::vector<double> saved() const;
@@ -39,26 +55,64 @@ class EventLog {
   void resume(const std::vector<double>& saved);
 
  private:
-  void begin(double time, double load, const ChainParts& parts, double largest, std::size_t first);
-  void follow(double time, double load, const ChainParts& parts, double largest);
-  double front_velocity(const ChainParts& parts) const;
+  struct Step {
+    double time, load;
+    const ChainParts& parts;
+  };
+  /// Parts next to each other.
+  struct Stretch {
+    std::size_t first, count;
+  };
+  /// The part that moves first.
+  struct Origin {
+    double x, time;
+  };
+  /// An event in progress.
+  struct Open {
+    std::size_t identity = 0;
+    std::vector<Origin> origins;   ///< its own, and those of the events that it has met
+    double slip_of_others = 0;     ///< mean slip in other events since its begin
+    std::vector<double> first_u;   ///< u of each part at its begin, plus what the part has slipped in other events
+    std::vector<double> arrivals;  ///< time at which each part passed the threshold in this event; NaN: not yet
+  };
+  bool moves(std::size_t part, double velocity) const;
+  template <class Each>
+  void each_moving_stretch(const ChainParts& parts, const Each& each) const;
+  std::size_t earlier_event_of(const Stretch& stretch);
+  std::size_t begin(const Step& step, const Stretch& stretch);
+  void join(std::size_t from, std::size_t to);
+  void remove(std::size_t identity);
+  void measure(const Step& step, Open& open);
+  void end_finished();
+  Open& open_of(std::size_t identity);
+  std::size_t index_of(std::size_t identity) const;
+  double arrival_of(const Step& step, std::size_t part) const;
+  template <class Take>
+  void each_arrival(const Open& open, const Take& take) const;
+  bool moves_at_once(const Open& open) const;
+  double front_velocity(const Open& open, double duration) const;
 
-  /// The numbers and rows that a checkpoint stores, in the order of the file.
+  /// The numbers and rows that a checkpoint stores first, in the order of the file.
   template <class Log>
   static auto numbers(Log& log) {
-    return std::array{&log.last_time_, &log.last_load_, &log.last_largest_};
+    return std::array{&log.threshold_, &log.last_time_, &log.last_load_, &log.part_length_};
   }
   template <class Log>
   static auto rows(Log& log) {
-    return std::array{&log.x_, &log.last_u_, &log.last_velocity_, &log.first_u_, &log.arrivals_};
+    return std::array{&log.x_, &log.last_u_, &log.last_velocity_};
   }
 
   double threshold_ = 0, least_slip_ = 0;
-  bool within_ = false;
-  double last_time_ = 0, last_load_ = 0, last_largest_ = 0;
-  std::vector<double> x_, last_u_, last_velocity_, first_u_;
-  std::vector<double> arrivals_;  ///< time at which each part passed the threshold in this event; NaN: not yet
+  double last_time_ = 0, last_load_ = 0;
+  double part_length_ = 0;
+  bool is_ring_ = false;
+  std::vector<double> x_, last_u_, last_velocity_;
+  std::vector<std::size_t> owner_, last_owner_;  ///< identity of the event in which each part moves; 0: none
+  std::vector<Open> open_;
+  std::vector<Joined> joined_;
   std::vector<output::SlipEvent> events_;
+  std::vector<std::size_t> identities_;  ///< ascending
+  std::size_t last_identity_ = 0;
 };
 
 }  // namespace slipfront::chain

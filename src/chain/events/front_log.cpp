@@ -21,7 +21,7 @@ FrontLog::FrontLog(double threshold, std::vector<double> x) : threshold_(thresho
   records_.x = std::move(x);
 }
 
-void FrontLog::look(double time, const std::vector<double>& velocity, std::size_t events, bool within,
+void FrontLog::look(double time, const std::vector<double>& velocity, const EventLog& log,
                     const std::function<Tractions()>& ahead) {
   for (std::size_t i = 0; i < velocity.size(); ++i) {
     if (!(velocity[i] > threshold_))
@@ -32,14 +32,39 @@ void FrontLog::look(double time, const std::vector<double>& velocity, std::size_
   }
   last_time_ = time;
   last_velocity_ = velocity;
-  if (events < records_.events.size()) records_.events.resize(events);  // the last one was no event
-  if (events > records_.events.size()) {
+  match_events(log, ahead);
+  for (std::size_t i = 0; i < velocity.size(); ++i) {
+    if (std::isnan(above_since_[i])) continue;
+    const auto of_event = std::lower_bound(identities_.begin(), identities_.end(), log.event_at(records_.x[i]));
+    if (of_event == identities_.end() || *of_event != log.event_at(records_.x[i])) continue;
+    double& arrival = records_.events[static_cast<std::size_t>(of_event - identities_.begin())].arrival[i];
+    if (std::isnan(arrival)) arrival = above_since_[i];
+  }
+}
+
+/// Adds the events that have begun, and removes those that the log of events has joined to others or does not count.
+void FrontLog::match_events(const EventLog& log, const std::function<Tractions()>& ahead) {
+  const auto index = [&](std::size_t identity) {
+    return static_cast<std::size_t>(std::lower_bound(identities_.begin(), identities_.end(), identity) -
+                                    identities_.begin());
+  };
+  const std::size_t last = identities_.empty() ? 0 : identities_.back();
+  for (const std::size_t identity : log.identities()) {
+    if (identity <= last) continue;
     Tractions now = ahead();
-    records_.events.push_back({above_since_, std::move(now.stress), std::move(now.traction)});
-  } else if (within) {
-    std::vector<double>& arrival = records_.events.back().arrival;
-    for (std::size_t i = 0; i < arrival.size(); ++i)
-      if (std::isnan(arrival[i])) arrival[i] = above_since_[i];
+    identities_.push_back(identity);
+    records_.events.push_back({std::vector<double>(positions(), none), std::move(now.stress), std::move(now.traction)});
+  }
+  for (const EventLog::Joined& joined : log.joined()) {
+    if (index(joined.from) == identities_.size() || identities_[index(joined.from)] != joined.from) continue;
+    const std::vector<double>& later = records_.events[index(joined.from)].arrival;
+    std::vector<double>& earlier = records_.events[index(joined.to)].arrival;
+    for (std::size_t i = 0; i < later.size(); ++i) earlier[i] = std::fmin(earlier[i], later[i]);
+  }
+  for (std::size_t i = identities_.size(); i-- > 0;) {
+    if (std::binary_search(log.identities().begin(), log.identities().end(), identities_[i])) continue;
+    identities_.erase(identities_.begin() + static_cast<std::ptrdiff_t>(i));
+    records_.events.erase(records_.events.begin() + static_cast<std::ptrdiff_t>(i));
   }
 }
 
@@ -49,6 +74,7 @@ std::vector<double> FrontLog::saved() const {
   const auto add = [&](const std::vector<double>& column) { all.insert(all.end(), column.begin(), column.end()); };
   add(last_velocity_);
   add(above_since_);
+  for (const std::size_t identity : identities_) all.push_back(static_cast<double>(identity));
   for (const output::FrontRecord& record : records_.events)
     for (const auto* column : columns(record)) add(*column);
   return all;
@@ -62,7 +88,9 @@ void FrontLog::resume(const std::vector<double>& saved) {
   if (saved.size() < 3) refuse();
   const double seen = saved[1], events = saved[2];
   const bool counts = (seen == 0 || seen == static_cast<double>(n)) && events >= 0;
-  if (!counts || static_cast<double>(saved.size()) != 3 + seen + static_cast<double>(n) * (1 + 3 * events)) refuse();
+  if (!counts || static_cast<double>(saved.size()) !=
+                     3 + seen + static_cast<double>(n) + events * (1 + 3 * static_cast<double>(n)))
+    refuse();
   auto at = saved.begin() + 3;
   const auto take = [&](std::vector<double>& column, std::size_t size) {
     column.assign(at, at + static_cast<std::ptrdiff_t>(size));
@@ -71,6 +99,13 @@ void FrontLog::resume(const std::vector<double>& saved) {
   last_time_ = saved[0];
   take(last_velocity_, static_cast<std::size_t>(seen));
   take(above_since_, n);
+  std::vector<double> identities;
+  take(identities, static_cast<std::size_t>(events));
+  identities_.clear();
+  for (const double identity : identities) {
+    if (!(identity > 0 && identity < 9e15)) refuse();
+    identities_.push_back(static_cast<std::size_t>(identity));
+  }
   records_.events.assign(static_cast<std::size_t>(events), {});
   for (output::FrontRecord& record : records_.events)
     for (auto* column : columns(record)) take(*column, n);

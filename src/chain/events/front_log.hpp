@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "chain/events/event_log.hpp"
 #include "slipfront/output/slip_event.hpp"
 
 namespace slipfront::chain {
@@ -22,10 +23,9 @@ class FrontLog {
 
   bool active() const { return !records_.x.empty(); }
   std::size_t positions() const { return records_.x.size(); }
-  /// Call this after each step, after the log of events has seen it. `events` is the number of events so far, and
-  /// `within` is true while the last of them is in progress. `ahead` returns the present stresses. It is called when an
-  /// event begins.
-  void look(double time, const std::vector<double>& velocity, std::size_t events, bool within,
+  /// Call this after each step, after the log of events has seen it. `ahead` returns the present stresses. It is called
+  /// when an event begins.
+  void look(double time, const std::vector<double>& velocity, const EventLog& log,
             const std::function<Tractions()>& ahead);
   const output::FrontRecords& records() const { return records_; }
 
@@ -35,10 +35,13 @@ class FrontLog {
   void resume(const std::vector<double>& saved);
 
  private:
+  void match_events(const EventLog& log, const std::function<Tractions()>& ahead);
+
   double threshold_ = 0, last_time_ = 0;
   std::vector<double> last_velocity_;  ///< empty before the first step
   std::vector<double> above_since_;    ///< time at which the velocity last rose above the threshold; NaN: it is below
   output::FrontRecords records_;
+  std::vector<std::size_t> identities_;  ///< identities of the events of `records_`, as in the log of events
 };
 
 }  // namespace slipfront::chain

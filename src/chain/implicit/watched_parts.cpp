@@ -37,6 +37,7 @@ WatchedParts::WatchedParts(const SiteForces& forces, const Moment& now)
   const std::size_t intervals = p.boundary.periodic ? p.grid.sites : p.grid.sites - 1;
   parts_.length = static_cast<double>(intervals) * p.grid.spacing / static_cast<double>(count);
   parts_.ring = p.boundary.periodic;
+  parts_.stiffness = p.loading.where == Pulled::everywhere ? p.loading.stiffness : 0;
   for (auto* column : {&parts_.u, &parts_.velocity}) column->resize(count);
   parts_.x = middles_of_parts(p, count);
   own.blocks.each_piece(count, [&](std::size_t part, std::size_t begin, std::size_t end) {

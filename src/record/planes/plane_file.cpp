@@ -63,7 +63,8 @@ class PlaneWriter {
     for (const PlaneField& field : plane_fields())
       fields_.push_back(cf::reals(file_, field.about, {dimensions_.time, dimensions_.y, dimensions_.x}, metadata_));
     for (const PlaneMap& map : plane_maps()) {
-      maps_.push_back(cf::reals(file_, map.about, {dimensions_.y, dimensions_.x}, metadata_));
+      maps_.push_back(
+          cf::reals(file_, description_of(map, run_.schedule()), {dimensions_.y, dimensions_.x}, metadata_));
       file_.fill_value(maps_.back(), none);
     }
     for (const PlaneSeries& series : plane_series())

@@ -22,11 +22,7 @@ constexpr PlaneLine lines[] = {
 };
 
 constexpr PlaneMap maps[] = {
-    {{"rupture_time",
-      "time at which the slip first exceeds a thousandth of the largest initial mean slip and, with nucleation, half a "
-      "line",
-      "b / (c A)", on_a_plane},
-     &plane::Maps::rupture_time},
+    {{"rupture_time", "time at which the cell ruptures", "b / (c A)", on_a_plane}, &plane::Maps::rupture_time},
     {{"rupture_velocity", "velocity of the rupture front, 1 / size of the gradient of the rupture time", "c",
       on_a_plane},
      &plane::Maps::rupture_velocity},
@@ -97,6 +93,13 @@ std::span<const PlaneLine> plane_lines() { return lines; }
 std::span<const PlaneField> plane_fields() { return fields; }
 std::span<const PlaneMap> plane_maps() { return maps; }
 std::span<const PlaneSeries> plane_series() { return series; }
+
+Description description_of(const PlaneMap& map, const plane::Schedule& schedule) {
+  Description about = map.about;
+  if (map.values == &plane::Maps::rupture_time && !schedule.rupture_rule.empty())
+    about.long_name = schedule.rupture_rule;
+  return about;
+}
 
 std::string_view plane_unit(std::string_view name) {
   for (const PlaneSeries& row : series)

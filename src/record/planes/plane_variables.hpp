@@ -46,6 +46,9 @@ struct PlaneLine {
 std::span<const PlaneLine> plane_lines();
 std::span<const PlaneField> plane_fields();
 std::span<const PlaneMap> plane_maps();
+/// The description of a map of a run. It contains the rule by which cells rupture in this run, and must not outlive the
+/// `schedule`.
+Description description_of(const PlaneMap& map, const plane::Schedule& schedule);
 std::span<const PlaneSeries> plane_series();
 
 /// The unit of a variable of the model, such as "b / A"; empty for another name.
