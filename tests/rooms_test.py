@@ -21,7 +21,7 @@ MODULES = {
     "modulation": "train elliptic",
     "rupture": "modulation train elliptic",
     "chain": "output friction modulation train elliptic",
-    "pulse": "output friction modulation train elliptic",
+    "pulse": "output friction rupture modulation train elliptic",
     "plane": "output pulse friction modulation train elliptic",
     "friction_ratio": "pulse rupture friction",
     "scenario": "chain pulse plane friction train medium",
@@ -64,6 +64,7 @@ FOLDERS = {
         "view": "staggered space grid",
         "observe": ". view",
         "checks": ". observe view",
+        "contours": ".",
     },
 }
 
