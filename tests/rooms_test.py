@@ -22,7 +22,7 @@ MODULES = {
     "modulation": "train elliptic",
     "rupture": "modulation train elliptic",
     "chain": "output friction modulation train elliptic",
-    "pulse": "output friction modulation train elliptic",
+    "pulse": "output friction rupture modulation train elliptic",
     "plane": "output pulse friction modulation train elliptic",
     "friction_ratio": "friction",
     "scenario": "chain pulse plane friction train medium",
@@ -65,6 +65,7 @@ FOLDERS = {
         "view": "staggered space grid",
         "observe": ". view",
         "checks": ". observe view",
+        "contours": ".",
     },
 }
 

@@ -114,19 +114,11 @@ py::list profile(const rupture::RiemannSolution& solution, const Numbers& x_over
   });
 }
 
-/// The exact Riemann problem between two stresses at rest, and its edges.
-py::tuple profile_at_rest(double left, double right, const Numbers& x_over_t) {
-  const rupture::RiemannSolution solution =
-      rupture::solve_riemann(at_rest(left, "stress"), at_rest(right, "stress_right"));
-  const rupture::Edges edges = rupture::edges_of(solution);
-  return py::make_tuple(profile(solution, x_over_t), edges.left, edges.right);
-}
-
 py::tuple wave(const rupture::Wave& wave) {
   return py::make_tuple(std::string(rupture::name_of(wave.kind)), wave.outer, wave.inner);
 }
 
-/// The exact Riemann problem between two trains: edges, both waves, the state between them, and a function of x/t.
+/// The waves with shocks between two trains: edges, both waves, the state between them, and a function of x/t.
 py::tuple riemann(double left_stress, double left_velocity, double right_stress, double right_velocity) {
   const rupture::RiemannSolution solution =
       rupture::solve_riemann(rupture::moving_train(left_stress, left_velocity, "left"),
@@ -195,7 +187,6 @@ void bind_train(py::module_& m) {
   m.def("spacing", spacing);
   m.def("psi_at_rest", psi_at_rest);
   m.def("stress_at_rest", stress_at_rest);
-  m.def("profile", profile_at_rest);
   m.def("riemann", riemann);
   m.def("riemann_trains", riemann_trains);
   m.attr("averages_described") = all(averages_described);

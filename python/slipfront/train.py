@@ -74,16 +74,16 @@ def stress_at_rest(psi):
 
 
 def profile(stress, x_over_t, stress_right=0.0):
-    """The frictionless pulse that a step of stress becomes (Eqs. 8-9; the exact Riemann problem where the right side is
-    stressed): U, Sigma, W and P at x/t in c. Attributes left_edge and right_edge are x/t of the edges of what moves.
+    """The frictionless pulse that a step of stress becomes (Eqs. 8-9; where the right side is stressed, the exact Riemann
+    problem, with two trains at one position): U, Sigma, W and P at x/t in c. Attributes left_edge and right_edge are x/t of the edges of what moves.
 
     >>> slipfront.train.profile(0.855, [-0.1, 0.0, 0.1]).W.round(4).values.tolist()
     [0.0436, 0.0482, 0.026]
     """
     left, right = one_number("stress", stress), one_number("stress_right", stress_right)
     (x,), *rest = flat(x_over_t=x_over_t)
-    columns, left_edge, right_edge = _slipfront.profile(left, right, x)
-    data = of_columns(_slipfront.profile_described, columns, *rest)
+    (left_edge, right_edge), _, _, _, at, _ = _slipfront.riemann_trains(left, 0.0, right, 0.0)
+    data = of_columns(_slipfront.profile_described, at(x)[:len(_slipfront.profile_described)], *rest)
     if rest[1] == ("state",):
         data = data.rename(state="x_over_t").assign_coords(
             x_over_t=("x_over_t", x, {"long_name": "x / t", "units": "1", "dimensional_unit": "c"}))

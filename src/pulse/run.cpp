@@ -10,90 +10,51 @@
 #include "foundation/text/digits.hpp"
 #include "output/further_scalars.hpp"
 #include "pulse/checkpoint.hpp"
-#include "pulse/checks/checks.hpp"
-#include "pulse/checks/slip_record.hpp"
-#include "pulse/observe/energy.hpp"
-#include "pulse/observe/observe.hpp"
-#include "pulse/observe/trailing_characteristic.hpp"
-#include "pulse/solver.hpp"
+#include "pulse/contours/many_trains.hpp"
+#include "pulse/motion.hpp"
+#include "pulse/one_train.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::pulse {
-/// The part of a checkpoint that describes the run at one time.
-struct SavedState {
-  Cells cells = {};
-  double trailing_characteristic = 0;
-  SlipRecord slip = {};
-};
-
 namespace {
 
 /// Expected number of steps. Each output time adds two, because a step must end on it and the step before is shortened.
-double expected_steps(const Solver& start, const output::Schedule& schedule) {
+double expected_steps(const Motion& start, const output::Schedule& schedule) {
   return start.expected_steps(schedule.times.back()) + 2 * static_cast<double>(schedule.times.size());
 }
 
-void put(bytes::Writer& writer, const SavedState& state, const friction::Friction& friction) {
-  checkpoint::put(writer, state.cells, friction);
-  checkpoint::put_number(writer, "trailing_characteristic", state.trailing_characteristic);
-  state.slip.save(writer);
-}
-
-SavedState get_state(bytes::Reader& reader, const friction::Friction& friction) {
-  SavedState state{.cells = checkpoint::get_cells(reader, friction), .trailing_characteristic = 0, .slip = {}};
-  state.trailing_characteristic = checkpoint::get_number(reader, "trailing_characteristic");
-  state.slip.restore(reader);
-  return state;
+std::unique_ptr<Motion> motion_of(Problem problem) {
+  if (problem.many_trains) return std::make_unique<ManyTrains>(std::move(problem));
+  return std::make_unique<OneTrain>(std::move(problem));
 }
 
 }  // namespace
 
 struct Run::Parts {
   output::Schedule schedule;
-  Solver solver;
+  std::unique_ptr<Motion> motion;
   StepBudget budget;
-  TrailingCharacteristic trailing_characteristic;
   double stepping_seconds = 0;
-  StoredEnergy first_energy;
-  SlipRecord slip;  ///< at x = 0
   std::vector<output::Snapshot> snapshots;
-  /// The last state that does not depend on the end of the run, and whether the present state does. The last steps do,
-  /// because the last one must end there. A run to a later end continues from this state.
-  std::optional<SavedState> before_end;
+  /// Whether the present state depends on the end of the run. The last steps do, because the last one must end there.
+  /// The motion stores the last state that does not. A run to a later end continues from that state.
   bool aimed_at_end = false;
   std::optional<output::Findings> final_findings;  ///< findings of a finished run
 
   Parts(Problem problem, output::Schedule given)
       : schedule(std::move(given)),
-        solver(std::move(problem)),
-        budget(expected_steps(solver, schedule), schedule.times.back()),
-        trailing_characteristic(solver),
-        first_energy(stored_energy(solver)) {}
+        motion(motion_of(std::move(problem))),
+        budget(expected_steps(*motion, schedule), schedule.times.back()) {}
 
   bool finished() const { return snapshots.size() == schedule.times.size(); }
-  output::Findings findings() const { return Checks(solver, first_energy, slip, snapshots).findings(); }
+  output::Findings findings() const { return motion->findings(snapshots); }
   bool advance_to(double target, const std::function<bool()>& interrupted);
   void take_snapshot();
-  SavedState state() const { return {solver.cells(), trailing_characteristic.position(), slip}; }
-  void restore(SavedState saved);
   /// Call this after each step of the last stretch before the end.
-  void look_at_end();
+  void look_at_end() {
+    if (!aimed_at_end) motion->store();
+  }
 };
-
-/// Copies into the arrays of the last state, so that a step allocates nothing.
-void Run::Parts::look_at_end() {
-  if (aimed_at_end) return;
-  if (!before_end) before_end.emplace();
-  before_end->cells = solver.cells();
-  before_end->trailing_characteristic = trailing_characteristic.position();
-  before_end->slip = slip;
-}
-
-void Run::Parts::restore(SavedState saved) {
-  slip = saved.slip;
-  solver.restore(std::move(saved.cells));
-  trailing_characteristic.restore(solver, saved.trailing_characteristic);
-}
 
 Run::Run(Problem problem, output::Schedule schedule)
     : parts_(std::make_unique<Parts>(std::move(problem), std::move(schedule))) {}
@@ -103,18 +64,16 @@ Run::Run(Problem problem, output::Schedule schedule, std::string_view saved, std
   Parts& p = *parts_;
   bytes::Reader reader(saved);
   if (snapshots.size() > p.schedule.times.size()) checkpoint::refuse();
-  const friction::Friction& friction = p.solver.problem().friction;
-  SavedState saved_state = get_state(reader, friction);
+  p.motion->restore(reader);
   const double end = checkpoint::get_number(reader, "end");
   p.aimed_at_end = checkpoint::get_number(reader, "aimed_at_end") != 0;
-  if (p.aimed_at_end) p.before_end = get_state(reader, friction);
+  if (p.aimed_at_end) p.motion->restore_stored(reader);
   reader.end();
   if (end != p.schedule.times.back() && p.aimed_at_end) {
-    saved_state = *std::exchange(p.before_end, std::nullopt);
+    p.motion->go_back();
     p.aimed_at_end = false;
-    while (!snapshots.empty() && snapshots.back().time > saved_state.cells.time) snapshots.pop_back();
+    while (!snapshots.empty() && snapshots.back().time > p.motion->time()) snapshots.pop_back();
   }
-  p.restore(std::move(saved_state));
   p.snapshots = std::move(snapshots);
 }
 
@@ -122,7 +81,13 @@ Run::~Run() = default;
 Run::Run(Run&&) noexcept = default;
 Run& Run::operator=(Run&&) noexcept = default;
 
-const Solver& Run::solver() const { return parts_->solver; }
+const Solver& Run::solver() const { return dynamic_cast<const OneTrain&>(*parts_->motion).solver(); }
+const Problem& Run::problem() const { return parts_->motion->problem(); }
+double Run::time() const { return parts_->motion->time(); }
+long Run::steps() const { return parts_->motion->steps(); }
+double Run::crossing_time() const { return parts_->motion->crossing_time(); }
+double Run::crossing_position() const { return parts_->motion->crossing_position(); }
+double Run::conservation_error() const { return parts_->motion->conservation_error(); }
 const output::Schedule& Run::schedule() const { return parts_->schedule; }
 const std::vector<output::Snapshot>& Run::snapshots() const { return parts_->snapshots; }
 const StepBudget& Run::budget() const { return parts_->budget; }
@@ -131,51 +96,38 @@ bool Run::finished() const { return parts_->finished(); }
 
 std::string Run::saved() const {
   bytes::Writer writer;
-  const friction::Friction& friction = solver().problem().friction;
-  put(writer, parts_->state(), friction);
+  parts_->motion->save(writer);
   checkpoint::put_number(writer, "end", parts_->schedule.times.back());
   checkpoint::put_number(writer, "aimed_at_end", parts_->aimed_at_end ? 1 : 0);
-  if (parts_->aimed_at_end) put(writer, *parts_->before_end, friction);
+  if (parts_->aimed_at_end) parts_->motion->save_stored(writer);
   return std::move(writer).text();
 }
 
-std::optional<SlipTwice> Run::slip_twice() const { return parts_->slip.compare(solver()); }
+std::optional<SlipTwice> Run::slip_twice() const { return parts_->motion->slip_twice(); }
 
 std::vector<std::string> Run::warnings() const {
   return parts_->final_findings ? parts_->final_findings->sentences : parts_->findings().sentences;
 }
 
 void Run::Parts::take_snapshot() {
-  output::Snapshot s = observe(solver, schedule.x_edges, trailing_characteristic, schedule.threshold);
-  const StoredEnergy stored = stored_energy(solver);
-  output::Energy& e = s.energy;
-  const double released =
-      (first_energy.isolated - stored.isolated + e.through_ends) + first_energy.interaction - stored.interaction;
-  e.shocks = released + first_energy.kinetic + e.supplied - e.dissipated - e.kinetic;
+  output::Snapshot s = motion->observe(schedule);
   output::add_further_scalars(s, schedule);
   snapshots.push_back(std::move(s));
 }
 
 bool Run::Parts::advance_to(double target, const std::function<bool()>& interrupted) {
-  double before = solver.cells().time;
   const bool last = snapshots.size() + 1 == schedule.times.size();
   if (last) look_at_end();
   const auto after_step = [&] {
-    const Cells& cells = solver.cells();
-    trailing_characteristic.advance(solver, cells.time - before);
-    before = cells.time;
-    // We sample implicit steps more often: one costs as much as ten samples, an explicit step only as much as a few.
-    const bool begins = cells.steps < 64, is_explicit = cells.face_momentum.empty();
-    if (cells.steps % (is_explicit ? begins ? 4 : 16 : begins ? 1 : 2) == 0) slip.sample(solver);
-    aimed_at_end = aimed_at_end || (last && solver.aimed_at_time());
+    aimed_at_end = aimed_at_end || (last && motion->aimed_at_target());
     if (last) look_at_end();
-    if (budget.exhausted(cells.steps))
-      throw budget.error(cells.time, cells.steps, solver.reason_of_short_steps(),
+    if (budget.exhausted(motion->steps()))
+      throw budget.error(motion->time(), motion->steps(), motion->reason_of_short_steps(),
                          "fewer pulse.cells, an earlier time.end or slipfront chain may help");
     return interrupted && interrupted();
   };
   const auto begun = Clock::now();
-  const bool reached = solver.advance_to(target, after_step);
+  const bool reached = motion->advance_to(target, after_step);
   stepping_seconds += seconds_since(begun);
   return reached;
 }
@@ -188,7 +140,7 @@ bool Run::go(const std::function<bool()>& interrupted) {
   }
   p.final_findings = p.findings();
   if (p.final_findings->wrong_results())
-    throw NumericsError("t = " + digits(p.solver.cells().time) + ": " + p.final_findings->worst);
+    throw NumericsError("t = " + digits(p.motion->time()) + ": " + p.final_findings->worst);
   return true;
 }
 

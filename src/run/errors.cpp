@@ -72,7 +72,7 @@ std::vector<SummaryValue> summary_with(int cells, const scenario::Scenario& scen
   } catch (const NumericsError&) {
     if (!run.finished()) throw;  // the run has reached its end but is too coarse, which makes the errors larger
   }
-  if (cost) *cost = static_cast<double>(run.solver().cells().steps) * cells;
+  if (cost) *cost = static_cast<double>(run.steps()) * cells;
   return summary(pulse_summary(), {other, run, 0});
 }
 
@@ -145,7 +145,7 @@ void correct_peak(const Result<pulse::Run>& fine, std::vector<double>& errors) {
 /// that an observer sees at an end of the domain may be anywhere outside, so its error is unknown.
 void correct_places(const Result<pulse::Run>& fine, std::vector<double>& errors) {
   constexpr double rounding = 1e-9;
-  const pulse::Problem& problem = fine.run->solver().problem();
+  const pulse::Problem& problem = fine.run->problem();
   const double domain = problem.right - problem.left, cell = domain / problem.cells;
   for (std::size_t i = 0; i < errors.size(); ++i) {
     const std::string_view key = fine.summary[i].key;

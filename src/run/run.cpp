@@ -57,13 +57,18 @@ void choose_units(scenario::Scenario& scenario, std::optional<bool> in_si) {
 
 record::PulseMetadata metadata_of(const scenario::Scenario& scenario, const std::string& command,
                                   const std::vector<double>& x_edges, const std::vector<double>& scales) {
+  std::vector<std::string> variables = scenario.output.variables;
+  if (!scenario.pulse.many_trains || command != "pulse")
+    std::erase(variables, "trains");
+  else if (variables.empty())
+    variables = record::pulse_variables();
   // The history is that of the run, not of how it was interrupted and resumed: equal runs make equal files.
   return {.title = scenario.title,
           .scenario_text = scenario.text,
           .version = SLIPFRONT_VERSION,
           .command_line = scenario::command_line(scenario, command, scales),
           .x_edges = x_edges,
-          .variables = scenario.output.variables,
+          .variables = std::move(variables),
           .warnings = scenario.warnings,
           .pulled_end = scenario.loading.acts() && scenario.loading.where != chain::Pulled::everywhere,
           .units = scenario.results_in};
@@ -102,16 +107,13 @@ std::unique_ptr<chain::Run> begin(const ChainPlan& plan, const Options& options)
 Result<pulse::Run> pulse(const scenario::Scenario& scenario, const PulsePlan& plan, const Options& options) {
   Result<pulse::Run> result{.run = begin(plan, options),
                             .metadata = metadata_of(scenario, "pulse", plan.schedule.x_edges)};
-  const pulse::Solver& solver = result.run->solver();
+  const pulse::Run& run = *result.run;
   const bool reached = carry_out(*result.run,
                                  {.output = options.output,
                                   .metadata = result.metadata,
                                   .disk = plan.need.disk,
                                   .resumed = options.checkpoint.has_value()},
-                                 [&] {
-                                   const pulse::Cells& cells = solver.cells();
-                                   return options.after_step && options.after_step(cells.time, cells.steps);
-                                 });
+                                 [&] { return options.after_step && options.after_step(run.time(), run.steps()); });
   if (!reached) return result;
   add_warnings(result.run->warnings(), result.metadata);
   result.summary = summary(pulse_summary(), {scenario, *result.run, seconds_since(options.begun)});

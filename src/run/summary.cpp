@@ -3,7 +3,6 @@
 #include <limits>
 
 #include "output/further_scalars.hpp"
-#include "pulse/observe/energy.hpp"
 #include "record/pulses/pulse_variables.hpp"
 #include "slipfront/setup/problem.hpp"
 
@@ -85,16 +84,15 @@ std::vector<SummaryItem<FinishedPulse>> pulse_fronts_and_energy() {
 /// Rows that describe the computation.
 std::vector<SummaryItem<FinishedPulse>> pulse_solver() {
   return {
-      {"first_crossing_time", [](const FinishedPulse& e) -> Value { return e.run.solver().cells().crossing_time; },
+      {"first_crossing_time", [](const FinishedPulse& e) -> Value { return e.run.crossing_time(); },
        "time at which dislocations first overtake each other"},
-      {"first_crossing_position",
-       [](const FinishedPulse& e) -> Value { return e.run.solver().cells().crossing_position; },
+      {"first_crossing_position", [](const FinishedPulse& e) -> Value { return e.run.crossing_position(); },
        "x at which they do; averages are approximate behind it"},
-      {"conservation_error", [](const FinishedPulse& e) -> Value { return pulse::conservation_error(e.run.solver()); },
+      {"conservation_error", [](const FinishedPulse& e) -> Value { return e.run.conservation_error(); },
        "relative error of the number of dislocations"},
-      {"cells", [](const FinishedPulse& e) -> Value { return static_cast<long>(e.run.solver().problem().cells); },
+      {"cells", [](const FinishedPulse& e) -> Value { return static_cast<long>(e.run.problem().cells); },
        "cells in the domain at t = 0; others come in and leave through its ends"},
-      {"steps", [](const FinishedPulse& e) -> Value { return e.run.solver().cells().steps; }, "number of time steps"},
+      {"steps", [](const FinishedPulse& e) -> Value { return e.run.steps(); }, "number of time steps"},
       {"solve_seconds", [](const FinishedPulse& e) -> Value { return e.run.stepping_seconds(); },
        "seconds of the time steps only"},
       {"wall_seconds", [](const FinishedPulse& e) -> Value { return e.wall; }, "seconds of the whole command"},

@@ -219,6 +219,8 @@ std::vector<Key> pulse_keys() {
       word_key(table, "left", ends, "continued", "condition at the left end"),
       word_key(table, "right", ends, "continued", "condition at the right end"),
       other_key(table, "periodic", truth, "false", "a ring, which is stressed at both ends of the domain"),
+      word_key(table, "trains", {"one", "many"}, "one",
+               "trains at one position: one, with shocks, or as many as overtake each other (no friction or load)"),
   };
 }
 
@@ -259,7 +261,7 @@ std::vector<Key> output_keys() {
   Key times = number_key("output", "times", ModelUnit::time, {.least = 0}, "none",
                          "increasing times at which results are written; t = 0 and the end always are");
   times.type = numbers;
-  Key variables = word_key("output", "variables", {"k", "Sigma", "U", "W", "H", "slip", "stress_drop"}, "all",
+  Key variables = word_key("output", "variables", {"k", "Sigma", "U", "W", "H", "slip", "stress_drop", "trains"}, "all",
                            "variables in the output file");
   variables.type = KeyType::words;
   Key per_event = number_key("output", "per_event", ModelUnit::none, {.least = 0, .most = 10'000}, "0",

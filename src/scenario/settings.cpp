@@ -71,6 +71,7 @@ void read_pulse(const Document& document, PulseOptions& pulse) {
   pulse.left = end("left", pulse.left);
   pulse.right = end("right", pulse.right);
   pulse.periodic = section.truth("periodic").value_or(pulse.periodic);
+  pulse.many_trains = section.choice<bool>("trains", {{"one", false}, {"many", true}}).value_or(pulse.many_trains);
 }
 
 void read_chain(const Document& document, ChainOptions& chain) {

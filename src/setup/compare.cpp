@@ -85,7 +85,7 @@ bool run_levels(const Comparison& c, int threads, std::vector<Level>& levels, co
     const char* name = name_of(closure);
     Level level{.name = std::string("pulse-") + name, .closure = name};
     pulse::Run run = pulse_of(c, closure);
-    const auto after = [&] { return after_step(level.name, run.solver().cells().time, run.solver().cells().steps); };
+    const auto after = [&] { return after_step(level.name, run.time(), run.steps()); };
     if (!carry(run, level, after)) return false;
     levels.push_back(std::move(level));
   }

@@ -6,6 +6,7 @@
 #include "setup/hold.hpp"
 #include "setup/output_times.hpp"
 #include "slipfront/rupture/riemann.hpp"
+#include "slipfront/rupture/riemann_trains.hpp"
 #include "slipfront/setup/plane.hpp"
 #include "slipfront/setup/problem.hpp"
 #include "slipfront/train/train.hpp"
@@ -13,13 +14,19 @@
 namespace slipfront::setup {
 namespace {
 
+/// x/t of the fronts of a step without friction.
+rupture::Edges edges_of_step(const scenario::Scenario& s) {
+  const State left = train::at_rest(s.initial.stress_left), right = train::at_rest(s.initial.stress_right);
+  return s.pulse.many_trains ? rupture::edges_of(rupture::solve_trains(left, right))
+                             : rupture::edges_of(rupture::solve_riemann(left, right));
+}
+
 /// How far waves from a step reach by the end: the frictionless fronts, or the diffusion length where friction rules.
 struct Reach {
   double left, right;
 };
 Reach reach_of(const scenario::Scenario& s) {
-  const rupture::Edges edges = rupture::edges_of(
-      rupture::solve_riemann(train::at_rest(s.initial.stress_left), train::at_rest(s.initial.stress_right)));
+  const rupture::Edges edges = edges_of_step(s);
   const double left = std::fabs(edges.left), right = std::fabs(edges.right);
   const double damping_number = s.friction.linear_coefficient().value_or(0) * s.end;
   const double share = std::fmin(1, 8 / std::sqrt(1 + damping_number));
@@ -48,6 +55,24 @@ void require_averages(const scenario::Scenario& s) {
   if (!s.substrate)
     refuse("interface.contact", "0", "without a substrate there are no dislocations to average over",
            "slipfront chain, or a contact > 0");
+}
+
+/// Several trains at one position are exact without friction and load. Ends at which trains are reflected are not among
+/// them.
+void require_free_motion(const scenario::Scenario& s, const pulse::Problem& p) {
+  const bool at_wall = p.left_end == pulse::End::fixed || p.right_end == pulse::End::fixed;
+  const char* const there = p.friction.acts() ? "there is friction"
+                            : p.forcing       ? "there is a load"
+                            : p.contact       ? "the contact ratio changes along x"
+                            : p.periodic      ? "the domain is a ring"
+                            : at_wall         ? "a wall is at an end of the domain"
+                                              : nullptr;
+  if (there)
+    throw InputError({.file = s.file,
+                      .key = "pulse.trains",
+                      .value = "many",
+                      .problem = std::string("the averages of several trains are not known where ") + there,
+                      .allowed = "trains = \"one\", or slipfront chain"});
 }
 
 }  // namespace
@@ -83,6 +108,7 @@ pulse::Problem stated_problem(const scenario::Scenario& s) {
   p.left_end = s.pulse.left;
   p.right_end = s.pulse.right;
   p.periodic = s.pulse.periodic;
+  p.many_trains = s.pulse.many_trains;
   p.forcing = forcing_of(s, p.left, p.right);
   if (s.forcing_at) {
     p.longest_step = s.end / 100;  // so that no short pulse of it is stepped over
@@ -94,7 +120,16 @@ pulse::Problem stated_problem(const scenario::Scenario& s) {
 
 pulse::Problem pulse_problem(const scenario::Scenario& s) {
   require_averages(s);
-  return stated_problem(s);
+  pulse::Problem problem = stated_problem(s);
+  if (problem.many_trains)
+    require_free_motion(s, problem);
+  else if (std::find(s.output.variables.begin(), s.output.variables.end(), "trains") != s.output.variables.end())
+    throw InputError({.file = s.file,
+                      .key = "output.variables",
+                      .value = "trains",
+                      .problem = "a run with one train at each position does not count trains",
+                      .allowed = "with pulse.trains = \"many\""});
+  return problem;
 }
 
 output::Schedule pulse_schedule(const scenario::Scenario& s, const pulse::Problem& problem) {

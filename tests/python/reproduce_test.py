@@ -330,8 +330,13 @@ class Numbers(unittest.TestCase):
         self.assertEqual((float(data["stress_drop"][0]), float(data["stress_drop"][-1])), (0, 1))
         self.assertLess(float(abs(W.sel(stress_drop=0)).max()), 1e-12)
         self.assertTrue(bool((W.diff("stress_drop") > 0).all()))
-        exact = slipfront.train.profile(0.855, [0.0], 0.855 * 0.65)["W"].item()
-        self.assertAlmostEqual(float(data["without_friction"].sel(stress=0.855, stress_drop=0.35)), exact, 9)
+        # docs/theory/9_trains.md 9.5, from the hyperelliptic integrals; the chain at scale 8000 has 0.06 % less slip for Sigma+ = 0.179
+        exact = data["without_friction"].interp(stress_drop=1 - 0.3 / 0.606).sel(stress=0.606)
+        self.assertLess(abs(float(exact) / 0.0066995398 - 1), 2e-3)
+        self.assertAlmostEqual(float(data["without_friction"].sel(stress=0.855, stress_drop=0.35)), 0.0322064691, 9)
+        front = data["leading_velocity"].sel(stress=0.855)
+        self.assertTrue(bool((front.diff("stress_drop") < 0).all()))
+        self.assertAlmostEqual(float(front.sel(stress_drop=0)), 0.364434324614, 9)
         self.assertLess(float((W.sel(stress=0.855, stress_drop=0.35) / W.sel(stress=0.855, stress_drop=1)).max()), 0.75)
 
     def commands(self):

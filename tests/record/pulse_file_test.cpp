@@ -109,7 +109,7 @@ TEST(PulseFile, ListsKnownVariablesIfOneIsUnknown) {
   PulseMetadata metadata = sample_metadata(7);
   metadata.variables = {"W", "w"};
   const std::string message = message_of<InputError>([&] { write_pulse(folder / "a.nc", metadata, {}, "", false); });
-  EXPECT_EQ(message, "output.variables = 'w': unknown variable; allowed: k, Sigma, U, W, H, slip, stress_drop");
+  EXPECT_EQ(message, "output.variables = 'w': unknown variable; allowed: k, Sigma, U, W, H, slip, stress_drop, trains");
   EXPECT_EQ(folder.files(), 0u);
 }
 

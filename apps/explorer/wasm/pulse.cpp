@@ -11,8 +11,6 @@
 #include "foundation/clock.hpp"
 #include "foundation/text/digits.hpp"
 #include "output/further_scalars.hpp"
-#include "pulse/observe/energy.hpp"
-#include "pulse/solver.hpp"
 #include "scenario.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/pulse/run.hpp"
@@ -126,10 +124,8 @@ SLIPFRONT_EXPORT const char* pulse_go(int handle, double milliseconds, int first
     } catch (const NumericsError& error) {
       gave_up = error.what();
     }
-    const pulse::Solver& solver = s.run->solver();
-    const pulse::Cells& cells = solver.cells();
     Object object;
-    object.put("finished", s.run->finished()).put("now", cells.time).put("steps", cells.steps);
+    object.put("finished", s.run->finished()).put("now", s.run->time()).put("steps", s.run->steps());
     object.put("friction_coefficient", s.coefficient);
     if (!gave_up.empty()) object.put("gave_up", gave_up);
     const std::vector<output::Snapshot>& all = s.run->snapshots();
@@ -144,10 +140,10 @@ SLIPFRONT_EXPORT const char* pulse_go(int handle, double milliseconds, int first
       for (const std::string& w : s.run->warnings()) warnings.push_back(w);
       object.put("warnings", warnings)
           .put("damping_number", s.coefficient ? std::optional(*s.coefficient * all.back().time) : std::nullopt)
-          .put("conservation_error", pulse::conservation_error(solver))
-          .put("first_crossing_time", cells.crossing_time)
-          .put("first_crossing_position", cells.crossing_position)
-          .put("cells", solver.problem().cells);
+          .put("conservation_error", s.run->conservation_error())
+          .put("first_crossing_time", s.run->crossing_time())
+          .put("first_crossing_position", s.run->crossing_position())
+          .put("cells", s.run->problem().cells);
     }
     return object;
   });

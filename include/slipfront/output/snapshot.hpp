@@ -20,11 +20,12 @@ struct Schedule {
 
 /// Averaged fields on the scenario's output grid, cell by cell; all dimensionless (docs/NOTATION.md).
 struct Profile {
-  std::vector<double> k;     ///< dislocation density = stress Sigma
-  std::vector<double> U;     ///< velocity of the dislocations, 0 where there are none
-  std::vector<double> W;     ///< slip velocity at the centre of the cell; |W| <= k
-  std::vector<double> H;     ///< energy density
-  std::vector<double> slip;  ///< slip since t = 0 (u, in b / 2 pi)
+  std::vector<double> k;            ///< dislocation density = stress Sigma
+  std::vector<double> U;            ///< velocity of the dislocations, 0 where there are none
+  std::vector<double> W;            ///< slip velocity at the centre of the cell; |W| <= k
+  std::vector<double> H;            ///< energy density
+  std::vector<double> slip;         ///< slip since t = 0 (u, in b / 2 pi)
+  std::vector<double> trains = {};  ///< number of trains at the centre of the cell; empty unless a run counts them
 };
 
 /// Positions x of the fronts at one time. NaN if there is no such front, or if it has left the domain. The trailing

@@ -38,6 +38,15 @@ class Run {
   /// exhausted, or if results violate an invariant by more than 1 %.
   bool go(const std::function<bool()>& interrupted = {});
 
+  const Problem& problem() const;
+  double time() const;
+  long steps() const;
+  /// Time and x at which dislocations first overtake each other, if that makes the results approximate; else NaN.
+  double crossing_time() const;
+  double crossing_position() const;
+  /// Relative error of the number of dislocations.
+  double conservation_error() const;
+  /// The solver of a problem with one train at each position. \throws std::bad_cast for many_trains.
   const Solver& solver() const;
   const output::Schedule& schedule() const;
   const std::vector<output::Snapshot>& snapshots() const;

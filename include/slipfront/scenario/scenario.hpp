@@ -56,7 +56,8 @@ struct PulseOptions {
   double tolerance = 1e-6;  ///< tolerance of the adaptive time steps, which serve a stiff source
   double threshold = 1e-3;  ///< slip velocity at an observed front, as a fraction of the peak slip velocity
   pulse::End left = pulse::End::continued, right = pulse::End::continued;
-  bool periodic = false;  ///< a ring; `left` and `right` are ignored
+  bool periodic = false;     ///< a ring; `left` and `right` are ignored
+  bool many_trains = false;  ///< as many trains at one position as overtake each other, instead of one with shocks
 };
 
 /// [chain]

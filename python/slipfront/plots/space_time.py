@@ -38,9 +38,16 @@ def name_fronts(axes, pulse) -> None:
                           path_effects=[withStroke(linewidth=2, foreground="white")])
 
 
+def outline_trains(axes, pulse) -> None:
+    """Draws the edges of the regions with two and with three trains at one position, if the Dataset has their number."""
+    if "trains" in pulse and float(pulse["trains"].max()) > 1 and min(pulse["trains"].shape) > 1:
+        axes.contour(pulse["x"], pulse["time"], pulse["trains"], levels=[1.5, 2.5], colors="0.85", linewidths=0.8, linestyles=["-", "--"])
+
+
 @styled
 def space_time(pulse, fields=("W", "Sigma")) -> Picture:
-    """Draws maps of fields over position (horizontal) and time (vertical), with the lines of the fronts.
+    """Draws maps of fields over position (horizontal) and time (vertical), with the lines of the fronts. Grey lines
+    enclose two trains at one position, dashed ones three.
 
     Cells that are not finite are grey.
 
@@ -79,6 +86,7 @@ def space_time(pulse, fields=("W", "Sigma")) -> Picture:
         figure.colorbar(image, ax=axes, location="top", label="\n".join(filter(None, (label(pulse[name]), backward(pulse, name)))), aspect=30, ticks=MaxNLocator(6),
                         extend="max" if over else "neither")
         name_fronts(axes, pulse)
+        outline_trains(axes, pulse)
         axes.set(xlabel=label(pulse["x"]), xlim=(left, right), ylim=(float(outputs[0]), float(outputs[-1])))
         axes.grid(False)
     panels[0].set_ylabel(label(pulse["time"]))

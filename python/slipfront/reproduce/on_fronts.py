@@ -6,7 +6,7 @@ import slipfront
 
 from .derived import relation
 from .numbers import FRICTION, orders
-from .rows import EXACT, REFUTED, close, judged, row
+from .rows import EXACT, close, judged, row
 from .runs import at_origin
 
 STEP = "slipfront pulse cases/step.toml --set friction.law=viscous --set friction.coefficient=2"
@@ -84,20 +84,19 @@ def leading(runs, steps) -> dict:
 
 def into_stress() -> list:
     """Tests V- and V+ against Sigma+ without friction, with the exact Riemann problem."""
-    rights = (0.05, 0.179, 0.427, 0.6, 0.8, 0.85)
-    exact = [slipfront.train.profile(0.855, [0.0], right).attrs for right in rights]
-    left, leading = numpy.array([e["left_edge"] for e in exact]), numpy.array([e["right_edge"] for e in exact])
-    tried, command = f"Σ− = 0.855, Σ+ = {rights[0]:g} to {rights[-1]:g}, no friction", "python: slipfront.train.profile(0.855, [0.0], stress_right=0.8).attrs   # left_edge, right_edge"
-    empty = relation("leading_velocity", stress=0.855)
-    ratio = -left / leading
-    return [row("Σ+ does not affect |V−|", "3.3, 4", EXACT, f"The trailing edge depends only on Σ−: |V−| = {-left[0]:.5f} c for every Σ+; the largest difference is {abs(left / left[0] - 1).max():.0g}.", tried, command),
-            row("V+ increases with Σ+", "3.3", close(1 - leading.min() / empty, 0.1) if bool((numpy.diff(leading) > 0).all()) else REFUTED,
-                f"From {leading[0]:.4f} c at Σ+ = 0.05 through {leading[1]:.4f} (0.179) and {leading[2]:.4f} (0.427) to {leading[-1]:.4f} ({rights[-1]:g}). Only near Σ+ = 0 does it fall first: the edge of a pulse into "
-                f"the empty side moves at {empty:.4f} c, and the shock into 0.05 is {100 * (1 - leading.min() / empty):.0f} % slower.", tried, command),
+    rights = (0.0, 0.01, 0.05, 0.179, 0.427, 0.6, 0.8, 0.85)
+    exact = slipfront.relations(stress=[0.855] * len(rights), stress_right=rights)
+    rupture, leading, ratio = (exact[name].values for name in ("rupture_velocity", "leading_velocity", "velocity_ratio"))
+    tried, command = f"Σ− = 0.855, Σ+ = {rights[0]:g} to {rights[-1]:g}, no friction", "slipfront relations --stress 0.855 --stress-right 0.427"
+    at = dict(zip(rights, leading))
+    return [row("Σ+ does not affect |V−|", "3.3, 4", EXACT, f"The trailing edge depends only on Σ−: |V−| = {rupture[0]:.5f} c for every Σ+; the largest difference is {abs(rupture / rupture[0] - 1).max():.0g}.", tried, command),
+            row("V+ increases with Σ+", "3.3", judged(bool((numpy.diff(leading) > 0).all())),
+                f"From {leading[0]:.4f} c into the empty side through {at[0.179]:.4f} (0.179) and {at[0.427]:.4f} (0.427) to {leading[-1]:.4f} ({rights[-1]:g}). The first dislocations run through the train ahead, which "
+                "shifts them forward. This is exact; the paper has it from runs.", tried, command),
             row("For (Σ− − Σ+)/Σ− ≪ 1, |V−| is practically equal to V+ and the pulse almost symmetric", "3.3, 5, Fig. 11", judged(abs(ratio[-1] - 1) < 0.02),
-                f"|V−|/V+ is {ratio[-2]:.3f} at a drop of {100 * (1 - rights[-2] / 0.855):.1f} % and {ratio[-1]:.4f} at {100 * (1 - rights[-1] / 0.855):.1f} %.", tried, command),
-            row("Shape and velocity of the pulse do not change significantly unless Σ+ ≈ Σ−", "3.3, Fig. 11", judged(leading[2] / leading[0] < 1.1),
-                f"From Σ+ = 0.05 to 0.427, a drop of 50 %, V+ rises by {100 * (leading[2] / leading[0] - 1):.0f} %; |V−| does not change.", tried + "; a change of less than 10 % is not significant", command)]
+                f"|V−|/V+ is {ratio[-2]:.3f} at a drop of {100 * (1 - rights[-2] / 0.855):.1f} % and {ratio[-1]:.4f} at {100 * (1 - rights[-1] / 0.855):.1f} %: it tends to 1.", tried, command),
+            row("Shape and velocity of the pulse do not change significantly unless Σ+ ≈ Σ−", "3.3, Fig. 11", judged(at[0.427] / at[0.05] < 1.1),
+                f"From Σ+ = 0.05 to 0.427, a drop of 50 %, V+ rises by {100 * (at[0.427] / at[0.05] - 1):.0f} %; |V−| does not change.", tried + "; a change of less than 10 % is not significant", command)]
 
 
 def larger() -> list:

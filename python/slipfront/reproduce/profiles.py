@@ -29,8 +29,8 @@ def profiles(runs, case, width) -> xarray.Dataset:
 
 def edges() -> tuple:
     """x of both edges at t = 2 pi without friction: V- t and V+ t of the exact Riemann problem."""
-    exact = slipfront.train.profile(0.855, [0.0], 0.179)
-    return 2 * numpy.pi * exact.attrs["left_edge"], 2 * numpy.pi * exact.attrs["right_edge"]
+    exact = slipfront.relations(stress=[0.855], stress_right=[0.179])
+    return -2 * numpy.pi * float(exact["rupture_velocity"][0]), 2 * numpy.pi * float(exact["leading_velocity"][0])
 
 
 def chain_points(axes, data, times, c, words, until=SPAN[1]):

@@ -5,6 +5,8 @@ import xarray
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
+import slipfront
+
 from ..plots.style import styled
 from . import look
 from .numbers import FRICTION
@@ -51,21 +53,26 @@ def draw_one(axes, W, top, title):
 
 
 @styled
-def draw(data, dimension, words, one_scale) -> Figure:
-    """Draws the surfaces, with a row for each closure and a column for each value of `dimension`.
+def draw(rows, dimension, words, one_scale) -> Figure:
+    """Draws the surfaces. rows: title -> W, a row of the figure each. There is a column for each value of `dimension`.
 
     words: function that formats a value. one_scale: whether all surfaces share the vertical axis.
     """
-    values = data[dimension].values
-    figure = Figure(figsize=(7.2, 5.6), layout="none")
-    for row, closure in enumerate(CLOSURES):
+    top = numpy.max([W.max(["time", "x"]) for W in rows.values()], axis=0)
+    values = next(iter(rows.values()))[dimension].values
+    figure = Figure(figsize=(7.2, 2.8 * len(rows)), layout="none")
+    for row, (title, W) in enumerate(rows.items()):
         for column, value in enumerate(values):
-            W = data["W"].sel(closure=closure).isel({dimension: column})
-            axes = figure.add_subplot(2, len(values), row * len(values) + column + 1, projection="3d")
-            draw_one(axes, W, float((data["W"] if one_scale else data["W"].isel({dimension: column})).max()), words(value))
-        figure.text(0.005, 0.955 - 0.49 * row, look.TITLES[closure] + (": slip velocity W, cA/π (vertical)" if row == 0 else ""), fontsize=9, va="bottom")
-    figure.subplots_adjust(left=0.0, right=0.94, bottom=0.01, top=0.96, wspace=0.1, hspace=0.04)
+            axes = figure.add_subplot(len(rows), len(values), row * len(values) + column + 1, projection="3d")
+            draw_one(axes, W.isel({dimension: column}), float(top.max() if one_scale else top[column]), words(value))
+        figure.text(0.005, 1 - 0.09 / len(rows) - 0.98 * row / len(rows), title + (": slip velocity W, cA/π (vertical)" if row == 0 else ""), fontsize=9, va="bottom")
+    figure.subplots_adjust(left=0.0, right=0.94, bottom=0.02 / len(rows), top=1 - 0.08 / len(rows), wspace=0.1, hspace=0.04)
     return figure
+
+
+def of_closures(data) -> dict:
+    """Returns the rows of a figure, one for each closure."""
+    return {look.TITLES[closure]: data["W"].sel(closure=closure) for closure in CLOSURES}
 
 
 def with_friction(runs) -> Picture:
@@ -74,12 +81,24 @@ def with_friction(runs) -> Picture:
     data = surfaces(runs, "Fig. 7", "fig-07.toml", "friction.coefficient", FRICTION, PLACES, axis)
     top = data["W"].isel(time=-1).max("x")
     fall = {closure: float(top.sel(closure=closure)[0] / top.sel(closure=closure)[-1]) for closure in CLOSURES}
-    return picture("fig-07", draw(data, "friction_coefficient", lambda c: f"C = {c:g}", True), data, fall=fall["paper"], fall_consistent=fall["consistent"])
+    return picture("fig-07", draw(of_closures(data), "friction_coefficient", lambda c: f"C = {c:g}", True), data, fall=fall["paper"], fall_consistent=fall["consistent"])
+
+
+def without_friction(W) -> xarray.DataArray:
+    """Returns W of the exact Riemann problem: the limit without friction from a true step. `W`: an array with its coordinates."""
+    def at(right):
+        exact = numpy.zeros((W.sizes["time"], W.sizes["x"]))
+        moving = W["time"].values > 0
+        exact[moving] = slipfront.riemann(0.855, float(right), W["x"].values / W["time"].values[moving, None])["W"].values
+        return exact
+    return xarray.DataArray([at(right) for right in W["stress_right"]], W.isel(closure=0, drop=True).coords, ("stress_right", "time", "x"), attrs=W.attrs)
 
 
 def with_right_stress(runs) -> Picture:
     """Draws Fig. 11."""
     axis = xarray.DataArray([0.0], dims="stress_right", name="stress_right", attrs=look.STRESS_RIGHT)
     data = surfaces(runs, "Fig. 11", "fig-11.toml", "initial.stress_right", RIGHT, WIDER, axis)
+    data["without_friction"] = without_friction(data["W"])
     words = {right: f"Σ+ = {right:g}, drop {100 * (1 - right / 0.855):.0f} %" for right in RIGHT}
-    return picture("fig-11", draw(data, "stress_right", lambda right: words[float(right)], False), data)
+    rows = of_closures(data) | {"no friction, exact, true step": data["without_friction"]}
+    return picture("fig-11", draw(rows, "stress_right", lambda right: words[float(right)], False), data)

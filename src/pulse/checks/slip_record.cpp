@@ -31,19 +31,29 @@ double SlipTwice::error() const {
 
 void SlipRecord::sample(const Solver& solver) {
   const View v = solver.view(false);
-  const double time = solver.cells().time, velocity = averages_of(v, state_at(v, 0), 0).W;
+  const double velocity = averages_of(v, state_at(v, 0), 0).W;
+  add(solver.cells().time, velocity, unresolved_at(v, 0, velocity));
+}
+
+void SlipRecord::add(double time, double velocity, double doubt) {
   const double elapsed = time - integral_.time;
   size_ += elapsed * (std::fabs(velocity) + std::fabs(integral_.velocity)) / 2;
-  doubt_ += elapsed * unresolved_at(v, 0, velocity);
+  doubt_ += elapsed * doubt;
   integral_.add(time, velocity);
 }
 
 std::optional<SlipTwice> SlipRecord::compare(const Solver& solver) const {
-  const Problem& problem = solver.problem();
-  if (!(problem.left < 0 && problem.right > 0 && integral_.samples > 8)) return std::nullopt;
+  if (!can_compare(solver.problem())) return std::nullopt;
   const View v = solver.view();
-  const double now = averages_of(v, state_at(v, 0), 0).W;
-  return SlipTwice{solver.slip_at(v, 0), integral_.up_to(solver.cells().time, now), integral_.error(), doubt_};
+  return compare(solver.cells().time, solver.slip_at(v, 0), averages_of(v, state_at(v, 0), 0).W);
+}
+
+bool SlipRecord::can_compare(const Problem& problem) const {
+  return problem.left < 0 && problem.right > 0 && integral_.samples > 8;
+}
+
+SlipTwice SlipRecord::compare(double time, double slip, double velocity) const {
+  return {slip, integral_.up_to(time, velocity), integral_.error(), doubt_};
 }
 
 template <class Record, class Each>

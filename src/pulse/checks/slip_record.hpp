@@ -23,8 +23,13 @@ struct SlipTwice {
 class SlipRecord {
  public:
   void sample(const Solver& solver);
+  /// A sample of the slip velocity at one time. `doubt` is its possible error.
+  void add(double time, double velocity, double doubt);
   /// Empty if x = 0 is outside the domain, or if there are too few samples.
   std::optional<SlipTwice> compare(const Solver& solver) const;
+  bool can_compare(const Problem& problem) const;
+  /// `slip` and `velocity` are those at x = 0 now.
+  SlipTwice compare(double time, double slip, double velocity) const;
   /// Integral of |slip velocity| over time.
   double size() const { return size_; }
 

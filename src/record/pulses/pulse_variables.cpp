@@ -14,8 +14,8 @@ using output::Fronts;
 using output::Profile;
 using output::Snapshot;
 
-constexpr std::vector<double> Profile::*every_field[] = {&Profile::k, &Profile::U, &Profile::W, &Profile::H,
-                                                         &Profile::slip};
+constexpr std::vector<double> Profile::*every_field[] = {&Profile::k, &Profile::U,    &Profile::W,
+                                                         &Profile::H, &Profile::slip, &Profile::trains};
 
 constexpr FieldVariable fields[] = {
     {{"k", "dislocation density (2 pi times dislocations per length)", "A / b", "Eqs. 4-5"}, &Profile::k},
@@ -25,6 +25,10 @@ constexpr FieldVariable fields[] = {
     {{"H", "energy density", "mu A^2 b / (2 pi^2 (1 - nu))", "Eq. 6"}, &Profile::H},
     {{"slip", "slip since time 0", "b / (2 pi)", "Eq. 4"}, &Profile::slip},
     {{"stress_drop", "Sigma at the first time less Sigma", "mu A / pi", "Eq. 5"}, &Profile::k, true},
+    {{"trains", "number of trains of dislocations at the same position", "", "docs/theory/9_trains.md"},
+     &Profile::trains,
+     false,
+     true},
 };
 
 template <auto... path>
@@ -127,7 +131,7 @@ std::vector<const FieldVariable*> chosen_fields(const std::vector<std::string>& 
   const bool drop_alone = named("stress_drop") && !named("k") && !named("Sigma");
   std::vector<const FieldVariable*> chosen;
   for (const FieldVariable& field : fields)
-    if (names.empty() || named(field.about.name) || (drop_alone && field.about.name == "Sigma"))
+    if ((names.empty() && !field.on_request) || named(field.about.name) || (drop_alone && field.about.name == "Sigma"))
       chosen.push_back(&field);
   return chosen;
 }

@@ -32,7 +32,8 @@ std::string reference_of(const Description& about);
 struct FieldVariable {
   Description about;
   std::vector<double> output::Profile::*values;
-  bool drop = false;  ///< the file holds the first snapshot minus this one
+  bool drop = false;        ///< the file holds the first snapshot minus this one
+  bool on_request = false;  ///< not every run has it
 
   /// The values that the file holds for a snapshot.
   std::vector<double> of(const output::Snapshot& snapshot, const output::Snapshot& first) const;
@@ -52,9 +53,9 @@ struct ScalarVariable {
 std::span<const FieldVariable> field_variables();
 std::span<const ScalarVariable> scalar_variables();
 
-/// The variables of field_variables() with these names, or all if `names` is empty. The stress drop adds the stress
-/// from which it is measured, because a run could not resume to the same bits without it. \throws InputError for an
-/// unknown name.
+/// The variables of field_variables() with these names, or all but those `on_request` if `names` is empty. The stress
+/// drop adds the stress from which it is measured, because a run could not resume to the same bits without it. \throws
+/// InputError for an unknown name.
 std::vector<const FieldVariable*> chosen_fields(const std::vector<std::string>& names);
 
 /// The variable in `written` from which to read `values`, or null.

@@ -1,0 +1,223 @@
+#include "pulse/contours/along.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "foundation/math/constants.hpp"
+#include "foundation/math/parabola.hpp"
+#include "pulse/contours/many_trains.hpp"
+#include "slipfront/train/train.hpp"
+
+namespace slipfront::pulse {
+namespace {
+
+void add_points(const Contour& contour, std::vector<double>& x) {
+  for (std::size_t i = 0; i < contour.size(); ++i)
+    if (!contour.is_end(i)) x.push_back(contour.x[i]);
+}
+
+/// Energy density of the train at rest with the same density.
+double energy_at_rest(double k) {
+  return k >= train::smallest_stress ? train::averages(train::at_rest(k)).H : 4 * k / std::numbers::pi;
+}
+
+std::vector<edges::Means> means_at(const Contour& contour, const std::vector<double>& x) {
+  std::vector<edges::Means> means(x.size());
+  Sweep(contour).at(x, [&](std::size_t i, const std::vector<double>& edges) { means[i] = edges::means_of(edges); });
+  return means;
+}
+
+}  // namespace
+
+Along::Along(const ManyTrains& trains, const std::vector<double>& x_edges) : trains_(trains) {
+  find_nodes(x_edges);
+  integrate();
+}
+
+void Along::find_nodes(const std::vector<double>& x_edges) {
+  nodes_ = {0, trains_.problem().left, trains_.problem().right};
+  for (std::size_t i = 0; i < x_edges.size(); ++i) {
+    nodes_.push_back(x_edges[i]);
+    if (i > 0) nodes_.push_back((x_edges[i - 1] + x_edges[i]) / 2);
+  }
+  add_points(trains_.start(), nodes_);
+  add_points(trains_.contour(), nodes_);
+  std::sort(nodes_.begin(), nodes_.end());
+  nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
+}
+
+/// Two-point Gauss rule between the nodes. At the ends of folds, the curves gain or lose some 1e-5 of the dislocations.
+/// We spread this over x in proportion to the change of the stress there, so that nothing slips ahead of the
+/// fronts.
+void Along::integrate() {
+  const std::size_t pieces = nodes_.size() - 1;
+  std::vector<double> x(3 * pieces + 1), inside(2 * pieces);  // nodes and Gauss points; Gauss points only
+  const double offset = (1 - 1 / std::sqrt(3)) / 2;
+  for (std::size_t i = 0; i < pieces; ++i) {
+    const double a = nodes_[i], b = nodes_[i + 1];
+    x[3 * i] = a;
+    x[3 * i + 1] = inside[2 * i] = a + (b - a) * offset;
+    x[3 * i + 2] = inside[2 * i + 1] = b - (b - a) * offset;
+  }
+  x.back() = nodes_.back();
+  const std::vector<edges::Means> now = means_at(trains_.contour(), x), before = means_at(trains_.start(), inside);
+  means_.resize(nodes_.size());
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    means_[i] = now[3 * i];
+    if (trains_.time() == 0) means_[i].W = 0;  // at rest, to rounding of the interpolated edges
+  }
+  stress_.assign(nodes_.size(), 0.0);
+  lost_.assign(nodes_.size(), 0.0);
+  const Problem& p = trains_.problem();
+  energy_ = {
+      .elastic = 0, .kinetic = 0, .dissipated = 0, .supplied = 0, .through_ends = 0, .shocks = 0, .phonons = none};
+  std::vector<double> changed(nodes_.size());
+  for (std::size_t i = 0; i < pieces; ++i) {
+    const double half = (nodes_[i + 1] - nodes_[i]) / 2;
+    const bool is_inside = nodes_[i] >= p.left && nodes_[i + 1] <= p.right;
+    double k = 0, lost = 0, change = 0;
+    for (std::size_t j = 0; j < 2; ++j) {
+      const edges::Means &here = now[3 * i + 1 + j], &first = before[2 * i + j];
+      k += half * here.k;
+      lost += half * (here.k - first.k);
+      change += half * std::fabs(here.k - first.k);
+      energy_.shocks -= half * (here.H - first.H);
+      if (is_inside) {
+        const double at_rest = here.W == 0 ? here.H : energy_at_rest(here.k);
+        energy_.elastic += half * at_rest;
+        energy_.kinetic += half * std::fmax(here.H - at_rest, 0);
+        count_ += half * first.k;
+      } else {
+        energy_.through_ends -= half * (here.H - first.H);
+      }
+    }
+    stress_[i + 1] = stress_[i] + k;
+    lost_[i + 1] = lost_[i] + lost;
+    changed[i + 1] = changed[i] + change;
+  }
+  uncounted_ = lost_.back();
+  for (std::size_t i = 0; i < lost_.size() && changed.back() > 0; ++i)
+    lost_[i] -= uncounted_ * (changed[i] / changed.back());
+}
+
+std::size_t Along::at(double x) const {
+  return static_cast<std::size_t>(std::lower_bound(nodes_.begin(), nodes_.end(), x) - nodes_.begin());
+}
+
+bool Along::in_domain(std::size_t node) const {
+  return nodes_[node] >= trains_.problem().left && nodes_[node] <= trains_.problem().right;
+}
+
+double Along::visible(double x) const { return x >= trains_.problem().left && x <= trains_.problem().right ? x : none; }
+
+double Along::conservation_error() const { return std::fabs(uncounted_) / count_; }
+
+output::Profile Along::profile(const std::vector<double>& x_edges) const {
+  output::Profile profile;
+  for (std::size_t i = 0; i + 1 < x_edges.size(); ++i) {
+    const double left = x_edges[i], right = x_edges[i + 1];
+    const std::size_t centre = at((left + right) / 2);
+    const edges::Means& here = means_[centre];
+    const double k = (stress_[at(right)] - stress_[at(left)]) / (right - left);
+    profile.k.push_back(k);
+    profile.U.push_back(here.k > 0 ? here.W / here.k : 0);
+    profile.W.push_back(std::clamp(here.W, -k, k));
+    profile.H.push_back(here.H);
+    profile.slip.push_back(-lost_[centre]);
+    profile.trains.push_back(here.trains);
+  }
+  return profile;
+}
+
+void Along::find_peak(output::Snapshot& s) const {
+  const std::size_t n = nodes_.size();
+  std::size_t top = n;
+  const auto size = [&](std::size_t i) { return std::fabs(means_[i].W); };
+  for (std::size_t i = 0; i < n; ++i)
+    if (in_domain(i) && (top == n || size(i) > size(top))) top = i;
+  s.peak_slip_velocity = means_[top].W;
+  s.peak_position = nodes_[top];
+  if (top == 0 || top + 1 == n || std::fmin(size(top - 1), size(top + 1)) < 0.9 * size(top)) return;
+  const double a = nodes_[top - 1] - nodes_[top], b = nodes_[top + 1] - nodes_[top];
+  const auto [slope, curve] =
+      parabola_through(a, means_[top - 1].W - means_[top].W, b, means_[top + 1].W - means_[top].W);
+  const double best = curve != 0 ? -slope / (2 * curve) : 0;
+  if (!(best > a && best < b)) return;
+  s.peak_slip_velocity += best * (slope + curve * best);
+  s.peak_position += best;
+}
+
+/// The foot of the fan of a step is a point of a curve. Of a smooth stress, it is where W reaches a thousandth of its
+/// maximum.
+double Along::trailing_front() const {
+  const Contour& c = trains_.contour();
+  if (c.front == Contour::nothing) return none;
+  if (trains_.problem().corner < HUGE_VAL) return c.x[c.front];
+  if (trains_.time() == 0) return none;
+  constexpr double felt = 1e-3;
+  double most = 0;
+  for (const edges::Means& m : means_) most = std::fmax(most, std::fabs(m.W));
+  const std::size_t n = nodes_.size();
+  for (std::size_t i = 1; i < n && most > 0; ++i) {
+    const std::size_t here = c.stressed_left ? i : n - 1 - i, ahead = c.stressed_left ? here - 1 : here + 1;
+    const double level = felt * most, before = std::fabs(means_[ahead].W), after = std::fabs(means_[here].W);
+    if (after < level) continue;
+    const double share = before > 0 ? std::log(level / before) / std::log(after / before) : 1;
+    return std::lerp(nodes_[ahead], nodes_[here], share);
+  }
+  return none;
+}
+
+/// The free edge; the first dislocations of a step that overtake others; or where W falls to half of its maximum.
+double Along::leading_front() const {
+  const Contour& c = trains_.contour();
+  const bool to_right = c.stressed_left;
+  if (to_right ? c.right_free : c.left_free) {
+    double edge = to_right ? -HUGE_VAL : HUGE_VAL;
+    for (std::size_t i = 0; i < c.size(); ++i)
+      if (!c.is_end(i)) edge = to_right ? std::fmax(edge, c.x[i]) : std::fmin(edge, c.x[i]);
+    return edge;
+  }
+  if (trains_.problem().corner < HUGE_VAL && c.tip != Contour::nothing) return c.x[c.tip];
+  double half = 0;
+  for (const edges::Means& m : means_) half = std::fmax(half, std::fabs(m.W) / 2);
+  const std::size_t n = nodes_.size();
+  for (std::size_t i = 1; i < n && half > 0; ++i) {
+    const std::size_t in = to_right ? n - 1 - i : i, out = to_right ? in + 1 : in - 1;
+    const double a = std::fabs(means_[in].W), b = std::fabs(means_[out].W);
+    if (a >= half && b < half) return std::lerp(nodes_[in], nodes_[out], (half - a) / (b - a));
+  }
+  return none;
+}
+
+output::Fronts Along::fronts(double threshold, double peak) const {
+  const Contour& c = trains_.contour();
+  std::vector<double> x, speed;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    if (!in_domain(i)) continue;
+    x.push_back(nodes_[i]);
+    speed.push_back(std::fabs(means_[i].W));
+  }
+  const output::Observed seen = output::observed_fronts(x, speed, threshold * std::fabs(peak), x.front(), x.back());
+  return {.trailing = visible(trailing_front()),
+          .leading = visible(leading_front()),
+          .trailing_characteristic = c.front == Contour::nothing ? none : visible(c.x[c.front]),
+          .trailing_observed = c.stressed_left ? seen.left : seen.right,
+          .leading_observed = c.stressed_left ? seen.right : seen.left};
+}
+
+output::Snapshot Along::snapshot(const output::Schedule& schedule) const {
+  output::Snapshot s{};
+  s.time = trains_.time();
+  s.profile = profile(schedule.x_edges);
+  const edges::Means& origin = means_[at(0)];
+  s.slip_velocity_at_origin = origin.W;
+  s.stress_at_origin = origin.k;
+  s.slip_at_origin = slip_at_origin();
+  find_peak(s);
+  s.fronts = fronts(schedule.threshold, s.peak_slip_velocity);
+  s.energy = energy_;
+  return s;
+}
+
+}  // namespace slipfront::pulse

@@ -1,0 +1,48 @@
+#pragma once
+/// \file
+/// The averages of many trains along x, and their integrals from the left.
+
+#include <vector>
+
+#include "pulse/contours/edges.hpp"
+#include "slipfront/output/snapshot.hpp"
+
+namespace slipfront::pulse {
+
+class ManyTrains;
+
+/// Slip is the integral of the stress at t = 0 less that now, from where nothing has moved.
+class Along {
+ public:
+  /// `x_edges`: edges of the cells of a profile, if one is wanted.
+  explicit Along(const ManyTrains& trains, const std::vector<double>& x_edges = {});
+
+  double slip_at_origin() const { return -lost_[at(0)]; }
+  /// 2 pi times the dislocations in the domain at t = 0.
+  double count() const { return count_; }
+  double conservation_error() const;
+  /// Everything of a snapshot but the further scalars.
+  output::Snapshot snapshot(const output::Schedule& schedule) const;
+
+ private:
+  /// Index of a node at x.
+  std::size_t at(double x) const;
+  bool in_domain(std::size_t node) const;
+  void find_nodes(const std::vector<double>& x_edges);
+  void integrate();
+  output::Profile profile(const std::vector<double>& x_edges) const;
+  void find_peak(output::Snapshot& s) const;
+  output::Fronts fronts(double threshold, double peak) const;
+  double trailing_front() const;
+  double leading_front() const;
+  double visible(double x) const;
+
+  const ManyTrains& trains_;
+  std::vector<double> nodes_;          ///< x, rising: points of curves now and at t = 0, and those of the profile
+  std::vector<edges::Means> means_;    ///< at the nodes
+  std::vector<double> stress_, lost_;  ///< integrals from the left up to each node: of k, and of k less that at t = 0
+  double count_ = 0, uncounted_ = 0;
+  output::Energy energy_{};
+};
+
+}  // namespace slipfront::pulse

@@ -1,0 +1,59 @@
+#pragma once
+/// \file
+/// The motion of a pulse as a run sees it: with one train at each position (one_train.hpp), or with many
+/// (contours/many_trains.hpp).
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "foundation/bytes.hpp"
+#include "foundation/math/constants.hpp"
+#include "pulse/checks/slip_record.hpp"
+#include "slipfront/output/self_check.hpp"
+#include "slipfront/output/snapshot.hpp"
+#include "slipfront/pulse/problem.hpp"
+
+namespace slipfront::pulse {
+
+class Motion {
+ public:
+  virtual ~Motion() = default;
+
+  virtual const Problem& problem() const = 0;
+  virtual double time() const = 0;
+  virtual long steps() const = 0;
+  /// Advances to `target`. Calls `after_step` after each step, and stops early if it returns true. Returns whether
+  /// `target` was reached. \throws NumericsError.
+  virtual bool advance_to(double target, const std::function<bool()>& after_step) = 0;
+  /// Whether the last step might have been different if the target had been later.
+  virtual bool aimed_at_target() const = 0;
+  virtual double expected_steps(double duration) const = 0;
+  /// Reason for short steps, as a sentence without a full stop.
+  virtual std::string reason_of_short_steps() const = 0;
+
+  /// Copies the state into arrays that exist, so that a step allocates nothing.
+  virtual void store() = 0;
+  /// Goes back to the stored state, and forgets it.
+  virtual void go_back() = 0;
+  /// Writes or reads the present state.
+  virtual void save(bytes::Writer& writer) const = 0;
+  virtual void restore(bytes::Reader& reader) = 0;
+  /// Writes or reads the stored state.
+  virtual void save_stored(bytes::Writer& writer) const = 0;
+  virtual void restore_stored(bytes::Reader& reader) = 0;
+
+  /// The results now, apart from further scalars.
+  virtual output::Snapshot observe(const output::Schedule& schedule) const = 0;
+  virtual output::Findings findings(const std::vector<output::Snapshot>& snapshots) const = 0;
+  virtual std::optional<SlipTwice> slip_twice() const = 0;
+  /// Relative error of the number of dislocations.
+  virtual double conservation_error() const = 0;
+  /// Time and x at which dislocations first overtake each other; NaN if they do not, or if that is no approximation.
+  virtual double crossing_time() const { return none; }
+  virtual double crossing_position() const { return none; }
+};
+
+}  // namespace slipfront::pulse

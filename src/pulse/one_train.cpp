@@ -1,0 +1,76 @@
+#include "pulse/one_train.hpp"
+
+#include <utility>
+
+#include "pulse/checkpoint.hpp"
+#include "pulse/checks/checks.hpp"
+#include "pulse/observe/observe.hpp"
+
+namespace slipfront::pulse {
+
+OneTrain::OneTrain(Problem problem)
+    : solver_(std::move(problem)), trailing_characteristic_(solver_), first_energy_(stored_energy(solver_)) {}
+
+bool OneTrain::advance_to(double target, const std::function<bool()>& after_step) {
+  double before = time();
+  return solver_.advance_to(target, [&] {
+    const Cells& cells = solver_.cells();
+    trailing_characteristic_.advance(solver_, cells.time - before);
+    before = cells.time;
+    // We sample implicit steps more often: one costs as much as ten samples, an explicit step only as much as a few.
+    const bool begins = cells.steps < 64, is_explicit = cells.face_momentum.empty();
+    if (cells.steps % (is_explicit ? begins ? 4 : 16 : begins ? 1 : 2) == 0) slip_.sample(solver_);
+    return after_step();
+  });
+}
+
+void OneTrain::store() {
+  if (!stored_) stored_.emplace();
+  stored_->cells = solver_.cells();
+  stored_->trailing_characteristic = trailing_characteristic_.position();
+  stored_->slip = slip_;
+}
+
+void OneTrain::go_to(Saved saved) {
+  slip_ = saved.slip;
+  solver_.restore(std::move(saved.cells));
+  trailing_characteristic_.restore(solver_, saved.trailing_characteristic);
+}
+
+void OneTrain::go_back() { go_to(*std::exchange(stored_, std::nullopt)); }
+
+void OneTrain::put(bytes::Writer& writer, const Saved& state) const {
+  checkpoint::put(writer, state.cells, problem().friction);
+  checkpoint::put_number(writer, "trailing_characteristic", state.trailing_characteristic);
+  state.slip.save(writer);
+}
+
+OneTrain::Saved OneTrain::get(bytes::Reader& reader) const {
+  Saved state{.cells = checkpoint::get_cells(reader, problem().friction), .trailing_characteristic = 0, .slip = {}};
+  state.trailing_characteristic = checkpoint::get_number(reader, "trailing_characteristic");
+  state.slip.restore(reader);
+  return state;
+}
+
+void OneTrain::save(bytes::Writer& writer) const {
+  put(writer, {solver_.cells(), trailing_characteristic_.position(), slip_});
+}
+void OneTrain::restore(bytes::Reader& reader) { go_to(get(reader)); }
+void OneTrain::save_stored(bytes::Writer& writer) const { put(writer, *stored_); }
+void OneTrain::restore_stored(bytes::Reader& reader) { stored_ = get(reader); }
+
+output::Snapshot OneTrain::observe(const output::Schedule& schedule) const {
+  output::Snapshot s = pulse::observe(solver_, schedule.x_edges, trailing_characteristic_, schedule.threshold);
+  const StoredEnergy stored = stored_energy(solver_);
+  output::Energy& e = s.energy;
+  const double released =
+      (first_energy_.isolated - stored.isolated + e.through_ends) + first_energy_.interaction - stored.interaction;
+  e.shocks = released + first_energy_.kinetic + e.supplied - e.dissipated - e.kinetic;
+  return s;
+}
+
+output::Findings OneTrain::findings(const std::vector<output::Snapshot>& snapshots) const {
+  return Checks(solver_, first_energy_, slip_, snapshots).findings();
+}
+
+}  // namespace slipfront::pulse

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pulse/checks/slip_record.hpp"
+#include "pulse/motion.hpp"
+#include "pulse/observe/energy.hpp"
+#include "pulse/observe/trailing_characteristic.hpp"
+#include "pulse/solver.hpp"
+
+namespace slipfront::pulse {
+
+/// One train at each position, by finite volumes (solver.hpp).
+class OneTrain : public Motion {
+ public:
+  explicit OneTrain(Problem problem);
+
+  const Solver& solver() const { return solver_; }
+  const Problem& problem() const override { return solver_.problem(); }
+  double time() const override { return solver_.cells().time; }
+  long steps() const override { return solver_.cells().steps; }
+  bool advance_to(double target, const std::function<bool()>& after_step) override;
+  bool aimed_at_target() const override { return solver_.aimed_at_time(); }
+  double expected_steps(double duration) const override { return solver_.expected_steps(duration); }
+  std::string reason_of_short_steps() const override { return solver_.reason_of_short_steps(); }
+
+  void store() override;
+  void go_back() override;
+  void save(bytes::Writer& writer) const override;
+  void restore(bytes::Reader& reader) override;
+  void save_stored(bytes::Writer& writer) const override;
+  void restore_stored(bytes::Reader& reader) override;
+
+  output::Snapshot observe(const output::Schedule& schedule) const override;
+  output::Findings findings(const std::vector<output::Snapshot>& snapshots) const override;
+  std::optional<SlipTwice> slip_twice() const override { return slip_.compare(solver_); }
+  double conservation_error() const override { return pulse::conservation_error(solver_); }
+  double crossing_time() const override { return solver_.cells().crossing_time; }
+  double crossing_position() const override { return solver_.cells().crossing_position; }
+
+ private:
+  /// The part of a checkpoint that describes the motion at one time.
+  struct Saved {
+    Cells cells = {};
+    double trailing_characteristic = 0;
+    SlipRecord slip = {};
+  };
+  void put(bytes::Writer& writer, const Saved& state) const;
+  Saved get(bytes::Reader& reader) const;
+  void go_to(Saved saved);
+
+  Solver solver_;
+  TrailingCharacteristic trailing_characteristic_;
+  StoredEnergy first_energy_;
+  SlipRecord slip_;  ///< at x = 0
+  std::optional<Saved> stored_;
+};
+
+}  // namespace slipfront::pulse
