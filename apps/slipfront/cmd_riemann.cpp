@@ -147,6 +147,14 @@ Json riemann_json(const TrainsPoint& point, const RiemannUnits& units) {
           {"each", std::move(each)}};
 }
 
+constexpr const char* shocks_depend_on_the_frame =
+    "shocks by dislocations and momentum depend on the frame of reference, and the equations without friction do not: "
+    "this is an approximation";
+
+bool has_shocks(const Shown& s) {
+  return s.left_wave.kind == Wave::Kind::shock || s.right_wave.kind == Wave::Kind::shock;
+}
+
 void print_json(const Shown& s, const RiemannUnits& units) {
   const double c = units.c.value;
   Json json = {{"left", riemann_json(slipfront::rupture::profile_point(s.left), units)},
@@ -156,7 +164,9 @@ void print_json(const Shown& s, const RiemannUnits& units) {
                {"right_wave", riemann_json(s.right_wave, c)},
                {"left_edge", s.edges.left * c},
                {"right_edge", s.edges.right * c},
-               {"solution", s.exact ? "trains" : "shocks"}};
+               {"solution", s.exact ? "trains" : "shocks"},
+               {"warnings", Json::array()}};
+  if (has_shocks(s)) json["warnings"].push_back(shocks_depend_on_the_frame);
   if (s.exact) {
     json["waves"] = Json::array();
     for (const Region& region : s.regions)
@@ -244,6 +254,7 @@ void print_table(const Shown& s, const RiemannUnits& units) {
   add_wave(s.right_wave);
   add("right", number(s.edges.right * c), "", &right);
   put(table.text());
+  if (has_shocks(s)) put(std::string(shocks_depend_on_the_frame) + "\n");
   if (s.exact) print_origin(s.at(0), units);
 }
 
@@ -292,7 +303,7 @@ Runner add_riemann(CommandLine& program) {
   command
       .option("--solution", "KIND", arguments->solution,
               "trains: exact. shocks: one train at each position, with shocks that conserve dislocations and momentum, "
-              "as in pulse (default: trains)")
+              "as in pulse; an approximation that depends on the frame of reference (default: trains)")
       .one_of({"trains", "shocks"});
   add_si_options(command, arguments->si);
   add_common_options(command, arguments->common);

@@ -133,7 +133,7 @@ std::string table_of(const std::vector<output::SlipEvent>& events, const scenari
   }
   std::string text = count + table.text();
   for (const auto& column : columns_without_value(events))
-    text += fmt::format("{} is nan: {}\n", column.about.name, column.reason);
+    text += fitted(fmt::format("{} is nan: {}", column.about.name, column.reason), 2);
   return text;
 }
 

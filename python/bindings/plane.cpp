@@ -32,6 +32,7 @@ void add_rows(py::dict& summary, py::dict& errors, const std::vector<run::PlaneR
       summary[key] = py::cast(row.values);
     else
       summary[key] = row.is_whole ? py::cast(static_cast<long>(row.values.front())) : py::cast(row.values.front());
+    if (!row.reason.empty()) summary[py::str(prefix + row.key + "_reason")] = row.reason;
     bool known = !row.errors.empty();
     for (const double error : row.errors) known = known && std::isfinite(error);
     if (known) errors[key] = row.is_list ? py::cast(row.errors) : py::cast(row.errors.front());

@@ -169,8 +169,10 @@ py::dict dataset_of(const record::PulseMetadata& metadata, const std::string& fo
 
 py::dict summary_of(const std::vector<run::SummaryValue>& summary, const std::optional<medium::SiUnits>& units) {
   py::dict result;
-  for (const auto& row : summary)
+  for (const auto& row : summary) {
     result[py::str(row.key)] = py::cast(units ? run::in_si(row, *units).value : row.value);
+    if (!row.reason.empty()) result[py::str(row.key + "_reason")] = row.reason;
+  }
   return result;
 }
 

@@ -37,7 +37,7 @@ def riemann(left, right, x_over_t=None, solution="trains"):
 
     solution : str
         "trains": exact. "shocks": one train at each position, with shocks that conserve dislocations and momentum, as in
-        slipfront.pulse.
+        slipfront.pulse. This is an approximation that depends on the frame of reference.
 
     Returns
     -------

@@ -84,8 +84,8 @@ def pulse(scenario, *, set=None, output=None, resume=None, progress=None, thread
     in b / A. k, Sigma, U, W, slip and stress_drop depend on both. Fronts, energies and values at x = 0 depend on time. The
     attributes are the values that `slipfront pulse --json` prints for the end of the run: closure, friction_coefficient,
     damping_number, ..., wall_seconds. A value that does not exist is NaN, such as friction_coefficient and damping_number
-    (Gamma = C t) unless friction is viscous. With `errors`, the attributes slip_at_origin_error and so on are their
-    estimated errors.
+    (Gamma = C t) unless friction is viscous; some have a reason, such as energy_shocks_reason. With `errors`, the
+    attributes slip_at_origin_error and so on are their estimated errors.
 
     Raises
     ------

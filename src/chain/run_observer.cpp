@@ -173,6 +173,7 @@ Snapshot RunObserver::snapshot(double time) const {
     throw NumericsError("The chain diverged: more than " + digits(most_dislocations_a_site) +
                         " dislocations per site at t = " + digits(time));
   find_fronts(s, velocities);
+  if (!chain_.problem().substrate) s.energy.phonons = none;  // no trains to compare with
   add_energy(s, now);
   output::add_further_scalars(s, schedule_);
   return s;

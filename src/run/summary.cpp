@@ -1,7 +1,10 @@
 #include "run/summary.hpp"
 
+#include <cmath>
 #include <limits>
 
+#include "foundation/math/constants.hpp"
+#include "foundation/text/digits.hpp"
 #include "output/further_scalars.hpp"
 #include "record/pulses/pulse_variables.hpp"
 #include "slipfront/setup/problem.hpp"
@@ -76,8 +79,15 @@ std::vector<SummaryItem<FinishedPulse>> pulse_fronts_and_energy() {
        "energy supplied by F since t = 0"},
       {"energy_through_ends", [](const FinishedPulse& e) -> Value { return last(e).energy.through_ends; },
        "energy that came in through the ends of the domain"},
-      {"energy_shocks", [](const FinishedPulse& e) -> Value { return last(e).energy.shocks; },
-       "energy lost where trains run into each other"},
+      {"energy_shocks",
+       [](const FinishedPulse& e) -> Value {
+         return std::isnan(e.run.solver().cells().crossing_time) ? none : last(e).energy.shocks;
+       },
+       "energy lost where trains run into each other",
+       [](const FinishedPulse& e) -> std::string {
+         return "no trains have run into each other, and the rest of the balance, " + digits(last(e).energy.shocks, 2) +
+                " in the units of the model, is the error of the cells";
+       }},
   };
 }
 
@@ -85,9 +95,11 @@ std::vector<SummaryItem<FinishedPulse>> pulse_fronts_and_energy() {
 std::vector<SummaryItem<FinishedPulse>> pulse_solver() {
   return {
       {"first_crossing_time", [](const FinishedPulse& e) -> Value { return e.run.crossing_time(); },
-       "time at which dislocations first overtake each other"},
+       "time at which dislocations first overtake each other",
+       [](const FinishedPulse&) -> std::string { return "none have"; }},
       {"first_crossing_position", [](const FinishedPulse& e) -> Value { return e.run.crossing_position(); },
-       "x at which they do; averages are approximate behind it"},
+       "x at which they do; averages are approximate behind it",
+       [](const FinishedPulse&) -> std::string { return "none have"; }},
       {"conservation_error", [](const FinishedPulse& e) -> Value { return e.run.conservation_error(); },
        "relative error of the number of dislocations"},
       {"cells", [](const FinishedPulse& e) -> Value { return static_cast<long>(e.run.problem().cells); },
@@ -146,7 +158,10 @@ std::vector<SummaryItem<FinishedChain>> chain_solver() {
       {"dislocations", [](const FinishedChain& e) -> Value { return e.balance.dislocations; },
        "number of dislocations at the end"},
       {"energy_phonons", [](const FinishedChain& e) -> Value { return last(e).energy.phonons; },
-       "energy less that of uniform trains with the same averages"},
+       "energy less that of uniform trains with the same averages",
+       [](const FinishedChain&) -> std::string {
+         return "the surface is smooth (interface.contact = 0), and there are no trains without a substrate";
+       }},
       {"energy_drift", [](const FinishedChain& e) -> Value { return e.balance.energy_drift; },
        "relative error of the balance of energy and work since t = 0"},
       {"charge_error", [](const FinishedChain& e) -> Value { return e.balance.charge_error; },

@@ -73,6 +73,9 @@ class Chain(CommandLine):
         self.assertEqual(len(events), 4)
         self.assertLess(abs((events[3]["onset"] - events[2]["onset"]) / 51684.606 - 1), 2e-3)
         self.assertIsNone(events[3]["rupture_velocity"])
+        self.assertIsNone(whole["energy_phonons"])  # a smooth surface has no trains
+        self.assertIn("smooth", whole["reasons"]["energy_phonons"])
+        self.assertIn("events.rupture_velocity", whole["reasons"])
         self.assertLess(whole["energy_drift"], 1e-10)
         # A block without a substrate has no dislocations, and needs no larger scale.
         self.assertEqual(self.chain(case, "--set", "time.end=50000")["warnings"], [])

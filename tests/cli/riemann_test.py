@@ -24,6 +24,9 @@ class Riemann(CommandLine):
     def test_shocks_conserve_dislocations(self):
         """The speed s of a shock obeys s [Sigma] = [W]."""
         out = json.loads(self.ok("riemann", "--left", "1,0.3", "--right", "0.5,-0.2", "--solution", "shocks", "--json"))
+        self.assertIn("depend on the frame", out["warnings"][0])
+        self.assertIn("depend on the frame", self.ok("riemann", "--left", "1,0.3", "--right", "0.5,-0.2", "--solution", "shocks"))
+        self.assertEqual(json.loads(self.ok("riemann", "--left", "1", "--right", "0", "--solution", "shocks", "--json"))["warnings"], [])
         self.assertNotIn("waves", out)
         for side in ("left", "right"):
             wave, state, star = out[side + "_wave"], out[side], out["star"]

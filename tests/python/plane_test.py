@@ -20,7 +20,8 @@ class Plane(CommandLine):
     def test_summary_and_errors_are_the_json_of_the_command_line(self):
         asked = json.loads(self.ok("plane", RINGS, "--set", *SETTINGS, "--json"))
         got = slipfront.plane(RINGS, set=SMALL).attrs
-        energies, errors = asked.pop("energies"), asked.pop("errors")
+        energies, errors, reasons = asked.pop("energies"), asked.pop("errors"), asked.pop("reasons")
+        self.assertEqual({key: got[f"{key}_reason"] for key in reasons}, reasons)
         of_energies = errors.pop("energies")
         for part, known in [(asked, errors), ({f"energy_{k}": v for k, v in energies.items()}, {f"energy_{k}": v for k, v in of_energies.items()})]:
             for key, value in part.items():

@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "pulse/solver.hpp"
 #include "record/files/text_file.hpp"
 #include "record/netcdf/table_file.hpp"
 #include "slipfront/error.hpp"
@@ -57,12 +56,12 @@ bool resumes(const char* path) {
   bool finished = false;
   pulse::Run whole(problem, schedule);
   const std::string end = end_of(whole, {}, finished);
-  const long piece = whole.solver().cells().steps / 3 + 1;
+  const long piece = whole.steps() / 3 + 1;
   auto run = std::make_unique<pulse::Run>(problem, schedule);
   while (true) {
-    const long until = run->solver().cells().steps + piece;
+    const long until = run->steps() + piece;
     const std::string state = end_of(
-        *run, [&] { return run->solver().cells().steps >= until; }, finished);
+        *run, [&] { return run->steps() >= until; }, finished);
     if (finished) return state == end && continues(problem, schedule, end);
     run = std::make_unique<pulse::Run>(problem, schedule, state, run->snapshots());
   }

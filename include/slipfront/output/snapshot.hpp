@@ -55,8 +55,10 @@ struct Energy {
   double dissipated;    ///< energy that friction dissipated since t = 0
   double supplied;      ///< energy that the forcing F supplied since t = 0
   double through_ends;  ///< energy that entered through the ends of the domain since t = 0; NaN for a chain
-  double shocks;        ///< energy lost in collisions of trains since t = 0, the rest of the budget; NaN for a chain
-  double phonons;       ///< H of a chain, less that of the uniform train with the same k and W; NaN for other runs
+  /// The rest of the budget since t = 0: energy lost in collisions of trains, and errors of the cells. NaN for a chain.
+  double shocks;
+  /// H of a chain, less that of the uniform train with the same k and W; NaN without a substrate, and for other runs.
+  double phonons;
 };
 
 struct Snapshot {

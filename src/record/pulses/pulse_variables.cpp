@@ -78,7 +78,8 @@ constexpr ScalarVariable members[] = {
     absentable<&Snapshot::energy, &Energy::through_ends>(
         {"energy_through_ends", "energy that came in through the ends of the domain since time 0", energy, "Eq. 7"}),
     absentable<&Snapshot::energy, &Energy::shocks>(
-        {"energy_shocks", "energy lost where trains run into each other since time 0", energy, "Eq. 7"}),
+        {"energy_shocks", "rest of the balance of energy: what is lost where trains run into each other, and errors",
+         energy, "Eq. 7"}),
     absentable<&Snapshot::energy, &Energy::phonons>(
         {"energy_phonons", "energy of a chain less that of uniform trains with its averages", energy, "Eq. 6"}),
     absentable<&Snapshot::slip_velocity_at_origin>(
