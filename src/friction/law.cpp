@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "foundation/math/bracket.hpp"
+#include "foundation/math/roots.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::friction {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "foundation/math/newton.hpp"
+#include "foundation/math/roots.hpp"
 #include "slipfront/elliptic/complete.hpp"
 #include "slipfront/modulation/characteristics.hpp"
 

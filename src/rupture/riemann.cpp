@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "foundation/math/bracket.hpp"
+#include "foundation/math/roots.hpp"
 #include "foundation/text/digits.hpp"
 #include "modulation/equations.hpp"
 #include "rupture/inverse.hpp"

@@ -1,8 +1,8 @@
 #include <cmath>
 #include <limits>
 
-#include "foundation/math/bracket.hpp"
 #include "foundation/math/constants.hpp"
+#include "foundation/math/roots.hpp"
 #include "output/further_scalars.hpp"
 #include "slipfront/rupture/riemann.hpp"
 #include "slipfront/setup/compare.hpp"

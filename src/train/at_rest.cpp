@@ -1,7 +1,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "foundation/math/newton.hpp"
+#include "foundation/math/roots.hpp"
 #include "slipfront/elliptic/complete.hpp"
 #include "slipfront/train/train.hpp"
 

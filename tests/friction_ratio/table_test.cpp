@@ -5,9 +5,9 @@
 #include <cmath>
 #include <vector>
 
-#include "solve.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/rupture/relations.hpp"
+#include "solve.hpp"
 
 namespace {
 

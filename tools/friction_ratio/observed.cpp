@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "foundation/math/bracket.hpp"
+#include "foundation/math/roots.hpp"
 #include "slipfront/rupture/relations.hpp"
 #include "slipfront/rupture/riemann.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "chain/measure/interpolation.hpp"
 #include "chain/measure/own_sites.hpp"
-#include "foundation/math/bracket.hpp"
+#include "foundation/math/roots.hpp"
 
 namespace slipfront::chain {
 namespace {

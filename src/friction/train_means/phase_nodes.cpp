@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "foundation/math/bracket.hpp"
+#include "foundation/math/roots.hpp"
 #include "foundation/simd/vector_code.hpp"
 
 namespace slipfront::friction {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "foundation/math/newton.hpp"
+#include "foundation/math/roots.hpp"
 #include "slipfront/elliptic/complete.hpp"
 #include "slipfront/inference/posterior.hpp"
 #include "slipfront/rupture/relations.hpp"

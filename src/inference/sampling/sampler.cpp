@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "foundation/math/bracket.hpp"
+#include "foundation/math/roots.hpp"
 #include "inference/sampling/sobol.hpp"
 #include "slipfront/medium/medium.hpp"
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <string>
 
-#include "foundation/math/bracket.hpp"
+#include "foundation/math/roots.hpp"
 #include "foundation/text/digits.hpp"
 #include "plane/averaged/loops.hpp"
 #include "slipfront/error.hpp"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "foundation/math/bracket.hpp"
+#include "foundation/math/roots.hpp"
 #include "foundation/text/digits.hpp"
 #include "slipfront/error.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "foundation/math/bracket.hpp"
+#include "foundation/math/roots.hpp"
 #include "pulse/space/kernels.hpp"
 #include "slipfront/modulation/per_dislocation.hpp"
 

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <string>
 
-#include "foundation/math/bracket.hpp"
+#include "foundation/math/roots.hpp"
 #include "foundation/text/digits.hpp"
 #include "slipfront/error.hpp"
 

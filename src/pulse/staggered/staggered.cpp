@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "foundation/math/bracket.hpp"
+#include "foundation/math/roots.hpp"
 #include "foundation/text/digits.hpp"
 #include "modulation/equations.hpp"
 #include "pulse/space/kernels.hpp"

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "foundation/math/bracket.hpp"
+#include "foundation/math/roots.hpp"
 #include "pulse/grid/values.hpp"
 #include "pulse/space/cell_states.hpp"
 #include "pulse/space/setup.hpp"

@@ -8,7 +8,6 @@
 #include "record/events/event_groups.hpp"
 #include "record/events/event_layout.hpp"
 #include "record/files/fnv.hpp"
-#include "record/files/utf8.hpp"
 #include "record/netcdf/netcdf.hpp"
 #include "record/pulses/cf.hpp"
 #include "results/columns.hpp"

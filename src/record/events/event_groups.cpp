@@ -6,7 +6,6 @@
 
 #include "record/events/event_file.hpp"
 #include "record/events/event_layout.hpp"
-#include "record/files/utf8.hpp"
 #include "record/pulses/cf.hpp"
 
 namespace slipfront::record {

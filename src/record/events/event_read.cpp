@@ -2,7 +2,6 @@
 #include "record/events/event_layout.hpp"
 #include "record/files/seal.hpp"
 #include "record/files/text_file.hpp"
-#include "record/files/utf8.hpp"
 #include "record/netcdf/netcdf.hpp"
 #include "slipfront/error.hpp"
 

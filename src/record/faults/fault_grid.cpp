@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "finite_fault/source/static_stress.hpp"
-#include "record/files/utf8.hpp"
 #include "record/netcdf/dataset_file.hpp"
 #include "record/netcdf/netcdf.hpp"
 

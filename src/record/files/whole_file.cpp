@@ -75,7 +75,7 @@ int close_unlocked(int descriptor) {
 }
 
 /// Locks a part file of the process `writer`, unless another process holds the lock. A process that was killed can
-/// leave the lock to its copy (record/netcdf/isolated), which the system ends a moment later, so we wait for it.
+/// leave the lock to a fork that draws (`_files.isolated` in Python) and ends a moment later, so we wait for it.
 bool lock_part(int part, pid_t writer) {
   for (int tries = 0;; ++tries) {
     if (flock(part, LOCK_EX | LOCK_NB) == 0) return true;

@@ -5,7 +5,6 @@
 #include <map>
 #include <stdexcept>
 
-#include "record/files/utf8.hpp"
 #include "record/netcdf/netcdf.hpp"
 
 namespace slipfront::record {

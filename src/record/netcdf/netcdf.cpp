@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "foundation/text/printable.hpp"
 #include "record/files/fnv.hpp"
 #include "record/files/seal.hpp"
 #include "record/files/whole_file.hpp"
@@ -356,6 +357,22 @@ void Reader::read_row(const Variable& variable, std::size_t row, std::span<doubl
 }  // namespace slipfront::record::netcdf
 
 namespace slipfront::record {
+
+std::string clean_text(std::string_view text, std::size_t most) {
+  std::string clean;
+  while (!text.empty()) {
+    const std::size_t length = text.front() == '\0' ? 0 : utf8_length(text);
+    if (clean.size() + (length ? length : 1) > most) break;
+    if (length == 0) {
+      clean += '?';
+      text.remove_prefix(1);
+    } else {
+      clean.append(text.substr(0, length));
+      text.remove_prefix(length);
+    }
+  }
+  return clean;
+}
 
 void write_netcdf(const std::string& path, std::size_t expected_size,
                   const std::function<void(netcdf::Writer&)>& fill) {

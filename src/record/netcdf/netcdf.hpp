@@ -60,7 +60,7 @@ struct Image {
 struct Piece {
   std::string group, variable;           ///< no variable: an attribute of the group
   std::string attribute;                 ///< empty: values of the variable
-  std::vector<std::size_t> start, size;  ///< of the values
+  std::vector<std::size_t> start, size;  ///< ranges of the values
   std::uint64_t sum = 0;
 };
 
@@ -162,6 +162,10 @@ class Reader : Handle {
 }  // namespace slipfront::record::netcdf
 
 namespace slipfront::record {
+
+/// A text that is valid as an attribute in every language: `text` with '?' for each byte that is NUL or not UTF-8, cut
+/// between characters to at most `most` bytes.
+std::string clean_text(std::string_view text, std::size_t most);
 
 /// Writes a file that `fill` fills, with a seal (seal.hpp), completely or not at all. \throws FileError (one line: path
 /// and reason), std::bad_alloc.

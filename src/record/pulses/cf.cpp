@@ -5,8 +5,6 @@
 #include <string>
 #include <string_view>
 
-#include "record/files/utf8.hpp"
-
 namespace slipfront::record::cf {
 namespace {
 

@@ -6,7 +6,6 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "record/files/utf8.hpp"
 #include "record/netcdf/netcdf.hpp"
 #include "record/pulses/cf.hpp"
 #include "record/pulses/pulse_layout.hpp"

@@ -4,8 +4,8 @@
 #include <numbers>
 #include <utility>
 
-#include "foundation/math/bracket.hpp"
 #include "foundation/math/constants.hpp"
+#include "foundation/math/roots.hpp"
 #include "slipfront/elliptic/complete.hpp"
 
 namespace slipfront::chain {
