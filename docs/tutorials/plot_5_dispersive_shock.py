@@ -48,7 +48,7 @@ for name, solution in (("two trains", exact), ("one train, shock", shocks)):
 # The fold
 # --------
 #
-# Give each dislocation its rapidity r: alone it would move at tanh(r). A train fills a band of
+# Each dislocation has a rapidity r. Without others it would move at tanh(r). A train fills a band of
 # rapidities. At rest the band is from -psi to psi, where psi follows from the stress. So at t = 0
 # the filled region has two steps at x = 0, from the psi on the left to that on the right.
 #
