@@ -270,7 +270,7 @@ def ratio_of_fronts():
     columns = {"stress": ".4g", "rupture_velocity": ".4g", "leading_velocity": ".4g", "velocity_ratio": ".4f"}
     table(["Sigma-", "V-, c", "V+, c", "ratio"],
           [[f"{r[key]:{digits}}" for key, digits in columns.items()] for r in picked])
-    say("Into a stressed side, V+ is the velocity of the shock (closed form, Sigma- = 0.855):")
+    say("Into a stressed side, V+ is the velocity of the first dislocations, which overtake others (closed form, Sigma- = 0.855):")
     say()
     shocks = []
     for right in (0.05, 0.179, 0.4, 0.6, 0.8, 0.85):
@@ -304,10 +304,9 @@ def stressed_side():
     verdict(f"With C = 0.5 the pair (k, P) of the consistent closure is within {100 * abs(off):.2f} % of the chain, and the paper's closure is "
             f"{100 * (damped['pulse-paper'][0] / damped[FINEST][0] - 1):.0f} % above it", abs(off) < 0.01, f"scale {SCALES[-1]}")
     mean = free[FINEST][0] / (1.5 * math.pi)
-    say(f"Without friction, nothing dissipates the energy that the shock takes from the averaged motion. The energy follows the shock as phonons, a second phase that a "
-        f"single-phase theory lacks. The mean slip velocity is {mean:.4f} on the chain and {free['closed-form'][1]:.4f} in the closed form "
-        f"({percent(mean, free['closed-form'][1])} at scale {SCALES[-1]}, "
-        f"{percent(free['chain-1000'][0] / (1.5 * math.pi), free['closed-form'][1])} at 1000). More dislocations do not bring the two together.")
+    say(f"Without friction, dislocations overtake each other, and one train with a shock lacks the energy of the second train. The closed form has two trains there. The mean "
+        f"slip velocity is {mean:.4f} on the chain and {free['closed-form'][1]:.4f} in the closed form ({percent(mean, free['closed-form'][1])} at scale {SCALES[-1]}, "
+        f"{percent(free['chain-1000'][0] / (1.5 * math.pi), free['closed-form'][1])} at 1000); with one train it is {free['pulse-consistent'][1]:.4f}.")
     say()
 
 

@@ -1,4 +1,4 @@
-"""Draws the pictures of docs/theory: train.png, fan.png, friction.png and births.png.
+"""Draws the pictures of docs/theory: train.png, fan.png, fold.png, friction.png and births.png.
 
 Usage: PYTHONPATH=build/release/python figures.py [FOLDER]. Needs python3-matplotlib; takes half a minute.
 """
@@ -87,6 +87,31 @@ def fan():
     return figure
 
 
+def fold():
+    """The filled region of a step into a stressed side over x / t, and its slip velocity."""
+    right_stress = 0.6
+    below, above = slipfront.train.psi_at_rest([right_stress, STRESS])
+    share = np.linspace(0, 1, 200)
+    lower, upper = -above + (above - below) * share, below + (above - below) * share
+    lower_at = [slipfront.train.edge_speeds([r, above])[0] for r in lower]
+    upper_at = [slipfront.train.edge_speeds([-below, below, r, above])[2] for r in upper]
+    left_end, right_end = -0.6, 0.3
+    figure, (plane, profile) = plt.subplots(1, 2, figsize=(8.6, 3.4), layout="constrained")
+    x = [left_end, *lower_at, right_end, right_end, *upper_at, left_end]
+    r = [-above, *lower, -below, below, *upper, above]
+    plane.fill(x, r, color="C0", alpha=0.2, linewidth=0)
+    plane.plot(x, r, color="C0", linestyle="-")
+    plane.text(-0.5, 0, "one train", fontsize="small")
+    plane.text(0.1, 0.04, "fold", fontsize="small", color="C1")
+    plane.set(xlabel="x / t, c", ylabel="rapidity r", xlim=(left_end, right_end), title="The filled region")
+    x_over_t = np.linspace(left_end, right_end, 901)
+    profile.plot(x_over_t, slipfront.riemann(STRESS, right_stress, x_over_t).W, label="two trains, exact")
+    profile.plot(x_over_t, slipfront.riemann(STRESS, right_stress, x_over_t, solution="shocks").W, "--", color="0.5", label="one train, shock")
+    profile.set(xlabel="x / t, c", ylabel="slip velocity W, $cA/\\pi$", xlim=(left_end, right_end), ylim=(0, 0.04), title="Slip velocity")
+    profile.legend(loc="upper left", fontsize="small")
+    return figure
+
+
 def mean(strength, psi, weight):
     """Mean of a law over slip (weight 1) or over length (weight 1 / sigma) in a train with sinh(phi) = 1.
     Equal steps in s, with u = 4 arctan(e^s), resolve the slow part of the train near u = 0."""
@@ -147,7 +172,7 @@ def births():
 def main():
     folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else HERE)
     plt.style.use(STYLE)
-    for draw in (train, fan, friction, births):
+    for draw in (train, fan, fold, friction, births):
         picture = io.BytesIO()
         draw().savefig(picture, dpi=110)
         Image.open(picture).convert("P", palette=Image.Palette.ADAPTIVE, colors=64).save(folder / f"{draw.__name__}.png", optimize=True)

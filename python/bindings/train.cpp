@@ -178,6 +178,14 @@ py::tuple riemann_trains(double left_stress, double left_velocity, double right_
                         waves);
 }
 
+/// The speed of each edge of the bands between these rising edges.
+py::array_t<double> edge_speeds(const Numbers& edges) {
+  const double* r = edges.data();
+  const std::vector<double> speeds =
+      rupture::edge_speeds(rupture::bands_of_edges({r, static_cast<std::size_t>(edges.size())}));
+  return py::array_t<double>(static_cast<py::ssize_t>(speeds.size()), speeds.data());
+}
+
 }  // namespace
 
 void bind_train(py::module_& m) {
@@ -188,6 +196,7 @@ void bind_train(py::module_& m) {
   m.def("psi_at_rest", psi_at_rest);
   m.def("stress_at_rest", stress_at_rest);
   m.def("riemann", riemann);
+  m.def("edge_speeds", edge_speeds);
   m.def("riemann_trains", riemann_trains);
   m.attr("averages_described") = all(averages_described);
   m.attr("fields_described") = all(fields_described);

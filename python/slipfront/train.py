@@ -8,8 +8,9 @@ Datasets over "state", dim_0 ..., or the dimensions of the first argument that i
 from . import _slipfront
 from ._dataset import of_columns
 from ._numbers import flat, one_number
+from ._slipfront import InputError
 
-__all__ = ["averages", "fields", "jacobi", "profile", "psi_at_rest", "spacing", "stress_at_rest"]
+__all__ = ["averages", "edge_speeds", "fields", "jacobi", "profile", "psi_at_rest", "spacing", "stress_at_rest"]
 
 
 def averages(phi, psi, contact=1.0):
@@ -21,6 +22,19 @@ def averages(phi, psi, contact=1.0):
     """
     (phi, psi, contact), *rest = flat(phi=phi, psi=psi, contact=contact)
     return of_columns(_slipfront.averages_described, _slipfront.averages(phi, psi, contact), *rest)
+
+
+def edge_speeds(edges):
+    """Speeds of the edges of the bands of rapidities that N trains at one position fill, in c, as an array. `edges` are the
+    2 N rapidities, rising: band, gap, band ... band (docs/theory/9_trains.md 9.1). A width may be 0.
+
+    >>> slipfront.train.edge_speeds([-0.1, 0.05, 0.2, 0.45]).round(4).tolist()
+    [-0.5541, -0.0799, 0.1358, 0.7522]
+    """
+    (rapidities,), shape, *_ = flat(edges=edges)
+    if len(shape) != 1 or shape[0] % 2 or not shape[0]:
+        raise InputError(f"edges: shape {shape}; allowed: one row of an even number of rapidities")
+    return _slipfront.edge_speeds(rapidities)
 
 
 def fields(phi, psi, xi):

@@ -31,7 +31,7 @@ void OneTrain::store() {
   stored_->slip = slip_;
 }
 
-void OneTrain::go_to(Saved saved) {
+void OneTrain::go_to(OneTrainState saved) {
   slip_ = saved.slip;
   solver_.restore(std::move(saved.cells));
   trailing_characteristic_.restore(solver_, saved.trailing_characteristic);
@@ -39,14 +39,15 @@ void OneTrain::go_to(Saved saved) {
 
 void OneTrain::go_back() { go_to(*std::exchange(stored_, std::nullopt)); }
 
-void OneTrain::put(bytes::Writer& writer, const Saved& state) const {
+void OneTrain::put(bytes::Writer& writer, const OneTrainState& state) const {
   checkpoint::put(writer, state.cells, problem().friction);
   checkpoint::put_number(writer, "trailing_characteristic", state.trailing_characteristic);
   state.slip.save(writer);
 }
 
-OneTrain::Saved OneTrain::get(bytes::Reader& reader) const {
-  Saved state{.cells = checkpoint::get_cells(reader, problem().friction), .trailing_characteristic = 0, .slip = {}};
+OneTrainState OneTrain::get(bytes::Reader& reader) const {
+  OneTrainState state{
+      .cells = checkpoint::get_cells(reader, problem().friction), .trailing_characteristic = 0, .slip = {}};
   state.trailing_characteristic = checkpoint::get_number(reader, "trailing_characteristic");
   state.slip.restore(reader);
   return state;

@@ -12,6 +12,13 @@
 
 namespace slipfront::pulse {
 
+/// The part of a checkpoint that describes the motion of one train at one time.
+struct OneTrainState {
+  Cells cells = {};
+  double trailing_characteristic = 0;
+  SlipRecord slip = {};
+};
+
 /// One train at each position, by finite volumes (solver.hpp).
 class OneTrain : public Motion {
  public:
@@ -41,21 +48,15 @@ class OneTrain : public Motion {
   double crossing_position() const override { return solver_.cells().crossing_position; }
 
  private:
-  /// The part of a checkpoint that describes the motion at one time.
-  struct Saved {
-    Cells cells = {};
-    double trailing_characteristic = 0;
-    SlipRecord slip = {};
-  };
-  void put(bytes::Writer& writer, const Saved& state) const;
-  Saved get(bytes::Reader& reader) const;
-  void go_to(Saved saved);
+  void put(bytes::Writer& writer, const OneTrainState& state) const;
+  OneTrainState get(bytes::Reader& reader) const;
+  void go_to(OneTrainState saved);
 
   Solver solver_;
   TrailingCharacteristic trailing_characteristic_;
   StoredEnergy first_energy_;
   SlipRecord slip_;  ///< at x = 0
-  std::optional<Saved> stored_;
+  std::optional<OneTrainState> stored_;
 };
 
 }  // namespace slipfront::pulse

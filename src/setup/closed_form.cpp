@@ -4,7 +4,7 @@
 #include "foundation/math/constants.hpp"
 #include "foundation/math/roots.hpp"
 #include "output/further_scalars.hpp"
-#include "slipfront/rupture/riemann.hpp"
+#include "slipfront/rupture/riemann_trains.hpp"
 #include "slipfront/setup/compare.hpp"
 #include "slipfront/train/train.hpp"
 
@@ -12,17 +12,16 @@ namespace slipfront::setup {
 namespace {
 
 using rupture::Edges;
-using rupture::RiemannSolution;
+using rupture::TrainsSolution;
 
-train::Averages at(const RiemannSolution& solution, double x_over_t) {
-  return train::averages(rupture::sample(solution, x_over_t));
+double velocity(const TrainsSolution& solution, double x_over_t) {
+  return rupture::profile_point(solution, x_over_t).all.W;
 }
-
-double speed(const RiemannSolution& solution, double x_over_t) { return std::fabs(at(solution, x_over_t).W); }
+double speed(const TrainsSolution& solution, double x_over_t) { return std::fabs(velocity(solution, x_over_t)); }
 
 /// x/t of the greatest slip velocity. We take the best of many samples, and refine it by golden-section search between
 /// its neighbours.
-double peak_of(const RiemannSolution& solution, const Edges& edges) {
+double peak_of(const TrainsSolution& solution, const Edges& edges) {
   constexpr int samples = 2000;
   const double width = edges.right - edges.left;
   const auto place = [&](int i) { return edges.left + width * i / samples; };
@@ -43,16 +42,16 @@ double peak_of(const RiemannSolution& solution, const Edges& edges) {
 
 /// x/t between a position at rest and the peak, at which the slip velocity passes `level`. The slip velocity is
 /// monotone in each wave.
-double passes(const RiemannSolution& solution, double resting, double peak, double level) {
+double passes(const TrainsSolution& solution, double resting, double peak, double level) {
   const auto is_slower = [&](double x_over_t) { return speed(solution, x_over_t) < level; };
   return bisected({.holding = resting, .failing = peak}, is_slower).failing;
 }
 
 /// Adds the values without a closed form: the peak of the slip velocity, and the fronts that an observer with a
 /// threshold sees. `fast` and `slow` are x/t of the fronts.
-void add_observed(output::Snapshot& s, const RiemannSolution& solution, double threshold, double fast, double slow) {
+void add_observed(output::Snapshot& s, const TrainsSolution& solution, double threshold, double fast, double slow) {
   const double peak = peak_of(solution, rupture::edges_of(solution)), most = speed(solution, peak);
-  s.peak_slip_velocity = at(solution, peak).W;
+  s.peak_slip_velocity = velocity(solution, peak);
   s.peak_position = s.time * peak;
   s.fronts.trailing_observed = s.time * passes(solution, fast, peak, threshold * most);
   s.fronts.leading_observed = s.time * passes(solution, slow, peak, threshold * most);
@@ -69,38 +68,38 @@ output::Energy energy_without_forces() {
           .phonons = none};
 }
 
-output::Snapshot snapshot_of(const RiemannSolution& solution, const output::Schedule& schedule, double time) {
+output::Snapshot snapshot_of(const TrainsSolution& solution, const output::Schedule& schedule, double time) {
   output::Snapshot s{};
   s.time = time;
-  const double left = train::averages(solution.left).k, right = train::averages(solution.right).k;
-  // k and W depend only on x/t, and k_t + W_x = 0. Hence slip = t (W + (k0 - k) x/t), with the density k0 at t = 0.
-  const auto slip = [&](const train::Averages& a, double x) { return time * a.W + x * ((x < 0 ? left : right) - a.k); };
-  const auto state = [&](double x) {
-    return time > 0 ? rupture::sample(solution, x / time) : (x < 0 ? solution.left : solution.right);
+  const auto bands = [&](double x) {
+    if (time > 0) return rupture::bands_at(solution, x / time);
+    const State& side = x < 0 ? solution.left : solution.right;
+    return side.empty() ? rupture::FilledBands{} : rupture::bands_of_train(side);
   };
+  const auto slip = [&](double x) { return time > 0 ? time * rupture::profile_point(solution, x / time).slip : 0; };
   for (std::size_t i = 0; i + 1 < schedule.x_edges.size(); ++i) {
     const double x = (schedule.x_edges[i] + schedule.x_edges[i + 1]) / 2;
-    const State here = state(x);
-    const train::Averages a = train::averages(here);
-    s.profile.k.push_back(a.k);
-    s.profile.U.push_back(here.empty() ? 0.0 : std::tanh(here.phi));
-    s.profile.W.push_back(a.W);
-    s.profile.H.push_back(a.H);
-    s.profile.slip.push_back(slip(a, x));
+    const rupture::FilledBands here = bands(x);
+    const rupture::ProfilePoint point = rupture::profile_point(here).all;
+    s.profile.k.push_back(point.Sigma);
+    s.profile.U.push_back(point.U);
+    s.profile.W.push_back(point.W);
+    s.profile.H.push_back(here.widths.empty() ? 0 : rupture::averages(here).H);
+    s.profile.slip.push_back(slip(x));
   }
   const Edges edges = rupture::edges_of(solution);
   s.energy = energy_without_forces();
-  const bool stressed_left = left >= right;
+  const bool stressed_left = solution.left.psi >= solution.right.psi;
   const double fast = stressed_left ? edges.left : edges.right, slow = stressed_left ? edges.right : edges.left;
   s.fronts = {.trailing = time * fast,
               .leading = time * slow,
               .trailing_characteristic = time * fast,
               .trailing_observed = none,
               .leading_observed = none};
-  const train::Averages origin = train::averages(state(0));
+  const rupture::ProfilePoint origin = rupture::profile_point(bands(0)).all;
   s.slip_velocity_at_origin = origin.W;
-  s.stress_at_origin = origin.k;
-  s.slip_at_origin = slip(origin, 0);
+  s.stress_at_origin = origin.Sigma;
+  s.slip_at_origin = slip(0);
   output::add_further_scalars(s, schedule);
   s.peak_position = none;
   if (time > 0) add_observed(s, solution, schedule.threshold, fast, slow);
@@ -112,8 +111,8 @@ output::Snapshot snapshot_of(const RiemannSolution& solution, const output::Sche
 std::optional<Level> closed_form(const scenario::Scenario& s, const output::Schedule& schedule) {
   if (!s.initial.jumps || s.friction.acts() || s.forcing_at || s.contact_at) return {};
   if (s.initial.stress_left == s.initial.stress_right) return {};  // nothing moves, so there is no wave to compare
-  const RiemannSolution solution =
-      rupture::solve_riemann(train::at_rest(s.initial.stress_left), train::at_rest(s.initial.stress_right));
+  const TrainsSolution solution =
+      rupture::solve_trains(train::at_rest(s.initial.stress_left), train::at_rest(s.initial.stress_right));
   const Edges edges = rupture::edges_of(solution);
   if (schedule.x_edges.front() > s.end * edges.left || schedule.x_edges.back() < s.end * edges.right) return {};
   Level level{.name = "closed-form"};

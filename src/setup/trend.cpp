@@ -70,11 +70,12 @@ std::string note_on_limits(const std::vector<Level>& levels) {
 std::vector<std::string> notes_on(const scenario::Scenario& s, const std::vector<Level>& levels) {
   std::vector<std::string> notes;
   const bool two_sides = s.initial.even_ends;
-  if (!s.friction.acts() && two_sides && s.initial.stress_left > 0 && s.initial.stress_right > 0 &&
-      s.initial.stress_left != s.initial.stress_right)
+  if (!s.friction.acts() && !s.pulse.many_trains && two_sides && s.initial.stress_left > 0 &&
+      s.initial.stress_right > 0 && s.initial.stress_left != s.initial.stress_right)
     notes.emplace_back(
-        "without friction the energy that a shock takes from the averaged motion stays behind it, as phonons: there no "
-        "scale brings chain and pulse together (docs/theory/3_modulation.md 3.6)");
+        "without friction dislocations overtake each other, and one train with a shock loses their energy: no scale "
+        "brings "
+        "chain and pulse together, but pulse.trains = \"many\" does (docs/theory/9_trains.md)");
   notes.emplace_back(
       "* as an observer with a threshold sees it; on a chain with little friction phonons run ahead, and raising "
       "pulse.threshold hides them");

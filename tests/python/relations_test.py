@@ -103,6 +103,17 @@ class Train(unittest.TestCase):
         stressed = slipfront.train.profile(0.855, 0.0, stress_right=0.179)
         self.assertAlmostEqual(float(stressed.W), 0.0442333337, 9)
 
+    def test_edge_speeds(self):
+        # docs/theory/9_trains.md: the speeds of two trains, and those of one
+        expected = [-0.55406978, -0.079921187, 0.13584596, 0.75218808]
+        np.testing.assert_allclose(slipfront.train.edge_speeds([-0.1, 0.05, 0.2, 0.45]), expected, rtol=1e-8)
+        one = slipfront.train.edge_speeds([-0.1, 0.3])
+        edges = slipfront.riemann((float(slipfront.train.averages(0.1, 0.2).k), math.tanh(0.1)), 0)
+        self.assertAlmostEqual(one[0], edges.left_edge, 10)
+        for bad in ([0.1], [], [[0, 1], [1, 2]], [0.3, 0.1]):
+            with self.assertRaises(slipfront.InputError):
+                slipfront.train.edge_speeds(bad)
+
     def test_refuses(self):
         train, medium = slipfront.train, slipfront.medium
         for call in [lambda: train.averages(0, -1), lambda: train.averages(math.nan, 1), lambda: train.averages([1, 2], [1, 2, 3]),

@@ -323,6 +323,16 @@ class Numbers(unittest.TestCase):
         self.assertEqual(chain["friction_coefficient"].values.tolist(), [0, 0.1, 0.5, 2])
         self.assertLess(float(abs(chain / ratio.sel(stress=0.855, closure="consistent") - 1).max()), 0.03)
 
+    def test_figure_11_without_friction(self):
+        data = self.data("fig-11")
+        free = data["without_friction"]
+        self.assertEqual(free.dims, ("stress_right", "time", "x"))
+        friction = data["W"].sel(closure="consistent")
+        self.assertTrue(bool((free.max("x").isel(time=slice(1, None)) > friction.max("x").isel(time=slice(1, None))).all()))
+        # Late and nearly symmetric: the slip velocity at the last time is that of the step, cut by the width of the profile.
+        exact = slipfront.relations(stress=[0.855], stress_right=[0.8])["slip_velocity"].item()
+        self.assertLess(abs(float(free.sel(stress_right=0.8).isel(time=-1).max()) / exact - 1), 0.05)
+
     def test_figure_12(self):
         data = self.data("fig-12")
         W = data["slip_velocity_at_origin"]

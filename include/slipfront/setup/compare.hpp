@@ -52,8 +52,9 @@ bool run_levels(const Comparison& comparison, int threads, std::vector<Level>& l
                 const std::function<void()>& next,
                 const std::function<bool(const std::string& level, double time, long steps)>& after_step);
 
-/// The closed form on the output grid: the solution of the Riemann problem (Eqs. 8-10 if the right side is empty).
-/// There is none with friction, forcing or a contact profile, without a step, or if waves reach an end of the domain.
+/// The closed form on the output grid: the exact solution of the Riemann problem (Eqs. 8-10 if the right side is
+/// empty). There is none with friction, forcing or a contact profile, without a step, or if waves reach an end of the
+/// domain.
 std::optional<Level> closed_form(const scenario::Scenario& scenario, const output::Schedule& schedule);
 
 /// A quantity for which the levels are compared at the end of the run.

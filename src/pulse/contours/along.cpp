@@ -46,9 +46,7 @@ void Along::find_nodes(const std::vector<double>& x_edges) {
   nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
 }
 
-/// Two-point Gauss rule between the nodes. At the ends of folds, the curves gain or lose some 1e-5 of the dislocations.
-/// We spread this over x in proportion to the change of the stress there, so that nothing slips ahead of the
-/// fronts.
+/// Two-point Gauss rule between the nodes.
 void Along::integrate() {
   const std::size_t pieces = nodes_.size() - 1;
   std::vector<double> x(3 * pieces + 1), inside(2 * pieces);  // nodes and Gauss points; Gauss points only
@@ -66,35 +64,43 @@ void Along::integrate() {
     means_[i] = now[3 * i];
     if (trains_.time() == 0) means_[i].W = 0;  // at rest, to rounding of the interpolated edges
   }
-  stress_.assign(nodes_.size(), 0.0);
-  lost_.assign(nodes_.size(), 0.0);
-  const Problem& p = trains_.problem();
   energy_ = {
       .elastic = 0, .kinetic = 0, .dissipated = 0, .supplied = 0, .through_ends = 0, .shocks = 0, .phonons = none};
+  stress_.assign(nodes_.size(), 0.0);
+  lost_.assign(nodes_.size(), 0.0);
   std::vector<double> changed(nodes_.size());
   for (std::size_t i = 0; i < pieces; ++i) {
     const double half = (nodes_[i + 1] - nodes_[i]) / 2;
-    const bool is_inside = nodes_[i] >= p.left && nodes_[i + 1] <= p.right;
-    double k = 0, lost = 0, change = 0;
+    stress_[i + 1] = stress_[i];
+    lost_[i + 1] = lost_[i];
+    changed[i + 1] = changed[i];
     for (std::size_t j = 0; j < 2; ++j) {
       const edges::Means &here = now[3 * i + 1 + j], &first = before[2 * i + j];
-      k += half * here.k;
-      lost += half * (here.k - first.k);
-      change += half * std::fabs(here.k - first.k);
-      energy_.shocks -= half * (here.H - first.H);
-      if (is_inside) {
-        const double at_rest = here.W == 0 ? here.H : energy_at_rest(here.k);
-        energy_.elastic += half * at_rest;
-        energy_.kinetic += half * std::fmax(here.H - at_rest, 0);
-        count_ += half * first.k;
-      } else {
-        energy_.through_ends -= half * (here.H - first.H);
-      }
+      stress_[i + 1] += half * here.k;
+      lost_[i + 1] += half * (here.k - first.k);
+      changed[i + 1] += half * std::fabs(here.k - first.k);
+      add_energy(i, half, here, first);
     }
-    stress_[i + 1] = stress_[i] + k;
-    lost_[i + 1] = lost_[i] + lost;
-    changed[i + 1] = changed[i] + change;
   }
+  spread_uncounted(changed);
+}
+
+/// Adds the energy at a Gauss point of the piece behind a node, and its change since t = 0.
+void Along::add_energy(std::size_t node, double weight, const edges::Means& now, const edges::Means& first) {
+  energy_.shocks -= weight * (now.H - first.H);
+  if (!(in_domain(node) && in_domain(node + 1))) {
+    energy_.through_ends -= weight * (now.H - first.H);
+    return;
+  }
+  const double at_rest = now.W == 0 ? now.H : energy_at_rest(now.k);
+  energy_.elastic += weight * at_rest;
+  energy_.kinetic += weight * std::fmax(now.H - at_rest, 0);
+  count_ += weight * first.k;
+}
+
+/// At the ends of folds, the curves gain or lose some 1e-5 of the dislocations. We spread this over x in proportion to
+/// the change of the stress there, so that nothing slips ahead of the fronts.
+void Along::spread_uncounted(const std::vector<double>& changed) {
   uncounted_ = lost_.back();
   for (std::size_t i = 0; i < lost_.size() && changed.back() > 0; ++i)
     lost_[i] -= uncounted_ * (changed[i] / changed.back());

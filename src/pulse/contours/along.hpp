@@ -30,6 +30,8 @@ class Along {
   bool in_domain(std::size_t node) const;
   void find_nodes(const std::vector<double>& x_edges);
   void integrate();
+  void add_energy(std::size_t node, double weight, const edges::Means& now, const edges::Means& first);
+  void spread_uncounted(const std::vector<double>& changed);
   output::Profile profile(const std::vector<double>& x_edges) const;
   void find_peak(output::Snapshot& s) const;
   output::Fronts fronts(double threshold, double peak) const;

@@ -33,7 +33,8 @@ Means means_of(const std::vector<double>& edges) {
     const bool same = !open.empty() && r - open.back() < no_width;
     same ? open.pop_back() : open.push_back(r);
   }
-  const auto trains = static_cast<double>(open.size() / 2);
+  const std::size_t bands = open.size() / 2;
+  const auto trains = static_cast<double>(bands);
   if (open.empty()) return {};
   if (open.size() == 2) {
     const train::Averages one = train::averages(train_between(open[0], open[1]));

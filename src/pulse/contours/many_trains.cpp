@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <utility>
 
-#include "foundation/math/step_control.hpp"
 #include "foundation/text/digits.hpp"
 #include "pulse/checkpoint.hpp"
 #include "pulse/contours/along.hpp"
@@ -60,39 +59,41 @@ std::string ManyTrains::reason_of_short_steps() const {
 /// A step of Bogacki and Shampine (1989, Appl. Math. Lett. 2:321), third order with an error estimate of second order.
 /// The tolerance is relative to the distance of the fastest point so far. We take the mean square over all points,
 /// because the speed at the end of a fold changes with the logarithm of the distance from it.
+StepAttempt ManyTrains::attempt(const std::vector<double>& before, double length) {
+  constexpr double tighter = 0.5;  // than that of one train, which limits the error of each step by its cells
+  const std::size_t n = before.size();
+  stage_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) stage_[i] = before[i] + length / 2 * speeds_[i];
+  find_speeds(stage_, second_);
+  for (std::size_t i = 0; i < n; ++i) stage_[i] = before[i] + 3 * length / 4 * second_[i];
+  find_speeds(stage_, third_);
+  for (std::size_t i = 0; i < n; ++i)
+    state_.x[i] = before[i] + length * (2 * speeds_[i] + 3 * second_[i] + 4 * third_[i]) / 9;
+  find_speeds(state_.x, last_);
+  double squares = 0, fastest = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double off = length * (-5 * speeds_[i] + 6 * second_[i] + 8 * third_[i] - 9 * last_[i]) / 72;
+    squares += off * off;
+    fastest = std::fmax(fastest, std::fabs(speeds_[i]));
+  }
+  const double allowed = tighter * problem_.explicit_tolerance * fastest * (state_.time + length);
+  const double error = fastest > 0 ? std::sqrt(squares / static_cast<double>(n)) / allowed : 0;
+  return {.succeeded = std::isfinite(error), .error = std::fmax(error, 1e-6)};
+}
+
 void ManyTrains::step(double target) {
   if (speeds_.empty()) find_speeds(state_.x, speeds_);
   const std::vector<double> before = state_.x;
-  const std::size_t n = before.size();
-  double fastest = 0;
-  for (const double v : speeds_) fastest = std::fmax(fastest, std::fabs(v));
   const double wanted = std::fmin(state_.step > 0 ? state_.step : first_step(), problem_.longest_step);
   const double remaining = target - state_.time, length = step_within(remaining, wanted);
-  constexpr double tighter = 0.5;  // than that of one train, which limits the error of each step by its cells
-  stage_.resize(n);
-  const auto attempt = [&](double dt) {
-    for (std::size_t i = 0; i < n; ++i) stage_[i] = before[i] + dt / 2 * speeds_[i];
-    find_speeds(stage_, second_);
-    for (std::size_t i = 0; i < n; ++i) stage_[i] = before[i] + 3 * dt / 4 * second_[i];
-    find_speeds(stage_, third_);
-    for (std::size_t i = 0; i < n; ++i)
-      state_.x[i] = before[i] + dt * (2 * speeds_[i] + 3 * second_[i] + 4 * third_[i]) / 9;
-    find_speeds(state_.x, last_);
-    double squares = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      const double off = dt * (-5 * speeds_[i] + 6 * second_[i] + 8 * third_[i] - 9 * last_[i]) / 72;
-      squares += off * off;
-    }
-    const double allowed = tighter * problem_.explicit_tolerance * fastest * (state_.time + dt);
-    const double error = fastest > 0 ? std::sqrt(squares / static_cast<double>(n)) / allowed : 0;
-    return StepAttempt{.succeeded = std::isfinite(error), .error = std::fmax(error, 1e-6)};
-  };
-  const StepTaken taken = take_step(StepControl{.order = 3}, length, attempt, [&](double dt, int attempts) {
-    constexpr int most_attempts = 40;
-    if (attempts < most_attempts) return false;
-    throw NumericsError("t = " + digits(state_.time) + ": no step of " + digits(dt) + " or more is accurate enough; " +
-                        reason_of_short_steps());
-  });
+  const StepTaken taken = take_step(
+      StepControl{.order = 3}, length, [&](double dt) { return attempt(before, dt); },
+      [&](double dt, int attempts) {
+        constexpr int most_attempts = 40;
+        if (attempts < most_attempts) return false;
+        throw NumericsError("t = " + digits(state_.time) + ": no step of " + digits(dt) +
+                            " or more is accurate enough; " + reason_of_short_steps());
+      });
   aimed_ = length != wanted;
   state_.time = taken.length == remaining ? target : state_.time + taken.length;
   state_.step = taken.next;
@@ -139,7 +140,7 @@ void ManyTrains::store() {
   *stored_ = state_;
 }
 
-void ManyTrains::go_to(Saved saved) {
+void ManyTrains::go_to(ManyTrainsState saved) {
   state_ = std::move(saved);
   now_.x = state_.x;
   speeds_.clear();
@@ -147,7 +148,7 @@ void ManyTrains::go_to(Saved saved) {
 
 void ManyTrains::go_back() { go_to(*std::exchange(stored_, std::nullopt)); }
 
-void ManyTrains::put(bytes::Writer& writer, const Saved& state) const {
+void ManyTrains::put(bytes::Writer& writer, const ManyTrainsState& state) const {
   writer.put(contour_format);
   checkpoint::put_number(writer, "time", state.time);
   checkpoint::put_number(writer, "steps", state.steps);
@@ -156,9 +157,9 @@ void ManyTrains::put(bytes::Writer& writer, const Saved& state) const {
   state.slip.save(writer);
 }
 
-ManyTrains::Saved ManyTrains::get(bytes::Reader& reader) const {
+ManyTrainsState ManyTrains::get(bytes::Reader& reader) const {
   if (reader.get<std::uint64_t>() != contour_format) checkpoint::refuse();
-  Saved state;
+  ManyTrainsState state;
   state.time = checkpoint::get_number(reader, "time");
   state.steps = checkpoint::get_number(reader, "steps");
   state.step = checkpoint::get_number(reader, "step");

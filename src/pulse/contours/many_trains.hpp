@@ -10,10 +10,19 @@
 #include <string>
 #include <vector>
 
+#include "foundation/math/step_control.hpp"
 #include "pulse/contours/contour.hpp"
 #include "pulse/motion.hpp"
 
 namespace slipfront::pulse {
+
+/// The part of a checkpoint that describes the motion of many trains at one time.
+struct ManyTrainsState {
+  double time = 0, steps = 0;
+  double step = 0;             ///< length that the error of the last step recommends; 0 before the first one
+  std::vector<double> x = {};  ///< positions of the points
+  SlipRecord slip = {};        ///< at x = 0
+};
 
 class ManyTrains : public Motion {
  public:
@@ -46,16 +55,12 @@ class ManyTrains : public Motion {
   const Contour& contour() const { return now_; }
 
  private:
-  struct Saved {
-    double time = 0, steps = 0;
-    double step = 0;        ///< length that the error of the last step recommends; 0 before the first one
-    std::vector<double> x;  ///< positions of the points
-    SlipRecord slip = {};   ///< at x = 0
-  };
-  void put(bytes::Writer& writer, const Saved& state) const;
-  Saved get(bytes::Reader& reader) const;
-  void go_to(Saved saved);
+  void put(bytes::Writer& writer, const ManyTrainsState& state) const;
+  ManyTrainsState get(bytes::Reader& reader) const;
+  void go_to(ManyTrainsState saved);
   void step(double target);
+  /// One attempt at a step of this length from these positions. It changes state_.x.
+  StepAttempt attempt(const std::vector<double>& before, double length);
   /// The speeds of all points if they are at x.
   void find_speeds(const std::vector<double>& x, std::vector<double>& speeds);
   bool remove_sawteeth();
@@ -64,8 +69,8 @@ class ManyTrains : public Motion {
   Problem problem_;
   Contour start_, now_;
   Sweep sweep_{now_};
-  Saved state_;
-  std::optional<Saved> stored_;
+  ManyTrainsState state_;
+  std::optional<ManyTrainsState> stored_;
   bool aimed_ = false;
   std::vector<double> speeds_;  ///< at the present positions; empty: not known
   std::vector<double> stage_, second_, third_, last_;
