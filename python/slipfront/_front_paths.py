@@ -4,8 +4,11 @@ import math
 
 from ._numbers import np
 
-#: A local velocity is fitted through as many positions as this to either side of a position.
+#: A local velocity is fitted through as many positions as this to either side of a position, if arrivals were recorded at each step.
 HALF_WINDOW = 3
+
+#: The same if arrivals come from outputs. They show a front to a cell, so a few cells would show how many of them it crosses between most outputs.
+HALF_WINDOW_OF_OUTPUTS = 20
 
 
 def _share(row, inside, outside, level):
@@ -85,7 +88,14 @@ def _slope(x, y):
     return float(np.median((y[second] - y[first]) / (x[second] - x[first])))
 
 
-def velocities(x, times, begin, end):
+def begin_of_motion(times, path):
+    """Returns the index in the path from which arrivals show a velocity: positions that slip before the first output that shows any all have its time."""
+    tied = np.flatnonzero(times[path] != times[path[0]])
+    start = int(tied[0]) - 1 if tied.size else 0
+    return start if path.size - start >= 3 else 0
+
+
+def velocities(x, times, begin, end, half_window=HALF_WINDOW):
     """Returns the indices of a front in its direction, and its velocity at each of them: infinite where slip arrives everywhere at once, NaN if the front has
     fewer than three positions. The slope of time against position is fitted, because arrival times have the errors."""
     step = 1 if end >= begin else -1
@@ -93,8 +103,9 @@ def velocities(x, times, begin, end):
     found = np.full(path.size, math.nan)
     if path.size < 3:
         return path, found
+    start = begin_of_motion(times, path)
     for i in range(path.size):
-        near = path[max(0, i - HALF_WINDOW):i + HALF_WINDOW + 1]
+        near = path[max(start, i - half_window):max(start, i) + half_window + 1]
         slowness = step * _slope(x[near], times[near])
         found[i] = 1 / slowness if slowness > 0 else math.inf
     return path, found

@@ -41,6 +41,7 @@ class _Front:
     path: "np.ndarray"
     velocity: "np.ndarray"
     end: str
+    error: float  # relative error of the median velocity; NaN if it is not known
 
 
 def _events(run, threshold):
@@ -69,14 +70,19 @@ def _fronts_of(event, x, tolerance):
     reached = times[np.isfinite(times)]
     if not reached.size:
         return
+    recorded = event.number > 0
+    half = _front_paths.HALF_WINDOW if recorded else _front_paths.HALF_WINDOW_OF_OUTPUTS
     for begin, end in _front_paths.fronts_of(times, max(tolerance, 0.01 * float(reached.max() - reached.min()))):
-        along, velocity = _front_paths.velocities(x, times, begin, end)
+        along, velocity = _front_paths.velocities(x, times, begin, end, half)
+        # Outputs show either end of a fit to a cell, in position and in time.
+        fitted = along.size - 1 - _front_paths.begin_of_motion(times, along)
+        error = math.nan if recorded or along.size < 3 else 2 / min(fitted, 2 * half)
         step = 1 if end >= begin else -1
         if not 0 <= end + step < x.size:
             stops = "end of the block"
         else:
             stops = "stops" if math.isnan(times[end + step]) else "meets another front"
-        yield _Front(event, along, velocity, stops)
+        yield _Front(event, along, velocity, stops, error)
 
 
 def _kind(velocity, slow, rayleigh):
@@ -116,13 +122,13 @@ def _median(values):
 def _table(fronts, x, smooth, factor):
     """Returns the variables of the fronts: what they are as a whole, and along their paths."""
     grid = np.full((3, len(fronts), x.size), math.nan)
-    columns: dict[str, list] = {name: [] for name in ("event", "begin", "end", "onset", "duration", "length", "velocity", "stress", "traction")}
+    columns: dict[str, list] = {name: [] for name in ("event", "begin", "end", "onset", "duration", "length", "velocity", "velocity_error", "stress", "traction")}
     for row, front in enumerate(fronts):
         along, times = front.path, front.event.arrival[front.path]
         tau = (front.event.traction if smooth else front.event.stress)[along]
         for layer, values in zip(grid, (times, front.velocity, np.abs(tau) * factor)):
             layer[row, along] = values
-        numbers = (front.event.number, x[along[0]], x[along[-1]], times[0], times[-1] - times[0], np.gradient(x)[along].sum(), _median(front.velocity),
+        numbers = (front.event.number, x[along[0]], x[along[-1]], times[0], times[-1] - times[0], np.gradient(x)[along].sum(), _median(front.velocity), front.error * _median(front.velocity),
                    _median(np.abs(front.event.stress[along])), _median(np.abs(front.event.traction[along])))
         for column, number in zip(columns.values(), numbers):
             column.append(number)
@@ -140,7 +146,8 @@ def _variables(fronts, x, smooth, factor, limits):
         "event": "number of the slip event, from 1; 0 if the run has none", "begin": ("position at which the front begins", "b / A"),
         "end": ("position at which the front ends", "b / A"), "onset": ("time at which the front begins", "b / (c A)"),
         "duration": ("time from its begin to its end", "b / (c A)"), "length": ("length that the front crosses", "b / A"),
-        "velocity": ("median of the velocity along the front", "c"), "stress": ("median of the shear stress ahead of the front, before the event", "mu A / pi"),
+        "velocity": ("median of the velocity along the front", "c"),
+        "velocity_error": ("error of the median, if the arrivals come from outputs, which show a front to a cell", "c"), "stress": ("median of the shear stress ahead of the front, before the event", "mu A / pi"),
         "traction": ("median of the force of friction and substrate ahead of the front, before the event", "mu A^2 / (pi (1 - nu))"),
     }
     variables: dict[str, tuple] = {}
@@ -177,7 +184,8 @@ def fronts(run, *, threshold=None, slow=0.1, output=None, si=None):
     """Finds the fronts of a run: where each begins, its path and velocity, where it ends, and the stress ahead of it (docs/fronts.md).
 
     A front begins where slip arrives first. It ends at the end of the block, where it meets another front, or where slip does not reach the next
-    position. Its velocity at a position is the median of the slopes of all pairs of the seven nearest arrivals.
+    position. Its velocity at a position is the median of the slopes of all pairs of the seven nearest arrivals. If the output times give the arrivals, it
+    is that of the 41 nearest ones, and front_velocity_error is the error of the median along the front.
 
     Parameters
     ----------

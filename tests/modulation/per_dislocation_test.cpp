@@ -67,6 +67,11 @@ TEST(PerDislocation, ConvergesFromAnyStartIfDislocationsAreFastAndFarApart) {
 
 TEST(PerDislocation, ReachesTheEmptyStateAndRejectsInvalidInput) {
   EXPECT_TRUE(state_of({2000, 0.1}, 1).empty());
+  EXPECT_EQ(solve_state({2000, 0.1}, 1).sound_speed, 0);
+  EXPECT_EQ(interaction_energy(0), 0);
+  EXPECT_EQ(mass_excess(0), 0);
+  EXPECT_NEAR(mass_excess(1) / mass_excess(1 + 1e-9), 1, 1e-8);
+  EXPECT_NEAR(interaction_energy(1) / interaction_energy(1 + 1e-9), 1, 1e-8);
   EXPECT_NEAR(state_of({2000, 8 * std::sinh(0.3)}, 1).phi, 0.3, 1e-15);
   EXPECT_THROW(state_of({-1, 0}, 1), NumericsError);
   EXPECT_THROW(state_of({std::nan(""), 0}, 1), NumericsError);

@@ -113,6 +113,42 @@ TEST(PlaneAveraged, EnergyIsKept) {
   }
 }
 
+/// The largest difference of the slip velocities at points from the rates of the slip there, over the largest velocity.
+double error_of_velocities(plane::Solver& solver) {
+  const std::vector<Point> points{polar(1.25, 0), polar(1.5, 40), polar(1.83, 110), polar(2.1, 250)};
+  constexpr double apart = 1e-3;
+  solver.advance_to(0.5, {});
+  const std::vector<double> before = solver.slip(points);
+  solver.advance_to(0.5 + apart, {});
+  const std::vector<double> velocity = solver.velocity(points);
+  solver.advance_to(0.5 + 2 * apart, {});
+  const std::vector<double> after = solver.slip(points);
+  double error = 0, largest = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    error = std::fmax(error, std::fabs((after[i] - before[i]) / (2 * apart) - velocity[i]));
+    largest = std::fmax(largest, std::fabs(velocity[i]));
+  }
+  return error / largest;
+}
+
+TEST(PlaneAveraged, VelocitiesAreRatesOfTheSlip) {
+  AveragedSolver loops(rings::problem(slip_of_rings()), {120, 1});
+  EXPECT_LT(error_of_velocities(loops), 0.013);
+  plane::GridSolver grid(rings::problem(slip_of_rings()), 60);
+  EXPECT_LT(error_of_velocities(grid), 0.02);
+}
+
+/// A force supplies the energy that the rings gain.
+TEST(PlaneAveraged, AForceSuppliesItsWork) {
+  Problem problem = rings::problem(slip_of_rings());
+  problem.forcing = [](double, double, double) { return 0.8; };
+  AveragedSolver solver(problem, {120, 1});
+  solver.advance_to(0.7, {});
+  const plane::Energies e = solver.energies();
+  EXPECT_GT(e.supplied, 0.3 * e.kinetic);
+  EXPECT_NEAR((e.kinetic + e.elastic) / e.supplied, 1, 5e-3);
+}
+
 /// Without symmetry: friction on one side. The direct run has the scale 160 and averages over boxes.
 TEST(PlaneAveraged, FrictionOnOneSideAgreesWithEveryLine) {
   Problem problem = rings::problem(slip_of_rings());

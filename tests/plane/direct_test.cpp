@@ -294,6 +294,23 @@ TEST(PlaneDirect, EdgesHaveTheImpedanceOfTheWave) {
   for (const bool along_y : {false, true}) EXPECT_LT(reflected(along_y), 0.035);
 }
 
+/// Between two steps, slip and velocity are those of a constant acceleration.
+TEST(PlaneDirect, ResultsAreSmoothBetweenSteps) {
+  DirectSolver solver(mixed(), {.scale = 20});
+  const std::vector<Point> points{{0.2, 0.1}, {-0.4, 0.3}};
+  std::vector<double> slip[3], velocity[3];
+  constexpr double apart = 2e-4;  // a step is 2e-2
+  for (int i = 0; i < 3; ++i) {
+    solver.advance_to(0.5 + apart * (i - 1), {});
+    slip[i] = solver.slip(points);
+    velocity[i] = solver.velocity(points);
+  }
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    EXPECT_NEAR((slip[2][k] - slip[0][k]) / (2 * apart) / velocity[1][k], 1, 1e-4);
+    EXPECT_NEAR((slip[2][k] - 2 * slip[1][k] + slip[0][k]) / apart / (velocity[2][k] - velocity[1][k]), 1, 1e-3);
+  }
+}
+
 TEST(PlaneDirect, FixedEdgesDoNotSlip) {
   Problem p = mixed();
   p.slip = [](double x, double) { return 1.5 + x; };
