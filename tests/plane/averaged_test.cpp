@@ -304,7 +304,7 @@ TEST(PlaneRun, LosingNearlyAllEnergyIsAnError) {
   EXPECT_NE(text.find("t = 0.05: the balance of energy lacks 9"), std::string::npos) << text;
 }
 
-/// The two outermost lines would be at one place if both were taken to have a millionth of the slip.
+/// The two outermost lines would have one distance from the origin if both were taken to have a millionth of the slip.
 TEST(PlaneAveraged, ManyLoopsBeginApart) {
   for (const int loops : {1000, 2000, 5000}) {
     AveragedSolver solver(rings::problem(slip_of_rings()), {loops, 1});

@@ -103,7 +103,7 @@ class Run {
   Schedule schedule_;
   std::vector<Field> snapshots_;
   Seen seen_;
-  double expected_steps_ = 0;  ///< of the whole run; 0: the length of steps is constant
+  double expected_steps_ = 0;  ///< steps of the whole run; 0: their length is constant
   /// The last state that does not depend on the end of the run. A run to a later end continues from here.
   std::optional<State> before_end_;
 };
