@@ -1,5 +1,6 @@
 #include "record/netcdf/isolated.hpp"
 
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -164,10 +165,20 @@ std::string result_of(const std::string& text, const std::string& name, const st
   throw FileError(name + ": " + failed + ": " + reason);
 }
 
+/// HDF5 prints its errors, in each thread that has not asked for silence. The NetCDF library asks in its first thread
+/// only. We look the function up because we do not need HDF5 otherwise.
+void silence_hdf5() {
+  using SetAuto = int (*)(std::int64_t stack, void* print, void* data);
+  static const auto set_auto = reinterpret_cast<SetAuto>(dlsym(RTLD_DEFAULT, "H5Eset_auto2"));
+  if (set_auto) set_auto(0, nullptr, nullptr);  // 0: the stack of this thread
+}
+
 }  // namespace
 
 std::unique_lock<std::recursive_mutex> lock_netcdf() {
-  return is_copy ? std::unique_lock<std::recursive_mutex>() : std::unique_lock(library_mutex());
+  auto lock = is_copy ? std::unique_lock<std::recursive_mutex>() : std::unique_lock(library_mutex());
+  silence_hdf5();
+  return lock;
 }
 
 std::string isolated(const std::string& name, const std::string& failed, const std::function<std::string()>& work,
