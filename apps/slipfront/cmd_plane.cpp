@@ -56,7 +56,7 @@ int run_scenario(const ScenarioArguments& a, const scenario::Scenario& s, setup:
   std::optional<record::PlaneCheckpoint> saved;
   const auto prepare = [&] {
     plan = run::plan_plane(s, lines);
-    if (!a.resume.empty()) saved = run::plane_checkpoint_of(a.resume, s);
+    if (!a.resume.empty()) saved = run::plane_checkpoint_of(a.resume, s, plan);
     if (a.check) require_output(a, saved && saved->finished, plan.disk);
   };
   ranks ? ranks->together(prepare) : prepare();

@@ -173,7 +173,7 @@ py::dict run_plane(const py::dict& arguments, bool direct, bool with_errors, int
     const py::gil_scoped_release others_may_run;
     plan = run::plan_plane(s, lines);
     run::PlaneOptions options{.common = {.threads = threads, .begun = begun}};
-    if (!a.resume.empty()) options.checkpoint = run::plane_checkpoint_of(a.resume, s);
+    if (!a.resume.empty()) options.checkpoint = run::plane_checkpoint_of(a.resume, s, plan);
     options.common.output = run::output_of(a.output, a.resume, options.checkpoint && options.checkpoint->finished);
     options.common.after_step = [&](double time, long steps) { return watch(time, steps); };
     result = run::plane(s, plan, options);

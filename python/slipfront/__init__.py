@@ -54,7 +54,18 @@ from ._relations import relations
 from ._riemann import riemann
 from ._run import chain, check, compare, open, pulse
 from ._sweep import sweep
+from ._shown import shortened
 from ._slipfront import FileError, InputError, NumericsError, __version__
+
+
+def _shorten_messages(error):
+    """Makes str(error) short, whatever long names or values its message has."""
+    base = error.__mro__[1]
+    error.__str__ = lambda self: shortened(base.__str__(self))
+
+
+for _error in (FileError, InputError, NumericsError):
+    _shorten_messages(_error)
 
 _accessor.register()
 

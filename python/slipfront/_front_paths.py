@@ -65,17 +65,26 @@ def _runs(times):
         yield int(first), int(last) - 1
 
 
+def _source(times, first, last):
+    """Returns the ends of the longest stretch in which slip begins at once. If that is everywhere, slip has one front, from the left."""
+    begins = times[first:last + 1] == np.min(times[first:last + 1])
+    if begins.all():
+        return first, first
+    left, right = max(_runs(np.where(begins, 0.0, np.nan)), key=lambda run: run[1] - run[0])
+    return first + left, first + right
+
+
 def fronts_of(times, tolerance):
-    """Returns (begin, end) indices of each front: slip begins at a local minimum of the arrival times, and spreads from there until the arrival times fall by
+    """Returns (begin, end) indices of each front: slip begins at a local minimum of the arrival times, which may be a stretch, and spreads from there until the arrival times fall by
     more than `tolerance`, where another front comes to meet it, or until a position that slip does not reach. A single position is (i, i)."""
     found = []
     for first, last in _runs(times):
-        source = first + int(np.argmin(times[first:last + 1]))
-        to_right = [source + i for i in _turns(times[source:last + 1], tolerance)]
-        to_left = [source - i for i in _turns(times[source:first - 1 if first else None:-1], tolerance)]
+        left, right = _source(times, first, last)
+        to_right = [right + i for i in _turns(times[right:last + 1], tolerance)]
+        to_left = [left - i for i in _turns(times[left:first - 1 if first else None:-1], tolerance)]
         if first == last:
-            found.append((source, source))
-        for turns in (to_left, to_right):
+            found.append((first, first))
+        for source, turns in ((left, to_left), (right, to_right)):
             corners = [source, *turns]
             for i, pair in enumerate(zip(corners, corners[1:])):
                 found.append(pair if i % 2 == 0 else pair[::-1])

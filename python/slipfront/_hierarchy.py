@@ -2,6 +2,7 @@
 
 import math
 import time
+from collections.abc import Mapping
 
 from . import _slipfront
 from ._dataset import dataset
@@ -40,6 +41,8 @@ def _measure(name, value, dimension, unit):
 
 
 def _prior(changes):
+    if not isinstance(changes or {}, Mapping):
+        raise InputError(f"prior: a {type(changes).__name__}; allowed: a dict such as {{'friction_median': (0.01, 20)}}")
     for name, pair in (changes or {}).items():
         if name not in priors.NAMES:
             raise InputError(f"prior: '{shown(name)}': unknown; allowed: {', '.join(priors.NAMES)}")
@@ -165,6 +168,8 @@ def population(events=None, *, kind=None, prior=None, hardness="10 GPa", smalles
     for name, value in (("steps", steps), ("seed", seed)):
         if isinstance(value, bool) or not isinstance(value, int) or not (20 if name == "steps" else 0) <= value < 2**31:
             raise InputError(f"{name} = '{shown(value)}': out of range; allowed: a whole number from {20 if name == 'steps' else 0}")
+    if progress is not None and not callable(progress):
+        raise InputError(f"progress: a {type(progress).__name__}; allowed: a function of the steps done and all steps")
     file = output_path(output, events)
     import_optional("emcee")
     errors = {"velocity": math.log(_positive("velocity_error", velocity_error, 1.0)), "size": math.log(_positive("size_error", size_error, 1.0))}

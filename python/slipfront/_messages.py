@@ -4,12 +4,14 @@ import contextlib
 import sys
 from collections.abc import Callable
 
+from ._shown import shortened
+
 DONE, INPUT, FILE, NUMERICS, INTERRUPTED = 0, 2, 3, 4, 130
 
 
 def complain(error):
     """Prints an error or a warning as one line on stderr."""
-    text = " ".join(str(error).split()) or type(error).__name__
+    text = shortened(" ".join(str(error).split())) or type(error).__name__
     with contextlib.suppress(ImportError):  # without the compiled module, that is the error to print
         from ._slipfront import printable
 

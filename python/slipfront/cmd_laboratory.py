@@ -6,9 +6,14 @@ import sys
 
 from ._arguments import Arguments, netcdf_name, put
 from ._messages import DONE, INPUT, complain
+from ._shown import shown
 
 #: Titles of the table for the terminal, the variable in units of the model, and in SI units.
 COLUMNS = (("tau / sigma_N", "stress_ratio"), ("V", "front_velocity"), ("predicted", "predicted_front_velocity"), ("deviation", "deviation"))
+
+
+#: Characters of a name in the table.
+WIDEST = 40
 
 
 def whole(text):
@@ -103,7 +108,7 @@ def summary(data, si):
 def rows(data, si):
     """Yields the lines of the table of fronts, below the title and the units."""
     unit = "m/s" if si else "c"
-    cells = [["front", "", *data["name"].values]]
+    cells = [["front", "", *(shown(name, WIDEST) for name in data["name"].values)]]
     for title, name in COLUMNS:
         is_velocity = data[name].attrs.get("dimensional_unit") == "c"
         values = data[name].values * (velocity_scale(data, si) if is_velocity else 1)
@@ -127,7 +132,7 @@ def report(data, options):
     for warning in lines(data, "warnings"):
         put(f"note: {warning}")
     if data.attrs["ignored_columns"]:
-        put(f"ignored columns: {data.attrs['ignored_columns']}")
+        put(f"ignored columns: {', '.join(shown(title) for title in data.attrs['ignored_columns'].split(', '))}")
     if options.output:
         put(f"written to {options.output}")
 

@@ -12,10 +12,14 @@ from . import _slipfront
 from ._arguments import Arguments, add_units, chosen_units, netcdf_name, put
 from ._grid import values_of
 from ._messages import DONE, NUMERICS, Interruption, complain
+from ._shown import shown
 from ._slipfront import InputError
 
 #: Largest number of points in the table for the terminal.
 MOST_ROWS = 40
+
+#: Characters of a text in the table, such as a formula.
+WIDEST = 40
 
 #: Columns of the table, as far as they fit.
 COLUMNS = ("slip_velocity_at_origin", "slip_at_origin", "stress_at_origin", "peak_slip_velocity", "trailing_front", "leading_front")
@@ -122,7 +126,7 @@ def rows_of(data):
 def short(value):
     if isinstance(value, bool):
         return str(value).lower()
-    return f"{value:.6g}" if isinstance(value, float) else str(value)
+    return f"{value:.6g}" if isinstance(value, float) else shown(value, WIDEST)
 
 
 def column(title, unit, cells):

@@ -8,7 +8,7 @@ namespace slipfront {
 std::string one_line(const Complaint& c) {
   std::string text;  // appended piece by piece: g++ 12 warns of the sum of a literal and a string at -O3
   if (!c.file.empty()) {
-    text.append(printable(c.file));
+    text.append(printable(c.file, 800));
     if (c.line > 0) text.append(":").append(std::to_string(c.line));
     text.append(": ");
   }

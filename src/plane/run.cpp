@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "foundation/bytes.hpp"
+#include "foundation/step_budget.hpp"
+#include "foundation/text/digits.hpp"
 #include "plane/budget.hpp"
 #include "slipfront/plane/source_parameters.hpp"
 
@@ -57,13 +59,20 @@ SeriesRow row_at(const Solver& solver, double ratio) {
                        .radiated = ratio * e.radiated}};
 }
 
+[[noreturn]] void refuse_saved() {
+  throw InputError({.key = "resume",
+                    .problem = "the saved state is not that of this run",
+                    .allowed = "a file of the same scenario"});
+}
+
 }  // namespace
 
 Run::Run(std::unique_ptr<Solver> solver, Schedule schedule)
     : solver_(std::move(solver)), schedule_(std::move(schedule)) {
+  expected_steps_ = solver_->steps_ahead(schedule_.times.back()).by_waves;
   const auto cells = static_cast<std::size_t>(schedule_.nx) * static_cast<std::size_t>(schedule_.ny);
-  rupture_time_.assign(cells, std::numeric_limits<double>::quiet_NaN());
-  for (auto* values : {&peak_slip_velocity_, &velocity_squared_, &last_slip_}) values->assign(cells, 0);
+  seen_.rupture_time.assign(cells, std::numeric_limits<double>::quiet_NaN());
+  for (auto* values : {&seen_.peak_slip_velocity, &seen_.velocity_squared, &seen_.last_slip}) values->assign(cells, 0);
 }
 
 Run::Run(std::unique_ptr<Solver> solver, Schedule schedule, std::string_view saved, std::vector<Field> snapshots)
@@ -72,14 +81,38 @@ Run::Run(std::unique_ptr<Solver> solver, Schedule schedule, std::string_view sav
   restore(saved);
 }
 
+/// Strong friction shortens the steps of averages. A run that would take far more steps than waves need ends at once.
+void Run::require_steps() const {
+  if (expected_steps_ == 0) return;
+  const double end = schedule_.times.back();
+  const StepBudget budget(expected_steps_, end);
+  const long taken = solver_->steps();
+  if (taken > 0 && !budget.exhausted(taken)) return;
+  const StepsAhead ahead = solver_->steps_ahead(end - solver_->time());
+  const bool too_many = taken == 0;
+  if (too_many && ahead.in_all <= budget.most()) return;
+  throw budget.error(
+      solver_->time(), taken,
+      ahead.reason + (too_many ? ", so that the run would take " + digits(ahead.in_all, 2) + " steps" : ""),
+      "weaker friction, fewer cells or slipfront plane --direct may help");
+}
+
 bool Run::go(const std::function<bool()>& interrupted) {
   while (!finished()) {
     const double snapshot = schedule_.times[snapshots_.size()];
-    const double next = series_.empty() ? 0 : schedule_.interval * static_cast<double>(rows_on_time_);
+    const double next = seen_.series.empty() ? 0 : schedule_.interval * static_cast<double>(seen_.rows_on_time);
     const double until = std::min(snapshot, next);
-    if (!solver_->advance_to(until, interrupted)) return false;
+    if (until == schedule_.times.back() && !before_end_)
+      before_end_ = State{solver_->steps_end_on_time() ? solver_->saved() : "", seen_};
+    require_steps();
+    const bool reached = solver_->advance_to(until, [&] {
+      require_steps();
+      return interrupted && interrupted();
+    });
+    if (!reached) return false;
     observe(until == snapshot);
   }
+  require_energy();
   return true;
 }
 
@@ -89,19 +122,19 @@ void Run::observe(bool snapshot) {
   Field field = solver_->field(schedule_.nx, schedule_.ny);
   SeriesRow row = row_at(*solver_, schedule_.wave_speed_ratio);
   row.peak_slip_velocity = largest_size(field.velocity);
-  const double before = series_.empty() ? row.time : series_.back().time, limit = schedule_.rupture_slip;
+  const double before = seen_.series.empty() ? row.time : seen_.series.back().time, limit = schedule_.rupture_slip;
   const double since = row.time - before;
   for (std::size_t i = 0; i < field.slip.size(); ++i) {
-    peak_slip_velocity_[i] = std::fmax(peak_slip_velocity_[i], std::fabs(field.velocity[i]));
-    const double was = last_slip_[i], is = field.slip[i];
-    if (std::fabs(is) > limit && std::isnan(rupture_time_[i]))
-      rupture_time_[i] = before + since * (std::copysign(limit, is) - was) / (is - was);
-    if (since > 0) velocity_squared_[i] += (is - was) * (is - was) / since;
+    seen_.peak_slip_velocity[i] = std::fmax(seen_.peak_slip_velocity[i], std::fabs(field.velocity[i]));
+    const double was = seen_.last_slip[i], is = field.slip[i];
+    if (std::fabs(is) > limit && std::isnan(seen_.rupture_time[i]))
+      seen_.rupture_time[i] = before + since * (std::copysign(limit, is) - was) / (is - was);
+    if (since > 0) seen_.velocity_squared[i] += (is - was) * (is - was) / since;
   }
-  if (row.time >= schedule_.interval * static_cast<double>(rows_on_time_)) ++rows_on_time_;
+  if (row.time >= schedule_.interval * static_cast<double>(seen_.rows_on_time)) ++seen_.rows_on_time;
   if (solver_->problem().nucleation) row.front = farthest_rupture();
-  series_.push_back(row);
-  last_slip_ = field.slip;
+  seen_.series.push_back(row);
+  seen_.last_slip = field.slip;
   if (!snapshot) return;
   if (schedule_.lines) field.lines = solver_->lines();
   for (Line& line : field.lines)
@@ -115,7 +148,7 @@ double Run::farthest_rupture() const {
   double farthest = 0;
   for (int j = 0; j < grid.ny; ++j)
     for (int i = 0; i < grid.nx; ++i) {
-      if (std::isnan(rupture_time_[grid.at(i, j)])) continue;
+      if (std::isnan(seen_.rupture_time[grid.at(i, j)])) continue;
       farthest = std::fmax(farthest, std::hypot(p.left + (i + 0.5) * grid.dx,
                                                 p.bottom * schedule_.wave_speed_ratio + (j + 0.5) * grid.dy));
     }
@@ -126,75 +159,118 @@ Maps Run::maps() const {
   const Problem& p = solver_->problem();
   const MapGrid grid = grid_of(p, schedule_);
   std::vector<double> at_start, now;
-  at_start.reserve(last_slip_.size());
-  now.reserve(last_slip_.size());
+  at_start.reserve(seen_.last_slip.size());
+  now.reserve(seen_.last_slip.size());
   for (int j = 0; j < grid.ny; ++j)
     for (int i = 0; i < grid.nx; ++i) {
       at_start.push_back(p.slip(p.left + (p.right - p.left) * (i + 0.5) / grid.nx,
                                 p.bottom + (p.top - p.bottom) * (j + 0.5) / grid.ny));
-      now.push_back(at_start.back() + last_slip_[grid.at(i, j)]);
+      now.push_back(at_start.back() + seen_.last_slip[grid.at(i, j)]);
     }
-  return {.rupture_time = rupture_time_,
-          .rupture_velocity = rupture_velocity(grid, rupture_time_),
-          .peak_slip_velocity = peak_slip_velocity_,
-          .rise_time = rise_time(last_slip_, velocity_squared_),
+  return {.rupture_time = seen_.rupture_time,
+          .rupture_velocity = rupture_velocity(grid, seen_.rupture_time),
+          .peak_slip_velocity = seen_.peak_slip_velocity,
+          .rise_time = rise_time(seen_.last_slip, seen_.velocity_squared),
           .initial_stress = stress(grid, at_start),
           .final_stress = stress(grid, now),
-          .slip = last_slip_};
+          .slip = seen_.last_slip};
+}
+
+namespace {
+
+constexpr const char* finer =
+    "more cells (plane.loops or plane.cells), or with --direct a smaller chain.spacing, are needed";
+
+/// Whether the energy of a run is large enough to compare its parts.
+bool has_energy(const Solver& solver, const Budget& budget) {
+  const Problem& p = solver.problem();
+  return budget.largest > std::fmax(solver.least_energy(), no_energy * (p.right - p.left) * (p.top - p.bottom));
+}
+
+}  // namespace
+
+/// A run that has lost nine tenths of the energy has wrong results, unless lines ran into each other.
+void Run::require_energy() const {
+  constexpr double most = 0.9;
+  const Budget budget(seen_.series.back().energies);
+  if (solver_->lines_have_met() || !has_energy(*solver_, budget) || budget.missing <= most * budget.largest) return;
+  throw NumericsError("t = " + digits(solver_->time()) + ": the balance of energy lacks " + budget.in_words() + ": " +
+                      finer + ", or friction is too strong for averages");
 }
 
 /// A front that no cell resolves, or energy that the solver has lost, makes the results doubtful.
 std::vector<std::string> Run::warnings() const {
   std::vector<std::string> all = solver_->warnings();
-  if (series_.empty()) return all;
-  const Budget budget(series_.back().energies);
+  if (seen_.series.empty()) return all;
   constexpr double most = 0.02;
-  const Problem& p = solver_->problem();
-  if (budget.largest <= std::fmax(solver_->least_energy(), no_energy * (p.right - p.left) * (p.top - p.bottom)))
-    return all;
-  const std::string resolution =
-      "more cells (plane.loops or plane.cells), or with --direct a smaller chain.spacing, are needed";
+  const Budget budget(seen_.series.back().energies);
+  if (!has_energy(*solver_, budget)) return all;
   if (budget.missing > most * budget.largest)
     all.push_back("the balance of energy lacks " + budget.in_words() +
-                  ": it is lost where lines run into each other, or " + resolution);
+                  ": it is lost where lines run into each other, or " + finer);
   if (budget.missing < -most * budget.largest)
-    all.push_back("the balance of energy exceeds what was released by " + budget.in_words() + ": " + resolution);
+    all.push_back("the balance of energy exceeds what was released by " + budget.in_words() + ": " + finer);
   return all;
 }
 
 std::string Run::saved() const {
   bytes::Writer writer;
   writer.put_text(solver_->saved());
-  writer.put(static_cast<std::int64_t>(rows_on_time_));
-  writer.put(static_cast<std::uint64_t>(series_.size()));
-  for (const SeriesRow& row : series_) writer.put(numbers_of(row));
-  for (const auto* values : {&rupture_time_, &peak_slip_velocity_, &velocity_squared_, &last_slip_})
-    writer.put(*values);
+  put(writer, seen_);
+  writer.put(schedule_.times.back());
+  writer.put(static_cast<char>(before_end_ ? 1 : 0));
+  if (before_end_) {
+    writer.put_text(before_end_->solver);
+    put(writer, before_end_->seen);
+  }
   return std::move(writer).text();
+}
+
+void Run::put(bytes::Writer& writer, const Seen& seen) {
+  writer.put(static_cast<std::int64_t>(seen.rows_on_time));
+  writer.put(static_cast<std::uint64_t>(seen.series.size()));
+  for (const SeriesRow& row : seen.series) writer.put(numbers_of(row));
+  for (const auto* values : {&seen.rupture_time, &seen.peak_slip_velocity, &seen.velocity_squared, &seen.last_slip})
+    writer.put(*values);
+}
+
+Run::Seen Run::get_seen(bytes::Reader& reader, std::size_t cells) {
+  Seen seen;
+  seen.rows_on_time = static_cast<long>(reader.get<std::int64_t>());
+  const auto rows = reader.get<std::uint64_t>();
+  for (std::uint64_t i = 0; i < rows; ++i) {
+    const std::vector<double> numbers = reader.vector();
+    if (numbers.size() != numbers_of({}).size()) refuse_saved();
+    seen.series.push_back(row_of(numbers));
+  }
+  for (auto* values : {&seen.rupture_time, &seen.peak_slip_velocity, &seen.velocity_squared, &seen.last_slip}) {
+    *values = reader.vector();
+    if (values->size() != cells) refuse_saved();
+  }
+  return seen;
 }
 
 void Run::restore(std::string_view saved) {
   bytes::Reader reader(saved);
-  solver_->resume(reader.text());
-  rows_on_time_ = static_cast<long>(reader.get<std::int64_t>());
-  const auto rows = reader.get<std::uint64_t>();
-  const std::size_t cells = last_slip_.size();
-  bool fits = snapshots_.size() <= schedule_.times.size();
-  for (std::uint64_t i = 0; i < rows; ++i) {
-    const std::vector<double> numbers = reader.vector();
-    fits = fits && numbers.size() == numbers_of({}).size();
-    if (fits) series_.push_back(row_of(numbers));
+  const std::size_t cells = seen_.last_slip.size();
+  std::string solver = reader.text();
+  seen_ = get_seen(reader, cells);
+  const double end = reader.get<double>();
+  if (reader.get<char>() != 0) {
+    std::string before = reader.text();
+    before_end_ = State{std::move(before), get_seen(reader, cells)};
   }
-  for (auto* values : {&rupture_time_, &peak_slip_velocity_, &velocity_squared_, &last_slip_}) {
-    *values = reader.vector();
-    fits = fits && values->size() == cells;
-  }
-  for (const Field& field : snapshots_) fits = fits && field.slip.size() == cells;
   reader.end();
-  if (!fits)
-    throw InputError({.key = "resume",
-                      .problem = "the saved state is not that of this run",
-                      .allowed = "a file of the same scenario"});
+  if (end != schedule_.times.back() && before_end_) {
+    while (!snapshots_.empty() && snapshots_.back().time >= end) snapshots_.pop_back();
+    seen_ = std::move(before_end_->seen);
+    if (!before_end_->solver.empty()) solver = std::move(before_end_->solver);
+    before_end_.reset();
+  }
+  if (snapshots_.size() > schedule_.times.size()) refuse_saved();
+  for (const Field& field : snapshots_)
+    if (field.slip.size() != cells) refuse_saved();
+  solver_->resume(solver);
 }
 
 }  // namespace slipfront::plane

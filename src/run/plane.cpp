@@ -73,19 +73,6 @@ PlanePlan plan_plane(const scenario::Scenario& s, setup::Lines lines) {
   return plan;
 }
 
-record::PlaneCheckpoint plane_checkpoint_of(const std::string& path, const scenario::Scenario& s) {
-  record::PlaneCheckpoint saved = record::read_plane(path);
-  const auto refuse = [&](const std::string& problem, const std::string& allowed) {
-    throw InputError({.file = path, .key = "resume", .problem = problem, .allowed = allowed});
-  };
-  if (saved.version != SLIPFRONT_VERSION) refuse("was written by another version", "version " SLIPFRONT_VERSION);
-  if (saved.scenario_text == s.text) return saved;
-  const std::string key = scenario::differing_key(saved.scenario_text, s.text);
-  refuse("was written by another scenario: " + (key.empty() ? "time.end or the output times differ" : key + " differs"),
-         "the scenario that started the run, with the same --set");
-  return saved;
-}
-
 PlaneResult plane(const scenario::Scenario& s, const PlanePlan& plan, const PlaneOptions& options) {
   const Options& common = options.common;
   PlaneResult result{.run = begun(s, plan, options),

@@ -25,9 +25,10 @@ struct PlanePlan {
 /// \throws InputError.
 PlanePlan plan_plane(const scenario::Scenario& scenario, setup::Lines lines);
 
-/// Reads the state from which a planned run continues. The scenario must be that of the file. \throws FileError;
-/// InputError if the file is from another scenario or version.
-record::PlaneCheckpoint plane_checkpoint_of(const std::string& path, const scenario::Scenario& scenario);
+/// Reads the state from which a planned run continues, as checkpoint_of does. \throws FileError; InputError if the file
+/// is from another scenario or version, if the end is earlier, or if time.end decides when the series has rows.
+record::PlaneCheckpoint plane_checkpoint_of(const std::string& path, const scenario::Scenario& scenario,
+                                            const PlanePlan& plan);
 
 /// How to run it: `Options::checkpoint` is not used.
 struct PlaneOptions {

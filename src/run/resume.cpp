@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "foundation/text/digits.hpp"
+#include "run/plane.hpp"
 #include "run/run.hpp"
 #include "run/tables.hpp"
 #include "slipfront/chain/problem.hpp"
@@ -71,20 +72,25 @@ void require_same_problem(const Continued& c, const ChainPlan& begun, const Chai
     c.refuse_choice("the time step", digits(step), digits(step_now), "a new run, or chain.steps = \"implicit\" in one");
 }
 
-/// Leaves out the snapshot at the end of the file unless it is an output time now.
-void keep_common_snapshots(const Continued& c, const output::Schedule& begun, const output::Schedule& now,
-                           std::vector<output::Snapshot>& snapshots) {
-  const std::size_t before_end = begun.times.size() - 1;
-  const double end = begun.times.back(), nearly = end * (1 - 1e-12);  // as for output.every
-  const auto [was, is] = std::mismatch(begun.times.begin(), begun.times.end() - 1, now.times.begin(), now.times.end());
-  const double first = was == begun.times.end() - 1 ? *is : std::min(*was, *is);  // now ends later, so `is` exists
+/// Refuses other output times before the end of the file. Returns whether the end of the file is still an output time.
+bool require_common_times(const Continued& c, const std::vector<double>& begun, const std::vector<double>& now) {
+  const std::size_t before_end = begun.size() - 1;
+  const double end = begun.back(), nearly = end * (1 - 1e-12);  // as for output.every
+  const auto [was, is] = std::mismatch(begun.begin(), begun.end() - 1, now.begin(), now.end());
+  const double first = was == begun.end() - 1 ? *is : std::min(*was, *is);  // now ends later, so `is` exists
   if (first < nearly)
     c.refuse(
         "resume",
         "the output times before the end of the file, " + shortest(end) + ", differ: first at t = " + shortest(first),
         "the output times of the file; later ones are free");
-  const bool still_output = before_end < now.times.size() && now.times[before_end] == end;
-  if (!snapshots.empty() && snapshots.back().time == end && !still_output) snapshots.pop_back();
+  return before_end < now.size() && now[before_end] == end;
+}
+
+/// Leaves out the snapshot at the end of the file unless it is an output time now.
+void keep_common_snapshots(const Continued& c, const output::Schedule& begun, const output::Schedule& now,
+                           std::vector<output::Snapshot>& snapshots) {
+  const bool still_output = require_common_times(c, begun.times, now.times);
+  if (!snapshots.empty() && snapshots.back().time == begun.times.back() && !still_output) snapshots.pop_back();
 }
 
 /// `same_problem` refuses a plan of the later end that differs from that of the file in more than the end.
@@ -121,6 +127,26 @@ record::Checkpoint checkpoint_of(const std::string& path, const scenario::Scenar
       [&](const Continued& continued, const ChainPlan& begun) {
         require_same_problem(continued, begun, plan, share_of_machine);
       });
+}
+
+record::PlaneCheckpoint plane_checkpoint_of(const std::string& path, const scenario::Scenario& scenario,
+                                            const PlanePlan& plan) {
+  record::PlaneCheckpoint saved = record::read_plane(path);
+  if (saved.version != SLIPFRONT_VERSION)
+    throw InputError({.file = path,
+                      .key = "resume",
+                      .problem = "was written by another version",
+                      .allowed = "version " SLIPFRONT_VERSION});
+  if (saved.scenario_text == scenario.text) return saved;
+  const scenario::Scenario begun = scenario::read_scenario(saved.scenario_text, scenario.file, {}, read_table);
+  const Continued continued{path, begun, scenario};
+  require_later_end(continued);
+  const plane::Schedule first = setup::plane_schedule(begun, plan.lines);
+  require_common_times(continued, first.times, plan.schedule.times);
+  if (first.interval != plan.schedule.interval)
+    continued.refuse_choice("the time between two rows of the series", digits(first.interval),
+                            digits(plan.schedule.interval), "a new run");
+  return saved;
 }
 
 }  // namespace slipfront::run

@@ -114,7 +114,7 @@ Wave first_wave(const State& left, const State& star) {
   return {Wave::Kind::shock, speed, speed};
 }
 
-Wave mirrored(const Wave& w) { return {w.kind, -w.outer, -w.inner}; }
+Wave mirrored(const Wave& w) { return {w.kind, 0 - w.outer, 0 - w.inner}; }  // 0, and not -0, remains 0
 
 /// Squares of larger stresses overflow. A jump between faster trains loses more than half of its digits.
 constexpr double most_psi_of_state = 300, most_phi = 18;

@@ -9,6 +9,7 @@ import unittest
 
 from support import PATIENCE, PROGRAM, SOURCE, CommandLine
 
+FRICTION = os.path.join(SOURCE, "cases/plane-friction.toml")
 STEP = os.path.join(SOURCE, "cases/step.toml")
 DOMAIN = ("domain.left=-8", "domain.right=8")
 UNEQUAL = {"wall_seconds", "solve_seconds", "site_updates_per_second"}  # they depend on the machine
@@ -61,7 +62,7 @@ class Continue(CommandLine):
         cut, whole = self.path("cut.nc"), self.path("whole.nc")
 
         def arguments(end):
-            return (command, case, *with_set([*settings, f"time.end={end}"]), "--quiet", "--json")
+            return (*command.split(), case, *with_set([*settings, f"time.end={end}"]), "--quiet", "--json")
 
         self.ok(*arguments(ends[0]), "-o", cut)
         for end in ends[1:]:
@@ -103,6 +104,23 @@ class Continue(CommandLine):
         within = whole["events"][2]["onset"] + 0.5 * whole["events"][2]["duration"]
         self.same_as_one_run("chain", case, (60000, within, 160000), ("output.every=50000", "output.per_event=5"))
         self.same_as_one_run("chain", STEP, (1, 2), (*DOMAIN, "chain.scale=30", "chain.steps=implicit", *AGEING))
+
+    def test_a_finished_plane_continues_to_the_same_bytes(self):
+        for command, settings in (("plane", ("plane.loops=12", "plane.angles=16", "plane.cells=20")),
+                                  ("plane", ("plane.solver=grid", "plane.cells=20")),
+                                  ("plane --direct", ("chain.scale=8", "plane.cells=12", "output.lines=true"))):
+            for ends in ((0.2, 0.4), (0.17, 0.29, 0.41)):
+                with self.subTest(command=command, settings=settings, ends=ends):
+                    self.same_as_one_run(command, FRICTION, ends, (*settings, "output.every=0.1"))
+
+    def test_an_interrupted_plane_continues_to_a_later_end(self):
+        cut, whole = self.path("cut.nc"), self.path("whole.nc")
+        settings = ("plane.loops=100", "plane.angles=100", "plane.cells=12", "output.every=0.5")  # few rows, so most steps aim at an end
+        first, later = (with_set([*settings, f"time.end={end}"]) for end in (0.61, 0.8))
+        self.interrupted(cut, "plane", FRICTION, *first)
+        self.ok("plane", FRICTION, *later, "--resume", cut)
+        self.ok("plane", FRICTION, *later, "-o", whole)
+        self.assertEqual(content(cut), content(whole))
 
     def test_an_interrupted_run_continues_to_a_later_end(self):
         case = self.slow_case()
@@ -173,6 +191,19 @@ class Continue(CommandLine):
                 self.ok(command, STEP, *with_set((*settings, *first)), "-o", out, "--quiet")
                 before = content(out)
                 self.refused(2, command, STEP, *with_set((*settings, *first, *change)), "--resume", out, "--quiet", says=says)
+                self.assertEqual(content(out), before)
+
+    def test_other_changes_of_a_plane_are_refused(self):
+        out = self.path("out.nc")
+        settings = with_set(("plane.loops=8", "plane.angles=8", "plane.cells=12", "output.every=0.1", "time.end=0.2"))
+        self.ok("plane", FRICTION, *settings, "-o", out, "--quiet")
+        before = content(out)
+        for change, says in ((("time.end=0.4", "plane.cells=13"), ["another scenario", "plane.cells differs"]),
+                             (("time.end=0.1",), ["time.end = 0.1", "the end of the file, 0.2;"]),
+                             (("time.end=0.4", "output.every=0.15"), ["output times", "first at t = 0.1"]),
+                             (("time.end=1000",), ["the time between two rows of the series", "with end 0.2 of the file"])):
+            with self.subTest(change=change):
+                self.refused(2, "plane", FRICTION, *settings, *with_set(change), "--resume", out, "--quiet", says=says)
                 self.assertEqual(content(out), before)
 
     def test_output_times_after_the_old_end_are_free(self):

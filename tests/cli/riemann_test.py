@@ -79,6 +79,11 @@ class Riemann(CommandLine):
         apart = json.loads(self.ok("riemann", "--left", "1,-0.9", "--right", "1,0.9", "--json"))
         self.assertEqual(apart["star"]["Sigma"], 0)
 
+    def test_a_zero_has_no_sign(self):
+        for left, right in (("1", "0"), ("0", "1"), ("1", "1")):
+            for solution in ("trains", "shocks"):
+                self.assertNotIn("-0.0,", self.ok("riemann", "--left", left, "--right", right, "--solution", solution, "--json").replace("}", ","))
+
     def test_refuses(self):
         for left, right, words in [("1,1", "0", ["--left", "velocity", "0.999999"]), ("0", "0", ["empty"]), ("1", "x", ["--right", "STRESS,U"]),
                                    ("1e-5", "1", ["--left", "0.0045"]), ("1", "1e7", ["--right", "1e6"]), ("1,", "1", ["STRESS,U"]), ("nan", "1", ["--left"])]:

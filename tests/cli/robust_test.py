@@ -6,6 +6,7 @@ import re
 import resource
 import signal
 import subprocess
+import time
 import unittest
 
 from support import PATIENCE, PROGRAM, SOURCE, CommandLine, processor_time, processor_time_of, run, until_it_answers, until_it_has_worked
@@ -155,6 +156,22 @@ class Signals(CommandLine):
             self.assertIn("--resume", errors)
             os.remove(out)
 
+    def test_a_signal_at_the_start_ends_the_program(self):
+        """Until the program handles signals, they end it. From then on it prints one line and returns an exit code."""
+        ends = set()
+        for number in (signal.SIGHUP, signal.SIGTERM, signal.SIGINT):
+            for trial in range(8):
+                process = subprocess.Popen([PROGRAM, "chain", STEP, "--set", "chain.scale=1e6"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+                if trial < 7:
+                    time.sleep(0.004 * trial)
+                else:
+                    until_it_answers(process, number)
+                process.send_signal(number)
+                out, errors = process.communicate(timeout=PATIENCE)
+                ends.add(process.returncode)
+                self.assertIn((process.returncode, out, errors.count("\n")), ((-number, "", 0), (130, "", 1)), errors)
+        self.assertIn(130, ends)
+
     def test_a_large_chain_ends_during_its_setup(self):
         errors = self.ended_by(signal.SIGINT, ["chain", STEP, "--set", "chain.scale=1e6"], lambda process: until_it_has_worked(process, 0.5))
         self.assertIn("interrupted", errors)
@@ -249,11 +266,20 @@ class Inputs(CommandLine):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
 
     def test_files_without_an_end_are_refused(self):
-        """Devices and pipes may be read as events and scenarios, but not more of them than fits into memory."""
-        for command in ("event", "pulse"):
-            done = subprocess.run(["prlimit", f"--as={4 << 30}", PROGRAM, command, "/dev/zero"], capture_output=True, text=True)
-            self.assertEqual((done.returncode, done.stderr.count("\n")), (3, 1), done.stderr)
-            self.assertIn("without an end", done.stderr)
+        """Devices and pipes may be read as events and scenarios, but not without an end. The program reads 16 MB of them at most."""
+        commands = [["event"], ["event", os.path.join(SOURCE, "cases/parkfield-2004.toml"), "--columns"], ["pulse"], ["chain"], ["plane"], ["compare"], ["units"], ["laboratory", "--poisson-ratio", "0.35", "--s-wave-speed", "1300 m/s"], ["population"],
+                    ["sweep", "--vary", "time.end=1,2"]]
+        for device in ("/dev/zero", "/dev/urandom"):
+            for command in commands[:3] if device == "/dev/urandom" else commands:
+                with self.subTest(command=command, device=device), self.takes_at_most(4):
+                    self.refused(3, *command, device, says=[device + ": not a text: byte ", " is zero"])
+        yes = subprocess.Popen(["yes"], stdout=subprocess.PIPE)
+        done = subprocess.run(["prlimit", f"--as={2 << 30}", PROGRAM, "event", "-"], capture_output=True, text=True, stdin=yes.stdout)
+        yes.stdout.close()
+        yes.wait()
+        self.assertEqual((done.returncode, done.stderr.count("\n")), (3, 1), done.stderr)
+        self.assertIn("stdin: more than 0.2", done.stderr)
+        self.assertIn("without an end", done.stderr)
 
     def test_sizes_are_known_before_the_work(self):
         for check in ([], ["--check"]):

@@ -35,6 +35,21 @@ TEST(Printable, IsCutBetweenCharacters) {
   EXPECT_EQ(printable("a\xc3\xa9z", 2), "a...");
 }
 
+TEST(Printable, AMessageKeepsItsBeginAndItsEnd) {
+  const std::string name(1000000, 'x'), cut = slipfront::printable_message("/tmp/" + name + "\xc3\xa9: is missing");
+  EXPECT_LT(cut.size(), 2000u);
+  EXPECT_EQ(cut.substr(0, 6), "/tmp/x");
+  EXPECT_EQ(cut.substr(cut.size() - 15), "x\xc3\xa9: is missing");
+  EXPECT_NE(cut.find("x...x"), std::string::npos);
+  std::string accents;
+  for (int i = 0; i < 2000; ++i) accents += "\xc3\xa9";
+  for (const std::string& text : {accents, accents + "x"})
+    EXPECT_EQ(slipfront::printable_message(text).find('?'), std::string::npos);
+  EXPECT_EQ(slipfront::printable_message("a: b"), "a: b");
+  EXPECT_LT(slipfront::one_line({.file = name, .key = name, .value = name, .problem = name, .allowed = name}).size(),
+            4000u);
+}
+
 TEST(Printable, EveryFieldOfAComplaint) {
   const std::string bad = "\x1b[2J";
   EXPECT_EQ(slipfront::one_line({.file = bad, .line = 1, .key = bad, .value = bad, .problem = bad, .allowed = bad})

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "rings.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/plane/grid.hpp"
+#include "slipfront/plane/run.hpp"
 
 namespace {
 
@@ -298,6 +300,52 @@ TEST(PlaneAveraged, LinesThatShrinkToTheOriginVanish) {
   solver.advance_to(1.2, {});
   resumed.advance_to(1.2, {});
   EXPECT_EQ(solver.saved(), resumed.saved());
+}
+
+std::string end_of(std::unique_ptr<plane::Solver> solver, double end) {
+  plane::Run run(std::move(solver), {.times = {0, end}, .nx = 8, .ny = 8, .interval = end, .rupture_slip = 1e-3});
+  try {
+    run.go();
+  } catch (const NumericsError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+/// Steps of averages are a fraction of the time in which friction stops the lines. The run ends before the first of
+/// them.
+TEST(PlaneRun, EndsAtOnceIfFrictionRequiresFarMoreStepsThanWaves) {
+  Problem problem = rings::problem(slip_of_rings());
+  for (const bool on_grid : {false, true}) {
+    const auto solver = [&](double C) -> std::unique_ptr<plane::Solver> {
+      problem.friction = friction::viscous(C);
+      if (on_grid) return std::make_unique<plane::GridSolver>(problem, 16);
+      return std::make_unique<AveragedSolver>(problem, plane::Resolution{.loops = 4, .angles = 1});
+    };
+    const std::string text = end_of(solver(1e7), 0.05);
+    EXPECT_NE(text.find("t = 0: given up after 0 steps"), std::string::npos) << text;
+    EXPECT_NE(text.find("Friction stops the lines at x = "), std::string::npos) << text;
+    EXPECT_NE(text.find("in a time of 1e-07"), std::string::npos) << text;
+    EXPECT_NE(text.find("so that the run would take "), std::string::npos) << text;
+    EXPECT_EQ(end_of(solver(0.5), 0.05), "no error");
+  }
+}
+
+/// Four cells of strongly damped lines move by the errors of the cells.
+TEST(PlaneRun, LosingNearlyAllEnergyIsAnError) {
+  Problem problem = rings::problem(slip_of_rings());
+  problem.friction = friction::viscous(1e3);
+  const std::string text =
+      end_of(std::make_unique<AveragedSolver>(problem, plane::Resolution{.loops = 4, .angles = 1}), 0.05);
+  EXPECT_NE(text.find("t = 0.05: the balance of energy lacks 9"), std::string::npos) << text;
+}
+
+/// The two outermost lines would have one distance from the origin if both were taken to have a millionth of the slip.
+TEST(PlaneAveraged, ManyLoopsBeginApart) {
+  for (const int loops : {1000, 2000, 5000}) {
+    AveragedSolver solver(rings::problem(slip_of_rings()), {loops, 1});
+    EXPECT_NO_THROW(solver.advance_to(1e-7, {})) << loops;
+  }
 }
 
 }  // namespace

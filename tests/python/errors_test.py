@@ -37,6 +37,48 @@ class Errors(CommandLine):
                 slipfront.pulse(STEP, **{key: value})
             self.assertEqual(self.refused(3, "pulse", STEP, "--" + key, value).stderr, f"slipfront: {caught.exception}\n")
 
+    def test_messages_shorten_long_names(self):
+        """Calls each function with a text of 1 MB, also as the key of a dict and as the item of a list."""
+        text = "x" * 1000000
+        functions = [getattr(slipfront, name) for name in slipfront.__all__ if callable(getattr(slipfront, name)) and not isinstance(getattr(slipfront, name), type)]
+        self.assertGreater(len(functions), 12)
+        calls = [(function, (value,), {}) for function in functions for value in (text, text + ".nc", text + ".csv", [text], {text: text}, {text: {text: text}})]
+        calls += [(slipfront.pulse, (STEP,), {key: value}) for key in ("set", "output", "resume") for value in (text, text + ".nc", {text: 1}, {"pulse.cells": text})]
+        calls += [(slipfront.riemann, (1, 0.5), {"solution": text}), (slipfront.sweep, (STEP,), {"axes": {text: [1]}}), (slipfront.sweep, (STEP,), {"axes": {"time.end": [text]}}),
+                  (slipfront.population, (), {"prior": text}), (slipfront.population, (), {"prior": {text: (1, 2)}}), (slipfront.population, (), {"progress": text})]
+        raised = 0
+        for function, arguments, options in calls:
+            with self.subTest(function=function.__name__):
+                try:
+                    function(*arguments, **options)
+                except (slipfront.InputError, slipfront.FileError) as error:
+                    self.assertLess(len(str(error)), 5000)
+                    raised += 1
+                except TypeError as error:  # the function has no positional arguments
+                    self.assertIn("positional", str(error))
+        self.assertGreater(raised, 70)
+
+    def test_a_thread_prints_no_errors_of_libraries(self):
+        code = f"""
+import fcntl, os, tempfile, threading, slipfront
+name = os.path.join(tempfile.mkdtemp(), "a.nc")
+slipfront.pulse({STEP!r}, set={{"pulse.cells": 8, "time.end": 0.1}}, output=name)
+slipfront.open(name)
+file = open(name, "rb+")
+fcntl.flock(file, fcntl.LOCK_EX)
+def read():
+    try:
+        slipfront.open(name)
+    except slipfront.FileError:
+        print("refused")
+for _ in range(2):
+    thread = threading.Thread(target=read)
+    thread.start()
+    thread.join()
+"""
+        done = python(code)
+        self.assertEqual((done.stdout, done.stderr), ("refused\nrefused\n", ""))
+
     def test_refuses(self):
         good = {"initial": {"stress_left": 1.0, "stress_right": 0}}
         slipfront.check(good)  # so that the only fault is the one in the table

@@ -55,6 +55,13 @@ class Synthetic(unittest.TestCase):
         self.assertEqual({found[i] for i in range(4) if math.isclose(np.median(velocity[i]), 0.5, rel_tol=0.02)}, {pair for pair in found if pair[0] == starts[0]})
         self.assertEqual({found[i] for i in range(4) if math.isclose(np.median(velocity[i]), 0.25, rel_tol=0.02)}, {pair for pair in found if pair[0] == starts[1]})
 
+    def test_slip_that_begins_at_once_over_a_stretch_has_a_front_at_each_end(self):
+        times = np.maximum(np.abs(X - 4), 1) / 0.5
+        found, _ = self.fronts(times)
+        self.assertEqual(found, [(30, 0), (49, 99)])
+        mirrored, _ = self.fronts(times[::-1])
+        self.assertEqual(sorted((99 - begin, 99 - end) for begin, end in mirrored), sorted(found))
+
     def test_slip_everywhere_at_once_and_at_single_positions(self):
         found, (velocity,) = self.fronts(np.full(100, 2.0))
         self.assertTrue(np.isinf(velocity).all())

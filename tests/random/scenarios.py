@@ -300,7 +300,7 @@ def write(s, folder):
     """Writes the scenario, and its table if it has one, into a folder. Returns the path of the scenario."""
     path = folder / "scenario.toml"
     path.write_text(text(s), encoding="utf-8")
-    if "rows" in s["initial"]:
+    if "rows" in s.get("initial", {}):
         rows = "".join(f"{x!r},{stress!r}\n" for x, stress in s["initial"]["rows"])
         (folder / s["initial"]["file"]).write_text("x,stress\n" + rows, encoding="utf-8")
     return path

@@ -11,7 +11,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "pulse_sample.hpp"
@@ -22,6 +24,20 @@
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Called each time that the library has renamed a file.
+std::function<void()> after_rename;
+
+}  // namespace
+
+/// Replaces the function of the system, also for the library.
+extern "C" int rename(const char* from, const char* to) noexcept {
+  const int result = renameat(AT_FDCWD, from, AT_FDCWD, to);
+  if (result == 0 && after_rename) after_rename();
+  return result;
+}
+
+namespace {
 
 std::string failure(const std::string& path, std::size_t cells = 3) {
   const auto write = [&] {
@@ -69,6 +85,21 @@ TEST(WholeFile, LeavesNoLockToAProcessStartedDuringTheWrite) {
   close(file);
   kill(other, SIGKILL);
   waitpid(other, nullptr, 0);
+}
+
+/// HDF5 shares the lock of a file that it reads.
+TEST(WholeFile, CanBeReadAsSoonAsItHasItsName) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "a.txt";
+  int readable = -1;
+  after_rename = [&] {
+    const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    readable = flock(file, LOCK_SH | LOCK_NB) == 0;
+    close(file);
+  };
+  slipfront::record::replace_file(path, {"text"});
+  after_rename = nullptr;
+  EXPECT_EQ(readable, 1);
 }
 
 TEST(WholeFile, PreservesTheOldFileIfAWriteFails) {

@@ -30,6 +30,7 @@ class AveragedSolver : public Solver {
   long steps() const override;
   /// \throws NumericsError also if friction has taken more energy than the lines released, by more than a tenth.
   bool advance_to(double time, const std::function<bool()>& interrupted) override;
+  StepsAhead steps_ahead(double duration) const override;
 
   std::vector<double> slip(const std::vector<Point>& points) const override;
   std::vector<double> velocity(const std::vector<Point>& points) const override;

@@ -48,6 +48,7 @@ class DirectSolver : public Solver {
   long steps() const override;
   /// \throws NumericsError also if more than a tenth of the energy has come from nothing.
   bool advance_to(double time, const std::function<bool()>& interrupted) override;
+  bool steps_end_on_time() const override { return false; }
 
   std::vector<double> slip(const std::vector<Point>& points) const override;
   std::vector<double> velocity(const std::vector<Point>& points) const override;

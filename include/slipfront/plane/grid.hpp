@@ -25,6 +25,8 @@ class GridSolver : public Solver {
   /// \throws NumericsError also if the front reaches an edge, and if more than a tenth of the energy has come from
   /// nothing.
   bool advance_to(double time, const std::function<bool()>& interrupted) override;
+  StepsAhead steps_ahead(double duration) const override;
+  bool lines_have_met() const override;
 
   std::vector<double> slip(const std::vector<Point>& points) const override;
   std::vector<double> velocity(const std::vector<Point>& points) const override;

@@ -76,6 +76,12 @@ struct Field {
   std::vector<Line> lines = {};  ///< if the schedule of a run asks for them, in the coordinates of the results
 };
 
+/// Numbers of time steps: as many as waves need, and with what friction requires. 0: the length of steps is constant.
+struct StepsAhead {
+  double by_waves = 0, in_all = 0;
+  std::string reason;  ///< why steps are not longer, and where, as a sentence without a full stop
+};
+
 /// A solver of the problem, in the units of the scenario.
 class Solver {
  public:
@@ -86,6 +92,12 @@ class Solver {
   /// Advances to `time`, or until `interrupted` returns true. Returns whether it has reached the time.
   /// \throws NumericsError, with time and position, if the motion leaves the range of the theory.
   virtual bool advance_to(double time, const std::function<bool()>& interrupted) = 0;
+  /// Whether the lengths of steps depend on the `time` of advance_to, because a step ends there.
+  virtual bool steps_end_on_time() const { return true; }
+  /// The steps in a time, if they are as long as the next one.
+  virtual StepsAhead steps_ahead(double) const { return {}; }
+  /// Whether lines have run into each other and lost energy that the solver does not follow.
+  virtual bool lines_have_met() const { return false; }
 
   /// Slip since t = 0 and slip velocity at points of the domain.
   virtual std::vector<double> slip(const std::vector<Point>& points) const = 0;

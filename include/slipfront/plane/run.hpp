@@ -5,11 +5,17 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "slipfront/plane/problem.hpp"
+
+namespace slipfront::bytes {
+class Reader;
+class Writer;
+}  // namespace slipfront::bytes
 
 namespace slipfront::plane {
 
@@ -50,18 +56,19 @@ struct Maps {
 class Run {
  public:
   Run(std::unique_ptr<Solver> solver, Schedule schedule);
-  /// Resumes a saved run. `snapshots` are those before it was saved. \throws InputError if the run was saved for
-  /// another problem or schedule.
+  /// Resumes a saved run. `snapshots` are those before it was saved. The schedule may end later; the results are then
+  /// those of one run to the later end. \throws InputError if the run was saved for another problem or schedule.
   Run(std::unique_ptr<Solver> solver, Schedule schedule, std::string_view saved, std::vector<Field> snapshots);
 
   /// Advances to the end, or until `interrupted` returns true; it is called after every step. Returns whether the end
-  /// was reached. \throws NumericsError if the solver fails.
+  /// was reached. \throws NumericsError if the solver fails, if the run needs far more steps than waves do, and at the
+  /// end if nine tenths of the energy are missing.
   bool go(const std::function<bool()>& interrupted = {});
 
   const Solver& solver() const { return *solver_; }
   const Schedule& schedule() const { return schedule_; }
   const std::vector<Field>& snapshots() const { return snapshots_; }
-  const std::vector<SeriesRow>& series() const { return series_; }
+  const std::vector<SeriesRow>& series() const { return seen_.series; }
   Maps maps() const;
   bool finished() const { return snapshots_.size() == schedule_.times.size(); }
   /// A run can be saved even after a NumericsError: what was observed before it is valid.
@@ -70,19 +77,36 @@ class Run {
   std::string saved() const;
 
  private:
+  /// The results so far, apart from snapshots.
+  struct Seen {
+    std::vector<SeriesRow> series = {};
+    // Values of the cells.
+    std::vector<double> rupture_time = {}, peak_slip_velocity = {};
+    std::vector<double> velocity_squared = {};  ///< integral over time
+    std::vector<double> last_slip = {};         ///< at the last row of the series
+    long rows_on_time = 0;                      ///< rows of the series at multiples of the interval
+  };
+  /// A state between two rows of the series. `solver` is empty if its steps do not depend on the schedule.
+  struct State {
+    std::string solver;
+    Seen seen;
+  };
+
   void observe(bool snapshot);
   double farthest_rupture() const;
+  void require_steps() const;
+  void require_energy() const;
   void restore(std::string_view saved);
+  static void put(bytes::Writer& writer, const Seen& seen);
+  static Seen get_seen(bytes::Reader& reader, std::size_t cells);
 
   std::unique_ptr<Solver> solver_;
   Schedule schedule_;
   std::vector<Field> snapshots_;
-  std::vector<SeriesRow> series_;
-  // Values of the cells.
-  std::vector<double> rupture_time_, peak_slip_velocity_;
-  std::vector<double> velocity_squared_;  ///< integral over time
-  std::vector<double> last_slip_;         ///< at the last row of the series
-  long rows_on_time_ = 0;                 ///< rows of the series at multiples of the interval
+  Seen seen_;
+  double expected_steps_ = 0;  ///< steps of the whole run; 0: their length is constant
+  /// The last state that does not depend on the end of the run. A run to a later end continues from here.
+  std::optional<State> before_end_;
 };
 
 }  // namespace slipfront::plane

@@ -21,10 +21,14 @@ def further(text, name):
     quantities: dict[int, dict[str, tuple[float, float]]] = {}
     studies: dict[int, str] = {}
     reader = csv.reader(io.StringIO(text, newline=""))
-    titles: list[str] = next(reader, [])
-    begin = reader.line_num
-    for cells in reader:
-        line, begin = begin + 1, reader.line_num
+    try:
+        titles: list[str] = next(reader, [])
+        rows = [(reader.line_num, titles), *((reader.line_num, cells) for cells in reader)]
+    except csv.Error as error:
+        raise InputError(f"{name}:{reader.line_num}: {error}; allowed: a CSV table") from None
+    begin = rows[0][0]
+    for end, cells in rows[1:]:
+        line, begin = begin + 1, end
         for title, cell in zip(titles, cells):
             if title.strip() == "study" and cell.strip():
                 studies[line] = cell.strip()

@@ -67,6 +67,14 @@ std::size_t utf8_length(std::string_view text) {
 
 std::string printable(std::string_view text, std::size_t most) { return shown(text, most, false); }
 
+std::string printable_message(std::string_view text) {
+  constexpr std::size_t most = 2000, begin = 800, end = 800;
+  if (text.size() <= most) return printable(text);
+  std::string_view rest = text.substr(text.size() - end);
+  for (int i = 0; i < 3 && (rest.front() & 0xc0) == 0x80; ++i) rest.remove_prefix(1);  // within a character
+  return printable(text.substr(0, text.size() - end), begin) + printable(rest);
+}
+
 std::string printable_lines(std::string_view text) { return shown(text, static_cast<std::size_t>(-1), true); }
 
 }  // namespace slipfront

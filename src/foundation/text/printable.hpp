@@ -16,6 +16,10 @@ std::size_t utf8_length(std::string_view text);
 /// not UTF-8. A longer result is cut between characters to at most `most` bytes, followed by "...".
 std::string printable(std::string_view text, std::size_t most = static_cast<std::size_t>(-1));
 
+/// Like `printable`, but a result of more than 2000 bytes loses its middle. A message begins with the name of a file,
+/// which may be long, and ends with the reason.
+std::string printable_message(std::string_view text);
+
 /// Like `printable`, but for several lines: line breaks and tabs stay.
 std::string printable_lines(std::string_view text);
 

@@ -120,6 +120,8 @@ bool AveragedSolver::advance_to(double time, const std::function<bool()>& interr
   return true;
 }
 
+StepsAhead AveragedSolver::steps_ahead(double duration) const { return parts_->steps->ahead(duration); }
+
 std::vector<double> AveragedSolver::slip(const std::vector<Point>& points) const {
   std::vector<double> slips;
   slips.reserve(points.size());

@@ -112,7 +112,10 @@ void LoopEquations::solve(double t, std::vector<double>& s) {
       const Point at = centre(i);
       return "t = " + digits(t) + ", x = " + digits(at.x, 4) + ", y = " + digits(at.y, 4) + ": ";
     };
-    if (!(normal_spacing_[i] > 0)) throw NumericsError(where() + "dislocation lines cross");
+    if (!(normal_spacing_[i] > 0))
+      throw NumericsError(where() +
+                          "dislocation lines cross; another plane.loops, plane.solver = \"grid\" or slipfront "
+                          "plane --direct may help");
     try {
       const double guess = std::atanh(std::fmin(std::fmax(s[i], 1e-300), 1 - 1e-16));
       const modulation::SolvedState at = modulation::solve_state({normal_spacing_[i], normal_momentum_[i]}, guess);

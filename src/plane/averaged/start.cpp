@@ -85,8 +85,9 @@ void find_ray(const Problem& problem, std::size_t k, double top, Loops& loops) {
                   "the same slip around the held region");
   check_ray(ray, wall, std::max(top, on_wall));
   loops.wall[k] = wall;
+  const double least = std::min(whole * top, std::numbers::pi / 2 * loops.label[1]);  // below the second line
   for (std::size_t j = 0; j <= loops.rows; ++j) {
-    const double level = std::max(2 * std::numbers::pi * loops.label[j], whole * top);
+    const double level = std::max(2 * std::numbers::pi * loops.label[j], least);
     const bool innermost = j == loops.rows;
     loops.r[j * loops.angles + k] =
         innermost && wall > 0 ? wall : distance_of(ray, wall, innermost ? top * (1 - whole) : level);

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "foundation/math/ssprk3.hpp"
+#include "foundation/text/digits.hpp"
 #include "modulation/equations.hpp"
 
 namespace slipfront::plane {
@@ -84,6 +85,21 @@ void LoopSteps::stage(double t, double step, double of_old, const std::vector<do
   for (std::size_t i = 0; i < loops_.momentum.size(); ++i)
     loops_.momentum[i] = of_old * momentum[i] + of_new * (loops_.momentum[i] + step * momentum_rate_[i]);
   keep_outside_wall(loops_.r);
+}
+
+StepsAhead LoopSteps::ahead(double duration) const {
+  const double by_waves = equations_.longest_step();
+  StepsAhead steps{
+      .by_waves = duration / (courant * by_waves), .in_all = duration / (courant * loops_.limit), .reason = {}};
+  const auto strongest = std::max_element(loops_.loss.begin(), loops_.loss.end());
+  if (loops_.limit < by_waves / 2) {
+    const Point at = equations_.centre(static_cast<std::size_t>(strongest - loops_.loss.begin()));
+    steps.reason = "Friction stops the lines at x = " + digits(at.x, 4) + ", y = " + digits(at.y, 4) +
+                   " in a time of " + digits(1 / *strongest, 3) + ", of which a step is a sixth";
+  } else {
+    steps.reason = "Each step is " + digits(courant, 2) + " of the time in which a wave crosses the narrowest cell";
+  }
+  return steps;
 }
 
 void LoopSteps::take(double end) {

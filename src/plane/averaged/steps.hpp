@@ -17,6 +17,8 @@ class LoopSteps {
   void take(double end);
   /// Finds the equations' results, such as states and velocities, at the present time.
   void look();
+  /// The steps in a time, if they are as long as the next one.
+  StepsAhead ahead(double duration) const;
   const LoopEquations& equations() const { return equations_; }
 
  private:

@@ -159,6 +159,9 @@ bool GridSolver::advance_to(double time, const std::function<bool()>& interrupte
   return true;
 }
 
+StepsAhead GridSolver::steps_ahead(double duration) const { return parts_->steps->ahead(duration); }
+bool GridSolver::lines_have_met() const { return parts_->motion.met_at >= 0; }
+
 std::vector<double> GridSolver::slip(const std::vector<Point>& points) const {
   const std::vector<double> slip = parts_->of_cells([this](std::size_t cell) { return parts_->slip(cell); });
   std::vector<double> at_points;

@@ -132,12 +132,33 @@ void GridSteps::find_strengths() {
   }
 }
 
+std::optional<std::size_t> GridSteps::slowest_cell() const {
+  if (!friction_acts_ || acts_in_stages_) return {};
+  std::optional<std::size_t> slowest;
+  for (const std::size_t cell : equations_.trains().at)
+    if (motion_.strength[cell] > (slowest ? motion_.strength[*slowest] : 0)) slowest = cell;
+  return slowest;
+}
+
 double GridSteps::longest_step() const {
   const double rate = 1 / std::fmin(cells_.hx, cells_.hy);
-  if (!friction_acts_ || acts_in_stages_) return courant / rate;
-  double strongest = 0;
-  for (const std::size_t cell : equations_.trains().at) strongest = std::fmax(strongest, motion_.strength[cell]);
-  return courant / (rate + friction_share * strongest);
+  const std::optional<std::size_t> slowest = slowest_cell();
+  return courant / (rate + (slowest ? friction_share * motion_.strength[*slowest] : 0));
+}
+
+StepsAhead GridSteps::ahead(double duration) const {
+  StepsAhead steps{.by_waves = duration / (courant * std::fmin(cells_.hx, cells_.hy)),
+                   .in_all = duration / longest_step(),
+                   .reason = {}};
+  const std::optional<std::size_t> slowest = slowest_cell();
+  if (slowest && steps.in_all > 2 * steps.by_waves) {
+    const Point at = cells_.centre(*slowest);
+    steps.reason = "Friction stops the lines at x = " + digits(at.x, 4) + ", y = " + digits(at.y, 4) +
+                   " in a time of " + digits(1 / motion_.strength[*slowest], 3) + ", of which a step is a tenth";
+  } else {
+    steps.reason = "Each step is " + digits(courant, 2) + " of the time in which a wave crosses a cell";
+  }
+  return steps;
 }
 
 void GridSteps::look() { look_after(0); }

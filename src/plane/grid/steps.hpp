@@ -6,6 +6,7 @@
 /// from rest, by an implicit step.
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "plane/grid/equations.hpp"
@@ -34,6 +35,8 @@ class GridSteps {
   /// Finds the states, the rates and the powers at the present time.
   void look();
 
+  /// The steps in a time, if they are as long as the next one.
+  StepsAhead ahead(double duration) const;
   const GridEquations& equations() const { return equations_; }
   /// The guesses with which the last look began. A run that resumes from them, and not from those that the look left,
   /// finds the states of the last look to the last bit.
@@ -54,6 +57,8 @@ class GridSteps {
   void stage(double t, double step, double of_old);
   void slow_implicitly(double step);
   void remove_idle_actions();
+  /// The cell in which friction limits the step most; empty if it limits none.
+  std::optional<std::size_t> slowest_cell() const;
   double longest_step() const;
   friction::LocalState state_of(std::size_t cell) const { return {motion_.states.data() + cell * each_, each_}; }
   bool is_free(std::size_t cell) const { return !patch_.empty() && patch_[cell] != 0; }

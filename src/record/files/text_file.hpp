@@ -7,7 +7,7 @@
 namespace slipfront::record {
 
 /// Reads a file. \throws FileError with path and reason if the file is missing, a directory, not permitted or not
-/// readable.
+/// readable; if it is a device or pipe of more than 1 GB, which may never end; and if it is large and no text.
 std::string read_text(const std::string& path);
 
 /// Like `read_text`, but rejects everything except regular files, because a device may never end.

@@ -149,6 +149,9 @@ class PartFile {
     const int descriptor = std::exchange(descriptor_, -1);
     const bool closed = close(descriptor) == 0;
     const int why = errno;
+    // HDF5 shares a lock of a file that it reads, so that it could not open one with an exclusive lock. A shared lock
+    // still keeps remove_parts away.
+    if (lock >= 0) flock(lock, LOCK_SH);
     const bool renamed = closed && std::rename(name_.c_str(), target.c_str()) == 0;
     const int why_not_renamed = errno;
     if (lock >= 0) close_unlocked(lock);

@@ -1,5 +1,6 @@
 #include "record/netcdf/netcdf.hpp"
 
+#include <dlfcn.h>
 #include <netcdf.h>
 #include <netcdf_mem.h>
 
@@ -44,11 +45,21 @@ std::uint64_t sum_of_texts(const std::vector<Text>& texts) {
   return fnv.sum();
 }
 
+/// HDF5 prints its errors, in each thread that has not asked for silence. The NetCDF library asks in its first thread
+/// only. We look the function up because we do not need HDF5 otherwise.
+void silence_hdf5() {
+  using SetAuto = int (*)(std::int64_t stack, void* print, void* data);
+  static const auto set_auto = reinterpret_cast<SetAuto>(dlsym(RTLD_DEFAULT, "H5Eset_auto2"));
+  if (set_auto) set_auto(0, nullptr, nullptr);  // 0: the stack of this thread
+}
+
 }  // namespace
 
 std::unique_lock<std::recursive_mutex> lock_netcdf() {
   static std::recursive_mutex mutex;
-  return std::unique_lock(mutex);
+  std::unique_lock lock(mutex);
+  silence_hdf5();
+  return lock;
 }
 
 std::string library_version() {
