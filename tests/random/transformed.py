@@ -98,7 +98,7 @@ def on_plane(chance):
     size = between(chance, 2, 5)
     return {"plane": {"left": -2.4, "right": 2.4, "bottom": -2.4, "top": 2.4, "cells": 24, "loops": 10, "angles": 16},
             "initial": {"profile": "formula", "formula": f"({rho}) < 1.1 ? {size}*(1 - (({rho})/1.1)^2)^1.5 : 0"},
-            "friction": {"law": "viscous", "coefficient": decades(chance, 0.1, 3)}, "time": {"end": between(chance, 0.1, 0.3)}, "chain": {"scale": 20},
+            "friction": {"law": "viscous", "coefficient": decades(chance, 0.1, 3)}, "time": {"end": between(chance, 0.1, 0.3)}, "chain": {"scale": 20, "spacing": 0.2},
             "output": {"probes": [[0.6, 0.2], [-0.4, 0.7], [0.1, -0.9]]}}
 
 
@@ -131,6 +131,7 @@ def riemann(left, right):
     def side(stress, velocity):
         return f"{stress!r},{velocity!r}" if stress else "0"
     out = call("riemann", f"--left={side(*left)}", f"--right={side(*right)}")
+    out["waves"] = [w for w in out["waves"] if w["to"] - w["from"] > 1e-12]  # rounding decides whether there is a wave of no width
     return {key: out[key] for key in ("left", "star", "right", "waves", "at_origin", "left_edge", "right_edge")}
 
 
@@ -153,9 +154,9 @@ def line(command, s, other, factors, what):
     a, b = run(s, command), run(other, command)
     leave = set(OF_MACHINE) | ({"peak_position"} if abs(a.summary.get("peak_slip_velocity", 0)) < 1e-12 else set())
     errors = flat(a.errors), flat(b.errors)
-    if command == "chain" and "mirrored" in what:  # its first dislocation begins at x = 0 or at an end, to a thousandth of its slip
+    if command == "chain" and "mirrored" in what:  # its dislocations begin elsewhere; results agree to a twentieth of the slip of one
         leave |= {"peak_position", "energy_phonons", "trailing_front_observed", "leading_front_observed", "leading_front", "slip_velocity_at_origin", "peak_slip_velocity", "stress_at_origin"}
-        start = 2e-3 * 2 * math.pi / CHAIN_SCALE
+        start = 0.05 * 2 * math.pi / CHAIN_SCALE
         errors = ({**errors[0], "slip_at_origin": start, "potency": start * s["domain"]["right"]}, errors[1])
     yield from compare(what, flat(a.summary), flat(b.summary), factors, units_of_line(a.summary, s), errors, leave)
 
@@ -515,8 +516,6 @@ def boosted_riemann(chance):
 
     def results():
         a, b = riemann(left, right), riemann(boosted_train(left, by), boosted_train(right, by))
-        for waves in (a, b):  # rounding decides whether there is a wave of no width
-            waves["waves"] = [w for w in waves["waves"] if w["to"] - w["from"] > 1e-12]
         yield "riemann boosted: kinds", float([w["kind"] for w in a["waves"]] != [w["kind"] for w in b["waves"]]), 0, ""
         gamma = 1 / math.sqrt(1 - by * by)
         for place in ("left", "star", "right"):
