@@ -17,7 +17,9 @@
 
 const slipfront::Ranks* the_ranks = nullptr;
 
-void complain(std::string_view line) { std::fprintf(stderr, "slipfront: %s\n", slipfront::printable_message(line).c_str()); }
+void complain(std::string_view line) {
+  std::fprintf(stderr, "slipfront: %s\n", slipfront::printable_message(line).c_str());
+}
 
 void add_common_options(CommandLine& command, CommonOptions& options, bool with_csv) {
   const Option json = command.flag("--json", options.json, "One JSON object on stdout, nothing else");

@@ -297,8 +297,9 @@ def _summary(data):
     """Returns the attributes of a finished pulse or chain that follow from its file: the values at the end, and the settings of
     a pulse."""
     command = str(data.attrs.get("history", "")).split()[1:2]
+    absent = "energy_shocks"  # the file has the rest of the balance, and not whether trains have met
     known = {row[0] for row in {"pulse": _slipfront.pulse_numbers, "chain": _slipfront.chain_numbers}[command[0]]()} if command in (["pulse"], ["chain"]) else set()
-    found = {str(name): variable.values[-1].item() for name, variable in data.variables.items() if variable.dims == ("time",) and name in known}
+    found = {str(name): variable.values[-1].item() for name, variable in data.variables.items() if variable.dims == ("time",) and name in known and name != absent}
     if command == ["pulse"]:
         with contextlib.suppress(InputError, FileError):  # its table of stress may be gone
             plan = check(str(data.attrs["scenario"]) + "\n")

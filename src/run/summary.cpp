@@ -80,26 +80,27 @@ std::vector<SummaryItem<FinishedPulse>> pulse_fronts_and_energy() {
       {"energy_through_ends", [](const FinishedPulse& e) -> Value { return last(e).energy.through_ends; },
        "energy that came in through the ends of the domain"},
       {"energy_shocks",
-       [](const FinishedPulse& e) -> Value {
-         return std::isnan(e.run.solver().cells().crossing_time) ? none : last(e).energy.shocks;
-       },
+       [](const FinishedPulse& e) -> Value { return std::isnan(e.run.crossing_time()) ? none : last(e).energy.shocks; },
        "energy lost where trains run into each other",
        [](const FinishedPulse& e) -> std::string {
+         if (e.run.problem().many_trains) return "trains pass through each other without loss";
          return "no trains have run into each other, and the rest of the balance, " + digits(last(e).energy.shocks, 2) +
                 " in the units of the model, is the error of the cells";
        }},
   };
 }
 
+std::string no_crossing(const FinishedPulse& e) {
+  return e.run.problem().many_trains ? "the averages hold on both sides of it" : "none have";
+}
+
 /// Rows that describe the computation.
 std::vector<SummaryItem<FinishedPulse>> pulse_solver() {
   return {
       {"first_crossing_time", [](const FinishedPulse& e) -> Value { return e.run.crossing_time(); },
-       "time at which dislocations first overtake each other",
-       [](const FinishedPulse&) -> std::string { return "none have"; }},
+       "time at which dislocations first overtake each other", no_crossing},
       {"first_crossing_position", [](const FinishedPulse& e) -> Value { return e.run.crossing_position(); },
-       "x at which they do; averages are approximate behind it",
-       [](const FinishedPulse&) -> std::string { return "none have"; }},
+       "x at which they do; averages are approximate behind it", no_crossing},
       {"conservation_error", [](const FinishedPulse& e) -> Value { return e.run.conservation_error(); },
        "relative error of the number of dislocations"},
       {"cells", [](const FinishedPulse& e) -> Value { return static_cast<long>(e.run.problem().cells); },

@@ -33,6 +33,8 @@ class Run(CommandLine):
             for key, value in asked.items():
                 if key == "warnings":
                     self.assertEqual(got[key], "\n".join(value))
+                elif key == "reasons":
+                    self.assertEqual({name: got[f"{name}_reason"] for name in value}, value)
                 elif "second" not in key and key != "errors":  # times differ; attrs has each error as KEY_error
                     np.testing.assert_equal(got[key], np.nan if value is None else value, key)
 
