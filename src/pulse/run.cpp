@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 #include "foundation/bytes.hpp"
@@ -81,7 +82,10 @@ Run::~Run() = default;
 Run::Run(Run&&) noexcept = default;
 Run& Run::operator=(Run&&) noexcept = default;
 
-const Solver& Run::solver() const { return dynamic_cast<const OneTrain&>(*parts_->motion).solver(); }
+const Solver& Run::solver() const {
+  if (problem().many_trains) throw std::logic_error("Run::solver: the run follows many trains");
+  return static_cast<const OneTrain&>(*parts_->motion).solver();
+}
 const Problem& Run::problem() const { return parts_->motion->problem(); }
 double Run::time() const { return parts_->motion->time(); }
 long Run::steps() const { return parts_->motion->steps(); }

@@ -46,7 +46,7 @@ class Run {
   double crossing_position() const;
   /// Relative error of the number of dislocations.
   double conservation_error() const;
-  /// The solver of a problem with one train at each position. \throws std::bad_cast for many_trains.
+  /// The solver of a problem with one train at each position. \throws std::logic_error for many_trains.
   const Solver& solver() const;
   const output::Schedule& schedule() const;
   const std::vector<output::Snapshot>& snapshots() const;
