@@ -21,11 +21,11 @@ namespace slipfront::plane {
 
 /// When and where a run is observed.
 struct Schedule {
-  std::vector<double> times;  ///< ascending, from 0: one snapshot each
-  int nx = 0, ny = 0;         ///< cells of the maps and snapshots
-  double interval = 0;        ///< time between two rows of the series
-  double rupture_slip = 0;    ///< a cell has ruptured when its slip, of either sign, exceeds this
-  std::string rupture_rule = {};   ///< this slip in words
+  std::vector<double> times;      ///< ascending, from 0: one snapshot each
+  int nx = 0, ny = 0;             ///< cells of the maps and snapshots
+  double interval = 0;            ///< time between two rows of the series
+  double rupture_slip = 0;        ///< a cell has ruptured when its slip, of either sign, exceeds this
+  std::string rupture_rule = {};  ///< this slip in words
   /// y of the results over y of the problem: the speed of waves along y over that along x.
   double wave_speed_ratio = 1;
   bool lines = false;  ///< whether snapshots have the dislocation lines
