@@ -19,6 +19,7 @@ LOADED_CHAIN_WITH_EVENTS = ["--set", "domain.left=-30", "domain.right=30", "time
 JSON_ONLY = {
     "unit_system": "SI, if results are in SI units",
     "units": "SI unit of each key, if results are in SI units",
+    "reasons": "why a number is null, for each key",
     "errors": "estimated error of each number of a `pulse` run",
     "friction": "results of `relations` with a friction coefficient or a ratio of slip velocities, one for each closure",
     "measure": "the slip velocity that a ratio is about: origin, mean, peak or time-mean",
