@@ -8,7 +8,7 @@ wave in closed form, a picture of how it folds, and a smooth profile with three 
 position. You have also compared them with every single dislocation.
 
 Positions are in b / A, times in b / (c A), stresses in mu A / pi, and velocities in c. The theory
-is on the page `Several trains at one position <../theory/9_trains.html>`_.
+is on page 9, Several trains at one position.
 """
 
 # %%

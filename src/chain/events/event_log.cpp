@@ -277,62 +277,78 @@ std::vector<double> EventLog::saved() const {
   return all;
 }
 
-void EventLog::resume(const std::vector<double>& saved) {
-  std::size_t at = 0;
-  const auto refuse = [] {
-    throw InputError({.key = "resume", .problem = "its events are cut short", .allowed = "a file of this version"});
-  };
-  const auto next = [&] {
-    if (at >= saved.size()) refuse();
-    return saved[at++];
-  };
-  const auto next_count = [&](double most) {
+namespace {
+
+constexpr double largest_identity = 9e15;
+
+[[noreturn]] void refuse_saved_events() {
+  throw InputError({.key = "resume", .problem = "its events are cut short", .allowed = "a file of this version"});
+}
+
+/// Reads what EventLog::saved has written.
+class SavedEvents {
+ public:
+  explicit SavedEvents(const std::vector<double>& saved) : saved_(saved) {}
+
+  double next() {
+    if (at_ >= saved_.size()) refuse_saved_events();
+    return saved_[at_++];
+  }
+  std::size_t next_count(double most) {
     const double value = next();
-    if (!(value >= 0 && value <= most)) refuse();
+    if (!(value >= 0 && value <= most)) refuse_saved_events();
     return static_cast<std::size_t>(value);
-  };
-  const auto size = static_cast<double>(saved.size());
-  constexpr double largest_identity = 9e15;
-  const auto next_row = [&]<class Value>(std::vector<Value>& row) {
-    row.resize(next_count(size));
-    for (Value& value : row) {
-      if constexpr (std::is_same_v<Value, double>)
-        value = next();
-      else
-        value = next_count(largest_identity);
-    }
-  };
-  for (double* number : numbers(*this)) *number = next();
-  last_identity_ = next_count(largest_identity);
-  is_ring_ = next() != 0;
-  for (auto* row : rows(*this)) next_row(*row);
-  next_row(owner_);
-  next_row(identities_);
-  if (!std::is_sorted(identities_.begin(), identities_.end())) refuse();
+  }
+  std::size_t next_size() { return next_count(static_cast<double>(saved_.size())); }
+  void next_row(std::vector<double>& row) {
+    row.resize(next_size());
+    for (double& value : row) value = next();
+  }
+  void next_row(std::vector<std::size_t>& row) {
+    row.resize(next_size());
+    for (std::size_t& value : row) value = next_count(largest_identity);
+  }
+
+ private:
+  const std::vector<double>& saved_;
+  std::size_t at_ = 0;
+};
+
+}  // namespace
+
+void EventLog::resume(const std::vector<double>& saved) {
+  SavedEvents from(saved);
+  for (double* number : numbers(*this)) *number = from.next();
+  last_identity_ = from.next_count(largest_identity);
+  is_ring_ = from.next() != 0;
+  for (auto* row : rows(*this)) from.next_row(*row);
+  from.next_row(owner_);
+  from.next_row(identities_);
+  if (!std::is_sorted(identities_.begin(), identities_.end())) refuse_saved_events();
   events_.assign(identities_.size(), {});
   for (output::SlipEvent& event : events_)
-    for (const auto& column : output::slip_event_columns()) event.*column.value = next();
-  open_.assign(next_count(size), {});
+    for (const auto& column : output::slip_event_columns()) event.*column.value = from.next();
+  open_.assign(from.next_size(), {});
   for (Open& open : open_) {
-    open.identity = next_count(largest_identity);
-    open.origins.resize(next_count(size));
-    if (open.origins.empty()) refuse();
+    open.identity = from.next_count(largest_identity);
+    open.origins.resize(from.next_size());
+    if (open.origins.empty()) refuse_saved_events();
     for (Origin& origin : open.origins) {
-      origin.x = next();
-      origin.time = next();
+      origin.x = from.next();
+      origin.time = from.next();
     }
-    open.slip_of_others = next();
-    next_row(open.first_u);
-    next_row(open.arrivals);
+    open.slip_of_others = from.next();
+    from.next_row(open.first_u);
+    from.next_row(open.arrivals);
     const bool fits = open.first_u.size() == x_.size() && open.arrivals.size() == x_.size();
-    if (!fits || !std::binary_search(identities_.begin(), identities_.end(), open.identity)) refuse();
+    if (!fits || !std::binary_search(identities_.begin(), identities_.end(), open.identity)) refuse_saved_events();
   }
   const bool fits = owner_.size() == x_.size() && last_u_.size() == x_.size() && last_velocity_.size() == x_.size();
-  if (!fits) refuse();
+  if (!fits) refuse_saved_events();
   for (const std::size_t identity : owner_)
     if (identity != 0 &&
         std::none_of(open_.begin(), open_.end(), [&](const Open& o) { return o.identity == identity; }))
-      refuse();
+      refuse_saved_events();
 }
 
 }  // namespace slipfront::chain
