@@ -214,8 +214,9 @@ def add_tests():
     names = [name[:-5] for name in sorted(os.listdir(CASES)) if name.endswith(".toml")]
     like_others = {"parkfield-2004", "fig-08", "fig-09", "fig-10", "fig-11",  # the keys of fig-07 and fig-12
                    "plane-wave"}  # no rupture around the origin: for --direct only, whose energies are differences near their rounding
+    # pulse places the points of a fold by comparisons that rounding decides (overtaking: 16 or 19 steps with few points)
     for name in [name for name in names if name not in like_others] + list(FURTHER):
-        for command in ["plane"] if name.startswith("plane") else ["chain"] if name in ("stick-slip", "laboratory-block", "precursors") else ["pulse"] if name in ("ets", "overdamped") else ["pulse", "chain"]:
+        for command in ["plane"] if name.startswith("plane") else ["chain"] if name in ("stick-slip", "laboratory-block", "precursors", "overtaking") else ["pulse"] if name in ("ets", "overdamped") else ["pulse", "chain"]:
             def test(self, command=command, name=name):
                 self.check(command, name)
             setattr(Outputs, f"test_{command}_{name.replace('-', '_')}", test)
