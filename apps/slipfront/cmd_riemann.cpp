@@ -18,6 +18,7 @@
 #include "slipfront/medium/quantity.hpp"
 #include "slipfront/rupture/riemann.hpp"
 #include "slipfront/rupture/riemann_trains.hpp"
+#include "slipfront/train/train.hpp"
 #include "terminal_table.hpp"
 
 namespace {
@@ -61,19 +62,22 @@ Shown with_trains(const State& left, const State& right) {
           [s](double x) { return slipfront::rupture::profile_point(s, x); }};
 }
 
+/// The averages of one train, without slip.
+TrainsPoint point_of(const State& state) {
+  return {slipfront::rupture::profile_point(state), 0, slipfront::train::averages(state).H, {}};
+}
+
 Shown with_shocks(const State& left, const State& right) {
   const auto s = slipfront::rupture::solve_riemann(left, right);
   return {false,
           left,
           right,
-          {slipfront::rupture::profile_point(s.star), 0, {}},
+          point_of(s.star),
           s.left_wave,
           s.right_wave,
           slipfront::rupture::edges_of(s),
           {},
-          [s](double x) {
-            return TrainsPoint{slipfront::rupture::profile_point(s, x), 0, {}};
-          }};
+          [s](double x) { return point_of(slipfront::rupture::sample(s, x)); }};
 }
 
 /// The train of an option STRESS[,U]. `side` is left or right.

@@ -183,10 +183,10 @@ TrainsPoint profile_point(const FilledBands& bands) {
   if (bands.widths.size() == 1) {  // the closed form, which is exact at rest
     const State one{bands.centre, bands.widths[0] / 2};
     const ProfilePoint point = profile_point(one);
-    return {point, 0, {{one.phi - one.psi, one.phi + one.psi, point.Sigma, point.W}}};
+    return {point, 0, train::averages(one).H, {{one.phi - one.psi, one.phi + one.psi, point.Sigma, point.W}}};
   }
   const BandAverages a = averages(bands);
-  TrainsPoint point{{a.W / a.k, a.k, a.W, a.P}, 0, {}};
+  TrainsPoint point{{a.W / a.k, a.k, a.W, a.P}, 0, a.H, {}};
   const std::vector<double> edges = bands.edges();
   for (std::size_t i = 0; i < a.trains.size(); ++i)
     point.trains.push_back({edges[2 * i], edges[2 * i + 1], a.trains[i].k, a.trains[i].omega});

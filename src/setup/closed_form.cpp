@@ -26,8 +26,12 @@ double peak_of(const TrainsSolution& solution, const Edges& edges) {
   const double width = edges.right - edges.left;
   const auto place = [&](int i) { return edges.left + width * i / samples; };
   int best = 1;
+  double largest = speed(solution, place(best));
   for (int i = 2; i < samples; ++i)
-    if (speed(solution, place(i)) > speed(solution, place(best))) best = i;
+    if (const double here = speed(solution, place(i)); here > largest) {
+      best = i;
+      largest = here;
+    }
   double low = place(best - 1), high = place(best + 1);
   constexpr double golden = 0.6180339887498949;
   for (int i = 0; i < 60; ++i) {
@@ -47,14 +51,23 @@ double passes(const TrainsSolution& solution, double resting, double peak, doubl
   return bisected({.holding = resting, .failing = peak}, is_slower).failing;
 }
 
-/// Adds the values without a closed form: the peak of the slip velocity, and the fronts that an observer with a
-/// threshold sees. `fast` and `slow` are x/t of the fronts.
-void add_observed(output::Snapshot& s, const TrainsSolution& solution, double threshold, double fast, double slow) {
-  const double peak = peak_of(solution, rupture::edges_of(solution)), most = speed(solution, peak);
-  s.peak_slip_velocity = velocity(solution, peak);
-  s.peak_position = s.time * peak;
-  s.fronts.trailing_observed = s.time * passes(solution, fast, peak, threshold * most);
-  s.fronts.leading_observed = s.time * passes(solution, slow, peak, threshold * most);
+/// The rays x/t on which fronts and peak move: all states depend on x/t only.
+struct Rays {
+  double fast, slow;  ///< fronts
+  double peak, peak_velocity;
+  double fast_observed, slow_observed;  ///< fronts that an observer with a threshold sees
+};
+Rays rays_of(const TrainsSolution& solution, double threshold) {
+  const Edges edges = rupture::edges_of(solution);
+  const bool stressed_left = solution.left.psi >= solution.right.psi;
+  const double fast = stressed_left ? edges.left : edges.right, slow = stressed_left ? edges.right : edges.left;
+  const double peak = peak_of(solution, edges), level = threshold * speed(solution, peak);
+  return {.fast = fast,
+          .slow = slow,
+          .peak = peak,
+          .peak_velocity = velocity(solution, peak),
+          .fast_observed = passes(solution, fast, peak, level),
+          .slow_observed = passes(solution, slow, peak, level)};
 }
 
 /// The energies without friction and forcing. Nothing is dissipated or supplied; the other energies are not computed.
@@ -68,41 +81,43 @@ output::Energy energy_without_forces() {
           .phonons = none};
 }
 
-output::Snapshot snapshot_of(const TrainsSolution& solution, const output::Schedule& schedule, double time) {
+/// The averages at x. At t = 0 they are those of the given sides.
+rupture::TrainsPoint point_at(const TrainsSolution& solution, double x, double time) {
+  if (time > 0) return rupture::profile_point(solution, x / time);
+  const State& side = x < 0 ? solution.left : solution.right;
+  return rupture::profile_point(side.empty() ? rupture::FilledBands{} : rupture::bands_of_train(side));
+}
+
+output::Snapshot snapshot_of(const TrainsSolution& solution, const Rays& rays, const output::Schedule& schedule,
+                             double time) {
   output::Snapshot s{};
   s.time = time;
-  const auto bands = [&](double x) {
-    if (time > 0) return rupture::bands_at(solution, x / time);
-    const State& side = x < 0 ? solution.left : solution.right;
-    return side.empty() ? rupture::FilledBands{} : rupture::bands_of_train(side);
-  };
-  const auto slip = [&](double x) { return time > 0 ? time * rupture::profile_point(solution, x / time).slip : 0; };
   for (std::size_t i = 0; i + 1 < schedule.x_edges.size(); ++i) {
-    const double x = (schedule.x_edges[i] + schedule.x_edges[i + 1]) / 2;
-    const rupture::FilledBands here = bands(x);
-    const rupture::ProfilePoint point = rupture::profile_point(here).all;
-    s.profile.k.push_back(point.Sigma);
-    s.profile.U.push_back(point.U);
-    s.profile.W.push_back(point.W);
-    s.profile.H.push_back(here.widths.empty() ? 0 : rupture::averages(here).H);
-    s.profile.slip.push_back(slip(x));
+    const rupture::TrainsPoint here = point_at(solution, (schedule.x_edges[i] + schedule.x_edges[i + 1]) / 2, time);
+    s.profile.k.push_back(here.all.Sigma);
+    s.profile.U.push_back(here.all.U);
+    s.profile.W.push_back(here.all.W);
+    s.profile.H.push_back(here.H);
+    s.profile.slip.push_back(time * here.slip);
   }
-  const Edges edges = rupture::edges_of(solution);
   s.energy = energy_without_forces();
-  const bool stressed_left = solution.left.psi >= solution.right.psi;
-  const double fast = stressed_left ? edges.left : edges.right, slow = stressed_left ? edges.right : edges.left;
-  s.fronts = {.trailing = time * fast,
-              .leading = time * slow,
-              .trailing_characteristic = time * fast,
+  s.fronts = {.trailing = time * rays.fast,
+              .leading = time * rays.slow,
+              .trailing_characteristic = time * rays.fast,
               .trailing_observed = none,
               .leading_observed = none};
-  const rupture::ProfilePoint origin = rupture::profile_point(bands(0)).all;
-  s.slip_velocity_at_origin = origin.W;
-  s.stress_at_origin = origin.Sigma;
-  s.slip_at_origin = slip(0);
+  const rupture::TrainsPoint origin = point_at(solution, 0, time);
+  s.slip_velocity_at_origin = origin.all.W;
+  s.stress_at_origin = origin.all.Sigma;
+  s.slip_at_origin = time * origin.slip;
   output::add_further_scalars(s, schedule);
   s.peak_position = none;
-  if (time > 0) add_observed(s, solution, schedule.threshold, fast, slow);
+  if (time > 0) {
+    s.peak_slip_velocity = rays.peak_velocity;
+    s.peak_position = time * rays.peak;
+    s.fronts.trailing_observed = time * rays.fast_observed;
+    s.fronts.leading_observed = time * rays.slow_observed;
+  }
   return s;
 }
 
@@ -115,8 +130,9 @@ std::optional<Level> closed_form(const scenario::Scenario& s, const output::Sche
       rupture::solve_trains(train::at_rest(s.initial.stress_left), train::at_rest(s.initial.stress_right));
   const Edges edges = rupture::edges_of(solution);
   if (schedule.x_edges.front() > s.end * edges.left || schedule.x_edges.back() < s.end * edges.right) return {};
+  const Rays rays = rays_of(solution, schedule.threshold);
   Level level{.name = "closed-form"};
-  for (const double time : schedule.times) level.snapshots.push_back(snapshot_of(solution, schedule, time));
+  for (const double time : schedule.times) level.snapshots.push_back(snapshot_of(solution, rays, schedule, time));
   return level;
 }
 

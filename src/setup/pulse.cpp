@@ -17,8 +17,8 @@ namespace {
 /// x/t of the fronts of a step without friction.
 rupture::Edges edges_of_step(const scenario::Scenario& s) {
   const State left = train::at_rest(s.initial.stress_left), right = train::at_rest(s.initial.stress_right);
-  return !s.friction.acts() ? rupture::edges_of(rupture::solve_trains(left, right))
-                            : rupture::edges_of(rupture::solve_riemann(left, right));
+  return s.friction.acts() ? rupture::edges_of(rupture::solve_riemann(left, right))
+                           : rupture::edges_of(rupture::solve_trains(left, right));
 }
 
 /// How far waves from a step reach by the end: the frictionless fronts, or the diffusion length where friction rules.

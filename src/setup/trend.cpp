@@ -74,8 +74,7 @@ std::vector<std::string> notes_on(const scenario::Scenario& s, const std::vector
       s.initial.stress_right > 0 && s.initial.stress_left != s.initial.stress_right)
     notes.emplace_back(
         "without friction dislocations overtake each other, and one train with a shock loses their energy: no scale "
-        "brings "
-        "chain and pulse together, but pulse.trains = \"many\" does (docs/theory/9_trains.md)");
+        "brings chain and pulse together, but pulse.trains = \"many\" does (docs/theory/9_trains.md)");
   notes.emplace_back(
       "* as an observer with a threshold sees it; on a chain with little friction phonons run ahead, and raising "
       "pulse.threshold hides them");

@@ -58,6 +58,7 @@ struct TrainAt {
 struct TrainsPoint {
   ProfilePoint all;             ///< over all trains; U = W / Sigma is the mean velocity of the dislocations
   double slip;                  ///< slip since t = 0 over t, W - (x / t) (Sigma - Sigma at t = 0)
+  double H;                     ///< energy density
   std::vector<TrainAt> trains;  ///< from the slowest up
 };
 TrainsPoint profile_point(const FilledBands& bands);  ///< its slip is 0
