@@ -227,8 +227,7 @@ void print_summary(const scenario::Scenario& scenario, std::vector<run::SummaryV
     const bool known = i < errors.size() && std::isfinite(errors[i]);
     const std::string error =
         errors.empty() ? "" : fmt::format("{:<12} ", known ? fmt::format("+- {:.2g}", errors[i]) : "");
-    const std::string meaning = row.meaning + (row.reason.empty() ? "" : "; none, because " + row.reason);
-    put(fitted(fmt::format("{:<25} {:<24} {}{}", row.key, cell_of(row), error, meaning),
+    put(fitted(fmt::format("{:<25} {:<24} {}{}", row.key, cell_of(row), error, with_reason(row.meaning, row.reason)),
                25 + 1 + 24 + 1 + error.size()));
   }
   if (events) put(table_of(*events, scenario));

@@ -51,8 +51,8 @@ void print(const std::string& prefix, const std::vector<run::PlaneRow>& rows) {
     for (std::size_t i = 0; i < row.values.size(); ++i) {
       const std::string key = prefix + row.key + (row.is_list ? fmt::format("[{}]", i) : "");
       const std::string error = std::isfinite(row.errors[i]) ? fmt::format("+- {:.2g}", row.errors[i]) : "";
-      const std::string meaning = row.meaning + (row.reason.empty() ? "" : "; none, because " + row.reason);
-      put(fitted(fmt::format("{:<26} {:<24} {:<12} {}", key, shown(row.values[i]), error, meaning),
+      put(fitted(fmt::format("{:<26} {:<24} {:<12} {}", key, shown(row.values[i]), error,
+                             with_reason(row.meaning, row.reason)),
                  26 + 1 + 24 + 1 + 12 + 1));
     }
 }

@@ -57,6 +57,11 @@ std::optional<std::size_t> terminal_width() {
   return width;
 }
 
+std::string with_reason(std::string meaning, const std::string& reason) {
+  if (!reason.empty()) meaning += "; none, because " + reason;
+  return meaning;
+}
+
 std::string fitted(std::string_view line, std::size_t indent) {
   const std::optional<std::size_t> width = terminal_width();
   if (!width) return std::string(line) + "\n";

@@ -20,6 +20,9 @@ std::optional<std::size_t> terminal_width();
 /// blanks. A word that is longer than a line stays whole, so that paths can be copied.
 std::string fitted(std::string_view line, std::size_t indent = 0);
 
+/// What a number means, and the reason if it has no value.
+std::string with_reason(std::string meaning, const std::string& reason);
+
 struct TableColumn {
   std::size_t width;     ///< least width, in characters
   bool is_left = false;  ///< aligned to the left

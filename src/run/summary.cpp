@@ -91,7 +91,8 @@ std::vector<SummaryItem<FinishedPulse>> pulse_fronts_and_energy() {
 }
 
 std::string no_crossing(const FinishedPulse& e) {
-  return e.run.problem().many_trains ? "the averages hold on both sides of it" : "none have";
+  return e.run.problem().many_trains ? "dislocations that overtake others form a train of their own"
+                                     : "no dislocations have overtaken others";
 }
 
 /// Rows that describe the computation.

@@ -15,6 +15,8 @@ FRICTION = os.path.join(SOURCE, "cases/plane-friction.toml")
 CONTRACT = ["time", "potency", "slip_at_probes", "slip_velocity_at_probes", "peak_slip_velocity", "front", "energies", "steps",
             "wall_seconds"]
 COARSE = ("--set", "plane.loops=24", "plane.angles=16", "plane.cells=40")
+#: The table [plane] of a square.
+SQUARE = "[plane]\nleft = -4\nright = 4\nbottom = -4\ntop = 4\ncells = 40\n"
 
 
 class PlaneCommand(CommandLine):
@@ -23,7 +25,6 @@ class PlaneCommand(CommandLine):
 
     def folder(self):
         return os.path.dirname(self.file("unused", ""))
-
 
 class Plane(PlaneCommand):
     def test_rings_with_friction_have_the_slip_of_every_line(self):
@@ -206,14 +207,7 @@ end = 3
         self.refused(2, "plane", case, "--direct", "--set", "nucleation.x=8", says=["nucleation.radius", "outside"])
 
     def test_without_initial_slip_a_cell_ruptures_when_half_a_line_has_passed(self):
-        case = self.file("case.toml", """
-[plane]
-left = -4
-right = 4
-bottom = -4
-top = 4
-cells = 40
-edges = "absorbing"
+        case = self.file("case.toml", SQUARE + """edges = "absorbing"
 [initial]
 profile = "formula"
 formula = "0"
@@ -236,14 +230,7 @@ end = 1
         self.assertIn("has not ended", out["reasons"]["corner_frequency"])
 
     def test_lines_that_shrink_have_source_parameters_too(self):
-        case = self.file("case.toml", """
-[plane]
-left = -4
-right = 4
-bottom = -4
-top = 4
-cells = 40
-[initial]
+        case = self.file("case.toml", SQUARE + """[initial]
 profile = "formula"
 formula = "max(0, 2 - sqrt(x^2 + y^2))"
 [forcing]

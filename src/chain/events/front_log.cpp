@@ -35,19 +35,19 @@ void FrontLog::look(double time, const std::vector<double>& velocity, const Even
   match_events(log, ahead);
   for (std::size_t i = 0; i < velocity.size(); ++i) {
     if (std::isnan(above_since_[i])) continue;
-    const auto of_event = std::lower_bound(identities_.begin(), identities_.end(), log.event_at(records_.x[i]));
-    if (of_event == identities_.end() || *of_event != log.event_at(records_.x[i])) continue;
-    double& arrival = records_.events[static_cast<std::size_t>(of_event - identities_.begin())].arrival[i];
-    if (std::isnan(arrival)) arrival = above_since_[i];
+    output::FrontRecord* const record = record_of(log.event_at(records_.x[i]));
+    if (record && std::isnan(record->arrival[i])) record->arrival[i] = above_since_[i];
   }
+}
+
+output::FrontRecord* FrontLog::record_of(std::size_t identity) {
+  const auto found = std::lower_bound(identities_.begin(), identities_.end(), identity);
+  if (found == identities_.end() || *found != identity) return nullptr;
+  return &records_.events[static_cast<std::size_t>(found - identities_.begin())];
 }
 
 /// Adds the events that have begun, and removes those that the log of events has joined to others or does not count.
 void FrontLog::match_events(const EventLog& log, const std::function<Tractions()>& ahead) {
-  const auto index = [&](std::size_t identity) {
-    return static_cast<std::size_t>(std::lower_bound(identities_.begin(), identities_.end(), identity) -
-                                    identities_.begin());
-  };
   const std::size_t last = identities_.empty() ? 0 : identities_.back();
   for (const std::size_t identity : log.identities()) {
     if (identity <= last) continue;
@@ -56,10 +56,10 @@ void FrontLog::match_events(const EventLog& log, const std::function<Tractions()
     records_.events.push_back({std::vector<double>(positions(), none), std::move(now.stress), std::move(now.traction)});
   }
   for (const EventLog::Joined& joined : log.joined()) {
-    if (index(joined.from) == identities_.size() || identities_[index(joined.from)] != joined.from) continue;
-    const std::vector<double>& later = records_.events[index(joined.from)].arrival;
-    std::vector<double>& earlier = records_.events[index(joined.to)].arrival;
-    for (std::size_t i = 0; i < later.size(); ++i) earlier[i] = std::fmin(earlier[i], later[i]);
+    const output::FrontRecord* const later = record_of(joined.from);
+    if (!later) continue;
+    std::vector<double>& earlier = record_of(joined.to)->arrival;
+    for (std::size_t i = 0; i < earlier.size(); ++i) earlier[i] = std::fmin(earlier[i], later->arrival[i]);
   }
   for (std::size_t i = identities_.size(); i-- > 0;) {
     if (std::binary_search(log.identities().begin(), log.identities().end(), identities_[i])) continue;

@@ -35,6 +35,8 @@ class FrontLog {
   void resume(const std::vector<double>& saved);
 
  private:
+  /// The record of an event; null if there is none.
+  output::FrontRecord* record_of(std::size_t identity);
   void match_events(const EventLog& log, const std::function<Tractions()>& ahead);
 
   double threshold_ = 0, last_time_ = 0;

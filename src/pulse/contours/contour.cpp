@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "foundation/math/interval.hpp"
+#include "foundation/math/roots.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/train/train.hpp"
 
@@ -255,17 +256,12 @@ class Builder {
     double still = made_.stressed_left ? problem_.left : problem_.right;
     for (int i = 1; i <= profile_samples; ++i) {
       const double share = static_cast<double>(i) / profile_samples;
-      double x = std::lerp(problem_.left, problem_.right, made_.stressed_left ? share : 1 - share);
-      if (!departs(x)) {
-        still = x;
-        continue;
+      const double x = std::lerp(problem_.left, problem_.right, made_.stressed_left ? share : 1 - share);
+      if (departs(x)) {
+        still = bisected({.holding = x, .failing = still}, departs).failing;
+        break;
       }
-      while (true) {
-        const double middle = still + (x - still) / 2;
-        if (middle == still || middle == x) break;
-        (departs(middle) ? x : still) = middle;
-      }
-      break;
+      still = x;
     }
     front_x_ = still;
     for (const Piece& piece : pieces_) {

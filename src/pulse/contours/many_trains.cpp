@@ -174,9 +174,11 @@ void ManyTrains::restore(bytes::Reader& reader) { go_to(get(reader)); }
 void ManyTrains::save_stored(bytes::Writer& writer) const { put(writer, *stored_); }
 void ManyTrains::restore_stored(bytes::Reader& reader) { stored_ = get(reader); }
 
-std::optional<SlipTwice> ManyTrains::slip_twice() const {
+std::optional<SlipTwice> ManyTrains::slip_twice() const { return slip_twice(Along(*this)); }
+
+std::optional<SlipTwice> ManyTrains::slip_twice(const Along& along) const {
   if (!state_.slip.can_compare(problem_)) return std::nullopt;
-  return state_.slip.compare(time(), Along(*this).slip_at_origin(), velocity_at_origin(now_));
+  return state_.slip.compare(time(), along.slip_at_origin(), velocity_at_origin(now_));
 }
 
 double ManyTrains::conservation_error() const { return Along(*this).conservation_error(); }
@@ -192,10 +194,11 @@ output::Findings ManyTrains::findings(const std::vector<output::Snapshot>& snaps
   for (const output::Snapshot& s : snapshots) motion = std::fmax(motion, s.energy.kinetic);
   for (const double slip : snapshots.back().profile.slip) largest = std::fmax(largest, std::fabs(slip));
   const Along along(*this);
-  if (const std::optional<SlipTwice> slip = slip_twice()) {
+  if (const std::optional<SlipTwice> slip = slip_twice(along)) {
     constexpr double rounding = 1e-12;
-    const double beyond = std::fabs(slip->by_place - slip->by_velocity) - 3 * slip->sampling - rounding * along.count();
-    found.violation(beyond / std::fmax(largest, state_.slip.size()),
+    const double difference = std::fabs(slip->by_place - slip->by_velocity);
+    const double excess = difference - 3 * slip->sampling - rounding * along.count();
+    found.violation(excess / std::fmax(largest, state_.slip.size()),
                     "pulse: slip at x = 0 is " + digits(slip->by_place) + ", the integral of the slip velocity there " +
                         digits(slip->by_velocity) + "; more pulse.cells help");
   }

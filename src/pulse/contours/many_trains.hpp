@@ -16,6 +16,8 @@
 
 namespace slipfront::pulse {
 
+class Along;
+
 /// The part of a checkpoint that describes the motion of many trains at one time.
 struct ManyTrainsState {
   double time = 0, steps = 0;
@@ -55,6 +57,7 @@ class ManyTrains : public Motion {
   const Contour& contour() const { return now_; }
 
  private:
+  std::optional<SlipTwice> slip_twice(const Along& along) const;
   void put(bytes::Writer& writer, const ManyTrainsState& state) const;
   ManyTrainsState get(bytes::Reader& reader) const;
   void go_to(ManyTrainsState saved);
