@@ -20,7 +20,7 @@ std::optional<std::size_t> terminal_width();
 /// blanks. A word that is longer than a line stays whole, so that paths can be copied.
 std::string fitted(std::string_view line, std::size_t indent = 0);
 
-/// What a number means, and the reason if it has no value.
+/// The meaning of a number, with the reason if the number has no value.
 std::string with_reason(std::string meaning, const std::string& reason);
 
 struct TableColumn {

@@ -26,6 +26,7 @@ class PlaneCommand(CommandLine):
     def folder(self):
         return os.path.dirname(self.file("unused", ""))
 
+
 class Plane(PlaneCommand):
     def test_rings_with_friction_have_the_slip_of_every_line(self):
         """The reference follows each ring, at scale 300 (direct radial simulation)."""
