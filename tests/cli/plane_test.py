@@ -239,7 +239,7 @@ formula = "-8"
 [time]
 end = 0.5
 """)
-        out = self.plane(case)
+        out = self.plane(case, "--set", "plane.loops=24", "plane.angles=16")
         self.assertLess(out["potency"], 0)
         self.assertGreater(out["stress_drop"], 0)
         self.assertGreater(out["duration"], 0)

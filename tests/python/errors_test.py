@@ -160,7 +160,7 @@ for _ in range(2):
     def test_an_interrupted_run_leaves_a_checkpoint(self):
         case = self.slow_case()
         folder = os.path.dirname(case)
-        for command, change in [("pulse", "pulse.cells=1200"), ("chain", "chain.scale=1500")]:
+        for command, change in [("pulse", "pulse.cells=800"), ("chain", "chain.scale=1500")]:
             cut, whole = os.path.join(folder, command + ".nc"), os.path.join(folder, command + "-whole.nc")
             key, value = change.split("=")
             code = f"import slipfront\nslipfront.{command}({case!r}, set={{{key!r}: {value}}}, output={cut!r}, threads=1)"
