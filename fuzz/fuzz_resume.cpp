@@ -86,8 +86,7 @@ std::string made(FuzzedDataProvider& data) {
   add("x", {dimensions[1]}, false);
   for (const auto& field : slipfront::record::field_variables())
     add(std::string(field.about.name), {dimensions[0], dimensions[1]}, false);
-  for (const auto& scalar : slipfront::record::scalar_variables())
-    add(std::string(scalar.about.name), {dimensions[0]}, false);
+  for (const auto& scalar : slipfront::output::scalars()) add(std::string(scalar.about.name), {dimensions[0]}, false);
   add("checkpoint", {dimensions[2]}, true);
   if (events) add("done", {dimensions[2]}, true);
   if (!usual()) add("scenario_text", {dimensions[2]}, true);

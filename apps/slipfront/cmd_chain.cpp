@@ -50,8 +50,7 @@ int run_chain(const ScenarioArguments& a) {
   const auto result = run::chain(s, plan, long_run.options(std::move(saved), begun));
   if (const int code = long_run.end(result.finished()); code != exit_done) return code;
   if (the_ranks->rank() == 0)
-    print_summary(s, result.summary, result.errors, result.metadata.warnings, a,
-                  s.loading.acts() ? &result.metadata.events : nullptr);
+    print_summary(s, result.summary, result.metadata.warnings, a, s.loading.acts() ? &result.metadata.events : nullptr);
   return exit_done;
 }
 

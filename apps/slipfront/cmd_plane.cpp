@@ -5,7 +5,6 @@
 #include "batch.hpp"
 #include "foundation/ranks.hpp"
 #include "long_run.hpp"
-#include "plane_output.hpp"
 #include "run/fault_plane.hpp"
 #include "run/plane.hpp"
 #include "slipfront/plane/direct.hpp"
@@ -36,6 +35,15 @@ void describe(const scenario::Scenario& s, const run::PlanePlan& plan, const std
       s.title.empty() ? s.file : s.title, solver, in_results(s, grid.left, "b / A"), in_results(s, grid.right, "b / A"),
       in_results(s, grid.bottom, "b / A"), in_results(s, grid.top, "b / A"), in_results(s, s.end, "b / (c A)"), grid.nx,
       grid.ny, plan.schedule.times.size(), plan.disk / 1e9));
+}
+
+/// Prints the results, and those of the finite-fault model with which they are compared, if any.
+void print_plane(const scenario::Scenario& s, const run::PlaneResult& result, const run::PlaneNumbers& errors,
+                 const run::FaultOnPlane* model, const ScenarioArguments& a) {
+  std::vector<run::Row> rows = rows_of(result, errors);
+  if (model)
+    for (run::Row& row : run::compare_with_model(*model, s, result)) rows.push_back(std::move(row));
+  print_summary(s, std::move(rows), result.metadata.warnings, a);
 }
 
 /// Errors of a run that processes share, and of one that a finite-fault model gives, are not estimated.

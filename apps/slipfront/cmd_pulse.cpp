@@ -63,12 +63,12 @@ int run_pulse(ScenarioArguments a, std::optional<double> tolerance) {
     return exit_done;
   }
   LongRun long_run(a, s, saved && saved->finished, nullptr);
-  const auto result = run::pulse(s, plan, long_run.options(std::move(saved), begun));
+  auto result = run::pulse(s, plan, long_run.options(std::move(saved), begun));
   if (const int code = long_run.end(result.finished()); code != exit_done) return code;
-  const run::Errors errors = run::errors_of(result, s, {});
+  const std::vector<std::string> unresolved = run::add_errors(result, s, {});
   std::vector<std::string> warnings = result.metadata.warnings;
-  warnings.insert(warnings.end(), errors.warnings.begin(), errors.warnings.end());
-  print_summary(s, result.summary, errors.of, warnings, a);
+  warnings.insert(warnings.end(), unresolved.begin(), unresolved.end());
+  print_summary(s, result.summary, warnings, a);
   return exit_done;
 }
 

@@ -98,9 +98,9 @@ template <class Row>
 void print_one(const Row& row, const auto& quantities, const RelationsUnits& units) {
   for (std::size_t i = 0; i < units.each.size(); ++i) {
     const auto& q = quantities[i];
-    const auto& [name, long_name, of_model, reference] = q.about;
     const std::string& unit = units.each[i].name;
-    put(fitted(fmt::format("{:<31} {:<24} {}{}{}", name, row.*q.value, long_name, unit.empty() ? "" : ", in ", unit),
+    put(fitted(fmt::format("{:<31} {:<24} {}{}{}", q.about.name, row.*q.value, q.about.long_name,
+                           unit.empty() ? "" : ", in ", unit),
                31 + 1 + 24 + 1));
   }
 }

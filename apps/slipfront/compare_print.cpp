@@ -16,60 +16,70 @@ using namespace slipfront::setup;
 
 namespace {
 
+using output::Scalar;
 using CompareUnits = std::optional<medium::SiUnits>;
 
-/// The unit of a key in the units of the results.
-medium::UnitInSi unit_of(const CompareUnits& units, std::string_view key) {
-  return units ? units->of(run::unit_of(key)) : medium::UnitInSi{};
+/// A unit of the model in the units of the results.
+medium::UnitInSi unit_in(const CompareUnits& units, const Description& about) {
+  return units ? units->of(about.dimensional_unit) : medium::UnitInSi{};
 }
 
-double last(const Level& level, const Quantity& quantity, const CompareUnits& units) {
-  return quantity.get(level.snapshots.back()) * unit_of(units, quantity.key).value;
+double last(const Level& level, const Scalar& number, const CompareUnits& units) {
+  return number.get(level.snapshots.back()) * unit_in(units, number.about).value;
+}
+
+/// The numbers that describe a level.
+std::vector<std::pair<Description, std::optional<double>>> settings_of(const Level& level) {
+  return {{output::slip_window, level.window},
+          {output::velocity_window, level.smooth_window},
+          {output::wall_time, level.wall_seconds}};
 }
 
 Json json_level(const Level& level, const Level* reference, const CompareUnits& units) {
-  const output::Snapshot& s = level.snapshots.back();
   Json j = {{"level", level.name},
             {"closure", level.closure.empty() ? Json() : Json(level.closure)},
             {"scale", json_of(level.scale)}};
-  const auto add = [&](const char* key, std::optional<double> value) {
-    if (value) *value *= unit_of(units, key).value;
-    j[key] = json_of(value);
-  };
-  for (const Quantity& q : compared_quantities()) add(q.key, q.get(s));
-  add("stress_at_origin", s.stress_at_origin);
-  add("peak_position", s.peak_position);
-  add("trailing_front", s.fronts.trailing);
-  add("energy_dissipated", s.energy.dissipated);
-  add("window", level.window);
-  add("smooth_window", level.smooth_window);
-  j["wall_seconds"] = level.wall_seconds;
-  for (const Quantity& q : compared_quantities())
-    j["difference"][q.key] = reference ? Json(last(level, q, units) - last(*reference, q, units)) : Json();
+  for (const Scalar& number : output::scalars()) j[std::string(number.about.name)] = last(level, number, units);
+  for (auto [about, value] : settings_of(level)) {
+    if (value) *value *= unit_in(units, about).value;
+    j[std::string(about.name)] = json_of(value);
+  }
+  for (const Scalar& q : compared_numbers())
+    j["difference"][std::string(q.about.name)] =
+        reference ? Json(last(level, q, units) - last(*reference, q, units)) : Json();
   return j;
+}
+
+/// The names of the units in SI of all numbers of a level.
+Json names_of_units(const CompareUnits& units, const Level& level) {
+  Json names;
+  const auto add = [&](const Description& about) {
+    if (!about.dimensional_unit.empty()) names[std::string(about.name)] = unit_in(units, about).name;
+  };
+  add(output::end_time);
+  for (const Scalar& number : output::scalars()) add(number.about);
+  for (const auto& [about, value] : settings_of(level)) add(about);
+  return names;
 }
 
 void print_json(const scenario::Scenario& s, const std::vector<Level>& levels) {
   const std::optional<double> C = s.friction.linear_coefficient();
   const CompareUnits& units = s.results_in;
-  Json j = {{"time", s.end * unit_of(units, "time").value},
+  Json j = {{"time", s.end * unit_in(units, output::end_time).value},
             {"friction_coefficient", json_of(C)},
             {"damping_number", C ? Json(*C * s.end) : Json()},
             {"reference", "pulse-consistent"},
             {"levels", Json::array()}};
   for (const Level& level : levels) j["levels"].push_back(json_level(level, reference_level(levels), units));
-  for (const Quantity& q : compared_quantities()) {
+  for (const Scalar& q : compared_numbers()) {
     const Trend t = trend_of(levels, q);
-    const double unit = unit_of(units, q.key).value;
-    j["trend"][q.key] = {
+    const double unit = unit_in(units, q.about).value;
+    j["trend"][std::string(q.about.name)] = {
         {"exponent", t.exponent}, {"extrapolated", t.extrapolated * unit}, {"difference", t.difference * unit}};
   }
   if (units) {
-    Json names = {{"time", unit_of(units, "time").name}};
-    for (const auto& [key, value] : j["levels"].front().items())
-      if (!run::unit_of(key).empty()) names[key] = unit_of(units, key).name;
     j["unit_system"] = "SI";
-    j["units"] = names;
+    j["units"] = names_of_units(units, levels.front());
   }
   j["notes"] = notes_on(s, levels);
   put(text_of(j) + "\n");
@@ -84,9 +94,9 @@ std::string friction_in_words(const friction::Friction& f, double time) {
 std::string cell(double value) { return std::isfinite(value) ? fmt::format("{:.5g}", value) : "-"; }
 
 /// Slip and slip velocities differ by a share of the reference, fronts by a length.
-bool is_front(const Quantity& q) { return std::string_view(q.key).find("front") != std::string_view::npos; }
+bool is_front(const Scalar& q) { return q.about.dimensional_unit == "b / A"; }
 
-std::string difference_cell(double difference, double theory, const Quantity& q, const CompareUnits& units) {
+std::string difference_cell(double difference, double theory, const Scalar& q, const CompareUnits& units) {
   if (is_front(q) && units) return std::isfinite(difference) ? fmt::format("{:+.3g}", difference) : cell(difference);
   if (is_front(q)) return std::isfinite(difference) ? fmt::format("{:+.5f}", difference) : cell(difference);
   const double percent = 100 * difference / theory;
@@ -108,20 +118,21 @@ using Cells = std::vector<std::string>;
 template <class Cell>
 void add_row(TerminalTable& table, const std::string& name, Cell&& cell) {
   Cells cells = {name};
-  for (const Quantity& q : compared_quantities()) cells.push_back(cell(q));
+  for (const Scalar& q : compared_numbers()) cells.push_back(cell(q));
   table.add(std::move(cells));
 }
 
 void add_levels(TerminalTable& table, const std::vector<Level>& levels, const CompareUnits& units) {
   Cells head = {"at the end"};
-  for (const Quantity& q : compared_quantities()) head.emplace_back(q.heading);
+  for (const Scalar& q : compared_numbers()) head.emplace_back(q.heading);
   head.emplace_back("seconds");
   table.add(std::move(head));
-  add_row(table, "",
-          [&](const Quantity& q) { return units ? unit_of(units, q.key).name : std::string(run::unit_of(q.key)); });
+  add_row(table, "", [&](const Scalar& q) {
+    return units ? unit_in(units, q.about).name : std::string(q.about.dimensional_unit);
+  });
   for (const Level& level : levels) {
     Cells cells = {level.name};
-    for (const Quantity& q : compared_quantities()) cells.push_back(cell(last(level, q, units)));
+    for (const Scalar& q : compared_numbers()) cells.push_back(cell(last(level, q, units)));
     cells.push_back(fmt::format("{:.2g}", level.wall_seconds));
     table.add(std::move(cells));
   }
@@ -129,21 +140,20 @@ void add_levels(TerminalTable& table, const std::vector<Level>& levels, const Co
 
 void add_differences(TerminalTable& table, const std::vector<Level>& levels, const Level& reference,
                      const CompareUnits& units) {
-  const auto theory = [&](const Quantity& q) { return last(reference, q, units); };
-  const auto unit = [&](const Quantity& q) { return unit_of(units, q.key).value; };
+  const auto theory = [&](const Scalar& q) { return last(reference, q, units); };
+  const auto unit = [&](const Scalar& q) { return unit_in(units, q.about).value; };
   table.add_title("");
   table.add_title("difference from pulse-consistent");
   for (const Level& level : levels)
     if (&level != &reference)
-      add_row(table, level.name, [&](const Quantity& q) {
-        return difference_cell(last(level, q, units) - theory(q), theory(q), q, units);
-      });
+      add_row(table, level.name,
+              [&](const Scalar& q) { return difference_cell(last(level, q, units) - theory(q), theory(q), q, units); });
   table.add_title("");
   table.add_title("trend of the chain with scale");
-  add_row(table, "falls as s^-p, p =", [&](const Quantity& q) { return cell(trend_of(levels, q).exponent); });
+  add_row(table, "falls as s^-p, p =", [&](const Scalar& q) { return cell(trend_of(levels, q).exponent); });
   add_row(table, "at infinite scale",
-          [&](const Quantity& q) { return cell(trend_of(levels, q).extrapolated * unit(q)); });
-  add_row(table, "less pulse", [&](const Quantity& q) {
+          [&](const Scalar& q) { return cell(trend_of(levels, q).extrapolated * unit(q)); });
+  add_row(table, "less pulse", [&](const Scalar& q) {
     return difference_cell(trend_of(levels, q).difference * unit(q), theory(q), q, units);
   });
 }

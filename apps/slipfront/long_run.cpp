@@ -133,7 +133,7 @@ std::string table_of(const std::vector<output::SlipEvent>& events, const scenari
   }
   std::string text = count + table.text();
   for (const auto& column : columns_without_value(events))
-    text += fitted(fmt::format("{} is nan: {}", column.about.name, column.reason), 2);
+    text += fitted(fmt::format("{} is nan: {}", column.about.name, column.about.reason), 2);
   return text;
 }
 
@@ -148,12 +148,29 @@ Json json_of_events(const std::vector<output::SlipEvent>& events, const scenario
   return all;
 }
 
+/// The object of JSON that holds a row.
+Json& object_of(const run::Row& row, Json& all) { return row.group.empty() ? all : all[row.group]; }
+
+Json json_of(const run::Row& row) {
+  return std::visit([](const auto& value) { return Json(value); }, row.value);
+}
+
+bool has_error(const run::Row& row) {
+  return std::any_of(row.errors.begin(), row.errors.end(), [](double error) { return std::isfinite(error); });
+}
+
+Json json_of_errors(const run::Row& row) {
+  Json errors = Json::array();
+  for (const double error : row.errors) errors.push_back(rounded(error));
+  return std::holds_alternative<std::vector<double>>(row.value) ? errors : errors.front();
+}
+
 /// The units of the rows and of the events, unless they are numbers.
-Json json_units(const std::vector<run::SummaryValue>& summary, const std::vector<output::SlipEvent>* events,
+Json json_units(const std::vector<run::Row>& summary, const std::vector<output::SlipEvent>* events,
                 const scenario::Scenario& scenario) {
   Json units;
-  for (const auto& row : summary)
-    if (const auto unit = run::unit_of(row); !unit.empty()) units[row.key] = scenario.results_in->of(unit).name;
+  for (const run::Row& row : summary)
+    if (!row.unit.empty()) object_of(row, units)[std::string(row.key())] = row.unit;
   if (!events) return units;
   for (const auto& column : output::slip_event_columns())
     if (const auto unit = unit_of(column, scenario); unit.name != "1")
@@ -161,20 +178,24 @@ Json json_units(const std::vector<run::SummaryValue>& summary, const std::vector
   return units;
 }
 
-std::string summary_json(const std::vector<run::SummaryValue>& summary, const std::vector<double>& errors,
-                         const std::vector<std::string>& warnings, const std::vector<output::SlipEvent>* events,
-                         const scenario::Scenario& scenario) {
-  Json j;
-  for (const auto& row : summary) j[row.key] = std::visit([](const auto& value) { return Json(value); }, row.value);
-  if (!errors.empty()) j["errors"] = Json::object();
-  for (std::size_t i = 0; i < errors.size(); ++i)
-    if (std::isfinite(errors[i])) j["errors"][summary[i].key] = rounded(errors[i]);
-  if (events) j["events"] = json_of_events(*events, scenario);
-  for (const auto& row : summary)
-    if (!row.reason.empty()) j["reasons"][row.key] = row.reason;
-  if (events)
+std::string summary_json(const std::vector<run::Row>& summary, const std::vector<std::string>& warnings,
+                         const std::vector<output::SlipEvent>* events, const scenario::Scenario& scenario) {
+  Json j, errors = Json::object(), reasons = Json::object();
+  for (const run::Row& row : summary) {
+    const std::string key(row.key());
+    object_of(row, j)[key] = json_of(row);
+    Json& of_group = object_of(row, errors);
+    if (of_group.is_null()) of_group = Json::object();
+    if (has_error(row)) of_group[key] = json_of_errors(row);
+    if (!row.reason().empty()) reasons[row.group.empty() ? key : row.group + "." + key] = row.reason();
+  }
+  j["errors"] = errors;
+  if (events) {
+    j["events"] = json_of_events(*events, scenario);
     for (const auto& column : columns_without_value(*events))
-      j["reasons"]["events." + std::string(column.about.name)] = column.reason;
+      reasons["events." + std::string(column.about.name)] = column.about.reason;
+  }
+  if (!reasons.empty()) j["reasons"] = reasons;
   if (scenario.results_in) {
     j["unit_system"] = "SI";
     j["units"] = json_units(summary, events, scenario);
@@ -184,13 +205,29 @@ std::string summary_json(const std::vector<run::SummaryValue>& summary, const st
 }
 
 /// A value in the table.
-std::string cell_of(const run::SummaryValue& row) {
-  struct AsText {
-    std::string operator()(double value) const { return std::isfinite(value) ? fmt::format("{}", value) : "null"; }
-    std::string operator()(long value) const { return fmt::format("{}", value); }
-    std::string operator()(const std::string& value) const { return fmt::format("\"{}\"", value); }
-  };
-  return std::visit(AsText{}, row.value);
+struct AsText {
+  std::string operator()(double value) const { return std::isfinite(value) ? fmt::format("{}", value) : "null"; }
+  std::string operator()(long value) const { return fmt::format("{}", value); }
+  std::string operator()(const std::string& value) const { return fmt::format("\"{}\"", value); }
+  std::string operator()(const std::vector<double>&) const { return {}; }
+};
+
+/// One line of the table.
+void put_line(const std::string& key, const std::string& value, double error, const run::Row& row) {
+  const std::string known = std::isfinite(error) ? fmt::format("+- {:.2g}", error) : "";
+  put(fitted(
+      fmt::format("{:<25} {:<24} {:<12} {}", key, value, known, with_reason(row.meaning(), std::string(row.reason()))),
+      25 + 1 + 24 + 1 + 12 + 1));
+}
+
+/// The lines of a row. The values of a list are numbered.
+void put_row(const run::Row& row) {
+  const std::string key = (row.group.empty() ? "" : row.group + ".") + std::string(row.key());
+  const auto* const list = std::get_if<std::vector<double>>(&row.value);
+  const auto error = [&](std::size_t i) { return i < row.errors.size() ? row.errors[i] : HUGE_VAL; };
+  if (!list) return put_line(key, std::visit(AsText{}, row.value), error(0), row);
+  for (std::size_t i = 0; i < list->size(); ++i)
+    put_line(fmt::format("{}[{}]", key, i), AsText{}((*list)[i]), error(i), row);
 }
 
 }  // namespace
@@ -207,29 +244,20 @@ std::string parameters_in_words(const friction::Friction& friction) {
   return fmt::format("{} friction{}", friction.definition().adjective, text);
 }
 
-void print_summary(const scenario::Scenario& scenario, std::vector<run::SummaryValue> summary,
-                   std::vector<double> errors, const std::vector<std::string>& warnings, const ScenarioArguments& a,
+void print_summary(const scenario::Scenario& scenario, std::vector<run::Row> summary,
+                   const std::vector<std::string>& warnings, const ScenarioArguments& a,
                    const std::vector<output::SlipEvent>* events) {
-  if (scenario.results_in)
-    for (std::size_t i = 0; i < summary.size(); ++i)
-      summary[i] = run::in_si(summary[i], *scenario.results_in, i < errors.size() ? &errors[i] : nullptr);
+  if (scenario.results_in) run::convert(summary, *scenario.results_in);
   const std::vector<std::string>& printed = scenario.warnings;
   if (!a.common.quiet)
     for (const std::string& warning : warnings)
       if (std::find(printed.begin(), printed.end(), warning) == printed.end()) complain("warning: " + warning);
   if (a.common.json) {
-    put(summary_json(summary, errors, warnings, events, scenario) + "\n");
+    put(summary_json(summary, warnings, events, scenario) + "\n");
     return;
   }
   if (!scenario.title.empty()) put(fitted(scenario.title));
-  for (std::size_t i = 0; i < summary.size(); ++i) {
-    const auto& row = summary[i];
-    const bool known = i < errors.size() && std::isfinite(errors[i]);
-    const std::string error =
-        errors.empty() ? "" : fmt::format("{:<12} ", known ? fmt::format("+- {:.2g}", errors[i]) : "");
-    put(fitted(fmt::format("{:<25} {:<24} {}{}", row.key, cell_of(row), error, with_reason(row.meaning, row.reason)),
-               25 + 1 + 24 + 1 + error.size()));
-  }
+  for (const run::Row& row : summary) put_row(row);
   if (events) put(table_of(*events, scenario));
   const std::string& output = a.output.empty() ? a.resume : a.output;
   if (!output.empty() && !a.common.quiet) put("written to " + output + "\n");

@@ -43,12 +43,11 @@ std::string in_results(const slipfront::scenario::Scenario& scenario, double val
 
 /// The law of friction with its parameters: "slip-weakening friction with strength = 0.08, residual = 0.02".
 std::string parameters_in_words(const slipfront::friction::Friction& friction);
-/// Prints the summary of a run as a table or as one JSON object on stdout. `warnings`, one sentence each, are in the
-/// JSON. Those that `read_scenario_of` has not printed go to stderr. `errors` has one error per row, NaN if a row has
-/// none; it is empty if no row has an error. `events` are those of a loaded chain, else null.
-void print_summary(const slipfront::scenario::Scenario& scenario, std::vector<slipfront::run::SummaryValue> summary,
-                   std::vector<double> errors, const std::vector<std::string>& warnings,
-                   const ScenarioArguments& arguments,
+/// Prints the summary of a run, with its errors, as a table or as one JSON object on stdout. `summary` is in the units
+/// of the model. `warnings`, one sentence each, are in the JSON. Those that `read_scenario_of` has not printed go to
+/// stderr. `events` are those of a loaded chain, else null.
+void print_summary(const slipfront::scenario::Scenario& scenario, std::vector<slipfront::run::Row> summary,
+                   const std::vector<std::string>& warnings, const ScenarioArguments& arguments,
                    const std::vector<slipfront::output::SlipEvent>* events = nullptr);
 
 /// Checks that the output of a run can be written, of about `bytes` bytes. `of_finished`: the run continues

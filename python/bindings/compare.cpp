@@ -2,8 +2,10 @@
 
 #include <pybind11/stl.h>
 
-#include <limits>
+#include <optional>
+#include <vector>
 
+#include "foundation/math/constants.hpp"
 #include "record/files/unfinished.hpp"
 #include "record/pulses/comparison_file.hpp"
 #include "results.hpp"
@@ -18,17 +20,17 @@ using namespace slipfront;
 using namespace pybind11::literals;
 using setup::Level;
 
-/// The value of the unit of a key in the units of the results.
-double unit_of(const scenario::Scenario& s, std::string_view key) {
-  return s.results_in ? s.results_in->of(run::unit_of(key)).value : 1;
+/// The value of the unit of a number in the units of the results.
+double in_results(const scenario::Scenario& s, const Description& about) {
+  return s.results_in ? s.results_in->of(about.dimensional_unit).value : 1;
 }
 
 py::list trends(const std::vector<Level>& levels, const scenario::Scenario& s) {
   py::list rows;
-  for (const setup::Quantity& q : setup::compared_quantities()) {
+  for (const output::Scalar& q : setup::compared_numbers()) {
     const setup::Trend t = setup::trend_of(levels, q);
-    const double unit = unit_of(s, q.key);
-    rows.append(py::make_tuple(q.key, t.exponent, t.extrapolated * unit, t.difference * unit));
+    const double unit = in_results(s, q.about);
+    rows.append(py::make_tuple(std::string(q.about.name), t.exponent, t.extrapolated * unit, t.difference * unit));
   }
   return rows;
 }
@@ -37,9 +39,22 @@ py::list level_rows(const std::vector<Level>& levels) {
   py::list rows;
   for (const Level& level : levels)
     rows.append(py::dict("name"_a = level.name, "closure"_a = level.closure, "scale"_a = level.scale,
-                         "window"_a = level.window, "smooth_window"_a = level.smooth_window,
                          "wall_seconds"_a = level.wall_seconds));
   return rows;
+}
+
+/// The variables that describe levels: (description, one value for each level).
+py::list numbers_of_levels(const std::vector<Level>& levels) {
+  const auto column = [&](const Description& about, std::optional<double> Level::*value) {
+    std::vector<double> values;
+    for (const Level& level : levels) values.push_back((level.*value).value_or(none));
+    return py::make_tuple(described(about),
+                          py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data()));
+  };
+  py::list columns;
+  columns.append(column(output::slip_window, &Level::window));
+  columns.append(column(output::velocity_window, &Level::smooth_window));
+  return columns;
 }
 
 py::dict run_compare(const py::dict& arguments, const std::vector<double>& scales, int threads) {
@@ -65,12 +80,13 @@ py::dict run_compare(const py::dict& arguments, const std::vector<double>& scale
   for (const Level& level : levels) series.push_back(&level.snapshots);
   py::dict result = dataset_of(metadata, record::comparison_format, reached, comparison.schedule.times, series, true);
   result["levels"] = level_rows(levels);
-  result["scale_about"] = described(record::scale_variable);
+  result["level_numbers"] = numbers_of_levels(levels);
+  result["scale_about"] = described(output::scale_factor);
   result["trends"] = trends(levels, s);
   result["notes"] = setup::notes_on(s, levels);
-  const double C = s.friction.linear_coefficient().value_or(std::numeric_limits<double>::quiet_NaN());
-  result["summary"] =
-      py::dict("time"_a = s.end * unit_of(s, "time"), "friction_coefficient"_a = C, "damping_number"_a = C * s.end);
+  const double C = s.friction.linear_coefficient().value_or(none);
+  result["summary"] = py::dict("time"_a = s.end * in_results(s, output::end_time), "friction_coefficient"_a = C,
+                               "damping_number"_a = C * s.end);
   return result;
 }
 

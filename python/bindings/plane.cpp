@@ -6,10 +6,9 @@
 #include <optional>
 
 #include "record/files/text_file.hpp"
-#include "record/planes/plane_variables.hpp"
 #include "results.hpp"
 #include "run/fault_plane.hpp"
-#include "run/plane_summary.hpp"
+#include "slipfront/plane/quantities.hpp"
 #include "slipfront/plane/source_parameters.hpp"
 #include "watch.hpp"
 
@@ -24,21 +23,6 @@ py::array_t<double> array(const Shape& shape, const std::vector<double>& values)
 
 py::ssize_t size_of(const std::vector<double>& values) { return static_cast<py::ssize_t>(values.size()); }
 
-/// The summary as {key: value}; a list of probes is a list. Keys of energies begin with "energy_".
-void add_rows(py::dict& summary, py::dict& errors, const std::vector<run::PlaneRow>& rows, const std::string& prefix) {
-  for (const run::PlaneRow& row : rows) {
-    const py::str key(prefix + row.key);
-    if (row.is_list)
-      summary[key] = py::cast(row.values);
-    else
-      summary[key] = row.is_whole ? py::cast(static_cast<long>(row.values.front())) : py::cast(row.values.front());
-    if (!row.reason.empty()) summary[py::str(prefix + row.key + "_reason")] = row.reason;
-    bool known = !row.errors.empty();
-    for (const double error : row.errors) known = known && std::isfinite(error);
-    if (known) errors[key] = row.is_list ? py::cast(row.errors) : py::cast(row.errors.front());
-  }
-}
-
 py::dict axes_of(const run::PlanePlan& plan, const plane::Run& run, Describer& described_in) {
   std::vector<double> times;
   for (const plane::Field& field : run.snapshots()) times.push_back(field.time);
@@ -46,16 +30,16 @@ py::dict axes_of(const run::PlanePlan& plan, const plane::Run& run, Describer& d
   const auto add = [&](const Description& about, const std::vector<double>& values) {
     axes[py::str(std::string(about.name))] = py::make_tuple(described_in(about), array({size_of(values)}, values));
   };
-  add(record::plane_time, times);
-  add(record::plane_y, plan.grid.y());
-  add(record::plane_x, plan.grid.x());
+  add(plane::time_axis, times);
+  add(plane::y_axis, plan.grid.y());
+  add(plane::x_axis, plan.grid.x());
   return axes;
 }
 
 /// Variables over time, y and x.
 py::list fields_of(const Shape& cells, const plane::Run& run, Describer& described_in) {
   py::list fields;
-  for (const record::PlaneField& field : record::plane_fields()) {
+  for (const plane::FieldArray& field : plane::field_arrays()) {
     std::vector<double> all;
     for (const plane::Field& snapshot : run.snapshots())
       all.insert(all.end(), (snapshot.*field.values).begin(), (snapshot.*field.values).end());
@@ -68,14 +52,14 @@ py::list fields_of(const Shape& cells, const plane::Run& run, Describer& describ
 py::list maps_of(const Shape& cells, const plane::Run& run, Describer& described_in) {
   py::list maps;
   const plane::Maps all = run.maps();
-  for (const record::PlaneMap& map : record::plane_maps())
+  for (const plane::MapArray& map : plane::map_arrays())
     maps.append(py::make_tuple(described_in(description_of(map, run.schedule())), array(cells, all.*map.values)));
   return maps;
 }
 
 py::list series_of(const plane::Run& run, Describer& described_in) {
   py::list series;
-  for (const record::PlaneSeries& column : record::plane_series()) {
+  for (const plane::SeriesNumber& column : plane::series_numbers()) {
     std::vector<double> values;
     values.reserve(run.series().size());
     for (const plane::SeriesRow& row : run.series()) values.push_back(column.get(row));
@@ -89,8 +73,8 @@ py::list spectrum_of(const plane::Run& run, Describer& described_in) {
   const std::vector<double> frequencies = plane::spectrum_frequencies(run.series()),
                             amplitudes = plane::spectrum(run.series(), frequencies);
   py::list columns;
-  columns.append(py::make_tuple(described_in(record::plane_frequency), array({size_of(frequencies)}, frequencies)));
-  columns.append(py::make_tuple(described_in(record::plane_spectrum), array({size_of(amplitudes)}, amplitudes)));
+  columns.append(py::make_tuple(described_in(plane::frequency_axis), array({size_of(frequencies)}, frequencies)));
+  columns.append(py::make_tuple(described_in(plane::moment_rate_spectrum), array({size_of(amplitudes)}, amplitudes)));
   return columns;
 }
 
@@ -98,18 +82,16 @@ py::list spectrum_of(const plane::Run& run, Describer& described_in) {
 py::list lines_of(const plane::Run& run, Describer& described_in) {
   py::list lines;
   if (!run.schedule().lines) return lines;
-  const record::LinePoints points = record::line_points(run.snapshots());
-  for (const record::PlaneLine& line : record::plane_lines()) {
+  const plane::LinePoints points = plane::line_points(run.snapshots());
+  for (const plane::LineArray& line : plane::line_arrays()) {
     const std::vector<double>& values = points.*line.values;
     lines.append(py::make_tuple(described_in(line.about), array({size_of(values)}, values)));
   }
   return lines;
 }
 
-/// Returns {attributes, axes, fields, maps, lines, series, spectrum, warnings, units, summary, errors} for the Python
-/// part.
-py::dict plane_dataset(const scenario::Scenario& s, const run::PlanePlan& plan, const run::PlaneResult& result,
-                       const run::PlaneNumbers& errors) {
+/// Returns {attributes, axes, fields, maps, lines, series, spectrum, warnings, units} for the Python part.
+py::dict plane_dataset(const run::PlanePlan& plan, const run::PlaneResult& result) {
   const plane::Run& run = *result.run;
   const Shape cells = {plan.grid.ny, plan.grid.nx};
   Describer described_in(result.metadata.units);
@@ -122,13 +104,6 @@ py::dict plane_dataset(const scenario::Scenario& s, const run::PlanePlan& plan, 
   data["series"] = series_of(run, described_in);
   data["spectrum"] = spectrum_of(run, described_in);
   data["warnings"] = py::cast(result.metadata.warnings);
-  const run::PlaneSummary summary = run::summary_of(s, result, errors);
-  py::dict of_summary, of_errors;
-  add_rows(of_summary, of_errors, summary.rows, "");
-  add_rows(of_summary, of_errors, summary.energies, "energy_");
-  add_rows(of_summary, of_errors, summary.counts, "");
-  data["summary"] = of_summary;
-  data["errors"] = of_errors;
   data["units"] = described_in.units();
   return data;
 }
@@ -149,14 +124,6 @@ Requested requested(const RunRequest& a) {
   run::require_inputs_kept(all.scenario, a.output);
   run::choose_units(all.scenario, a.si);
   return all;
-}
-
-/// Adds the comparison with a model, and what the model left out.
-void add_model(py::dict& data, const run::FaultOnPlane& model, const scenario::Scenario& s,
-               const run::PlaneResult& result) {
-  py::dict summary = data["summary"], errors = data["errors"];
-  add_rows(summary, errors, run::compare_with_model(model, s, result), "model_");
-  if (!model.fault.note.empty()) data["warnings"].cast<py::list>().append(model.fault.note);
 }
 
 py::dict run_plane(const py::dict& arguments, bool direct, bool with_errors, int threads) {
@@ -183,8 +150,14 @@ py::dict run_plane(const py::dict& arguments, bool direct, bool with_errors, int
                  : run::unknown_errors(result.numbers);
   }
   watch.finish();
-  py::dict data = plane_dataset(s, plan, result, errors);
-  if (all.model && result.finished()) add_model(data, *all.model, s, result);
+  py::dict data = plane_dataset(plan, result);
+  std::vector<run::Row> rows;
+  if (result.finished()) rows = rows_of(result, errors);
+  if (all.model && result.finished()) {
+    for (run::Row& row : run::compare_with_model(*all.model, s, result)) rows.push_back(std::move(row));
+    if (!all.model->fault.note.empty()) data["warnings"].cast<py::list>().append(all.model->fault.note);
+  }
+  add_rows(data, std::move(rows), s.results_in);
   return data;
 }
 

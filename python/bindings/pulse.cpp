@@ -20,7 +20,7 @@ py::dict run_pulse(const py::dict& arguments, std::optional<double> tolerance, b
   scenario::Scenario s = scenario_of(a);
   Watch watch(a.progress, s.end);
   run::Result<pulse::Run> result;
-  run::Errors errors;
+  std::vector<std::string> unresolved;
   {
     const py::gil_scoped_release others_may_run;
     const auto interrupted = [&] { return watch.interrupted(); };
@@ -35,13 +35,11 @@ py::dict run_pulse(const py::dict& arguments, std::optional<double> tolerance, b
     options.output = run::output_of(a.output, a.resume, options.checkpoint && options.checkpoint->finished);
     options.after_step = [&](double time, long steps) { return watch(time, steps); };
     result = run::pulse(s, plan, options);
-    if (result.finished() && with_errors) errors = run::errors_of(result, s, interrupted);
+    if (result.finished() && with_errors) unresolved = run::add_errors(result, s, interrupted);
   }
   watch.finish();
-  result.metadata.warnings.insert(result.metadata.warnings.end(), errors.warnings.begin(), errors.warnings.end());
-  py::dict data = dataset_of(result);
-  data["errors"] = errors_of(result.summary, errors.of, s.results_in);
-  return data;
+  result.metadata.warnings.insert(result.metadata.warnings.end(), unresolved.begin(), unresolved.end());
+  return dataset_of(result);
 }
 
 py::dict check_pulse(const py::dict& arguments) {

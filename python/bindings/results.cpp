@@ -71,7 +71,7 @@ py::array_t<double> field(const record::FieldVariable& variable, const Levels& l
   return values;
 }
 
-py::array_t<double> scalar(const record::ScalarVariable& variable, const Levels& levels, const Shape& shape) {
+py::array_t<double> scalar(const output::Scalar& variable, const Levels& levels, const Shape& shape) {
   py::array_t<double> values(shape);
   double* out = values.mutable_data();
   for (const auto* level : levels)
@@ -151,7 +151,7 @@ py::dict dataset_of(const record::PulseMetadata& metadata, const std::string& fo
   py::list fields, scalars;
   for (const record::FieldVariable* variable : record::chosen_fields(metadata.variables))
     fields.append(py::make_tuple(described_in(variable->about), field(*variable, levels, over_time_and_x)));
-  for (const record::ScalarVariable& variable : record::scalar_variables())
+  for (const output::Scalar& variable : output::scalars())
     scalars.append(py::make_tuple(described_in(variable.about), scalar(variable, levels, over_time)));
   py::dict result;
   result["attributes"] = attributes_of(metadata, format, finished);
@@ -167,22 +167,19 @@ py::dict dataset_of(const record::PulseMetadata& metadata, const std::string& fo
   return result;
 }
 
-py::dict summary_of(const std::vector<run::SummaryValue>& summary, const std::optional<medium::SiUnits>& units) {
-  py::dict result;
-  for (const auto& row : summary) {
-    result[py::str(row.key)] = py::cast(units ? run::in_si(row, *units).value : row.value);
-    if (!row.reason.empty()) result[py::str(row.key + "_reason")] = row.reason;
+void add_rows(py::dict& data, std::vector<run::Row> rows, const std::optional<medium::SiUnits>& units) {
+  if (units) run::convert(rows, *units);
+  py::dict summary, errors;
+  for (const run::Row& row : rows) {
+    const std::string name(row.about.name);
+    summary[py::str(name)] = py::cast(row.value);
+    if (!row.reason().empty()) summary[py::str(name + "_reason")] = std::string(row.reason());
+    const bool known = !row.errors.empty() &&
+                       std::all_of(row.errors.begin(), row.errors.end(), [](double e) { return std::isfinite(e); });
+    if (!known) continue;
+    const bool is_list = std::holds_alternative<std::vector<double>>(row.value);
+    errors[py::str(name)] = is_list ? py::cast(row.errors) : py::cast(row.errors.front());
   }
-  return result;
-}
-
-py::dict errors_of(const std::vector<run::SummaryValue>& summary, std::vector<double> errors,
-                   const std::optional<medium::SiUnits>& units) {
-  py::dict known;
-  for (std::size_t i = 0; i < errors.size(); ++i) {
-    if (!std::isfinite(errors[i])) continue;
-    if (units) run::in_si(summary[i], *units, &errors[i]);
-    known[py::str(summary[i].key)] = errors[i];
-  }
-  return known;
+  data["summary"] = summary;
+  data["errors"] = errors;
 }

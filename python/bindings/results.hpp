@@ -51,18 +51,16 @@ using Levels = std::vector<const std::vector<slipfront::output::Snapshot>*>;
 py::dict dataset_of(const slipfront::record::PulseMetadata& metadata, const std::string& format, bool finished,
                     const std::vector<double>& times, const Levels& levels, bool by_level);
 
-/// Returns {key: value} of each row, in SI units if there are `units`.
-py::dict summary_of(const std::vector<slipfront::run::SummaryValue>& summary,
-                    const std::optional<slipfront::medium::SiUnits>& units);
-/// Returns {key: estimated error} of each row whose error is known. `errors` has one number a row, or is empty.
-py::dict errors_of(const std::vector<slipfront::run::SummaryValue>& summary, std::vector<double> errors,
-                   const std::optional<slipfront::medium::SiUnits>& units);
+/// Adds `summary`, {name: value} of each row, and `errors`, {name: error} of each row whose error is known. They are in
+/// SI units if there are `units`.
+void add_rows(py::dict& data, std::vector<slipfront::run::Row> rows,
+              const std::optional<slipfront::medium::SiUnits>& units);
 
 /// Returns the dict of a run of pulse or chain, with its summary.
 template <class Run>
 py::dict dataset_of(const slipfront::run::Result<Run>& result) {
   py::dict data = dataset_of(result.metadata, slipfront::record::pulse_format, result.finished(),
                              result.run->schedule().times, {&result.run->snapshots()}, false);
-  data["summary"] = summary_of(result.summary, result.metadata.units);
+  add_rows(data, result.summary, result.metadata.units);
   return data;
 }

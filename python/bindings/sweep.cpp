@@ -35,30 +35,22 @@ struct Outcome {
   std::string reason;
 };
 
-/// Returns (key, meaning, unit of the model) of each item of a summary that is a number.
-template <class End>
-py::list number_keys(std::span<const run::SummaryItem<End>> items) {
-  py::list keys;
-  for (const auto& item : items)
-    if (std::string_view(item.key) != "closure") {
-      const std::string unit(run::unit_of(item.key));
-      keys.append(py::make_tuple(item.key, run::without_unit(item.key, item.meaning), unit));
-    }
-  return keys;
+/// Returns (name, long name, unit of the model) of each number of a run.
+py::list numbers_of(const std::string& command) {
+  py::list numbers;
+  for (const Description& about : run::numbers_of(command))
+    numbers.append(
+        py::make_tuple(std::string(about.name), std::string(about.long_name), std::string(about.dimensional_unit)));
+  return numbers;
 }
 
-double number(const run::Value& value) {
-  if (const auto* real = std::get_if<double>(&value)) return *real;
-  if (const auto* whole = std::get_if<long>(&value)) return static_cast<double>(*whole);
-  return std::numeric_limits<double>::quiet_NaN();
-}
-
-std::vector<double> numbers(const std::vector<run::SummaryValue>& summary, const Variables& variables,
+std::vector<double> numbers(std::vector<run::Row> summary, const Variables& variables,
                             const std::optional<medium::SiUnits>& units) {
+  if (units) run::convert(summary, *units);
   std::vector<double> values;
   for (const std::string& variable : variables)
-    for (const run::SummaryValue& row : summary)
-      if (variable == row.key) values.push_back(number(units ? run::in_si(row, *units).value : row.value));
+    for (const run::Row& row : summary)
+      if (variable == row.about.name) values.push_back(row.number());
   return values;
 }
 
@@ -232,6 +224,5 @@ void bind_sweep(py::module_& m) {
   m.def("sweep", sweep);
   m.def("results_in_si",
         [](const py::dict& arguments) { return scenario_of(request_of(arguments)).results_in.has_value(); });
-  m.def("pulse_numbers", [] { return number_keys(run::pulse_summary()); });
-  m.def("chain_numbers", [] { return number_keys(run::chain_summary()); });
+  m.def("numbers_of", numbers_of);
 }

@@ -188,11 +188,8 @@ def compare(scenario, *, scales=(), set=None, output=None, progress=None, thread
     data = _dataset(result, ("level",))
     names = [level["name"] for level in levels]
 
-    def of_level(key, long_name, unit=""):
-        values = np.array([nan if level[key] is None else level[key] for level in levels], dtype=float)
-        attrs = {"long_name": long_name, "units": "s" if key == "wall_seconds" else "1", "dimensional_unit": unit}
-        factor = result["units"].get(unit)
-        return ("level", values * factor[0], _units.converted(attrs, factor)) if factor else ("level", values, attrs)
+    def of_levels(key):
+        return np.array([nan if level[key] is None else level[key] for level in levels], dtype=float)
 
     quantities = [trend[0] for trend in trends]
     last = np.array([[float(data[q][i, -1]) for q in quantities] for i in range(len(levels))]).reshape(len(levels), len(quantities))
@@ -200,15 +197,14 @@ def compare(scenario, *, scales=(), set=None, output=None, progress=None, thread
     one = {"units": "1"}
     data = data.assign({
         "closure": ("level", [level["closure"] for level in levels], {"long_name": "how friction is averaged"}),
-        "window": of_level("window", "averaging window of the slip at x = 0, of a chain", "b / A"),
-        "smooth_window": of_level("smooth_window", "averaging window of velocities and stresses, of a chain", "b / A"),
-        "wall_seconds": of_level("wall_seconds", "wall-clock time of the level"),
+        **{about[0]: in_results(result, "level", values, about) for about, values in result["level_numbers"]},
+        "wall_seconds": ("level", of_levels("wall_seconds"), {"long_name": "wall-clock time of the level", "units": "s"}),
         "difference": (("level", "quantity"), last - reference, {**one, "long_name": "value at the end of the run minus that of pulse-consistent"}),
         "trend_exponent": ("quantity", [t[1] for t in trends], {**one, "long_name": "p: the difference of the chain from pulse-consistent falls as scale^-p"}),
         "trend_extrapolated": ("quantity", [t[2] for t in trends], {**one, "long_name": "value of the chain, extrapolated to infinite scale"}),
         "trend_difference": ("quantity", [t[3] for t in trends], {**one, "long_name": "extrapolated value minus that of pulse-consistent"}),
     })
-    scale = of_level("scale", "")[:2] + (attributes(result["scale_about"]),)
+    scale = ("level", of_levels("scale"), attributes(result["scale_about"]))
     data = data.assign_coords(name=("level", names, {"long_name": "level of theory"}), scale=scale, quantity=quantities)
     return data.set_xindex("name")
 
@@ -297,9 +293,8 @@ def _summary(data):
     """Returns the attributes of a finished pulse or chain that follow from its file: the values at the end, and the settings of
     a pulse."""
     command = str(data.attrs.get("history", "")).split()[1:2]
-    absent = "energy_shocks"  # the file has the rest of the balance, and not whether trains have met
-    known = {row[0] for row in {"pulse": _slipfront.pulse_numbers, "chain": _slipfront.chain_numbers}[command[0]]()} if command in (["pulse"], ["chain"]) else set()
-    found = {str(name): variable.values[-1].item() for name, variable in data.variables.items() if variable.dims == ("time",) and name in known and name != absent}
+    known = {row[0] for row in _slipfront.numbers_of(command[0])} if command in (["pulse"], ["chain"]) else set()
+    found = {str(name): variable.values[-1].item() for name, variable in data.variables.items() if variable.dims == ("time",) and name in known}
     if command == ["pulse"]:
         with contextlib.suppress(InputError, FileError):  # its table of stress may be gone
             plan = check(str(data.attrs["scenario"]) + "\n")

@@ -51,7 +51,7 @@ def _axes(axes):
 
 
 def _variables(variables, command):
-    known = {name: about for name, *about in {"pulse": _slipfront.pulse_numbers, "chain": _slipfront.chain_numbers}[command]()}
+    known = {name: about for name, *about in _slipfront.numbers_of(command)}
     if variables is None:
         variables = [key for key in known if key not in _not_by_default]
     if isinstance(variables, str):

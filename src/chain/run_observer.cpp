@@ -12,8 +12,8 @@
 #include "chain/measure/smooth_average.hpp"
 #include "foundation/math/constants.hpp"
 #include "foundation/text/digits.hpp"
-#include "output/further_scalars.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/output/quantities.hpp"
 #include "slipfront/train/train.hpp"
 
 namespace slipfront::chain {
@@ -175,7 +175,7 @@ Snapshot RunObserver::snapshot(double time) const {
   find_fronts(s, velocities);
   if (!chain_.problem().substrate) s.energy.phonons = none;  // no trains to compare with
   add_energy(s, now);
-  output::add_further_scalars(s, schedule_);
+  output::complete(s, schedule_);
   return s;
 }
 
@@ -253,16 +253,17 @@ void RunObserver::add_energy(Snapshot& s, const Totals& now) const {
               .supplied = flows.supplied / c,
               .through_ends = none,
               .shocks = none,
+              .residual = none,
               .phonons = s.energy.phonons};
   if (scaled_.loading.acts()) {
     const bool everywhere = scaled_.loading.where == Pulled::everywhere;
-    s.further["energy_loading"] = now.loading / c;
+    s.energy.loading = now.loading / c;
     const double stress = scaled_.loading.where == Pulled::right ? -chain_.load() : chain_.load();  // -u_x at the end
-    s.further[everywhere ? "loading_force" : "loading_stress"] = everywhere ? c * chain_.load() : stress;
+    (everywhere ? s.loading_force : s.loading_stress) = everywhere ? c * chain_.load() : stress;
   }
   if (!chain_.problem().friction.changes_contacts()) return;
-  s.further["energy_contacts"] = flows.by_contacts / c;
-  s.further["pore_pressure_at_origin"] = pore_pressure_at_origin();
+  s.energy.contacts = flows.by_contacts / c;
+  s.pore_pressure_at_origin = pore_pressure_at_origin();
 }
 
 /// Finds fronts in the profile, and the leading front also from the outermost dislocation if one side is empty.

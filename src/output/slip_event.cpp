@@ -15,21 +15,19 @@ constexpr SlipEventColumn columns[] = {
     {{"duration", "time until all parts are below half the threshold", "b / (c A)", "Eq. 1"}, &SlipEvent::duration},
     {{"slip", "slip, mean over the chain, without slip in other events", "b / (2 pi)", "Eq. 1"}, &SlipEvent::slip},
     {{"largest_slip", "slip of the part that slips most", "b / (2 pi)", "Eq. 1"}, &SlipEvent::largest_slip},
-    {{"load", "mean force F on a site, or the stress at a pulled end, before the event", "mu A^2 / (pi (1 - nu))",
-      "Eq. 1"},
+    {{"load", "mean force F on a site, or the stress at a pulled end, before the event", "", "Eq. 1"},
      &SlipEvent::load},
-    {{"stress_drop", "fall of the mean force F on a site, or of the stress at a pulled end", "mu A^2 / (pi (1 - nu))",
-      "Eq. 1"},
+    {{"stress_drop", "fall of the mean force F on a site, or of the stress at a pulled end", "", "Eq. 1"},
      &SlipEvent::stress_drop},
     {{"peak_velocity", "greatest slip velocity of a part", "c A / pi", "Eq. 1"}, &SlipEvent::peak_velocity},
-    {{"origin", "position of the part that moves first", "b / A", "Eq. 1"},
-     &SlipEvent::origin,
-     "all parts moved within a thousandth of the time that waves take between them, so that rounding decides which was "
-     "first"},
+    {{"origin", "position of the part that moves first", "b / A", "Eq. 1",
+      "all parts moved within a thousandth of the time that waves take between them, so that rounding decides which "
+      "was first"},
+     &SlipEvent::origin},
     {{"length", "length of the parts that move", "b / A", "Eq. 1"}, &SlipEvent::length},
-    {{"rupture_velocity", "velocity of the front, fitted over the parts that move", "c", "Eq. 1"},
-     &SlipEvent::rupture_velocity,
-     "fewer than three parts moved, all moved at once, or the fit is faster than c"},
+    {{"rupture_velocity", "velocity of the front, fitted over the parts that move", "c", "Eq. 1",
+      "fewer than three parts moved, all moved at once, or the fit is faster than c"},
+     &SlipEvent::rupture_velocity},
     {{"complete", "1, or 0 if the run ended within the event", "", "Eq. 1"}, &SlipEvent::complete},
 };
 
@@ -81,10 +79,12 @@ std::vector<SlipEventColumn> columns_without_value(const std::vector<SlipEvent>&
   return found;
 }
 
+std::string_view unit_of_load(bool pulled_end) { return pulled_end ? "mu A / pi" : "mu A^2 / (pi (1 - nu))"; }
+
 Description description_of(const SlipEventColumn& column, bool pulled_end) {
   Description about = column.about;
-  const bool of_load = column.value == &SlipEvent::stress_drop || column.value == &SlipEvent::load;
-  if (pulled_end && of_load) about.dimensional_unit = "mu A / pi";
+  if (column.value == &SlipEvent::stress_drop || column.value == &SlipEvent::load)
+    about.dimensional_unit = unit_of_load(pulled_end);
   return about;
 }
 

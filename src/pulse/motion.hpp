@@ -45,7 +45,7 @@ class Motion {
   virtual void save_stored(bytes::Writer& writer) const = 0;
   virtual void restore_stored(bytes::Reader& reader) = 0;
 
-  /// The results now, apart from further scalars.
+  /// The results now, apart from what output::complete adds.
   virtual output::Snapshot observe(const output::Schedule& schedule) const = 0;
   virtual output::Findings findings(const std::vector<output::Snapshot>& snapshots) const = 0;
   virtual std::optional<SlipTwice> slip_twice() const = 0;

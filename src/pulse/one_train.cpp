@@ -1,5 +1,6 @@
 #include "pulse/one_train.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include "pulse/checkpoint.hpp"
@@ -66,7 +67,8 @@ output::Snapshot OneTrain::observe(const output::Schedule& schedule) const {
   output::Energy& e = s.energy;
   const double released =
       (first_energy_.isolated - stored.isolated + e.through_ends) + first_energy_.interaction - stored.interaction;
-  e.shocks = released + first_energy_.kinetic + e.supplied - e.dissipated - e.kinetic;
+  e.residual = released + first_energy_.kinetic + e.supplied - e.dissipated - e.kinetic;
+  if (!std::isnan(crossing_time())) e.shocks = e.residual;
   return s;
 }
 

@@ -9,12 +9,12 @@
 #include "foundation/clock.hpp"
 #include "foundation/step_budget.hpp"
 #include "foundation/text/digits.hpp"
-#include "output/further_scalars.hpp"
 #include "pulse/checkpoint.hpp"
 #include "pulse/contours/many_trains.hpp"
 #include "pulse/motion.hpp"
 #include "pulse/one_train.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/output/quantities.hpp"
 
 namespace slipfront::pulse {
 namespace {
@@ -115,7 +115,7 @@ std::vector<std::string> Run::warnings() const {
 
 void Run::Parts::take_snapshot() {
   output::Snapshot s = motion->observe(schedule);
-  output::add_further_scalars(s, schedule);
+  output::complete(s, schedule);
   snapshots.push_back(std::move(s));
 }
 

@@ -1,11 +1,9 @@
 #include "run/errors.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
-#include <string_view>
 #include <utility>
 
 #include "foundation/math/constants.hpp"
@@ -18,9 +16,6 @@
 namespace slipfront::run {
 namespace {
 
-/// Rows without an error: they are inputs, or they describe the computation and not the physics.
-constexpr std::array<std::string_view, 6> without_error{"friction_coefficient", "damping_number", "time",
-                                                        "conservation_error",   "solve_seconds",  "wall_seconds"};
 /// Safety factor if the values on three grids do not converge (Eca & Hoekstra, 2014, J. Comput. Phys.
 /// 262:104).
 constexpr double safety_unordered = 3;
@@ -29,35 +24,18 @@ constexpr int fewest_cells = 4, most_cells = 25600;
 /// the cells also doubles the steps, so it costs four times as much.
 constexpr double most_cost = 1e8, cost_of_doubling = 4;
 
-/// Rows to which a tolerance applies.
-constexpr std::array<std::string_view, 4> held_to_tolerance{"slip_velocity_at_origin", "stress_at_origin",
-                                                            "slip_at_origin", "peak_slip_velocity"};
-
-/// Rows with a position that is read from a few cells.
-constexpr std::array<std::string_view, 2> read_from_cells{"peak_position", "first_crossing_position"};
-
-constexpr std::array<std::string_view, 2> observed_fronts{"trailing_front_observed", "leading_front_observed"};
-
-/// Rows with the position of a front, which is measured only if several cells show it.
-constexpr std::array<std::string_view, 4> fronts{"trailing_front", "leading_front", "trailing_front_observed",
-                                                 "leading_front_observed"};
-
-template <class Keys>
-bool among(const Keys& keys, std::string_view key) {
-  return std::find(keys.begin(), keys.end(), key) != keys.end();
-}
-
-double real(const Value& value) {
-  const double* number = std::get_if<double>(&value);
-  return number ? *number : none;
+/// Whether a tolerance applies to a row.
+bool held_to_tolerance(const Row& row) {
+  const ErrorRule rule = row.about.error;
+  return rule == ErrorRule::stress || rule == ErrorRule::slip || rule == ErrorRule::slip_velocity ||
+         rule == ErrorRule::peak;
 }
 
 /// Runs the scenario to its end with `cells` cells, tolerances that are `coarser` times larger, and no outputs before
 /// the end. Returns its summary, which is empty if `interrupted` returned true. `cost`, unless null, gets steps times
 /// cells.
-std::vector<SummaryValue> summary_with(int cells, const scenario::Scenario& scenario,
-                                       const std::function<bool()>& interrupted, double coarser = 4,
-                                       double* cost = nullptr) {
+std::vector<Row> summary_with(int cells, const scenario::Scenario& scenario, const std::function<bool()>& interrupted,
+                              double coarser = 4, double* cost = nullptr) {
   scenario::Scenario other = scenario;
   other.pulse.cells = cells;
   other.output.times.clear();
@@ -73,7 +51,7 @@ std::vector<SummaryValue> summary_with(int cells, const scenario::Scenario& scen
     if (!run.finished()) throw;  // the run has reached its end but is too coarse, which makes the errors larger
   }
   if (cost) *cost = static_cast<double>(run.steps()) * cells;
-  return summary(pulse_summary(), {other, run, 0});
+  return rows_of({run, 0});
 }
 
 /// Estimates the error of `fine` from the values with half and a quarter of the cells. If `quarter` is NaN, the values
@@ -87,16 +65,16 @@ double estimated(double fine, double half, double quarter, double factor) {
 }
 
 /// Estimates the errors of the finest of three runs from the changes at each doubling of the cells.
-std::vector<double> estimated(const std::vector<SummaryValue>& fine, const std::vector<SummaryValue>& half,
-                              const std::vector<SummaryValue>& quarter) {
+std::vector<double> estimated(const std::vector<Row>& fine, const std::vector<Row>& half,
+                              const std::vector<Row>& quarter) {
   std::vector<double> errors(fine.size(), none);
   for (std::size_t i = 0; i < std::min(fine.size(), half.size()); ++i) {
-    if (among(without_error, fine[i].key)) continue;
+    if (fine[i].about.error == ErrorRule::unknown) continue;
     // Cells lengthen the tail that an observer sees, by less than in proportion to their size. So we use the larger
     // factor.
-    const double factor = among(observed_fronts, fine[i].key) ? safety_unordered : safety;
-    const double coarsest = i < quarter.size() ? real(quarter[i].value) : none;
-    errors[i] = estimated(real(fine[i].value), real(half[i].value), coarsest, factor);
+    const double factor = fine[i].about.error == ErrorRule::observed_front ? safety_unordered : safety;
+    const double coarsest = i < quarter.size() ? quarter[i].number() : none;
+    errors[i] = estimated(fine[i].number(), half[i].number(), coarsest, factor);
   }
   return errors;
 }
@@ -107,29 +85,30 @@ bool grows(double fine, double half, double quarter) {
   return std::fabs(quarter) > rounding && half / quarter > 2 && fine / half > 2;
 }
 
-/// The largest relative error of the rows to which a tolerance applies. We divide by at least a thousandth of the
-/// stress at x = 0.
-double largest_relative(const std::vector<SummaryValue>& fine, const std::vector<double>& errors) {
-  double stress = 0, largest = 0;
-  for (const SummaryValue& row : fine)
-    if (std::string_view(row.key) == "stress_at_origin") stress = std::fabs(real(row.value));
-  for (std::size_t i = 0; i < fine.size(); ++i)
-    if (among(held_to_tolerance, fine[i].key) && std::isfinite(errors[i]))
-      largest = std::fmax(largest, errors[i] / std::fmax(std::fabs(real(fine[i].value)), 1e-3 * stress));
-  return largest;
+/// The row with a rule that no other row has.
+std::size_t row_of(ErrorRule rule, const std::vector<Row>& rows) {
+  const auto is_it = [rule](const Row& row) { return row.about.error == rule; };
+  return static_cast<std::size_t>(std::find_if(rows.begin(), rows.end(), is_it) - rows.begin());
 }
 
-std::size_t row_of(std::string_view key, const std::vector<SummaryValue>& rows) {
-  const auto is_it = [key](const SummaryValue& row) { return key == row.key; };
-  return static_cast<std::size_t>(std::find_if(rows.begin(), rows.end(), is_it) - rows.begin());
+/// The largest relative error of the rows to which a tolerance applies. We divide by at least a thousandth of the
+/// stress at x = 0.
+double largest_relative(const std::vector<Row>& fine, const std::vector<double>& errors) {
+  const double stress = std::fabs(fine[row_of(ErrorRule::stress, fine)].number());
+  double largest = 0;
+  for (std::size_t i = 0; i < fine.size(); ++i)
+    if (held_to_tolerance(fine[i]) && std::isfinite(errors[i]))
+      largest = std::fmax(largest, errors[i] / std::fmax(std::fabs(fine[i].number()), 1e-3 * stress));
+  return largest;
 }
 
 /// Corrects the errors of the peak. Its slip velocity is known no better than that at x = 0. Its position may be that
 /// of any cell that slips as fast within this error, also with the other sign.
 void correct_peak(const Result<pulse::Run>& fine, std::vector<double>& errors) {
-  const std::size_t height = row_of("peak_slip_velocity", fine.summary), place = row_of("peak_position", fine.summary);
-  const double at_origin = errors[row_of("slip_velocity_at_origin", fine.summary)];
-  const double peak = real(fine.summary[height].value), x = real(fine.summary[place].value);
+  const std::size_t height = row_of(ErrorRule::peak, fine.summary),
+                    place = row_of(ErrorRule::peak_position, fine.summary);
+  const double at_origin = errors[row_of(ErrorRule::slip_velocity, fine.summary)];
+  const double peak = fine.summary[height].number(), x = fine.summary[place].number();
   const double error = errors[height] = std::isnan(errors[height]) ? none : std::fmax(errors[height], at_origin);
   if (!std::isfinite(error) || !std::isfinite(x)) return;
   const std::vector<double>&W = fine.run->snapshots().back().profile.W, &edges = fine.run->schedule().x_edges;
@@ -148,13 +127,14 @@ void correct_places(const Result<pulse::Run>& fine, std::vector<double>& errors)
   const pulse::Problem& problem = fine.run->problem();
   const double domain = problem.right - problem.left, cell = domain / problem.cells;
   for (std::size_t i = 0; i < errors.size(); ++i) {
-    const std::string_view key = fine.summary[i].key;
-    const double x = real(fine.summary[i].value);
-    const bool is_front = among(fronts, key), is_read = among(read_from_cells, key);
-    if (!(is_front || is_read || key == "trailing_characteristic") || !std::isfinite(x)) continue;
+    const ErrorRule rule = fine.summary[i].about.error;
+    const double x = fine.summary[i].number();
+    const bool is_front = rule == ErrorRule::front || rule == ErrorRule::observed_front;
+    const bool is_read = rule == ErrorRule::position || rule == ErrorRule::peak_position;
+    if (!(is_front || is_read || rule == ErrorRule::characteristic) || !std::isfinite(x)) continue;
     if (is_front && std::isnan(errors[i])) errors[i] = 2 * cell;
     const double from_end = std::fmin(std::fabs(x - problem.left), std::fabs(x - problem.right));
-    if (among(observed_fronts, key) && from_end <= 2 * cell) errors[i] = none;
+    if (rule == ErrorRule::observed_front && from_end <= 2 * cell) errors[i] = none;
     if (std::isfinite(errors[i])) errors[i] = std::fmax(errors[i], is_read ? cell : rounding * domain);
   }
   correct_peak(fine, errors);
@@ -162,10 +142,10 @@ void correct_places(const Result<pulse::Run>& fine, std::vector<double>& errors)
 
 }  // namespace
 
-Errors errors_of(const Result<pulse::Run>& fine, const scenario::Scenario& scenario,
-                 const std::function<bool()>& interrupted) {
+std::vector<std::string> add_errors(Result<pulse::Run>& fine, const scenario::Scenario& scenario,
+                                    const std::function<bool()>& interrupted) {
   // The summary with a part of the cells. It is empty if such a run fails; its effect on the errors is then unknown.
-  const auto coarse = [&](int part, double coarser) -> std::vector<SummaryValue> {
+  const auto coarse = [&](int part, double coarser) -> std::vector<Row> {
     const int cells = scenario.pulse.cells / part;
     if (cells < fewest_cells) return {};
     try {
@@ -176,26 +156,27 @@ Errors errors_of(const Result<pulse::Run>& fine, const scenario::Scenario& scena
       return {};
     }
   };
-  const std::vector<SummaryValue> half = coarse(2, 4);
-  const std::vector<SummaryValue> quarter =
-      half.empty() ? half : coarse(4, 16);  // without `half`, no error can be estimated
+  const std::vector<Row> half = coarse(2, 4);
+  const std::vector<Row> quarter = half.empty() ? half : coarse(4, 16);  // without `half`, no error can be estimated
   std::vector<double> errors = estimated(fine.summary, half, quarter);
   std::vector<std::string> warnings;
   if (!half.empty()) correct_places(fine, errors);
-  if (const auto slip = fine.run->slip_twice())
-    for (std::size_t i = 0; i < errors.size(); ++i)
-      if (std::string_view(fine.summary[i].key) == "slip_at_origin") errors[i] = std::fmax(errors[i], slip->error());
+  if (const auto slip = fine.run->slip_twice()) {
+    double& error = errors[row_of(ErrorRule::slip, fine.summary)];
+    error = std::fmax(error, slip->error());
+  }
   for (std::size_t i = 0; i < quarter.size(); ++i) {
-    const double values[] = {real(quarter[i].value), real(half[i].value), real(fine.summary[i].value)};
-    if (!among(held_to_tolerance, fine.summary[i].key) || !grows(values[2], values[1], values[0])) continue;
+    const double values[] = {quarter[i].number(), half[i].number(), fine.summary[i].number()};
+    if (!held_to_tolerance(fine.summary[i]) || !grows(values[2], values[1], values[0])) continue;
     errors[i] = none;
     const int cells = scenario.pulse.cells;
-    warnings.push_back("pulse: " + std::string(fine.summary[i].key) + " grows with the cells: " + digits(values[0], 3) +
-                       ", " + digits(values[1], 3) + ", " + digits(values[2], 3) + " with " +
-                       std::to_string(cells / 4) + ", " + std::to_string(cells / 2) + ", " + std::to_string(cells) +
-                       "; the pulse is narrower than a cell: increase pulse.cells");
+    warnings.push_back("pulse: " + std::string(fine.summary[i].about.name) +
+                       " grows with the cells: " + digits(values[0], 3) + ", " + digits(values[1], 3) + ", " +
+                       digits(values[2], 3) + " with " + std::to_string(cells / 4) + ", " + std::to_string(cells / 2) +
+                       ", " + std::to_string(cells) + "; the pulse is narrower than a cell: increase pulse.cells");
   }
-  return {std::move(errors), std::move(warnings)};
+  for (std::size_t i = 0; i < errors.size(); ++i) fine.summary[i].errors = {errors[i]};
+  return warnings;
 }
 
 int cells_for(double tolerance, bool resumed, const scenario::Scenario& scenario,
@@ -208,13 +189,13 @@ int cells_for(double tolerance, bool resumed, const scenario::Scenario& scenario
                       .problem = "cannot choose the cells of a run that has started",
                       .allowed = "tolerance without resume"});
   const int given = scenario.pulse.cells;
-  std::vector<SummaryValue> quarter = summary_with(std::max(given / 4, fewest_cells), scenario, interrupted, 16),
-                            half = summary_with(std::max(given / 2, fewest_cells), scenario, interrupted);
+  std::vector<Row> quarter = summary_with(std::max(given / 4, fewest_cells), scenario, interrupted, 16),
+                   half = summary_with(std::max(given / 2, fewest_cells), scenario, interrupted);
   double reached = 0, cost = 0;
   int cells = given;
   for (; cells <= most_cells && !quarter.empty() && !half.empty(); cells *= 2) {
     if (cost_of_doubling * cost > most_cost) break;
-    std::vector<SummaryValue> fine = summary_with(cells, scenario, interrupted, 4, &cost);
+    std::vector<Row> fine = summary_with(cells, scenario, interrupted, 4, &cost);
     if (fine.empty()) return given;
     reached = largest_relative(fine, estimated(fine, half, quarter));
     if (reached <= tolerance) return cells;

@@ -19,13 +19,8 @@ inline double change_of(double fine, double half, double quarter) {
 }
 inline constexpr double safety = 1.5;
 
-/// The errors of the rows of a summary, relative to infinitely many cells.
-struct Errors {
-  std::vector<double> of;             ///< error of each row; NaN if unknown
-  std::vector<std::string> warnings;  ///< a sentence for each row that the cells do not resolve
-};
-
-/// Estimates the error of each row in the summary of a finished run. For this it makes runs with half and a quarter of
+/// Sets the error of each row in the summary of a finished run, relative to infinitely many cells. Returns a warning
+/// for each row that the cells do not resolve. For this it makes runs with half and a quarter of
 /// the cells and with coarser steps, which together take a third of the time.
 ///
 /// If the three values converge, the error is 1.5 times the larger of two changes. One is that of the last doubling of
@@ -41,8 +36,8 @@ struct Errors {
 /// An error is NaN for rows without an error of this kind. It is NaN for a front that an observer sees at an end of the
 /// domain. It is NaN, with a warning, for a value that each doubling of the cells more than doubles. It is also NaN if
 /// the run, or the run with half the cells, has no value, or if `interrupted` returned true.
-Errors errors_of(const Result<pulse::Run>& fine, const scenario::Scenario& scenario,
-                 const std::function<bool()>& interrupted);
+std::vector<std::string> add_errors(Result<pulse::Run>& fine, const scenario::Scenario& scenario,
+                                    const std::function<bool()>& interrupted);
 
 /// The number of cells for a relative tolerance, 1e-9 to 1. It applies to slip, slip velocity and stress at x = 0, and
 /// to the peak slip velocity. The function doubles the cells of the scenario until the tolerance is reached. If

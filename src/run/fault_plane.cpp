@@ -166,8 +166,7 @@ scenario::Scenario scenario_of_fault(const FaultOnPlane& model, const std::strin
                                  read_table);
 }
 
-std::vector<PlaneRow> compare_with_model(const FaultOnPlane& model, const scenario::Scenario& s,
-                                         const PlaneResult& result) {
+std::vector<Row> compare_with_model(const FaultOnPlane& model, const scenario::Scenario& s, const PlaneResult& result) {
   const medium::Elastic rock = medium::elastic(s.medium, {});
   const medium::Units units =
       medium::units(rock.shear_modulus, rock.speed, *s.medium.contact_ratio, *s.medium.asperity_spacing);
@@ -177,19 +176,17 @@ std::vector<PlaneRow> compare_with_model(const FaultOnPlane& model, const scenar
   const auto reached = static_cast<double>(
       std::count_if(times.plane.begin(), times.plane.end(), [](double t) { return !std::isnan(t); }));
   const std::vector<plane::SeriesRow> series = series_of(model);
-  const auto row = [](const char* key, double value, const char* meaning) {
-    return PlaneRow{.key = key,
-                    .values = {value},
-                    .errors = {std::numeric_limits<double>::quiet_NaN()},
-                    .unit = "",
-                    .meaning = meaning};
+  const auto row = [](std::string_view name, double value, std::string_view meaning) {
+    Row of_model({.name = name, .long_name = meaning, .dimensional_unit = {}, .reference = {}}, value);
+    of_model.group = "model";
+    return of_model;
   };
-  return {row("moment", model.fault.moment, "seismic moment of the segment of the hypocentre, in N m"),
-          row("duration", plane::duration(series), "time in which its moment grows from 5 to 95 %, in s"),
-          row("subfaults", static_cast<double>(times.model.size()), "with at least 5 % of the largest slip"),
-          row("reached", reached, "number of these that the rupture on the plane reaches"),
-          row("correlation_of_rupture_times", correlation(times), "Pearson's coefficient over these"),
-          row("rupture_time_ratio", ratio_of(times), "rupture times on the plane over those of the model")};
+  return {row("model_moment", model.fault.moment, "seismic moment of the segment of the hypocentre, in N m"),
+          row("model_duration", plane::duration(series), "time in which its moment grows from 5 to 95 %, in s"),
+          row("model_subfaults", static_cast<double>(times.model.size()), "with at least 5 % of the largest slip"),
+          row("model_reached", reached, "number of these that the rupture on the plane reaches"),
+          row("model_correlation_of_rupture_times", correlation(times), "Pearson's coefficient over these"),
+          row("model_rupture_time_ratio", ratio_of(times), "rupture times on the plane over those of the model")};
 }
 
 }  // namespace slipfront::run

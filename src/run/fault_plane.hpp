@@ -7,7 +7,7 @@
 
 #include "finite_fault/on_plane.hpp"
 #include "results/evaluate.hpp"
-#include "run/plane_summary.hpp"
+#include "run/plane.hpp"
 #include "slipfront/scenario/scenario.hpp"
 
 namespace slipfront::run {
@@ -32,7 +32,7 @@ scenario::Scenario scenario_of_fault(const FaultOnPlane& model, const std::strin
                                      const std::vector<std::string>& overrides);
 
 /// How the run compares with the model, in SI units: rupture times, durations and corner frequencies.
-std::vector<PlaneRow> compare_with_model(const FaultOnPlane& model, const scenario::Scenario& scenario,
-                                         const PlaneResult& result);
+std::vector<Row> compare_with_model(const FaultOnPlane& model, const scenario::Scenario& scenario,
+                                    const PlaneResult& result);
 
 }  // namespace slipfront::run

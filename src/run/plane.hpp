@@ -53,6 +53,9 @@ struct PlaneResult {
 /// \throws NumericsError, after writing the results so far; InputError, FileError.
 PlaneResult plane(const scenario::Scenario& scenario, const PlanePlan& plan, const PlaneOptions& options);
 
+/// The numbers of a finished run with their errors, in the units of the model.
+std::vector<Row> rows_of(const PlaneResult& result, const PlaneNumbers& errors);
+
 /// Errors that are all NaN, for a run whose errors are not known.
 PlaneNumbers unknown_errors(PlaneNumbers numbers);
 

@@ -1,6 +1,5 @@
 #include "run/run.hpp"
 
-#include <limits>
 #include <utility>
 
 #include "record/files/unfinished.hpp"
@@ -116,7 +115,7 @@ Result<pulse::Run> pulse(const scenario::Scenario& scenario, const PulsePlan& pl
                                  [&] { return options.after_step && options.after_step(run.time(), run.steps()); });
   if (!reached) return result;
   add_warnings(result.run->warnings(), result.metadata);
-  result.summary = summary(pulse_summary(), {scenario, *result.run, seconds_since(options.begun)});
+  result.summary = rows_of({*result.run, seconds_since(options.begun)});
   return result;
 }
 
@@ -140,22 +139,14 @@ Result<chain::Run> chain(const scenario::Scenario& scenario, const ChainPlan& pl
   const double stepping = seconds_since(begun);
   add_warnings(run.warnings(), result.metadata);  // asks all ranks
   const chain::Averages averages = run.averages();
-  result.summary = summary(chain_summary(), {.run = run,
-                                             .balance = run.balance(),  // asks all ranks
-                                             .averages = averages,
-                                             .stepping = stepping,
-                                             .wall = seconds_since(options.begun),
-                                             .steps = run.chain().steps() - first,
-                                             .ranks = options.ranks ? options.ranks->size() : 1,
-                                             .threads = options.threads});
-  for (SummaryValue& row : result.summary) {
-    result.errors.push_back(row.key == "slip_velocity_at_origin" ? averages.velocity_error
-                            : row.key == "stress_at_origin"      ? averages.stress_error
-                            : row.key == "peak_slip_velocity"    ? averages.peak_error
-                                                                 : std::numeric_limits<double>::quiet_NaN());
-    if (row.key == "event_median_stress_drop")
-      row.unit = result.metadata.pulled_end ? "mu A / pi" : "mu A^2 / (pi (1 - nu))";
-  }
+  result.summary = rows_of({.run = run,
+                            .balance = run.balance(),  // asks all ranks
+                            .averages = averages,
+                            .stepping = stepping,
+                            .wall = seconds_since(options.begun),
+                            .steps = run.chain().steps() - first,
+                            .ranks = options.ranks ? options.ranks->size() : 1,
+                            .threads = options.threads});
   return result;
 }
 

@@ -86,8 +86,7 @@ template <class Run>
 struct Result {
   std::unique_ptr<Run> run;
   record::PulseMetadata metadata;  ///< includes the warnings of a finished run
-  std::vector<SummaryValue> summary = {};
-  std::vector<double> errors = {};  ///< errors of the averages in the summary of a chain; NaN for its other rows
+  std::vector<Row> summary = {};   ///< in the units of the model
   bool finished() const { return run->finished(); }
 };
 

@@ -3,7 +3,7 @@
 
 #include "foundation/math/constants.hpp"
 #include "foundation/math/roots.hpp"
-#include "output/further_scalars.hpp"
+#include "slipfront/output/quantities.hpp"
 #include "slipfront/rupture/riemann_trains.hpp"
 #include "slipfront/setup/compare.hpp"
 #include "slipfront/train/train.hpp"
@@ -78,6 +78,7 @@ output::Energy energy_without_forces() {
           .supplied = 0,
           .through_ends = none,
           .shocks = none,
+          .residual = none,
           .phonons = none};
 }
 
@@ -110,7 +111,7 @@ output::Snapshot snapshot_of(const TrainsSolution& solution, const Rays& rays, c
   s.slip_velocity_at_origin = origin.all.W;
   s.stress_at_origin = origin.all.Sigma;
   s.slip_at_origin = time * origin.slip;
-  output::add_further_scalars(s, schedule);
+  output::complete(s, schedule);
   s.peak_position = none;
   if (time > 0) {
     s.peak_slip_velocity = rays.peak_velocity;

@@ -1,21 +1,18 @@
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "slipfront/setup/compare.hpp"
 
 namespace slipfront::setup {
 
-const std::vector<Quantity>& compared_quantities() {
-  using output::Snapshot;
-  static const std::vector<Quantity> quantities = {
-      {"slip_at_origin", "slip(0)", [](const Snapshot& s) { return s.slip_at_origin; }},
-      {"slip_velocity_at_origin", "W(0)", [](const Snapshot& s) { return s.slip_velocity_at_origin; }},
-      {"peak_slip_velocity", "peak W", [](const Snapshot& s) { return s.peak_slip_velocity; }},
-      {"leading_front", "leading", [](const Snapshot& s) { return s.fronts.leading; }},
-      {"trailing_front_observed", "trailing*", [](const Snapshot& s) { return s.fronts.trailing_observed; }},
-      {"leading_front_observed", "leading*", [](const Snapshot& s) { return s.fronts.leading_observed; }},
-  };
-  return quantities;
+const std::vector<output::Scalar>& compared_numbers() {
+  static const std::vector<output::Scalar> compared = [] {
+    std::vector<output::Scalar> all(output::scalars().begin(), output::scalars().end());
+    std::erase_if(all, [](const output::Scalar& number) { return number.heading.empty(); });
+    return all;
+  }();
+  return compared;
 }
 
 const Level* reference_level(const std::vector<Level>& levels) {
@@ -24,16 +21,16 @@ const Level* reference_level(const std::vector<Level>& levels) {
   return nullptr;
 }
 
-Trend trend_of(const std::vector<Level>& levels, const Quantity& quantity) {
+Trend trend_of(const std::vector<Level>& levels, const output::Scalar& number) {
   Trend trend;
   const Level* reference = reference_level(levels);
   if (!reference) return trend;
-  const double theory = quantity.get(reference->snapshots.back());
+  const double theory = number.get(reference->snapshots.back());
   std::vector<double> scale, value;  // ascending
   for (const Level& level : levels)
     if (level.scale && !level.snapshots.empty()) {
       scale.push_back(*level.scale);
-      value.push_back(quantity.get(level.snapshots.back()));
+      value.push_back(number.get(level.snapshots.back()));
     }
   const std::size_t n = scale.size();
   if (n < 2) return trend;
@@ -58,8 +55,8 @@ namespace {
 /// The reason why quantities have no value at infinite scale. Empty if all have one.
 std::string note_on_limits(const std::vector<Level>& levels) {
   std::string names;
-  for (const Quantity& q : compared_quantities())
-    if (trend_of(levels, q).exponent < 0) names += (names.empty() ? "" : ", ") + std::string(q.key);
+  for (const output::Scalar& q : compared_numbers())
+    if (trend_of(levels, q).exponent < 0) names += (names.empty() ? "" : ", ") + std::string(q.about.name);
   if (names.empty()) return {};
   return "no value at infinite scale for " + names +
          ": the difference between chain and pulse does not fall with the scale, over the scales run";

@@ -229,8 +229,7 @@ TEST(Contacts, EnergyFromContactsClosesTheBudget) {
     ASSERT_TRUE(run.go());
     const chain::Balance balance = run.balance();
     EXPECT_LT(balance.energy_drift, 5e-4);
-    const double given = run.snapshots().back().further.at("energy_contacts") * 60,
-                 all = chain::totals(run.chain()).energy();
+    const double given = run.snapshots().back().energy.contacts * 60, all = chain::totals(run.chain()).energy();
     EXPECT_GT(std::fabs(given) / all, 10 * balance.energy_drift);  // the budget would miss it
   }
 }

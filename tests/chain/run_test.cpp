@@ -183,7 +183,7 @@ TEST(ChainRun, StressAtAPulledEndMirrors) {
     output::Schedule when{.times = {0, 2000}, .x_edges = {-3.1, 0, 3.1}};
     chain::Run run(s, when, {});
     run.go();
-    return run.snapshots().back().further.at("loading_stress");
+    return run.snapshots().back().loading_stress;
   };
   EXPECT_NEAR(stress_at(chain::Pulled::left), 5 * 0.01 * 6.2,
               1e-5);  // the length of the domain, in which 0.4 does not fit

@@ -119,7 +119,7 @@ TEST(Observe, EnergyThroughTheEndsClosesTheBudget) {
     run.go();
     const output::Energy e = run.snapshots().back().energy;
     EXPECT_GT(e.through_ends, 0.1);
-    EXPECT_NEAR(e.shocks, 0, 1e-5 * e.supplied);
+    EXPECT_NEAR(e.residual, 0, 1e-5 * e.supplied);
   }
 }
 
@@ -140,7 +140,7 @@ TEST(Observe, ShockTakesTheEnergyOfTheRiemannProblem) {
   // The energy flux through a surface that moves with the dislocations is p U; the surface itself carries H x_t.
   const double flux = modulation::pressure(solution.star.psi) * modulation::velocity(solution.star.phi) +
                       behind.H * (std::tanh(solution.star.phi) - speed) + ahead.H * speed;
-  const double lost = (run.snapshots()[2].energy.shocks - run.snapshots()[1].energy.shocks) / 2;
+  const double lost = (run.snapshots()[2].energy.residual - run.snapshots()[1].energy.residual) / 2;
   EXPECT_NEAR(lost, flux, 0.03 * flux);
 }
 

@@ -47,7 +47,7 @@ class Open(unittest.TestCase):
         for change in (settings, {**settings, "friction.law": "coulomb", "friction.coefficient": 0.01}):
             data, opened = self.pair(slipfront.pulse, STEP, set=change)
             self.same(data, opened)
-            self.attributes(data, opened, OF_COMPUTATION | {"energy_shocks"})
+            self.attributes(data, opened, OF_COMPUTATION)
             self.assertEqual((opened.attrs["cells"], opened.attrs["closure"]), (60, "paper"))
 
     def test_chain(self):

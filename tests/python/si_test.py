@@ -78,7 +78,7 @@ SCALE_OF = {
     "trailing_front": "m", "leading_front": "m", "trailing_characteristic": "m", "trailing_front_observed": "m", "leading_front_observed": "m",
     "first_crossing_time": "s", "first_crossing_position": "m", "window": "m", "smooth_window": "m", "loading_force": "force", "loading_stress": "stress",
     "event_recurrence_time": "s", "event_median_stress_drop": "force", "event_median_peak_velocity": "velocity",
-    **{f"energy_{kind}": "energy" for kind in ("elastic", "kinetic", "dissipated", "supplied", "through_ends", "shocks", "phonons", "loading", "contacts")},
+    **{f"energy_{kind}": "energy" for kind in ("elastic", "kinetic", "dissipated", "supplied", "through_ends", "shocks", "residual", "phonons", "loading", "contacts")},
     **{f"event_{name}": unit for name, unit in {"onset": "s", "duration": "s", "slip": "slip", "largest_slip": "slip", "load": "force", "stress_drop": "force", "peak_velocity": "velocity",
                                                 "origin": "m", "length": "m", "rupture_velocity": "c"}.items()},
 }
@@ -121,7 +121,7 @@ class Results(PythonCommands):
         self.assertNotIn("friction_coefficient", si["units"])
         self.assertLessEqual(set(si["units"]), set(SCALE_OF))
         self.assertNotIn("units", plain)
-        self.assertRegex(self.ok("pulse", STEP, *SHORT, *ROCK, "--si"), r"slip_at_origin .* u at x = 0 since t = 0, between the faces, in m\n")
+        self.assertRegex(self.ok("pulse", STEP, *SHORT, *ROCK, "--si"), r"slip_at_origin .* slip at x = 0 since time 0, between the faces, in m\n")
 
     def test_the_medium_alone_changes_nothing(self):
         runs = [self.pulse(STEP, *SHORT, *medium) for medium in ([], ROCK)]

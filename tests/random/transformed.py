@@ -138,7 +138,7 @@ def riemann(left, right):
 # --- mirrored -----------------------------------------------------------------------------------------------------
 
 ODD_OF_CHAIN = checks.ODD | {"trailing_front", "potency"}
-OF_MACHINE = ("wall_seconds", "solve_seconds", "site_updates_per_second", "threads", "ranks", "steps", "energy_drift", "charge_error", "conservation_error", "energy_shocks",
+OF_MACHINE = ("wall_seconds", "solve_seconds", "site_updates_per_second", "threads", "ranks", "steps", "energy_drift", "charge_error", "conservation_error", "energy_shocks", "energy_residual",
               "window", "smooth_window")
 
 

@@ -113,7 +113,7 @@ std::string made(const Form& form) {
   int field_id = -1;
   for (const auto& field : slipfront::record::field_variables())
     field_id = add(std::string(field.about.name), {time, x});
-  for (const auto& scalar : slipfront::record::scalar_variables()) add(std::string(scalar.about.name), {time});
+  for (const auto& scalar : slipfront::output::scalars()) add(std::string(scalar.about.name), {time});
   add("checkpoint", {bytes});
   file.end_definitions();
   if (times >= 0 && form.wrong_shape != "time" && form.wrong_type != "time") file.write(times, form.time);

@@ -10,6 +10,7 @@
 
 #include "pulse_sample.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/output/quantities.hpp"
 #include "temporary_folder.hpp"
 
 namespace {
@@ -31,10 +32,9 @@ Bits bits(const std::vector<double>& values) {
 }
 
 Bits scalar_bits(const Snapshot& s) {
-  return bits({s.time, s.fronts.trailing, s.fronts.leading, s.fronts.trailing_characteristic,
-               s.fronts.trailing_observed, s.fronts.leading_observed, s.energy.elastic, s.energy.kinetic,
-               s.energy.dissipated, s.energy.supplied, s.energy.through_ends, s.energy.shocks,
-               s.slip_velocity_at_origin, s.stress_at_origin, s.slip_at_origin, s.peak_slip_velocity, s.peak_position});
+  std::vector<double> values = {s.time};
+  for (const auto& scalar : slipfront::output::scalars()) values.push_back(scalar.get(s));
+  return bits(values);
 }
 
 void expect_equal(const std::vector<Snapshot>& a, const std::vector<Snapshot>& b) {

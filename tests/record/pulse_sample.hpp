@@ -22,15 +22,20 @@ inline std::vector<slipfront::output::Snapshot> sample_snapshots(std::size_t tim
       profile.H.push_back(2 - x);
       profile.slip.push_back(j == 2 ? nan : std::exp(x));
     }
-    snapshots.push_back({t,
-                         profile,
-                         {i == 0 ? nan : -t / 3, i == 0 ? nan : t / 7, -t / 5, nan, t / 11},
-                         {1.0 / 3, t / 13, t / 17, -0.0, t / 41, i == 2 ? nan : -t, i == 1 ? nan : t / 37},
-                         t / 19,
-                         0.855 - t / 23,
-                         t / 29,
-                         t / 31,
-                         i == 0 ? nan : -t / 37});
+    snapshots.push_back(
+        {t,
+         profile,
+         {i == 0 ? nan : -t / 3, i == 0 ? nan : t / 7, -t / 5, nan, t / 11},
+         {1.0 / 3, t / 13, t / 17, -0.0, t / 41, i == 2 ? nan : -t, t / 43, i == 1 ? nan : t / 37, t / 47, t / 53},
+         t / 19,
+         0.855 - t / 23,
+         t / 29,
+         t / 31,
+         i == 0 ? nan : -t / 37,
+         t / 59,
+         t / 61,
+         i == 1 ? nan : t / 67,
+         t / 71});
   }
   return snapshots;
 }

@@ -14,6 +14,7 @@
 #include "foundation/clock.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/plane/direct.hpp"
+#include "slipfront/plane/quantities.hpp"
 #include "slipfront/plane/run.hpp"
 
 namespace slipfront::explorer {
@@ -47,7 +48,7 @@ void check_size(const scenario::Scenario& s, bool direct) {
 
 /// Snapshots and rows that the page has not got yet, one after the other.
 struct News {
-  std::vector<double> time, velocity, slip, line_points, line_x, line_y, series_time, moment_rate, front;
+  std::vector<double> time, velocity, slip, line_points, line_x, line_y;
 
   void add(const plane::Field& frame) {
     time.push_back(frame.time);
@@ -65,20 +66,25 @@ struct News {
     line_x.push_back(point.x);
     line_y.push_back(point.y);
   }
-  void add(const plane::SeriesRow& row) {
-    series_time.push_back(row.time);
-    moment_rate.push_back(row.potency_rate);
-    front.push_back(row.front);
-  }
 };
 
 News news_of(LivePlane& now) {
   News news;
   const auto& snapshots = now.run->snapshots();
-  const auto& series = now.run->series();
   for (; now.frames_told < snapshots.size(); ++now.frames_told) news.add(snapshots[now.frames_told]);
-  for (; now.rows_told < series.size(); ++now.rows_told) news.add(series[now.rows_told]);
   return news;
+}
+
+/// Puts the rows of the series that the page has not got yet.
+Object& put_series(Object& object, LivePlane& now) {
+  const std::vector<plane::SeriesRow>& rows = now.run->series();
+  for (const plane::SeriesNumber& number : plane::series_numbers()) {
+    std::vector<double> values;
+    for (std::size_t i = now.rows_told; i < rows.size(); ++i) values.push_back(number.get(rows[i]));
+    object.numbers(number.about.name, values);
+  }
+  now.rows_told = rows.size();
+  return object;
 }
 
 }  // namespace
@@ -132,8 +138,8 @@ SLIPFRONT_EXPORT const char* plane_go(double milliseconds) {
       now.gave_up = error.what();
     }
     const News news = news_of(now);
-    return Object()
-        .put("finished", now.run->finished() || !now.gave_up.empty())
+    Object object;
+    object.put("finished", now.run->finished() || !now.gave_up.empty())
         .put("gave_up", now.gave_up)
         .put("now", now.run->solver().time())
         .put("steps", now.run->solver().steps())
@@ -143,10 +149,8 @@ SLIPFRONT_EXPORT const char* plane_go(double milliseconds) {
         .numbers("slip", news.slip)
         .numbers("line_points", news.line_points)
         .numbers("line_x", news.line_x)
-        .numbers("line_y", news.line_y)
-        .numbers("series_time", news.series_time)
-        .numbers("moment_rate", news.moment_rate)
-        .numbers("front", news.front);
+        .numbers("line_y", news.line_y);
+    return put_series(object, now);
   });
 }
 

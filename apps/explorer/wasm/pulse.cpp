@@ -6,13 +6,14 @@
 #include <cmath>
 #include <map>
 #include <memory>
-#include <optional>
+#include <type_traits>
+#include <variant>
 
 #include "foundation/clock.hpp"
 #include "foundation/text/digits.hpp"
-#include "output/further_scalars.hpp"
 #include "scenario.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/output/quantities.hpp"
 #include "slipfront/pulse/run.hpp"
 #include "slipfront/setup/problem.hpp"
 
@@ -22,7 +23,6 @@ namespace {
 struct Session {
   std::unique_ptr<pulse::Run> run;
   std::vector<std::string> warnings;  ///< warnings about the scenario
-  std::optional<double> coefficient;
 };
 
 std::map<int, Session>& sessions() {
@@ -56,24 +56,20 @@ void put_field(Object& object, const char* name, const std::vector<output::Snaps
 }
 
 void put_series(Object& object, const std::vector<output::Snapshot>& all, std::size_t first) {
-  using S = const output::Snapshot&;
-  const auto put = [&](const char* name, const auto& get) { object.numbers(name, series(all, first, get)); };
-  put("time", [](S s) { return s.time; });
-  put("trailing_front", [](S s) { return s.fronts.trailing; });
-  put("leading_front", [](S s) { return s.fronts.leading; });
-  put("trailing_characteristic", [](S s) { return s.fronts.trailing_characteristic; });
-  put("trailing_front_observed", [](S s) { return s.fronts.trailing_observed; });
-  put("leading_front_observed", [](S s) { return s.fronts.leading_observed; });
-  put("slip_velocity_at_origin", [](S s) { return s.slip_velocity_at_origin; });
-  put("stress_at_origin", [](S s) { return s.stress_at_origin; });
-  put("slip_at_origin", [](S s) { return s.slip_at_origin; });
-  put("peak_slip_velocity", [](S s) { return s.peak_slip_velocity; });
-  put("peak_position", [](S s) { return s.peak_position; });
-  put("energy_elastic", [](S s) { return s.energy.elastic; });
-  put("energy_kinetic", [](S s) { return s.energy.kinetic; });
-  put("energy_dissipated", [](S s) { return s.energy.dissipated; });
-  put("energy_supplied", [](S s) { return s.energy.supplied; });
-  put("potency", [](S s) { return output::further_scalar(s, "potency"); });
+  object.numbers("time", series(all, first, [](const output::Snapshot& s) { return s.time; }));
+  for (const output::Scalar& number : output::scalars())
+    object.numbers(number.about.name, series(all, first, number.get));
+}
+
+/// Puts the numbers and texts of a run.
+void put_numbers(Object& object, const pulse::Run& run) {
+  for (const auto& number : pulse::quantities())
+    std::visit(
+        [&](const auto& value) {
+          if constexpr (!std::is_same_v<std::decay_t<decltype(value)>, std::vector<double>>)
+            object.put(number.about.name, value);
+        },
+        number.get({run, 0}));
 }
 
 }  // namespace
@@ -105,9 +101,7 @@ SLIPFRONT_EXPORT const char* pulse_begin(int handle, const char* toml, int frame
       x.push_back((schedule.x_edges[i] + schedule.x_edges[i + 1]) / 2);
     object.numbers("x", x).put("end", s.end).put("frames", static_cast<long>(schedule.times.size()));
     object.put("closure", name_of(problem.friction.closure())).put("warnings", s.warnings);
-    const std::optional<double> coefficient = s.friction.linear_coefficient();
-    sessions()[handle] = {std::make_unique<pulse::Run>(std::move(problem), std::move(schedule)), s.warnings,
-                          coefficient};
+    sessions()[handle] = {std::make_unique<pulse::Run>(std::move(problem), std::move(schedule)), s.warnings};
     return object;
   });
 }
@@ -125,8 +119,8 @@ SLIPFRONT_EXPORT const char* pulse_go(int handle, double milliseconds, int first
       gave_up = error.what();
     }
     Object object;
-    object.put("finished", s.run->finished()).put("now", s.run->time()).put("steps", s.run->steps());
-    object.put("friction_coefficient", s.coefficient);
+    object.put("finished", s.run->finished()).put("now", s.run->time());
+    put_numbers(object, *s.run);
     if (!gave_up.empty()) object.put("gave_up", gave_up);
     const std::vector<output::Snapshot>& all = s.run->snapshots();
     const std::size_t from = std::min(all.size(), static_cast<std::size_t>(std::max(first, 0)));
@@ -138,12 +132,7 @@ SLIPFRONT_EXPORT const char* pulse_go(int handle, double milliseconds, int first
     if (s.run->finished()) {
       std::vector<std::string> warnings = s.warnings;
       for (const std::string& w : s.run->warnings()) warnings.push_back(w);
-      object.put("warnings", warnings)
-          .put("damping_number", s.coefficient ? std::optional(*s.coefficient * all.back().time) : std::nullopt)
-          .put("conservation_error", s.run->conservation_error())
-          .put("first_crossing_time", s.run->crossing_time())
-          .put("first_crossing_position", s.run->crossing_position())
-          .put("cells", s.run->problem().cells);
+      object.put("warnings", warnings);
     }
     return object;
   });

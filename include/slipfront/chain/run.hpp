@@ -7,11 +7,13 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "slipfront/chain/chain.hpp"
+#include "slipfront/output/quantities.hpp"
 #include "slipfront/output/self_check.hpp"
 #include "slipfront/output/snapshot.hpp"
 
@@ -122,5 +124,17 @@ class Run {
   std::unique_ptr<EventOutputs> outputs_;
   std::optional<output::Findings> final_findings_;  ///< set when the run is finished
 };
+
+/// A run that has reached its end, and how it was run.
+struct Report {
+  const Run& run;
+  Balance balance;        ///< result of run.balance(), in which all ranks take part
+  Averages averages;      ///< result of run.averages(), like `balance`
+  double stepping, wall;  ///< seconds of the run only, and of everything
+  long steps;             ///< steps in these seconds
+  int ranks, threads;
+};
+/// The numbers of a run that its snapshots do not have.
+std::span<const output::Quantity<Report>> quantities();
 
 }  // namespace slipfront::chain

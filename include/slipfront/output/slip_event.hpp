@@ -55,7 +55,6 @@ extern const Description front_position;  ///< describes FrontRecords::x
 struct SlipEventColumn {
   Description about;
   double SlipEvent::*value;
-  std::string_view reason = {};  ///< why an event may have no value
 };
 std::span<const SlipEventColumn> slip_event_columns();
 /// The columns in which an event has no value.
@@ -70,7 +69,9 @@ struct EventSeries {
 };
 EventSeries series_of(const std::vector<SlipEvent>& events);
 
-/// The description of a column. Load and stress drop are of the force on the sites, or of the stress at a `pulled_end`.
+/// The unit of load and stress drop: of the force on the sites, or of the stress at a `pulled_end`.
+std::string_view unit_of_load(bool pulled_end);
+/// The description of a column, with that unit.
 Description description_of(const SlipEventColumn& column, bool pulled_end);
 
 }  // namespace slipfront::output

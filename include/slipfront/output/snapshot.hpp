@@ -3,9 +3,7 @@
 /// The results of a run at one output time.
 
 #include <cstddef>
-#include <functional>
-#include <map>
-#include <string>
+#include <limits>
 #include <vector>
 
 namespace slipfront::output {
@@ -55,12 +53,15 @@ struct Energy {
   double dissipated;    ///< energy that friction dissipated since t = 0
   double supplied;      ///< energy that the forcing F supplied since t = 0
   double through_ends;  ///< energy that entered through the ends of the domain since t = 0; NaN for a chain
-  /// The rest of the budget since t = 0: energy lost in collisions of trains, and errors of the cells. NaN for a chain.
-  double shocks;
+  double shocks;        ///< energy lost where trains ran into each other since t = 0; NaN if none have
+  double residual;      ///< rest of the budget since t = 0: `shocks` and errors of the cells; NaN for a chain
   /// H of a chain, less that of the uniform train with the same k and W; NaN without a substrate, and for other runs.
   double phonons;
+  double loading = 0;   ///< energy in the springs that load a chain
+  double contacts = 0;  ///< energy that contacts supplied as their strength changed
 };
 
+/// The results at one time. Its numbers are declared in quantities.cpp.
 struct Snapshot {
   double time;
   Profile profile;
@@ -71,7 +72,10 @@ struct Snapshot {
   double slip_at_origin;
   double peak_slip_velocity;
   double peak_position;
-  std::map<std::string, double, std::less<>> further = {};  ///< further values, by their names in further_scalars()
+  double potency = 0;                                                ///< integral of the slip since t = 0 over x
+  double loading_force = std::numeric_limits<double>::quiet_NaN();   ///< mean force of springs everywhere on a site
+  double loading_stress = std::numeric_limits<double>::quiet_NaN();  ///< stress at the end that a spring pulls
+  double pore_pressure_at_origin = 0;                                ///< over the normal stress
 };
 
 }  // namespace slipfront::output

@@ -6,10 +6,12 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "slipfront/output/quantities.hpp"
 #include "slipfront/output/snapshot.hpp"
 #include "slipfront/pulse/problem.hpp"
 
@@ -69,5 +71,13 @@ class Run {
   struct Parts;
   std::unique_ptr<Parts> parts_;
 };
+
+/// A run that has reached its end.
+struct Report {
+  const Run& run;
+  double wall;  ///< seconds, including set-up and output
+};
+/// The numbers of a run that its snapshots do not have.
+std::span<const output::Quantity<Report>> quantities();
 
 }  // namespace slipfront::pulse

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "slipfront/chain/run.hpp"
+#include "slipfront/output/quantities.hpp"
 #include "slipfront/pulse/run.hpp"
 #include "slipfront/scenario/scenario.hpp"
 
@@ -57,13 +58,8 @@ bool run_levels(const Comparison& comparison, int threads, std::vector<Level>& l
 /// domain.
 std::optional<Level> closed_form(const scenario::Scenario& scenario, const output::Schedule& schedule);
 
-/// A quantity for which the levels are compared at the end of the run.
-struct Quantity {
-  const char* key;
-  const char* heading;  ///< heading of its column
-  double (*get)(const output::Snapshot&);
-};
-const std::vector<Quantity>& compared_quantities();
+/// The numbers for which the levels are compared at the end of the run.
+const std::vector<output::Scalar>& compared_numbers();
 
 /// The level that the others are compared with: the pulse solver with closure "consistent". Null if it was not run.
 const Level* reference_level(const std::vector<Level>& levels);
@@ -78,7 +74,7 @@ struct Trend {
   double extrapolated = std::numeric_limits<double>::quiet_NaN();
   double difference = std::numeric_limits<double>::quiet_NaN();  ///< `extrapolated` less the reference
 };
-Trend trend_of(const std::vector<Level>& levels, const Quantity& quantity);
+Trend trend_of(const std::vector<Level>& levels, const output::Scalar& number);
 
 /// Notes and warnings that the reader of these levels needs, one line each.
 std::vector<std::string> notes_on(const scenario::Scenario& scenario, const std::vector<Level>& levels);

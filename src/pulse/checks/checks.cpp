@@ -84,14 +84,14 @@ void Checks::check_count(output::Findings& found) const {
 void Checks::check_energy(output::Findings& found) const {
   const output::Energy& e = snapshots_.back().energy;
   constexpr double worth = 0.01;  // results count as wrong if more energy is created than moves
-  const double motion = energy_of_motion(), created = -e.shocks - energy_doubt();
+  const double motion = energy_of_motion(), created = -e.residual - energy_doubt();
   const bool moved = motion > 0;  // if friction held all cells in every step, the measure is the stored energy
   const double share_created = created / (moved ? motion : at_start_.all());
   found.violation(worth * share_created, "pulse: energy was created, " + digits(100 * share_created) +
                                              (moved ? " % of the energy of motion" : " % of the stored energy") +
                                              "; more pulse.cells help");
 
-  const double lost = std::fmax(e.shocks - energy_doubt(), 0.0), share = lost > 0 ? lost / (motion + lost) : 0;
+  const double lost = std::fmax(e.residual - energy_doubt(), 0.0), share = lost > 0 ? lost / (motion + lost) : 0;
   const Cells& cells = solver_.cells();
   if (!std::isnan(cells.crossing_time) && (solver_.problem().contact || share > much))
     found.sentences.push_back("pulse: dislocations overtake each other from t = " + digits(cells.crossing_time) +

@@ -64,8 +64,14 @@ void Along::integrate() {
     means_[i] = now[3 * i];
     if (trains_.time() == 0) means_[i].W = 0;  // at rest, to rounding of the interpolated edges
   }
-  energy_ = {
-      .elastic = 0, .kinetic = 0, .dissipated = 0, .supplied = 0, .through_ends = 0, .shocks = 0, .phonons = none};
+  energy_ = {.elastic = 0,
+             .kinetic = 0,
+             .dissipated = 0,
+             .supplied = 0,
+             .through_ends = 0,
+             .shocks = none,
+             .residual = 0,
+             .phonons = none};
   stress_.assign(nodes_.size(), 0.0);
   lost_.assign(nodes_.size(), 0.0);
   std::vector<double> changed(nodes_.size());
@@ -87,7 +93,7 @@ void Along::integrate() {
 
 /// Adds the energy at a Gauss point of the piece behind a node, and its change since t = 0.
 void Along::add_energy(std::size_t node, double weight, const edges::Means& now, const edges::Means& first) {
-  energy_.shocks -= weight * (now.H - first.H);
+  energy_.residual -= weight * (now.H - first.H);
   if (!(in_domain(node) && in_domain(node + 1))) {
     energy_.through_ends -= weight * (now.H - first.H);
     return;

@@ -21,7 +21,7 @@ class Along {
   /// 2 pi times the dislocations in the domain at t = 0.
   double count() const { return count_; }
   double conservation_error() const;
-  /// Everything of a snapshot but the further scalars.
+  /// All of a snapshot but what output::complete adds.
   output::Snapshot snapshot(const output::Schedule& schedule) const;
 
  private:

@@ -206,7 +206,7 @@ output::Findings ManyTrains::findings(const std::vector<output::Snapshot>& snaps
   found.violation(uncounted, "pulse: the trains hold " + digits(100 * uncounted) +
                                  " % more or fewer dislocations than there are; more pulse.cells help");
   constexpr double worth = 0.01;  // results count as wrong if as much energy is created or lost as moves
-  const double energy = std::fabs(snapshots.back().energy.shocks) / motion;
+  const double energy = std::fabs(snapshots.back().energy.residual) / motion;
   if (motion > 0)
     found.violation(worth * energy, "pulse: energy is not conserved, by " + digits(100 * energy) +
                                         " % of the energy of motion; more pulse.cells help");

@@ -82,6 +82,7 @@ Energy energy_of(const Solver& solver, const View& v) {
           .supplied = solver.supplied(),
           .through_ends = solver.through_ends(),
           .shocks = none,
+          .residual = none,
           .phonons = none};
 }
 

@@ -7,8 +7,8 @@
 
 #include "foundation/math/constants.hpp"
 #include "record/netcdf/netcdf.hpp"
-#include "record/planes/plane_variables.hpp"
 #include "record/pulses/cf.hpp"
+#include "slipfront/plane/quantities.hpp"
 #include "slipfront/plane/source_parameters.hpp"
 
 namespace slipfront::record {
@@ -55,22 +55,22 @@ class PlaneWriter {
 
   void define() {
     if (run_.schedule().lines) define_lines();
-    time_ = cf::reals(file_, plane_time, {dimensions_.time}, metadata_);
-    y_ = cf::reals(file_, plane_y, {dimensions_.y}, metadata_);
-    x_ = cf::reals(file_, plane_x, {dimensions_.x}, metadata_);
+    time_ = cf::reals(file_, plane::time_axis, {dimensions_.time}, metadata_);
+    y_ = cf::reals(file_, plane::y_axis, {dimensions_.y}, metadata_);
+    x_ = cf::reals(file_, plane::x_axis, {dimensions_.x}, metadata_);
     file_.attribute(y_, "axis", "Y");
     file_.attribute(x_, "axis", "X");
-    for (const PlaneField& field : plane_fields())
+    for (const plane::FieldArray& field : plane::field_arrays())
       fields_.push_back(cf::reals(file_, field.about, {dimensions_.time, dimensions_.y, dimensions_.x}, metadata_));
-    for (const PlaneMap& map : plane_maps()) {
+    for (const plane::MapArray& map : plane::map_arrays()) {
       maps_.push_back(
           cf::reals(file_, description_of(map, run_.schedule()), {dimensions_.y, dimensions_.x}, metadata_));
       file_.fill_value(maps_.back(), none);
     }
-    for (const PlaneSeries& series : plane_series())
+    for (const plane::SeriesNumber& series : plane::series_numbers())
       series_.push_back(cf::reals(file_, series.about, {dimensions_.series}, metadata_));
-    frequency_ = cf::reals(file_, plane_frequency, {dimensions_.frequency}, metadata_);
-    spectrum_ = cf::reals(file_, plane_spectrum, {dimensions_.frequency}, metadata_);
+    frequency_ = cf::reals(file_, plane::frequency_axis, {dimensions_.frequency}, metadata_);
+    spectrum_ = cf::reals(file_, plane::moment_rate_spectrum, {dimensions_.frequency}, metadata_);
     state_id_ = opaque(file_, "checkpoint", "state of the run, to resume it", state_.size());
     scenario_id_ = opaque(file_, "scenario_text", "the scenario, byte by byte", metadata_.scenario_text.size());
   }
@@ -84,12 +84,12 @@ class PlaneWriter {
     file_.write(x_, grid_.x());
     for (std::size_t i = 0; i < fields_.size(); ++i)
       for (std::size_t row = 0; row < times.size(); ++row)
-        file_.write_row(fields_[i], row, run_.snapshots()[row].*plane_fields()[i].values);
+        file_.write_row(fields_[i], row, run_.snapshots()[row].*plane::field_arrays()[i].values);
     const plane::Maps maps = run_.maps();
-    for (std::size_t i = 0; i < maps_.size(); ++i) file_.write_all(maps_[i], maps.*plane_maps()[i].values);
+    for (std::size_t i = 0; i < maps_.size(); ++i) file_.write_all(maps_[i], maps.*plane::map_arrays()[i].values);
     for (std::size_t i = 0; i < series_.size(); ++i) {
       std::vector<double> values;
-      for (const plane::SeriesRow& row : run_.series()) values.push_back(plane_series()[i].get(row));
+      for (const plane::SeriesRow& row : run_.series()) values.push_back(plane::series_numbers()[i].get(row));
       file_.write(series_[i], values);
     }
     file_.write(frequency_, frequencies_);
@@ -100,12 +100,14 @@ class PlaneWriter {
 
  private:
   void define_lines() {
-    lines_ = line_points(run_.snapshots());
+    lines_ = plane::line_points(run_.snapshots());
     const int points = file_.dimension("line_point", lines_.x.size());
-    for (const PlaneLine& line : plane_lines()) line_ids_.push_back(cf::reals(file_, line.about, {points}, metadata_));
+    for (const plane::LineArray& line : plane::line_arrays())
+      line_ids_.push_back(cf::reals(file_, line.about, {points}, metadata_));
   }
   void write_lines() {
-    for (std::size_t i = 0; i < line_ids_.size(); ++i) file_.write(line_ids_[i], lines_.*plane_lines()[i].values);
+    for (std::size_t i = 0; i < line_ids_.size(); ++i)
+      file_.write(line_ids_[i], lines_.*plane::line_arrays()[i].values);
   }
 
   Writer& file_;
@@ -117,7 +119,7 @@ class PlaneWriter {
   std::vector<double> frequencies_;
   int time_ = 0, y_ = 0, x_ = 0, frequency_ = 0, spectrum_ = 0, state_id_ = 0, scenario_id_ = 0;
   std::vector<int> fields_, maps_, series_, line_ids_;
-  LinePoints lines_;
+  plane::LinePoints lines_;
 };
 
 }  // namespace
@@ -128,7 +130,7 @@ std::vector<double> PlaneGrid::y() const { return centres(bottom, top, ny); }
 void write_plane(const std::string& path, const PulseMetadata& metadata, const PlaneGrid& grid, const plane::Run& run,
                  const std::string& state) {
   const std::size_t cells = static_cast<std::size_t>(grid.nx) * static_cast<std::size_t>(grid.ny);
-  std::size_t values = cells * (plane_fields().size() * run.snapshots().size() + 2 * plane_maps().size());
+  std::size_t values = cells * (plane::field_arrays().size() * run.snapshots().size() + 2 * plane::map_arrays().size());
   for (const plane::Field& snapshot : run.snapshots())
     for (const plane::Line& line : snapshot.lines) values += 4 * (line.points.size() + 1);
   write_netcdf(path, values * sizeof(double) + (1 << 16), [&](Writer& file) {

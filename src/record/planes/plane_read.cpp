@@ -6,8 +6,8 @@
 #include "record/files/text_file.hpp"
 #include "record/netcdf/netcdf.hpp"
 #include "record/planes/plane_file.hpp"
-#include "record/planes/plane_variables.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/plane/quantities.hpp"
 
 namespace slipfront::record {
 namespace {
@@ -32,17 +32,17 @@ std::string text(const std::string& path, const Reader& file, const std::string&
   return *std::move(value);
 }
 
-LinePoints points_of_lines(const std::string& path, const Reader& file) {
-  LinePoints points;
-  for (const PlaneLine& line : plane_lines())
+plane::LinePoints points_of_lines(const std::string& path, const Reader& file) {
+  plane::LinePoints points;
+  for (const plane::LineArray& line : plane::line_arrays())
     if (const auto variable = file.find(std::string(line.about.name))) points.*line.values = file.reals(*variable);
-  for (const PlaneLine& line : plane_lines())
+  for (const plane::LineArray& line : plane::line_arrays())
     if ((points.*line.values).size() != points.x.size()) fail(path, "the points of lines have different sizes");
   return points;
 }
 
 /// Gives each snapshot its lines.
-void add_lines(const LinePoints& points, std::vector<plane::Field>& snapshots) {
+void add_lines(const plane::LinePoints& points, std::vector<plane::Field>& snapshots) {
   const std::size_t size = points.x.size();
   std::size_t i = 0;
   for (plane::Field& snapshot : snapshots)
@@ -67,7 +67,7 @@ PlaneCheckpoint read_file(const std::string& path, const Reader& file) {
   for (const double time : times)
     run.snapshots.push_back(
         {.time = time, .nx = static_cast<int>(nx), .ny = static_cast<int>(ny), .slip = {}, .velocity = {}});
-  for (const PlaneField& field : plane_fields()) {
+  for (const plane::FieldArray& field : plane::field_arrays()) {
     const Variable variable = require(path, file, std::string(field.about.name), 3);
     if (variable.shape != std::vector<std::size_t>{times.size(), ny, nx})
       fail(path, variable.name + " has the wrong size");

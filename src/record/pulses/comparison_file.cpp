@@ -18,7 +18,7 @@ using output::Snapshot;
 using Levels = std::vector<ComparedLevel>;
 
 /// A value of every snapshot, level by level.
-std::vector<double> over_time(const Levels& levels, const ScalarVariable& variable) {
+std::vector<double> over_time(const Levels& levels, const output::Scalar& variable) {
   std::vector<double> values;
   for (const ComparedLevel& level : levels)
     for (const Snapshot& snapshot : level.snapshots) values.push_back(variable.get(snapshot));
@@ -60,7 +60,7 @@ void fill(Writer& file, const PulseMetadata& metadata, const std::vector<double>
   const int level = file.dimension("level", levels.size()), letters = file.dimension("letters", labels.width);
   const int name = file.characters("name", {level, letters});
   file.attribute(name, "long_name", "level of theory");
-  const int scale = cf::reals(file, scale_variable, {level}, metadata);
+  const int scale = cf::reals(file, output::scale_factor, {level}, metadata);
   file.fill_value(scale, none);
   const cf::Axes axes = cf::axes(file, times.size(), cells, metadata);
   std::vector<int> field_ids, scalar_ids;
@@ -71,7 +71,7 @@ void fill(Writer& file, const PulseMetadata& metadata, const std::vector<double>
     return id;
   };
   for (const FieldVariable* field : fields) field_ids.push_back(add(field->about, {level, axes.time, axes.x}));
-  for (const ScalarVariable& scalar : scalar_variables()) scalar_ids.push_back(add(scalar.about, {level, axes.time}));
+  for (const output::Scalar& scalar : output::scalars()) scalar_ids.push_back(add(scalar.about, {level, axes.time}));
   file.end_definitions();
 
   cf::write_axes(file, axes, times, metadata.x_edges);
@@ -82,7 +82,7 @@ void fill(Writer& file, const PulseMetadata& metadata, const std::vector<double>
     file.write(scale, scales);
     for (std::size_t i = 0; i < fields.size(); ++i) file.write_all(field_ids[i], over_time_and_x(levels, *fields[i]));
     for (std::size_t i = 0; i < scalar_ids.size(); ++i)
-      file.write_all(scalar_ids[i], over_time(levels, scalar_variables()[i]));
+      file.write_all(scalar_ids[i], over_time(levels, output::scalars()[i]));
   }
 }
 

@@ -12,8 +12,6 @@
 namespace slipfront::record {
 
 inline constexpr const char* comparison_format = "comparison 1";  ///< value of the attribute slipfront_format
-inline constexpr Description scale_variable = {
-    "scale", "scale of a chain: x and t are stretched by it, friction is divided by it", "", "Eq. 3"};
 
 /// The results of one level of theory.
 struct ComparedLevel {

@@ -55,7 +55,7 @@ void write_field(Writer& file, int variable, const FieldVariable& field, const s
     file.write_row(variable, row, field.of(snapshots[row], snapshots.front()));
 }
 
-void write_scalar(Writer& file, int variable, const ScalarVariable& scalar, const std::vector<Snapshot>& snapshots) {
+void write_scalar(Writer& file, int variable, const output::Scalar& scalar, const std::vector<Snapshot>& snapshots) {
   std::vector<double> values;
   values.reserve(snapshots.size());
   for (const Snapshot& snapshot : snapshots) values.push_back(scalar.get(snapshot));
@@ -122,9 +122,9 @@ void fill(Writer& file, const PulseMetadata& metadata, const std::vector<Snapsho
   std::vector<int> field_ids, scalar_ids;
   for (const FieldVariable* field : fields)
     field_ids.push_back(cf::reals(file, field->about, {axes.time, axes.x}, metadata));
-  for (const ScalarVariable& scalar : scalar_variables()) {
+  for (const output::Scalar& scalar : output::scalars()) {
     scalar_ids.push_back(cf::reals(file, scalar.about, {axes.time}, metadata));
-    if (scalar.may_be_absent) file.fill_value(scalar_ids.back(), std::numeric_limits<double>::quiet_NaN());
+    if (!scalar.about.reason.empty()) file.fill_value(scalar_ids.back(), std::numeric_limits<double>::quiet_NaN());
   }
   const Events events = define_events(file, metadata);
   const std::vector<int> front_ids = define_fronts(file, metadata, events.dimension);
@@ -140,7 +140,7 @@ void fill(Writer& file, const PulseMetadata& metadata, const std::vector<Snapsho
   cf::write_axes(file, axes, times, metadata.x_edges);
   for (std::size_t i = 0; i < fields.size(); ++i) write_field(file, field_ids[i], *fields[i], snapshots);
   for (std::size_t i = 0; i < scalar_ids.size(); ++i)
-    write_scalar(file, scalar_ids[i], scalar_variables()[i], snapshots);
+    write_scalar(file, scalar_ids[i], output::scalars()[i], snapshots);
   write_events(file, events.variables, metadata);
   write_fronts(file, front_ids, metadata.fronts);
   file.write(state, solver_state);
@@ -162,7 +162,7 @@ void write_pulse(const std::string& path, const PulseMetadata& metadata, const s
   const std::size_t cells = metadata.x_edges.size() - 1;
   const std::size_t arrivals = metadata.fronts.x.size() * (1 + output::front_columns().size() * metadata.events.size());
   const std::size_t values =
-      snapshots.size() * (fields.size() * cells + scalar_variables().size()) + 3 * cells + arrivals;
+      snapshots.size() * (fields.size() * cells + output::scalars().size()) + 3 * cells + arrivals;
   write_netcdf(path, values * sizeof(double) + solver_state.size() + (1 << 16),
                [&](Writer& file) { fill(file, metadata, snapshots, solver_state, finished, fields); });
 }

@@ -23,7 +23,7 @@ inline std::string checksum(const std::string& scenario, const std::string& stat
   fnv.text(scenario).text(state).number(finished).number(snapshots.size());
   for (const output::Snapshot& snapshot : snapshots) {
     fnv.real(snapshot.time);
-    for (const ScalarVariable& scalar : scalar_variables()) fnv.real(scalar.get(snapshot));
+    for (const output::Scalar& scalar : output::scalars()) fnv.real(scalar.get(snapshot));
     for (const auto field : profile_fields())
       if (holder(written, field)) fnv.reals(snapshot.profile.*field);
   }

@@ -36,7 +36,7 @@ class PulseReader {
 
   Checkpoint read() {
     Checkpoint run{scenario(), text("version"), bytes(require(layout::solver_state)), times(), finished()};
-    for (const ScalarVariable& scalar : scalar_variables()) read_scalar(scalar, run.snapshots);
+    for (const output::Scalar& scalar : output::scalars()) read_scalar(scalar, run.snapshots);
     const std::vector<const FieldVariable*> written = fields();
     for (const auto values : profile_fields())
       if (const FieldVariable* field = holder(written, values)) read_field(*field, run.snapshots);
@@ -99,7 +99,7 @@ class PulseReader {
     return snapshots;
   }
 
-  void read_scalar(const ScalarVariable& scalar, std::vector<Snapshot>& snapshots) const {
+  void read_scalar(const output::Scalar& scalar, std::vector<Snapshot>& snapshots) const {
     const std::vector<double> values = file_.reals(require_shape(scalar.about.name, {times_}));
     for (std::size_t i = 0; i < times_; ++i) scalar.set(snapshots[i], values[i]);
   }

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The variables of a pulse file, one line each.
+/// The variables of a pulse file over time and x, one line each. Those over time are output::scalars().
 
 #include <span>
 #include <string>
@@ -10,6 +10,7 @@
 
 #include "record/pulses/pulse_file.hpp"
 #include "slipfront/description.hpp"
+#include "slipfront/output/quantities.hpp"
 #include "slipfront/output/snapshot.hpp"
 
 namespace slipfront::record {
@@ -39,19 +40,7 @@ struct FieldVariable {
   std::vector<double> of(const output::Snapshot& snapshot, const output::Snapshot& first) const;
 };
 
-/// A variable over time.
-struct ScalarVariable {
-  Description about;
-  double (*member)(const output::Snapshot&);  ///< null: one of output::further_scalars()
-  void (*set_member)(output::Snapshot&, double);
-  bool may_be_absent = false;  ///< NaN if it is absent
-
-  double get(const output::Snapshot& snapshot) const;
-  void set(output::Snapshot& snapshot, double value) const;
-};
-
 std::span<const FieldVariable> field_variables();
-std::span<const ScalarVariable> scalar_variables();
 
 /// The variables of field_variables() with these names, or all but those `on_request` if `names` is empty. The stress
 /// drop adds the stress from which it is measured, because a run could not resume to the same bits without it. \throws
