@@ -30,6 +30,7 @@ struct Description {
   std::string_view reference;         ///< equation or section of the paper
   std::string_view reason = {};       ///< why a value may be absent (NaN); empty if it never is
   ErrorRule error = ErrorRule::unknown;
+  std::string_view si_unit = {};  ///< unit of a number that has one; empty if it is dimensionless
 };
 
 }  // namespace slipfront

@@ -161,7 +161,8 @@ void bind_event(py::module_& m) {
   m.def("event_quantities", [] {
     py::list all;
     for (const Quantity& q : quantities())
-      all.append(py::make_tuple(text(std::string(q.about.name)), text(std::string(q.about.dimensional_unit)),
+      all.append(py::make_tuple(text(std::string(q.about.name)),
+                                text(std::string(q.about.si_unit.empty() ? q.about.dimensional_unit : q.about.si_unit)),
                                 text(std::string(q.label))));
     return all;
   });

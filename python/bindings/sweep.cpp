@@ -35,12 +35,12 @@ struct Outcome {
   std::string reason;
 };
 
-/// Returns (name, long name, unit of the model) of each number of a run.
+/// Returns (name, long name, unit of the model, whether it is a result) of each number of a run.
 py::list numbers_of(const std::string& command) {
   py::list numbers;
-  for (const Description& about : run::numbers_of(command))
-    numbers.append(
-        py::make_tuple(std::string(about.name), std::string(about.long_name), std::string(about.dimensional_unit)));
+  for (const auto& [about, is_result] : run::numbers_of(command))
+    numbers.append(py::make_tuple(std::string(about.name), std::string(about.long_name),
+                                  std::string(about.dimensional_unit), is_result));
   return numbers;
 }
 

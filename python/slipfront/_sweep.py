@@ -25,8 +25,6 @@ from ._units import converted, in_si, symbols
 _format = "sweep 2"  # 1 had dimensions with dots
 _any_medium = dict.fromkeys(("mu", "nu", "A", "b", "c"))  # the name of an SI unit does not depend on it
 
-_not_by_default = {"time", "wall_seconds", "solve_seconds", "site_updates_per_second", "ranks", "threads"}
-
 
 def _axes(axes):
     """Returns {key: list of values}. Raises InputError unless each list has one dimension and different values."""
@@ -51,9 +49,10 @@ def _axes(axes):
 
 
 def _variables(variables, command):
-    known = {name: about for name, *about in _slipfront.numbers_of(command)}
+    numbers = _slipfront.numbers_of(command)
+    known = {name: about for name, *about, _ in numbers}
     if variables is None:
-        variables = [key for key in known if key not in _not_by_default]
+        variables = [name for name, *_, is_result in numbers if is_result]
     if isinstance(variables, str):
         variables = [variables]
     for name in variables:

@@ -21,9 +21,6 @@ MOST_ROWS = 40
 #: Characters of a text in the table, such as a formula.
 WIDEST = 40
 
-#: Columns of the table, as far as they fit.
-COLUMNS = ("slip_velocity_at_origin", "slip_at_origin", "stress_at_origin", "peak_slip_velocity", "trailing_front", "leading_front")
-
 
 def arguments(argv):
     """Returns the options of the command line."""
@@ -142,8 +139,8 @@ def table(data, width):
     """Returns a table of the points as text: the axes, and as many numbers as fit into the width."""
     rows = list(itertools.islice(rows_of(data), MOST_ROWS))
     numbers = []
-    for name in dict.fromkeys((*COLUMNS, *data.data_vars)):
-        if name in data and name != "failure":
+    for name in data.data_vars:
+        if name != "failure":
             attrs = data[name].attrs
             numbers.append(column(name, attrs.get("dimensional_unit", attrs["units"]), ["failed" if row["failure"] else short(row[name]) for row in rows]))
 

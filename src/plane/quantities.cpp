@@ -14,6 +14,8 @@ using output::Value;
 
 constexpr std::string_view on_a_plane = "Eq. 7, on a plane", energy = "mu b^3 / (2 pi^2 (1 - nu))";
 
+constexpr std::string_view not_ruptured = "the cell has not ruptured";
+
 constexpr FieldArray of_fields[] = {
     {{"slip", "slip since time 0, mean over the cell", "b / (2 pi)", "Eq. 4"}, &Field::slip},
     {{"slip_velocity", "slip velocity, mean over the cell", "c A / pi", "Eq. 4"}, &Field::velocity},
@@ -27,17 +29,19 @@ constexpr LineArray of_lines[] = {
 };
 
 constexpr MapArray of_maps[] = {
-    {{"rupture_time", "time at which the cell ruptures", "b / (c A)", on_a_plane}, &Maps::rupture_time},
+    {{"rupture_time", "time at which the cell ruptures", "b / (c A)", on_a_plane, not_ruptured}, &Maps::rupture_time},
     {{"rupture_velocity", "velocity of the rupture front, 1 / size of the gradient of the rupture time", "c",
-      on_a_plane},
+      on_a_plane, "the cell or a neighbour has not ruptured, or all rupture at once"},
      &Maps::rupture_velocity},
     {{"peak_slip_velocity", "largest slip velocity so far", "c A / pi", on_a_plane}, &Maps::peak_slip_velocity},
     {{"rise_time", "rise time so far, slip squared / integral of the slip velocity squared over time", "b / (c A)",
-      on_a_plane},
+      on_a_plane, "there is no slip"},
      &Maps::rise_time},
-    {{"initial_stress", "shear stress at time 0, from the gradient of the mean slip", "mu A / pi", "Eq. 5"},
+    {{"initial_stress", "shear stress at time 0, from the gradient of the mean slip", "mu A / pi", "Eq. 5",
+      "the cell has no stress"},
      &Maps::initial_stress},
-    {{"final_stress", "shear stress at the last time, from the gradient of the mean slip", "mu A / pi", "Eq. 5"},
+    {{"final_stress", "shear stress at the last time, from the gradient of the mean slip", "mu A / pi", "Eq. 5",
+      "the cell has no stress"},
      &Maps::final_stress},
 };
 
@@ -109,7 +113,7 @@ constexpr output::Quantity<Report> of_run[] = {
       "no cell has slipped, or a cell has no stress"},
      [](const Report& e) -> Value { return stress_drop(e.maps.initial_stress, e.maps.final_stress, e.maps.slip); }},
     {output::step_count, [](const Report& e) -> Value { return e.run.solver().steps(); }},
-    {output::wall_time, [](const Report& e) -> Value { return e.wall; }},
+    {output::wall_time, [](const Report& e) -> Value { return e.wall; }, output::Kind::of_machine},
 };
 
 }  // namespace

@@ -19,7 +19,7 @@ constexpr std::string_view no_crossing =
 constexpr output::Quantity<Report> of_run[] = {
     {{"closure", "how friction is averaged", "", "Eqs. 7"},
      [](const Report& e) -> Value { return name_of(e.run.problem().friction.closure()); },
-     true},
+     output::Kind::text},
     {{"friction_coefficient", "C of viscous friction", "", "Eqs. 7", not_viscous},
      [](const Report& e) -> Value { return viscous_coefficient(e.run); }},
     {{"damping_number", "Gamma = C t of viscous friction", "", "Eqs. 7", not_viscous},
@@ -36,8 +36,9 @@ constexpr output::Quantity<Report> of_run[] = {
      [](const Report& e) -> Value { return static_cast<long>(e.run.problem().cells); }},
     {output::step_count, [](const Report& e) -> Value { return e.run.steps(); }},
     {{"solve_seconds", "seconds of the time steps only", "", ""},
-     [](const Report& e) -> Value { return e.run.stepping_seconds(); }},
-    {output::wall_time, [](const Report& e) -> Value { return e.wall; }},
+     [](const Report& e) -> Value { return e.run.stepping_seconds(); },
+     output::Kind::of_machine},
+    {output::wall_time, [](const Report& e) -> Value { return e.wall; }, output::Kind::of_machine},
 };
 
 }  // namespace

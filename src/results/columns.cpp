@@ -25,14 +25,10 @@ namespace {
 template <class Get>
 NumberColumn column(const Description& about, std::string name, const std::string& of, Axis axis, std::size_t count,
                     Get&& get) {
-  return {std::move(name),
-          of + std::string(about.long_name),
-          unit_of(about.name),
-          about.dimensional_unit,
-          about.reference,
-          axis,
-          count,
-          std::forward<Get>(get)};
+  return {std::move(name), of + std::string(about.long_name),
+          unit_of(about),  about.dimensional_unit,
+          about.reference, axis,
+          count,           std::forward<Get>(get)};
 }
 
 template <class Get>
@@ -113,12 +109,7 @@ void add_draws(std::vector<NumberColumn>& all, std::size_t draws) {
 
 }  // namespace
 
-std::string_view unit_of(std::string_view name) {
-  for (const auto& [end, unit] :
-       {std::pair<std::string_view, std::string_view>{"_m_s", "m s-1"}, {"_pa", "Pa"}, {"_pa_bound", "Pa"}})
-    if (name.ends_with(end)) return unit;
-  return "1";
-}
+std::string_view unit_of(const Description& about) { return about.si_unit.empty() ? "1" : about.si_unit; }
 
 std::vector<NumberColumn> number_columns(const ColumnChoice& choice) {
   std::vector<NumberColumn> all;

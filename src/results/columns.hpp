@@ -47,8 +47,8 @@ struct TextColumn {
 std::vector<NumberColumn> number_columns(const ColumnChoice& choice);
 std::vector<TextColumn> text_columns(bool with_pulse);
 
-/// The SI unit of a quantity, from the ending of its name (`_m_s`, `_pa`, `_pa_bound`). It is "1" for a pure number.
-std::string_view unit_of(std::string_view name);
+/// The attribute `units` of a quantity: "1" for a pure number.
+std::string_view unit_of(const Description& about);
 
 /// The observations in tension, such as "stress_drop 3.2; slip -2.9".
 std::string tension_text(const EventResult& result);

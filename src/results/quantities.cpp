@@ -11,13 +11,13 @@ using inference::Quantity;
 
 std::span<const EventNumber> event_numbers() {
   static constexpr EventNumber numbers[] = {
-      {{"c_m_s", "speed of strain waves, in m/s", "", "Eq. 3"},
+      {{"c_m_s", "speed of strain waves, in m/s", "", "Eq. 3", {}, {}, "m s-1"},
        false,
        [](const EventResult& r) { return r.estimate ? std::optional(r.estimate->speed) : std::nullopt; }},
-      {{"rupture_velocity_m_s", "observed rupture velocity, in m/s", "", "Section 4"},
+      {{"rupture_velocity_m_s", "observed rupture velocity, in m/s", "", "Section 4", {}, {}, "m s-1"},
        true,
        [](const EventResult& r) { return r.estimate ? r.estimate->observed_rupture_velocity_m_s : std::nullopt; }},
-      {{"slip_velocity_m_s", "observed slip velocity, in m/s", "", "Section 4"},
+      {{"slip_velocity_m_s", "observed slip velocity, in m/s", "", "Section 4", {}, {}, "m s-1"},
        true,
        [](const EventResult& r) { return r.estimate ? r.estimate->observed_slip_velocity_m_s : std::nullopt; }},
   };

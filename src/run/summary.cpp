@@ -30,12 +30,12 @@ std::vector<Row> all_rows(const Report& report, std::span<const output::Quantity
 }
 
 template <class Report>
-std::vector<Description> all_numbers(std::span<const output::Quantity<Report>> of_run, MeasuredBy solver) {
-  std::vector<Description> numbers = {output::end_time};
+std::vector<NumberOfRun> all_numbers(std::span<const output::Quantity<Report>> of_run, MeasuredBy solver) {
+  std::vector<NumberOfRun> numbers = {{output::end_time, false}};
   for (const Scalar& scalar : output::scalars())
-    if (is_of(scalar, solver)) numbers.push_back(scalar.about);
+    if (is_of(scalar, solver)) numbers.push_back({scalar.about, true});
   for (const output::Quantity<Report>& quantity : of_run)
-    if (!quantity.is_text) numbers.push_back(quantity.about);
+    if (quantity.kind != output::Kind::text) numbers.push_back({quantity.about, quantity.kind == output::Kind::result});
   return numbers;
 }
 
@@ -99,7 +99,7 @@ std::vector<Row> rows_of(const PlaneResult& result, const PlaneNumbers& errors) 
   return rows;
 }
 
-std::vector<Description> numbers_of(std::string_view command) {
+std::vector<NumberOfRun> numbers_of(std::string_view command) {
   return command == "chain" ? all_numbers(chain::quantities(), MeasuredBy::chain)
                             : all_numbers(pulse::quantities(), MeasuredBy::pulse);
 }

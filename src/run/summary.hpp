@@ -39,8 +39,12 @@ struct Row {
 std::vector<Row> rows_of(const pulse::Report& report);
 std::vector<Row> rows_of(const chain::Report& report);
 
-/// Descriptions of the numbers that a run of "pulse" or "chain" has.
-std::vector<Description> numbers_of(std::string_view command);
+/// A number that a run of "pulse" or "chain" has. A sweep returns the results by default, but not its time and machine.
+struct NumberOfRun {
+  Description about;
+  bool is_result;
+};
+std::vector<NumberOfRun> numbers_of(std::string_view command);
 
 /// Converts values and errors to SI units.
 void convert(std::vector<Row>& rows, const medium::SiUnits& units);

@@ -95,7 +95,7 @@ class Figures(PythonCommands):
         np.testing.assert_array_equal(figure.axes[0].collections[0].get_array().ravel(), data.slip_velocity_at_origin.sortby("friction_coefficient").values.ravel())
         line = plots.sweep(data.isel(initial_stress_left=0), "slip_at_origin").axes[0]
         np.testing.assert_array_equal(line.lines[0].get_xdata(), [0.1, 1, 2])
-        self.assertEqual(line.get_ylabel(), "slip u at x = 0, b/(2π)")
+        self.assertEqual(line.get_ylabel(), "slip at x = 0 since time 0, b/(2π)")
         closures = slipfront.sweep(STEP, {"friction.coefficient": [0.1, 1], "friction.closure": ["paper", "consistent"]}, **tables)
         self.assertEqual([text.get_text() for text in plots.sweep(closures).axes[0].get_legend().get_texts()], ["paper", "consistent"])
         self.assertEqual(choose.kinds_of(data), ["sweep"])

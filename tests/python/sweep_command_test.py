@@ -78,7 +78,7 @@ class Command(PythonCommands):
         lines = self.ok(*arguments).splitlines()
         self.assertEqual(len(lines), 4)
         self.assertLessEqual(max(map(len, lines)), 80)
-        self.assertRegex(lines[0], "^friction.coefficient +slip_velocity_at_origin +slip_at_origin")
+        self.assertRegex(lines[0], "^friction.coefficient +slip_at_origin +slip_velocity_at_origin")
         self.assertIn("c A / pi", lines[1])
         many = self.ok(*arguments, "--vary", "time.end=1:2:30").splitlines()
         self.assertEqual((len(many), many[-1]), (43, "... and 20 more points; --csv prints all of them"))

@@ -33,12 +33,14 @@ std::span<const Scalar> scalars();
 /// A value of a run. A double that is not finite means that the value is absent.
 using Value = std::variant<double, long, std::string, std::vector<double>>;
 
-/// A number of a whole run, or a text.
+enum class Kind { result, text, of_machine };
+
+/// A number of a whole run, or a text. One `of_machine` depends on the machine, and not only on the scenario.
 template <class Run>
 struct Quantity {
   Description about;
   Value (*get)(const Run&);
-  bool is_text = false;
+  Kind kind = Kind::result;
   std::string_view (*unit)(const Run&) = nullptr;  ///< its unit, if that depends on the run
 };
 

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import AutoLocator, FuncFormatter, LogFormatter
 
 from .._files import isolated, write_bytes
-from .._slipfront import event_quantities, printable
+from .._slipfront import event_quantities, printable, relations_quantities
 
 SHEET = pathlib.Path(__file__).resolve().parent.parent / "slipfront.mplstyle"
 
@@ -22,7 +22,6 @@ NAMES = {
     "y": "position y",
     "rupture_time": "rupture time",
     "series_time": "time t",
-    "moment_rate": "moment rate",
     "time": "time t",
     "W": "slip velocity W",
     "Sigma": "stress Σ",
@@ -38,22 +37,11 @@ NAMES = {
     "leading_velocity": "velocity of the leading edge V+",
     "velocity_ratio": "|V−| / V+",
     "slip_velocity": "slip velocity W at x = 0",
-    "slip_velocity_at_origin": "slip velocity W at x = 0",
-    "slip_at_origin": "slip u at x = 0",
-    "stress_at_origin": "stress Σ at x = 0",
-    "peak_slip_velocity": "greatest slip velocity W",
-    "peak_position": "position of the greatest W",
     "stress_pa": "initial stress",
-    "friction_coefficient": "friction coefficient C",
 }
 
 #: Units of quantities whose variable has none, as in CSV files.
-UNITS = {
-    "stress_at_origin": "mu A / pi",
-    "leading_velocity": "c",
-    "slip_velocity": "c A / pi",
-    "stress_pa": "Pa",
-}
+UNITS = {name: unit for name, _, unit, _ in relations_quantities if unit}
 
 # src/inference/quantities.cpp declares the names and units of events.
 for _name, _unit, _label in event_quantities():

@@ -6,8 +6,8 @@ from matplotlib.colors import LogNorm
 from .space_time import colours
 from .style import Picture, label, plain_numbers, scaled, styled
 
-#: Numbers of a sweep to draw by default, the first that it has.
-PREFERRED = ("slip_velocity_at_origin", "peak_slip_velocity", "slip_at_origin")
+#: Number of a sweep to draw by default; if it has none, its first.
+PREFERRED = "slip_velocity_at_origin"
 
 
 def axis_label(coordinate) -> str:
@@ -18,7 +18,7 @@ def axis_label(coordinate) -> str:
 def variable_of(data, variable: str = "") -> str:
     """Returns the name of the number to draw: `variable`, or the default. Raises ValueError if the sweep has no such number."""
     numbers = [str(name) for name, values in data.data_vars.items() if values.dtype.kind in "fiu"]
-    variable = variable or next((name for name in (*PREFERRED, *numbers) if name in numbers), "")
+    variable = variable or next((name for name in (PREFERRED, *numbers) if name in numbers), "")
     if variable not in numbers:
         raise ValueError(f"variable = '{variable}': not a number of this sweep; allowed: {', '.join(numbers)}")
     return variable

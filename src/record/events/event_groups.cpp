@@ -103,7 +103,7 @@ void EventGroups::add_events(Group& group, const NumberColumn& about, const std:
 
 void EventGroups::add_states(Group& group, std::vector<FaultState> Posterior::*states) {
   for (const inference::Quantity& q : inference::quantities()) {
-    NumberColumn about = described(q.about.name, q.about.long_name, results::unit_of(q.about.name));
+    NumberColumn about = described(q.about.name, q.about.long_name, results::unit_of(q.about));
     about.dimensional_unit = q.about.dimensional_unit;
     about.reference = q.about.reference;
     add_draws(group, about, [states, value = q.state](const Result& r, std::size_t i) {

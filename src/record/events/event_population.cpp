@@ -34,7 +34,7 @@ void add_quantities(const std::vector<Decade>& population, int decade, int quant
       values.insert(values.end(), {q.low, q.median, q.high});
     }
     all.push_back({described(name, "quantiles over the events of a decade: " + std::string(about.long_name),
-                             about.dimensional_unit, about.reference, results::unit_of(about.name)),
+                             about.dimensional_unit, about.reference, results::unit_of(about)),
                    {decade, quantile},
                    values});
     all.push_back({described(name + "_events",
