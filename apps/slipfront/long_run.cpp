@@ -118,7 +118,7 @@ std::string table_of(const std::vector<output::SlipEvent>& events, const scenari
   const std::vector<TableColumn> columns(output::slip_event_columns().size(), {.width = 17, .gap = 0});
   TerminalTable table(columns);
   std::vector<std::string> cells;
-  for (const auto& column : output::slip_event_columns()) cells.emplace_back(column.about.name);
+  for (const auto& column : output::slip_event_columns()) cells.emplace_back(column.key());
   table.add(std::move(cells));
   if (scenario.results_in) {
     cells.clear();
@@ -133,7 +133,7 @@ std::string table_of(const std::vector<output::SlipEvent>& events, const scenari
   }
   std::string text = count + table.text();
   for (const auto& column : columns_without_value(events))
-    text += fitted(fmt::format("{} is nan: {}", column.about.name, column.about.reason), 2);
+    text += fitted(fmt::format("{} is nan: {}", column.key(), column.about.reason), 2);
   return text;
 }
 
@@ -142,7 +142,7 @@ Json json_of_events(const std::vector<output::SlipEvent>& events, const scenario
   for (const output::SlipEvent& event : events) {
     Json row;
     for (const auto& column : output::slip_event_columns())
-      row[std::string(column.about.name)] = event.*column.value * unit_of(column, scenario).value;
+      row[std::string(column.key())] = event.*column.value * unit_of(column, scenario).value;
     all.push_back(row);
   }
   return all;
@@ -174,7 +174,7 @@ Json json_units(const std::vector<run::Row>& summary, const std::vector<output::
   if (!events) return units;
   for (const auto& column : output::slip_event_columns())
     if (const auto unit = unit_of(column, scenario); unit.name != "1")
-      units["events"][std::string(column.about.name)] = unit.name;
+      units["events"][std::string(column.key())] = unit.name;
   return units;
 }
 
@@ -193,7 +193,7 @@ std::string summary_json(const std::vector<run::Row>& summary, const std::vector
   if (events) {
     j["events"] = json_of_events(*events, scenario);
     for (const auto& column : columns_without_value(*events))
-      reasons["events." + std::string(column.about.name)] = column.about.reason;
+      reasons["events." + std::string(column.key())] = column.about.reason;
   }
   if (!reasons.empty()) j["reasons"] = reasons;
   if (scenario.results_in) {

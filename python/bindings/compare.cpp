@@ -76,9 +76,10 @@ py::dict run_compare(const py::dict& arguments, const std::vector<double>& scale
         [&](const std::string& level, double time, long steps) { return watch(time, steps, level); });
   }
   watch.finish();
-  Levels series;
+  record::Levels series;
   for (const Level& level : levels) series.push_back(&level.snapshots);
-  py::dict result = dataset_of(metadata, record::comparison_format, reached, comparison.schedule.times, series, true);
+  py::dict result = dataset_of(metadata, record::comparison_format, reached,
+                               record::arrays_of(metadata, comparison.schedule.times, series, true));
   result["levels"] = level_rows(levels);
   result["level_numbers"] = numbers_of_levels(levels);
   result["scale_about"] = described(output::scale_factor);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 #include <variant>
 
@@ -14,7 +13,6 @@
 #include "run/tables.hpp"
 
 using namespace slipfront;
-using output::Snapshot;
 
 RunRequest request_of(const py::dict& arguments) {
   const auto text = [&](const char* key) { return arguments[key].cast<std::string>(); };
@@ -54,77 +52,6 @@ scenario::Scenario scenario_of(const RunRequest& request) {
 
 namespace {
 
-using Shape = std::vector<py::ssize_t>;
-
-py::array_t<double> array(const std::vector<double>& values) {
-  return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
-}
-
-py::array_t<double> field(const record::FieldVariable& variable, const Levels& levels, const Shape& shape) {
-  py::array_t<double> values(shape);
-  double* out = values.mutable_data();
-  for (const auto* level : levels)
-    for (const Snapshot& snapshot : *level) {
-      const std::vector<double> row = variable.of(snapshot, level->front());
-      out = std::copy(row.begin(), row.end(), out);
-    }
-  return values;
-}
-
-py::array_t<double> scalar(const output::Scalar& variable, const Levels& levels, const Shape& shape) {
-  py::array_t<double> values(shape);
-  double* out = values.mutable_data();
-  for (const auto* level : levels)
-    for (const Snapshot& snapshot : *level) *out++ = variable.get(snapshot);
-  return values;
-}
-
-py::dict axes(const std::vector<double>& times, const std::vector<double>& edges) {
-  const auto cells = static_cast<py::ssize_t>(edges.size()) - 1;
-  py::array_t<double> x(cells), bounds(Shape{cells, 2});
-  double *centre = x.mutable_data(), *end = bounds.mutable_data();
-  for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
-    *centre++ = std::midpoint(edges[i], edges[i + 1]);
-    *end++ = edges[i];
-    *end++ = edges[i + 1];
-  }
-  const record::AxisVariables& about = record::axis_variables();
-  py::dict result;
-  result["time"] = py::make_tuple(described(about.time), array(times));
-  result["x"] = py::make_tuple(described(about.x), x);
-  result["x_bounds"] = py::make_tuple(described(about.x_bounds), bounds);
-  return result;
-}
-
-/// The variables of the slip events.
-py::list events_of(const record::PulseMetadata& metadata, Describer& described_in) {
-  py::list events;
-  for (const output::SlipEventColumn& column : output::slip_event_columns()) {
-    std::vector<double> values;
-    for (const output::SlipEvent& event : metadata.events) values.push_back(event.*column.value);
-    events.append(py::make_tuple("event_" + std::string(column.about.name),
-                                 described_in(output::description_of(column, metadata.pulled_end)), array(values)));
-  }
-  return events;
-}
-
-/// The positions, and the variables over event and position.
-py::tuple fronts_of(const output::FrontRecords& fronts, Describer& described_in) {
-  const auto events = static_cast<py::ssize_t>(fronts.events.size()),
-             positions = static_cast<py::ssize_t>(fronts.x.size());
-  py::list columns;
-  for (const output::FrontColumn& column : output::front_columns()) {
-    py::array_t<double> values(Shape{events, positions});
-    double* out = values.mutable_data();
-    for (const output::FrontRecord& event : fronts.events)
-      out = std::copy((event.*column.values).begin(), (event.*column.values).end(), out);
-    columns.append(py::make_tuple(described_in(column.about), values));
-  }
-  return py::make_tuple(described_in(output::front_position), array(fronts.x), columns);
-}
-
-}  // namespace
-
 py::dict attributes_of(const record::PulseMetadata& metadata, const std::string& format, bool finished) {
   py::dict attributes;
   for (const auto& [name, value] : record::file_attributes(metadata, format))
@@ -133,37 +60,31 @@ py::dict attributes_of(const record::PulseMetadata& metadata, const std::string&
   return attributes;
 }
 
-py::tuple Describer::operator()(const Description& about) {
-  const std::string unit(about.dimensional_unit);
-  if (si_ && !unit.empty()) units_[py::str(unit)] = si_tuple(si_->of(unit));
-  return described(about);
-}
+}  // namespace
 
 py::dict dataset_of(const record::PulseMetadata& metadata, const std::string& format, bool finished,
-                    const std::vector<double>& times, const Levels& levels, bool by_level) {
-  Shape over_time, over_time_and_x;
-  if (by_level) over_time.push_back(static_cast<py::ssize_t>(levels.size()));
-  over_time.push_back(static_cast<py::ssize_t>(times.size()));
-  over_time_and_x = over_time;
-  over_time_and_x.push_back(static_cast<py::ssize_t>(metadata.x_edges.size()) - 1);
-
-  Describer described_in(metadata.units);
-  py::list fields, scalars;
-  for (const record::FieldVariable* variable : record::chosen_fields(metadata.variables))
-    fields.append(py::make_tuple(described_in(variable->about), field(*variable, levels, over_time_and_x)));
-  for (const output::Scalar& variable : output::scalars())
-    scalars.append(py::make_tuple(described_in(variable.about), scalar(variable, levels, over_time)));
+                    const std::vector<record::Array>& arrays) {
+  py::list variables;
+  py::dict units;
+  for (const record::Array& array : arrays) {
+    std::vector<py::ssize_t> shape;
+    py::list dimensions;
+    for (const record::Array::Dimension& dimension : array.dimensions) {
+      shape.push_back(static_cast<py::ssize_t>(dimension.size));
+      dimensions.append(std::string(dimension.name));
+    }
+    py::dict further;
+    for (const auto& [name, value] : array.attributes) further[py::str(std::string(name))] = std::string(value);
+    const std::string unit(array.about.dimensional_unit);
+    if (metadata.units && !unit.empty()) units[py::str(unit)] = si_tuple(metadata.units->of(unit));
+    variables.append(py::make_tuple(described(array.about), py::tuple(dimensions),
+                                    py::array_t<double>(shape, array.values().data()), further));
+  }
   py::dict result;
   result["attributes"] = attributes_of(metadata, format, finished);
-  result["axes"] = axes(times, metadata.x_edges);
-  result["fields"] = fields;
-  result["scalars"] = scalars;
+  result["variables"] = variables;
   result["warnings"] = py::cast(metadata.warnings);
-  if (!metadata.events.empty()) result["events"] = events_of(metadata, described_in);
-  if (!metadata.fronts.events.empty()) result["fronts"] = fronts_of(metadata.fronts, described_in);
-  const record::AxisVariables& axis = record::axis_variables();
-  for (const Description& about : {axis.time, axis.x}) described_in(about);
-  result["units"] = described_in.units();
+  result["units"] = units;
   return result;
 }
 

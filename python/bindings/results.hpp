@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bindings.hpp"
+#include "record/pulses/arrays.hpp"
 #include "record/pulses/pulse_file.hpp"
 #include "run/run.hpp"
 #include "slipfront/scenario/scenario.hpp"
@@ -26,30 +27,11 @@ slipfront::scenario::Scenario scenario_of(const RunRequest& request);
 /// The unit of time in s if the scenario is in SI units, where settings need units; else None.
 py::object time_unit_of(const slipfront::scenario::Scenario& scenario);
 
-/// Returns the attributes of the file of a run.
-py::dict attributes_of(const slipfront::record::PulseMetadata& metadata, const std::string& format, bool finished);
-
-/// Describes variables for the Python part, and collects the values of their units if the results are in SI units.
-class Describer {
- public:
-  /// `si` must outlive this object.
-  explicit Describer(const std::optional<slipfront::medium::SiUnits>& si) : si_(si) {}
-  py::tuple operator()(const slipfront::Description& about);
-  const py::dict& units() const { return units_; }
-
- private:
-  const std::optional<slipfront::medium::SiUnits>& si_;
-  py::dict units_;
-};
-
-/// One series of snapshots for each level of theory.
-using Levels = std::vector<const std::vector<slipfront::output::Snapshot>*>;
-
-/// Returns a dict {attributes, axes, fields, scalars, warnings, units} for the Python part, and `events` if there are
-/// any. If `by_level` is true, "level" is the first dimension of the arrays. The warnings are those of the metadata.
-/// The arrays are in the units of the model. If results are to be in SI units, `units` has the value of each of them.
+/// Returns a dict {attributes, variables, warnings, units} for the Python part. Each variable is a tuple of
+/// description, dimensions, array and further attributes. The warnings are those of the metadata. The arrays are in the
+/// units of the model. If results are to be in SI units, `units` has the value of each of them.
 py::dict dataset_of(const slipfront::record::PulseMetadata& metadata, const std::string& format, bool finished,
-                    const std::vector<double>& times, const Levels& levels, bool by_level);
+                    const std::vector<slipfront::record::Array>& arrays);
 
 /// Adds `summary`, {name: value} of each row, and `errors`, {name: error} of each row whose error is known. They are in
 /// SI units if there are `units`.
@@ -59,8 +41,10 @@ void add_rows(py::dict& data, std::vector<slipfront::run::Row> rows,
 /// Returns the dict of a run of pulse or chain, with its summary.
 template <class Run>
 py::dict dataset_of(const slipfront::run::Result<Run>& result) {
-  py::dict data = dataset_of(result.metadata, slipfront::record::pulse_format, result.finished(),
-                             result.run->schedule().times, {&result.run->snapshots()}, false);
+  const std::vector<slipfront::output::Snapshot>& snapshots = result.run->snapshots();
+  py::dict data = dataset_of(
+      result.metadata, slipfront::record::pulse_format, result.finished(),
+      slipfront::record::arrays_of(result.metadata, slipfront::record::times_of(snapshots), {&snapshots}, false));
   add_rows(data, result.summary, result.metadata.units);
   return data;
 }

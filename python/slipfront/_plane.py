@@ -1,12 +1,9 @@
 """Ruptures on a fault plane: slipfront.plane."""
 
-import warnings
-
 from . import _slipfront
-from ._dataset import dataset
 from ._numbers import thread_count
 from ._progress import showing
-from ._run import in_results
+from ._run import dataset_of
 from ._scenario import arguments
 
 
@@ -54,21 +51,4 @@ def plane(scenario, *, direct=False, set=None, output=None, resume=None, progres
     """
     with showing(progress) as call:
         request = arguments(scenario, set=set, output=output, resume=resume, progress=call, si=si)
-        return _dataset(_slipfront.plane(request, bool(direct), bool(errors), thread_count(threads)))
-
-
-def _dataset(result):
-    """Returns the Dataset that the NetCDF file of this run holds. The summary and its errors are attributes."""
-    for warning in result["warnings"]:
-        warnings.warn(warning, stacklevel=3)
-    coordinates = {name: in_results(result, name, values, about) for name, (about, values) in result["axes"].items()}
-    for name in "xy":
-        coordinates[name][2]["axis"] = name.upper()
-    variables: dict[str, object] = {}
-    kinds = {"fields": ("time", "y", "x"), "maps": ("y", "x"), "lines": ("line_point",), "series": ("series_time",), "spectrum": ("frequency",)}
-    for kind, dims in kinds.items():
-        for about, values in result[kind]:
-            into = coordinates if about[0] in ("series_time", "frequency") else variables
-            into[about[0]] = in_results(result, dims, values, about)
-    errors = {f"{key}_error": error for key, error in result["errors"].items()}
-    return dataset(variables, coordinates, {**result["attributes"], **result["summary"], **errors})
+        return dataset_of(_slipfront.plane(request, bool(direct), bool(errors), thread_count(threads)))

@@ -23,30 +23,16 @@ def in_results(result, dims, values, about):
     return (dims, values * unit[0], _units.converted(attrs, unit)) if unit else (dims, values, attrs)
 
 
-def _axes(result):
-    axes = {name: in_results(result, ("x", "ends") if name == "x_bounds" else name, values, about) for name, (about, values) in result["axes"].items()}
-    coordinates = {name: axes[name] for name in ("time", "x")}
-    coordinates["x"][2].update(axis="X", bounds="x_bounds")
-    return coordinates, {"x_bounds": axes["x_bounds"]}
-
-
-def _dataset(result, front=()):
+def dataset_of(result):
     """Returns the Dataset that the NetCDF file of this run holds. The summary and its errors are attributes."""
     for warning in result["warnings"]:
         warnings.warn(warning, stacklevel=3)
-    coordinates, variables = _axes(result)
-    for about, values in result["fields"]:
-        variables[about[0]] = in_results(result, front + ("time", "x"), values, about)
-    for about, values in result["scalars"]:
-        variables[about[0]] = in_results(result, front + ("time",), values, about)
-    for name, about, values in result.get("events", ()):
-        variables[name] = in_results(result, "event", values, about)
-    if "fronts" in result:
-        about, positions, columns = result["fronts"]
-        coordinates[about[0]] = in_results(result, about[0], positions, about)
-        variables.update({about[0]: in_results(result, ("event", "position"), values, about) for about, values in columns})
+    variables = {}
+    for about, dims, values, further in result["variables"]:
+        variables[about[0]] = in_results(result, dims, values, about)
+        variables[about[0]][2].update(further)
     errors = {f"{key}_error": error for key, error in result.get("errors", {}).items()}
-    return dataset(variables, coordinates, {**result["attributes"], **result["summary"], **errors})
+    return dataset(variables, None, {**result["attributes"], **result["summary"], **errors})
 
 
 def pulse(scenario, *, set=None, output=None, resume=None, progress=None, threads=None, tolerance=None, errors=True, si=None):
@@ -96,7 +82,7 @@ def pulse(scenario, *, set=None, output=None, resume=None, progress=None, thread
     --------
     >>> pulse = slipfront.pulse(slipfront.cases / "step.toml", set={"pulse.cells": 200})
     >>> dict(pulse.sizes)
-    {'x': 200, 'ends': 2, 'time': 2}
+    {'time': 2, 'x': 200, 'ends': 2}
     >>> round(pulse.attrs["slip_at_origin"], 2)
     0.3
     """
@@ -105,7 +91,7 @@ def pulse(scenario, *, set=None, output=None, resume=None, progress=None, thread
         tolerance = one_number("tolerance", tolerance)
     with showing(progress) as call:
         request = arguments(scenario, set=set, output=output, resume=resume, progress=call, si=si)
-        return _dataset(_slipfront.pulse(request, tolerance, bool(errors)))
+        return dataset_of(_slipfront.pulse(request, tolerance, bool(errors)))
 
 
 def chain(scenario, *, set=None, output=None, resume=None, progress=None, threads=None, si=None):
@@ -141,8 +127,8 @@ def chain(scenario, *, set=None, output=None, resume=None, progress=None, thread
     108
     """
     with showing(progress) as call:
-        return _dataset(_slipfront.chain(arguments(scenario, set=set, output=output, resume=resume, progress=call, si=si),
-                                         thread_count(threads)))
+        request = arguments(scenario, set=set, output=output, resume=resume, progress=call, si=si)
+        return dataset_of(_slipfront.chain(request, thread_count(threads)))
 
 
 def _scales(scales):
@@ -185,7 +171,7 @@ def compare(scenario, *, scales=(), set=None, output=None, progress=None, thread
         result = _slipfront.compare(arguments(scenario, set=set, output=output, progress=call, si=si), _scales(scales), thread_count(threads))
     levels, trends = result["levels"], result["trends"]
     result["summary"].update(reference="pulse-consistent", notes="\n".join(result["notes"]))
-    data = _dataset(result, ("level",))
+    data = dataset_of(result)
     names = [level["name"] for level in levels]
 
     def of_levels(key):

@@ -9,30 +9,33 @@ namespace slipfront::output {
 namespace {
 
 constexpr SlipEventColumn columns[] = {
-    {{"onset", "time at which the slip velocity of a part of the chain rises above the threshold", "b / (c A)",
+    {{"event_onset", "time at which the slip velocity of a part of the chain rises above the threshold", "b / (c A)",
       "Eq. 1"},
      &SlipEvent::onset},
-    {{"duration", "time until all parts are below half the threshold", "b / (c A)", "Eq. 1"}, &SlipEvent::duration},
-    {{"slip", "slip, mean over the chain, without slip in other events", "b / (2 pi)", "Eq. 1"}, &SlipEvent::slip},
-    {{"largest_slip", "slip of the part that slips most", "b / (2 pi)", "Eq. 1"}, &SlipEvent::largest_slip},
-    {{"load", "mean force F on a site, or the stress at a pulled end, before the event", "", "Eq. 1"},
+    {{"event_duration", "time until all parts are below half the threshold", "b / (c A)", "Eq. 1"},
+     &SlipEvent::duration},
+    {{"event_slip", "slip, mean over the chain, without slip in other events", "b / (2 pi)", "Eq. 1"},
+     &SlipEvent::slip},
+    {{"event_largest_slip", "slip of the part that slips most", "b / (2 pi)", "Eq. 1"}, &SlipEvent::largest_slip},
+    {{"event_load", "mean force F on a site, or the stress at a pulled end, before the event", "", "Eq. 1"},
      &SlipEvent::load},
-    {{"stress_drop", "fall of the mean force F on a site, or of the stress at a pulled end", "", "Eq. 1"},
+    {{"event_stress_drop", "fall of the mean force F on a site, or of the stress at a pulled end", "", "Eq. 1"},
      &SlipEvent::stress_drop},
-    {{"peak_velocity", "greatest slip velocity of a part", "c A / pi", "Eq. 1"}, &SlipEvent::peak_velocity},
-    {{"origin", "position of the part that moves first", "b / A", "Eq. 1",
+    {{"event_peak_velocity", "greatest slip velocity of a part", "c A / pi", "Eq. 1"}, &SlipEvent::peak_velocity},
+    {{"event_origin", "position of the part that moves first", "b / A", "Eq. 1",
       "all parts moved within a thousandth of the time that waves take between them, so that rounding decides which "
       "was first"},
      &SlipEvent::origin},
-    {{"length", "length of the parts that move", "b / A", "Eq. 1"}, &SlipEvent::length},
-    {{"rupture_velocity", "velocity of the front, fitted over the parts that move", "c", "Eq. 1",
+    {{"event_length", "length of the parts that move", "b / A", "Eq. 1"}, &SlipEvent::length},
+    {{"event_rupture_velocity", "velocity of the front, fitted over the parts that move", "c", "Eq. 1",
       "fewer than three parts moved, all moved at once, or the fit is faster than c"},
      &SlipEvent::rupture_velocity},
-    {{"complete", "1, or 0 if the run ended within the event", "", "Eq. 1"}, &SlipEvent::complete},
+    {{"event_complete", "1, or 0 if the run ended within the event", "", "Eq. 1"}, &SlipEvent::complete},
 };
 
 constexpr FrontColumn of_fronts[] = {
-    {{"event_arrival", "time at which the slip velocity first exceeds the threshold in an event", "b / (c A)", "Eq. 1"},
+    {{"event_arrival", "time at which the slip velocity first exceeds the threshold in an event", "b / (c A)", "Eq. 1",
+      "the slip velocity does not exceed it"},
      &FrontRecord::arrival},
     {{"event_stress_ahead", "shear stress when the event begins", "mu A / pi", "Eq. 1"}, &FrontRecord::stress},
     {{"event_traction_ahead", "force of friction and substrate when the event begins", "mu A^2 / (pi (1 - nu))",
@@ -78,6 +81,8 @@ std::vector<SlipEventColumn> columns_without_value(const std::vector<SlipEvent>&
       found.push_back(column);
   return found;
 }
+
+std::string_view SlipEventColumn::key() const { return about.name.substr(std::string_view("event_").size()); }
 
 std::string_view unit_of_load(bool pulled_end) { return pulled_end ? "mu A / pi" : "mu A^2 / (pi (1 - nu))"; }
 

@@ -96,7 +96,7 @@ std::vector<Object> events_of(const LiveLoading& now) {
     Object& one = all.emplace_back();
     for (const output::SlipEventColumn& column : output::slip_event_columns()) {
       const Description about = output::description_of(column, end);
-      one.put(about.name, event.*column.value * now.si.of(about.dimensional_unit).value);
+      one.put(column.key(), event.*column.value * now.si.of(about.dimensional_unit).value);
     }
   }
   return all;

@@ -51,10 +51,12 @@ struct FrontColumn {
 std::span<const FrontColumn> front_columns();
 extern const Description front_position;  ///< describes FrontRecords::x
 
-/// A member of SlipEvent, with its description. `about.name` is its name in files and JSON.
+/// A member of SlipEvent, with its description. `about.name` is its name in files.
 struct SlipEventColumn {
   Description about;
   double SlipEvent::*value;
+
+  std::string_view key() const;  ///< the name in JSON, where a list of events has it
 };
 std::span<const SlipEventColumn> slip_event_columns();
 /// The columns in which an event has no value.

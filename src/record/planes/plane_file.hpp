@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "record/pulses/arrays.hpp"
 #include "record/pulses/pulse_file.hpp"
 #include "slipfront/plane/run.hpp"
 
@@ -30,6 +31,9 @@ struct PlaneCheckpoint {
   std::vector<plane::Field> snapshots;  ///< with the slip and the slip velocity
   bool finished = false;
 };
+
+/// The variables of a run, which must outlive them.
+std::vector<Array> arrays_of(const plane::Run& run, const PlaneGrid& grid);
 
 /// Writes `path` completely or not at all, with the saved state of the run. \throws FileError (one line: path and
 /// reason).

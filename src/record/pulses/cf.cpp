@@ -1,7 +1,5 @@
 #include "record/pulses/cf.hpp"
 
-#include <numeric>
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -10,11 +8,6 @@ namespace {
 
 using netcdf::Writer;
 
-constexpr AxisVariables axis = {
-    .time = {"time", "time", "b / (c A)", "Eq. 3"},
-    .x = {"x", "position along the interface, centre of the cell", "b / A", "Eq. 3"},
-    .x_bounds = {"x_bounds", "ends of the cell", "b / A", "Eq. 3"},
-};
 constexpr std::string_view paper = "Gershenzon, Bambakidis and Skinner (2015)";
 constexpr std::string_view paper_title =
     "How does dissipation affect the transition from static to dynamic macroscopic friction?";
@@ -50,29 +43,6 @@ int reals(Writer& file, const Description& about, const std::vector<int>& dimens
   return variable;
 }
 
-Axes axes(Writer& file, std::size_t times, std::size_t cells, const PulseMetadata& metadata) {
-  Axes axes{};
-  axes.time = file.dimension("time", times);
-  axes.x = file.dimension("x", cells);
-  const int ends = file.dimension("ends", 2);
-  axes.times = reals(file, axis.time, {axes.time}, metadata);
-  axes.centres = reals(file, axis.x, {axes.x}, metadata);
-  axes.bounds = reals(file, axis.x_bounds, {axes.x, ends}, metadata);
-  file.attribute(axes.centres, "axis", "X");
-  file.attribute(axes.centres, "bounds", axis.x_bounds.name);
-  return axes;
-}
-
-void write_axes(Writer& file, const Axes& axes, const std::vector<double>& times, const std::vector<double>& edges) {
-  file.write(axes.times, times);
-  std::vector<double> centres;
-  for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
-    centres.push_back(std::midpoint(edges[i], edges[i + 1]));
-    file.write_row(axes.bounds, i, std::span(edges).subspan(i, 2));
-  }
-  file.write(axes.centres, centres);
-}
-
 void describe_file(Writer& file, const PulseMetadata& metadata, const char* format, bool finished) {
   for (const auto& [name, value] : file_attributes(metadata, format))
     file.attribute(Writer::global, name, clean_text(value, netcdf::longest_text));
@@ -82,8 +52,6 @@ void describe_file(Writer& file, const PulseMetadata& metadata, const char* form
 }  // namespace slipfront::record::cf
 
 namespace slipfront::record {
-
-const AxisVariables& axis_variables() { return cf::axis; }
 
 std::string long_name_of(const Description& about, const medium::UnitInSi& unit) {
   return std::string(about.long_name) + (unit.between_faces ? ", between the faces" : "");

@@ -15,15 +15,6 @@ namespace slipfront::record::cf {
 int reals(netcdf::Writer& file, const Description& about, const std::vector<int>& dimensions,
           const PulseMetadata& metadata);
 
-/// Dimensions and variables of time and of x, which has bounds.
-struct Axes {
-  int time, x;  ///< dimensions
-  int times, centres, bounds;
-};
-Axes axes(netcdf::Writer& file, std::size_t times, std::size_t cells, const PulseMetadata& metadata);
-void write_axes(netcdf::Writer& file, const Axes& axes, const std::vector<double>& times,
-                const std::vector<double>& x_edges);
-
 /// Writes the attributes of the file. The number in `format` increases when old readers would fail. A scenario that no
 /// attribute can hold is cleaned and truncated.
 void describe_file(netcdf::Writer& file, const PulseMetadata& metadata, const char* format, bool finished);

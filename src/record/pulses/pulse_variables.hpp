@@ -15,12 +15,6 @@
 
 namespace slipfront::record {
 
-/// The coordinates: time, x, x_bounds (cells by their two ends).
-struct AxisVariables {
-  Description time, x, x_bounds;
-};
-const AxisVariables& axis_variables();
-
 /// Names and texts of the attributes of a file. `format` is the value of its slipfront_format.
 std::vector<std::pair<std::string, std::string>> file_attributes(const PulseMetadata& metadata,
                                                                  const std::string& format);

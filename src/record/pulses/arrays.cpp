@@ -1,0 +1,136 @@
+#include "record/pulses/arrays.hpp"
+
+#include <numeric>
+
+#include "foundation/math/constants.hpp"
+#include "record/pulses/cf.hpp"
+#include "record/pulses/pulse_variables.hpp"
+#include "slipfront/output/quantities.hpp"
+
+namespace slipfront::record {
+namespace {
+
+using Dimensions = std::vector<Array::Dimension>;
+using output::Snapshot;
+
+/// The values of every snapshot, level by level. `put` appends those of one.
+template <class Put>
+std::vector<double> over_snapshots(const Levels& levels, const Put& put) {
+  std::vector<double> values;
+  for (const std::vector<Snapshot>* level : levels)
+    for (const Snapshot& snapshot : *level) put(values, snapshot, level->front());
+  return values;
+}
+
+void add_axes(std::vector<Array>& all, const std::vector<double>& times, const std::vector<double>& edges) {
+  std::vector<double> centres, bounds;
+  for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
+    centres.push_back(std::midpoint(edges[i], edges[i + 1]));
+    bounds.insert(bounds.end(), {edges[i], edges[i + 1]});
+  }
+  const std::size_t cells = centres.size();
+  all.push_back(coordinate({"time", "time", "b / (c A)", "Eq. 3"}, times));
+  all.push_back(
+      coordinate({"x", "position along the interface, centre of the cell", "b / A", "Eq. 3"}, std::move(centres), "X"));
+  const Description about = {"x_bounds", "ends of the cell", "b / A", "Eq. 3"};
+  all.back().attributes.emplace_back("bounds", about.name);
+  all.push_back({about, {{"x", cells}, {"ends", 2}}, [bounds] { return bounds; }, {}});
+}
+
+/// The slip events, and their arrivals at the positions that the scenario asks for.
+void add_events(std::vector<Array>& all, const PulseMetadata& metadata) {
+  const std::vector<output::SlipEvent>& events = metadata.events;
+  if (events.empty()) return;
+  for (const output::SlipEventColumn& column : output::slip_event_columns())
+    all.push_back({output::description_of(column, metadata.pulled_end),
+                   {{"event", events.size()}},
+                   [&events, value = column.value] {
+                     std::vector<double> values;
+                     for (const output::SlipEvent& event : events) values.push_back(event.*value);
+                     return values;
+                   },
+                   {}});
+  const output::FrontRecords& fronts = metadata.fronts;
+  if (fronts.events.empty()) return;
+  all.push_back(coordinate(output::front_position, fronts.x));
+  for (const output::FrontColumn& column : output::front_columns())
+    all.push_back({column.about,
+                   {{"event", events.size()}, {output::front_position.name, fronts.x.size()}},
+                   [&fronts, member = column.values] {
+                     std::vector<double> values;
+                     for (const output::FrontRecord& event : fronts.events)
+                       values.insert(values.end(), (event.*member).begin(), (event.*member).end());
+                     return values;
+                   },
+                   {}});
+}
+
+}  // namespace
+
+Array coordinate(const Description& about, std::vector<double> values, std::string_view axis) {
+  Array array{about, {{about.name, values.size()}}, [values] { return values; }, {}};
+  if (!axis.empty()) array.attributes.emplace_back("axis", axis);
+  return array;
+}
+
+std::vector<double> times_of(const std::vector<Snapshot>& snapshots) {
+  std::vector<double> times;
+  for (const Snapshot& snapshot : snapshots) times.push_back(snapshot.time);
+  return times;
+}
+
+std::vector<Array> arrays_of(const PulseMetadata& metadata, const std::vector<double>& times, const Levels& levels,
+                             bool by_level) {
+  std::vector<Array> all;
+  add_axes(all, times, metadata.x_edges);
+  Dimensions over_time;
+  if (by_level) over_time.push_back({"level", levels.size()});
+  over_time.push_back({"time", times.size()});
+  Dimensions over_x = over_time;
+  over_x.push_back({"x", metadata.x_edges.size() - 1});
+  for (const FieldVariable* field : chosen_fields(metadata.variables))
+    all.push_back({field->about,
+                   over_x,
+                   [levels, field] {
+                     return over_snapshots(levels, [&](auto& values, const Snapshot& s, const Snapshot& first) {
+                       const std::vector<double> row = field->of(s, first);
+                       values.insert(values.end(), row.begin(), row.end());
+                     });
+                   },
+                   {}});
+  for (const output::Scalar& scalar : output::scalars())
+    all.push_back({scalar.about,
+                   over_time,
+                   [levels, get = scalar.get] {
+                     return over_snapshots(
+                         levels, [&](auto& values, const Snapshot& s, const Snapshot&) { values.push_back(get(s)); });
+                   },
+                   {}});
+  add_events(all, metadata);
+  return all;
+}
+
+Defined define(netcdf::Writer& file, const std::vector<Array>& arrays, const PulseMetadata& metadata) {
+  Defined defined;
+  for (const Array& array : arrays) {
+    std::vector<int> ids;
+    for (const Array::Dimension& dimension : array.dimensions) {
+      const auto [found, is_new] = defined.dimensions.try_emplace(dimension.name, 0);
+      if (is_new) found->second = file.dimension(std::string(dimension.name), dimension.size);
+      ids.push_back(found->second);
+    }
+    const int variable = cf::reals(file, array.about, ids, metadata);
+    for (const auto& [name, value] : array.attributes) file.attribute(variable, std::string(name), value);
+    if (!array.about.reason.empty()) file.fill_value(variable, none);
+    defined.variables.push_back(variable);
+  }
+  return defined;
+}
+
+void write(netcdf::Writer& file, const Defined& defined, const std::vector<Array>& arrays) {
+  for (std::size_t i = 0; i < arrays.size(); ++i)
+    if (const std::vector<double> values = arrays[i].values(); !values.empty())
+      file.write_all(defined.variables[i], values);
+}
+
+}  // namespace slipfront::record

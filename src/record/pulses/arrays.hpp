@@ -1,0 +1,52 @@
+#pragma once
+/// \file
+/// The variables of a result, as files and Python hold them.
+
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "record/netcdf/netcdf.hpp"
+#include "record/pulses/pulse_file.hpp"
+#include "slipfront/description.hpp"
+
+namespace slipfront::record {
+
+struct Array {
+  struct Dimension {
+    std::string_view name;
+    std::size_t size;
+  };
+  Description about;
+  std::vector<Dimension> dimensions;
+  std::function<std::vector<double>()> values;                            ///< row by row
+  std::vector<std::pair<std::string_view, std::string_view>> attributes;  ///< further ones, by the CF conventions
+};
+
+/// A coordinate: its name is that of its dimension.
+Array coordinate(const Description& about, std::vector<double> values, std::string_view axis = {});
+
+/// One series of snapshots for each level of theory.
+using Levels = std::vector<const std::vector<output::Snapshot>*>;
+
+std::vector<double> times_of(const std::vector<output::Snapshot>& snapshots);
+
+/// The variables of a run along a line, or of a comparison `by_level`, where "level" is the first dimension. They refer
+/// to the arguments. \throws InputError if the metadata has an unknown variable.
+std::vector<Array> arrays_of(const PulseMetadata& metadata, const std::vector<double>& times, const Levels& levels,
+                             bool by_level);
+
+/// The ids of dimensions by their names, and those of variables.
+struct Defined {
+  std::map<std::string_view, int> dimensions;
+  std::vector<int> variables;
+};
+Defined define(netcdf::Writer& file, const std::vector<Array>& arrays, const PulseMetadata& metadata);
+/// Writes the values of arrays that `define` has defined.
+void write(netcdf::Writer& file, const Defined& defined, const std::vector<Array>& arrays);
+
+}  // namespace slipfront::record
