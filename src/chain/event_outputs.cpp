@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <string>
 #include <utility>
 
@@ -67,25 +66,10 @@ void EventOutputs::require_memory() const {
                         " GB of memory; try a smaller number");
 }
 
-void EventOutputs::save(bytes::Writer& writer) const {
-  for (const std::size_t number : {event_, first_, stride_, steps_, of_event_.size()})
-    writer.put(static_cast<std::uint64_t>(number));
-  for (const char extra : of_event_) writer.put(static_cast<std::uint64_t>(extra));
-}
-
-void EventOutputs::resume(bytes::Reader& reader, std::vector<output::Snapshot> snapshots) {
-  std::size_t count = 0;
-  for (std::size_t* number : {&event_, &first_, &stride_, &steps_, &count})
-    *number = static_cast<std::size_t>(reader.get<std::uint64_t>());
-  if (snapshots.size() > count || first_ > count || stride_ == 0)
-    throw InputError({.key = "resume",
-                      .problem = "does not fit the scenario",
-                      .allowed = "a file that slipfront chain wrote for this scenario"});
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto extra = static_cast<char>(reader.get<std::uint64_t>() != 0);
-    if (i < snapshots.size()) of_event_.push_back(extra);
-  }
-  all_ = std::move(snapshots);
+void EventOutputs::archive(Archive& a) {
+  a(event_, first_, stride_, steps_, of_event_);
+  a.require(all_.size() <= of_event_.size() && first_ <= of_event_.size() && stride_ > 0);
+  of_event_.resize(all_.size());
 }
 
 }  // namespace slipfront::chain

@@ -1,9 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
-#include "foundation/bytes.hpp"
+#include "foundation/archive.hpp"
 #include "slipfront/output/snapshot.hpp"
 
 namespace slipfront::chain {
@@ -29,9 +30,10 @@ class EventOutputs {
   const std::vector<output::Snapshot>& all() const { return all_; }
   std::size_t scheduled() const;  ///< number of snapshots of output times
 
-  void save(bytes::Writer& writer) const;
-  /// Continues from a saved state. `snapshots` may lack the last ones. \throws InputError if they do not fit.
-  void resume(bytes::Reader& reader, std::vector<output::Snapshot> snapshots);
+  /// Sets the snapshots for an archive that reads; the last ones may be missing.
+  void set_all(std::vector<output::Snapshot> snapshots) { all_ = std::move(snapshots); }
+  /// Writes or reads everything but the snapshots. \throws InputError if they do not fit what it reads.
+  void archive(Archive& a);
 
  private:
   void thin();

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <utility>
 
 #include "chain/event_outputs.hpp"
@@ -10,7 +9,7 @@
 #include "chain/run_checks.hpp"
 #include "chain/run_observer.hpp"
 #include "chain/scaled_start.hpp"
-#include "foundation/bytes.hpp"
+#include "foundation/archive.hpp"
 #include "foundation/ranks.hpp"
 #include "foundation/text/digits.hpp"
 #include "slipfront/error.hpp"
@@ -19,7 +18,6 @@ namespace slipfront::chain {
 namespace {
 
 using output::Snapshot;
-constexpr std::uint64_t format = 0x636861696e000009;  // "chain", version 9
 
 std::unique_ptr<Chain> chain_of(const ScaledProblem& scaled, const Execution& execution) {
   const ScaledStart start = scaled_start(scaled, execution);
@@ -38,35 +36,21 @@ Run::Run(const ScaledProblem& scaled, output::Schedule schedule, const Execution
 Run::Run(const ScaledProblem& scaled, output::Schedule schedule, const Execution& execution, std::string_view saved,
          std::vector<Snapshot> snapshots)
     : Run(scaled, std::move(schedule), execution) {
-  bytes::Reader reader(saved);
-  if (reader.get<std::uint64_t>() != format)
-    throw InputError({.key = "resume",
-                      .problem = "the saved state is of another version or scenario",
-                      .allowed = "a file of this version and scenario, written by slipfront chain"});
-  observer_->resume(reader);
-  outputs_->resume(reader, std::move(snapshots));
-  chain_->resume(reader.rest());
-  const double end = schedule_.times.back() * scale_;
-  if (outputs_->scheduled() > schedule_.times.size())
-    throw InputError({.key = "resume",
-                      .problem = "has more results than the scenario has output times",
-                      .allowed = "a file that slipfront chain wrote for this scenario"});
-  if (const auto dt = chain_->constant_step(); dt && !(static_cast<double>(chain_->steps()) < end / *dt + 1))
-    throw InputError({.key = "resume",
-                      .value = std::to_string(chain_->steps()) + " steps",
-                      .problem = "past the end of the run",
-                      .allowed = "a file that slipfront chain wrote for this scenario"});
+  outputs_->set_all(std::move(snapshots));
+  restore(*this, saved);
 }
 
 Run::~Run() = default;
 
-std::string Run::saved() const {
-  bytes::Writer writer;
-  writer.put(format);
-  observer_->save(writer);
-  outputs_->save(writer);
-  return std::move(writer).text() + chain_->saved();
+void Run::archive(Archive& a) {
+  a.same(std::string("chain"));
+  a(*observer_, *outputs_, *chain_);
+  const auto dt = chain_->constant_step();
+  a.require(outputs_->scheduled() <= schedule_.times.size());
+  a.require(!dt || static_cast<double>(chain_->steps()) < schedule_.times.back() * scale_ / *dt + 1);
 }
+
+std::string Run::saved() const { return slipfront::saved(*this); }
 
 const std::vector<Snapshot>& Run::snapshots() const { return outputs_->all(); }
 bool Run::finished() const { return outputs_->scheduled() == schedule_.times.size(); }

@@ -328,14 +328,4 @@ RunObserver::OriginSlip RunObserver::origin_slip() const {
   return {now.u - first_u_at_origin_, slip_.up_to(chain_.time(), now.velocity), slip_.error(), slip_.samples};
 }
 
-void RunObserver::save(bytes::Writer& writer) const {
-  for (const double* number : numbers(*this)) writer.put(*number);
-  writer.put(static_cast<std::int64_t>(slip_.samples + 1));
-}
-
-void RunObserver::resume(bytes::Reader& reader) {
-  for (double* number : numbers(*this)) *number = reader.get<double>();
-  slip_.samples = static_cast<long>(reader.get<std::int64_t>()) - 1;
-}
-
 }  // namespace slipfront::chain

@@ -6,7 +6,7 @@
 
 #include "chain/measure/smooth_average.hpp"
 #include "chain/measure/totals.hpp"
-#include "foundation/bytes.hpp"
+#include "foundation/archive.hpp"
 #include "slipfront/chain/run.hpp"
 #include "slipfront/output/snapshot.hpp"
 
@@ -49,19 +49,9 @@ class RunObserver {
   };
   OriginSlip origin_slip() const;
 
-  void save(bytes::Writer& writer) const;
-  void resume(bytes::Reader& reader);
+  void archive(Archive& a) { a(work_, slip_); }
 
  private:
-  /// The numbers that a checkpoint stores, in the order of the file. The number of samples follows them.
-  template <class Observer>
-  static auto numbers(Observer& o) {
-    auto& work = o.work_;
-    auto& slip = o.slip_;
-    return std::array{
-        &work.supplied, &work.dissipated, &work.time,       &work.supplied_rate,  &work.dissipated_rate, &slip.time,
-        &slip.velocity, &slip.integral,   &slip.early_time, &slip.early_velocity, &slip.coarse_integral, &slip.spread};
-  }
   void choose_windows();
   double width_of_cell(std::size_t i) const;
   double last_site() const;

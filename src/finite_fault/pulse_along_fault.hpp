@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "finite_fault/along_fault.hpp"
+#include "foundation/archive.hpp"
 #include "slipfront/description.hpp"
 
 namespace slipfront::finite_fault {
@@ -29,6 +30,11 @@ struct FaultPulse {
   std::optional<double> correlation_of_slip = {};   ///< Pearson's coefficient over the columns
   std::optional<double> slip_error = {};     ///< largest |slip| ahead of the front (exactly 0) over the largest slip
   std::optional<double> contact_ratio = {};  ///< A from the factor between the slips
+
+  void archive(Archive& a) {
+    a(reason, x, stress, model_time, front_time, model_slip, pulse_slip, end, reached, front_velocity_ratio,
+      correlation_of_slip, slip_error, contact_ratio);
+  }
 };
 
 /// A number that summarizes such a pulse.
@@ -38,14 +44,6 @@ struct PulseQuantity {
   bool is_count = false;
 };
 std::span<const PulseQuantity> pulse_quantities();
-
-/// Calls `visit` with each member, always in the same order, to write or read a pulse. `Pulse` may be const.
-template <class Visit, class Pulse>
-void visit_members(Visit& visit, Pulse& p) {
-  visit(p.reason), visit(p.x), visit(p.stress), visit(p.model_time), visit(p.front_time), visit(p.model_slip);
-  visit(p.pulse_slip), visit(p.end), visit(p.reached), visit(p.front_velocity_ratio), visit(p.correlation_of_slip);
-  visit(p.slip_error), visit(p.contact_ratio);
-}
 
 /// Computes the pulse. `stress` is that of the event and `speed` its c in m/s; both must be > 0.
 FaultPulse pulse_along_fault(const std::vector<LocalState>& states, double stress, double speed);

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <utility>
 
-#include "foundation/bytes.hpp"
+#include "foundation/archive.hpp"
 #include "foundation/step_budget.hpp"
 #include "foundation/text/digits.hpp"
 #include "plane/budget.hpp"
@@ -14,28 +13,6 @@
 
 namespace slipfront::plane {
 namespace {
-
-/// The numbers of a row, in the order in which they are saved.
-std::vector<double> numbers_of(const SeriesRow& row) {
-  const Energies& e = row.energies;
-  return {row.time,   row.potency, row.potency_rate, row.peak_slip_velocity,
-          row.front,  e.kinetic,   e.elastic,        e.dissipated,
-          e.supplied, e.vanished,  e.radiated};
-}
-
-SeriesRow row_of(const std::vector<double>& n) {
-  return {.time = n.at(0),
-          .potency = n.at(1),
-          .potency_rate = n.at(2),
-          .peak_slip_velocity = n.at(3),
-          .front = n.at(4),
-          .energies = {.kinetic = n.at(5),
-                       .elastic = n.at(6),
-                       .dissipated = n.at(7),
-                       .supplied = n.at(8),
-                       .vanished = n.at(9),
-                       .radiated = n.at(10)}};
-}
 
 double largest_size(const std::vector<double>& values) {
   double largest = 0;
@@ -59,12 +36,6 @@ SeriesRow row_at(const Solver& solver, double ratio) {
                        .radiated = ratio * e.radiated}};
 }
 
-[[noreturn]] void refuse_saved() {
-  throw InputError({.key = "resume",
-                    .problem = "the saved state is not that of this run",
-                    .allowed = "a file of the same scenario"});
-}
-
 }  // namespace
 
 Run::Run(std::unique_ptr<Solver> solver, Schedule schedule)
@@ -78,7 +49,7 @@ Run::Run(std::unique_ptr<Solver> solver, Schedule schedule)
 Run::Run(std::unique_ptr<Solver> solver, Schedule schedule, std::string_view saved, std::vector<Field> snapshots)
     : Run(std::move(solver), std::move(schedule)) {
   snapshots_ = std::move(snapshots);
-  restore(saved);
+  restore(*this, saved);
 }
 
 /// Strong friction shortens the steps of averages. A run that would take far more steps than waves need ends at once.
@@ -103,7 +74,7 @@ bool Run::go(const std::function<bool()>& interrupted) {
     const double next = seen_.series.empty() ? 0 : schedule_.interval * static_cast<double>(seen_.rows_on_time);
     const double until = std::min(snapshot, next);
     if (until == schedule_.times.back() && !before_end_)
-      before_end_ = State{solver_->steps_end_on_time() ? solver_->saved() : "", seen_};
+      before_end_ = State{solver_->steps_end_on_time() ? slipfront::saved(*solver_) : "", seen_};
     require_steps();
     const bool reached = solver_->advance_to(until, [&] {
       require_steps();
@@ -213,64 +184,33 @@ std::vector<std::string> Run::warnings() const {
   return all;
 }
 
-std::string Run::saved() const {
-  bytes::Writer writer;
-  writer.put_text(solver_->saved());
-  put(writer, seen_);
-  writer.put(schedule_.times.back());
-  writer.put(static_cast<char>(before_end_ ? 1 : 0));
-  if (before_end_) {
-    writer.put_text(before_end_->solver);
-    put(writer, before_end_->seen);
-  }
-  return std::move(writer).text();
+std::string Run::saved() const { return slipfront::saved(*this); }
+
+void Run::Seen::archive(Archive& a) {
+  a(rows_on_time, series);
+  a.fixed(rupture_time, peak_slip_velocity, velocity_squared, last_slip);
 }
 
-void Run::put(bytes::Writer& writer, const Seen& seen) {
-  writer.put(static_cast<std::int64_t>(seen.rows_on_time));
-  writer.put(static_cast<std::uint64_t>(seen.series.size()));
-  for (const SeriesRow& row : seen.series) writer.put(numbers_of(row));
-  for (const auto* values : {&seen.rupture_time, &seen.peak_slip_velocity, &seen.velocity_squared, &seen.last_slip})
-    writer.put(*values);
-}
-
-Run::Seen Run::get_seen(bytes::Reader& reader, std::size_t cells) {
-  Seen seen;
-  seen.rows_on_time = static_cast<long>(reader.get<std::int64_t>());
-  const auto rows = reader.get<std::uint64_t>();
-  for (std::uint64_t i = 0; i < rows; ++i) {
-    const std::vector<double> numbers = reader.vector();
-    if (numbers.size() != numbers_of({}).size()) refuse_saved();
-    seen.series.push_back(row_of(numbers));
+void Run::archive(Archive& a) {
+  std::string solver;
+  if (!a.reads()) solver = slipfront::saved(*solver_);
+  double end = schedule_.times.back();
+  bool near_end = before_end_.has_value();
+  a(solver, seen_, end, near_end);
+  if (near_end) {
+    if (a.reads()) before_end_ = State{"", seen_};
+    a(before_end_->solver, before_end_->seen);
   }
-  for (auto* values : {&seen.rupture_time, &seen.peak_slip_velocity, &seen.velocity_squared, &seen.last_slip}) {
-    *values = reader.vector();
-    if (values->size() != cells) refuse_saved();
-  }
-  return seen;
-}
-
-void Run::restore(std::string_view saved) {
-  bytes::Reader reader(saved);
-  const std::size_t cells = seen_.last_slip.size();
-  std::string solver = reader.text();
-  seen_ = get_seen(reader, cells);
-  const double end = reader.get<double>();
-  if (reader.get<char>() != 0) {
-    std::string before = reader.text();
-    before_end_ = State{std::move(before), get_seen(reader, cells)};
-  }
-  reader.end();
+  if (!a.reads()) return;
   if (end != schedule_.times.back() && before_end_) {
     while (!snapshots_.empty() && snapshots_.back().time >= end) snapshots_.pop_back();
     seen_ = std::move(before_end_->seen);
     if (!before_end_->solver.empty()) solver = std::move(before_end_->solver);
     before_end_.reset();
   }
-  if (snapshots_.size() > schedule_.times.size()) refuse_saved();
-  for (const Field& field : snapshots_)
-    if (field.slip.size() != cells) refuse_saved();
-  solver_->resume(solver);
+  a.require(snapshots_.size() <= schedule_.times.size());
+  for (const Field& field : snapshots_) a.require(field.slip.size() == seen_.last_slip.size());
+  restore(*solver_, solver);
 }
 
 }  // namespace slipfront::plane

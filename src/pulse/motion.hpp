@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "foundation/bytes.hpp"
+#include "foundation/archive.hpp"
 #include "foundation/math/constants.hpp"
 #include "pulse/checks/slip_record.hpp"
 #include "slipfront/output/self_check.hpp"
@@ -34,16 +34,8 @@ class Motion {
   /// Reason for short steps, as a sentence without a full stop.
   virtual std::string reason_of_short_steps() const = 0;
 
-  /// Copies the state into arrays that exist, so that a step allocates nothing.
-  virtual void store() = 0;
-  /// Goes back to the stored state, and forgets it.
-  virtual void go_back() = 0;
-  /// Writes or reads the present state.
-  virtual void save(bytes::Writer& writer) const = 0;
-  virtual void restore(bytes::Reader& reader) = 0;
-  /// Writes or reads the stored state.
-  virtual void save_stored(bytes::Writer& writer) const = 0;
-  virtual void restore_stored(bytes::Reader& reader) = 0;
+  /// Writes or reads the state.
+  virtual void archive(Archive& a) = 0;
 
   /// The results now, apart from what output::complete adds.
   virtual output::Snapshot observe(const output::Schedule& schedule) const = 0;

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <utility>
 
-#include "pulse/checkpoint.hpp"
 #include "pulse/checks/checks.hpp"
 #include "pulse/observe/observe.hpp"
 
@@ -25,41 +24,11 @@ bool OneTrain::advance_to(double target, const std::function<bool()>& after_step
   });
 }
 
-void OneTrain::store() {
-  if (!stored_) stored_.emplace();
-  stored_->cells = solver_.cells();
-  stored_->trailing_characteristic = trailing_characteristic_.position();
-  stored_->slip = slip_;
+void OneTrain::archive(Archive& a) {
+  double position = trailing_characteristic_.position();
+  a(solver_, position, slip_);
+  if (a.reads()) trailing_characteristic_.restore(solver_, position);
 }
-
-void OneTrain::go_to(OneTrainState saved) {
-  slip_ = saved.slip;
-  solver_.restore(std::move(saved.cells));
-  trailing_characteristic_.restore(solver_, saved.trailing_characteristic);
-}
-
-void OneTrain::go_back() { go_to(*std::exchange(stored_, std::nullopt)); }
-
-void OneTrain::put(bytes::Writer& writer, const OneTrainState& state) const {
-  checkpoint::put(writer, state.cells, problem().friction);
-  checkpoint::put_number(writer, "trailing_characteristic", state.trailing_characteristic);
-  state.slip.save(writer);
-}
-
-OneTrainState OneTrain::get(bytes::Reader& reader) const {
-  OneTrainState state{
-      .cells = checkpoint::get_cells(reader, problem().friction), .trailing_characteristic = 0, .slip = {}};
-  state.trailing_characteristic = checkpoint::get_number(reader, "trailing_characteristic");
-  state.slip.restore(reader);
-  return state;
-}
-
-void OneTrain::save(bytes::Writer& writer) const {
-  put(writer, {solver_.cells(), trailing_characteristic_.position(), slip_});
-}
-void OneTrain::restore(bytes::Reader& reader) { go_to(get(reader)); }
-void OneTrain::save_stored(bytes::Writer& writer) const { put(writer, *stored_); }
-void OneTrain::restore_stored(bytes::Reader& reader) { stored_ = get(reader); }
 
 output::Snapshot OneTrain::observe(const output::Schedule& schedule) const {
   output::Snapshot s = pulse::observe(solver_, schedule.x_edges, trailing_characteristic_, schedule.threshold);

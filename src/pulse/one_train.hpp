@@ -12,13 +12,6 @@
 
 namespace slipfront::pulse {
 
-/// The part of a checkpoint that describes the motion of one train at one time.
-struct OneTrainState {
-  Cells cells = {};
-  double trailing_characteristic = 0;
-  SlipRecord slip = {};
-};
-
 /// One train at each position, by finite volumes (solver.hpp).
 class OneTrain : public Motion {
  public:
@@ -33,12 +26,7 @@ class OneTrain : public Motion {
   double expected_steps(double duration) const override { return solver_.expected_steps(duration); }
   std::string reason_of_short_steps() const override { return solver_.reason_of_short_steps(); }
 
-  void store() override;
-  void go_back() override;
-  void save(bytes::Writer& writer) const override;
-  void restore(bytes::Reader& reader) override;
-  void save_stored(bytes::Writer& writer) const override;
-  void restore_stored(bytes::Reader& reader) override;
+  void archive(Archive& a) override;
 
   output::Snapshot observe(const output::Schedule& schedule) const override;
   output::Findings findings(const std::vector<output::Snapshot>& snapshots) const override;
@@ -48,15 +36,10 @@ class OneTrain : public Motion {
   double crossing_position() const override { return solver_.cells().crossing_position; }
 
  private:
-  void put(bytes::Writer& writer, const OneTrainState& state) const;
-  OneTrainState get(bytes::Reader& reader) const;
-  void go_to(OneTrainState saved);
-
   Solver solver_;
   TrailingCharacteristic trailing_characteristic_;
   StoredEnergy first_energy_;
   SlipRecord slip_;  ///< at x = 0
-  std::optional<OneTrainState> stored_;
 };
 
 }  // namespace slipfront::pulse

@@ -5,11 +5,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "foundation/bytes.hpp"
+#include "foundation/archive.hpp"
 #include "foundation/clock.hpp"
 #include "foundation/step_budget.hpp"
 #include "foundation/text/digits.hpp"
-#include "pulse/checkpoint.hpp"
 #include "pulse/contours/many_trains.hpp"
 #include "pulse/motion.hpp"
 #include "pulse/one_train.hpp"
@@ -38,8 +37,10 @@ struct Run::Parts {
   double stepping_seconds = 0;
   std::vector<output::Snapshot> snapshots;
   /// Whether the present state depends on the end of the run. The last steps do, because the last one must end there.
-  /// The motion stores the last state that does not. A run to a later end continues from that state.
   bool aimed_at_end = false;
+  /// The last state that does not depend on it, in the last stretch before the end. A run to a later end continues from
+  /// that state.
+  std::string before_end;
   std::optional<output::Findings> final_findings;  ///< findings of a finished run
 
   Parts(Problem problem, output::Schedule given)
@@ -51,9 +52,12 @@ struct Run::Parts {
   output::Findings findings() const { return motion->findings(snapshots); }
   bool advance_to(double target, const std::function<bool()>& interrupted);
   void take_snapshot();
+  void archive(Archive& a);
   /// Call this after each step of the last stretch before the end.
   void look_at_end() {
-    if (!aimed_at_end) motion->store();
+    if (aimed_at_end) return;
+    Archive a = Archive::to(before_end);
+    a(*motion);
   }
 };
 
@@ -63,19 +67,19 @@ Run::Run(Problem problem, output::Schedule schedule)
 Run::Run(Problem problem, output::Schedule schedule, std::string_view saved, std::vector<output::Snapshot> snapshots)
     : Run(std::move(problem), std::move(schedule)) {
   Parts& p = *parts_;
-  bytes::Reader reader(saved);
-  if (snapshots.size() > p.schedule.times.size()) checkpoint::refuse();
-  p.motion->restore(reader);
-  const double end = checkpoint::get_number(reader, "end");
-  p.aimed_at_end = checkpoint::get_number(reader, "aimed_at_end") != 0;
-  if (p.aimed_at_end) p.motion->restore_stored(reader);
-  reader.end();
-  if (end != p.schedule.times.back() && p.aimed_at_end) {
-    p.motion->go_back();
-    p.aimed_at_end = false;
-    while (!snapshots.empty() && snapshots.back().time > p.motion->time()) snapshots.pop_back();
-  }
   p.snapshots = std::move(snapshots);
+  restore(p, saved);
+}
+
+void Run::Parts::archive(Archive& a) {
+  double end = schedule.times.back();
+  a(*motion, end, aimed_at_end);
+  if (aimed_at_end) a(before_end);
+  a.require(snapshots.size() <= schedule.times.size());
+  if (!a.reads() || !aimed_at_end || end == schedule.times.back()) return;
+  restore(*motion, before_end);
+  aimed_at_end = false;
+  while (!snapshots.empty() && snapshots.back().time > motion->time()) snapshots.pop_back();
 }
 
 Run::~Run() = default;
@@ -98,14 +102,7 @@ const StepBudget& Run::budget() const { return parts_->budget; }
 double Run::stepping_seconds() const { return parts_->stepping_seconds; }
 bool Run::finished() const { return parts_->finished(); }
 
-std::string Run::saved() const {
-  bytes::Writer writer;
-  parts_->motion->save(writer);
-  checkpoint::put_number(writer, "end", parts_->schedule.times.back());
-  checkpoint::put_number(writer, "aimed_at_end", parts_->aimed_at_end ? 1 : 0);
-  if (parts_->aimed_at_end) parts_->motion->save_stored(writer);
-  return std::move(writer).text();
-}
+std::string Run::saved() const { return slipfront::saved(*parts_); }
 
 std::optional<SlipTwice> Run::slip_twice() const { return parts_->motion->slip_twice(); }
 

@@ -30,7 +30,6 @@ struct Solver::Parts {
 };
 
 Solver::Solver(Problem problem) : parts_(std::make_unique<Parts>(std::move(problem))) {}
-Solver::Solver(Problem problem, Cells cells) : Solver(std::move(problem)) { restore(std::move(cells)); }
 Solver::~Solver() = default;
 Solver::Solver(Solver&&) noexcept = default;
 Solver& Solver::operator=(Solver&&) noexcept = default;
@@ -47,6 +46,17 @@ void Solver::restore(Cells cells) {
          .allowed = "cells of this scenario, " + std::to_string(parts_->initial.faces.size() - 1) + " at first"});
   parts_->cells = std::move(cells);
   parts_->stepper.rebuild(parts_->cells);
+}
+
+void Solver::archive(Archive& a) {
+  std::string states = "state:";
+  for (const friction::StateVariable& variable : problem().friction.definition().state)
+    states += " " + std::string(variable.name);
+  a.same(states);
+  if (!a.reads()) return a(parts_->cells);
+  Cells saved;
+  a(saved);
+  restore(std::move(saved));
 }
 
 bool Solver::advance_to(double time, const std::function<bool()>& interrupted) {

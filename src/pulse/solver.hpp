@@ -24,14 +24,13 @@ class Solver {
 
   /// Creates cells where there is stress. \throws InputError if there is no stress, or if a setting is invalid.
   explicit Solver(Problem problem);
-  /// Continues from saved cells of the same problem. \throws InputError if they do not fit it.
-  Solver(Problem problem, Cells cells);
   ~Solver();
   Solver(Solver&&) noexcept;
   Solver& operator=(Solver&&) noexcept;
 
-  /// Replaces the cells by saved cells of the same problem. \throws InputError if they do not fit it.
+  /// Replaces the cells by other cells of the same problem. \throws InputError if they do not fit it.
   void restore(Cells cells);
+  void archive(Archive& a);
 
   /// Advances to `time`. Calls `interrupted` after each step, and stops early if it returns true. Returns whether
   /// `time` was reached. \throws NumericsError with the time and position where no state exists.

@@ -15,6 +15,7 @@
 #include "chain/measure/totals.hpp"
 #include "chain/model/initial_train.hpp"
 #include "chain_cases.hpp"
+#include "foundation/archive.hpp"
 #include "slipfront/chain/run.hpp"
 #include "slipfront/error.hpp"
 
@@ -280,7 +281,7 @@ TEST(Contacts, ImplicitStepsConserveEnergyAndResumeToTheSameBits) {
   EXPECT_GT(std::fabs(one.flows().by_contacts) / first, 1e-4);
   stopped.advance_to(40, 30);
   ImplicitChain resumed(p, start);
-  resumed.resume(stopped.saved());
+  restore(resumed, saved(stopped));
   EXPECT_EQ(resumed.window(0, 401).contact_squared, stopped.window(0, 401).contact_squared);
   resumed.advance_to(40);
   ASSERT_LT(30, resumed.steps());

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "foundation/bytes.hpp"
+#include "foundation/archive.hpp"
 
 namespace slipfront::chain {
 namespace {
@@ -66,13 +66,11 @@ TEST(EventOutputs, ContinuesAsIfItHadNotStopped) {
   take_steps(whole, 0, 50);
   take_steps(first, 0, 23);
   first.add_scheduled(at(23.5));  // the end of a run, which a longer run does not have
-  bytes::Writer writer;
-  first.save(writer);
-  const std::string saved = std::move(writer).text();
+  const std::string state = saved(first);
   std::vector<output::Snapshot> snapshots = first.all();
   snapshots.pop_back();
-  bytes::Reader reader(saved);
-  second.resume(reader, snapshots);
+  second.set_all(snapshots);
+  restore(second, state);
   take_steps(second, 23, 50);
   EXPECT_EQ(times(second), times(whole));
 }

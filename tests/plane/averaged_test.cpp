@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "foundation/archive.hpp"
 #include "rings.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/plane/grid.hpp"
@@ -182,12 +183,12 @@ TEST(PlaneAveraged, ResumesToTheSameBits) {
   whole.advance_to(0.5, {});
   part.advance_to(0.5, [] { return true; });  // one step
   EXPECT_LT(part.time(), 0.5);
-  resumed.resume(part.saved());
+  restore(resumed, saved(part));
   EXPECT_TRUE(resumed.advance_to(0.5, {}));
   EXPECT_EQ(resumed.steps(), whole.steps());
-  EXPECT_EQ(resumed.saved(), whole.saved());
+  EXPECT_EQ(saved(resumed), saved(whole));
   AveragedSolver other(problem, {10, 32});
-  EXPECT_THROW(other.resume(part.saved()), InputError);
+  EXPECT_THROW(restore(other, saved(part)), InputError);
 }
 
 std::string loops_message_of(const Problem& problem) {
@@ -296,10 +297,10 @@ TEST(PlaneAveraged, LinesThatShrinkToTheOriginVanish) {
   EXPECT_LT(std::fabs(e.kinetic + e.elastic + e.vanished), 0.01 * e.kinetic);
 
   AveragedSolver resumed(p, {.loops = 120, .angles = 1});
-  resumed.resume(solver.saved());
+  restore(resumed, saved(solver));
   solver.advance_to(1.2, {});
   resumed.advance_to(1.2, {});
-  EXPECT_EQ(solver.saved(), resumed.saved());
+  EXPECT_EQ(saved(solver), saved(resumed));
 }
 
 std::string end_of(std::unique_ptr<plane::Solver> solver, double end) {

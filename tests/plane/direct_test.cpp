@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "foundation/archive.hpp"
 #include "plane/direct/motion.hpp"
 #include "plane/direct/sites.hpp"
 #include "rings.hpp"
@@ -163,10 +164,10 @@ TEST(PlaneDirect, ResumesToTheSameBitsWithAnyThreads) {
   int steps = 0;
   EXPECT_FALSE(first.advance_to(0.4, [&] { return ++steps == 3; }));
   DirectSolver second(mixed(), {.scale = 20, .threads = 3});
-  second.resume(first.saved());
+  restore(second, saved(first));
   EXPECT_EQ(second.steps(), first.steps());
   second.advance_to(0.4, {});
-  EXPECT_EQ(second.saved(), whole.saved());
+  EXPECT_EQ(saved(second), saved(whole));
   EXPECT_EQ(second.potency(), whole.potency());
   EXPECT_EQ(second.energies().kinetic, whole.energies().kinetic);
 }
@@ -232,9 +233,9 @@ TEST(PlaneDirect, StrengthHoldsTheStartUntilNucleation) {
   whole.advance_to(0.7, {});
   int steps = 0;
   EXPECT_FALSE(first.advance_to(0.7, [&] { return ++steps == 40; }));
-  second.resume(first.saved());
+  restore(second, saved(first));
   second.advance_to(0.7, {});
-  EXPECT_EQ(second.saved(), whole.saved());
+  EXPECT_EQ(saved(second), saved(whole));
   const Energies e = whole.energies();
   EXPECT_GT(e.dissipated, 0);
   EXPECT_NEAR(e.kinetic + e.elastic + e.dissipated, 0, 0.05 * (e.kinetic + e.dissipated));

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "foundation/archive.hpp"
 #include "rings.hpp"
 #include "slipfront/error.hpp"
 #include "slipfront/plane/direct.hpp"
@@ -213,29 +214,29 @@ void expect_the_same_bits(const Problem& p) {
   whole.advance_to(0.5, {});
   part.advance_to(0.5, [] { return true; });  // one step
   EXPECT_LT(part.time(), 0.5);
-  resumed.resume(part.saved());
+  restore(resumed, saved(part));
   EXPECT_TRUE(resumed.advance_to(0.5, {}));
   EXPECT_EQ(resumed.steps(), whole.steps());
-  EXPECT_EQ(resumed.saved(), whole.saved());
-  EXPECT_THROW(other.resume(part.saved()), InputError);
+  EXPECT_EQ(saved(resumed), saved(whole));
+  EXPECT_THROW(restore(other, saved(part)), InputError);
 }
 
 /// A run that was saved at an output time, before its observers looked, gives them the same bits.
 TEST(PlaneGrid, ObserversOfAResumedRunSeeTheSameBits) {
   for (const Problem& p : {barrier(), weakening(), ageing(), friction_on_one_side()}) {
     GridSolver whole(p, 40), resumed(p, 40);
-    std::string saved;
+    std::string state;
     whole.advance_to(0.2, [&] {
-      saved = whole.saved();
+      state = saved(whole);
       return false;
     });
-    resumed.resume(saved);
+    restore(resumed, state);
     EXPECT_TRUE(resumed.advance_to(0.2, {}));
     EXPECT_EQ(resumed.potency_rate(), whole.potency_rate());
     EXPECT_EQ(resumed.energies().kinetic, whole.energies().kinetic);
     EXPECT_EQ(resumed.energies().elastic, whole.energies().elastic);
     EXPECT_EQ(resumed.field(20, 20).velocity, whole.field(20, 20).velocity);
-    EXPECT_EQ(resumed.saved(), whole.saved());
+    EXPECT_EQ(saved(resumed), saved(whole));
   }
 }
 

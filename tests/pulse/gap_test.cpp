@@ -212,7 +212,8 @@ TEST(Gap, ResumedRunHasTheSameBits) {
     whole.advance_to(6);
     Solver cut(p);
     cut.advance_to(t);
-    Solver resumed(p, cut.cells());
+    Solver resumed(p);
+    resumed.restore(cut.cells());
     resumed.advance_to(6);
     EXPECT_EQ(whole.cells().unknowns, resumed.cells().unknowns);
   }

@@ -274,7 +274,8 @@ TEST(Pulse, ContinuesToTheSameBits) {
     whole.advance_to(2);
     Solver first(p);
     first.advance_to(1);
-    Solver second(p, first.cells());
+    Solver second(p);
+    second.restore(first.cells());
     second.advance_to(2);
     EXPECT_EQ(whole.cells().unknowns, second.cells().unknowns);
     EXPECT_EQ(whole.cells().steps, second.cells().steps);
@@ -288,7 +289,8 @@ TEST(Pulse, InterruptedBetweenStepsContinuesToTheSameBits) {
   Solver cut(p);
   int remaining = 7;
   EXPECT_FALSE(cut.advance_to(2, [&] { return --remaining == 0; }));
-  Solver resumed(p, cut.cells());
+  Solver resumed(p);
+  resumed.restore(cut.cells());
   EXPECT_TRUE(resumed.advance_to(2));
   EXPECT_EQ(whole.cells().unknowns, resumed.cells().unknowns);
 }

@@ -6,16 +6,15 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "slipfront/chain/problem.hpp"
 #include "slipfront/output/slip_event.hpp"
 
 namespace slipfront {
+class Archive;
 class Ranks;
-}
+}  // namespace slipfront
 
 namespace slipfront::chain {
 
@@ -121,10 +120,9 @@ class Chain : public Sites {
   /// When they arrived at Loading::fronts positions.
   virtual output::FrontRecords fronts() const { return {}; }
 
-  /// (all) Returns, as bytes, the state from which the chain can continue without changing a bit of the results.
-  virtual std::string saved() const = 0;
-  /// Continues from a saved state. \throws InputError if the bytes do not fit the problem.
-  virtual void resume(std::string_view saved) = 0;
+  /// (all) Writes or reads the state from which the chain continues without changing a bit of the results. \throws
+  /// InputError if what it reads does not fit the problem.
+  virtual void archive(Archive& a) = 0;
 
  protected:
   using Sites::Sites;

@@ -89,7 +89,9 @@ class Run {
   const std::vector<output::Snapshot>& snapshots() const;
   bool can_checkpoint() const { return chain_->valid(); }  ///< whether the run can be saved
   bool finished() const;
+  /// The state of the run as bytes.
   std::string saved() const;
+  void archive(Archive& a);
 
   double time() const { return chain_->time() / scale_; }  ///< in the scenario's units
   double scale() const { return scale_; }

@@ -37,6 +37,8 @@ struct SampledIntegral {
   double spread = 0;  ///< sum of squares of the uncertainties of the intervals between samples
   long samples = 0;   ///< number of samples after t = 0
 
+  void archive(auto& a) { a(time, velocity, integral, early_time, early_velocity, coarse_integral, spread, samples); }
+
   void add(double now, double velocity_now) {
     const double elapsed = now - time, change = elapsed * (velocity_now - velocity) / 2;
     spread += change * change;

@@ -42,8 +42,7 @@ class AveragedSolver : public Solver {
   Energies energies() const override;
   std::vector<std::string> warnings() const override;
 
-  std::string saved() const override;
-  void resume(std::string_view saved) override;
+  void archive(Archive& a) override;
 
  private:
   struct Parts;

@@ -59,8 +59,7 @@ class DirectSolver : public Solver {
   double front(double y_scale) const override;
   Energies energies() const override;
 
-  std::string saved() const override;
-  void resume(std::string_view saved) override;
+  void archive(Archive& a) override;
 
   std::size_t sites() const;
 

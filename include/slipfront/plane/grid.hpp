@@ -39,8 +39,7 @@ class GridSolver : public Solver {
   double least_energy() const override;
   std::vector<std::string> warnings() const override;
 
-  std::string saved() const override;
-  void resume(std::string_view saved) override;
+  void archive(Archive& a) override;
 
  private:
   struct Parts;

@@ -8,10 +8,13 @@
 #include <functional>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "slipfront/friction/friction.hpp"
+
+namespace slipfront {
+class Archive;
+}
 
 namespace slipfront::plane {
 
@@ -117,10 +120,9 @@ class Solver {
   /// Sentences that describe doubtful results so far.
   virtual std::vector<std::string> warnings() const { return {}; }
 
-  /// The state, as bytes, from which the run continues to the same bits.
-  virtual std::string saved() const = 0;
-  /// \throws InputError if the bytes do not fit the problem.
-  virtual void resume(std::string_view saved) = 0;
+  /// Writes or reads the state from which the run continues to the same bits. \throws InputError if what it reads does
+  /// not fit the problem.
+  virtual void archive(Archive& a) = 0;
 };
 
 }  // namespace slipfront::plane

@@ -12,11 +12,6 @@
 
 #include "slipfront/plane/problem.hpp"
 
-namespace slipfront::bytes {
-class Reader;
-class Writer;
-}  // namespace slipfront::bytes
-
 namespace slipfront::plane {
 
 /// When and where a run is observed.
@@ -74,7 +69,9 @@ class Run {
   /// A run can be saved even after a NumericsError: what was observed before it is valid.
   bool can_checkpoint() const { return true; }
   std::vector<std::string> warnings() const;
+  /// The state of the run as bytes.
   std::string saved() const;
+  void archive(Archive& a);
 
  private:
   /// The results so far, apart from snapshots.
@@ -85,6 +82,8 @@ class Run {
     std::vector<double> velocity_squared = {};  ///< integral over time
     std::vector<double> last_slip = {};         ///< at the last row of the series
     long rows_on_time = 0;                      ///< rows of the series at multiples of the interval
+
+    void archive(Archive& a);
   };
   /// A state between two rows of the series. `solver` is empty if its steps do not depend on the schedule.
   struct State {
@@ -96,9 +95,6 @@ class Run {
   double farthest_rupture() const;
   void require_steps() const;
   void require_energy() const;
-  void restore(std::string_view saved);
-  static void put(bytes::Writer& writer, const Seen& seen);
-  static Seen get_seen(bytes::Reader& reader, std::size_t cells);
 
   std::unique_ptr<Solver> solver_;
   Schedule schedule_;

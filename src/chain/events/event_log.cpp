@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "foundation/math/constants.hpp"
-#include "slipfront/error.hpp"
 
 namespace slipfront::chain {
 double crossing(double t0, double v0, double t1, double v1, double threshold) {
@@ -246,109 +245,25 @@ double EventLog::front_velocity(const Open& open, double duration) const {
   return td > 0 && td <= tt ? td / tt : none;
 }
 
-std::vector<double> EventLog::saved() const {
-  std::vector<double> all;
-  const auto put = [&](double number) { all.push_back(number); };
-  const auto put_count = [&](std::size_t count) { all.push_back(static_cast<double>(count)); };
-  const auto put_row = [&](const auto& row) {
-    put_count(row.size());
-    for (const auto value : row) all.push_back(static_cast<double>(value));
+void EventLog::archive(Archive& a) {
+  a(threshold_, last_time_, last_load_, part_length_, last_identity_, is_ring_);
+  a(x_, last_u_, last_velocity_, owner_, identities_, events_);
+  a.each(open_, [&](Open& open) { a(open.identity, open.origins, open.slip_of_others, open.first_u, open.arrivals); });
+  a.require(is_consistent());
+}
+
+bool EventLog::is_consistent() const {
+  const std::size_t n = x_.size();
+  const auto is_open = [this](std::size_t identity) {
+    return std::any_of(open_.begin(), open_.end(), [&](const Open& open) { return open.identity == identity; });
   };
-  for (const double* number : numbers(*this)) put(*number);
-  put_count(last_identity_);
-  put(is_ring_ ? 1 : 0);
-  for (const auto* row : rows(*this)) put_row(*row);
-  put_row(owner_);
-  put_row(identities_);
-  for (const output::SlipEvent& event : events_)
-    for (const auto& column : output::slip_event_columns()) put(event.*column.value);
-  put_count(open_.size());
-  for (const Open& open : open_) {
-    put_count(open.identity);
-    put_count(open.origins.size());
-    for (const Origin& origin : open.origins) {
-      put(origin.x);
-      put(origin.time);
-    }
-    put(open.slip_of_others);
-    put_row(open.first_u);
-    put_row(open.arrivals);
-  }
-  return all;
-}
-
-namespace {
-
-constexpr double largest_identity = 9e15;
-
-[[noreturn]] void refuse_saved_events() {
-  throw InputError({.key = "resume", .problem = "its events are cut short", .allowed = "a file of this version"});
-}
-
-/// Reads what EventLog::saved has written.
-class SavedEvents {
- public:
-  explicit SavedEvents(const std::vector<double>& saved) : saved_(saved) {}
-
-  double next() {
-    if (at_ >= saved_.size()) refuse_saved_events();
-    return saved_[at_++];
-  }
-  std::size_t next_count(double most) {
-    const double value = next();
-    if (!(value >= 0 && value <= most)) refuse_saved_events();
-    return static_cast<std::size_t>(value);
-  }
-  std::size_t next_size() { return next_count(static_cast<double>(saved_.size())); }
-  void next_row(std::vector<double>& row) {
-    row.resize(next_size());
-    for (double& value : row) value = next();
-  }
-  void next_row(std::vector<std::size_t>& row) {
-    row.resize(next_size());
-    for (std::size_t& value : row) value = next_count(largest_identity);
-  }
-
- private:
-  const std::vector<double>& saved_;
-  std::size_t at_ = 0;
-};
-
-}  // namespace
-
-void EventLog::resume(const std::vector<double>& saved) {
-  SavedEvents from(saved);
-  for (double* number : numbers(*this)) *number = from.next();
-  last_identity_ = from.next_count(largest_identity);
-  is_ring_ = from.next() != 0;
-  for (auto* row : rows(*this)) from.next_row(*row);
-  from.next_row(owner_);
-  from.next_row(identities_);
-  if (!std::is_sorted(identities_.begin(), identities_.end())) refuse_saved_events();
-  events_.assign(identities_.size(), {});
-  for (output::SlipEvent& event : events_)
-    for (const auto& column : output::slip_event_columns()) event.*column.value = from.next();
-  open_.assign(from.next_size(), {});
-  for (Open& open : open_) {
-    open.identity = from.next_count(largest_identity);
-    open.origins.resize(from.next_size());
-    if (open.origins.empty()) refuse_saved_events();
-    for (Origin& origin : open.origins) {
-      origin.x = from.next();
-      origin.time = from.next();
-    }
-    open.slip_of_others = from.next();
-    from.next_row(open.first_u);
-    from.next_row(open.arrivals);
-    const bool fits = open.first_u.size() == x_.size() && open.arrivals.size() == x_.size();
-    if (!fits || !std::binary_search(identities_.begin(), identities_.end(), open.identity)) refuse_saved_events();
-  }
-  const bool fits = owner_.size() == x_.size() && last_u_.size() == x_.size() && last_velocity_.size() == x_.size();
-  if (!fits) refuse_saved_events();
-  for (const std::size_t identity : owner_)
-    if (identity != 0 &&
-        std::none_of(open_.begin(), open_.end(), [&](const Open& o) { return o.identity == identity; }))
-      refuse_saved_events();
+  return owner_.size() == n && last_u_.size() == n && last_velocity_.size() == n &&
+         std::is_sorted(identities_.begin(), identities_.end()) && events_.size() == identities_.size() &&
+         std::all_of(owner_.begin(), owner_.end(), [&](std::size_t owner) { return owner == 0 || is_open(owner); }) &&
+         std::all_of(open_.begin(), open_.end(), [&](const Open& open) {
+           return open.first_u.size() == n && open.arrivals.size() == n && !open.origins.empty() &&
+                  std::binary_search(identities_.begin(), identities_.end(), open.identity);
+         });
 }
 
 }  // namespace slipfront::chain

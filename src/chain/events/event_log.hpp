@@ -1,9 +1,9 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <vector>
 
+#include "foundation/archive.hpp"
 #include "slipfront/output/slip_event.hpp"
 
 namespace slipfront::chain {
@@ -49,10 +49,7 @@ class EventLog {
   /// 0: none.
   std::size_t event_at(double x) const;
 
-  /// Returns all that the log needs to continue exactly.
-  std::vector<double> saved() const;
-  /// Continues from a saved log. \throws InputError if `saved` is not one.
-  void resume(const std::vector<double>& saved);
+  void archive(Archive& a);
 
  private:
   struct Step {
@@ -92,15 +89,8 @@ class EventLog {
   bool moves_at_once(const Open& open) const;
   double front_velocity(const Open& open, double duration) const;
 
-  /// The numbers and rows that a checkpoint stores first, in the order of the file.
-  template <class Log>
-  static auto numbers(Log& log) {
-    return std::array{&log.threshold_, &log.last_time_, &log.last_load_, &log.part_length_};
-  }
-  template <class Log>
-  static auto rows(Log& log) {
-    return std::array{&log.x_, &log.last_u_, &log.last_velocity_};
-  }
+  /// Whether the parts and the events, as they were read, belong together.
+  bool is_consistent() const;
 
   double threshold_ = 0, least_slip_ = 0;
   double last_time_ = 0, last_load_ = 0;

@@ -1,21 +1,14 @@
 #include "chain/events/front_log.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "chain/events/event_log.hpp"
 #include "foundation/math/constants.hpp"
-#include "slipfront/error.hpp"
 
 namespace slipfront::chain {
-namespace {
-
-auto columns(auto& record) { return std::array{&record.arrival, &record.stress, &record.traction}; }
-
-}  // namespace
 
 FrontLog::FrontLog(double threshold, std::vector<double> x) : threshold_(threshold), above_since_(x.size(), none) {
   records_.x = std::move(x);
@@ -68,47 +61,16 @@ void FrontLog::match_events(const EventLog& log, const std::function<Tractions()
   }
 }
 
-std::vector<double> FrontLog::saved() const {
-  std::vector<double> all{last_time_, static_cast<double>(last_velocity_.size()),
-                          static_cast<double>(records_.events.size())};
-  const auto add = [&](const std::vector<double>& column) { all.insert(all.end(), column.begin(), column.end()); };
-  add(last_velocity_);
-  add(above_since_);
-  for (const std::size_t identity : identities_) all.push_back(static_cast<double>(identity));
-  for (const output::FrontRecord& record : records_.events)
-    for (const auto* column : columns(record)) add(*column);
-  return all;
-}
-
-void FrontLog::resume(const std::vector<double>& saved) {
-  const auto refuse = [] {
-    throw InputError({.key = "resume", .problem = "its fronts are cut short", .allowed = "a file of this version"});
-  };
+void FrontLog::archive(Archive& a) {
   const std::size_t n = positions();
-  if (saved.size() < 3) refuse();
-  const double seen = saved[1], events = saved[2];
-  const bool counts = (seen == 0 || seen == static_cast<double>(n)) && events >= 0;
-  if (!counts || static_cast<double>(saved.size()) !=
-                     3 + seen + static_cast<double>(n) + events * (1 + 3 * static_cast<double>(n)))
-    refuse();
-  auto at = saved.begin() + 3;
-  const auto take = [&](std::vector<double>& column, std::size_t size) {
-    column.assign(at, at + static_cast<std::ptrdiff_t>(size));
-    at += static_cast<std::ptrdiff_t>(size);
-  };
-  last_time_ = saved[0];
-  take(last_velocity_, static_cast<std::size_t>(seen));
-  take(above_since_, n);
-  std::vector<double> identities;
-  take(identities, static_cast<std::size_t>(events));
-  identities_.clear();
-  for (const double identity : identities) {
-    if (!(identity > 0 && identity < 9e15)) refuse();
-    identities_.push_back(static_cast<std::size_t>(identity));
-  }
-  records_.events.assign(static_cast<std::size_t>(events), {});
-  for (output::FrontRecord& record : records_.events)
-    for (auto* column : columns(record)) take(*column, n);
+  a(last_time_, last_velocity_, identities_);
+  a.require(last_velocity_.empty() || last_velocity_.size() == n);
+  a.fixed(above_since_);
+  a.each(records_.events, [&](output::FrontRecord& record) {
+    a(record.arrival, record.stress, record.traction);
+    for (const auto* column : {&record.arrival, &record.stress, &record.traction}) a.require(column->size() == n);
+  });
+  a.require(records_.events.size() == identities_.size());
 }
 
 }  // namespace slipfront::chain

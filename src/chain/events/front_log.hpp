@@ -29,10 +29,7 @@ class FrontLog {
             const std::function<Tractions()>& ahead);
   const output::FrontRecords& records() const { return records_; }
 
-  /// Returns all that the log needs to continue exactly.
-  std::vector<double> saved() const;
-  /// Continues from a saved log of the same positions. \throws InputError if `saved` is not one.
-  void resume(const std::vector<double>& saved);
+  void archive(Archive& a);
 
  private:
   /// The record of an event; null if there is none.

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <utility>
 
 #include "chain/explicit/explicit_window.hpp"
 #include "chain/explicit/first_levels.hpp"
 #include "chain/explicit/share.hpp"
 #include "chain/model/start_check.hpp"
-#include "foundation/bytes.hpp"
+#include "foundation/archive.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::chain {
@@ -132,43 +131,21 @@ Levels ExplicitChain::levels() const {
   return all;
 }
 
-std::string ExplicitChain::saved() const {
-  bytes::Writer writer;
-  writer.put(flow_sums());
-  const Levels levels = this->levels();
-  writer.put(static_cast<std::int64_t>(levels.level));
-  writer.put(levels.now);
-  writer.put(levels.before);
-  const std::vector<std::string_view> names = state_names(problem());
-  for (std::size_t v = 0; v < names.size(); ++v) {
-    std::vector<double> values;
-    for (std::size_t j = v; j < levels.state.size(); j += names.size()) values.push_back(levels.state[j]);
-    writer.put_text(names[v]);
-    writer.put(values);
+void ExplicitChain::archive(Archive& a) {
+  Levels all;
+  std::vector<double> flows;
+  if (!a.reads()) {
+    all = levels();
+    flows = flow_sums();
   }
-  return std::move(writer).text();
-}
-
-void ExplicitChain::resume(std::string_view saved) {
-  bytes::Reader reader(saved);
-  const std::vector<double> flows = reader.vector();
-  Levels levels;
-  levels.level = static_cast<long>(reader.get<std::int64_t>());
-  levels.now = reader.vector();
-  levels.before = reader.vector();
-  const std::vector<std::string_view> names = state_names(problem());
-  levels.state.resize(names.size() * levels.now.size());
-  for (std::size_t v = 0; v < names.size(); ++v) {
-    const bool known = reader.text() == names[v];
-    const std::vector<double> values = reader.vector();
-    if (!known || values.size() != levels.now.size())
-      throw InputError({.key = "resume",
-                        .problem = "the saved state is of another version or scenario",
-                        .allowed = "a file of this version and scenario, written by slipfront chain"});
-    for (std::size_t j = 0; j < values.size(); ++j) levels.state[names.size() * j + v] = values[j];
-  }
-  reader.end();
-  start_from(levels.level, pieces_of(levels, problem().grid.sites));
+  const std::vector<std::string_view> variables = state_names(problem());
+  std::string names;
+  for (const std::string_view name : variables) names += std::string(name) + " ";
+  a.same(names);
+  a(flows, all.level, all.state, all.now, all.before);
+  a.require(all.state.size() == variables.size() * all.now.size());
+  if (!a.reads()) return;
+  start_from(all.level, pieces_of(all, problem().grid.sites));
   share_->continue_flows(flows);
   valid_ = true;
 }

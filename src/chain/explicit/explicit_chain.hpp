@@ -53,8 +53,7 @@ class ExplicitChain final : public Chain {
   Flows flows() const override;
   bool meters_friction() const override;
   std::vector<output::SlipEvent> events() const override { return {}; }
-  std::string saved() const override;
-  void resume(std::string_view saved) override;
+  void archive(Archive& a) override;
 
  private:
   void start_from(long level, const LevelsOf& saved);

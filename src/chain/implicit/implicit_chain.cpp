@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
-#include <type_traits>
 #include <utility>
 
 #include "chain/implicit/check_implicit.hpp"
 #include "chain/model/start_check.hpp"
-#include "foundation/bytes.hpp"
+#include "foundation/archive.hpp"
 #include "foundation/math/constants.hpp"
 #include "foundation/math/step_control.hpp"
 #include "foundation/ranks.hpp"
@@ -262,72 +260,18 @@ bool ImplicitChain::advance_to(double until, long most) {
   return reached(until);
 }
 
-/// Saves the start of a step that has passed the present time; `resume` takes this step again.
-std::string ImplicitChain::saved() const {
-  const Moment& m = passed_ ? before_ : now_;
-  std::vector<double> all{static_cast<double>(problem().grid.sites), now_.time};
-  each_saved(
-      m, [&](auto number) { all.push_back(static_cast<double>(number)); },
-      [&](const std::vector<double>& column, bool) {
-        const std::vector<double> of_all = ranks().joined_at_first(column);
-        all.insert(all.end(), of_all.begin(), of_all.end());
-      });
-  const std::vector<double> log = m.log.saved();
-  all.push_back(static_cast<double>(log.size()));
-  all.insert(all.end(), log.begin(), log.end());
-  const std::vector<double> fronts = m.fronts.saved();
-  all.insert(all.end(), fronts.begin(), fronts.end());
-  bytes::Writer writer;
-  writer.put(all);
-  return std::move(writer).text();
-}
-
-/// The moment that `saved` holds for the sites of this rank, and the time that was shown.
-Moment ImplicitChain::moment_of(std::string_view saved, double& shown_time) const {
-  constexpr double most_steps = 9007199254740992;  // whole numbers that a double holds
-  bytes::Reader reader(saved);
-  const std::vector<double> all = reader.vector();
-  reader.end();
-  std::size_t at = 0;
-  const auto refuse = [] {
-    throw InputError({.key = "resume", .problem = "does not fit the scenario", .allowed = "a file of this scenario"});
-  };
-  const auto next = [&](double least, double most) {
-    if (at >= all.size() || !(all[at] >= least && all[at] <= most)) refuse();
-    return all[at++];
-  };
-  constexpr double largest = std::numeric_limits<double>::max();
-  const OwnBlocks& own = forces_.own();
-  const double sites = static_cast<double>(own.blocks.sites);
-  next(sites, sites);
-  shown_time = next(-largest, largest);
-  Moment m = now_;
-  each_saved(
-      m,
-      [&]<class N>(N& number) {
-        constexpr bool counts = std::is_integral_v<N>;
-        number = static_cast<N>(next(counts ? 0 : -largest, counts ? most_steps : largest));
-      },
-      [&](std::vector<double>& column, bool by_site) {
-        const std::size_t columns = column.size() / (by_site ? own.size() : own.count);
-        const std::size_t size = columns * (by_site ? own.blocks.sites : own.blocks.count);
-        if (all.size() - at < size) refuse();
-        const std::size_t from = at + columns * (by_site ? own.begin : own.first);
-        std::copy_n(all.begin() + static_cast<std::ptrdiff_t>(from), column.size(), column.begin());
-        at += size;
-      });
-  forces_.strengthen_contacts(m);
-  const auto log = static_cast<std::ptrdiff_t>(next(0, static_cast<double>(all.size() - at)));
-  const auto begin = all.begin() + static_cast<std::ptrdiff_t>(at);
-  if (all.end() - begin < log) refuse();
-  m.log.resume({begin, begin + log});
-  m.fronts.resume({begin + log, all.end()});
-  return m;
-}
-
-void ImplicitChain::resume(std::string_view saved) {
-  double shown_time = 0;
-  ranks().together([&] { now_ = moment_of(saved, shown_time); });
+void ImplicitChain::archive(Archive& a) {
+  double shown_time = now_.time;
+  a.same(problem().grid.sites);
+  a(shown_time);
+  a.require(std::isfinite(shown_time));
+  if (!a.reads()) return (passed_ ? before_ : now_).archive(a, forces_.own(), ranks());
+  ranks().together([&] {
+    Moment saved = now_;
+    saved.archive(a, forces_.own(), ranks());
+    forces_.strengthen_contacts(saved);
+    now_ = std::move(saved);
+  });
   passed_ = false;
   advance_to(shown_time);
 }

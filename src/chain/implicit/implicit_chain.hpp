@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "chain/implicit/implicit_step.hpp"
@@ -50,8 +49,8 @@ class ImplicitChain final : public Chain {
   std::size_t event_in_progress() const override { return now_.log.in_progress(); }
   std::vector<output::SlipEvent> events() const override { return now_.log.events(); }
   output::FrontRecords fronts() const override { return now_.fronts.records(); }
-  std::string saved() const override;
-  void resume(std::string_view saved) override;
+  /// Writes the start of a step that has passed the present time. Reading takes this step again.
+  void archive(Archive& a) override;
 
  private:
   void step();
@@ -61,7 +60,6 @@ class ImplicitChain final : public Chain {
   void check_progress();
   void give_up() const;
   void fail(const std::string& why) const;
-  Moment moment_of(std::string_view saved, double& shown_time) const;
 
   /// The numbers of a site that a window shows.
   struct Shown {

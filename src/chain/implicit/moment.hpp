@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "chain/events/event_log.hpp"
 #include "chain/events/front_log.hpp"
+#include "chain/model/blocks.hpp"
 
 namespace slipfront::chain {
 
@@ -23,20 +25,18 @@ struct Moment {
   std::vector<double> flows;
   EventLog log;
   FrontLog fronts;
-};
 
-/// Calls number(member), and then column(member, whether it has numbers for each site, or else for each block), for the
-/// members that a checkpoint stores, in the order of the file. The logs of events and of fronts follow them in the
-/// file.
-template <class AMoment, class Number, class Column>
-void each_saved(AMoment& m, const Number& number, const Column& column) {
-  number(m.time);
-  number(m.steps);
-  for (auto* step : {&m.last_step, &m.earlier_step, &m.next_step}) number(*step);
-  number(m.window_start);
-  for (auto* values : {&m.u, &m.v, &m.state, &m.w, &m.slope, &m.acceleration, &m.earlier, &m.excess})
-    column(*values, true);
-  column(m.flows, false);
-}
+  /// (all, if `a` writes)
+  void archive(Archive& a, const OwnBlocks& own, const Ranks& ranks) {
+    a(time, steps, last_step, earlier_step, next_step, window_start);
+    for (const double number : {time, last_step, earlier_step, next_step, window_start})
+      a.require(std::isfinite(number));
+    a.require(steps >= 0);
+    for (auto* column : {&u, &v, &state, &w, &slope, &acceleration, &earlier, &excess})
+      a.parts(*column, ranks, own.begin, own.size(), own.blocks.sites);
+    a.parts(flows, ranks, own.first, own.count, own.blocks.count);
+    a(log, fronts);
+  }
+};
 
 }  // namespace slipfront::chain

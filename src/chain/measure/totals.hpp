@@ -31,6 +31,7 @@ struct Work {
   bool started = false;
 
   void sample(const Totals& now);
+  void archive(auto& a) { a(supplied, dissipated, time, supplied_rate, dissipated_rate); }
 };
 
 }  // namespace slipfront::chain

@@ -3,7 +3,7 @@
 #include <string>
 #include <utility>
 
-#include "foundation/bytes.hpp"
+#include "foundation/archive.hpp"
 #include "foundation/text/digits.hpp"
 #include "plane/averaged/loops.hpp"
 #include "plane/averaged/observe.hpp"
@@ -212,44 +212,22 @@ std::vector<std::string> AveragedSolver::warnings() const {
           digits(loops.time - loops.vanished_since, 4)};
 }
 
-std::string AveragedSolver::saved() const {
-  const Loops& loops = parts_->loops;
-  bytes::Writer writer;
-  writer.put(loops.time);
-  writer.put(static_cast<std::int64_t>(loops.steps));
-  writer.put(static_cast<std::int64_t>(loops.rows));
-  for (const double value :
-       {loops.limit, loops.power, loops.supply, loops.dissipated, loops.supplied, loops.vanished, loops.vanished_since})
-    writer.put(value);
-  for (const auto* values : {&loops.r, &loops.momentum, &loops.s, &loops.loss}) writer.put(*values);
-  return std::move(writer).text();
-}
-
-void AveragedSolver::resume(std::string_view saved) {
+void AveragedSolver::archive(Archive& a) {
   Parts& p = *parts_;
-  bytes::Reader reader(saved);
-  Loops read = p.loops;
-  read.time = reader.get<double>();
-  read.steps = static_cast<long>(reader.get<std::int64_t>());
-  const auto rows = static_cast<std::size_t>(reader.get<std::int64_t>());
-  while (read.rows > std::max(rows, fewest)) read.remove_innermost();
-  for (double* value :
-       {&read.limit, &read.power, &read.supply, &read.dissipated, &read.supplied, &read.vanished, &read.vanished_since})
-    *value = reader.get<double>();
-  for (auto* values : {&read.r, &read.momentum, &read.s, &read.loss}) *values = reader.vector();
-  reader.end();
-  const bool fits = read.rows == rows && read.r.size() == (rows + 1) * read.angles &&
-                    read.loss.size() == read.cells() && read.momentum.size() == read.cells() &&
-                    read.s.size() == read.cells();
-  if (!fits)
-    throw InputError({.key = "resume",
-                      .problem = "the saved state has another number of cells",
-                      .allowed = "a file of the same scenario"});
-  p.loops = read;
+  Loops now = p.loops;
+  std::size_t rows = now.rows;
+  a(rows);
+  while (now.rows > std::max(rows, fewest)) now.remove_innermost();
+  a.require(now.rows == rows);
+  a(now.time, now.steps, now.limit, now.power, now.supply, now.dissipated, now.supplied, now.vanished,
+    now.vanished_since);
+  a.fixed(now.r, now.momentum, now.s, now.loss);
+  if (!a.reads()) return;
+  p.loops = now;
   p.steps.emplace(p.problem, p.loops);
-  p.loops.loss = read.loss;
+  p.loops.loss = now.loss;
   p.steps->look();  // for observers
-  p.loops = read;
+  p.loops = now;
 }
 
 }  // namespace slipfront::plane

@@ -1,11 +1,10 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <numbers>
 #include <optional>
 #include <utility>
 
-#include "foundation/bytes.hpp"
+#include "foundation/archive.hpp"
 #include "foundation/ranks.hpp"
 #include "foundation/text/digits.hpp"
 #include "plane/budget.hpp"
@@ -61,11 +60,11 @@ std::vector<double> without_ghosts(const std::vector<double>& array, const Sites
   return values;
 }
 
-/// An array with room for ghosts, from values of the sites of rows from `first` on.
-std::vector<double> with_ghosts(const std::vector<double>& values, std::size_t first, const Sites& sites) {
+/// An array with room for ghosts, from values of the sites of a band.
+std::vector<double> with_ghosts(const std::vector<double>& values, const Sites& sites) {
   std::vector<double> array(values.empty() ? 0 : sites.size(), 0.0);
   for (std::size_t j = 0; j < sites.ny && !values.empty(); ++j)
-    std::copy_n(&values[(first + j) * sites.nx], sites.nx, &array[sites.at(0, j)]);
+    std::copy_n(&values[j * sites.nx], sites.nx, &array[sites.at(0, j)]);
   return array;
 }
 
@@ -266,7 +265,7 @@ std::vector<Line> DirectSolver::lines() const {
   Sites whole = p.sites;
   whole.first_row = 0;
   whole.ny = whole.all_rows;
-  return lines_of(with_ghosts(u, 0, whole), whole);
+  return lines_of(with_ghosts(u, whole), whole);
 }
 
 double DirectSolver::potency() const {
@@ -298,57 +297,31 @@ Energies DirectSolver::energies() const {
           .radiated = per * p.look.radiated};
 }
 
-std::string DirectSolver::saved() const {
-  const Parts& p = *parts_;
-  const Motion& m = p.motion;
-  bytes::Writer writer;
-  writer.put(p.time);
-  writer.put(static_cast<std::int64_t>(m.steps));
-  for (const auto* values : {&m.u, &m.old, &m.v_old})
-    writer.put(p.ranks.joined_at_first(without_ghosts(*values, p.sites)));
-  writer.put(p.ranks.joined_at_first(p.stepper.friction().states()));
+void DirectSolver::archive(Archive& a) {
+  Parts& p = *parts_;
+  Motion& m = p.motion;
+  a(p.time, m.steps);
+  const auto rows = [&](std::vector<double>& values) {
+    a.parts(values, p.ranks, p.sites.first_row, p.sites.ny, p.sites.all_rows);
+  };
+  for (auto* values : {&m.u, &m.old, &m.v_old}) {
+    std::vector<double> of_sites = without_ghosts(*values, p.sites);
+    rows(of_sites);
+    if (a.reads()) *values = with_ghosts(of_sites, p.sites);
+  }
+  std::vector<double> states = p.stepper.friction().states();
+  rows(states);
   for (const auto part : {&RowWork::dissipated, &RowWork::supplied, &RowWork::radiated}) {
     std::vector<double> of_row;
     of_row.reserve(m.work.size());
     for (const RowWork& work : m.work) of_row.push_back(work.*part);
-    writer.put(p.ranks.joined_at_first(of_row));
+    rows(of_row);
+    for (std::size_t j = 0; j < m.work.size(); ++j) m.work[j].*part = of_row[j];
   }
-  return std::move(writer).text();
-}
-
-void DirectSolver::resume(std::string_view saved) {
-  Parts& p = *parts_;
-  const Sites& sites = p.sites;
-  bytes::Reader reader(saved);
-  Motion m;
-  const double time = reader.get<double>();
-  m.steps = static_cast<long>(reader.get<std::int64_t>());
-  m.work.resize(sites.ny);
-  bool fits = true;
-  for (auto* values : {&m.u, &m.old, &m.v_old}) {
-    const std::vector<double> all = reader.vector();
-    fits = fits && (all.size() == p.count() || (values == &m.v_old && all.empty() && p.motion.v_old.empty()));
-    if (fits) *values = with_ghosts(all, sites.first_row, sites);
-  }
-  const std::vector<double> states = reader.vector();
-  const std::size_t each = p.stepper.friction().states().size() / sites.ny;  // values of a row
-  fits = fits && states.size() == each * sites.all_rows;
-  for (const auto part : {&RowWork::dissipated, &RowWork::supplied, &RowWork::radiated}) {
-    const std::vector<double> all = reader.vector();
-    fits = fits && all.size() == sites.all_rows;
-    for (std::size_t j = 0; j < sites.ny && fits; ++j) m.work[j].*part = all[sites.first_row + j];
-  }
-  reader.end();
-  if (!fits)
-    throw InputError({.key = "resume",
-                      .problem = "the saved state has another number of sites",
-                      .allowed = "a file of the same scenario"});
-  const double* const own = states.data() + each * sites.first_row;
-  p.stepper.friction().set_states({own, own + each * sites.ny});
+  if (!a.reads()) return;
+  p.stepper.friction().set_states(states);
   for (auto* values : {&m.u, &m.old}) p.stepper.fill_ghosts(*values);
-  p.motion = std::move(m);
-  p.time = time;
-  p.stepper.look_at(p.motion, time, p.look);
+  p.stepper.look_at(m, p.time, p.look);
 }
 
 }  // namespace slipfront::plane

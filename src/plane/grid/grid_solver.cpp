@@ -1,10 +1,9 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <optional>
 #include <utility>
 
-#include "foundation/bytes.hpp"
+#include "foundation/archive.hpp"
 #include "foundation/text/digits.hpp"
 #include "plane/budget.hpp"
 #include "plane/grid/observe.hpp"
@@ -219,43 +218,17 @@ std::vector<std::string> GridSolver::warnings() const {
           "and their energy is lost"};
 }
 
-std::string GridSolver::saved() const {
-  const GridMotion& m = parts_->motion;
-  bytes::Writer writer;
-  for (const double value : {m.time, m.power, m.supply, m.dissipated, m.supplied, m.met_at}) writer.put(value);
-  writer.put(static_cast<std::int64_t>(m.steps));
-  for (const auto* values : {&m.now.slip, &m.now.action, &m.strength, &m.states}) writer.put(*values);
-  for (const auto& guess : parts_->steps->guesses()) writer.put(guess);
-  return std::move(writer).text();
-}
-
-void GridSolver::resume(std::string_view saved) {
-  bytes::Reader reader(saved);
-  GridMotion m;
-  for (double* value : {&m.time, &m.power, &m.supply, &m.dissipated, &m.supplied, &m.met_at})
-    *value = reader.get<double>();
-  m.steps = static_cast<long>(reader.get<std::int64_t>());
-  bool fits = true;
-  for (auto* values : {&m.now.slip, &m.now.action, &m.strength}) {
-    *values = reader.vector();
-    fits = fits && values->size() == parts_->cells.size();
-  }
-  m.states = reader.vector();
-  fits = fits && m.states.size() == parts_->motion.states.size();
-  GridEquations::Guesses guesses;
-  for (std::vector<double>& guess : guesses) {
-    guess = reader.vector();
-    fits = fits && guess.size() == parts_->cells.size();
-  }
-  reader.end();
-  if (!fits)
-    throw InputError({.key = "resume",
-                      .problem = "the saved state has another number of cells",
-                      .allowed = "a file of the same scenario"});
-  parts_->motion = m;
-  parts_->steps->set_guesses(guesses);
-  parts_->steps->look();  // for observers
-  parts_->motion = std::move(m);
+void GridSolver::archive(Archive& a) {
+  Parts& p = *parts_;
+  GridMotion& m = p.motion;
+  GridEquations::Guesses guesses = p.steps->guesses();
+  a(m.time, m.power, m.supply, m.dissipated, m.supplied, m.met_at, m.steps);
+  a.fixed(m.now.slip, m.now.action, m.strength, m.states, guesses[0], guesses[1], guesses[2]);
+  if (!a.reads()) return;
+  const GridMotion saved = m;
+  p.steps->set_guesses(guesses);
+  p.steps->look();  // for observers
+  m = saved;
 }
 
 }  // namespace slipfront::plane

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 namespace slipfront::pulse {
 namespace {
@@ -54,30 +53,6 @@ bool SlipRecord::can_compare(const Problem& problem) const {
 
 SlipTwice SlipRecord::compare(double time, double slip, double velocity) const {
   return {slip, integral_.up_to(time, velocity), integral_.error(), doubt_};
-}
-
-template <class Record, class Each>
-void SlipRecord::for_each_number(Record& record, const Each& each) {
-  auto& slip = record.integral_;
-  each(slip.time);
-  each(slip.velocity);
-  each(slip.integral);
-  each(record.size_);
-  each(slip.early_time);
-  each(slip.early_velocity);
-  each(slip.coarse_integral);
-  each(slip.spread);
-  each(record.doubt_);
-}
-
-void SlipRecord::save(bytes::Writer& writer) const {
-  for_each_number(*this, [&](double value) { writer.put(value); });
-  writer.put(static_cast<std::int64_t>(integral_.samples));
-}
-
-void SlipRecord::restore(bytes::Reader& reader) {
-  for_each_number(*this, [&](double& value) { value = reader.get<double>(); });
-  integral_.samples = static_cast<long>(reader.get<std::int64_t>());
 }
 
 }  // namespace slipfront::pulse

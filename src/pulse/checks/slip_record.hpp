@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "foundation/bytes.hpp"
+#include "foundation/archive.hpp"
 #include "pulse/solver.hpp"
 #include "slipfront/output/self_check.hpp"
 
@@ -33,14 +33,9 @@ class SlipRecord {
   /// Integral of |slip velocity| over time.
   double size() const { return size_; }
 
-  void save(bytes::Writer& writer) const;
-  void restore(bytes::Reader& reader);
+  void archive(Archive& a) { a(integral_, size_, doubt_); }
 
  private:
-  /// Calls `each` with every number of a checkpoint, in the order in which they are stored.
-  template <class Record, class Each>
-  static void for_each_number(Record& record, const Each& each);
-
   output::SampledIntegral integral_;
   double size_ = 0;
   double doubt_ = 0;  ///< integral of the possible error of the slip velocity, estimated in the cell at x = 0

@@ -3,20 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <utility>
 
 #include "foundation/text/digits.hpp"
-#include "pulse/checkpoint.hpp"
 #include "pulse/contours/along.hpp"
 #include "pulse/contours/edges.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::pulse {
 namespace {
-
-/// First number of a saved state, which no state of one train begins with.
-constexpr std::uint64_t contour_format = 1001;
 
 /// W at x = 0 now.
 double velocity_at_origin(const Contour& contour) {
@@ -135,44 +130,12 @@ bool ManyTrains::advance_to(double target, const std::function<bool()>& after_st
   return time() >= target;
 }
 
-void ManyTrains::store() {
-  if (!stored_) stored_.emplace();
-  *stored_ = state_;
-}
-
-void ManyTrains::go_to(ManyTrainsState saved) {
-  state_ = std::move(saved);
+void ManyTrains::archive(Archive& a) {
+  a(state_);
+  if (!a.reads()) return;
   now_.x = state_.x;
   speeds_.clear();
 }
-
-void ManyTrains::go_back() { go_to(*std::exchange(stored_, std::nullopt)); }
-
-void ManyTrains::put(bytes::Writer& writer, const ManyTrainsState& state) const {
-  writer.put(contour_format);
-  checkpoint::put_number(writer, "time", state.time);
-  checkpoint::put_number(writer, "steps", state.steps);
-  checkpoint::put_number(writer, "step", state.step);
-  writer.put(state.x);
-  state.slip.save(writer);
-}
-
-ManyTrainsState ManyTrains::get(bytes::Reader& reader) const {
-  if (reader.get<std::uint64_t>() != contour_format) checkpoint::refuse();
-  ManyTrainsState state;
-  state.time = checkpoint::get_number(reader, "time");
-  state.steps = checkpoint::get_number(reader, "steps");
-  state.step = checkpoint::get_number(reader, "step");
-  state.x = reader.vector();
-  state.slip.restore(reader);
-  if (state.x.size() != start_.size() || !(state.steps >= 0 && state.steps < 9e15)) checkpoint::refuse();
-  return state;
-}
-
-void ManyTrains::save(bytes::Writer& writer) const { put(writer, state_); }
-void ManyTrains::restore(bytes::Reader& reader) { go_to(get(reader)); }
-void ManyTrains::save_stored(bytes::Writer& writer) const { put(writer, *stored_); }
-void ManyTrains::restore_stored(bytes::Reader& reader) { stored_ = get(reader); }
 
 std::optional<SlipTwice> ManyTrains::slip_twice() const { return slip_twice(Along(*this)); }
 

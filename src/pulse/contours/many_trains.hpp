@@ -24,6 +24,13 @@ struct ManyTrainsState {
   double step = 0;             ///< length that the error of the last step recommends; 0 before the first one
   std::vector<double> x = {};  ///< positions of the points
   SlipRecord slip = {};        ///< at x = 0
+
+  void archive(Archive& a) {
+    a.same(std::string("many trains"));
+    a(time, steps, step, slip);
+    a.fixed(x);
+    a.require(steps >= 0 && steps < 9e15);
+  }
 };
 
 class ManyTrains : public Motion {
@@ -40,12 +47,7 @@ class ManyTrains : public Motion {
   double expected_steps(double duration) const override;
   std::string reason_of_short_steps() const override;
 
-  void store() override;
-  void go_back() override;
-  void save(bytes::Writer& writer) const override;
-  void restore(bytes::Reader& reader) override;
-  void save_stored(bytes::Writer& writer) const override;
-  void restore_stored(bytes::Reader& reader) override;
+  void archive(Archive& a) override;
 
   output::Snapshot observe(const output::Schedule& schedule) const override;
   output::Findings findings(const std::vector<output::Snapshot>& snapshots) const override;
@@ -58,9 +60,6 @@ class ManyTrains : public Motion {
 
  private:
   std::optional<SlipTwice> slip_twice(const Along& along) const;
-  void put(bytes::Writer& writer, const ManyTrainsState& state) const;
-  ManyTrainsState get(bytes::Reader& reader) const;
-  void go_to(ManyTrainsState saved);
   void step(double target);
   /// One attempt at a step of this length from these positions. It changes state_.x.
   StepAttempt attempt(const std::vector<double>& before, double length);
@@ -73,7 +72,6 @@ class ManyTrains : public Motion {
   Contour start_, now_;
   Sweep sweep_{now_};
   ManyTrainsState state_;
-  std::optional<ManyTrainsState> stored_;
   bool aimed_ = false;
   std::vector<double> speeds_;  ///< at the present positions; empty: not known
   std::vector<double> stage_, second_, third_, last_;

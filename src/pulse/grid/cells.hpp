@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "foundation/archive.hpp"
 #include "pulse/grid/values.hpp"
 
 namespace slipfront::pulse {
@@ -24,6 +25,12 @@ struct Cells {
   std::vector<double> face_momentum;  ///< momenta at the faces if friction dominates (cells hold means), else empty
 
   std::vector<double> state;  ///< state variables of friction on a grid that does not move with the cells; empty: none
+
+  void archive(Archive& a) {
+    a(time, steps, step, unknowns, s, charge, entered_left, entered_right, crossing_time, crossing_position,
+      face_momentum, state);
+    a.require(steps >= 0);
+  }
 
   std::size_t size() const { return charge.size(); }
   Values values() { return {unknowns.data(), size()}; }

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include "foundation/archive.hpp"
 #include "slipfront/error.hpp"
 
 namespace {
@@ -179,12 +180,12 @@ TEST(EventLog, ContinuesToTheSameBits) {
   EXPECT_EQ(first.log.events().size(), 2u);
   MovingParts second = first;
   second.log = EventLog(0.5);
-  second.log.resume(first.log.saved());
+  slipfront::restore(second.log, slipfront::saved(first.log));
   second.move_to(40, moving);
-  EXPECT_EQ(second.log.saved(), whole.log.saved());
-  std::vector<double> cut = first.log.saved();
+  EXPECT_EQ(slipfront::saved(second.log), slipfront::saved(whole.log));
+  std::string cut = slipfront::saved(first.log);
   cut.pop_back();
-  EXPECT_THROW(second.log.resume(cut), slipfront::InputError);
+  EXPECT_THROW(slipfront::restore(second.log, cut), slipfront::InputError);
 }
 
 }  // namespace

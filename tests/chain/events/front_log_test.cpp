@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "foundation/archive.hpp"
 #include "loaded_chains.hpp"
 #include "slipfront/error.hpp"
 
@@ -76,7 +77,7 @@ TEST(FrontLog, ContinuesToTheSameBits) {
   ImplicitChain whole(p, at_rest(p)), first(p, at_rest(p)), second(p, at_rest(p));
   whole.advance_to(30);
   first.advance_to(22.5);
-  second.resume(first.saved());
+  restore(second, saved(first));
   second.advance_to(30);
   const output::FrontRecords a = whole.fronts(), b = second.fronts();
   ASSERT_EQ(a.events.size(), 1u);
@@ -95,10 +96,10 @@ TEST(FrontLog, RefusesAStateOfOtherPositions) {
   Problem p = pulled_string();
   ImplicitChain chain(p, at_rest(p));
   chain.advance_to(25);
-  const std::string saved = chain.saved();
+  const std::string state = saved(chain);
   p.loading.fronts = 41;
   ImplicitChain other(p, at_rest(p));
-  EXPECT_THROW(other.resume(saved), InputError);
+  EXPECT_THROW(restore(other, state), InputError);
 }
 
 }  // namespace

@@ -25,6 +25,7 @@
 #include "chain/measure/totals.hpp"
 #include "chain/model/initial_train.hpp"
 #include "chain/model/start_check.hpp"
+#include "foundation/archive.hpp"
 #include "foundation/ranks.hpp"
 #include "rough_chains.hpp"
 #include "slipfront/error.hpp"
@@ -168,8 +169,8 @@ void same_implicit_bits(const Ranks& ranks) {
     const Flows one = alone.flows(), other = shared.flows();
     expect(same({one.supplied, one.dissipated, one.by_contacts}, {other.supplied, other.dissipated, other.by_contacts}),
            what + ": flows");
-    const std::string saved = shared.saved();  // all numbers are on rank 0
-    expect(ranks.rank() != 0 || saved == alone.saved(), what + ": saved");
+    const std::string state = saved(shared);  // all numbers are on rank 0
+    expect(ranks.rank() != 0 || state == saved(alone), what + ": saved");
   }
 }
 
@@ -253,10 +254,10 @@ void save(const Ranks& ranks, const std::string& path) {
     const Problem p = implicit_problem(kind);
     ImplicitChain chain(p, cases::bumpy(p), {.ranks = &ranks});
     chain.advance_to(1);
-    const std::string saved = chain.saved();
-    const auto size = static_cast<double>(saved.size());
+    const std::string state = saved(chain);
+    const auto size = static_cast<double>(state.size());
     if (ranks.rank() == 0) write(file, {size});
-    if (ranks.rank() == 0) file.write(saved.data(), static_cast<std::streamsize>(saved.size()));
+    if (ranks.rank() == 0) file.write(state.data(), static_cast<std::streamsize>(state.size()));
   }
   if (ranks.rank() == 0) expect(file.flush().good(), "written");
 }
@@ -292,12 +293,12 @@ void resume(const Ranks& ranks, const std::string& path) {
   for (int kind = 0; kind < 3; ++kind) {
     double size = 0;
     file.read(reinterpret_cast<char*>(&size), sizeof size);
-    std::string saved(static_cast<std::size_t>(size), ' ');
-    file.read(saved.data(), static_cast<std::streamsize>(saved.size()));
+    std::string state(static_cast<std::size_t>(size), ' ');
+    file.read(state.data(), static_cast<std::streamsize>(state.size()));
     expect(file.good(), "read");
     const Problem p = implicit_problem(kind);
     ImplicitChain chain(p, cases::bumpy(p), {.ranks = &ranks}), alone(p, cases::bumpy(p));
-    chain.resume(saved);
+    restore(chain, state);
     for (auto* each : {&chain, &alone}) each->advance_to(2);
     expect(same(measured(chain), measured(alone)), "resumed, implicit, kind " + std::to_string(kind));
     expect(same(events_of(chain), events_of(alone)), "events, implicit");

@@ -9,6 +9,7 @@
 #include "chain/measure/totals.hpp"
 #include "chain/model/initial_train.hpp"
 #include "exact_chains.hpp"
+#include "foundation/archive.hpp"
 #include "loaded_chains.hpp"
 #include "slipfront/error.hpp"
 
@@ -66,11 +67,11 @@ TEST(Implicit, ThreadsAndStopsChangeNoBits) {
   two.advance_to(0.3);
   third.advance_to(0.3, 5);
   ImplicitChain resumed(p, start);
-  resumed.resume(third.saved());
+  restore(resumed, saved(third));
   resumed.advance_to(0.3);
   EXPECT_GT(one.steps(), 8);
-  EXPECT_EQ(one.saved(), two.saved());
-  EXPECT_EQ(one.saved(), resumed.saved());
+  EXPECT_EQ(saved(one), saved(two));
+  EXPECT_EQ(saved(one), saved(resumed));
 }
 
 TEST(Implicit, RejectsConditionsThatItDoesNotSupport) {

@@ -8,6 +8,7 @@
 
 #include "chain/explicit/explicit_chain.hpp"
 #include "chain/model/initial_train.hpp"
+#include "foundation/archive.hpp"
 #include "loaded_chains.hpp"
 #include "slipfront/error.hpp"
 
@@ -72,11 +73,11 @@ TEST(ImplicitSteps, ResumeInsideAStepToTheSameBits) {
   ImplicitChain once(p, at_rest(p));
   once.advance_to(169600);
   ImplicitChain resumed(p, at_rest(p));
-  resumed.resume(once.saved());
+  restore(resumed, saved(once));
   EXPECT_EQ(resumed.time(), 169600);
   EXPECT_EQ(resumed.window(0, 8).u, once.window(0, 8).u);
   for (Chain* chain : {&once, &resumed}) chain->advance_to(180000);
-  EXPECT_EQ(resumed.saved(), once.saved());
+  EXPECT_EQ(saved(resumed), saved(once));
 }
 
 /// A force that changes a million times in a unit of time would take hours.
