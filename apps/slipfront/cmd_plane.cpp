@@ -61,10 +61,10 @@ int run_scenario(const ScenarioArguments& a, const scenario::Scenario& s, setup:
   const Ranks* const ranks = lines == setup::Lines::direct && the_ranks->size() > 1 ? the_ranks : nullptr;
   if (!ranks && the_ranks->rank() > 0) return exit_done;  // the averages are those of one process
   run::PlanePlan plan;
-  std::optional<record::PlaneCheckpoint> saved;
+  std::optional<record::Checkpoint> saved;
   const auto prepare = [&] {
     plan = run::plan_plane(s, lines);
-    if (!a.resume.empty()) saved = run::plane_checkpoint_of(a.resume, s, plan);
+    if (!a.resume.empty()) saved = run::checkpoint_of(a.resume, s, plan);
     if (a.check) require_output(a, saved && saved->finished, plan.disk);
   };
   ranks ? ranks->together(prepare) : prepare();
@@ -74,7 +74,7 @@ int run_scenario(const ScenarioArguments& a, const scenario::Scenario& s, setup:
     return exit_done;
   }
   LongRun long_run(a, s, saved && saved->finished, ranks);
-  const auto result = run::plane(s, plan, {.common = long_run.options({}, begun), .checkpoint = std::move(saved)});
+  const auto result = run::plane(s, plan, long_run.options(std::move(saved), begun));
   if (const int code = long_run.end(result.finished()); code != exit_done) return code;
   const bool estimated = !ranks && !model;
   if (the_ranks->rank() == 0)

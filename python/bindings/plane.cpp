@@ -44,10 +44,10 @@ py::dict run_plane(const py::dict& arguments, bool direct, bool with_errors, int
   {
     const py::gil_scoped_release others_may_run;
     plan = run::plan_plane(s, lines);
-    run::PlaneOptions options{.common = {.threads = threads, .begun = begun}};
-    if (!a.resume.empty()) options.checkpoint = run::plane_checkpoint_of(a.resume, s, plan);
-    options.common.output = run::output_of(a.output, a.resume, options.checkpoint && options.checkpoint->finished);
-    options.common.after_step = [&](double time, long steps) { return watch(time, steps); };
+    run::Options options{.threads = threads, .begun = begun};
+    if (!a.resume.empty()) options.checkpoint = run::checkpoint_of(a.resume, s, plan);
+    options.output = run::output_of(a.output, a.resume, options.checkpoint && options.checkpoint->finished);
+    options.after_step = [&](double time, long steps) { return watch(time, steps); };
     result = run::plane(s, plan, options);
     errors = with_errors && !all.model && result.finished()
                  ? run::plane_errors(

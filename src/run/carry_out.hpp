@@ -3,25 +3,15 @@
 #include <filesystem>
 #include <functional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "foundation/clock.hpp"
-#include "foundation/ranks.hpp"
 #include "record/files/unfinished.hpp"
 #include "record/pulses/pulse_file.hpp"
+#include "run/run.hpp"
 #include "slipfront/error.hpp"
 
 namespace slipfront::run {
-
-/// The output of a run, and the ranks that write it.
-struct CheckpointOptions {
-  record::Output output;
-  record::PulseMetadata metadata;
-  double disk = 0;               ///< approximate number of bytes of the file
-  bool resumed = false;          ///< the run was resumed, so its start is in a file already
-  const Ranks* ranks = nullptr;  ///< ranks that share the run, if any; all of them must make each call
-};
 
 /// Appends the warnings of a finished run to those of its scenario.
 inline void add_warnings(const std::vector<std::string>& of_run, record::PulseMetadata& metadata) {
@@ -32,13 +22,12 @@ inline void add_warnings(const std::vector<std::string>& of_run, record::PulseMe
 using WriteRun =
     std::function<void(const std::string& path, const record::PulseMetadata& metadata, const std::string& state)>;
 
-/// Writes the whole run to its output, with `write_run` if it is given and else as a pulse. Until the run has ended,
-/// the file is marked as unfinished.
+/// Writes the whole run to its output with `write_run`. Until the run has ended, the file is marked as unfinished.
 template <class Run>
 class Checkpoints {
  public:
-  Checkpoints(const Run& run, const CheckpointOptions& options, WriteRun write_run)
-      : run_(run), options_(options), write_run_(std::move(write_run)) {}
+  Checkpoints(const Run& run, const Options& options, const record::PulseMetadata& metadata, const WriteRun& write_run)
+      : run_(run), options_(options), metadata_(metadata), write_run_(write_run) {}
 
   /// Whether it is time for a checkpoint. Each writes the whole file, so we limit writing to a small part of the work.
   bool due() const {
@@ -48,9 +37,9 @@ class Checkpoints {
   /// Whether `mine` is true on any rank.
   bool any(bool mine) const { return options_.ranks ? options_.ranks->any(mine) : mine; }
 
-  void require_disk_space() const {
-    if (options_.output.wanted())
-      on_first([&] { record::require_disk_space(options_.output.finished(), options_.disk); });
+  /// `bytes` is the approximate size of the file.
+  void require_disk_space(double bytes) const {
+    if (options_.output.wanted()) on_first([&] { record::require_disk_space(options_.output.finished(), bytes); });
   }
 
   /// Throws the error of the run, with the file of what was computed. All ranks throw it together.
@@ -66,19 +55,11 @@ class Checkpoints {
     if (!options_.output.wanted()) return;
     const auto begun = Clock::now();
     const std::string state = run_.saved();  // all ranks send their parts to the first rank
-    record::PulseMetadata metadata = options_.metadata;
-    if constexpr (requires { run_.events(); }) {
-      metadata.events = run_.events();
-      metadata.fronts = run_.fronts();
-    }
+    record::PulseMetadata metadata = metadata_;
     if (run_.finished()) add_warnings(run_.warnings(), metadata);  // warnings() needs all ranks
     on_first([&] {
       const record::Output& output = options_.output;
-      const std::string& path = run_.finished() ? output.finished() : output.unfinished();
-      if constexpr (requires { run_.maps(); })
-        write_run_(path, metadata, state);
-      else
-        record::write_pulse(path, metadata, run_.snapshots(), state, run_.finished());
+      write_run_(run_.finished() ? output.finished() : output.unfinished(), metadata, state);
       if (run_.finished()) output.clear();
     });
     cost_ = seconds_since(begun);
@@ -95,26 +76,28 @@ class Checkpoints {
   }
 
   const Run& run_;
-  const CheckpointOptions& options_;
-  WriteRun write_run_;
+  const Options& options_;
+  const record::PulseMetadata& metadata_;
+  const WriteRun& write_run_;
   Clock::time_point written_ = Clock::now();
   double cost_ = 0;  ///< seconds that the last checkpoint took
 };
 
-/// Continues `run` until its end, or until `after_step` returns true. It writes the file at the start, so that a bad
-/// path or a full disk fails before the work. It writes again from time to time, and when the run stops. An existing
-/// file at the output is replaced only at the end of the run. Returns whether the run has reached its end. \throws
-/// NumericsError, after writing the results so far; FileError.
-template <class Run>
-bool carry_out(Run& run, const CheckpointOptions& options, const std::function<bool()>& after_step,
-               const WriteRun& write_run = {}) {
-  Checkpoints<Run> checkpoints(run, options, write_run);
-  checkpoints.require_disk_space();
-  if (!options.resumed && !options.output.replaces()) checkpoints.write();
+/// Continues the run of `result` until its end, or until `options.after_step` returns true. It writes the file, of
+/// about `bytes`, at the start, so that a bad path or a full disk fails before the work. It writes again from time to
+/// time, and when the run stops. An existing file at the output is replaced only at the end of the run. Returns whether
+/// the run has reached its end; then the metadata have its warnings. \throws NumericsError, after writing the results
+/// so far; FileError.
+template <class Result>
+bool carry_out(Result& result, const Options& options, double bytes, const WriteRun& write_run) {
+  auto& run = *result.run;
+  Checkpoints checkpoints(run, options, result.metadata, write_run);
+  checkpoints.require_disk_space(bytes);
+  if (!options.checkpoint && !options.output.replaces()) checkpoints.write();
   bool reached = false;
   try {
     reached = run.go([&] {
-      const bool stop = after_step();
+      const bool stop = options.after_step && options.after_step(run.time(), run.steps());
       if (checkpoints.due()) checkpoints.write();
       return checkpoints.any(stop);
     });
@@ -123,6 +106,7 @@ bool carry_out(Run& run, const CheckpointOptions& options, const std::function<b
     checkpoints.fail(error.what());
   }
   checkpoints.write();
+  if (reached) add_warnings(run.warnings(), result.metadata);  // asks all ranks
   return reached;
 }
 

@@ -12,12 +12,11 @@
 namespace slipfront::run {
 namespace {
 
-std::unique_ptr<plane::Run> begun(const scenario::Scenario& s, const PlanePlan& plan, const PlaneOptions& options) {
-  std::unique_ptr<plane::Solver> solver =
-      setup::plane_solver(s, plan.lines, options.common.threads, options.common.ranks);
+std::unique_ptr<plane::Run> begun(const scenario::Scenario& s, const PlanePlan& plan, const Options& options) {
+  std::unique_ptr<plane::Solver> solver = setup::plane_solver(s, plan.lines, options.threads, options.ranks);
   if (!options.checkpoint) return std::make_unique<plane::Run>(std::move(solver), plan.schedule);
-  const record::PlaneCheckpoint& saved = *options.checkpoint;
-  return std::make_unique<plane::Run>(std::move(solver), plan.schedule, saved.run_state, saved.snapshots);
+  const record::Checkpoint& saved = *options.checkpoint;
+  return std::make_unique<plane::Run>(std::move(solver), plan.schedule, saved.solver_state, saved.fields);
 }
 
 /// All numbers that have an error, in one row.
@@ -73,32 +72,21 @@ PlanePlan plan_plane(const scenario::Scenario& s, setup::Lines lines) {
   return plan;
 }
 
-PlaneResult plane(const scenario::Scenario& s, const PlanePlan& plan, const PlaneOptions& options) {
-  const Options& common = options.common;
+PlaneResult plane(const scenario::Scenario& s, const PlanePlan& plan, const Options& options) {
   PlaneResult result{.run = begun(s, plan, options),
                      .metadata = metadata_of(s, plan.lines == setup::Lines::direct ? "plane --direct" : "plane", {}),
                      .wall = 0};
-  const plane::Solver& solver = result.run->solver();
-  const bool reached = carry_out(
-      *result.run,
-      {.output = common.output,
-       .metadata = result.metadata,
-       .disk = plan.disk,
-       .resumed = options.checkpoint.has_value(),
-       .ranks = common.ranks},
-      [&] { return common.after_step && common.after_step(solver.time(), solver.steps()); },
-      [&](const std::string& path, const record::PulseMetadata& metadata, const std::string& state) {
-        record::write_plane(path, metadata, plan.grid, *result.run, state);
-      });
-  if (!reached) return result;
-  add_warnings(result.run->warnings(), result.metadata);
+  const auto write = [&](const std::string& path, const record::PulseMetadata& metadata, const std::string& state) {
+    record::write_plane(path, metadata, plan.grid, *result.run, state);
+  };
+  if (!carry_out(result, options, plan.disk, write)) return result;
   if (const double scale = setup::scale_of_lines(s); plan.lines == setup::Lines::direct && !s.chain.scale && scale > 1)
     add_warnings({"chain.scale is not given. At scale " + digits(scale) +
                   " the largest initial slip has 20 dislocation lines; a larger one brings results closer to those of "
                   "many lines"},
                  result.metadata);
   result.numbers = numbers_of(*result.run, s);
-  result.wall = seconds_since(common.begun);
+  result.wall = seconds_since(options.begun);
   return result;
 }
 

@@ -25,16 +25,8 @@ struct PlanePlan {
 /// \throws InputError.
 PlanePlan plan_plane(const scenario::Scenario& scenario, setup::Lines lines);
 
-/// Reads the state from which a planned run continues, as checkpoint_of does. \throws FileError; InputError if the file
-/// is from another scenario or version, if the end is earlier, or if time.end decides when the series has rows.
-record::PlaneCheckpoint plane_checkpoint_of(const std::string& path, const scenario::Scenario& scenario,
-                                            const PlanePlan& plan);
-
-/// How to run it: `Options::checkpoint` is not used.
-struct PlaneOptions {
-  Options common;
-  std::optional<record::PlaneCheckpoint> checkpoint = {};
-};
+/// As for a pulse. \throws InputError also if time.end decides when the series has rows.
+record::Checkpoint checkpoint_of(const std::string& path, const scenario::Scenario& scenario, const PlanePlan& plan);
 
 /// Results at the end of a run, or their errors, in the units of the model.
 struct PlaneNumbers {
@@ -51,7 +43,7 @@ struct PlaneResult {
 };
 
 /// \throws NumericsError, after writing the results so far; InputError, FileError.
-PlaneResult plane(const scenario::Scenario& scenario, const PlanePlan& plan, const PlaneOptions& options);
+PlaneResult plane(const scenario::Scenario& scenario, const PlanePlan& plan, const Options& options);
 
 /// The numbers of a finished run with their errors, in the units of the model.
 std::vector<Row> rows_of(const PlaneResult& result, const PlaneNumbers& errors);

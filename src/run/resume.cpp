@@ -87,24 +87,31 @@ bool require_common_times(const Continued& c, const std::vector<double>& begun, 
 }
 
 /// Leaves out the snapshot at the end of the file unless it is an output time now.
-void keep_common_snapshots(const Continued& c, const output::Schedule& begun, const output::Schedule& now,
-                           std::vector<output::Snapshot>& snapshots) {
-  const bool still_output = require_common_times(c, begun.times, now.times);
-  if (!snapshots.empty() && snapshots.back().time == begun.times.back() && !still_output) snapshots.pop_back();
+template <class Snapshots>
+void keep_common_snapshots(bool still_output, double end, Snapshots& snapshots) {
+  if (!snapshots.empty() && snapshots.back().time == end && !still_output) snapshots.pop_back();
 }
 
 /// `same_problem` refuses a plan of the later end that differs from that of the file in more than the end.
 template <class Plan, class PlanOf, class SameProblem>
-record::Checkpoint read(const std::string& path, const scenario::Scenario& scenario, const Plan& plan,
-                        const PlanOf& plan_of, const SameProblem& same_problem) {
-  record::Checkpoint saved = record::read_checkpoint_of(path, SLIPFRONT_VERSION);
+record::Checkpoint read(const std::string& path, const std::string& format, const scenario::Scenario& scenario,
+                        const Plan& plan, const PlanOf& plan_of, const SameProblem& same_problem) {
+  record::Checkpoint saved = record::read_checkpoint(path, format);
+  if (saved.version != SLIPFRONT_VERSION)
+    throw InputError({.file = path,
+                      .key = "resume",
+                      .problem = "was written by another version",
+                      .allowed = "version " SLIPFRONT_VERSION});
   if (saved.scenario_text == scenario.text) return saved;
   const scenario::Scenario begun = scenario::read_scenario(saved.scenario_text, scenario.file, {}, read_table);
   const Continued continued{path, begun, scenario};
   require_later_end(continued);
   const Plan first = plan_of(begun);
   same_problem(continued, first);
-  keep_common_snapshots(continued, first.schedule, plan.schedule, saved.snapshots);
+  const std::vector<double>& times = first.schedule.times;
+  const bool still_output = require_common_times(continued, times, plan.schedule.times);
+  keep_common_snapshots(still_output, times.back(), saved.snapshots);
+  keep_common_snapshots(still_output, times.back(), saved.fields);
   return saved;
 }
 
@@ -115,38 +122,30 @@ record::Output output_of(const std::string& output, const std::string& resume, b
 }
 
 record::Checkpoint checkpoint_of(const std::string& path, const scenario::Scenario& scenario, const PulsePlan& plan) {
-  return read(path, scenario, plan, plan_pulse, [&](const Continued& continued, const PulsePlan& begun) {
-    require_same_problem(continued, begun, plan);
-  });
+  return read(
+      path, record::pulse_format, scenario, plan, plan_pulse,
+      [&](const Continued& continued, const PulsePlan& begun) { require_same_problem(continued, begun, plan); });
 }
 
 record::Checkpoint checkpoint_of(const std::string& path, const scenario::Scenario& scenario, const ChainPlan& plan,
                                  double share_of_machine) {
   return read(
-      path, scenario, plan, [&](const scenario::Scenario& begun) { return plan_chain(begun, share_of_machine); },
+      path, record::pulse_format, scenario, plan,
+      [&](const scenario::Scenario& begun) { return plan_chain(begun, share_of_machine); },
       [&](const Continued& continued, const ChainPlan& begun) {
         require_same_problem(continued, begun, plan, share_of_machine);
       });
 }
 
-record::PlaneCheckpoint plane_checkpoint_of(const std::string& path, const scenario::Scenario& scenario,
-                                            const PlanePlan& plan) {
-  record::PlaneCheckpoint saved = record::read_plane(path);
-  if (saved.version != SLIPFRONT_VERSION)
-    throw InputError({.file = path,
-                      .key = "resume",
-                      .problem = "was written by another version",
-                      .allowed = "version " SLIPFRONT_VERSION});
-  if (saved.scenario_text == scenario.text) return saved;
-  const scenario::Scenario begun = scenario::read_scenario(saved.scenario_text, scenario.file, {}, read_table);
-  const Continued continued{path, begun, scenario};
-  require_later_end(continued);
-  const plane::Schedule first = setup::plane_schedule(begun, plan.lines);
-  require_common_times(continued, first.times, plan.schedule.times);
-  if (first.interval != plan.schedule.interval)
-    continued.refuse_choice("the time between two rows of the series", digits(first.interval),
-                            digits(plan.schedule.interval), "a new run");
-  return saved;
+record::Checkpoint checkpoint_of(const std::string& path, const scenario::Scenario& scenario, const PlanePlan& plan) {
+  return read(
+      path, record::plane_format, scenario, plan,
+      [&](const scenario::Scenario& begun) { return plan_plane(begun, plan.lines); },
+      [&](const Continued& continued, const PlanePlan& begun) {
+        if (begun.schedule.interval != plan.schedule.interval)
+          continued.refuse_choice("the time between two rows of the series", digits(begun.schedule.interval),
+                                  digits(plan.schedule.interval), "a new run");
+      });
 }
 
 }  // namespace slipfront::run

@@ -106,15 +106,11 @@ std::unique_ptr<chain::Run> begin(const ChainPlan& plan, const Options& options)
 Result<pulse::Run> pulse(const scenario::Scenario& scenario, const PulsePlan& plan, const Options& options) {
   Result<pulse::Run> result{.run = begin(plan, options),
                             .metadata = metadata_of(scenario, "pulse", plan.schedule.x_edges)};
-  const pulse::Run& run = *result.run;
-  const bool reached = carry_out(*result.run,
-                                 {.output = options.output,
-                                  .metadata = result.metadata,
-                                  .disk = plan.need.disk,
-                                  .resumed = options.checkpoint.has_value()},
-                                 [&] { return options.after_step && options.after_step(run.time(), run.steps()); });
-  if (!reached) return result;
-  add_warnings(result.run->warnings(), result.metadata);
+  const auto write = [&run = *result.run](const std::string& path, const record::PulseMetadata& metadata,
+                                          const std::string& state) {
+    record::write_pulse(path, metadata, run.snapshots(), state, run.finished());
+  };
+  if (!carry_out(result, options, plan.need.disk, write)) return result;
   result.summary = rows_of({*result.run, seconds_since(options.begun)});
   return result;
 }
@@ -123,28 +119,26 @@ Result<chain::Run> chain(const scenario::Scenario& scenario, const ChainPlan& pl
   Result<chain::Run> result{.run = begin(plan, options),
                             .metadata = metadata_of(scenario, "chain", plan.schedule.x_edges)};
   const chain::Run& run = *result.run;
-  const long first = run.chain().steps();
+  const long first = run.steps();
   const auto begun = Clock::now();
   const bool reached =
-      carry_out(*result.run,
-                {.output = options.output,
-                 .metadata = result.metadata,
-                 .disk = plan.need.disk,
-                 .resumed = options.checkpoint.has_value(),
-                 .ranks = options.ranks},
-                [&] { return options.after_step && options.after_step(run.time(), run.chain().steps()); });
+      carry_out(result, options, plan.need.disk,
+                [&](const std::string& path, record::PulseMetadata metadata, const std::string& state) {
+                  metadata.events = run.events();
+                  metadata.fronts = run.fronts();
+                  record::write_pulse(path, metadata, run.snapshots(), state, run.finished());
+                });
+  const double stepping = seconds_since(begun);
   result.metadata.events = run.events();
   result.metadata.fronts = run.fronts();
   if (!reached) return result;
-  const double stepping = seconds_since(begun);
-  add_warnings(run.warnings(), result.metadata);  // asks all ranks
   const chain::Averages averages = run.averages();
   result.summary = rows_of({.run = run,
                             .balance = run.balance(),  // asks all ranks
                             .averages = averages,
                             .stepping = stepping,
                             .wall = seconds_since(options.begun),
-                            .steps = run.chain().steps() - first,
+                            .steps = run.steps() - first,
                             .ranks = options.ranks ? options.ranks->size() : 1,
                             .threads = options.threads});
   return result;

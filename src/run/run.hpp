@@ -26,8 +26,8 @@ namespace slipfront::run {
 struct Options {
   record::Output output = {};                         ///< by default none
   std::optional<record::Checkpoint> checkpoint = {};  ///< state to resume from, read by checkpoint_of
-  int threads = 1;                                    ///< threads of a chain
-  const Ranks* ranks = nullptr;                       ///< processes that share a chain, if any; all must make each call
+  int threads = 1;                                    ///< threads of a chain, or of the lines of a plane
+  const Ranks* ranks = nullptr;                       ///< processes that share them, if any; all must make each call
   /// A function that the run calls after each step with its time and number of steps. Return true to stop the run. If
   /// it is null, the run continues to its end.
   std::function<bool(double time, long steps)> after_step = {};

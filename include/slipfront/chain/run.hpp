@@ -94,6 +94,7 @@ class Run {
   void archive(Archive& a);
 
   double time() const { return chain_->time() / scale_; }  ///< in the scenario's units
+  long steps() const { return chain_->steps(); }
   double scale() const { return scale_; }
   /// Width of the average of the slip at x = 0, a box, in the scenario's x.
   double window() const;

@@ -61,6 +61,8 @@ class Run {
   bool go(const std::function<bool()>& interrupted = {});
 
   const Solver& solver() const { return *solver_; }
+  double time() const { return solver_->time(); }
+  long steps() const { return solver_->steps(); }
   const Schedule& schedule() const { return schedule_; }
   const std::vector<Field>& snapshots() const { return snapshots_; }
   const std::vector<SeriesRow>& series() const { return seen_.series; }

@@ -11,9 +11,6 @@
 
 namespace slipfront::record {
 
-/// Value of the attribute slipfront_format. Increase the number when old readers would fail.
-inline constexpr const char* plane_format = "plane 2";
-
 /// The grid of a file, in the coordinates of the scenario.
 struct PlaneGrid {
   double left = -1, right = 1, bottom = -1, top = 1;
@@ -23,15 +20,6 @@ struct PlaneGrid {
   std::vector<double> y() const;
 };
 
-/// An unfinished or a finished run.
-struct PlaneCheckpoint {
-  std::string scenario_text;
-  std::string version;
-  std::string run_state;                ///< opaque
-  std::vector<plane::Field> snapshots;  ///< with the slip and the slip velocity
-  bool finished = false;
-};
-
 /// The variables of a run, which must outlive them.
 std::vector<Array> arrays_of(const plane::Run& run, const PlaneGrid& grid);
 
@@ -39,9 +27,5 @@ std::vector<Array> arrays_of(const plane::Run& run, const PlaneGrid& grid);
 /// reason).
 void write_plane(const std::string& path, const PulseMetadata& metadata, const PlaneGrid& grid, const plane::Run& run,
                  const std::string& state);
-
-/// Reads a file by write_plane, with every bit as it was written. \throws FileError if the file is missing, not by
-/// slipfront, truncated, damaged, or changed by another program.
-PlaneCheckpoint read_plane(const std::string& path);
 
 }  // namespace slipfront::record

@@ -10,11 +10,12 @@
 #include "slipfront/medium/si_units.hpp"
 #include "slipfront/output/slip_event.hpp"
 #include "slipfront/output/snapshot.hpp"
+#include "slipfront/plane/problem.hpp"
 
 namespace slipfront::record {
 
-/// Value of the attribute slipfront_format. Increase the number when old readers would fail.
-inline constexpr const char* pulse_format = "pulse 1";
+/// Values of the attribute slipfront_format. Increase a number when old readers would fail.
+inline constexpr const char *pulse_format = "pulse 1", *plane_format = "plane 2";
 
 /// The content of a pulse file in addition to its snapshots.
 struct PulseMetadata {
@@ -39,9 +40,10 @@ struct PulseMetadata {
 struct Checkpoint {
   std::string scenario_text;
   std::string version;
-  std::string solver_state;                 ///< opaque
-  std::vector<output::Snapshot> snapshots;  ///< profile fields that the file does not hold are empty
-  bool finished;
+  std::string solver_state;                      ///< opaque
+  std::vector<output::Snapshot> snapshots = {};  ///< profile fields that the file does not hold are empty
+  std::vector<plane::Field> fields = {};         ///< snapshots of a plane
+  bool finished = false;
 };
 
 /// Names of the variables over time and x that a file can hold. Variables over only time are always written.
@@ -54,11 +56,8 @@ std::vector<std::string> pulse_variables();
 void write_pulse(const std::string& path, const PulseMetadata& metadata, const std::vector<output::Snapshot>& snapshots,
                  const std::string& solver_state, bool finished);
 
-/// Reads a file by write_pulse, with every bit as it was written. \throws FileError if the file is missing, not by
-/// slipfront, truncated, damaged, or changed by another program.
-Checkpoint read_checkpoint(const std::string& path);
-
-/// Like read_checkpoint, for a run that resumes. \throws InputError if another version of slipfront wrote the file.
-Checkpoint read_checkpoint_of(const std::string& path, const std::string& version);
+/// Reads a file by write_pulse or, with the format plane_format, by write_plane, with every bit as it was written.
+/// \throws FileError if the file is missing, not by slipfront, truncated, damaged, or changed by another program.
+Checkpoint read_checkpoint(const std::string& path, const std::string& format = pulse_format);
 
 }  // namespace slipfront::record

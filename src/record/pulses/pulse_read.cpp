@@ -1,6 +1,7 @@
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
+#include <functional>
+#include <numeric>
 #include <utility>
 
 #include "record/files/seal.hpp"
@@ -10,6 +11,7 @@
 #include "record/pulses/pulse_layout.hpp"
 #include "record/pulses/pulse_variables.hpp"
 #include "slipfront/error.hpp"
+#include "slipfront/plane/quantities.hpp"
 
 namespace slipfront::record {
 namespace {
@@ -20,35 +22,75 @@ using Kind = Variable::Kind;
 using Shape = std::vector<std::size_t>;
 using output::Snapshot;
 
-[[noreturn]] void fail(const std::string& path, const std::string& reason) {
-  throw FileError(path + ": not a pulse file to resume from: " + reason);
+/// Gives each snapshot its lines.
+void add_lines(const plane::LinePoints& points, std::vector<plane::Field>& snapshots) {
+  const std::size_t size = points.x.size();
+  std::size_t i = 0;
+  for (plane::Field& snapshot : snapshots)
+    while (i < size && points.time[i] == snapshot.time) {
+      plane::Line line{.number = static_cast<int>(points.number[i]), .points = {}};
+      for (; i < size && !std::isnan(points.x[i]); ++i) line.points.push_back({points.x[i], points.y[i]});
+      ++i;
+      snapshot.lines.push_back(std::move(line));
+    }
 }
 
-/// Reads a sealed file. The seal shows that slipfront wrote it, but not in which format and whether it holds a pulse.
-class PulseReader {
+/// Reads a sealed file. The seal shows that slipfront wrote it, but not in which format and of which kind of run.
+class CheckpointReader {
  public:
-  PulseReader(const std::string& path, const Reader& file) : path_(path), file_(file) {
-    if (const std::string format = text("slipfront_format"); format != pulse_format)
-      fail(path_, "its slipfront_format is '" + format.substr(0, 40) + "'; this version reads '" + pulse_format + "'");
+  CheckpointReader(const std::string& path, const Reader& file, const std::string& format)
+      : path_(path), file_(file), kind_(format == pulse_format ? "a pulse file" : "a file of a plane") {
+    if (const std::string found = text("slipfront_format"); found != format)
+      fail("its slipfront_format is '" + found.substr(0, 40) + "'; this version reads '" + format + "'");
     times_ = require_rank("time", 1).shape[0];
     cells_ = require_rank("x", 1).shape[0];
   }
 
-  Checkpoint read() {
-    Checkpoint run{scenario(), text("version"), bytes(require(layout::solver_state)), times(), finished()};
+  Checkpoint read_pulse() const {
+    Checkpoint run = read();
+    for (const double time : times()) run.snapshots.emplace_back().time = time;
     for (const output::Scalar& scalar : output::scalars()) read_scalar(scalar, run.snapshots);
     const std::vector<const FieldVariable*> written = fields();
     for (const auto values : profile_fields())
-      if (const FieldVariable* field = holder(written, values)) read_field(*field, run.snapshots);
+      if (const FieldVariable* field = holder(written, values))
+        read_rows(
+            field->about.name,
+            {times_, cells_}, [&](std::size_t i) -> auto& { return run.snapshots[i].profile.*field->values; });
     if (text("checksum") != layout::checksum(run.scenario_text, run.solver_state, run.finished, run.snapshots, written))
-      fail(path_, "the checksum of its content does not match");
+      fail("the checksum of its content does not match");
+    return run;
+  }
+
+  Checkpoint read_plane() const {
+    Checkpoint run = read();
+    const std::size_t rows = require_rank("y", 1).shape[0];
+    for (const double time : times())
+      run.fields.push_back(
+          {.time = time, .nx = static_cast<int>(cells_), .ny = static_cast<int>(rows), .slip = {}, .velocity = {}});
+    for (const plane::FieldArray& field : plane::field_arrays())
+      read_rows(
+          field.about.name,
+          {times_, rows, cells_}, [&](std::size_t i) -> auto& { return run.fields[i].*field.values; });
+    add_lines(points_of_lines(), run.fields);
     return run;
   }
 
  private:
+  [[noreturn]] void fail(const std::string& reason) const {
+    throw FileError(path_ + ": not " + kind_ + " to resume from: " + reason);
+  }
+
+  /// Everything but the snapshots.
+  Checkpoint read() const {
+    return {.scenario_text = scenario(),
+            .version = text("version"),
+            .solver_state = bytes(require(layout::solver_state)),
+            .finished = finished()};
+  }
+
   std::string text(const char* attribute) const {
     auto value = file_.text(attribute);
-    if (!value) fail(path_, "attribute " + std::string(attribute) + " is missing");
+    if (!value) fail("attribute " + std::string(attribute) + " is missing");
     return *std::move(value);
   }
 
@@ -59,44 +101,38 @@ class PulseReader {
 
   bool finished() const {
     const auto value = file_.number("finished");
-    if (!value || (*value != 0 && *value != 1)) fail(path_, "attribute finished is neither 0 nor 1");
+    if (!value || (*value != 0 && *value != 1)) fail("attribute finished is neither 0 nor 1");
     return *value == 1;
   }
 
   Variable require(const std::string& name) const {
     auto variable = file_.find(name);
-    if (!variable) fail(path_, "variable " + name + " is missing");
+    if (!variable) fail("variable " + name + " is missing");
     return *std::move(variable);
   }
 
   Variable require_rank(const std::string& name, std::size_t rank) const {
     Variable variable = require(name);
-    if (variable.kind != Kind::real || variable.shape.size() != rank)
-      fail(path_, name + " has the wrong type or shape");
+    if (variable.kind != Kind::real || variable.shape.size() != rank) fail(name + " has the wrong type or shape");
     return variable;
   }
 
   Variable require_shape(std::string_view name, const Shape& shape) const {
     Variable variable = require_rank(std::string(name), shape.size());
-    if (variable.shape != shape) fail(path_, variable.name + " has the wrong size");
+    if (variable.shape != shape) fail(variable.name + " has the wrong size");
     return variable;
   }
 
   std::string bytes(const Variable& variable) const {
-    if (variable.kind != Kind::byte || variable.shape.size() != 1)
-      fail(path_, variable.name + " has the wrong type or shape");
+    if (variable.kind != Kind::byte || variable.shape.size() != 1) fail(variable.name + " has the wrong type or shape");
     return file_.bytes(variable);
   }
 
-  /// Returns snapshots in which only the times are set.
-  std::vector<Snapshot> times() const {
-    const std::vector<double> times = file_.reals(require_shape("time", {times_}));
-    std::vector<Snapshot> snapshots(times.size());
-    for (std::size_t i = 0; i < times.size(); ++i) {
-      if (!std::isfinite(times[i]) || (i > 0 && times[i] <= times[i - 1])) fail(path_, "its times do not ascend");
-      snapshots[i].time = times[i];
-    }
-    return snapshots;
+  std::vector<double> times() const {
+    std::vector<double> times = file_.reals(require_shape("time", {times_}));
+    for (std::size_t i = 0; i < times.size(); ++i)
+      if (!std::isfinite(times[i]) || (i > 0 && times[i] <= times[i - 1])) fail("its times do not ascend");
+    return times;
   }
 
   void read_scalar(const output::Scalar& scalar, std::vector<Snapshot>& snapshots) const {
@@ -111,35 +147,41 @@ class PulseReader {
     return found;
   }
 
-  void read_field(const FieldVariable& field, std::vector<Snapshot>& snapshots) const {
-    const Variable variable = require_shape(field.about.name, {times_, cells_});
+  /// Reads a variable over time and other dimensions. `row(i)` is the vector for the i-th time.
+  template <class Row>
+  void read_rows(std::string_view name, const Shape& shape, const Row& row) const {
+    const Variable variable = require_shape(name, shape);
     file_.require_reals(variable);
+    const std::size_t size = std::accumulate(shape.begin() + 1, shape.end(), std::size_t{1}, std::multiplies<>());
     for (std::size_t i = 0; i < times_; ++i) {
-      auto& values = snapshots[i].profile.*field.values;
-      values.resize(cells_);
-      file_.read_row(variable, i, values);
+      row(i).resize(size);
+      file_.read_row(variable, i, row(i));
     }
+  }
+
+  plane::LinePoints points_of_lines() const {
+    plane::LinePoints points;
+    for (const plane::LineArray& line : plane::line_arrays())
+      if (const auto variable = file_.find(std::string(line.about.name))) points.*line.values = file_.reals(*variable);
+    for (const plane::LineArray& line : plane::line_arrays())
+      if ((points.*line.values).size() != points.x.size()) fail("the points of lines have different sizes");
+    return points;
   }
 
   const std::string& path_;
   const Reader& file_;
+  const char* kind_;
   std::size_t times_ = 0, cells_ = 0;
 };
 
 }  // namespace
 
-Checkpoint read_checkpoint(const std::string& path) {
+Checkpoint read_checkpoint(const std::string& path, const std::string& format) {
   const std::string file = read_regular(path);
   const std::string_view image = sealed_content(file, path);
-  return PulseReader(path, Reader(path, image, image.size())).read();
-}
-
-Checkpoint read_checkpoint_of(const std::string& path, const std::string& version) {
-  Checkpoint saved = read_checkpoint(path);
-  if (saved.version != version)
-    throw InputError(
-        {.file = path, .key = "resume", .problem = "was written by another version", .allowed = "version " + version});
-  return saved;
+  const Reader netcdf(path, image, image.size());
+  const CheckpointReader reader(path, netcdf, format);
+  return format == pulse_format ? reader.read_pulse() : reader.read_plane();
 }
 
 }  // namespace slipfront::record
