@@ -73,8 +73,10 @@ bool Run::go(const std::function<bool()>& interrupted) {
     const double snapshot = schedule_.times[snapshots_.size()];
     const double next = seen_.series.empty() ? 0 : schedule_.interval * static_cast<double>(seen_.rows_on_time);
     const double until = std::min(snapshot, next);
-    if (until == schedule_.times.back() && !before_end_)
-      before_end_ = State{solver_->steps_end_on_time() ? slipfront::saved(*solver_) : "", seen_};
+    if (until == schedule_.times.back() && before_end_.empty()) {
+      std::string solver = solver_->steps_end_on_time() ? slipfront::saved(*solver_) : "";
+      Archive::to(before_end_)(solver, seen_);
+    }
     require_steps();
     const bool reached = solver_->advance_to(until, [&] {
       require_steps();
@@ -195,18 +197,14 @@ void Run::archive(Archive& a) {
   std::string solver;
   if (!a.reads()) solver = slipfront::saved(*solver_);
   double end = schedule_.times.back();
-  bool near_end = before_end_.has_value();
-  a(solver, seen_, end, near_end);
-  if (near_end) {
-    if (a.reads()) before_end_ = State{"", seen_};
-    a(before_end_->solver, before_end_->seen);
-  }
+  a(solver, seen_, end, before_end_);
   if (!a.reads()) return;
-  if (end != schedule_.times.back() && before_end_) {
+  if (end != schedule_.times.back() && !before_end_.empty()) {
     while (!snapshots_.empty() && snapshots_.back().time >= end) snapshots_.pop_back();
-    seen_ = std::move(before_end_->seen);
-    if (!before_end_->solver.empty()) solver = std::move(before_end_->solver);
-    before_end_.reset();
+    std::string earlier;
+    Archive::from(before_end_)(earlier, seen_);
+    if (!earlier.empty()) solver = std::move(earlier);
+    before_end_.clear();
   }
   a.require(snapshots_.size() <= schedule_.times.size());
   for (const Field& field : snapshots_) a.require(field.slip.size() == seen_.last_slip.size());

@@ -5,7 +5,6 @@
 
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -87,11 +86,6 @@ class Run {
 
     void archive(Archive& a);
   };
-  /// A state between two rows of the series. `solver` is empty if its steps do not depend on the schedule.
-  struct State {
-    std::string solver;
-    Seen seen;
-  };
 
   void observe(bool snapshot);
   double farthest_rupture() const;
@@ -103,8 +97,9 @@ class Run {
   std::vector<Field> snapshots_;
   Seen seen_;
   double expected_steps_ = 0;  ///< steps of the whole run; 0: their length is constant
-  /// The last state that does not depend on the end of the run. A run to a later end continues from here.
-  std::optional<State> before_end_;
+  /// The last state that does not depend on the end of the run: that of the solver, empty if its steps do not depend on
+  /// the schedule, and the results so far. A run to a later end continues from here.
+  std::string before_end_;
 };
 
 }  // namespace slipfront::plane
