@@ -88,4 +88,20 @@ TEST(Equations, IntegrateTheContactForceOfAParabola) {
   EXPECT_NEAR(modulation::contact_source(substrate, a2), -(4.0 - 2.0 / 3), 1e-14);
 }
 
+/// The source of a contact profile is the integral of -<1 - cos u> (a^2)_x. It is exact for quadratic functions, here
+/// over -1 < x < 1: (1 + 0.3 x + 0.2 x^2) (0.5 - 0.8 x) has the integral 1 - 0.28 / 3.
+TEST(Equations, ContactSourceIsTheIntegralOverTheCell) {
+  const auto substrate = [](double x) { return 1 + 0.3 * x + 0.2 * x * x; };
+  const auto a2 = [](double x) { return 2 + 0.5 * x - 0.4 * x * x; };
+  EXPECT_NEAR(modulation::contact_source({substrate(-1), substrate(0), substrate(1)}, {a2(-1), a2(0), a2(1)}),
+              -(1 - 0.28 / 3), 1e-15);
+}
+
+TEST(Equations, PressureFollowsFromTheExponential) {
+  for (const double psi : {1e-9, 0.2, 1.5, 4.0}) {
+    const double p = 2 * std::sinh(psi) * std::sinh(psi);
+    EXPECT_NEAR(modulation::pressure_from(std::expm1(2 * psi)), p, 1e-15 * p);
+  }
+}
+
 }  // namespace

@@ -1,0 +1,165 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "inference/sampling/pareto.hpp"
+#include "inference/sampling/pulse_state.hpp"
+#include "inference/sampling/weighted_samples.hpp"
+#include "slipfront/inference/estimate.hpp"
+#include "slipfront/inference/posterior.hpp"
+#include "slipfront/medium/medium.hpp"
+#include "slipfront/rupture/relations.hpp"
+
+namespace {
+
+using slipfront::catalogue::RuptureVelocityIs;
+using slipfront::catalogue::StressDropIs;
+namespace sampled = slipfront::inference;
+
+/// The quantiles of a Pareto distribution of shape k.
+std::vector<double> pareto_quantiles(double k, int count) {
+  std::vector<double> weights;
+  for (int i = 0; i < count; ++i) weights.push_back(std::pow(1 - (i + 0.5) / count, -k));
+  return weights;
+}
+
+/// The numbers come from a program in Python after Zhang & Stephens (2009) and Vehtari et al. (2024). With many weights
+/// they tend to the shape.
+TEST(ParetoK, AgreesWithAnotherProgram) {
+  const double few[] = {0.3986942091452811, 0.5764101252763711, 0.7973444200990575};
+  const double many[] = {0.31267306920261845, 0.6846435349864669, 1.1494952817464499};
+  const double shapes[] = {0.3, 0.7, 1.2};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(sampled::pareto_k(pareto_quantiles(shapes[i], 60)), few[i], 1e-9);
+    EXPECT_NEAR(sampled::pareto_k(pareto_quantiles(shapes[i], 4000)), many[i], 1e-9);
+  }
+}
+
+/// Weights that equal the cutoff are not above it.
+TEST(ParetoK, LeavesOutWeightsAtTheCutoff) {
+  std::vector<double> weights = pareto_quantiles(0.7, 4000);
+  const double cutoff = weights[4000 - 189 - 1];
+  for (int i = 4000 - 189; i < 4000 - 189 + 60; ++i) weights[static_cast<std::size_t>(i)] = cutoff;
+  EXPECT_NEAR(sampled::pareto_k(weights), 0.4190983990156295, 1e-9);
+}
+
+TEST(ParetoK, AllowsHeavierTailsForMoreWeights) {
+  EXPECT_DOUBLE_EQ(sampled::most_pareto_k(100), 0.5);
+  EXPECT_DOUBLE_EQ(sampled::most_pareto_k(1e6), 0.7);
+}
+
+/// The standard deviation of a range is its width over sqrt(12).
+TEST(WeightedSamples, CountsTheDistanceFromARangeInItsStandardDeviations) {
+  sampled::WeightedSamples samples;
+  for (const double V : {1.0, 4.0}) {
+    sampled::Sample s;
+    s.weight = 1;
+    s.state.rupture_velocity_m_s = V;
+    samples.accepted = {s};
+    const double expected = V < 2 ? std::sqrt(12.0) : -std::sqrt(12.0);
+    EXPECT_DOUBLE_EQ(*samples.nearest_deviation({2, 3}, {}), expected);
+  }
+}
+
+slipfront::catalogue::Observation observed_front() {
+  slipfront::catalogue::Observation o;
+  o.rupture_velocity_m_s = slipfront::catalogue::Measured{3000, 3000};
+  return o;
+}
+
+/// The slowest front is that of the slowest pulse without friction.
+TEST(PulseModel, SeesNoPulseBelowTheSlowestFront) {
+  const sampled::PulseModel model(observed_front(), slipfront::friction::Closure::consistent);
+  const double least = slipfront::friction_ratio::stress_range().least;
+  const double expected =
+      slipfront::rupture::from_stress(least).rupture_velocity *
+      slipfront::friction_ratio::front_ratio(slipfront::friction::Closure::consistent, least, 0, 1e-3).value;
+  EXPECT_NEAR(model.least_seen() / expected, 1, 1e-12);
+  EXPECT_LT(model.most_u(0.999 * expected), 0);
+  EXPECT_GE(model.most_u(1.001 * expected), 0);
+}
+
+TEST(PulseModel, TakesTheStaticDropOfAPulseWithoutFriction) {
+  slipfront::catalogue::Observation o = observed_front();
+  o.stress_drop = slipfront::catalogue::Measured{1e6, 1e6};
+  const auto r = slipfront::rupture::from_rupture_velocity(0.4);
+  for (const bool is_static : {true, false}) {
+    o.stress_drop_is = is_static ? StressDropIs::static_drop : StressDropIs::stored;
+    const sampled::PulseModel model(o, slipfront::friction::Closure::consistent);
+    EXPECT_DOUBLE_EQ(model.without_friction(0.4).drop_share,
+                     is_static ? (r.stress - r.stress_at_origin) / r.stress : 1.0);
+  }
+}
+
+TEST(Estimate, TakesTheContactRatioFromTheStaticOrTheStoredDrop) {
+  slipfront::catalogue::Observation o = observed_front();
+  o.rupture_velocity_is = RuptureVelocityIs::characteristic;
+  o.stress_drop = slipfront::catalogue::Measured{2e6, 2e6};
+  for (const bool is_static : {true, false}) {
+    o.stress_drop_is = is_static ? StressDropIs::static_drop : StressDropIs::stored;
+    const sampled::Estimate e = sampled::estimate(o, {});
+    const auto r = slipfront::rupture::from_rupture_velocity(3000 / e.speed);
+    // The drop is A mu / pi times the change of the stress, which the closed form gives in units of mu A / pi.
+    const double drop_per_A = 30e9 / std::acos(-1.0) * (is_static ? r.stress - r.stress_at_origin : r.stress);
+    EXPECT_NEAR(e.contact_ratio->value * drop_per_A / 2e6, 1, 1e-12);
+  }
+}
+
+/// An uncertain contact ratio above plastic contact counts where its distribution is below. An exact one is an error.
+TEST(Estimate, WarnsIfOnlyTheErrorOfTheContactRatioIsInRange) {
+  slipfront::catalogue::Observation o = observed_front();
+  o.contact_ratio = 0.9;
+  EXPECT_THROW((void)sampled::estimate(o, {}, true), slipfront::InputError);
+  o.uncertain_constants.push_back(
+      {&slipfront::medium::Constants::p_wave_speed, slipfront::catalogue::Measured{5900, 6100}});
+  EXPECT_THROW((void)sampled::estimate(o, {}, true), slipfront::InputError);
+  o.uncertain_constants = {
+      {&slipfront::medium::Constants::contact_ratio,
+       slipfront::catalogue::Measured{0.9, 0.9, slipfront::catalogue::Measured::Shape::lognormal, 2}}};
+  const auto warnings = sampled::estimate(o, {}, true).warnings;
+  EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [](const std::string& w) {
+    return w.find("contact_ratio exceeds plastic contact") != std::string::npos;
+  }));
+}
+
+TEST(Posterior, SamplesEventsWhoseObservationsNeedIt) {
+  slipfront::catalogue::Observation o;
+  EXPECT_FALSE(sampled::needs_samples(o));
+  o.normal_stress = slipfront::catalogue::Measured{1e6, 1e6};
+  EXPECT_FALSE(sampled::needs_samples(o));
+  o.hardness = slipfront::catalogue::Measured{1e9, 1e9};
+  EXPECT_TRUE(sampled::needs_samples(o));
+  o.normal_stress.reset();
+  EXPECT_FALSE(sampled::needs_samples(o));
+  o.uncertain_constants.push_back({&slipfront::medium::Constants::p_wave_speed, {5900, 6100}});
+  EXPECT_TRUE(sampled::needs_samples(o));
+}
+
+/// A sample with a slower medium can have an observed velocity above c. It is rejected.
+TEST(Posterior, RejectsSamplesFasterThanTheirMedium) {
+  slipfront::catalogue::Observation o = observed_front();
+  o.rupture_velocity_is = RuptureVelocityIs::characteristic;
+  const double speed = slipfront::medium::speed_from_p_wave(6000, 0.25);
+  o.rupture_velocity_m_s = slipfront::catalogue::Measured{0.9 * speed, 0.999 * speed};
+  o.contact_ratio = 0.01;
+  o.p_wave_speed = 6000;
+  o.poisson_ratio = 0.25;
+  o.uncertain_constants.push_back({&slipfront::medium::Constants::p_wave_speed, {5500, 6500}});
+  const auto p = *sampled::posterior(o, {}, {.samples = 500});
+  ASSERT_TRUE(p.rupture_velocity);
+  EXPECT_LT(p.rupture_velocity->high, 1);
+}
+
+TEST(Posterior, DrawsPriorStatesWhoseVelocitiesAgree) {
+  slipfront::catalogue::Observation o = observed_front();
+  o.rupture_velocity_m_s = slipfront::catalogue::Measured{2900, 3100};
+  o.slip_velocity_m_s = slipfront::catalogue::Measured{0.4, 0.6};
+  o.contact_ratio = 0.01;
+  const auto p = *sampled::posterior(o, {}, {.samples = 500, .draws = 20});
+  ASSERT_EQ(p.prior_draws.size(), 20u);
+  const double speed = sampled::estimate(o, {}).speed;
+  for (const auto& s : p.prior_draws) EXPECT_NEAR(s.rupture_velocity_m_s / (s.rupture_velocity * speed), 1, 1e-12);
+}
+
+}  // namespace
