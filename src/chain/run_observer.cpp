@@ -220,11 +220,27 @@ BestAverage RunObserver::average_at_origin(double time) const {
   return best_average(chain_, 0, c * smooth_window_, c * widest_window_, c * time);
 }
 
+/// Adds the errors that windows at one moment do not show. Dislocations pass x = 0 one by one, and where the stress
+/// changes from one to the next, the slip is wrong by a part of one. The velocity and the stress are wrong by as much
+/// as that is of those that have passed. In 81 steps against the exact theory, at scales from 200 to 6000, these limits
+/// cover all errors. Without them, 14 errors of the velocity and 9 of the stress were larger.
+void RunObserver::widen_errors(Averages& averages, double time) const {
+  const double apart = std::min(spacings_of_trains(scaled_).dense, scaled_.right - scaled_.left) / 2;
+  const double k_left = scaled_.stress(std::fmax(-apart, scaled_.left)),
+               k_right = scaled_.stress(std::fmin(apart, scaled_.right)), most = std::fmax(k_left, k_right);
+  if (scaled_.loading.acts() || !scaled_.substrate || !(most > 0) || !(time > 0)) return;
+  const double c = scaled_.scale, one = 2 * std::numbers::pi / c, change = std::fabs(k_left - k_right);
+  const double slip = (average(chain_, 0, c * window_, c * time).u - first_u_at_origin_) / c;
+  averages.velocity_error = std::fmax(averages.velocity_error, 0.55 * change / most * one / time);
+  averages.stress_error = std::fmax(averages.stress_error, change * std::fmin(0.25 * one / std::fabs(slip), 2.0));
+}
+
 Averages RunObserver::averages(double time, double peak) const {
   Averages averages{.width = smooth_window_, .velocity_error = none, .stress_error = none, .peak_error = none};
   if (sees_origin()) {
     const BestAverage origin = average_at_origin(time);
     averages = {origin.width / scaled_.scale, origin.velocity_error, origin.stress_error, none};
+    widen_errors(averages, time);
   }
   const double c = scaled_.scale;
   for (std::size_t i = 0; i + 1 < schedule_.x_edges.size(); ++i)

@@ -61,6 +61,7 @@ class RunObserver {
   /// The widths of the average around the middle of cell i.
   double least_width(std::size_t i) const;
   BestAverage average_at_origin(double time) const;
+  void widen_errors(Averages& averages, double time) const;
   /// Returns the slip velocities of windows of the least width, in which observers look for fronts.
   std::vector<double> add_profile(output::Snapshot& snapshot, double time) const;
   void add_origin(output::Snapshot& snapshot, double time) const;

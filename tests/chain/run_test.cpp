@@ -65,12 +65,12 @@ struct MeetingTrains {
   double left, right, velocity, stress;
 };
 
-chain::Run run_of(const MeetingTrains& trains, double scale) {
+chain::Run run_of(const MeetingTrains& trains, double scale, double end = 2) {
   chain::ScaledProblem s = step(scale);
   s.left = -2.5;
   s.right = 2.5;
   s.stress = [trains](double x) { return x < 0 ? trains.left : trains.right; };
-  output::Schedule when{.times = {0, 2}, .x_edges = {}};
+  output::Schedule when{.times = {0, end}, .x_edges = {}};
   for (int i = 0; i <= 50; ++i) when.x_edges.push_back(-2.5 + 0.1 * i);
   return chain::Run(s, when, {});
 }
@@ -91,8 +91,43 @@ TEST(ChainRun, AveragesWhereTrainsMeetAreRightWithinTheirErrors) {
       EXPECT_NEAR(last.slip_velocity_at_origin, exact.velocity, averages.velocity_error) << scale;
       EXPECT_NEAR(last.stress_at_origin, exact.stress, averages.stress_error) << scale;
       EXPECT_LT(averages.velocity_error, 0.1 * exact.velocity + 4 / scale) << scale;
-      EXPECT_LT(averages.stress_error, 0.1 * exact.stress) << scale;
+      const double passed = exact.velocity * 2 * scale / (2 * pi);  // dislocations that pass x = 0
+      EXPECT_LT(averages.stress_error, 0.1 * exact.stress + 0.3 * (exact.left - exact.right) / passed) << scale;
     }
+}
+
+/// Few dislocations have passed x = 0: 5.6, 0.3 and 1.8 of them. Windows at one moment do not show how slip and stress
+/// depend on the phase of the next one. The errors of one or both quantities were too small.
+TEST(ChainRun, ErrorsCoverThePassageOfTheFirstDislocations) {
+  const struct {
+    MeetingTrains exact;
+    double scale, end;
+  } steps[] = {{{0.8943821106, 0.479712009, 0.0435855474, 0.7336783227}, 443, 1.8289940266},
+               {{0.5038666598, 0.2110326763, 0.002179955, 0.4125590464}, 506, 1.7688356796},
+               {{0.7889737467, 0.17513136, 0.030808339, 0.5771866}, 310, 1.2135416544}};
+  for (const auto& [exact, scale, end] : steps) {
+    chain::Run run = run_of(exact, scale, end);
+    ASSERT_TRUE(run.go());
+    const output::Snapshot& last = run.snapshots().back();
+    EXPECT_NEAR(last.slip_velocity_at_origin, exact.velocity, run.averages().velocity_error) << scale;
+    EXPECT_NEAR(last.stress_at_origin, exact.stress, run.averages().stress_error) << scale;
+  }
+}
+
+/// A smooth train whose dislocations have hardly moved: its W oscillates, and a chain of another scale differs.
+TEST(ChainRun, ErrorsCoverTheOscillationOfASlowTrain) {
+  const auto slow = [](double scale) {
+    chain::ScaledProblem s = step(scale, 0.795);
+    s.left = -6.84;
+    s.right = 6.84;
+    s.stress = [](double x) { return 0.395 + 0.097 * (1 + std::tanh(x / 1.21)); };
+    return chain::Run(s, schedule({0, 2}), {});
+  };
+  chain::Run few = slow(60), many = slow(240);
+  few.go();
+  many.go();
+  EXPECT_NEAR(few.snapshots().back().slip_velocity_at_origin, many.snapshots().back().slip_velocity_at_origin,
+              few.averages().velocity_error + many.averages().velocity_error);
 }
 
 /// The trains begin with a dislocation at the left end, so that the two runs are mirror images up to the phase. The
