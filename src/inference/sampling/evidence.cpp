@@ -55,7 +55,9 @@ double Evidence::blurred_likelihood(double ln_x, double resolution) const {
     case Measured::Shape::split: {
       const double x = std::exp(ln_x);
       const bool under = measured.shape == Measured::Shape::split && x < measured.low;
-      z = (x - measured.low) / std::hypot(under ? measured.spread_below : measured.spread, more * x);
+      // A value that is uncertain by a factor may be near the observed one, however small it is.
+      const double blurred = more * (more > 1 ? std::fmax(x, measured.low) : x);
+      z = (x - measured.low) / std::hypot(under ? measured.spread_below : measured.spread, blurred);
       break;
     }
     case Measured::Shape::range: {

@@ -15,7 +15,7 @@ using catalogue::Measured;
 namespace {
 
 constexpr std::size_t first_cells = 16, refined_cells = 28;
-/// Length in ln V of a range above which the cells of V are moved to where the likelihood of the others is.
+/// Length in ln V of a wide range.
 constexpr double wide_range = 4;
 /// Part of the samples that is drawn without regard to the other observations, so that no weight becomes large.
 constexpr double defence = 0.1;
@@ -41,6 +41,11 @@ double change_of_W(const std::vector<PulseState>& pulses, std::size_t j) {
   if (j > 0) change = std::fabs(std::log(pulses[j].W / pulses[j - 1].W));
   if (j + 1 < pulses.size()) change = std::fmax(change, std::fabs(std::log(pulses[j + 1].W / pulses[j].W)));
   return change;
+}
+
+/// Whether V is so uncertain that its cells are moved to where the likelihood of the others is.
+bool is_wide(const Measured& m, const Axis& axis) {
+  return m.is_range() && axis.edges.back() - axis.edges.front() > wide_range;
 }
 
 /// A wide density around a measured value: the fourth root of its likelihood, which has twice its standard deviation.
@@ -80,6 +85,15 @@ class Sampler::AlongThird {
   std::vector<double> offsets_;
 };
 
+/// Change of ln W without friction in a cell of V. The cells of a wide range are so wide that no centre need agree with
+/// the observations.
+double Sampler::change_of_W_in(const Axis& velocities, std::size_t i) const {
+  const auto ln_W = [&](double ln_V) {
+    return std::log(model_.without_friction(std::exp(ln_V) / middle_.elastic.speed).W);
+  };
+  return std::fabs(ln_W(velocities.edges[i + 1]) - ln_W(velocities.edges[i]));
+}
+
 /// One row of cells: those of one observed velocity.
 void Sampler::fill_row(Filled& filled, std::size_t i, const std::vector<double>& of_third) const {
   Cells& cells = filled.cells;
@@ -100,7 +114,8 @@ void Sampler::fill_row(Filled& filled, std::size_t i, const std::vector<double>&
   for (std::size_t j = 0; j < second.cells(); ++j)
     pulses.push_back(mode_ == Mode::friction ? model_.at(seen, most_u * second.centre(j))
                                              : model_.without_friction(seen));
-  const double first_width = first.is_exact() ? 0 : 0.3 * first.width(i);
+  double first_width = first.is_exact() ? 0 : 0.3 * first.width(i);
+  if (velocity_ && is_wide(*velocity_, first)) first_width = std::fmax(first_width, 0.3 * change_of_W_in(first, i));
   for (std::size_t j = 0; j < second.cells(); ++j) {
     const double factor = mode_ == Mode::friction ? most_u * pulses[j].slope : 1;
     const double resolution = std::hypot(first_width, 0.3 * change_of_W(pulses, j));
@@ -157,7 +172,7 @@ void Sampler::make_cells() {
   // The likelihoods of the first cells are wide. If their misfit is twice that of hopeless observations, finer cells
   // would not agree either.
   if (over_damping && now.best > std::exp(-hopeless_misfit)) {
-    for (int i = 0; i < 2 && of_first.is_range() && first.edges.back() - first.edges.front() > wide_range; ++i) {
+    for (int i = 0; i < 2 && is_wide(of_first, first); ++i) {
       first = now.cells.refined(0, first.cells());
       now = filled(first, damping_axis(), third);
     }

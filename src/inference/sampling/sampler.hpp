@@ -98,6 +98,7 @@ class Sampler {
     bool off_table;  ///< a velocity has no pulse in the table of friction
   };
   Filled filled(const Axis& first, const Axis& second, const Axis& third) const;
+  double change_of_W_in(const Axis& velocities, std::size_t i) const;
   void fill_row(Filled& filled, std::size_t i, const std::vector<double>& of_third) const;
   class AlongThird;
 
